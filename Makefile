@@ -1,0 +1,24 @@
+# Everything a newcomer types. The work is done by the scripts in .ci/, each of which runs by hand too.
+.DEFAULT_GOAL := help
+.PHONY: help demo test lint bench format clean
+
+help: ## this list
+	@sed -n 's/^\([a-z]*\):.*## \(.*\)/  make \1\t\2/p' Makefile | expand -t 16
+
+demo: ## set up, run examples/organ.yaml, say where the result and the picture are
+	@.ci/demo
+
+test: ## set up, then the C++ and the Python tests
+	@.ci/test
+
+lint: ## formatting, types, clang-tidy, allowed edges between rooms
+	@.ci/lint
+
+bench: ## build tissu-bench and run it
+	@.ci/bench
+
+format: ## rewrite C++ and Python sources in the project's format
+	@.ci/format
+
+clean: ## remove what was built (the virtual environment stays)
+	@rm -rf build results

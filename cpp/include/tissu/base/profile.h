@@ -1,0 +1,60 @@
+#pragma once
+
+/// Where the time of a step goes: one row for each thing that runs, none for what does not.
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace tissu {
+
+class Profile {
+ public:
+  struct Row {
+    std::string effect;  ///< who asked for it: elasticity, gravity, …
+    std::string stage;   ///< what it did: force, stiffness, solve, …
+    std::int64_t calls = 0;
+    double seconds = 0.0;
+  };
+
+  /// The number of the row of an effect's stage; made when it is not there yet.
+  std::size_t row(std::string_view effect, std::string_view stage);
+  void add(std::size_t row, double seconds) {
+    rows_[row].calls += 1;
+    rows_[row].seconds += seconds;
+  }
+  void add_step(double seconds);
+  void clear();
+
+  [[nodiscard]] const std::vector<Row>& rows() const { return rows_; }
+  [[nodiscard]] std::int64_t steps() const { return steps_; }
+  /// Durations of the latest steps [s], at most kKept, in no order.
+  [[nodiscard]] const std::vector<double>& step_seconds() const { return step_seconds_; }
+
+  static constexpr std::size_t kKept = 4096;
+
+ private:
+  std::vector<Row> rows_;
+  std::vector<double> step_seconds_;
+  std::int64_t steps_ = 0;
+};
+
+/// Adds the time from its making to its end to one row.
+class Timed {
+ public:
+  Timed(Profile& profile, std::size_t row) : profile_(profile), row_(row), start_(Clock::now()) {}
+  ~Timed() { profile_.add(row_, std::chrono::duration<double>(Clock::now() - start_).count()); }
+  Timed(const Timed&) = delete;
+  Timed& operator=(const Timed&) = delete;
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  Profile& profile_;
+  std::size_t row_;
+  Clock::time_point start_;
+};
+
+}  // namespace tissu

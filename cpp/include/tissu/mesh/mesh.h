@@ -1,0 +1,58 @@
+#pragma once
+
+/// A mesh: node positions and blocks of cells of one type each, in VTK's node order.
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "tissu/base/vec.h"
+
+namespace tissu {
+
+/// The cell types there are; the names are those of meshio.
+enum class CellType : std::uint8_t { tetra, hexahedron };
+
+/// What is fixed by the type of a cell.
+struct CellTypeInfo {
+  CellType type;
+  std::string_view name;  ///< as meshio writes it
+  int nodes;              ///< nodes per cell
+  int dimension;          ///< 3 for a volume
+};
+
+/// The row of the table of cell types that belongs to `type`.
+const CellTypeInfo& info(CellType type);
+
+/// Every row of the table, in the order of the enumeration.
+std::span<const CellTypeInfo> cell_types();
+
+/// The type with that name; nothing when there is none.
+std::optional<CellType> cell_type(std::string_view name);
+
+/// Cells of one type: their node numbers one cell after the other.
+struct CellBlock {
+  CellType type = CellType::tetra;
+  std::vector<std::int32_t> nodes;
+
+  /// Number of cells.
+  std::int32_t size() const;
+  /// The node numbers of cell `i` of this block.
+  std::span<const std::int32_t> cell(std::int32_t i) const;
+};
+
+/// Nodes and cells. Cells are numbered across the blocks, first block first.
+struct Mesh {
+  std::vector<double> positions;  ///< 3 numbers per node [m]
+  std::vector<CellBlock> blocks;
+
+  std::int32_t node_count() const;
+  std::int32_t cell_count() const;
+  /// Position of node `i` [m].
+  Vec3 node(std::int32_t i) const;
+};
+
+}  // namespace tissu

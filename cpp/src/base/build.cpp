@@ -1,0 +1,30 @@
+#include "tissu/base/build.h"
+
+#include <Eigen/Core>
+
+namespace tissu {
+
+BuildInfo build_info() {
+  BuildInfo info;
+  info.version = TISSU_VERSION;
+#if defined(__clang__)
+  info.compiler = "Clang " + std::string(__clang_version__);
+#else
+  info.compiler = "GCC " + std::string(__VERSION__);
+#endif
+  const auto number = [](int n) { return std::to_string(n); };
+  info.libraries.emplace_back(
+      "Eigen", number(EIGEN_WORLD_VERSION) + "." + number(EIGEN_MAJOR_VERSION) + "." + number(EIGEN_MINOR_VERSION));
+#ifdef TISSU_CHOLMOD_VERSION
+  info.libraries.emplace_back("CHOLMOD", TISSU_CHOLMOD_VERSION);
+#endif
+#ifdef _OPENMP
+  info.libraries.emplace_back("OpenMP", number(_OPENMP));
+#endif
+#ifdef TISSU_FCL_VERSION
+  info.libraries.emplace_back("FCL", TISSU_FCL_VERSION);
+#endif
+  return info;
+}
+
+}  // namespace tissu

@@ -1,0 +1,43 @@
+#include "tissu/mesh/mesh.h"
+
+#include <algorithm>
+#include <array>
+
+namespace tissu {
+namespace {
+
+constexpr std::array<CellTypeInfo, 2> kCellTypes{{
+    {CellType::tetra, "tetra", 4, 3},
+    {CellType::hexahedron, "hexahedron", 8, 3},
+}};
+
+}  // namespace
+
+const CellTypeInfo& info(CellType type) { return kCellTypes[static_cast<std::size_t>(type)]; }
+
+std::span<const CellTypeInfo> cell_types() { return kCellTypes; }
+
+std::optional<CellType> cell_type(std::string_view name) {
+  const auto row = std::ranges::find(kCellTypes, name, &CellTypeInfo::name);
+  if (row == kCellTypes.end()) return std::nullopt;
+  return row->type;
+}
+
+std::int32_t CellBlock::size() const { return static_cast<std::int32_t>(nodes.size()) / info(type).nodes; }
+
+std::span<const std::int32_t> CellBlock::cell(std::int32_t i) const {
+  const auto width = static_cast<std::size_t>(info(type).nodes);
+  return std::span(nodes).subspan(static_cast<std::size_t>(i) * width, width);
+}
+
+std::int32_t Mesh::node_count() const { return static_cast<std::int32_t>(positions.size() / 3); }
+
+std::int32_t Mesh::cell_count() const {
+  std::int32_t count = 0;
+  for (const CellBlock& block : blocks) count += block.size();
+  return count;
+}
+
+Vec3 Mesh::node(std::int32_t i) const { return block(ConstReals(positions), i); }
+
+}  // namespace tissu

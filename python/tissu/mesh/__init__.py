@@ -1,0 +1,19 @@
+"""Meshes: read, written, made, measured."""
+
+from tissu.mesh.bar import bar_mesh
+from tissu.mesh.cell import CellBlock
+from tissu.mesh.mesh import Mesh
+from tissu.mesh.quality import QualityReport
+from tissu.mesh.read import read_mesh
+from tissu.mesh.surface import Surface
+from tissu.mesh.write import write_mesh
+
+__all__ = [
+    "CellBlock",
+    "Mesh",
+    "QualityReport",
+    "Surface",
+    "bar_mesh",
+    "read_mesh",
+    "write_mesh",
+]

@@ -1,0 +1,186 @@
+"""A mesh: nodes, blocks of like cells, named regions, and where it all came from."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from types import MappingProxyType
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from tissu import _core
+from tissu.errors import MeshError
+from tissu.mesh import surface as surfaces
+from tissu.mesh.cell import CellBlock, Floats, Ints, dimension, handled_types
+
+if TYPE_CHECKING:
+    from tissu.mesh.quality import QualityReport
+    from tissu.mesh.surface import Surface
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Mesh:
+    """Nodes and cells; never changed once made.
+
+    Volume cells are numbered across `volume_blocks`, first block first.
+
+    Attributes:
+        points: rest positions (n, 3) float64 [m], read-only.
+        cells: every block there is, faces and lines too.
+        regions: name -> numbers int32 of volume cells, increasing; a cell may be in several.
+        source: file it was read from, None when it was made.
+        unit: unit of length of the file.
+        scale: factor on all lengths, on top of the unit.
+        notes: what the reader did, in words.
+
+    Raises:
+        MeshError: a position that is not finite, or a number of no node or cell.
+    """
+
+    points: Floats
+    cells: tuple[CellBlock, ...]
+    regions: Mapping[str, Ints] = field(default_factory=dict)
+    source: str | None = None
+    unit: str = "m"
+    scale: float = 1.0
+    notes: tuple[str, ...] = ()
+
+    def __post_init__(self) -> None:
+        points = np.array(self.points, dtype=np.float64, order="C")
+        if points.ndim != 2 or points.shape[1] != 3:
+            raise MeshError(f"found points of shape {points.shape}; an array (n, 3) is accepted")
+        points.flags.writeable = False
+        object.__setattr__(self, "points", points)
+        object.__setattr__(self, "cells", tuple(self.cells))
+        self._require_finite()
+        self._require_nodes()
+        regions = {str(name): self._region(name, of) for name, of in self.regions.items()}
+        object.__setattr__(self, "regions", MappingProxyType(regions))
+
+    @property
+    def volume_blocks(self) -> tuple[CellBlock, ...]:
+        """The blocks that can be simulated: tetrahedra and hexahedra."""
+        return tuple(block for block in self.cells if block.type in handled_types() and len(block))
+
+    @property
+    def unhandled(self) -> tuple[str, ...]:
+        """Types of volume cells in the mesh that cannot be simulated yet, so a scene refuses it."""
+        types = (block.type for block in self.cells if len(block))
+        return tuple(t for t in types if dimension(t) == 3 and t not in handled_types())
+
+    @property
+    def node_count(self) -> int:
+        """Number of nodes."""
+        return len(self.points)
+
+    @property
+    def cell_count(self) -> int:
+        """Number of cells in the volume blocks."""
+        return sum(len(block) for block in self.volume_blocks)
+
+    @property
+    def bounds(self) -> Floats:
+        """Smallest and largest coordinates (2, 3) [m]."""
+        return np.array([self.points.min(axis=0), self.points.max(axis=0)])
+
+    @property
+    def unused_nodes(self) -> Ints:
+        """Numbers of the nodes that no volume cell uses (without volume cells: no cell at all)."""
+        used = np.zeros(self.node_count, dtype=bool)
+        for block in self.volume_blocks or self.cells:
+            used[block.nodes] = True
+        return np.flatnonzero(~used).astype(np.int32)
+
+    def native_blocks(self) -> list[tuple[str, Ints]]:
+        """The volume blocks as the compiled core takes them."""
+        return [(block.type, block.nodes) for block in self.volume_blocks]
+
+    def cell_volumes(self) -> Floats:
+        """Volume of each volume cell [m3]; negative when it is inside out."""
+        return _core.cell_volumes(positions=self.points, blocks=self.native_blocks())
+
+    def volume(self) -> float:
+        """Sum of the volumes of the cells [m3]; 0 for a mesh that is only a surface."""
+        return float(self.cell_volumes().sum())
+
+    def surface(self) -> Surface:
+        """The outer surface of the volume; of a mesh without volume cells, its own faces."""
+        return surfaces.boundary(self)
+
+    def surface_mesh(self) -> Mesh:
+        """The outer surface as a mesh of its own, with the nodes on it only."""
+        blocks = self.surface().faces
+        alone = dataclasses.replace(self, cells=blocks, regions={}, notes=())
+        return alone.without_unused_nodes()
+
+    def parts(self) -> Ints:
+        """Part number of each volume cell; cells that share a node are in one part."""
+        return _core.connected_parts(positions=self.points, blocks=self.native_blocks())
+
+    def quality(self) -> QualityReport:
+        """Size and shape of the cells, and what is wrong with them; print it for a table."""
+        from tissu.mesh.quality import report
+
+        return report(self)
+
+    def without_unused_nodes(self) -> Mesh:
+        """The same mesh without the nodes that no volume cell uses.
+
+        Faces and lines on such nodes go too.
+        """
+        unused = self.unused_nodes
+        if not len(unused):
+            return self
+        keep = np.ones(self.node_count, dtype=bool)
+        keep[unused] = False
+        number = np.cumsum(keep, dtype=np.int32) - 1
+        rows = [block.nodes[keep[block.nodes].all(axis=1)] for block in self.cells]
+        blocks = [CellBlock(b.type, number[r]) for b, r in zip(self.cells, rows, strict=True)]
+        return dataclasses.replace(
+            self,
+            points=self.points[keep],
+            cells=tuple(block for block in blocks if len(block)),
+            notes=(*self.notes, f"{len(unused)} nodes dropped: no cell uses them"),
+        )
+
+    def __repr__(self) -> str:
+        """Counts and origin."""
+        cells = ", ".join(f"{len(block)} {block.type}" for block in self.cells) or "no cells"
+        origin = f", from {self.source}" if self.source else ""
+        return f"Mesh({self.node_count} nodes, {cells}{origin})"
+
+    def _require_finite(self) -> None:
+        wrong = np.flatnonzero(~np.isfinite(self.points).all(axis=1))
+        if len(wrong):
+            raise MeshError(
+                f"found {len(wrong)} of {self.node_count} nodes whose position is not finite "
+                f"(first: {first_five(wrong)}); finite numbers are accepted: mend the mesh"
+            )
+
+    def _require_nodes(self) -> None:
+        for block in self.cells:
+            outside = ((block.nodes < 0) | (block.nodes >= self.node_count)).any(axis=1)
+            if outside.any():
+                cell = int(np.flatnonzero(outside)[0])
+                raise MeshError(
+                    f"{block.type} {cell} has the nodes {block.nodes[cell].tolist()}; "
+                    f"numbers from 0 to {self.node_count - 1} are accepted"
+                )
+
+    def _region(self, name: str, cells: Ints) -> Ints:
+        numbers = np.unique(np.asarray(cells, dtype=np.int32)).astype(np.int32)
+        if len(numbers) and not 0 <= numbers[0] <= numbers[-1] < self.cell_count:
+            raise MeshError(
+                f"region '{name}' has cells from {numbers[0]} to {numbers[-1]}; "
+                f"numbers from 0 to {self.cell_count - 1} are accepted"
+            )
+        numbers.flags.writeable = False
+        return numbers
+
+
+def first_five(numbers: Ints | np.ndarray[tuple[int], np.dtype[np.int64]]) -> str:
+    """The first five numbers, in words."""
+    text = ", ".join(str(int(number)) for number in numbers[:5])
+    return f"{text}, ..." if len(numbers) > 5 else text

@@ -1,0 +1,180 @@
+"""Every file that meshio reads: silenced, and its ways of failing turned into one error."""
+
+from __future__ import annotations
+
+import contextlib
+import io
+import warnings
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tissu.errors import MeshError
+from tissu.mesh.cell import dimension
+from tissu.mesh.raw import RawMesh, tagged_regions
+
+_MARK = "region:"  # cell data of this name say which cells are in a region; write_mesh makes them
+
+# Cell data that number the regions, and whether 0 means none.
+_TAGS = {
+    "gmsh:physical": True,
+    "medit:ref": False,
+    "cell_tags": True,
+    "su2:tag": False,
+    "nastran:ref": False,
+    "ugrid:ref": False,
+    "avsucd:material": False,
+    "netgen:index": False,
+    "flac3d:group": False,
+    "tetgen:ref": False,
+    "material": False,
+    "region": False,
+}
+
+
+def formats(path: Path) -> list[str]:
+    """Names of the formats that files with this ending may have, the likeliest first."""
+    import meshio
+
+    suffixes = "".join(path.suffixes).lower()
+    endings = sorted((e for e in meshio.extension_to_filetypes if suffixes.endswith(e)), key=len)
+    found: list[str] = meshio.extension_to_filetypes[endings[-1]] if endings else []
+    return found[::-1]  # of ansys and gmsh, gmsh
+
+
+def endings() -> list[str]:
+    """Endings of the files that meshio knows."""
+    import meshio
+
+    return sorted(meshio.extension_to_filetypes)
+
+
+@contextlib.contextmanager
+def quiet() -> Iterator[io.StringIO]:
+    """Keeps what meshio prints; numbers that numpy cannot parse are an error."""
+    said = io.StringIO()
+    with (
+        contextlib.redirect_stdout(said),
+        contextlib.redirect_stderr(said),
+        warnings.catch_warnings(),
+        np.errstate(all="ignore"),
+    ):
+        warnings.simplefilter("ignore")
+        warnings.filterwarnings("error", message="string or file could not be read")
+        yield said
+
+
+def read_through_meshio(path: Path) -> RawMesh:
+    """Nodes, all cells, and regions from whatever the format calls its groups.
+
+    Raises:
+        MeshError: meshio does not know the ending, or cannot read the file.
+    """
+    import meshio
+
+    names = formats(path)
+    if not names:
+        raise MeshError(
+            f"{path}: no format has the ending '{path.suffix}'; accepted: "
+            f"{' '.join(sorted({*endings(), '.trian'}))}"
+        )
+    reasons = []
+    for name in names:
+        with quiet() as said:
+            try:
+                mesh = meshio.read(path, file_format=name)
+            except (Exception, SystemExit) as error:  # meshio's readers raise anything
+                reasons.append(_reason(name, error, said.getvalue()))
+                continue
+        if "not closed" in said.getvalue():
+            raise MeshError(f"{path}: a section of the {name} file has no end; is it truncated?")
+        return _raw(path, mesh, said.getvalue())
+    raise MeshError(f"{path} cannot be read as {' or '.join(names)} ({reasons[0]})")
+
+
+def _reason(name: str, error: BaseException, said: str) -> str:
+    """Why a format's reader gave up, in one line."""
+    text = " ".join(str(error).split()) if not isinstance(error, SystemExit) else ""
+    text = text or " ".join(said.removeprefix("Error:").split())
+    text = text.rstrip(".") or "it does not follow the format"
+    kind = "" if type(error).__name__ in ("ReadError", "SystemExit") else type(error).__name__
+    return f"{kind}: {text[:160]}" if kind else text[:160]
+
+
+def _raw(path: Path, mesh: Any, said: str) -> RawMesh:
+    blocks = []
+    for block in mesh.cells:
+        try:
+            nodes = np.array(block.data, dtype=np.int64).reshape(len(block.data), -1)
+        except ValueError:
+            raise MeshError(
+                f"{path}: found cells of type '{block.type}' with different numbers of nodes; "
+                "cells of a fixed number of nodes are accepted"
+            ) from None
+        blocks.append((block.type, nodes))
+    raw = RawMesh(np.asarray(mesh.points), blocks, _regions(mesh))
+    if said.strip():
+        raw.notes.append("meshio: " + " ".join(said.split()))
+    return raw
+
+
+def _regions(mesh: Any) -> dict[str, list[NDArray[np.bool_]]]:
+    """Regions from cell data, then from cell sets."""
+    found: dict[str, list[NDArray[np.bool_]]] = {}
+    for name, data in mesh.cell_data.items():
+        values = [np.asarray(block) for block in data]
+        if any(block.ndim != 1 or block.dtype.kind not in "iub" for block in values):
+            if name not in _TAGS or any(block.ndim != 1 for block in values):
+                continue
+            values = [np.nan_to_num(block).astype(np.int64) for block in values]
+        if name.startswith(_MARK):
+            found[name.removeprefix(_MARK)] = [block != 0 for block in values]
+        elif name in _TAGS:
+            found |= tagged_regions(values, _names(mesh, name), ignore_zero=_TAGS[name])
+    sizes = [len(block.data) for block in mesh.cells]
+    for name, members in mesh.cell_sets.items():
+        if not name.startswith("gmsh:") and len(members) == len(sizes):
+            found[name] = [_mask(of, size) for of, size in zip(members, sizes, strict=True)]
+    return found
+
+
+def _names(mesh: Any, tag: str) -> dict[int, str]:
+    """Names of the numbers of volume regions: Gmsh's physical names, or the families of MED."""
+    if tag == "gmsh:physical":
+        return {
+            int(value[0]): name
+            for name, value in mesh.field_data.items()
+            if np.size(value) == 2 and int(value[1]) == 3
+        }
+    if tag == "cell_tags":
+        families: Mapping[int, list[str]] = getattr(mesh, "cell_tags", {})
+        return {number: " ".join(names) for number, names in families.items()}
+    return {}
+
+
+def _mask(members: Any, size: int) -> NDArray[np.bool_]:
+    mask = np.zeros(size, dtype=bool)
+    if members is not None and np.size(members):
+        mask[np.asarray(members, dtype=np.int64)] = True
+    return mask
+
+
+def region_marks(
+    blocks: tuple[Any, ...], regions: Mapping[str, NDArray[np.int32]], handled: tuple[str, ...]
+) -> dict[str, list[NDArray[np.int32]]]:
+    """Cell data that keep the regions: for each block 1 where a cell is in the region."""
+    marks: dict[str, list[NDArray[np.int32]]] = {}
+    for name, cells in regions.items():
+        first, columns = 0, []
+        for block in blocks:
+            column = np.zeros(len(block), dtype=np.int32)
+            if block.type in handled and dimension(block.type) == 3:
+                inside = cells[(cells >= first) & (cells < first + len(block))]
+                column[inside - first] = 1
+                first += len(block)
+            columns.append(column)
+        marks[_MARK + name] = columns
+    return marks

@@ -1,0 +1,68 @@
+#pragma once
+
+/// The system matrix: 3x3 blocks in compressed rows, and beside them the few blocks between nodes that are
+/// coupled only at run time (contact, ties made on the way), so that those never change the pattern.
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "tissu/assembly/sparsity.h"
+#include "tissu/base/array.h"
+#include "tissu/base/isa.h"
+#include "tissu/base/parallel.h"
+#include "tissu/base/vec.h"
+
+namespace tissu {
+
+/// A block outside the pattern.
+struct ExtraBlock {
+  std::int32_t row;
+  std::int32_t column;
+  std::array<double, 9> values;  ///< column by column
+};
+
+class BlockMatrix {
+ public:
+  BlockMatrix(const Sparsity& sparsity, Isa isa, Threads threads);
+
+  [[nodiscard]] const Sparsity& sparsity() const { return *sparsity_; }
+  [[nodiscard]] std::int32_t rows() const { return sparsity_->rows(); }
+  [[nodiscard]] double* values() { return values_.data(); }  ///< [slot][9], column by column
+  [[nodiscard]] const double* values() const { return values_.data(); }
+  [[nodiscard]] const std::vector<ExtraBlock>& extra() const { return extra_; }
+  [[nodiscard]] std::int64_t diagonal_slot(std::int32_t row) const {
+    return diagonal_[static_cast<std::size_t>(row)];
+  }
+  /// Counts assemblies: two equal numbers mean equal values.
+  [[nodiscard]] std::uint64_t version() const { return version_; }
+
+  /// All values zero, extra blocks gone, a new version.
+  void clear();
+  /// Adds a block anywhere; one that is not in the pattern becomes an extra block.
+  void add(std::int32_t row, std::int32_t column, const Mat3& block);
+  /// Adds to the diagonal of one diagonal block.
+  void add_diagonal(std::int32_t row, double value);
+  /// out = A p
+  void multiply(ConstReals p, Reals out) const;
+  [[nodiscard]] Mat3 diagonal_block(std::int32_t row) const;
+  /// Makes rows and columns of the degrees of freedom in `masks` (bits x=1 y=2 z=4 for each row) those of the
+  /// identity; `rows` are the rows with a mask.
+  void constrain(const std::vector<std::int32_t>& rows, const std::vector<std::uint8_t>& masks);
+
+  [[nodiscard]] const Threads& threads() const { return threads_; }
+  [[nodiscard]] std::size_t bytes() const;
+
+ private:
+  [[nodiscard]] bool add_to_extra(std::int32_t row, std::int32_t column, const Mat3& block);
+  const Sparsity* sparsity_;
+  Threads threads_;
+  AlignedVector<double> values_;
+  std::vector<std::int64_t> diagonal_;
+  std::vector<ExtraBlock> extra_;
+  std::uint64_t version_ = 0;
+  void (*multiply_rows_)(const std::int64_t* row_begin, const std::int32_t* column, const double* values,
+                         std::int32_t begin, std::int32_t end, const double* p, double* out);
+};
+
+}  // namespace tissu

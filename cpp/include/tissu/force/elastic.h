@@ -1,0 +1,82 @@
+#pragma once
+
+/// The elasticity of one block of like cells: an element, a quadrature and a law.
+
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "tissu/base/array.h"
+#include "tissu/base/parallel.h"
+#include "tissu/force/elastic_kernels.h"
+#include "tissu/force/element_order.h"
+#include "tissu/force/force_model.h"
+
+namespace tissu {
+
+/// What an elastic block is made of. `young`, `poisson` and `density` hold one number, or one for each cell.
+struct ElasticBlock {
+  std::string body;
+  std::string element = "tetra";
+  std::string law = "stvk";
+  std::string quadrature = "full";
+  std::vector<std::int32_t> cells;         ///< cell after cell, node numbers of the world, VTK order
+  std::vector<std::int32_t> cell_numbers;  ///< of each cell in its body; empty: 0, 1, 2, …
+  std::vector<double> young;               ///< [Pa]
+  std::vector<double> poisson;
+  std::vector<double> density;  ///< [kg/m3]
+};
+
+/// Mean values over each cell, in the order of the block's cells.
+struct CellFields {
+  std::vector<double> von_mises;       ///< of the Cauchy stress [Pa]
+  std::vector<double> energy_density;  ///< per rest volume [J/m3]
+  std::vector<double> volume_ratio;    ///< det F
+};
+
+class Elastic final : public ForceModel {
+ public:
+  /// Refuses unknown names, parameters out of range and cells that are inverted or have no volume.
+  Elastic(ElasticBlock block, ConstReals rest_positions, Isa isa, Threads threads);
+
+  [[nodiscard]] std::string_view effect() const override { return "elasticity"; }
+  [[nodiscard]] ForceKind kind() const override { return ForceKind::elastic; }
+  [[nodiscard]] bool has_constant_stiffness() const override { return kernels_->linear; }
+  void couple(SparsityBuilder& builder) const override;
+  void bind(const Sparsity& pattern) override;
+  void add_force(const State& state, Reals f) const override;
+  void add_stiffness(const State& state, StiffnessScale scale, BlockMatrix& matrix) const override;
+  void add_product(const State& state, StiffnessScale scale, ConstReals p, Reals out) const override;
+  [[nodiscard]] double energy(const State& state) const override;
+
+  [[nodiscard]] const ElasticBlock& block() const { return block_; }
+  [[nodiscard]] std::int32_t cell_count() const;
+  [[nodiscard]] int nodes_per_cell() const { return kernels_->nodes; }
+  [[nodiscard]] const std::vector<double>& volumes() const { return volumes_; }  ///< at rest [m3]
+  /// Adds each node's share of the mass, sum_g w_g rho N_a [kg].
+  void add_masses(std::vector<double>& nodal) const;
+  [[nodiscard]] CellFields fields(const State& state) const;
+  [[nodiscard]] std::size_t bytes() const;
+
+ private:
+  void lay_constants();
+  void lay_rest(ConstReals rest_positions);
+  [[nodiscard]] ElasticView view() const;
+  template <class Function>
+  void for_chunks(Function&& f) const;
+  [[nodiscard]] std::vector<double> energies(const State& state) const;
+
+  ElasticBlock block_;
+  Threads threads_;
+  const ElasticKernels* kernels_;
+  ElementOrder order_;
+  AlignedVector<std::int32_t> nodes_;
+  AlignedVector<std::int32_t> slots_;
+  AlignedVector<double> rest_;
+  AlignedVector<double> constants_;
+  std::ptrdiff_t constants_stride_ = 0;
+  std::vector<double> volumes_;
+};
+
+}  // namespace tissu

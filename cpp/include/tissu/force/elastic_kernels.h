@@ -1,0 +1,51 @@
+#pragma once
+
+/// The loops over the elements of one block, one function for each job, compiled for each instruction set.
+/// Elements stand in groups of eight lanes; every array of a group is [entry][lane].
+
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+#include "tissu/base/isa.h"
+
+namespace tissu {
+
+/// What a kernel reads of a block. Padding lanes repeat an element with zero volume, so they add nothing.
+struct ElasticView {
+  const std::int32_t* nodes;        ///< [group][node][8]
+  const std::int32_t* slots;        ///< [group][a][b][8], blocks of the matrix
+  const double* rest;               ///< [group][point][10][8]: J^-1 row by row, then weight * det J [m3]
+  const double* constants;          ///< [group or one][constant][8]
+  std::ptrdiff_t constants_stride;  ///< doubles from one group to the next, 0 when one serves all
+};
+
+struct GroupRange {
+  std::int32_t begin;
+  std::int32_t end;
+};
+
+/// All functions add to what they write. x, f, p are arrays of 3-vectors of the whole world.
+struct ElasticKernels {
+  std::string_view element;
+  std::string_view law;
+  std::string_view quadrature;
+  bool linear;  ///< the tangent does not depend on x
+  int nodes;
+  int points;
+  void (*force)(const ElasticView&, GroupRange, const double* x, double* f);
+  /// out += scale * (df/dx) p
+  void (*product)(const ElasticView&, GroupRange, const double* x, double scale, const double* p, double* out);
+  /// blocks += scale * df/dx
+  void (*stiffness)(const ElasticView&, GroupRange, const double* x, double scale, double* blocks);
+  /// energy of each element [J], [group][8]
+  void (*energy)(const ElasticView&, GroupRange, const double* x, double* energies);
+  /// mean over the element's volume of the Cauchy stress [Pa] xx yy zz yz xz xy, [group][6][8], and of det F, [group][8]
+  void (*stress)(const ElasticView&, GroupRange, const double* x, double* stresses, double* volume_ratios);
+};
+
+/// The kernels of an element, law and quadrature ("full", "over"), or null when there are none.
+const ElasticKernels* find_elastic_kernels(Isa isa, std::string_view element, std::string_view law,
+                                           std::string_view quadrature);
+
+}  // namespace tissu

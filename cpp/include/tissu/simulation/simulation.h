@@ -1,0 +1,54 @@
+#pragma once
+
+/// A world, its state, and the loop that moves it.
+
+#include <memory>
+#include <span>
+
+#include "tissu/base/profile.h"
+#include "tissu/solve/linear_solver.h"
+#include "tissu/step/integrator.h"
+#include "tissu/world/world.h"
+
+namespace tissu {
+
+struct Energy {
+  double kinetic = 0.0;
+  double elastic = 0.0;
+  double potential = 0.0;  ///< of gravity and loads
+  [[nodiscard]] double total() const { return kinetic + elastic + potential; }
+};
+
+class Simulation {
+ public:
+  Simulation(std::shared_ptr<const World> world, std::unique_ptr<Integrator> integrator,
+             std::unique_ptr<LinearSolver> solver);
+
+  /// One step of h [s]. Throws Diverged, with the state as it was before, when a value is not finite or a node
+  /// would fly further than a thousand times the size of the scene.
+  StepReport step(double h);
+
+  [[nodiscard]] const World& world() const { return *world_; }
+  [[nodiscard]] const State& state() const { return state_; }
+  [[nodiscard]] State& state() { return state_; }
+  [[nodiscard]] Energy energy() const;
+  [[nodiscard]] Profile& profile() { return profile_; }
+  [[nodiscard]] const Integrator& integrator() const { return *integrator_; }
+  [[nodiscard]] const LinearSolver& solver() const { return *solver_; }
+
+  /// Goes on with another world of the same unknowns, made by an editor from this one.
+  void replace_world(std::shared_ptr<const World> world);
+
+ private:
+  [[nodiscard]] bool is_sane() const;
+  [[noreturn]] void roll_back(double h);
+
+  std::shared_ptr<const World> world_;
+  std::unique_ptr<Integrator> integrator_;
+  std::unique_ptr<LinearSolver> solver_;
+  Profile profile_;
+  State state_;
+  State last_good_;
+};
+
+}  // namespace tissu

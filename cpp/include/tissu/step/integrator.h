@@ -1,0 +1,42 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "tissu/base/profile.h"
+#include "tissu/solve/linear_solver.h"
+#include "tissu/world/world.h"
+
+namespace tissu {
+
+struct StepReport {
+  double time = 0.0;  ///< at the end of the step [s]
+  int newton_iterations = 0;
+  int solver_iterations = 0;
+  double residual = 0.0;      ///< of the last linear system, or of Newton's equation when it is iterated
+  bool converged = false;     ///< every tolerance was met
+  double milliseconds = 0.0;  ///< wall time of the step
+  std::string message;        ///< empty, or why it did not converge
+};
+
+/// Newton's iteration inside a step.
+struct NewtonSettings {
+  int iterations = 1;       ///< 1: the equations are linearised once
+  double tolerance = 1e-6;  ///< on the norm of the residual, relative to the external force and the first residual
+};
+
+class Integrator {
+ public:
+  Integrator() = default;
+  virtual ~Integrator() = default;
+  Integrator(const Integrator&) = delete;
+  Integrator& operator=(const Integrator&) = delete;
+
+  [[nodiscard]] virtual std::string_view name() const = 0;
+  /// Allocates what its steps need. Called before the first step, and again after an edit.
+  virtual void prepare(const World& world, Profile& profile) = 0;
+  /// Moves the state by h [s]. The state is undefined when it throws.
+  virtual StepReport step(State& state, double h, LinearSolver& solver) = 0;
+};
+
+}  // namespace tissu

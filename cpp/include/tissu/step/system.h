@@ -1,0 +1,53 @@
+#pragma once
+
+/// Forces and matrix of a world, timed: what every integrator asks for.
+
+#include <vector>
+
+#include "tissu/assembly/block_matrix.h"
+#include "tissu/base/profile.h"
+#include "tissu/solve/linear_solver.h"
+#include "tissu/world/world.h"
+
+namespace tissu {
+
+class System {
+ public:
+  System(const World& world, Profile& profile);
+
+  [[nodiscard]] const World& world() const { return world_; }
+  /// f = all forces
+  void force(const State& state, Reals f);
+  /// f = the forces from outside the bodies only
+  void external_force(const State& state, Reals f);
+  /// out += (scale.position df/dx + scale.velocity df/dv) p
+  void add_product(const State& state, StiffnessScale scale, ConstReals p, Reals out);
+  /// A = mass M + scale.position df/dx + scale.velocity df/dv, given degrees of freedom as the identity. Nothing
+  /// is done when a linear world is asked for the matrix it has.
+  void assemble(const State& state, double mass, StiffnessScale scale);
+  /// Solves A x = b from the first guess x.
+  SolveReport solve(LinearSolver& solver, ConstReals b, Reals x, double floor);
+
+  /// What round-off alone can leave in A x: epsilon |diag(A) x|.
+  [[nodiscard]] double round_off(const State& state) const;
+
+  [[nodiscard]] const BlockMatrix& matrix() const { return matrix_; }
+
+ private:
+  struct Rows {
+    std::size_t force;
+    std::size_t product;
+    std::size_t stiffness;
+  };
+  const World& world_;
+  Profile& profile_;
+  BlockMatrix matrix_;
+  std::vector<Rows> rows_;
+  std::size_t mass_row_;
+  std::size_t solve_row_;
+  bool assembled_ = false;
+  double mass_scale_ = 0.0;
+  StiffnessScale scale_;
+};
+
+}  // namespace tissu

@@ -1,0 +1,79 @@
+#pragma once
+
+/// What a world is built from, as plain data with node numbers local to each body.
+
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tissu/assembly/fixed_dofs.h"
+#include "tissu/base/isa.h"
+#include "tissu/force/elastic.h"
+#include "tissu/force/load.h"
+
+namespace tissu {
+
+struct RayleighDamping {
+  double mass = 0.0;       ///< alpha [1/s]
+  double stiffness = 0.0;  ///< beta [s]
+};
+
+struct BodyDescription {
+  std::string name;
+  std::vector<double> positions;  ///< at rest [m], three for each node
+  std::vector<ElasticBlock> elastic;
+  std::optional<RayleighDamping> rayleigh;
+};
+
+struct FixedNodes {
+  std::string body;
+  std::vector<std::int32_t> nodes;
+  std::uint8_t axes = FixedDofs::kAllAxes;
+  Motion motion;
+  std::vector<double> positions;  ///< where the motion starts, three for each node; empty: at rest
+};
+
+struct LoadDescription {
+  std::string name;
+  std::string body;
+  std::vector<std::int32_t> nodes;
+  std::vector<double> forces;  ///< [N], three for each node
+  History history;
+};
+
+struct PressureDescription {
+  std::string name;
+  std::string body;
+  std::vector<std::array<std::int32_t, 3>> triangles;
+  double pressure = 0.0;  ///< [Pa]
+  History history;
+};
+
+/// A rigid body that stands alone.
+struct FrameDescription {
+  Vec3 position = Vec3::Zero();
+  Quaternion rotation = Quaternion::Identity();
+  Vec3 velocity = Vec3::Zero();
+  Vec3 angular_velocity = Vec3::Zero();  ///< in space [rad/s]
+  double mass = 1.0;                     ///< [kg]
+  Mat3 inertia = Mat3::Identity();       ///< about its origin, in its own axes [kg m2]
+};
+
+struct WorldDescription {
+  std::vector<BodyDescription> bodies;
+  std::vector<FrameDescription> frames;
+  std::vector<FixedNodes> fixed;
+  std::optional<Vec3> gravity;  ///< [m/s2]
+  std::vector<LoadDescription> loads;
+  std::vector<PressureDescription> pressures;
+  bool links = false;     ///< springs between points may be made and unmade while it runs
+  bool editable = false;  ///< cells may be removed while it runs
+  int threads = 1;
+  std::optional<Isa> isa;  ///< absent: the best there is
+
+  BodyDescription& body(std::string_view name);
+};
+
+}  // namespace tissu

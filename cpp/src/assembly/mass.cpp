@@ -1,0 +1,40 @@
+#include "tissu/assembly/mass.h"
+
+#include <numeric>
+#include <utility>
+
+namespace tissu {
+
+Mass::Mass(std::vector<double> nodal, std::vector<Frame> frames)
+    : nodal_(std::move(nodal)), frames_(std::move(frames)) {}
+
+double Mass::total() const { return std::accumulate(nodal_.begin(), nodal_.end(), 0.0); }
+
+void Mass::add_product(const State& state, double scale, ConstReals v, Reals out) const {
+  for (std::size_t i = 0; i < nodal_.size(); ++i) {
+    const double m = scale * nodal_[i];
+    for (std::size_t k = 3 * i; k < 3 * i + 3; ++k) out[k] += m * v[k];
+  }
+  for (std::size_t k = 0; k < frames_.size(); ++k) {
+    const std::int32_t r = frames_[k].block + 1;
+    block(out, r) += scale * (spatial_inertia(frames_[k], state.rotations[k]) * block(v, r));
+  }
+}
+
+void Mass::add_to(BlockMatrix& matrix, const State& state, double scale) const {
+  for (std::size_t i = 0; i < nodal_.size(); ++i) {
+    if (nodal_[i] != 0.0) matrix.add_diagonal(static_cast<std::int32_t>(i), scale * nodal_[i]);
+  }
+  for (std::size_t k = 0; k < frames_.size(); ++k) {
+    const std::int32_t r = frames_[k].block + 1;
+    matrix.add(r, r, scale * spatial_inertia(frames_[k], state.rotations[k]));
+  }
+}
+
+double Mass::kinetic_energy(const State& state) const {
+  std::vector<double> momentum(state.velocities.size(), 0.0);
+  add_product(state, 1.0, state.velocities, momentum);
+  return 0.5 * std::inner_product(momentum.begin(), momentum.end(), state.velocities.begin(), 0.0);
+}
+
+}  // namespace tissu

@@ -1,0 +1,123 @@
+#include "tissu/edit/remove_cells.h"
+
+#include <algorithm>
+#include <unordered_set>
+
+#include "tissu/base/error.h"
+#include "tissu/element/reference_cell.h"
+
+namespace tissu {
+namespace {
+
+using Numbers = std::unordered_set<std::int32_t>;
+
+/// Cells are numbered through the blocks of a body; from the first edit on, each block keeps its own list.
+void number_cells(BodyDescription& body) {
+  std::int32_t next = 0;
+  for (ElasticBlock& block : body.elastic) {
+    const int nodes = reference_cell(block.element, block.quadrature).nodes;
+    const auto count = static_cast<std::int32_t>(block.cells.size()) / nodes;
+    if (block.cell_numbers.empty()) {
+      for (std::int32_t i = 0; i < count; ++i) block.cell_numbers.push_back(next + i);
+    }
+    next += count;
+  }
+}
+
+void keep(std::vector<double>& values, const std::vector<std::size_t>& kept) {
+  if (values.size() <= 1) return;
+  std::vector<double> result;
+  for (const std::size_t i : kept) result.push_back(values[i]);
+  values = std::move(result);
+}
+
+/// Takes the named cells out of a block, and out of `wanted`.
+void remove_from(ElasticBlock& block, Numbers& wanted) {
+  const auto nodes = static_cast<std::size_t>(reference_cell(block.element, block.quadrature).nodes);
+  std::vector<std::size_t> kept;
+  for (std::size_t i = 0; i < block.cell_numbers.size(); ++i) {
+    if (wanted.erase(block.cell_numbers[i]) == 0) kept.push_back(i);
+  }
+  if (kept.size() == block.cell_numbers.size()) return;
+  std::vector<std::int32_t> cells;
+  std::vector<std::int32_t> numbers;
+  for (const std::size_t i : kept) {
+    const auto first = block.cells.begin() + static_cast<std::ptrdiff_t>(i * nodes);
+    cells.insert(cells.end(), first, first + static_cast<std::ptrdiff_t>(nodes));
+    numbers.push_back(block.cell_numbers[i]);
+  }
+  for (auto* values : {&block.young, &block.poisson, &block.density}) keep(*values, kept);
+  block.cells = std::move(cells);
+  block.cell_numbers = std::move(numbers);
+}
+
+/// Nodes of the body that no cell uses, held where they are.
+void hold_debris(WorldDescription& description, const BodyDescription& body, const State& state,
+                 std::int32_t first_node) {
+  std::vector<char> used(body.positions.size() / 3, 0);
+  for (const ElasticBlock& block : body.elastic) {
+    for (const std::int32_t node : block.cells) used[static_cast<std::size_t>(node)] = 1;
+  }
+  FixedNodes held;
+  held.body = body.name;
+  for (std::size_t node = 0; node < used.size(); ++node) {
+    if (used[node] != 0) continue;
+    held.nodes.push_back(static_cast<std::int32_t>(node));
+    const Vec3 x = block(ConstReals(state.positions), first_node + static_cast<std::int32_t>(node));
+    held.positions.insert(held.positions.end(), x.data(), x.data() + 3);
+  }
+  // A node is led by one motion only: debris leaves what held it before.
+  for (FixedNodes& other : description.fixed) {
+    if (other.body != body.name) continue;
+    FixedNodes rest = other;
+    rest.nodes.clear();
+    rest.positions.clear();
+    for (std::size_t i = 0; i < other.nodes.size(); ++i) {
+      if (used[static_cast<std::size_t>(other.nodes[i])] == 0) continue;
+      rest.nodes.push_back(other.nodes[i]);
+      if (!other.positions.empty()) {
+        const auto at = other.positions.begin() + static_cast<std::ptrdiff_t>(3 * i);
+        rest.positions.insert(rest.positions.end(), at, at + 3);
+      }
+    }
+    other = std::move(rest);
+  }
+  if (!held.nodes.empty()) description.fixed.push_back(std::move(held));
+}
+
+}  // namespace
+
+std::shared_ptr<const World> remove_cells(const World& world, const State& state, std::string_view body,
+                                          std::span<const std::int32_t> cells) {
+  if (world.description() == nullptr) {
+    throw ParameterError("this world cannot be edited; compile the scene with editing: true to remove cells.");
+  }
+  WorldDescription description = *world.description();
+  BodyDescription& edited = description.body(body);
+  number_cells(edited);
+  Numbers wanted(cells.begin(), cells.end());
+  for (ElasticBlock& block : edited.elastic) remove_from(block, wanted);
+  if (!wanted.empty()) {
+    throw ParameterError("body \"" + edited.name + "\" has no cell " +
+                         std::to_string(*std::ranges::min_element(wanted)) + " (any more).");
+  }
+  std::erase_if(edited.elastic, [](const ElasticBlock& block) { return block.cells.empty(); });
+  hold_debris(description, edited, state, world.body(body).first_node);
+  return std::make_shared<const World>(std::move(description));
+}
+
+std::vector<std::int32_t> remaining_cells(const World& world, std::string_view body) {
+  std::vector<std::int32_t> numbers;
+  for (const Elastic* elastic : world.body(body).elastic) {
+    const auto& own = elastic->block().cell_numbers;
+    if (own.empty()) {
+      const auto first = static_cast<std::int32_t>(numbers.size());
+      for (std::int32_t i = 0; i < elastic->cell_count(); ++i) numbers.push_back(first + i);
+    } else {
+      numbers.insert(numbers.end(), own.begin(), own.end());
+    }
+  }
+  return numbers;
+}
+
+}  // namespace tissu

@@ -1,0 +1,21 @@
+#include "elastic.h"
+#include "kernel_list.h"
+#include "tissu/element/hexahedron.h"
+#include "tissu/law/hooke.h"
+#include "tissu/law/stvk.h"
+
+namespace tissu::TISSU_KERNELS {
+namespace {
+using Full = Hexahedron8::Full;
+using Over = Hexahedron8::Over;
+constexpr ElasticKernels kTables[] = {
+    Elastic<Hexahedron8, Full, Hooke>::table("full"),
+    Elastic<Hexahedron8, Full, StVK>::table("full"),
+    Elastic<Hexahedron8, Over, Hooke>::table("over"),
+    Elastic<Hexahedron8, Over, StVK>::table("over"),
+};
+}  // namespace
+
+KernelList hexahedron_kernels() { return {kTables, sizeof(kTables) / sizeof(kTables[0])}; }
+
+}  // namespace tissu::TISSU_KERNELS

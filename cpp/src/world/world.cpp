@@ -1,0 +1,181 @@
+#include "tissu/world/world.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "tissu/base/error.h"
+#include "tissu/force/gravity.h"
+#include "tissu/force/load.h"
+#include "tissu/force/rayleigh.h"
+
+namespace tissu {
+namespace {
+
+[[noreturn]] void unknown_body(std::string_view name) {
+  throw ParameterError("there is no body \"" + std::string(name) + "\" in this world.");
+}
+
+std::vector<std::int32_t> shifted(std::vector<std::int32_t> nodes, std::int32_t first, std::int32_t count,
+                                  const std::string& where) {
+  for (std::int32_t& node : nodes) {
+    if (node < 0 || node >= count) {
+      throw ParameterError(where + " names node " + std::to_string(node) + "; the body has nodes 0 to " +
+                           std::to_string(count - 1) + ".");
+    }
+    node += first;
+  }
+  return nodes;
+}
+
+double box_diagonal(const std::vector<double>& positions) {
+  if (positions.empty()) return 0.0;
+  const Eigen::Map<const Eigen::Matrix3Xd> x(positions.data(), 3, static_cast<Eigen::Index>(positions.size() / 3));
+  return (x.rowwise().maxCoeff() - x.rowwise().minCoeff()).norm();
+}
+
+/// A node without mass would make the matrix singular, unless it is held.
+void refuse_massless(const Body& body, const std::vector<double>& masses, const FixedDofs& fixed) {
+  std::int32_t missing = 0;
+  std::int32_t example = 0;
+  for (std::int32_t i = 0; i < body.node_count; ++i) {
+    const auto node = static_cast<std::size_t>(body.first_node + i);
+    if (masses[node] > 0.0 || fixed.masks()[node] == FixedDofs::kAllAxes) continue;
+    if (missing++ == 0) example = i;
+  }
+  if (missing > 0) {
+    throw MeshError("body \"" + body.name + "\" has " + std::to_string(missing) +
+                    " nodes that no cell uses or whose mass is not positive (the first is node " +
+                    std::to_string(example) + "); drop them from the mesh.");
+  }
+}
+
+}  // namespace
+
+BodyDescription& WorldDescription::body(std::string_view name) {
+  const auto found = std::ranges::find(bodies, name, &BodyDescription::name);
+  if (found == bodies.end()) unknown_body(name);
+  return *found;
+}
+
+World::World(WorldDescription description)
+    : isa_(description.isa ? *description.isa : choose_isa()), threads_(description.threads) {
+  add_bodies(description);
+  add_external(description);
+  if (description.links) {
+    auto links = std::make_unique<Links>();
+    links_ = links.get();
+    forces_.push_back(std::move(links));
+  }
+  fixed_ = FixedDofs(blocks());
+  add_fixed(description);
+  for (const Body& body : bodies_) refuse_massless(body, mass_.nodal(), fixed_);
+  SparsityBuilder builder(blocks());
+  for (const auto& model : forces_) model->couple(builder);
+  sparsity_ = builder.build();
+  for (const auto& model : forces_) model->bind(sparsity_);
+  extent_ = box_diagonal(rest_positions_);
+  if (description.editable) description_ = std::move(description);
+}
+
+void World::add_bodies(const WorldDescription& description) {
+  for (const BodyDescription& body : description.bodies) {
+    if (std::ranges::find(bodies_, body.name, &Body::name) != bodies_.end()) {
+      throw ParameterError("two bodies are called \"" + body.name + "\"; give each its own name.");
+    }
+    bodies_.push_back({body.name, blocks(), static_cast<std::int32_t>(body.positions.size() / 3), {}});
+    rest_positions_.insert(rest_positions_.end(), body.positions.begin(), body.positions.end());
+  }
+  const std::int32_t first_frame = blocks();
+  rest_positions_.resize(rest_positions_.size() + 6 * description.frames.size(), 0.0);
+  std::vector<Frame> frames;
+  for (const FrameDescription& frame : description.frames) {
+    frames.push_back({first_frame + 2 * static_cast<std::int32_t>(frames.size()), frame.mass, frame.inertia});
+    block(Reals(rest_positions_), frames.back().block) = frame.position;
+    rest_rotations_.push_back(frame.rotation.normalized());
+    rest_speeds_.push_back(frame.velocity);
+    rest_spins_.push_back(frame.angular_velocity);
+  }
+
+  std::vector<double> masses(static_cast<std::size_t>(blocks()), 0.0);
+  for (const Frame& frame : frames) masses[static_cast<std::size_t>(frame.block)] = frame.mass;
+  for (std::size_t i = 0; i < description.bodies.size(); ++i) {
+    const BodyDescription& body = description.bodies[i];
+    Body& made = bodies_[i];
+    std::vector<double> own(static_cast<std::size_t>(made.first_node + made.node_count), 0.0);
+    std::vector<std::unique_ptr<ForceModel>> models;
+    for (ElasticBlock elastic : body.elastic) {
+      elastic.body = body.name;
+      elastic.cells = shifted(std::move(elastic.cells), made.first_node, made.node_count, "body \"" + body.name + "\"");
+      auto model = std::make_unique<Elastic>(std::move(elastic), rest_positions_, isa_, threads_);
+      model->add_masses(own);
+      made.elastic.push_back(model.get());
+      models.push_back(std::move(model));
+    }
+    for (std::size_t n = 0; n < own.size(); ++n) masses[n] += own[n];
+    own.resize(masses.size(), 0.0);
+    if (body.rayleigh) {
+      forces_.push_back(
+          std::make_unique<Rayleigh>(std::move(models), own, body.rayleigh->mass, body.rayleigh->stiffness));
+    } else {
+      for (auto& model : models) forces_.push_back(std::move(model));
+    }
+  }
+  mass_ = Mass(std::move(masses), std::move(frames));
+}
+
+void World::add_external(const WorldDescription& description) {
+  if (description.gravity) forces_.push_back(std::make_unique<Gravity>(mass_.nodal(), *description.gravity));
+  for (const LoadDescription& load : description.loads) {
+    const Body& on = body(load.body);
+    auto nodes = shifted(load.nodes, on.first_node, on.node_count, "load \"" + load.name + "\"");
+    forces_.push_back(std::make_unique<NodalLoad>(load.name, std::move(nodes), load.forces, load.history));
+  }
+  for (const PressureDescription& pressure : description.pressures) {
+    const Body& on = body(pressure.body);
+    auto triangles = pressure.triangles;
+    for (auto& triangle : triangles) {
+      const auto nodes = shifted({triangle.begin(), triangle.end()}, on.first_node, on.node_count,
+                                 "pressure \"" + pressure.name + "\"");
+      std::ranges::copy(nodes, triangle.begin());
+    }
+    forces_.push_back(
+        std::make_unique<Pressure>(pressure.name, std::move(triangles), pressure.pressure, pressure.history));
+  }
+}
+
+void World::add_fixed(const WorldDescription& description) {
+  for (const FixedNodes& fixed : description.fixed) {
+    const Body& on = body(fixed.body);
+    const auto nodes = shifted(fixed.nodes, on.first_node, on.node_count, "a fixed part of body \"" + on.name + "\"");
+    std::vector<double> start = rest_positions_;
+    for (std::size_t i = 0; i < fixed.positions.size() / 3; ++i) {
+      block(Reals(start), nodes[i]) = block(ConstReals(fixed.positions), static_cast<std::int32_t>(i));
+    }
+    fixed_.add(nodes, start, fixed.axes, fixed.motion);
+  }
+}
+
+const Body& World::body(std::string_view name) const {
+  const auto found = std::ranges::find(bodies_, name, &Body::name);
+  if (found == bodies_.end()) unknown_body(name);
+  return *found;
+}
+
+bool World::is_linear() const {
+  return frames().empty() && links_ == nullptr &&
+         std::ranges::all_of(forces_, [](const auto& model) { return model->has_constant_stiffness(); });
+}
+
+State World::rest_state() const {
+  State state;
+  state.positions = rest_positions_;
+  state.velocities.assign(rest_positions_.size(), 0.0);
+  state.rotations = rest_rotations_;
+  for (std::size_t k = 0; k < frames().size(); ++k) {
+    block(Reals(state.velocities), frames()[k].block) = rest_speeds_[k];
+    block(Reals(state.velocities), frames()[k].block + 1) = rest_spins_[k];
+  }
+  return state;
+}
+
+}  // namespace tissu

@@ -1,0 +1,163 @@
+#include <functional>
+
+#include "bind.h"
+#include "tissu/edit/remove_cells.h"
+#include "tissu/simulation/simulation.h"
+#include "tissu/solve/cholesky.h"
+#include "tissu/solve/conjugate_gradient.h"
+#include "tissu/step/implicit_euler.h"
+#include "tissu/step/static_equilibrium.h"
+
+namespace tissu::bind {
+namespace {
+
+/// How to make an integrator or a solver; each simulation makes its own.
+struct IntegratorSpec {
+  std::function<std::unique_ptr<Integrator>()> make;
+};
+struct SolverSpec {
+  std::function<std::unique_ptr<LinearSolver>()> make;
+};
+
+struct ImplicitEulerSpec : IntegratorSpec {};
+struct StaticSpec : IntegratorSpec {};
+struct ConjugateGradientSpec : SolverSpec {};
+struct CholeskySpec : SolverSpec {};
+
+py::dict to_dict(const Energy& energy) {
+  py::dict result;
+  result["kinetic"] = energy.kinetic;
+  result["elastic"] = energy.elastic;
+  result["potential"] = energy.potential;
+  result["total"] = energy.total();
+  return result;
+}
+
+py::dict cell_fields(const Simulation& simulation, const std::string& name) {
+  CellFields all;
+  for (const Elastic* elastic : simulation.world().body(name).elastic) {
+    const CellFields fields = elastic->fields(simulation.state());
+    const auto append = [](std::vector<double>& to, const std::vector<double>& from) {
+      to.insert(to.end(), from.begin(), from.end());
+    };
+    append(all.von_mises, fields.von_mises);
+    append(all.energy_density, fields.energy_density);
+    append(all.volume_ratio, fields.volume_ratio);
+  }
+  py::dict result;
+  result["von_mises"] = py::array_t<double>(static_cast<py::ssize_t>(all.von_mises.size()), all.von_mises.data());
+  result["energy_density"] =
+      py::array_t<double>(static_cast<py::ssize_t>(all.energy_density.size()), all.energy_density.data());
+  result["volume_ratio"] =
+      py::array_t<double>(static_cast<py::ssize_t>(all.volume_ratio.size()), all.volume_ratio.data());
+  return result;
+}
+
+py::list profile_rows(Simulation& simulation) {
+  py::list rows;
+  for (const Profile::Row& row : simulation.profile().rows()) {
+    rows.append(py::make_tuple(row.effect, row.stage, row.calls, row.seconds));
+  }
+  return rows;
+}
+
+py::tuple body_range(const Simulation& simulation, const std::string& name) {
+  const Body& body = simulation.world().body(name);
+  return py::make_tuple(body.first_node, body.node_count);
+}
+
+void bind_methods(py::module_& m) {
+  using py::arg;
+  py::class_<IntegratorSpec>(m, "Integrator");
+  py::class_<SolverSpec>(m, "LinearSolver");
+  py::class_<ImplicitEulerSpec, IntegratorSpec>(m, "ImplicitEuler")
+      .def(py::init([](int iterations, double tolerance) {
+             return ImplicitEulerSpec{{[=]() -> std::unique_ptr<Integrator> {
+               return std::make_unique<ImplicitEuler>(NewtonSettings{iterations, tolerance});
+             }}};
+           }),
+           py::kw_only(), arg("newton_iterations") = 1, arg("newton_tolerance") = 1e-6);
+  py::class_<StaticSpec, IntegratorSpec>(m, "Static")
+      .def(py::init([](int iterations, double tolerance, int load_steps) {
+             return StaticSpec{{[=]() -> std::unique_ptr<Integrator> {
+               return std::make_unique<StaticEquilibrium>(
+                   StaticEquilibrium::Settings{NewtonSettings{iterations, tolerance}, load_steps});
+             }}};
+           }),
+           py::kw_only(), arg("newton_iterations"), arg("newton_tolerance"), arg("load_steps"));
+  py::class_<ConjugateGradientSpec, SolverSpec>(m, "ConjugateGradient")
+      .def(py::init([](double tolerance, int iterations) {
+             return ConjugateGradientSpec{{[=]() -> std::unique_ptr<LinearSolver> {
+               return std::make_unique<ConjugateGradient>(ConjugateGradient::Settings{tolerance, iterations});
+             }}};
+           }),
+           py::kw_only(), arg("tolerance") = 1e-6, arg("iterations") = 1000);
+  py::class_<CholeskySpec, SolverSpec>(m, "Cholesky").def(py::init([] {
+    return CholeskySpec{{[]() -> std::unique_ptr<LinearSolver> { return std::make_unique<Cholesky>(); }}};
+  }));
+}
+
+void bind_report(py::module_& m) {
+  py::class_<StepReport>(m, "StepReport")
+      .def_readonly("time", &StepReport::time)
+      .def_readonly("newton_iterations", &StepReport::newton_iterations)
+      .def_readonly("solver_iterations", &StepReport::solver_iterations)
+      .def_readonly("residual", &StepReport::residual)
+      .def_readonly("converged", &StepReport::converged)
+      .def_readonly("milliseconds", &StepReport::milliseconds)
+      .def_readonly("message", &StepReport::message);
+}
+
+}  // namespace
+
+void bind_simulation(py::module_& m) {
+  using py::arg;
+  bind_methods(m);
+  bind_report(m);
+  py::class_<Simulation>(m, "Simulation")
+      .def(py::init([](const std::shared_ptr<World>& world, const IntegratorSpec& integrator, const SolverSpec& solver) {
+             return std::make_unique<Simulation>(world, integrator.make(), solver.make());
+           }),
+           py::kw_only(), arg("world"), arg("integrator"), arg("solver"))
+      .def("step", &Simulation::step, arg("dt"), py::call_guard<py::gil_scoped_release>())
+      .def_property(
+          "time", [](const Simulation& s) { return s.state().time; },
+          [](Simulation& s, double time) { s.state().time = time; })
+      .def_property_readonly("integrator_name", [](const Simulation& s) { return std::string(s.integrator().name()); })
+      .def_property_readonly("solver_name", [](const Simulation& s) { return std::string(s.solver().name()); })
+      .def_property_readonly("positions",
+                             [](const py::object& self) {
+                               auto& s = self.cast<Simulation&>();
+                               return view_of(s.state().positions, 0, s.world().blocks(), self);
+                             })
+      .def_property_readonly("velocities",
+                             [](const py::object& self) {
+                               auto& s = self.cast<Simulation&>();
+                               return view_of(s.state().velocities, 0, s.world().blocks(), self);
+                             })
+      .def("body_range", &body_range, arg("body"))
+      .def("energy", [](const Simulation& s) { return to_dict(s.energy()); })
+      .def("cell_fields", &cell_fields, arg("body"))
+      .def("profile_rows", &profile_rows)
+      .def("profile_steps", [](Simulation& s) { return s.profile().steps(); })
+      .def("profile_step_seconds",
+           [](Simulation& s) {
+             const auto& seconds = s.profile().step_seconds();
+             return py::array_t<double>(static_cast<py::ssize_t>(seconds.size()), seconds.data());
+           })
+      .def("profile_clear", [](Simulation& s) { s.profile().clear(); })
+      .def(
+          "remove_cells",
+          [](Simulation& s, const std::string& body, const Array<std::int32_t>& cells) {
+            const std::vector<std::int32_t> numbers = to_vector(cells);
+            s.replace_world(remove_cells(s.world(), s.state(), body, numbers));
+          },
+          py::kw_only(), arg("body"), arg("cells"))
+      .def("remaining_cells",
+           [](const Simulation& s, const std::string& body) {
+             const std::vector<std::int32_t> cells = remaining_cells(s.world(), body);
+             return py::array_t<std::int32_t>(static_cast<py::ssize_t>(cells.size()), cells.data());
+           }, arg("body"));
+}
+
+}  // namespace tissu::bind

@@ -1,0 +1,145 @@
+#include "bind.h"
+#include "tissu/world/world.h"
+
+namespace tissu::bind {
+namespace {
+
+using Doubles = Array<double>;
+using Ints = Array<std::int32_t>;
+
+History to_history(const Doubles& times, const Doubles& factors) { return {to_vector(times), to_vector(factors)}; }
+
+void add_elastic(WorldDescription& world, const std::string& body, const std::string& cell_type, const Ints& cells,
+                 const Ints& cell_numbers, const std::string& law, const std::map<std::string, Doubles>& parameters, const Doubles& density,
+                 const std::string& quadrature) {
+  ElasticBlock block;
+  block.element = cell_type;
+  block.law = law;
+  block.quadrature = quadrature;
+  block.cells = to_vector(cells);
+  block.cell_numbers = to_vector(cell_numbers);
+  if (cells.ndim() != 2 || cell_numbers.size() != cells.shape(0)) {
+    throw ParameterError("cells must have the shape (e, k), and cell_numbers the shape (e,).");
+  }
+  for (const auto& [name, values] : parameters) {
+    if (name == "young") {
+      block.young = to_vector(values);
+    } else if (name == "poisson") {
+      block.poisson = to_vector(values);
+    } else {
+      throw ParameterError("law \"" + law + "\" has no parameter \"" + name + "\"; it has young and poisson.");
+    }
+  }
+  block.density = to_vector(density);
+  world.body(body).elastic.push_back(std::move(block));
+}
+
+std::vector<std::array<std::int32_t, 3>> to_triangles(const Ints& array) {
+  with_columns(array, 3, "triangles");
+  std::vector<std::array<std::int32_t, 3>> triangles(static_cast<std::size_t>(array.shape(0)));
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    for (std::size_t k = 0; k < 3; ++k) triangles[i][k] = array.data()[3 * i + k];
+  }
+  return triangles;
+}
+
+Motion to_motion(const Doubles& times, const Doubles& displacements, const Doubles& angles, const Doubles& center,
+                 const Doubles& axis) {
+  with_columns(displacements, 3, "displacements");
+  if (times.size() == 0 || displacements.shape(0) != times.size() || angles.size() != times.size()) {
+    throw ParameterError("a motion needs as many displacements and angles as it has times, and at least one.");
+  }
+  const Vec3 direction = to_vec3(axis, "axis");
+  if (!(direction.norm() > 0.0)) throw ParameterError("the axis of a rotation must not be zero.");
+  Motion motion{to_vector(times), {}, to_vector(angles), to_vec3(center, "center"), direction.normalized()};
+  for (py::ssize_t i = 0; i < displacements.shape(0); ++i) {
+    motion.displacements.emplace_back(displacements.at(i, 0), displacements.at(i, 1), displacements.at(i, 2));
+  }
+  return motion;
+}
+
+void add_fixed(WorldDescription& world, const std::string& body, const Ints& nodes, int axes, Motion motion) {
+  if (axes < 1 || axes > 7) throw ParameterError("axes must be a mask of x = 1, y = 2 and z = 4.");
+  world.fixed.push_back({world.body(body).name, to_vector(nodes), static_cast<std::uint8_t>(axes), std::move(motion), {}});
+}
+
+}  // namespace
+
+void bind_world(py::module_& m) {
+  using py::arg;
+  py::class_<World, std::shared_ptr<World>>(m, "World")
+      .def_property_readonly("blocks", &World::blocks)
+      .def_property_readonly("matrix_blocks", [](const World& world) { return world.sparsity().blocks(); })
+      .def_property_readonly("editable", [](const World& world) { return world.description() != nullptr; })
+      .def_property_readonly("mass", [](const World& world) { return world.mass().total(); })
+      .def_property_readonly("threads", [](const World& world) { return world.threads().count(); })
+      .def_property_readonly("instruction_set", [](const World& world) { return std::string(name(world.isa())); });
+
+  py::class_<WorldDescription>(m, "WorldBuilder")
+      .def(py::init([](int threads, bool editable, bool links) {
+             WorldDescription world;
+             world.threads = threads;
+             world.editable = editable;
+             world.links = links;
+             return world;
+           }),
+           py::kw_only(), arg("threads") = 1, arg("editable") = false, arg("links") = false)
+      .def(
+          "add_body",
+          [](WorldDescription& world, const std::string& name, const Doubles& positions) {
+            std::size_t first = 0;
+            for (const BodyDescription& body : world.bodies) first += body.positions.size() / 3;
+            world.bodies.push_back({name, to_vector(with_columns(positions, 3, "positions")), {}, {}});
+            return first;
+          },
+          py::kw_only(), arg("name"), arg("positions"))
+      .def("add_elastic", &add_elastic, py::kw_only(), arg("body"), arg("cell_type"), arg("cells"), arg("cell_numbers"), arg("law"),
+           arg("parameters"), arg("density"), arg("quadrature") = "full")
+      .def(
+          "add_rayleigh",
+          [](WorldDescription& world, const std::string& body, double mass, double stiffness) {
+            world.body(body).rayleigh = RayleighDamping{mass, stiffness};
+          },
+          py::kw_only(), arg("body"), arg("mass"), arg("stiffness"))
+      .def(
+          "add_gravity",
+          [](WorldDescription& world, const Doubles& acceleration) {
+            world.gravity = to_vec3(acceleration, "acceleration");
+          },
+          py::kw_only(), arg("acceleration"))
+      .def(
+          "add_load",
+          [](WorldDescription& world, const std::string& name, const std::string& body, const Ints& nodes,
+             const Doubles& forces, const Doubles& times, const Doubles& factors) {
+            world.loads.push_back({name, world.body(body).name, to_vector(nodes),
+                                   to_vector(with_columns(forces, 3, "forces")), to_history(times, factors)});
+          },
+          py::kw_only(), arg("name"), arg("body"), arg("nodes"), arg("forces"), arg("times"), arg("factors"))
+      .def(
+          "add_pressure",
+          [](WorldDescription& world, const std::string& name, const std::string& body, const Ints& triangles,
+             double pressure, const Doubles& times, const Doubles& factors) {
+            world.pressures.push_back(
+                {name, world.body(body).name, to_triangles(triangles), pressure, to_history(times, factors)});
+          },
+          py::kw_only(), arg("name"), arg("body"), arg("triangles"), arg("pressure"), arg("times"), arg("factors"))
+      .def(
+          "fix",
+          [](WorldDescription& world, const std::string& body, const Ints& nodes, int axes) {
+            add_fixed(world, body, nodes, axes, {});
+          },
+          py::kw_only(), arg("body"), arg("nodes"), arg("axes") = 7)
+      .def(
+          "prescribe",
+          [](WorldDescription& world, const std::string& body, const Ints& nodes, int axes, const Doubles& times,
+             const Doubles& displacements, const Doubles& angles, const Doubles& center, const Doubles& axis) {
+            add_fixed(world, body, nodes, axes, to_motion(times, displacements, angles, center, axis));
+          },
+          py::kw_only(), arg("body"), arg("nodes"), arg("axes"), arg("times"), arg("displacements"), arg("angles"),
+          arg("center"), arg("axis"))
+      .def(
+          "build", [](const WorldDescription& world) { return std::make_shared<World>(world); },
+          py::call_guard<py::gil_scoped_release>());
+}
+
+}  // namespace tissu::bind

@@ -1,0 +1,131 @@
+"""tissu: real-time soft tissue for surgery.
+
+A scene goes in, a deforming organ comes out:
+
+    import tissu as ts
+
+    scene = ts.Scene.from_yaml("organ.yaml")
+    simulation = scene.compile()
+    for report in simulation.run():
+        print(report)
+
+Everything is in SI units and float64; arrays are (n, 3); nodes of cells are in VTK's order.
+"""
+
+from __future__ import annotations
+
+import importlib
+import os
+from typing import TYPE_CHECKING, Any
+
+# Idle threads sleep soon instead of spinning: a busy machine is not slowed to a crawl. Set before
+# the core loads OpenMP, and only where the user has not chosen.
+if "OMP_WAIT_POLICY" not in os.environ:
+    os.environ.setdefault("GOMP_SPINCOUNT", "20000")
+
+_HOMES = {
+    "tissu.errors": ("TissuError", "MeshError", "ParameterError", "SceneError", "Diverged"),
+    "tissu.mesh": (
+        "Mesh",
+        "CellBlock",
+        "Surface",
+        "QualityReport",
+        "read_mesh",
+        "write_mesh",
+        "bar_mesh",
+    ),
+    "tissu.scene": (
+        "BarMesh",
+        "Body",
+        "Box",
+        "Cholesky",
+        "ConjugateGradient",
+        "Fixed",
+        "Hooke",
+        "ImplicitEuler",
+        "MeshFile",
+        "Newton",
+        "NodalLoad",
+        "Nodes",
+        "Output",
+        "Plane",
+        "Prescribed",
+        "Pressure",
+        "Rayleigh",
+        "Region",
+        "Rotation",
+        "Scene",
+        "Sphere",
+        "StVK",
+        "Static",
+        "SurfaceNodes",
+        "Traction",
+    ),
+    "tissu.simulation": ("Plan", "Profile", "Simulation", "StepReport"),
+    "tissu.picture": ("draw", "draw_overlay"),
+}
+_HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
+
+__all__ = sorted([*_HOME_OF, "__version__"])  # noqa: PLE0604 - names are text
+
+
+def __getattr__(name: str) -> Any:
+    """Load a name from its room when it is first asked for, so that the import stays short."""
+    if name == "__version__":
+        from tissu import _core
+
+        return _core.build_info()["version"]
+    home = _HOME_OF.get(name)
+    if home is None:
+        raise AttributeError(f"module 'tissu' has no attribute '{name}'")
+    value = getattr(importlib.import_module(home), name)
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    return __all__
+
+
+if TYPE_CHECKING:
+    from tissu.errors import Diverged, MeshError, ParameterError, SceneError, TissuError
+    from tissu.mesh import (
+        CellBlock,
+        Mesh,
+        QualityReport,
+        Surface,
+        bar_mesh,
+        read_mesh,
+        write_mesh,
+    )
+    from tissu.picture import draw, draw_overlay
+    from tissu.scene import (
+        BarMesh,
+        Body,
+        Box,
+        Cholesky,
+        ConjugateGradient,
+        Fixed,
+        Hooke,
+        ImplicitEuler,
+        MeshFile,
+        Newton,
+        NodalLoad,
+        Nodes,
+        Output,
+        Plane,
+        Prescribed,
+        Pressure,
+        Rayleigh,
+        Region,
+        Rotation,
+        Scene,
+        Sphere,
+        Static,
+        StVK,
+        SurfaceNodes,
+        Traction,
+    )
+    from tissu.simulation import Plan, Profile, Simulation, StepReport
+
+    __version__: str

@@ -1,0 +1,127 @@
+"""The commands and their options; the work is done in the modules beside this one."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from tissu.cli.outcome import reported
+
+app = typer.Typer(
+    help="Deforming soft tissue: a scene file goes in, a deforming organ comes out.",
+    no_args_is_help=True,
+    add_completion=False,
+    pretty_exceptions_enable=False,
+    context_settings={"help_option_names": ["-h", "--help"]},
+)
+mesh_app = typer.Typer(help="Look at meshes and make them.", no_args_is_help=True)
+app.add_typer(mesh_app, name="mesh")
+
+SceneFile = Annotated[Path, typer.Argument(metavar="SCENE", help="A scene (YAML).")]
+Debug = Annotated[bool, typer.Option("--debug", help="Show tracebacks.")]
+Triple = tuple[float, float, float]
+
+
+@app.command()
+def run(
+    scene: SceneFile,
+    out: Annotated[
+        Path | None,
+        typer.Option("--out", "-o", help="Folder of the results [default: results/SCENE]."),
+    ] = None,
+    duration: Annotated[
+        str | None,
+        typer.Option(help="Simulated time, such as '2 s' [default: the scene's]."),
+    ] = None,
+    threads: Annotated[
+        int | None,
+        typer.Option(min=1, help="Number of threads [default: the scene's]."),
+    ] = None,
+    quiet: Annotated[bool, typer.Option("--quiet", "-q", help="Print errors only.")] = False,
+    debug: Debug = False,
+) -> None:
+    """Run a scene; write a VTU series, a summary and a picture."""
+    from tissu.cli.run import Job, run_scene
+
+    with reported(debug=debug):
+        job = Job(scene, out or Path("results") / scene.stem, duration, threads, quiet)
+        raise typer.Exit(run_scene(job, debug=debug))
+
+
+@app.command()
+def check(scene: SceneFile, debug: Debug = False) -> None:
+    """Say which effects a scene switches on and why, or what is wrong with it."""
+    with reported(debug=debug):
+        from tissu.errors import SceneError
+        from tissu.scene import Scene
+
+        found = Scene.from_yaml(scene).check()
+        if found.problems:
+            raise SceneError(found.problems)
+        typer.echo(str(found))
+
+
+@app.command()
+def info(debug: Debug = False) -> None:
+    """Version, threads, instruction set in use, libraries."""
+    with reported(debug=debug):
+        from tissu.cli.info import info_text
+
+        typer.echo(info_text())
+
+
+@mesh_app.command("info")
+def mesh_info(
+    file: Annotated[Path, typer.Argument(metavar="FILE", help="A mesh of any known format.")],
+    unit: Annotated[str, typer.Option(help="Unit of length of the file.")] = "m",
+    scale: Annotated[float, typer.Option(help="Factor on all lengths.")] = 1.0,
+    debug: Debug = False,
+) -> None:
+    """Counts, size, quality and faults of a mesh."""
+    with reported(debug=debug):
+        from tissu.mesh import read_mesh
+
+        typer.echo(str(read_mesh(file, unit=unit, scale=scale).quality()))
+
+
+@mesh_app.command("bar")
+def mesh_bar(
+    size: Annotated[Triple, typer.Option(metavar="X Y Z", help="Lengths [m].")],
+    cells: Annotated[tuple[int, int, int], typer.Option(metavar="X Y Z", help="Grid cells.")],
+    output: Annotated[Path, typer.Option("--output", "-o", metavar="FILE", help="The mesh.")],
+    cell: Annotated[str, typer.Option(help="tetra or hexahedron.")] = "tetra",
+    split: Annotated[str, typer.Option(help="six, five or six_mirrored (tetra).")] = "six",
+    origin: Annotated[Triple, typer.Option(metavar="X Y Z", help="Smallest corner [m].")] = (
+        0.0,
+        0.0,
+        0.0,
+    ),
+    debug: Debug = False,
+) -> None:
+    """Make a bar of tetrahedra or hexahedra."""
+    with reported(debug=debug):
+        from tissu.mesh import bar_mesh, write_mesh
+
+        made = bar_mesh(size=size, cells=cells, cell=cell, split=split, origin=origin)  # type: ignore[arg-type]
+        write_mesh(made, output)
+        typer.echo(f"{output}: {made.node_count} nodes, {made.cell_count} cells")
+
+
+def version(wanted: bool) -> None:
+    """Prints the version and leaves."""
+    if wanted:
+        from tissu import __version__
+
+        typer.echo(f"tissu {__version__}")
+        raise typer.Exit
+
+
+@app.callback()
+def options(
+    show: Annotated[
+        bool, typer.Option("--version", callback=version, is_eager=True, help="Show the version.")
+    ] = False,
+) -> None:
+    """Deforming soft tissue: a scene file goes in, a deforming organ comes out."""

@@ -1,0 +1,34 @@
+"""What `tissu info` says."""
+
+from __future__ import annotations
+
+import platform
+from collections.abc import Mapping
+from importlib import metadata
+from typing import Any
+
+PYTHON_LIBRARIES = ("numpy", "pydantic", "meshio", "matplotlib", "typer", "rich", "pint", "PyYAML")
+
+
+def info_text() -> str:
+    """Version, threads, instruction set in use, linked libraries, as lines."""
+    from tissu import _core
+
+    return "\n".join(info_lines(_core.build_info()))
+
+
+def info_lines(build: Mapping[str, Any]) -> list[str]:
+    """The lines, from what the core says of itself."""
+    shown = dict(build)
+    libraries = dict(shown.pop("libraries", {}))
+    lines = [f"{'tissu':<18} {shown.pop('version', '?')}"]
+    names = {"threads_available": "threads", "instruction_set": "instruction set"}
+    lines += [f"{names.get(key, key.replace('_', ' ')):<18} {shown[key]}" for key in shown]
+    lines.append(f"{'python':<18} {platform.python_version()}")
+    lines += [f"  {name:<16} {number}" for name, number in libraries.items()]
+    for name in PYTHON_LIBRARIES:
+        try:
+            lines.append(f"  {name:<16} {metadata.version(name)}")
+        except metadata.PackageNotFoundError:
+            lines.append(f"  {name:<16} absent")
+    return lines

@@ -1,0 +1,91 @@
+"""Whether supports agree with each other, and hold what a static step needs held."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from tissu.compile.prepared import Held, Ints, Prepared
+from tissu.mesh.mesh import first_five
+from tissu.scene.problem import field_path
+from tissu.scene.support import Fixed, Prescribed, axes_mask
+
+if TYPE_CHECKING:
+    from tissu.mesh import Mesh
+
+_ALL_AXES = 7
+
+
+def check_supports(prepared: Prepared) -> None:
+    """Report nodes that two supports claim, and parts of bodies that nothing holds."""
+    _check_conflicts(prepared)
+    unresolved = len(prepared.scene.fixed) + len(prepared.scene.prescribed) - len(prepared.held)
+    if unresolved:
+        return  # what they would hold is not known
+    for name, body in prepared.bodies.items():
+        _check_held(prepared, name, body.mesh)
+
+
+def _check_conflicts(prepared: Prepared) -> None:
+    """A node has one motion on an axis: fixed and prescribed, or prescribed twice, contradict."""
+    moved = [held for held in prepared.held if isinstance(held.support, Prescribed)]
+    for number, held in enumerate(moved):
+        fixed = [other for other in prepared.held if isinstance(other.support, Fixed)]
+        for other in [*fixed, *moved[:number]]:
+            if other.support.body != held.support.body:
+                continue
+            axes = "".join(a for a in held.support.axes if a in other.support.axes)
+            both = np.intersect1d(held.nodes, other.nodes)
+            if axes and both.size:
+                text = (
+                    f"{both.size} nodes are held on {axes} by {field_path(other.path)} too "
+                    f"(first: {first_five(both)}); a node takes one motion on an axis"
+                )
+                prepared.findings.problem(held.path, text)
+
+
+def held_axes(held: list[Held], body: str, nodes: int) -> Ints:
+    """For each node of a body the bit mask of its held axes."""
+    mask = np.zeros(nodes, dtype=np.int32)
+    for item in held:
+        if item.support.body == body:
+            mask[item.nodes] |= axes_mask(item.support.axes)
+    return mask
+
+
+def _check_held(prepared: Prepared, name: str, mesh: Mesh) -> None:
+    mask = held_axes(prepared.held, name, mesh.node_count)
+    static = prepared.scene.step.type == "static"
+    part_of_node = _part_of_nodes(mesh)
+    parts = int(part_of_node.max()) + 1
+    axes = [int(np.bitwise_or.reduce(mask[part_of_node == part])) for part in range(parts)]
+    loose = [part for part in range(parts) if axes[part] != _ALL_AXES]
+    where = (
+        f"body '{name}'"
+        if parts == 1
+        else f"{len(loose)} of {parts} separate parts of body '{name}'"
+    )
+    if static and loose:
+        need = "a static step needs fixed or prescribed nodes on x, y and z"
+        text = f"{where} can move freely on some axis; {need}"
+        prepared.findings.problem(("bodies", name), text)
+    elif static and (mask > 0).sum() < 3:
+        prepared.findings.note(
+            f"bodies.{name}: held at fewer than three nodes, so it may turn freely in a static step"
+        )
+    elif loose and mask.any() and any(axes[part] == 0 for part in loose):
+        free = sum(axes[part] == 0 for part in loose)
+        prepared.findings.note(
+            f"bodies.{name}: {free} of {parts} separate parts have no fixed node and fly free"
+        )
+
+
+def _part_of_nodes(mesh: Mesh) -> Ints:
+    part = np.zeros(mesh.node_count, dtype=np.int32)
+    of_cell, first = np.asarray(mesh.parts()), 0
+    for block in mesh.volume_blocks:
+        nodes = np.asarray(block.nodes)
+        part[nodes] = of_cell[first : first + len(nodes), None]
+        first += len(nodes)
+    return part

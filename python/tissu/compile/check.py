@@ -1,0 +1,66 @@
+"""Checking a scene without running it: its problems, and in plain words what it switches on."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from tissu.compile.prepare import prepare
+from tissu.effects import Effect, absent_of, effects_of
+
+if TYPE_CHECKING:
+    from tissu.compile.prepared import Prepared
+    from tissu.scene.scene import Scene
+
+
+@dataclass(frozen=True, slots=True)
+class Check:
+    """What a scene would run, and what stops it.
+
+    Attributes:
+        problems: what compile() refuses, one sentence each, with its place.
+        notes: what is accepted but worth knowing.
+        effects: effects switched on, each with the field that asks for it.
+        absent: effects the scene does not ask for; they run no code.
+    """
+
+    problems: list[str]
+    notes: list[str]
+    effects: list[Effect]
+    absent: list[str]
+
+    @property
+    def ok(self) -> bool:
+        """Whether the scene compiles."""
+        return not self.problems
+
+    def __str__(self) -> str:
+        sections = {
+            "Problems": self.problems,
+            "Notes": self.notes,
+            "Switched on": [str(effect) for effect in self.effects],
+            "Absent (not asked for, so no code of it runs)": [", ".join(self.absent)]
+            if self.absent
+            else [],
+        }
+        return "\n".join(
+            f"{title}:\n" + "\n".join(f"  - {line}" for line in lines)
+            for title, lines in sections.items()
+            if lines
+        )
+
+
+def check_scene(scene: Scene) -> Check:
+    """Everything that compile() would refuse, and what the scene switches on; raises nothing."""
+    return check_of(prepare(scene))
+
+
+def check_of(prepared: Prepared) -> Check:
+    """The same for a scene that is resolved already."""
+    scene = prepared.scene
+    return Check(
+        problems=[problem.sentence(scene.source) for problem in prepared.findings.problems],
+        notes=list(prepared.findings.notes),
+        effects=effects_of(scene, prepared.counts()),
+        absent=absent_of(scene),
+    )

@@ -1,0 +1,103 @@
+"""What each cell is made of: laws by region, density from mass."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from tissu.compile.prepared import Findings, Floats, Group, Ints
+from tissu.compile.select import region_cells
+from tissu.errors import ParameterError
+from tissu.mesh.mesh import first_five
+
+if TYPE_CHECKING:
+    from tissu.mesh import Mesh
+    from tissu.scene.body import Body
+    from tissu.scene.law import Law
+    from tissu.scene.problem import Path
+
+_LOCKING = 0.48  # Poisson's ratio above which first-order elements are noticeably too stiff
+
+
+def cell_groups(mesh: Mesh, body: Body, path: Path, findings: Findings) -> list[Group]:
+    """The body's cells in blocks of one cell type and one kind of law, in mesh order."""
+    laws = list(body.laws().values())
+    owner = _law_of_cells(mesh, body, path, findings)
+    if owner is None:
+        return []
+    groups, first = [], 0
+    for block in mesh.volume_blocks:
+        nodes = np.asarray(block.nodes)
+        numbers = np.arange(first, first + len(nodes), dtype=np.int32)
+        kinds = np.array([law.type for law in laws])[owner[numbers]]
+        for kind in dict.fromkeys(kinds):
+            cells = numbers[kinds == kind]
+            values = _parameters(laws, owner[cells])
+            groups.append(Group(str(block.type), nodes[cells - first], cells, str(kind), values))
+        first += len(nodes)
+    _note_locking(laws, path, findings)
+    return groups
+
+
+def density_of(body: Body, mesh: Mesh, path: Path, findings: Findings) -> float:
+    """Density [kg/m^3], from the total mass where that is given."""
+    density = body.density if body.mass is None else body.mass / mesh.volume()
+    assert density is not None  # the body has one of both
+    if not 50.0 <= density <= 30000.0:
+        hint = "; was g/cm^3 meant?" if 0.05 <= density < 50.0 else ""
+        findings.note(
+            f"{path[0]}.{path[1]}: a density of {density:.4g} kg/m^3 is unlike any tissue{hint}"
+        )
+    return float(density)
+
+
+def _law_of_cells(mesh: Mesh, body: Body, path: Path, findings: Findings) -> Ints | None:
+    """For each cell the number of its law; None when regions do not give each cell exactly one."""
+    count = np.zeros(mesh.cell_count, dtype=np.int32)
+    owner = np.zeros(mesh.cell_count, dtype=np.int32)
+    if not isinstance(body.law, dict):
+        return owner
+    known = True
+    for number, region in enumerate(body.law):
+        try:
+            cells = region_cells(region, mesh)
+        except ParameterError as error:
+            findings.problem((*path, "law", region), str(error))
+            known = False
+            continue
+        count[cells] += 1
+        owner[cells] = number
+    if not known:
+        return None
+    for wrong, words in (
+        (count == 0, "in no region of the law"),
+        (count > 1, "in several regions of the law"),
+    ):
+        if wrong.any():
+            cells_text = f"first: {first_five(np.flatnonzero(wrong))}"
+            findings.problem(
+                (*path, "law"),
+                f"{wrong.sum()} of {len(count)} cells are {words} ({cells_text}); "
+                "each cell needs one law",
+            )
+    return owner if bool((count == 1).all()) else None
+
+
+def _parameters(laws: list[Law], owner: Ints) -> dict[str, Floats]:
+    """Parameters of cells: one value when all cells share their law, else one for each cell."""
+    used, of_cell = np.unique(owner, return_inverse=True)
+    names = [name for name in type(laws[used[0]]).model_fields if name != "type"]
+    values = {name: np.array([getattr(laws[n], name) for n in used], dtype=float) for name in names}
+    if len(used) == 1:
+        return values
+    return {name: value[of_cell] for name, value in values.items()}
+
+
+def _note_locking(laws: list[Law], path: Path, findings: Findings) -> None:
+    poisson = max(law.poisson for law in laws)
+    if poisson > _LOCKING:
+        findings.note(
+            f"{path[0]}.{path[1]}: with Poisson's ratio {poisson:g} first-order elements lock: "
+            "it is computed too stiff; expect displacements that are too small, most in bending"
+        )

@@ -1,0 +1,107 @@
+"""A scene with its meshes read and selections resolved, and everything found wrong on the way."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tissu.scene.problem import Path, Problem
+
+if TYPE_CHECKING:
+    from tissu.mesh import Mesh
+    from tissu.scene.load import Load
+    from tissu.scene.scene import Scene
+    from tissu.scene.support import Fixed, Prescribed
+
+Ints = NDArray[np.int32]
+Floats = NDArray[np.float64]
+
+
+@dataclass(slots=True)
+class Findings:
+    """Problems that stop the scene, and notes that do not."""
+
+    problems: list[Problem] = field(default_factory=list)
+    notes: list[str] = field(default_factory=list)
+
+    def problem(self, path: Path, text: str) -> None:
+        """Add a problem at a field."""
+        self.problems.append(Problem(path, text))
+
+    def note(self, text: str) -> None:
+        """Add a note."""
+        self.notes.append(text)
+
+
+@dataclass(frozen=True, slots=True)
+class Group:
+    """Cells of one type with one kind of law: what becomes one block of the world.
+
+    Attributes:
+        cell_type: name of the cell type.
+        nodes: (e, k) node numbers in the body.
+        cells: (e,) numbers of the cells across the mesh's volume blocks.
+        law: name of the law.
+        parameters: for each parameter, (1,) or (e,) values in SI.
+    """
+
+    cell_type: str
+    nodes: Ints
+    cells: Ints
+    law: str
+    parameters: dict[str, Floats]
+
+
+@dataclass(frozen=True, slots=True)
+class PreparedBody:
+    """A body with its mesh, the blocks it is made of, and its density [kg/m^3]."""
+
+    mesh: Mesh
+    groups: list[Group]
+    density: float
+
+
+@dataclass(frozen=True, slots=True)
+class Held:
+    """A support with the nodes it holds or moves."""
+
+    support: Fixed | Prescribed
+    path: Path
+    nodes: Ints
+
+
+@dataclass(frozen=True, slots=True)
+class LoadedNodes:
+    """A load with its nodes (k,) and, for loads on the surface, its outward triangles (t, 3)."""
+
+    load: Load
+    path: Path
+    nodes: Ints
+    triangles: Ints
+
+
+@dataclass(slots=True)
+class Prepared:
+    """A scene, resolved as far as its problems allow."""
+
+    scene: Scene
+    findings: Findings = field(default_factory=Findings)
+    bodies: dict[str, PreparedBody] = field(default_factory=dict)
+    held: list[Held] = field(default_factory=list)
+    loaded: list[LoadedNodes] = field(default_factory=list)
+
+    def counts(self) -> dict[str, str]:
+        """What each support and load selects: "fixed[0]" -> "42 nodes"."""
+        counts = {f"{h.path[0]}[{h.path[1]}]": f"{len(h.nodes)} nodes" for h in self.held}
+        for loaded in self.loaded:
+            faces = len(loaded.triangles)
+            text = (
+                f"{faces} triangles"
+                if loaded.load.type != "nodal"
+                else f"{len(loaded.nodes)} nodes"
+            )
+            counts[f"{loaded.path[0]}[{loaded.path[1]}]"] = text
+        return counts

@@ -1,0 +1,165 @@
+"""From a resolved scene to a world: the calls that build it, and the simulation that steps it."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from tissu.compile.check import check_of
+from tissu.compile.prepare import prepare
+from tissu.compile.prepared import Floats, Held, LoadedNodes, Prepared
+from tissu.effects import load_name
+from tissu.errors import SceneError
+from tissu.scene.load import NodalLoad, Pressure, Traction
+from tissu.scene.step import ConjugateGradient, Static
+from tissu.scene.support import Fixed, axes_mask
+
+if TYPE_CHECKING:
+    from tissu._core import WorldBuilder
+    from tissu.simulation import Simulation
+
+    from tissu.scene.scene import Scene
+    from tissu.scene.step import Solver, Step
+
+
+def compile_scene(scene: Scene) -> Simulation:
+    """Turn a scene into a simulation.
+
+    Raises:
+        SceneError: problems of the scene or its meshes; all of them.
+    """
+    prepared = prepare(scene)
+    check = check_of(prepared)
+    if check.problems:
+        raise SceneError(check.problems)
+    from tissu.simulation import Simulation
+
+    return Simulation(
+        scene=scene,
+        world=build_world(prepared),
+        meshes={name: body.mesh for name, body in prepared.bodies.items()},
+        integrator=integrator_of(scene.step),
+        solver=solver_of(scene.step.solver),
+        check=check,
+    )
+
+
+def build_world(prepared: Prepared) -> Any:
+    """The world of a scene that has no problems; only what the scene asks for is in it."""
+    from tissu._core import WorldBuilder
+
+    scene = prepared.scene
+    builder = WorldBuilder(threads=scene.threads, editable=scene.editing)
+    for name in prepared.bodies:
+        _add_body(builder, prepared, name)
+    if scene.gravity is not None:
+        builder.add_gravity(acceleration=np.array(scene.gravity))
+    for held in prepared.held:
+        _add_support(builder, held)
+    for loaded in prepared.loaded:
+        _add_load(builder, loaded, prepared)
+    return builder.build()
+
+
+def _add_body(builder: WorldBuilder, prepared: Prepared, name: str) -> None:
+    body, ready = prepared.scene.bodies[name], prepared.bodies[name]
+    builder.add_body(name=name, positions=np.ascontiguousarray(ready.mesh.points, dtype=np.float64))
+    for group in ready.groups:
+        builder.add_elastic(
+            body=name,
+            cell_type=group.cell_type,
+            cells=np.ascontiguousarray(group.nodes, dtype=np.int32),
+            cell_numbers=np.ascontiguousarray(group.cells, dtype=np.int32),
+            law=group.law,
+            parameters=group.parameters,
+            density=np.array([ready.density]),
+            quadrature=body.quadrature,
+        )
+    if body.viscosity is not None:
+        builder.add_rayleigh(
+            body=name, mass=body.viscosity.mass, stiffness=body.viscosity.stiffness
+        )
+
+
+def _add_support(builder: WorldBuilder, held: Held) -> None:
+    support = held.support
+    axes = axes_mask(support.axes)
+    if isinstance(support, Fixed):
+        builder.fix(body=support.body, nodes=held.nodes, axes=axes)
+        return
+    count, rotation = len(support.times), support.rotation
+    displacements = (
+        np.zeros((count, 3)) if support.displacements is None else np.array(support.displacements)
+    )
+    builder.prescribe(
+        body=support.body,
+        nodes=held.nodes,
+        axes=axes,
+        times=np.array(support.times),
+        displacements=displacements,
+        angles=np.zeros(count) if rotation is None else np.array(rotation.angles),
+        center=np.zeros(3) if rotation is None else np.array(rotation.center),
+        axis=np.array([0.0, 0.0, 1.0]) if rotation is None else np.array(rotation.axis),
+    )
+
+
+def _add_load(builder: WorldBuilder, loaded: LoadedNodes, prepared: Prepared) -> None:
+    load = loaded.load
+    series = {
+        "times": np.array([0.0] if load.times is None else load.times),
+        "factors": np.array([1.0] if load.factors is None else load.factors),
+    }
+    name = f"{load_name(load.type)} on {load.body} (loads[{loaded.path[1]}])"
+    if isinstance(load, Pressure):
+        builder.add_pressure(
+            name=name, body=load.body, triangles=loaded.triangles, pressure=load.pressure, **series
+        )
+        return
+    nodes = loaded.nodes
+    if isinstance(load, NodalLoad):
+        forces = np.tile(np.array(load.force) / len(nodes), (len(nodes), 1))
+    else:
+        nodes = np.unique(loaded.triangles)
+        forces = traction_forces(load, prepared.bodies[load.body].mesh.points, loaded.triangles)[
+            nodes
+        ]
+    builder.add_load(
+        name=name, body=load.body, nodes=nodes.astype(np.int32), forces=forces, **series
+    )
+
+
+def traction_forces(load: Traction, points: Floats, triangles: Any) -> Floats:
+    """Forces (n, 3) [N] on all nodes: traction times rest area, a third to each corner."""
+    a, b, c = (points[triangles[:, corner]] for corner in range(3))
+    areas = 0.5 * np.linalg.norm(np.cross(b - a, c - a), axis=1)
+    shares = np.zeros(len(points))
+    np.add.at(shares, triangles, areas[:, None] / 3.0)
+    return np.asarray(shares[:, None] * np.array(load.traction))
+
+
+def integrator_of(step: Step) -> Any:
+    """The core's integrator for a step."""
+    from tissu import _core
+
+    newton = step.newton
+    if isinstance(step, Static):
+        return _core.Static(
+            newton_iterations=step.newton.iterations,
+            newton_tolerance=step.newton.tolerance,
+            load_steps=step.load_steps,
+        )
+    if newton is None:
+        return _core.ImplicitEuler(newton_iterations=1)
+    return _core.ImplicitEuler(
+        newton_iterations=newton.iterations, newton_tolerance=newton.tolerance
+    )
+
+
+def solver_of(solver: Solver) -> Any:
+    """The core's linear solver."""
+    from tissu import _core
+
+    if isinstance(solver, ConjugateGradient):
+        return _core.ConjugateGradient(tolerance=solver.tolerance, iterations=solver.iterations)
+    return _core.Cholesky()

@@ -1,0 +1,115 @@
+"""Which effects a scene switches on, and why; which are absent. An absent effect runs no code."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from tissu.scene.body import Body
+    from tissu.scene.law import Law
+    from tissu.scene.scene import Scene
+    from tissu.scene.selection import Selection
+    from tissu.scene.step import Step
+
+
+@dataclass(frozen=True, slots=True)
+class Effect:
+    """An effect that the scene switches on.
+
+    Attributes:
+        name: the effect and where it acts ("viscosity of organ").
+        why: the field of the scene that asks for it, and its value.
+    """
+
+    name: str
+    why: str
+
+    def __str__(self) -> str:
+        return f"{self.name}: {self.why}"
+
+
+def effects_of(scene: Scene, counts: Mapping[str, str] | None = None) -> list[Effect]:
+    """Effects that the scene switches on, in the order of its fields.
+
+    Args:
+        scene: the scene.
+        counts: what a field selects, by its path ("fixed[0]" -> "42 nodes"), where it is known.
+    """
+    counts = counts or {}
+    effects = [effect for name, body in scene.bodies.items() for effect in _of_body(name, body)]
+    if scene.gravity is not None:
+        effects.append(Effect("gravity", f"gravity is {_vector(scene.gravity)} m/s^2"))
+    for number, fixed in enumerate(scene.fixed):
+        path = f"fixed[{number}]"
+        why = f"{path} holds {_nodes(fixed.on, counts.get(path))} on {fixed.axes}"
+        effects.append(Effect(f"fixed nodes of {fixed.body}", why))
+    for number, moved in enumerate(scene.prescribed):
+        path = f"prescribed[{number}]"
+        end = f"until {moved.times[-1]:g} s"
+        why = f"{path} moves {_nodes(moved.on, counts.get(path))} on {moved.axes} {end}"
+        effects.append(Effect(f"prescribed motion of {moved.body}", why))
+    for number, load in enumerate(scene.loads):
+        path = f"loads[{number}]"
+        why = f"{path} acts on {_nodes(load.on, counts.get(path))}"
+        effects.append(Effect(f"{load_name(load.type)} on {load.body}", why))
+    effects.append(_of_step(scene.step))
+    if scene.editing:
+        effects.append(Effect("cell removal", "editing is true"))
+    return effects
+
+
+def absent_of(scene: Scene) -> list[str]:
+    """Effects that the scene does not ask for; none of them runs or is stored."""
+    present = {
+        "viscosity": any(body.viscosity is not None for body in scene.bodies.values()),
+        "gravity": scene.gravity is not None,
+        "fixed nodes": bool(scene.fixed),
+        "prescribed motion": bool(scene.prescribed),
+        "loads": bool(scene.loads),
+        "inertia": scene.step.type != "static",
+        "cell removal": scene.editing,
+        "contact": False,
+        "cutting": False,
+        "haptics": False,
+    }
+    return [name for name, on in present.items() if not on]
+
+
+def load_name(kind: str) -> str:
+    """What a type of load is called."""
+    return {"nodal": "nodal load"}.get(kind, kind)
+
+
+def _of_body(name: str, body: Body) -> list[Effect]:
+    effects = []
+    for region, law in body.laws().items():
+        where = name if region is None else f"{name}, region {region}"
+        path = f"bodies.{name}.law" + ("" if region is None else f".{region}")
+        effects.append(Effect(f"elasticity of {where}", f"{path} is {_law(law)}"))
+    if body.viscosity is not None:
+        v = body.viscosity
+        why = (
+            f"bodies.{name}.viscosity is {v.type}, mass {v.mass:g} 1/s, stiffness {v.stiffness:g} s"
+        )
+        effects.append(Effect(f"viscosity of {name}", why))
+    return effects
+
+
+def _of_step(step: Step) -> Effect:
+    if step.type == "static":
+        return Effect("equilibrium", f"step is static, in {step.load_steps} load steps")
+    return Effect("inertia", f"step is {step.type} with dt {step.dt:g} s")
+
+
+def _law(law: Law) -> str:
+    return f"{law.type} with young {law.young:g} Pa, poisson {law.poisson:g}"
+
+
+def _nodes(on: Selection, count: str | None) -> str:
+    return f"{count} ({on.type})" if count else f"the nodes of a selection ({on.type})"
+
+
+def _vector(vector: tuple[float, float, float]) -> str:
+    return "(" + ", ".join(f"{component:g}" for component in vector) + ")"

@@ -1,0 +1,46 @@
+"""The errors of tissu: each says in one sentence what was found, what is accepted, where, and what to do."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+
+class TissuError(Exception):
+    """Base of every error that tissu raises on purpose."""
+
+
+class MeshError(TissuError):
+    """A mesh cannot be read, or cannot be simulated as it is."""
+
+
+class ParameterError(TissuError, ValueError):
+    """A number or an array is outside what the equations accept."""
+
+
+class SceneError(TissuError):
+    """A scene has problems; all of them are reported at once.
+
+    Attributes:
+        problems: one sentence for each problem, with its place in the scene.
+    """
+
+    def __init__(self, problems: Sequence[str]) -> None:
+        self.problems = list(problems)
+        head = "1 problem" if len(self.problems) == 1 else f"{len(self.problems)} problems"
+        super().__init__(f"{head} in the scene:\n" + "\n".join(f"- {p}" for p in self.problems))
+
+
+class Diverged(TissuError):  # noqa: N818 - the field's word for it
+    """A step gave a value that is not finite; the simulation stands at its last good step.
+
+    Attributes:
+        body: name of the body where it was seen.
+        element: number of the cell in that body, -1 when no single cell is to blame.
+        time: simulated time of the last good step [s].
+    """
+
+    def __init__(self, message: str, *, body: str = "", element: int = -1, time: float = 0.0) -> None:
+        self.body = body
+        self.element = element
+        self.time = time
+        super().__init__(message)

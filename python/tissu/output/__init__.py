@@ -1,0 +1,7 @@
+"""Results on disk: a series of VTU files with its PVD index, and a summary."""
+
+from tissu.output.folder import prepare_folder
+from tissu.output.series import Series
+from tissu.output.summary import StepTally, summarise, write_summary
+
+__all__ = ["Series", "StepTally", "prepare_folder", "summarise", "write_summary"]

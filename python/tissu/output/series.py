@@ -1,0 +1,118 @@
+"""A VTU file for each body and time, and the PVD index that ParaView opens as one series."""
+
+from __future__ import annotations
+
+import re
+from os import PathLike
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+from xml.sax.saxutils import quoteattr
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tissu.output.folder import file_name, whole_file
+
+if TYPE_CHECKING:
+    from tissu.simulation import Simulation
+
+    from tissu.mesh import Mesh
+
+FRAMES = "frames"
+
+
+class Series:
+    """Writes the bodies of a simulation at the times `write` is called.
+
+    The points are where the nodes are at that time; point fields: displacement [m] and velocity
+    [m/s]; cell fields: von_mises [Pa] and strain_energy_density [J/m^3]. After each call all files
+    are complete and the index lists all of them.
+
+    Attributes:
+        index: the PVD file.
+        count: number of times written.
+        last_time: simulated time of the last ones [s].
+    """
+
+    def __init__(self, simulation: Simulation, folder: str | PathLike[str]) -> None:
+        """Takes away what an earlier series of this name left in the folder.
+
+        Raises:
+            TissuError: the folder cannot be written.
+        """
+        self._simulation = simulation
+        self._folder = Path(folder)
+        self._entries: list[str] = []
+        self.index = self._folder / f"{file_name(simulation.scene.name)}.pvd"
+        self.count = 0
+        self.last_time = -1.0
+        _clear(self.index)
+
+    def write(self) -> None:
+        """Writes the present state of every body.
+
+        Raises:
+            TissuError: a file cannot be written.
+        """
+        simulation = self._simulation
+        (self._folder / FRAMES).mkdir(exist_ok=True)
+        for part, (body, mesh) in enumerate(simulation.meshes.items()):
+            name = f"{FRAMES}/{file_name(body)}_{self.count:05d}.vtu"
+            write_vtu(self._folder / name, mesh, simulation, body)
+            self._entries.append(
+                f'    <DataSet timestep="{simulation.time:.9g}" group="" part="{part}" '
+                f'name={quoteattr(body)} file="{name}"/>\n'
+            )
+        self.count += 1
+        self.last_time = simulation.time
+        with whole_file(self.index) as partial:
+            partial.write_text(_index(self._entries), encoding="utf-8")
+
+
+def write_vtu(path: Path, mesh: Mesh, simulation: Simulation, body: str) -> None:
+    """Writes one body at the present time.
+
+    Raises:
+        TissuError: the file cannot be written.
+    """
+    import meshio
+
+    blocks = mesh.volume_blocks
+    ends = np.cumsum([len(block.nodes) for block in blocks])[:-1]
+
+    def by_block(values: NDArray[Any]) -> list[NDArray[Any]]:
+        return list(np.split(np.asarray(values), ends))
+
+    fields = simulation.cell_fields(body)
+    result = meshio.Mesh(
+        np.array(simulation.positions[body]),
+        [(block.type, block.nodes) for block in blocks],
+        point_data={
+            "displacement": np.array(simulation.displacements(body)),
+            "velocity": np.array(simulation.velocities[body]),
+        },
+        cell_data={
+            "von_mises": by_block(fields["von_mises"]),
+            "strain_energy_density": by_block(fields["energy_density"]),
+        },
+    )
+    with whole_file(path) as partial:
+        meshio.write(partial, result, file_format="vtu")
+
+
+def _index(entries: list[str]) -> str:
+    return (
+        '<?xml version="1.0"?>\n<VTKFile type="Collection" version="0.1">\n  <Collection>\n'
+        + "".join(entries)
+        + "  </Collection>\n</VTKFile>\n"
+    )
+
+
+def _clear(index: Path) -> None:
+    """Removes the frames that an index lists, and the index; nothing else in the folder."""
+    if not index.is_file():
+        return
+    text = index.read_text(encoding="utf-8", errors="replace")
+    index.unlink()
+    for name in re.findall(rf'file="({FRAMES}/[\w.-]+\.vtu)"', text):
+        (index.parent / name).unlink(missing_ok=True)

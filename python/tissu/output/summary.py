@@ -1,0 +1,151 @@
+"""What a run was and what came of it, as one JSON file."""
+
+from __future__ import annotations
+
+import dataclasses
+import json
+import math
+import platform
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from tissu.errors import SceneError
+from tissu.output.folder import whole_file
+
+if TYPE_CHECKING:
+    from tissu.simulation import Simulation, StepReport
+
+    from tissu.mesh import Mesh
+
+
+@dataclasses.dataclass(slots=True)
+class StepTally:
+    """What the reports of all steps say together.
+
+    Attributes:
+        steps: number of steps.
+        unconverged: number of those that did not converge.
+        newton_iterations: of all steps.
+        solver_iterations: of all steps.
+        largest_residual: of all steps.
+        first_unconverged: what the first step that did not converge said; empty: all did.
+    """
+
+    steps: int = 0
+    unconverged: int = 0
+    newton_iterations: int = 0
+    solver_iterations: int = 0
+    largest_residual: float = 0.0
+    first_unconverged: str = ""
+
+    def add(self, report: StepReport) -> None:
+        """Takes one more step into account."""
+        self.steps += 1
+        self.newton_iterations += report.newton_iterations
+        self.solver_iterations += report.solver_iterations
+        self.largest_residual = max(self.largest_residual, report.residual)
+        if not report.converged:
+            self.unconverged += 1
+            self.first_unconverged = self.first_unconverged or str(report)
+
+
+def summarise(
+    simulation: Simulation,
+    *,
+    tally: StepTally,
+    status: str,
+    wall_seconds: Mapping[str, float],
+    files: Mapping[str, str],
+    notes: Sequence[str] = (),
+) -> dict[str, Any]:
+    """The summary as data; numbers in SI.
+
+    Args:
+        simulation: at the end of its run.
+        tally: the steps of the run.
+        status: "finished", "interrupted" or "diverged".
+        wall_seconds: wall time by stage of the run: compile, steps, output, picture.
+        files: what was written, by kind, relative to the folder of the summary.
+        notes: sentences worth knowing.
+    """
+    from tissu import _core
+
+    build = dict(_core.build_info())
+    every_note = [*(note for mesh in simulation.meshes.values() for note in mesh.notes), *notes]
+    return {
+        "tissu": build.pop("version", ""),
+        "status": status,
+        "build": {**build, "python": platform.python_version(), "numpy": np.__version__},
+        "machine": {"processor": platform.machine(), "system": platform.system()},
+        "threads": simulation.scene.threads,
+        "instruction_set": build.get("instruction_set", ""),
+        "scene": scene_data(simulation),
+        "meshes": {name: mesh_data(mesh) for name, mesh in simulation.meshes.items()},
+        "simulated_seconds": simulation.time,
+        "steps": dataclasses.asdict(tally),
+        "timings": profile_data(simulation),
+        "wall_seconds": dict(wall_seconds),
+        "energy_joules": dict(simulation.energy()),
+        "files": dict(files),
+        "notes": every_note,
+    }
+
+
+def write_summary(path: Path, summary: Mapping[str, Any]) -> None:
+    """Writes a summary; a number that is not finite becomes null.
+
+    Raises:
+        TissuError: the file cannot be written.
+    """
+    text = json.dumps(plain(summary), indent=2, allow_nan=False, ensure_ascii=False)
+    with whole_file(path) as partial:
+        partial.write_text(text + "\n", encoding="utf-8")
+
+
+def scene_data(simulation: Simulation) -> Any:
+    """The scene as data: as its YAML file would hold it."""
+    try:
+        return plain(simulation.scene.to_dict())
+    except SceneError:  # a mesh made in memory has no place in a YAML file
+        return plain(simulation.scene.model_dump())
+
+
+def mesh_data(mesh: Mesh) -> dict[str, Any]:
+    """Counts and origin of a mesh."""
+    cells: dict[str, int] = {}
+    for block in mesh.volume_blocks:
+        cells[block.type] = cells.get(block.type, 0) + len(block.nodes)
+    return {
+        "file": mesh.source,
+        "unit": mesh.unit,
+        "scale": mesh.scale,
+        "nodes": mesh.node_count,
+        "cells": cells,
+        "surface_triangles": len(mesh.surface().triangles),
+        "volume_m3": mesh.volume(),
+        "bounds_m": mesh.bounds.tolist(),
+        "regions": {name: len(cells) for name, cells in mesh.regions.items()},
+    }
+
+
+def profile_data(simulation: Simulation) -> Any:
+    """The profile as data."""
+    return plain(dataclasses.asdict(simulation.profile()))
+
+
+def plain(value: Any) -> Any:
+    """A value as JSON knows it: numbers that are not finite become null, objects their text."""
+    if isinstance(value, Mapping):
+        return {str(key): plain(item) for key, item in value.items()}
+    if isinstance(value, (np.ndarray, np.generic)):
+        return plain(value.tolist())
+    if isinstance(value, (list, tuple, set, frozenset)):
+        return [plain(item) for item in value]
+    if isinstance(value, float):
+        return value if math.isfinite(value) else None
+    if value is None or isinstance(value, (bool, int, str)):
+        return value
+    return str(value)

@@ -1,0 +1,174 @@
+"""A simulation at rest and as it stands now, side by side."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from os import PathLike
+from pathlib import Path
+from typing import TYPE_CHECKING, Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from tissu.errors import ParameterError
+from tissu.picture import layout
+from tissu.picture.camera import Camera, look_at
+from tissu.picture.surface import render_surface
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+    from tissu.simulation import Simulation
+
+Array = NDArray[np.float64]
+Field = Literal["displacement", "von_mises"]
+
+LABELS = {"displacement": "displacement", "von_mises": "von Mises stress"}
+
+
+@dataclass(frozen=True, slots=True)
+class Shape:
+    """The surfaces of all bodies as one.
+
+    Attributes:
+        rest: (n,3) points at rest [m].
+        now: (n,3) points now [m].
+        triangles: (t,3) numbers of points.
+        values: (n,) what is coloured, in SI units.
+    """
+
+    rest: Array
+    now: Array
+    triangles: NDArray[np.int64]
+    values: Array
+
+
+def draw(
+    simulation: Simulation,
+    path: str | PathLike[str],
+    *,
+    size: tuple[int, int] = (1600, 800),
+    field: Field = "displacement",
+) -> None:
+    """Writes a PNG of the bodies at rest and now, same view and scale, coloured by a field.
+
+    Args:
+        simulation: what is drawn.
+        path: the PNG file; its folder is made.
+        size: width and height [pixels], at least 200 x 100.
+        field: "displacement" [m] or "von_mises" [Pa], the latter averaged at the surface's points.
+
+    Raises:
+        ParameterError: an unknown field, or a picture too small for its words.
+        TissuError: the file cannot be written.
+    """
+    if field not in LABELS:
+        raise ParameterError(f"field '{field}'; accepted: {', '.join(LABELS)}")
+    gravity = simulation.scene.gravity
+    up = (0.0, 0.0, 1.0) if gravity is None or not np.any(gravity) else -np.asarray(gravity)
+    title = simulation.scene.name
+    shape, time = shape_of(simulation, field), simulation.time
+    draw_shape(shape, path, title=title, time=time, up=up, size=size, field=field)
+
+
+def draw_shape(
+    shape: Shape,
+    path: str | PathLike[str],
+    *,
+    title: str,
+    time: float,
+    up: ArrayLike = (0.0, 0.0, 1.0),
+    size: tuple[int, int] = (1600, 800),
+    field: Field = "displacement",
+) -> None:
+    """Writes a PNG of a shape at rest and deformed; see `draw`."""
+    if size[0] < 200 or size[1] < 100:
+        found = f"{size[0]} x {size[1]} pixels"
+        raise ParameterError(f"a picture of {found}; at least 200 x 100 is needed")
+    figure, text = layout.sheet(size), layout.letters(size)
+    left, wide, top = round(0.01 * size[0]), round(0.44 * size[0]), round(0.12 * size[1])
+    panel_size = (wide, size[1] - top - round(0.02 * size[1]))
+    camera = look_at([shape.rest, shape.now], size=panel_size, up=up)
+    _panels(figure, shape, camera, (left, top), field)
+
+    shift = float(np.linalg.norm(shape.now - shape.rest, axis=1).max(initial=0.0))
+    moved = f"moved by up to {layout.shown_length(shift)}"
+    words = (title, "at rest"), (f"t = {time:.4g} s", moved)
+    for k, (head, below) in enumerate(words):
+        middle = (left + (k + 0.5) * wide) / size[0]
+        figure.text(middle, 0.945, head, ha="center", fontsize=1.35 * text, color=layout.INK)
+        figure.text(middle, 0.895, below, ha="center", fontsize=text, color=layout.FAINT)
+    layout.save(figure, Path(path))
+
+
+def _panels(
+    figure: Figure, shape: Shape, camera: Camera, corner: tuple[int, int], field: Field
+) -> None:
+    """Both shapes from a corner of the sheet [pixels] on, and the colour bar beside them."""
+    size = tuple(round(s * layout.DPI) for s in figure.get_size_inches())
+    text, (left, top), wide = layout.letters((size[0], size[1])), corner, camera.size[0]
+    factor, unit, limits = _scale(shape.values, field)
+    colours, values = layout.colours(), shape.values * factor
+    at_rest = render_surface(shape.rest, shape.triangles, camera=camera)
+    deformed = render_surface(
+        shape.now, shape.triangles, values, camera=camera, colormap=colours, limits=limits
+    )
+    first = layout.panel(figure, left, top, camera)
+    layout.place(first, at_rest, camera)
+    layout.length_bar(first, camera, text)
+    second = layout.panel(figure, left + wide, top, camera)
+    layout.outline(second, at_rest[..., 3])
+    layout.place(second, deformed, camera)
+    bar = ((left + 2 * wide) / size[0] + 0.012, 0.16, 0.014, 0.62)
+    layout.colour_bar(figure, bar, limits, f"{LABELS[field]} [{unit}]", text, colours)
+
+
+def shape_of(simulation: Simulation, field: Field) -> Shape:
+    """The surfaces of all bodies of a simulation, and the field at their points."""
+    parts = []
+    for name, mesh in simulation.meshes.items():
+        surface = mesh.surface()
+        triangles = np.asarray(surface.triangles, dtype=np.int64)
+        shift = np.asarray(simulation.displacements(name))
+        now = np.asarray(simulation.positions[name])
+        if field == "displacement":
+            values = np.linalg.norm(shift, axis=1)
+        else:
+            cells = simulation.cell_fields(name)["von_mises"][np.asarray(surface.cells)]
+            values = _at_points(cells, triangles, now)
+        used, numbers = np.unique(triangles, return_inverse=True)
+        parts.append(
+            Shape((now - shift)[used], now[used], numbers.reshape(triangles.shape), values[used])
+        )
+    return _joined(parts)
+
+
+def _joined(parts: Iterable[Shape]) -> Shape:
+    parts = list(parts)
+    starts = np.cumsum([0] + [len(p.rest) for p in parts])
+    return Shape(
+        np.vstack([p.rest for p in parts]),
+        np.vstack([p.now for p in parts]),
+        np.vstack([p.triangles + start for p, start in zip(parts, starts, strict=False)]),
+        np.concatenate([p.values for p in parts]),
+    )
+
+
+def _at_points(cells: Array, triangles: NDArray[np.int64], points: Array) -> Array:
+    """Values (t,) of triangles as means (n,) at points, weighted by area."""
+    a, b, c = (points[triangles[:, k]] for k in range(3))
+    area = np.repeat(np.linalg.norm(np.cross(b - a, c - a), axis=1), 3)
+    corner = triangles.ravel()
+    total = np.bincount(corner, area * np.repeat(cells, 3), minlength=len(points))
+    weight = np.bincount(corner, area, minlength=len(points))
+    return np.asarray(total / np.where(weight > 0, weight, 1.0))
+
+
+def _scale(values: Array, field: Field) -> tuple[float, str, tuple[float, float]]:
+    """Factor, unit and ends of the colour bar."""
+    largest = float(values.max(initial=0.0))
+    if largest <= 0:
+        return (1e3, "mm", (0.0, 1.0)) if field == "displacement" else (1.0, "Pa", (0.0, 1.0))
+    unit = layout.length_unit if field == "displacement" else layout.pressure_unit
+    factor, name = unit(largest)
+    return factor, name, (0.0, largest * factor)

@@ -1,0 +1,156 @@
+"""One surface as a picture with a transparent background."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from tissu.errors import ParameterError
+from tissu.picture.camera import Camera
+from tissu.picture.raster import Seen, rasterise
+from tissu.picture.shading import corner_normals, shade
+
+if TYPE_CHECKING:
+    from matplotlib.colors import Colormap
+
+Array = NDArray[np.float64]
+
+CLAY = (0.80, 0.47, 0.40)  # colour of a surface without values
+FINER = 2  # pixels rendered for each one shown, in each direction
+STEP = 6.0  # a jump in nearness [pixels] that is drawn as an edge
+
+
+@dataclass(frozen=True, slots=True)
+class Layer:
+    """A rendered surface: colour (h,w,3), whether it covers (h,w), nearness (h,w; -inf: none)."""
+
+    colour: Array
+    covered: NDArray[np.bool_]
+    nearness: Array
+
+
+def render_surface(
+    points: ArrayLike,
+    triangles: ArrayLike,
+    values: ArrayLike | None = None,
+    *,
+    camera: Camera,
+    colour: tuple[float, float, float] = CLAY,
+    colormap: str | Colormap = "viridis",
+    limits: tuple[float, float] | None = None,
+) -> Array:
+    """A shaded surface as RGBA (height, width, 4) in [0, 1], transparent beside the surface.
+
+    Args:
+        points: (n,3) [m].
+        triangles: (t,3) numbers of points.
+        values: (n,) or (t,), coloured through the colour map; None: one colour.
+        camera: the view.
+        colour: red, green, blue in [0, 1] of a surface without values.
+        colormap: a colour map of matplotlib, or its name.
+        limits: values at both ends of the colour map; None: the smallest and largest value.
+
+    Raises:
+        ParameterError: arrays whose shapes do not fit together, or numbers of points that are not.
+    """
+    fine = camera.enlarged(FINER)
+    layer = render_layer(
+        points,
+        triangles,
+        values,
+        camera=fine,
+        colour=colour,
+        colormap=colormap,
+        limits=limits,
+    )
+    return flatten(layer.colour, layer.covered.astype(np.float64))
+
+
+def render_layer(
+    points: ArrayLike,
+    triangles: ArrayLike,
+    values: ArrayLike | None,
+    *,
+    camera: Camera,
+    colour: tuple[float, float, float],
+    colormap: str | Colormap = "viridis",
+    limits: tuple[float, float] | None = None,
+) -> Layer:
+    """A shaded surface at the camera's own pixels; arguments as for `render_surface`."""
+    at, cells = _checked(points, triangles)
+    width, height = camera.size
+    seen = rasterise(camera.project(at), cells, camera.size)
+    turned = at @ camera.axes.T
+    normals = corner_normals(turned, cells)[seen.triangle]
+    normal = np.einsum("pc,pck->pk", seen.weights, normals)
+    a, b, c = (turned[cells[:, k], :2] for k in range(3))
+    towards = (b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0]
+    base = np.broadcast_to(np.array(colour), (len(seen.pixel), 3))
+    if values is not None:
+        base = _mapped(np.asarray(values, dtype=np.float64), cells, at, seen, colormap, limits)
+    picture = np.zeros((height * width, 3))
+    picture[seen.pixel] = shade(base, normal, towards[seen.triangle])
+    nearness = np.full(height * width, -np.inf)
+    nearness[seen.pixel] = seen.nearness
+    near = nearness.reshape(height, width)
+    shown = picture.reshape(height, width, 3) * (1 - 0.45 * edges(near))[..., None]
+    return Layer(shown, np.isfinite(near), near)
+
+
+def edges(nearness: Array) -> Array:
+    """(h,w) of 0 and 1: covered pixels at the near side of a jump in nearness."""
+    near = np.where(np.isfinite(nearness), nearness, np.nan)
+    edge = np.zeros(near.shape)
+    for view, mark in ((near, edge), (near.T, edge.T)):
+        here, before, after = view[1:-1], view[:-2], view[2:]
+        # Second differences: a surface seen at a grazing angle is steep, but does not jump.
+        mark[1:-1] += (np.abs(2 * here - before - after) > STEP) & (here > np.fmin(before, after))
+    return np.minimum(edge, 1.0)
+
+
+def flatten(colour: Array, opacity: Array) -> Array:
+    """RGBA of the shown pixels from the finer ones: colour (h,w,3), opacity (h,w)."""
+    parts = [(slice(i, None, FINER), slice(j, None, FINER)) for i, j in np.ndindex(FINER, FINER)]
+    alpha = sum((opacity[at] for at in parts), np.zeros(())) / FINER**2
+    total = sum((colour[at] * opacity[at][..., None] for at in parts), np.zeros(())) / FINER**2
+    return np.dstack([total / np.maximum(alpha, 1e-9)[..., None], alpha])
+
+
+def _checked(points: ArrayLike, triangles: ArrayLike) -> tuple[Array, NDArray[np.int64]]:
+    at = np.asarray(points, dtype=np.float64)
+    cells = np.asarray(triangles, dtype=np.int64).reshape(-1, 3)
+    if at.ndim != 2 or at.shape[1] != 3:
+        raise ParameterError(f"points of a surface have the shape (n, 3); found {at.shape}")
+    if len(cells) and not (cells.min() >= 0 and cells.max() < len(at)):
+        found = f"{cells.min()} to {cells.max()}"
+        raise ParameterError(f"triangles name points 0 to {len(at) - 1}; found {found}")
+    return at, cells
+
+
+def _mapped(
+    values: Array,
+    cells: NDArray[np.int64],
+    points: Array,
+    seen: Seen,
+    colormap: str | Colormap,
+    limits: tuple[float, float] | None,
+) -> Array:
+    """Colours (p,3) of the seen pixels."""
+    from matplotlib import colormaps
+
+    if values.shape == (len(points),):
+        at_pixel = (values[cells[seen.triangle]] * seen.weights).sum(axis=1)
+    elif values.shape == (len(cells),):
+        at_pixel = values[seen.triangle]
+    else:
+        raise ParameterError(
+            f"values of a surface: one for each of {len(points)} points or {len(cells)} triangles; "
+            f"found the shape {values.shape}"
+        )
+    low, high = limits or (float(values.min()), float(values.max()))
+    chosen = colormaps[colormap] if isinstance(colormap, str) else colormap
+    share = (at_pixel - low) / (high - low) if high > low else np.zeros_like(at_pixel)
+    return np.asarray(chosen(share)[:, :3], dtype=np.float64)

@@ -1,0 +1,37 @@
+"""Scenes: what is simulated, as frozen and validated parts."""
+
+from tissu.scene.body import BarMesh, Body, MeshFile
+from tissu.scene.law import Hooke, Rayleigh, StVK
+from tissu.scene.load import NodalLoad, Pressure, Traction
+from tissu.scene.scene import Output, Scene
+from tissu.scene.selection import Box, Nodes, Plane, Region, Sphere, SurfaceNodes
+from tissu.scene.step import Cholesky, ConjugateGradient, ImplicitEuler, Newton, Static
+from tissu.scene.support import Fixed, Prescribed, Rotation
+
+__all__ = [
+    "BarMesh",
+    "Body",
+    "Box",
+    "Cholesky",
+    "ConjugateGradient",
+    "Fixed",
+    "Hooke",
+    "ImplicitEuler",
+    "MeshFile",
+    "Newton",
+    "NodalLoad",
+    "Nodes",
+    "Output",
+    "Plane",
+    "Prescribed",
+    "Pressure",
+    "Rayleigh",
+    "Region",
+    "Rotation",
+    "Scene",
+    "Sphere",
+    "StVK",
+    "Static",
+    "SurfaceNodes",
+    "Traction",
+]

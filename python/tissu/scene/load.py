@@ -1,0 +1,106 @@
+"""Loads: forces on nodes, tractions and pressures on the surface."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Annotated, ClassVar, Literal
+
+from pydantic import model_validator
+from typing_extensions import Self
+
+from tissu import units
+from tissu.errors import ParameterError
+from tissu.scene.part import Part, one_of
+from tissu.scene.selection import On, Selection
+from tissu.scene.support import IncreasingTimes, same_length
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    Series = Sequence[units.Number] | units.VectorLike
+
+
+class _Load(Part):
+    """What loads share: where they act and how they vary with time."""
+
+    positional: ClassVar[tuple[str, ...]] = ("body",)
+    body: str
+    """name of a body of the scene"""
+    on: On
+    """which nodes: a box, sphere, plane, nodes, surface or region"""
+    times: IncreasingTimes | None = None
+    """strictly increasing times [s]; absent: the load is constant"""
+    factors: units.Factors | None = None
+    """factor of the load at each time, linear between, held at the ends"""
+
+    @model_validator(mode="after")
+    def _series(self) -> Self:
+        if (self.times is None) != (self.factors is None):
+            given, absent = ("times", "factors") if self.factors is None else ("factors", "times")
+            raise ParameterError(f"found {given} without {absent}; both or neither are accepted")
+        if self.times is not None and self.factors is not None:
+            same_length("factors", self.factors, self.times)
+        return self
+
+
+class NodalLoad(_Load):
+    """A total force shared equally by the selected nodes."""
+
+    type: Literal["nodal"] = "nodal"
+    force: units.Force
+    """total force [N]"""
+
+    if TYPE_CHECKING:
+
+        def __init__(
+            self,
+            body: str,
+            *,
+            on: Selection,
+            force: units.VectorLike,
+            times: Series | None = ...,
+            factors: Series | None = ...,
+        ) -> None: ...
+
+
+class Traction(_Load):
+    """A force per rest area that keeps its direction, on faces whose nodes are all selected."""
+
+    type: Literal["traction"] = "traction"
+    traction: units.TractionVector
+    """force per rest area [Pa]"""
+
+    if TYPE_CHECKING:
+
+        def __init__(
+            self,
+            body: str,
+            *,
+            on: Selection,
+            traction: units.VectorLike,
+            times: Series | None = ...,
+            factors: Series | None = ...,
+        ) -> None: ...
+
+
+class Pressure(_Load):
+    """A pressure that follows the surface, on faces whose nodes are all selected."""
+
+    type: Literal["pressure"] = "pressure"
+    pressure: units.Pressure
+    """pressure [Pa], positive inwards"""
+
+    if TYPE_CHECKING:
+
+        def __init__(
+            self,
+            body: str,
+            *,
+            on: Selection,
+            pressure: units.Number,
+            times: Series | None = ...,
+            factors: Series | None = ...,
+        ) -> None: ...
+
+
+Load = NodalLoad | Traction | Pressure
+OneLoad = Annotated[Load, one_of(NodalLoad, Traction, Pressure)]

@@ -1,0 +1,199 @@
+"""The scene: everything a simulation is made from, and nothing that changes."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+from pydantic import Field, PrivateAttr, ValidationError, model_validator
+from typing_extensions import Self
+
+from tissu import units
+from tissu.scene.body import Body
+from tissu.scene.load import Load, OneLoad
+from tissu.scene.part import Part, explained, failure, problems_of
+from tissu.scene.problem import Path as FieldPath
+from tissu.scene.problem import Source, nearest, one_of_words
+from tissu.scene.step import OneStep, Step
+from tissu.scene.support import Fixed, Prescribed
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from tissu.simulation import Simulation
+
+    from tissu.compile import Check
+
+
+class Output(Part):
+    """What is written while the scene runs."""
+
+    every: Annotated[units.Time, Field(gt=0.0)]
+    """simulated time between two written results [s]"""
+
+    if TYPE_CHECKING:
+
+        def __init__(self, *, every: units.Number) -> None: ...
+
+
+class Scene(Part):
+    """Bodies, what holds and moves them, and how time is stepped; frozen and validated.
+
+    An effect that is absent (no viscosity, no gravity, no loads) is absent from the simulation too.
+    """
+
+    name: str = "scene"
+    """name of the scene, used for the files that are written"""
+    bodies: Annotated[dict[str, Body], Field(min_length=1)]
+    """bodies by name"""
+    gravity: units.Acceleration | None = None
+    """acceleration of gravity [m/s^2]; absent: none"""
+    fixed: tuple[Fixed, ...] = ()
+    """nodes held in place"""
+    prescribed: tuple[Prescribed, ...] = ()
+    """nodes moved along a given path"""
+    loads: tuple[OneLoad, ...] = ()
+    """forces, tractions and pressures"""
+    step: OneStep
+    """how time is stepped, such as {type: implicit_euler, dt: 10 ms}"""
+    duration: Annotated[units.Time, Field(gt=0.0)] | None = None
+    """simulated time of a run [s]"""
+    threads: Annotated[int, Field(ge=1)] = 1
+    """number of threads"""
+    editing: bool = False
+    """whether cells may be removed while it runs"""
+    output: Output | None = None
+    """what is written while it runs"""
+    _source: Source | None = PrivateAttr(default=None)
+
+    if TYPE_CHECKING:
+
+        def __init__(
+            self,
+            *,
+            name: str = ...,
+            bodies: Mapping[str, Body],
+            gravity: units.VectorLike | None = ...,
+            fixed: Sequence[Fixed] = ...,
+            prescribed: Sequence[Prescribed] = ...,
+            loads: Sequence[Load] = ...,
+            step: Step,
+            duration: units.Number | None = ...,
+            threads: int = ...,
+            editing: bool = ...,
+            output: Output | None = ...,
+        ) -> None: ...
+
+    @model_validator(mode="wrap")
+    @classmethod
+    def _names_bodies(cls, value: Any, handler: Callable[[Any], Self]) -> Self:
+        """Report body names that do not exist together with all other problems."""
+        unknown = _unknown_bodies(value) if isinstance(value, Mapping) else []
+        try:
+            scene = handler(value)
+        except ValidationError as error:
+            others = [(p.path, p.text) for p in problems_of(explained(error, cls, value))]
+            raise failure([*others, *unknown], cls.__name__) from None
+        if unknown:
+            raise failure(unknown, cls.__name__)
+        return scene
+
+    def __eq__(self, other: object) -> bool:
+        """Whether all fields are equal; where the scenes were written does not count."""
+        return type(self) is type(other) and self.__dict__ == other.__dict__
+
+    __hash__ = None  # type: ignore[assignment]
+
+    @property
+    def source(self) -> Source | None:
+        """The file and lines the scene was read from; None for a scene made in Python."""
+        return self._source
+
+    def replace(self, **changes: Any) -> Self:
+        """The same scene with some fields changed, validated again."""
+        other = super().replace(**changes)
+        other._source = self._source
+        return other
+
+    @classmethod
+    def from_yaml(cls, path: str | os.PathLike[str]) -> Scene:
+        """Read a scene; paths of meshes are relative to the file.
+
+        Raises:
+            SceneError: the file cannot be read or has problems; all of them, with their lines.
+        """
+        from tissu.yaml_io import read_scene
+
+        return read_scene(Path(path))
+
+    @classmethod
+    def from_yaml_text(cls, text: str, *, base: str | os.PathLike[str] | None = None) -> Scene:
+        """Read a scene from a text; paths of meshes are relative to the folder `base`.
+
+        Raises:
+            SceneError: the text has problems; all of them, with their lines.
+        """
+        from tissu.yaml_io import parse_scene
+
+        return parse_scene(text, base=None if base is None else Path(base))
+
+    def to_yaml(self) -> str:
+        """The scene as YAML text that reads back as an equal scene.
+
+        Raises:
+            SceneError: a mesh was made in memory; `save` writes it to a file.
+        """
+        from tissu.yaml_io import scene_text
+
+        return scene_text(self)
+
+    def to_dict(self) -> dict[str, Any]:
+        """What to_yaml() writes, as mappings, lists and numbers in SI.
+
+        Raises:
+            SceneError: a mesh was made in memory; `save` writes it to a file.
+        """
+        from tissu.yaml_io import scene_data
+
+        return scene_data(self)
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write the scene to a YAML file, and meshes made in memory beside it as .vtu files."""
+        from tissu.yaml_io import write_scene
+
+        write_scene(self, Path(path))
+
+    def compile(self) -> Simulation:
+        """Turn the scene into a simulation.
+
+        Raises:
+            SceneError: problems of the scene or its meshes; all of them.
+        """
+        from tissu.compile import compile_scene
+
+        return compile_scene(self)
+
+    def check(self) -> Check:
+        """Everything that compile() would refuse, and in plain words what the scene switches on."""
+        from tissu.compile import check_scene
+
+        return check_scene(self)
+
+
+def _unknown_bodies(fields: Mapping[str, Any]) -> list[tuple[FieldPath, str]]:
+    """Body names that no body has, in raw or validated fields of a scene."""
+    bodies = fields.get("bodies")
+    if not isinstance(bodies, Mapping):
+        return []
+    unknown: list[tuple[FieldPath, str]] = []
+    for group in ("fixed", "prescribed", "loads"):
+        items = fields.get(group)
+        for number, item in enumerate(items if isinstance(items, (list, tuple)) else ()):
+            name = item.get("body") if isinstance(item, Mapping) else getattr(item, "body", None)
+            if isinstance(name, str) and name not in bodies:
+                text = f"no body is named '{name}'{nearest(name, bodies)} "
+                text += f"Bodies: {one_of_words(bodies)}"
+                unknown.append(((group, number, "body"), text))
+    return unknown

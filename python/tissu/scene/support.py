@@ -1,0 +1,153 @@
+"""Supports: nodes held in place, or moved along a given path."""
+
+from __future__ import annotations
+
+import itertools
+from typing import TYPE_CHECKING, Annotated, ClassVar
+
+from pydantic import AfterValidator, BeforeValidator, model_validator
+from typing_extensions import Self
+
+from tissu import units
+from tissu.errors import ParameterError
+from tissu.scene.part import Part
+from tissu.scene.selection import On, Selection
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+
+def _axes(value: object) -> object:
+    if (
+        not isinstance(value, str)
+        or not value
+        or set(value) - set("xyz")
+        or len(set(value)) < len(value)
+    ):
+        raise ParameterError(
+            f"found {value!r}; one or more of the letters x, y, z are accepted, each once"
+        )
+    return "".join(sorted(value))
+
+
+def increasing(times: tuple[float, ...]) -> tuple[float, ...]:
+    """The times, when there is at least one and they increase.
+
+    Raises:
+        ParameterError: no time, or one that does not follow the one before.
+    """
+    if not times:
+        raise ParameterError("found no time; at least one is accepted")
+    for before, after in itertools.pairwise(times):
+        if after <= before:
+            raise ParameterError(
+                f"found {after:g} s after {before:g} s; strictly increasing times are accepted"
+            )
+    return times
+
+
+def same_length(name: str, values: Sequence[object], times: Sequence[float]) -> None:
+    """Refuse a list that has not one value for each time.
+
+    Raises:
+        ParameterError: the lengths differ.
+    """
+    if len(values) != len(times):
+        raise ParameterError(
+            f"found {len(values)} {name} for {len(times)} times; one for each time is accepted"
+        )
+
+
+Axes = Annotated[str, BeforeValidator(_axes)]
+IncreasingTimes = Annotated[units.Times, AfterValidator(increasing)]
+
+
+def axes_mask(axes: str) -> int:
+    """Bit mask of axis letters: x = 1, y = 2, z = 4."""
+    return sum(1 << "xyz".index(letter) for letter in axes)
+
+
+class Fixed(Part):
+    """Nodes that stay where they are at rest, on some or all axes."""
+
+    positional: ClassVar[tuple[str, ...]] = ("body",)
+    body: str
+    """name of a body of the scene"""
+    on: On
+    """which nodes: a box, sphere, plane, nodes, surface or region"""
+    axes: Axes = "xyz"
+    """axes held: letters out of xyz"""
+
+    if TYPE_CHECKING:
+
+        def __init__(self, body: str, *, on: Selection, axes: str = ...) -> None: ...
+
+
+class Rotation(Part):
+    """A rotation about a fixed axis, by an angle that changes with time."""
+
+    axis: units.Direction
+    """direction of the axis, of any length but zero"""
+    center: units.Position = (0.0, 0.0, 0.0)
+    """a point of the axis [m]"""
+    angles: units.Angles
+    """angle at each time [rad]"""
+
+    if TYPE_CHECKING:
+
+        def __init__(
+            self,
+            *,
+            axis: units.VectorLike,
+            center: units.VectorLike = ...,
+            angles: Sequence[units.Number] | units.VectorLike,
+        ) -> None: ...
+
+    @model_validator(mode="after")
+    def _has_axis(self) -> Self:
+        if not any(self.axis):
+            raise ParameterError(
+                "found the axis (0, 0, 0); a direction is accepted, such as [0, 0, 1]"
+            )
+        return self
+
+
+class Prescribed(Part):
+    """Nodes moved along a path: a rotation, then a displacement, both linear between the times."""
+
+    positional: ClassVar[tuple[str, ...]] = ("body",)
+    body: str
+    """name of a body of the scene"""
+    on: On
+    """which nodes: a box, sphere, plane, nodes, surface or region"""
+    axes: Axes = "xyz"
+    """axes moved: letters out of xyz"""
+    times: IncreasingTimes
+    """strictly increasing times [s]"""
+    displacements: units.Displacements | None = None
+    """displacement from rest at each time [m]; absent: none"""
+    rotation: Rotation | None = None
+    """rotation from rest; absent: none"""
+
+    if TYPE_CHECKING:
+
+        def __init__(
+            self,
+            body: str,
+            *,
+            on: Selection,
+            axes: str = ...,
+            times: Sequence[units.Number] | units.VectorLike,
+            displacements: Sequence[units.VectorLike] | None = ...,
+            rotation: Rotation | None = ...,
+        ) -> None: ...
+
+    @model_validator(mode="after")
+    def _complete(self) -> Self:
+        if self.displacements is None and self.rotation is None:
+            raise ParameterError("found neither displacements nor rotation; at least one is needed")
+        if self.displacements is not None:
+            same_length("displacements", self.displacements, self.times)
+        if self.rotation is not None:
+            same_length("rotation angles", self.rotation.angles, self.times)
+        return self

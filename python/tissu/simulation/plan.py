@@ -1,0 +1,51 @@
+"""What a compiled scene will run, why, and what it will not."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from tissu.effects import Effect
+
+
+@dataclass(frozen=True, slots=True)
+class Plan:
+    """What will run.
+
+    Attributes:
+        effects: each with the field of the scene that asks for it.
+        absent: effects that the scene does not ask for; none of their code runs.
+        notes: what is accepted but worth knowing.
+        unknowns: numbers that a step solves for.
+        matrix_blocks: 3x3 blocks of the system matrix.
+        integrator: its name.
+        solver: name of the linear solver.
+        threads: how many.
+        instruction_set: of the hot kernels.
+    """
+
+    effects: tuple[Effect, ...]
+    absent: tuple[str, ...]
+    notes: tuple[str, ...]
+    unknowns: int
+    matrix_blocks: int
+    integrator: str
+    solver: str
+    threads: int
+    instruction_set: str
+
+    def __str__(self) -> str:
+        """In plain words."""
+        threads = "1 thread" if self.threads == 1 else f"{self.threads} threads"
+        lines = [
+            f"{self.unknowns} unknowns, {self.matrix_blocks} blocks in the matrix",
+            f"{self.integrator}; {self.solver}; {threads}, {self.instruction_set} kernels",
+            "runs:",
+            *(f"  - {effect}" for effect in self.effects),
+        ]
+        if self.absent:
+            lines += ["absent: " + ", ".join(self.absent)]
+        if self.notes:
+            lines += ["worth knowing:", *(f"  - {note}" for note in self.notes)]
+        return "\n".join(lines)

@@ -1,0 +1,61 @@
+"""Where the time of the steps went: one row for each effect that ran, none for what is absent."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True, slots=True)
+class ProfileRow:
+    """One stage of one effect.
+
+    Attributes:
+        effect: elasticity, gravity, linear solver, …
+        stage: force, product, matrix or solve.
+        calls: over all steps.
+        ms_per_step: wall time [ms].
+        share: of the wall time of all steps, 0 to 1.
+    """
+
+    effect: str
+    stage: str
+    calls: int
+    ms_per_step: float
+    share: float
+
+
+@dataclass(frozen=True, slots=True)
+class Profile:
+    """Times of a simulation.
+
+    Attributes:
+        rows: one for each effect and stage, in the order in which a step meets them.
+        steps: how many were taken.
+        p50_ms: median wall time of a step, of the latest 4096 steps.
+        p95_ms: 95 % of them were shorter.
+        max_ms: the longest of them.
+        real_time_factor: simulated time for wall time; above 1 is faster than life.
+    """
+
+    rows: tuple[ProfileRow, ...]
+    steps: int
+    p50_ms: float
+    p95_ms: float
+    max_ms: float
+    real_time_factor: float
+
+    def __str__(self) -> str:
+        """A table: effect, calls, milliseconds a step, share."""
+        if not self.steps:
+            return "no step was taken yet"
+        names = [f"{row.effect}: {row.stage}" for row in self.rows]
+        width = max([len("effect"), *map(len, names)])
+        lines = [f"{'effect':<{width}}  {'calls':>7}  {'ms/step':>9}  {'share':>6}"]
+        for name, row in zip(names, self.rows, strict=True):
+            values = f"{row.calls:>7}  {row.ms_per_step:>9.4f}  {100 * row.share:>5.1f}%"
+            lines.append(f"{name:<{width}}  {values}")
+        lines.append(
+            f"step: p50 {self.p50_ms:.3f} ms, p95 {self.p95_ms:.3f} ms, max {self.max_ms:.3f} ms; "
+            f"{self.real_time_factor:.3g} times real time"
+        )
+        return "\n".join(lines)

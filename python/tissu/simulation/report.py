@@ -1,0 +1,37 @@
+"""What one step says of itself."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True, slots=True)
+class StepReport:
+    """One step.
+
+    Attributes:
+        number: of the step, from 1.
+        time: at its end [s].
+        newton_iterations: linearisations.
+        solver_iterations: of the linear solver, over all linearisations.
+        residual: of the linear system, or of Newton's equation when it is iterated; relative.
+        converged: every tolerance was met.
+        milliseconds: wall time.
+        message: why it did not converge; empty when it did.
+    """
+
+    number: int
+    time: float
+    newton_iterations: int
+    solver_iterations: int
+    residual: float
+    converged: bool
+    milliseconds: float
+    message: str
+
+    def __str__(self) -> str:
+        """One line."""
+        iterations = f"{self.newton_iterations} Newton and {self.solver_iterations} solver iterations"
+        text = f"step {self.number}: t = {self.time:.6g} s, residual {self.residual:.1e}"
+        text += f" after {iterations}, {self.milliseconds:.1f} ms"
+        return text if self.converged else f"{text}; not converged: {self.message}"

@@ -1,0 +1,260 @@
+"""Physical quantities: a plain number is SI, a text carries its unit ("4 kPa", "1.05 g/cm^3").
+
+Common units are read from a table; pint is imported only for the others, so a scene written in
+plain numbers or common units never pays for it. The annotated types at the end are the field types
+of the scene.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from functools import lru_cache
+from typing import TYPE_CHECKING, Annotated, Any
+
+import numpy as np
+from pydantic import AfterValidator, BeforeValidator
+
+from tissu.errors import ParameterError
+
+if TYPE_CHECKING:
+    import pint
+
+    Number = float | str
+    """What a quantity may be written as in Python: a number in SI, or a text with its unit."""
+    VectorLike = Sequence[float | str] | np.ndarray[Any, Any]
+    """What a vector may be written as: three numbers in SI or texts with units."""
+
+_NUMBER = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*?)\s*", re.DOTALL)
+
+
+@dataclass(frozen=True, slots=True)
+class Dimension:
+    """One kind of quantity; called with a number or a text, it answers the value in SI.
+
+    Attributes:
+        name: what it is called in messages ("a pressure").
+        unit: SI unit that a plain number has; empty for a pure number.
+        example: a text that is accepted.
+        units: factor to SI of each unit that is read without pint.
+    """
+
+    name: str
+    unit: str
+    example: str
+    units: dict[str, float] = field(hash=False)
+
+    def __call__(self, value: object) -> float:
+        """Value in SI.
+
+        Raises:
+            ParameterError: not a number nor a text with a unit of this dimension, or not finite.
+        """
+        number = self._read(value)
+        if not math.isfinite(number):
+            raise ParameterError(f"found {value!r}, which is not finite; {self.accepted}")
+        return number
+
+    @property
+    def accepted(self) -> str:
+        """What is accepted, in words."""
+        if not self.unit:
+            return "a number is accepted"
+        written = f"a number in {self.unit}, or text such as '{self.example}'"
+        return f"{_a(self.name)} is accepted: {written}"
+
+    def _read(self, value: object) -> float:
+        if isinstance(value, (int, float, np.integer, np.floating)) and not isinstance(value, bool):
+            return float(value)
+        if isinstance(value, str):
+            return self._read_text(value)
+        if hasattr(value, "dimensionality") and hasattr(value, "to"):  # a pint quantity
+            return self._read_text(f"{value:~}")
+        found = "nothing" if value is None else f"{value!r}"
+        raise ParameterError(f"found {found}; {self.accepted}")
+
+    def _read_text(self, text: str) -> float:
+        if text.strip().lower().lstrip("+-.") in {"nan", "inf", "infinity"}:
+            return math.nan
+        match = _NUMBER.fullmatch(text)
+        if match is None:
+            raise ParameterError(
+                f"found '{text}', which does not begin with a number; {self.accepted}"
+            )
+        number, unit = float(match[1]), _normal(match[2])
+        if not unit:
+            return number
+        factor = self.units.get(unit)
+        if factor is None:
+            factor = self._ask_elsewhere(text, unit)
+        return number * factor
+
+    def _ask_elsewhere(self, text: str, unit: str) -> float:
+        """Factor of a unit this table lacks: another table's (an error), or pint's."""
+        for other in DIMENSIONS:
+            if other is not self and unit in other.units:
+                raise ParameterError(f"found '{text}', which is {_a(other.name)}; {self.accepted}")
+        try:
+            quantity = _registry().parse_expression(unit)
+            wanted = _registry().parse_units(self.unit or "dimensionless")
+            if not hasattr(quantity, "dimensionality"):
+                raise ParameterError(
+                    f"found '{text}', which has no unit after its number; {self.accepted}"
+                )
+            if quantity.dimensionality == wanted.dimensionality:
+                return float(quantity.to(wanted).magnitude)
+            kind = _kind(quantity)
+        except ParameterError:
+            raise
+        except Exception:  # pint's own errors have no common base below Exception
+            raise ParameterError(
+                f"found '{text}', whose unit '{unit}' is not known; {self.accepted}"
+            ) from None
+        raise ParameterError(f"found '{text}', which is {kind}; {self.accepted}")
+
+
+def _normal(unit: str) -> str:
+    """One spelling for each unit: no spaces, ^ for powers."""
+    for old, new in (
+        ("**", "^"),
+        ("²", "^2"),
+        ("³", "^3"),
+        ("·", "*"),
+        ("µ", "u"),
+        ("μ", "u"),
+        (" ", ""),
+    ):
+        unit = unit.replace(old, new)
+    return unit
+
+
+def _a(noun: str) -> str:
+    return f"{'an' if noun[0] in 'aeiou' else 'a'} {noun}"
+
+
+@lru_cache(maxsize=1)
+def _registry() -> pint.UnitRegistry[Any]:
+    import pint
+
+    return pint.UnitRegistry()
+
+
+def _kind(quantity: Any) -> str:
+    for other in DIMENSIONS:
+        if (
+            other.unit
+            and quantity.dimensionality == _registry().parse_units(other.unit).dimensionality
+        ):
+            return _a(other.name)
+    return f"of dimension {quantity.dimensionality}"
+
+
+LENGTH = Dimension("length", "m", "5 mm", {"m": 1.0, "dm": 0.1, "cm": 1e-2, "mm": 1e-3, "um": 1e-6})
+TIME = Dimension("time", "s", "10 ms", {"s": 1.0, "ms": 1e-3, "us": 1e-6, "min": 60.0})
+MASS = Dimension("mass", "kg", "1.5 kg", {"kg": 1.0, "g": 1e-3, "mg": 1e-6})
+PRESSURE = Dimension(
+    "pressure", "Pa", "4 kPa",
+    {"Pa": 1.0, "kPa": 1e3, "MPa": 1e6, "GPa": 1e9, "N/m^2": 1.0, "N/mm^2": 1e6},
+)  # fmt: skip
+DENSITY = Dimension(
+    "density", "kg/m^3", "1.05 g/cm^3",
+    {"kg/m^3": 1.0, "kg/m3": 1.0, "g/cm^3": 1e3, "g/cm3": 1e3, "g/ml": 1e3, "kg/l": 1e3},
+)  # fmt: skip
+FORCE = Dimension("force", "N", "20 mN", {"N": 1.0, "mN": 1e-3, "kN": 1e3})
+ACCELERATION = Dimension(
+    "acceleration", "m/s^2", "-9.81 m/s^2", {"m/s^2": 1.0, "m/s2": 1.0, "mm/s^2": 1e-3}
+)
+ANGLE = Dimension(
+    "angle",
+    "rad",
+    "90 deg",
+    {"rad": 1.0, "deg": math.pi / 180, "degree": math.pi / 180, "°": math.pi / 180},
+)
+RATE = Dimension(
+    "rate", "1/s", "0.1 1/s", {"1/s": 1.0, "/s": 1.0, "s^-1": 1.0, "1/ms": 1e3, "Hz": 1.0}
+)
+NUMBER = Dimension("pure number", "", "0.45", {"%": 0.01})
+DIMENSIONS = (LENGTH, TIME, MASS, PRESSURE, DENSITY, FORCE, ACCELERATION, ANGLE, RATE, NUMBER)
+
+
+def listed(value: object) -> object:
+    """A numpy array as nested lists; anything else unchanged."""
+    return value.tolist() if isinstance(value, np.ndarray) else value
+
+
+@dataclass(frozen=True, slots=True)
+class Triple:
+    """Reads three components of one dimension; with `open`, an absent component means unbounded."""
+
+    dimension: Dimension
+    open: bool = False
+
+    def __call__(self, value: object) -> tuple[float | None, ...]:
+        """Three values in SI.
+
+        Raises:
+            ParameterError: not three components, or one that is not of the dimension.
+        """
+        value = listed(value)
+        if value is None and self.open:
+            return (None, None, None)
+        if not isinstance(value, (list, tuple)) or len(value) != 3:
+            raise ParameterError(
+                f"found {value!r}; three components are accepted, for each "
+                f"{self.dimension.accepted}"
+            )
+        return tuple(self._component(name, part) for name, part in zip("xyz", value, strict=True))
+
+    def _component(self, name: str, value: object) -> float | None:
+        if value is None and self.open:
+            return None
+        try:
+            return self.dimension(value)
+        except ParameterError as error:
+            raise ParameterError(f"component {name}: {error}") from None
+
+
+@dataclass(frozen=True, slots=True)
+class _Within:
+    """Refuses a number that is not strictly between two bounds."""
+
+    low: float
+    high: float
+    hint: str
+
+    def __call__(self, value: float) -> float:
+        if not self.low < value < self.high:
+            raise ParameterError(
+                f"found {value:g}; a number between {self.low:g} and {self.high:g}, both excluded, "
+                f"is accepted; {self.hint}"
+            )
+        return value
+
+
+def within(low: float, high: float, *, hint: str) -> AfterValidator:
+    """A number strictly between two bounds; the hint says what to take instead."""
+    return AfterValidator(_Within(low, high, hint))
+
+
+_Three = tuple[float, float, float]
+_OpenThree = tuple[float | None, float | None, float | None]
+Length = Annotated[float, BeforeValidator(LENGTH)]
+Time = Annotated[float, BeforeValidator(TIME)]
+Mass = Annotated[float, BeforeValidator(MASS)]
+Pressure = Annotated[float, BeforeValidator(PRESSURE)]
+Density = Annotated[float, BeforeValidator(DENSITY)]
+Rate = Annotated[float, BeforeValidator(RATE)]
+Angle = Annotated[float, BeforeValidator(ANGLE)]
+Pure = Annotated[float, BeforeValidator(NUMBER)]
+Direction = Annotated[_Three, BeforeValidator(Triple(NUMBER))]
+Position = Annotated[_Three, BeforeValidator(Triple(LENGTH))]
+OpenPosition = Annotated[_OpenThree, BeforeValidator(Triple(LENGTH, open=True))]
+Acceleration = Annotated[_Three, BeforeValidator(Triple(ACCELERATION))]
+Force = Annotated[_Three, BeforeValidator(Triple(FORCE))]
+TractionVector = Annotated[_Three, BeforeValidator(Triple(PRESSURE))]
+Times = Annotated[tuple[Time, ...], BeforeValidator(listed)]
+Angles = Annotated[tuple[Angle, ...], BeforeValidator(listed)]
+Factors = Annotated[tuple[Pure, ...], BeforeValidator(listed)]
+Displacements = Annotated[tuple[Position, ...], BeforeValidator(listed)]

@@ -1,0 +1,59 @@
+"""check(): in plain words what a scene switches on and why, and what is absent."""
+
+from tissu.effects import absent_of, effects_of
+from tissu.scene import (
+    BarMesh,
+    Body,
+    Box,
+    Fixed,
+    ImplicitEuler,
+    NodalLoad,
+    Rayleigh,
+    Scene,
+    Static,
+    StVK,
+)
+
+BODY = Body(
+    mesh=BarMesh(size=(2, 1, 1), cells=(2, 1, 1)), law=StVK(young=3e3, poisson=0.45), density=1e3
+)
+END = Box(None, (0, None, None))
+
+
+def test_a_bare_scene():
+    made = Scene(bodies={"bar": BODY}, step=ImplicitEuler(0.01))
+    assert [effect.name for effect in effects_of(made)] == ["elasticity of bar", "inertia"]
+    absent = absent_of(made)
+    assert {"viscosity", "gravity", "loads", "contact", "cutting", "haptics"} <= set(absent)
+    assert "inertia" not in absent
+
+
+def test_each_effect_says_which_field_asks_for_it():
+    made = Scene(
+        bodies={"bar": BODY.replace(viscosity=Rayleigh(mass=0.1))},
+        gravity=(0, 0, -9.81),
+        fixed=[Fixed("bar", on=END)],
+        loads=[NodalLoad("bar", on=END, force=(0, 0, 1))],
+        step=ImplicitEuler(0.01),
+        editing=True,
+    )
+    check = made.check()
+    assert check.ok
+    assert [str(effect) for effect in check.effects] == [
+        "elasticity of bar: bodies.bar.law is stvk with young 3000 Pa, poisson 0.45",
+        "viscosity of bar: bodies.bar.viscosity is rayleigh, mass 0.1 1/s, stiffness 0 s",
+        "gravity: gravity is (0, 0, -9.81) m/s^2",
+        "fixed nodes of bar: fixed[0] holds 4 nodes (box) on xyz",
+        "nodal load on bar: loads[0] acts on 4 nodes (box)",
+        "inertia: step is implicit_euler with dt 0.01 s",
+        "cell removal: editing is true",
+    ]
+    assert check.absent == ["prescribed motion", "contact", "cutting", "haptics"]
+    assert "Switched on:\n  - elasticity of bar" in str(check)
+    assert "Problems" not in str(check)
+
+
+def test_problems_come_first():
+    made = Scene(bodies={"bar": BODY}, step=Static())
+    assert str(made.check()).startswith("Problems:\n  - bodies.bar: body 'bar' can move freely")
+    assert "inertia" in made.check().absent

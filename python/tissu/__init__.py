@@ -16,7 +16,7 @@ from __future__ import annotations
 
 import importlib
 import os
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 # Idle threads sleep soon instead of spinning: a busy machine is not slowed to a crawl. Set before
 # the core loads OpenMP, and only where the user has not chosen.
@@ -66,7 +66,7 @@ _HOMES = {
 }
 _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
 
-__all__ = sorted([*_HOME_OF, "__version__"])  # noqa: PLE0604 - names are text
+__all__ = sorted([*_HOME_OF, "__version__"])
 
 
 def __getattr__(name: str) -> Any:
@@ -85,47 +85,3 @@ def __getattr__(name: str) -> Any:
 
 def __dir__() -> list[str]:
     return __all__
-
-
-if TYPE_CHECKING:
-    from tissu.errors import Diverged, MeshError, ParameterError, SceneError, TissuError
-    from tissu.mesh import (
-        CellBlock,
-        Mesh,
-        QualityReport,
-        Surface,
-        bar_mesh,
-        read_mesh,
-        write_mesh,
-    )
-    from tissu.picture import draw, draw_overlay
-    from tissu.scene import (
-        BarMesh,
-        Body,
-        Box,
-        Cholesky,
-        ConjugateGradient,
-        Fixed,
-        Hooke,
-        ImplicitEuler,
-        MeshFile,
-        Newton,
-        NodalLoad,
-        Nodes,
-        Output,
-        Plane,
-        Prescribed,
-        Pressure,
-        Rayleigh,
-        Region,
-        Rotation,
-        Scene,
-        Sphere,
-        Static,
-        StVK,
-        SurfaceNodes,
-        Traction,
-    )
-    from tissu.simulation import Plan, Profile, Simulation, StepReport
-
-    __version__: str

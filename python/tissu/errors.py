@@ -1,4 +1,4 @@
-"""The errors of tissu: each says in one sentence what was found, what is accepted, where, and what to do."""
+"""The errors of tissu: one sentence on what was found, what is accepted, where, what to do."""
 
 from __future__ import annotations
 
@@ -39,7 +39,9 @@ class Diverged(TissuError):  # noqa: N818 - the field's word for it
         time: simulated time of the last good step [s].
     """
 
-    def __init__(self, message: str, *, body: str = "", element: int = -1, time: float = 0.0) -> None:
+    def __init__(
+        self, message: str, *, body: str = "", element: int = -1, time: float = 0.0
+    ) -> None:
         self.body = body
         self.element = element
         self.time = time

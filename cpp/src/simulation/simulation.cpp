@@ -71,7 +71,7 @@ StepReport Simulation::step(double h) {
     state_ = last_good_;
     throw;
   }
-  if (!is_sane()) roll_back(h);
+  if (!std::isfinite(report.residual) || !is_sane()) roll_back(h);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   profile_.add_step(seconds);
   report.milliseconds = 1e3 * seconds;

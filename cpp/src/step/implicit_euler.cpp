@@ -8,7 +8,7 @@
 namespace tissu {
 namespace {
 
-constexpr double kFloor = 1e-12;     ///< of the external force: a right-hand side below it is round-off
+constexpr double kFloor = 1e-3;      ///< of the external impulse: a smaller right-hand side is judged against it
 constexpr double kHopeless = 1e9;    ///< times the first residual: Newton's iteration has lost its way
 constexpr double kShortest = 1e-3;   ///< a Newton step is not cut below this
 

@@ -29,15 +29,15 @@ def run(
     scene: SceneFile,
     out: Annotated[
         Path | None,
-        typer.Option("--out", "-o", help="Folder of the results [default: results/SCENE]."),
+        typer.Option("--out", "-o", help="Folder of the results; default: results/SCENE."),
     ] = None,
     duration: Annotated[
         str | None,
-        typer.Option(help="Simulated time, such as '2 s' [default: the scene's]."),
+        typer.Option(help="Simulated time, such as '2 s'; default: the scene's."),
     ] = None,
     threads: Annotated[
         int | None,
-        typer.Option(min=1, help="Number of threads [default: the scene's]."),
+        typer.Option(min=1, help="Number of threads; default: the scene's."),
     ] = None,
     quiet: Annotated[bool, typer.Option("--quiet", "-q", help="Print errors only.")] = False,
     debug: Debug = False,

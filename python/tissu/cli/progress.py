@@ -55,7 +55,7 @@ class RunProgress:
 def progress_words(simulated: float, duration: float, steps: int, elapsed: float) -> str:
     """What is said beside the bar; the real-time factor is simulated over elapsed time."""
     elapsed = max(elapsed, 1e-9)
-    left = (duration - simulated) * elapsed / simulated if simulated > 0 else float("inf")
+    left = max(duration - simulated, 0.0) * elapsed / simulated if simulated > 0 else float("inf")
     shown = f"{left:.0f} s left" if left < 1e6 else ""
     return (
         f"{simulated:.2f} of {duration:.2f} s   {steps / elapsed:.0f} steps/s   "

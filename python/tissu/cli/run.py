@@ -18,9 +18,8 @@ from tissu.errors import Diverged, SceneError
 from tissu.output import Series, StepTally, prepare_folder, summarise, write_summary
 
 if TYPE_CHECKING:
-    from tissu.simulation import Simulation
-
     from tissu.scene import Scene
+    from tissu.simulation import Simulation
 
 T = TypeVar("T")
 
@@ -206,7 +205,8 @@ def report(
     spent = ", ".join(f"{name} {seconds:.2f} s" for name, seconds in clock.seconds.items())
     print(f"\n{tally.steps} steps to t = {simulation.time:.4g} s; {spent}")
     if tally.unconverged:
-        print(f"{tally.unconverged} steps did not converge, the first: {tally.first_unconverged}")
+        share = f"{tally.unconverged} of {tally.steps} steps"
+        print(f"{share} did not converge, the first: {tally.first_unconverged}")
     print(f"result:  {series.index} ({series.count} times)")
     print(f"summary: {series.index.with_name('summary.json')}")
     print(f"picture: {picture}")

@@ -17,10 +17,9 @@ from tissu.scene.support import Fixed, axes_mask
 
 if TYPE_CHECKING:
     from tissu._core import WorldBuilder
-    from tissu.simulation import Simulation
-
     from tissu.scene.scene import Scene
     from tissu.scene.step import Solver, Step
+    from tissu.simulation import Simulation
 
 
 def compile_scene(scene: Scene) -> Simulation:

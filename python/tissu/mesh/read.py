@@ -52,9 +52,9 @@ def _factor(unit: str, scale: float) -> float:
     """What the file's numbers are multiplied by to be metres."""
     from tissu.units import LENGTH
 
-    if not isinstance(unit, str) or not unit.strip():
+    if not unit.strip():
         raise ParameterError(f"found unit {unit!r}; a unit of length is accepted: m, cm, mm, ...")
-    if not (isinstance(scale, (int, float)) and math.isfinite(scale) and scale > 0.0):
+    if not (math.isfinite(scale) and scale > 0.0):
         raise ParameterError(f"found scale {scale!r}; a positive number is accepted")
     try:
         return LENGTH(f"1 {unit}") * scale

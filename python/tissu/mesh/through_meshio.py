@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from tissu.errors import MeshError
 from tissu.mesh.cell import dimension
 from tissu.mesh.raw import RawMesh, tagged_regions
+from tissu.mesh.truncated import finite
 
 _MARK = "region:"  # cell data of this name say which cells are in a region; write_mesh makes them
 
@@ -54,7 +55,7 @@ def endings() -> list[str]:
 
 @contextlib.contextmanager
 def quiet() -> Iterator[io.StringIO]:
-    """Keeps what meshio prints; numbers that numpy cannot parse are an error."""
+    """Keeps what meshio prints, and its warnings to itself."""
     said = io.StringIO()
     with (
         contextlib.redirect_stdout(said),
@@ -63,7 +64,6 @@ def quiet() -> Iterator[io.StringIO]:
         np.errstate(all="ignore"),
     ):
         warnings.simplefilter("ignore")
-        warnings.filterwarnings("error", message="string or file could not be read")
         yield said
 
 
@@ -85,7 +85,8 @@ def read_through_meshio(path: Path) -> RawMesh:
     for name in names:
         with quiet() as said:
             try:
-                mesh = meshio.read(path, file_format=name)
+                with finite(path, name) as file:
+                    mesh = meshio.read(file, file_format=name)
             except (Exception, SystemExit) as error:  # meshio's readers raise anything
                 reasons.append(_reason(name, error, said.getvalue()))
                 continue
@@ -97,8 +98,11 @@ def read_through_meshio(path: Path) -> RawMesh:
 
 def _reason(name: str, error: BaseException, said: str) -> str:
     """Why a format's reader gave up, in one line."""
-    text = " ".join(str(error).split()) if not isinstance(error, SystemExit) else ""
-    text = text or " ".join(said.removeprefix("Error:").split())
+    if isinstance(error, SystemExit):  # then what it printed holds the reason, before its verdict
+        text = said.replace("\n", " ").split("Error:")[0]
+    else:
+        text = str(error)
+    text = " ".join(text.split())
     text = text.rstrip(".") or "it does not follow the format"
     kind = "" if type(error).__name__ in ("ReadError", "SystemExit") else type(error).__name__
     return f"{kind}: {text[:160]}" if kind else text[:160]

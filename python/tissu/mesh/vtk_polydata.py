@@ -141,17 +141,17 @@ def _connectivity(content: _Content, words: list[str]) -> tuple[NDArray[Any], ND
         return np.diff(offsets), corners
     flat = content.numbers(total, "int")
     sizes: list[int] = []
-    corners: list[NDArray[Any]] = []
+    pieces = [flat[:0]]
     place = 0
     for _ in range(cells):
         if place >= total:
-            raise content.error(f"{words[0]} {cells} {total}", "a total that fits the cells")
+            break
         sizes.append(int(flat[place]))
-        corners.append(flat[place + 1 : place + 1 + sizes[-1]])
+        pieces.append(flat[place + 1 : place + 1 + sizes[-1]])
         place += 1 + sizes[-1]
-    if place != total or min(sizes, default=0) < 0:
+    if place != total or len(sizes) != cells or min(sizes, default=0) < 0:
         raise content.error(f"{words[0]} {cells} {total}", "a total that fits the cells")
-    return np.array(sizes, dtype=int), np.concatenate([np.empty(0, int), *corners])
+    return np.array(sizes, dtype=int), np.concatenate(pieces)
 
 
 def _blocks(

@@ -14,7 +14,7 @@ from tissu.mesh.cell import dimension, handled_types
 from tissu.mesh.mesh import Mesh
 from tissu.mesh.through_meshio import endings, formats, quiet, region_marks
 
-_SURFACE_ONLY = ("obj", "off", "stl", "ply")
+_SURFACE_ONLY = ("obj", "off", "stl", "ply", "svg", "wkt")
 _NUMBERED = {"gmsh": "gmsh:physical", "medit": "medit:ref"}  # one region per cell, by number
 _MARKED = ("vtu", "vtk", "xdmf")
 

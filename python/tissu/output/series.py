@@ -14,9 +14,8 @@ from numpy.typing import NDArray
 from tissu.output.folder import file_name, whole_file
 
 if TYPE_CHECKING:
-    from tissu.simulation import Simulation
-
     from tissu.mesh import Mesh
+    from tissu.simulation import Simulation
 
 FRAMES = "frames"
 

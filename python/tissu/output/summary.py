@@ -11,14 +11,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from pydantic import BaseModel
 
-from tissu.errors import SceneError
 from tissu.output.folder import whole_file
 
 if TYPE_CHECKING:
-    from tissu.simulation import Simulation, StepReport
-
     from tissu.mesh import Mesh
+    from tissu.simulation import Simulation, StepReport
 
 
 @dataclasses.dataclass(slots=True)
@@ -82,7 +81,7 @@ def summarise(
         "machine": {"processor": platform.machine(), "system": platform.system()},
         "threads": simulation.scene.threads,
         "instruction_set": build.get("instruction_set", ""),
-        "scene": scene_data(simulation),
+        "scene": plain(simulation.scene),
         "meshes": {name: mesh_data(mesh) for name, mesh in simulation.meshes.items()},
         "simulated_seconds": simulation.time,
         "steps": dataclasses.asdict(tally),
@@ -103,14 +102,6 @@ def write_summary(path: Path, summary: Mapping[str, Any]) -> None:
     text = json.dumps(plain(summary), indent=2, allow_nan=False, ensure_ascii=False)
     with whole_file(path) as partial:
         partial.write_text(text + "\n", encoding="utf-8")
-
-
-def scene_data(simulation: Simulation) -> Any:
-    """The scene as data: as its YAML file would hold it."""
-    try:
-        return plain(simulation.scene.to_dict())
-    except SceneError:  # a mesh made in memory has no place in a YAML file
-        return plain(simulation.scene.model_dump())
 
 
 def mesh_data(mesh: Mesh) -> dict[str, Any]:
@@ -137,7 +128,9 @@ def profile_data(simulation: Simulation) -> Any:
 
 
 def plain(value: Any) -> Any:
-    """A value as JSON knows it: numbers that are not finite become null, objects their text."""
+    """A value as JSON knows it: parts of a scene by their fields, numbers not finite as null."""
+    if isinstance(value, BaseModel):
+        return {name: plain(getattr(value, name)) for name in type(value).model_fields}
     if isinstance(value, Mapping):
         return {str(key): plain(item) for key, item in value.items()}
     if isinstance(value, (np.ndarray, np.generic)):

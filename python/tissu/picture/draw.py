@@ -18,6 +18,7 @@ from tissu.picture.surface import render_surface
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+
     from tissu.simulation import Simulation
 
 Array = NDArray[np.float64]

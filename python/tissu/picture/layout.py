@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import contextlib
+import logging
 import os
+from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -27,12 +30,25 @@ DPI = 100
 
 def sheet(size: tuple[int, int]) -> Figure:
     """An empty figure of `size` pixels, drawn without a display."""
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
-    from matplotlib.figure import Figure
+    with _without_notice():
+        from matplotlib.backends.backend_agg import FigureCanvasAgg
+        from matplotlib.figure import Figure
 
     figure = Figure(figsize=(size[0] / DPI, size[1] / DPI), dpi=DPI, facecolor=PAPER)
     FigureCanvasAgg(figure)
     return figure
+
+
+@contextlib.contextmanager
+def _without_notice() -> Iterator[None]:
+    """Keeps matplotlib from announcing, once on each machine, that it looks for fonts."""
+    logger = logging.getLogger("matplotlib.font_manager")
+    before = logger.level
+    logger.setLevel(logging.ERROR)
+    try:
+        yield
+    finally:
+        logger.setLevel(before)
 
 
 def letters(size: tuple[int, int]) -> float:
@@ -121,7 +137,8 @@ def save(figure: Figure, path: Path) -> None:
     except OSError as error:
         raise TissuError(f"picture {path}: cannot be written ({error.strerror or error})") from None
     finally:
-        partial.unlink(missing_ok=True)
+        with contextlib.suppress(OSError):
+            partial.unlink(missing_ok=True)
 
 
 def round_below(value: float) -> float:

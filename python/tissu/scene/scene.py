@@ -22,9 +22,8 @@ from tissu.scene.support import Fixed, Prescribed
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from tissu.simulation import Simulation
-
     from tissu.compile import Check
+    from tissu.simulation import Simulation
 
 
 class Output(Part):

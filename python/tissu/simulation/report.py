@@ -31,7 +31,9 @@ class StepReport:
 
     def __str__(self) -> str:
         """One line."""
-        iterations = f"{self.newton_iterations} Newton and {self.solver_iterations} solver iterations"
+        iterations = (
+            f"{self.newton_iterations} Newton and {self.solver_iterations} solver iterations"
+        )
         text = f"step {self.number}: t = {self.time:.6g} s, residual {self.residual:.1e}"
         text += f" after {iterations}, {self.milliseconds:.1f} ms"
         return text if self.converged else f"{text}; not converged: {self.message}"

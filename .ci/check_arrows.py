@@ -41,7 +41,7 @@ PYTHON: dict[str, set[str]] = {
     "selection": {"errors", "units", "mesh"},
     "scene": {"errors", "units", "mesh", "yaml_io", "selection", "compile"},
     "effects": {"errors", "mesh", "scene"},
-    "simulation": {"errors", "mesh", "effects", "_core"},
+    "simulation": {"errors", "units", "mesh", "effects", "_core"},
     "compile": {
         "errors",
         "units",

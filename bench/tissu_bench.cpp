@@ -88,8 +88,8 @@ void product(benchmark::State& run) {
                                             benchmark::Counter::kIsIterationInvariantRate);
 }
 
-/// 20 iterations of conjugate gradient whatever the residual, as the published figure has it; then the rest of
-/// the fall is simulated, so the steps are those of a moving beam.
+/// 20 iterations of conjugate gradient whatever the residual, as the published figure has it; then the rest
+/// of the fall is simulated, so the steps are those of a moving beam.
 void step(benchmark::State& run) {
   const auto world = std::make_shared<const World>(describe(beam_of(run)));
   constexpr double kNever = 1e-300;
@@ -111,8 +111,12 @@ void step_cholesky(benchmark::State& run) {
 }
 
 BENCHMARK(force)->Name("StVK force")->Arg(1)->Arg(2)->UseRealTime()->Unit(benchmark::kMicrosecond);
-BENCHMARK(product_of_elements)->Name("StVK product, no matrix")->Arg(1)->Arg(2)->UseRealTime()->Unit(
-    benchmark::kMicrosecond);
+BENCHMARK(product_of_elements)
+    ->Name("StVK product, no matrix")
+    ->Arg(1)
+    ->Arg(2)
+    ->UseRealTime()
+    ->Unit(benchmark::kMicrosecond);
 BENCHMARK(assembly)->Name("StVK assembly")->Arg(1)->Arg(2)->UseRealTime()->Unit(benchmark::kMicrosecond);
 BENCHMARK(product)->Name("matrix product")->Arg(1)->Arg(2)->UseRealTime()->Unit(benchmark::kMicrosecond);
 BENCHMARK(step)->Name("step, 20 CG")->Arg(1)->Arg(2)->UseRealTime()->Unit(benchmark::kMillisecond);

@@ -45,7 +45,8 @@ py::dict cell_fields(const Simulation& simulation, const std::string& name) {
     append(all.volume_ratio, fields.volume_ratio);
   }
   py::dict result;
-  result["von_mises"] = py::array_t<double>(static_cast<py::ssize_t>(all.von_mises.size()), all.von_mises.data());
+  result["von_mises"] =
+      py::array_t<double>(static_cast<py::ssize_t>(all.von_mises.size()), all.von_mises.data());
   result["energy_density"] =
       py::array_t<double>(static_cast<py::ssize_t>(all.energy_density.size()), all.energy_density.data());
   result["volume_ratio"] =
@@ -115,7 +116,8 @@ void bind_simulation(py::module_& m) {
   bind_methods(m);
   bind_report(m);
   py::class_<Simulation>(m, "Simulation")
-      .def(py::init([](const std::shared_ptr<World>& world, const IntegratorSpec& integrator, const SolverSpec& solver) {
+      .def(py::init([](const std::shared_ptr<World>& world, const IntegratorSpec& integrator,
+                       const SolverSpec& solver) {
              return std::make_unique<Simulation>(world, integrator.make(), solver.make());
            }),
            py::kw_only(), arg("world"), arg("integrator"), arg("solver"))
@@ -123,8 +125,10 @@ void bind_simulation(py::module_& m) {
       .def_property(
           "time", [](const Simulation& s) { return s.state().time; },
           [](Simulation& s, double time) { s.state().time = time; })
-      .def_property_readonly("integrator_name", [](const Simulation& s) { return std::string(s.integrator().name()); })
-      .def_property_readonly("solver_name", [](const Simulation& s) { return std::string(s.solver().name()); })
+      .def_property_readonly("integrator_name",
+                             [](const Simulation& s) { return std::string(s.integrator().name()); })
+      .def_property_readonly("solver_name",
+                             [](const Simulation& s) { return std::string(s.solver().name()); })
       .def_property_readonly("positions",
                              [](const py::object& self) {
                                auto& s = self.cast<Simulation&>();
@@ -153,11 +157,13 @@ void bind_simulation(py::module_& m) {
             s.replace_world(remove_cells(s.world(), s.state(), body, numbers));
           },
           py::kw_only(), arg("body"), arg("cells"))
-      .def("remaining_cells",
-           [](const Simulation& s, const std::string& body) {
-             const std::vector<std::int32_t> cells = remaining_cells(s.world(), body);
-             return py::array_t<std::int32_t>(static_cast<py::ssize_t>(cells.size()), cells.data());
-           }, arg("body"));
+      .def(
+          "remaining_cells",
+          [](const Simulation& s, const std::string& body) {
+            const std::vector<std::int32_t> cells = remaining_cells(s.world(), body);
+            return py::array_t<std::int32_t>(static_cast<py::ssize_t>(cells.size()), cells.data());
+          },
+          arg("body"));
 }
 
 }  // namespace tissu::bind

@@ -7,10 +7,13 @@ namespace {
 using Doubles = Array<double>;
 using Ints = Array<std::int32_t>;
 
-History to_history(const Doubles& times, const Doubles& factors) { return {to_vector(times), to_vector(factors)}; }
+History to_history(const Doubles& times, const Doubles& factors) {
+  return {to_vector(times), to_vector(factors)};
+}
 
-void add_elastic(WorldDescription& world, const std::string& body, const std::string& cell_type, const Ints& cells,
-                 const Ints& cell_numbers, const std::string& law, const std::map<std::string, Doubles>& parameters, const Doubles& density,
+void add_elastic(WorldDescription& world, const std::string& body, const std::string& cell_type,
+                 const Ints& cells, const Ints& cell_numbers, const std::string& law,
+                 const std::map<std::string, Doubles>& parameters, const Doubles& density,
                  const std::string& quadrature) {
   ElasticBlock block;
   block.element = cell_type;
@@ -27,7 +30,8 @@ void add_elastic(WorldDescription& world, const std::string& body, const std::st
     } else if (name == "poisson") {
       block.poisson = to_vector(values);
     } else {
-      throw ParameterError("law \"" + law + "\" has no parameter \"" + name + "\"; it has young and poisson.");
+      throw ParameterError("law \"" + law + "\" has no parameter \"" + name +
+                           "\"; it has young and poisson.");
     }
   }
   block.density = to_vector(density);
@@ -43,11 +47,12 @@ std::vector<std::array<std::int32_t, 3>> to_triangles(const Ints& array) {
   return triangles;
 }
 
-Motion to_motion(const Doubles& times, const Doubles& displacements, const Doubles& angles, const Doubles& center,
-                 const Doubles& axis) {
+Motion to_motion(const Doubles& times, const Doubles& displacements, const Doubles& angles,
+                 const Doubles& center, const Doubles& axis) {
   with_columns(displacements, 3, "displacements");
   if (times.size() == 0 || displacements.shape(0) != times.size() || angles.size() != times.size()) {
-    throw ParameterError("a motion needs as many displacements and angles as it has times, and at least one.");
+    throw ParameterError(
+        "a motion needs as many displacements and angles as it has times, and at least one.");
   }
   const Vec3 direction = to_vec3(axis, "axis");
   if (!(direction.norm() > 0.0)) throw ParameterError("the axis of a rotation must not be zero.");
@@ -60,7 +65,8 @@ Motion to_motion(const Doubles& times, const Doubles& displacements, const Doubl
 
 void add_fixed(WorldDescription& world, const std::string& body, const Ints& nodes, int axes, Motion motion) {
   if (axes < 1 || axes > 7) throw ParameterError("axes must be a mask of x = 1, y = 2 and z = 4.");
-  world.fixed.push_back({world.body(body).name, to_vector(nodes), static_cast<std::uint8_t>(axes), std::move(motion), {}});
+  world.fixed.push_back(
+      {world.body(body).name, to_vector(nodes), static_cast<std::uint8_t>(axes), std::move(motion), {}});
 }
 
 }  // namespace
@@ -73,7 +79,8 @@ void bind_world(py::module_& m) {
       .def_property_readonly("editable", [](const World& world) { return world.description() != nullptr; })
       .def_property_readonly("mass", [](const World& world) { return world.mass().total(); })
       .def_property_readonly("threads", [](const World& world) { return world.threads().count(); })
-      .def_property_readonly("instruction_set", [](const World& world) { return std::string(name(world.isa())); });
+      .def_property_readonly("instruction_set",
+                             [](const World& world) { return std::string(name(world.isa())); });
 
   py::class_<WorldDescription>(m, "WorldBuilder")
       .def(py::init([](int threads, bool editable, bool links) {
@@ -93,8 +100,8 @@ void bind_world(py::module_& m) {
             return first;
           },
           py::kw_only(), arg("name"), arg("positions"))
-      .def("add_elastic", &add_elastic, py::kw_only(), arg("body"), arg("cell_type"), arg("cells"), arg("cell_numbers"), arg("law"),
-           arg("parameters"), arg("density"), arg("quadrature") = "full")
+      .def("add_elastic", &add_elastic, py::kw_only(), arg("body"), arg("cell_type"), arg("cells"),
+           arg("cell_numbers"), arg("law"), arg("parameters"), arg("density"), arg("quadrature") = "full")
       .def(
           "add_rayleigh",
           [](WorldDescription& world, const std::string& body, double mass, double stiffness) {
@@ -122,7 +129,8 @@ void bind_world(py::module_& m) {
             world.pressures.push_back(
                 {name, world.body(body).name, to_triangles(triangles), pressure, to_history(times, factors)});
           },
-          py::kw_only(), arg("name"), arg("body"), arg("triangles"), arg("pressure"), arg("times"), arg("factors"))
+          py::kw_only(), arg("name"), arg("body"), arg("triangles"), arg("pressure"), arg("times"),
+          arg("factors"))
       .def(
           "fix",
           [](WorldDescription& world, const std::string& body, const Ints& nodes, int axes) {
@@ -131,12 +139,13 @@ void bind_world(py::module_& m) {
           py::kw_only(), arg("body"), arg("nodes"), arg("axes") = 7)
       .def(
           "prescribe",
-          [](WorldDescription& world, const std::string& body, const Ints& nodes, int axes, const Doubles& times,
-             const Doubles& displacements, const Doubles& angles, const Doubles& center, const Doubles& axis) {
+          [](WorldDescription& world, const std::string& body, const Ints& nodes, int axes,
+             const Doubles& times, const Doubles& displacements, const Doubles& angles, const Doubles& center,
+             const Doubles& axis) {
             add_fixed(world, body, nodes, axes, to_motion(times, displacements, angles, center, axis));
           },
-          py::kw_only(), arg("body"), arg("nodes"), arg("axes"), arg("times"), arg("displacements"), arg("angles"),
-          arg("center"), arg("axis"))
+          py::kw_only(), arg("body"), arg("nodes"), arg("axes"), arg("times"), arg("displacements"),
+          arg("angles"), arg("center"), arg("axis"))
       .def(
           "build", [](const WorldDescription& world) { return std::make_shared<World>(world); },
           py::call_guard<py::gil_scoped_release>());

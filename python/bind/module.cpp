@@ -18,8 +18,8 @@ void translate(std::exception_ptr pointer) {
     if (pointer) std::rethrow_exception(pointer);
   } catch (const Diverged& error) {
     const py::object type = py::module_::import("tissu.errors").attr("Diverged");
-    const py::object made = type(error.what(), py::arg("body") = error.body(), py::arg("element") = error.element(),
-                                 py::arg("time") = error.time());
+    const py::object made = type(error.what(), py::arg("body") = error.body(),
+                                 py::arg("element") = error.element(), py::arg("time") = error.time());
     PyErr_SetObject(type.ptr(), made.ptr());
   } catch (const MeshError& error) {
     set_error("MeshError", error);

@@ -33,6 +33,7 @@ _HOMES = {
         "read_mesh",
         "write_mesh",
         "bar_mesh",
+        "into_tetrahedra",
     ),
     "tissu.scene": (
         "BarMesh",

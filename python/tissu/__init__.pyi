@@ -10,6 +10,7 @@ from tissu.mesh import Mesh as Mesh
 from tissu.mesh import QualityReport as QualityReport
 from tissu.mesh import Surface as Surface
 from tissu.mesh import bar_mesh as bar_mesh
+from tissu.mesh import into_tetrahedra as into_tetrahedra
 from tissu.mesh import read_mesh as read_mesh
 from tissu.mesh import write_mesh as write_mesh
 from tissu.scene import BarMesh as BarMesh

@@ -7,8 +7,8 @@
 namespace tissu {
 namespace {
 
-using MultiplyRows = void (*)(const std::int64_t*, const std::int32_t*, const double*, std::int32_t, std::int32_t,
-                              const double*, double*);
+using MultiplyRows = void (*)(const std::int64_t*, const std::int32_t*, const double*, std::int32_t,
+                              std::int32_t, const double*, double*);
 
 MultiplyRows choose(Isa isa) {
 #ifdef TISSU_X86_KERNELS
@@ -80,8 +80,8 @@ void BlockMatrix::add_diagonal(std::int32_t row, double value) {
 
 void BlockMatrix::multiply(ConstReals p, Reals out) const {
   threads_.for_pieces(rows(), [&](std::int32_t begin, std::int32_t end) {
-    multiply_rows_(sparsity_->row_begin.data(), sparsity_->column.data(), values_.data(), begin, end, p.data(),
-                   out.data());
+    multiply_rows_(sparsity_->row_begin.data(), sparsity_->column.data(), values_.data(), begin, end,
+                   p.data(), out.data());
   });
   for (const ExtraBlock& e : extra_) {
     block(out, e.row) += Eigen::Map<const Mat3>(e.values.data()) * block(p, e.column);
@@ -107,7 +107,8 @@ void BlockMatrix::constrain(const std::vector<std::int32_t>& rows, const std::ve
     }
   }
   for (ExtraBlock& e : extra_) {
-    clear_masked(e.values.data(), masks[static_cast<std::size_t>(e.row)], masks[static_cast<std::size_t>(e.column)]);
+    clear_masked(e.values.data(), masks[static_cast<std::size_t>(e.row)],
+                 masks[static_cast<std::size_t>(e.column)]);
   }
 }
 

@@ -15,7 +15,8 @@ std::pair<std::size_t, double> locate(std::span<const double> times, double time
 
 }  // namespace
 
-double interpolate(std::span<const double> times, std::span<const double> values, double time, double empty_value) {
+double interpolate(std::span<const double> times, std::span<const double> values, double time,
+                   double empty_value) {
   if (times.empty()) return empty_value;
   const auto [i, share] = locate(times, time);
   return share == 0.0 ? values[i] : values[i] + share * (values[i + 1] - values[i]);

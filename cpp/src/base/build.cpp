@@ -13,8 +13,8 @@ BuildInfo build_info() {
   info.compiler = "GCC " + std::string(__VERSION__);
 #endif
   const auto number = [](int n) { return std::to_string(n); };
-  info.libraries.emplace_back(
-      "Eigen", number(EIGEN_WORLD_VERSION) + "." + number(EIGEN_MAJOR_VERSION) + "." + number(EIGEN_MINOR_VERSION));
+  info.libraries.emplace_back("Eigen", number(EIGEN_WORLD_VERSION) + "." + number(EIGEN_MAJOR_VERSION) + "." +
+                                           number(EIGEN_MINOR_VERSION));
 #ifdef TISSU_CHOLMOD_VERSION
   info.libraries.emplace_back("CHOLMOD", TISSU_CHOLMOD_VERSION);
 #endif

@@ -39,9 +39,10 @@ Isa choose_isa() {
     if (!runs_here(isa)) continue;
     if (asked == nullptr || *asked == '\0' || asked == name(isa)) return isa;
   }
-  throw ParameterError("TISSU_ISA is \"" + std::string(asked) +
-                       "\", which is not an instruction set that this machine and this build have; leave it unset, "
-                       "or use baseline, avx2 or avx512.");
+  throw ParameterError(
+      "TISSU_ISA is \"" + std::string(asked) +
+      "\", which is not an instruction set that this machine and this build have; leave it unset, "
+      "or use baseline, avx2 or avx512.");
 }
 
 }  // namespace tissu

@@ -27,6 +27,7 @@ void number_cells(BodyDescription& body) {
 void keep(std::vector<double>& values, const std::vector<std::size_t>& kept) {
   if (values.size() <= 1) return;
   std::vector<double> result;
+  result.reserve(kept.size());
   for (const std::size_t i : kept) result.push_back(values[i]);
   values = std::move(result);
 }
@@ -90,7 +91,8 @@ void hold_debris(WorldDescription& description, const BodyDescription& body, con
 std::shared_ptr<const World> remove_cells(const World& world, const State& state, std::string_view body,
                                           std::span<const std::int32_t> cells) {
   if (world.description() == nullptr) {
-    throw ParameterError("this world cannot be edited; compile the scene with editing: true to remove cells.");
+    throw ParameterError(
+        "this world cannot be edited; compile the scene with editing: true to remove cells.");
   }
   WorldDescription description = *world.description();
   BodyDescription& edited = description.body(body);

@@ -12,7 +12,8 @@ ReferenceCell tabulate() {
   for (const QuadraturePoint& point : Rule::points) {
     const auto values = Element::values(point.xi);
     const auto gradients = Element::gradients(point.xi);
-    cell.points.push_back({point.weight, {values.begin(), values.end()}, {gradients.begin(), gradients.end()}});
+    cell.points.push_back(
+        {point.weight, {values.begin(), values.end()}, {gradients.begin(), gradients.end()}});
   }
   return cell;
 }
@@ -29,7 +30,8 @@ bool tabulate_if(std::string_view element, std::string_view quadrature, Referenc
 
 ReferenceCell reference_cell(std::string_view element, std::string_view quadrature) {
   ReferenceCell cell{element, 0, {}};
-  (void)(tabulate_if<Tetra4>(element, quadrature, cell) || tabulate_if<Hexahedron8>(element, quadrature, cell));
+  (void)(tabulate_if<Tetra4>(element, quadrature, cell) ||
+         tabulate_if<Hexahedron8>(element, quadrature, cell));
   return cell;
 }
 

@@ -17,10 +17,11 @@ constexpr int kRest = 10;
 const ElasticKernels* find_or_throw(const ElasticBlock& block, Isa isa) {
   const auto* kernels = find_elastic_kernels(isa, block.element, block.law, block.quadrature);
   if (kernels == nullptr) {
-    throw ParameterError("body \"" + block.body + "\" asks for element \"" + block.element + "\", law \"" + block.law +
-                         "\", quadrature \"" + block.quadrature +
-                         "\"; there are the elements tetra and hexahedron, the laws hooke and stvk, the quadratures "
-                         "full and over.");
+    throw ParameterError(
+        "body \"" + block.body + "\" asks for element \"" + block.element + "\", law \"" + block.law +
+        "\", quadrature \"" + block.quadrature +
+        "\"; there are the elements tetra and hexahedron, the laws hooke and stvk, the quadratures "
+        "full and over.");
   }
   return kernels;
 }
@@ -29,10 +30,11 @@ double of_cell(const std::vector<double>& values, std::int32_t cell) {
   return values.size() == 1 ? values.front() : values[static_cast<std::size_t>(cell)];
 }
 
-void check_size(const ElasticBlock& block, const std::vector<double>& values, const char* what, std::size_t cells) {
+void check_size(const ElasticBlock& block, const std::vector<double>& values, const char* what,
+                std::size_t cells) {
   if (values.size() == 1 || values.size() == cells) return;
-  throw ParameterError("body \"" + block.body + "\" has " + std::to_string(values.size()) + " values of " + what +
-                       " for " + std::to_string(cells) + " cells; give one, or one for each cell.");
+  throw ParameterError("body \"" + block.body + "\" has " + std::to_string(values.size()) + " values of " +
+                       what + " for " + std::to_string(cells) + " cells; give one, or one for each cell.");
 }
 
 /// J at a point: sum_a X_a (x) dN_a/dxi
@@ -136,7 +138,8 @@ void Elastic::bind(const Sparsity& pattern) {
       for (std::size_t a = 0; a < n; ++a) {
         for (std::size_t b = 0; b < n; ++b) {
           for (std::size_t lane = 0; lane < kLanes; ++lane) {
-            slots[(a * n + b) * kLanes + lane] = pattern.slot(nodes[a * kLanes + lane], nodes[b * kLanes + lane]);
+            slots[(a * n + b) * kLanes + lane] =
+                pattern.slot(nodes[a * kLanes + lane], nodes[b * kLanes + lane]);
           }
         }
       }
@@ -153,7 +156,8 @@ void Elastic::for_chunks(Function&& f) const {
   for (std::int32_t colour = 0; colour < order_.colours(); ++colour) {
     const std::int32_t begin = order_.colour_begin[static_cast<std::size_t>(colour)];
     const std::int32_t end = order_.colour_begin[static_cast<std::size_t>(colour) + 1];
-    threads_.for_each(end - begin, [&](std::int32_t c) { f(order_.chunks[static_cast<std::size_t>(begin + c)]); });
+    threads_.for_each(end - begin,
+                      [&](std::int32_t c) { f(order_.chunks[static_cast<std::size_t>(begin + c)]); });
   }
 }
 
@@ -200,7 +204,8 @@ void Elastic::add_masses(std::vector<double>& nodal) const {
     const std::int32_t e = order_.element[i];
     const double density = of_cell(block_.density, e);
     for (std::size_t g = 0; g < points; ++g) {
-      const double w = rest_[(i / kLanes * points + g) * kRest * kLanes + std::size_t{9} * kLanes + i % kLanes];
+      const double w =
+          rest_[(i / kLanes * points + g) * kRest * kLanes + std::size_t{9} * kLanes + i % kLanes];
       for (std::size_t a = 0; a < nodes; ++a) {
         const auto node = static_cast<std::size_t>(block_.cells[static_cast<std::size_t>(e) * nodes + a]);
         nodal[node] += w * density * reference.points[g].values[a];
@@ -227,7 +232,8 @@ CellFields Elastic::fields(const State& state) const {
     if (order_.real[i] == 0) continue;
     const auto e = static_cast<std::size_t>(order_.element[i]);
     const auto s = [&](std::size_t k) { return stresses[(i / kLanes * 6 + k) * kLanes + i % kLanes]; };
-    const double deviation = (s(0) - s(1)) * (s(0) - s(1)) + (s(1) - s(2)) * (s(1) - s(2)) + (s(2) - s(0)) * (s(2) - s(0));
+    const double deviation =
+        (s(0) - s(1)) * (s(0) - s(1)) + (s(1) - s(2)) * (s(1) - s(2)) + (s(2) - s(0)) * (s(2) - s(0));
     const double shear = s(3) * s(3) + s(4) * s(4) + s(5) * s(5);
     fields.von_mises[e] = std::sqrt(0.5 * deviation + 3.0 * shear);
     fields.energy_density[e] = stored[i] / volumes_[e];
@@ -237,7 +243,8 @@ CellFields Elastic::fields(const State& state) const {
 }
 
 std::size_t Elastic::bytes() const {
-  return (nodes_.size() + slots_.size()) * sizeof(std::int32_t) + (rest_.size() + constants_.size()) * sizeof(double);
+  return (nodes_.size() + slots_.size()) * sizeof(std::int32_t) +
+         (rest_.size() + constants_.size()) * sizeof(double);
 }
 
 }  // namespace tissu

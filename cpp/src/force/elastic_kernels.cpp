@@ -7,8 +7,8 @@
 namespace tissu {
 namespace {
 
-const ElasticKernels* find_in(std::initializer_list<KernelList> lists, std::string_view element, std::string_view law,
-                              std::string_view quadrature) {
+const ElasticKernels* find_in(std::initializer_list<KernelList> lists, std::string_view element,
+                              std::string_view law, std::string_view quadrature) {
   for (const KernelList& list : lists) {
     for (std::size_t i = 0; i < list.count; ++i) {
       const ElasticKernels& k = list.first[i];

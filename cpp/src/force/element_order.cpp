@@ -33,7 +33,8 @@ std::vector<std::int32_t> along_curve(std::span<const std::int32_t> cells, int s
   std::vector<std::uint64_t> key(static_cast<std::size_t>(count));
   for (std::size_t e = 0; e < key.size(); ++e) {
     const Vec3 unit = (centroid[e] - low) / extent * 2097151.0;
-    for (int axis = 0; axis < 3; ++axis) key[e] |= spread_bits(static_cast<std::uint64_t>(unit[axis])) << axis;
+    for (int axis = 0; axis < 3; ++axis)
+      key[e] |= spread_bits(static_cast<std::uint64_t>(unit[axis])) << axis;
   }
   std::vector<std::int32_t> order(static_cast<std::size_t>(count));
   std::iota(order.begin(), order.end(), 0);
@@ -41,8 +42,8 @@ std::vector<std::int32_t> along_curve(std::span<const std::int32_t> cells, int s
   return order;
 }
 
-/// Lanes of a group take elements far apart in their chunk, so that they seldom share a node and the sums of one
-/// lane do not wait for those of the lane before.
+/// Lanes of a group take elements far apart in their chunk, so that they seldom share a node and the sums of
+/// one lane do not wait for those of the lane before.
 void lay_chunk(std::span<const std::int32_t> elements, ElementOrder& order) {
   const auto count = static_cast<std::int32_t>(elements.size());
   const std::int32_t groups = (count + ElementOrder::kLanes - 1) / ElementOrder::kLanes;
@@ -58,8 +59,8 @@ void lay_chunk(std::span<const std::int32_t> elements, ElementOrder& order) {
 }
 
 /// The lowest colour that no chunk with a common node has; 63 colours at most, then chunks stand alone.
-std::vector<std::int32_t> colour_chunks(const ElementOrder& order, std::span<const std::int32_t> cells, int size,
-                                        std::size_t nodes) {
+std::vector<std::int32_t> colour_chunks(const ElementOrder& order, std::span<const std::int32_t> cells,
+                                        int size, std::size_t nodes) {
   std::vector<std::uint64_t> taken(nodes, 0);
   std::vector<std::int32_t> colour;
   std::int32_t alone = 64;
@@ -69,7 +70,8 @@ std::vector<std::int32_t> colour_chunks(const ElementOrder& order, std::span<con
     std::uint64_t used = 0;
     const auto for_nodes = [&](auto&& f) {
       for (const std::int32_t e : elements) {
-        for (int a = 0; a < size; ++a) f(taken[static_cast<std::size_t>(cells[static_cast<std::size_t>(e * size + a)])]);
+        for (int a = 0; a < size; ++a)
+          f(taken[static_cast<std::size_t>(cells[static_cast<std::size_t>(e * size + a)])]);
       }
     };
     for_nodes([&](std::uint64_t mask) { used |= mask; });
@@ -91,7 +93,8 @@ void sort_by_colour(const std::vector<std::int32_t>& colour, ElementOrder& order
   std::vector<GroupRange> chunks;
   order.colour_begin.assign(1, 0);
   for (std::size_t i = 0; i < index.size(); ++i) {
-    if (i > 0 && colour[index[i]] != colour[index[i - 1]]) order.colour_begin.push_back(static_cast<std::int32_t>(i));
+    if (i > 0 && colour[index[i]] != colour[index[i - 1]])
+      order.colour_begin.push_back(static_cast<std::int32_t>(i));
     chunks.push_back(order.chunks[index[i]]);
   }
   order.colour_begin.push_back(static_cast<std::int32_t>(chunks.size()));

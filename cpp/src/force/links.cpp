@@ -9,7 +9,8 @@ namespace {
 
 /// From the frame's origin to the point, in space.
 Vec3 arm(const State& state, const LinkPoint& point) {
-  return point.frame < 0 ? Vec3(Vec3::Zero()) : Vec3(state.rotations[static_cast<std::size_t>(point.frame)] * point.place);
+  return point.frame < 0 ? Vec3(Vec3::Zero())
+                         : Vec3(state.rotations[static_cast<std::size_t>(point.frame)] * point.place);
 }
 
 Vec3 position(const State& state, const LinkPoint& point) {
@@ -24,7 +25,8 @@ struct Jacobian {
 };
 
 Jacobian jacobian(const State& state, const LinkPoint& point) {
-  Jacobian result{{point.block, point.block + 1}, {Mat3::Identity(), Mat3::Zero()}, point.frame < 0 ? 1U : 2U};
+  Jacobian result{
+      {point.block, point.block + 1}, {Mat3::Identity(), Mat3::Zero()}, point.frame < 0 ? 1U : 2U};
   const Vec3 r = arm(state, point);
   result.J[1] << 0.0, r.z(), -r.y(), -r.z(), 0.0, r.x(), r.y(), -r.x(), 0.0;
   return result;

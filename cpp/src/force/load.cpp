@@ -18,8 +18,12 @@ Mat3 cross_matrix(const Vec3& a) {
 
 double History::at(double time) const { return interpolate(times, factors, time, 1.0); }
 
-NodalLoad::NodalLoad(std::string name, std::vector<std::int32_t> nodes, std::vector<double> forces, History history)
-    : name_(std::move(name)), nodes_(std::move(nodes)), forces_(std::move(forces)), history_(std::move(history)) {}
+NodalLoad::NodalLoad(std::string name, std::vector<std::int32_t> nodes, std::vector<double> forces,
+                     History history)
+    : name_(std::move(name)),
+      nodes_(std::move(nodes)),
+      forces_(std::move(forces)),
+      history_(std::move(history)) {}
 
 void NodalLoad::add_force(const State& state, Reals f) const {
   const double factor = state.load_factor * history_.at(state.time);
@@ -31,14 +35,18 @@ void NodalLoad::add_force(const State& state, Reals f) const {
 double NodalLoad::energy(const State& state) const {
   double sum = 0.0;
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
-    sum -= block(ConstReals(forces_), static_cast<std::int32_t>(i)).dot(block(ConstReals(state.positions), nodes_[i]));
+    sum -= block(ConstReals(forces_), static_cast<std::int32_t>(i))
+               .dot(block(ConstReals(state.positions), nodes_[i]));
   }
   return history_.at(state.time) * sum;
 }
 
 Pressure::Pressure(std::string name, std::vector<std::array<std::int32_t, 3>> triangles, double pressure,
                    History history)
-    : name_(std::move(name)), triangles_(std::move(triangles)), pressure_(pressure), history_(std::move(history)) {}
+    : name_(std::move(name)),
+      triangles_(std::move(triangles)),
+      pressure_(pressure),
+      history_(std::move(history)) {}
 
 double Pressure::pressure_at(const State& state) const {
   return state.load_factor * pressure_ * history_.at(state.time);

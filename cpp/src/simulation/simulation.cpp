@@ -82,7 +82,8 @@ bool Simulation::is_sane() const {
   const double limit = kTooFar * std::max(world_->extent(), 1e-6);
   bool sane = true;
   for (std::size_t i = 0; i < state_.positions.size(); ++i) {
-    sane = sane && std::abs(state_.positions[i] - last_good_.positions[i]) < limit && std::isfinite(state_.velocities[i]);
+    sane = sane && std::abs(state_.positions[i] - last_good_.positions[i]) < limit &&
+           std::isfinite(state_.velocities[i]);
   }
   return sane;
 }
@@ -96,7 +97,9 @@ void Simulation::roll_back(double h) {
     message += "; before it, cell " + std::to_string(worst.element) + " of body \"" + worst.body +
                "\" was the most squeezed (volume ratio " + text(worst.volume_ratio) + ")";
   }
-  message += ". The simulation stands at its last good step; take a smaller dt, iterate Newton, or load more slowly.";
+  message +=
+      ". The simulation stands at its last good step; take a smaller dt, iterate Newton, or load more "
+      "slowly.";
   throw Diverged(message, worst.body, worst.element, state_.time);
 }
 

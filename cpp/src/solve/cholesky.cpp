@@ -11,7 +11,8 @@
 
 #ifdef TISSU_HAVE_CHOLMOD
 #include <cholmod.h>
-// One thread in the dense kernels of the factor: sums in one order, so that the bits do not depend on the machine.
+// One thread in the dense kernels of the factor: sums in one order, so that the bits do not depend on the
+// machine.
 extern "C" void openblas_set_num_threads(int) __attribute__((weak));
 #else
 #include <Eigen/SparseCholesky>
@@ -75,7 +76,8 @@ struct Cholesky::Factor {
     cholmod_free_factor(&factor, &common);
     cholmod_sparse A = view();
     factor = cholmod_analyze(&A, &common);
-    if (factor == nullptr) throw Error("CHOLMOD could not order the matrix: it is out of memory; use conjugate_gradient.");
+    if (factor == nullptr)
+      throw Error("CHOLMOD could not order the matrix: it is out of memory; use conjugate_gradient.");
   }
   bool factorise() {
     cholmod_sparse A = view();
@@ -91,7 +93,8 @@ struct Cholesky::Factor {
     right.ncol = 1;
     right.nzmax = b.size();
     right.d = b.size();
-    right.x = const_cast<double*>(b.data());  // NOLINT(cppcoreguidelines-pro-type-const-cast): CHOLMOD only reads it
+    right.x = const_cast<double*>(
+        b.data());  // NOLINT(cppcoreguidelines-pro-type-const-cast): CHOLMOD only reads it
     right.xtype = CHOLMOD_REAL;
     right.dtype = CHOLMOD_DOUBLE;
     cholmod_solve2(CHOLMOD_A, factor, &right, nullptr, &solution, nullptr, &y, &e, &common);
@@ -113,7 +116,11 @@ struct Cholesky::Factor {
 
   Eigen::Map<const Eigen::SparseMatrix<double>> view() const {
     const auto n = static_cast<Eigen::Index>(lower.column_begin.size()) - 1;
-    return {n, n, static_cast<Eigen::Index>(lower.row.size()), lower.column_begin.data(), lower.row.data(),
+    return {n,
+            n,
+            static_cast<Eigen::Index>(lower.row.size()),
+            lower.column_begin.data(),
+            lower.row.data(),
             lower.values.data()};
   }
   void analyse() { llt.analyzePattern(view()); }

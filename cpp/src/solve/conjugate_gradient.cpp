@@ -9,10 +9,12 @@
 namespace tissu {
 namespace {
 
-double dot(const Threads& threads, std::int32_t rows, ConstReals a, ConstReals b, std::vector<double>& partial) {
+double dot(const Threads& threads, std::int32_t rows, ConstReals a, ConstReals b,
+           std::vector<double>& partial) {
   return threads.sum(rows, partial, [&](std::int32_t begin, std::int32_t end) {
     double sum = 0.0;
-    for (auto i = 3 * static_cast<std::size_t>(begin); i < 3 * static_cast<std::size_t>(end); ++i) sum += a[i] * b[i];
+    for (auto i = 3 * static_cast<std::size_t>(begin); i < 3 * static_cast<std::size_t>(end); ++i)
+      sum += a[i] * b[i];
     return sum;
   });
 }
@@ -36,8 +38,10 @@ void ConjugateGradient::invert_diagonal(const BlockMatrix& matrix) {
     for (std::int32_t i = begin; i < end; ++i) {
       const Mat3 D = matrix.diagonal_block(i);
       Eigen::Map<Mat3> inverse(inverse_.data() + 9 * static_cast<std::ptrdiff_t>(i));
-      // A block that is not positive definite would turn the preconditioner; its diagonal, made positive, will not.
-      const bool definite = D(0, 0) > 0.0 && D.topLeftCorner<2, 2>().determinant() > 0.0 && D.determinant() > 0.0;
+      // A block that is not positive definite would turn the preconditioner; its diagonal, made positive,
+      // will not.
+      const bool definite =
+          D(0, 0) > 0.0 && D.topLeftCorner<2, 2>().determinant() > 0.0 && D.determinant() > 0.0;
       if (definite) {
         inverse = D.inverse();
       } else {
@@ -90,7 +94,8 @@ SolveReport ConjugateGradient::solve(const BlockMatrix& matrix, ConstReals b, Re
   while (true) {
     report.residual = std::sqrt(square) / reference;
     report.converged = report.residual <= settings_.tolerance;
-    if (report.converged || report.iterations == settings_.iterations || !std::isfinite(report.residual)) break;
+    if (report.converged || report.iterations == settings_.iterations || !std::isfinite(report.residual))
+      break;
     matrix.multiply(p_, q_);
     const double curvature = dot(threads, rows, p_, q_, partial_);
     if (!(curvature > 0.0)) {

@@ -47,8 +47,9 @@ bool LowerTriangle::update_pattern(const BlockMatrix& matrix) {
 
 void LowerTriangle::update_values(const BlockMatrix& matrix, double shift) {
   const auto entry = [&](const Source& source, int k, int m) {
-    const double* block = source.place >= 0 ? matrix.values() + 9 * source.place
-                                            : matrix.extra()[static_cast<std::size_t>(-1 - source.place)].values.data();
+    const double* block = source.place >= 0
+                              ? matrix.values() + 9 * source.place
+                              : matrix.extra()[static_cast<std::size_t>(-1 - source.place)].values.data();
     return block[3 * m + k];
   };
   std::size_t to = 0;

@@ -8,9 +8,9 @@
 namespace tissu {
 namespace {
 
-constexpr double kFloor = 1e-3;      ///< of the external impulse: a smaller right-hand side is judged against it
-constexpr double kHopeless = 1e9;    ///< times the first residual: Newton's iteration has lost its way
-constexpr double kShortest = 1e-3;   ///< a Newton step is not cut below this
+constexpr double kFloor = 1e-3;  ///< of the external impulse: a smaller right-hand side is judged against it
+constexpr double kHopeless = 1e9;   ///< times the first residual: Newton's iteration has lost its way
+constexpr double kShortest = 1e-3;  ///< a Newton step is not cut below this
 
 }  // namespace
 
@@ -110,7 +110,8 @@ void ImplicitEuler::newton(State& state, double h, LinearSolver& solver, StepRep
   }
 }
 
-bool ImplicitEuler::iterate(State& state, double h, LineSearch search, LinearSolver& solver, StepReport& report) {
+bool ImplicitEuler::iterate(State& state, double h, LineSearch search, LinearSolver& solver,
+                            StepReport& report) {
   double now = residual(state, h, v_);
   const double reference = std::max({reference_, now, 1e-300});
   report.message = "Newton's iteration stopped before its tolerance";

@@ -73,7 +73,10 @@ void System::assemble(const State& state, double mass, StiffnessScale scale) {
 double System::round_off(const State& state) const {
   double sum = 0.0;
   for (std::int32_t i = 0; i < matrix_.rows(); ++i) {
-    sum += matrix_.diagonal_block(i).diagonal().cwiseProduct(block(ConstReals(state.positions), i)).squaredNorm();
+    sum += matrix_.diagonal_block(i)
+               .diagonal()
+               .cwiseProduct(block(ConstReals(state.positions), i))
+               .squaredNorm();
   }
   return std::numeric_limits<double>::epsilon() * std::sqrt(sum);
 }

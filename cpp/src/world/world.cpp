@@ -29,7 +29,8 @@ std::vector<std::int32_t> shifted(std::vector<std::int32_t> nodes, std::int32_t 
 
 double box_diagonal(const std::vector<double>& positions) {
   if (positions.empty()) return 0.0;
-  const Eigen::Map<const Eigen::Matrix3Xd> x(positions.data(), 3, static_cast<Eigen::Index>(positions.size() / 3));
+  const Eigen::Map<const Eigen::Matrix3Xd> x(positions.data(), 3,
+                                             static_cast<Eigen::Index>(positions.size() / 3));
   return (x.rowwise().maxCoeff() - x.rowwise().minCoeff()).norm();
 }
 
@@ -105,7 +106,8 @@ void World::add_bodies(const WorldDescription& description) {
     std::vector<std::unique_ptr<ForceModel>> models;
     for (ElasticBlock elastic : body.elastic) {
       elastic.body = body.name;
-      elastic.cells = shifted(std::move(elastic.cells), made.first_node, made.node_count, "body \"" + body.name + "\"");
+      elastic.cells =
+          shifted(std::move(elastic.cells), made.first_node, made.node_count, "body \"" + body.name + "\"");
       auto model = std::make_unique<Elastic>(std::move(elastic), rest_positions_, isa_, threads_);
       model->add_masses(own);
       made.elastic.push_back(model.get());
@@ -146,7 +148,8 @@ void World::add_external(const WorldDescription& description) {
 void World::add_fixed(const WorldDescription& description) {
   for (const FixedNodes& fixed : description.fixed) {
     const Body& on = body(fixed.body);
-    const auto nodes = shifted(fixed.nodes, on.first_node, on.node_count, "a fixed part of body \"" + on.name + "\"");
+    const auto nodes =
+        shifted(fixed.nodes, on.first_node, on.node_count, "a fixed part of body \"" + on.name + "\"");
     std::vector<double> start = rest_positions_;
     for (std::size_t i = 0; i < fixed.positions.size() / 3; ++i) {
       block(Reals(start), nodes[i]) = block(ConstReals(fixed.positions), static_cast<std::int32_t>(i));

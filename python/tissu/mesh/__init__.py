@@ -6,6 +6,7 @@ from tissu.mesh.mesh import Mesh
 from tissu.mesh.quality import QualityReport
 from tissu.mesh.read import read_mesh
 from tissu.mesh.surface import Surface
+from tissu.mesh.tetrahedra import into_tetrahedra
 from tissu.mesh.write import write_mesh
 
 __all__ = [
@@ -14,6 +15,7 @@ __all__ = [
     "QualityReport",
     "Surface",
     "bar_mesh",
+    "into_tetrahedra",
     "read_mesh",
     "write_mesh",
 ]

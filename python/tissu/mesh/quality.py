@@ -14,7 +14,7 @@ from tissu.mesh.surface import area, edge_faults, enclosed_volume
 if TYPE_CHECKING:
     from tissu.mesh.mesh import Mesh
 
-_FLAT = 1e-12  # volume over cubed diagonal of a cell's box, below which the cell has no volume
+_FLAT = 1e-12  # determinant over cubed diagonal of a cell's box, below which the cell is flat
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -117,7 +117,7 @@ def report(mesh: Mesh) -> QualityReport:
         volume = enclosed_volume(mesh.points, surface.triangles) if closed else float("nan")
         sizes, shapes = faces, _triangle_shapes(mesh.points, surface.triangles, faces)
         parts = triangle_parts(surface.triangles)
-    inverted, zero_volume = _faults(mesh, sizes)
+    inverted, zero_volume = _faults(mesh)
     overfull = _core.overfull_face_count(positions=mesh.points, blocks=mesh.native_blocks())
     return QualityReport(
         name=mesh.source or "mesh",
@@ -154,7 +154,7 @@ def _shapes(mesh: Mesh) -> Floats:
     return _core.shape_qualities(positions=mesh.points, blocks=mesh.native_blocks())
 
 
-def _faults(mesh: Mesh, sizes: Floats) -> tuple[Ints, Ints]:
+def _faults(mesh: Mesh) -> tuple[Ints, Ints]:
     """Numbers of the volume cells that are inside out, and of those that are flat."""
     if not mesh.volume_blocks:
         return np.empty(0, np.int32), np.empty(0, np.int32)
@@ -162,7 +162,7 @@ def _faults(mesh: Mesh, sizes: Floats) -> tuple[Ints, Ints]:
     diagonal = np.concatenate(
         [np.linalg.norm(np.ptp(mesh.points[b.nodes], axis=1), axis=1) for b in mesh.volume_blocks]
     )
-    flat = np.abs(sizes) <= _FLAT * diagonal**3
+    flat = np.abs(jacobian).max(axis=1) <= _FLAT * diagonal**3
     inverted = (jacobian[:, 0] <= 0.0) & ~flat
     return np.flatnonzero(inverted).astype(np.int32), np.flatnonzero(flat).astype(np.int32)
 

@@ -47,7 +47,8 @@ def _shapes(report: QualityReport) -> Iterator[tuple[str, str]]:
     yield "shape", f"{shape} (1 ideal, 0 flat)"
     yield "worst cells", worst
     yield "cell size", f"{report.sizes.min():.4g} to {report.sizes.max():.4g} {unit}"
-    yield "smallest", f"{100.0 * report.sizes.min() / report.sizes.mean():.3g} % of the mean"
+    if report.sizes.mean() > 0.0:
+        yield "smallest", f"{100.0 * report.sizes.min() / report.sizes.mean():.3g} % of the mean"
 
 
 def _faults(report: QualityReport) -> Iterator[tuple[str, str]]:

@@ -40,6 +40,7 @@ class Part(BaseModel):
         arbitrary_types_allowed=True,
         protected_namespaces=(),
         defer_build=True,
+        use_attribute_docstrings=True,
     )
     positional: ClassVar[tuple[str, ...]] = ()
 

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from tissu import _core
+from tissu import _core, units
 from tissu.errors import ParameterError
 from tissu.simulation.plan import Plan
 from tissu.simulation.profile import Profile, ProfileRow
@@ -85,17 +85,17 @@ class Simulation:
         """Time step of the scene [s]; 1 for a static scene, whose time only tells loads apart."""
         return float(getattr(self.scene.step, "dt", 1.0))
 
-    def step(self, dt: float | None = None) -> StepReport:
+    def step(self, dt: units.Number | None = None) -> StepReport:
         """Take one step.
 
         Args:
-            dt: another time step than the scene's [s].
+            dt: another time step than the scene's [s], or text such as "5 ms".
 
         Raises:
             ParameterError: dt is not positive and finite.
             Diverged: the step gave a value that is not finite; the state is that before it.
         """
-        h = self.dt if dt is None else float(dt)
+        h = self.dt if dt is None else units.TIME(dt)
         report = self._core.step(h)
         self._steps += 1
         self._simulated += h
@@ -110,25 +110,25 @@ class Simulation:
             message=report.message,
         )
 
-    def run(self, duration: float | None = None) -> Iterator[StepReport]:
+    def run(self, duration: units.Number | None = None) -> Iterator[StepReport]:
         """Step until `duration` has passed, and yield each report.
 
         Args:
-            duration: simulated time [s]; the scene's when it is not given. A static scene without
-                one takes a single step.
+            duration: simulated time [s], or text such as "2 s"; the scene's when it is not given.
+                A static scene without one takes a single step.
 
         Raises:
             ParameterError: neither gives a duration, or it is negative.
             Diverged: see `step`.
         """
-        duration = self._duration() if duration is None else float(duration)
-        if not duration >= 0.0:
-            raise ParameterError(f"the duration is {duration} s; it must not be negative")
+        span = self._duration() if duration is None else units.TIME(duration)
+        if not span >= 0.0:
+            raise ParameterError(f"the duration is {span:g} s; it must not be negative")
         # Whole steps; a remainder of more than a millionth of a step is a shorter last step.
-        whole = int(duration / self.dt * (1.0 + 1e-12) + 1e-6)
+        whole = int(span / self.dt * (1.0 + 1e-12) + 1e-6)
         for _ in range(whole):
             yield self.step()
-        rest = duration - whole * self.dt
+        rest = span - whole * self.dt
         if rest > 1e-6 * self.dt:
             yield self.step(rest)
 

@@ -19,7 +19,9 @@ struct AlignedAllocator {
   T* allocate(std::size_t count) {
     return static_cast<T*>(::operator new(count * sizeof(T), std::align_val_t{kCacheLine}));
   }
-  void deallocate(T* values, std::size_t /*count*/) { ::operator delete(values, std::align_val_t{kCacheLine}); }
+  void deallocate(T* values, std::size_t /*count*/) {
+    ::operator delete(values, std::align_val_t{kCacheLine});
+  }
   template <class U>
   bool operator==(const AlignedAllocator<U>& /*other*/) const {
     return true;

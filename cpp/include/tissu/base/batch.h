@@ -1,8 +1,9 @@
 #pragma once
 
 /// A batch of doubles, one per element ("lane"), as wide as the instruction set this file is compiled for.
-/// Kernel sources are compiled once for each set, everything inside a namespace named by TISSU_KERNELS, so that
-/// code for one set can never be linked in place of another's. No standard library code is called in here.
+/// Kernel sources are compiled once for each set, everything inside a namespace named by TISSU_KERNELS, so
+/// that code for one set can never be linked in place of another's. No standard library code is called in
+/// here.
 
 #include <cstddef>
 #include <cstdint>
@@ -33,8 +34,9 @@ struct Batch {
   Native v;
 
   Batch() = default;
-  TISSU_INLINE Batch(Native value) : v(value) {}  // NOLINT(google-explicit-constructor): a batch is its register
-  TISSU_INLINE Batch(double value)                // NOLINT(google-explicit-constructor): a number in every lane
+  TISSU_INLINE Batch(Native value)
+      : v(value) {}                 // NOLINT(google-explicit-constructor): a batch is its register
+  TISSU_INLINE Batch(double value)  // NOLINT(google-explicit-constructor): a number in every lane
       : v(value - Native{}) {}
   TISSU_INLINE static Batch load(const double* values) {
     Batch b;
@@ -75,7 +77,8 @@ TISSU_INLINE double* at(double* values, std::int32_t i, int size) {
 #if defined(__AVX2__)
 
 /// The 3-vectors of four nodes, two numbers a load, turned into one register for each axis.
-TISSU_INLINE void gather_four(const double* values, const std::int32_t* node, __m256d& x, __m256d& y, __m256d& z) {
+TISSU_INLINE void gather_four(const double* values, const std::int32_t* node, __m256d& x, __m256d& y,
+                              __m256d& z) {
   const double* a = at(values, node[0], 3);
   const double* b = at(values, node[1], 3);
   const double* c = at(values, node[2], 3);
@@ -106,11 +109,13 @@ TISSU_INLINE void scatter_four(double* values, const std::int32_t* node, __m256d
   add_three(at(values, node[3], 3), _mm256_extractf128_pd(xy13, 1), _mm_unpackhi_pd(z23, z23));
 }
 
-TISSU_INLINE void add_at(double* to, __m256d value) { _mm256_storeu_pd(to, _mm256_add_pd(_mm256_loadu_pd(to), value)); }
+TISSU_INLINE void add_at(double* to, __m256d value) {
+  _mm256_storeu_pd(to, _mm256_add_pd(_mm256_loadu_pd(to), value));
+}
 
 /// Adds entries `first` to `first`+3 of four blocks of nine.
-TISSU_INLINE void scatter_quarter(double* values, const std::int32_t* slot, int first, __m256d a, __m256d b, __m256d c,
-                                  __m256d d) {
+TISSU_INLINE void scatter_quarter(double* values, const std::int32_t* slot, int first, __m256d a, __m256d b,
+                                  __m256d c, __m256d d) {
   const __m256d ab_lo = _mm256_unpacklo_pd(a, b);
   const __m256d ab_hi = _mm256_unpackhi_pd(a, b);
   const __m256d cd_lo = _mm256_unpacklo_pd(c, d);

@@ -38,7 +38,8 @@ class Threads {
   double sum(std::int32_t count, std::vector<double>& partial, Function&& f) const {
     const std::int32_t n = pieces(count);
     if (partial.size() < static_cast<std::size_t>(n)) partial.resize(static_cast<std::size_t>(n));
-    for_each(n, [&](std::int32_t p) { partial[static_cast<std::size_t>(p)] = f(begin_of(p), end_of(p, count)); });
+    for_each(
+        n, [&](std::int32_t p) { partial[static_cast<std::size_t>(p)] = f(begin_of(p), end_of(p, count)); });
     double total = 0.0;
     for (std::int32_t p = 0; p < n; ++p) total += partial[static_cast<std::size_t>(p)];
     return total;

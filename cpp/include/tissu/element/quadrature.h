@@ -24,9 +24,10 @@ struct CubeGauss {
   static constexpr int kPoints = N * N * N;
   static constexpr std::array<QuadraturePoint, kPoints> points = [] {
     constexpr double a = N == 2 ? 0.57735026918962576451 : 0.77459666924148337704;
-    constexpr std::array<double, 3> x = N == 2 ? std::array<double, 3>{-a, a, 0.0} : std::array<double, 3>{-a, 0.0, a};
-    constexpr std::array<double, 3> w =
-        N == 2 ? std::array<double, 3>{1.0, 1.0, 0.0} : std::array<double, 3>{5.0 / 9.0, 8.0 / 9.0, 5.0 / 9.0};
+    constexpr std::array<double, 3> x =
+        N == 2 ? std::array<double, 3>{-a, a, 0.0} : std::array<double, 3>{-a, 0.0, a};
+    constexpr std::array<double, 3> w = N == 2 ? std::array<double, 3>{1.0, 1.0, 0.0}
+                                               : std::array<double, 3>{5.0 / 9.0, 8.0 / 9.0, 5.0 / 9.0};
     std::array<QuadraturePoint, kPoints> result{};
     int g = 0;
     for (std::size_t k = 0; k < N; ++k) {

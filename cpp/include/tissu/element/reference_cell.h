@@ -19,7 +19,8 @@ struct ReferenceCell {
   std::vector<Point> points;
 };
 
-/// The tables of an element ("tetra", "hexahedron") and a rule ("full", "over"); no points when there is none.
+/// The tables of an element ("tetra", "hexahedron") and a rule ("full", "over"); no points when there is
+/// none.
 ReferenceCell reference_cell(std::string_view element, std::string_view quadrature);
 
 }  // namespace tissu

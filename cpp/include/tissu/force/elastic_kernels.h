@@ -35,12 +35,14 @@ struct ElasticKernels {
   int points;
   void (*force)(const ElasticView&, GroupRange, const double* x, double* f);
   /// out += scale * (df/dx) p
-  void (*product)(const ElasticView&, GroupRange, const double* x, double scale, const double* p, double* out);
+  void (*product)(const ElasticView&, GroupRange, const double* x, double scale, const double* p,
+                  double* out);
   /// blocks += scale * df/dx
   void (*stiffness)(const ElasticView&, GroupRange, const double* x, double scale, double* blocks);
   /// energy of each element [J], [group][8]
   void (*energy)(const ElasticView&, GroupRange, const double* x, double* energies);
-  /// mean over the element's volume of the Cauchy stress [Pa] xx yy zz yz xz xy, [group][6][8], and of det F, [group][8]
+  /// mean over the element's volume of the Cauchy stress [Pa] xx yy zz yz xz xy, [group][6][8], and of det F,
+  /// [group][8]
   void (*stress)(const ElasticView&, GroupRange, const double* x, double* stresses, double* volume_ratios);
 };
 

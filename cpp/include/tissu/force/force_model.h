@@ -41,9 +41,11 @@ class ForceModel {
   /// f += force [N] (moments [N m] in rotation blocks)
   virtual void add_force(const State& state, Reals f) const = 0;
   /// matrix += scale.position df/dx + scale.velocity df/dv
-  virtual void add_stiffness(const State& /*state*/, StiffnessScale /*scale*/, BlockMatrix& /*matrix*/) const {}
+  virtual void add_stiffness(const State& /*state*/, StiffnessScale /*scale*/,
+                             BlockMatrix& /*matrix*/) const {}
   /// out += (scale.position df/dx + scale.velocity df/dv) p
-  virtual void add_product(const State& /*state*/, StiffnessScale /*scale*/, ConstReals /*p*/, Reals /*out*/) const {}
+  virtual void add_product(const State& /*state*/, StiffnessScale /*scale*/, ConstReals /*p*/,
+                           Reals /*out*/) const {}
   /// Stored energy [J]
   [[nodiscard]] virtual double energy(const State& /*state*/) const { return 0.0; }
 };

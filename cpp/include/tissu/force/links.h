@@ -8,15 +8,16 @@ namespace tissu {
 
 /// A point that a link may hold: a node, or a place on a frame.
 struct LinkPoint {
-  std::int32_t block = 0;       ///< node, or translation block of the frame
-  std::int32_t frame = -1;      ///< number of the frame, -1 for a node
-  Vec3 place = Vec3::Zero();    ///< in the frame's axes [m]
+  std::int32_t block = 0;     ///< node, or translation block of the frame
+  std::int32_t frame = -1;    ///< number of the frame, -1 for a node
+  Vec3 place = Vec3::Zero();  ///< in the frame's axes [m]
 };
 
 /// Springs of no rest length between any two points, chosen before the first step or between two steps.
 ///
-/// f_a = k (p_b - p_a). The stiffness is -k J^T J with J = dp/dq, which leaves out the turning of a frame's lever
-/// arm under load; it is always semi-definite. Nodes that were not coupled before get extra blocks in the matrix.
+/// f_a = k (p_b - p_a). The stiffness is -k J^T J with J = dp/dq, which leaves out the turning of a frame's
+/// lever arm under load; it is always semi-definite. Nodes that were not coupled before get extra blocks in
+/// the matrix.
 class Links final : public ForceModel {
  public:
   /// Adds a link and returns its number.

@@ -37,11 +37,12 @@ class NodalLoad final : public ForceModel {
 };
 
 /// Pressure that stays normal to the faces it acts on: for the triangle (x0, x1, x2), outward by its winding,
-/// f_a = -p/6 (x1 - x0) x (x2 - x0). Its stiffness is skew on an open surface; the symmetric part is used, which
-/// is exact for a pressure on a closed surface or one whose rim is held.
+/// f_a = -p/6 (x1 - x0) x (x2 - x0). Its stiffness is skew on an open surface; the symmetric part is used,
+/// which is exact for a pressure on a closed surface or one whose rim is held.
 class Pressure final : public ForceModel {
  public:
-  Pressure(std::string name, std::vector<std::array<std::int32_t, 3>> triangles, double pressure, History history);
+  Pressure(std::string name, std::vector<std::array<std::int32_t, 3>> triangles, double pressure,
+           History history);
   [[nodiscard]] std::string_view effect() const override { return name_; }
   [[nodiscard]] ForceKind kind() const override { return ForceKind::external; }
   void couple(SparsityBuilder& builder) const override;

@@ -14,7 +14,8 @@ namespace tissu {
 class Rayleigh final : public ForceModel {
  public:
   /// `masses` is zero outside the body.
-  Rayleigh(std::vector<std::unique_ptr<ForceModel>> elastic, std::vector<double> masses, double alpha, double beta);
+  Rayleigh(std::vector<std::unique_ptr<ForceModel>> elastic, std::vector<double> masses, double alpha,
+           double beta);
   [[nodiscard]] std::string_view effect() const override { return "elasticity with Rayleigh damping"; }
   [[nodiscard]] ForceKind kind() const override { return ForceKind::elastic; }
   [[nodiscard]] bool has_constant_stiffness() const override;

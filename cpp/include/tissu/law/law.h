@@ -1,7 +1,8 @@
 #pragma once
 
-/// A law answers four questions about one material point, and nothing else: how much energy [J/m3], which first
-/// Piola–Kirchhoff stress P = dW/dF [Pa], which change of stress for a change of F, and all of dP/dF at once.
+/// A law answers four questions about one material point, and nothing else: how much energy [J/m3], which
+/// first Piola–Kirchhoff stress P = dW/dF [Pa], which change of stress for a change of F, and all of dP/dF at
+/// once.
 
 #include <concepts>
 #include <string_view>

@@ -25,8 +25,8 @@ struct StVK {
   static Strain strain(const Tensor2<T>& F) {
     const auto dot = [&](int j, int k) { return F(0, j) * F(0, k) + F(1, j) * F(1, k) + F(2, j) * F(2, k); };
     const T half(0.5);
-    return {{(dot(0, 0) - T(1.0)) * half, (dot(1, 1) - T(1.0)) * half, (dot(2, 2) - T(1.0)) * half, dot(1, 2) * half,
-             dot(0, 2) * half, dot(0, 1) * half}};
+    return {{(dot(0, 0) - T(1.0)) * half, (dot(1, 1) - T(1.0)) * half, (dot(2, 2) - T(1.0)) * half,
+             dot(1, 2) * half, dot(0, 2) * half, dot(0, 1) * half}};
   }
 
   /// S = lambda tr(E) I + 2 mu E
@@ -36,7 +36,9 @@ struct StVK {
     const T yz = mu2 * E.e[3];
     const T xz = mu2 * E.e[4];
     const T xy = mu2 * E.e[5];
-    return {{{mu2 * E.e[0] + pressure, xy, xz}, {xy, mu2 * E.e[1] + pressure, yz}, {xz, yz, mu2 * E.e[2] + pressure}}};
+    return {{{mu2 * E.e[0] + pressure, xy, xz},
+             {xy, mu2 * E.e[1] + pressure, yz},
+             {xz, yz, mu2 * E.e[2] + pressure}}};
   }
 
   [[nodiscard]] T energy(const Tensor2<T>& F) const {

@@ -24,8 +24,8 @@ class Simulation {
   Simulation(std::shared_ptr<const World> world, std::unique_ptr<Integrator> integrator,
              std::unique_ptr<LinearSolver> solver);
 
-  /// One step of h [s]. Throws Diverged, with the state as it was before, when a value is not finite or a node
-  /// would fly further than a thousand times the size of the scene.
+  /// One step of h [s]. Throws Diverged, with the state as it was before, when a value is not finite or a
+  /// node would fly further than a thousand times the size of the scene.
   StepReport step(double h);
 
   [[nodiscard]] const World& world() const { return *world_; }

@@ -6,9 +6,10 @@
 
 namespace tissu {
 
-/// Direct solve by a Cholesky factor: CHOLMOD (supernodal, nested dissection), or Eigen's simplicial factor in a
-/// build without it. The symbolic part is kept while the pattern is, the factor while the values are. A matrix
-/// that is not positive definite gets a growing share of its diagonal added until it is, and the report says so.
+/// Direct solve by a Cholesky factor: CHOLMOD (supernodal, nested dissection), or Eigen's simplicial factor
+/// in a build without it. The symbolic part is kept while the pattern is, the factor while the values are. A
+/// matrix that is not positive definite gets a growing share of its diagonal added until it is, and the
+/// report says so.
 class Cholesky final : public LinearSolver {
  public:
   Cholesky();

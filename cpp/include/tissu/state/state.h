@@ -17,10 +17,11 @@ struct Frame {
 };
 
 struct State {
-  double time = 0.0;              ///< [s]
-  double load_factor = 1.0;       ///< share of the external loads that acts: below 1 only while loads are stepped
+  double time = 0.0;         ///< [s]
+  double load_factor = 1.0;  ///< share of the external loads that acts: below 1 only while loads are stepped
   std::vector<double> positions;  ///< [m], three for each node or frame origin; zeros for a frame's rotation
-  std::vector<double> velocities; ///< [m/s]; a frame's rotation block holds its angular velocity in space [rad/s]
+  std::vector<double>
+      velocities;  ///< [m/s]; a frame's rotation block holds its angular velocity in space [rad/s]
   std::vector<Quaternion> rotations;  ///< one unit quaternion for each frame
 
   [[nodiscard]] std::int32_t blocks() const { return static_cast<std::int32_t>(positions.size() / 3); }
@@ -29,8 +30,9 @@ struct State {
 /// to = from moved by h v: x + h v for translations, exp(h omega) R for rotations. Velocities are left.
 void move(const State& from, const std::vector<Frame>& frames, ConstReals v, double h, State& to);
 
-/// Angular velocities at the end of a step whose angular momentum in space was R0 I R0^T omega: the momentum is
-/// what a free frame keeps, so omega follows from it and the new rotation. `from` is the state before the step.
+/// Angular velocities at the end of a step whose angular momentum in space was R0 I R0^T omega: the momentum
+/// is what a free frame keeps, so omega follows from it and the new rotation. `from` is the state before the
+/// step.
 void keep_angular_momentum(const State& from, const std::vector<Frame>& frames, State& to);
 
 /// Inertia in space, R I R^T.

@@ -10,8 +10,8 @@ namespace tissu {
 
 /// Backward Euler: M (v1 - v0) = h f(x0 + h v1, v1), x1 = x0 + h v1.
 ///
-/// Linearised once: (M - h D - h^2 K) dv = h (f0 + h K v0), K = df/dx, D = df/dv. With more Newton iterations the
-/// equation itself is solved, with line search where whole steps fail.
+/// Linearised once: (M - h D - h^2 K) dv = h (f0 + h K v0), K = df/dx, D = df/dv. With more Newton iterations
+/// the equation itself is solved, with line search where whole steps fail.
 class ImplicitEuler final : public Integrator {
  public:
   explicit ImplicitEuler(NewtonSettings newton = {});

@@ -21,8 +21,9 @@ struct StepReport {
 
 /// Newton's iteration inside a step.
 struct NewtonSettings {
-  int iterations = 1;       ///< 1: the equations are linearised once
-  double tolerance = 1e-6;  ///< on the norm of the residual, relative to the external force and the first residual
+  int iterations = 1;  ///< 1: the equations are linearised once
+  double tolerance =
+      1e-6;  ///< on the norm of the residual, relative to the external force and the first residual
 };
 
 class Integrator {

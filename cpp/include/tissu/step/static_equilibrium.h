@@ -8,9 +8,9 @@
 
 namespace tissu {
 
-/// Equilibrium without inertia: f(x) = 0 by Newton's method, with line search where whole steps fail. The external loads of the first
-/// step, and the way of led nodes in every step, are applied in `load_steps` parts; a part that does not converge
-/// is halved.
+/// Equilibrium without inertia: f(x) = 0 by Newton's method, with line search where whole steps fail. The
+/// external loads of the first step, and the way of led nodes in every step, are applied in `load_steps`
+/// parts; a part that does not converge is halved.
 class StaticEquilibrium final : public Integrator {
  public:
   struct Settings {

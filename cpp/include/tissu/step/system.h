@@ -22,8 +22,8 @@ class System {
   void external_force(const State& state, Reals f);
   /// out += (scale.position df/dx + scale.velocity df/dv) p
   void add_product(const State& state, StiffnessScale scale, ConstReals p, Reals out);
-  /// A = mass M + scale.position df/dx + scale.velocity df/dv, given degrees of freedom as the identity. Nothing
-  /// is done when a linear world is asked for the matrix it has.
+  /// A = mass M + scale.position df/dx + scale.velocity df/dv, given degrees of freedom as the identity.
+  /// Nothing is done when a linear world is asked for the matrix it has.
   void assemble(const State& state, double mass, StiffnessScale scale);
   /// Solves A x = b from the first guess x.
   SolveReport solve(LinearSolver& solver, ConstReals b, Reals x, double floor);

@@ -46,7 +46,9 @@ class World {
   /// The links that may be changed between steps, null when the description asks for none.
   [[nodiscard]] Links* links() const { return links_; }
   /// What it was built from, null unless the description asks for editing.
-  [[nodiscard]] const WorldDescription* description() const { return description_ ? &*description_ : nullptr; }
+  [[nodiscard]] const WorldDescription* description() const {
+    return description_ ? &*description_ : nullptr;
+  }
   /// Diagonal of the box around the rest positions [m].
   [[nodiscard]] double extent() const { return extent_; }
 

@@ -1,6 +1,6 @@
-/// out = A p for rows of 3x3 blocks. A block is stored column by column, so a row of blocks is a sum of columns
-/// times numbers of p: one load, one broadcast and one fused multiply-add for each column, and nothing is
-/// shuffled. The fourth lane reads the next column's first number and is dropped at the end.
+/// out = A p for rows of 3x3 blocks. A block is stored column by column, so a row of blocks is a sum of
+/// columns times numbers of p: one load, one broadcast and one fused multiply-add for each column, and
+/// nothing is shuffled. The fourth lane reads the next column's first number and is dropped at the end.
 
 #include <cstddef>
 #include <cstring>
@@ -22,8 +22,8 @@ using Four = double __attribute__((vector_size(32)));
 
 }  // namespace
 
-void multiply_rows(const std::int64_t* row_begin, const std::int32_t* column, const double* values, std::int32_t begin,
-                   std::int32_t end, const double* p, double* out) {
+void multiply_rows(const std::int64_t* row_begin, const std::int32_t* column, const double* values,
+                   std::int32_t begin, std::int32_t end, const double* p, double* out) {
   for (std::int32_t r = begin; r < end; ++r) {
     Four even[3] = {Four{}, Four{}, Four{}};
     Four odd[3] = {Four{}, Four{}, Four{}};

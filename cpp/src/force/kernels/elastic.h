@@ -1,7 +1,7 @@
 #pragma once
 
-/// One text for every element, quadrature, law and instruction set: F from the nodes, the law at the point, the
-/// force back to the nodes.  f_a = -sum_g w_g P grad_a,  K_ab = sum_g w_g grad_a . dP/dF . grad_b.
+/// One text for every element, quadrature, law and instruction set: F from the nodes, the law at the point,
+/// the force back to the nodes.  f_a = -sum_g w_g P grad_a,  K_ab = sum_g w_g grad_a . dP/dF . grad_b.
 
 #include "tissu/base/batch.h"
 #include "tissu/force/elastic_kernels.h"
@@ -19,7 +19,8 @@ struct GradientTable {
       TISSU_UNROLL
       for (int a = 0; a < Element::kNodes; ++a) {
         TISSU_UNROLL
-        for (int k = 0; k < 3; ++k) dN[g][a][k] = gradients[static_cast<unsigned>(a)][static_cast<unsigned>(k)];
+        for (int k = 0; k < 3; ++k)
+          dN[g][a][k] = gradients[static_cast<unsigned>(a)][static_cast<unsigned>(k)];
       }
     }
   }
@@ -88,7 +89,8 @@ struct Elastic {
   }
 
   /// f_a += s P J^-T dN_a/dxi
-  TISSU_INLINE static void spread(int point, const Tensor& P, const Tensor& Jinv, Batch s, Batch (&f)[kNodes][3]) {
+  TISSU_INLINE static void spread(int point, const Tensor& P, const Tensor& Jinv, Batch s,
+                                  Batch (&f)[kNodes][3]) {
     Tensor H = tissu::product_transposed(P, Jinv);
     TISSU_UNROLL
     for (int i = 0; i < 3; ++i) {
@@ -135,8 +137,8 @@ struct Elastic {
     }
   }
 
-  static void product(const ElasticView& view, GroupRange range, const double* x, double scale, const double* p,
-                      double* out) {
+  static void product(const ElasticView& view, GroupRange range, const double* x, double scale,
+                      const double* p, double* out) {
     for (std::int32_t group = range.begin; group < range.end; ++group) {
       for (int lane = 0; lane < kLanes; lane += kWidth) {
         const Lanes lanes(view, group, lane);
@@ -186,18 +188,21 @@ struct Elastic {
   }
 
   /// Adds the block (a, b) and, when a != b, its transpose as (b, a). `block` is column by column.
-  TISSU_INLINE static void scatter_pair(const Lanes& lanes, int a, int b, const Batch (&block)[9], double* blocks) {
+  TISSU_INLINE static void scatter_pair(const Lanes& lanes, int a, int b, const Batch (&block)[9],
+                                        double* blocks) {
     scatter_add_block(blocks, lanes.slots + (a * kNodes + b) * kLanes, block);
     if (a == b) return;
-    const Batch transposed[9] = {block[0], block[3], block[6], block[1], block[4], block[7], block[2], block[5], block[8]};
+    const Batch transposed[9] = {block[0], block[3], block[6], block[1], block[4],
+                                 block[7], block[2], block[5], block[8]};
     scatter_add_block(blocks, lanes.slots + (b * kNodes + a) * kLanes, transposed);
   }
 
-  static constexpr int kFirst = Element::kAffine ? 1 : 0;  ///< node 0 of an affine cell follows from the others
+  static constexpr int kFirst =
+      Element::kAffine ? 1 : 0;  ///< node 0 of an affine cell follows from the others
   static constexpr int kPairs = (kNodes - kFirst) * (kNodes - kFirst + 1) / 2;
 
-  TISSU_INLINE static void point_stiffness(const Lanes& lanes, int g, const Batch (&position)[kNodes][3], double scale,
-                                           Batch (&K)[kPairs][9]) {
+  TISSU_INLINE static void point_stiffness(const Lanes& lanes, int g, const Batch (&position)[kNodes][3],
+                                           double scale, Batch (&K)[kPairs][9]) {
     const Tensor Jinv = lanes.inverse_jacobian(g);
     Tangent<Batch> A = lanes.law.tangent(gradient(g, position, Jinv));
     const Batch s = lanes.weight(g) * Batch(-scale);
@@ -213,7 +218,8 @@ struct Elastic {
         for (int k = 0; k < 3; ++k) {
           TISSU_UNROLL
           for (int i = 0; i < 3; ++i) {
-            K[pair][3 * k + i] += half[i][0][k] * grad[a][0] + half[i][1][k] * grad[a][1] + half[i][2][k] * grad[a][2];
+            K[pair][3 * k + i] +=
+                half[i][0][k] * grad[a][0] + half[i][1][k] * grad[a][1] + half[i][2][k] * grad[a][2];
           }
         }
       }
@@ -221,7 +227,8 @@ struct Elastic {
   }
 
   /// Block (0, b) = -sum_a (a, b) of an affine cell, because its gradients sum to zero.
-  TISSU_INLINE static void scatter_first_node(const Lanes& lanes, const Batch (&K)[kPairs][9], double* blocks) {
+  TISSU_INLINE static void scatter_first_node(const Lanes& lanes, const Batch (&K)[kPairs][9],
+                                              double* blocks) {
     Batch corner[9];
     for (Batch& entry : corner) entry = Batch(0.0);
     for (int b = 1; b < kNodes; ++b) {
@@ -242,7 +249,8 @@ struct Elastic {
     scatter_pair(lanes, 0, 0, corner, blocks);
   }
 
-  static void stiffness(const ElasticView& view, GroupRange range, const double* x, double scale, double* blocks) {
+  static void stiffness(const ElasticView& view, GroupRange range, const double* x, double scale,
+                        double* blocks) {
     for (std::int32_t group = range.begin; group < range.end; ++group) {
       for (int lane = 0; lane < kLanes; lane += kWidth) {
         const Lanes lanes(view, group, lane);
@@ -279,7 +287,8 @@ struct Elastic {
   }
 
   /// sigma = P F^T / det F, weighted with the rest volume.
-  static void stress(const ElasticView& view, GroupRange range, const double* x, double* stresses, double* ratios) {
+  static void stress(const ElasticView& view, GroupRange range, const double* x, double* stresses,
+                     double* ratios) {
     constexpr int row[6] = {0, 1, 2, 1, 0, 0};
     constexpr int column[6] = {0, 1, 2, 2, 2, 1};
     for (std::int32_t group = range.begin; group < range.end; ++group) {
@@ -299,7 +308,8 @@ struct Elastic {
           volume += w;
           ratio += w * J;
           TISSU_UNROLL
-          for (int s = 0; s < 6; ++s) sum[s] += w / J * (tau(row[s], column[s]) + tau(column[s], row[s])) * Batch(0.5);
+          for (int s = 0; s < 6; ++s)
+            sum[s] += w / J * (tau(row[s], column[s]) + tau(column[s], row[s])) * Batch(0.5);
         }
         double* to = stresses + static_cast<std::ptrdiff_t>(group) * 6 * kLanes + lane;
         TISSU_UNROLL
@@ -310,8 +320,12 @@ struct Elastic {
   }
 
   static constexpr ElasticKernels table(std::string_view quadrature) {
-    return {Element::kName, MaterialLaw::kName, quadrature, MaterialLaw::kLinear, kNodes, Rule::kPoints,
-            &force,         &product,           &stiffness, &energy,              &stress};
+    return {Element::kName, MaterialLaw::kName,
+            quadrature,     MaterialLaw::kLinear,
+            kNodes,         Rule::kPoints,
+            &force,         &product,
+            &stiffness,     &energy,
+            &stress};
   }
 };
 

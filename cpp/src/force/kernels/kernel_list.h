@@ -13,10 +13,10 @@ struct KernelList {
   std::size_t count;
 };
 
-#define TISSU_KERNEL_LISTS(isa)     \
-  namespace isa {                   \
-  KernelList tetra_kernels();       \
-  KernelList hexahedron_kernels();  \
+#define TISSU_KERNEL_LISTS(isa)    \
+  namespace isa {                  \
+  KernelList tetra_kernels();      \
+  KernelList hexahedron_kernels(); \
   }
 TISSU_KERNEL_LISTS(baseline)
 TISSU_KERNEL_LISTS(avx2)

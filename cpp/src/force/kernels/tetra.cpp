@@ -1,6 +1,7 @@
+#include "tissu/element/tetra.h"
+
 #include "elastic.h"
 #include "kernel_list.h"
-#include "tissu/element/tetra.h"
 #include "tissu/law/hooke.h"
 #include "tissu/law/stvk.h"
 

@@ -1,0 +1,71 @@
+"""Writes docs/scene.md from the classes of tissu.scene: python docs/make_scene.py [--check]."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+import tissu.scene as scene
+
+PAGE = Path(__file__).with_name("scene.md")
+ORDER = (
+    ("The scene", ("Scene", "Output")),
+    ("Bodies and meshes", ("Body", "MeshFile", "BarMesh")),
+    ("Laws and viscosity", ("Hooke", "StVK", "Rayleigh")),
+    ("Selections: which nodes", ("Box", "Sphere", "Plane", "Nodes", "SurfaceNodes", "Region")),
+    ("Supports and motion", ("Fixed", "Prescribed", "Rotation")),
+    ("Loads", ("NodalLoad", "Traction", "Pressure")),
+    ("Steps and solvers", ("ImplicitEuler", "Static", "Newton", "ConjugateGradient", "Cholesky")),
+)
+HEAD = """# Scene files
+
+A scene is the same thing in YAML and in Python: the class named in each heading, or a mapping with
+its fields. A class that stands where several are possible is chosen by `type` in YAML. Numbers are
+SI; a text with a unit is converted ("4 kPa", "10 ms", "1.05 g/cm^3"), and one of the wrong
+dimension is an error. Unknown keys are errors that name the nearest known one. `tissu check FILE`
+lists every problem with its line, and what the scene switches on.
+
+```yaml
+{example}```
+
+This page is printed from the classes by `python docs/make_scene.py`.
+"""
+
+
+def table(name: str) -> str:
+    """The fields of one class."""
+    part = getattr(scene, name)
+    kind = part.model_fields.get("type")
+    title = f"### {name}" + (f" (`type: {kind.default}`)" if kind is not None else "")
+    first = (part.__doc__ or "").strip().splitlines()[0]
+    lines = [title, "", first, "", "| field | default | |", "|---|---|---|"]
+    for field, info in part.model_fields.items():
+        if field == "type":
+            continue
+        if info.is_required():
+            default = "required"
+        elif info.default_factory is not None:
+            made = info.default_factory()  # type: ignore[call-arg]
+            default = type(made).__name__ if not isinstance(made, (list, tuple, dict)) else "none"
+        else:
+            default = "absent" if info.default in (None, ()) else f"`{info.default}`"
+        about = " ".join((info.description or "").split())
+        lines.append(f"| `{field}` | {default} | {about} |")
+    return "\n".join(lines)
+
+
+def page() -> str:
+    """The whole page."""
+    example = (PAGE.parent.parent / "examples" / "organ.yaml").read_text(encoding="utf-8")
+    parts = [HEAD.format(example=example)]
+    for title, names in ORDER:
+        parts.append(f"## {title}\n\n" + "\n\n".join(table(name) for name in names) + "\n")
+    return "\n".join(parts)
+
+
+if __name__ == "__main__":
+    if "--check" in sys.argv[1:]:
+        sys.exit(
+            0 if PAGE.read_text(encoding="utf-8") == page() else "docs/scene.md is not current"
+        )
+    PAGE.write_text(page(), encoding="utf-8")

@@ -1,6 +1,7 @@
 #include "tissu/assembly/block_matrix.h"
 
 #include <algorithm>
+#include <atomic>
 
 #include "kernels/product_list.h"
 
@@ -27,10 +28,16 @@ void clear_masked(double* block, unsigned row_mask, unsigned column_mask) {
   }
 }
 
+/// Numbers that tell matrices apart, even one made where another was.
+std::uint64_t next_id() {
+  static std::atomic<std::uint64_t> last{0};
+  return ++last;
+}
+
 }  // namespace
 
 BlockMatrix::BlockMatrix(const Sparsity& sparsity, Isa isa, Threads threads)
-    : sparsity_(&sparsity), threads_(threads), multiply_rows_(choose(isa)) {
+    : sparsity_(&sparsity), threads_(threads), id_(next_id()), multiply_rows_(choose(isa)) {
   // One number more than needed: a register of four read at the last column of the last block stays inside.
   values_.assign(static_cast<std::size_t>(9 * sparsity.blocks() + 1), 0.0);
   diagonal_.reserve(static_cast<std::size_t>(sparsity.rows()));
@@ -45,6 +52,7 @@ void BlockMatrix::clear() {
               values_.begin() + std::min<std::int64_t>(size, std::int64_t{64} * end), 0.0);
   });
   extra_.clear();
+  given_ = nullptr;
   ++version_;
 }
 
@@ -59,6 +67,7 @@ bool BlockMatrix::add_to_extra(std::int32_t row, std::int32_t column, const Mat3
 }
 
 void BlockMatrix::add(std::int32_t row, std::int32_t column, const Mat3& block) {
+  ++version_;
   const std::int32_t slot = sparsity_->slot(row, column);
   if (slot >= 0) {
     double* to = values_.data() + 9 * static_cast<std::ptrdiff_t>(slot);
@@ -72,6 +81,7 @@ void BlockMatrix::add(std::int32_t row, std::int32_t column, const Mat3& block) 
 }
 
 void BlockMatrix::add_diagonal(std::int32_t row, double value) {
+  ++version_;
   double* to = values_.data() + 9 * diagonal_slot(row);
   to[0] += value;
   to[4] += value;
@@ -93,6 +103,8 @@ Mat3 BlockMatrix::diagonal_block(std::int32_t row) const {
 }
 
 void BlockMatrix::constrain(const std::vector<std::int32_t>& rows, const std::vector<std::uint8_t>& masks) {
+  ++version_;
+  given_ = &masks;
   for (const std::int32_t r : rows) {
     const unsigned mask = masks[static_cast<std::size_t>(r)];
     for (auto s = sparsity_->row_begin[static_cast<std::size_t>(r)];

@@ -1,6 +1,7 @@
 #include "tissu/force/elastic.h"
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -59,9 +60,20 @@ std::string first_five(const std::vector<std::int32_t>& numbers) {
 Elastic::Elastic(ElasticBlock block, ConstReals rest_positions, Isa isa, Threads threads)
     : block_(std::move(block)), threads_(threads), kernels_(find_or_throw(block_, isa)) {
   const std::size_t cells = block_.cells.size() / static_cast<std::size_t>(kernels_->nodes);
+  if (cells == 0 || block_.cells.size() % static_cast<std::size_t>(kernels_->nodes) != 0) {
+    throw MeshError("body \"" + block_.body + "\" has " + std::to_string(block_.cells.size()) +
+                    " node numbers for cells of type " + block_.element + ", which have " +
+                    std::to_string(kernels_->nodes) + " each; give whole cells, and at least one.");
+  }
   check_size(block_, block_.young, "Young's modulus", cells);
   check_size(block_, block_.poisson, "Poisson's ratio", cells);
   check_size(block_, block_.density, "density", cells);
+  for (const double density : block_.density) {
+    if (!(density > 0.0) || !std::isfinite(density)) {
+      throw ParameterError("body \"" + block_.body + "\" has a density of " + std::to_string(density) +
+                           " kg/m3; it must be positive and finite.");
+    }
+  }
   order_ = order_elements(block_.cells, kernels_->nodes, rest_positions);
   lay_constants();
   lay_rest(rest_positions);
@@ -119,6 +131,7 @@ void Elastic::lay_rest(ConstReals X) {
     if (inverted && real) bad.push_back(static_cast<std::int32_t>(e));
   }
   if (!bad.empty()) {
+    std::ranges::sort(bad);
     throw MeshError("body \"" + block_.body + "\" has " + std::to_string(bad.size()) + " of " +
                     std::to_string(cell_count()) + " cells of type " + block_.element +
                     " that are inverted or have no volume (" + first_five(bad) + "); repair or remove them.");
@@ -169,8 +182,9 @@ void Elastic::add_force(const State& state, Reals f) const {
 void Elastic::add_stiffness(const State& state, StiffnessScale scale, BlockMatrix& matrix) const {
   if (scale.position == 0.0) return;
   const ElasticView v = view();
+  double* values = matrix.values();
   for_chunks([&](GroupRange chunk) {
-    kernels_->stiffness(v, chunk, state.positions.data(), scale.position, matrix.values());
+    kernels_->stiffness(v, chunk, state.positions.data(), scale.position, values);
   });
 }
 

@@ -14,36 +14,65 @@ namespace {
 
 constexpr double kTooFar = 1e3;  ///< sizes of the scene
 
-struct Worst {
-  std::string body;
-  std::int32_t element = -1;
-  double volume_ratio = std::numeric_limits<double>::infinity();
-};
-
-/// The cell that is squeezed or turned over most.
-Worst worst_cell(const World& world, const State& state) {
-  Worst worst;
-  for (const Body& body : world.bodies()) {
-    std::int32_t first = 0;
-    for (const Elastic* elastic : body.elastic) {
-      const CellFields fields = elastic->fields(state);
-      const auto& numbers = elastic->block().cell_numbers;
-      for (std::size_t e = 0; e < fields.volume_ratio.size(); ++e) {
-        if (fields.volume_ratio[e] < worst.volume_ratio) {
-          worst = {body.name, numbers.empty() ? first + static_cast<std::int32_t>(e) : numbers[e],
-                   fields.volume_ratio[e]};
-        }
-      }
-      first += elastic->cell_count();
-    }
-  }
-  return worst;
-}
-
 std::string text(double value) {
   char buffer[32];
   (void)std::snprintf(buffer, sizeof buffer, "%.4g", value);
   return buffer;
+}
+
+/// A cell to blame for a divergence.
+struct Culprit {
+  std::string body;
+  std::int32_t element = -1;
+  std::string why;
+};
+
+std::int32_t number_of(const Elastic& elastic, std::int32_t first, std::size_t cell) {
+  const auto& numbers = elastic.block().cell_numbers;
+  return numbers.empty() ? first + static_cast<std::int32_t>(cell) : numbers[cell];
+}
+
+/// Calls f(body, block, number of its first cell) for each elastic block.
+template <class Function>
+void for_blocks(const World& world, Function&& f) {
+  for (const Body& body : world.bodies()) {
+    std::int32_t first = 0;
+    for (const Elastic* elastic : body.elastic) {
+      f(body, *elastic, first);
+      first += elastic->cell_count();
+    }
+  }
+}
+
+/// The first cell that has the node.
+Culprit cell_of_node(const World& world, std::int32_t node) {
+  Culprit found;
+  for_blocks(world, [&](const Body& body, const Elastic& elastic, std::int32_t first) {
+    if (found.element >= 0) return;
+    const auto& cells = elastic.block().cells;
+    const auto at = std::ranges::find(cells, node);
+    if (at == cells.end()) return;
+    const auto cell =
+        static_cast<std::size_t>(at - cells.begin()) / static_cast<std::size_t>(elastic.nodes_per_cell());
+    found = {body.name, number_of(elastic, first, cell),
+             "node " + std::to_string(node - body.first_node) + " of it was not finite or too fast"};
+  });
+  return found;
+}
+
+/// The cell that is squeezed or turned over most.
+Culprit worst_cell(const World& world, const State& state) {
+  Culprit worst;
+  double smallest = std::numeric_limits<double>::infinity();
+  for_blocks(world, [&](const Body& body, const Elastic& elastic, std::int32_t first) {
+    const CellFields fields = elastic.fields(state);
+    for (std::size_t e = 0; e < fields.volume_ratio.size(); ++e) {
+      if (fields.volume_ratio[e] >= smallest) continue;
+      smallest = fields.volume_ratio[e];
+      worst = {body.name, number_of(elastic, first, e), "its volume ratio was " + text(smallest)};
+    }
+  });
+  return worst;
 }
 
 }  // namespace
@@ -90,17 +119,24 @@ bool Simulation::is_sane() const {
 
 void Simulation::roll_back(double h) {
   state_ = last_good_;
-  const Worst worst = worst_cell(*world_, state_);
+  const double limit = kTooFar * std::max(world_->extent(), 1e-6) / h;
+  Culprit culprit;
+  for (std::int32_t node = 0; node < state_.blocks() && culprit.element < 0; ++node) {
+    const bool sane = block(ConstReals(state_.positions), node).allFinite() &&
+                      block(ConstReals(state_.velocities), node).cwiseAbs().maxCoeff() < limit;
+    if (!sane) culprit = cell_of_node(*world_, node);
+  }
+  if (culprit.element < 0) culprit = worst_cell(*world_, state_);
   std::string message = "the step from t = " + text(state_.time) + " s with dt = " + text(h) +
                         " s gave values that are not finite or fly out of the scene";
-  if (worst.element >= 0) {
-    message += "; before it, cell " + std::to_string(worst.element) + " of body \"" + worst.body +
-               "\" was the most squeezed (volume ratio " + text(worst.volume_ratio) + ")";
+  if (culprit.element >= 0) {
+    message += "; look at cell " + std::to_string(culprit.element) + " of body \"" + culprit.body +
+               "\": before the step " + culprit.why;
   }
   message +=
       ". The simulation stands at its last good step; take a smaller dt, iterate Newton, or load more "
       "slowly.";
-  throw Diverged(message, worst.body, worst.element, state_.time);
+  throw Diverged(message, culprit.body, culprit.element, state_.time);
 }
 
 Energy Simulation::energy() const {

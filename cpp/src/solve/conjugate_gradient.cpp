@@ -9,6 +9,9 @@
 namespace tissu {
 namespace {
 
+/// A residual this many times the right-hand side: the matrix is singular, and x runs off along its kernel.
+constexpr double kLost = 1e8;
+
 double dot(const Threads& threads, std::int32_t rows, ConstReals a, ConstReals b,
            std::vector<double>& partial) {
   return threads.sum(rows, partial, [&](std::int32_t begin, std::int32_t end) {
@@ -45,8 +48,8 @@ void ConjugateGradient::invert_diagonal(const BlockMatrix& matrix) {
       if (definite) {
         inverse = D.inverse();
       } else {
-        const Vec3 d = D.diagonal().cwiseAbs().cwiseMax(1e-300);
-        inverse = Mat3(d.cwiseInverse().asDiagonal());
+        const Vec3 d = D.diagonal().cwiseAbs();
+        inverse = Mat3((d.array() > 0.0).select(d.cwiseInverse(), Vec3::Zero()).asDiagonal());
       }
     }
   });
@@ -94,8 +97,11 @@ SolveReport ConjugateGradient::solve(const BlockMatrix& matrix, ConstReals b, Re
   while (true) {
     report.residual = std::sqrt(square) / reference;
     report.converged = report.residual <= settings_.tolerance;
-    if (report.converged || report.iterations == settings_.iterations || !std::isfinite(report.residual))
+    if (report.converged || report.iterations == settings_.iterations) break;
+    if (!(report.residual < kLost)) {
+      report.positive_definite = false;
       break;
+    }
     matrix.multiply(p_, q_);
     const double curvature = dot(threads, rows, p_, q_, partial_);
     if (!(curvature > 0.0)) {

@@ -8,7 +8,8 @@ namespace tissu {
 bool LowerTriangle::update_pattern(const BlockMatrix& matrix) {
   std::vector<std::pair<std::int32_t, std::int32_t>> extra;
   for (const ExtraBlock& e : matrix.extra()) extra.emplace_back(e.row, e.column);
-  if (sparsity_ == &matrix.sparsity() && extra == extra_) return false;
+  if (matrix_ == matrix.id() && extra == extra_) return false;
+  matrix_ = matrix.id();
   sparsity_ = &matrix.sparsity();
   extra_ = std::move(extra);
 
@@ -62,7 +63,7 @@ void LowerTriangle::update_values(const BlockMatrix& matrix, double shift) {
       for (std::size_t s = first; s < last; ++s) {
         for (int m = sources_[s].column == r ? k : 0; m < 3; ++m) values[to++] = entry(sources_[s], k, m);
       }
-      values[diagonal] += shift * std::abs(values[diagonal]);
+      if (!matrix.is_given(r, k)) values[diagonal] += shift * std::abs(values[diagonal]);
     }
     first = last;
   }

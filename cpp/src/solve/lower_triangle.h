@@ -17,7 +17,8 @@ class LowerTriangle {
 
   /// Takes over the pattern; returns false when it is the one that is there already.
   bool update_pattern(const BlockMatrix& matrix);
-  /// Takes over the values, and adds `shift` times the diagonal's size to the diagonal.
+  /// Takes over the values, and adds `shift` times the diagonal's size to the diagonal,
+  /// save where a value is given.
   void update_values(const BlockMatrix& matrix, double shift);
 
  private:
@@ -27,6 +28,7 @@ class LowerTriangle {
     std::int32_t column;
     std::int64_t place;
   };
+  std::uint64_t matrix_ = 0;
   const Sparsity* sparsity_ = nullptr;
   std::vector<std::pair<std::int32_t, std::int32_t>> extra_;
   std::vector<Source> sources_;

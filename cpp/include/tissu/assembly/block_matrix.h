@@ -28,14 +28,24 @@ class BlockMatrix {
 
   [[nodiscard]] const Sparsity& sparsity() const { return *sparsity_; }
   [[nodiscard]] std::int32_t rows() const { return sparsity_->rows(); }
-  [[nodiscard]] double* values() { return values_.data(); }  ///< [slot][9], column by column
+  /// [slot][9], column by column; asking for them to write counts as a change.
+  [[nodiscard]] double* values() {
+    ++version_;
+    return values_.data();
+  }
   [[nodiscard]] const double* values() const { return values_.data(); }
   [[nodiscard]] const std::vector<ExtraBlock>& extra() const { return extra_; }
   [[nodiscard]] std::int64_t diagonal_slot(std::int32_t row) const {
     return diagonal_[static_cast<std::size_t>(row)];
   }
-  /// Counts assemblies: two equal numbers mean equal values.
+  /// No two matrices have the same, and one keeps its own as long as it lives: so does its pattern.
+  [[nodiscard]] std::uint64_t id() const { return id_; }
+  /// Grows with every change of the values.
   [[nodiscard]] std::uint64_t version() const { return version_; }
+  /// The axis of this row was made that of the identity by `constrain`.
+  [[nodiscard]] bool is_given(std::int32_t row, int axis) const {
+    return given_ != nullptr && (((*given_)[static_cast<std::size_t>(row)] >> axis) & 1) != 0;
+  }
 
   /// All values zero, extra blocks gone, a new version.
   void clear();
@@ -47,7 +57,7 @@ class BlockMatrix {
   void multiply(ConstReals p, Reals out) const;
   [[nodiscard]] Mat3 diagonal_block(std::int32_t row) const;
   /// Makes rows and columns of the degrees of freedom in `masks` (bits x=1 y=2 z=4 for each row) those of the
-  /// identity; `rows` are the rows with a mask.
+  /// identity; `rows` are the rows with a mask. Both must outlive the next `clear`.
   void constrain(const std::vector<std::int32_t>& rows, const std::vector<std::uint8_t>& masks);
 
   [[nodiscard]] const Threads& threads() const { return threads_; }
@@ -60,7 +70,9 @@ class BlockMatrix {
   AlignedVector<double> values_;
   std::vector<std::int64_t> diagonal_;
   std::vector<ExtraBlock> extra_;
+  std::uint64_t id_;
   std::uint64_t version_ = 0;
+  const std::vector<std::uint8_t>* given_ = nullptr;
   void (*multiply_rows_)(const std::int64_t* row_begin, const std::int32_t* column, const double* values,
                          std::int32_t begin, std::int32_t end, const double* p, double* out);
 };

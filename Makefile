@@ -1,6 +1,6 @@
 # Everything a newcomer types. The work is done by the scripts in .ci/, each of which runs by hand too.
 .DEFAULT_GOAL := help
-.PHONY: help demo test lint bench format clean
+.PHONY: help demo test lint bench format codegen clean
 
 help: ## this list
 	@sed -n 's/^\([a-z]*\):.*## \(.*\)/  make \1\t\2/p' Makefile | expand -t 16
@@ -19,6 +19,9 @@ bench: ## build tissu-bench and run it
 
 format: ## rewrite C++ and Python sources in the project's format
 	@.ci/format
+
+codegen: ## write the C++ that is made from formulae again
+	@.ci/codegen
 
 clean: ## remove what was built (the virtual environment stays)
 	@rm -rf build results

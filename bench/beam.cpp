@@ -16,8 +16,7 @@ WorldDescription describe(const Beam& beam) {
   elastic.element = beam.element;
   elastic.law = beam.law;
   elastic.cells = mesh.blocks.front().nodes;
-  elastic.young = {beam.young};
-  elastic.poisson = {beam.poisson};
+  elastic.parameters = {{"young", {beam.young}}, {"poisson", {beam.poisson}}};
   elastic.density = {beam.mass / beam.size.prod()};
 
   BodyDescription body;

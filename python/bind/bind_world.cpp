@@ -11,10 +11,18 @@ History to_history(const Doubles& times, const Doubles& factors) {
   return {to_vector(times), to_vector(factors)};
 }
 
+using Parameters = std::map<std::string, Doubles>;
+
+LawParameters to_parameters(const Parameters& parameters) {
+  LawParameters result;
+  for (const auto& [name, values] : parameters) result[name] = to_vector(values);
+  return result;
+}
+
 void add_elastic(WorldDescription& world, const std::string& body, const std::string& cell_type,
                  const Ints& cells, const Ints& cell_numbers, const std::string& law,
-                 const std::map<std::string, Doubles>& parameters, const Doubles& density,
-                 const std::string& quadrature) {
+                 const Parameters& parameters, const Doubles& density,
+                 const std::string& quadrature, const std::vector<std::pair<std::string, Parameters>>& reinforcements) {
   ElasticBlock block;
   block.element = cell_type;
   block.law = law;
@@ -24,16 +32,8 @@ void add_elastic(WorldDescription& world, const std::string& body, const std::st
   if (cells.ndim() != 2 || cell_numbers.size() != cells.shape(0)) {
     throw ParameterError("cells must have the shape (e, k), and cell_numbers the shape (e,).");
   }
-  for (const auto& [name, values] : parameters) {
-    if (name == "young") {
-      block.young = to_vector(values);
-    } else if (name == "poisson") {
-      block.poisson = to_vector(values);
-    } else {
-      throw ParameterError("law \"" + law + "\" has no parameter \"" + name +
-                           "\"; it has young and poisson.");
-    }
-  }
+  block.parameters = to_parameters(parameters);
+  for (const auto& [added, values] : reinforcements) block.reinforcements.push_back({added, to_parameters(values)});
   block.density = to_vector(density);
   world.body(body).elastic.push_back(std::move(block));
 }
@@ -101,7 +101,8 @@ void bind_world(py::module_& m) {
           },
           py::kw_only(), arg("name"), arg("positions"))
       .def("add_elastic", &add_elastic, py::kw_only(), arg("body"), arg("cell_type"), arg("cells"),
-           arg("cell_numbers"), arg("law"), arg("parameters"), arg("density"), arg("quadrature") = "full")
+           arg("cell_numbers"), arg("law"), arg("parameters"), arg("density"), arg("quadrature") = "full",
+           arg("reinforcements") = std::vector<std::pair<std::string, Parameters>>{})
       .def(
           "add_rayleigh",
           [](WorldDescription& world, const std::string& body, double mass, double stiffness) {

@@ -36,7 +36,13 @@ _HOMES = {
         "into_tetrahedra",
     ),
     "tissu.scene": (
+        "ArrudaBoyce",
         "BarMesh",
+        "Fibres",
+        "MooneyRivlin",
+        "NeoHooke",
+        "StableNeoHooke",
+        "Yeoh",
         "Body",
         "Box",
         "Cholesky",

@@ -13,7 +13,13 @@ from tissu.mesh import bar_mesh as bar_mesh
 from tissu.mesh import into_tetrahedra as into_tetrahedra
 from tissu.mesh import read_mesh as read_mesh
 from tissu.mesh import write_mesh as write_mesh
+from tissu.scene import ArrudaBoyce as ArrudaBoyce
 from tissu.scene import BarMesh as BarMesh
+from tissu.scene import Fibres as Fibres
+from tissu.scene import MooneyRivlin as MooneyRivlin
+from tissu.scene import NeoHooke as NeoHooke
+from tissu.scene import StableNeoHooke as StableNeoHooke
+from tissu.scene import Yeoh as Yeoh
 from tissu.scene import Body as Body
 from tissu.scene import Box as Box
 from tissu.scene import Cholesky as Cholesky

@@ -104,7 +104,10 @@ def _of_step(step: Step) -> Effect:
 
 
 def _law(law: Law) -> str:
-    return f"{law.type} with young {law.young:g} Pa, poisson {law.poisson:g}"
+    values = [(n, getattr(law, n)) for n in type(law).model_fields if n not in ("type", "fibres")]
+    words = ", ".join(f"{name} {value:g}" for name, value in values)
+    fibres = "" if law.fibres is None else f", fibres k1 {law.fibres.k1:g}, k2 {law.fibres.k2:g}"
+    return f"{law.type} with {words}{fibres}"
 
 
 def _nodes(on: Selection, count: str | None) -> str:

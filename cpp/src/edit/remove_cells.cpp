@@ -47,7 +47,11 @@ void remove_from(ElasticBlock& block, Numbers& wanted) {
     cells.insert(cells.end(), first, first + static_cast<std::ptrdiff_t>(nodes));
     numbers.push_back(block.cell_numbers[i]);
   }
-  for (auto* values : {&block.young, &block.poisson, &block.density}) keep(*values, kept);
+  keep(block.density, kept);
+  for (auto& [name, values] : block.parameters) keep(values, kept);
+  for (LawUse& use : block.reinforcements) {
+    for (auto& [name, values] : use.parameters) keep(values, kept);
+  }
   block.cells = std::move(cells);
   block.cell_numbers = std::move(numbers);
 }

@@ -1,37 +1,61 @@
 #include "tissu/force/elastic_kernels.h"
 
-#include <initializer_list>
+#include <array>
+#include <span>
 
 #include "kernels/kernel_list.h"
 
 namespace tissu {
 namespace {
 
-const ElasticKernels* find_in(std::initializer_list<KernelList> lists, std::string_view element,
-                              std::string_view law, std::string_view quadrature) {
-  for (const KernelList& list : lists) {
-    for (std::size_t i = 0; i < list.count; ++i) {
-      const ElasticKernels& k = list.first[i];
-      if (k.element == element && k.law == law && k.quadrature == quadrature) return &k;
-    }
+struct Lists {
+  std::array<KernelList, 2> fused;
+  KernelList shapes;
+  LawTables laws;
+};
+
+Lists lists(Isa isa) {
+#ifdef TISSU_X86_KERNELS
+  if (isa == Isa::avx512) {
+    using namespace avx512;
+    return {{tetra_kernels(), hexahedron_kernels()}, shape_kernels(), law_kernels()};
   }
-  return nullptr;
+  if (isa == Isa::avx2) {
+    using namespace avx2;
+    return {{tetra_kernels(), hexahedron_kernels()}, shape_kernels(), law_kernels()};
+  }
+#endif
+  (void)isa;
+  using namespace baseline;
+  return {{tetra_kernels(), hexahedron_kernels()}, shape_kernels(), law_kernels()};
 }
 
 }  // namespace
 
 const ElasticKernels* find_elastic_kernels(Isa isa, std::string_view element, std::string_view law,
                                            std::string_view quadrature) {
-#ifdef TISSU_X86_KERNELS
-  if (isa == Isa::avx512) {
-    return find_in({avx512::tetra_kernels(), avx512::hexahedron_kernels()}, element, law, quadrature);
+  for (const KernelList& list : lists(isa).fused) {
+    for (const ElasticKernels& k : std::span(list.first, list.count)) {
+      if (k.element == element && k.law == law && k.quadrature == quadrature) return &k;
+    }
   }
-  if (isa == Isa::avx2) {
-    return find_in({avx2::tetra_kernels(), avx2::hexahedron_kernels()}, element, law, quadrature);
+  return nullptr;
+}
+
+const ElasticKernels* find_shape_kernels(Isa isa, int nodes, int dimension) {
+  const KernelList list = lists(isa).shapes;
+  for (const ElasticKernels& k : std::span(list.first, list.count)) {
+    if (k.nodes == nodes && k.dimension == dimension) return &k;
   }
-#endif
-  (void)isa;
-  return find_in({baseline::tetra_kernels(), baseline::hexahedron_kernels()}, element, law, quadrature);
+  return nullptr;
+}
+
+const LawKernels* find_law_kernels(Isa isa, std::string_view law, int dimension) {
+  const LawTables list = lists(isa).laws;
+  for (const LawKernels& k : std::span(list.first, list.count)) {
+    if (k.name == law && k.dimension == dimension) return &k;
+  }
+  return nullptr;
 }
 
 }  // namespace tissu

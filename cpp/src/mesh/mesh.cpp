@@ -6,9 +6,16 @@
 namespace tissu {
 namespace {
 
-constexpr std::array<CellTypeInfo, 2> kCellTypes{{
-    {CellType::tetra, "tetra", 4, 3},
-    {CellType::hexahedron, "hexahedron", 8, 3},
+constexpr std::array<CellTypeInfo, 9> kCellTypes{{
+    {CellType::tetra, "tetra", 4, 3, 1, 4},
+    {CellType::hexahedron, "hexahedron", 8, 3, 1, 8},
+    {CellType::tetra10, "tetra10", 10, 3, 2, 4},
+    {CellType::hexahedron20, "hexahedron20", 20, 3, 2, 8},
+    {CellType::hexahedron27, "hexahedron27", 27, 3, 2, 8},
+    {CellType::wedge, "wedge", 6, 3, 1, 6},
+    {CellType::wedge15, "wedge15", 15, 3, 2, 6},
+    {CellType::pyramid, "pyramid", 5, 3, 1, 5},
+    {CellType::pyramid13, "pyramid13", 13, 3, 2, 5},
 }};
 
 }  // namespace

@@ -1,71 +1,46 @@
 #include "tissu/mesh/topology.h"
 
-#include <algorithm>
 #include <numeric>
+
+#include "face.h"
 
 namespace tissu {
 namespace {
 
-constexpr std::array<LocalFace, 4> kTetraFaces{
-    {{3, {0, 2, 1, 0}}, {3, {0, 1, 3, 0}}, {3, {1, 2, 3, 0}}, {3, {0, 3, 2, 0}}}};
+using Triangle = std::array<std::uint8_t, 3>;
 
-constexpr std::array<LocalFace, 6> kHexahedronFaces{{{4, {0, 3, 2, 1}},
-                                                     {4, {4, 5, 6, 7}},
-                                                     {4, {0, 1, 5, 4}},
-                                                     {4, {1, 2, 6, 5}},
-                                                     {4, {2, 3, 7, 6}},
-                                                     {4, {3, 0, 4, 7}}}};
+/// Triangles between the nodes of a face: the corners, the middles of the edges, the middle.
+constexpr std::array<Triangle, 1> kThree{{{0, 1, 2}}};
+constexpr std::array<Triangle, 4> kSix{{{0, 3, 5}, {3, 1, 4}, {5, 4, 2}, {3, 4, 5}}};
+constexpr std::array<Triangle, 6> kEight{
+    {{0, 4, 7}, {1, 5, 4}, {2, 6, 5}, {3, 7, 6}, {4, 5, 6}, {4, 6, 7}}};
+constexpr std::array<Triangle, 8> kNine{
+    {{0, 4, 8}, {4, 1, 8}, {1, 5, 8}, {5, 2, 8}, {2, 6, 8}, {6, 3, 8}, {3, 7, 8}, {7, 0, 8}}};
 
-/// A face of the mesh: its nodes in ascending order (a triangle ends in -1) name it whatever cell it is seen
-/// from.
-struct Face {
-  std::array<std::int32_t, 4> key;
-  std::array<std::int32_t, 4> nodes;
-  std::int32_t cell;
-  int size;
-};
-
-Face make_face(const LocalFace& local, std::span<const std::int32_t> cell_nodes, std::int32_t cell) {
-  Face face{{-1, -1, -1, -1}, {-1, -1, -1, -1}, cell, local.size};
-  const auto size = static_cast<std::size_t>(local.size);
-  for (std::size_t c = 0; c < size; ++c) face.nodes[c] = cell_nodes[local.corners[c]];
-  face.key = face.nodes;
-  std::sort(face.key.begin(), face.key.begin() + local.size);
-  return face;
-}
-
-std::vector<Face> all_faces(const Mesh& mesh) {
-  std::vector<Face> result;
-  std::int32_t cell = 0;
-  for (const CellBlock& block : mesh.blocks)
-    for (std::int32_t i = 0; i < block.size(); ++i, ++cell)
-      for (const LocalFace& local : faces(block.type))
-        result.push_back(make_face(local, block.cell(i), cell));
-  return result;
-}
-
-/// Calls `visit` with the numbers of the faces of `all` that are the same face.
-template <class Visit>
-void for_each_face(const std::vector<Face>& all, Visit visit) {
-  std::vector<std::int32_t> order(all.size());
-  std::iota(order.begin(), order.end(), 0);
-  const auto key = [&](std::int32_t f) -> const auto& { return all[static_cast<std::size_t>(f)].key; };
-  std::ranges::stable_sort(order, {}, key);
-  for (auto first = order.begin(); first != order.end();) {
-    const auto last = std::find_if(first, order.end(), [&](std::int32_t f) { return key(f) != key(*first); });
-    visit(std::span<const std::int32_t>(first, last));
-    first = last;
+std::span<const Triangle> triangles(int nodes) {
+  switch (nodes) {
+    case 3:
+      return kThree;
+    case 6:
+      return kSix;
+    case 8:
+      return kEight;
+    default:
+      return kNine;
   }
 }
 
-void append(const Face& face, Surface& surface) {
-  const auto& n = face.nodes;
-  if (face.size == 3) {
-    surface.triangles.push_back({n[0], n[1], n[2]});
-    surface.triangle_cell.push_back(face.cell);
-  } else {
-    surface.quads.push_back(n);
+void append(const Mesh& mesh, const Face& face, Surface& surface) {
+  const auto n = face_nodes(mesh, face);
+  const int nodes = faces(mesh.blocks[static_cast<std::size_t>(face.block)].type)[face.local].nodes;
+  if (nodes == 4) {
+    surface.quads.push_back({n[0], n[1], n[2], n[3]});
     surface.quad_cell.push_back(face.cell);
+    return;
+  }
+  for (const Triangle& t : triangles(nodes)) {
+    surface.triangles.push_back({n[t[0]], n[t[1]], n[t[2]]});
+    surface.triangle_cell.push_back(face.cell);
   }
 }
 
@@ -91,25 +66,9 @@ class NodeSets {
 
 }  // namespace
 
-std::span<const LocalFace> faces(CellType type) {
-  switch (type) {
-    case CellType::tetra:
-      return kTetraFaces;
-    case CellType::hexahedron:
-      return kHexahedronFaces;
-  }
-  return {};
-}
-
 Surface boundary_surface(const Mesh& mesh) {
-  const std::vector<Face> all = all_faces(mesh);
-  std::vector<std::int32_t> outer;
-  for_each_face(all, [&](std::span<const std::int32_t> same) {
-    if (same.size() == 1) outer.push_back(same[0]);
-  });
-  std::ranges::sort(outer);
   Surface surface;
-  for (const std::int32_t f : outer) append(all[static_cast<std::size_t>(f)], surface);
+  for (const Face& face : boundary_faces(mesh)) append(mesh, face, surface);
   return surface;
 }
 

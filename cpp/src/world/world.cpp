@@ -99,6 +99,7 @@ void World::add_bodies(const WorldDescription& description) {
 
   std::vector<double> masses(static_cast<std::size_t>(blocks()), 0.0);
   for (const Frame& frame : frames) masses[static_cast<std::size_t>(frame.block)] = frame.mass;
+  weights_ = masses;
   for (std::size_t i = 0; i < description.bodies.size(); ++i) {
     const BodyDescription& body = description.bodies[i];
     Body& made = bodies_[i];
@@ -110,6 +111,7 @@ void World::add_bodies(const WorldDescription& description) {
           shifted(std::move(elastic.cells), made.first_node, made.node_count, "body \"" + body.name + "\"");
       auto model = std::make_unique<Elastic>(std::move(elastic), rest_positions_, isa_, threads_);
       model->add_masses(own);
+      model->add_weights(weights_);
       made.elastic.push_back(model.get());
       models.push_back(std::move(model));
     }
@@ -126,7 +128,7 @@ void World::add_bodies(const WorldDescription& description) {
 }
 
 void World::add_external(const WorldDescription& description) {
-  if (description.gravity) forces_.push_back(std::make_unique<Gravity>(mass_.nodal(), *description.gravity));
+  if (description.gravity) forces_.push_back(std::make_unique<Gravity>(weights_, *description.gravity));
   for (const LoadDescription& load : description.loads) {
     const Body& on = body(load.body);
     auto nodes = shifted(load.nodes, on.first_node, on.node_count, "load \"" + load.name + "\"");

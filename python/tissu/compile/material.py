@@ -30,11 +30,14 @@ def cell_groups(mesh: Mesh, body: Body, path: Path, findings: Findings) -> list[
     for block in mesh.volume_blocks:
         nodes = np.asarray(block.nodes)
         numbers = np.arange(first, first + len(nodes), dtype=np.int32)
-        kinds = np.array([law.type for law in laws])[owner[numbers]]
+        kinds = [(law.type, law.fibres is not None) for law in laws]
         for kind in dict.fromkeys(kinds):
-            cells = numbers[kinds == kind]
-            values = _parameters(laws, owner[cells])
-            groups.append(Group(str(block.type), nodes[cells - first], cells, str(kind), values))
+            of_kind = [n for n, other in enumerate(kinds) if other == kind]
+            cells = numbers[np.isin(owner[numbers], of_kind)]
+            if len(cells):
+                values, fibres = _parameters(laws, owner[cells]), _fibres(laws, owner[cells])
+                rows = nodes[cells - first]
+                groups.append(Group(str(block.type), rows, cells, kind[0], values, fibres))
         first += len(nodes)
     _note_locking(laws, path, findings)
     return groups
@@ -87,15 +90,31 @@ def _law_of_cells(mesh: Mesh, body: Body, path: Path, findings: Findings) -> Int
 def _parameters(laws: list[Law], owner: Ints) -> dict[str, Floats]:
     """Parameters of cells: one value when all cells share their law, else one for each cell."""
     used, of_cell = np.unique(owner, return_inverse=True)
-    names = [name for name in type(laws[used[0]]).model_fields if name != "type"]
+    names = [n for n in type(laws[used[0]]).model_fields if n not in ("type", "fibres")]
     values = {name: np.array([getattr(laws[n], name) for n in used], dtype=float) for name in names}
     if len(used) == 1:
         return values
     return {name: value[of_cell] for name, value in values.items()}
 
 
+def _fibres(laws: list[Law], owner: Ints) -> dict[str, Floats]:
+    """Parameters of the fibres of cells, none when their law has no fibres."""
+    used, of_cell = np.unique(owner, return_inverse=True)
+    rows = []
+    for number in used:
+        fibres = laws[number].fibres
+        if fibres is None:
+            return {}
+        rows.append([fibres.k1, fibres.k2, *fibres.direction])
+    names = ("k1", "k2", "direction_x", "direction_y", "direction_z")
+    values = dict(zip(names, np.array(rows, dtype=float).T, strict=True))
+    if len(used) == 1:
+        return values
+    return {name: value[of_cell] for name, value in values.items()}
+
+
 def _note_locking(laws: list[Law], path: Path, findings: Findings) -> None:
-    poisson = max(law.poisson for law in laws)
+    poisson = max(getattr(law, "poisson", 0.0) for law in laws)
     if poisson > _LOCKING:
         findings.note(
             f"{path[0]}.{path[1]}: with Poisson's ratio {poisson:g} first-order elements lock: "

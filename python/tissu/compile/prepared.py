@@ -46,6 +46,7 @@ class Group:
         cells: (e,) numbers of the cells across the mesh's volume blocks.
         law: name of the law.
         parameters: for each parameter, (1,) or (e,) values in SI.
+        fibres: the same for the fibres added to the law; empty: none.
     """
 
     cell_type: str
@@ -53,6 +54,7 @@ class Group:
     cells: Ints
     law: str
     parameters: dict[str, Floats]
+    fibres: dict[str, Floats] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, slots=True)

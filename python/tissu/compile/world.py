@@ -74,6 +74,7 @@ def _add_body(builder: WorldBuilder, prepared: Prepared, name: str) -> None:
             parameters=group.parameters,
             density=np.array([ready.density]),
             quadrature=body.quadrature,
+            reinforcements=[("fibre", group.fibres)] if group.fibres else [],
         )
     if body.viscosity is not None:
         builder.add_rayleigh(

@@ -1,7 +1,17 @@
 """Scenes: what is simulated, as frozen and validated parts."""
 
 from tissu.scene.body import BarMesh, Body, MeshFile
-from tissu.scene.law import Hooke, Rayleigh, StVK
+from tissu.scene.law import (
+    ArrudaBoyce,
+    Fibres,
+    Hooke,
+    MooneyRivlin,
+    NeoHooke,
+    Rayleigh,
+    StableNeoHooke,
+    StVK,
+    Yeoh,
+)
 from tissu.scene.load import NodalLoad, Pressure, Traction
 from tissu.scene.scene import Output, Scene
 from tissu.scene.selection import Box, Nodes, Plane, Region, Sphere, SurfaceNodes
@@ -9,15 +19,19 @@ from tissu.scene.step import Cholesky, ConjugateGradient, ImplicitEuler, Newton,
 from tissu.scene.support import Fixed, Prescribed, Rotation
 
 __all__ = [
+    "ArrudaBoyce",
     "BarMesh",
     "Body",
     "Box",
     "Cholesky",
     "ConjugateGradient",
+    "Fibres",
     "Fixed",
     "Hooke",
     "ImplicitEuler",
     "MeshFile",
+    "MooneyRivlin",
+    "NeoHooke",
     "Newton",
     "NodalLoad",
     "Nodes",
@@ -31,7 +45,9 @@ __all__ = [
     "Scene",
     "Sphere",
     "StVK",
+    "StableNeoHooke",
     "Static",
     "SurfaceNodes",
     "Traction",
+    "Yeoh",
 ]

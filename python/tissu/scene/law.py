@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from functools import lru_cache
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
@@ -13,11 +13,40 @@ from tissu import units
 from tissu.errors import ParameterError
 from tissu.scene.part import Part, chosen, one_of
 
+_Positive = Field(gt=0.0)
 
-class _Isotropic(Part):
-    """What Hooke and St. Venant-Kirchhoff share: Young's modulus and Poisson's ratio."""
 
-    young: Annotated[units.Pressure, Field(gt=0.0)]
+class Fibres(Part):
+    """Fibres added to a law: stiff when stretched, nothing when slack (Holzapfel, one family).
+
+    W = k1 / (2 k2) (exp(k2 <Ibar4 - 1>^2) - 1), Ibar4 the squared stretch along the fibre.
+    """
+
+    k1: Annotated[units.Pressure, _Positive]
+    """stiffness [Pa]"""
+    k2: Annotated[units.Pure, _Positive]
+    """how fast they stiffen"""
+    direction: units.Direction
+    """direction at rest (3,), of any length but zero"""
+
+    if TYPE_CHECKING:
+
+        def __init__(
+            self, *, k1: units.Number, k2: units.Number, direction: Sequence[float]
+        ) -> None: ...
+
+
+class _Law(Part):
+    """What all laws share."""
+
+    fibres: Fibres | None = None
+    """fibres added to the law; absent: none"""
+
+
+class _Isotropic(_Law):
+    """What laws with Young's modulus and Poisson's ratio share."""
+
+    young: Annotated[units.Pressure, _Positive]
     """Young's modulus [Pa], such as '4 kPa'"""
     poisson: Annotated[
         units.Pure,
@@ -25,15 +54,17 @@ class _Isotropic(Part):
     ]
     """Poisson's ratio, between -1 and 0.5, both excluded"""
 
+    if TYPE_CHECKING:
+
+        def __init__(
+            self, *, young: units.Number, poisson: units.Number, fibres: Fibres | None = ...
+        ) -> None: ...
+
 
 class Hooke(_Isotropic):
     """Linear elasticity: small strains and small rotations only."""
 
     type: Literal["hooke"] = "hooke"
-
-    if TYPE_CHECKING:
-
-        def __init__(self, *, young: units.Number, poisson: units.Number) -> None: ...
 
 
 class StVK(_Isotropic):
@@ -41,9 +72,89 @@ class StVK(_Isotropic):
 
     type: Literal["stvk"] = "stvk"
 
+
+class NeoHooke(_Isotropic):
+    """Compressible neo-Hooke: large strain, a barrier against lost volume (not for inverted cells)."""
+
+    type: Literal["neo_hooke"] = "neo_hooke"
+
+
+class StableNeoHooke(_Isotropic):
+    """Neo-Hooke of Smith, de Goes and Kim 2018: large strain, finite for inverted cells too."""
+
+    type: Literal["stable_neo_hooke"] = "stable_neo_hooke"
+
+
+class MooneyRivlin(_Law):
+    """Mooney-Rivlin, nearly incompressible: c1 (Ibar1 - 3) + c2 (Ibar2 - 3) + kappa/2 (J - 1)^2."""
+
+    type: Literal["mooney_rivlin"] = "mooney_rivlin"
+    c1: units.Pressure
+    """weight of Ibar1 - 3 [Pa]"""
+    c2: units.Pressure
+    """weight of Ibar2 - 3 [Pa]; c1 + c2 is half the shear modulus"""
+    kappa: Annotated[units.Pressure, _Positive]
+    """bulk modulus [Pa]"""
+
     if TYPE_CHECKING:
 
-        def __init__(self, *, young: units.Number, poisson: units.Number) -> None: ...
+        def __init__(
+            self,
+            *,
+            c1: units.Number,
+            c2: units.Number,
+            kappa: units.Number,
+            fibres: Fibres | None = ...,
+        ) -> None: ...
+
+
+class Yeoh(_Law):
+    """Yeoh, nearly incompressible: c1 x + c2 x^2 + c3 x^3 + kappa/2 (J - 1)^2, x = Ibar1 - 3."""
+
+    type: Literal["yeoh"] = "yeoh"
+    c1: Annotated[units.Pressure, _Positive]
+    """half the shear modulus at rest [Pa]"""
+    c2: units.Pressure = 0.0
+    """weight of (Ibar1 - 3)^2 [Pa]"""
+    c3: units.Pressure = 0.0
+    """weight of (Ibar1 - 3)^3 [Pa]"""
+    kappa: Annotated[units.Pressure, _Positive]
+    """bulk modulus [Pa]"""
+
+    if TYPE_CHECKING:
+
+        def __init__(
+            self,
+            *,
+            c1: units.Number,
+            c2: units.Number = ...,
+            c3: units.Number = ...,
+            kappa: units.Number,
+            fibres: Fibres | None = ...,
+        ) -> None: ...
+
+
+class ArrudaBoyce(_Law):
+    """Arruda-Boyce, nearly incompressible: chains that lock at the stretch lambda_m (five terms)."""
+
+    type: Literal["arruda_boyce"] = "arruda_boyce"
+    mu: Annotated[units.Pressure, _Positive]
+    """scale of the stress [Pa]"""
+    lambda_m: Annotated[units.Pure, Field(gt=1.0)]
+    """stretch at which the chains lock"""
+    kappa: Annotated[units.Pressure, _Positive]
+    """bulk modulus [Pa]"""
+
+    if TYPE_CHECKING:
+
+        def __init__(
+            self,
+            *,
+            mu: units.Number,
+            lambda_m: units.Number,
+            kappa: units.Number,
+            fibres: Fibres | None = ...,
+        ) -> None: ...
 
 
 class Rayleigh(Part):
@@ -66,8 +177,16 @@ class Rayleigh(Part):
         return self
 
 
-LAWS: tuple[type[Part], ...] = (Hooke, StVK)
-Law = Hooke | StVK
+LAWS: tuple[type[Part], ...] = (
+    Hooke,
+    StVK,
+    NeoHooke,
+    StableNeoHooke,
+    MooneyRivlin,
+    Yeoh,
+    ArrudaBoyce,
+)
+Law = Hooke | StVK | NeoHooke | StableNeoHooke | MooneyRivlin | Yeoh | ArrudaBoyce
 OneLaw = Annotated[Law, one_of(*LAWS)]
 
 

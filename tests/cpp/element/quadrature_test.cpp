@@ -90,7 +90,7 @@ TEST(ReferenceCell, HoldsElementAndRule) {
 }
 
 TEST(ReferenceCell, IsEmptyForWhatIsNotThere) {
-  EXPECT_TRUE(reference_cell("wedge", "full").points.empty());
+  EXPECT_TRUE(reference_cell("prism", "full").points.empty());
   EXPECT_TRUE(reference_cell("tetra", "").points.empty());
   EXPECT_TRUE(reference_cell("", "full").points.empty());
 }

@@ -67,6 +67,30 @@ TISSU_INLINE Batch sqrt(Batch a) {
   return a;
 }
 
+/// Natural logarithm in every lane.
+TISSU_INLINE Batch log(Batch a) {
+  for (int lane = 0; lane < kWidth; ++lane) a.v[lane] = __builtin_log(a.v[lane]);
+  return a;
+}
+
+/// Exponential in every lane.
+TISSU_INLINE Batch exp(Batch a) {
+  for (int lane = 0; lane < kWidth; ++lane) a.v[lane] = __builtin_exp(a.v[lane]);
+  return a;
+}
+
+/// Real cube root in every lane.
+TISSU_INLINE Batch cbrt(Batch a) {
+  for (int lane = 0; lane < kWidth; ++lane) a.v[lane] = __builtin_cbrt(a.v[lane]);
+  return a;
+}
+
+/// max(a, 0) in every lane.
+TISSU_INLINE Batch positive(Batch a) { return {a.v > Batch::Native{} ? a.v : Batch::Native{}}; }
+
+/// 1 where a > 0, else 0.
+TISSU_INLINE Batch step(Batch a) { return {a.v > Batch::Native{} ? Batch(1.0).v : Batch::Native{}}; }
+
 TISSU_INLINE const double* at(const double* values, std::int32_t i, int size) {
   return values + static_cast<std::ptrdiff_t>(i) * size;
 }

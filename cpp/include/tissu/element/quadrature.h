@@ -6,10 +6,12 @@
 
 namespace tissu {
 
-struct QuadraturePoint {
-  std::array<double, 3> xi;
+template <int Dimension>
+struct WeightedPoint {
+  std::array<double, Dimension> xi;
   double weight;
 };
+using QuadraturePoint = WeightedPoint<3>;
 
 /// One point at the centroid of the reference tetrahedron (volume 1/6): exact for degree 1.
 struct TetraCentroid {

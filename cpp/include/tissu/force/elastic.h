@@ -2,6 +2,7 @@
 
 /// The elasticity of one block of like cells: an element, a quadrature and a law.
 
+#include <map>
 #include <memory>
 #include <span>
 #include <string>
@@ -12,10 +13,20 @@
 #include "tissu/force/elastic_kernels.h"
 #include "tissu/force/element_order.h"
 #include "tissu/force/force_model.h"
+#include "tissu/force/rest_shape.h"
 
 namespace tissu {
 
-/// What an elastic block is made of. `young`, `poisson` and `density` hold one number, or one for each cell.
+/// Parameters of a law by name, in SI units: one number, or one for each cell.
+using LawParameters = std::map<std::string, std::vector<double>>;
+
+/// A law with its parameters.
+struct LawUse {
+  std::string law;
+  LawParameters parameters;
+};
+
+/// What an elastic block is made of. `density` holds one number, or one for each cell.
 struct ElasticBlock {
   std::string body;
   std::string element = "tetra";
@@ -23,9 +34,10 @@ struct ElasticBlock {
   std::string quadrature = "full";
   std::vector<std::int32_t> cells;         ///< cell after cell, node numbers of the world, VTK order
   std::vector<std::int32_t> cell_numbers;  ///< of each cell in its body; empty: 0, 1, 2, …
-  std::vector<double> young;               ///< [Pa]
-  std::vector<double> poisson;
-  std::vector<double> density;  ///< [kg/m3]
+  LawParameters parameters;                ///< of the law
+  std::vector<LawUse> reinforcements;      ///< laws whose energies are added: fibres
+  std::vector<double> density;             ///< [kg/m3]
+  bool fused = true;  ///< kernels made for this element and law where there are such; else those of its shape
 };
 
 /// Mean values over each cell, in the order of the block's cells.
@@ -42,7 +54,7 @@ class Elastic final : public ForceModel {
 
   [[nodiscard]] std::string_view effect() const override { return "elasticity"; }
   [[nodiscard]] ForceKind kind() const override { return ForceKind::elastic; }
-  [[nodiscard]] bool has_constant_stiffness() const override { return kernels_->linear; }
+  [[nodiscard]] bool has_constant_stiffness() const override;
   void couple(SparsityBuilder& builder) const override;
   void bind(const Sparsity& pattern) override;
   void add_force(const State& state, Reals f) const override;
@@ -53,30 +65,38 @@ class Elastic final : public ForceModel {
   [[nodiscard]] const ElasticBlock& block() const { return block_; }
   [[nodiscard]] std::int32_t cell_count() const;
   [[nodiscard]] int nodes_per_cell() const { return kernels_->nodes; }
-  [[nodiscard]] const std::vector<double>& volumes() const { return volumes_; }  ///< at rest [m3]
-  /// Adds each node's share of the mass, sum_g w_g rho N_a [kg].
+  [[nodiscard]] const std::vector<double>& volumes() const { return shape_.volumes; }  ///< at rest [m3]
+  /// Adds each node's lumped mass [kg]: sum_g w_g rho N_a for elements of first order; for the others the mass of
+  /// the cell in proportion to the integral of N_a^2 (Hinton, Rock and Zienkiewicz 1976), which is never negative.
   void add_masses(std::vector<double>& nodal) const;
+  /// Adds each node's share of a body force, sum_g w_g rho N_a [kg]: consistent, and negative at some corners of
+  /// quadratic elements.
+  void add_weights(std::vector<double>& nodal) const;
   [[nodiscard]] CellFields fields(const State& state) const;
   [[nodiscard]] std::size_t bytes() const;
 
  private:
+  void choose_kernels(Isa isa);
+  void check_numbers() const;
   void lay_constants();
-  void lay_rest(ConstReals rest_positions);
   [[nodiscard]] ElasticView view() const;
+  template <class Function>
+  void for_nodes(Function&& f) const;
   template <class Function>
   void for_chunks(Function&& f) const;
   [[nodiscard]] std::vector<double> energies(const State& state) const;
 
   ElasticBlock block_;
   Threads threads_;
-  const ElasticKernels* kernels_;
+  const ElasticKernels* kernels_ = nullptr;
+  std::vector<const LawKernels*> laws_;
+  ReferenceCell reference_;
+  std::vector<double> gradients_;  ///< [point][node][m]
   ElementOrder order_;
-  AlignedVector<std::int32_t> nodes_;
   AlignedVector<std::int32_t> slots_;
-  AlignedVector<double> rest_;
   AlignedVector<double> constants_;
   std::ptrdiff_t constants_stride_ = 0;
-  std::vector<double> volumes_;
+  RestShape shape_;
 };
 
 }  // namespace tissu

@@ -8,16 +8,23 @@
 #include <string_view>
 
 #include "tissu/base/isa.h"
+#include "tissu/force/law_kernels.h"
 
 namespace tissu {
 
 /// What a kernel reads of a block. Padding lanes repeat an element with zero volume, so they add nothing.
+/// m is the reference dimension of the element.
 struct ElasticView {
   const std::int32_t* nodes;        ///< [group][node][8]
   const std::int32_t* slots;        ///< [group][a][b][8], blocks of the matrix
-  const double* rest;               ///< [group][point][10][8]: J^-1 row by row, then weight * det J [m3]
-  const double* constants;          ///< [group or one][constant][8]
+  const double* rest;               ///< [group][point][m m + 1][8]: J^-1 row by row, then weight * det J [m3]
+  const double* constants;          ///< [group or one][constant][8], law after law
   std::ptrdiff_t constants_stride;  ///< doubles from one group to the next, 0 when one serves all
+  // What kernels that are not made for one element and law look up:
+  const double* gradients;         ///< [point][node][m], dN_a/dxi
+  int points;
+  const LawKernels* const* laws;  ///< their energies add up
+  int law_count;
 };
 
 struct GroupRange {
@@ -25,18 +32,16 @@ struct GroupRange {
   std::int32_t end;
 };
 
-/// All functions add to what they write. x, f, p are arrays of 3-vectors of the whole world.
+/// All functions add to what they write, but for `stress`. x, f, p are arrays of 3-vectors of the whole world.
 struct ElasticKernels {
-  std::string_view element;
-  std::string_view law;
-  std::string_view quadrature;
-  bool linear;  ///< the tangent does not depend on x
+  std::string_view element;     ///< empty: any element of this shape,
+  std::string_view law;         ///< any law
+  std::string_view quadrature;  ///< and any quadrature
   int nodes;
-  int points;
+  int dimension;  ///< of the reference cell
   void (*force)(const ElasticView&, GroupRange, const double* x, double* f);
   /// out += scale * (df/dx) p
-  void (*product)(const ElasticView&, GroupRange, const double* x, double scale, const double* p,
-                  double* out);
+  void (*product)(const ElasticView&, GroupRange, const double* x, double scale, const double* p, double* out);
   /// blocks += scale * df/dx
   void (*stiffness)(const ElasticView&, GroupRange, const double* x, double scale, double* blocks);
   /// energy of each element [J], [group][8]
@@ -46,8 +51,10 @@ struct ElasticKernels {
   void (*stress)(const ElasticView&, GroupRange, const double* x, double* stresses, double* volume_ratios);
 };
 
-/// The kernels of an element, law and quadrature ("full", "over"), or null when there are none.
+/// The kernels compiled for an element, a law and a quadrature together, null when there are none; …
 const ElasticKernels* find_elastic_kernels(Isa isa, std::string_view element, std::string_view law,
                                            std::string_view quadrature);
+/// … and those of a shape, for any element and law on it.
+const ElasticKernels* find_shape_kernels(Isa isa, int nodes, int dimension);
 
 }  // namespace tissu

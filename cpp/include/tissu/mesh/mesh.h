@@ -13,8 +13,19 @@
 
 namespace tissu {
 
-/// The cell types there are; the names are those of meshio.
-enum class CellType : std::uint8_t { tetra, hexahedron };
+/// The cell types there are; the names are those of meshio. Corners come first, then the middles of the edges,
+/// of the faces and of the cell. The triangle 0 1 2 of a wedge looks towards 3 4 5, as in meshio.
+enum class CellType : std::uint8_t {
+  tetra,
+  hexahedron,
+  tetra10,
+  hexahedron20,
+  hexahedron27,
+  wedge,
+  wedge15,
+  pyramid,
+  pyramid13
+};
 
 /// What is fixed by the type of a cell.
 struct CellTypeInfo {
@@ -22,6 +33,8 @@ struct CellTypeInfo {
   std::string_view name;  ///< as meshio writes it
   int nodes;              ///< nodes per cell
   int dimension;          ///< 3 for a volume
+  int order;              ///< 1 straight edges, 2 a node in the middle of each edge
+  int corners;            ///< nodes that are corners; they come first
 };
 
 /// The row of the table of cell types that belongs to `type`.

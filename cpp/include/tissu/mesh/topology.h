@@ -1,26 +1,18 @@
 #pragma once
 
-/// How cells hang together: faces, the outer surface, connected parts.
+/// How cells hang together: the outer surface, faces that do not match, connected parts.
 
 #include <array>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "tissu/mesh/mesh.h"
 
 namespace tissu {
 
-/// A face of a cell: corner numbers within the cell, anticlockwise seen from outside.
-struct LocalFace {
-  int size;  ///< 3 or 4 corners
-  std::array<std::uint8_t, 4> corners;
-};
-
-/// The faces of a cell type.
-std::span<const LocalFace> faces(CellType type);
-
-/// The faces that belong to one cell only, anticlockwise seen from outside, in the order of the cells.
+/// The faces that belong to one cell only, anticlockwise seen from outside, in the order of the cells. Faces
+/// are the same when their corners are. Faces of linear cells stay whole; those of quadratic cells become
+/// triangles between all their nodes: 4 for 6 nodes, 6 for 8, 8 for 9.
 struct Surface {
   std::vector<std::array<std::int32_t, 3>> triangles;
   std::vector<std::int32_t> triangle_cell;  ///< cell number across the blocks
@@ -32,6 +24,16 @@ Surface boundary_surface(const Mesh& mesh);
 
 /// Number of faces that more than two cells share: cells there overlap.
 std::int32_t overfull_face_count(const Mesh& mesh);
+
+/// Places where cells touch without sharing a face, so that the field tears there.
+struct NonconformingFaces {
+  std::int32_t count = 0;           ///< places
+  std::vector<std::int32_t> cells;  ///< numbers across the blocks of the cells there, increasing
+};
+
+/// A quad against two triangles, two triangles against two along the other diagonal (four corners in a plane,
+/// to a tenth of a regular tetrahedron's quality), and faces with the same corners and other middles.
+NonconformingFaces nonconforming_faces(const Mesh& mesh);
 
 /// Part number of each cell, from 0 in the order of the first cells; cells that share a node are in one part.
 std::vector<std::int32_t> connected_parts(const Mesh& mesh);

@@ -1,10 +1,11 @@
 #pragma once
 
-/// Which lists of kernels there are for each instruction set: one for each element. Add a new element here.
+/// Which lists of kernels there are for each instruction set. Add those of a new element or law here.
 
 #include <cstddef>
 
 #include "tissu/force/elastic_kernels.h"
+#include "tissu/force/law_kernels.h"
 
 namespace tissu {
 
@@ -12,11 +13,17 @@ struct KernelList {
   const ElasticKernels* first;
   std::size_t count;
 };
+struct LawTables {
+  const LawKernels* first;
+  std::size_t count;
+};
 
 #define TISSU_KERNEL_LISTS(isa)    \
   namespace isa {                  \
   KernelList tetra_kernels();      \
   KernelList hexahedron_kernels(); \
+  KernelList shape_kernels();      \
+  LawTables law_kernels();         \
   }
 TISSU_KERNEL_LISTS(baseline)
 TISSU_KERNEL_LISTS(avx2)

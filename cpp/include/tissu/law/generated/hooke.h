@@ -1,0 +1,143 @@
+#pragma once
+
+// Made from python/tissu/codegen/laws/hooke.py
+// by `python -m tissu.codegen --update` (generator 1, SymPy 1.14.0). Do not edit.
+
+#include <string_view>
+
+#include "tissu/law/tensor.h"
+
+namespace tissu {
+
+/// Hooke's law of small strain.
+///
+/// For displacements small beside the body. Linear, so one tangent serves every state. Not invariant
+/// to rotation: a body that turns by an angle a is seen as strained by 1 - cos a, and swells.
+///
+///     W = lam / 2 * tr(eps) ** 2 + mu * tr(eps * eps)
+///
+/// Operations:
+/// - energy: 11 multiplications, 15 additions
+/// - stress: 13 multiplications, 12 additions
+/// - stress_change: 13 multiplications, 8 additions
+/// - tangent: 3 multiplications, 3 additions
+template <class T>
+struct Hooke {
+  static constexpr std::string_view kName = "hooke";
+  static constexpr bool kLinear = true;           ///< one tangent serves every F
+  static constexpr bool kFrameInvariant = false;  ///< blind to rotation
+  static constexpr bool kAddition = false;        ///< to be added to a base law
+  T lambda;                                       ///< poisson*young/((1 - 2*poisson)*(poisson + 1))
+  T mu;                                           ///< young/(2*poisson + 2)
+
+  /// W [J/m3]
+  [[nodiscard]] T energy(const Tensor2<T>& F) const {
+    const T tr_eps = F(0, 0) + F(1, 1) + F(2, 2) - T(3.0);
+    const T H01 = F(0, 1) + F(1, 0);
+    const T H02 = F(0, 2) + F(2, 0);
+    const T H12 = F(1, 2) + F(2, 1);
+    const T e0 = F(0, 0) - T(1.0);
+    const T e1 = F(1, 1) - T(1.0);
+    const T e2 = F(2, 2) - T(1.0);
+    const T off_diagonal = H01 * H01 + H02 * H02 + H12 * H12;
+    const T tr_eps2 = e0 * e0 + e1 * e1 + e2 * e2 + T(0.5) * off_diagonal;
+    const T W = mu * tr_eps2 + T(0.5) * lambda * tr_eps * tr_eps;
+    return W;
+  }
+
+  /// P = dW/dF [Pa]
+  [[nodiscard]] Tensor2<T> stress(const Tensor2<T>& F) const {
+    const T tr_eps = F(0, 0) + F(1, 1) + F(2, 2) - T(3.0);
+    const T p_I = lambda * tr_eps;
+    const T H01 = F(0, 1) + F(1, 0);
+    const T H02 = F(0, 2) + F(2, 0);
+    const T H12 = F(1, 2) + F(2, 1);
+    Tensor2<T> P;
+    P(0, 0) = p_I + mu * (T(2.0) * F(0, 0) - T(2.0));
+    P(0, 1) = H01 * mu;
+    P(0, 2) = H02 * mu;
+    P(1, 0) = H01 * mu;
+    P(1, 1) = p_I + mu * (T(2.0) * F(1, 1) - T(2.0));
+    P(1, 2) = H12 * mu;
+    P(2, 0) = H02 * mu;
+    P(2, 1) = H12 * mu;
+    P(2, 2) = p_I + mu * (T(2.0) * F(2, 2) - T(2.0));
+    return P;
+  }
+
+  /// dP = dP/dF : dF [Pa]
+  [[nodiscard]] Tensor2<T> stress_change(const Tensor2<T>& /*F*/, const Tensor2<T>& dF) const {
+    const T along_I = dF(0, 0) + dF(1, 1) + dF(2, 2);
+    const T dp_I = along_I * lambda;
+    const T dH00 = T(2.0) * dF(0, 0);
+    const T dH01 = dF(0, 1) + dF(1, 0);
+    const T dH02 = dF(0, 2) + dF(2, 0);
+    const T dH11 = T(2.0) * dF(1, 1);
+    const T dH12 = dF(1, 2) + dF(2, 1);
+    const T dH22 = T(2.0) * dF(2, 2);
+    Tensor2<T> dP;
+    dP(0, 0) = dp_I + dH00 * mu;
+    dP(0, 1) = dH01 * mu;
+    dP(0, 2) = dH02 * mu;
+    dP(1, 0) = dH01 * mu;
+    dP(1, 1) = dp_I + dH11 * mu;
+    dP(1, 2) = dH12 * mu;
+    dP(2, 0) = dH02 * mu;
+    dP(2, 1) = dH12 * mu;
+    dP(2, 2) = dp_I + dH22 * mu;
+    return dP;
+  }
+
+  /// dP/dF, upper triangle [Pa]
+  [[nodiscard]] Tangent<T> tangent(const Tensor2<T>& /*F*/) const {
+    Tangent<T> A;
+    A(0, 0, 0, 0) = lambda + T(2.0) * mu;
+    A(0, 0, 0, 1) = T(0.0);
+    A(0, 0, 0, 2) = T(0.0);
+    A(0, 0, 1, 0) = T(0.0);
+    A(0, 0, 1, 1) = lambda;
+    A(0, 0, 1, 2) = T(0.0);
+    A(0, 0, 2, 0) = T(0.0);
+    A(0, 0, 2, 1) = T(0.0);
+    A(0, 0, 2, 2) = lambda;
+    A(0, 1, 0, 1) = mu;
+    A(0, 1, 0, 2) = T(0.0);
+    A(0, 1, 1, 0) = mu;
+    A(0, 1, 1, 1) = T(0.0);
+    A(0, 1, 1, 2) = T(0.0);
+    A(0, 1, 2, 0) = T(0.0);
+    A(0, 1, 2, 1) = T(0.0);
+    A(0, 1, 2, 2) = T(0.0);
+    A(0, 2, 0, 2) = mu;
+    A(0, 2, 1, 0) = T(0.0);
+    A(0, 2, 1, 1) = T(0.0);
+    A(0, 2, 1, 2) = T(0.0);
+    A(0, 2, 2, 0) = mu;
+    A(0, 2, 2, 1) = T(0.0);
+    A(0, 2, 2, 2) = T(0.0);
+    A(1, 0, 1, 0) = mu;
+    A(1, 0, 1, 1) = T(0.0);
+    A(1, 0, 1, 2) = T(0.0);
+    A(1, 0, 2, 0) = T(0.0);
+    A(1, 0, 2, 1) = T(0.0);
+    A(1, 0, 2, 2) = T(0.0);
+    A(1, 1, 1, 1) = lambda + T(2.0) * mu;
+    A(1, 1, 1, 2) = T(0.0);
+    A(1, 1, 2, 0) = T(0.0);
+    A(1, 1, 2, 1) = T(0.0);
+    A(1, 1, 2, 2) = lambda;
+    A(1, 2, 1, 2) = mu;
+    A(1, 2, 2, 0) = T(0.0);
+    A(1, 2, 2, 1) = mu;
+    A(1, 2, 2, 2) = T(0.0);
+    A(2, 0, 2, 0) = mu;
+    A(2, 0, 2, 1) = T(0.0);
+    A(2, 0, 2, 2) = T(0.0);
+    A(2, 1, 2, 1) = mu;
+    A(2, 1, 2, 2) = T(0.0);
+    A(2, 2, 2, 2) = lambda + T(2.0) * mu;
+    return A;
+  }
+};
+
+}  // namespace tissu

@@ -1,0 +1,207 @@
+"""The text of a law's header. In: a Law and its four Programs. Out: C++, formatted."""
+
+from __future__ import annotations
+
+import shutil
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import sympy as sp
+
+from tissu.codegen import kernels
+from tissu.codegen.definition import Law, LawError
+from tissu.codegen.program import FUNCTIONS, Program
+from tissu.codegen.vocabulary import Expr
+
+VERSION = 1  # of the generator: raise it when the same formula gives other C++
+STANDARD = ("log", "exp", "sqrt", "cbrt")  # of <cmath>; the others are in tissu/law/functions.h
+QUESTIONS: dict[str, Callable[[Expr], Program]] = {
+    "energy": kernels.energy,
+    "stress": kernels.stress,
+    "stress_change": kernels.stress_change,
+    "tangent": kernels.tangent,
+}
+
+
+def number(value: Expr, scalar: str) -> str:
+    """A rational as `T(2.0 / 3.0)`, a float as it is."""
+    if value.is_Rational and value.q != 1 and (2**20) % value.q:
+        text = f"{value.p}.0 / {value.q}.0"
+        return f"{scalar}({text})" if scalar else f"({text})"
+    text = repr(float(value))
+    return f"{scalar}({text})" if scalar else text
+
+
+def printed(expression: Expr, scalar: str = "T") -> str:
+    """C++ of an expression: products for powers, one sign for each term."""
+    if expression.is_Number:
+        return number(expression, scalar)
+    if expression.is_Symbol:
+        return _symbol(str(expression))
+    if expression.is_Add:
+        return _sum(expression, scalar)
+    if expression.is_Mul:
+        return _product(expression, scalar)
+    if expression.is_Pow:
+        base, n = expression.base, expression.exp
+        if not n.is_Integer:
+            return f"{ {sp.Rational(1, 2): 'sqrt'}[n] }({printed(base, scalar)})"
+        if n < 0:
+            return f"{number(sp.Integer(1), scalar)} / {_factor(base**-n, scalar)}"
+        return " * ".join([_factor(base, scalar)] * int(n))
+    return f"{FUNCTIONS[type(expression)]}({printed(expression.args[0], scalar)})"
+
+
+def _symbol(name: str) -> str:
+    for tensor in ("dF", "F"):
+        if (
+            name.startswith(tensor)
+            and name[len(tensor) :].isdigit()
+            and len(name) == len(tensor) + 2
+        ):
+            return f"{tensor}({name[-2]}, {name[-1]})"
+    return name
+
+
+def _factor(expression: Expr, scalar: str) -> str:
+    text = printed(expression, scalar)
+    return f"({text})" if expression.is_Add or expression.is_Mul or expression.is_Pow else text
+
+
+def _sum(expression: Expr, scalar: str) -> str:
+    terms = sorted(expression.args, key=lambda term: (_negative(term), term.is_Number))
+    text = ""
+    for term in terms:
+        if _negative(term):
+            text += f" - {printed(-term, scalar)}" if text else f"-{_factor(-term, scalar)}"
+        else:
+            text += f" + {printed(term, scalar)}" if text else printed(term, scalar)
+    return text
+
+
+def _negative(term: Expr) -> bool:
+    return bool(term.as_coeff_Mul()[0].is_negative)
+
+
+def _product(expression: Expr, scalar: str) -> str:
+    coefficient, rest = expression.as_coeff_Mul()
+    sign = "-" if coefficient.is_negative else ""
+    above = [] if abs(coefficient) == 1 else [number(abs(coefficient), scalar)]
+    below = []
+    for factor in sp.Mul.make_args(rest):
+        if factor.is_Pow and factor.exp.is_negative:
+            below.append(_factor(1 / factor, scalar))
+        elif factor.is_Pow and factor.exp.is_Integer:
+            above.append(printed(factor, scalar))
+        else:
+            above.append(_factor(factor, scalar))
+    text = " * ".join(above) or number(sp.Integer(1), scalar)
+    return sign + " / ".join([text, *below])
+
+
+def _function(law: Law, name: str, program: Program) -> str:
+    """One member function."""
+    read = program.symbols()
+    result = {"energy": "T", "tangent": "Tangent<T>"}.get(name, "Tensor2<T>")
+    arguments = ["F", "dF"] if name == "stress_change" else ["F"]
+    given = []
+    for argument in arguments:
+        used = any(_symbol(s).startswith(f"{argument}(") for s in read)
+        given.append(f"const Tensor2<T>& {argument if used else f'/*{argument}*/'}")
+    lines = [f"[[nodiscard]] {result} {name}({', '.join(given)}) const {{"]
+    called = set(program.count().functions)
+    lines += [f"using std::{f};" for f in STANDARD if f in called]
+    lines += [f"const T {symbol} = {printed(e)};" for symbol, e in program.lets]
+    if name == "energy":
+        return "\n".join([*lines, f"return {printed(program.outputs['W'])};", "}"])
+    target = {"stress": "P", "stress_change": "dP", "tangent": "A"}[name]
+    lines.append(f"{result} {target};")
+    lines += [f"{entry} = {printed(e)};" for entry, e in program.outputs.items()]
+    return "\n".join([*lines, f"return {target};", "}"])
+
+
+DESCRIBED = {
+    "energy": "W [J/m3]",
+    "stress": "P = dW/dF [Pa]",
+    "stress_change": "dP = dP/dF : dF [Pa]",
+    "tangent": "dP/dF, upper triangle [Pa]",
+}
+
+
+def banner(source: str) -> list[str]:
+    """The first lines of every made file."""
+    return [
+        f"// Made from {source}",
+        f"// by `python -m tissu.codegen --update` (generator {VERSION}, "
+        f"SymPy {sp.__version__}). Do not edit.",
+    ]
+
+
+def check_names(law: Law, programs: dict[str, Program]) -> None:
+    """Refuses a constant named as one of the generated names, or as a word of C++."""
+    made = {str(symbol) for program in programs.values() for symbol, _ in program.lets}
+    made |= {"F", "dF", "P", "dP", "A", "T", "double", "float", "int", "operator", "new", "this"}
+    clash = sorted((made & set(law.constants)) - {"a0", "a1", "a2"})
+    if clash:
+        raise LawError(f"{law.name}: a constant cannot be called {clash[0]}; choose another name.")
+
+
+def header(law: Law) -> str:
+    """The law's header, not yet formatted."""
+    programs = {name: make(law.energy) for name, make in QUESTIONS.items()}
+    check_names(law, programs)
+    called = {f for program in programs.values() for f in program.count().functions}
+    lines = ["#pragma once", "", *banner(f"python/tissu/codegen/laws/{law.name}.py"), ""]
+    lines += ["#include <cmath>"] * any(f in STANDARD for f in called)
+    lines += ["#include <string_view>", ""]
+    own = any(f not in STANDARD for f in called)
+    lines += ['#include "tissu/law/functions.h"'] * own + ['#include "tissu/law/tensor.h"', ""]
+    lines += ["namespace tissu {", ""]
+    lines += [f"/// {line}".rstrip() for line in law.text.splitlines()]
+    lines += ["///", f"///     W = {law.formula}", "///", "/// Operations:"]
+    lines += [f"/// - {name}: {p.count()}" for name, p in programs.items()]
+    lines += ["template <class T>", f"struct {law.class_name} {{"]
+    lines += [f'static constexpr std::string_view kName = "{law.name}";']
+    linear = (
+        not programs["tangent"].symbols()
+        - set(law.constants)
+        - {str(symbol) for symbol, _ in programs["tangent"].lets}
+    )
+    flags = {
+        "kLinear": (linear, "one tangent serves every F"),
+        "kFrameInvariant": (law.frame_invariant, "blind to rotation"),
+        "kAddition": (law.addition, "to be added to a base law"),
+    }
+    lines += [
+        f"static constexpr bool {k} = {str(v).lower()};  ///< {t}" for k, (v, t) in flags.items()
+    ]
+    for name, expression in law.constants.items():
+        text = str(expression).replace("**", "^")
+        lines.append(f"T {name};" + (f"  ///< {text}" if text != name else ""))
+    for name, program in programs.items():
+        lines += ["", f"/// {DESCRIBED[name]}", _function(law, name, program)]
+    lines += ["};", "", "}  // namespace tissu", ""]
+    return "\n".join(lines)
+
+
+def formatter() -> str:
+    """The path of clang-format: beside this Python, or on the path."""
+    beside = Path(sys.executable).with_name("clang-format")
+    found = str(beside) if beside.exists() else shutil.which("clang-format")
+    if found is None:
+        raise LawError("clang-format is missing; install the project with its extra `lint`.")
+    return found
+
+
+def formatted(text: str, path: Path) -> str:
+    """The text in the format of the folder that `path` is in."""
+    done = subprocess.run(
+        [formatter(), f"--assume-filename={path}", "--fallback-style=Google"],
+        input=text,
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    return done.stdout

@@ -11,6 +11,8 @@ namespace {
 
 constexpr std::array kAll = {Isa::avx512, Isa::avx2, Isa::baseline};
 
+}  // namespace
+
 bool runs_here(Isa isa) {
 #ifdef TISSU_X86_KERNELS
   if (isa == Isa::avx512) return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl");
@@ -18,8 +20,6 @@ bool runs_here(Isa isa) {
 #endif
   return isa == Isa::baseline;
 }
-
-}  // namespace
 
 std::string_view name(Isa isa) {
   switch (isa) {

@@ -107,8 +107,13 @@ StepReport Simulation::step(double h) {
   return report;
 }
 
+/// How far a node may move in one step [m]; a scene without extent has no measure of it.
+double Simulation::farthest() const {
+  return world_->extent() > 0.0 ? kTooFar * world_->extent() : std::numeric_limits<double>::infinity();
+}
+
 bool Simulation::is_sane() const {
-  const double limit = kTooFar * std::max(world_->extent(), 1e-6);
+  const double limit = farthest();
   bool sane = true;
   for (std::size_t i = 0; i < state_.positions.size(); ++i) {
     sane = sane && std::abs(state_.positions[i] - last_good_.positions[i]) < limit &&
@@ -119,7 +124,7 @@ bool Simulation::is_sane() const {
 
 void Simulation::roll_back(double h) {
   state_ = last_good_;
-  const double limit = kTooFar * std::max(world_->extent(), 1e-6) / h;
+  const double limit = farthest() / h;
   Culprit culprit;
   for (std::int32_t node = 0; node < state_.blocks() && culprit.element < 0; ++node) {
     const bool sane = block(ConstReals(state_.positions), node).allFinite() &&

@@ -24,7 +24,7 @@ void ImplicitEuler::prepare(const World& world, Profile& profile) {
   system_ = std::make_unique<System>(world, profile);
   start_ = world.rest_state();
   const std::size_t size = start_.positions.size();
-  for (auto* v : {&v_, &trial_, &change_, &right_, &work_}) v->assign(size, 0.0);
+  for (auto* v : {&v_, &first_, &trial_, &change_, &right_, &work_}) v->assign(size, 0.0);
 }
 
 StepReport ImplicitEuler::step(State& state, double h, LinearSolver& solver) {
@@ -102,9 +102,9 @@ double ImplicitEuler::residual(State& state, double h, ConstReals v) {
 }
 
 void ImplicitEuler::newton(State& state, double h, LinearSolver& solver, StepReport& report) {
-  const std::vector<double> first = v_;
+  first_ = v_;
   if (!iterate(state, h, LineSearch::off, solver, report)) {
-    v_ = first;
+    v_ = first_;
     report.newton_iterations = 1;
     iterate(state, h, LineSearch::on, solver, report);
   }
@@ -114,13 +114,18 @@ bool ImplicitEuler::iterate(State& state, double h, LineSearch search, LinearSol
                             StepReport& report) {
   double now = residual(state, h, v_);
   const double reference = std::max({reference_, now, 1e-300});
-  report.message = "Newton's iteration stopped before its tolerance";
   report.converged = false;
   while (true) {
     report.residual = now / reference;
-    if (!(report.residual < kHopeless)) return false;
+    if (!(report.residual < kHopeless)) {
+      report.message = "Newton's iteration ran away";
+      return false;
+    }
     if (report.residual <= newton_.tolerance) break;
-    if (report.newton_iterations >= newton_.iterations) return false;
+    if (report.newton_iterations >= newton_.iterations) {
+      report.message = "Newton's iteration stopped before its tolerance";
+      return false;
+    }
     system_->assemble(state, 1.0, {-h * h, -h});
     if (now <= system_->round_off(state) / h) break;
     std::ranges::fill(change_, 0.0);

@@ -1,7 +1,9 @@
 #include "tissu/world/world.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "tissu/base/error.h"
 #include "tissu/force/gravity.h"
@@ -27,11 +29,61 @@ std::vector<std::int32_t> shifted(std::vector<std::int32_t> nodes, std::int32_t 
   return nodes;
 }
 
-double box_diagonal(const std::vector<double>& positions) {
-  if (positions.empty()) return 0.0;
-  const Eigen::Map<const Eigen::Matrix3Xd> x(positions.data(), 3,
-                                             static_cast<Eigen::Index>(positions.size() / 3));
-  return (x.rowwise().maxCoeff() - x.rowwise().minCoeff()).norm();
+/// Diagonal of the box around the nodes and the origins of frames; the blocks of rotations are no positions.
+double box_diagonal(const std::vector<double>& positions, const std::vector<Frame>& frames) {
+  std::vector<char> is_rotation(positions.size() / 3, 0);
+  for (const Frame& frame : frames) is_rotation[static_cast<std::size_t>(frame.block) + 1] = 1;
+  Eigen::AlignedBox3d box;
+  for (std::size_t i = 0; i < is_rotation.size(); ++i) {
+    if (is_rotation[i] == 0) box.extend(Vec3(block(ConstReals(positions), static_cast<std::int32_t>(i))));
+  }
+  return box.isEmpty() ? 0.0 : box.diagonal().norm();
+}
+
+/// Refuses tables whose columns differ in length, and times that do not ascend.
+void check_table(const std::string& where, const std::vector<double>& times, std::size_t values) {
+  if (times.size() != values) {
+    throw ParameterError(where + " has " + std::to_string(times.size()) + " times and " +
+                         std::to_string(values) + " values; give one value for each time.");
+  }
+  if (!std::ranges::is_sorted(times, std::less_equal<>())) {
+    throw ParameterError(where + " has times that do not ascend; give each later than the one before.");
+  }
+}
+
+void check_size(const std::string& where, std::size_t found, std::size_t accepted) {
+  if (found == accepted) return;
+  throw ParameterError(where + " has " + std::to_string(found) + " numbers where " +
+                       std::to_string(accepted) + " are needed, three for each node.");
+}
+
+void check_frame(const FrameDescription& frame, std::size_t number) {
+  const std::string where = "frame " + std::to_string(number);
+  if (!(frame.mass > 0.0) || !std::isfinite(frame.mass)) {
+    throw ParameterError(where + " has a mass of " + std::to_string(frame.mass) +
+                         " kg; it must be positive and finite.");
+  }
+  const Eigen::LLT<Mat3> factor(frame.inertia);
+  if (!frame.inertia.allFinite() || !frame.inertia.isApprox(frame.inertia.transpose()) ||
+      factor.info() != Eigen::Success) {
+    throw ParameterError(where + " has an inertia that is not symmetric and positive definite.");
+  }
+}
+
+/// The instruction set asked for, or the best; one that this machine lacks is refused.
+Isa isa_of(const WorldDescription& description) {
+  if (!description.isa) return choose_isa();
+  if (runs_here(*description.isa)) return *description.isa;
+  throw ParameterError("the instruction set " + std::string(name(*description.isa)) +
+                       " cannot run here; leave it open, or use baseline.");
+}
+
+Threads threads_of(const WorldDescription& description) {
+  constexpr int kMost = 256;
+  if (description.threads >= 1 && description.threads <= kMost) return Threads(description.threads);
+  throw ParameterError("found " + std::to_string(description.threads) + " threads; 1 to " +
+                       std::to_string(kMost) + " are accepted, and more than the machine's " +
+                       std::to_string(available_threads()) + " are of no use.");
 }
 
 /// A node without mass would make the matrix singular, unless it is held.
@@ -58,8 +110,7 @@ BodyDescription& WorldDescription::body(std::string_view name) {
   return *found;
 }
 
-World::World(WorldDescription description)
-    : isa_(description.isa ? *description.isa : choose_isa()), threads_(description.threads) {
+World::World(WorldDescription description) : isa_(isa_of(description)), threads_(threads_of(description)) {
   add_bodies(description);
   add_external(description);
   if (description.links) {
@@ -74,7 +125,7 @@ World::World(WorldDescription description)
   for (const auto& model : forces_) model->couple(builder);
   sparsity_ = builder.build();
   for (const auto& model : forces_) model->bind(sparsity_);
-  extent_ = box_diagonal(rest_positions_);
+  extent_ = box_diagonal(rest_positions_, frames());
   if (description.editable) description_ = std::move(description);
 }
 
@@ -90,6 +141,7 @@ void World::add_bodies(const WorldDescription& description) {
   rest_positions_.resize(rest_positions_.size() + 6 * description.frames.size(), 0.0);
   std::vector<Frame> frames;
   for (const FrameDescription& frame : description.frames) {
+    check_frame(frame, frames.size());
     frames.push_back({first_frame + 2 * static_cast<std::int32_t>(frames.size()), frame.mass, frame.inertia});
     block(Reals(rest_positions_), frames.back().block) = frame.position;
     rest_rotations_.push_back(frame.rotation.normalized());
@@ -131,11 +183,15 @@ void World::add_external(const WorldDescription& description) {
   if (description.gravity) forces_.push_back(std::make_unique<Gravity>(weights_, *description.gravity));
   for (const LoadDescription& load : description.loads) {
     const Body& on = body(load.body);
+    check_size("load \"" + load.name + "\"", load.forces.size(), 3 * load.nodes.size());
+    check_table("load \"" + load.name + "\"", load.history.times, load.history.factors.size());
     auto nodes = shifted(load.nodes, on.first_node, on.node_count, "load \"" + load.name + "\"");
     forces_.push_back(std::make_unique<NodalLoad>(load.name, std::move(nodes), load.forces, load.history));
   }
   for (const PressureDescription& pressure : description.pressures) {
     const Body& on = body(pressure.body);
+    check_table("pressure \"" + pressure.name + "\"", pressure.history.times,
+                pressure.history.factors.size());
     auto triangles = pressure.triangles;
     for (auto& triangle : triangles) {
       const auto nodes = shifted({triangle.begin(), triangle.end()}, on.first_node, on.node_count,
@@ -152,6 +208,10 @@ void World::add_fixed(const WorldDescription& description) {
     const Body& on = body(fixed.body);
     const auto nodes =
         shifted(fixed.nodes, on.first_node, on.node_count, "a fixed part of body \"" + on.name + "\"");
+    const std::string where = "the motion of body \"" + on.name + "\"";
+    check_table(where, fixed.motion.times, fixed.motion.displacements.size());
+    check_table(where, fixed.motion.times, fixed.motion.angles.size());
+    if (!fixed.positions.empty()) check_size(where, fixed.positions.size(), 3 * fixed.nodes.size());
     std::vector<double> start = rest_positions_;
     for (std::size_t i = 0; i < fixed.positions.size() / 3; ++i) {
       block(Reals(start), nodes[i]) = block(ConstReals(fixed.positions), static_cast<std::int32_t>(i));

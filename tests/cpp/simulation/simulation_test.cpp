@@ -28,7 +28,8 @@ class SimulationTest : public testing::Test {
 
 TEST_F(SimulationTest, RefusesStepsWithoutSense) {
   Simulation simulation = test::simulate(plain(), test::implicit_euler());
-  for (const double h : {0.0, -0.01, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+  for (const double h :
+       {0.0, -0.01, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
     EXPECT_THROW(simulation.step(h), ParameterError) << h;
   }
   EXPECT_EQ(simulation.state().time, 0.0);
@@ -50,8 +51,9 @@ TEST_F(SimulationTest, PresentEffectsHaveTheirRows) {
   world.pressures = {{"blood", "body", {{0, 1, 2}}, 1.0, {}}};
   Simulation simulation = test::simulate(world, test::implicit_euler());
   for (int i = 0; i < 3; ++i) simulation.step(0.01);
-  EXPECT_EQ(effects(simulation), (std::set<std::string>{"elasticity with Rayleigh damping", "inertia", "linear solver",
-                                                        "gravity", "links", "hand", "blood"}));
+  EXPECT_EQ(effects(simulation),
+            (std::set<std::string>{"elasticity with Rayleigh damping", "inertia", "linear solver", "gravity",
+                                   "links", "hand", "blood"}));
   for (const Profile::Row& row : simulation.profile().rows()) {
     EXPECT_GE(row.seconds, 0.0);
     if (row.stage == "solve") {
@@ -90,7 +92,8 @@ TEST_F(SimulationTest, HasNoStateOutsideItself) {
   const auto shared = std::make_shared<const World>(world);
   Simulation a(shared, test::implicit_euler(), std::make_unique<Cholesky>());
   Simulation b(shared, test::implicit_euler(), test::conjugate_gradient(1e-8));
-  Simulation alone(std::make_shared<const World>(world), test::implicit_euler(), std::make_unique<Cholesky>());
+  Simulation alone(std::make_shared<const World>(world), test::implicit_euler(),
+                   std::make_unique<Cholesky>());
   for (int i = 0; i < 10; ++i) {
     a.step(0.01);
     b.step(0.013);

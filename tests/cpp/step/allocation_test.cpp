@@ -21,9 +21,9 @@ void note() {
 
 // The C library's own allocators, under the names that it keeps for programs that put themselves before them.
 extern "C" {
-void* __libc_malloc(std::size_t size);                    // NOLINT(bugprone-reserved-identifier)
-void* __libc_calloc(std::size_t count, std::size_t size);  // NOLINT(bugprone-reserved-identifier)
-void* __libc_realloc(void* old, std::size_t size);        // NOLINT(bugprone-reserved-identifier)
+void* __libc_malloc(std::size_t size);                           // NOLINT(bugprone-reserved-identifier)
+void* __libc_calloc(std::size_t count, std::size_t size);        // NOLINT(bugprone-reserved-identifier)
+void* __libc_realloc(void* old, std::size_t size);               // NOLINT(bugprone-reserved-identifier)
 void* __libc_memalign(std::size_t alignment, std::size_t size);  // NOLINT(bugprone-reserved-identifier)
 
 [[gnu::visibility("default")]] void* malloc(std::size_t size) {
@@ -86,7 +86,10 @@ TEST_P(Allocation, ASteadyStepTakesNone) {
   EXPECT_EQ(allocations, 0);
   // The count works: this one is seen.
   counting = true;
-  { const std::vector<double> seen(100, 1.0); EXPECT_EQ(seen.size(), 100U); }
+  {
+    const std::vector<double> seen(100, 1.0);
+    EXPECT_EQ(seen.size(), 100U);
+  }
   counting = false;
   EXPECT_GE(allocations, 1);
 #else
@@ -98,7 +101,8 @@ INSTANTIATE_TEST_SUITE_P(Worlds, Allocation,
                          testing::Values(AllocationCase{"stvk_tetra_once", "stvk", Split::six, 1, 1},
                                          AllocationCase{"stvk_tetra_newton", "stvk", Split::six, 4, 1},
                                          AllocationCase{"hooke_hexahedron_once", "hooke", Split::none, 1, 1},
-                                         AllocationCase{"stvk_hexahedron_two_threads", "stvk", Split::none, 1, 2}),
+                                         AllocationCase{"stvk_hexahedron_two_threads", "stvk", Split::none, 1,
+                                                        2}),
                          testing::PrintToStringParamName());
 
 }  // namespace

@@ -120,6 +120,42 @@ TEST_P(DivergedTest, PositionsThatAreNotNumbers) {
   EXPECT_EQ(expect_rolled_back(simulation).body(), "body");
 }
 
+/// Statics puts the clock forward first: that is taken back too.
+TEST_P(DivergedTest, InStatics) {
+  Simulation simulation = test::simulate(
+      world(), std::make_unique<StaticEquilibrium>(StaticEquilibrium::Settings{}), GetParam().solver());
+  simulation.state().positions[50] = kNaN;
+  EXPECT_EQ(expect_rolled_back(simulation).body(), "body");
+}
+
+/// A solver that gives up in Newton's second round, when the state has already been moved on trial.
+class GivesUp final : public LinearSolver {
+ public:
+  [[nodiscard]] std::string_view name() const override { return "gives up"; }
+  SolveReport solve(const BlockMatrix& matrix, ConstReals b, Reals x, double floor) override {
+    if (++calls_ > 1) throw Error("it is out of memory.");
+    return direct_.solve(matrix, b, x, floor);
+  }
+
+ private:
+  int calls_ = 0;
+  Cholesky direct_;
+};
+
+TEST(Simulation, IsAsBeforeWhenASolverThrows) {
+  const Mesh mesh = box_mesh(Vec3::Zero(), Vec3(2, 1, 1), {4, 2, 2}, Split::six);
+  WorldDescription world;
+  world.bodies = {test::body_of(mesh, {.young = 100.0})};
+  world.gravity = Vec3(0.0, 0.0, -1.0);
+  world.fixed = {test::fixed(test::nodes_at(mesh, 0, 0.0))};
+  Simulation simulation = test::simulate(world, test::implicit_euler(5, 1e-12), std::make_unique<GivesUp>());
+  const State before = simulation.state();
+  EXPECT_THROW(simulation.step(0.1), Error);
+  EXPECT_EQ(simulation.state().positions, before.positions);
+  EXPECT_EQ(simulation.state().velocities, before.velocities);
+  EXPECT_EQ(simulation.state().time, 0.0);
+}
+
 INSTANTIATE_TEST_SUITE_P(
     Ways, DivergedTest,
     testing::Values(Way{"once_cholesky", [] { return test::implicit_euler(); }, direct},

@@ -93,6 +93,34 @@ TEST_P(Oscillator, FollowsBackwardEulerWithDampingGravityAndLoad) {
   }
 }
 
+/// The base is led: the spring and the damper feel where it is, and how fast, at the end of the step.
+TEST_P(Oscillator, FollowsALedBase) {
+  const double alpha = 0.4;
+  const double beta = 0.02;
+  WorldDescription world = oscillator("hooke");
+  world.bodies[0].rayleigh = {alpha, beta};
+  world.fixed[0].motion.times = {0.1, 0.3, 0.4};
+  world.fixed[0].motion.displacements = {Vec3::Zero(), Vec3(0.2, 0, 0), Vec3(0.1, 0, 0)};
+  world.fixed[0].motion.angles = {0.0, 0.0, 0.0};
+  Simulation simulation = test::simulate(world, test::implicit_euler(), solver());
+  const double h = 0.01;
+  const double k = spring();
+  Scalar s{0.0, 0.0};
+  double base = 0.0;
+  for (int step = 1; step <= 60; ++step) {
+    simulation.step(h);
+    const double to = interpolate(std::vector{0.1, 0.3, 0.4}, std::vector{0.0, 0.2, 0.1}, h * step, 0.0);
+    const double base_v = (to - base) / h;
+    s.v = (kMass * s.v - h * k * (s.u - to) + h * beta * k * base_v) /
+          (kMass + h * alpha * kMass + h * beta * k + h * h * k);
+    s.u += h * s.v;
+    base = to;
+    EXPECT_NEAR(now(simulation).u, s.u, 1e-12) << "step " << step;
+    EXPECT_NEAR(now(simulation).v, s.v, 1e-11) << "step " << step;
+  }
+  EXPECT_GT(s.u, 0.05);
+}
+
 /// StVK, held aside: f = -V (lambda + 2 mu) / 2 (F^3 - F).
 TEST_P(Oscillator, FollowsBackwardEulerOfStVKByNewton) {
   Simulation simulation = test::simulate(oscillator("stvk"), test::implicit_euler(30, 1e-13), solver());

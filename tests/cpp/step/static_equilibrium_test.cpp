@@ -21,7 +21,8 @@ struct BarCase {
 };
 
 void PrintTo(const BarCase& c, std::ostream* out) {
-  *out << (c.split == Split::none ? "hexahedron_" : "tetra_") << (c.direct ? "cholesky" : "conjugate_gradient");
+  *out << (c.split == Split::none ? "hexahedron_" : "tetra_")
+       << (c.direct ? "cholesky" : "conjugate_gradient");
 }
 
 class Bar : public testing::TestWithParam<BarCase> {
@@ -32,7 +33,8 @@ class Bar : public testing::TestWithParam<BarCase> {
   WorldDescription bar(const std::string& law, double poisson, double traction) const {
     WorldDescription world;
     world.bodies = {test::body_of(mesh_, {law, kYoung, poisson, 1.0})};
-    world.fixed = {test::fixed(test::nodes_at(mesh_, 0, 0.0), 1), test::fixed(test::nodes_at(mesh_, 1, 0.0), 2),
+    world.fixed = {test::fixed(test::nodes_at(mesh_, 0, 0.0), 1),
+                   test::fixed(test::nodes_at(mesh_, 1, 0.0), 2),
                    test::fixed(test::nodes_at(mesh_, 2, 0.0), 4)};
     LoadDescription load{"end", "body", {}, {}, {}};
     const auto share = [&](std::span<const std::int32_t> face, double area) {
@@ -78,7 +80,8 @@ TEST_P(Bar, UniaxialStVKWithoutPoisson) {
       Simulation simulation = statics(bar("stvk", 0.0, kYoung / 2.0 * F * (F * F - 1.0)), load_steps);
       const StepReport report = simulation.step(1.0);
       EXPECT_TRUE(report.converged) << report.message;
-      EXPECT_LT(distance(simulation, F, 1.0), kTolerance) << "F = " << F << ", " << load_steps << " load steps";
+      EXPECT_LT(distance(simulation, F, 1.0), kTolerance)
+          << "F = " << F << ", " << load_steps << " load steps";
       EXPECT_LE(report.residual, 1e-10);  // 1e-12, or what round-off leaves beside a small load
       EXPECT_EQ(test::view(simulation.state().velocities).norm(), 0.0);
       EXPECT_EQ(simulation.state().load_factor, 1.0);

@@ -27,8 +27,8 @@ class RunTimeLinks : public testing::TestWithParam<bool> {
     return (block(ConstReals(state.positions), a) - block(ConstReals(state.positions), b)).norm();
   }
   Mesh mesh_ = box_mesh(Vec3::Zero(), Vec3(3, 1, 1), {6, 2, 2}, Split::six);
-  std::int32_t near_ = 3;                        // half-way along the first edge of the bar
-  std::int32_t far_ = mesh_.node_count() - 1;    // its last corner
+  std::int32_t near_ = 3;                      // half-way along the first edge of the bar
+  std::int32_t far_ = mesh_.node_count() - 1;  // its last corner
   WorldDescription world_;
 };
 
@@ -37,12 +37,13 @@ TEST_P(RunTimeLinks, PullFarNodesTogether) {
   EXPECT_EQ(simulation.world().sparsity().slot(near_, far_), -1);
   for (int i = 0; i < 5; ++i) simulation.step(0.01);
   const double before = distance(simulation.state(), near_, far_);
-  simulation.world().links()->add({near_}, {far_}, 50.0);
+  // 3 E I / L^3 = 4.6 N/m against bending: the pull bends the bar without turning its cells inside out.
+  simulation.world().links()->add({near_}, {far_}, 5.0);
   for (int i = 0; i < 50; ++i) EXPECT_TRUE(simulation.step(0.01).converged);
-  EXPECT_LT(distance(simulation.state(), near_, far_), 0.9 * before);
+  EXPECT_LT(distance(simulation.state(), near_, far_), 0.95 * before);
   simulation.world().links()->clear();
   for (int i = 0; i < 300; ++i) EXPECT_TRUE(simulation.step(0.01).converged);
-  EXPECT_NEAR(distance(simulation.state(), near_, far_), before, 0.1 * before);  // let go, it goes back
+  EXPECT_NEAR(distance(simulation.state(), near_, far_), before, 0.02 * before);  // let go, it goes back
 }
 
 TEST_P(RunTimeLinks, BringExtraBlocksThatGoAgain) {
@@ -100,7 +101,8 @@ TEST_P(RunTimeLinks, SolversAgree) {
       if (i == 12) simulation->world().links()->add({1}, {far_}, 10.0);
       simulation->step(0.01);
     }
-    const double difference = (test::view(one.state().positions) - test::view(other.state().positions)).norm();
+    const double difference =
+        (test::view(one.state().positions) - test::view(other.state().positions)).norm();
     ASSERT_LT(difference, 1e-10) << "step " << i;  // the iteration's 1e-13 times the condition of the matrix
   }
 }

@@ -22,9 +22,7 @@ class WorldTest : public testing::Test {
     return world;
   }();
 
-  void expect_refused(const char* what) const {
-    EXPECT_THROW(World{description_}, Error) << what;
-  }
+  void expect_refused(const char* what) const { EXPECT_THROW(World{description_}, Error) << what; }
 };
 
 TEST_F(WorldTest, NumbersNodesBodyAfterBody) {
@@ -109,7 +107,8 @@ TEST_F(WorldTest, RunsTheInstructionSetAskedFor) {
 
 TEST_F(WorldTest, CountsExtentOfBodies) { EXPECT_NEAR(World(description_).extent(), std::sqrt(6.0), 1e-15); }
 
-/// The three numbers of a frame's rotation are not a place: a world far from the origin is no larger for them.
+/// The three numbers of a frame's rotation are not a place: a world far from the origin is no larger for
+/// them.
 TEST_F(WorldTest, ExtentLeavesOutRotations) {
   WorldDescription frames;
   frames.frames.resize(2);

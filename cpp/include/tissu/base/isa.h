@@ -12,6 +12,9 @@ enum class Isa { baseline, avx2, avx512 };
 /// TISSU_ISA names (baseline, avx2, avx512); a name that cannot run here is a ParameterError.
 Isa choose_isa();
 
+/// This machine and this build both have it.
+bool runs_here(Isa isa);
+
 std::string_view name(Isa isa);
 
 }  // namespace tissu

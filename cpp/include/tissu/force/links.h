@@ -23,6 +23,8 @@ class Links final : public ForceModel {
   /// Adds a link and returns its number.
   std::int32_t add(const LinkPoint& a, const LinkPoint& b, double stiffness);
   void clear() { links_.clear(); }
+  /// Takes over the links of another world of the same unknowns.
+  void take_over(const Links& other) { links_ = other.links_; }
   [[nodiscard]] std::size_t size() const { return links_.size(); }
 
   [[nodiscard]] std::string_view effect() const override { return "links"; }

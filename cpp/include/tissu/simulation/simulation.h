@@ -40,6 +40,7 @@ class Simulation {
   void replace_world(std::shared_ptr<const World> world);
 
  private:
+  [[nodiscard]] double farthest() const;
   [[nodiscard]] bool is_sane() const;
   [[noreturn]] void roll_back(double h);
 

@@ -33,6 +33,7 @@ class ImplicitEuler final : public Integrator {
   std::unique_ptr<System> system_;
   State start_;
   std::vector<double> v_;
+  std::vector<double> first_;
   std::vector<double> trial_;
   std::vector<double> change_;
   std::vector<double> right_;

@@ -1,6 +1,7 @@
 """A compiled scene runs, and the same scene from YAML runs the same."""
 
 import numpy as np
+import pytest
 
 from tissu.scene import (
     BarMesh,
@@ -16,6 +17,7 @@ from tissu.scene import (
     Scene,
     Static,
     StVK,
+    Traction,
 )
 
 BODY = Body(
@@ -84,3 +86,24 @@ def test_the_plan_names_what_runs_and_what_does_not():
     plan = str(bar().compile().plan())
     for word in ("elasticity of bar", "gravity", "fixed nodes of bar", "viscosity", "contact"):
         assert word in plan
+
+
+@pytest.mark.parametrize("cell", ["tetra", "hexahedron"])
+def test_uniform_traction_stretches_uniformly(cell):
+    young, stretch = 1e5, 1.2
+    pull = young / 2 * stretch * (stretch**2 - 1)  # P11 of StVK, Poisson's ratio 0
+    body = Body(
+        mesh=BarMesh(size=(0.4, 0.1, 0.1), cells=(4, 2, 2), cell=cell),
+        law=StVK(young=young, poisson=0.0),
+        density=1e3,
+    )
+    simulation = bar(
+        bodies={"bar": body},
+        gravity=None,
+        loads=[Traction("bar", on=RIGHT, traction=(pull, 0, 0))],
+        step=Static(newton=Newton(iterations=50, tolerance=1e-12), solver=Cholesky()),
+    ).compile()
+    rest = simulation.positions["bar"].copy()
+    simulation.step()
+    expected = rest * (stretch, 1, 1)
+    assert np.abs(simulation.positions["bar"] - expected).max() < 1e-9

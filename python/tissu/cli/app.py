@@ -88,12 +88,12 @@ def mesh_info(
 
 @mesh_app.command("bar")
 def mesh_bar(
-    size: Annotated[Triple, typer.Option(metavar="X Y Z", help="Lengths [m].")],
+    size: Annotated[Triple, typer.Option(metavar="X Y Z", help="Lengths in m.")],
     cells: Annotated[tuple[int, int, int], typer.Option(metavar="X Y Z", help="Grid cells.")],
     output: Annotated[Path, typer.Option("--output", "-o", metavar="FILE", help="The mesh.")],
     cell: Annotated[str, typer.Option(help="tetra or hexahedron.")] = "tetra",
     split: Annotated[str, typer.Option(help="six, five or six_mirrored (tetra).")] = "six",
-    origin: Annotated[Triple, typer.Option(metavar="X Y Z", help="Smallest corner [m].")] = (
+    origin: Annotated[Triple, typer.Option(metavar="X Y Z", help="Smallest corner in m.")] = (
         0.0,
         0.0,
         0.0,

@@ -40,7 +40,17 @@ def selected_triangles(nodes: Ints, mesh: Mesh) -> Ints:
     triangles = np.asarray(mesh.surface().triangles)
     chosen = np.zeros(mesh.node_count, dtype=bool)
     chosen[nodes] = True
-    return np.ascontiguousarray(triangles[chosen[triangles].all(axis=1)], dtype=np.int32)
+    keep = chosen[triangles].all(axis=1)
+    quads = np.asarray(mesh.surface().quads)
+    if len(quads):  # the last rows are halves of quads: both or none
+        keep[-2 * len(quads) :] = np.repeat(chosen[quads].all(axis=1), 2)
+    return np.ascontiguousarray(triangles[keep], dtype=np.int32)
+
+
+def selected_quads(nodes: Ints, mesh: Mesh) -> Ints:
+    """Quads (q, 4) of the surface whose nodes are all among `nodes`."""
+    quads = np.asarray(mesh.surface().quads)
+    return np.ascontiguousarray(quads[np.isin(quads, nodes).all(axis=1)], dtype=np.int32)
 
 
 def region_nodes(name: str, mesh: Mesh) -> Ints:

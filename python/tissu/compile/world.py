@@ -133,8 +133,8 @@ def _add_load(builder: WorldBuilder, loaded: LoadedNodes, prepared: Prepared) ->
 def traction_forces(load: Traction, points: Floats, triangles: Any, quads: Any) -> Floats:
     """Forces (n, 3) [N] on all nodes: traction times rest area, a third to each corner.
 
-    The last 2 q triangles are the halves of the quads (q, 4); a quad takes the mean of its two cuts, so
-    that the corners of a parallelogram carry a quarter each.
+    The last 2 q triangles are the halves of the quads (q, 4); a quad takes the mean of its two
+    cuts, so that the corners of a parallelogram carry a quarter each.
     """
     whole = triangles[: len(triangles) - 2 * len(quads)]
     corners = (([0, 1, 2], 0.5), ([0, 2, 3], 0.5), ([0, 1, 3], 0.5), ([1, 2, 3], 0.5))

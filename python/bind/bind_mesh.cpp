@@ -10,6 +10,7 @@
 
 #include "tissu/base/error.h"
 #include "tissu/mesh/box.h"
+#include "tissu/mesh/cell_shape.h"
 #include "tissu/mesh/quality.h"
 #include "tissu/mesh/topology.h"
 
@@ -34,14 +35,17 @@ py::array_t<Number> to_array(const std::vector<Item>& values, py::ssize_t width 
   return result;
 }
 
+tissu::CellType named_type(const std::string& name) {
+  const auto type = tissu::cell_type(name);
+  if (!type) throw tissu::MeshError("cells of type '" + name + "' are not handled");
+  return *type;
+}
+
 tissu::Mesh to_mesh(const Reals& positions, const Blocks& blocks) {
   tissu::Mesh mesh;
   mesh.positions.assign(positions.data(), positions.data() + positions.size());
-  for (const auto& [name, nodes] : blocks) {
-    const auto type = tissu::cell_type(name);
-    if (!type) throw tissu::MeshError("cells of type '" + name + "' are not handled");
-    mesh.blocks.push_back({*type, {nodes.data(), nodes.data() + nodes.size()}});
-  }
+  for (const auto& [name, nodes] : blocks)
+    mesh.blocks.push_back({named_type(name), {nodes.data(), nodes.data() + nodes.size()}});
   return mesh;
 }
 
@@ -57,7 +61,22 @@ py::list to_blocks(const tissu::Mesh& mesh) {
 py::list cell_types() {
   py::list result;
   for (const auto& type : tissu::cell_types())
-    result.append(py::make_tuple(std::string(type.name), type.nodes, type.dimension));
+    result.append(
+        py::make_tuple(std::string(type.name), type.nodes, type.dimension, type.order, type.corners));
+  return result;
+}
+
+std::vector<std::vector<int>> cell_edges(const std::string& name) {
+  std::vector<std::vector<int>> result;
+  for (const auto& edge : tissu::edges(named_type(name))) result.emplace_back(edge.begin(), edge.end());
+  return result;
+}
+
+py::list cell_faces(const std::string& name) {
+  py::list result;
+  for (const auto& face : tissu::faces(named_type(name)))
+    result.append(
+        py::make_tuple(face.corners, std::vector<int>(face.node.begin(), face.node.begin() + face.nodes)));
   return result;
 }
 
@@ -90,6 +109,8 @@ void bind_mesh(py::module_& m) {
       .value("five", tissu::Split::five)
       .value("six_mirrored", tissu::Split::six_mirrored);
   m.def("cell_types", &cell_types);
+  m.def("cell_edges", &cell_edges, py::kw_only(), "cell_type"_a);
+  m.def("cell_faces", &cell_faces, py::kw_only(), "cell_type"_a);
   m.def("box_mesh", &box_mesh, py::kw_only(), "origin"_a, "size"_a, "cells"_a, "split"_a);
   m.def("boundary_surface", &boundary_surface, py::kw_only(), "positions"_a, "blocks"_a);
   m.def("turn_reversed_cells", &turn_reversed_cells, py::kw_only(), "positions"_a, "blocks"_a);
@@ -102,6 +123,10 @@ void bind_mesh(py::module_& m) {
         py::kw_only(), "positions"_a, "blocks"_a);
   };
   measure("overfull_face_count", &tissu::overfull_face_count);
+  measure("nonconforming_faces", [](const tissu::Mesh& mesh) {
+    const tissu::NonconformingFaces found = tissu::nonconforming_faces(mesh);
+    return py::make_tuple(found.count, to_array<std::int32_t>(found.cells));
+  });
   measure("connected_parts",
           [](const tissu::Mesh& mesh) { return to_array<std::int32_t>(tissu::connected_parts(mesh)); });
   measure("cell_volumes", [](const tissu::Mesh& mesh) { return to_array<double>(tissu::volumes(mesh)); });

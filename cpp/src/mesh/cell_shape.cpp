@@ -36,13 +36,10 @@ constexpr Shape<9, 5> kWedge{6,
                                {4, 4, {1, 2, 5, 4}},
                                {4, 4, {2, 0, 3, 5}}}}};
 
-constexpr Shape<8, 5> kPyramid{5,
-                               {{{0, 1}, {1, 2}, {2, 3}, {3, 0}, {0, 4}, {1, 4}, {2, 4}, {3, 4}}},
-                               {{{4, 4, {0, 3, 2, 1}},
-                                 {3, 3, {0, 1, 4}},
-                                 {3, 3, {1, 2, 4}},
-                                 {3, 3, {2, 3, 4}},
-                                 {3, 3, {3, 0, 4}}}}};
+constexpr Shape<8, 5> kPyramid{
+    5,
+    {{{0, 1}, {1, 2}, {2, 3}, {3, 0}, {0, 4}, {1, 4}, {2, 4}, {3, 4}}},
+    {{{4, 4, {0, 3, 2, 1}}, {3, 3, {0, 1, 4}}, {3, 3, {1, 2, 4}}, {3, 3, {2, 3, 4}}, {3, 3, {3, 0, 4}}}}};
 
 template <std::size_t n>
 constexpr std::uint8_t middle(const std::array<Edge, n>& edges, std::uint8_t a, std::uint8_t b) {
@@ -74,9 +71,8 @@ constexpr auto kPyramid13Faces = quadratic(kPyramid, false);
 /// Mirror images: corners 2 and 3 of a tetrahedron, the bottom and the top of a hexahedron and of a wedge,
 /// corners 1 and 3 of a pyramid change places. A linear cell has the first few of the numbers.
 constexpr std::array<std::uint8_t, 10> kTetraMirror{0, 1, 3, 2, 4, 8, 7, 6, 5, 9};
-constexpr std::array<std::uint8_t, 27> kHexahedronMirror{4,  5,  6,  7,  0,  1,  2,  3,  12,
-                                                         13, 14, 15, 8,  9,  10, 11, 16, 17,
-                                                         18, 19, 20, 21, 22, 23, 25, 24, 26};
+constexpr std::array<std::uint8_t, 27> kHexahedronMirror{4,  5,  6,  7,  0,  1,  2,  3,  12, 13, 14, 15, 8, 9,
+                                                         10, 11, 16, 17, 18, 19, 20, 21, 22, 23, 25, 24, 26};
 constexpr std::array<std::uint8_t, 15> kWedgeMirror{3, 4, 5, 0, 1, 2, 9, 10, 11, 6, 7, 8, 12, 13, 14};
 constexpr std::array<std::uint8_t, 13> kPyramidMirror{0, 3, 2, 1, 4, 8, 7, 6, 5, 9, 12, 11, 10};
 

@@ -14,8 +14,8 @@
 
 namespace tissu {
 
-/// A face of the mesh: its corners in ascending order (a triangle ends in -1) name it whatever cell it is seen
-/// from.
+/// A face of the mesh: its corners in ascending order (a triangle ends in -1) name it whatever cell it is
+/// seen from.
 struct Face {
   std::array<std::int32_t, 4> key;
   std::int32_t cell;      ///< number across the blocks

@@ -12,8 +12,7 @@ using Triangle = std::array<std::uint8_t, 3>;
 /// Triangles between the nodes of a face: the corners, the middles of the edges, the middle.
 constexpr std::array<Triangle, 1> kThree{{{0, 1, 2}}};
 constexpr std::array<Triangle, 4> kSix{{{0, 3, 5}, {3, 1, 4}, {5, 4, 2}, {3, 4, 5}}};
-constexpr std::array<Triangle, 6> kEight{
-    {{0, 4, 7}, {1, 5, 4}, {2, 6, 5}, {3, 7, 6}, {4, 5, 6}, {4, 6, 7}}};
+constexpr std::array<Triangle, 6> kEight{{{0, 4, 7}, {1, 5, 4}, {2, 6, 5}, {3, 7, 6}, {4, 5, 6}, {4, 6, 7}}};
 constexpr std::array<Triangle, 8> kNine{
     {{0, 4, 8}, {4, 1, 8}, {1, 5, 8}, {5, 2, 8}, {2, 6, 8}, {6, 3, 8}, {3, 7, 8}, {7, 0, 8}}};
 

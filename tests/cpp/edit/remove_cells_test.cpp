@@ -29,10 +29,10 @@ class RemoveCells : public testing::TestWithParam<RemovalCase> {
   RemoveCells() {
     world_.bodies = {test::body_of(mesh_, {.law = GetParam().law, .young = 300.0})};
     ElasticBlock& block = world_.bodies[0].elastic[0];
-    block.young.clear();  // differs from cell to cell: the right ones have to stay
+    block.parameters["young"].clear();  // differs from cell to cell: the right ones have to stay
     block.density.clear();
     for (std::int32_t i = 0; i < mesh_.cell_count(); ++i) {
-      block.young.push_back(300.0 + i);
+      block.parameters["young"].push_back(300.0 + i);
       block.density.push_back(2.0 + 0.01 * i);
     }
     world_.bodies[0].rayleigh = {0.1, 0.001};
@@ -54,13 +54,13 @@ class RemoveCells : public testing::TestWithParam<RemovalCase> {
     const ElasticBlock& all = world_.bodies[0].elastic[0];
     ElasticBlock& left = result.bodies[0].elastic[0];
     left.cells.clear();
-    left.young.clear();
+    left.parameters["young"].clear();
     left.density.clear();
     for (std::int32_t i = 0; i < mesh_.cell_count(); ++i) {
       if (std::ranges::find(cells, i) != cells.end()) continue;
       const auto cell = mesh_.blocks[0].cell(i);
       left.cells.insert(left.cells.end(), cell.begin(), cell.end());
-      left.young.push_back(all.young[static_cast<std::size_t>(i)]);
+      left.parameters["young"].push_back(all.parameters.at("young")[static_cast<std::size_t>(i)]);
       left.density.push_back(all.density[static_cast<std::size_t>(i)]);
     }
     return result;

@@ -101,12 +101,12 @@ TEST_P(ElasticDerivatives, IsTheSumOfItsCells) {
   const auto nodes = static_cast<std::size_t>(elastic.nodes_per_cell());
   Eigen::VectorXd f = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(state.positions.size()));
   double energy = 0.0;
-  for (std::size_t i = 0; i < whole.young.size(); ++i) {
+  for (std::size_t i = 0; i < whole.parameters.at("young").size(); ++i) {
     ElasticBlock one = whole;
     const auto first = whole.cells.begin() + static_cast<std::ptrdiff_t>(i * nodes);
     one.cells.assign(first, first + static_cast<std::ptrdiff_t>(nodes));
-    one.young = {whole.young[i]};
-    one.poisson = {whole.poisson[i]};
+    one.parameters["young"] = {whole.parameters.at("young")[i]};
+    one.parameters["poisson"] = {whole.parameters.at("poisson")[i]};
     one.density = {whole.density[i]};
     const Elastic cell = made(one);
     f += force_of(cell, state);
@@ -120,8 +120,8 @@ TEST_P(ElasticDerivatives, UniformAndPerCellParametersAgree) {
   const ElasticBlock uniform = block();
   ElasticBlock per_cell = uniform;
   const auto cells = static_cast<std::size_t>(mesh_.cell_count());
-  per_cell.young.assign(cells, uniform.young[0]);
-  per_cell.poisson.assign(cells, uniform.poisson[0]);
+  per_cell.parameters["young"].assign(cells, uniform.parameters.at("young")[0]);
+  per_cell.parameters["poisson"].assign(cells, uniform.parameters.at("poisson")[0]);
   per_cell.density.assign(cells, uniform.density[0]);
   const State state = any_state();
   EXPECT_EQ(force_of(made(uniform), state), force_of(made(per_cell), state));

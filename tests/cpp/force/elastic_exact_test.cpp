@@ -174,11 +174,11 @@ TEST_P(ElasticExact, FieldsOfConstantStrain) {
 /// nu = 0, stretch s along x: the only stress is sigma_xx = P_xx, since the section keeps its area.
 TEST_P(ElasticExact, FieldsOfUniaxialTension) {
   ElasticBlock bar = varied_block();
-  bar.poisson = {0.0};
+  bar.parameters["poisson"] = {0.0};
   const double s = 1.3;
   const CellFields fields = made(bar).fields(affine(Vec3(s, 1, 1).asDiagonal()));
-  for (std::size_t i = 0; i < bar.young.size(); ++i) {
-    const double E = bar.young[i];  // differs from cell to cell: the fields are in the order of the cells
+  for (std::size_t i = 0; i < bar.parameters["young"].size(); ++i) {
+    const double E = bar.parameters["young"][i];  // differs from cell to cell: the fields are in the order of the cells
     EXPECT_NEAR(fields.von_mises[i], is_stvk() ? E / 2 * s * (s * s - 1) : E * (s - 1), kRoundOff);
     EXPECT_NEAR(fields.energy_density[i],
                 is_stvk() ? E / 8 * std::pow(s * s - 1, 2) : E / 2 * std::pow(s - 1, 2), kRoundOff);

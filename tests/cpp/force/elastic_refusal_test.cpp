@@ -84,7 +84,7 @@ TEST_P(ElasticRefusal, SaysWhatThereIs) {
 
 TEST_P(ElasticRefusal, TablesOfAnotherLength) {
   const auto cells = static_cast<std::size_t>(mesh_.cell_count());
-  for (auto* values : {&block_.young, &block_.poisson, &block_.density}) {
+  for (auto* values : {&block_.parameters["young"], &block_.parameters["poisson"], &block_.density}) {
     const std::vector<double> before = *values;
     for (const std::size_t length : {std::size_t{0}, std::size_t{2}, cells - 1, cells + 1}) {
       values->assign(length, before[0]);
@@ -98,13 +98,13 @@ TEST_P(ElasticRefusal, TablesOfAnotherLength) {
 
 TEST_P(ElasticRefusal, ParametersOutOfRange) {
   for (const double nu : {0.5, -1.0, kNaN}) {
-    block_.poisson = {nu};
+    block_.parameters["poisson"] = {nu};
     EXPECT_THROW(make(), ParameterError) << nu;
   }
-  block_.poisson = {0.3};
+  block_.parameters["poisson"] = {0.3};
   for (const double E : {0.0, -1.0, kNaN}) {
-    block_.young.assign(static_cast<std::size_t>(mesh_.cell_count()), 1.0);
-    block_.young.back() = E;  // one bad cell among good ones
+    block_.parameters["young"].assign(static_cast<std::size_t>(mesh_.cell_count()), 1.0);
+    block_.parameters["young"].back() = E;  // one bad cell among good ones
     EXPECT_THROW(make(), ParameterError) << E;
   }
 }

@@ -38,8 +38,8 @@ inline ElasticBlock elastic_block(const CellBlock& cells, const Material& materi
   block.element = info(cells.type).name;
   block.law = material.law;
   block.cells = cells.nodes;
-  block.young = {material.young};
-  block.poisson = {material.poisson};
+  block.parameters["young"] = {material.young};
+  block.parameters["poisson"] = {material.poisson};
   block.density = {material.density};
   return block;
 }

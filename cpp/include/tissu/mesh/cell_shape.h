@@ -10,8 +10,8 @@
 
 namespace tissu {
 
-/// A face of a cell: node numbers within the cell, the corners anticlockwise seen from outside, then the middle
-/// of each edge from corner c to corner c + 1, then the middle of the face.
+/// A face of a cell: node numbers within the cell, the corners anticlockwise seen from outside, then the
+/// middle of each edge from corner c to corner c + 1, then the middle of the face.
 struct LocalFace {
   int corners;  ///< 3 or 4
   int nodes;    ///< 3, 4; 6, 8; 9

@@ -13,8 +13,8 @@
 
 namespace tissu {
 
-/// The cell types there are; the names are those of meshio. Corners come first, then the middles of the edges,
-/// of the faces and of the cell. The triangle 0 1 2 of a wedge looks towards 3 4 5, as in meshio.
+/// The cell types there are; the names are those of meshio. Corners come first, then the middles of the
+/// edges, of the faces and of the cell. The triangle 0 1 2 of a wedge looks towards 3 4 5, as in meshio.
 enum class CellType : std::uint8_t {
   tetra,
   hexahedron,

@@ -33,7 +33,9 @@ _HOMES = {
         "read_mesh",
         "write_mesh",
         "bar_mesh",
+        "into_quadratic",
         "into_tetrahedra",
+        "mixed_bar_mesh",
     ),
     "tissu.scene": (
         "ArrudaBoyce",

@@ -10,7 +10,9 @@ from tissu.mesh import Mesh as Mesh
 from tissu.mesh import QualityReport as QualityReport
 from tissu.mesh import Surface as Surface
 from tissu.mesh import bar_mesh as bar_mesh
+from tissu.mesh import into_quadratic as into_quadratic
 from tissu.mesh import into_tetrahedra as into_tetrahedra
+from tissu.mesh import mixed_bar_mesh as mixed_bar_mesh
 from tissu.mesh import read_mesh as read_mesh
 from tissu.mesh import write_mesh as write_mesh
 from tissu.scene import ArrudaBoyce as ArrudaBoyce

@@ -5,88 +5,97 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <utility>
+
+#include "tissu/element/reference_cell.h"
+#include "tissu/mesh/cell_shape.h"
 
 namespace tissu {
 namespace {
 
 using Nodes = std::span<const std::int32_t>;
+using Corner = std::array<std::uint8_t, 4>;
 
-/// Signs of the corners of the hexahedron [-1, 1]^3.
-constexpr std::array<std::array<int, 3>, 8> kCorners{
-    {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1}, {-1, -1, 1}, {1, -1, 1}, {1, 1, 1}, {-1, 1, 1}}};
+/// A corner and its three neighbours, right-handed.
+constexpr std::array<Corner, 8> kHexahedronCorners{{{0, 1, 3, 4},
+                                                    {1, 2, 0, 5},
+                                                    {2, 3, 1, 6},
+                                                    {3, 0, 2, 7},
+                                                    {4, 7, 5, 0},
+                                                    {5, 4, 6, 1},
+                                                    {6, 5, 7, 2},
+                                                    {7, 6, 4, 3}}};
+constexpr std::array<Corner, 6> kWedgeCorners{
+    {{0, 1, 2, 3}, {1, 2, 0, 4}, {2, 0, 1, 5}, {3, 5, 4, 0}, {4, 3, 5, 1}, {5, 4, 3, 2}}};
+constexpr std::array<Corner, 4> kPyramidCorners{{{0, 1, 3, 4}, {1, 2, 0, 4}, {2, 3, 1, 4}, {3, 0, 2, 4}}};
 
-/// The three neighbours of each corner of a hexahedron, right-handed.
-constexpr std::array<std::array<std::uint8_t, 3>, 8> kNeighbours{
-    {{1, 3, 4}, {2, 0, 5}, {3, 1, 6}, {0, 2, 7}, {7, 5, 0}, {4, 6, 1}, {5, 7, 2}, {6, 4, 3}}};
-
-constexpr std::array<std::pair<std::uint8_t, std::uint8_t>, 6> kTetraEdges{
-    {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
-
-double determinant(const Vec3& a, const Vec3& b, const Vec3& c) { return a.dot(b.cross(c)); }
-
-double tetra_jacobian(const Mesh& mesh, Nodes cell) {
-  const Vec3 x = mesh.node(cell[0]);
-  return determinant(mesh.node(cell[1]) - x, mesh.node(cell[2]) - x, mesh.node(cell[3]) - x);
+/// The tables of the full rule of each cell type, made once.
+const ReferenceCell& full_rule(CellType type) {
+  static const std::vector<ReferenceCell> rules = [] {
+    std::vector<ReferenceCell> all;
+    for (const CellTypeInfo& row : cell_types()) all.push_back(reference_cell(row.name, "full"));
+    return all;
+  }();
+  return rules[static_cast<std::size_t>(type)];
 }
 
-/// det(dx/dxi) of the trilinear map N_a = prod_i (1 + xi_i xi_ai) / 8 at xi.
-double hexahedron_jacobian(const Mesh& mesh, Nodes cell, const Vec3& xi) {
+/// det(dx/dxi) at a point of the rule.
+double jacobian(const Mesh& mesh, Nodes cell, const ReferenceCell::Point& point) {
   Mat3 J = Mat3::Zero();
-  for (std::size_t a = 0; a < 8; ++a) {
-    const Vec3 sign(kCorners[a][0], kCorners[a][1], kCorners[a][2]);
-    const Vec3 g = Vec3::Ones() + sign.cwiseProduct(xi);
-    const Vec3 gradient(sign[0] * g[1] * g[2], g[0] * sign[1] * g[2], g[0] * g[1] * sign[2]);
-    J += mesh.node(cell[a]) * gradient.transpose() / 8.0;
-  }
+  for (std::size_t a = 0; a < cell.size(); ++a)
+    J += mesh.node(cell[a]) * Eigen::Map<const Vec3>(point.gradients[a].data()).transpose();
   return J.determinant();
 }
 
-/// The determinants at the 2x2x2 Gauss points, whose weights are all 1.
-std::array<double, 8> gauss_jacobians(const Mesh& mesh, Nodes cell) {
-  std::array<double, 8> result{};
-  for (std::size_t q = 0; q < 8; ++q)
-    result[q] = hexahedron_jacobian(
-        mesh, cell, Vec3(kCorners[q][0], kCorners[q][1], kCorners[q][2]) * std::numbers::inv_sqrt3);
-  return result;
-}
-
 double volume(const Mesh& mesh, CellType type, Nodes cell) {
-  if (type == CellType::tetra) return tetra_jacobian(mesh, cell) / 6.0;
   double sum = 0.0;
-  for (const double jacobian : gauss_jacobians(mesh, cell)) sum += jacobian;
+  for (const auto& point : full_rule(type).points) sum += point.weight * jacobian(mesh, cell, point);
   return sum;
 }
 
 JacobianRange jacobian_range(const Mesh& mesh, CellType type, Nodes cell) {
-  if (type == CellType::tetra) {
-    const double jacobian = tetra_jacobian(mesh, cell);
-    return {jacobian, jacobian};
+  JacobianRange range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+  for (const auto& point : full_rule(type).points) {
+    const double value = jacobian(mesh, cell, point);
+    range = {std::min(range.smallest, value), std::max(range.largest, value)};
   }
-  const auto [smallest, largest] = std::ranges::minmax(gauss_jacobians(mesh, cell));
-  return {smallest, largest};
+  return range;
 }
+
+double determinant(const Vec3& a, const Vec3& b, const Vec3& c) { return a.dot(b.cross(c)); }
 
 double tetra_quality(const Mesh& mesh, Nodes cell) {
   double squares = 0.0;
-  for (const auto& [a, b] : kTetraEdges) squares += (mesh.node(cell[a]) - mesh.node(cell[b])).squaredNorm();
+  for (const auto& [a, b] : edges(CellType::tetra))
+    squares += (mesh.node(cell[a]) - mesh.node(cell[b])).squaredNorm();
   if (squares == 0.0) return 0.0;
-  return std::numbers::sqrt2 * tetra_jacobian(mesh, cell) / std::pow(squares / 6.0, 1.5);
+  const Vec3 x = mesh.node(cell[0]);
+  const double six_volumes =
+      determinant(mesh.node(cell[1]) - x, mesh.node(cell[2]) - x, mesh.node(cell[3]) - x);
+  return std::numbers::sqrt2 * six_volumes / std::pow(squares / 6.0, 1.5);
 }
 
-double scaled_jacobian(const Mesh& mesh, Nodes cell) {
+double scaled_jacobian(const Mesh& mesh, Nodes cell, std::span<const Corner> corners) {
   double smallest = std::numeric_limits<double>::infinity();
-  for (std::size_t corner = 0; corner < 8; ++corner) {
+  for (const Corner& corner : corners) {
     std::array<Vec3, 3> edge;
     for (std::size_t i = 0; i < 3; ++i)  // normalized() leaves a zero edge zero
-      edge[i] = (mesh.node(cell[kNeighbours[corner][i]]) - mesh.node(cell[corner])).normalized();
+      edge[i] = (mesh.node(cell[corner[i + 1]]) - mesh.node(cell[corner[0]])).normalized();
     smallest = std::min(smallest, determinant(edge[0], edge[1], edge[2]));
   }
   return smallest;
 }
 
 double shape_quality(const Mesh& mesh, CellType type, Nodes cell) {
-  return type == CellType::tetra ? tetra_quality(mesh, cell) : scaled_jacobian(mesh, cell);
+  switch (info(type).corners) {
+    case 4:
+      return tetra_quality(mesh, cell);
+    case 5:
+      return std::min(1.0, std::numbers::sqrt2 * scaled_jacobian(mesh, cell, kPyramidCorners));
+    case 6:
+      return 2.0 * std::numbers::inv_sqrt3 * scaled_jacobian(mesh, cell, kWedgeCorners);
+    default:
+      return scaled_jacobian(mesh, cell, kHexahedronCorners);
+  }
 }
 
 /// One value of `measure` for each cell of the mesh.
@@ -100,12 +109,10 @@ auto for_each_cell(const Mesh& mesh, Measure measure) {
   return result;
 }
 
-/// Mirrors a cell: two corners of a tetrahedron, or bottom and top of a hexahedron, change places.
+/// Mirrors a cell's numbering.
 void mirror(CellType type, std::span<std::int32_t> cell) {
-  if (type == CellType::tetra)
-    std::swap(cell[2], cell[3]);
-  else
-    std::swap_ranges(cell.begin(), cell.begin() + 4, cell.begin() + 4);
+  const std::vector<std::int32_t> before(cell.begin(), cell.end());
+  std::ranges::transform(mirrored(type), cell.begin(), [&](std::uint8_t node) { return before[node]; });
 }
 
 }  // namespace

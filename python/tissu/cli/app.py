@@ -91,20 +91,34 @@ def mesh_bar(
     size: Annotated[Triple, typer.Option(metavar="X Y Z", help="Lengths in m.")],
     cells: Annotated[tuple[int, int, int], typer.Option(metavar="X Y Z", help="Grid cells.")],
     output: Annotated[Path, typer.Option("--output", "-o", metavar="FILE", help="The mesh.")],
-    cell: Annotated[str, typer.Option(help="tetra or hexahedron.")] = "tetra",
+    cell: Annotated[
+        str, typer.Option(help="tetra, hexahedron, wedge, pyramid, tetra10, hexahedron20, ...")
+    ] = "tetra",
     split: Annotated[str, typer.Option(help="six, five or six_mirrored (tetra).")] = "six",
     origin: Annotated[Triple, typer.Option(metavar="X Y Z", help="Smallest corner in m.")] = (
         0.0,
         0.0,
         0.0,
     ),
+    segments: Annotated[
+        str | None,
+        typer.Option(
+            help="Equal pieces along x instead of --cell, each with its cells and a label that "
+            "names its region: 'wedge6:stvk, pyramid5:stvk, hex8:stvk, tet4:hooke'."
+        ),
+    ] = None,
     debug: Debug = False,
 ) -> None:
-    """Make a bar of tetrahedra or hexahedra."""
+    """Make a bar of like cells, or of segments of different ones whose faces match."""
     with reported(debug=debug):
-        from tissu.mesh import bar_mesh, write_mesh
+        from tissu.mesh import bar_mesh, mixed_bar_mesh, write_mesh
+        from tissu.mesh.segment import parse_segments
 
-        made = bar_mesh(size=size, cells=cells, cell=cell, split=split, origin=origin)  # type: ignore[arg-type]
+        if segments is None:
+            made = bar_mesh(size=size, cells=cells, cell=cell, split=split, origin=origin)  # type: ignore[arg-type]
+        else:
+            pairs = parse_segments(segments)
+            made = mixed_bar_mesh(size=size, cells=cells, segments=pairs, origin=origin)
         write_mesh(made, output)
         typer.echo(f"{output}: {made.node_count} nodes, {made.cell_count} cells")
 

@@ -71,7 +71,8 @@ def _factor(expression: Expr, scalar: str) -> str:
 
 
 def _sum(expression: Expr, scalar: str) -> str:
-    terms = sorted(expression.args, key=lambda term: (_negative(term), term.is_Number))
+    # Names before products: what follows is multiply-and-add, one operation of the machine.
+    terms = sorted(expression.args, key=lambda t: (_negative(t), t.is_Number, not t.is_Symbol))
     text = ""
     for term in terms:
         if _negative(term):

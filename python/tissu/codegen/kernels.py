@@ -126,8 +126,12 @@ def stress_change(W: Expr) -> Program:
         along = {at: sum(sp.diff(P[at], F[kl]) * dF[kl] for kl in ENTRIES) for at in ENTRIES}
         return _direct({f"dP({i}, {j})": along[i, j] for i, j in ENTRIES})
     made = Builder(derive.weights(W), second=True)
+    dP = dF * made.S()
+    if "FC" in made.p:  # named before D and T are, so that fewer numbers are alive at a time
+        first = dP
+        dP = matrix(lambda i, j: made.program.let(f"Q{i}{j}", first[i, j]))
     slope = _weight_changes(made)
-    dP = dF * made.S() + F * _second_stress_change(made, slope)
+    dP += F * _second_stress_change(made, slope)
     if "N" in made.p:
         f, p_N = made.state.f(), made.p["N"]
         df = _df(made)

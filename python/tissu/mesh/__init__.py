@@ -3,6 +3,8 @@
 from tissu.mesh.bar import bar_mesh
 from tissu.mesh.cell import CellBlock
 from tissu.mesh.mesh import Mesh
+from tissu.mesh.mixed_bar import mixed_bar_mesh
+from tissu.mesh.quadratic import into_quadratic
 from tissu.mesh.quality import QualityReport
 from tissu.mesh.read import read_mesh
 from tissu.mesh.surface import Surface
@@ -15,7 +17,9 @@ __all__ = [
     "QualityReport",
     "Surface",
     "bar_mesh",
+    "into_quadratic",
     "into_tetrahedra",
+    "mixed_bar_mesh",
     "read_mesh",
     "write_mesh",
 ]

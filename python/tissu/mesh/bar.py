@@ -11,10 +11,11 @@ import numpy as np
 
 from tissu import _core
 from tissu.errors import ParameterError
-from tissu.mesh.cell import CellBlock
+from tissu.mesh.cell import CellBlock, Floats, Ints, cell_table, handled_types, linear_type
+from tissu.mesh.cut import into_pyramids, into_wedges
 from tissu.mesh.mesh import Mesh
+from tissu.mesh.quadratic import into_quadratic
 
-Cell = Literal["tetra", "hexahedron"]
 Split = Literal["six", "five", "six_mirrored"]
 
 
@@ -22,16 +23,20 @@ def bar_mesh(
     *,
     size: Sequence[float],
     cells: Sequence[int],
-    cell: Cell = "tetra",
+    cell: str = "tetra",
     split: Split = "six",
     origin: Sequence[float] = (0.0, 0.0, 0.0),
 ) -> Mesh:
     """A box cut into like cells; nodes are numbered x fastest, then y, then z.
 
+    The tips of pyramids come after the corners of the grid, the middles of edges after both.
+
     Args:
         size: lengths along x, y, z [m].
         cells: numbers of grid cells along x, y, z.
-        cell: "tetra" or "hexahedron".
+        cell: type as meshio names it: a grid cell is one "hexahedron", 2 of "wedge", 6 of
+            "pyramid" or as `split` says "tetra"; "tetra10", "hexahedron20", "hexahedron27",
+            "wedge15", "pyramid13" are those with middle nodes.
         split: how a grid cell is cut into tetrahedra: "six" around one diagonal, all alike;
             "five", in two mirror images like a chessboard; "six_mirrored", each grid cell the
             mirror image of its neighbours.
@@ -40,20 +45,46 @@ def bar_mesh(
     Raises:
         ParameterError: a length or a number that is not positive, or an unknown cell or split.
     """
+    if cell not in handled_types():
+        raise ParameterError(f"found cell '{cell}'; {', '.join(handled_types())} are accepted")
+    if split not in get_args(Split):
+        raise ParameterError(f"found split '{split}'; {', '.join(get_args(Split))} are accepted")
+    base = linear_type(cell)
+    points, nodes = grid(
+        size=size, cells=cells, origin=origin, split=split if base == "tetra" else "none"
+    )
+    if base == "wedge":
+        ((_, nodes),) = into_wedges(nodes, triangles_along_x=False)
+    elif base == "pyramid":
+        points, tips = with_centres(points, nodes)
+        ((_, nodes),) = into_pyramids(nodes, tips)
+    mesh = Mesh(points=points, cells=(CellBlock(base, nodes),))
+    if cell_table()[cell].order == 1:
+        return mesh
+    return into_quadratic(mesh, centres=cell == "hexahedron27")
+
+
+def grid(
+    *, size: Sequence[float], cells: Sequence[int], origin: Sequence[float], split: str = "none"
+) -> tuple[Floats, Ints]:
+    """Nodes (n, 3) [m] of a box and its grid cells (e, 8), or its tetrahedra (e, 4) by `split`.
+
+    Raises:
+        ParameterError: a length or a number that is not positive.
+    """
     lengths, corner = _three(size, "size"), _three(origin, "origin")
     if min(lengths) <= 0.0:
         raise ParameterError(f"found size {lengths}; three positive lengths [m] are accepted")
-    if cell not in get_args(Cell):
-        raise ParameterError(f"found cell '{cell}'; {' or '.join(get_args(Cell))} is accepted")
-    if split not in get_args(Split):
-        raise ParameterError(f"found split '{split}'; {', '.join(get_args(Split))} are accepted")
-    points, blocks = _core.box_mesh(
-        origin=corner,
-        size=lengths,
-        cells=_counts(cells),
-        split=getattr(_core.Split, "none" if cell == "hexahedron" else split),
+    points, ((_, nodes),) = _core.box_mesh(
+        origin=corner, size=lengths, cells=counts(cells), split=getattr(_core.Split, split)
     )
-    return Mesh(points=points, cells=tuple(CellBlock(name, nodes) for name, nodes in blocks))
+    return points, nodes
+
+
+def with_centres(points: Floats, corners: Ints) -> tuple[Floats, Ints]:
+    """Points with the middle of each grid cell (e, 8) behind them, and its number (e,)."""
+    numbers = np.arange(len(points), len(points) + len(corners), dtype=np.int32)
+    return np.vstack([points, points[corners].mean(axis=1)]), numbers
 
 
 def _three(values: Sequence[float], name: str) -> tuple[float, float, float]:
@@ -66,7 +97,12 @@ def _three(values: Sequence[float], name: str) -> tuple[float, float, float]:
     return x, y, z
 
 
-def _counts(cells: Sequence[int]) -> tuple[int, int, int]:
+def counts(cells: Sequence[int]) -> tuple[int, int, int]:
+    """Three positive whole numbers.
+
+    Raises:
+        ParameterError: they are not.
+    """
     try:
         x, y, z = (index(count) for count in cells)
     except (TypeError, ValueError):

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cache
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -30,10 +31,40 @@ _DIMENSIONS = {
 }
 
 
+class CellType(NamedTuple):
+    """What is fixed by the type of a cell.
+
+    Attributes:
+        name: as in meshio.
+        nodes: number of nodes; corners first, then middles of edges, of faces, of the cell.
+        dimension: 3 for a volume.
+        order: 1 for straight edges, 2 for a node in the middle of each.
+        corners: number of corners.
+    """
+
+    name: str
+    nodes: int
+    dimension: int
+    order: int
+    corners: int
+
+
+@cache
+def cell_table() -> dict[str, CellType]:
+    """The cell types of the compiled core by their names."""
+    return {row[0]: CellType(*row) for row in _core.cell_types()}
+
+
 @cache
 def handled_types() -> tuple[str, ...]:
     """Names of the volume cell types that can be simulated."""
-    return tuple(name for name, _, dimension in _core.cell_types() if dimension == 3)
+    return tuple(row.name for row in cell_table().values() if row.dimension == 3)
+
+
+def linear_type(name: str) -> str:
+    """The handled type with the same corners and straight edges."""
+    corners = cell_table()[name].corners
+    return next(r.name for r in cell_table().values() if r.order == 1 and r.corners == corners)
 
 
 def dimension(cell_type: str) -> int:
@@ -71,9 +102,9 @@ class CellBlock:
                 f"found node numbers of shape {nodes.shape} for the cells of type '{self.type}'; "
                 "an array (cells, nodes per cell) is accepted"
             )
-        for name, width, _ in _core.cell_types():
-            if name == self.type and nodes.shape[1] != width:
-                raise MeshError(f"found {nodes.shape[1]} nodes per {name}; it has {width}")
+        known = cell_table().get(self.type)
+        if known and nodes.shape[1] != known.nodes:
+            raise MeshError(f"found {nodes.shape[1]} nodes per {self.type}; it has {known.nodes}")
         nodes.flags.writeable = False
         object.__setattr__(self, "nodes", nodes)
 

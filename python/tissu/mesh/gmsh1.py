@@ -15,6 +15,8 @@ from tissu.errors import MeshError
 from tissu.mesh.lines import Lines, whole
 from tissu.mesh.raw import RawMesh, tagged_regions
 
+_HEXAHEDRON = [*range(8), 8, 11, 13, 9, 16, 18, 19, 17, 10, 12, 14, 15]
+
 # Gmsh's number of a cell type -> name, and where VTK's nodes stand among Gmsh's.
 _TYPES: dict[int, tuple[str, list[int]]] = {
     1: ("line", [0, 1]),
@@ -27,7 +29,11 @@ _TYPES: dict[int, tuple[str, list[int]]] = {
     8: ("line3", [0, 1, 2]),
     9: ("triangle6", [0, 1, 2, 3, 4, 5]),
     11: ("tetra10", [0, 1, 2, 3, 4, 5, 6, 7, 9, 8]),
+    12: ("hexahedron27", [*_HEXAHEDRON, 22, 23, 21, 24, 20, 25, 26]),
     15: ("vertex", [0]),
+    17: ("hexahedron20", _HEXAHEDRON),
+    18: ("wedge15", [0, 1, 2, 3, 4, 5, 6, 9, 7, 12, 14, 13, 8, 10, 11]),
+    19: ("pyramid13", [0, 1, 2, 3, 4, 5, 8, 10, 6, 7, 9, 11, 12]),
 }
 
 

@@ -61,7 +61,7 @@ class Mesh:
 
     @property
     def volume_blocks(self) -> tuple[CellBlock, ...]:
-        """The blocks that can be simulated: tetrahedra and hexahedra."""
+        """The blocks that can be simulated: linear and quadratic volume cells."""
         return tuple(block for block in self.cells if block.type in handled_types() and len(block))
 
     @property

@@ -37,11 +37,14 @@ class QualityReport:
         open_edges: edges of the surface that one triangle has; 0 when it is closed.
         clashing_edges: edges of the surface whose triangles are wound against each other.
         overfull_faces: faces that more than two cells share; cells there overlap.
+        nonconforming_faces: places where cells touch without sharing a face: a quad against two
+            triangles, quads cut along different diagonals, middles of edges on one side only.
+        nonconforming_cells: numbers of the cells there.
         parts: number of parts that share no node.
         sizes: volume of each cell [m3].
         shapes: quality of each cell: 1 ideal, 0 flat, negative inside out. Tetrahedra:
-            6 sqrt(2) V / l_rms^3; hexahedra: scaled Jacobian.
-        inverted: numbers of the cells that are inside out, if only at one Gauss point.
+            6 sqrt(2) V / l_rms^3; others: scaled Jacobian; all by their corners.
+        inverted: numbers of the cells that are inside out, if only at one quadrature point.
         zero_volume: numbers of the cells that are flat.
         unused_nodes: numbers of the nodes that no volume cell uses.
         regions: name -> number of cells.
@@ -63,6 +66,8 @@ class QualityReport:
     sizes: Floats = field(repr=False)
     shapes: Floats = field(repr=False)
     overfull_faces: int
+    nonconforming_faces: int
+    nonconforming_cells: Ints
     inverted: Ints
     zero_volume: Ints
     unused_nodes: Ints
@@ -118,7 +123,8 @@ def report(mesh: Mesh) -> QualityReport:
         sizes, shapes = faces, _triangle_shapes(mesh.points, surface.triangles, faces)
         parts = triangle_parts(surface.triangles)
     inverted, zero_volume = _faults(mesh)
-    overfull = _core.overfull_face_count(positions=mesh.points, blocks=mesh.native_blocks())
+    native = mesh.native_blocks()
+    torn, torn_cells = _core.nonconforming_faces(positions=mesh.points, blocks=native)
     return QualityReport(
         name=mesh.source or "mesh",
         solid=bool(mesh.volume_blocks),
@@ -130,7 +136,9 @@ def report(mesh: Mesh) -> QualityReport:
         triangles=len(faces),
         open_edges=open_edges,
         clashing_edges=clashing_edges,
-        overfull_faces=overfull,
+        overfull_faces=_core.overfull_face_count(positions=mesh.points, blocks=native),
+        nonconforming_faces=torn,
+        nonconforming_cells=torn_cells,
         parts=parts,
         sizes=sizes,
         shapes=shapes,

@@ -19,9 +19,10 @@ class Surface:
     """Faces that belong to one cell only, anticlockwise seen from outside.
 
     Attributes:
-        triangles: node numbers (t, 3) int32; the last 2 q rows are the halves of the quads.
+        triangles: node numbers (t, 3) int32, those between the nodes of the faces of quadratic
+            cells too; the last 2 q rows are the halves of the quads.
         cells: number (t,) int32 of the cell each triangle belongs to, across the volume blocks.
-        quads: node numbers (q, 4) int32 of the faces that are quads; quad i is split along its
+        quads: node numbers (q, 4) int32 of the faces with four nodes; quad i is split along its
             corners 0 and 2 into the triangles t - 2 q + 2 i and the next one.
     """
 

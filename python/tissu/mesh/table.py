@@ -62,6 +62,9 @@ def _faults(report: QualityReport) -> Iterator[tuple[str, str]]:
             yield label, f"{len(numbers)} {what} ({first_five(numbers)})"
     if report.overfull_faces:
         yield "OVERLAP", f"{report.overfull_faces} faces shared by more than two cells"
+    if report.nonconforming_faces:
+        cells = f"(cells {first_five(report.nonconforming_cells)})"
+        yield "NO MATCH", f"{report.nonconforming_faces} faces that do not match {cells}"
     if report.clashing_edges:
         text = f"{report.clashing_edges} edges whose triangles are wound against each other"
         yield "WINDING", text

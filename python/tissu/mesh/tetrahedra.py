@@ -1,4 +1,4 @@
-"""A mesh of tetrahedra from one of hexahedra, faces matching."""
+"""A mesh of tetrahedra from one of any volume cells, faces matching."""
 
 from __future__ import annotations
 
@@ -7,58 +7,68 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from tissu.mesh.cell import CellBlock, Ints
+from tissu import _core
+from tissu.mesh.cell import CellBlock, Ints, cell_table, linear_type
 
 if TYPE_CHECKING:
     from tissu.mesh.mesh import Mesh
 
-# Of each corner of a hexahedron in VTK's order: the three faces that do not touch it.
-_FACES = np.array(
-    [[0, 3, 2, 1], [4, 5, 6, 7], [0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7]]
-)
-_OPPOSITE = np.array([[f for f in range(6) if corner not in _FACES[f]] for corner in range(8)])
-
 
 def into_tetrahedra(mesh: Mesh) -> Mesh:
-    """The same nodes and volume, every hexahedron cut into six tetrahedra.
+    """The same corners and volume, every cell cut: hexahedra into six tetrahedra, wedges three.
 
-    A hexahedron is cut from its corner with the lowest node number, and every face along the
-    diagonal through its own lowest number, so two cells cut the face between them the same way.
-    Tetrahedra stay as they are; regions follow; other cells are left out.
+    A cell is cut from its corner with the lowest node number, and every face along the diagonal
+    through its own lowest number, so two cells cut the face between them the same way. A pyramid
+    becomes two; tetrahedra stay as they are. Cells are cut by their corners: nodes in the middles
+    of edges go. Regions follow; faces and lines are left out.
     """
     blocks: list[CellBlock] = []
     parents: list[Ints] = []
     first = 0
     for block in mesh.volume_blocks:
-        numbers = np.arange(first, first + len(block.nodes), dtype=np.int32)
-        first += len(block.nodes)
-        if block.type == "hexahedron":
-            blocks.append(CellBlock("tetra", _cut(block.nodes)))
-            parents.append(np.repeat(numbers, 6))
-        else:
-            blocks.append(block)
-            parents.append(numbers)
+        cells, parent = _cut(block)
+        blocks.append(CellBlock("tetra", cells))
+        parents.append(parent + first)
+        first += len(block)
     parent = np.concatenate(parents) if parents else np.zeros(0, dtype=np.int32)
     regions = {
         name: np.flatnonzero(np.isin(parent, cells)).astype(np.int32)
         for name, cells in mesh.regions.items()
     }
-    note = "hexahedra cut into six tetrahedra each"
-    return dataclasses.replace(
+    note = "cells cut into tetrahedra"
+    cut = dataclasses.replace(
         mesh, cells=tuple(blocks), regions=regions, source=None, notes=(*mesh.notes, note)
     )
+    quadratic = any(cell_table()[block.type].order > 1 for block in mesh.volume_blocks)
+    return cut.without_unused_nodes() if quadratic else cut
 
 
-def _cut(hexahedra: Ints) -> Ints:
-    """Six tetrahedra (6 e, 4) of each hexahedron (e, 8): a corner and the triangles opposite."""
-    rows = np.arange(len(hexahedra))
-    corner = hexahedra.argmin(axis=1)
-    faces = hexahedra[rows[:, None, None], _FACES[_OPPOSITE[corner]]]  # (e, 3, 4), outward
-    start = faces.argmin(axis=2)
-    turned = np.take_along_axis(faces, (start[:, :, None] + np.arange(4)) % 4, axis=2)
-    triangles = np.stack([turned[:, :, [0, 1, 2]], turned[:, :, [0, 2, 3]]], axis=2)
-    apex = np.broadcast_to(hexahedra[rows, corner][:, None, None, None], (*triangles.shape[:3], 1))
-    # VTK's tetrahedron: the fourth node on the side the first three turn towards; outward faces
-    # turn away from the apex.
-    cells = np.concatenate([triangles[..., [0, 2, 1]], apex], axis=3)
-    return np.ascontiguousarray(cells.reshape(-1, 4), dtype=np.int32)
+def _cut(block: CellBlock) -> tuple[Ints, Ints]:
+    """Tetrahedra (t, 4) of the cells of a block, cell by cell, and the cell (t,) of each."""
+    base = linear_type(block.type)
+    corners = block.nodes[:, : cell_table()[base].corners]
+    if base == "tetra":
+        return corners, np.arange(len(block), dtype=np.int32)
+    lowest = corners.argmin(axis=1)
+    cells, parents = [], []
+    for corner in range(corners.shape[1]):
+        rows = np.flatnonzero(lowest == corner)
+        for _, face in _core.cell_faces(cell_type=base):
+            if corner not in face:
+                for triangle in _triangles(corners[np.ix_(rows, face)]):
+                    # VTK's tetrahedron: the fourth node on the side the first three turn towards;
+                    # faces turn away from the corner.
+                    cells.append(np.column_stack([triangle[:, ::-1], corners[rows, corner]]))
+                    parents.append(rows)
+    parent = np.concatenate(parents).astype(np.int32)
+    order = np.argsort(parent, kind="stable")
+    return np.concatenate(cells)[order].astype(np.int32), parent[order]
+
+
+def _triangles(faces: Ints) -> list[Ints]:
+    """A triangle as it is; of a quad (e, 4), both halves along the diagonal at its lowest node."""
+    if faces.shape[1] == 3:
+        return [faces]
+    turned = (faces.argmin(axis=1)[:, None] + np.arange(4)) % 4
+    quads = np.take_along_axis(faces, turned, axis=1)
+    return [quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]]

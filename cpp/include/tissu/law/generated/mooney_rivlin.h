@@ -152,6 +152,21 @@ struct MooneyRivlin {
     const T m_F_K = -J_23 * x4 * (c1 + T(2.0) * x0);
     const T m_FC_K = T(8.0 / 3.0) * J_inv * x1;
     const T m_K_K = kappa + J_inv * J_inv * (T(10.0 / 9.0) * x2 + T(28.0 / 9.0) * x3);
+    const T S00 = p_F + C00 * p_FC;
+    const T S01 = C01 * p_FC;
+    const T S02 = C02 * p_FC;
+    const T S11 = p_F + C11 * p_FC;
+    const T S12 = C12 * p_FC;
+    const T S22 = p_F + C22 * p_FC;
+    const T Q00 = S00 * dF(0, 0) + S01 * dF(0, 1) + S02 * dF(0, 2);
+    const T Q01 = S01 * dF(0, 0) + S11 * dF(0, 1) + S12 * dF(0, 2);
+    const T Q02 = S02 * dF(0, 0) + S12 * dF(0, 1) + S22 * dF(0, 2);
+    const T Q10 = S00 * dF(1, 0) + S01 * dF(1, 1) + S02 * dF(1, 2);
+    const T Q11 = S01 * dF(1, 0) + S11 * dF(1, 1) + S12 * dF(1, 2);
+    const T Q12 = S02 * dF(1, 0) + S12 * dF(1, 1) + S22 * dF(1, 2);
+    const T Q20 = S00 * dF(2, 0) + S01 * dF(2, 1) + S02 * dF(2, 2);
+    const T Q21 = S01 * dF(2, 0) + S11 * dF(2, 1) + S12 * dF(2, 2);
+    const T Q22 = S02 * dF(2, 0) + S12 * dF(2, 1) + S22 * dF(2, 2);
     const T D00 = F(0, 0) * dF(0, 0) + F(1, 0) * dF(1, 0) + F(2, 0) * dF(2, 0);
     const T D01 = F(0, 0) * dF(0, 1) + F(1, 0) * dF(1, 1) + F(2, 0) * dF(2, 1);
     const T D02 = F(0, 0) * dF(0, 2) + F(1, 0) * dF(1, 2) + F(2, 0) * dF(2, 2);
@@ -169,12 +184,6 @@ struct MooneyRivlin {
     const T dp_F = along_F * m_F_F + along_K * m_F_K;
     const T dp_FC = along_K * m_FC_K;
     const T dp_K = along_F * m_F_K + along_FC * m_FC_K + along_K * m_K_K;
-    const T S00 = p_F + C00 * p_FC;
-    const T S01 = C01 * p_FC;
-    const T S02 = C02 * p_FC;
-    const T S11 = p_F + C11 * p_FC;
-    const T S12 = C12 * p_FC;
-    const T S22 = p_F + C22 * p_FC;
     const T twice_p_FC = T(2.0) * p_FC;
     const T D01s = D01 + D10;
     const T D02s = D02 + D20;
@@ -195,24 +204,15 @@ struct MooneyRivlin {
     const T dK21 = F(0, 2) * dF(1, 0) + F(1, 0) * dF(0, 2) - F(0, 0) * dF(1, 2) - F(1, 2) * dF(0, 0);
     const T dK22 = F(0, 0) * dF(1, 1) + F(1, 1) * dF(0, 0) - F(0, 1) * dF(1, 0) - F(1, 0) * dF(0, 1);
     Tensor2<T> dP;
-    dP(0, 0) = F(0, 0) * T00 + F(0, 1) * T01 + F(0, 2) * T02 + K00 * dp_K + S00 * dF(0, 0) + S01 * dF(0, 1) +
-               S02 * dF(0, 2) + dK00 * p_K;
-    dP(0, 1) = F(0, 0) * T01 + F(0, 1) * T11 + F(0, 2) * T12 + K01 * dp_K + S01 * dF(0, 0) + S11 * dF(0, 1) +
-               S12 * dF(0, 2) + dK01 * p_K;
-    dP(0, 2) = F(0, 0) * T02 + F(0, 1) * T12 + F(0, 2) * T22 + K02 * dp_K + S02 * dF(0, 0) + S12 * dF(0, 1) +
-               S22 * dF(0, 2) + dK02 * p_K;
-    dP(1, 0) = F(1, 0) * T00 + F(1, 1) * T01 + F(1, 2) * T02 + K10 * dp_K + S00 * dF(1, 0) + S01 * dF(1, 1) +
-               S02 * dF(1, 2) + dK10 * p_K;
-    dP(1, 1) = F(1, 0) * T01 + F(1, 1) * T11 + F(1, 2) * T12 + K11 * dp_K + S01 * dF(1, 0) + S11 * dF(1, 1) +
-               S12 * dF(1, 2) + dK11 * p_K;
-    dP(1, 2) = F(1, 0) * T02 + F(1, 1) * T12 + F(1, 2) * T22 + K12 * dp_K + S02 * dF(1, 0) + S12 * dF(1, 1) +
-               S22 * dF(1, 2) + dK12 * p_K;
-    dP(2, 0) = F(2, 0) * T00 + F(2, 1) * T01 + F(2, 2) * T02 + K20 * dp_K + S00 * dF(2, 0) + S01 * dF(2, 1) +
-               S02 * dF(2, 2) + dK20 * p_K;
-    dP(2, 1) = F(2, 0) * T01 + F(2, 1) * T11 + F(2, 2) * T12 + K21 * dp_K + S01 * dF(2, 0) + S11 * dF(2, 1) +
-               S12 * dF(2, 2) + dK21 * p_K;
-    dP(2, 2) = F(2, 0) * T02 + F(2, 1) * T12 + F(2, 2) * T22 + K22 * dp_K + S02 * dF(2, 0) + S12 * dF(2, 1) +
-               S22 * dF(2, 2) + dK22 * p_K;
+    dP(0, 0) = Q00 + F(0, 0) * T00 + F(0, 1) * T01 + F(0, 2) * T02 + K00 * dp_K + dK00 * p_K;
+    dP(0, 1) = Q01 + F(0, 0) * T01 + F(0, 1) * T11 + F(0, 2) * T12 + K01 * dp_K + dK01 * p_K;
+    dP(0, 2) = Q02 + F(0, 0) * T02 + F(0, 1) * T12 + F(0, 2) * T22 + K02 * dp_K + dK02 * p_K;
+    dP(1, 0) = Q10 + F(1, 0) * T00 + F(1, 1) * T01 + F(1, 2) * T02 + K10 * dp_K + dK10 * p_K;
+    dP(1, 1) = Q11 + F(1, 0) * T01 + F(1, 1) * T11 + F(1, 2) * T12 + K11 * dp_K + dK11 * p_K;
+    dP(1, 2) = Q12 + F(1, 0) * T02 + F(1, 1) * T12 + F(1, 2) * T22 + K12 * dp_K + dK12 * p_K;
+    dP(2, 0) = Q20 + F(2, 0) * T00 + F(2, 1) * T01 + F(2, 2) * T02 + K20 * dp_K + dK20 * p_K;
+    dP(2, 1) = Q21 + F(2, 0) * T01 + F(2, 1) * T11 + F(2, 2) * T12 + K21 * dp_K + dK21 * p_K;
+    dP(2, 2) = Q22 + F(2, 0) * T02 + F(2, 1) * T12 + F(2, 2) * T22 + K22 * dp_K + dK22 * p_K;
     return dP;
   }
 

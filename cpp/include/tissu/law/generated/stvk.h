@@ -91,6 +91,21 @@ struct StVK {
     const T tr_2E = C00 + C11 + C22 - T(3.0);
     const T tr_E = T(0.5) * tr_2E;
     const T p_F = lambda * tr_E - mu;
+    const T S00 = p_F + C00 * mu;
+    const T S01 = C01 * mu;
+    const T S02 = C02 * mu;
+    const T S11 = p_F + C11 * mu;
+    const T S12 = C12 * mu;
+    const T S22 = p_F + C22 * mu;
+    const T Q00 = S00 * dF(0, 0) + S01 * dF(0, 1) + S02 * dF(0, 2);
+    const T Q01 = S01 * dF(0, 0) + S11 * dF(0, 1) + S12 * dF(0, 2);
+    const T Q02 = S02 * dF(0, 0) + S12 * dF(0, 1) + S22 * dF(0, 2);
+    const T Q10 = S00 * dF(1, 0) + S01 * dF(1, 1) + S02 * dF(1, 2);
+    const T Q11 = S01 * dF(1, 0) + S11 * dF(1, 1) + S12 * dF(1, 2);
+    const T Q12 = S02 * dF(1, 0) + S12 * dF(1, 1) + S22 * dF(1, 2);
+    const T Q20 = S00 * dF(2, 0) + S01 * dF(2, 1) + S02 * dF(2, 2);
+    const T Q21 = S01 * dF(2, 0) + S11 * dF(2, 1) + S12 * dF(2, 2);
+    const T Q22 = S02 * dF(2, 0) + S12 * dF(2, 1) + S22 * dF(2, 2);
     const T D00 = F(0, 0) * dF(0, 0) + F(1, 0) * dF(1, 0) + F(2, 0) * dF(2, 0);
     const T D01 = F(0, 0) * dF(0, 1) + F(1, 0) * dF(1, 1) + F(2, 0) * dF(2, 1);
     const T D02 = F(0, 0) * dF(0, 2) + F(1, 0) * dF(1, 2) + F(2, 0) * dF(2, 2);
@@ -102,12 +117,6 @@ struct StVK {
     const T D22 = F(0, 2) * dF(0, 2) + F(1, 2) * dF(1, 2) + F(2, 2) * dF(2, 2);
     const T along_F = D00 + D11 + D22;
     const T dp_F = along_F * lambda;
-    const T S00 = p_F + C00 * mu;
-    const T S01 = C01 * mu;
-    const T S02 = C02 * mu;
-    const T S11 = p_F + C11 * mu;
-    const T S12 = C12 * mu;
-    const T S22 = p_F + C22 * mu;
     const T twice_p_FC = T(2.0) * mu;
     const T D01s = D01 + D10;
     const T D02s = D02 + D20;
@@ -119,24 +128,15 @@ struct StVK {
     const T T12 = D12s * mu;
     const T T22 = dp_F + D22 * twice_p_FC;
     Tensor2<T> dP;
-    dP(0, 0) =
-        F(0, 0) * T00 + F(0, 1) * T01 + F(0, 2) * T02 + S00 * dF(0, 0) + S01 * dF(0, 1) + S02 * dF(0, 2);
-    dP(0, 1) =
-        F(0, 0) * T01 + F(0, 1) * T11 + F(0, 2) * T12 + S01 * dF(0, 0) + S11 * dF(0, 1) + S12 * dF(0, 2);
-    dP(0, 2) =
-        F(0, 0) * T02 + F(0, 1) * T12 + F(0, 2) * T22 + S02 * dF(0, 0) + S12 * dF(0, 1) + S22 * dF(0, 2);
-    dP(1, 0) =
-        F(1, 0) * T00 + F(1, 1) * T01 + F(1, 2) * T02 + S00 * dF(1, 0) + S01 * dF(1, 1) + S02 * dF(1, 2);
-    dP(1, 1) =
-        F(1, 0) * T01 + F(1, 1) * T11 + F(1, 2) * T12 + S01 * dF(1, 0) + S11 * dF(1, 1) + S12 * dF(1, 2);
-    dP(1, 2) =
-        F(1, 0) * T02 + F(1, 1) * T12 + F(1, 2) * T22 + S02 * dF(1, 0) + S12 * dF(1, 1) + S22 * dF(1, 2);
-    dP(2, 0) =
-        F(2, 0) * T00 + F(2, 1) * T01 + F(2, 2) * T02 + S00 * dF(2, 0) + S01 * dF(2, 1) + S02 * dF(2, 2);
-    dP(2, 1) =
-        F(2, 0) * T01 + F(2, 1) * T11 + F(2, 2) * T12 + S01 * dF(2, 0) + S11 * dF(2, 1) + S12 * dF(2, 2);
-    dP(2, 2) =
-        F(2, 0) * T02 + F(2, 1) * T12 + F(2, 2) * T22 + S02 * dF(2, 0) + S12 * dF(2, 1) + S22 * dF(2, 2);
+    dP(0, 0) = Q00 + F(0, 0) * T00 + F(0, 1) * T01 + F(0, 2) * T02;
+    dP(0, 1) = Q01 + F(0, 0) * T01 + F(0, 1) * T11 + F(0, 2) * T12;
+    dP(0, 2) = Q02 + F(0, 0) * T02 + F(0, 1) * T12 + F(0, 2) * T22;
+    dP(1, 0) = Q10 + F(1, 0) * T00 + F(1, 1) * T01 + F(1, 2) * T02;
+    dP(1, 1) = Q11 + F(1, 0) * T01 + F(1, 1) * T11 + F(1, 2) * T12;
+    dP(1, 2) = Q12 + F(1, 0) * T02 + F(1, 1) * T12 + F(1, 2) * T22;
+    dP(2, 0) = Q20 + F(2, 0) * T00 + F(2, 1) * T01 + F(2, 2) * T02;
+    dP(2, 1) = Q21 + F(2, 0) * T01 + F(2, 1) * T11 + F(2, 2) * T12;
+    dP(2, 2) = Q22 + F(2, 0) * T02 + F(2, 1) * T12 + F(2, 2) * T22;
     return dP;
   }
 

@@ -38,7 +38,9 @@ def table(name: str) -> str:
     kind = part.model_fields.get("type")
     title = f"### {name}" + (f" (`type: {kind.default}`)" if kind is not None else "")
     first = (part.__doc__ or "").strip().splitlines()[0]
-    lines = [title, "", first, "", "| field | default | |", "|---|---|---|"]
+    lines = [title, "", first]
+    if set(part.model_fields) - {"type"}:
+        lines += ["", "| field | default | |", "|---|---|---|"]
     for field, info in part.model_fields.items():
         if field == "type":
             continue

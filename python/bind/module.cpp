@@ -13,7 +13,8 @@ void set_error(const char* name, const Error& error) {
   py::set_error(type, error.what());
 }
 
-void translate(std::exception_ptr pointer) {
+// pybind11 asks for a function that takes its pointer by value.
+void translate(std::exception_ptr pointer) {  // NOLINT(performance-unnecessary-value-param)
   try {
     if (pointer) std::rethrow_exception(pointer);
   } catch (const Diverged& error) {

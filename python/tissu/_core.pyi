@@ -4,7 +4,7 @@ A test holds this file against the module: names, arguments, nothing missing and
 """
 
 from collections.abc import Mapping, Sequence
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,7 +21,7 @@ class Split:
     five: ClassVar[Split]
     six_mirrored: ClassVar[Split]
 
-def build_info() -> dict[str, object]: ...
+def build_info() -> dict[str, Any]: ...
 def cell_types() -> list[tuple[str, int, int, int, int]]: ...
 def cell_edges(*, cell_type: str) -> list[list[int]]: ...
 def cell_faces(*, cell_type: str) -> list[tuple[int, list[int]]]: ...

@@ -59,7 +59,9 @@ void check_size(const ElasticBlock& block, const std::vector<double>& values, st
 }  // namespace
 
 Elastic::Elastic(ElasticBlock block, ConstReals rest_positions, Isa isa, Threads threads)
-    : block_(std::move(block)), threads_(threads), reference_(reference_cell(block_.element, block_.quadrature)) {
+    : block_(std::move(block)),
+      threads_(threads),
+      reference_(reference_cell(block_.element, block_.quadrature)) {
   choose_kernels(isa);
   check_numbers();
   order_ = order_elements(block_.cells, kernels_->nodes, rest_positions);
@@ -83,8 +85,8 @@ void Elastic::choose_kernels(Isa isa) {
     (void)law_or_throw(block_, use.law);
     laws_.push_back(find_law_kernels(isa, use.law, reference_.dimension));
     if (laws_.back() == nullptr) {
-      throw ParameterError("body \"" + block_.body + "\": the law \"" + use.law + "\" needs cells with a volume, and " +
-                           block_.element + " has none.");
+      throw ParameterError("body \"" + block_.body + "\": the law \"" + use.law +
+                           "\" needs cells with a volume, and " + block_.element + " has none.");
     }
   }
   if (block_.fused && block_.reinforcements.empty()) {
@@ -166,7 +168,8 @@ void Elastic::lay_constants() {
       law_constants(info, parameters, {to, info.constants.size()});
       to += info.constants.size();
     }
-    for (std::size_t c = 0; c < count; ++c) constants_[(i / kLanes * count + c) * kLanes + i % kLanes] = constants[c];
+    for (std::size_t c = 0; c < count; ++c)
+      constants_[(i / kLanes * count + c) * kLanes + i % kLanes] = constants[c];
   }
 }
 
@@ -193,9 +196,15 @@ void Elastic::bind(const Sparsity& pattern) {
 }
 
 ElasticView Elastic::view() const {
-  return {shape_.nodes.data(), slots_.data(),      shape_.rest.data(),
-          constants_.data(),   constants_stride_, gradients_.data(),
-          static_cast<int>(reference_.points.size()), laws_.data(), static_cast<int>(laws_.size())};
+  return {shape_.nodes.data(),
+          slots_.data(),
+          shape_.rest.data(),
+          constants_.data(),
+          constants_stride_,
+          gradients_.data(),
+          static_cast<int>(reference_.points.size()),
+          laws_.data(),
+          static_cast<int>(laws_.size())};
 }
 
 template <class Function>

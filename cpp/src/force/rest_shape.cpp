@@ -8,7 +8,8 @@ namespace {
 
 constexpr std::size_t kLanes = ElementOrder::kLanes;
 constexpr std::size_t kRest = 10;
-constexpr double kFlat = 1e-14;  ///< of the cube of the largest entry of J: a determinant below it is round-off
+constexpr double kFlat =
+    1e-14;  ///< of the cube of the largest entry of J: a determinant below it is round-off
 
 /// J at a point: sum_a X_a (x) dN_a/dxi
 Mat3 jacobian(const ReferenceCell::Point& point, std::span<const std::int32_t> cell, ConstReals X) {
@@ -19,9 +20,10 @@ Mat3 jacobian(const ReferenceCell::Point& point, std::span<const std::int32_t> c
   return J;
 }
 
-/// Writes J^-1 and the weight of one point of one lane; the weight, negative or zero when the cell is bad there.
-double lay_point(const ReferenceCell::Point& point, std::span<const std::int32_t> cell, ConstReals X, bool real,
-                 double* to) {
+/// Writes J^-1 and the weight of one point of one lane; the weight, negative or zero when the cell is bad
+/// there.
+double lay_point(const ReferenceCell::Point& point, std::span<const std::int32_t> cell, ConstReals X,
+                 bool real, double* to) {
   const Mat3 J = jacobian(point, cell, X);
   const double det = J.determinant();
   const double scale = J.cwiseAbs().maxCoeff();

@@ -2,12 +2,18 @@
 
 from __future__ import annotations
 
+import sys
+
 
 def main() -> None:
     """Entry point of the command `tissu`."""
-    from tissu.cli.app import app
+    try:
+        from tissu.cli.app import app
 
-    app(prog_name="tissu")
+        app(prog_name="tissu")
+    except KeyboardInterrupt:  # before a run has begun: there is nothing to complete
+        print("tissu: interrupted, nothing was written", file=sys.stderr)
+        sys.exit(130)
 
 
 __all__ = ["main"]

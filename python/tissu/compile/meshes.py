@@ -55,6 +55,8 @@ def check_mesh(mesh: Mesh, body: Body, path: Path, findings: Findings) -> bool:
         return False
     _check_length(mesh, body, place, findings)
     _check_shapes(mesh, place, findings)
+    for text in _repeated(mesh):
+        findings.problem(place, text)
     findings.notes.extend(f"bodies.{path[1]}.mesh: {note}" for note in mesh.notes)
     return len(findings.problems) == before
 
@@ -75,13 +77,30 @@ def _unusable(mesh: Mesh) -> list[str]:
     return found
 
 
+def _repeated(mesh: Mesh) -> list[str]:
+    """Cells that name a node twice, and cells that are there twice."""
+    found = []
+    for block in mesh.volume_blocks:
+        rows = np.sort(np.asarray(block.nodes), axis=1)
+        folded = np.flatnonzero((rows[:, 1:] == rows[:, :-1]).any(axis=1))
+        if len(folded):
+            text = f"{len(folded)} {block.type} cells name a node twice (first: "
+            found.append(f"{text}{first_five(folded)}); mend the mesh")
+        _, first, count = np.unique(rows, axis=0, return_index=True, return_counts=True)
+        if (count > 1).any():
+            twice = np.sort(first[count > 1])
+            text = f"{len(twice)} {block.type} cells are in the mesh more than once (first: "
+            found.append(f"{text}{first_five(twice)}); leave the copies out")
+    return found
+
+
 def _check_length(mesh: Mesh, body: Body, place: Path, findings: Findings) -> None:
     """A body many metres long is most likely a mesh in millimetres."""
     length = float((mesh.bounds[1] - mesh.bounds[0]).max())
-    if length <= _LONG or _unit_is_explicit(mesh, body):
+    if length <= _LONG:
         return
     text = f"the body is {length:.4g} m long (a mesh in millimetres?)"
-    if length > _TOO_LONG:
+    if length > _TOO_LONG and not _unit_is_explicit(mesh, body):
         findings.problem(
             place, f"{text}; say its unit, such as unit: mm, or unit: m when it is so long"
         )

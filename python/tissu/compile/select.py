@@ -40,7 +40,7 @@ def selected_triangles(nodes: Ints, mesh: Mesh) -> Ints:
     triangles = np.asarray(mesh.surface().triangles)
     chosen = np.zeros(mesh.node_count, dtype=bool)
     chosen[nodes] = True
-    keep = chosen[triangles].all(axis=1)
+    keep = np.array(chosen[triangles].all(axis=1), dtype=bool)
     quads = np.asarray(mesh.surface().quads)
     if len(quads):  # the last rows are halves of quads: both or none
         keep[-2 * len(quads) :] = np.repeat(chosen[quads].all(axis=1), 2)

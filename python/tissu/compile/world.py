@@ -50,7 +50,7 @@ def build_world(prepared: Prepared) -> Any:
     from tissu._core import WorldBuilder
 
     scene = prepared.scene
-    builder = WorldBuilder(threads=scene.threads, editable=scene.editing)
+    builder = WorldBuilder(threads=usable_threads(scene.threads), editable=scene.editing)
     for name in prepared.bodies:
         _add_body(builder, prepared, name)
     if scene.gravity is not None:
@@ -60,6 +60,16 @@ def build_world(prepared: Prepared) -> Any:
     for loaded in prepared.loaded:
         _add_load(builder, loaded, prepared)
     return builder.build()
+
+
+def usable_threads(asked: int) -> int:
+    """Threads that run: never more than the machine has; those only get in each other's way.
+
+    The bits of the result do not depend on it.
+    """
+    from tissu._core import build_info
+
+    return min(asked, int(build_info()["threads_available"]))
 
 
 def _add_body(builder: WorldBuilder, prepared: Prepared, name: str) -> None:

@@ -203,7 +203,12 @@ class Simulation:
         Raises:
             ParameterError: the scene was compiled without `editing: true`, or has no such cell.
         """
-        numbers = np.unique(np.asarray(cells, dtype=np.int32)).astype(np.int32)
+        given = np.atleast_1d(np.asarray(cells))
+        if given.size and not np.issubdtype(given.dtype, np.integer):
+            raise ParameterError(f"found cells of type {given.dtype}; whole numbers are accepted")
+        numbers = np.unique(given).astype(np.int32)
+        if len(numbers) >= self._meshes[body].cell_count:
+            raise ParameterError(f"that would leave no cell of body '{body}'; keep at least one")
         self._core.remove_cells(body=body, cells=numbers)
         remaining = np.sort(self._core.remaining_cells(body))
         self._meshes[body] = keep_cells(self._rest[body], remaining)

@@ -178,7 +178,8 @@ TEST_P(ElasticExact, FieldsOfUniaxialTension) {
   const double s = 1.3;
   const CellFields fields = made(bar).fields(affine(Vec3(s, 1, 1).asDiagonal()));
   for (std::size_t i = 0; i < bar.parameters["young"].size(); ++i) {
-    const double E = bar.parameters["young"][i];  // differs from cell to cell: the fields are in the order of the cells
+    const double E =
+        bar.parameters["young"][i];  // differs from cell to cell: the fields are in the order of the cells
     EXPECT_NEAR(fields.von_mises[i], is_stvk() ? E / 2 * s * (s * s - 1) : E * (s - 1), kRoundOff);
     EXPECT_NEAR(fields.energy_density[i],
                 is_stvk() ? E / 8 * std::pow(s * s - 1, 2) : E / 2 * std::pow(s - 1, 2), kRoundOff);

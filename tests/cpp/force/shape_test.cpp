@@ -75,7 +75,8 @@ std::vector<Case> cases() {
 
 class ShapeTest : public testing::TestWithParam<Case> {
  protected:
-  ShapeTest() : sample_(sample(GetParam())), elastic_(sample_.block, sample_.positions, choose_isa(), Threads(1)) {
+  ShapeTest()
+      : sample_(sample(GetParam())), elastic_(sample_.block, sample_.positions, choose_isa(), Threads(1)) {
     state_.positions = sample_.positions;
     state_.velocities.assign(sample_.positions.size(), 0.0);
     test::Random random(5);

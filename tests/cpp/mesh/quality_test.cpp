@@ -75,7 +75,7 @@ TEST(CellTypes, AreFoundByName) {
     EXPECT_EQ(cell_type(row.name), row.type);
     EXPECT_EQ(&info(row.type), &row);
   }
-  EXPECT_FALSE(cell_type("wedge").has_value());
+  EXPECT_FALSE(cell_type("wedge18").has_value());
 }
 
 }  // namespace

@@ -66,11 +66,12 @@ class Elastic final : public ForceModel {
   [[nodiscard]] std::int32_t cell_count() const;
   [[nodiscard]] int nodes_per_cell() const { return kernels_->nodes; }
   [[nodiscard]] const std::vector<double>& volumes() const { return shape_.volumes; }  ///< at rest [m3]
-  /// Adds each node's lumped mass [kg]: sum_g w_g rho N_a for elements of first order; for the others the mass of
-  /// the cell in proportion to the integral of N_a^2 (Hinton, Rock and Zienkiewicz 1976), which is never negative.
+  /// Adds each node's lumped mass [kg]: sum_g w_g rho N_a for elements of first order; for the others the
+  /// mass of the cell in proportion to the integral of N_a^2 (Hinton, Rock and Zienkiewicz 1976), which is
+  /// never negative.
   void add_masses(std::vector<double>& nodal) const;
-  /// Adds each node's share of a body force, sum_g w_g rho N_a [kg]: consistent, and negative at some corners of
-  /// quadratic elements.
+  /// Adds each node's share of a body force, sum_g w_g rho N_a [kg]: consistent, and negative at some corners
+  /// of quadratic elements.
   void add_weights(std::vector<double>& nodal) const;
   [[nodiscard]] CellFields fields(const State& state) const;
   [[nodiscard]] std::size_t bytes() const;

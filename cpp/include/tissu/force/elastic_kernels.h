@@ -21,7 +21,7 @@ struct ElasticView {
   const double* constants;          ///< [group or one][constant][8], law after law
   std::ptrdiff_t constants_stride;  ///< doubles from one group to the next, 0 when one serves all
   // What kernels that are not made for one element and law look up:
-  const double* gradients;         ///< [point][node][m], dN_a/dxi
+  const double* gradients;  ///< [point][node][m], dN_a/dxi
   int points;
   const LawKernels* const* laws;  ///< their energies add up
   int law_count;
@@ -32,7 +32,8 @@ struct GroupRange {
   std::int32_t end;
 };
 
-/// All functions add to what they write, but for `stress`. x, f, p are arrays of 3-vectors of the whole world.
+/// All functions add to what they write, but for `stress`. x, f, p are arrays of 3-vectors of the whole
+/// world.
 struct ElasticKernels {
   std::string_view element;     ///< empty: any element of this shape,
   std::string_view law;         ///< any law
@@ -41,7 +42,8 @@ struct ElasticKernels {
   int dimension;  ///< of the reference cell
   void (*force)(const ElasticView&, GroupRange, const double* x, double* f);
   /// out += scale * (df/dx) p
-  void (*product)(const ElasticView&, GroupRange, const double* x, double scale, const double* p, double* out);
+  void (*product)(const ElasticView&, GroupRange, const double* x, double scale, const double* p,
+                  double* out);
   /// blocks += scale * df/dx
   void (*stiffness)(const ElasticView&, GroupRange, const double* x, double scale, double* blocks);
   /// energy of each element [J], [group][8]

@@ -9,9 +9,9 @@
 
 namespace tissu {
 
-/// Arrays are [point][entry][8]; constants are [constant][8]. `dimension` is that of the reference cell, m: F and P
-/// have 3 m entries, row after row, the tangent 3 m (3 m + 1) / 2, the upper triangle row after row. Every function
-/// adds to what it writes, so that laws add up.
+/// Arrays are [point][entry][8]; constants are [constant][8]. `dimension` is that of the reference cell, m: F
+/// and P have 3 m entries, row after row, the tangent 3 m (3 m + 1) / 2, the upper triangle row after row.
+/// Every function adds to what it writes, so that laws add up.
 struct LawKernels {
   std::string_view name;
   bool linear;  ///< the tangent does not depend on F

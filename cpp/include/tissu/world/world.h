@@ -68,7 +68,8 @@ class World {
   Isa isa_;
   Threads threads_;
   Mass mass_;
-  std::vector<double> weights_;  ///< what gravity pulls at each node [kg]; equal to the mass for linear elements
+  std::vector<double>
+      weights_;  ///< what gravity pulls at each node [kg]; equal to the mass for linear elements
   FixedDofs fixed_;
   std::vector<std::unique_ptr<ForceModel>> forces_;
   Links* links_ = nullptr;

@@ -320,7 +320,8 @@ struct Elastic {
   }
 
   static constexpr ElasticKernels table(std::string_view quadrature) {
-    return {Element::kName, MaterialLaw::kName, quadrature, kNodes, 3, &force, &product, &stiffness, &energy, &stress};
+    return {Element::kName, MaterialLaw::kName, quadrature, kNodes,  3,
+            &force,         &product,           &stiffness, &energy, &stress};
   }
 };
 

@@ -1,6 +1,7 @@
 #pragma once
 
-/// A law at the points of eight elements: the loops that LawKernels names, around the four functions of a law.
+/// A law at the points of eight elements: the loops that LawKernels names, around the four functions of a
+/// law.
 
 #include "tissu/base/batch.h"
 #include "tissu/force/law_kernels.h"
@@ -44,7 +45,8 @@ struct LawAtPoints {
       }
     }
   }
-  static void stress_change(const double* constants, int points, const double* F, const double* dF, double* dP) {
+  static void stress_change(const double* constants, int points, const double* F, const double* dF,
+                            double* dP) {
     for (int lane = 0; lane < kLanes; lane += kWidth) {
       const MaterialLaw law = load_law(constants + lane);
       for (int g = 0; g < points; ++g) {
@@ -65,8 +67,8 @@ struct LawAtPoints {
   }
 
   static constexpr LawKernels table() {
-    return {MaterialLaw::kName, MaterialLaw::kLinear, 3,        kConstants,
-            &energy,            &stress,              &stress_change, &tangent};
+    return {
+        MaterialLaw::kName, MaterialLaw::kLinear, 3, kConstants, &energy, &stress, &stress_change, &tangent};
   }
 };
 

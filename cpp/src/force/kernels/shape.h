@@ -1,8 +1,8 @@
 #pragma once
 
-/// The loops over elements of N nodes and reference dimension M, for any quadrature and any law: at each point the
-/// law is called for the eight elements of a group. Next to elastic.h, which is compiled for one element, quadrature
-/// and law and keeps F in registers, it costs a pass through the first-level cache.
+/// The loops over elements of N nodes and reference dimension M, for any quadrature and any law: at each
+/// point the law is called for the eight elements of a group. Next to elastic.h, which is compiled for one
+/// element, quadrature and law and keeps F in registers, it costs a pass through the first-level cache.
 
 #include "tissu/base/batch.h"
 #include "tissu/force/elastic_kernels.h"
@@ -105,7 +105,8 @@ struct Shape {
     return row <= column ? row * kEntries - row * (row - 1) / 2 + (column - row) : tangent_index(column, row);
   }
 
-  /// The tangent pulled back to the reference cell, scale w J^-1 A J^-T, once for all pairs of nodes of a point.
+  /// The tangent pulled back to the reference cell, scale w J^-1 A J^-T, once for all pairs of nodes of a
+  /// point.
   static void pull_back(const double* rest, double scale, int lane, const PointTangent& A,
                         Batch (&B)[3][M][3][M]) {
     Batch Jinv[M][M];
@@ -212,8 +213,8 @@ struct Shape {
     }
   }
 
-  static void product(const ElasticView& view, GroupRange range, const double* x, double scale, const double* p,
-                      double* out) {
+  static void product(const ElasticView& view, GroupRange range, const double* x, double scale,
+                      const double* p, double* out) {
     alignas(64) Nodal position;
     alignas(64) Nodal change;
     alignas(64) Nodal result;
@@ -229,15 +230,17 @@ struct Shape {
         gradient(gradients_of(view, g), rest, position, F);
         gradient(gradients_of(view, g), rest, change, dF);
         clear(dP);
-        for_laws(view, group,
-                 [&](const LawKernels& law, const double* c) { law.stress_change(c, 1, F[0], dF[0], dP[0]); });
+        for_laws(view, group, [&](const LawKernels& law, const double* c) {
+          law.stress_change(c, 1, F[0], dF[0], dP[0]);
+        });
         spread(gradients_of(view, g), rest, -scale, dP, result);
       }
       scatter_nodes(view, group, result, out);
     }
   }
 
-  static void stiffness(const ElasticView& view, GroupRange range, const double* x, double scale, double* blocks) {
+  static void stiffness(const ElasticView& view, GroupRange range, const double* x, double scale,
+                        double* blocks) {
     alignas(64) Nodal position;
     alignas(64) Point F;
     alignas(64) PointTangent A;
@@ -278,7 +281,8 @@ struct Shape {
   }
 
   /// sigma = P F^T / det F of a volume, weighted with the rest volume.
-  static void stress(const ElasticView& view, GroupRange range, const double* x, double* stresses, double* ratios) {
+  static void stress(const ElasticView& view, GroupRange range, const double* x, double* stresses,
+                     double* ratios) {
     static_assert(M == 3);
     constexpr int row[6] = {0, 1, 2, 1, 0, 0};
     constexpr int column[6] = {0, 1, 2, 2, 2, 1};
@@ -307,7 +311,8 @@ struct Shape {
           for (int s = 0; s < 6; ++s) {
             double tau = 0.0;
             for (int j = 0; j < 3; ++j) {
-              tau += 0.5 * (P[3 * row[s] + j][l] * at(column[s], j) + P[3 * column[s] + j][l] * at(row[s], j));
+              tau +=
+                  0.5 * (P[3 * row[s] + j][l] * at(column[s], j) + P[3 * column[s] + j][l] * at(row[s], j));
             }
             sum[s][l] += w / J * tau;
           }

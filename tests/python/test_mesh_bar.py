@@ -8,9 +8,21 @@ import pytest
 from mesh_data import shared
 from tissu.errors import ParameterError
 from tissu.mesh import bar_mesh
+from tissu.mesh.cell import handled_types
 from tissu.mesh.surface import edge_faults, enclosed_volume
 
-KINDS = [("tetra", "six"), ("tetra", "five"), ("tetra", "six_mirrored"), ("hexahedron", "six")]
+KINDS = [("tetra", "five"), ("tetra", "six_mirrored"), *((cell, "six") for cell in handled_types())]
+
+
+# Triangles on a side of a grid cell towards z, towards x and y: 2 halves of a quad; of its nodes, 8
+# between 9, which two triangles of 6 have too, 6 between 8.
+PER_SIDE = {
+    "tetra10": (8, 8),
+    "hexahedron20": (6, 6),
+    "hexahedron27": (8, 8),
+    "wedge15": (8, 6),
+    "pyramid13": (6, 6),
+}
 
 
 @pytest.mark.parametrize(("cell", "split"), KINDS)
@@ -20,8 +32,12 @@ def test_volumes_add_up_and_faces_match(cell: str, split: str) -> None:
     assert (mesh.cell_volumes() > 0).all()
     assert mesh.volume() == pytest.approx(8.0, rel=1e-13)
     assert enclosed_volume(mesh.points, surface.triangles) == pytest.approx(8.0, rel=1e-13)
-    assert len(surface.triangles) == 2 * 2 * (4 * 3 + 3 * 2 + 4 * 2)
+    across, around = PER_SIDE.get(cell, (2, 2))
+    assert len(surface.triangles) == 2 * (4 * 3 * across + (3 * 2 + 4 * 2) * around)
     assert edge_faults(surface.triangles) == (0, 0)
+    assert euler_characteristic(surface.triangles) == 2
+    assert mesh.quality().nonconforming_faces == 0
+    assert len(mesh.unused_nodes) == 0
     np.testing.assert_array_equal(mesh.bounds, [[-1, 0, 5], [3, 2, 6]])
 
 
@@ -64,13 +80,19 @@ def test_reference_meshes_are_reproduced(
         ({"size": (1, 1, 1), "cells": (1, 1, 0)}, "from 1 on"),
         ({"size": (1, 1, 1), "cells": (1, 1, 1.5)}, "whole numbers"),
         ({"size": (1, 1, 1), "cells": (3000, 3000, 3000)}, "32-bit"),
-        ({"size": (1, 1, 1), "cells": (1, 1, 1), "cell": "wedge"}, "'wedge'"),
+        ({"size": (1, 1, 1), "cells": (1, 1, 1), "cell": "wedge18"}, "'wedge18'"),
         ({"size": (1, 1, 1), "cells": (1, 1, 1), "split": "seven"}, "'seven'"),
     ],
 )
 def test_wrong_arguments_are_refused(arguments: dict, found: str) -> None:
     with pytest.raises(ParameterError, match=found):
         bar_mesh(**arguments)
+
+
+def euler_characteristic(triangles: np.ndarray) -> int:
+    """Nodes - edges + triangles; 2 for a surface like a sphere."""
+    edges = np.sort(triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
+    return len(np.unique(triangles)) - len(np.unique(edges, axis=0)) + len(triangles)
 
 
 def canonical(points: np.ndarray, cells: np.ndarray) -> np.ndarray:

@@ -56,9 +56,9 @@ def test_unknown_cell_type_and_wrong_width_are_refused() -> None:
 
 def test_blocks_that_are_not_handled_stay_and_are_named() -> None:
     points = np.vstack([TETRA, np.random.default_rng(0).random((6, 3))])
-    mesh = one(points, ("tetra", [[0, 1, 2, 3]]), ("wedge", [list(range(4, 10))]))
+    mesh = one(points, ("tetra", [[0, 1, 2, 3]]), ("wedge12", [list(range(4, 10))]))
     assert [block.type for block in mesh.volume_blocks] == ["tetra"]
-    assert mesh.unhandled == ("wedge",)
+    assert mesh.unhandled == ("wedge12",)
     assert mesh.cell_count == 1
     assert "NOT HANDLED" in str(mesh.quality())
 

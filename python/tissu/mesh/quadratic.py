@@ -68,10 +68,10 @@ def _numbered(groups: list[Ints], mesh: Mesh) -> tuple[list[Ints], Floats]:
         return [], np.empty((0, 3))
     every = np.concatenate([group.reshape(-1, 8) for group in groups])
     around, number = np.unique(every, axis=0, return_inverse=True)
-    number = number.reshape(-1).astype(np.int32) + mesh.node_count
+    numbers: Ints = np.asarray(number.reshape(-1) + mesh.node_count, dtype=np.int32)
     ends = np.cumsum([group.shape[0] * group.shape[1] for group in groups])[:-1]
-    parts = np.split(number, ends)
-    shaped: list[Ints] = [p.reshape(g.shape[:2]) for p, g in zip(parts, groups, strict=True)]
+    parts: list[Ints] = np.split(numbers, ends)
+    shaped = [np.reshape(p, g.shape[:2]) for p, g in zip(parts, groups, strict=True)]
     inside = around >= 0
     sums = np.where(inside[:, :, None], mesh.points[around], 0.0).sum(axis=1)
     return shaped, np.asarray(sums / inside.sum(axis=1, keepdims=True))

@@ -55,7 +55,7 @@ def _cut(block: CellBlock) -> tuple[Ints, Ints]:
         rows = np.flatnonzero(lowest == corner)
         for _, face in _core.cell_faces(cell_type=base):
             if corner not in face:
-                for triangle in _triangles(corners[np.ix_(rows, face)]):
+                for triangle in _triangles(corners[rows][:, face]):
                     # VTK's tetrahedron: the fourth node on the side the first three turn towards;
                     # faces turn away from the corner.
                     cells.append(np.column_stack([triangle[:, ::-1], corners[rows, corner]]))

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tissu.errors import MeshError
-from tissu.mesh.cell import dimension
+from tissu.mesh.cell import cell_table, dimension
 from tissu.mesh.raw import RawMesh, tagged_regions
 from tissu.mesh.truncated import finite
 
@@ -36,10 +36,18 @@ _TAGS = {
 }
 
 
-def formats(path: Path) -> list[str]:
-    """Names of the formats that files with this ending may have, the likeliest first."""
+def library() -> Any:
+    """meshio, told the dimensions of wedge15 and pyramid13, which it reads and writes but omits."""
     import meshio
 
+    for row in cell_table().values():
+        meshio.topological_dimension.setdefault(row.name, row.dimension)
+    return meshio
+
+
+def formats(path: Path) -> list[str]:
+    """Names of the formats that files with this ending may have, the likeliest first."""
+    meshio = library()
     suffixes = "".join(path.suffixes).lower()
     endings = sorted((e for e in meshio.extension_to_filetypes if suffixes.endswith(e)), key=len)
     found: list[str] = meshio.extension_to_filetypes[endings[-1]] if endings else []
@@ -48,8 +56,7 @@ def formats(path: Path) -> list[str]:
 
 def endings() -> list[str]:
     """Endings of the files that meshio knows."""
-    import meshio
-
+    meshio = library()
     return sorted(meshio.extension_to_filetypes)
 
 
@@ -73,8 +80,7 @@ def read_through_meshio(path: Path) -> RawMesh:
     Raises:
         MeshError: meshio does not know the ending, or cannot read the file.
     """
-    import meshio
-
+    meshio = library()
     names = formats(path)
     if not names:
         raise MeshError(

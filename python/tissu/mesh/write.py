@@ -12,7 +12,7 @@ import numpy as np
 from tissu.errors import MeshError
 from tissu.mesh.cell import dimension, handled_types
 from tissu.mesh.mesh import Mesh
-from tissu.mesh.through_meshio import endings, formats, quiet, region_marks
+from tissu.mesh.through_meshio import endings, formats, library, quiet, region_marks
 
 _SURFACE_ONLY = ("obj", "off", "stl", "ply", "svg", "wkt")
 _NUMBERED = {"gmsh": "gmsh:physical", "medit": "medit:ref"}  # one region per cell, by number
@@ -29,8 +29,7 @@ def write_mesh(mesh: Mesh, path: str | os.PathLike[str]) -> None:
         MeshError: no such format, a format that cannot hold this mesh, or a file that cannot be
             written.
     """
-    import meshio
-
+    meshio = library()
     file = Path(path)
     names = formats(file)
     if not names:

@@ -74,8 +74,9 @@ def write_vtu(path: Path, mesh: Mesh, simulation: Simulation, body: str) -> None
     Raises:
         TissuError: the file cannot be written.
     """
-    import meshio
+    from tissu.mesh.through_meshio import library
 
+    meshio = library()
     blocks = mesh.volume_blocks
     ends = np.cumsum([len(block.nodes) for block in blocks])[:-1]
 

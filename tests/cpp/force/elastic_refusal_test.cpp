@@ -1,6 +1,7 @@
 #include <limits>
 
 #include "elastic_sample.h"
+#include "tissu/law/law_info.h"
 
 /// What an elastic block refuses, and in which words.
 namespace tissu {

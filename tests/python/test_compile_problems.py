@@ -116,9 +116,9 @@ def test_cells_inside_out_and_flat():
 
 def test_cells_that_are_not_handled():
     bar = bar_mesh(size=(2, 1, 1), cells=(2, 1, 1))
-    wedge = CellBlock("wedge", np.arange(6)[None])
+    wedge = CellBlock("wedge12", np.arange(12)[None])
     found = problems(scene(dataclasses.replace(bar, cells=(*bar.cells, wedge))))
-    assert "found cells of type wedge, not handled; accepted: tetra, hexahedron" in found[0]
+    assert "found cells of type wedge12, not handled; accepted: tetra, hexahedron" in found[0]
 
 
 def test_node_that_no_cell_uses():

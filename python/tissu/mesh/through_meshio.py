@@ -41,7 +41,7 @@ def library() -> Any:
     import meshio
 
     for row in cell_table().values():
-        meshio.topological_dimension.setdefault(row.name, row.dimension)
+        meshio._mesh.topological_dimension.setdefault(row.name, row.dimension)
     return meshio
 
 

@@ -5,9 +5,12 @@
 #include <cmath>
 
 #include "sample_meshes.h"
+#include "tissu/mesh/cell_shape.h"
 
 namespace tissu {
 namespace {
+
+class CellTypeTest : public testing::TestWithParam<CellType> {};
 
 TEST(Quality, RegularTetrahedronIsIdeal) {
   const Mesh mesh{{1, 1, 1, -1, 1, -1, 1, -1, -1, -1, -1, 1}, {{CellType::tetra, {0, 1, 2, 3}}}};
@@ -42,6 +45,41 @@ TEST(Quality, DegenerateCellsAreZero) {
                    {{CellType::tetra, {0, 1, 2, 3}}, {CellType::hexahedron, {0, 1, 2, 3, 4, 5, 6, 7}}}};
   EXPECT_EQ(volumes(point), (std::vector<double>{0.0, 0.0}));
   EXPECT_EQ(shape_qualities(point), (std::vector<double>{0.0, 0.0}));
+}
+
+TEST_P(CellTypeTest, ReferenceCellHasItsVolumeAndIsWellShaped) {
+  const Mesh mesh = test::one_cell(GetParam());
+  EXPECT_NEAR(volumes(mesh)[0], test::reference_volume(GetParam()), 1e-13);
+  EXPECT_NEAR(jacobian_ranges(mesh)[0].smallest, 1.0, 1e-13);
+  EXPECT_NEAR(jacobian_ranges(mesh)[0].largest, 1.0, 1e-13);
+  EXPECT_GT(shape_qualities(mesh)[0], 0.7);
+  EXPECT_LE(shape_qualities(mesh)[0], 1.0);
+}
+
+TEST_P(CellTypeTest, MirroringTwiceIsNothingAndOnceTurnsIt) {
+  Mesh mesh = test::one_cell(GetParam());
+  const std::span<const std::uint8_t> mirror = mirrored(GetParam());
+  for (std::size_t n = 0; n < mirror.size(); ++n) EXPECT_EQ(mirror[mirror[n]], n);
+  for (std::size_t n = 2; n < mesh.positions.size(); n += 3) mesh.positions[n] *= -1.0;
+  const double volume = volumes(mesh)[0];
+  EXPECT_LT(volume, 0.0);
+  EXPECT_LT(shape_qualities(mesh)[0], 0.0);
+  EXPECT_EQ(turn_reversed_cells(mesh), 1);
+  EXPECT_NEAR(volumes(mesh)[0], -volume, 1e-14);
+  EXPECT_NEAR(jacobian_ranges(mesh)[0].smallest, 1.0, 1e-13);  // middles stand between their corners
+  EXPECT_EQ(turn_reversed_cells(mesh), 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(EveryType, CellTypeTest, testing::ValuesIn(test::kTypes), test::type_name);
+
+TEST(Quality, IdealWedgesAndPyramids) {
+  const double h = std::sqrt(3.0) / 2.0;
+  const Mesh wedge{{0, 0, 0, 1, 0, 0, 0.5, h, 0, 0, 0, 1, 1, 0, 1, 0.5, h, 1},
+                   {{CellType::wedge, {0, 1, 2, 3, 4, 5}}}};
+  EXPECT_NEAR(shape_qualities(wedge)[0], 1.0, 1e-14);
+  const Mesh pyramid{{0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0.5, 0.5, std::sqrt(0.5)},
+                     {{CellType::pyramid, {0, 1, 2, 3, 4}}}};
+  EXPECT_NEAR(shape_qualities(pyramid)[0], 1.0, 1e-14);
 }
 
 TEST(Quality, ReversedCellsAreTurned) {

@@ -105,7 +105,8 @@ def _of_step(step: Step) -> Effect:
 
 def _law(law: Law) -> str:
     values = [(n, getattr(law, n)) for n in type(law).model_fields if n not in ("type", "fibres")]
-    words = ", ".join(f"{name} {value:g}" for name, value in values)
+    pure = ("poisson", "lambda_m")
+    words = ", ".join(f"{n} {value:g}" + ("" if n in pure else " Pa") for n, value in values)
     fibres = "" if law.fibres is None else f", fibres k1 {law.fibres.k1:g}, k2 {law.fibres.k2:g}"
     return f"{law.type} with {words}{fibres}"
 

@@ -133,9 +133,9 @@ def test_a_bar_is_made_and_looked_at(tmp_path):
     assert ended.returncode == 0, ended.stderr
     assert "16" in ended.stdout
     assert "45" in ended.stdout
-    wrong = tissu_command(*words, "--cell", "pyramid", cwd=tmp_path)
+    wrong = tissu_command(*words, "--cell", "prism", cwd=tmp_path)
     assert wrong.returncode == 2
-    assert "pyramid" in wrong.stderr
+    assert "prism" in wrong.stderr
 
 
 def test_divergence_keeps_what_was_computed(scene, tmp_path):

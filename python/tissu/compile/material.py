@@ -31,13 +31,13 @@ def cell_groups(mesh: Mesh, body: Body, path: Path, findings: Findings) -> list[
         nodes = np.asarray(block.nodes)
         numbers = np.arange(first, first + len(nodes), dtype=np.int32)
         kinds = [(law.type, law.fibres is not None) for law in laws]
-        for kind in dict.fromkeys(kinds):
+        present, first_cell = np.unique(owner[numbers], return_index=True)
+        for kind in dict.fromkeys(kinds[n] for n in present[np.argsort(first_cell)]):
             of_kind = [n for n, other in enumerate(kinds) if other == kind]
             cells = numbers[np.isin(owner[numbers], of_kind)]
-            if len(cells):
-                values, fibres = _parameters(laws, owner[cells]), _fibres(laws, owner[cells])
-                rows = nodes[cells - first]
-                groups.append(Group(str(block.type), rows, cells, kind[0], values, fibres))
+            values, fibres = _parameters(laws, owner[cells]), _fibres(laws, owner[cells])
+            rows = nodes[cells - first]
+            groups.append(Group(str(block.type), rows, cells, kind[0], values, fibres))
         first += len(nodes)
     _note_locking(laws, path, findings)
     return groups

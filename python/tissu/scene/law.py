@@ -74,7 +74,7 @@ class StVK(_Isotropic):
 
 
 class NeoHooke(_Isotropic):
-    """Compressible neo-Hooke: large strain, a barrier against lost volume (not for inverted cells)."""
+    """Compressible neo-Hooke: large strain, a barrier against lost volume; no inverted cells."""
 
     type: Literal["neo_hooke"] = "neo_hooke"
 
@@ -135,7 +135,7 @@ class Yeoh(_Law):
 
 
 class ArrudaBoyce(_Law):
-    """Arruda-Boyce, nearly incompressible: chains that lock at the stretch lambda_m (five terms)."""
+    """Arruda-Boyce, nearly incompressible: chains that lock at the stretch lambda_m."""
 
     type: Literal["arruda_boyce"] = "arruda_boyce"
     mu: Annotated[units.Pressure, _Positive]

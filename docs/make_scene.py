@@ -8,10 +8,14 @@ from pathlib import Path
 import tissu.scene as scene
 
 PAGE = Path(__file__).with_name("scene.md")
+_LAWS = (
+    *("Hooke", "StVK", "NeoHooke", "StableNeoHooke", "MooneyRivlin", "Yeoh", "ArrudaBoyce"),
+    *("Fibres", "Rayleigh"),
+)
 ORDER = (
     ("The scene", ("Scene", "Output")),
     ("Bodies and meshes", ("Body", "MeshFile", "BarMesh")),
-    ("Laws and viscosity", ("Hooke", "StVK", "Rayleigh")),
+    ("Laws and viscosity", _LAWS),
     ("Selections: which nodes", ("Box", "Sphere", "Plane", "Nodes", "SurfaceNodes", "Region")),
     ("Supports and motion", ("Fixed", "Prescribed", "Rotation")),
     ("Loads", ("NodalLoad", "Traction", "Pressure")),

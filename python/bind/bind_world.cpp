@@ -21,8 +21,8 @@ LawParameters to_parameters(const Parameters& parameters) {
 
 void add_elastic(WorldDescription& world, const std::string& body, const std::string& cell_type,
                  const Ints& cells, const Ints& cell_numbers, const std::string& law,
-                 const Parameters& parameters, const Doubles& density,
-                 const std::string& quadrature, const std::vector<std::pair<std::string, Parameters>>& reinforcements) {
+                 const Parameters& parameters, const Doubles& density, const std::string& quadrature,
+                 const std::vector<std::pair<std::string, Parameters>>& reinforcements) {
   ElasticBlock block;
   block.element = cell_type;
   block.law = law;
@@ -33,7 +33,8 @@ void add_elastic(WorldDescription& world, const std::string& body, const std::st
     throw ParameterError("cells must have the shape (e, k), and cell_numbers the shape (e,).");
   }
   block.parameters = to_parameters(parameters);
-  for (const auto& [added, values] : reinforcements) block.reinforcements.push_back({added, to_parameters(values)});
+  for (const auto& [added, values] : reinforcements)
+    block.reinforcements.push_back({added, to_parameters(values)});
   block.density = to_vector(density);
   world.body(body).elastic.push_back(std::move(block));
 }

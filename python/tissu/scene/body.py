@@ -28,6 +28,17 @@ if TYPE_CHECKING:
     from tissu.mesh import Mesh
 
 _Count = Annotated[int, Field(ge=1)]
+BarCell = Literal[
+    "tetra",
+    "tetra10",
+    "hexahedron",
+    "hexahedron20",
+    "hexahedron27",
+    "wedge",
+    "wedge15",
+    "pyramid",
+    "pyramid13",
+]
 
 
 class MeshFile(Part):
@@ -68,7 +79,7 @@ class BarMesh(Part):
     """lengths along x, y, z [m]"""
     cells: Annotated[tuple[_Count, _Count, _Count], BeforeValidator(units.listed)]
     """numbers of boxes along x, y, z"""
-    cell: Literal["tetra", "hexahedron"] = "tetra"
+    cell: BarCell = "tetra"
     """cell type"""
     split: Literal["six", "five", "six_mirrored"] = "six"
     """how a box is cut into tetrahedra"""
@@ -82,7 +93,7 @@ class BarMesh(Part):
             *,
             size: units.VectorLike,
             cells: Sequence[int],
-            cell: Literal["tetra", "hexahedron"] = ...,
+            cell: BarCell = ...,
             split: Literal["six", "five", "six_mirrored"] = ...,
             origin: units.VectorLike = ...,
         ) -> None: ...

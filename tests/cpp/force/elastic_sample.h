@@ -58,7 +58,8 @@ class ElasticTest : public testing::TestWithParam<ElasticCase> {
   ElasticBlock varied_block() {
     ElasticBlock varied = block();
     Random random(12);
-    for (auto* values : {&varied.parameters["young"], &varied.parameters["poisson"], &varied.density}) values->clear();
+    for (auto* values : {&varied.parameters["young"], &varied.parameters["poisson"], &varied.density})
+      values->clear();
     for (std::int32_t i = 0; i < mesh_.cell_count(); ++i) {
       varied.parameters["young"].push_back(kYoung + random.number());
       varied.parameters["poisson"].push_back(0.2 + random.number(0.2));

@@ -1,0 +1,36 @@
+"""What the README shows runs, and the page of scene files is the classes' own."""
+
+import contextlib
+import io
+import re
+import runpy
+from pathlib import Path
+
+import numpy as np
+
+ROOT = Path(__file__).parents[2]
+
+
+def test_the_example_of_the_readme_runs(monkeypatch):
+    monkeypatch.chdir(ROOT)
+    text = re.search(r"```python\n(.*?)```", (ROOT / "README.md").read_text(), re.DOTALL)[1]
+    names = {}
+    with contextlib.redirect_stdout(io.StringIO()) as out:
+        exec(compile(text, "README.md", "exec"), names)
+    simulation = names["simulation"]
+    assert abs(simulation.time - 0.5) < 1e-12
+    assert out.getvalue().count("step ") >= 50
+    assert "not converged" not in out.getvalue()
+    moved = np.linalg.norm(simulation.displacements("liver"), axis=1).max()
+    assert 0.005 < moved < 0.08  # centimetres: it hangs, and has not run away
+
+
+def test_the_page_of_scene_files_is_current():
+    made = runpy.run_path(str(ROOT / "docs" / "make_scene.py"), run_name="docs")
+    assert (ROOT / "docs" / "scene.md").read_text(encoding="utf-8") == made["page"]()
+
+
+def test_links_of_the_documents_lead_somewhere():
+    for page in [ROOT / "README.md", *(ROOT / "docs").glob("*.md")]:
+        for target in re.findall(r"\]\(([^)#:]+)\)", page.read_text(encoding="utf-8")):
+            assert (page.parent / target).exists(), f"{page.name}: {target}"

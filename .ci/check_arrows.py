@@ -37,10 +37,12 @@ PYTHON: dict[str, set[str]] = {
     "_core": set(),
     "units": {"errors"},
     "codegen": {"errors"},
+    "formula": {"errors", "codegen"},
     "mesh": {"errors", "units", "_core"},
-    "yaml_io": {"errors", "units", "mesh", "scene"},
+    "yaml_io": {"errors", "units", "mesh", "scene", "user_law"},
     "selection": {"errors", "units", "mesh"},
     "scene": {"errors", "units", "mesh", "yaml_io", "selection", "compile"},
+    "user_law": {"errors", "units", "codegen", "scene", "_core"},
     "effects": {"errors", "mesh", "scene"},
     "simulation": {"errors", "units", "mesh", "effects", "_core"},
     "compile": {

@@ -45,6 +45,7 @@ inline py::array_t<double> view_of(std::vector<double>& values, std::int32_t fir
                              values.data() + 3 * static_cast<std::ptrdiff_t>(first), owner);
 }
 
+void bind_law(py::module_& m);
 void bind_world(py::module_& m);
 void bind_simulation(py::module_& m);
 

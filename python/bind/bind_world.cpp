@@ -22,10 +22,12 @@ LawParameters to_parameters(const Parameters& parameters) {
 void add_elastic(WorldDescription& world, const std::string& body, const std::string& cell_type,
                  const Ints& cells, const Ints& cell_numbers, const std::string& law,
                  const Parameters& parameters, const Doubles& density, const std::string& quadrature,
-                 const std::vector<std::pair<std::string, Parameters>>& reinforcements) {
+                 const std::vector<std::pair<std::string, Parameters>>& reinforcements,
+                 const std::shared_ptr<LoadedLaw>& loaded) {
   ElasticBlock block;
   block.element = cell_type;
   block.law = law;
+  block.loaded = loaded;
   block.quadrature = quadrature;
   block.cells = to_vector(cells);
   block.cell_numbers = to_vector(cell_numbers);
@@ -103,7 +105,8 @@ void bind_world(py::module_& m) {
           py::kw_only(), arg("name"), arg("positions"))
       .def("add_elastic", &add_elastic, py::kw_only(), arg("body"), arg("cell_type"), arg("cells"),
            arg("cell_numbers"), arg("law"), arg("parameters"), arg("density"), arg("quadrature") = "full",
-           arg("reinforcements") = std::vector<std::pair<std::string, Parameters>>{})
+           arg("reinforcements") = std::vector<std::pair<std::string, Parameters>>{},
+           arg("loaded") = py::none())
       .def(
           "add_rayleigh",
           [](WorldDescription& world, const std::string& body, double mass, double stiffness) {

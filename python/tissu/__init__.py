@@ -24,7 +24,14 @@ if "OMP_WAIT_POLICY" not in os.environ:
     os.environ.setdefault("GOMP_SPINCOUNT", "20000")
 
 _HOMES = {
-    "tissu.errors": ("TissuError", "MeshError", "ParameterError", "SceneError", "Diverged"),
+    "tissu.errors": (
+        "TissuError",
+        "MeshError",
+        "ParameterError",
+        "LawError",
+        "SceneError",
+        "Diverged",
+    ),
     "tissu.mesh": (
         "Mesh",
         "CellBlock",
@@ -69,13 +76,15 @@ _HOMES = {
         "Static",
         "SurfaceNodes",
         "Traction",
+        "UserLaw",
     ),
+    "tissu.user_law": ("law", "read_law"),
     "tissu.simulation": ("Plan", "Profile", "Simulation", "StepReport"),
     "tissu.picture": ("draw", "draw_overlay"),
 }
 _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
 
-__all__ = sorted([*_HOME_OF, "__version__"])
+__all__ = sorted([*_HOME_OF, "formula", "__version__"])
 
 
 def __getattr__(name: str) -> Any:
@@ -84,6 +93,8 @@ def __getattr__(name: str) -> Any:
         from tissu import _core
 
         return _core.build_info()["version"]
+    if name == "formula":
+        return importlib.import_module("tissu.formula")
     home = _HOME_OF.get(name)
     if home is None:
         raise AttributeError(f"module 'tissu' has no attribute '{name}'")

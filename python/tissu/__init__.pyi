@@ -1,6 +1,8 @@
 """Types of the names that the package loads when they are asked for; see __init__.py."""
 
 from tissu.errors import Diverged as Diverged
+from tissu import formula as formula
+from tissu.errors import LawError as LawError
 from tissu.errors import MeshError as MeshError
 from tissu.errors import ParameterError as ParameterError
 from tissu.errors import SceneError as SceneError
@@ -46,11 +48,14 @@ from tissu.scene import StVK as StVK
 from tissu.scene import Static as Static
 from tissu.scene import SurfaceNodes as SurfaceNodes
 from tissu.scene import Traction as Traction
+from tissu.scene import UserLaw as UserLaw
 from tissu.simulation import Plan as Plan
 from tissu.simulation import Profile as Profile
 from tissu.simulation import Simulation as Simulation
 from tissu.simulation import StepReport as StepReport
 from tissu.picture import draw as draw
 from tissu.picture import draw_overlay as draw_overlay
+from tissu.user_law import law as law
+from tissu.user_law import read_law as read_law
 
 __version__: str

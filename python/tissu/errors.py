@@ -17,6 +17,10 @@ class ParameterError(TissuError, ValueError):
     """A number or an array is outside what the equations accept."""
 
 
+class LawError(TissuError):
+    """A law of one's own that cannot be used, or not be made on this machine, with the reason."""
+
+
 class SceneError(TissuError):
     """A scene has problems; all of them are reported at once.
 

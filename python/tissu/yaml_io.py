@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 
 from pydantic import ValidationError
 
-from tissu.errors import SceneError
+from tissu.errors import LawError, SceneError
 from tissu.scene.body import Body, MeshFile
 from tissu.scene.part import Part, problems_of
 from tissu.scene.problem import Path as FieldPath
@@ -24,6 +24,8 @@ from tissu.scene.scene import Scene
 
 if TYPE_CHECKING:
     import yaml
+
+    from tissu.scene.law import UserLaw
 
 _WORDS = {
     "tag:yaml.org,2002:bool": (r"true|True|TRUE|false|False|FALSE", "tTfF"),
@@ -67,8 +69,10 @@ def parse_scene(text: str, *, base: Path | None = None, name: str = "text") -> S
                 f"{', '.join(Scene.model_fields)} is accepted"
             ]
         )
+    laws, refused = _own_laws(data, base)
+    problems += refused
     try:
-        scene = Scene.model_validate(data, context={"base": base})
+        scene = Scene.model_validate(data, context={"base": base, "laws": laws})
     except ValidationError as error:
         problems += problems_of(error)
         problems += _missing_files(data, base)
@@ -83,7 +87,7 @@ def scene_data(scene: Scene, *, folder: Path | None = None) -> dict[str, Any]:
     """The scene as mappings, lists and numbers; with `folder`, paths of meshes relative to it.
 
     Raises:
-        SceneError: a mesh that came from no file.
+        SceneError: a mesh or a law that came from no file.
     """
     problems = [
         f"bodies.{name}.mesh: made in memory, so it has no file to name; "
@@ -91,9 +95,18 @@ def scene_data(scene: Scene, *, folder: Path | None = None) -> dict[str, Any]:
         for name, body in scene.bodies.items()
         if not isinstance(body.mesh, Part) and body.mesh.source is None
     ]
+    problems += [
+        f"the law {law.name} was made in memory, so it has no file to name; write its formula to a "
+        "file and take tissu.read_law(file)"
+        for law in scene.own_laws()
+        if law.file is None
+    ]
     if problems:
         raise SceneError(problems)
+    files = dict.fromkeys([*scene.laws, *(law.file for law in scene.own_laws())])
     data: dict[str, Any] = _plain(scene, folder)
+    if files:
+        data = {"laws": _plain(list(files), folder), **data}
     return data
 
 
@@ -185,6 +198,30 @@ def _walk(
                 )
             lines[inner] = key.start_mark.line + 1
             _walk(value, inner, lines, problems, above)
+
+
+def _own_laws(
+    data: Mapping[str, Any], base: Path | None
+) -> tuple[list[type[UserLaw]], list[Problem]]:
+    """The laws of the files that the scene names, and what is wrong with those."""
+    laws: list[type[UserLaw]] = []
+    problems: list[Problem] = []
+    files = data.get("laws")
+    for number, file in enumerate(files if isinstance(files, list) else ()):
+        if not isinstance(file, str):
+            continue  # the scene's own check says so
+        from tissu.user_law import read_law
+
+        try:
+            law = read_law((base or Path()) / file)
+            if law.made in [other.made for other in laws]:
+                continue
+            if law.__name__ in [other.__name__ for other in laws]:
+                raise LawError(f"{file}: another file has a law of this name; rename one of them.")
+            laws.append(law)
+        except LawError as error:
+            problems.append(Problem(("laws", number), str(error)))
+    return laws, problems
 
 
 def _missing_files(data: Mapping[str, Any], base: Path | None) -> Iterator[Problem]:

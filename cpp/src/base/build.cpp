@@ -27,4 +27,13 @@ BuildInfo build_info() {
   return info;
 }
 
+std::string_view kernel_flags(Isa isa) {
+#ifdef TISSU_X86_KERNELS
+  if (isa == Isa::avx512) return TISSU_FLAGS_AVX512;
+  if (isa == Isa::avx2) return TISSU_FLAGS_AVX2;
+#endif
+  (void)isa;
+  return TISSU_FLAGS_BASELINE;
+}
+
 }  // namespace tissu

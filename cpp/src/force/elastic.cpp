@@ -34,15 +34,15 @@ std::string names_of(const Infos& infos) {
 
 /// The law and what is added to it.
 std::vector<LawUse> laws_of(const ElasticBlock& block) {
-  std::vector<LawUse> uses = {{block.law, block.parameters}};
+  std::vector<LawUse> uses = {{block.law, block.parameters, block.loaded}};
   uses.insert(uses.end(), block.reinforcements.begin(), block.reinforcements.end());
   return uses;
 }
 
-const LawInfo& law_or_throw(const ElasticBlock& block, const std::string& name) {
-  const LawInfo* info = find_law(name);
+const LawInfo& law_or_throw(const ElasticBlock& block, const LawUse& use) {
+  const LawInfo* info = use.loaded ? &use.loaded->info() : find_law(use.law);
   if (info == nullptr) {
-    throw ParameterError("body \"" + block.body + "\" asks for the law \"" + name + "\"; there are " +
+    throw ParameterError("body \"" + block.body + "\" asks for the law \"" + use.law + "\"; there are " +
                          names_of(all_laws()) + ".");
   }
   return *info;
@@ -82,14 +82,15 @@ void Elastic::choose_kernels(Isa isa) {
                          names_of(elements()) + ", and the quadratures reduced, full and over.");
   }
   for (const LawUse& use : laws_of(block_)) {
-    (void)law_or_throw(block_, use.law);
-    laws_.push_back(find_law_kernels(isa, use.law, reference_.dimension));
+    (void)law_or_throw(block_, use);
+    laws_.push_back(use.loaded ? use.loaded->kernels(reference_.dimension)
+                               : find_law_kernels(isa, use.law, reference_.dimension));
     if (laws_.back() == nullptr) {
       throw ParameterError("body \"" + block_.body + "\": the law \"" + use.law +
                            "\" needs cells with a volume, and " + block_.element + " has none.");
     }
   }
-  if (block_.fused && block_.reinforcements.empty()) {
+  if (block_.fused && block_.reinforcements.empty() && !block_.loaded) {
     kernels_ = find_elastic_kernels(isa, block_.element, block_.law, block_.quadrature);
   }
   if (kernels_ == nullptr) kernels_ = find_shape_kernels(isa, reference_.nodes, reference_.dimension);
@@ -113,7 +114,7 @@ void Elastic::check_numbers() const {
                     std::to_string(nodes) + " each; give whole cells, and at least one.");
   }
   for (const LawUse& use : laws_of(block_)) {
-    const LawInfo& info = *find_law(use.law);
+    const LawInfo& info = law_or_throw(block_, use);
     for (const LawParameter& parameter : info.parameters) {
       const auto found = use.parameters.find(std::string(parameter.name));
       if (found == use.parameters.end()) {
@@ -149,7 +150,7 @@ void Elastic::lay_constants() {
   bool uniform = true;
   std::size_t count = 0;
   for (const LawUse& use : uses) {
-    count += find_law(use.law)->constants.size();
+    count += law_or_throw(block_, use).constants.size();
     for (const auto& [name, values] : use.parameters) uniform = uniform && values.size() == 1;
   }
   const std::int32_t groups = uniform ? 1 : order_.groups();
@@ -160,12 +161,13 @@ void Elastic::lay_constants() {
   for (std::size_t i = 0; i < static_cast<std::size_t>(groups) * kLanes; ++i) {
     double* to = constants.data();
     for (const LawUse& use : uses) {
-      const LawInfo& info = *find_law(use.law);
+      const LawInfo& info = law_or_throw(block_, use);
       parameters.clear();
       for (const LawParameter& parameter : info.parameters) {
         parameters.push_back(of_cell(use.parameters.at(std::string(parameter.name)), order_.element[i]));
       }
-      law_constants(info, parameters, {to, info.constants.size()});
+      const std::span<double> of_law{to, info.constants.size()};
+      use.loaded ? use.loaded->compute(parameters, of_law) : law_constants(info, parameters, of_law);
       to += info.constants.size();
     }
     for (std::size_t c = 0; c < count; ++c)

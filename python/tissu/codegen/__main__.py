@@ -9,7 +9,8 @@ from pathlib import Path
 
 from tissu.codegen import cpp, listing
 from tissu.codegen.checks import check_law
-from tissu.codegen.definition import LAWS, Law, LawError, read_laws
+from tissu.codegen.definition import LAWS, Law, read_laws
+from tissu.errors import LawError
 
 ROOT = Path(__file__).resolve().parents[3]
 HEADERS = "cpp/include/tissu/law/generated"

@@ -10,8 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tissu.codegen import kernels
-from tissu.codegen.definition import Law, LawError
+from tissu.codegen.definition import Law
 from tissu.codegen.program import Program
+from tissu.errors import LawError
 
 Matrix = NDArray[np.float64]
 TOLERANCE = 1e-9  # of the stiffness: round-off is 1e-15, a forgotten term is of order one
@@ -102,10 +103,10 @@ def _check_rotation(law: Law, point: Point, scale: float) -> None:
     if law.frame_invariant and not worst <= TOLERANCE:
         raise LawError(
             f"{law.name}: the energy changes when the body turns, by {worst:.2g} of the "
-            "stiffness; write it in C, E or their invariants, or declare FRAME_INVARIANT = False."
+            "stiffness; write it in C, E or their invariants, or declare it as not frame-invariant."
         )
     if not law.frame_invariant and worst <= TOLERANCE:
-        raise LawError(f"{law.name}: it is frame-invariant; take FRAME_INVARIANT = False out.")
+        raise LawError(f"{law.name}: it is frame-invariant; do not declare the opposite.")
 
 
 def _check_small_strain(law: Law, point: Point, scale: float) -> None:

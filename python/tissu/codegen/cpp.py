@@ -11,12 +11,27 @@ from pathlib import Path
 import sympy as sp
 
 from tissu.codegen import kernels
-from tissu.codegen.definition import Law, LawError
+from tissu.codegen.definition import Law
 from tissu.codegen.program import FUNCTIONS, Program
 from tissu.codegen.vocabulary import Expr
+from tissu.errors import LawError
 
 VERSION = 1  # of the generator: raise it when the same formula gives other C++
 STANDARD = ("log", "exp", "sqrt", "cbrt")  # of <cmath>; the others are in tissu/law/functions.h
+# What neither a parameter nor a constant may be called: names of the text around it, words of C++.
+_TAKEN = """
+    A F P T dF dP energy stress stress_change tangent kName kLinear kFrameInvariant kAddition
+    parameters constants compute small_strain require std tissu log exp sqrt cbrt positive step
+    Tensor2 Tangent alignas alignof and and_eq asm assert auto bitand bitor bool break case catch
+    char char8_t char16_t char32_t class co_await co_return co_yield compl concept const const_cast
+    consteval constexpr constinit continue decltype default delete do double dynamic_cast else enum
+    errno explicit export extern false float for friend goto if inline int long mutable namespace
+    new noexcept not not_eq nullptr operator or or_eq private protected public register
+    reinterpret_cast requires return short signed sizeof static static_assert static_cast struct
+    switch template this thread_local throw true try typedef typeid typename union unsigned using
+    virtual void volatile wchar_t while xor xor_eq
+"""
+RESERVED = frozenset(_TAKEN.split())
 QUESTIONS: dict[str, Callable[[Expr], Program]] = {
     "energy": kernels.energy,
     "stress": kernels.stress,
@@ -143,24 +158,18 @@ def banner(source: str) -> list[str]:
 def check_names(law: Law, programs: dict[str, Program]) -> None:
     """Refuses a constant named as one of the generated names, or as a word of C++."""
     made = {str(symbol) for program in programs.values() for symbol, _ in program.lets}
-    made |= {"F", "dF", "P", "dP", "A", "T", "double", "float", "int", "operator", "new", "this"}
+    made |= RESERVED
     clash = sorted((made & set(law.constants)) - {"a0", "a1", "a2"})
+    clash += sorted(RESERVED & {p.name for p in law.parameters})
     if clash:
         raise LawError(f"{law.name}: a constant cannot be called {clash[0]}; choose another name.")
 
 
-def header(law: Law) -> str:
-    """The law's header, not yet formatted."""
+def structure(law: Law) -> str:
+    """The law's class template, not yet formatted."""
     programs = {name: make(law.energy) for name, make in QUESTIONS.items()}
     check_names(law, programs)
-    called = {f for program in programs.values() for f in program.count().functions}
-    lines = ["#pragma once", "", *banner(f"python/tissu/codegen/laws/{law.name}.py"), ""]
-    lines += ["#include <cmath>"] * any(f in STANDARD for f in called)
-    lines += ["#include <string_view>", ""]
-    own = any(f not in STANDARD for f in called)
-    lines += ['#include "tissu/law/functions.h"'] * own + ['#include "tissu/law/tensor.h"', ""]
-    lines += ["namespace tissu {", ""]
-    lines += [f"/// {line}".rstrip() for line in law.text.splitlines()]
+    lines = [f"/// {line}".rstrip() for line in law.text.splitlines()]
     lines += ["///", f"///     W = {law.formula}", "///", "/// Operations:"]
     lines += [f"/// - {name}: {p.count()}" for name, p in programs.items()]
     lines += ["template <class T>", f"struct {law.class_name} {{"]
@@ -183,8 +192,19 @@ def header(law: Law) -> str:
         lines.append(f"T {name};" + (f"  ///< {text}" if text != name else ""))
     for name, program in programs.items():
         lines += ["", f"/// {DESCRIBED[name]}", _function(law, name, program)]
-    lines += ["};", "", "}  // namespace tissu", ""]
-    return "\n".join(lines)
+    return "\n".join([*lines, "};"])
+
+
+def header(law: Law) -> str:
+    """The law's header, not yet formatted."""
+    body = structure(law)
+    called = {f for make in QUESTIONS.values() for f in make(law.energy).count().functions}
+    lines = ["#pragma once", "", *banner(f"python/tissu/codegen/laws/{law.name}.py"), ""]
+    lines += ["#include <cmath>"] * any(f in STANDARD for f in called)
+    lines += ["#include <string_view>", ""]
+    own = any(f not in STANDARD for f in called)
+    lines += ['#include "tissu/law/functions.h"'] * own + ['#include "tissu/law/tensor.h"', ""]
+    return "\n".join([*lines, "namespace tissu {", "", body, "", "}  // namespace tissu", ""])
 
 
 def formatter() -> str:

@@ -17,7 +17,7 @@ import sympy as sp
 
 from tissu.codegen import vocabulary as words
 from tissu.codegen.vocabulary import Expr, Parameter, Requirement
-from tissu.errors import TissuError
+from tissu.errors import LawError
 
 LAWS = Path(__file__).parent / "laws"
 VOCABULARY = frozenset(
@@ -50,10 +50,6 @@ _KNOWN = {
     "ADDITION",
     "CLASS",
 }
-
-
-class LawError(TissuError):
-    """A definition of a law that cannot be used, with the reason."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -142,7 +138,7 @@ def _formula(path: Path) -> str:
     return ""
 
 
-def _made(name: str, formula: str, found: Mapping[str, Any]) -> Law:
+def _made(name: str, formula: str, found: Mapping[str, Any], *, limit: bool) -> Law:
     for needed in ("PARAMETERS", "CONSTANTS", "ENERGY"):
         if needed not in found:
             raise LawError(f"{name}: the file has no {needed}.")
@@ -153,7 +149,7 @@ def _made(name: str, formula: str, found: Mapping[str, Any]) -> Law:
                 raise LawError(f"{name}: {key} is not read; did you mean {near[0]}?")
     addition = bool(found.get("ADDITION", False))
     small_strain = found.get("SMALL_STRAIN")
-    if small_strain is None and not addition:
+    if limit and small_strain is None and not addition:
         raise LawError(f"{name}: SMALL_STRAIN = (lambda, mu) is missing.")
     if not str(found.get("__doc__") or "").strip():
         raise LawError(f"{name}: the file has no docstring; give the law's source and limits.")
@@ -172,15 +168,17 @@ def _made(name: str, formula: str, found: Mapping[str, Any]) -> Law:
     )
 
 
-def read_law(path: Path) -> Law:
+def read_law(path: Path, *, limit: bool = True) -> Law:
     """The law of one file.
+
+    limit: SMALL_STRAIN must be there.
 
     Raises:
         LawError: a part is missing, or a symbol is not declared.
     """
     if not path.stem.isidentifier() or not path.stem.islower():
         raise LawError(f"{path.name}: the file's name is the law's: small letters, digits and _.")
-    law = _made(path.stem, _formula(path), runpy.run_path(str(path)))
+    law = _made(path.stem, _formula(path), runpy.run_path(str(path)), limit=limit)
     check_symbols(law)
     return law
 

@@ -86,7 +86,7 @@ def count(expression: Expr) -> Count:
     return total
 
 
-def _roots(expression: Expr) -> Expr:
+def with_roots(expression: Expr) -> Expr:
     """x^(n/3), x^(n/2) by their roots: no general power is left."""
 
     def rooted(power: Expr) -> Expr:
@@ -173,7 +173,7 @@ class Program:
             known = divisors.setdefault(power.base, sp.Symbol(f"inverse{len(divisors)}", real=True))
             return known**-power.exp
 
-        forms = [_roots(sp.sympify(e)) for e in named.values()]
+        forms = [with_roots(sp.sympify(e)) for e in named.values()]
         forms = [
             e.replace(lambda p: p.is_Pow and p.exp.is_integer and p.exp.is_negative, inverse)
             for e in forms

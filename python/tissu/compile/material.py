@@ -30,14 +30,14 @@ def cell_groups(mesh: Mesh, body: Body, path: Path, findings: Findings) -> list[
     for block in mesh.volume_blocks:
         nodes = np.asarray(block.nodes)
         numbers = np.arange(first, first + len(nodes), dtype=np.int32)
-        kinds = [(law.type, law.fibres is not None) for law in laws]
+        kinds = [(law.type, law.fibres is not None, type(law).made) for law in laws]
         present, first_cell = np.unique(owner[numbers], return_index=True)
         for kind in dict.fromkeys(kinds[n] for n in present[np.argsort(first_cell)]):
             of_kind = [n for n, other in enumerate(kinds) if other == kind]
             cells = numbers[np.isin(owner[numbers], of_kind)]
             values, fibres = _parameters(laws, owner[cells]), _fibres(laws, owner[cells])
             rows = nodes[cells - first]
-            groups.append(Group(str(block.type), rows, cells, kind[0], values, fibres))
+            groups.append(Group(str(block.type), rows, cells, kind[0], values, fibres, kind[2]))
         first += len(nodes)
     _note_locking(laws, path, findings)
     return groups

@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from tissu.scene.load import Load
     from tissu.scene.scene import Scene
     from tissu.scene.support import Fixed, Prescribed
+    from tissu.user_law.made import MadeLaw
 
 Ints = NDArray[np.int32]
 Floats = NDArray[np.float64]
@@ -47,6 +48,7 @@ class Group:
         law: name of the law.
         parameters: for each parameter, (1,) or (e,) values in SI.
         fibres: the same for the fibres added to the law; empty: none.
+        made: what a law of one's own is made of; None: a law of the library.
     """
 
     cell_type: str
@@ -55,6 +57,7 @@ class Group:
     law: str
     parameters: dict[str, Floats]
     fibres: dict[str, Floats] = field(default_factory=dict)
+    made: MadeLaw | None = None
 
 
 @dataclass(frozen=True, slots=True)

@@ -86,6 +86,7 @@ def _add_body(builder: WorldBuilder, prepared: Prepared, name: str) -> None:
             density=np.array([ready.density]),
             quadrature=body.quadrature,
             reinforcements=[("fibre", group.fibres)] if group.fibres else [],
+            loaded=None if group.made is None else group.made.build().loaded,
         )
     if body.viscosity is not None:
         builder.add_rayleigh(

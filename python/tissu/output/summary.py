@@ -82,6 +82,7 @@ def summarise(
         "threads": simulation.scene.threads,
         "instruction_set": build.get("instruction_set", ""),
         "scene": plain(simulation.scene),
+        "laws": [law.record() for law in simulation.scene.own_laws()],
         "meshes": {name: mesh_data(mesh) for name, mesh in simulation.meshes.items()},
         "simulated_seconds": simulation.time,
         "steps": dataclasses.asdict(tally),

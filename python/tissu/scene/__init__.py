@@ -10,6 +10,7 @@ from tissu.scene.law import (
     Rayleigh,
     StableNeoHooke,
     StVK,
+    UserLaw,
     Yeoh,
 )
 from tissu.scene.load import NodalLoad, Pressure, Traction
@@ -49,5 +50,6 @@ __all__ = [
     "Static",
     "SurfaceNodes",
     "Traction",
+    "UserLaw",
     "Yeoh",
 ]

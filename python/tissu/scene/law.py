@@ -4,14 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from functools import lru_cache
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
 
 from pydantic import Field, PlainValidator, TypeAdapter, ValidationInfo, model_validator
 from typing_extensions import Self
 
 from tissu import units
 from tissu.errors import ParameterError
-from tissu.scene.part import Part, chosen, one_of
+from tissu.scene.part import Part, chosen
+
+if TYPE_CHECKING:
+    from tissu.user_law.made import MadeLaw
 
 _Positive = Field(gt=0.0)
 
@@ -37,8 +40,13 @@ class Fibres(Part):
 
 
 class _Law(Part):
-    """What all laws share."""
+    """What all laws share.
 
+    Attributes:
+        made: what a law of one's own is made of: formula, C++, kernels; None: the library's law.
+    """
+
+    made: ClassVar[MadeLaw | None] = None
     fibres: Fibres | None = None
     """fibres added to the law; absent: none"""
 
@@ -157,6 +165,31 @@ class ArrudaBoyce(_Law):
         ) -> None: ...
 
 
+class UserLaw(_Law):
+    """A law of one's own: `tissu.law` and `tissu.read_law` make its subclasses."""
+
+    type: str
+
+    if TYPE_CHECKING:
+
+        def __init__(self, *, fibres: Fibres | None = ..., **parameters: units.Number) -> None: ...
+
+    def __eq__(self, other: object) -> bool:
+        """Whether formula, parameters and fibres are equal, wherever the law was defined."""
+        if not isinstance(other, UserLaw):
+            return NotImplemented
+        return type(self).made == type(other).made and vars(self) == vars(other)
+
+    __hash__ = None  # type: ignore[assignment]
+
+    @model_validator(mode="after")
+    def _material(self) -> Self:
+        made = type(self).made
+        if made is not None:
+            made.check({name: getattr(self, name) for name in made.parameters})
+        return self
+
+
 class Rayleigh(Part):
     """Viscosity proportional to mass and stiffness: C = mass M + stiffness K."""
 
@@ -186,8 +219,23 @@ LAWS: tuple[type[Part], ...] = (
     Yeoh,
     ArrudaBoyce,
 )
-Law = Hooke | StVK | NeoHooke | StableNeoHooke | MooneyRivlin | Yeoh | ArrudaBoyce
-OneLaw = Annotated[Law, one_of(*LAWS)]
+Law = Hooke | StVK | NeoHooke | StableNeoHooke | MooneyRivlin | Yeoh | ArrudaBoyce | UserLaw
+
+
+def built_in_names() -> list[str]:
+    """The types of the library's own laws, and of what is added to them."""
+    return [*(str(cls.model_fields["type"].default) for cls in LAWS), "fibre"]
+
+
+def _one_law(value: Any, info: ValidationInfo) -> Any:
+    """A law: in Python by class; in YAML by its `type`, one's own too where the scene has them."""
+    if isinstance(value, UserLaw):
+        return value
+    own = info.context.get("laws", ()) if isinstance(info.context, dict) else ()
+    return chosen(value, (*LAWS, *own), info)
+
+
+OneLaw = Annotated[Law, PlainValidator(_one_law)]
 
 
 @lru_cache(maxsize=1)
@@ -198,9 +246,9 @@ def _region_laws() -> TypeAdapter[dict[str, Law]]:
 def _law_or_map(value: Any, info: ValidationInfo) -> Any:
     """A law, or a map from the mesh's regions to laws."""
     if not isinstance(value, Mapping) or "type" in value:
-        return chosen(value, LAWS, info)
-    if not value or not all(isinstance(part, (Mapping, *LAWS)) for part in value.values()):
-        return chosen(value, LAWS, info)  # says that `type` is missing
+        return _one_law(value, info)
+    if not value or not all(isinstance(p, (Mapping, *LAWS, UserLaw)) for p in value.values()):
+        return _one_law(value, info)  # says that `type` is missing
     laws = {str(name): law for name, law in value.items()}  # YAML reads a region 7 as a number
     return _region_laws().validate_python(laws, context=info.context)
 

@@ -158,6 +158,9 @@ def _explanation(details: ErrorDetails, cls: type[Part], value: object) -> str:
 
 def _meaning(cls: type[Part], name: str | int) -> str:
     """What the text below a field says of it; read only when a message needs it."""
+    described = cls.model_fields.get(str(name))
+    if described is not None and described.description:
+        return f": {described.description}"
     for owner in cls.__mro__:
         if name not in inspect.get_annotations(owner):
             continue

@@ -7,7 +7,14 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
-from pydantic import Field, PrivateAttr, ValidationError, model_validator
+from pydantic import (
+    AfterValidator,
+    Field,
+    PrivateAttr,
+    ValidationError,
+    ValidationInfo,
+    model_validator,
+)
 from typing_extensions import Self
 
 from tissu import units
@@ -24,6 +31,15 @@ if TYPE_CHECKING:
 
     from tissu.compile import Check
     from tissu.simulation import Simulation
+    from tissu.user_law.made import MadeLaw
+
+
+def _from_base(file: Path, info: ValidationInfo) -> Path:
+    base = info.context.get("base") if isinstance(info.context, dict) else None
+    return Path(base) / file if base is not None else file
+
+
+LawFile = Annotated[Path, AfterValidator(_from_base)]
 
 
 class Output(Part):
@@ -45,6 +61,8 @@ class Scene(Part):
 
     name: str = "scene"
     """name of the scene, used for the files that are written"""
+    laws: tuple[LawFile, ...] = ()
+    """Python files with laws of one's own, for the bodies of a YAML scene; the files are run"""
     bodies: Annotated[dict[str, Body], Field(min_length=1)]
     """bodies by name"""
     gravity: units.Acceleration | None = None
@@ -73,6 +91,7 @@ class Scene(Part):
             self,
             *,
             name: str = ...,
+            laws: Sequence[str | os.PathLike[str]] = ...,
             bodies: Mapping[str, Body],
             gravity: units.VectorLike | None = ...,
             fixed: Sequence[Fixed] = ...,
@@ -100,8 +119,11 @@ class Scene(Part):
         return scene
 
     def __eq__(self, other: object) -> bool:
-        """Whether all fields are equal; where the scenes were written does not count."""
-        return type(self) is type(other) and self.__dict__ == other.__dict__
+        """Whether all fields are equal; where the scenes and laws were written does not count."""
+        if not isinstance(other, Scene):
+            return NotImplemented
+        apart = {"laws": ()}
+        return self.__dict__ | apart == other.__dict__ | apart
 
     __hash__ = None  # type: ignore[assignment]
 
@@ -147,6 +169,11 @@ class Scene(Part):
         from tissu.yaml_io import scene_text
 
         return scene_text(self)
+
+    def own_laws(self) -> list[MadeLaw]:
+        """The laws of one's own that the bodies are made of, each once, in their order."""
+        laws = [type(law).made for body in self.bodies.values() for law in body.laws().values()]
+        return list(dict.fromkeys(made for made in laws if made is not None))
 
     def to_dict(self) -> dict[str, Any]:
         """What to_yaml() writes, as mappings, lists and numbers in SI.

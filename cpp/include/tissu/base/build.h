@@ -1,8 +1,11 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
+
+#include "tissu/base/isa.h"
 
 namespace tissu {
 
@@ -14,5 +17,8 @@ struct BuildInfo {
 };
 
 BuildInfo build_info();
+
+/// The compiler's flags of the kernels for an instruction set, which a law made at run time takes too.
+std::string_view kernel_flags(Isa isa);
 
 }  // namespace tissu

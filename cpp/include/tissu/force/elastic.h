@@ -13,6 +13,7 @@
 #include "tissu/force/elastic_kernels.h"
 #include "tissu/force/element_order.h"
 #include "tissu/force/force_model.h"
+#include "tissu/force/loaded_law.h"
 #include "tissu/force/rest_shape.h"
 
 namespace tissu {
@@ -24,6 +25,7 @@ using LawParameters = std::map<std::string, std::vector<double>>;
 struct LawUse {
   std::string law;
   LawParameters parameters;
+  std::shared_ptr<const LoadedLaw> loaded = nullptr;  ///< null: the library's law of this name
 };
 
 /// What an elastic block is made of. `density` holds one number, or one for each cell.
@@ -35,8 +37,9 @@ struct ElasticBlock {
   std::vector<std::int32_t> cells;         ///< cell after cell, node numbers of the world, VTK order
   std::vector<std::int32_t> cell_numbers;  ///< of each cell in its body; empty: 0, 1, 2, …
   LawParameters parameters;                ///< of the law
-  std::vector<LawUse> reinforcements;      ///< laws whose energies are added: fibres
-  std::vector<double> density;             ///< [kg/m3]
+  std::shared_ptr<const LoadedLaw> loaded = nullptr;  ///< the law itself; null: the library's of this name
+  std::vector<LawUse> reinforcements;                 ///< laws whose energies are added: fibres
+  std::vector<double> density;                        ///< [kg/m3]
   bool fused = true;  ///< kernels made for this element and law where there are such; else those of its shape
 };
 

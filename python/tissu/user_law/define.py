@@ -1,0 +1,225 @@
+"""From a formula and parameters to a law of the scene: `tissu.law` and `tissu.read_law`.
+
+SymPy is imported here only, when a law is defined: whoever defines none needs none.
+"""
+
+from __future__ import annotations
+
+import keyword
+import os
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from tissu.errors import LawError
+from tissu.scene.law import UserLaw, built_in_names
+from tissu.user_law.made import MadeLaw
+from tissu.user_law.scene_class import scene_class
+
+if TYPE_CHECKING:
+    from tissu.codegen.definition import Law
+    from tissu.codegen.vocabulary import Parameter, Requirement
+
+
+def law(
+    name: str,
+    *,
+    energy: Any,
+    parameters: Mapping[str, str] | Sequence[Parameter],
+    constants: Mapping[str, Any] | None = None,
+    requirements: Sequence[Requirement] = (),
+    text: str = "",
+    frame_invariant: bool = True,
+) -> type[UserLaw]:
+    """A law of one's own, from its energy density; compiled now, or found compiled.
+
+    The stress P = dW/dF and the tangent dP/dF are derived from W, never given.
+
+    Args:
+        name: its `type` in a scene: small letters, digits and _.
+        energy: W [J/m3], a SymPy expression in the words of `tissu.formula` (I_C, J, Ibar1,
+            tr(E), F[0, 1], ln, exp, sqrt, positive, …) and the parameters' names.
+        parameters: unit of each parameter, "Pa" or "1" for a pure number; or
+            `tissu.formula.Parameter`s, which have a meaning, bounds and a typical value too.
+        constants: what the kernels store in place of parameters, where that saves work: name ->
+            expression in the parameters. The energy may use both.
+        requirements: conditions on several parameters, `tissu.formula.Requirement`s.
+        text: what the law is for, its source and its limits; the class's documentation.
+        frame_invariant: False only for an energy that is known to change when the body turns.
+
+    Returns:
+        A class: `Gent(mu="1 kPa", jm=5.0, kappa="20 kPa", fibres=None)` is a law of a Body.
+
+    Raises:
+        LawError: SymPy or a C++ compiler is missing; or the law cannot be used: energy or stress at
+            rest, dependence on rotation, an unknown symbol, a parameter that nothing uses, an
+            energy that is not in Pa, no stiffness at small strain.
+    """
+    _need_sympy()
+    _check_name(name)
+    from tissu.codegen import definition
+    from tissu.user_law.formula import in_words
+
+    listed, given = _parameters(name, parameters)
+    _check_parameters(name, listed)
+    written = in_words(energy, law=name, place="the energy")
+    stored = {
+        constant: in_words(expression, law=name, place=f"the constant {constant}")
+        for constant, expression in (constants or {}).items()
+    }
+    used = {str(symbol): symbol for symbol in written.free_symbols}
+    direct = {p.name: used[p.name] for p in listed if p.name in used and p.name not in stored}
+    made = definition.Law(
+        name=name,
+        class_name="Material",
+        text="",
+        formula=str(written),
+        parameters=listed,
+        constants={**direct, **stored},
+        energy=written,
+        small_strain=None,
+        requirements=tuple(requirements),
+        frame_invariant=frame_invariant,
+    )
+    definition.check_symbols(made)
+    return _class_of(made, text=text, given=given, file=None)
+
+
+def read_law(path: str | os.PathLike[str]) -> type[UserLaw]:
+    """A law of one's own from a Python file of the form of tissu/codegen/laws; the file is run.
+
+    The file's name is the law's. PARAMETERS, CONSTANTS, ENERGY, a docstring and, where there are
+    some, REQUIREMENTS and FRAME_INVARIANT are read; SMALL_STRAIN may be left out.
+
+    Raises:
+        LawError: the file cannot be read or run, or its law is refused; see `law`.
+    """
+    _need_sympy()
+    from dataclasses import replace
+
+    from tissu.codegen import definition
+
+    file = Path(path)
+    if not file.is_file():
+        raise LawError(
+            f"{file}: no such file; a Python file with the formula of a law is accepted."
+        )
+    _check_name(file.stem)
+    try:
+        found = definition.read_law(file, limit=False)
+    except LawError:
+        raise
+    except Exception as error:  # the file is a program: anything may go wrong in it
+        raise LawError(f"{file}: {type(error).__name__}: {error}") from error
+    if found.addition:
+        raise LawError(f"{file}: ADDITION = True; a law that stands alone is accepted.")
+    _check_parameters(found.name, found.parameters)
+    made = replace(found, class_name="Material", text="")
+    return _class_of(made, text=found.text, given=True, file=file)
+
+
+def law_from_record(record: Mapping[str, Any]) -> type[UserLaw]:
+    """The law that a summary records, made again from its formula.
+
+    Its digest is the recorded one, where generator and SymPy have the same version.
+
+    Raises:
+        LawError: as `law`.
+    """
+    _need_sympy()
+    import sympy as sp
+
+    from tissu.codegen.definition import VOCABULARY
+    from tissu.codegen.vocabulary import Parameter, Requirement, positive
+
+    parameters = [Parameter(**fields) for fields in record["parameters"]]
+    names = [p.name for p in parameters] + list(record["constants"])
+    words = {str(symbol): symbol for symbol in VOCABULARY} | {"positive": positive}
+    words |= {name: sp.Symbol(name, real=True) for name in names}
+
+    def read(text: str) -> Any:
+        return sp.sympify(text, locals=words)
+
+    return law(
+        record["name"],
+        energy=read(record["formula"]),
+        parameters=parameters,
+        constants={name: read(text) for name, text in record["constants"].items()},
+        requirements=[
+            Requirement(read(r["expression"]), r["field"], r["accepted"])
+            for r in record["requirements"]
+        ],
+        frame_invariant=record["frame_invariant"],
+    )
+
+
+def _need_sympy() -> None:
+    try:
+        import sympy  # noqa: F401
+    except ImportError:
+        raise LawError(
+            "SymPy, which derives stress and tangent from an energy, is not installed; run "
+            "pip install 'tissu[laws]'."
+        ) from None
+
+
+def _check_name(name: str) -> None:
+    plain = name.isidentifier() and name.isascii() and name == name.lower()
+    if not plain or name.startswith("_") or keyword.iskeyword(name) or len(name) > 60:
+        raise LawError(
+            f"{name!r} cannot name a law; small letters, digits and _ are accepted, a letter first."
+        )
+    if name in built_in_names():
+        raise LawError(f"{name}: tissu has a law of this name; choose another one.")
+
+
+def _parameters(
+    name: str, given: Mapping[str, str] | Sequence[Parameter]
+) -> tuple[tuple[Parameter, ...], bool]:
+    """The parameters, and whether they came with typical values."""
+    from tissu.codegen.vocabulary import Parameter
+
+    if isinstance(given, Mapping):
+        units = {str(parameter): str(unit) for parameter, unit in given.items()}
+        made = tuple(
+            Parameter(name=n, unit=u or "1", meaning="", typical=1.0) for n, u in units.items()
+        )
+        return made, False
+    listed = tuple(given)
+    for item in listed:
+        if not isinstance(item, Parameter):
+            raise LawError(
+                f"{name}: found {item!r} among the parameters; a mapping of names to units, or "
+                "tissu.formula.Parameter, is accepted."
+            )
+    return listed, True
+
+
+def _check_parameters(law: str, parameters: Sequence[Parameter]) -> None:
+    from tissu.codegen.definition import VOCABULARY
+
+    words = {str(symbol) for symbol in VOCABULARY}
+    if not any(p.unit == "Pa" for p in parameters):
+        raise LawError(f"{law}: no parameter is in Pa; an energy density needs at least one.")
+    for number, p in enumerate(parameters):
+        if p.name in words:
+            raise LawError(
+                f"{law}: the parameter {p.name} is called like a word of the vocabulary; "
+                "choose another name."
+            )
+        if p.name in {other.name for other in parameters[:number]}:
+            raise LawError(f"{law}: the parameter {p.name} is given twice; take one out.")
+        taken = not p.name.isidentifier() or keyword.iskeyword(p.name) or hasattr(UserLaw, p.name)
+        if taken or p.name.startswith("_") or p.name in UserLaw.model_fields:
+            raise LawError(f"{law}: no parameter can be called {p.name!r}; choose another name.")
+
+
+def _class_of(law: Law, *, text: str, given: bool, file: Path | None) -> type[UserLaw]:
+    """Checks the law, compiles it, and makes its class."""
+    from tissu.user_law.checks import checked
+    from tissu.user_law.source import library_source
+
+    law = checked(law, given=given)
+    made = MadeLaw(law, library_source(law), file)
+    made.build()
+    return scene_class(made, text or f"W = {law.energy}")

@@ -106,7 +106,8 @@ def scene_data(scene: Scene, *, folder: Path | None = None) -> dict[str, Any]:
     files = dict.fromkeys([*scene.laws, *(law.file for law in scene.own_laws())])
     data: dict[str, Any] = _plain(scene, folder)
     if files:
-        data = {"laws": _plain(list(files), folder), **data}
+        rest = {key: value for key, value in data.items() if key != "laws"}
+        data = {"laws": _plain(list(files), folder), **rest}
     return data
 
 

@@ -92,7 +92,7 @@ class Law:
         return {name: float(known[name]) for name in self.constants}
 
 
-def _unknown(law: str, place: str, used: Iterable[Expr], known: Iterable[str]) -> None:
+def refuse_unknown(law: str, place: str, used: Iterable[Expr], known: Iterable[str]) -> None:
     """Refuses the first symbol that nobody declared."""
     names = sorted(known)
     for symbol in sorted(used, key=str):
@@ -111,7 +111,7 @@ def check_symbols(law: Law) -> None:
     known, used = list(parameters), {str(s) for s in law.energy.free_symbols}
     for name, expression in law.constants.items():
         symbols = sp.sympify(expression).free_symbols
-        _unknown(law.name, f"the constant {name}", symbols, known)
+        refuse_unknown(law.name, f"the constant {name}", symbols, known)
         if name in parameters and str(expression) != name:
             raise LawError(
                 f"{law.name}: the constant {name} is not the parameter {name}; rename it."
@@ -119,7 +119,7 @@ def check_symbols(law: Law) -> None:
         known.append(name)
         used |= {str(s) for s in symbols}
     allowed = [*law.constants, *map(str, VOCABULARY)]
-    _unknown(law.name, "the energy", law.energy.free_symbols, allowed)
+    refuse_unknown(law.name, "the energy", law.energy.free_symbols, allowed)
     for requirement in law.requirements:
         used |= {str(s) for s in requirement.expression.free_symbols}
     for name in parameters:

@@ -255,5 +255,7 @@ def _sign(i: int, k: int) -> int:
 def _direct(outputs: Mapping[str, Expr]) -> Program:
     """An energy in components of F, as it stands."""
     program = Program()
-    program.outputs = program.share(outputs, rewrite=False)
+    named = {f"entry{number}": e for number, e in enumerate(outputs.values())}
+    shared = program.share(named, rewrite=False)
+    program.outputs = dict(zip(outputs, shared.values(), strict=True))
     return program.pruned()

@@ -87,7 +87,7 @@ def library_for(
         text.replace(folder / text.name)
         if said:
             log = work / f"{stem}.log"
-            log.write_text(said, encoding="utf-8")
+            log.write_text(said.replace(str(work), str(folder)), encoding="utf-8")
             log.replace(folder / log.name)
             raise LawError(
                 f"{name}: {compiler.command[0]} does not compile the made code; its messages are "

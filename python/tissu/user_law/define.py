@@ -8,6 +8,7 @@ from __future__ import annotations
 import keyword
 import os
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -67,6 +68,8 @@ def law(
         constant: in_words(expression, law=name, place=f"the constant {constant}")
         for constant, expression in (constants or {}).items()
     }
+    known = [*(p.name for p in listed), *stored, *map(str, definition.VOCABULARY)]
+    definition.refuse_unknown(name, "the energy", written.free_symbols, known)
     used = {str(symbol): symbol for symbol in written.free_symbols}
     direct = {p.name: used[p.name] for p in listed if p.name in used and p.name not in stored}
     made = definition.Law(
@@ -78,7 +81,12 @@ def law(
         constants={**direct, **stored},
         energy=written,
         small_strain=None,
-        requirements=tuple(requirements),
+        requirements=tuple(
+            replace(
+                r, expression=in_words(r.expression, law=name, place=f"the condition on {r.field}")
+            )
+            for r in requirements
+        ),
         frame_invariant=frame_invariant,
     )
     definition.check_symbols(made)
@@ -95,8 +103,6 @@ def read_law(path: str | os.PathLike[str]) -> type[UserLaw]:
         LawError: the file cannot be read or run, or its law is refused; see `law`.
     """
     _need_sympy()
-    from dataclasses import replace
-
     from tissu.codegen import definition
 
     file = Path(path)
@@ -114,7 +120,7 @@ def read_law(path: str | os.PathLike[str]) -> type[UserLaw]:
     if found.addition:
         raise LawError(f"{file}: ADDITION = True; a law that stands alone is accepted.")
     _check_parameters(found.name, found.parameters)
-    made = replace(found, class_name="Material", text="")
+    made = replace(found, class_name="Material", text="", formula=str(found.energy))
     return _class_of(made, text=found.text, given=True, file=file)
 
 

@@ -55,7 +55,7 @@ void lay_chunk(std::span<const std::int32_t> elements, ElementOrder& order) {
       order.real.push_back(i < count ? 1 : 0);
     }
   }
-  order.chunks.push_back({first, first + groups});
+  order.chunks.push_back({first, first + groups, nullptr, 0});
 }
 
 /// The lowest colour that no chunk with a common node has; 63 colours at most, then chunks stand alone.
@@ -64,7 +64,7 @@ std::vector<std::int32_t> colour_chunks(const ElementOrder& order, std::span<con
   std::vector<std::uint64_t> taken(nodes, 0);
   std::vector<std::int32_t> colour;
   std::int32_t alone = 64;
-  for (const GroupRange& chunk : order.chunks) {
+  for (const Chunk& chunk : order.chunks) {
     const std::span<const std::int32_t> elements(order.element.data() + chunk.begin * ElementOrder::kLanes,
                                                  order.element.data() + chunk.end * ElementOrder::kLanes);
     std::uint64_t used = 0;
@@ -90,7 +90,7 @@ void sort_by_colour(const std::vector<std::int32_t>& colour, ElementOrder& order
   std::vector<std::size_t> index(colour.size());
   std::iota(index.begin(), index.end(), std::size_t{0});
   std::ranges::stable_sort(index, {}, [&](std::size_t c) { return colour[c]; });
-  std::vector<GroupRange> chunks;
+  std::vector<Chunk> chunks;
   order.colour_begin.assign(1, 0);
   for (std::size_t i = 0; i < index.size(); ++i) {
     if (i > 0 && colour[index[i]] != colour[index[i - 1]])
@@ -101,16 +101,49 @@ void sort_by_colour(const std::vector<std::int32_t>& colour, ElementOrder& order
   order.chunks = std::move(chunks);
 }
 
+/// Lists the nodes of each chunk, and gives each element its nodes' places among them.
+void pack_nodes(std::span<const std::int32_t> cells, int size, ElementOrder& order) {
+  std::vector<std::size_t> first;
+  order.places.resize(order.element.size() * static_cast<std::size_t>(size));
+  for (Chunk& chunk : order.chunks) {
+    const auto begin = static_cast<std::size_t>(chunk.begin) * ElementOrder::kLanes;
+    const auto end = static_cast<std::size_t>(chunk.end) * ElementOrder::kLanes;
+    std::vector<std::int32_t> nodes;
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto cell =
+          cells.subspan(static_cast<std::size_t>(order.element[i] * size), static_cast<std::size_t>(size));
+      nodes.insert(nodes.end(), cell.begin(), cell.end());
+    }
+    std::ranges::sort(nodes);
+    nodes.erase(std::ranges::unique(nodes).begin(), nodes.end());
+    for (std::size_t i = begin; i < end; ++i) {
+      for (std::size_t a = 0; a < static_cast<std::size_t>(size); ++a) {
+        const std::int32_t node = cells[static_cast<std::size_t>(order.element[i] * size) + a];
+        const auto place = std::ranges::lower_bound(nodes, node) - nodes.begin();
+        const std::size_t group = i / ElementOrder::kLanes;
+        order.places[(group * static_cast<std::size_t>(size) + a) * ElementOrder::kLanes +
+                     i % ElementOrder::kLanes] = static_cast<std::uint16_t>(4 * place);
+      }
+    }
+    first.push_back(order.nodes.size());
+    chunk.node_count = static_cast<std::int32_t>(nodes.size());
+    order.nodes.insert(order.nodes.end(), nodes.begin(), nodes.end());
+  }
+  for (std::size_t c = 0; c < first.size(); ++c) order.chunks[c].nodes = order.nodes.data() + first[c];
+}
+
 }  // namespace
 
 ElementOrder order_elements(std::span<const std::int32_t> cells, int size, ConstReals positions) {
   const std::vector<std::int32_t> curve = along_curve(cells, size, positions);
   ElementOrder order;
-  for (std::size_t begin = 0; begin < curve.size(); begin += ElementOrder::kChunk) {
-    const std::size_t end = std::min(curve.size(), begin + ElementOrder::kChunk);
+  const auto step = static_cast<std::size_t>(ElementOrder::chunk_size(size));
+  for (std::size_t begin = 0; begin < curve.size(); begin += step) {
+    const std::size_t end = std::min(curve.size(), begin + step);
     lay_chunk(std::span(curve).subspan(begin, end - begin), order);
   }
   sort_by_colour(colour_chunks(order, cells, size, positions.size() / 3), order);
+  pack_nodes(cells, size, order);
   return order;
 }
 

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import sympy as sp
 
-from tissu.codegen import kernels
+from tissu.codegen import kernels, thin
 from tissu.codegen.definition import Law
 from tissu.codegen.program import FUNCTIONS, Program
 from tissu.codegen.vocabulary import Expr
@@ -117,15 +117,17 @@ def _product(expression: Expr, scalar: str) -> str:
     return sign + " / ".join([text, *below])
 
 
-def _function(law: Law, name: str, program: Program) -> str:
-    """One member function."""
+def _function(name: str, program: Program, m: int = 3) -> str:
+    """One member function, for F of 3 x m."""
     read = program.symbols()
-    result = {"energy": "T", "tangent": "Tangent<T>"}.get(name, "Tensor2<T>")
+    tensor = "Tensor2<T>" if m == 3 else f"Columns<T, {m}>"
+    tangent = "Tangent<T>" if m == 3 else f"ColumnsTangent<T, {m}>"
+    result = {"energy": "T", "tangent": tangent}.get(name, tensor)
     arguments = ["F", "dF"] if name == "stress_change" else ["F"]
     given = []
     for argument in arguments:
         used = any(_symbol(s).startswith(f"{argument}(") for s in read)
-        given.append(f"const Tensor2<T>& {argument if used else f'/*{argument}*/'}")
+        given.append(f"const {tensor}& {argument if used else f'/*{argument}*/'}")
     lines = [f"[[nodiscard]] {result} {name}({', '.join(given)}) const {{"]
     called = set(program.count().functions)
     lines += [f"using std::{f};" for f in STANDARD if f in called]
@@ -144,6 +146,15 @@ DESCRIBED = {
     "stress_change": "dP = dP/dF : dF [Pa]",
     "tangent": "dP/dF, upper triangle [Pa]",
 }
+
+
+THIN = {2: "The same of a sheet, F of 3 x 2", 1: "The same of a line, F of 3 x 1"}
+
+
+def is_thin(law: Law) -> bool:
+    """Whether sheets and lines may be made of it: Lamé's constants, and traces of a strain."""
+    named = {"lambda", "mu"} <= set(law.constants)
+    return named and thin.traces(law.energy, set(law.constants)) is not None
 
 
 def banner(source: str) -> list[str]:
@@ -191,7 +202,11 @@ def structure(law: Law) -> str:
         text = str(expression).replace("**", "^")
         lines.append(f"T {name};" + (f"  ///< {text}" if text != name else ""))
     for name, program in programs.items():
-        lines += ["", f"/// {DESCRIBED[name]}", _function(law, name, program)]
+        lines += ["", f"/// {DESCRIBED[name]}", _function(name, program)]
+    for m in (2, 1) if is_thin(law) else ():
+        lines += ["", f"// {THIN[m]}, in axes whose first {m} lie in it."]
+        for name, program in thin.programs(law.energy, frozenset(law.constants), m).items():
+            lines.append(_function(name, program, m))
     return "\n".join([*lines, "};"])
 
 

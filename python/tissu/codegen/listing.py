@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import sympy as sp
 
-from tissu.codegen.cpp import banner, printed
+from tissu.codegen.cpp import banner, is_thin, printed
 from tissu.codegen.definition import Law
 from tissu.codegen.program import square_root
 from tissu.codegen.vocabulary import Expr, Parameter
@@ -26,6 +26,9 @@ def type_list(laws: Sequence[Law]) -> str:
     lines += ["/// Those that stand alone.", f"using BaseLaws = LawList<{', '.join(bases)}>;"]
     lines += ["/// Those to be added to one that does."]
     lines += [f"using AdditionLaws = LawList<{', '.join(additions)}>;"]
+    thin = [law.class_name for law in laws if is_thin(law)]
+    lines += ["/// Those that sheets and lines may be made of."]
+    lines += [f"using ThinLaws = LawList<{', '.join(thin)}>;"]
     return "\n".join([*lines, "", "}  // namespace tissu", ""])
 
 

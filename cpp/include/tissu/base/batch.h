@@ -100,39 +100,6 @@ TISSU_INLINE double* at(double* values, std::int32_t i, int size) {
 
 #if defined(__AVX2__)
 
-/// The 3-vectors of four nodes, two numbers a load, turned into one register for each axis.
-TISSU_INLINE void gather_four(const double* values, const std::int32_t* node, __m256d& x, __m256d& y,
-                              __m256d& z) {
-  const double* a = at(values, node[0], 3);
-  const double* b = at(values, node[1], 3);
-  const double* c = at(values, node[2], 3);
-  const double* d = at(values, node[3], 3);
-  const __m256d xy02 = _mm256_insertf128_pd(_mm256_castpd128_pd256(_mm_loadu_pd(a)), _mm_loadu_pd(c), 1);
-  const __m256d xy13 = _mm256_insertf128_pd(_mm256_castpd128_pd256(_mm_loadu_pd(b)), _mm_loadu_pd(d), 1);
-  x = _mm256_unpacklo_pd(xy02, xy13);
-  y = _mm256_unpackhi_pd(xy02, xy13);
-  const __m128d z01 = _mm_loadh_pd(_mm_load_sd(a + 2), b + 2);
-  const __m128d z23 = _mm_loadh_pd(_mm_load_sd(c + 2), d + 2);
-  z = _mm256_insertf128_pd(_mm256_castpd128_pd256(z01), z23, 1);
-}
-
-TISSU_INLINE void add_three(double* to, __m128d xy, __m128d z) {
-  _mm_storeu_pd(to, _mm_add_pd(_mm_loadu_pd(to), xy));
-  _mm_store_sd(to + 2, _mm_add_sd(_mm_load_sd(to + 2), z));
-}
-
-/// Adds four 3-vectors to four nodes, one lane after the other, so that lanes may share a node.
-TISSU_INLINE void scatter_four(double* values, const std::int32_t* node, __m256d x, __m256d y, __m256d z) {
-  const __m256d xy02 = _mm256_unpacklo_pd(x, y);
-  const __m256d xy13 = _mm256_unpackhi_pd(x, y);
-  const __m128d z01 = _mm256_castpd256_pd128(z);
-  const __m128d z23 = _mm256_extractf128_pd(z, 1);
-  add_three(at(values, node[0], 3), _mm256_castpd256_pd128(xy02), z01);
-  add_three(at(values, node[1], 3), _mm256_castpd256_pd128(xy13), _mm_unpackhi_pd(z01, z01));
-  add_three(at(values, node[2], 3), _mm256_extractf128_pd(xy02, 1), z23);
-  add_three(at(values, node[3], 3), _mm256_extractf128_pd(xy13, 1), _mm_unpackhi_pd(z23, z23));
-}
-
 TISSU_INLINE void add_at(double* to, __m256d value) {
   _mm256_storeu_pd(to, _mm256_add_pd(_mm256_loadu_pd(to), value));
 }
@@ -157,40 +124,6 @@ TISSU_INLINE void scatter_nine(double* values, const std::int32_t* slot, const _
 }
 
 #endif
-
-/// x, y and z of one node for each lane.
-TISSU_INLINE void gather(const double* values, const std::int32_t* node, Batch (&out)[3]) {
-#if defined(__AVX512F__)
-  __m256d lo[3];
-  __m256d hi[3];
-  gather_four(values, node, lo[0], lo[1], lo[2]);
-  gather_four(values, node + 4, hi[0], hi[1], hi[2]);
-  for (int i = 0; i < 3; ++i) out[i].v = _mm512_insertf64x4(_mm512_castpd256_pd512(lo[i]), hi[i], 1);
-#elif defined(__AVX2__)
-  gather_four(values, node, out[0].v, out[1].v, out[2].v);
-#else
-  static_assert(kWidth == 2);
-  const double* a = at(values, node[0], 3);
-  const double* b = at(values, node[1], 3);
-  for (int i = 0; i < 3; ++i) out[i].v = Batch::Native{a[i], b[i]};
-#endif
-}
-
-/// Adds a 3-vector to one node for each lane.
-TISSU_INLINE void scatter_add(double* values, const std::int32_t* node, const Batch (&in)[3]) {
-#if defined(__AVX512F__)
-  scatter_four(values, node, _mm512_castpd512_pd256(in[0].v), _mm512_castpd512_pd256(in[1].v),
-               _mm512_castpd512_pd256(in[2].v));
-  scatter_four(values, node + 4, _mm512_extractf64x4_pd(in[0].v, 1), _mm512_extractf64x4_pd(in[1].v, 1),
-               _mm512_extractf64x4_pd(in[2].v, 1));
-#elif defined(__AVX2__)
-  scatter_four(values, node, in[0].v, in[1].v, in[2].v);
-#else
-  for (int lane = 0; lane < kWidth; ++lane) {
-    for (int i = 0; i < 3; ++i) at(values, node[lane], 3)[i] += in[i].v[lane];
-  }
-#endif
-}
 
 /// Adds a block of nine numbers to one block for each lane.
 TISSU_INLINE void scatter_add_block(double* values, const std::int32_t* slot, const Batch (&in)[9]) {

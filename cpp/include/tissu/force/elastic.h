@@ -28,6 +28,10 @@ struct LawUse {
   std::shared_ptr<const LoadedLaw> loaded = nullptr;  ///< null: the library's law of this name
 };
 
+/// What holds across a surface: no stress, as in a sheet, or no strain, as in a slice of a long body. Along a
+/// line nothing holds it sideways under `stress`, and it cannot thin under `strain`.
+enum class Plane : std::uint8_t { stress, strain };
+
 /// What an elastic block is made of. `density` holds one number, or one for each cell.
 struct ElasticBlock {
   std::string body;
@@ -40,6 +44,9 @@ struct ElasticBlock {
   std::shared_ptr<const LoadedLaw> loaded = nullptr;  ///< the law itself; null: the library's of this name
   std::vector<LawUse> reinforcements;                 ///< laws whose energies are added: fibres
   std::vector<double> density;                        ///< [kg/m3]
+  /// Of surfaces the thickness [m], of lines the area [m2]; one, or one for each cell. Volumes have none.
+  std::vector<double> cross_section = {1.0};
+  Plane plane = Plane::stress;
   bool fused = true;  ///< kernels made for this element and law where there are such; else those of its shape
 };
 
@@ -77,7 +84,10 @@ class Elastic final : public ForceModel {
   /// of quadratic elements.
   void add_weights(std::vector<double>& nodal) const;
   [[nodiscard]] CellFields fields(const State& state) const;
+  /// What it holds of its cells, node and matrix places included.
   [[nodiscard]] std::size_t bytes() const;
+  /// Numbers kept of each cell's rest shape and law; those of a law that all cells share are kept once.
+  [[nodiscard]] std::size_t reals_per_cell() const;
 
  private:
   void choose_kernels(Isa isa);

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "tissu/base/array.h"
 #include "tissu/base/vec.h"
 #include "tissu/force/elastic_kernels.h"
 
@@ -15,12 +16,22 @@ namespace tissu {
 
 struct ElementOrder {
   static constexpr int kLanes = 8;
-  static constexpr std::int32_t kChunk = 256;  ///< elements
+  /// Elements of a chunk: few enough for the nodes of its elements to fit a kernel's copy.
+  static constexpr std::int32_t chunk_size(int nodes) { return nodes <= 10 ? 256 : 128; }
 
   std::vector<std::int32_t> element;       ///< [group][lane]: number of the element
   std::vector<std::uint8_t> real;          ///< [group][lane]: 0 for a lane that only pads
-  std::vector<GroupRange> chunks;          ///< sorted by colour
+  std::vector<Chunk> chunks;               ///< sorted by colour
   std::vector<std::int32_t> colour_begin;  ///< colours + 1, first chunk of each colour
+  std::vector<std::int32_t> nodes;         ///< of all chunks, ascending in each
+  AlignedVector<std::uint16_t> places;     ///< [group][node][lane]: 4 times its number in its chunk
+
+  ElementOrder() = default;
+  ElementOrder(ElementOrder&&) = default;
+  ElementOrder& operator=(ElementOrder&&) = default;
+  ElementOrder(const ElementOrder&) = delete;  // chunks point into `nodes`
+  ElementOrder& operator=(const ElementOrder&) = delete;
+  ~ElementOrder() = default;
 
   [[nodiscard]] std::int32_t groups() const { return static_cast<std::int32_t>(element.size()) / kLanes; }
   [[nodiscard]] std::int32_t colours() const { return static_cast<std::int32_t>(colour_begin.size()) - 1; }

@@ -11,15 +11,32 @@
 
 namespace tissu {
 
+/// J = sum_a X_a (x) dN_a/dxi (3 x m) = Q R with Q orthonormal; a volume has Q = I. A cell whose J is the
+/// same everywhere is affine; where all cells are, one J each is kept.
 struct RestShape {
-  AlignedVector<std::int32_t> nodes;  ///< [group][node][8]
-  AlignedVector<double> rest;         ///< [group][point][m m + 1][8]: J^-1 row by row, weight * det J [m3]
-  std::vector<double> volumes;        ///< of each cell [m3]
-  std::vector<std::int32_t> bad;      ///< cells that are inverted or have no volume at some point, ascending
+  AlignedVector<double> rest;  ///< [group][rest point][m m + 1][8]: R^-1 row by row, then volume [m3]
+  AlignedVector<double>
+      frames;           ///< [group][rest point][3][3][8]: Q and its complement; empty when Q = I serves
+  int rest_points = 0;  ///< 1, or all points of the rule
+  std::vector<double> weights;    ///< [point]: share of the volume in `rest` that belongs to the point
+  std::vector<double> volumes;    ///< of each cell [m3]
+  std::vector<std::int32_t> bad;  ///< cells that are inverted or have no volume at some point, ascending
 };
 
-/// `cells` holds cell after cell, node numbers into X.
-RestShape rest_shape(const ReferenceCell& reference, const std::vector<std::int32_t>& cells,
-                     const ElementOrder& order, ConstReals X);
+/// The cells of a block and where they are.
+struct RestCells {
+  const ReferenceCell& reference;
+  const std::vector<std::int32_t>& nodes;  ///< cell after cell
+  const std::vector<double>&
+      cross_section;  ///< of each cell, or one: thickness [m] or area [m2]; 1 for volumes
+  ConstReals X;
+};
+
+/// `with_frames`: a law is not blind to rotation, so that cells below three dimensions need their axes.
+RestShape rest_shape(const RestCells& cells, const ElementOrder& order, bool with_frames);
+
+/// Which cells are affine, to round-off.
+std::vector<char> affine_cells(const ReferenceCell& reference, const std::vector<std::int32_t>& cells,
+                               ConstReals X);
 
 }  // namespace tissu

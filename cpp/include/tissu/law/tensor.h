@@ -7,23 +7,30 @@
 
 namespace tissu {
 
-template <class T>
-struct Tensor2 {
-  T m[3][3];
+/// 3 x M: F and P of a piece of material of M dimensions in space.
+template <class T, int M>
+struct Columns {
+  T m[3][M];
   T& operator()(int i, int j) { return m[i][j]; }
   const T& operator()(int i, int j) const { return m[i][j]; }
 };
-
-/// dP/dF = d2W/dF2: symmetric 9 x 9, row 3 i + J for F_iJ, upper triangle row after row.
 template <class T>
-struct Tangent {
-  T a[45];
+using Tensor2 = Columns<T, 3>;
+
+/// dP/dF = d2W/dF2: symmetric 3 M x 3 M, row M i + J for F_iJ, upper triangle row after row.
+template <class T, int M>
+struct ColumnsTangent {
+  static constexpr int kRows = 3 * M;
+  static constexpr int kSize = kRows * (kRows + 1) / 2;
+  T a[kSize];
   static constexpr int index(int row, int column) {
-    return row <= column ? row * 9 - row * (row - 1) / 2 + (column - row) : index(column, row);
+    return row <= column ? row * kRows - row * (row - 1) / 2 + (column - row) : index(column, row);
   }
-  T& operator()(int i, int J, int k, int L) { return a[index(3 * i + J, 3 * k + L)]; }
-  const T& operator()(int i, int J, int k, int L) const { return a[index(3 * i + J, 3 * k + L)]; }
+  T& operator()(int i, int J, int k, int L) { return a[index(M * i + J, M * k + L)]; }
+  const T& operator()(int i, int J, int k, int L) const { return a[index(M * i + J, M * k + L)]; }
 };
+template <class T>
+using Tangent = ColumnsTangent<T, 3>;
 
 /// A B
 template <class T>

@@ -3,8 +3,7 @@
 /// One text for every element, quadrature, law and instruction set: F from the nodes, the law at the point,
 /// the force back to the nodes.  f_a = -sum_g w_g P grad_a,  K_ab = sum_g w_g grad_a . dP/dF . grad_b.
 
-#include "tissu/base/batch.h"
-#include "tissu/force/elastic_kernels.h"
+#include "packed.h"
 #include "tissu/law/tensor.h"
 
 namespace tissu::TISSU_KERNELS {
@@ -37,35 +36,43 @@ struct Elastic {
 
   /// The lanes of one batch of a group.
   struct Lanes {
-    const std::int32_t* nodes;
+    const std::uint16_t* places;
     const std::int32_t* slots;
     const double* rest;
+    int point_stride;  ///< of `rest`
+    const double* weights;
     MaterialLaw law;
 
     TISSU_INLINE Lanes(const ElasticView& view, std::int32_t group, int lane)
-        : nodes(view.nodes + static_cast<std::ptrdiff_t>(group) * kNodes * kLanes + lane),
+        : places(view.places + static_cast<std::ptrdiff_t>(group) * kNodes * kLanes + lane),
           slots(view.slots + static_cast<std::ptrdiff_t>(group) * kNodes * kNodes * kLanes + lane),
-          rest(view.rest + static_cast<std::ptrdiff_t>(group) * Rule::kPoints * kRest * kLanes + lane) {
+          rest(view.rest + static_cast<std::ptrdiff_t>(group) * view.rest_points * kRest * kLanes + lane),
+          point_stride(view.rest_points == 1 ? 0 : kRest * kLanes),
+          weights(view.weights) {
       const double* constants = view.constants + group * view.constants_stride + lane;
       Batch* values = reinterpret_cast<Batch*>(&law);
       TISSU_UNROLL
       for (int c = 0; c < kConstants; ++c) values[c] = Batch::load(constants + c * kLanes);
     }
-    TISSU_INLINE void gather_all(const double* from, Batch (&to)[kNodes][3]) const {
+    TISSU_INLINE void gather_all(const PackedNodes& from, Batch (&to)[kNodes][3]) const {
       TISSU_UNROLL
-      for (int a = 0; a < kNodes; ++a) gather(from, nodes + a * kLanes, to[a]);
+      for (int a = 0; a < kNodes; ++a) gather_packed(from.values, places + a * kLanes, to[a]);
     }
-    TISSU_INLINE void scatter_all(double* to, const Batch (&from)[kNodes][3]) const {
+    TISSU_INLINE void scatter_all(PackedNodes& to, const Batch (&from)[kNodes][3]) const {
       TISSU_UNROLL
-      for (int a = 0; a < kNodes; ++a) scatter_add(to, nodes + a * kLanes, from[a]);
+      for (int a = 0; a < kNodes; ++a) scatter_packed(to.values, places + a * kLanes, from[a]);
     }
     TISSU_INLINE Tensor inverse_jacobian(int point) const {
       Tensor Jinv;
       TISSU_UNROLL
-      for (int k = 0; k < 9; ++k) Jinv.m[k / 3][k % 3] = Batch::load(rest + (point * kRest + k) * kLanes);
+      for (int k = 0; k < 9; ++k)
+        Jinv.m[k / 3][k % 3] = Batch::load(rest + point * point_stride + k * kLanes);
       return Jinv;
     }
-    TISSU_INLINE Batch weight(int point) const { return Batch::load(rest + (point * kRest + 9) * kLanes); }
+    TISSU_INLINE Batch weight(int point) const {
+      const Batch volume = Batch::load(rest + point * point_stride + 9 * kLanes);
+      return Rule::kPoints == 1 ? volume : volume * Batch(weights[point]);
+    }
   };
 
   /// sum_a u_a (x) dN_a/dxi, times J^-1: F when u = x, dF when u is a change of x.
@@ -119,34 +126,45 @@ struct Elastic {
     }
   }
 
-  static void force(const ElasticView& view, GroupRange range, const double* x, double* f) {
-    for (std::int32_t group = range.begin; group < range.end; ++group) {
+  static void force(const ElasticView& view, const Chunk& chunk, const double* x, double* f) {
+    PackedNodes positions;
+    PackedNodes sums;
+    positions.load(chunk, x);
+    sums.clear(chunk);
+    for (std::int32_t group = chunk.begin; group < chunk.end; ++group) {
       for (int lane = 0; lane < kLanes; lane += kWidth) {
         const Lanes lanes(view, group, lane);
         Batch position[kNodes][3];
         Batch result[kNodes][3];
-        lanes.gather_all(x, position);
+        lanes.gather_all(positions, position);
         clear(result);
         for (int g = 0; g < Rule::kPoints; ++g) {
           const Tensor Jinv = lanes.inverse_jacobian(g);
           const Tensor F = gradient(g, position, Jinv);
           spread(g, lanes.law.stress(F), Jinv, -lanes.weight(g), result);
         }
-        lanes.scatter_all(f, result);
+        lanes.scatter_all(sums, result);
       }
     }
+    sums.add_to(chunk, f);
   }
 
-  static void product(const ElasticView& view, GroupRange range, const double* x, double scale,
+  static void product(const ElasticView& view, const Chunk& chunk, const double* x, double scale,
                       const double* p, double* out) {
-    for (std::int32_t group = range.begin; group < range.end; ++group) {
+    PackedNodes positions;
+    PackedNodes changes;
+    PackedNodes sums;
+    positions.load(chunk, x);
+    changes.load(chunk, p);
+    sums.clear(chunk);
+    for (std::int32_t group = chunk.begin; group < chunk.end; ++group) {
       for (int lane = 0; lane < kLanes; lane += kWidth) {
         const Lanes lanes(view, group, lane);
         Batch position[kNodes][3];
         Batch change[kNodes][3];
         Batch result[kNodes][3];
-        lanes.gather_all(x, position);
-        lanes.gather_all(p, change);
+        lanes.gather_all(positions, position);
+        lanes.gather_all(changes, change);
         clear(result);
         for (int g = 0; g < Rule::kPoints; ++g) {
           const Tensor Jinv = lanes.inverse_jacobian(g);
@@ -154,9 +172,10 @@ struct Elastic {
           const Tensor dF = gradient(g, change, Jinv);
           spread(g, lanes.law.stress_change(F, dF), Jinv, lanes.weight(g) * Batch(-scale), result);
         }
-        lanes.scatter_all(out, result);
+        lanes.scatter_all(sums, result);
       }
     }
+    sums.add_to(chunk, out);
   }
 
   /// grad_a N at a point: J^-T dN_a/dxi
@@ -249,14 +268,16 @@ struct Elastic {
     scatter_pair(lanes, 0, 0, corner, blocks);
   }
 
-  static void stiffness(const ElasticView& view, GroupRange range, const double* x, double scale,
+  static void stiffness(const ElasticView& view, const Chunk& chunk, const double* x, double scale,
                         double* blocks) {
-    for (std::int32_t group = range.begin; group < range.end; ++group) {
+    PackedNodes positions;
+    positions.load(chunk, x);
+    for (std::int32_t group = chunk.begin; group < chunk.end; ++group) {
       for (int lane = 0; lane < kLanes; lane += kWidth) {
         const Lanes lanes(view, group, lane);
         Batch position[kNodes][3];
         Batch K[kPairs][9];
-        lanes.gather_all(x, position);
+        lanes.gather_all(positions, position);
         for (auto& block : K) {
           for (Batch& entry : block) entry = Batch(0.0);
         }
@@ -270,12 +291,14 @@ struct Elastic {
     }
   }
 
-  static void energy(const ElasticView& view, GroupRange range, const double* x, double* energies) {
-    for (std::int32_t group = range.begin; group < range.end; ++group) {
+  static void energy(const ElasticView& view, const Chunk& chunk, const double* x, double* energies) {
+    PackedNodes positions;
+    positions.load(chunk, x);
+    for (std::int32_t group = chunk.begin; group < chunk.end; ++group) {
       for (int lane = 0; lane < kLanes; lane += kWidth) {
         const Lanes lanes(view, group, lane);
         Batch position[kNodes][3];
-        lanes.gather_all(x, position);
+        lanes.gather_all(positions, position);
         Batch sum(0.0);
         for (int g = 0; g < Rule::kPoints; ++g) {
           sum += lanes.weight(g) * lanes.law.energy(gradient(g, position, lanes.inverse_jacobian(g)));
@@ -287,15 +310,17 @@ struct Elastic {
   }
 
   /// sigma = P F^T / det F, weighted with the rest volume.
-  static void stress(const ElasticView& view, GroupRange range, const double* x, double* stresses,
+  static void stress(const ElasticView& view, const Chunk& chunk, const double* x, double* stresses,
                      double* ratios) {
     constexpr int row[6] = {0, 1, 2, 1, 0, 0};
     constexpr int column[6] = {0, 1, 2, 2, 2, 1};
-    for (std::int32_t group = range.begin; group < range.end; ++group) {
+    PackedNodes positions;
+    positions.load(chunk, x);
+    for (std::int32_t group = chunk.begin; group < chunk.end; ++group) {
       for (int lane = 0; lane < kLanes; lane += kWidth) {
         const Lanes lanes(view, group, lane);
         Batch position[kNodes][3];
-        lanes.gather_all(x, position);
+        lanes.gather_all(positions, position);
         Batch volume(0.0);
         Batch ratio(0.0);
         Batch sum[6];

@@ -5,16 +5,17 @@
 namespace tissu::TISSU_KERNELS {
 namespace {
 
-template <class List>
+template <class Volume, class Thin>
 struct Tables;
 
-template <template <class> class... L>
-struct Tables<tissu::LawList<L...>> {
-  static constexpr LawKernels all[] = {LawAtPoints<L>::table()...};
+template <template <class> class... L, template <class> class... Thin>
+struct Tables<tissu::LawList<L...>, tissu::LawList<Thin...>> {
+  static constexpr LawKernels all[] = {LawAtPoints<L>::table()..., LawAtPoints<Thin, 2>::table()...,
+                                       LawAtPoints<Thin, 1>::table()...};
 };
 
 }  // namespace
 
-LawTables law_kernels() { return {Tables<AllLaws>::all, AllLaws::kSize}; }
+LawTables law_kernels() { return {Tables<AllLaws, ThinLaws>::all, AllLaws::kSize + 2 * ThinLaws::kSize}; }
 
 }  // namespace tissu::TISSU_KERNELS

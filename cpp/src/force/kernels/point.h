@@ -9,10 +9,13 @@
 
 namespace tissu::TISSU_KERNELS {
 
-template <template <class> class LawOf>
+/// M is the reference dimension.
+template <template <class> class LawOf, int M = 3>
 struct LawAtPoints {
   using MaterialLaw = LawOf<Batch>;
-  using Tensor = Tensor2<Batch>;
+  using Tensor = Columns<Batch, M>;
+  static constexpr int kEntries = 3 * M;  ///< of F and P
+  static constexpr int kTangent = ColumnsTangent<Batch, M>::kSize;
   static constexpr int kConstants = static_cast<int>(sizeof(MaterialLaw) / sizeof(Batch));
 
   TISSU_INLINE static MaterialLaw load_law(const double* constants) {
@@ -23,7 +26,7 @@ struct LawAtPoints {
   }
   TISSU_INLINE static Tensor load_tensor(const double* values) {
     Tensor F;
-    for (int k = 0; k < 9; ++k) F.m[k / 3][k % 3] = Batch::load(values + k * kLanes);
+    for (int k = 0; k < kEntries; ++k) F.m[k / M][k % M] = Batch::load(values + k * kLanes);
     return F;
   }
   TISSU_INLINE static void add(const Batch& value, double* to) { (Batch::load(to) + value).store(to); }
@@ -32,7 +35,7 @@ struct LawAtPoints {
     for (int lane = 0; lane < kLanes; lane += kWidth) {
       const MaterialLaw law = load_law(constants + lane);
       for (int g = 0; g < points; ++g) {
-        add(law.energy(load_tensor(F + g * 9 * kLanes + lane)), W + g * kLanes + lane);
+        add(law.energy(load_tensor(F + g * kEntries * kLanes + lane)), W + g * kLanes + lane);
       }
     }
   }
@@ -40,8 +43,9 @@ struct LawAtPoints {
     for (int lane = 0; lane < kLanes; lane += kWidth) {
       const MaterialLaw law = load_law(constants + lane);
       for (int g = 0; g < points; ++g) {
-        const Tensor result = law.stress(load_tensor(F + g * 9 * kLanes + lane));
-        for (int k = 0; k < 9; ++k) add(result.m[k / 3][k % 3], P + (g * 9 + k) * kLanes + lane);
+        const Tensor result = law.stress(load_tensor(F + g * kEntries * kLanes + lane));
+        for (int k = 0; k < kEntries; ++k)
+          add(result.m[k / M][k % M], P + (g * kEntries + k) * kLanes + lane);
       }
     }
   }
@@ -50,9 +54,10 @@ struct LawAtPoints {
     for (int lane = 0; lane < kLanes; lane += kWidth) {
       const MaterialLaw law = load_law(constants + lane);
       for (int g = 0; g < points; ++g) {
-        const Tensor result = law.stress_change(load_tensor(F + g * 9 * kLanes + lane),
-                                                load_tensor(dF + g * 9 * kLanes + lane));
-        for (int k = 0; k < 9; ++k) add(result.m[k / 3][k % 3], dP + (g * 9 + k) * kLanes + lane);
+        const Tensor result = law.stress_change(load_tensor(F + g * kEntries * kLanes + lane),
+                                                load_tensor(dF + g * kEntries * kLanes + lane));
+        for (int k = 0; k < kEntries; ++k)
+          add(result.m[k / M][k % M], dP + (g * kEntries + k) * kLanes + lane);
       }
     }
   }
@@ -60,15 +65,15 @@ struct LawAtPoints {
     for (int lane = 0; lane < kLanes; lane += kWidth) {
       const MaterialLaw law = load_law(constants + lane);
       for (int g = 0; g < points; ++g) {
-        const Tangent<Batch> result = law.tangent(load_tensor(F + g * 9 * kLanes + lane));
-        for (int k = 0; k < 45; ++k) add(result.a[k], A + (g * 45 + k) * kLanes + lane);
+        const ColumnsTangent<Batch, M> result = law.tangent(load_tensor(F + g * kEntries * kLanes + lane));
+        for (int k = 0; k < kTangent; ++k) add(result.a[k], A + (g * kTangent + k) * kLanes + lane);
       }
     }
   }
 
   static constexpr LawKernels table() {
     return {
-        MaterialLaw::kName, MaterialLaw::kLinear, 3, kConstants, &energy, &stress, &stress_change, &tangent};
+        MaterialLaw::kName, MaterialLaw::kLinear, M, kConstants, &energy, &stress, &stress_change, &tangent};
   }
 };
 

@@ -1,11 +1,9 @@
 #pragma once
 
-/// The loops over elements of N nodes and reference dimension M, for any quadrature and any law: at each
-/// point the law is called for the eight elements of a group. Next to elastic.h, which is compiled for one
-/// element, quadrature and law and keeps F in registers, it costs a pass through the first-level cache.
+/// What a point of an element of N nodes and reference dimension M asks of the nodes, whatever the quadrature
+/// and the law: F, the force that a stress gives back to them, and the blocks of the matrix.
 
-#include "tissu/base/batch.h"
-#include "tissu/force/elastic_kernels.h"
+#include "packed.h"
 
 namespace tissu::TISSU_KERNELS {
 
@@ -20,28 +18,30 @@ struct Shape {
   using Point = double[kEntries][kLanes];
   using PointTangent = double[kTangent][kLanes];
 
-  static void gather_nodes(const ElasticView& view, std::int32_t group, const double* from, Nodal& to) {
-    const std::int32_t* nodes = view.nodes + static_cast<std::ptrdiff_t>(group) * N * kLanes;
+  static void gather_nodes(const ElasticView& view, std::int32_t group, const PackedNodes& from, Nodal& to) {
+    const std::uint16_t* places = view.places + static_cast<std::ptrdiff_t>(group) * N * kLanes;
     for (int a = 0; a < N; ++a) {
       for (int lane = 0; lane < kLanes; lane += kWidth) {
         Batch x[3];
-        gather(from, nodes + a * kLanes + lane, x);
+        gather_packed(from.values, places + a * kLanes + lane, x);
         for (int i = 0; i < 3; ++i) x[i].store(&to[a][i][lane]);
       }
     }
   }
-  static void scatter_nodes(const ElasticView& view, std::int32_t group, const Nodal& from, double* to) {
-    const std::int32_t* nodes = view.nodes + static_cast<std::ptrdiff_t>(group) * N * kLanes;
+  static void scatter_nodes(const ElasticView& view, std::int32_t group, const Nodal& from, PackedNodes& to) {
+    const std::uint16_t* places = view.places + static_cast<std::ptrdiff_t>(group) * N * kLanes;
     for (int a = 0; a < N; ++a) {
       for (int lane = 0; lane < kLanes; lane += kWidth) {
         const Batch f[3] = {Batch::load(&from[a][0][lane]), Batch::load(&from[a][1][lane]),
                             Batch::load(&from[a][2][lane])};
-        scatter_add(to, nodes + a * kLanes + lane, f);
+        scatter_packed(to.values, places + a * kLanes + lane, f);
       }
     }
   }
+  /// J^-1 and the volume at a point; the same at all points where the view holds one.
   static const double* rest_of(const ElasticView& view, std::int32_t group, int point) {
-    return view.rest + (static_cast<std::ptrdiff_t>(group) * view.points + point) * kRest * kLanes;
+    const int at = view.rest_points == 1 ? 0 : point;
+    return view.rest + (static_cast<std::ptrdiff_t>(group) * view.rest_points + at) * kRest * kLanes;
   }
   static const double* gradients_of(const ElasticView& view, int point) {
     return view.gradients + static_cast<std::ptrdiff_t>(point) * N * M;
@@ -161,6 +161,77 @@ struct Shape {
     }
   }
 
+  /// The axes that laws work in at a point, [3][3][8]: tangents in the first M columns. Null: those of space.
+  static const double* frame_of(const ElasticView& view, std::int32_t group, int point) {
+    if (M == 3 || view.frames == nullptr) return nullptr;
+    const int at = view.rest_points == 1 ? 0 : point;
+    return view.frames + (static_cast<std::ptrdiff_t>(group) * view.rest_points + at) * 9 * kLanes;
+  }
+  /// F = Q^T F
+  static void turn_in(const ElasticView& view, std::int32_t group, int point, Point& F) {
+    if (const double* Q = frame_of(view, group, point)) turn(Q, 1, 3, F);
+  }
+  /// P = Q P
+  static void turn_out(const ElasticView& view, std::int32_t group, int point, Point& P) {
+    if (const double* Q = frame_of(view, group, point)) turn(Q, 3, 1, P);
+  }
+  /// A_ij = sum_p Q[row_stride i + column_stride p] A_pj
+  static void turn(const double* Q, int row_stride, int column_stride, Point& A) {
+    for (int lane = 0; lane < kLanes; lane += kWidth) {
+      for (int j = 0; j < M; ++j) {
+        Batch sum[3];
+        for (int i = 0; i < 3; ++i) {
+          sum[i] = Batch(0.0);
+          for (int p = 0; p < 3; ++p) {
+            sum[i] += Batch::load(Q + (row_stride * i + column_stride * p) * kLanes + lane) *
+                      Batch::load(A[p * M + j] + lane);
+          }
+        }
+        for (int i = 0; i < 3; ++i) sum[i].store(A[i * M + j] + lane);
+      }
+    }
+  }
+  /// B_imkn = Q_ip Q_kq B_pmqn
+  static void turn_out(const ElasticView& view, std::int32_t group, int point, int lane,
+                       Batch (&B)[3][M][3][M]) {
+    const double* frame = frame_of(view, group, point);
+    if (frame == nullptr) return;
+    const auto Q = [&](int i, int p) { return Batch::load(frame + (3 * i + p) * kLanes + lane); };
+    for (int m = 0; m < M; ++m) {
+      for (int n = 0; n < M; ++n) {
+        Batch half[3][3];
+        for (int i = 0; i < 3; ++i) {
+          for (int q = 0; q < 3; ++q) {
+            half[i][q] = Q(i, 0) * B[0][m][q][n] + Q(i, 1) * B[1][m][q][n] + Q(i, 2) * B[2][m][q][n];
+          }
+        }
+        for (int i = 0; i < 3; ++i) {
+          for (int k = 0; k < 3; ++k) {
+            B[i][m][k][n] = half[i][0] * Q(k, 0) + half[i][1] * Q(k, 1) + half[i][2] * Q(k, 2);
+          }
+        }
+      }
+    }
+  }
+
+  /// The size of a piece of material now beside its size at rest: det F, or sqrt(det F^T F) below three
+  /// dimensions.
+  static double volume_ratio(const Point& F, int l) {
+    const auto at = [&](int i, int j) { return F[M * i + j][l]; };
+    if constexpr (M == 1) {
+      return __builtin_sqrt(at(0, 0) * at(0, 0) + at(1, 0) * at(1, 0) + at(2, 0) * at(2, 0));
+    } else {
+      const double n[3] = {at(1, 0) * at(2, 1) - at(2, 0) * at(1, 1),
+                           at(2, 0) * at(0, 1) - at(0, 0) * at(2, 1),
+                           at(0, 0) * at(1, 1) - at(1, 0) * at(0, 1)};
+      if constexpr (M == 2) {
+        return __builtin_sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+      } else {
+        return n[0] * at(0, 2) + n[1] * at(1, 2) + n[2] * at(2, 2);
+      }
+    }
+  }
+
   static void scatter_pairs(const ElasticView& view, std::int32_t group, const double (*K)[9][kLanes],
                             double* blocks) {
     const std::int32_t* slots = view.slots + static_cast<std::ptrdiff_t>(group) * N * N * kLanes;
@@ -177,157 +248,6 @@ struct Shape {
         }
       }
     }
-  }
-
-  template <class Array>
-  TISSU_INLINE static void clear(Array& values) {
-    __builtin_memset(&values, 0, sizeof values);
-  }
-
-  /// Calls f(law, its constants) for each law of a group.
-  template <class Function>
-  TISSU_INLINE static void for_laws(const ElasticView& view, std::int32_t group, Function&& f) {
-    const double* constants = view.constants + group * view.constants_stride;
-    for (int l = 0; l < view.law_count; ++l) {
-      f(*view.laws[l], constants);
-      constants += static_cast<std::ptrdiff_t>(view.laws[l]->constants) * kLanes;
-    }
-  }
-
-  static void force(const ElasticView& view, GroupRange range, const double* x, double* f) {
-    alignas(64) Nodal position;
-    alignas(64) Nodal result;
-    alignas(64) Point F;
-    alignas(64) Point P;
-    for (std::int32_t group = range.begin; group < range.end; ++group) {
-      gather_nodes(view, group, x, position);
-      clear(result);
-      for (int g = 0; g < view.points; ++g) {
-        const double* rest = rest_of(view, group, g);
-        gradient(gradients_of(view, g), rest, position, F);
-        clear(P);
-        for_laws(view, group, [&](const LawKernels& law, const double* c) { law.stress(c, 1, F[0], P[0]); });
-        spread(gradients_of(view, g), rest, -1.0, P, result);
-      }
-      scatter_nodes(view, group, result, f);
-    }
-  }
-
-  static void product(const ElasticView& view, GroupRange range, const double* x, double scale,
-                      const double* p, double* out) {
-    alignas(64) Nodal position;
-    alignas(64) Nodal change;
-    alignas(64) Nodal result;
-    alignas(64) Point F;
-    alignas(64) Point dF;
-    alignas(64) Point dP;
-    for (std::int32_t group = range.begin; group < range.end; ++group) {
-      gather_nodes(view, group, x, position);
-      gather_nodes(view, group, p, change);
-      clear(result);
-      for (int g = 0; g < view.points; ++g) {
-        const double* rest = rest_of(view, group, g);
-        gradient(gradients_of(view, g), rest, position, F);
-        gradient(gradients_of(view, g), rest, change, dF);
-        clear(dP);
-        for_laws(view, group, [&](const LawKernels& law, const double* c) {
-          law.stress_change(c, 1, F[0], dF[0], dP[0]);
-        });
-        spread(gradients_of(view, g), rest, -scale, dP, result);
-      }
-      scatter_nodes(view, group, result, out);
-    }
-  }
-
-  static void stiffness(const ElasticView& view, GroupRange range, const double* x, double scale,
-                        double* blocks) {
-    alignas(64) Nodal position;
-    alignas(64) Point F;
-    alignas(64) PointTangent A;
-    alignas(64) double K[kPairs][9][kLanes];
-    for (std::int32_t group = range.begin; group < range.end; ++group) {
-      gather_nodes(view, group, x, position);
-      clear(K);
-      for (int g = 0; g < view.points; ++g) {
-        const double* rest = rest_of(view, group, g);
-        gradient(gradients_of(view, g), rest, position, F);
-        clear(A);
-        for_laws(view, group, [&](const LawKernels& law, const double* c) { law.tangent(c, 1, F[0], A[0]); });
-        for (int lane = 0; lane < kLanes; lane += kWidth) {
-          Batch B[3][M][3][M];
-          pull_back(rest, -scale, lane, A, B);
-          add_pairs(gradients_of(view, g), B, lane, K);
-        }
-      }
-      scatter_pairs(view, group, K, blocks);
-    }
-  }
-
-  static void energy(const ElasticView& view, GroupRange range, const double* x, double* energies) {
-    alignas(64) Nodal position;
-    alignas(64) Point F;
-    alignas(64) double W[kLanes];
-    for (std::int32_t group = range.begin; group < range.end; ++group) {
-      double* to = energies + static_cast<std::ptrdiff_t>(group) * kLanes;
-      gather_nodes(view, group, x, position);
-      for (int g = 0; g < view.points; ++g) {
-        const double* rest = rest_of(view, group, g);
-        gradient(gradients_of(view, g), rest, position, F);
-        clear(W);
-        for_laws(view, group, [&](const LawKernels& law, const double* c) { law.energy(c, 1, F[0], W); });
-        for (int lane = 0; lane < kLanes; ++lane) to[lane] += rest[M * M * kLanes + lane] * W[lane];
-      }
-    }
-  }
-
-  /// sigma = P F^T / det F of a volume, weighted with the rest volume.
-  static void stress(const ElasticView& view, GroupRange range, const double* x, double* stresses,
-                     double* ratios) {
-    static_assert(M == 3);
-    constexpr int row[6] = {0, 1, 2, 1, 0, 0};
-    constexpr int column[6] = {0, 1, 2, 2, 2, 1};
-    alignas(64) Nodal position;
-    alignas(64) Point F;
-    alignas(64) Point P;
-    for (std::int32_t group = range.begin; group < range.end; ++group) {
-      alignas(64) double sum[7][kLanes];
-      double volume[kLanes];
-      clear(sum);
-      clear(volume);
-      gather_nodes(view, group, x, position);
-      for (int g = 0; g < view.points; ++g) {
-        const double* rest = rest_of(view, group, g);
-        gradient(gradients_of(view, g), rest, position, F);
-        clear(P);
-        for_laws(view, group, [&](const LawKernels& law, const double* c) { law.stress(c, 1, F[0], P[0]); });
-        for (int l = 0; l < kLanes; ++l) {
-          const auto at = [&](int i, int j) { return F[3 * i + j][l]; };
-          const double J = at(0, 0) * (at(1, 1) * at(2, 2) - at(1, 2) * at(2, 1)) -
-                           at(0, 1) * (at(1, 0) * at(2, 2) - at(1, 2) * at(2, 0)) +
-                           at(0, 2) * (at(1, 0) * at(2, 1) - at(1, 1) * at(2, 0));
-          const double w = rest[9 * kLanes + l];
-          volume[l] += w;
-          sum[6][l] += w * J;
-          for (int s = 0; s < 6; ++s) {
-            double tau = 0.0;
-            for (int j = 0; j < 3; ++j) {
-              tau +=
-                  0.5 * (P[3 * row[s] + j][l] * at(column[s], j) + P[3 * column[s] + j][l] * at(row[s], j));
-            }
-            sum[s][l] += w / J * tau;
-          }
-        }
-      }
-      double* to = stresses + static_cast<std::ptrdiff_t>(group) * 6 * kLanes;
-      for (int l = 0; l < kLanes; ++l) {
-        for (int s = 0; s < 6; ++s) to[s * kLanes + l] = sum[s][l] / volume[l];
-        ratios[static_cast<std::ptrdiff_t>(group) * kLanes + l] = sum[6][l] / volume[l];
-      }
-    }
-  }
-
-  static constexpr ElasticKernels table() {
-    return {"", "", "", N, M, &force, &product, &stiffness, &energy, &stress};
   }
 };
 

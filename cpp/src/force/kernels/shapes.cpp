@@ -1,12 +1,15 @@
 #include "kernel_list.h"
-#include "shape.h"
+#include "shape_kernels.h"
 
 namespace tissu::TISSU_KERNELS {
 namespace {
 constexpr ElasticKernels kTables[] = {
-    Shape<4, 3>::table(),  Shape<10, 3>::table(), Shape<8, 3>::table(),
-    Shape<20, 3>::table(), Shape<27, 3>::table(), Shape<6, 3>::table(),
-    Shape<15, 3>::table(), Shape<5, 3>::table(),  Shape<13, 3>::table(),
+    ShapeKernels<4, 3>::table(),  ShapeKernels<10, 3>::table(), ShapeKernels<8, 3>::table(),
+    ShapeKernels<20, 3>::table(), ShapeKernels<27, 3>::table(), ShapeKernels<6, 3>::table(),
+    ShapeKernels<15, 3>::table(), ShapeKernels<5, 3>::table(),  ShapeKernels<13, 3>::table(),
+    ShapeKernels<2, 1>::table(),  ShapeKernels<3, 1>::table(),  ShapeKernels<3, 2>::table(),
+    ShapeKernels<6, 2>::table(),  ShapeKernels<4, 2>::table(),  ShapeKernels<8, 2>::table(),
+    ShapeKernels<9, 2>::table(),
 };
 }  // namespace
 

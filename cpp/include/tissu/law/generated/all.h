@@ -21,5 +21,7 @@ using AllLaws = LawList<Hooke, StVK, NeoHooke, StableNeoHooke, MooneyRivlin, Yeo
 using BaseLaws = LawList<Hooke, StVK, NeoHooke, StableNeoHooke, MooneyRivlin, Yeoh, ArrudaBoyce>;
 /// Those to be added to one that does.
 using AdditionLaws = LawList<Fibre>;
+/// Those that sheets and lines may be made of.
+using ThinLaws = LawList<Hooke, StVK>;
 
 }  // namespace tissu

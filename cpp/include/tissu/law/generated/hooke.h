@@ -138,6 +138,115 @@ struct Hooke {
     A(2, 2, 2, 2) = lambda + T(2.0) * mu;
     return A;
   }
+
+  // The same of a sheet, F of 3 x 2, in axes whose first 2 lie in it.
+  [[nodiscard]] T energy(const Columns<T, 2>& F) const {
+    const T e01 = T(0.5) * F(0, 1) + T(0.5) * F(1, 0);
+    const T e00 = F(0, 0) - T(1.0);
+    const T e11 = F(1, 1) - T(1.0);
+    const T tr_eps = e00 + e11;
+    const T tr_eps2 = e00 * e00 + e11 * e11 + T(2.0) * e01 * e01;
+    const T W = mu * tr_eps2 + T(0.5) * lambda * tr_eps * tr_eps;
+    return W;
+  }
+  [[nodiscard]] Columns<T, 2> stress(const Columns<T, 2>& F) const {
+    const T e01 = T(0.5) * F(0, 1) + T(0.5) * F(1, 0);
+    const T e00 = F(0, 0) - T(1.0);
+    const T e11 = F(1, 1) - T(1.0);
+    const T tr_eps = e00 + e11;
+    const T W_1 = lambda * tr_eps;
+    const T S00 = W_1 + T(2.0) * e00 * mu;
+    const T S11 = W_1 + T(2.0) * e11 * mu;
+    const T S01 = T(2.0) * e01 * mu;
+    Columns<T, 2> P;
+    P(0, 0) = S00;
+    P(0, 1) = S01;
+    P(1, 0) = S01;
+    P(1, 1) = S11;
+    P(2, 0) = T(0.0);
+    P(2, 1) = T(0.0);
+    return P;
+  }
+  [[nodiscard]] Columns<T, 2> stress_change(const Columns<T, 2>& /*F*/, const Columns<T, 2>& dF) const {
+    const T de01 = T(0.5) * dF(0, 1) + T(0.5) * dF(1, 0);
+    const T along_1 = dF(0, 0) + dF(1, 1);
+    const T dW_1 = along_1 * lambda;
+    const T T00 = dW_1 + T(2.0) * dF(0, 0) * mu;
+    const T T11 = dW_1 + T(2.0) * dF(1, 1) * mu;
+    const T T01 = T(2.0) * de01 * mu;
+    Columns<T, 2> dP;
+    dP(0, 0) = T00;
+    dP(0, 1) = T01;
+    dP(1, 0) = T01;
+    dP(1, 1) = T11;
+    dP(2, 0) = T(0.0);
+    dP(2, 1) = T(0.0);
+    return dP;
+  }
+  [[nodiscard]] ColumnsTangent<T, 2> tangent(const Columns<T, 2>& /*F*/) const {
+    ColumnsTangent<T, 2> A;
+    A(0, 0, 0, 0) = lambda + T(2.0) * mu;
+    A(0, 0, 0, 1) = T(0.0);
+    A(0, 0, 1, 0) = T(0.0);
+    A(0, 0, 1, 1) = lambda;
+    A(0, 0, 2, 0) = T(0.0);
+    A(0, 0, 2, 1) = T(0.0);
+    A(0, 1, 0, 1) = mu;
+    A(0, 1, 1, 0) = mu;
+    A(0, 1, 1, 1) = T(0.0);
+    A(0, 1, 2, 0) = T(0.0);
+    A(0, 1, 2, 1) = T(0.0);
+    A(1, 0, 1, 0) = mu;
+    A(1, 0, 1, 1) = T(0.0);
+    A(1, 0, 2, 0) = T(0.0);
+    A(1, 0, 2, 1) = T(0.0);
+    A(1, 1, 1, 1) = lambda + T(2.0) * mu;
+    A(1, 1, 2, 0) = T(0.0);
+    A(1, 1, 2, 1) = T(0.0);
+    A(2, 0, 2, 0) = T(0.0);
+    A(2, 0, 2, 1) = T(0.0);
+    A(2, 1, 2, 1) = T(0.0);
+    return A;
+  }
+
+  // The same of a line, F of 3 x 1, in axes whose first 1 lie in it.
+  [[nodiscard]] T energy(const Columns<T, 1>& F) const {
+    const T e00 = F(0, 0) - T(1.0);
+    const T tr_eps = e00;
+    const T tr_eps2 = e00 * e00;
+    const T W = mu * tr_eps2 + T(0.5) * lambda * tr_eps * tr_eps;
+    return W;
+  }
+  [[nodiscard]] Columns<T, 1> stress(const Columns<T, 1>& F) const {
+    const T e00 = F(0, 0) - T(1.0);
+    const T tr_eps = e00;
+    const T W_1 = lambda * tr_eps;
+    const T S00 = W_1 + T(2.0) * e00 * mu;
+    Columns<T, 1> P;
+    P(0, 0) = S00;
+    P(1, 0) = T(0.0);
+    P(2, 0) = T(0.0);
+    return P;
+  }
+  [[nodiscard]] Columns<T, 1> stress_change(const Columns<T, 1>& /*F*/, const Columns<T, 1>& dF) const {
+    const T dW_1 = dF(0, 0) * lambda;
+    const T T00 = dW_1 + T(2.0) * dF(0, 0) * mu;
+    Columns<T, 1> dP;
+    dP(0, 0) = T00;
+    dP(1, 0) = T(0.0);
+    dP(2, 0) = T(0.0);
+    return dP;
+  }
+  [[nodiscard]] ColumnsTangent<T, 1> tangent(const Columns<T, 1>& /*F*/) const {
+    ColumnsTangent<T, 1> A;
+    A(0, 0, 0, 0) = lambda + T(2.0) * mu;
+    A(0, 0, 1, 0) = T(0.0);
+    A(0, 0, 2, 0) = T(0.0);
+    A(1, 0, 1, 0) = T(0.0);
+    A(1, 0, 2, 0) = T(0.0);
+    A(2, 0, 2, 0) = T(0.0);
+    return A;
+  }
 };
 
 }  // namespace tissu

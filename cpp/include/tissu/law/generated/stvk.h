@@ -236,6 +236,168 @@ struct StVK {
     A(2, 2, 2, 2) = B22 + S22 + F(2, 2) * rb_F_22;
     return A;
   }
+
+  // The same of a sheet, F of 3 x 2, in axes whose first 2 lie in it.
+  [[nodiscard]] T energy(const Columns<T, 2>& F) const {
+    const T e01 = T(0.5) * F(0, 0) * F(0, 1) + T(0.5) * F(1, 0) * F(1, 1) + T(0.5) * F(2, 0) * F(2, 1);
+    const T e00 =
+        T(0.5) * F(0, 0) * F(0, 0) + T(0.5) * F(1, 0) * F(1, 0) + T(0.5) * F(2, 0) * F(2, 0) - T(0.5);
+    const T e11 =
+        T(0.5) * F(0, 1) * F(0, 1) + T(0.5) * F(1, 1) * F(1, 1) + T(0.5) * F(2, 1) * F(2, 1) - T(0.5);
+    const T tr_E = e00 + e11;
+    const T tr_E2 = e00 * e00 + e11 * e11 + T(2.0) * e01 * e01;
+    const T W = mu * tr_E2 + T(0.5) * lambda * tr_E * tr_E;
+    return W;
+  }
+  [[nodiscard]] Columns<T, 2> stress(const Columns<T, 2>& F) const {
+    const T e01 = T(0.5) * F(0, 0) * F(0, 1) + T(0.5) * F(1, 0) * F(1, 1) + T(0.5) * F(2, 0) * F(2, 1);
+    const T e00 =
+        T(0.5) * F(0, 0) * F(0, 0) + T(0.5) * F(1, 0) * F(1, 0) + T(0.5) * F(2, 0) * F(2, 0) - T(0.5);
+    const T e11 =
+        T(0.5) * F(0, 1) * F(0, 1) + T(0.5) * F(1, 1) * F(1, 1) + T(0.5) * F(2, 1) * F(2, 1) - T(0.5);
+    const T tr_E = e00 + e11;
+    const T W_1 = lambda * tr_E;
+    const T S00 = W_1 + T(2.0) * e00 * mu;
+    const T S11 = W_1 + T(2.0) * e11 * mu;
+    const T S01 = T(2.0) * e01 * mu;
+    Columns<T, 2> P;
+    P(0, 0) = F(0, 0) * S00 + F(0, 1) * S01;
+    P(0, 1) = F(0, 0) * S01 + F(0, 1) * S11;
+    P(1, 0) = F(1, 0) * S00 + F(1, 1) * S01;
+    P(1, 1) = F(1, 0) * S01 + F(1, 1) * S11;
+    P(2, 0) = F(2, 0) * S00 + F(2, 1) * S01;
+    P(2, 1) = F(2, 0) * S01 + F(2, 1) * S11;
+    return P;
+  }
+  [[nodiscard]] Columns<T, 2> stress_change(const Columns<T, 2>& F, const Columns<T, 2>& dF) const {
+    const T e01 = T(0.5) * F(0, 0) * F(0, 1) + T(0.5) * F(1, 0) * F(1, 1) + T(0.5) * F(2, 0) * F(2, 1);
+    const T e00 =
+        T(0.5) * F(0, 0) * F(0, 0) + T(0.5) * F(1, 0) * F(1, 0) + T(0.5) * F(2, 0) * F(2, 0) - T(0.5);
+    const T e11 =
+        T(0.5) * F(0, 1) * F(0, 1) + T(0.5) * F(1, 1) * F(1, 1) + T(0.5) * F(2, 1) * F(2, 1) - T(0.5);
+    const T tr_E = e00 + e11;
+    const T W_1 = lambda * tr_E;
+    const T S00 = W_1 + T(2.0) * e00 * mu;
+    const T S11 = W_1 + T(2.0) * e11 * mu;
+    const T S01 = T(2.0) * e01 * mu;
+    const T D00 = F(0, 0) * dF(0, 0) + F(1, 0) * dF(1, 0) + F(2, 0) * dF(2, 0);
+    const T D01 = F(0, 0) * dF(0, 1) + F(1, 0) * dF(1, 1) + F(2, 0) * dF(2, 1);
+    const T D10 = F(0, 1) * dF(0, 0) + F(1, 1) * dF(1, 0) + F(2, 1) * dF(2, 0);
+    const T D11 = F(0, 1) * dF(0, 1) + F(1, 1) * dF(1, 1) + F(2, 1) * dF(2, 1);
+    const T de01 = T(0.5) * D01 + T(0.5) * D10;
+    const T along_1 = D00 + D11;
+    const T dW_1 = along_1 * lambda;
+    const T T00 = dW_1 + T(2.0) * D00 * mu;
+    const T T11 = dW_1 + T(2.0) * D11 * mu;
+    const T T01 = T(2.0) * de01 * mu;
+    Columns<T, 2> dP;
+    dP(0, 0) = F(0, 0) * T00 + F(0, 1) * T01 + S00 * dF(0, 0) + S01 * dF(0, 1);
+    dP(0, 1) = F(0, 0) * T01 + F(0, 1) * T11 + S01 * dF(0, 0) + S11 * dF(0, 1);
+    dP(1, 0) = F(1, 0) * T00 + F(1, 1) * T01 + S00 * dF(1, 0) + S01 * dF(1, 1);
+    dP(1, 1) = F(1, 0) * T01 + F(1, 1) * T11 + S01 * dF(1, 0) + S11 * dF(1, 1);
+    dP(2, 0) = F(2, 0) * T00 + F(2, 1) * T01 + S00 * dF(2, 0) + S01 * dF(2, 1);
+    dP(2, 1) = F(2, 0) * T01 + F(2, 1) * T11 + S01 * dF(2, 0) + S11 * dF(2, 1);
+    return dP;
+  }
+  [[nodiscard]] ColumnsTangent<T, 2> tangent(const Columns<T, 2>& F) const {
+    const T e01 = T(0.5) * F(0, 0) * F(0, 1) + T(0.5) * F(1, 0) * F(1, 1) + T(0.5) * F(2, 0) * F(2, 1);
+    const T e00 =
+        T(0.5) * F(0, 0) * F(0, 0) + T(0.5) * F(1, 0) * F(1, 0) + T(0.5) * F(2, 0) * F(2, 0) - T(0.5);
+    const T e11 =
+        T(0.5) * F(0, 1) * F(0, 1) + T(0.5) * F(1, 1) * F(1, 1) + T(0.5) * F(2, 1) * F(2, 1) - T(0.5);
+    const T tr_E = e00 + e11;
+    const T W_1 = lambda * tr_E;
+    const T S00 = W_1 + T(2.0) * e00 * mu;
+    const T S11 = W_1 + T(2.0) * e11 * mu;
+    const T S01 = T(2.0) * e01 * mu;
+    const T b00 = mu * (F(0, 0) * F(0, 0) + F(0, 1) * F(0, 1));
+    const T b01 = mu * (F(0, 0) * F(1, 0) + F(0, 1) * F(1, 1));
+    const T b02 = mu * (F(0, 0) * F(2, 0) + F(0, 1) * F(2, 1));
+    const T b11 = mu * (F(1, 0) * F(1, 0) + F(1, 1) * F(1, 1));
+    const T b12 = mu * (F(1, 0) * F(2, 0) + F(1, 1) * F(2, 1));
+    const T b22 = mu * (F(2, 0) * F(2, 0) + F(2, 1) * F(2, 1));
+    ColumnsTangent<T, 2> A;
+    A(0, 0, 0, 0) = S00 + b00 + lambda * F(0, 0) * F(0, 0) + mu * F(0, 0) * F(0, 0);
+    A(0, 0, 0, 1) = S01 + F(0, 0) * F(0, 1) * lambda + F(0, 0) * F(0, 1) * mu;
+    A(0, 0, 1, 0) = b01 + F(0, 0) * F(1, 0) * lambda + F(0, 0) * F(1, 0) * mu;
+    A(0, 0, 1, 1) = F(0, 0) * F(1, 1) * lambda + F(0, 1) * F(1, 0) * mu;
+    A(0, 0, 2, 0) = b02 + F(0, 0) * F(2, 0) * lambda + F(0, 0) * F(2, 0) * mu;
+    A(0, 0, 2, 1) = F(0, 0) * F(2, 1) * lambda + F(0, 1) * F(2, 0) * mu;
+    A(0, 1, 0, 1) = S11 + b00 + lambda * F(0, 1) * F(0, 1) + mu * F(0, 1) * F(0, 1);
+    A(0, 1, 1, 0) = F(0, 0) * F(1, 1) * mu + F(0, 1) * F(1, 0) * lambda;
+    A(0, 1, 1, 1) = b01 + F(0, 1) * F(1, 1) * lambda + F(0, 1) * F(1, 1) * mu;
+    A(0, 1, 2, 0) = F(0, 0) * F(2, 1) * mu + F(0, 1) * F(2, 0) * lambda;
+    A(0, 1, 2, 1) = b02 + F(0, 1) * F(2, 1) * lambda + F(0, 1) * F(2, 1) * mu;
+    A(1, 0, 1, 0) = S00 + b11 + lambda * F(1, 0) * F(1, 0) + mu * F(1, 0) * F(1, 0);
+    A(1, 0, 1, 1) = S01 + F(1, 0) * F(1, 1) * lambda + F(1, 0) * F(1, 1) * mu;
+    A(1, 0, 2, 0) = b12 + F(1, 0) * F(2, 0) * lambda + F(1, 0) * F(2, 0) * mu;
+    A(1, 0, 2, 1) = F(1, 0) * F(2, 1) * lambda + F(1, 1) * F(2, 0) * mu;
+    A(1, 1, 1, 1) = S11 + b11 + lambda * F(1, 1) * F(1, 1) + mu * F(1, 1) * F(1, 1);
+    A(1, 1, 2, 0) = F(1, 0) * F(2, 1) * mu + F(1, 1) * F(2, 0) * lambda;
+    A(1, 1, 2, 1) = b12 + F(1, 1) * F(2, 1) * lambda + F(1, 1) * F(2, 1) * mu;
+    A(2, 0, 2, 0) = S00 + b22 + lambda * F(2, 0) * F(2, 0) + mu * F(2, 0) * F(2, 0);
+    A(2, 0, 2, 1) = S01 + F(2, 0) * F(2, 1) * lambda + F(2, 0) * F(2, 1) * mu;
+    A(2, 1, 2, 1) = S11 + b22 + lambda * F(2, 1) * F(2, 1) + mu * F(2, 1) * F(2, 1);
+    return A;
+  }
+
+  // The same of a line, F of 3 x 1, in axes whose first 1 lie in it.
+  [[nodiscard]] T energy(const Columns<T, 1>& F) const {
+    const T e00 =
+        T(0.5) * F(0, 0) * F(0, 0) + T(0.5) * F(1, 0) * F(1, 0) + T(0.5) * F(2, 0) * F(2, 0) - T(0.5);
+    const T tr_E = e00;
+    const T tr_E2 = e00 * e00;
+    const T W = mu * tr_E2 + T(0.5) * lambda * tr_E * tr_E;
+    return W;
+  }
+  [[nodiscard]] Columns<T, 1> stress(const Columns<T, 1>& F) const {
+    const T e00 =
+        T(0.5) * F(0, 0) * F(0, 0) + T(0.5) * F(1, 0) * F(1, 0) + T(0.5) * F(2, 0) * F(2, 0) - T(0.5);
+    const T tr_E = e00;
+    const T W_1 = lambda * tr_E;
+    const T S00 = W_1 + T(2.0) * e00 * mu;
+    Columns<T, 1> P;
+    P(0, 0) = F(0, 0) * S00;
+    P(1, 0) = F(1, 0) * S00;
+    P(2, 0) = F(2, 0) * S00;
+    return P;
+  }
+  [[nodiscard]] Columns<T, 1> stress_change(const Columns<T, 1>& F, const Columns<T, 1>& dF) const {
+    const T e00 =
+        T(0.5) * F(0, 0) * F(0, 0) + T(0.5) * F(1, 0) * F(1, 0) + T(0.5) * F(2, 0) * F(2, 0) - T(0.5);
+    const T tr_E = e00;
+    const T W_1 = lambda * tr_E;
+    const T S00 = W_1 + T(2.0) * e00 * mu;
+    const T D00 = F(0, 0) * dF(0, 0) + F(1, 0) * dF(1, 0) + F(2, 0) * dF(2, 0);
+    const T dW_1 = D00 * lambda;
+    const T T00 = dW_1 + T(2.0) * D00 * mu;
+    Columns<T, 1> dP;
+    dP(0, 0) = F(0, 0) * T00 + S00 * dF(0, 0);
+    dP(1, 0) = F(1, 0) * T00 + S00 * dF(1, 0);
+    dP(2, 0) = F(2, 0) * T00 + S00 * dF(2, 0);
+    return dP;
+  }
+  [[nodiscard]] ColumnsTangent<T, 1> tangent(const Columns<T, 1>& F) const {
+    const T e00 =
+        T(0.5) * F(0, 0) * F(0, 0) + T(0.5) * F(1, 0) * F(1, 0) + T(0.5) * F(2, 0) * F(2, 0) - T(0.5);
+    const T tr_E = e00;
+    const T W_1 = lambda * tr_E;
+    const T S00 = W_1 + T(2.0) * e00 * mu;
+    const T b00 = mu * F(0, 0) * F(0, 0);
+    const T b01 = F(0, 0) * F(1, 0) * mu;
+    const T b02 = F(0, 0) * F(2, 0) * mu;
+    const T b11 = mu * F(1, 0) * F(1, 0);
+    const T b12 = F(1, 0) * F(2, 0) * mu;
+    const T b22 = mu * F(2, 0) * F(2, 0);
+    ColumnsTangent<T, 1> A;
+    A(0, 0, 0, 0) = S00 + b00 + lambda * F(0, 0) * F(0, 0) + mu * F(0, 0) * F(0, 0);
+    A(0, 0, 1, 0) = b01 + F(0, 0) * F(1, 0) * lambda + F(0, 0) * F(1, 0) * mu;
+    A(0, 0, 2, 0) = b02 + F(0, 0) * F(2, 0) * lambda + F(0, 0) * F(2, 0) * mu;
+    A(1, 0, 1, 0) = S00 + b11 + lambda * F(1, 0) * F(1, 0) + mu * F(1, 0) * F(1, 0);
+    A(1, 0, 2, 0) = b12 + F(1, 0) * F(2, 0) * lambda + F(1, 0) * F(2, 0) * mu;
+    A(2, 0, 2, 0) = S00 + b22 + lambda * F(2, 0) * F(2, 0) + mu * F(2, 0) * F(2, 0);
+    return A;
+  }
 };
 
 }  // namespace tissu

@@ -263,3 +263,13 @@ def test_force_and_tangent_are_derivatives_of_the_energy(name):
     residual = nodal_mass * v / 0.02 - 0.02 * Kv - f
     assert np.abs(0.02 * Kv).max() > 0.05 * np.abs(f).max()  # the tangent is seen
     assert np.abs(residual).max() < 1e-6 * np.abs(f).max()
+
+
+def test_numbers_and_symbols_are_read_as_python_writes_them():
+    # Floats for fractions, symbols with other assumptions, Max for the positive part.
+    M, K = sympy.symbols("mu kappa", positive=True)
+    written = 0.5 * M * (J ** (-2 / 3) * I_C - 3) + 0.5 * K * sympy.Max(J - 1, 0) ** 2 + VOLUME
+    exact = mu / 2 * (J ** sympy.Rational(-2, 3) * I_C - 3) + kappa / 2 * positive(J - 1) ** 2
+    parameters = {"mu": "Pa", "kappa": "Pa"}
+    first = ts.law("numbers", energy=written, parameters=parameters)
+    assert first.made == ts.law("numbers", energy=exact + VOLUME, parameters=parameters).made

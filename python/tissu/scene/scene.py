@@ -61,8 +61,6 @@ class Scene(Part):
 
     name: str = "scene"
     """name of the scene, used for the files that are written"""
-    laws: tuple[LawFile, ...] = ()
-    """Python files with laws of one's own, for the bodies of a YAML scene; the files are run"""
     bodies: Annotated[dict[str, Body], Field(min_length=1)]
     """bodies by name"""
     gravity: units.Acceleration | None = None
@@ -83,6 +81,8 @@ class Scene(Part):
     """whether cells may be removed while it runs"""
     output: Output | None = None
     """what is written while it runs"""
+    laws: tuple[LawFile, ...] = ()
+    """Python files with laws of one's own, for the bodies of a YAML scene; the files are run"""
     _source: Source | None = PrivateAttr(default=None)
 
     if TYPE_CHECKING:
@@ -91,7 +91,6 @@ class Scene(Part):
             self,
             *,
             name: str = ...,
-            laws: Sequence[str | os.PathLike[str]] = ...,
             bodies: Mapping[str, Body],
             gravity: units.VectorLike | None = ...,
             fixed: Sequence[Fixed] = ...,
@@ -102,6 +101,7 @@ class Scene(Part):
             threads: int = ...,
             editing: bool = ...,
             output: Output | None = ...,
+            laws: Sequence[str | os.PathLike[str]] = ...,
         ) -> None: ...
 
     @model_validator(mode="wrap")

@@ -120,7 +120,16 @@ def read_law(path: str | os.PathLike[str]) -> type[UserLaw]:
     if found.addition:
         raise LawError(f"{file}: ADDITION = True; a law that stands alone is accepted.")
     _check_parameters(found.name, found.parameters)
-    made = replace(found, class_name="Material", text="", formula=str(found.energy))
+    from tissu.user_law.formula import in_words
+
+    energy = in_words(found.energy, law=found.name, place="the energy")
+    stored = {
+        name: in_words(expression, law=found.name, place=f"the constant {name}")
+        for name, expression in found.constants.items()
+    }
+    made = replace(
+        found, class_name="Material", text="", formula=str(energy), energy=energy, constants=stored
+    )
     return _class_of(made, text=found.text, given=True, file=file)
 
 

@@ -6,6 +6,7 @@ LawError with the reason.
 
 from __future__ import annotations
 
+from fractions import Fraction
 from typing import Any
 
 import sympy as sp
@@ -54,9 +55,14 @@ def in_words(written: Any, *, law: str, place: str) -> Expr:
 
 
 def _exact(number: Expr) -> Expr:
-    """A number as the fraction that its shortest decimal text is."""
+    """A number as a short fraction that rounds to it (2/3), else as its shortest decimal text."""
     value = float(number)
-    return sp.Rational(repr(value)) if abs(value) < float("inf") else number
+    if abs(value) == float("inf"):
+        return number
+    short = Fraction(value).limit_denominator(1000)
+    if float(short) == value:
+        return sp.Rational(short.numerator, short.denominator)
+    return sp.Rational(repr(value))
 
 
 def _positive_part(*arguments: Expr) -> Expr:

@@ -58,6 +58,21 @@ class Group:
 
 
 @dataclass(frozen=True, slots=True)
+class KnownMesh:
+    """A mesh that can be simulated or, when it has problems, what may be asked of it.
+
+    Attributes:
+        mesh: the mesh.
+        positions: whether its length is beyond doubt, so that boxes and the like mean something.
+        surface: whether its cells are beyond doubt, so that its faces are those of the body.
+    """
+
+    mesh: Mesh
+    positions: bool = True
+    surface: bool = True
+
+
+@dataclass(frozen=True, slots=True)
 class PreparedBody:
     """A body with its mesh, the blocks it is made of, and its density [kg/m^3]."""
 
@@ -87,10 +102,16 @@ class LoadedNodes:
 
 @dataclass(slots=True)
 class Prepared:
-    """A scene, resolved as far as its problems allow."""
+    """A scene, resolved as far as its problems allow.
+
+    Attributes:
+        meshes: those in which nodes can be selected, whether or not they have problems.
+        bodies: those without any problem.
+    """
 
     scene: Scene
     findings: Findings = field(default_factory=Findings)
+    meshes: dict[str, KnownMesh] = field(default_factory=dict)
     bodies: dict[str, PreparedBody] = field(default_factory=dict)
     held: list[Held] = field(default_factory=list)
     loaded: list[LoadedNodes] = field(default_factory=list)

@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from functools import lru_cache
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
-from pydantic import Field, PlainValidator, TypeAdapter, ValidationInfo, model_validator
-from typing_extensions import Self
+from pydantic import Field, PlainValidator, TypeAdapter, ValidationInfo
 
 from tissu import units
-from tissu.errors import ParameterError
 from tissu.scene.part import Part, chosen, one_of
+from tissu.scene.problem import Problem
+from tissu.scene.unknown import rule
 
 _Positive = Field(gt=0.0)
 
@@ -34,6 +34,12 @@ class Fibres(Part):
         def __init__(
             self, *, k1: units.Number, k2: units.Number, direction: Sequence[float]
         ) -> None: ...
+
+    @rule("direction")
+    def _has_direction(self) -> Iterator[Problem]:
+        if not any(self.direction):
+            text = "found the direction (0, 0, 0); one that is not zero is accepted: [0, 0, 1]"
+            yield Problem((), text)
 
 
 class _Law(Part):
@@ -107,6 +113,12 @@ class MooneyRivlin(_Law):
             fibres: Fibres | None = ...,
         ) -> None: ...
 
+    @rule("c1", "c2")
+    def _stiff_at_rest(self) -> Iterator[Problem]:
+        if not self.c1 + self.c2 > 0.0:
+            found = f"found c1 + c2 = {self.c1 + self.c2:g} Pa, half the shear modulus"
+            yield Problem((), f"{found}; a sum above 0 is accepted")
+
 
 class Yeoh(_Law):
     """Yeoh, nearly incompressible: c1 x + c2 x^2 + c3 x^3 + kappa/2 (J - 1)^2, x = Ibar1 - 3."""
@@ -170,11 +182,11 @@ class Rayleigh(Part):
 
         def __init__(self, *, mass: units.Number = ..., stiffness: units.Number = ...) -> None: ...
 
-    @model_validator(mode="after")
-    def _some(self) -> Self:
+    @rule("mass", "stiffness")
+    def _some(self) -> Iterator[Problem]:
         if not (self.mass or self.stiffness):
-            raise ParameterError("found no mass and no stiffness; leave viscosity out to have none")
-        return self
+            text = "found no mass and no stiffness; leave viscosity out to have none"
+            yield Problem((), text)
 
 
 LAWS: tuple[type[Part], ...] = (

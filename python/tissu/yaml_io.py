@@ -212,14 +212,19 @@ def _plain(value: Any, folder: Path | None) -> Any:
     if isinstance(value, (list, tuple)):
         return [_plain(item, folder) for item in value]
     if isinstance(value, Path):
-        return (
-            Path(os.path.relpath(value, folder)).as_posix()
-            if folder is not None
-            else value.as_posix()
-        )
+        return (value if folder is None else _seen_from(folder, value)).as_posix()
     if hasattr(value, "source"):  # a mesh in memory that came from a file
         return _plain(MeshFile(value.source, unit=value.unit, scale=value.scale), folder)
     return value
+
+
+def _seen_from(folder: Path, file: Path) -> Path:
+    """The path of a file from a folder, which leads there through links to folders too."""
+    place = file.parent.resolve() / file.name
+    try:
+        return Path(os.path.relpath(place, folder.resolve()))
+    except ValueError:  # on another drive
+        return place
 
 
 @lru_cache(maxsize=1)

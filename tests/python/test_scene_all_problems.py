@@ -96,7 +96,7 @@ SLIPS = {
     ),
     "axes": Slip("axes: xy}", "axes: xw}", 15, "fixed[1].axes", "letters x, y, z"),
     "node beyond": Slip("ids: [0, 3]", "ids: [0, 3, 99]", 17, "prescribed[0].on", "node 99"),
-    "uneven times": Slip("times: [0, 1], d", "times: [0], d", 17, "prescribed[0]", "for 1 times"),
+    "uneven times": Slip("times: [0, 1], d", "times: [0], d", 17, "prescribed[0]", "for 1 time;"),
     "two motions": Slip("axes: z}", "axes: zx}", 17, "prescribed[0]", "held on x by fixed[1] too"),
     "no factors": Slip(
         ", times: [0, 1],\n     factors: [0, 1]}",

@@ -137,6 +137,12 @@ def test_all_problems_at_once():
         (lambda: body(viscosity=Rayleigh()), "leave viscosity out"),
         (lambda: MeshFile("a", unit="kPa"), "which is a pressure; a length is accepted"),
         (lambda: BarMesh(size=(1, 0, 1), cells=(1, 1, 1)), "three positive lengths"),
+        (
+            lambda: BarMesh(size=(1, 1, 1), cells=(1, 1, 1), cell="wedge", split="five"),
+            "split five of cells of type wedge; only tetra and tetra10 are split",
+        ),
+        (lambda: Box([None, 1]), r"min: found \[null, 1\]; three components"),
+        (lambda: Fixed("a", on=None), "on: found null; a mapping with a `type`"),
         (lambda: BarMesh(size=(1, 1, 1), cells=(1, 0, 1)), r"cells\[1\]: found 0; at least 1"),
         (lambda: Box((1, 0, 0), (0, 1, 1)), "min 1 m above max 0 m on axis x"),
         (lambda: Plane((0, 0, 0), (0, 0, 0)), "a direction is accepted"),
@@ -159,8 +165,11 @@ def test_one_sentence_for_each_slip(make, message):
         ({"times": [0, 0], "displacements": [[0, 0, 0]] * 2}, "0 s after 0 s"),
         ({"times": [], "displacements": []}, "found no time"),
         ({"times": [0, 1]}, "neither displacements nor rotation"),
-        ({"times": [0, 1], "displacements": [[0, 0, 0]]}, "1 displacements for 2 times"),
-        ({"times": [0, 1], "rotation": Rotation(axis=(1, 0, 0), angles=[0])}, "1 rotation angles"),
+        ({"times": [0, 1], "displacements": [[0, 0, 0]]}, "1 displacement for 2 times"),
+        (
+            {"times": [0, 1], "rotation": Rotation(axis=(1, 0, 0), angles=[0])},
+            "1 rotation angle for 2 times",
+        ),
     ],
 )
 def test_prescribed_motion_is_complete(fields, message):
@@ -179,7 +188,7 @@ def test_load_series(load):
     assert load(times=["0 s", "1 ms"], factors=[0, 1]).times == (0.0, 0.001)
     assert "times without factors" in problems(lambda: load(times=[0]))[0]
     assert "factors without times" in problems(lambda: load(factors=[0]))[0]
-    assert "1 factors for 2 times" in problems(lambda: load(times=[0, 1], factors=[0]))[0]
+    assert "1 factor for 2 times" in problems(lambda: load(times=[0, 1], factors=[0]))[0]
 
 
 def test_a_field_that_is_missing_or_misspelt_is_one_problem():

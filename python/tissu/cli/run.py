@@ -13,6 +13,7 @@ from tissu import units
 from tissu.cli.interruption import Interruption, interruption
 from tissu.cli.outcome import DIVERGED, FINISHED, complain
 from tissu.cli.progress import RunProgress
+from tissu.counted import counted
 from tissu.errors import Diverged, ParameterError
 from tissu.output import Series, StepTally, prepare_folder, summarise, write_summary
 
@@ -199,10 +200,10 @@ def report(
     """Prints what the steps cost and where the results are."""
     print(simulation.profile())
     spent = ", ".join(f"{name} {seconds:.2f} s" for name, seconds in clock.seconds.items())
-    print(f"\n{tally.steps} steps to t = {simulation.time:.4g} s; {spent}")
+    print(f"\n{counted(tally.steps, 'step')} to t = {simulation.time:.4g} s; {spent}")
     if tally.unconverged:
-        share = f"{tally.unconverged} of {tally.steps} steps"
+        share = f"{tally.unconverged} of {counted(tally.steps, 'step')}"
         print(f"{share} did not converge, the first: {tally.first_unconverged}")
-    print(f"result:  {series.index} ({series.count} times)")
+    print(f"result:  {series.index} ({counted(series.count, 'time')})")
     print(f"summary: {series.index.with_name('summary.json')}")
     print(f"picture: {picture}")

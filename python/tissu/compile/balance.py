@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from tissu.compile.prepared import Held, Ints, Prepared
+from tissu.counted import are, counted
 from tissu.mesh.mesh import first_five
 from tissu.scene.problem import field_path
 from tissu.scene.support import Fixed, Prescribed, axes_mask
@@ -62,9 +63,9 @@ def _check_pair(prepared: Prepared, held: Held, other: Held) -> None:
     axes = "".join(a for a in held.support.axes if a in other.support.axes)
     both = np.intersect1d(held.nodes, other.nodes)
     if axes and both.size:
-        count = f"{both.size} nodes are held" if both.size > 1 else "1 node is held"
+        nodes = f"{counted(both.size, 'node')} {are(both.size)} held on {axes}"
         text = (
-            f"{count} on {axes} by {field_path(other.path)} too "
+            f"{nodes} by {field_path(other.path)} too "
             f"(first: {first_five(both)}); a node takes one motion on an axis"
         )
         prepared.findings.problem(held.path, text)
@@ -81,7 +82,7 @@ def held_axes(held: list[Held], body: str, nodes: int) -> Ints:
 
 def _check_held(prepared: Prepared, name: str, mesh: Mesh) -> None:
     mask = held_axes(prepared.held, name, mesh.node_count)
-    static = prepared.scene.step.type == "static"
+    static, gravity = prepared.scene.step.type == "static", getattr(prepared.scene, "gravity", None)
     part_of_node = _part_of_nodes(mesh)
     parts = int(part_of_node.max()) + 1
     axes = [int(np.bitwise_or.reduce(mask[part_of_node == part])) for part in range(parts)]
@@ -99,10 +100,15 @@ def _check_held(prepared: Prepared, name: str, mesh: Mesh) -> None:
         prepared.findings.note(
             f"bodies.{name}: held at fewer than three nodes, so it may turn freely in a static step"
         )
+    elif not static and not mask.any() and any(gravity or ()):
+        prepared.findings.note(
+            f"bodies.{name}: nothing holds the body, so it falls; hold nodes with `fixed`, "
+            "or leave gravity out"
+        )
     elif loose and mask.any() and any(axes[part] == 0 for part in loose):
         free = sum(axes[part] == 0 for part in loose)
         prepared.findings.note(
-            f"bodies.{name}: {free} of {parts} separate parts have no fixed node and fly free"
+            f"bodies.{name}: {free} of {parts} separate parts without a fixed node fly free"
         )
 
 

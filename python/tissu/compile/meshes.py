@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from tissu.compile.prepared import Findings, KnownMesh
+from tissu.counted import are, counted
 from tissu.errors import TissuError
 from tissu.mesh import bar_mesh, read_mesh
 from tissu.mesh.cell import handled_types
@@ -82,8 +83,10 @@ def _useless(mesh: Mesh) -> str | None:
 
 def _unused(mesh: Mesh) -> str:
     idle = mesh.unused_nodes
-    text = f"{len(idle)} nodes are used by no volume cell (first: {first_five(idle)})"
-    return f"{text}; mesh.without_unused_nodes() leaves them out"
+    count = len(idle)
+    text = f"{counted(count, 'node')} {are(count)} used by no volume cell "
+    text += f"(first: {first_five(idle)}); left out by `tissu mesh convert FILE -o OTHER`"
+    return f"{text}, in Python by mesh.without_unused_nodes()"
 
 
 def _repeated(mesh: Mesh) -> list[str]:
@@ -93,13 +96,15 @@ def _repeated(mesh: Mesh) -> list[str]:
         rows = np.sort(np.asarray(block.nodes), axis=1)
         folded = np.flatnonzero((rows[:, 1:] == rows[:, :-1]).any(axis=1))
         if len(folded):
-            text = f"{len(folded)} {block.type} cells name a node twice (first: "
-            found.append(f"{text}{first_five(folded)}); mend the mesh")
+            verb = "names" if len(folded) == 1 else "name"
+            text = f"{counted(len(folded), f'{block.type} cell')} {verb} a node twice"
+            found.append(f"{text} (first: {first_five(folded)}); mend the mesh")
         _, first, count = np.unique(rows, axis=0, return_index=True, return_counts=True)
         if (count > 1).any():
             twice = np.sort(first[count > 1])
-            text = f"{len(twice)} {block.type} cells are in the mesh more than once (first: "
-            found.append(f"{text}{first_five(twice)}); leave the copies out")
+            cells = f"{counted(len(twice), f'{block.type} cell')} {are(len(twice))}"
+            text = f"{cells} in the mesh more than once (first: {first_five(twice)})"
+            found.append(f"{text}; leave the copies out")
     return found
 
 
@@ -138,7 +143,7 @@ def _check_shapes(mesh: Mesh, place: Path, findings: Findings) -> None:
     report = mesh.quality()
     for wrong, words in ((report.inverted, "inside out"), (report.zero_volume, "without volume")):
         if len(wrong):
-            share = f"{len(wrong)} of {mesh.cell_count} cells are {words}"
+            share = f"{len(wrong)} of {counted(mesh.cell_count, 'cell')} {are(len(wrong))} {words}"
             findings.problem(
                 place,
                 f"{share} (first: {first_five(wrong)}); cells of positive volume are accepted: "
@@ -147,5 +152,6 @@ def _check_shapes(mesh: Mesh, place: Path, findings: Findings) -> None:
     slivers = np.setdiff1d(np.flatnonzero(report.shapes < _SLIVER), report.zero_volume)
     if slivers.size and not len(report.inverted):
         limit = f"with a shape quality below {_SLIVER}"
-        text = f"{slivers.size} cells are slivers, {limit} (first: {first_five(slivers)})"
+        count = f"{counted(slivers.size, 'sliver')} among the cells"
+        text = f"{count}, {limit} (first: {first_five(slivers)})"
         findings.note(f"{field_path(place)}: {text}; they cost accuracy and solver iterations")

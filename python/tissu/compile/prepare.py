@@ -12,6 +12,7 @@ from tissu.compile.material import cell_groups, density_of
 from tissu.compile.meshes import known_mesh
 from tissu.compile.prepared import Held, Ints, LoadedNodes, Prepared, PreparedBody
 from tissu.compile.select import selected_nodes, selected_triangles
+from tissu.counted import counted
 from tissu.errors import ParameterError
 from tissu.scene.part import problems_in
 from tissu.scene.unknown import Unknown
@@ -97,7 +98,7 @@ def _prepare_load(prepared: Prepared, path: Path, load: Load) -> None:
     if load.type != "nodal" and known.surface:
         triangles = selected_triangles(nodes, known.mesh)
         if not len(triangles):
-            text = f"{_words(load.on)} selects {len(nodes)} nodes of body '{load.body}'"
+            text = f"{_words(load.on)} selects {counted(len(nodes), 'node')} of body '{load.body}'"
             text += ", but no face of its surface with all its nodes"
             prepared.findings.problem((*path, "on"), text)
             return
@@ -106,8 +107,18 @@ def _prepare_load(prepared: Prepared, path: Path, load: Load) -> None:
 
 def _words(on: Selection) -> str:
     fields = {name: getattr(on, name) for name in type(on).model_fields if name != "type"}
-    text = ", ".join(f"{name} {value}" for name, value in fields.items())
+    text = ", ".join(f"{name} {_shown(value)}" for name, value in fields.items())
     return f"the {on.type} ({text})" if text else f"the {on.type}"
+
+
+def _shown(value: object) -> str:
+    """A field of a selection in a sentence; what is absent is open."""
+    if value is None:
+        return "open"
+    if isinstance(value, tuple):
+        few = [_shown(item) for item in value[:6]] + ["..."] * (len(value) > 6)
+        return f"({', '.join(few)})"
+    return f"{value:g}" if isinstance(value, float) else f"{value}"
 
 
 def _extent(mesh: Mesh) -> str:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from tissu.counted import counted
 from tissu.scene.problem import Path, Problem
 
 if TYPE_CHECKING:
@@ -118,13 +119,13 @@ class Prepared:
 
     def counts(self) -> dict[str, str]:
         """What each support and load selects: "fixed[0]" -> "42 nodes"."""
-        counts = {f"{h.path[0]}[{h.path[1]}]": f"{len(h.nodes)} nodes" for h in self.held}
+        counts = {f"{h.path[0]}[{h.path[1]}]": counted(len(h.nodes), "node") for h in self.held}
         for loaded in self.loaded:
             faces = len(loaded.triangles)
             text = (
-                f"{faces} triangles"
+                counted(faces, "triangle")
                 if loaded.load.type != "nodal"
-                else f"{len(loaded.nodes)} nodes"
+                else counted(len(loaded.nodes), "node")
             )
             counts[f"{loaded.path[0]}[{loaded.path[1]}]"] = text
         return counts

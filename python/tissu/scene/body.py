@@ -80,7 +80,7 @@ class BarMesh(Part):
     cell: BarCell = "tetra"
     """cell type"""
     split: Literal["six", "five", "six_mirrored"] = "six"
-    """how a box is cut into tetrahedra"""
+    """how a box is cut into tetrahedra; of `tetra` and `tetra10` only"""
     origin: units.Position = (0.0, 0.0, 0.0)
     """smallest corner [m]"""
 
@@ -95,6 +95,12 @@ class BarMesh(Part):
             split: Literal["six", "five", "six_mirrored"] = ...,
             origin: units.VectorLike = ...,
         ) -> None: ...
+
+    @rule("cell", "split")
+    def _splits_tetrahedra(self) -> Iterator[Problem]:
+        if self.split != "six" and not self.cell.startswith("tetra"):
+            text = f"found split {self.split} of cells of type {self.cell}"
+            yield Problem((), f"{text}; only tetra and tetra10 are split: leave split out")
 
 
 def _is_mesh(value: object) -> bool:

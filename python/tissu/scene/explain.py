@@ -5,7 +5,6 @@ from __future__ import annotations
 import ast
 import inspect
 import itertools
-import reprlib
 import textwrap
 from collections.abc import Iterable, Iterator
 from typing import Any
@@ -14,6 +13,7 @@ from pydantic import ValidationError
 from pydantic_core import ErrorDetails, InitErrorDetails, PydanticCustomError
 
 from tissu.scene.problem import Problem
+from tissu.units import written
 
 _EXPLAINED = "tissu"  # mark of an error whose text is already a plain sentence
 
@@ -24,16 +24,16 @@ _BOUNDS = {
 }
 
 
-def explained(error: ValidationError, written: object) -> Iterator[Problem]:
+def explained(error: ValidationError, raw: object) -> Iterator[Problem]:
     """The problems of a field.
 
     Args:
         error: what the field's validation raised.
-        written: the field as it was written, before its unit was read.
+        raw: the field as it was written, before its unit was read.
     """
     for details in error.errors(include_url=False):
         path = tuple(details["loc"])
-        yield Problem(path, _sentence(details, details["input"] if path else written))
+        yield Problem(path, _sentence(details, details["input"] if path else raw))
 
 
 def failure(problems: Iterable[Problem], title: str) -> ValidationError:
@@ -54,7 +54,7 @@ def failure(problems: Iterable[Problem], title: str) -> ValidationError:
 def _sentence(details: ErrorDetails, found: object) -> str:
     kind, text = details["type"], details["msg"]
     context: dict[str, Any] = details.get("ctx", {})
-    shown = reprlib.repr(found)
+    shown = written(found)
     if kind == _EXPLAINED:
         return text
     if kind == "value_error":

@@ -38,7 +38,7 @@ class _Load(Part):
             text = f"found {given} without {absent}; both or neither are accepted"
             yield Problem((), text)
         elif self.times is not None and self.factors is not None:
-            yield from same_length("factors", self.factors, self.times)
+            yield from same_length("factor", self.factors, self.times)
 
 
 class NodalLoad(_Load):

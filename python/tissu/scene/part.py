@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import reprlib
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, ClassVar
 
@@ -22,6 +21,7 @@ from tissu.errors import ParameterError, SceneError
 from tissu.scene.explain import explained, failure, meaning
 from tissu.scene.problem import Problem, nearest, nearest_word, one_of_words
 from tissu.scene.unknown import Unknown, Unread, below, nested, rules_of, told
+from tissu.units import written
 
 KEEP_PROBLEMS = "keep_problems"
 """Key of the validation context: a part with problems is kept for what is known of it."""
@@ -152,7 +152,7 @@ def _sorted_out(cls: type[Part], value: object) -> tuple[dict[str, Any], list[Pr
     """
     known = cls.model_fields
     if not isinstance(value, Mapping):
-        text = f"found {reprlib.repr(value)}; a mapping is accepted, with the keys "
+        text = f"found {written(value)}; a mapping is accepted, with the keys "
         return dict.fromkeys(known, Unread()), [Problem((), text + one_of_words(known))]
     fields = {name: item for name, item in value.items() if name in known}
     problems = []
@@ -195,7 +195,7 @@ def chosen(value: Any, classes: Sequence[type[Part]], info: ValidationInfo) -> A
     accepted = f"accepted types: {one_of_words(known)}"
     if not isinstance(value, Mapping):
         raise ParameterError(
-            f"found {reprlib.repr(value)}; a mapping with a `type` is accepted; {accepted}"
+            f"found {written(value)}; a mapping with a `type` is accepted; {accepted}"
         )
     if "type" not in value:
         raise ParameterError(f"`type` is missing; {accepted}")

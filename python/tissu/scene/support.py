@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated, ClassVar
 from pydantic import AfterValidator, BeforeValidator
 
 from tissu import units
+from tissu.counted import counted
 from tissu.errors import ParameterError
 from tissu.scene.part import Part
 from tissu.scene.problem import Problem
@@ -51,7 +52,7 @@ def increasing(times: tuple[float, ...]) -> tuple[float, ...]:
 def same_length(name: str, values: Sequence[object], times: Sequence[float]) -> Iterator[Problem]:
     """A problem when a list has not one value for each time."""
     if len(values) != len(times):
-        found = f"found {len(values)} {name} for {len(times)} times"
+        found = f"found {counted(len(values), name)} for {counted(len(times), 'time')}"
         yield Problem((), f"{found}; one for each time is accepted")
 
 
@@ -146,9 +147,9 @@ class Prescribed(Part):
     @rule("displacements", "times")
     def _displaced_at_each_time(self) -> Iterator[Problem]:
         if self.displacements is not None:
-            yield from same_length("displacements", self.displacements, self.times)
+            yield from same_length("displacement", self.displacements, self.times)
 
     @rule("rotation", "times")
     def _turned_at_each_time(self) -> Iterator[Problem]:
         if self.rotation is not None:
-            yield from same_length("rotation angles", self.rotation.angles, self.times)
+            yield from same_length("rotation angle", self.rotation.angles, self.times)

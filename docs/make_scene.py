@@ -27,8 +27,8 @@ A scene is the same thing in YAML and in Python: the class named in each heading
 its fields. A class that stands where several are possible is chosen by `type` in YAML. Numbers are
 SI; a text with a unit is converted ("4 kPa", "10 ms", "1.05 g/cm^3"), and one of the wrong
 dimension is an error. Unknown keys are errors that name the nearest known one. `tissu check FILE`
-lists the problems with their lines, wrong fields first and then what needs the mesh, and what the
-scene switches on.
+lists every problem at once, with its line: wrong fields, fields that contradict each other, faults
+of meshes, selections that select nothing. Without problems it says what the scene switches on.
 
 ```yaml
 {example}```

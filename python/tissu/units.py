@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 import re
+import reprlib
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache
@@ -179,6 +180,14 @@ NUMBER = Dimension("pure number", "", "0.45", {"%": 0.01})
 DIMENSIONS = (LENGTH, TIME, MASS, PRESSURE, DENSITY, FORCE, ACCELERATION, ANGLE, RATE, NUMBER)
 
 
+def written(value: object) -> str:
+    """A value in a message, much shortened; what Python calls None is null, as in YAML."""
+    if isinstance(value, (list, tuple)):
+        few = [written(item) for item in value[:6]] + ["..."] * (len(value) > 6)
+        return f"[{', '.join(few)}]"
+    return "null" if value is None else reprlib.repr(value)
+
+
 def listed(value: object) -> object:
     """A numpy array as nested lists; anything else unchanged."""
     return value.tolist() if isinstance(value, np.ndarray) else value
@@ -202,7 +211,7 @@ class Triple:
             return (None, None, None)
         if not isinstance(value, (list, tuple)) or len(value) != 3:
             raise ParameterError(
-                f"found {value!r}; three components are accepted, for each "
+                f"found {written(value)}; three components are accepted, for each "
                 f"{self.dimension.accepted}"
             )
         return tuple(self._component(name, part) for name, part in zip("xyz", value, strict=True))

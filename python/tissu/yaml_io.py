@@ -6,21 +6,21 @@ says otherwise).
 
 from __future__ import annotations
 
+import contextlib
 import os
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from functools import lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from pydantic import ValidationError
-
 from tissu.errors import LawError, SceneError
 from tissu.scene.body import Body, MeshFile
-from tissu.scene.part import Part, problems_of
+from tissu.scene.part import KEEP_PROBLEMS, Part
 from tissu.scene.problem import Path as FieldPath
 from tissu.scene.problem import Problem, Source
 from tissu.scene.scene import Scene
+from tissu.scene.unknown import Unknown
 
 if TYPE_CHECKING:
     import yaml
@@ -39,11 +39,18 @@ _WORDS = {
 }
 
 
-def read_scene(path: Path) -> Scene:
+def read_scene(path: Path, *, to_run: bool = False) -> Scene:
     """Read a scene file; paths of meshes are relative to its folder.
 
+    Args:
+        path: the file.
+        to_run: whether a duration that is absent but needed is a problem.
+
+    Returns:
+        The scene with what could be read of it, and with the problems of its fields.
+
     Raises:
-        SceneError: the file cannot be read, is not YAML, or has problems; all of them, with lines.
+        SceneError: the file cannot be read, or is not YAML.
     """
     try:
         text = path.read_text(encoding="utf-8")
@@ -51,14 +58,23 @@ def read_scene(path: Path) -> Scene:
         raise SceneError([f"{path}: the scene file cannot be read: {error.strerror}"]) from None
     except UnicodeDecodeError:
         raise SceneError([f"{path}: not a text in UTF-8; a YAML scene is accepted"]) from None
-    return parse_scene(text, base=path.parent, name=str(path))
+    scene = parse_scene(text, base=path.parent, name=str(path))
+    if to_run:
+        with contextlib.suppress(Unknown):
+            if scene.duration is None and scene.step.type != "static":
+                missing = Problem(("duration",), "is missing; give it here or by --duration")
+                scene._problems += (missing,)
+    return scene
 
 
 def parse_scene(text: str, *, base: Path | None = None, name: str = "text") -> Scene:
     """Read a scene from YAML text.
 
+    Returns:
+        The scene with what could be read of it, and with the problems of its fields.
+
     Raises:
-        SceneError: not YAML, or problems of the scene; all of them, with lines.
+        SceneError: not YAML, or no mapping.
     """
     data, source, problems = _load(text, name)
     if not isinstance(data, dict):
@@ -71,15 +87,10 @@ def parse_scene(text: str, *, base: Path | None = None, name: str = "text") -> S
         )
     laws, refused = _own_laws(data, base)
     problems += refused
-    try:
-        scene = Scene.model_validate(data, context={"base": base, "laws": laws})
-    except ValidationError as error:
-        problems += problems_of(error)
-        problems += _missing_files(data, base)
-    if problems:
-        problems.sort(key=lambda problem: source.line(problem.path))
-        raise SceneError([problem.sentence(source) for problem in problems])
+    context = {"base": base, "laws": laws, "laws_refused": bool(refused), KEEP_PROBLEMS: True}
+    scene = Scene.model_validate(data, context=context)
     scene._source = source
+    scene._problems += tuple(problems)
     return scene
 
 
@@ -225,16 +236,6 @@ def _own_laws(
     return laws, problems
 
 
-def _missing_files(data: Mapping[str, Any], base: Path | None) -> Iterator[Problem]:
-    """Mesh files that do not exist, looked for even when the scene has other problems."""
-    bodies = data.get("bodies")
-    for name, body in bodies.items() if isinstance(bodies, dict) else ():
-        mesh = body.get("mesh") if isinstance(body, dict) else None
-        file = mesh.get("file") if isinstance(mesh, dict) else mesh
-        if isinstance(file, str) and not ((base or Path()) / file).exists():
-            yield Problem(("bodies", str(name), "mesh"), f"no file {(base or Path()) / file}")
-
-
 def _plain(value: Any, folder: Path | None) -> Any:
     """A part as mappings, lists and numbers: its type and the fields that were given."""
     if isinstance(value, Part):
@@ -250,14 +251,19 @@ def _plain(value: Any, folder: Path | None) -> Any:
     if isinstance(value, (list, tuple)):
         return [_plain(item, folder) for item in value]
     if isinstance(value, Path):
-        return (
-            Path(os.path.relpath(value, folder)).as_posix()
-            if folder is not None
-            else value.as_posix()
-        )
+        return (value if folder is None else _seen_from(folder, value)).as_posix()
     if hasattr(value, "source"):  # a mesh in memory that came from a file
         return _plain(MeshFile(value.source, unit=value.unit, scale=value.scale), folder)
     return value
+
+
+def _seen_from(folder: Path, file: Path) -> Path:
+    """The path of a file from a folder, which leads there through links to folders too."""
+    place = file.parent.resolve() / file.name
+    try:
+        return Path(os.path.relpath(place, folder.resolve()))
+    except ValueError:  # on another drive
+        return place
 
 
 @lru_cache(maxsize=1)

@@ -1,5 +1,6 @@
 """The commands as a user meets them: output, exit codes, no tracebacks."""
 
+import dataclasses
 import json
 import os
 import signal
@@ -7,9 +8,11 @@ import subprocess
 import sys
 import time
 
+import numpy as np
 import pytest
 
 import tissu
+from tissu.cli.info import openmp_version
 
 SCENE = """\
 name: bar
@@ -119,6 +122,9 @@ def test_check_says_what_is_on_and_why(scene):
 def test_info_names_version_and_libraries():
     ended = tissu_command("info")
     assert ended.returncode == 0
+    assert openmp_version("201511") == "4.5"
+    assert openmp_version("202911") == "202911"
+    assert "201511" not in ended.stdout
     for words in (tissu.__version__, "threads", "instruction set", "numpy", "Eigen"):
         assert words.lower() in ended.stdout.lower()
     assert tissu_command("--version").stdout.strip() == f"tissu {tissu.__version__}"
@@ -136,6 +142,63 @@ def test_a_bar_is_made_and_looked_at(tmp_path):
     wrong = tissu_command(*words, "--cell", "prism", cwd=tmp_path)
     assert wrong.returncode == 2
     assert "prism" in wrong.stderr
+
+
+def test_lengths_of_a_bar_have_units(tmp_path):
+    words = ["mesh", "bar", "--cells", 2, 1, 1, "-o", tmp_path / "bar.vtu", "--size"]
+    made = tissu_command(*words, "10cm", "5 mm", 0.02, "--origin", "-1cm", 0, 0)
+    assert made.returncode == 0, made.stderr
+    low, high = tissu.read_mesh(tmp_path / "bar.vtu").bounds
+    assert low == pytest.approx([-0.01, 0, 0])
+    assert high == pytest.approx([0.09, 0.005, 0.02])
+    wrong = tissu_command(*words, "10cm", "5 kPa", 1)
+    assert wrong.returncode == 2
+    assert "option --size: found '5 kPa', which is a pressure; a length is acc" in wrong.stderr
+
+
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [
+        (["--cell", "hexahedron", "--split", "five"], "only tetra and tetra10 are split"),
+        (["--cell", "wedge", "--split", "six_mirrored"], "only tetra and tetra10 are split"),
+        (["--segments", "hex8", "--split", "five"], "leave --split out"),
+        (["--segments", "hex8", "--cell", "tetra"], "leave --cell out"),
+    ],
+)
+def test_options_of_a_bar_that_would_do_nothing_are_refused(tmp_path, options, said):
+    words = ["mesh", "bar", "--cells", 2, 1, 1, "--size", 1, 1, 1, "-o", tmp_path / "bar.vtu"]
+    wrong = tissu_command(*words, *options)
+    assert wrong.returncode == 2
+    assert said in wrong.stderr
+    assert not (tmp_path / "bar.vtu").exists()
+
+
+def test_convert_leaves_unused_nodes_out(tmp_path):
+    bar = tissu.bar_mesh(size=(1, 1, 1), cells=(1, 1, 1), cell="hexahedron")
+    points = np.concatenate([bar.points, [[2.0, 2.0, 2.0]]])
+    tissu.write_mesh(dataclasses.replace(bar, points=points), tmp_path / "a.vtu")
+    words = ["mesh", "convert", tmp_path / "a.vtu", "-o", tmp_path / "b.msh", "--unit", "mm"]
+    made = tissu_command(*words)
+    assert made.returncode == 0, made.stderr
+    assert "8 nodes, 1 cell\n" in made.stdout
+    mesh = tissu.read_mesh(tmp_path / "b.msh")
+    assert mesh.node_count == 8
+    assert mesh.bounds[1] == pytest.approx([1e-3] * 3)
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("abc", "option --duration: found 'abc', which does not begin with a number; a time is"),
+        ("2 kg", "option --duration: found '2 kg', which is a mass"),
+        ("-1 s", "option --duration: found '-1 s'; more than 0 s is accepted"),
+    ],
+)
+def test_a_wrong_duration_is_the_options_fault(scene, tmp_path, text, said):
+    ended = tissu_command("run", scene, "--out", tmp_path / "out", "--duration", text)
+    assert ended.returncode == 2
+    assert said in ended.stderr
+    assert "scene" not in ended.stderr
 
 
 def test_divergence_keeps_what_was_computed(scene, tmp_path):
@@ -156,7 +219,11 @@ def test_divergence_keeps_what_was_computed(scene, tmp_path):
     assert (tmp_path / "out" / "bar.pvd").exists()
 
 
-def test_ctrl_c_leaves_complete_files(scene, tmp_path):
+@pytest.mark.parametrize(
+    ("number", "code", "word"),
+    [(signal.SIGINT, 130, "interrupted"), (signal.SIGTERM, 143, "terminated")],
+)
+def test_a_signal_leaves_complete_files(scene, tmp_path, number, code, word):
     import meshio
 
     scene.write_text(SCENE.format(young="20 kPa", duration="1000 s"))
@@ -172,10 +239,10 @@ def test_ctrl_c_leaves_complete_files(scene, tmp_path):
     frames, limit = out / "frames", time.monotonic() + 60
     while time.monotonic() < limit and not (frames.exists() and len(list(frames.iterdir())) > 3):
         time.sleep(0.05)
-    os.kill(child.pid, signal.SIGINT)
+    os.kill(child.pid, number)
     _, said = child.communicate(timeout=60)
-    assert child.returncode == 130
-    assert "interrupted" in said
+    assert child.returncode == code
+    assert f"{word} at t = " in said
     assert "Traceback" not in said
     assert summary(out)["status"] == "interrupted"
     index = (out / "bar.pvd").read_text()

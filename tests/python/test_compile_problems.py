@@ -74,7 +74,7 @@ def test_all_bodies_at_once(tmp_path):
     assert problems(made) == [
         f"bodies.a.mesh: {tmp_path / 'no.vtu'} does not exist; the path of a mesh file is accepted",
         "bodies.b.law.in: found region 'in', but the mesh names no regions",
-        "fixed[0].on: the box (min (5.0, 5.0, 5.0), max (6.0, 6.0, 6.0)) selects no node of "
+        "fixed[0].on: the box (min (5, 5, 5), max (6, 6, 6)) selects no node of "
         "body 'c', which reaches x from 0 to 2 m, y from 0 to 1 m, z from 0 to 1 m",
         "loads[0].on: found node 99; the mesh has the nodes 0 to 11",
     ]
@@ -110,8 +110,8 @@ def test_cells_inside_out_and_flat():
     nodes[3, :2] = nodes[3, 1::-1]
     nodes[5, 0] = nodes[5, 1]
     found = problems(scene(dataclasses.replace(bar, cells=(CellBlock("tetra", nodes),))))
-    assert "1 of 12 cells are inside out (first: 3)" in found[0]
-    assert "1 of 12 cells are without volume (first: 5)" in found[1]
+    assert "1 of 12 cells is inside out (first: 3)" in found[0]
+    assert "1 of 12 cells is without volume (first: 5)" in found[1]
 
 
 def test_cells_that_are_not_handled():
@@ -125,7 +125,9 @@ def test_node_that_no_cell_uses():
     bar = bar_mesh(size=(2, 1, 1), cells=(2, 1, 1))
     points = np.concatenate([bar.points, [[0.5, 0.5, 0.5]]])
     found = problems(scene(dataclasses.replace(bar, points=points)))
-    assert "1 nodes are used by no volume cell (first: 12)" in found[0]
+    assert "1 node is used by no volume cell (first: 12)" in found[0]
+    assert "`tissu mesh convert FILE -o OTHER`" in found[0]
+    assert "mesh.without_unused_nodes()" in found[0]
 
 
 def test_position_that_is_not_finite(tmp_path):
@@ -152,7 +154,7 @@ def test_regions_cover_each_cell_once():
     mesh = dataclasses.replace(bar, regions={"left": left, "right": right})
     laws = {"left": SOFT, "right": Hooke(young=1e4, poisson=0.3)}
     found = problems(scene(mesh, laws))
-    assert "1 of 12 cells are in no region of the law (first: 11)" in found[0]
+    assert "1 of 12 cells is in no region of the law (first: 11)" in found[0]
     assert "2 of 12 cells are in several regions of the law (first: 5, 6)" in found[1]
     assert "did you mean 'left'" in problems(scene(mesh, {"lft": SOFT}))[0]
 
@@ -186,6 +188,24 @@ def test_static_needs_supports():
     assert problems(scene(step=Static(), fixed=[Fixed("bar", on=END)])) == []
     found = problems(scene(two_bars(), step=Static(), fixed=[Fixed("bar", on=END)]))
     assert "1 of 2 separate parts of body 'bar' can move freely" in found[0]
+
+
+def test_open_sides_of_a_box_are_told_as_open():
+    found = problems(scene(fixed=[Fixed("bar", on=Box(None, (-1, None, 2.5)))]))
+    assert "the box (min (open, open, open), max (-1, open, 2.5)) selects" in found[0]
+
+
+def test_a_body_that_nothing_holds_falls():
+    notes = scene(gravity=(0, 0, -9.81)).check().notes
+    assert notes == [
+        "bodies.bar: nothing holds the body, so it falls; hold nodes with `fixed`, "
+        "or leave gravity out"
+    ]
+    assert scene(gravity=(0, 0, -9.81)).compile().plan().notes == tuple(notes)
+    held = scene(gravity=(0, 0, -9.81), fixed=[Fixed("bar", on=END, axes="z")])
+    assert held.check().notes == []
+    assert scene().check().notes == []
+    assert scene(gravity=(0, 0, 0)).check().notes == []
 
 
 def test_notes():

@@ -107,3 +107,15 @@ def test_uniform_traction_stretches_uniformly(cell):
     simulation.step()
     expected = rest * (stretch, 1, 1)
     assert np.abs(simulation.positions["bar"] - expected).max() < 1e-9
+
+
+def test_repr_is_one_line_that_says_what_it_is():
+    simulation = bar(name="beam").compile()
+    for _ in simulation.run(0.03):
+        pass
+    assert repr(simulation) == (
+        "Simulation('beam', t = 0.03 s after 3 steps; bar: 20 nodes, 24 cells; "
+        "implicit_euler dt 0.01 s)"
+    )
+    still = repr(bar(step=Static()).compile())
+    assert still.endswith("t = 0 s after 0 steps; bar: 20 nodes, 24 cells; static)")

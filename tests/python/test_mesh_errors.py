@@ -87,3 +87,30 @@ def test_writing_says_what_it_cannot(tmp_path: Path) -> None:
         write_mesh(bar, tmp_path / "a.stl")
     with pytest.raises(MeshError, match="cannot be written"):
         write_mesh(bar, tmp_path / "no" / "a.vtu")
+
+
+@pytest.mark.parametrize("ending", [".msh", ".vtk", ".stl", ".ply"])
+def test_damaged_binary_files_are_refused_in_words(tmp_path: Path, ending: str) -> None:
+    import meshio
+
+    bar = bar_mesh(size=(1, 1, 1), cells=(2, 2, 2))
+    cells = {
+        ".stl": [("triangle", bar.surface().triangles)],
+        ".ply": [("triangle", bar.surface().triangles)],
+    }
+    file = tmp_path / f"bar{ending}"
+    content = meshio.Mesh(bar.points, cells.get(ending, [("tetra", bar.cells[0].nodes)]))
+    meshio.write(file, content, binary=True)
+    whole = file.read_bytes()
+    damaged = 0
+    for number in range(80):
+        at = number // 2 * (len(whole) // 40)  # bytes overwritten here, or the file cut
+        rest = b"\xff\xd0\xf0\x82" * 10 + whole[at + 40 :] if number % 2 else b"\xff"
+        file.write_bytes(whole[:at] + rest)
+        try:
+            read_mesh(file)
+        except MeshError as error:
+            assert "codec" not in str(error)
+            assert "Unicode" not in str(error)
+            damaged += "no text where text is expected; is it damaged?" in str(error)
+    assert damaged > 0

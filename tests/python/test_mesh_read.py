@@ -82,8 +82,8 @@ def test_gmsh1_with_scattered_numbers(tmp_path: Path) -> None:
     assert mesh.points[4].tolist() == [1, 1, 1]
     assert {name: cells.tolist() for name, cells in mesh.regions.items()} == {"3": [0], "5": [1]}
     assert mesh.notes == (
-        "1 cells of type vertex left out of the volume",
-        "1 cells of type triangle left out of the volume",
+        "1 cell of type vertex left out of the volume",
+        "1 cell of type triangle left out of the volume",
     )
 
 
@@ -189,7 +189,7 @@ f -6 -5 -1  # backwards
     assert [(block.type, len(block)) for block in mesh.cells] == [("triangle", 4)]
     assert mesh.cells[0].nodes[0].tolist() == [0, 1, 5]
     assert mesh.quality().area == pytest.approx(5.0 + 5.0)
-    assert mesh.notes == ("1 faces of more than four corners split into triangles",)
+    assert mesh.notes == ("1 face of more than four corners split into triangles",)
 
 
 @pytest.mark.parametrize("line", ["f 1 2 0", "f 1 2 x", "v 1 2", "f -9 1 2"])
@@ -223,11 +223,11 @@ def test_wrong_unit_or_scale_is_refused(tmp_path: Path, arguments: dict, said: s
 def test_reversed_cells_are_turned_round(tmp_path: Path) -> None:
     mesh = read_mesh(write(tmp_path / "a.msh", GMSH1.replace("4 10 2 30 4", "4 10 30 2 4")))
     assert (mesh.cell_volumes() > 0).all()
-    assert mesh.notes[-1] == "1 cells with reversed winding turned round"
+    assert mesh.notes[-1] == "1 cell with reversed winding turned round"
 
 
 def test_unused_nodes_are_kept_and_noted(tmp_path: Path) -> None:
     text = GMSH1.replace("4\n1 15", "3\n1 15").replace("4 4 5 1 4 2 77 30 4\n", "")
     mesh = read_mesh(write(tmp_path / "a.msh", text))
     assert mesh.unused_nodes.tolist() == [4]
-    assert mesh.notes[-1] == "1 nodes are used by no volume cell (4)"
+    assert mesh.notes[-1] == "1 node is used by no volume cell (4)"

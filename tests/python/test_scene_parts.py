@@ -9,10 +9,12 @@ from tissu.scene import (
     Body,
     Box,
     ConjugateGradient,
+    Fibres,
     Fixed,
     Hooke,
     ImplicitEuler,
     MeshFile,
+    MooneyRivlin,
     Newton,
     NodalLoad,
     Nodes,
@@ -109,9 +111,8 @@ def test_all_problems_at_once():
         )
     )
     text = "\n".join(found)
-    assert len(found) == 10
+    assert len(found) == 9
     assert "bodies.liver.mesh.fil: unknown key; did you mean 'file'?" in text
-    assert "bodies.liver.mesh.file: is missing: path of the mesh file" in text
     assert "bodies.liver.law.a.young: found '4 mm', which is a length" in text
     assert "bodies.liver.law.b: unknown type 'x'. Accepted types: hooke, stvk" in text
     assert "bodies.liver.density: found -1; more than 0 is accepted" in text
@@ -136,6 +137,12 @@ def test_all_problems_at_once():
         (lambda: body(viscosity=Rayleigh()), "leave viscosity out"),
         (lambda: MeshFile("a", unit="kPa"), "which is a pressure; a length is accepted"),
         (lambda: BarMesh(size=(1, 0, 1), cells=(1, 1, 1)), "three positive lengths"),
+        (
+            lambda: BarMesh(size=(1, 1, 1), cells=(1, 1, 1), cell="wedge", split="five"),
+            "split five of cells of type wedge; only tetra and tetra10 are split",
+        ),
+        (lambda: Box([None, 1]), r"min: found \[null, 1\]; three components"),
+        (lambda: Fixed("a", on=None), "on: found null; a mapping with a `type`"),
         (lambda: BarMesh(size=(1, 1, 1), cells=(1, 0, 1)), r"cells\[1\]: found 0; at least 1"),
         (lambda: Box((1, 0, 0), (0, 1, 1)), "min 1 m above max 0 m on axis x"),
         (lambda: Plane((0, 0, 0), (0, 0, 0)), "a direction is accepted"),
@@ -158,8 +165,11 @@ def test_one_sentence_for_each_slip(make, message):
         ({"times": [0, 0], "displacements": [[0, 0, 0]] * 2}, "0 s after 0 s"),
         ({"times": [], "displacements": []}, "found no time"),
         ({"times": [0, 1]}, "neither displacements nor rotation"),
-        ({"times": [0, 1], "displacements": [[0, 0, 0]]}, "1 displacements for 2 times"),
-        ({"times": [0, 1], "rotation": Rotation(axis=(1, 0, 0), angles=[0])}, "1 rotation angles"),
+        ({"times": [0, 1], "displacements": [[0, 0, 0]]}, "1 displacement for 2 times"),
+        (
+            {"times": [0, 1], "rotation": Rotation(axis=(1, 0, 0), angles=[0])},
+            "1 rotation angle for 2 times",
+        ),
     ],
 )
 def test_prescribed_motion_is_complete(fields, message):
@@ -178,7 +188,25 @@ def test_load_series(load):
     assert load(times=["0 s", "1 ms"], factors=[0, 1]).times == (0.0, 0.001)
     assert "times without factors" in problems(lambda: load(times=[0]))[0]
     assert "factors without times" in problems(lambda: load(factors=[0]))[0]
-    assert "1 factors for 2 times" in problems(lambda: load(times=[0, 1], factors=[0]))[0]
+    assert "1 factor for 2 times" in problems(lambda: load(times=[0, 1], factors=[0]))[0]
+
+
+def test_a_field_that_is_missing_or_misspelt_is_one_problem():
+    assert problems(lambda: MeshFile()) == ["MeshFile: file: is missing: path of the mesh file"]
+    assert problems(lambda: MeshFile(fil="a.vtu")) == [
+        "MeshFile: fil: unknown key; did you mean 'file'? Accepted: file, unit, scale"
+    ]
+    near = problems(lambda: MeshFile(files="b.vtu", file="a.vtu"))
+    assert near == [
+        "MeshFile: files: unknown key; did you mean 'file'? Accepted: file, unit, scale"
+    ]
+
+
+def test_laws_that_the_core_would_refuse():
+    still = problems(lambda: Fibres(k1=1, k2=1, direction=(0, 0, 0)))
+    assert "found the direction (0, 0, 0)" in still[0]
+    soft = problems(lambda: MooneyRivlin(c1=1, c2=-1, kappa=1))
+    assert "found c1 + c2 = 0 Pa, half the shear modulus; a sum above 0" in soft[0]
 
 
 def test_unknown_body_in_python():

@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+import signal
 import sys
+
+from tissu.cli.interruption import leave
 
 
 def main() -> None:
     """Entry point of the command `tissu`."""
+    signal.signal(signal.SIGTERM, leave)
     try:
         from tissu.cli.app import app
 

@@ -21,7 +21,7 @@ app.add_typer(mesh_app, name="mesh")
 
 SceneFile = Annotated[Path, typer.Argument(metavar="SCENE", help="A scene (YAML).")]
 Debug = Annotated[bool, typer.Option("--debug", help="Show tracebacks.")]
-Triple = tuple[float, float, float]
+Lengths = tuple[str, str, str]
 
 
 @app.command()
@@ -88,18 +88,21 @@ def mesh_info(
 
 @mesh_app.command("bar")
 def mesh_bar(
-    size: Annotated[Triple, typer.Option(metavar="X Y Z", help="Lengths in m.")],
+    size: Annotated[
+        Lengths, typer.Option(metavar="X Y Z", help="Lengths in m, or with a unit: 10cm 5cm 5cm.")
+    ],
     cells: Annotated[tuple[int, int, int], typer.Option(metavar="X Y Z", help="Grid cells.")],
     output: Annotated[Path, typer.Option("--output", "-o", metavar="FILE", help="The mesh.")],
     cell: Annotated[
-        str, typer.Option(help="tetra, hexahedron, wedge, pyramid, tetra10, hexahedron20, ...")
-    ] = "tetra",
-    split: Annotated[str, typer.Option(help="six, five or six_mirrored (tetra).")] = "six",
-    origin: Annotated[Triple, typer.Option(metavar="X Y Z", help="Smallest corner in m.")] = (
-        0.0,
-        0.0,
-        0.0,
-    ),
+        str | None,
+        typer.Option(help="tetra (the default), hexahedron, wedge, pyramid, hexahedron20, ..."),
+    ] = None,
+    split: Annotated[
+        str | None, typer.Option(help="six (the default), five or six_mirrored; of tetra.")
+    ] = None,
+    origin: Annotated[
+        Lengths, typer.Option(metavar="X Y Z", help="Smallest corner in m, or with a unit.")
+    ] = ("0", "0", "0"),
     segments: Annotated[
         str | None,
         typer.Option(
@@ -111,16 +114,26 @@ def mesh_bar(
 ) -> None:
     """Make a bar of like cells, or of segments of different ones whose faces match."""
     with reported(debug=debug):
-        from tissu.mesh import bar_mesh, mixed_bar_mesh, write_mesh
-        from tissu.mesh.segment import parse_segments
+        from tissu.cli.mesh import Bar, lengths, made_bar, written
 
-        if segments is None:
-            made = bar_mesh(size=size, cells=cells, cell=cell, split=split, origin=origin)  # type: ignore[arg-type]
-        else:
-            pairs = parse_segments(segments)
-            made = mixed_bar_mesh(size=size, cells=cells, segments=pairs, origin=origin)
-        write_mesh(made, output)
-        typer.echo(f"{output}: {made.node_count} nodes, {made.cell_count} cells")
+        bar = Bar(lengths("--size", size), cells, lengths("--origin", origin))
+        written(made_bar(bar, cell=cell, split=split, segments=segments), output)
+
+
+@mesh_app.command("convert")
+def mesh_convert(
+    file: Annotated[Path, typer.Argument(metavar="FILE", help="A mesh of any known format.")],
+    output: Annotated[Path, typer.Option("--output", "-o", metavar="FILE", help="The mesh.")],
+    unit: Annotated[str, typer.Option(help="Unit of length of the file.")] = "m",
+    scale: Annotated[float, typer.Option(help="Factor on all lengths.")] = 1.0,
+    debug: Debug = False,
+) -> None:
+    """Write a mesh in another format, in metres and without the nodes that no cell uses."""
+    with reported(debug=debug):
+        from tissu.cli.mesh import written
+        from tissu.mesh import read_mesh
+
+        written(read_mesh(file, unit=unit, scale=scale).without_unused_nodes(), output)
 
 
 def version(wanted: bool) -> None:

@@ -3,18 +3,18 @@
 from __future__ import annotations
 
 import contextlib
-import signal
-import threading
 import time
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
-from types import FrameType
 from typing import TYPE_CHECKING, TypeVar
 
-from tissu.cli.outcome import DIVERGED, FINISHED, INTERRUPTED, complain
+from tissu import units
+from tissu.cli.interruption import Interruption, interruption
+from tissu.cli.outcome import DIVERGED, FINISHED, complain
 from tissu.cli.progress import RunProgress
-from tissu.errors import Diverged, SceneError
+from tissu.counted import counted
+from tissu.errors import Diverged, ParameterError
 from tissu.output import Series, StepTally, prepare_folder, summarise, write_summary
 
 if TYPE_CHECKING:
@@ -22,8 +22,6 @@ if TYPE_CHECKING:
     from tissu.simulation import Simulation
 
 T = TypeVar("T")
-
-CODES = {"finished": FINISHED, "diverged": DIVERGED, "interrupted": INTERRUPTED}
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,11 +62,13 @@ class Ending:
 
     Attributes:
         status: "finished", "interrupted" or "diverged".
+        code: exit code of the command.
         message: why it is not finished.
         error: what stopped it.
     """
 
     status: str
+    code: int
     message: str = ""
     error: Diverged | None = None
 
@@ -95,21 +95,39 @@ def run_scene(job: Job, *, debug: bool = False) -> int:
         raise ending.error
     if ending.message:
         complain(ending.message)
-    return CODES[ending.status]
+    return ending.code
 
 
 def load(job: Job) -> Scene:
-    """The scene with what the command line changes."""
-    from tissu.scene import Scene
+    """The scene with what the command line changes.
 
-    scene = Scene.from_yaml(job.scene)
-    asked = {"duration": job.duration, "threads": job.threads}
+    Raises:
+        ParameterError: an option is not accepted.
+        SceneError: problems of the scene; all of them.
+    """
+    from tissu.scene.scene import accepted
+    from tissu.yaml_io import read_scene
+
+    duration = None if job.duration is None else duration_option(job.duration)
+    scene = accepted(read_scene(job.scene, to_run=duration is None))
+    asked = {"duration": duration, "threads": job.threads}
     changes = {name: value for name, value in asked.items() if value is not None}
-    if changes:
-        scene = scene.replace(**changes)
-    if scene.duration is None and scene.step.type != "static":
-        raise SceneError([f"{job.scene}: duration: is missing; give it here or by --duration"])
-    return scene
+    return scene.replace(**changes) if changes else scene
+
+
+def duration_option(text: str) -> float:
+    """The simulated time asked for by --duration [s].
+
+    Raises:
+        ParameterError: it is no positive time.
+    """
+    try:
+        duration = units.TIME(text)
+    except ParameterError as error:
+        raise ParameterError(f"option --duration: {error}") from None
+    if duration <= 0.0:
+        raise ParameterError(f"option --duration: found '{text}'; more than 0 s is accepted")
+    return duration
 
 
 def advance(
@@ -117,13 +135,13 @@ def advance(
     series: Series,
     tally: StepTally,
     clock: Clock,
-    interrupted: threading.Event,
+    interrupted: Interruption,
     *,
     quiet: bool,
 ) -> Ending:
     """Steps to the end and writes results on the way."""
     duration, every = span(simulation.scene)
-    ending, due = Ending("finished"), every
+    ending, due = Ending("finished", FINISHED), every
     with clock.stage("output"):
         series.write()
     with RunProgress(duration, quiet=quiet) as progress:
@@ -136,12 +154,13 @@ def advance(
                     with clock.stage("output"):
                         series.write()
                     due = every * (int(simulation.time / every + 1e-6) + 1)
-                if interrupted.is_set():
-                    when = f"interrupted at t = {simulation.time:.4g} s; all files are complete"
-                    ending = Ending("interrupted", when)
+                if interrupted.number:
+                    when = f"{interrupted.word} at t = {simulation.time:.4g} s"
+                    text = f"{when}; all files are complete"
+                    ending = Ending("interrupted", interrupted.code, text)
                     break
         except Diverged as error:
-            ending = Ending("diverged", str(error), error)
+            ending = Ending("diverged", DIVERGED, str(error), error)
     if simulation.time > series.last_time:
         with clock.stage("output"):
             series.write()
@@ -175,38 +194,16 @@ def conclude(
     return picture
 
 
-@contextlib.contextmanager
-def interruption() -> Iterator[threading.Event]:
-    """An event that Ctrl-C sets, so that a step and its files are completed first.
-
-    A second Ctrl-C stops at once.
-    """
-    event = threading.Event()
-    if threading.current_thread() is not threading.main_thread():
-        yield event
-        return
-
-    def stop(number: int, frame: FrameType | None) -> None:
-        event.set()
-        signal.signal(signal.SIGINT, signal.default_int_handler)
-
-    before = signal.signal(signal.SIGINT, stop)
-    try:
-        yield event
-    finally:
-        signal.signal(signal.SIGINT, before)
-
-
 def report(
     simulation: Simulation, series: Series, tally: StepTally, clock: Clock, picture: Path
 ) -> None:
     """Prints what the steps cost and where the results are."""
     print(simulation.profile())
     spent = ", ".join(f"{name} {seconds:.2f} s" for name, seconds in clock.seconds.items())
-    print(f"\n{tally.steps} steps to t = {simulation.time:.4g} s; {spent}")
+    print(f"\n{counted(tally.steps, 'step')} to t = {simulation.time:.4g} s; {spent}")
     if tally.unconverged:
-        share = f"{tally.unconverged} of {tally.steps} steps"
+        share = f"{tally.unconverged} of {counted(tally.steps, 'step')}"
         print(f"{share} did not converge, the first: {tally.first_unconverged}")
-    print(f"result:  {series.index} ({series.count} times)")
+    print(f"result:  {series.index} ({counted(series.count, 'time')})")
     print(f"summary: {series.index.with_name('summary.json')}")
     print(f"picture: {picture}")

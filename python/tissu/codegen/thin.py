@@ -12,9 +12,9 @@ from typing import Any
 
 import sympy as sp
 
+from tissu.codegen import vocabulary as words
 from tissu.codegen.kinematics import dF as all_dF
 from tissu.codegen.program import Program
-from tissu.codegen.vocabulary import F as all_F
 from tissu.codegen.vocabulary import Expr, tr_E, tr_E2, tr_eps, tr_eps2
 
 _OF_E, _OF_EPS = (tr_E, tr_E2), (tr_eps, tr_eps2)
@@ -37,7 +37,7 @@ class _Thin:
         self.m, self.W, self.pair = m, W, pair
         self.large = pair == _OF_E
         self.program = Program()
-        self.F = all_F.components[:, :m]
+        self.F = words.F.components[:, :m]
         self.dF = all_dF[:, :m]
         self.e = self._strain()
         self.program.lets += [(pair[0], self.e.trace()), (pair[1], sum(x**2 for x in self.e))]
@@ -146,9 +146,7 @@ def _tangent(made: _Thin) -> Program:
     entries = [(i, J) for i in range(3) for J in range(m)]
     if made.large:
         FF = made.F * made.F.T
-        b = {
-            (i, k): let(f"b{i}{k}", half * FF[i, k]) for i in range(3) for k in range(i, 3)
-        }
+        b = {(i, k): let(f"b{i}{k}", half * FF[i, k]) for i in range(3) for k in range(i, 3)}
     for row, (i, J) in enumerate(entries):
         for k, L in entries[row:]:
             entry = (

@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+import contextlib
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from tissu.compile.prepared import Held, Ints, Prepared
+from tissu.counted import are, counted
 from tissu.mesh.mesh import first_five
 from tissu.scene.problem import field_path
 from tissu.scene.support import Fixed, Prescribed, axes_mask
+from tissu.scene.unknown import Unknown
 
 if TYPE_CHECKING:
     from tissu.mesh import Mesh
@@ -20,11 +23,28 @@ _ALL_AXES = 7
 def check_supports(prepared: Prepared) -> None:
     """Report nodes that two supports claim, and parts of bodies that nothing holds."""
     _check_conflicts(prepared)
-    unresolved = len(prepared.scene.fixed) + len(prepared.scene.prescribed) - len(prepared.held)
-    if unresolved:
-        return  # what they would hold is not known
-    for name, body in prepared.bodies.items():
-        _check_held(prepared, name, body.mesh)
+    with contextlib.suppress(Unknown):
+        doubtful = _doubtful(prepared)
+        for name, known in prepared.meshes.items():
+            if name not in doubtful:
+                _check_held(prepared, name, known.mesh)
+
+
+def _doubtful(prepared: Prepared) -> set[str]:
+    """Bodies of which it is not known what all supports would hold.
+
+    Raises:
+        Unknown: there may be supports that nothing is known of.
+    """
+    scene, resolved = prepared.scene, {held.path: held for held in prepared.held}
+    doubtful = set()
+    for group in ("fixed", "prescribed"):
+        for number, support in enumerate(getattr(scene, group)):
+            if support.body not in scene.bodies:
+                return set(scene.bodies)  # a name misspelt may mean any of them
+            if (group, number) not in resolved or not hasattr(support, "axes"):
+                doubtful.add(support.body)
+    return doubtful
 
 
 def _check_conflicts(prepared: Prepared) -> None:
@@ -33,16 +53,22 @@ def _check_conflicts(prepared: Prepared) -> None:
     for number, held in enumerate(moved):
         fixed = [other for other in prepared.held if isinstance(other.support, Fixed)]
         for other in [*fixed, *moved[:number]]:
-            if other.support.body != held.support.body:
-                continue
-            axes = "".join(a for a in held.support.axes if a in other.support.axes)
-            both = np.intersect1d(held.nodes, other.nodes)
-            if axes and both.size:
-                text = (
-                    f"{both.size} nodes are held on {axes} by {field_path(other.path)} too "
-                    f"(first: {first_five(both)}); a node takes one motion on an axis"
-                )
-                prepared.findings.problem(held.path, text)
+            with contextlib.suppress(Unknown):
+                _check_pair(prepared, held, other)
+
+
+def _check_pair(prepared: Prepared, held: Held, other: Held) -> None:
+    if other.support.body != held.support.body:
+        return
+    axes = "".join(a for a in held.support.axes if a in other.support.axes)
+    both = np.intersect1d(held.nodes, other.nodes)
+    if axes and both.size:
+        nodes = f"{counted(both.size, 'node')} {are(both.size)} held on {axes}"
+        text = (
+            f"{nodes} by {field_path(other.path)} too "
+            f"(first: {first_five(both)}); a node takes one motion on an axis"
+        )
+        prepared.findings.problem(held.path, text)
 
 
 def held_axes(held: list[Held], body: str, nodes: int) -> Ints:
@@ -56,7 +82,7 @@ def held_axes(held: list[Held], body: str, nodes: int) -> Ints:
 
 def _check_held(prepared: Prepared, name: str, mesh: Mesh) -> None:
     mask = held_axes(prepared.held, name, mesh.node_count)
-    static = prepared.scene.step.type == "static"
+    static, gravity = prepared.scene.step.type == "static", getattr(prepared.scene, "gravity", None)
     part_of_node = _part_of_nodes(mesh)
     parts = int(part_of_node.max()) + 1
     axes = [int(np.bitwise_or.reduce(mask[part_of_node == part])) for part in range(parts)]
@@ -74,10 +100,15 @@ def _check_held(prepared: Prepared, name: str, mesh: Mesh) -> None:
         prepared.findings.note(
             f"bodies.{name}: held at fewer than three nodes, so it may turn freely in a static step"
         )
+    elif not static and not mask.any() and any(gravity or ()):
+        prepared.findings.note(
+            f"bodies.{name}: nothing holds the body, so it falls; hold nodes with `fixed`, "
+            "or leave gravity out"
+        )
     elif loose and mask.any() and any(axes[part] == 0 for part in loose):
         free = sum(axes[part] == 0 for part in loose)
         prepared.findings.note(
-            f"bodies.{name}: {free} of {parts} separate parts have no fixed node and fly free"
+            f"bodies.{name}: {free} of {parts} separate parts without a fixed node fly free"
         )
 
 

@@ -55,12 +55,25 @@ def check_scene(scene: Scene) -> Check:
     return check_of(prepare(scene))
 
 
+def problems_of(scene: Scene) -> list[str]:
+    """All that is wrong with a scene, whose fields may have problems of their own."""
+    return _sentences(prepare(scene))
+
+
 def check_of(prepared: Prepared) -> Check:
-    """The same for a scene that is resolved already."""
+    """The same as check_scene for a scene that is resolved already."""
     scene = prepared.scene
     return Check(
-        problems=[problem.sentence(scene.source) for problem in prepared.findings.problems],
+        problems=_sentences(prepared),
         notes=list(prepared.findings.notes),
         effects=effects_of(scene, prepared.counts()),
         absent=absent_of(scene),
     )
+
+
+def _sentences(prepared: Prepared) -> list[str]:
+    """The problems, in the order of the file's lines where there is a file."""
+    source, problems = prepared.scene.source, list(prepared.findings.problems)
+    if source is not None:
+        problems.sort(key=lambda problem: source.line(problem.path))
+    return [problem.sentence(source) for problem in problems]

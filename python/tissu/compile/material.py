@@ -8,6 +8,7 @@ import numpy as np
 
 from tissu.compile.prepared import Findings, Floats, Group, Ints
 from tissu.compile.select import region_cells
+from tissu.counted import are, counted
 from tissu.errors import ParameterError
 from tissu.mesh.mesh import first_five
 
@@ -81,7 +82,8 @@ def _law_of_cells(mesh: Mesh, body: Body, path: Path, findings: Findings) -> Int
             cells_text = f"first: {first_five(np.flatnonzero(wrong))}"
             findings.problem(
                 (*path, "law"),
-                f"{wrong.sum()} of {len(count)} cells are {words} ({cells_text}); "
+                f"{wrong.sum()} of {counted(len(count), 'cell')} {are(wrong.sum())} {words} "
+                f"({cells_text}); "
                 "each cell needs one law",
             )
     return owner if bool((count == 1).all()) else None

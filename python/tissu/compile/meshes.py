@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from tissu.compile.prepared import Findings
+from tissu.compile.prepared import Findings, KnownMesh
+from tissu.counted import are, counted
 from tissu.errors import TissuError
 from tissu.mesh import bar_mesh, read_mesh
 from tissu.mesh.cell import handled_types
@@ -24,57 +25,68 @@ _TOO_LONG = 50.0  # length [m] that is refused unless the unit is given
 _SLIVER = 0.05  # shape quality below which a cell spoils accuracy and convergence
 
 
-def mesh_of(body: Body, path: Path, findings: Findings) -> Mesh | None:
-    """The body's mesh; None and a problem when it cannot be read or made."""
-    source = body.mesh
+def known_mesh(body: Body, path: Path, findings: Findings) -> KnownMesh | None:
+    """The body's mesh, checked; None when there is none in which anything could be selected.
+
+    Raises:
+        Unknown: the scene does not say which mesh.
+    """
+    place = (*path, "mesh")
     try:
-        if isinstance(source, MeshFile):
-            return read_mesh(source.file, unit=source.unit, scale=source.scale)
-        if isinstance(source, BarMesh):
-            return bar_mesh(
-                size=source.size,
-                cells=source.cells,
-                cell=source.cell,
-                split=source.split,
-                origin=source.origin,
-            )
+        mesh = _mesh_of(body)
     except TissuError as error:
-        findings.problem((*path, "mesh"), str(error))
+        findings.problem(place, str(error))
         return None
+    useless = _useless(mesh)
+    if useless is not None:
+        findings.problem(place, useless)
+        return None
+    if len(mesh.unused_nodes):
+        findings.problem(place, _unused(mesh))
+    positions = _check_length(mesh, body, place, findings)
+    _check_shapes(mesh, place, findings)
+    repeated = _repeated(mesh)
+    for text in repeated:
+        findings.problem(place, text)
+    findings.notes.extend(f"bodies.{path[1]}.mesh: {note}" for note in mesh.notes)
+    return KnownMesh(mesh, positions=positions, surface=not repeated)
+
+
+def _mesh_of(body: Body) -> Mesh:
+    """The mesh, read or made; in the file's own unit when that is unknown."""
+    source = body.mesh
+    if isinstance(source, MeshFile):
+        unit, scale = getattr(source, "unit", "m"), getattr(source, "scale", 1.0)
+        return read_mesh(source.file, unit=unit, scale=scale)
+    if isinstance(source, BarMesh):
+        return bar_mesh(
+            size=source.size,
+            cells=source.cells,
+            cell=source.cell,
+            split=source.split,
+            origin=source.origin,
+        )
     mesh: Mesh = source
     return mesh
 
 
-def check_mesh(mesh: Mesh, body: Body, path: Path, findings: Findings) -> bool:
-    """Whether the mesh can be simulated; problems and notes say what was found."""
-    before = len(findings.problems)
-    place = (*path, "mesh")
-    for text in _unusable(mesh):
-        findings.problem(place, text)
-    if len(findings.problems) > before:
-        return False
-    _check_length(mesh, body, place, findings)
-    _check_shapes(mesh, place, findings)
-    for text in _repeated(mesh):
-        findings.problem(place, text)
-    findings.notes.extend(f"bodies.{path[1]}.mesh: {note}" for note in mesh.notes)
-    return len(findings.problems) == before
-
-
-def _unusable(mesh: Mesh) -> list[str]:
-    """What makes the mesh no mesh of handled volume cells, all of whose nodes are used."""
+def _useless(mesh: Mesh) -> str | None:
+    """Why the mesh is none of handled volume cells."""
     accepted = f"accepted: {one_of_words(handled_types())}"
-    found = []
     if mesh.unhandled:
-        found.append(f"found cells of type {one_of_words(mesh.unhandled)}, not handled; {accepted}")
-    elif not mesh.volume_blocks:
-        types = one_of_words(sorted({block.type for block in mesh.cells})) or "no cells"
-        found.append(f"found {types} only; a body needs volume cells, {accepted}")
-    elif len(mesh.unused_nodes):
-        idle = mesh.unused_nodes
-        text = f"{len(idle)} nodes are used by no volume cell (first: {first_five(idle)})"
-        found.append(f"{text}; mesh.without_unused_nodes() leaves them out")
-    return found
+        return f"found cells of type {one_of_words(mesh.unhandled)}, not handled; {accepted}"
+    if mesh.volume_blocks:
+        return None
+    types = one_of_words(sorted({block.type for block in mesh.cells})) or "no cells"
+    return f"found {types} only; a body needs volume cells, {accepted}"
+
+
+def _unused(mesh: Mesh) -> str:
+    idle = mesh.unused_nodes
+    count = len(idle)
+    text = f"{counted(count, 'node')} {are(count)} used by no volume cell "
+    text += f"(first: {first_five(idle)}); left out by `tissu mesh convert FILE -o OTHER`"
+    return f"{text}, in Python by mesh.without_unused_nodes()"
 
 
 def _repeated(mesh: Mesh) -> list[str]:
@@ -84,28 +96,40 @@ def _repeated(mesh: Mesh) -> list[str]:
         rows = np.sort(np.asarray(block.nodes), axis=1)
         folded = np.flatnonzero((rows[:, 1:] == rows[:, :-1]).any(axis=1))
         if len(folded):
-            text = f"{len(folded)} {block.type} cells name a node twice (first: "
-            found.append(f"{text}{first_five(folded)}); mend the mesh")
+            verb = "names" if len(folded) == 1 else "name"
+            text = f"{counted(len(folded), f'{block.type} cell')} {verb} a node twice"
+            found.append(f"{text} (first: {first_five(folded)}); mend the mesh")
         _, first, count = np.unique(rows, axis=0, return_index=True, return_counts=True)
         if (count > 1).any():
             twice = np.sort(first[count > 1])
-            text = f"{len(twice)} {block.type} cells are in the mesh more than once (first: "
-            found.append(f"{text}{first_five(twice)}); leave the copies out")
+            cells = f"{counted(len(twice), f'{block.type} cell')} {are(len(twice))}"
+            text = f"{cells} in the mesh more than once (first: {first_five(twice)})"
+            found.append(f"{text}; leave the copies out")
     return found
 
 
-def _check_length(mesh: Mesh, body: Body, place: Path, findings: Findings) -> None:
-    """A body many metres long is most likely a mesh in millimetres."""
+def _check_length(mesh: Mesh, body: Body, place: Path, findings: Findings) -> bool:
+    """Whether the length is beyond doubt; a body many metres long is most likely in millimetres."""
+    if not _unit_is_known(body):
+        return False
     length = float((mesh.bounds[1] - mesh.bounds[0]).max())
     if length <= _LONG:
-        return
+        return True
     text = f"the body is {length:.4g} m long (a mesh in millimetres?)"
     if length > _TOO_LONG and not _unit_is_explicit(mesh, body):
         findings.problem(
             place, f"{text}; say its unit, such as unit: mm, or unit: m when it is so long"
         )
-    else:
-        findings.note(f"{field_path(place)}: {text}")
+        return False
+    findings.note(f"{field_path(place)}: {text}")
+    return True
+
+
+def _unit_is_known(body: Body) -> bool:
+    source = body.mesh
+    return not isinstance(source, MeshFile) or (
+        hasattr(source, "unit") and hasattr(source, "scale")
+    )
 
 
 def _unit_is_explicit(mesh: Mesh, body: Body) -> bool:
@@ -119,7 +143,7 @@ def _check_shapes(mesh: Mesh, place: Path, findings: Findings) -> None:
     report = mesh.quality()
     for wrong, words in ((report.inverted, "inside out"), (report.zero_volume, "without volume")):
         if len(wrong):
-            share = f"{len(wrong)} of {mesh.cell_count} cells are {words}"
+            share = f"{len(wrong)} of {counted(mesh.cell_count, 'cell')} {are(len(wrong))} {words}"
             findings.problem(
                 place,
                 f"{share} (first: {first_five(wrong)}); cells of positive volume are accepted: "
@@ -128,5 +152,6 @@ def _check_shapes(mesh: Mesh, place: Path, findings: Findings) -> None:
     slivers = np.setdiff1d(np.flatnonzero(report.shapes < _SLIVER), report.zero_volume)
     if slivers.size and not len(report.inverted):
         limit = f"with a shape quality below {_SLIVER}"
-        text = f"{slivers.size} cells are slivers, {limit} (first: {first_five(slivers)})"
+        count = f"{counted(slivers.size, 'sliver')} among the cells"
+        text = f"{count}, {limit} (first: {first_five(slivers)})"
         findings.note(f"{field_path(place)}: {text}; they cost accuracy and solver iterations")

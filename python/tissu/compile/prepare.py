@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
+import contextlib
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from tissu.compile.balance import check_supports
 from tissu.compile.material import cell_groups, density_of
-from tissu.compile.meshes import check_mesh, mesh_of
+from tissu.compile.meshes import known_mesh
 from tissu.compile.prepared import Held, Ints, LoadedNodes, Prepared, PreparedBody
 from tissu.compile.select import selected_nodes, selected_triangles
+from tissu.counted import counted
 from tissu.errors import ParameterError
+from tissu.scene.part import problems_in
+from tissu.scene.unknown import Unknown
 
 if TYPE_CHECKING:
     from tissu.mesh import Mesh
@@ -21,51 +25,67 @@ if TYPE_CHECKING:
     from tissu.scene.selection import Selection
     from tissu.scene.support import Fixed, Prescribed
 
+_WITHOUT_POSITIONS = ("nodes", "surface", "region")  # selections that need no lengths
+
 
 def prepare(scene: Scene) -> Prepared:
-    """Resolve a scene as far as its problems allow; never raises for a problem of the scene."""
+    """Resolve a scene as far as its problems allow; never raises for a problem of the scene.
+
+    The scene's own fields may have problems: what they leave unknown is passed over.
+    """
     prepared = Prepared(scene)
-    for name in scene.bodies:
+    prepared.findings.problems += problems_in(scene)
+    for name in getattr(scene, "bodies", {}):
         _prepare_body(prepared, name)
-    groups: dict[str, tuple[Fixed | Prescribed, ...]] = {
-        "fixed": scene.fixed,
-        "prescribed": scene.prescribed,
-    }
-    for group, supports in groups.items():
-        for number, support in enumerate(supports):
-            nodes = _nodes(prepared, (group, number), support.body, support.on)
-            if nodes is not None:
-                prepared.held.append(Held(support, (group, number), nodes))
-    for number, load in enumerate(scene.loads):
-        _prepare_load(prepared, ("loads", number), load)
+    for group in ("fixed", "prescribed"):
+        for number, support in enumerate(getattr(scene, group, ())):
+            _prepare_support(prepared, (group, number), support)
+    for number, load in enumerate(getattr(scene, "loads", ())):
+        with contextlib.suppress(Unknown):
+            _prepare_load(prepared, ("loads", number), load)
     check_supports(prepared)
     return prepared
 
 
 def _prepare_body(prepared: Prepared, name: str) -> None:
     body, findings, path = prepared.scene.bodies[name], prepared.findings, ("bodies", name)
-    mesh = mesh_of(body, path, findings)
-    if mesh is None or not check_mesh(mesh, body, path, findings):
-        return
-    groups = cell_groups(mesh, body, path, findings)
-    prepared.bodies[name] = PreparedBody(mesh, groups, density_of(body, mesh, path, findings))
+    before = len(findings.problems)
+    with contextlib.suppress(Unknown):
+        known = known_mesh(body, path, findings)
+        if known is None:
+            return
+        prepared.meshes[name] = known
+        groups = cell_groups(known.mesh, body, path, findings)
+        if len(findings.problems) == before:
+            density = density_of(body, known.mesh, path, findings)
+            prepared.bodies[name] = PreparedBody(known.mesh, groups, density)
+
+
+def _prepare_support(prepared: Prepared, path: Path, support: Fixed | Prescribed) -> None:
+    with contextlib.suppress(Unknown):
+        nodes = _nodes(prepared, path, support.body, support.on)
+        if nodes is not None:
+            prepared.held.append(Held(support, path, nodes))
 
 
 def _nodes(prepared: Prepared, path: Path, body: str, on: Selection) -> Ints | None:
     """Selected nodes; None, and maybe a problem, when there are none."""
-    if body not in prepared.bodies:
-        return None  # its mesh has a problem already
-    mesh = prepared.bodies[body].mesh
+    known = prepared.meshes.get(body)
+    if known is None:
+        return None  # no such body, or none that can be read: told already
+    if not (known.positions or on.type in _WITHOUT_POSITIONS):
+        return None
+    if on.type == "surface" and not known.surface:
+        return None
     try:
-        nodes = selected_nodes(on, mesh)
+        nodes = selected_nodes(on, known.mesh)
     except ParameterError as error:
         prepared.findings.problem((*path, "on"), str(error))
         return None
     if nodes.size:
         return nodes
-    prepared.findings.problem(
-        (*path, "on"), f"{_words(on)} selects no node of body '{body}', which {_extent(mesh)}"
-    )
+    text = f"{_words(on)} selects no node of body '{body}', which {_extent(known.mesh)}"
+    prepared.findings.problem((*path, "on"), text)
     return None
 
 
@@ -74,10 +94,11 @@ def _prepare_load(prepared: Prepared, path: Path, load: Load) -> None:
     if nodes is None:
         return
     triangles: Ints = np.empty((0, 3), dtype=np.int32)
-    if load.type != "nodal":
-        triangles = selected_triangles(nodes, prepared.bodies[load.body].mesh)
+    known = prepared.meshes[load.body]
+    if load.type != "nodal" and known.surface:
+        triangles = selected_triangles(nodes, known.mesh)
         if not len(triangles):
-            text = f"{_words(load.on)} selects {len(nodes)} nodes of body '{load.body}'"
+            text = f"{_words(load.on)} selects {counted(len(nodes), 'node')} of body '{load.body}'"
             text += ", but no face of its surface with all its nodes"
             prepared.findings.problem((*path, "on"), text)
             return
@@ -86,8 +107,18 @@ def _prepare_load(prepared: Prepared, path: Path, load: Load) -> None:
 
 def _words(on: Selection) -> str:
     fields = {name: getattr(on, name) for name in type(on).model_fields if name != "type"}
-    text = ", ".join(f"{name} {value}" for name, value in fields.items())
+    text = ", ".join(f"{name} {_shown(value)}" for name, value in fields.items())
     return f"the {on.type} ({text})" if text else f"the {on.type}"
+
+
+def _shown(value: object) -> str:
+    """A field of a selection in a sentence; what is absent is open."""
+    if value is None:
+        return "open"
+    if isinstance(value, tuple):
+        few = [_shown(item) for item in value[:6]] + ["..."] * (len(value) > 6)
+        return f"({', '.join(few)})"
+    return f"{value:g}" if isinstance(value, float) else f"{value}"
 
 
 def _extent(mesh: Mesh) -> str:

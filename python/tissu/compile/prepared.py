@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from tissu.counted import counted
 from tissu.scene.problem import Path, Problem
 
 if TYPE_CHECKING:
@@ -61,6 +62,21 @@ class Group:
 
 
 @dataclass(frozen=True, slots=True)
+class KnownMesh:
+    """A mesh that can be simulated or, when it has problems, what may be asked of it.
+
+    Attributes:
+        mesh: the mesh.
+        positions: whether its length is beyond doubt, so that boxes and the like mean something.
+        surface: whether its cells are beyond doubt, so that its faces are those of the body.
+    """
+
+    mesh: Mesh
+    positions: bool = True
+    surface: bool = True
+
+
+@dataclass(frozen=True, slots=True)
 class PreparedBody:
     """A body with its mesh, the blocks it is made of, and its density [kg/m^3]."""
 
@@ -90,23 +106,29 @@ class LoadedNodes:
 
 @dataclass(slots=True)
 class Prepared:
-    """A scene, resolved as far as its problems allow."""
+    """A scene, resolved as far as its problems allow.
+
+    Attributes:
+        meshes: those in which nodes can be selected, whether or not they have problems.
+        bodies: those without any problem.
+    """
 
     scene: Scene
     findings: Findings = field(default_factory=Findings)
+    meshes: dict[str, KnownMesh] = field(default_factory=dict)
     bodies: dict[str, PreparedBody] = field(default_factory=dict)
     held: list[Held] = field(default_factory=list)
     loaded: list[LoadedNodes] = field(default_factory=list)
 
     def counts(self) -> dict[str, str]:
         """What each support and load selects: "fixed[0]" -> "42 nodes"."""
-        counts = {f"{h.path[0]}[{h.path[1]}]": f"{len(h.nodes)} nodes" for h in self.held}
+        counts = {f"{h.path[0]}[{h.path[1]}]": counted(len(h.nodes), "node") for h in self.held}
         for loaded in self.loaded:
             faces = len(loaded.triangles)
             text = (
-                f"{faces} triangles"
+                counted(faces, "triangle")
                 if loaded.load.type != "nodal"
-                else f"{len(loaded.nodes)} nodes"
+                else counted(len(loaded.nodes), "node")
             )
             counts[f"{loaded.path[0]}[{loaded.path[1]}]"] = text
         return counts

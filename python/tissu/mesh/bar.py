@@ -43,16 +43,21 @@ def bar_mesh(
         origin: smallest corner [m].
 
     Raises:
-        ParameterError: a length or a number that is not positive, or an unknown cell or split.
+        ParameterError: a length or a number that is not positive, an unknown cell or split, or a
+            split of cells that are no tetrahedra.
     """
     if cell not in handled_types():
         raise ParameterError(f"found cell '{cell}'; {', '.join(handled_types())} are accepted")
     if split not in get_args(Split):
         raise ParameterError(f"found split '{split}'; {', '.join(get_args(Split))} are accepted")
     base = linear_type(cell)
-    points, nodes = grid(
-        size=size, cells=cells, origin=origin, split=split if base == "tetra" else "none"
-    )
+    if split != "six" and base != "tetra":
+        raise ParameterError(
+            f"found split '{split}' of cells of type {cell}; only tetra and tetra10 are split: "
+            "leave split out"
+        )
+    cut = split if base == "tetra" else "none"
+    points, nodes = grid(size=size, cells=cells, origin=origin, split=cut)
     if base == "wedge":
         ((_, nodes),) = into_wedges(nodes, triangles_along_x=False)
     elif base == "pyramid":

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from tissu import _core
+from tissu.counted import counted
 from tissu.errors import MeshError
 from tissu.mesh import surface as surfaces
 from tissu.mesh.cell import CellBlock, Floats, Ints, dimension, handled_types
@@ -142,14 +143,15 @@ class Mesh:
             self,
             points=self.points[keep],
             cells=tuple(block for block in blocks if len(block)),
-            notes=(*self.notes, f"{len(unused)} nodes dropped: no cell uses them"),
+            notes=(*self.notes, f"{counted(len(unused), 'node')} dropped: no cell uses them"),
         )
 
     def __repr__(self) -> str:
         """Counts and origin."""
         cells = ", ".join(f"{len(block)} {block.type}" for block in self.cells) or "no cells"
+        nodes = counted(self.node_count, "node")
         origin = f", from {self.source}" if self.source else ""
-        return f"Mesh({self.node_count} nodes, {cells}{origin})"
+        return f"Mesh({nodes}, {cells}{origin})"
 
     def _require_finite(self) -> None:
         wrong = np.flatnonzero(~np.isfinite(self.points).all(axis=1))

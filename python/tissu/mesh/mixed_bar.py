@@ -6,6 +6,7 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
+from tissu.counted import counted
 from tissu.errors import ParameterError
 from tissu.mesh import cut
 from tissu.mesh.bar import counts, grid, with_centres
@@ -42,7 +43,7 @@ def mixed_bar_mesh(
     parts, number = segments_of(segments), counts(cells)
     if number[0] % len(parts):
         raise ParameterError(
-            f"found {number[0]} cells along x for {len(parts)} segments; "
+            f"found {counted(number[0], 'cell')} along x for {counted(len(parts), 'segment')}; "
             f"a multiple of {len(parts)} is accepted"
         )
     points, corners = grid(size=size, cells=cells, origin=origin)

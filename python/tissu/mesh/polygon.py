@@ -7,6 +7,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from tissu.counted import counted
+
 Block = tuple[str, NDArray[Any]]
 
 
@@ -26,10 +28,10 @@ def face_blocks(sizes: NDArray[Any], corners: NDArray[Any]) -> tuple[list[Block]
         polygon = _rows(corners, start, sizes, int(size))
         triangles += [polygon[:, [0, i, i + 1]] for i in range(1, int(size) - 1)]
     if large:
-        notes.append(f"{large} faces of more than four corners split into triangles")
+        notes.append(f"{counted(large, 'face')} of more than four corners split into triangles")
     degenerate = int(np.sum(sizes < 3))
     if degenerate:
-        notes.append(f"{degenerate} faces of fewer than three corners left out")
+        notes.append(f"{counted(degenerate, 'face')} of fewer than three corners left out")
     blocks = [("triangle", np.concatenate(triangles)), ("quad", _rows(corners, start, sizes, 4))]
     return [block for block in blocks if len(block[1])], notes
 

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tissu import _core
+from tissu.counted import are, counted
 from tissu.errors import MeshError, ParameterError
 from tissu.mesh.cell import CellBlock, Floats, Ints, dimension, handled_types
 from tissu.mesh.format import reader, sniffed
@@ -85,7 +86,8 @@ def _ordered(raw: RawMesh, factor: float, *, source: str, unit: str, scale: floa
     notes += _left_out(blocks) + turned
     if len(unused):
         kind = "volume cell" if mesh.volume_blocks else "cell"
-        notes.append(f"{len(unused)} nodes are used by no {kind} ({first_five(unused)})")
+        idle = f"{counted(len(unused), 'node')} {are(len(unused))} used by no {kind}"
+        notes.append(f"{idle} ({first_five(unused)})")
     regions = _regions(raw, rows, blocks)
     return dataclasses.replace(mesh, cells=blocks, regions=regions, notes=tuple(notes))
 
@@ -123,7 +125,7 @@ def _turned(mesh: Mesh) -> tuple[tuple[CellBlock, ...], list[str]]:
         return mesh.cells, []
     turned = dict(native)
     blocks = tuple(CellBlock(b.type, turned.get(b.type, b.nodes)) for b in mesh.cells)
-    return blocks, [f"{count} cells with reversed winding turned round"]
+    return blocks, [f"{counted(count, 'cell')} with reversed winding turned round"]
 
 
 def _left_out(blocks: tuple[CellBlock, ...]) -> list[str]:
@@ -131,7 +133,7 @@ def _left_out(blocks: tuple[CellBlock, ...]) -> list[str]:
     if not any(dimension(block.type) == 3 for block in blocks):
         return []
     return [
-        f"{len(block)} cells of type {block.type} left out of the volume"
+        f"{counted(len(block), 'cell')} of type {block.type} left out of the volume"
         for block in blocks
         if dimension(block.type) < 3
     ]

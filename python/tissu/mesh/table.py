@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from tissu.counted import counted
 from tissu.mesh.mesh import first_five
 
 if TYPE_CHECKING:
@@ -16,7 +17,9 @@ if TYPE_CHECKING:
 def table(report: QualityReport) -> str:
     """One line for each fact; faults only where there are some."""
     rows = [*_extent(report), *_surface(report), *_shapes(report), *_faults(report)]
-    rows += [("region", f"{name}: {count} cells") for name, count in report.regions.items()]
+    rows += [
+        ("region", f"{name}: {counted(count, 'cell')}") for name, count in report.regions.items()
+    ]
     rows += [("note", note) for note in report.notes]
     return "\n".join([report.name, *(f"  {label:<14} {text}" for label, text in rows)])
 
@@ -34,8 +37,12 @@ def _extent(report: QualityReport) -> Iterator[tuple[str, str]]:
 
 
 def _surface(report: QualityReport) -> Iterator[tuple[str, str]]:
-    state = "closed" if report.closed else f"open: {report.open_edges} edges with one triangle"
-    yield "surface", f"{report.triangles} triangles, {report.area:.5g} m2, {state}"
+    state = (
+        "closed"
+        if report.closed
+        else f"open: {counted(report.open_edges, 'edge')} with one triangle"
+    )
+    yield "surface", f"{counted(report.triangles, 'triangle')}, {report.area:.5g} m2, {state}"
 
 
 def _shapes(report: QualityReport) -> Iterator[tuple[str, str]]:
@@ -53,20 +60,24 @@ def _shapes(report: QualityReport) -> Iterator[tuple[str, str]]:
 
 def _faults(report: QualityReport) -> Iterator[tuple[str, str]]:
     numbered = (
-        ("INVERTED", report.inverted, "cells inside out"),
-        ("NO VOLUME", report.zero_volume, "cells flat"),
-        ("UNUSED", report.unused_nodes, "nodes that no cell uses"),
+        ("INVERTED", report.inverted, "cell", "inside out"),
+        ("NO VOLUME", report.zero_volume, "cell", "flat"),
+        ("UNUSED", report.unused_nodes, "node", "that no cell uses"),
     )
-    for label, numbers, what in numbered:
+    for label, numbers, noun, what in numbered:
         if len(numbers):
-            yield label, f"{len(numbers)} {what} ({first_five(numbers)})"
+            yield label, f"{counted(len(numbers), noun)} {what} ({first_five(numbers)})"
     if report.overfull_faces:
-        yield "OVERLAP", f"{report.overfull_faces} faces shared by more than two cells"
+        yield "OVERLAP", f"{counted(report.overfull_faces, 'face')} shared by more than two cells"
     if report.nonconforming_faces:
         cells = f"(cells {first_five(report.nonconforming_cells)})"
-        yield "NO MATCH", f"{report.nonconforming_faces} faces that do not match {cells}"
+        faces = counted(report.nonconforming_faces, "face")
+        verb = "does" if report.nonconforming_faces == 1 else "do"
+        yield "NO MATCH", f"{faces} that {verb} not match {cells}"
     if report.clashing_edges:
-        text = f"{report.clashing_edges} edges whose triangles are wound against each other"
+        text = (
+            f"{counted(report.clashing_edges, 'edge')} whose triangles are wound against each other"
+        )
         yield "WINDING", text
     if report.volume < 0.0 and not report.solid:
         yield "WINDING", "faces are wound inwards"

@@ -3,24 +3,18 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
 
-from pydantic import (
-    BeforeValidator,
-    Field,
-    PlainValidator,
-    ValidationInfo,
-    field_validator,
-    model_validator,
-)
-from typing_extensions import Self
+from pydantic import AfterValidator, BeforeValidator, Field, PlainValidator, ValidationInfo
 
 from tissu import units
 from tissu.errors import ParameterError
 from tissu.scene.law import Law, LawOrMap, Rayleigh
 from tissu.scene.part import Part, chosen
+from tissu.scene.problem import Problem
+from tissu.scene.unknown import rule
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -41,13 +35,29 @@ BarCell = Literal[
 ]
 
 
+def _from_base(file: Path, info: ValidationInfo) -> Path:
+    base = info.context.get("base") if isinstance(info.context, dict) else None
+    return Path(base) / file if base is not None else file
+
+
+def _length_unit(unit: str) -> str:
+    units.LENGTH(f"1 {unit}")
+    return unit
+
+
+def _positive(size: tuple[float, ...]) -> tuple[float, ...]:
+    if min(size) <= 0:
+        raise ParameterError(f"found {size}; three positive lengths are accepted")
+    return size
+
+
 class MeshFile(Part):
     """A mesh in a file; in YAML its path is relative to the YAML file."""
 
     positional: ClassVar[tuple[str, ...]] = ("file",)
-    file: Path
+    file: Annotated[Path, AfterValidator(_from_base)]
     """path of the mesh file"""
-    unit: str = "m"
+    unit: Annotated[str, AfterValidator(_length_unit)] = "m"
     """unit of length the file is written in"""
     scale: Annotated[units.Pure, Field(gt=0.0)] = 1.0
     """factor on all lengths, after the unit"""
@@ -58,31 +68,19 @@ class MeshFile(Part):
             self, file: str | os.PathLike[str], *, unit: str = ..., scale: units.Number = ...
         ) -> None: ...
 
-    @field_validator("file")
-    @classmethod
-    def _from_base(cls, file: Path, info: ValidationInfo) -> Path:
-        base = info.context.get("base") if isinstance(info.context, dict) else None
-        return Path(base) / file if base is not None else file
-
-    @field_validator("unit")
-    @classmethod
-    def _length_unit(cls, unit: str) -> str:
-        units.LENGTH(f"1 {unit}")
-        return unit
-
 
 class BarMesh(Part):
     """A box cut into like cells."""
 
     type: Literal["bar"] = "bar"
-    size: units.Position
+    size: Annotated[units.Position, AfterValidator(_positive)]
     """lengths along x, y, z [m]"""
     cells: Annotated[tuple[_Count, _Count, _Count], BeforeValidator(units.listed)]
     """numbers of boxes along x, y, z"""
     cell: BarCell = "tetra"
     """cell type"""
     split: Literal["six", "five", "six_mirrored"] = "six"
-    """how a box is cut into tetrahedra"""
+    """how a box is cut into tetrahedra; of `tetra` and `tetra10` only"""
     origin: units.Position = (0.0, 0.0, 0.0)
     """smallest corner [m]"""
 
@@ -98,12 +96,11 @@ class BarMesh(Part):
             origin: units.VectorLike = ...,
         ) -> None: ...
 
-    @field_validator("size")
-    @classmethod
-    def _positive(cls, size: tuple[float, ...]) -> tuple[float, ...]:
-        if min(size) <= 0:
-            raise ParameterError(f"found {size}; three positive lengths are accepted")
-        return size
+    @rule("cell", "split")
+    def _splits_tetrahedra(self) -> Iterator[Problem]:
+        if self.split != "six" and not self.cell.startswith("tetra"):
+            text = f"found split {self.split} of cells of type {self.cell}"
+            yield Problem((), f"{text}; only tetra and tetra10 are split: leave split out")
 
 
 def _is_mesh(value: object) -> bool:
@@ -150,14 +147,12 @@ class Body(Part):
             viscosity: Rayleigh | None = ...,
         ) -> None: ...
 
-    @model_validator(mode="after")
-    def _one_of_density_and_mass(self) -> Self:
+    @rule("density", "mass")
+    def _one_of_density_and_mass(self) -> Iterator[Problem]:
         if (self.density is None) == (self.mass is None):
             found = "neither" if self.density is None else "both"
-            raise ParameterError(
-                f"found {found} of density and mass; exactly one of them is accepted"
-            )
-        return self
+            text = f"found {found} of density and mass; exactly one of them is accepted"
+            yield Problem((), text)
 
     def laws(self) -> dict[str | None, Law]:
         """Laws by region; the key None stands for the whole body."""

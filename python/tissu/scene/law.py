@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from functools import lru_cache
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
 
-from pydantic import Field, PlainValidator, TypeAdapter, ValidationInfo, model_validator
-from typing_extensions import Self
+from pydantic import Field, PlainValidator, TypeAdapter, ValidationInfo
 
 from tissu import units
 from tissu.errors import ParameterError
-from tissu.scene.part import Part, chosen
+from tissu.scene.part import Part, chosen, keeps_problems
+from tissu.scene.problem import Problem
+from tissu.scene.unknown import Unread, rule
 
 if TYPE_CHECKING:
     from tissu.user_law.made import MadeLaw
@@ -37,6 +38,12 @@ class Fibres(Part):
         def __init__(
             self, *, k1: units.Number, k2: units.Number, direction: Sequence[float]
         ) -> None: ...
+
+    @rule("direction")
+    def _has_direction(self) -> Iterator[Problem]:
+        if not any(self.direction):
+            text = "found the direction (0, 0, 0); one that is not zero is accepted: [0, 0, 1]"
+            yield Problem((), text)
 
 
 class _Law(Part):
@@ -115,6 +122,12 @@ class MooneyRivlin(_Law):
             fibres: Fibres | None = ...,
         ) -> None: ...
 
+    @rule("c1", "c2")
+    def _stiff_at_rest(self) -> Iterator[Problem]:
+        if not self.c1 + self.c2 > 0.0:
+            found = f"found c1 + c2 = {self.c1 + self.c2:g} Pa, half the shear modulus"
+            yield Problem((), f"{found}; a sum above 0 is accepted")
+
 
 class Yeoh(_Law):
     """Yeoh, nearly incompressible: c1 x + c2 x^2 + c3 x^3 + kappa/2 (J - 1)^2, x = Ibar1 - 3."""
@@ -182,12 +195,15 @@ class UserLaw(_Law):
 
     __hash__ = None  # type: ignore[assignment]
 
-    @model_validator(mode="after")
-    def _material(self) -> Self:
+    @rule()
+    def _material(self) -> Iterator[Problem]:
         made = type(self).made
-        if made is not None:
+        if made is None:
+            return
+        try:
             made.check({name: getattr(self, name) for name in made.parameters})
-        return self
+        except ParameterError as error:
+            yield Problem((), str(error))
 
 
 class Rayleigh(Part):
@@ -203,11 +219,11 @@ class Rayleigh(Part):
 
         def __init__(self, *, mass: units.Number = ..., stiffness: units.Number = ...) -> None: ...
 
-    @model_validator(mode="after")
-    def _some(self) -> Self:
+    @rule("mass", "stiffness")
+    def _some(self) -> Iterator[Problem]:
         if not (self.mass or self.stiffness):
-            raise ParameterError("found no mass and no stiffness; leave viscosity out to have none")
-        return self
+            text = "found no mass and no stiffness; leave viscosity out to have none"
+            yield Problem((), text)
 
 
 LAWS: tuple[type[Part], ...] = (
@@ -231,8 +247,15 @@ def _one_law(value: Any, info: ValidationInfo) -> Any:
     """A law: in Python by class; in YAML by its `type`, one's own too where the scene has them."""
     if isinstance(value, UserLaw):
         return value
-    own = info.context.get("laws", ()) if isinstance(info.context, dict) else ()
-    return chosen(value, (*LAWS, *own), info)
+    context = info.context if isinstance(info.context, dict) else {}
+    try:
+        return chosen(value, (*LAWS, *context.get("laws", ())), info)
+    except ParameterError as error:
+        if not keeps_problems(info):
+            raise
+        if context.get("laws_refused") and isinstance(value, Mapping) and "type" in value:
+            return Unread()  # it may be of a file that is told already
+        return Unread((Problem((), str(error)),))
 
 
 OneLaw = Annotated[Law, PlainValidator(_one_law)]

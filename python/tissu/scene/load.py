@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import TYPE_CHECKING, Annotated, ClassVar, Literal
 
-from pydantic import model_validator
-from typing_extensions import Self
-
 from tissu import units
-from tissu.errors import ParameterError
 from tissu.scene.part import Part, one_of
+from tissu.scene.problem import Problem
 from tissu.scene.selection import On, Selection
 from tissu.scene.support import IncreasingTimes, same_length
+from tissu.scene.unknown import rule
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -32,14 +31,14 @@ class _Load(Part):
     factors: units.Factors | None = None
     """factor of the load at each time, linear between, held at the ends"""
 
-    @model_validator(mode="after")
-    def _series(self) -> Self:
+    @rule("times", "factors")
+    def _series(self) -> Iterator[Problem]:
         if (self.times is None) != (self.factors is None):
             given, absent = ("times", "factors") if self.factors is None else ("factors", "times")
-            raise ParameterError(f"found {given} without {absent}; both or neither are accepted")
-        if self.times is not None and self.factors is not None:
-            same_length("factors", self.factors, self.times)
-        return self
+            text = f"found {given} without {absent}; both or neither are accepted"
+            yield Problem((), text)
+        elif self.times is not None and self.factors is not None:
+            yield from same_length("factor", self.factors, self.times)
 
 
 class NodalLoad(_Load):

@@ -2,29 +2,29 @@
 
 from __future__ import annotations
 
-import ast
-import inspect
-import itertools
-import reprlib
-import textwrap
-from collections.abc import Callable, Mapping, Sequence
-from typing import Any, ClassVar
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from pydantic import (
     BaseModel,
     ConfigDict,
     PlainValidator,
+    PrivateAttr,
     ValidationError,
     ValidationInfo,
+    field_validator,
     model_validator,
 )
-from pydantic_core import ErrorDetails, InitErrorDetails, PydanticCustomError
 from typing_extensions import Self
 
 from tissu.errors import ParameterError, SceneError
-from tissu.scene.problem import Path, Problem, nearest, one_of_words
+from tissu.scene.explain import explained, failure, meaning
+from tissu.scene.problem import Problem, nearest, nearest_word, one_of_words
+from tissu.scene.unknown import Unknown, Unread, below, nested, rules_of, told
+from tissu.units import written
 
-_EXPLAINED = "tissu"  # mark of an error whose text is already a plain sentence
+KEEP_PROBLEMS = "keep_problems"
+"""Key of the validation context: a part with problems is kept for what is known of it."""
 
 
 class Part(BaseModel):
@@ -43,6 +43,7 @@ class Part(BaseModel):
         use_attribute_docstrings=True,
     )
     positional: ClassVar[tuple[str, ...]] = ()
+    _problems: tuple[Problem, ...] = PrivateAttr(default=())
 
     def __init__(self, *values: Any, **fields: Any) -> None:
         """Make the part from its fields.
@@ -59,25 +60,65 @@ class Part(BaseModel):
             if name in fields:
                 raise TypeError(f"{type(self).__name__} got {name} twice")
             fields[name] = value
-        try:
-            super().__init__(**fields)
-        except ValidationError as error:
-            name = type(self).__name__
-            raise SceneError(
-                [f"{name}: {problem.sentence()}" for problem in problems_of(error)]
-            ) from None
+        self.__pydantic_validator__.validate_python(
+            fields, self_instance=self, context={KEEP_PROBLEMS: True}
+        )
+        if next(problems_in(self), None) is not None:
+            raise SceneError([f"{type(self).__name__}: {text}" for text in self._refusal()])
 
     # Tells pydantic that a nested part need not be made through this __init__, so that the
-    # problems of all parts are gathered in one ValidationError.
+    # problems of all parts are gathered.
     __init__.__pydantic_base_init__ = True  # type: ignore[attr-defined]
 
-    @model_validator(mode="wrap")
+    if not TYPE_CHECKING:
+
+        def __getattr__(self, name: str) -> Any:
+            if name in type(self).model_fields:
+                raise Unknown(name)
+            return super().__getattr__(name)
+
+    def _refusal(self) -> list[str]:
+        """Everything that is wrong with the part, one sentence each."""
+        return [problem.sentence() for problem in problems_in(self)]
+
+    @field_validator("*", mode="wrap")
     @classmethod
-    def _explain(cls, value: Any, handler: Callable[[Any], Self]) -> Self:
+    def _read_field(cls, value: Any, handler: Callable[[Any], Any]) -> Any:
+        if isinstance(value, Unread):
+            return value
         try:
             return handler(value)
         except ValidationError as error:
-            raise explained(error, cls, value) from None
+            return Unread(tuple(explained(error, value)))
+
+    @model_validator(mode="wrap")
+    @classmethod
+    def _read(cls, value: Any, handler: Callable[[Any], Self], info: ValidationInfo) -> Self:
+        """Read all fields, then follow the rules between those that are known."""
+        if isinstance(value, cls):
+            return value
+        fields, problems = _sorted_out(cls, value)
+        part = handler(fields)
+        part._settle(problems)
+        found = list(problems_in(part))
+        if found and not keeps_problems(info):
+            raise failure(found, cls.__name__)
+        return part
+
+    def _settle(self, problems: list[Problem]) -> None:
+        """Take unread fields out, and those that break a rule; keep what is wrong with them."""
+        unread = [name for name, value in self.__dict__.items() if isinstance(value, Unread)]
+        for name in unread:
+            problems += self._forget(name)
+        broken = [(told(check(self)), fields) for check, fields in rules_of(type(self)).values()]
+        for found, fields in broken:
+            problems += found
+            for name in fields if found else ():
+                problems += self._forget(name)
+        self._problems = tuple(problems)
+
+    def _forget(self, name: str) -> list[Problem]:
+        return list(below(name, problems_in(self.__dict__.pop(name, None))))
 
     def replace(self, **changes: Any) -> Self:
         """The same part with some fields changed, validated again."""
@@ -85,102 +126,59 @@ class Part(BaseModel):
         return type(self)(**{**fields, **changes})
 
 
-def problems_of(error: ValidationError) -> list[Problem]:
-    """The problems that a validation found."""
-    return [Problem(tuple(e["loc"]), _text(e)) for e in error.errors(include_url=False)]
+def keeps_problems(info: ValidationInfo) -> bool:
+    """Whether a part with problems is kept, with its problems, instead of refused."""
+    return isinstance(info.context, dict) and bool(info.context.get(KEEP_PROBLEMS))
 
 
-def failure(problems: Sequence[tuple[Path, str]], title: str) -> ValidationError:
-    """A validation error with these places and sentences."""
-    return ValidationError.from_exception_data(
-        title, [_line(path, text) for path, text in problems]
-    )
+def problems_in(value: object) -> Iterator[Problem]:
+    """The problems of a part and of all parts within it."""
+    if isinstance(value, Unread):
+        yield from value.problems
+        return
+    if isinstance(value, Part):
+        yield from value._problems
+        value = value.__dict__
+    for place, item in nested(value):
+        if isinstance(item, (Part, Unread, Mapping, list, tuple)):
+            yield from below(place, problems_in(item))
 
 
-def explained(error: ValidationError, cls: type[Part], value: object) -> ValidationError:
-    """The same errors, each a plain sentence that knows the class and what was found."""
-    lines = []
-    for details in error.errors(include_url=False):
-        text = (
-            _text(details) if details["type"] == _EXPLAINED else _explanation(details, cls, value)
-        )
-        lines.append(_line(tuple(details["loc"]), text))
-    return ValidationError.from_exception_data(cls.__name__, lines)
+def _sorted_out(cls: type[Part], value: object) -> tuple[dict[str, Any], list[Problem]]:
+    """A value for each field that is written or needed, and what is wrong with the keys.
 
-
-def _line(path: Path, text: str) -> InitErrorDetails:
-    return InitErrorDetails(
-        type=PydanticCustomError(_EXPLAINED, "{text}", {"text": text}), loc=path, input=None
-    )
-
-
-def _text(details: ErrorDetails) -> str:
-    if details["type"] == "value_error" and "error" in details.get("ctx", {}):
-        return str(details["ctx"]["error"])
-    return details["msg"]
-
-
-_BOUNDS = {
-    "greater_than": "more than {gt:g}",
-    "greater_than_equal": "at least {ge:g}",
-    "less_than": "less than {lt:g}",
-}
-
-
-def _explanation(details: ErrorDetails, cls: type[Part], value: object) -> str:
-    kind, path = details["type"], details["loc"]
-    context: dict[str, Any] = details.get("ctx", {})
-    found = details["input"]
-    if len(path) == 1 and isinstance(value, Mapping):
-        found = value.get(path[0], found)  # as written, before its unit was read
-    shown = reprlib.repr(found)
-    if kind == "value_error":
-        return _text(details)
-    if kind == "extra_forbidden":
-        known = list(cls.model_fields)
-        return f"unknown key{nearest(path[-1], known)} Accepted: {one_of_words(known)}"
-    if kind == "missing":
-        return f"is missing{_meaning(cls, path[-1])}"
-    if kind in _BOUNDS:
-        return f"found {shown}; {_BOUNDS[kind].format(**context)} is accepted"
-    if kind == "literal_error":
-        return f"found {shown}; accepted: {context['expected']}"
-    if kind == "too_short":
-        return f"found {shown}; at least {context['min_length']} entry is accepted"
-    if kind in {"model_type", "model_attributes_type", "dict_type"}:
-        return (
-            f"found {shown}; a mapping is accepted, with the keys {one_of_words(cls.model_fields)}"
-        )
-    if kind == "none_required" or details["msg"].startswith("Input should be "):
-        return f"found {shown}; accepted: {details['msg'].removeprefix('Input should be ')}"
-    return f"found {shown}; {details['msg']}"
-
-
-def _meaning(cls: type[Part], name: str | int) -> str:
-    """What the text below a field says of it; read only when a message needs it."""
-    described = cls.model_fields.get(str(name))
-    if described is not None and described.description:
-        return f": {described.description}"
-    for owner in cls.__mro__:
-        if name not in inspect.get_annotations(owner):
-            continue
-        try:
-            body = ast.parse(textwrap.dedent(inspect.getsource(owner))).body[0]
-        except (OSError, SyntaxError):  # no source at hand
-            return ""
-        lines = body.body if isinstance(body, ast.ClassDef) else []
-        for field, text in itertools.pairwise(lines):
-            named = isinstance(field, ast.AnnAssign) and getattr(field.target, "id", "") == name
-            if named and isinstance(text, ast.Expr) and isinstance(text.value, ast.Constant):
-                return f": {text.value.value!s}"
-    return ""
+    A key that no field has stands for the field nearest to it, where that one is not given: the
+    field is misspelt, not missing.
+    """
+    known = cls.model_fields
+    if not isinstance(value, Mapping):
+        text = f"found {written(value)}; a mapping is accepted, with the keys "
+        return dict.fromkeys(known, Unread()), [Problem((), text + one_of_words(known))]
+    fields = {name: item for name, item in value.items() if name in known}
+    problems = []
+    for key in (str(key) for key in value if key not in known):
+        text = f"unknown key{nearest(key, known)} Accepted: {one_of_words(known)}"
+        problems.append(Problem((key,), text))
+        meant = nearest_word(key, known)
+        if meant is not None:
+            fields.setdefault(meant, Unread())
+    for name, field in known.items():
+        if field.is_required() and name not in fields:
+            problems.append(Problem((name,), f"is missing{meaning(cls, name)}"))
+            fields[name] = Unread()
+    return fields, problems
 
 
 def one_of(*classes: type[Part]) -> PlainValidator:
     """A field that holds one of several parts: in Python by class, in YAML by its `type`."""
 
     def choose(value: Any, info: ValidationInfo) -> Any:
-        return chosen(value, classes, info)
+        try:
+            return chosen(value, classes, info)
+        except ParameterError as error:
+            if keeps_problems(info):
+                return Unread((Problem((), str(error)),))
+            raise
 
     return PlainValidator(choose)
 
@@ -197,7 +195,7 @@ def chosen(value: Any, classes: Sequence[type[Part]], info: ValidationInfo) -> A
     accepted = f"accepted types: {one_of_words(known)}"
     if not isinstance(value, Mapping):
         raise ParameterError(
-            f"found {reprlib.repr(value)}; a mapping with a `type` is accepted; {accepted}"
+            f"found {written(value)}; a mapping with a `type` is accepted; {accepted}"
         )
     if "type" not in value:
         raise ParameterError(f"`type` is missing; {accepted}")

@@ -55,9 +55,15 @@ def field_path(path: Path) -> str:
 
 def nearest(word: object, known: Iterable[str]) -> str:
     """The known word nearest to `word`, as "; did you mean 'x'?"; "." when none is near."""
+    close = nearest_word(word, known)
+    return "." if close is None else f"; did you mean '{close}'?"
+
+
+def nearest_word(word: object, known: Iterable[str]) -> str | None:
+    """The known word nearest to `word`; None when none is near."""
     lower = {w.lower(): w for w in known}
     close = difflib.get_close_matches(str(word).lower(), list(lower), n=1, cutoff=0.5)
-    return f"; did you mean '{lower[close[0]]}'?" if close else "."
+    return lower[close[0]] if close else None
 
 
 def one_of_words(words: Iterable[str]) -> str:

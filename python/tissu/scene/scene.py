@@ -2,29 +2,24 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
-from collections.abc import Callable, Mapping
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
-from pydantic import (
-    AfterValidator,
-    Field,
-    PrivateAttr,
-    ValidationError,
-    ValidationInfo,
-    model_validator,
-)
+from pydantic import AfterValidator, BeforeValidator, Field, PrivateAttr, ValidationInfo
 from typing_extensions import Self
 
 from tissu import units
+from tissu.errors import SceneError
 from tissu.scene.body import Body
 from tissu.scene.load import Load, OneLoad
-from tissu.scene.part import Part, explained, failure, problems_of
-from tissu.scene.problem import Path as FieldPath
-from tissu.scene.problem import Source, nearest, one_of_words
+from tissu.scene.part import Part, problems_in
+from tissu.scene.problem import Problem, Source, nearest, one_of_words
 from tissu.scene.step import OneStep, Step
 from tissu.scene.support import Fixed, Prescribed
+from tissu.scene.unknown import Unknown, rule
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -53,6 +48,13 @@ class Output(Part):
         def __init__(self, *, every: units.Number) -> None: ...
 
 
+def _by_name(bodies: object) -> object:
+    """Bodies by text: YAML reads the name 7 as a number."""
+    if not isinstance(bodies, Mapping):
+        return bodies
+    return {str(n) if isinstance(n, int) else n: body for n, body in bodies.items()}
+
+
 class Scene(Part):
     """Bodies, what holds and moves them, and how time is stepped; frozen and validated.
 
@@ -61,7 +63,7 @@ class Scene(Part):
 
     name: str = "scene"
     """name of the scene, used for the files that are written"""
-    bodies: Annotated[dict[str, Body], Field(min_length=1)]
+    bodies: Annotated[dict[str, Body], Field(min_length=1), BeforeValidator(_by_name)]
     """bodies by name"""
     gravity: units.Acceleration | None = None
     """acceleration of gravity [m/s^2]; absent: none"""
@@ -104,19 +106,22 @@ class Scene(Part):
             laws: Sequence[str | os.PathLike[str]] = ...,
         ) -> None: ...
 
-    @model_validator(mode="wrap")
-    @classmethod
-    def _names_bodies(cls, value: Any, handler: Callable[[Any], Self]) -> Self:
-        """Report body names that do not exist together with all other problems."""
-        unknown = _unknown_bodies(value) if isinstance(value, Mapping) else []
-        try:
-            scene = handler(value)
-        except ValidationError as error:
-            others = [(p.path, p.text) for p in problems_of(explained(error, cls, value))]
-            raise failure([*others, *unknown], cls.__name__) from None
-        if unknown:
-            raise failure(unknown, cls.__name__)
-        return scene
+    @rule()
+    def _names_bodies(self) -> Iterator[Problem]:
+        """Names that no body has; a body with problems is a body too."""
+        bodies = self.bodies
+        for group in ("fixed", "prescribed", "loads"):
+            for number, item in enumerate(getattr(self, group, ())):
+                with contextlib.suppress(Unknown):
+                    if item.body not in bodies:
+                        text = f"no body is named '{item.body}'{nearest(item.body, bodies)} "
+                        text += f"Bodies: {one_of_words(bodies)}"
+                        yield Problem((group, number, "body"), text)
+
+    def _refusal(self) -> list[str]:
+        from tissu.compile import problems_of
+
+        return problems_of(self)
 
     def __eq__(self, other: object) -> bool:
         """Whether all fields are equal; where the scenes and laws were written does not count."""
@@ -143,22 +148,24 @@ class Scene(Part):
         """Read a scene; paths of meshes are relative to the file.
 
         Raises:
-            SceneError: the file cannot be read or has problems; all of them, with their lines.
+            SceneError: the file cannot be read or has wrong fields; with them everything that
+                compile() would refuse, each problem with its line.
         """
         from tissu.yaml_io import read_scene
 
-        return read_scene(Path(path))
+        return accepted(read_scene(Path(path)))
 
     @classmethod
     def from_yaml_text(cls, text: str, *, base: str | os.PathLike[str] | None = None) -> Scene:
         """Read a scene from a text; paths of meshes are relative to the folder `base`.
 
         Raises:
-            SceneError: the text has problems; all of them, with their lines.
+            SceneError: the text has wrong fields; with them everything that compile() would
+                refuse, each problem with its line.
         """
         from tissu.yaml_io import parse_scene
 
-        return parse_scene(text, base=None if base is None else Path(base))
+        return accepted(parse_scene(text, base=None if base is None else Path(base)))
 
     def to_yaml(self) -> str:
         """The scene as YAML text that reads back as an equal scene.
@@ -208,18 +215,12 @@ class Scene(Part):
         return check_scene(self)
 
 
-def _unknown_bodies(fields: Mapping[str, Any]) -> list[tuple[FieldPath, str]]:
-    """Body names that no body has, in raw or validated fields of a scene."""
-    bodies = fields.get("bodies")
-    if not isinstance(bodies, Mapping):
-        return []
-    unknown: list[tuple[FieldPath, str]] = []
-    for group in ("fixed", "prescribed", "loads"):
-        items = fields.get(group)
-        for number, item in enumerate(items if isinstance(items, (list, tuple)) else ()):
-            name = item.get("body") if isinstance(item, Mapping) else getattr(item, "body", None)
-            if isinstance(name, str) and name not in bodies:
-                text = f"no body is named '{name}'{nearest(name, bodies)} "
-                text += f"Bodies: {one_of_words(bodies)}"
-                unknown.append(((group, number, "body"), text))
-    return unknown
+def accepted(scene: Scene) -> Scene:
+    """The scene, when its fields have no problem.
+
+    Raises:
+        SceneError: they have; with them everything that compile() would refuse.
+    """
+    if next(problems_in(scene), None) is not None:
+        raise SceneError(scene._refusal())
+    return scene

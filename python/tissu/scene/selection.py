@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import TYPE_CHECKING, Annotated, ClassVar, Literal
 
-from pydantic import BeforeValidator, Field, model_validator
-from typing_extensions import Self
+from pydantic import BeforeValidator, Field
 
 from tissu import units
-from tissu.errors import ParameterError
 from tissu.scene.part import Part, one_of
+from tissu.scene.problem import Problem
+from tissu.scene.unknown import rule
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -40,14 +41,12 @@ class Box(Part):
             max: Sequence[float | str | None] | None = ...,
         ) -> None: ...
 
-    @model_validator(mode="after")
-    def _ordered(self) -> Self:
+    @rule("min", "max")
+    def _ordered(self) -> Iterator[Problem]:
         for axis, low, high in zip("xyz", self.min, self.max, strict=True):
             if low is not None and high is not None and low > high:
-                raise ParameterError(
-                    f"found min {low:g} m above max {high:g} m on axis {axis}; exchange them"
-                )
-        return self
+                found = f"found min {low:g} m above max {high:g} m on axis {axis}"
+                yield Problem((), f"{found}; exchange them")
 
 
 class Sphere(Part):
@@ -86,13 +85,11 @@ class Plane(Part):
             tolerance: units.Number | None = ...,
         ) -> None: ...
 
-    @model_validator(mode="after")
-    def _has_normal(self) -> Self:
+    @rule("normal")
+    def _has_normal(self) -> Iterator[Problem]:
         if not any(self.normal):
-            raise ParameterError(
-                "found the normal (0, 0, 0); a direction is accepted, such as [0, 0, 1]"
-            )
-        return self
+            text = "found the normal (0, 0, 0); a direction is accepted, such as [0, 0, 1]"
+            yield Problem((), text)
 
 
 class Nodes(Part):

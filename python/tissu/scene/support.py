@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 import itertools
+from collections.abc import Iterator
 from typing import TYPE_CHECKING, Annotated, ClassVar
 
-from pydantic import AfterValidator, BeforeValidator, model_validator
-from typing_extensions import Self
+from pydantic import AfterValidator, BeforeValidator
 
 from tissu import units
+from tissu.counted import counted
 from tissu.errors import ParameterError
 from tissu.scene.part import Part
+from tissu.scene.problem import Problem
 from tissu.scene.selection import On, Selection
+from tissu.scene.unknown import rule
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -46,16 +49,11 @@ def increasing(times: tuple[float, ...]) -> tuple[float, ...]:
     return times
 
 
-def same_length(name: str, values: Sequence[object], times: Sequence[float]) -> None:
-    """Refuse a list that has not one value for each time.
-
-    Raises:
-        ParameterError: the lengths differ.
-    """
+def same_length(name: str, values: Sequence[object], times: Sequence[float]) -> Iterator[Problem]:
+    """A problem when a list has not one value for each time."""
     if len(values) != len(times):
-        raise ParameterError(
-            f"found {len(values)} {name} for {len(times)} times; one for each time is accepted"
-        )
+        found = f"found {counted(len(values), name)} for {counted(len(times), 'time')}"
+        yield Problem((), f"{found}; one for each time is accepted")
 
 
 Axes = Annotated[str, BeforeValidator(_axes)]
@@ -103,13 +101,11 @@ class Rotation(Part):
             angles: Sequence[units.Number] | units.VectorLike,
         ) -> None: ...
 
-    @model_validator(mode="after")
-    def _has_axis(self) -> Self:
+    @rule("axis")
+    def _has_axis(self) -> Iterator[Problem]:
         if not any(self.axis):
-            raise ParameterError(
-                "found the axis (0, 0, 0); a direction is accepted, such as [0, 0, 1]"
-            )
-        return self
+            text = "found the axis (0, 0, 0); a direction is accepted, such as [0, 0, 1]"
+            yield Problem((), text)
 
 
 class Prescribed(Part):
@@ -142,12 +138,18 @@ class Prescribed(Part):
             rotation: Rotation | None = ...,
         ) -> None: ...
 
-    @model_validator(mode="after")
-    def _complete(self) -> Self:
+    @rule("displacements", "rotation")
+    def _moves(self) -> Iterator[Problem]:
         if self.displacements is None and self.rotation is None:
-            raise ParameterError("found neither displacements nor rotation; at least one is needed")
+            text = "found neither displacements nor rotation; at least one is needed"
+            yield Problem((), text)
+
+    @rule("displacements", "times")
+    def _displaced_at_each_time(self) -> Iterator[Problem]:
         if self.displacements is not None:
-            same_length("displacements", self.displacements, self.times)
+            yield from same_length("displacement", self.displacements, self.times)
+
+    @rule("rotation", "times")
+    def _turned_at_each_time(self) -> Iterator[Problem]:
         if self.rotation is not None:
-            same_length("rotation angles", self.rotation.angles, self.times)
-        return self
+            yield from same_length("rotation angle", self.rotation.angles, self.times)

@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from tissu.counted import counted
+
 if TYPE_CHECKING:
     from tissu.effects import Effect
 
@@ -37,9 +39,10 @@ class Plan:
 
     def __str__(self) -> str:
         """In plain words."""
-        threads = "1 thread" if self.threads == 1 else f"{self.threads} threads"
+        threads = counted(self.threads, "thread")
+        blocks = counted(self.matrix_blocks, "block")
         lines = [
-            f"{self.unknowns} unknowns, {self.matrix_blocks} blocks in the matrix",
+            f"{counted(self.unknowns, 'unknown')}, {blocks} in the matrix",
             f"{self.integrator}; {self.solver}; {threads}, {self.instruction_set} kernels",
             "runs:",
             *(f"  - {effect}" for effect in self.effects),

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from tissu import _core, units
+from tissu.counted import counted
 from tissu.errors import ParameterError
 from tissu.simulation.plan import Plan
 from tissu.simulation.profile import Profile, ProfileRow
@@ -55,6 +56,18 @@ class Simulation:
         ranges = {name: self._core.body_range(name) for name in meshes}
         self.positions = MappingProxyType(_views(self._core.positions, ranges))
         self.velocities = MappingProxyType(_views(self._core.velocities, ranges))
+
+    def __repr__(self) -> str:
+        """Name, time, steps, and the size of each body."""
+        steps = counted(self._steps, "step")
+        bodies = ", ".join(
+            f"{name}: {counted(mesh.node_count, 'node')}, {counted(mesh.cell_count, 'cell')}"
+            for name, mesh in self._meshes.items()
+        )
+        step = self.scene.step
+        how = step.type if step.type == "static" else f"{step.type} dt {self.dt:g} s"
+        when = f"t = {self.time:.6g} s after {steps}"
+        return f"Simulation('{self.scene.name}', {when}; {bodies}; {how})"
 
     @property
     def meshes(self) -> Mapping[str, Mesh]:

@@ -1,0 +1,57 @@
+"""Ctrl-C (SIGINT) and SIGTERM: a run that is asked to stop completes its step and files first."""
+
+from __future__ import annotations
+
+import contextlib
+import signal
+import sys
+import threading
+from collections.abc import Iterator
+from dataclasses import dataclass
+from types import FrameType
+
+_WORDS = {signal.SIGINT: "interrupted", signal.SIGTERM: "terminated"}
+
+
+@dataclass(slots=True)
+class Interruption:
+    """Which signal has asked the run to stop; 0: none."""
+
+    number: int = 0
+
+    @property
+    def word(self) -> str:
+        """What has happened, in a word."""
+        return _WORDS.get(signal.Signals(self.number), "interrupted")
+
+    @property
+    def code(self) -> int:
+        """Exit code by the shell's convention: 130 after Ctrl-C, 143 after SIGTERM."""
+        return 128 + self.number
+
+
+@contextlib.contextmanager
+def interruption() -> Iterator[Interruption]:
+    """Notes a signal instead of dying of it; the second one stops at once."""
+    noted = Interruption()
+    if threading.current_thread() is not threading.main_thread():
+        yield noted
+        return
+
+    def note(number: int, frame: FrameType | None) -> None:
+        noted.number = number
+        signal.signal(signal.SIGINT, signal.default_int_handler)
+        signal.signal(signal.SIGTERM, signal.SIG_DFL)
+
+    before = {number: signal.signal(number, note) for number in _WORDS}
+    try:
+        yield noted
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, handler)
+
+
+def leave(number: int, frame: FrameType | None) -> None:
+    """Handler of SIGTERM outside a run: there is nothing to complete."""
+    print("tissu: terminated, nothing was written", file=sys.stderr)
+    raise SystemExit(128 + number)

@@ -9,6 +9,7 @@
 #include "kernels/ablation.h"
 #include "kernels/kernel_rows.h"
 #include "kernels/machine.h"
+#include "tissu/base/build.h"
 #include "tissu/simulation/simulation.h"
 #include "tissu/solve/cholesky.h"
 #include "tissu/solve/conjugate_gradient.h"
@@ -132,6 +133,7 @@ BENCHMARK(step_cholesky)->Name("step, Cholesky")->Arg(1)->UseRealTime()->Unit(be
 
 int main(int argc, char** argv) {
   benchmark::AddCustomContext("instruction set", std::string(tissu::name(tissu::choose_isa())));
+  benchmark::AddCustomContext("compiler", tissu::build_info().compiler);
   benchmark::AddCustomContext("argument", "threads");
   constexpr int kElements = 20'000;
   tissu::bench::add_limit_rows();

@@ -14,47 +14,47 @@ constexpr std::size_t kFaces[4][3] = {{1, 2, 3}, {0, 2, 3}, {0, 1, 3}, {0, 1, 2}
 /// The node that makes a pair with `p` in each of the three ways to cut four nodes into two pairs.
 constexpr std::size_t kPartner[4][3] = {{1, 2, 3}, {0, 3, 2}, {3, 0, 1}, {2, 1, 0}};
 
-/// B, C and D of one tetrahedron, times its volume.
+/// B^ij, C^ijk and D^ijkl of one tetrahedron, times its volume.
 struct Formulae {
   std::array<Vec3, 4> g;
   Lame lame;
   double volume;
 
   [[nodiscard]] double dot(std::size_t a, std::size_t b) const { return g[a].dot(g[b]); }
-  [[nodiscard]] Matrix B(std::size_t a, std::size_t b) const {
-    const Mat3 m = volume * (lame.lambda * g[a] * g[b].transpose() + lame.mu * g[b] * g[a].transpose() +
-                             lame.mu * dot(a, b) * Mat3::Identity());
+  [[nodiscard]] Matrix b(std::size_t i, std::size_t j) const {
+    const Mat3 m = volume * (lame.lambda * g[i] * g[j].transpose() + lame.mu * g[j] * g[i].transpose() +
+                             lame.mu * dot(i, j) * Mat3::Identity());
     Matrix rows;
-    for (int i = 0; i < 9; ++i) rows[static_cast<std::size_t>(i)] = m(i / 3, i % 3);
+    for (int n = 0; n < 9; ++n) rows[static_cast<std::size_t>(n)] = m(n / 3, n % 3);
     return rows;
   }
-  [[nodiscard]] Vector C(std::size_t a, std::size_t b, std::size_t c) const {
-    const Vec3 v = volume * (lame.lambda / 2.0 * g[a] * dot(b, c) +
-                             lame.mu / 2.0 * (g[c] * dot(a, b) + g[b] * dot(a, c)));
+  [[nodiscard]] Vector c(std::size_t i, std::size_t j, std::size_t k) const {
+    const Vec3 v = volume * (lame.lambda / 2.0 * g[i] * dot(j, k) +
+                             lame.mu / 2.0 * (g[k] * dot(i, j) + g[j] * dot(i, k)));
     return {v.x(), v.y(), v.z()};
   }
-  [[nodiscard]] double D(std::size_t a, std::size_t b, std::size_t c, std::size_t d) const {
-    return volume * (lame.lambda / 8.0 * dot(a, b) * dot(c, d) + lame.mu / 4.0 * dot(a, d) * dot(b, c));
+  [[nodiscard]] double d(std::size_t i, std::size_t j, std::size_t k, std::size_t l) const {
+    return volume * (lame.lambda / 8.0 * dot(i, j) * dot(k, l) + lame.mu / 4.0 * dot(i, l) * dot(j, k));
   }
 };
 
 Constants constants_of(const Formulae& of) {
   Constants k;
-  for (std::size_t p = 0; p < 4; ++p) k.node[p] = {of.B(p, p), of.C(p, p, p), of.D(p, p, p, p)};
+  for (std::size_t p = 0; p < 4; ++p) k.node[p] = {of.b(p, p), of.c(p, p, p), of.d(p, p, p, p)};
   for (std::size_t e = 0; e < 6; ++e) {
     const auto [p, j] = kEdges[e];
-    k.edge[e] = {of.B(p, j),       of.C(p, p, j),    of.C(j, p, p),    of.C(j, j, p),    of.C(p, j, j),
-                 of.D(j, p, p, p), of.D(j, j, j, p), of.D(j, j, p, p), of.D(j, p, j, p), of.D(p, j, j, p)};
+    k.edge[e] = {of.b(p, j),       of.c(p, p, j),    of.c(j, p, p),    of.c(j, j, p),    of.c(p, j, j),
+                 of.d(j, p, p, p), of.d(j, j, j, p), of.d(j, j, p, p), of.d(j, p, j, p), of.d(p, j, j, p)};
   }
   for (std::size_t f = 0; f < 4; ++f) {
     for (std::size_t i = 0; i < 3; ++i) {
       const std::size_t a = kFaces[f][i];
       const std::size_t b = kFaces[f][(i + 1) % 3];
       const std::size_t c = kFaces[f][(i + 2) % 3];
-      k.face[f].C[i] = of.C(a, b, c);
-      k.face[f].D_bc[i] = of.D(a, a, b, c);
-      k.face[f].D_ab[i] = of.D(a, b, a, c);
-      k.face[f].D_ba[i] = of.D(b, a, a, c);
+      k.face[f].C[i] = of.c(a, b, c);
+      k.face[f].D_bc[i] = of.d(a, a, b, c);
+      k.face[f].D_ab[i] = of.d(a, b, a, c);
+      k.face[f].D_ba[i] = of.d(b, a, a, c);
     }
   }
   for (std::size_t i = 0; i < 3; ++i) {
@@ -62,7 +62,7 @@ Constants constants_of(const Formulae& of) {
     const std::size_t b = kPartner[0][i];
     for (std::size_t other = 0; other < 2; ++other) {
       const std::size_t d = kPartner[0][(i + 1 + other) % 3];
-      k.D[i][other] = of.D(0, b, 6 - b - d, d);
+      k.D[i][other] = of.d(0, b, 6 - b - d, d);
     }
   }
   return k;

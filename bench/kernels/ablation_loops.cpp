@@ -9,7 +9,10 @@ using bench::AblationBlock;
 using Tensor = Tensor2<Batch>;
 using Nodal = Batch[4][3];
 
-enum Part : unsigned { kStream = 1, kGather = 2, kArithmetic = 4, kScatter = 8 };
+constexpr unsigned kStream = 1;
+constexpr unsigned kGather = 2;
+constexpr unsigned kArithmetic = 4;
+constexpr unsigned kScatter = 8;
 
 /// f_a = -V P grad_a, with the differences of a linear tetrahedron in place of its shape functions.
 TISSU_INLINE void force_of(const StVK<Batch>& law, const Nodal& x, const Tensor& Jinv, Batch volume,

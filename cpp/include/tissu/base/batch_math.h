@@ -69,7 +69,7 @@ TISSU_INLINE Batch log(Batch x) {
   const Batch half = Batch(0.5) * f * f;
   const Batch tail = s * (half + t * polynomial(kR, t)) + k * Batch(kLn2Low);
   const Batch result = k * Batch(kLn2High) - ((half - tail) - f);
-  const Batch at_zero(x.v == Batch(0.0).v ? Batch(-kInfinity).v : (x - x).v / Batch(0.0).v);
+  const Batch at_zero(x.v == Batch(0.0).v ? Batch(-kInfinity).v : Batch(__builtin_nan("")).v);
   const Batch usual(x.v < Batch(kInfinity).v ? result.v : x.v);
   return {x.v > Batch(0.0).v ? usual.v : at_zero.v};
 }

@@ -1,9 +1,15 @@
-/// tissu-bench: what the parts of a step cost on the published beam (beam.h), and whole steps of it.
+/// tissu-bench: what the parts of a step cost on the published beam (beam.h), and whole steps of it; the
+/// machine's limits, the kernels of every element and law, what bounds them, and two baselines.
 ///   tissu-bench --benchmark_filter=step --benchmark_format=json
+///   tissu-bench --benchmark_filter=kernel/tetra
 
 #include <benchmark/benchmark.h>
 
 #include "beam.h"
+#include "kernels/ablation.h"
+#include "kernels/kernel_rows.h"
+#include "kernels/machine.h"
+#include "tissu/base/build.h"
 #include "tissu/simulation/simulation.h"
 #include "tissu/solve/cholesky.h"
 #include "tissu/solve/conjugate_gradient.h"
@@ -127,7 +133,13 @@ BENCHMARK(step_cholesky)->Name("step, Cholesky")->Arg(1)->UseRealTime()->Unit(be
 
 int main(int argc, char** argv) {
   benchmark::AddCustomContext("instruction set", std::string(tissu::name(tissu::choose_isa())));
+  benchmark::AddCustomContext("compiler", tissu::build_info().compiler);
   benchmark::AddCustomContext("argument", "threads");
+  constexpr int kElements = 20'000;
+  tissu::bench::add_limit_rows();
+  tissu::bench::add_kernel_rows(kElements);
+  tissu::bench::add_ablation_rows(kElements);
+  tissu::bench::add_baseline_rows(kElements);
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
   benchmark::RunSpecifiedBenchmarks();

@@ -67,24 +67,6 @@ TISSU_INLINE Batch sqrt(Batch a) {
   return a;
 }
 
-/// Natural logarithm in every lane.
-TISSU_INLINE Batch log(Batch a) {
-  for (int lane = 0; lane < kWidth; ++lane) a.v[lane] = __builtin_log(a.v[lane]);
-  return a;
-}
-
-/// Exponential in every lane.
-TISSU_INLINE Batch exp(Batch a) {
-  for (int lane = 0; lane < kWidth; ++lane) a.v[lane] = __builtin_exp(a.v[lane]);
-  return a;
-}
-
-/// Real cube root in every lane.
-TISSU_INLINE Batch cbrt(Batch a) {
-  for (int lane = 0; lane < kWidth; ++lane) a.v[lane] = __builtin_cbrt(a.v[lane]);
-  return a;
-}
-
 /// max(a, 0) in every lane.
 TISSU_INLINE Batch positive(Batch a) { return {a.v > Batch::Native{} ? a.v : Batch::Native{}}; }
 
@@ -145,3 +127,5 @@ TISSU_INLINE void scatter_add_block(double* values, const std::int32_t* slot, co
 }
 
 }  // namespace tissu::TISSU_KERNELS
+
+#include "tissu/base/batch_math.h"  // IWYU pragma: export: log, exp, cbrt

@@ -1,0 +1,257 @@
+"""What each element and law costs, against the machine's limits and two baselines.
+
+    python bench/kernels.py [--json FILE] [--binary build/main/bench/tissu-bench] [--repetitions 3]
+
+Runs `tissu-bench` (or reads what it wrote with `--benchmark_format=json`), prints tables in
+Markdown and writes them to docs/kernels.md. Times are the processor time of the fastest repetition.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import re
+import subprocess
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+ROOT = Path(__file__).resolve().parent.parent
+JOBS = ("force", "product", "assembly")
+# The rows that are set against each other are measured before and after the others, so that a busy
+# moment of a shared machine does not decide a ratio.
+COMPARED = "^((limit|ablation|baseline)/|kernel/(tetra|hexahedron)/stvk/)"
+FILTERS = (COMPARED, "^kernel/", COMPARED)
+
+
+@dataclass(frozen=True)
+class Row:
+    """The fastest repetition of one row."""
+
+    ns: float  # of one iteration
+    counters: dict[str, float]
+
+    @property
+    def ns_per_element(self) -> float:
+        """Processor time of one element [ns]."""
+        return self.ns / self.counters["elements"]
+
+
+def run(binary: Path, repetitions: int) -> dict[str, Any]:
+    """What the benchmark binary reports in several runs, as one report."""
+    benchmarks: list[Any] = []
+    for rows in FILTERS:
+        command = [
+            str(binary),
+            f"--benchmark_filter={rows}",
+            "--benchmark_format=json",
+            f"--benchmark_repetitions={repetitions}",
+        ]
+        done = subprocess.run(command, check=True, capture_output=True, text=True)
+        report = dict(json.loads(done.stdout))
+        benchmarks += report["benchmarks"]
+    return {**report, "benchmarks": benchmarks}
+
+
+def rows_of(report: dict[str, Any]) -> dict[str, Row]:
+    """The fastest repetition of every row, by name without what the library appends."""
+    rows: dict[str, Row] = {}
+    for entry in report["benchmarks"]:
+        if entry.get("run_type") == "aggregate":
+            continue
+        name = re.sub(r"/(min_time:[\d.]+|repeats:\d+|real_time|\d+)(?=/|$)", "", entry["name"])
+        counters = {k: float(v) for k, v in entry.items() if isinstance(v, int | float)}
+        row = Row(ns=float(entry["cpu_time"]), counters=counters)
+        if name not in rows or row.ns < rows[name].ns:
+            rows[name] = row
+    return rows
+
+
+def table(head: list[str], lines: list[list[str]]) -> str:
+    """A table in Markdown, numbers to the right."""
+    rule = ["---"] + ["---:"] * (len(head) - 1)
+    return "\n".join("| " + " | ".join(line) + " |" for line in [head, rule, *lines])
+
+
+def digits(value: float) -> str:
+    """Three significant digits, no exponent."""
+    return f"{value:.3g}" if value < 100 else f"{value:,.0f}"
+
+
+def limits_table(rows: dict[str, Row]) -> str:
+    """What the machine reaches with nothing else to do."""
+    lines = []
+    for name, row in rows.items():
+        if not name.startswith("limit/"):
+            continue
+        unit = "GFLOP/s" if "GFLOP/s" in row.counters else "GB/s"
+        lines.append([name.removeprefix("limit/"), f"{row.counters[unit]:.1f} {unit}"])
+    return table(["one thread", "at most"], lines)
+
+
+def baseline_table(rows: dict[str, Row]) -> str:
+    """Ours beside the textbook's loops and the expanded mass-tensor."""
+    lines = []
+    for element in ("tetra", "hexahedron"):
+        for job in JOBS:
+            ours = rows.get(f"kernel/{element}/stvk/{job}")
+            if ours is None:
+                continue
+            line = [f"{element}, {job}", digits(ours.ns_per_element)]
+            for who in ("textbook", "expanded"):
+                other = rows.get(f"baseline/{who}/{element}/stvk/{job}")
+                line += (
+                    [
+                        digits(other.ns_per_element),
+                        f"{other.ns_per_element / ours.ns_per_element:.1f}",
+                    ]
+                    if other
+                    else ["", ""]
+                )
+            lines.append(line)
+    head = ["StVK, ns an element", "ours", "textbook", "textbook / ours"]
+    return table([*head, "expanded", "expanded / ours"], lines)
+
+
+def ablation_table(rows: dict[str, Row]) -> str:
+    """What the parts of the force cost, and which of them bounds it."""
+    parts = {
+        name.removeprefix("ablation/"): row.ns_per_element
+        for name, row in rows.items()
+        if name.startswith("ablation/")
+    }
+    lines = [[name, f"{ns:.2f}"] for name, ns in parts.items()]
+    text = table(["what is done", "ns an element"], lines)
+    whole = parts["constants, gather, arithmetic, scatter"]
+    costs = {
+        "the arithmetic": whole - parts["constants, gather, scatter"],
+        "the scatter": whole - parts["constants, gather, arithmetic"],
+        "the gather": parts["constants, gather"] - parts["constants"],
+        "the constants": parts["constants"],
+    }
+    saved = ", ".join(f"{name} {100 * ns / whole:.0f} %" for name, ns in costs.items())
+    largest = max(costs, key=lambda name: costs[name])
+    bound = (
+        f"Share of the whole that goes when a part goes: {saved}. What bounds it most: {largest}."
+    )
+    return f"{text}\n\n{bound}"
+
+
+def kernel_table(rows: dict[str, Row]) -> str:
+    """Every element with every law."""
+    lines = []
+    pairs = dict.fromkeys(
+        (name.split("/")[1], name.split("/")[2]) for name in rows if name.startswith("kernel/")
+    )
+    for element, law in pairs:
+        found = [rows[f"kernel/{element}/{law}/{job}"] for job in JOBS]
+        line = [f"{element}, {law}", *(digits(row.ns_per_element) for row in found)]
+        line.append(f"{1e3 / found[0].ns_per_element:.2f}")
+        for row in found:
+            share = row.counters.get("of peak")
+            line.append("" if share is None else f"{100 * share:.0f} %")
+        line.append(f"{100 * found[0].counters['of bandwidth']:.0f} %")
+        lines.append([*line, digits(found[0].counters["bytes/element"])])
+    head = ["element, law", "force ns", "product ns", "assembly ns", "force M/s"]
+    head += [f"{job} of peak" for job in JOBS] + ["force of bandwidth", "bytes"]
+    return table(head, lines)
+
+
+def processor() -> str:
+    """The processor's name, where the system tells it."""
+    path = Path("/proc/cpuinfo")
+    text = path.read_text(encoding="utf-8") if path.exists() else ""
+    found = re.search(r"model name\s*:\s*(.+)", text)
+    return found.group(1).strip() if found else "unnamed processor"
+
+
+def commit() -> str:
+    """The commit of this checkout."""
+    done = subprocess.run(
+        ["git", "describe", "--always", "--dirty"],
+        cwd=ROOT,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    return done.stdout.strip() or "unknown"
+
+
+def machine(report: dict[str, Any]) -> str:
+    """One sentence on where the numbers come from."""
+    context = report["context"]
+    caches = ", ".join(
+        f"L{c['level']} {c['size'] // 1024} KiB"
+        for c in context["caches"]
+        if c["type"] != "Instruction"
+    )
+    return (
+        f"{context.get('processor', processor())}, {context['num_cpus']} processors, {caches}; "
+        f"{context['instruction set']}; {context.get('compiler', 'compiler not named')}; "
+        f"commit {context.get('commit', commit())}; {context['date'][:10]}; "
+        f"load {context['load_avg'][0]:.1f}."
+    )
+
+
+def page(report: dict[str, Any]) -> str:
+    """The whole of docs/kernels.md."""
+    rows = rows_of(report)
+    return f"""# What an element costs
+
+Printed by `python bench/kernels.py`, not written by hand. One thread, about 20,000 elements of each
+type, quadrature `full`, processor time of the fastest repetition.
+
+{machine(report)}
+
+## The machine's limits
+
+{limits_table(rows)}
+
+A multiply-add counts two, the triad `a = b + s c` three numbers of eight bytes.
+
+## Against two baselines
+
+{baseline_table(rows)}
+
+`textbook`: 3x3 products, E, S, P, one element after the other, portable flags
+(`bench/baseline/textbook.h`). `expanded`: Picinbono's mass-tensor, the energy as a quartic
+polynomial of the displacements with 280 constants a tetrahedron, and six that he does not count
+(`bench/baseline/expanded.h`). Both equal the core's forces to round-off: `tests/cpp/bench`.
+
+## What bounds the force of StVK on tetrahedra
+
+{ablation_table(rows)}
+
+A kernel of the benchmark's own, with parts left out, on the mesh in the order of the core.
+
+## Every element, every law
+
+{kernel_table(rows)}
+
+"of peak": arithmetic by formula (`bench/kernels/operations.h`), as a share of the multiply-add
+limit. "of bandwidth": what the force reads of the element's own
+constants ("bytes"), as a share of the triad from the level that holds the mesh.
+"""
+
+
+def main() -> None:
+    """Runs or reads, prints, writes."""
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0] if __doc__ else None)
+    parser.add_argument(
+        "--json", type=Path, help="what tissu-bench wrote with --benchmark_format=json"
+    )
+    parser.add_argument("--binary", type=Path, default=ROOT / "build/main/bench/tissu-bench")
+    parser.add_argument("--repetitions", type=int, default=3)
+    parser.add_argument("--out", type=Path, default=ROOT / "docs/kernels.md")
+    arguments = parser.parse_args()
+    if arguments.json is not None:
+        report = dict(json.loads(arguments.json.read_text(encoding="utf-8")))
+    else:
+        report = run(arguments.binary, arguments.repetitions)
+    text = page(report)
+    print(text)
+    arguments.out.write_text(text, encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()

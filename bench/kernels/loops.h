@@ -1,0 +1,16 @@
+#pragma once
+
+/// What is compiled for each instruction set in this folder.
+
+#include "ablation.h"
+#include "machine.h"
+
+#define TISSU_BENCH_LOOPS(isa)             \
+  namespace tissu::isa {                   \
+  bench::MachineKernels machine_loops();   \
+  bench::AblationKernels ablation_loops(); \
+  }
+TISSU_BENCH_LOOPS(baseline)
+TISSU_BENCH_LOOPS(avx2)
+TISSU_BENCH_LOOPS(avx512)
+#undef TISSU_BENCH_LOOPS

@@ -209,14 +209,13 @@ void World::add_external(const WorldDescription& description) {
     const Body& on = body(pressure.body);
     check_table("pressure \"" + pressure.name + "\"", pressure.history.times,
                 pressure.history.factors.size());
-    auto triangles = pressure.triangles;
-    for (auto& triangle : triangles) {
-      const auto nodes = shifted({triangle.begin(), triangle.end()}, on.first_node, on.node_count,
-                                 "pressure \"" + pressure.name + "\"");
-      std::ranges::copy(nodes, triangle.begin());
+    auto faces = pressure.faces;
+    for (FaceCells& some : faces) {
+      some.nodes =
+          shifted(std::move(some.nodes), on.first_node, on.node_count, "pressure \"" + pressure.name + "\"");
     }
     forces_.push_back(
-        std::make_unique<Pressure>(pressure.name, std::move(triangles), pressure.pressure, pressure.history));
+        std::make_unique<Pressure>(pressure.name, std::move(faces), pressure.pressure, pressure.history));
   }
 }
 

@@ -48,6 +48,7 @@ void remove_from(ElasticBlock& block, Numbers& wanted) {
     numbers.push_back(block.cell_numbers[i]);
   }
   keep(block.density, kept);
+  keep(block.cross_section, kept);
   for (auto& [name, values] : block.parameters) keep(values, kept);
   for (LawUse& use : block.reinforcements) {
     for (auto& [name, values] : use.parameters) keep(values, kept);

@@ -28,7 +28,7 @@ def cell_groups(mesh: Mesh, body: Body, path: Path, findings: Findings) -> list[
     if owner is None:
         return []
     groups, first = [], 0
-    for block in mesh.volume_blocks:
+    for block in mesh.body_blocks:
         nodes = np.asarray(block.nodes)
         numbers = np.arange(first, first + len(nodes), dtype=np.int32)
         kinds = [(law.type, law.fibres is not None, type(law).made) for law in laws]

@@ -67,9 +67,7 @@ def thin_types() -> dict[str, CellType]:
     """The types of surface and line cells that can be simulated, by their names."""
     rows = (row for row in _core.elements() if row[2] < 3)
     # A surface has as many corners as straight edges: 3 of triangle*, 4 of quad*; a line has 2.
-    return {
-        row[0]: CellType(*row, corners=_CORNERS[row[0].rstrip("0123456789")]) for row in rows
-    }
+    return {row[0]: CellType(*row, corners=_CORNERS[row[0].rstrip("0123456789")]) for row in rows}
 
 
 def linear_type(name: str) -> str:

@@ -269,7 +269,7 @@ TEST(RemoveLines, SectionsStayWithTheirCells) {
   world.bodies = {body};
   world.editable = true;
   Simulation simulation = test::simulate(world, test::implicit_euler(), test::conjugate_gradient());
-  simulation.replace_world(remove_cells(simulation.world(), simulation.state(), "body", {0}));
+  simulation.replace_world(remove_cells(simulation.world(), simulation.state(), "body", Numbers{0}));
   EXPECT_EQ(simulation.world().bodies()[0].elastic[0]->volumes(), (std::vector{2.0, 3.0}));
 }
 

@@ -15,7 +15,9 @@ def test_the_example_runs():
     assert all(report.converged for report in simulation.run())
     tissue = simulation.displacements("tissue")
     assert (tissue[:, 2] == 0).all()
-    assert tissue[:, 1].min() == pytest.approx(-4e-3, rel=1e-12)  # as prescribed, and nowhere deeper
+    assert tissue[:, 1].min() == pytest.approx(
+        -4e-3, rel=1e-12
+    )  # as prescribed, and nowhere deeper
     bulge = np.abs(tissue[:, 0]).max()
     assert 0.5e-3 < bulge < 4e-3  # sideways: the tissue hardly shrinks
     ends = simulation.positions["ligament"]

@@ -20,6 +20,7 @@ from tissu.scene import (
     NeoHooke,
     Prescribed,
     Scene,
+    Static,
     StVK,
 )
 
@@ -139,7 +140,7 @@ def test_boundary_faces_stay_mere_faces():
     assert [block.type for block in simulation.meshes["b"].body_blocks] == ["hexahedron"]
 
 
-def mixed():
+def mixed(**changes):
     """A hexahedron, a sheet beside it, and a line from that, as a simulation."""
     solid = bar_mesh(size=(1, 1, 1), cells=(1, 1, 1), cell="hexahedron")
     points = np.vstack([solid.points, [(2, 0, 0), (2, 1, 0), (3, 0, 0)]])
@@ -152,8 +153,33 @@ def mixed():
         fixed=[Fixed("b", on=Box(None, (0, None, None)))],
         gravity=(0, 0, -1),
         step=ImplicitEuler(0.01),
+        **changes,
     )
     return scene.compile()
+
+
+def test_a_sheet_is_taken_out_while_it_runs():
+    simulation = mixed(editing=True)
+    simulation.step()
+    simulation.remove_cells(body="b", cells=[1])
+    assert simulation.step().converged
+    mesh = simulation.meshes["b"]
+    assert [block.type for block in mesh.body_blocks] == ["hexahedron", "line"]
+    assert {name: cells.tolist() for name, cells in mesh.regions.items()} == {
+        "volumes": [0],
+        "sheets": [],
+        "lines": [1],
+    }
+    assert len(simulation.cell_fields("b")["von_mises"]) == 2
+
+
+def test_a_static_sheet_in_space_is_noted():
+    body = Body(mesh=PLATE, law=LAW, density=1e3, thickness=0.1)
+    held = [Fixed("b", on=Box(None, (0, None, None)))]
+    for plane, noted in ((None, True), ("stress", False)):
+        scene = Scene(bodies={"b": body.replace(plane=plane)}, fixed=held, step=Static())
+        notes = check_scene(scene).notes
+        assert any("do not resist bending" in note for note in notes) == noted
 
 
 def test_files_hold_volumes_then_sheets_then_lines(tmp_path):

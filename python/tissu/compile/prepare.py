@@ -12,6 +12,7 @@ from tissu.compile.material import cell_groups, density_of
 from tissu.compile.meshes import known_mesh
 from tissu.compile.prepared import Held, Ints, LoadedNodes, Prepared, PreparedBody
 from tissu.compile.select import selected_nodes, selected_triangles
+from tissu.compile.thin import note_bending
 from tissu.counted import counted
 from tissu.errors import ParameterError
 from tissu.scene.part import problems_in
@@ -61,6 +62,7 @@ def _prepare_body(prepared: Prepared, name: str) -> None:
             every = np.arange(known.mesh.node_count, dtype=np.int32)
             held = Fixed(name, on=SurfaceNodes(), axes="z")
             prepared.held.append(Held(held, (*path, "plane"), every))
+        note_bending(known.mesh, body, prepared.scene, path, findings)
         groups = cell_groups(known.mesh, body, path, findings)
         if len(findings.problems) == before:
             density = density_of(body, known.mesh, path, findings)

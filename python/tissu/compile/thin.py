@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from tissu.scene.body import Body
     from tissu.scene.law import Law
     from tissu.scene.problem import Path
+    from tissu.scene.scene import Scene
 
 _FLAT = 1e-12  # share of the m-th power of a cell's diagonal below which it has no size
 
@@ -63,6 +64,16 @@ def check_thin(mesh: Mesh, body: Body, path: Path, findings: Findings) -> bool:
             text = f"found z from {low:g} to {high:g} m; a flat body with one z is accepted"
             findings.problem((*path, "plane"), f"{text}: leave `plane` out for a sheet in space")
     return len(findings.problems) == before
+
+
+def note_bending(mesh: Mesh, body: Body, scene: Scene, path: Path, findings: Findings) -> None:
+    """Note that a static step may fail where only sheets and lines hold nodes."""
+    static = getattr(getattr(scene, "step", None), "type", None) == "static"
+    if static and mesh.thin_blocks and getattr(body, "plane", None) is None:
+        findings.note(
+            f"{path[0]}.{path[1]}: sheets and lines do not resist bending; where they lie flat and "
+            "nothing else holds their nodes a static step fails: hold those, or let it move in time"
+        )
 
 
 def check_law(law: Law, cell_type: str, path: Path, findings: Findings) -> None:

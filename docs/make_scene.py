@@ -33,6 +33,18 @@ of meshes, selections that select nothing. Without problems it says what the sce
 ```yaml
 {example}```
 
+Volume cells of a mesh are simulated always; its triangles and quads where the body gives a
+`thickness`, its lines where it gives a `section`. They are stiff along themselves and do not resist
+bending. In space they are free to thin: no stress acts across a sheet, nor across a line. A body
+that mixes them has the regions `volumes`, `sheets` and `lines`, for a map of laws or a selection:
+
+```yaml
+law:
+  volumes: {{type: neo_hooke, young: 3 kPa, poisson: 0.45}}
+  sheets: {{type: stvk, young: 1 MPa, poisson: 0.4}}
+thickness: 0.1 mm
+```
+
 This page is printed from the classes by `python docs/make_scene.py`.
 """
 

@@ -1,6 +1,8 @@
 #include "bind.h"
 #include "tissu/base/build.h"
+#include "tissu/force/law_kernels.h"
 #include "tissu/force/loaded_law.h"
+#include "tissu/law/law_info.h"
 
 namespace tissu::bind {
 namespace {
@@ -10,6 +12,23 @@ Isa isa_named(const std::string& asked) {
     if (asked == name(isa)) return isa;
   }
   throw ParameterError("there is no instruction set \"" + asked + "\"; accepted: baseline, avx2, avx512.");
+}
+
+/// Every law: its name, parameters with typical values, number of constants, whether it is to be added to
+/// another, and the reference dimensions of the cells that may be made of it.
+py::list laws() {
+  py::list result;
+  for (const LawInfo& law : all_laws()) {
+    std::map<std::string, double> typical;
+    for (const LawParameter& parameter : law.parameters) typical.emplace(parameter.name, parameter.typical);
+    std::vector<int> dimensions;
+    for (const int m : {1, 2, 3}) {
+      if (find_law_kernels(Isa::baseline, law.name, m) != nullptr) dimensions.push_back(m);
+    }
+    result.append(
+        py::make_tuple(std::string(law.name), typical, law.constants.size(), law.addition, dimensions));
+  }
+  return result;
 }
 
 }  // namespace
@@ -22,6 +41,7 @@ void bind_law(py::module_& m) {
         return std::string(kernel_flags(isa_named(instruction_set)));
       },
       py::kw_only(), arg("instruction_set"));
+  m.def("laws", &laws);
   py::class_<LoadedLaw, std::shared_ptr<LoadedLaw>>(m, "LoadedLaw")
       .def(py::init<std::string>(), py::kw_only(), arg("path"))
       .def_property_readonly("name", [](const LoadedLaw& law) { return std::string(law.info().name); })

@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "tissu/base/error.h"
+#include "tissu/element/measure.h"
+#include "tissu/element/reference_cell.h"
 #include "tissu/force/load.h"
 #include "tissu/mesh/box.h"
 #include "tissu/mesh/cell_shape.h"
@@ -119,6 +121,20 @@ py::tuple turn_reversed_cells(const Reals& positions, const Blocks& blocks) {
   return py::make_tuple(to_blocks(mesh), count);
 }
 
+py::array_t<double> cell_measures(const Reals& positions, const std::string& name, const Ints& nodes) {
+  const tissu::ReferenceCell reference = tissu::reference_cell(name, "full");
+  if (reference.points.empty()) throw tissu::MeshError("cells of type '" + name + "' are not handled");
+  return to_array<double>(tissu::measures(reference, {nodes.data(), static_cast<std::size_t>(nodes.size())},
+                                          {positions.data(), static_cast<std::size_t>(positions.size())}));
+}
+
+py::list elements() {
+  py::list result;
+  for (const auto& element : tissu::elements())
+    result.append(py::make_tuple(std::string(element.name), element.nodes, element.dimension, element.order));
+  return result;
+}
+
 }  // namespace
 
 void bind_mesh(py::module_& m) {
@@ -128,6 +144,8 @@ void bind_mesh(py::module_& m) {
       .value("five", tissu::Split::five)
       .value("six_mirrored", tissu::Split::six_mirrored);
   m.def("cell_types", &cell_types);
+  m.def("elements", &elements);
+  m.def("cell_measures", &cell_measures, py::kw_only(), "positions"_a, "cell_type"_a, "nodes"_a);
   m.def("cell_edges", &cell_edges, py::kw_only(), "cell_type"_a);
   m.def("cell_faces", &cell_faces, py::kw_only(), "cell_type"_a);
   m.def("box_mesh", &box_mesh, py::kw_only(), "origin"_a, "size"_a, "cells"_a, "split"_a);

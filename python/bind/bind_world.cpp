@@ -19,11 +19,24 @@ LawParameters to_parameters(const Parameters& parameters) {
   return result;
 }
 
+/// What each elastic block of a world holds: body, element, law, cells, bytes, numbers per cell.
+py::list elastic_blocks(const World& world) {
+  py::list result;
+  for (const Body& body : world.bodies()) {
+    for (const Elastic* elastic : body.elastic) {
+      const ElasticBlock& block = elastic->block();
+      result.append(py::make_tuple(body.name, block.element, block.law, elastic->cell_count(),
+                                   elastic->bytes(), elastic->reals_per_cell()));
+    }
+  }
+  return result;
+}
+
 void add_elastic(WorldDescription& world, const std::string& body, const std::string& cell_type,
                  const Ints& cells, const Ints& cell_numbers, const std::string& law,
                  const Parameters& parameters, const Doubles& density, const std::string& quadrature,
                  const std::vector<std::pair<std::string, Parameters>>& reinforcements,
-                 const std::shared_ptr<LoadedLaw>& loaded) {
+                 const std::shared_ptr<LoadedLaw>& loaded, const Doubles& cross_section, Plane plane) {
   ElasticBlock block;
   block.element = cell_type;
   block.law = law;
@@ -38,6 +51,8 @@ void add_elastic(WorldDescription& world, const std::string& body, const std::st
   for (const auto& [added, values] : reinforcements)
     block.reinforcements.push_back({added, to_parameters(values)});
   block.density = to_vector(density);
+  block.cross_section = to_vector(cross_section);
+  block.plane = plane;
   world.body(body).elastic.push_back(std::move(block));
 }
 
@@ -76,12 +91,14 @@ void bind_world(py::module_& m) {
   py::class_<World, std::shared_ptr<World>>(m, "World")
       .def_property_readonly("blocks", &World::blocks)
       .def_property_readonly("matrix_blocks", [](const World& world) { return world.sparsity().blocks(); })
+      .def_property_readonly("elastic_blocks", &elastic_blocks)
       .def_property_readonly("editable", [](const World& world) { return world.description() != nullptr; })
       .def_property_readonly("mass", [](const World& world) { return world.mass().total(); })
       .def_property_readonly("threads", [](const World& world) { return world.threads().count(); })
       .def_property_readonly("instruction_set",
                              [](const World& world) { return std::string(name(world.isa())); });
 
+  py::enum_<Plane>(m, "Plane").value("stress", Plane::stress).value("strain", Plane::strain);
   py::class_<WorldDescription>(m, "WorldBuilder")
       .def(py::init([](int threads, bool editable, bool links) {
              WorldDescription world;
@@ -103,7 +120,8 @@ void bind_world(py::module_& m) {
       .def("add_elastic", &add_elastic, py::kw_only(), arg("body"), arg("cell_type"), arg("cells"),
            arg("cell_numbers"), arg("law"), arg("parameters"), arg("density"), arg("quadrature") = "full",
            arg("reinforcements") = std::vector<std::pair<std::string, Parameters>>{},
-           arg("loaded") = py::none())
+           arg("loaded") = py::none(), arg("cross_section") = std::vector<double>{1.0},
+           arg("plane") = Plane::stress)
       .def(
           "add_rayleigh",
           [](WorldDescription& world, const std::string& body, double mass, double stiffness) {

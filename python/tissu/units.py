@@ -153,6 +153,10 @@ def _kind(quantity: Any) -> str:
 
 
 LENGTH = Dimension("length", "m", "5 mm", {"m": 1.0, "dm": 0.1, "cm": 1e-2, "mm": 1e-3, "um": 1e-6})
+AREA = Dimension(
+    "area", "m^2", "2 mm^2",
+    {"m^2": 1.0, "m2": 1.0, "cm^2": 1e-4, "cm2": 1e-4, "mm^2": 1e-6, "mm2": 1e-6, "um^2": 1e-12},
+)  # fmt: skip
 TIME = Dimension("time", "s", "10 ms", {"s": 1.0, "ms": 1e-3, "us": 1e-6, "min": 60.0})
 MASS = Dimension("mass", "kg", "1.5 kg", {"kg": 1.0, "g": 1e-3, "mg": 1e-6})
 PRESSURE = Dimension(
@@ -177,7 +181,10 @@ RATE = Dimension(
     "rate", "1/s", "0.1 1/s", {"1/s": 1.0, "/s": 1.0, "s^-1": 1.0, "1/ms": 1e3, "Hz": 1.0}
 )
 NUMBER = Dimension("pure number", "", "0.45", {"%": 0.01})
-DIMENSIONS = (LENGTH, TIME, MASS, PRESSURE, DENSITY, FORCE, ACCELERATION, ANGLE, RATE, NUMBER)
+DIMENSIONS = (
+    *(LENGTH, AREA, TIME, MASS, PRESSURE, DENSITY, FORCE, ACCELERATION, ANGLE, RATE),
+    NUMBER,
+)
 
 
 def written(value: object) -> str:
@@ -250,6 +257,7 @@ def within(low: float, high: float, *, hint: str) -> AfterValidator:
 _Three = tuple[float, float, float]
 _OpenThree = tuple[float | None, float | None, float | None]
 Length = Annotated[float, BeforeValidator(LENGTH)]
+Area = Annotated[float, BeforeValidator(AREA)]
 Time = Annotated[float, BeforeValidator(TIME)]
 Mass = Annotated[float, BeforeValidator(MASS)]
 Pressure = Annotated[float, BeforeValidator(PRESSURE)]

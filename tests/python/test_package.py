@@ -81,7 +81,7 @@ def test_the_stub_of_the_core_is_true():
     assert stub_functions(tree.body) == real_functions(_core)
     classes = {node.name: node for node in tree.body if isinstance(node, ast.ClassDef)}
     assert set(classes) == {n for n, v in vars(_core).items() if isinstance(v, type)}
-    for name in set(classes) - {"Split"}:
+    for name in set(classes) - {"Split", "Plane"}:
         real = getattr(_core, name)
         functions = stub_functions(classes[name].body)
         assert functions == {

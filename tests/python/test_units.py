@@ -31,6 +31,7 @@ from tissu.errors import ParameterError
         (units.FORCE, ".5 kN", 500.0),
         (units.NUMBER, "45 %", 0.45),
         (units.LENGTH, "1 inch", 0.0254),
+        (units.AREA, "2 mm²", 2e-6),
     ],
 )
 def test_reads_numbers_and_units(dimension, written, value):
@@ -40,6 +41,7 @@ def test_reads_numbers_and_units(dimension, written, value):
 def test_table_agrees_with_pint():
     registry = units._registry()
     shorthand = {"kg/m3": "kg/m^3", "g/cm3": "g/cm^3", "m/s2": "m/s^2", "/s": "1/s", "%": "percent"}
+    shorthand |= {"m2": "m^2", "cm2": "cm^2", "mm2": "mm^2"}
     for dimension in units.DIMENSIONS:
         for unit, factor in dimension.units.items():
             quantity = registry.parse_expression(shorthand.get(unit, unit))

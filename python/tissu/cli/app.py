@@ -64,9 +64,19 @@ def check(scene: SceneFile, debug: Debug = False) -> None:
 
 
 @app.command()
-def info(debug: Debug = False) -> None:
-    """Version, threads, instruction set in use, libraries."""
+def info(
+    constants: Annotated[
+        bool, typer.Option("--constants", help="What cells of each element and law keep.")
+    ] = False,
+    debug: Debug = False,
+) -> None:
+    """Version, threads, instruction set in use, libraries; or what cells keep."""
     with reported(debug=debug):
+        if constants:
+            from tissu.cli.constants import constants_text
+
+            typer.echo(constants_text())
+            return
         from tissu.cli.info import info_text
 
         typer.echo(info_text())

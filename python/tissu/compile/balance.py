@@ -115,7 +115,7 @@ def _check_held(prepared: Prepared, name: str, mesh: Mesh) -> None:
 def _part_of_nodes(mesh: Mesh) -> Ints:
     part = np.zeros(mesh.node_count, dtype=np.int32)
     of_cell, first = np.asarray(mesh.parts()), 0
-    for block in mesh.volume_blocks:
+    for block in mesh.body_blocks:
         nodes = np.asarray(block.nodes)
         part[nodes] = of_cell[first : first + len(nodes), None]
         first += len(nodes)

@@ -8,6 +8,7 @@ import numpy as np
 
 from tissu.compile.prepared import Findings, Floats, Group, Ints
 from tissu.compile.select import region_cells
+from tissu.compile.thin import check_law, cross_section_of, material_volume
 from tissu.counted import are, counted
 from tissu.errors import ParameterError
 from tissu.mesh.mesh import first_five
@@ -28,7 +29,7 @@ def cell_groups(mesh: Mesh, body: Body, path: Path, findings: Findings) -> list[
     if owner is None:
         return []
     groups, first = [], 0
-    for block in mesh.volume_blocks:
+    for block in mesh.body_blocks:
         nodes = np.asarray(block.nodes)
         numbers = np.arange(first, first + len(nodes), dtype=np.int32)
         kinds = [(law.type, law.fibres is not None, type(law).made) for law in laws]
@@ -38,7 +39,11 @@ def cell_groups(mesh: Mesh, body: Body, path: Path, findings: Findings) -> list[
             cells = numbers[np.isin(owner[numbers], of_kind)]
             values, fibres = _parameters(laws, owner[cells]), _fibres(laws, owner[cells])
             rows = nodes[cells - first]
-            groups.append(Group(str(block.type), rows, cells, kind[0], values, fibres, kind[2]))
+            cross_section = cross_section_of(body, str(block.type))
+            groups.append(
+                Group(str(block.type), rows, cells, kind[0], values, fibres, kind[2], cross_section)
+            )
+            check_law(laws[of_kind[0]], str(block.type), path, findings)
         first += len(nodes)
     _note_locking(laws, path, findings)
     return groups
@@ -46,7 +51,7 @@ def cell_groups(mesh: Mesh, body: Body, path: Path, findings: Findings) -> list[
 
 def density_of(body: Body, mesh: Mesh, path: Path, findings: Findings) -> float:
     """Density [kg/m^3], from the total mass where that is given."""
-    density = body.density if body.mass is None else body.mass / mesh.volume()
+    density = body.density if body.mass is None else body.mass / material_volume(mesh, body)
     assert density is not None  # the body has one of both
     if not 50.0 <= density <= 30000.0:
         hint = "; was g/cm^3 meant?" if 0.05 <= density < 50.0 else ""

@@ -7,12 +7,16 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from tissu.compile.prepared import Findings, KnownMesh
+from tissu.compile.thin import check_sizes, check_thin
 from tissu.counted import are, counted
 from tissu.errors import TissuError
-from tissu.mesh import bar_mesh, read_mesh
-from tissu.mesh.cell import handled_types
+from tissu.mesh import bar_mesh, mixed_bar_mesh, read_mesh
+from tissu.mesh.cell import handled_types, thin_types
 from tissu.mesh.mesh import first_five
-from tissu.scene.body import BarMesh, MeshFile
+from tissu.mesh.segment import parse_segments
+from tissu.mesh.thin import with_thin
+from tissu.scene.bar import BarMesh
+from tissu.scene.body import MeshFile
 from tissu.scene.problem import field_path, one_of_words
 
 if TYPE_CHECKING:
@@ -33,13 +37,17 @@ def known_mesh(body: Body, path: Path, findings: Findings) -> KnownMesh | None:
     """
     place = (*path, "mesh")
     try:
-        mesh = _mesh_of(body)
+        mesh = with_thin(
+            _mesh_of(body), sheets=_asks(body, "thickness"), lines=_asks(body, "section")
+        )
     except TissuError as error:
         findings.problem(place, str(error))
         return None
     useless = _useless(mesh)
     if useless is not None:
         findings.problem(place, useless)
+        return None
+    if not check_thin(mesh, body, path, findings):
         return None
     if len(mesh.unused_nodes):
         findings.problem(place, _unused(mesh))
@@ -52,12 +60,24 @@ def known_mesh(body: Body, path: Path, findings: Findings) -> KnownMesh | None:
     return KnownMesh(mesh, positions=positions, surface=not repeated)
 
 
+def _asks(body: Body, field: str) -> bool:
+    """Whether a field is given, rightly or wrongly."""
+    return getattr(body, field, "unreadable") is not None
+
+
 def _mesh_of(body: Body) -> Mesh:
     """The mesh, read or made; in the file's own unit when that is unknown."""
     source = body.mesh
     if isinstance(source, MeshFile):
         unit, scale = getattr(source, "unit", "m"), getattr(source, "scale", 1.0)
         return read_mesh(source.file, unit=unit, scale=scale)
+    if isinstance(source, BarMesh) and source.segments is not None:
+        return mixed_bar_mesh(
+            size=source.size,
+            cells=source.cells,
+            segments=parse_segments(source.segments),
+            origin=source.origin,
+        )
     if isinstance(source, BarMesh):
         return bar_mesh(
             size=source.size,
@@ -71,14 +91,18 @@ def _mesh_of(body: Body) -> Mesh:
 
 
 def _useless(mesh: Mesh) -> str | None:
-    """Why the mesh is none of handled volume cells."""
+    """Why nothing of the mesh can be simulated."""
     accepted = f"accepted: {one_of_words(handled_types())}"
     if mesh.unhandled:
         return f"found cells of type {one_of_words(mesh.unhandled)}, not handled; {accepted}"
-    if mesh.volume_blocks:
+    if mesh.body_blocks:
         return None
-    types = one_of_words(sorted({block.type for block in mesh.cells})) or "no cells"
-    return f"found {types} only; a body needs volume cells, {accepted}"
+    types = {block.type for block in mesh.cells}
+    text = f"found {one_of_words(sorted(types)) or 'no cells'} only; a body needs volume cells, "
+    text += accepted
+    if types & set(thin_types()):
+        text += "; or give `thickness` for sheets of triangles and quads, `section` for lines"
+    return text
 
 
 def _unused(mesh: Mesh) -> str:
@@ -92,7 +116,7 @@ def _unused(mesh: Mesh) -> str:
 def _repeated(mesh: Mesh) -> list[str]:
     """Cells that name a node twice, and cells that are there twice."""
     found = []
-    for block in mesh.volume_blocks:
+    for block in mesh.body_blocks:
         rows = np.sort(np.asarray(block.nodes), axis=1)
         folded = np.flatnonzero((rows[:, 1:] == rows[:, :-1]).any(axis=1))
         if len(folded):
@@ -140,6 +164,10 @@ def _unit_is_explicit(mesh: Mesh, body: Body) -> bool:
 
 def _check_shapes(mesh: Mesh, place: Path, findings: Findings) -> None:
     """Cells inside out or flat are refused; slivers are noted."""
+    if mesh.thin_blocks:
+        check_sizes(mesh, place, findings)
+    if not mesh.volume_blocks:
+        return
     report = mesh.quality()
     for wrong, words in ((report.inverted, "inside out"), (report.zero_volume, "without volume")):
         if len(wrong):

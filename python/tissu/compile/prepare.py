@@ -12,9 +12,12 @@ from tissu.compile.material import cell_groups, density_of
 from tissu.compile.meshes import known_mesh
 from tissu.compile.prepared import Held, Ints, LoadedNodes, Prepared, PreparedBody
 from tissu.compile.select import selected_nodes, selected_triangles
+from tissu.compile.thin import note_bending
 from tissu.counted import counted
 from tissu.errors import ParameterError
 from tissu.scene.part import problems_in
+from tissu.scene.selection import SurfaceNodes
+from tissu.scene.support import Fixed
 from tissu.scene.unknown import Unknown
 
 if TYPE_CHECKING:
@@ -23,7 +26,7 @@ if TYPE_CHECKING:
     from tissu.scene.problem import Path
     from tissu.scene.scene import Scene
     from tissu.scene.selection import Selection
-    from tissu.scene.support import Fixed, Prescribed
+    from tissu.scene.support import Prescribed
 
 _WITHOUT_POSITIONS = ("nodes", "surface", "region")  # selections that need no lengths
 
@@ -55,6 +58,11 @@ def _prepare_body(prepared: Prepared, name: str) -> None:
         if known is None:
             return
         prepared.meshes[name] = known
+        if body.plane is not None:
+            every = np.arange(known.mesh.node_count, dtype=np.int32)
+            held = Fixed(name, on=SurfaceNodes(), axes="z")
+            prepared.held.append(Held(held, (*path, "plane"), every))
+        note_bending(known.mesh, body, prepared.scene, path, findings)
         groups = cell_groups(known.mesh, body, path, findings)
         if len(findings.problems) == before:
             density = density_of(body, known.mesh, path, findings)

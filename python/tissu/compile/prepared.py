@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tissu.counted import counted
+from tissu.mesh.cell import dimension
 from tissu.scene.problem import Path, Problem
 
 if TYPE_CHECKING:
@@ -50,6 +51,7 @@ class Group:
         parameters: for each parameter, (1,) or (e,) values in SI.
         fibres: the same for the fibres added to the law; empty: none.
         made: what a law of one's own is made of; None: a law of the library.
+        cross_section: thickness [m] of sheets, section [m2] of lines; 1 of volumes.
     """
 
     cell_type: str
@@ -59,6 +61,12 @@ class Group:
     parameters: dict[str, Floats]
     fibres: dict[str, Floats] = field(default_factory=dict)
     made: MadeLaw | None = None
+    cross_section: float = 1.0
+
+    @property
+    def surface(self) -> bool:
+        """Whether they are sheets."""
+        return dimension(self.cell_type) == 2
 
 
 @dataclass(frozen=True, slots=True)
@@ -122,7 +130,11 @@ class Prepared:
 
     def counts(self) -> dict[str, str]:
         """What each support and load selects: "fixed[0]" -> "42 nodes"."""
-        counts = {f"{h.path[0]}[{h.path[1]}]": counted(len(h.nodes), "node") for h in self.held}
+        counts = {
+            f"{h.path[0]}[{h.path[1]}]": counted(len(h.nodes), "node")
+            for h in self.held
+            if h.path[0] != "bodies"
+        }
         for loaded in self.loaded:
             faces = len(loaded.triangles)
             text = (

@@ -61,7 +61,7 @@ def region_nodes(name: str, mesh: Mesh) -> Ints:
     """
     cells = region_cells(name, mesh)
     nodes, first = [], 0
-    for block in mesh.volume_blocks:
+    for block in mesh.body_blocks:
         inside = cells[(cells >= first) & (cells < first + len(block.nodes))] - first
         nodes.append(np.asarray(block.nodes)[inside].ravel())
         first += len(block.nodes)

@@ -73,6 +73,8 @@ def usable_threads(asked: int) -> int:
 
 
 def _add_body(builder: WorldBuilder, prepared: Prepared, name: str) -> None:
+    from tissu._core import Plane
+
     body, ready = prepared.scene.bodies[name], prepared.bodies[name]
     builder.add_body(name=name, positions=np.ascontiguousarray(ready.mesh.points, dtype=np.float64))
     for group in ready.groups:
@@ -87,6 +89,8 @@ def _add_body(builder: WorldBuilder, prepared: Prepared, name: str) -> None:
             quadrature=body.quadrature,
             reinforcements=[("fibre", group.fibres)] if group.fibres else [],
             loaded=None if group.made is None else group.made.build().loaded,
+            cross_section=np.array([group.cross_section]),
+            plane=Plane.strain if body.plane == "strain" and group.surface else Plane.stress,
         )
     if body.viscosity is not None:
         builder.add_rayleigh(

@@ -11,8 +11,17 @@ import numpy as np
 
 from tissu import _core
 from tissu.errors import ParameterError
-from tissu.mesh.cell import CellBlock, Floats, Ints, cell_table, handled_types, linear_type
+from tissu.mesh.cell import (
+    CellBlock,
+    Floats,
+    Ints,
+    cell_table,
+    handled_types,
+    linear_type,
+    thin_types,
+)
 from tissu.mesh.cut import into_pyramids, into_wedges
+from tissu.mesh.flat_bar import flat_bar_mesh
 from tissu.mesh.mesh import Mesh
 from tissu.mesh.quadratic import into_quadratic
 
@@ -27,7 +36,7 @@ def bar_mesh(
     split: Split = "six",
     origin: Sequence[float] = (0.0, 0.0, 0.0),
 ) -> Mesh:
-    """A box cut into like cells; nodes are numbered x fastest, then y, then z.
+    """A box, a plate or a line cut into like cells; nodes are numbered x fastest, then y, then z.
 
     The tips of pyramids come after the corners of the grid, the middles of edges after both.
 
@@ -36,7 +45,7 @@ def bar_mesh(
         cells: numbers of grid cells along x, y, z.
         cell: type as meshio names it: a grid cell is one "hexahedron", 2 of "wedge", 6 of
             "pyramid" or as `split` says "tetra"; "tetra10", "hexahedron20", "hexahedron27",
-            "wedge15", "pyramid13" are those with middle nodes.
+            "wedge15", "pyramid13" are those with middle nodes; flat ones: see `flat_bar_mesh`.
         split: how a grid cell is cut into tetrahedra: "six" around one diagonal, all alike;
             "five", in two mirror images like a chessboard; "six_mirrored", each grid cell the
             mirror image of its neighbours.
@@ -46,16 +55,17 @@ def bar_mesh(
         ParameterError: a length or a number that is not positive, an unknown cell or split, or a
             split of cells that are no tetrahedra.
     """
+    if cell in thin_types():
+        _require_no_split(cell, split)
+        return flat_bar_mesh(size=size, cells=cells, cell=cell, origin=origin)
     if cell not in handled_types():
-        raise ParameterError(f"found cell '{cell}'; {', '.join(handled_types())} are accepted")
+        accepted = ", ".join((*handled_types(), *thin_types()))
+        raise ParameterError(f"found cell '{cell}'; {accepted} are accepted")
     if split not in get_args(Split):
         raise ParameterError(f"found split '{split}'; {', '.join(get_args(Split))} are accepted")
     base = linear_type(cell)
-    if split != "six" and base != "tetra":
-        raise ParameterError(
-            f"found split '{split}' of cells of type {cell}; only tetra and tetra10 are split: "
-            "leave split out"
-        )
+    if base != "tetra":
+        _require_no_split(cell, split)
     cut = split if base == "tetra" else "none"
     points, nodes = grid(size=size, cells=cells, origin=origin, split=cut)
     if base == "wedge":
@@ -67,6 +77,14 @@ def bar_mesh(
     if cell_table()[cell].order == 1:
         return mesh
     return into_quadratic(mesh, centres=cell == "hexahedron27")
+
+
+def _require_no_split(cell: str, split: str) -> None:
+    if split != "six":
+        raise ParameterError(
+            f"found split '{split}' of cells of type {cell}; only tetra and tetra10 are split: "
+            "leave split out"
+        )
 
 
 def grid(

@@ -29,6 +29,7 @@ _DIMENSIONS = {
     "pyramid": 3,
     "polyhedron": 3,
 }
+_CORNERS = {"line": 2, "triangle": 3, "quad": 4}
 
 
 class CellType(NamedTuple):
@@ -59,6 +60,14 @@ def cell_table() -> dict[str, CellType]:
 def handled_types() -> tuple[str, ...]:
     """Names of the volume cell types that can be simulated."""
     return tuple(row.name for row in cell_table().values() if row.dimension == 3)
+
+
+@cache
+def thin_types() -> dict[str, CellType]:
+    """The types of surface and line cells that can be simulated, by their names."""
+    rows = (row for row in _core.elements() if row[2] < 3)
+    # A surface has as many corners as straight edges: 3 of triangle*, 4 of quad*; a line has 2.
+    return {row[0]: CellType(*row, corners=_CORNERS[row[0].rstrip("0123456789")]) for row in rows}
 
 
 def linear_type(name: str) -> str:
@@ -102,7 +111,7 @@ class CellBlock:
                 f"found node numbers of shape {nodes.shape} for the cells of type '{self.type}'; "
                 "an array (cells, nodes per cell) is accepted"
             )
-        known = cell_table().get(self.type)
+        known = cell_table().get(self.type) or thin_types().get(self.type)
         if known and nodes.shape[1] != known.nodes:
             raise MeshError(f"found {nodes.shape[1]} nodes per {self.type}; it has {known.nodes}")
         nodes.flags.writeable = False

@@ -14,7 +14,8 @@ from tissu import _core
 from tissu.counted import counted
 from tissu.errors import MeshError
 from tissu.mesh import surface as surfaces
-from tissu.mesh.cell import CellBlock, Floats, Ints, dimension, handled_types
+from tissu.mesh import thin as thins
+from tissu.mesh.cell import CellBlock, Floats, Ints, dimension, handled_types, thin_types
 
 if TYPE_CHECKING:
     from tissu.mesh.quality import QualityReport
@@ -25,12 +26,15 @@ if TYPE_CHECKING:
 class Mesh:
     """Nodes and cells; never changed once made.
 
-    Volume cells are numbered across `volume_blocks`, first block first.
+    Cells are numbered across `body_blocks`, first block first: volume cells, then sheets, then
+    lines where the mesh simulates them.
 
     Attributes:
         points: rest positions (n, 3) float64 [m], read-only.
         cells: every block there is, faces and lines too.
-        regions: name -> numbers int32 of volume cells, increasing; a cell may be in several.
+        thin: which cells below three dimensions are simulated: 2 for surfaces, 1 for lines; the
+            others only mark borders.
+        regions: name -> numbers int32 of cells, increasing; a cell may be in several.
         source: file it was read from, None when it was made.
         unit: unit of length of the file.
         scale: factor on all lengths, on top of the unit.
@@ -42,6 +46,7 @@ class Mesh:
 
     points: Floats
     cells: tuple[CellBlock, ...]
+    thin: tuple[int, ...] = ()
     regions: Mapping[str, Ints] = field(default_factory=dict)
     source: str | None = None
     unit: str = "m"
@@ -66,6 +71,17 @@ class Mesh:
         return tuple(block for block in self.cells if block.type in handled_types() and len(block))
 
     @property
+    def thin_blocks(self) -> tuple[CellBlock, ...]:
+        """The surface and line cells that are simulated: surfaces first."""
+        found = [b for b in self.cells if b.type in thin_types() and len(b)]
+        return tuple(b for m in (2, 1) if m in self.thin for b in found if dimension(b.type) == m)
+
+    @property
+    def body_blocks(self) -> tuple[CellBlock, ...]:
+        """All blocks that are simulated: volume cells, then surfaces, then lines."""
+        return self.volume_blocks + self.thin_blocks
+
+    @property
     def unhandled(self) -> tuple[str, ...]:
         """Types of volume cells in the mesh that cannot be simulated yet, so a scene refuses it."""
         types = (block.type for block in self.cells if len(block))
@@ -78,8 +94,8 @@ class Mesh:
 
     @property
     def cell_count(self) -> int:
-        """Number of cells in the volume blocks."""
-        return sum(len(block) for block in self.volume_blocks)
+        """Number of cells that are simulated."""
+        return sum(len(block) for block in self.body_blocks)
 
     @property
     def bounds(self) -> Floats:
@@ -88,9 +104,9 @@ class Mesh:
 
     @property
     def unused_nodes(self) -> Ints:
-        """Numbers of the nodes that no volume cell uses (without volume cells: no cell at all)."""
+        """Numbers of the nodes that no simulated cell uses (without such cells: no cell at all)."""
         used = np.zeros(self.node_count, dtype=bool)
-        for block in self.volume_blocks or self.cells:
+        for block in self.body_blocks or self.cells:
             used[block.nodes] = True
         return np.flatnonzero(~used).astype(np.int32)
 
@@ -107,17 +123,22 @@ class Mesh:
         return float(self.cell_volumes().sum())
 
     def surface(self) -> Surface:
-        """The outer surface of the volume; of a mesh without volume cells, its own faces."""
+        """The outer surface of the volume and the faces of sheets that are not on it.
+
+        Of a mesh that simulates nothing, its own faces.
+        """
         return surfaces.boundary(self)
 
     def surface_mesh(self) -> Mesh:
         """The outer surface as a mesh of its own, with the nodes on it only."""
         blocks = self.surface().faces
-        alone = dataclasses.replace(self, cells=blocks, regions={}, notes=())
+        alone = dataclasses.replace(self, cells=blocks, thin=(), regions={}, notes=())
         return alone.without_unused_nodes()
 
     def parts(self) -> Ints:
-        """Part number of each volume cell; cells that share a node are in one part."""
+        """Part number of each simulated cell; cells that share a node are in one part."""
+        if self.thin_blocks:
+            return thins.parts(self)
         return _core.connected_parts(positions=self.points, blocks=self.native_blocks())
 
     def quality(self) -> QualityReport:
@@ -127,7 +148,7 @@ class Mesh:
         return report(self)
 
     def without_unused_nodes(self) -> Mesh:
-        """The same mesh without the nodes that no volume cell uses.
+        """The same mesh without the nodes that no simulated cell uses.
 
         Faces and lines on such nodes go too.
         """

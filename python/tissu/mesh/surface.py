@@ -6,8 +6,10 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
 from tissu import _core
+from tissu.mesh import thin
 from tissu.mesh.cell import CellBlock, Floats, Ints, corners
 
 if TYPE_CHECKING:
@@ -44,15 +46,40 @@ class Surface:
 
 
 def boundary(mesh: Mesh) -> Surface:
-    """The outer surface of the volume cells; of a mesh without them, its own faces."""
-    if mesh.volume_blocks:
+    """The outer surface of the volume cells and the sheets that are not on it.
+
+    Of a mesh that simulates nothing, its own faces.
+    """
+    if mesh.body_blocks:
         found = _core.boundary_surface(positions=mesh.points, blocks=mesh.native_blocks())
-        return _surface(*found)
+        return _surface(*(_with_sheets(found, thin.faces(mesh)) if mesh.thin_blocks else found))
     triangles = np.concatenate([np.empty((0, 3), np.int32), *corners(mesh.cells, "triangle", 3)])
     quads = np.concatenate([np.empty((0, 4), np.int32), *corners(mesh.cells, "quad", 4)])
     first = np.arange(len(triangles), dtype=np.int32)
     second = np.arange(len(triangles), len(triangles) + len(quads), dtype=np.int32)
     return _surface(triangles, first, quads, second)
+
+
+_Faces = tuple[Ints, Ints, Ints, Ints]
+
+
+def _with_sheets(outer: _Faces, sheets: _Faces) -> _Faces:
+    """The outer faces, then those of sheets that do not lie on one of them."""
+    triangles, of_triangles, quads, of_quads = sheets
+    keep, other = _absent(triangles, outer[0]), _absent(quads, outer[2])
+    return (
+        np.concatenate([outer[0], triangles[keep]]),
+        np.concatenate([outer[1], of_triangles[keep]]),
+        np.concatenate([outer[2], quads[other]]),
+        np.concatenate([outer[3], of_quads[other]]),
+    )
+
+
+def _absent(faces: Ints, among: Ints) -> NDArray[np.bool_]:
+    """Which faces have nodes that none of the others has."""
+    known = {tuple(row) for row in np.sort(among, axis=1).tolist()}
+    found = [tuple(row) not in known for row in np.sort(faces, axis=1).tolist()]
+    return np.array(found, dtype=bool)
 
 
 def _surface(triangles: Ints, triangle_cells: Ints, quads: Ints, quad_cells: Ints) -> Surface:

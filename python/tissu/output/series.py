@@ -77,7 +77,7 @@ def write_vtu(path: Path, mesh: Mesh, simulation: Simulation, body: str) -> None
     from tissu.mesh.through_meshio import library
 
     meshio = library()
-    blocks = mesh.volume_blocks
+    blocks = mesh.body_blocks
     ends = np.cumsum([len(block.nodes) for block in blocks])[:-1]
 
     def by_block(values: NDArray[Any]) -> list[NDArray[Any]]:

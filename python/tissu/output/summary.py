@@ -108,7 +108,7 @@ def write_summary(path: Path, summary: Mapping[str, Any]) -> None:
 def mesh_data(mesh: Mesh) -> dict[str, Any]:
     """Counts and origin of a mesh."""
     cells: dict[str, int] = {}
-    for block in mesh.volume_blocks:
+    for block in mesh.body_blocks:
         cells[block.type] = cells.get(block.type, 0) + len(block.nodes)
     return {
         "file": mesh.source,

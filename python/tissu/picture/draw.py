@@ -12,8 +12,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from tissu.errors import ParameterError
+from tissu.mesh.thin import line_pieces
 from tissu.picture import layout
 from tissu.picture.camera import Camera, look_at
+from tissu.picture.rod import LINE, rods, rods_values
 from tissu.picture.surface import render_surface
 
 if TYPE_CHECKING:
@@ -22,6 +24,7 @@ if TYPE_CHECKING:
     from tissu.simulation import Simulation
 
 Array = NDArray[np.float64]
+Ints = NDArray[np.int32]
 Field = Literal["displacement", "von_mises"]
 
 LABELS = {"displacement": "displacement", "von_mises": "von Mises stress"}
@@ -135,13 +138,26 @@ def shape_of(simulation: Simulation, field: Field) -> Shape:
         if field == "displacement":
             values = np.linalg.norm(shift, axis=1)
         else:
-            cells = simulation.cell_fields(name)["von_mises"][np.asarray(surface.cells)]
-            values = _at_points(cells, triangles, now)
+            every = simulation.cell_fields(name)["von_mises"]
+            values = _at_points(every[np.asarray(surface.cells)], triangles, now)
         used, numbers = np.unique(triangles, return_inverse=True)
         parts.append(
             Shape((now - shift)[used], now[used], numbers.reshape(triangles.shape), values[used])
         )
+        ends, of_lines = line_pieces(mesh)
+        if len(ends):
+            radius = LINE * float(np.linalg.norm(np.ptp(now - shift, axis=0)))
+            at_ends = values[ends]
+            if field != "displacement":
+                at_ends = np.repeat(every[of_lines][:, None], 2, axis=1)
+            parts.append(_rods(now - shift, now, ends, at_ends, radius))
     return _joined(parts)
+
+
+def _rods(rest: Array, now: Array, ends: Ints, values: Array, radius: float) -> Shape:
+    """Lines (k,2) as rods, with the values (k,2) at their ends."""
+    before, after = rods(rest[ends], radius), rods(now[ends], radius)
+    return Shape(before[0], after[0], before[1], rods_values(values))
 
 
 def _joined(parts: Iterable[Shape]) -> Shape:

@@ -1,6 +1,7 @@
 """Scenes: what is simulated, as frozen and validated parts."""
 
-from tissu.scene.body import BarMesh, Body, MeshFile
+from tissu.scene.bar import BarMesh
+from tissu.scene.body import Body, MeshFile
 from tissu.scene.law import (
     ArrudaBoyce,
     Fibres,

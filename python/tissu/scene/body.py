@@ -7,32 +7,17 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
 
-from pydantic import AfterValidator, BeforeValidator, Field, PlainValidator, ValidationInfo
+from pydantic import AfterValidator, Field, PlainValidator, ValidationInfo
 
 from tissu import units
-from tissu.errors import ParameterError
+from tissu.scene.bar import BarMesh
 from tissu.scene.law import Law, LawOrMap, Rayleigh
 from tissu.scene.part import Part, chosen
 from tissu.scene.problem import Problem
 from tissu.scene.unknown import rule
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
     from tissu.mesh import Mesh
-
-_Count = Annotated[int, Field(ge=1)]
-BarCell = Literal[
-    "tetra",
-    "tetra10",
-    "hexahedron",
-    "hexahedron20",
-    "hexahedron27",
-    "wedge",
-    "wedge15",
-    "pyramid",
-    "pyramid13",
-]
 
 
 def _from_base(file: Path, info: ValidationInfo) -> Path:
@@ -43,12 +28,6 @@ def _from_base(file: Path, info: ValidationInfo) -> Path:
 def _length_unit(unit: str) -> str:
     units.LENGTH(f"1 {unit}")
     return unit
-
-
-def _positive(size: tuple[float, ...]) -> tuple[float, ...]:
-    if min(size) <= 0:
-        raise ParameterError(f"found {size}; three positive lengths are accepted")
-    return size
 
 
 class MeshFile(Part):
@@ -67,40 +46,6 @@ class MeshFile(Part):
         def __init__(
             self, file: str | os.PathLike[str], *, unit: str = ..., scale: units.Number = ...
         ) -> None: ...
-
-
-class BarMesh(Part):
-    """A box cut into like cells."""
-
-    type: Literal["bar"] = "bar"
-    size: Annotated[units.Position, AfterValidator(_positive)]
-    """lengths along x, y, z [m]"""
-    cells: Annotated[tuple[_Count, _Count, _Count], BeforeValidator(units.listed)]
-    """numbers of boxes along x, y, z"""
-    cell: BarCell = "tetra"
-    """cell type"""
-    split: Literal["six", "five", "six_mirrored"] = "six"
-    """how a box is cut into tetrahedra; of `tetra` and `tetra10` only"""
-    origin: units.Position = (0.0, 0.0, 0.0)
-    """smallest corner [m]"""
-
-    if TYPE_CHECKING:
-
-        def __init__(
-            self,
-            *,
-            size: units.VectorLike,
-            cells: Sequence[int],
-            cell: BarCell = ...,
-            split: Literal["six", "five", "six_mirrored"] = ...,
-            origin: units.VectorLike = ...,
-        ) -> None: ...
-
-    @rule("cell", "split")
-    def _splits_tetrahedra(self) -> Iterator[Problem]:
-        if self.split != "six" and not self.cell.startswith("tetra"):
-            text = f"found split {self.split} of cells of type {self.cell}"
-            yield Problem((), f"{text}; only tetra and tetra10 are split: leave split out")
 
 
 def _is_mesh(value: object) -> bool:
@@ -133,6 +78,14 @@ class Body(Part):
     """points at which hexahedra are integrated"""
     viscosity: Rayleigh | None = None
     """viscosity; absent: none"""
+    thickness: Annotated[units.Length, Field(gt=0.0)] | None = None
+    """thickness [m] of sheets: the triangles and quads of the mesh; absent: they only mark faces"""
+    section: Annotated[units.Area, Field(gt=0.0)] | None = None
+    """section [m^2] of fibres and cables: the lines of the mesh; absent: they only mark edges"""
+    plane: Literal["strain", "stress"] | None = None
+    """the body is flat, of one z, and stays so: without strain across, as in a slice of something
+    long, or without stress across, as in a plate; absent: its sheets are free in space and to thin
+    """
 
     if TYPE_CHECKING:
 
@@ -145,6 +98,9 @@ class Body(Part):
             mass: units.Number | None = ...,
             quadrature: Literal["full", "over"] = ...,
             viscosity: Rayleigh | None = ...,
+            thickness: units.Number | None = ...,
+            section: units.Number | None = ...,
+            plane: Literal["strain", "stress"] | None = ...,
         ) -> None: ...
 
     @rule("density", "mass")
@@ -152,6 +108,13 @@ class Body(Part):
         if (self.density is None) == (self.mass is None):
             found = "neither" if self.density is None else "both"
             text = f"found {found} of density and mass; exactly one of them is accepted"
+            yield Problem((), text)
+
+    @rule("plane")
+    def _plane_has_a_thickness(self) -> Iterator[Problem]:
+        if self.plane is not None and self.thickness is None:
+            text = f"found plane {self.plane} without thickness; both are accepted together: "
+            text += "thickness: 1 m makes every force one per metre"
             yield Problem((), text)
 
     def laws(self) -> dict[str | None, Law]:

@@ -240,7 +240,7 @@ def keep_cells(mesh: Mesh, cells: NDArray[np.int32]) -> Mesh:
     keep[cells] = True
     number = np.cumsum(keep, dtype=np.int32) - 1
     blocks, first = [], 0
-    for block in mesh.volume_blocks:
+    for block in mesh.body_blocks:
         rows = keep[first : first + len(block.nodes)]
         blocks.append(dataclasses.replace(block, nodes=block.nodes[rows]))
         first += len(block.nodes)

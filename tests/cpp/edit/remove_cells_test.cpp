@@ -253,5 +253,25 @@ INSTANTIATE_TEST_SUITE_P(Ways, RemoveCells,
                                          RemovalCase{Split::none, false, "hooke"}),
                          testing::PrintToStringParamName());
 
+/// Lines of the sections 1, 2 and 3 m2; the first goes, and the others keep theirs.
+TEST(RemoveLines, SectionsStayWithTheirCells) {
+  BodyDescription body;
+  body.name = "body";
+  body.positions = {0, 0, 0, 1, 0, 0, 2, 0, 0, 3, 0, 0};
+  ElasticBlock lines;
+  lines.element = "line";
+  lines.cells = {0, 1, 1, 2, 2, 3};
+  lines.parameters = {{"young", {3.0}}, {"poisson", {0.3}}};
+  lines.density = {2.0};
+  lines.cross_section = {1.0, 2.0, 3.0};
+  body.elastic = {lines};
+  WorldDescription world;
+  world.bodies = {body};
+  world.editable = true;
+  Simulation simulation = test::simulate(world, test::implicit_euler(), test::conjugate_gradient());
+  simulation.replace_world(remove_cells(simulation.world(), simulation.state(), "body", Numbers{0}));
+  EXPECT_EQ(simulation.world().bodies()[0].elastic[0]->volumes(), (std::vector{2.0, 3.0}));
+}
+
 }  // namespace
 }  // namespace tissu

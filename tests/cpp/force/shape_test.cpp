@@ -3,19 +3,32 @@
 #include "../world/sample_worlds.h"
 #include "tissu/assembly/block_matrix.h"
 #include "tissu/element/generated/all.h"
+#include "tissu/law/generated/all.h"
 #include "tissu/law/law_info.h"
 
 /// Every element with every law: two ways of computing the same, derivatives by differences, rest, frames.
 namespace tissu {
 namespace {
 
+/// How a surface or a line lies: bent and tilted in space, or in a plane of constant z.
+enum class Lie : std::uint8_t { volume, space, flat };
+
 struct Case {
   std::string element;
   std::string quadrature;
   std::string law;
+  Lie lie = Lie::volume;
+  Plane plane = Plane::stress;
 };
 
-void PrintTo(const Case& c, std::ostream* out) { *out << c.element << "_" << c.quadrature << "_" << c.law; }
+std::string text(const Case& c) {
+  const std::string of_volume = c.element + "_" + c.quadrature + "_" + c.law;
+  if (c.lie == Lie::volume) return of_volume;
+  return of_volume + (c.lie == Lie::space ? "_space" : "_flat") +
+         (c.plane == Plane::stress ? "_stress" : "_strain");
+}
+
+void PrintTo(const Case& c, std::ostream* out) { *out << text(c); }
 
 LawParameters typical(const LawInfo& law) {
   LawParameters parameters;
@@ -23,18 +36,21 @@ LawParameters typical(const LawInfo& law) {
   return parameters;
 }
 
-/// Reference coordinates of an element's nodes.
-std::vector<std::array<double, 3>> coordinates(std::string_view name) {
-  std::vector<std::array<double, 3>> found;
+/// Reference coordinates of an element's nodes, zero beyond its dimension.
+std::vector<Vec3> coordinates(std::string_view name) {
+  std::vector<Vec3> found;
   for_each_element([&](auto element) {
-    if constexpr (decltype(element)::kDimension == 3) {
-      if (element.kName == name) found.assign(element.nodes.begin(), element.nodes.end());
+    if (element.kName != name) return;
+    for (const auto& node : element.nodes) {
+      Vec3 x = Vec3::Zero();
+      for (std::size_t i = 0; i < node.size(); ++i) x[static_cast<Eigen::Index>(i)] = node[i];
+      found.push_back(x);
     }
   });
   return found;
 }
 
-/// The reference cell, a little distorted.
+/// The reference cell, a little distorted; below three dimensions turned in space or in its plane.
 struct Sample {
   std::vector<double> positions;
   ElasticBlock block;
@@ -43,8 +59,13 @@ struct Sample {
 Sample sample(const Case& c) {
   Sample made;
   test::Random random(11);
-  for (const auto& node : coordinates(c.element)) {
-    for (const double x : node) made.positions.push_back(x + random.number(0.04));
+  Mat3 turn = Mat3::Identity();
+  if (c.lie == Lie::space) turn = Eigen::AngleAxisd(0.9, Vec3(0.48, -0.6, 0.64)).toRotationMatrix();
+  if (c.lie == Lie::flat) turn = Eigen::AngleAxisd(0.9, Vec3::UnitZ()).toRotationMatrix();
+  for (Vec3 x : coordinates(c.element)) {
+    for (int i = 0; i < (c.lie == Lie::flat ? 2 : 3); ++i) x[i] += random.number(0.04);
+    x = turn * x;
+    made.positions.insert(made.positions.end(), x.data(), x.data() + 3);
   }
   made.block.body = "body";
   made.block.element = c.element;
@@ -52,21 +73,39 @@ Sample sample(const Case& c) {
   made.block.law = c.law;
   made.block.parameters = typical(*find_law(c.law));
   made.block.density = {1000.0};
+  made.block.plane = c.plane;
+  if (c.lie != Lie::volume) made.block.cross_section = {0.3};
   for (std::size_t a = 0; a < made.positions.size() / 3; ++a) {
     made.block.cells.push_back(static_cast<std::int32_t>(a));
   }
   return made;
 }
 
+std::vector<std::string> laws_for(int dimension) {
+  std::vector<std::string> names;
+  if (dimension == 3) {
+    BaseLaws::for_each([&](auto tag) { names.emplace_back((decltype(tag)::template Of<double>::kName)); });
+  } else {
+    ThinLaws::for_each([&](auto tag) { names.emplace_back((decltype(tag)::template Of<double>::kName)); });
+  }
+  return names;
+}
+
 std::vector<Case> cases() {
   std::vector<Case> all;
   for (const ElementInfo& element : elements()) {
-    if (element.dimension != 3) continue;
-    for (const char* quadrature : {"reduced", "full", "over"}) {
+    for (const std::string quadrature : {"reduced", "full", "over"}) {
       if (reference_cell(element.name, quadrature).points.empty()) continue;
-      for (const LawInfo& law : all_laws()) {
-        if (law.addition) continue;
-        all.push_back({std::string(element.name), quadrature, std::string(law.name)});
+      for (const std::string& law : laws_for(element.dimension)) {
+        const std::string name(element.name);
+        if (element.dimension == 3) {
+          all.push_back({name, quadrature, law});
+          continue;
+        }
+        for (const Lie lie : {Lie::space, Lie::flat}) {
+          for (const Plane plane : {Plane::stress, Plane::strain})
+            all.push_back({name, quadrature, law, lie, plane});
+        }
       }
     }
   }
@@ -204,9 +243,8 @@ TEST_P(ShapeTest, MassesArePositiveAndSumToTheMassOfTheVolume) {
   EXPECT_NEAR(weight, mass, 1e-12 * mass);
 }
 
-INSTANTIATE_TEST_SUITE_P(Every, ShapeTest, testing::ValuesIn(cases()), [](const auto& info) {
-  return info.param.element + "_" + info.param.quadrature + "_" + info.param.law;
-});
+INSTANTIATE_TEST_SUITE_P(Every, ShapeTest, testing::ValuesIn(cases()),
+                         [](const auto& info) { return text(info.param); });
 
 }  // namespace
 }  // namespace tissu

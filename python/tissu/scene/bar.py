@@ -1,0 +1,117 @@
+"""A bar of cells: a box, a flat plate or a straight line."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Annotated, Literal
+
+from pydantic import BeforeValidator, Field
+
+from tissu import units
+from tissu.scene.part import Part
+from tissu.scene.problem import Problem
+from tissu.scene.unknown import rule
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+_Count = Annotated[int, Field(ge=0)]
+_LENGTHS = {
+    1: "a positive length along x, 0 along y and z",
+    2: "positive lengths along x and y and 0 along z",
+    3: "three positive lengths",
+}
+_COUNTS = {
+    1: "a number from 1 on along x and 0 along y and z",
+    2: "numbers from 1 on along x and y and 0 along z",
+    3: "three numbers from 1 on",
+}
+BarCell = Literal[
+    "tetra",
+    "tetra10",
+    "hexahedron",
+    "hexahedron20",
+    "hexahedron27",
+    "wedge",
+    "wedge15",
+    "pyramid",
+    "pyramid13",
+    "triangle",
+    "triangle6",
+    "quad",
+    "quad8",
+    "quad9",
+    "line",
+    "line3",
+]
+
+
+class BarMesh(Part):
+    """A box, a plate or a line cut into like cells, or a box into segments of a cell type each."""
+
+    type: Literal["bar"] = "bar"
+    size: units.Position
+    """lengths along x, y, z [m]; z is 0 for triangles and quads, y and z for lines"""
+    cells: Annotated[tuple[_Count, _Count, _Count], BeforeValidator(units.listed)]
+    """numbers of boxes along x, y, z; 0 where the length is 0"""
+    cell: BarCell = "tetra"
+    """cell type"""
+    segments: str | None = None
+    """cell types along x with a label each, "wedge6:stvk, hex8:stvk, tet4:hooke", instead of
+    `cell`; they are the regions "1 wedge stvk", "2 hexahedron stvk", "3 tetra hooke" """
+    split: Literal["six", "five", "six_mirrored"] = "six"
+    """how a box is cut into tetrahedra; of `tetra` and `tetra10` only"""
+    origin: units.Position = (0.0, 0.0, 0.0)
+    """smallest corner [m]"""
+
+    if TYPE_CHECKING:
+
+        def __init__(
+            self,
+            *,
+            size: units.VectorLike,
+            cells: Sequence[int],
+            cell: BarCell = ...,
+            segments: str | None = ...,
+            split: Literal["six", "five", "six_mirrored"] = ...,
+            origin: units.VectorLike = ...,
+        ) -> None: ...
+
+    @rule("cell", "split")
+    def _splits_tetrahedra(self) -> Iterator[Problem]:
+        if self.split != "six" and not self.cell.startswith("tetra"):
+            text = f"found split {self.split} of cells of type {self.cell}"
+            yield Problem((), f"{text}; only tetra and tetra10 are split: leave split out")
+
+    @rule("segments")
+    def _segments_stand_alone(self) -> Iterator[Problem]:
+        extra = [name for name in ("cell", "split") if name in self.model_fields_set]
+        if self.segments is not None and extra:
+            text = f"found segments and {' and '.join(extra)}; segments alone are accepted"
+            yield Problem((), text)
+
+    @rule("size")
+    def _lengths(self) -> Iterator[Problem]:
+        dimension = bar_dimension(self.cell)
+        if not _fills(self.size, dimension):
+            found = f"found {self.size} for cells of type {self.cell}"
+            yield Problem(("size",), f"{found}; {_LENGTHS[dimension]} are accepted")
+
+    @rule("cells")
+    def _counts(self) -> Iterator[Problem]:
+        dimension = bar_dimension(self.cell)
+        if not _fills(self.cells, dimension):
+            found = f"found {self.cells} for cells of type {self.cell}"
+            yield Problem(("cells",), f"{found}; {_COUNTS[dimension]} are accepted")
+
+
+def bar_dimension(cell: str) -> int:
+    """1 for lines, 2 for triangles and quads, 3 for volumes."""
+    families = (("line", 1), ("triangle", 2), ("quad", 2))
+    return next((m for family, m in families if cell.startswith(family)), 3)
+
+
+def _fills(numbers: tuple[float, ...], dimension: int) -> bool:
+    """Whether the first ones are positive and the others 0."""
+    first, others = numbers[:dimension], numbers[dimension:]
+    return min(first) > 0 and not any(others)

@@ -31,6 +31,10 @@ def box_mesh(
     *, origin: Sequence[float], size: Sequence[float], cells: Sequence[int], split: Split
 ) -> tuple[Floats, list[tuple[str, Ints]]]: ...
 def boundary_surface(*, positions: Floats, blocks: Blocks) -> tuple[Ints, Ints, Ints, Ints]: ...
+def boundary_faces(
+    *, positions: Floats, blocks: list[tuple[str, Ints]]
+) -> list[tuple[str, Ints, Ints]]: ...
+def face_areas(*, type: str, positions: Floats, faces: Ints) -> Floats: ...
 def turn_reversed_cells(
     *, positions: Floats, blocks: Blocks
 ) -> tuple[list[tuple[str, Ints]], int]: ...
@@ -114,7 +118,7 @@ class WorldBuilder:
         *,
         name: str,
         body: str,
-        triangles: Ints,
+        faces: list[tuple[str, Ints]],
         pressure: float,
         times: Floats,
         factors: Floats,

@@ -147,7 +147,8 @@ def test_traction_times_area(calls):
 def test_pressure(calls):
     load = Pressure("bar", on=RIGHT, pressure="1 kPa", times=[0, 1], factors=[0, 1])
     added = only(calls(loads=[load]), "add_pressure")
-    assert added["triangles"].shape == (2, 3)
+    ((kind, faces),) = added["faces"]
+    assert (kind, faces.shape) == ("triangle", (2, 3))
     assert (added["pressure"], added["factors"].tolist()) == (1000.0, [0, 1])
 
 

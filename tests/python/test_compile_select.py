@@ -5,10 +5,24 @@ import dataclasses
 import numpy as np
 import pytest
 
-from tissu.compile.select import selected_nodes, selected_triangles
+from tissu.compile.select import selected_faces, selected_nodes
 from tissu.errors import ParameterError
-from tissu.mesh import bar_mesh
-from tissu.scene import Box, Nodes, Plane, Region, Sphere, SurfaceNodes
+from tissu.mesh import bar_mesh, into_quadratic
+from tissu.scene import (
+    Body,
+    Box,
+    Cholesky,
+    Fixed,
+    Hooke,
+    Nodes,
+    Plane,
+    Region,
+    Scene,
+    Sphere,
+    Static,
+    SurfaceNodes,
+    Traction,
+)
 
 
 @pytest.fixture(params=["tetra", "hexahedron"])
@@ -65,9 +79,37 @@ def test_interior_node_is_not_on_the_surface():
 
 def test_faces_need_all_their_nodes(mesh):
     end = selected_nodes(Box((2, None, None), None), mesh)
-    triangles = selected_triangles(end, mesh)
-    assert triangles.shape == (2, 3)
-    a, b, c = (mesh.points[triangles[:, corner]] for corner in range(3))
+    (block,) = selected_faces(end, mesh)
+    whole = {"tetra": ("triangle", (2, 3)), "hexahedron": ("quad", (1, 4))}
+    assert (block.type, block.nodes.shape) == whole[mesh.volume_blocks[0].type]
+    a, b, c = (mesh.points[block.nodes[:, corner]] for corner in range(3))
     normals = np.cross(b - a, c - a)
-    np.testing.assert_allclose(normals, [[1, 0, 0]] * 2, atol=1e-15)
-    assert selected_triangles(end[:2], mesh).shape == (0, 3)
+    np.testing.assert_allclose(normals, [[1, 0, 0]] * len(normals), atol=1e-15)
+    assert selected_faces(end[:2], mesh) == ()
+
+
+@pytest.mark.parametrize("cell", ["tetra", "hexahedron", "wedge", "pyramid"])
+@pytest.mark.parametrize("order", [1, 2])
+def test_traction_pulls_a_bar_evenly(cell, order):
+    """A bar pulled at its end by a traction has one stress everywhere, in every element.
+
+    Only the consistent nodal forces do that. sigma / E is 1e-6, so that Hooke's answer
+    u_x = sigma x / E is met to the tolerance of Newton's method.
+    """
+    bar = bar_mesh(size=(2, 1, 1), cells=(2, 1, 1), cell=cell)
+    mesh = bar if order == 1 else into_quadratic(bar)
+    faces = {0: "x", 1: "y", 2: "z"}
+    held = [
+        Fixed("bar", on=Plane(point=(0, 0, 0), normal=np.eye(3)[axis]), axes=name)
+        for axis, name in faces.items()
+    ]
+    scene = Scene(
+        bodies={"bar": Body(mesh=mesh, law=Hooke(young=1e6, poisson=0.3), density=1.0)},
+        fixed=held,
+        loads=[Traction("bar", on=Plane(point=(2, 0, 0), normal=(1, 0, 0)), traction=(1, 0, 0))],
+        step=Static(solver=Cholesky()),
+    )
+    simulation = scene.compile()
+    simulation.step()
+    expected = mesh.points * [1e-6, -0.3e-6, -0.3e-6]
+    np.testing.assert_allclose(simulation.displacements("bar"), expected, atol=1e-14)

@@ -11,7 +11,7 @@ from tissu.compile.balance import check_supports
 from tissu.compile.material import cell_groups, density_of
 from tissu.compile.meshes import known_mesh
 from tissu.compile.prepared import Held, Ints, LoadedNodes, Prepared, PreparedBody
-from tissu.compile.select import selected_nodes, selected_triangles
+from tissu.compile.select import selected_faces, selected_nodes
 from tissu.compile.thin import note_bending
 from tissu.counted import counted
 from tissu.errors import ParameterError
@@ -21,7 +21,7 @@ from tissu.scene.support import Fixed
 from tissu.scene.unknown import Unknown
 
 if TYPE_CHECKING:
-    from tissu.mesh import Mesh
+    from tissu.mesh import CellBlock, Mesh
     from tissu.scene.load import Load
     from tissu.scene.problem import Path
     from tissu.scene.scene import Scene
@@ -101,16 +101,16 @@ def _prepare_load(prepared: Prepared, path: Path, load: Load) -> None:
     nodes = _nodes(prepared, path, load.body, load.on)
     if nodes is None:
         return
-    triangles: Ints = np.empty((0, 3), dtype=np.int32)
+    faces: tuple[CellBlock, ...] = ()
     known = prepared.meshes[load.body]
     if load.type != "nodal" and known.surface:
-        triangles = selected_triangles(nodes, known.mesh)
-        if not len(triangles):
+        faces = selected_faces(nodes, known.mesh)
+        if not faces:
             text = f"{_words(load.on)} selects {counted(len(nodes), 'node')} of body '{load.body}'"
             text += ", but no face of its surface with all its nodes"
             prepared.findings.problem((*path, "on"), text)
             return
-    prepared.loaded.append(LoadedNodes(load, path, nodes, triangles))
+    prepared.loaded.append(LoadedNodes(load, path, nodes, faces))
 
 
 def _words(on: Selection) -> str:

@@ -13,7 +13,7 @@ from tissu.mesh.cell import dimension
 from tissu.scene.problem import Path, Problem
 
 if TYPE_CHECKING:
-    from tissu.mesh import Mesh
+    from tissu.mesh import CellBlock, Mesh
     from tissu.scene.load import Load
     from tissu.scene.scene import Scene
     from tissu.scene.support import Fixed, Prescribed
@@ -104,12 +104,12 @@ class Held:
 
 @dataclass(frozen=True, slots=True)
 class LoadedNodes:
-    """A load with its nodes (k,) and, for loads on the surface, its outward triangles (t, 3)."""
+    """A load with its nodes (k,) and, for loads on the surface, its faces, whole and outward."""
 
     load: Load
     path: Path
     nodes: Ints
-    triangles: Ints
+    faces: tuple[CellBlock, ...] = ()
 
 
 @dataclass(slots=True)
@@ -136,9 +136,9 @@ class Prepared:
             if h.path[0] != "bodies"
         }
         for loaded in self.loaded:
-            faces = len(loaded.triangles)
+            faces = sum(len(block) for block in loaded.faces)
             text = (
-                counted(faces, "triangle")
+                counted(faces, "face")
                 if loaded.load.type != "nodal"
                 else counted(len(loaded.nodes), "node")
             )

@@ -8,6 +8,8 @@ import numpy as np
 
 from tissu.compile.prepared import Floats, Ints
 from tissu.errors import ParameterError
+from tissu.mesh.cell import CellBlock
+from tissu.mesh.whole_faces import whole_faces
 from tissu.scene.problem import nearest, one_of_words
 from tissu.scene.selection import Box, Nodes, Plane, Region, Sphere
 
@@ -35,22 +37,12 @@ def selected_nodes(on: Selection, mesh: Mesh) -> Ints:
     return np.unique(mesh.surface().triangles).astype(np.int32)
 
 
-def selected_triangles(nodes: Ints, mesh: Mesh) -> Ints:
-    """Outward triangles (t, 3) of the surface whose nodes are all among `nodes`."""
-    triangles = np.asarray(mesh.surface().triangles)
+def selected_faces(nodes: Ints, mesh: Mesh) -> tuple[CellBlock, ...]:
+    """Whole faces of the surface, outward, whose nodes are all among `nodes`."""
     chosen = np.zeros(mesh.node_count, dtype=bool)
     chosen[nodes] = True
-    keep = np.array(chosen[triangles].all(axis=1), dtype=bool)
-    quads = np.asarray(mesh.surface().quads)
-    if len(quads):  # the last rows are halves of quads: both or none
-        keep[-2 * len(quads) :] = np.repeat(chosen[quads].all(axis=1), 2)
-    return np.ascontiguousarray(triangles[keep], dtype=np.int32)
-
-
-def selected_quads(nodes: Ints, mesh: Mesh) -> Ints:
-    """Quads (q, 4) of the surface whose nodes are all among `nodes`."""
-    quads = np.asarray(mesh.surface().quads)
-    return np.ascontiguousarray(quads[np.isin(quads, nodes).all(axis=1)], dtype=np.int32)
+    kept = ((b.type, b.nodes[chosen[b.nodes].all(axis=1)]) for b in whole_faces(mesh))
+    return tuple(CellBlock(kind, faces) for kind, faces in kept if len(faces))
 
 
 def region_nodes(name: str, mesh: Mesh) -> Ints:

@@ -188,7 +188,7 @@ def conclude(
         status=ending.status,
         wall_seconds=clock.seconds,
         files={"series": series.index.name, "picture": picture.name},
-        notes=[ending.message] if ending.message else [],
+        notes=[note for note in (ending.message, series.inverted) if note],
     )
     write_summary(series.index.with_name("summary.json"), summary)
     return picture
@@ -204,6 +204,8 @@ def report(
     if tally.unconverged:
         share = f"{tally.unconverged} of {counted(tally.steps, 'step')}"
         print(f"{share} did not converge, the first: {tally.first_unconverged}")
+    if series.inverted:
+        print(series.inverted)
     print(f"result:  {series.index} ({counted(series.count, 'time')})")
     print(f"summary: {series.index.with_name('summary.json')}")
     print(f"picture: {picture}")

@@ -138,7 +138,7 @@ def _add_load(builder: WorldBuilder, loaded: LoadedNodes, prepared: Prepared) ->
         forces = np.tile(np.array(load.force) / len(nodes), (len(nodes), 1))
     else:
         shares = nodal_areas(prepared.bodies[load.body].mesh, loaded.faces)
-        nodes = np.flatnonzero(shares)
+        nodes = np.flatnonzero(shares).astype(np.int32)
         forces = shares[nodes, None] * np.array(load.traction)
     builder.add_load(
         name=name, body=load.body, nodes=nodes.astype(np.int32), forces=forces, **series

@@ -11,6 +11,7 @@ from xml.sax.saxutils import quoteattr
 import numpy as np
 from numpy.typing import NDArray
 
+from tissu.counted import counted
 from tissu.output.folder import file_name, whole_file
 
 if TYPE_CHECKING:
@@ -18,6 +19,7 @@ if TYPE_CHECKING:
     from tissu.simulation import Simulation
 
 FRAMES = "frames"
+Floats = NDArray[np.float64]
 
 
 class Series:
@@ -31,6 +33,7 @@ class Series:
         index: the PVD file.
         count: number of times written.
         last_time: simulated time of the last ones [s].
+        inverted: a sentence on the first time written at which cells were inside out; empty: none.
     """
 
     def __init__(self, simulation: Simulation, folder: str | PathLike[str]) -> None:
@@ -45,6 +48,7 @@ class Series:
         self.index = self._folder / f"{file_name(simulation.scene.name)}.pvd"
         self.count = 0
         self.last_time = -1.0
+        self.inverted = ""
         _clear(self.index)
 
     def write(self) -> None:
@@ -57,7 +61,8 @@ class Series:
         (self._folder / FRAMES).mkdir(exist_ok=True)
         for part, (body, mesh) in enumerate(simulation.meshes.items()):
             name = f"{FRAMES}/{file_name(body)}_{self.count:05d}.vtu"
-            write_vtu(self._folder / name, mesh, simulation, body)
+            fields = write_vtu(self._folder / name, mesh, simulation, body)
+            self._look_for_inverted(body, fields["volume_ratio"])
             self._entries.append(
                 f'    <DataSet timestep="{simulation.time:.9g}" group="" part="{part}" '
                 f'name={quoteattr(body)} file="{name}"/>\n'
@@ -67,9 +72,21 @@ class Series:
         with whole_file(self.index) as partial:
             partial.write_text(_index(self._entries), encoding="utf-8")
 
+    def _look_for_inverted(self, body: str, volume_ratio: Floats) -> None:
+        inverted = np.flatnonzero(volume_ratio <= 0.0)
+        if not len(inverted) or self.inverted:
+            return
+        first = ", ".join(map(str, inverted[:5])) + (", ..." if len(inverted) > 5 else "")
+        verb = "is" if len(inverted) == 1 else "are"
+        self.inverted = (
+            f"at t = {self._simulation.time:.4g} s {counted(len(inverted), 'cell')} of body "
+            f"'{body}' {verb} inside out ({first}); what follows is no deformation of the body: "
+            "take smaller steps or the law stable_neo_hooke, which resists it"
+        )
 
-def write_vtu(path: Path, mesh: Mesh, simulation: Simulation, body: str) -> None:
-    """Writes one body at the present time.
+
+def write_vtu(path: Path, mesh: Mesh, simulation: Simulation, body: str) -> dict[str, Floats]:
+    """Writes one body at the present time; returns its cell fields.
 
     Raises:
         TissuError: the file cannot be written.
@@ -98,6 +115,7 @@ def write_vtu(path: Path, mesh: Mesh, simulation: Simulation, body: str) -> None
     )
     with whole_file(path) as partial:
         meshio.write(partial, result, file_format="vtu")
+    return fields
 
 
 def _index(entries: list[str]) -> str:

@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from tissu.scene import Scene
 
 Floats = NDArray[np.float64]
+Ints = NDArray[np.int32]
 
 
 class Simulation:
@@ -163,6 +164,13 @@ class Simulation:
         fields = self._core.cell_fields(body)
         order = np.argsort(self._core.remaining_cells(body), kind="stable")
         return {name: values[order] for name, values in fields.items()}
+
+    def inverted_cells(self, body: str) -> Ints:
+        """Numbers (k,) of the cells of a body that are inside out: their mean det F is not above 0.
+
+        Looked for only when asked: a step does not pay for it.
+        """
+        return np.flatnonzero(self.cell_fields(body)["volume_ratio"] <= 0.0).astype(np.int32)
 
     def profile(self) -> Profile:
         """Times by stage; see `Profile`. `clear_profile` starts anew."""

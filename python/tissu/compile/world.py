@@ -8,11 +8,11 @@ import numpy as np
 
 from tissu.compile.check import check_of
 from tissu.compile.prepare import prepare
-from tissu.compile.prepared import Floats, Held, LoadedNodes, Prepared
-from tissu.compile.select import selected_quads
+from tissu.compile.prepared import Held, LoadedNodes, Prepared
+from tissu.compile.surface_load import pressure_triangles, traction_shares
 from tissu.effects import load_name
 from tissu.errors import SceneError
-from tissu.scene.load import NodalLoad, Pressure, Traction
+from tissu.scene.load import NodalLoad, Pressure
 from tissu.scene.step import ConjugateGradient, Static
 from tissu.scene.support import Fixed, axes_mask
 
@@ -123,38 +123,27 @@ def _add_load(builder: WorldBuilder, loaded: LoadedNodes, prepared: Prepared) ->
         "factors": np.array([1.0] if load.factors is None else load.factors),
     }
     name = f"{load_name(load.type)} on {load.body} (loads[{loaded.path[1]}])"
+    mesh = prepared.bodies[load.body].mesh
     if isinstance(load, Pressure):
+        triangles, share = pressure_triangles(mesh, loaded.nodes, loaded.triangles)
         builder.add_pressure(
-            name=name, body=load.body, triangles=loaded.triangles, pressure=load.pressure, **series
+            name=name,
+            body=load.body,
+            triangles=triangles,
+            pressure=share * load.pressure,
+            **series,
         )
         return
     nodes = loaded.nodes
     if isinstance(load, NodalLoad):
         forces = np.tile(np.array(load.force) / len(nodes), (len(nodes), 1))
     else:
+        shares = traction_shares(mesh, loaded.nodes, loaded.triangles)
         nodes = np.unique(loaded.triangles)
-        mesh = prepared.bodies[load.body].mesh
-        quads = selected_quads(loaded.nodes, mesh)
-        forces = traction_forces(load, mesh.points, loaded.triangles, quads)[nodes]
+        forces = np.outer(shares[nodes], load.traction)
     builder.add_load(
         name=name, body=load.body, nodes=nodes.astype(np.int32), forces=forces, **series
     )
-
-
-def traction_forces(load: Traction, points: Floats, triangles: Any, quads: Any) -> Floats:
-    """Forces (n, 3) [N] on all nodes: traction times rest area, a third to each corner.
-
-    The last 2 q triangles are the halves of the quads (q, 4); a quad takes the mean of its two
-    cuts, so that the corners of a parallelogram carry a quarter each.
-    """
-    whole = triangles[: len(triangles) - 2 * len(quads)]
-    corners = (([0, 1, 2], 0.5), ([0, 2, 3], 0.5), ([0, 1, 3], 0.5), ([1, 2, 3], 0.5))
-    shares = np.zeros(len(points))
-    for faces, weight in [(whole, 1.0), *((quads[:, three], half) for three, half in corners)]:
-        a, b, c = (points[faces[:, corner]] for corner in range(3))
-        areas = 0.5 * np.linalg.norm(np.cross(b - a, c - a), axis=1)
-        np.add.at(shares, faces, weight * areas[:, None] / 3.0)
-    return np.asarray(shares[:, None] * np.array(load.traction))
 
 
 def integrator_of(step: Step) -> Any:

@@ -58,7 +58,7 @@ PYTHON: dict[str, set[str]] = {
         "_core",
     },
     "picture": {"errors", "mesh"},
-    "output": {"errors", "mesh", "simulation", "picture", "_core"},
+    "output": {"errors", "counted", "mesh", "simulation", "picture", "_core"},
 }
 PYTHON["cli"] = set(PYTHON)
 PYTHON["__init__"] = set(PYTHON)

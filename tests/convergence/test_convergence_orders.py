@@ -62,7 +62,7 @@ def test_serendipity_elements_lose_an_order_on_trapezoids(cell):
     # order r + 1 on meshes of trapezoids of one shape needs all of Q_r on the reference square;
     # serendipity elements of second order hold Q_1 but not Q_2. Wedges and pyramids likewise lack
     # products of their linear maps. Of a quadratic field nothing but the term of lower order is
-    # left, so that the loss shows on coarse meshes. Below a half: nearer to 2 and 1 than to 3 and 2.
+    # left, so that the loss shows on coarse meshes. A half: nearer to orders 2, 1 than to 3, 2.
     displacement, strain, found = measured("trapezoids", cell, "hooke", "quadratic")
     assert 2 - TOLERANCE <= displacement[-1] < 2.5, (displacement, found)
     assert 1 - TOLERANCE <= strain[-1] < 1.5, (strain, found)

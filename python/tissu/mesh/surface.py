@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -45,6 +46,7 @@ class Surface:
         return tuple(block for block in blocks if len(block))
 
 
+@lru_cache(maxsize=8)  # a mesh never changes, and is asked for its surface again and again
 def boundary(mesh: Mesh) -> Surface:
     """The outer surface of the volume cells and the sheets that are not on it.
 
@@ -84,11 +86,14 @@ def _absent(faces: Ints, among: Ints) -> NDArray[np.bool_]:
 
 def _surface(triangles: Ints, triangle_cells: Ints, quads: Ints, quad_cells: Ints) -> Surface:
     halves = quads[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3)
-    return Surface(
-        triangles=np.concatenate([triangles, halves]),
-        cells=np.concatenate([triangle_cells, np.repeat(quad_cells, 2)]),
-        quads=quads,
+    parts = (
+        np.concatenate([triangles, halves]),
+        np.concatenate([triangle_cells, np.repeat(quad_cells, 2)]),
+        quads,
     )
+    for part in parts:
+        part.flags.writeable = False
+    return Surface(*parts)
 
 
 def area(points: Floats, triangles: Ints) -> Floats:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -15,6 +16,7 @@ if TYPE_CHECKING:
 _CORNERS = {"triangle": 3, "triangle6": 3, "quad": 4, "quad8": 4, "quad9": 4}
 
 
+@lru_cache(maxsize=8)
 def whole_faces(mesh: Mesh) -> tuple[CellBlock, ...]:
     """Faces of the volume that one cell only has, anticlockwise seen from outside, then sheets.
 

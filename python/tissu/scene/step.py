@@ -17,7 +17,7 @@ class Newton(Part):
     """Newton's method: how often the step is linearised again, and when it is solved."""
 
     iterations: _Count = 10
-    """largest number of iterations in a step"""
+    """largest number of iterations in a step; of Static, for each part of the load tried"""
     tolerance: _Tolerance = 1e-6
     """residual relative to the first at which the step is solved"""
 

@@ -1,6 +1,6 @@
 """The measured phantom: a silicone cantilever that bends under its own weight.
 
-    python bench/phantom.py --meshes FOLDER [--picture docs/pictures/phantom.png]
+    python bench/phantom.py --meshes FOLDER [--picture docs/pictures/phantom.png] [--only ELEMENT]
 
 FOLDER holds `cylinder_Hexa.msh` (the rest mesh) and `truthCylinder-Deformed.obj` (the same phantom
 as measured after bending), both from SOFA's repository, examples/Benchmark/Accuracy/mesh. Material
@@ -25,10 +25,34 @@ MEASURED_END = np.array([0.0, -0.119383, 0.126842])  # m
 REST_END = np.array([0.0, 0.0, 0.178])
 
 
+YOUNG = 60e3  # Pa
+LAWS = ("hooke", "stvk", "neo_hooke", "stable_neo_hooke", "mooney_rivlin", "yeoh", "arruda_boyce")
+
+
+def material(law: str, poisson: float) -> ts.Law:
+    """A law with the phantom's moduli at rest, whatever its own parameters are."""
+    mu, kappa = YOUNG / (2 * (1 + poisson)), YOUNG / (3 * (1 - 2 * poisson))
+    if law == "mooney_rivlin":
+        return ts.MooneyRivlin(c1=0.4 * mu, c2=0.1 * mu, kappa=kappa)
+    if law == "yeoh":
+        return ts.Yeoh(c1=mu / 2, kappa=kappa)
+    if law == "arruda_boyce":
+        series = (1, 3 / 5, 99 / 175, 513 / 875, 42039 / 67375)  # shear modulus at rest over mu
+        lambda_m = 2.0
+        scale = sum(c / lambda_m ** (2 * i) for i, c in enumerate(series))
+        return ts.ArrudaBoyce(mu=mu / scale, lambda_m=lambda_m, kappa=kappa)
+    named = {
+        "hooke": ts.Hooke,
+        "stvk": ts.StVK,
+        "neo_hooke": ts.NeoHooke,
+        "stable_neo_hooke": ts.StableNeoHooke,
+    }
+    return named[law](young=YOUNG, poisson=poisson)
+
+
 def scene_of(mesh: ts.Mesh, law: str, quadrature: str = "full", poisson: float = 0.49) -> ts.Scene:
     """The phantom held at its root and left to its weight, as a static scene."""
-    material = {"hooke": ts.Hooke, "stvk": ts.StVK}[law](young=60e3, poisson=poisson)
-    body = ts.Body(mesh=mesh, law=material, mass=0.216, quadrature=quadrature)
+    body = ts.Body(mesh=mesh, law=material(law, poisson), mass=0.216, quadrature=quadrature)
     held = ts.Fixed("phantom", on=ts.Box((None, None, -1e-3), (None, None, 1e-3)))
     newton = ts.Newton(iterations=40, tolerance=1e-8)
     return ts.Scene(
@@ -92,31 +116,88 @@ def run(
     }
 
 
+def _mesh(points: Floats, cell: str, nodes: NDArray[np.int64]) -> ts.Mesh:
+    return ts.Mesh(points=points, cells=(ts.CellBlock(cell, nodes.astype(np.int32)),))
+
+
+def into_pyramids(mesh: ts.Mesh) -> ts.Mesh:
+    """Each hexahedron as six pyramids around its centre."""
+    hexahedra = mesh.volume_blocks[0].nodes
+    faces = [(0, 3, 2, 1), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7)]
+    centres = mesh.points[hexahedra].mean(axis=1)
+    apex = len(mesh.points) + np.arange(len(hexahedra))
+    cells = np.concatenate([np.column_stack([hexahedra[:, f[::-1]], apex]) for f in faces])
+    return _mesh(np.vstack([mesh.points, centres]), "pyramid", cells)
+
+
+def into_wedges(mesh: ts.Mesh) -> ts.Mesh:
+    """Each hexahedron as two wedges along the cylinder's axis; layers choose the same diagonal."""
+    halves = []
+    for cell in mesh.volume_blocks[0].nodes:
+        order = _along_axis(mesh.points[cell])
+        bottom, top = cell[order[:4]], cell[order[4:]]
+        first = int(np.lexsort(np.round(mesh.points[bottom][:, 1::-1].T, 9))[0])
+        b, t = np.roll(bottom, -first), np.roll(top, -first)
+        halves += [[b[0], b[1], b[2], t[0], t[1], t[2]], [b[0], b[2], b[3], t[0], t[2], t[3]]]
+    return _mesh(mesh.points, "wedge", np.array(halves))
+
+
+def _along_axis(corners: Floats) -> list[int]:
+    """The corners of a hexahedron renumbered so that its first face is the lower one in z."""
+    turns = ([0, 1, 2, 3, 4, 5, 6, 7], [0, 3, 7, 4, 1, 2, 6, 5], [0, 4, 5, 1, 3, 7, 6, 2])
+    flips = [[*turn[4:], *turn[:4]] for turn in turns]
+    mirrored = [[f[i] for i in (0, 3, 2, 1, 4, 7, 6, 5)] for f in flips]
+    heights = [corners[o[4:], 2].mean() - corners[o[:4], 2].mean() for o in (*turns, *mirrored)]
+    return [*turns, *mirrored][int(np.argmax(heights))]
+
+
+def meshes_of(hexahedra: ts.Mesh) -> dict[str, ts.Mesh]:
+    """The phantom in every volume element there is."""
+    first = {
+        "hexahedron": hexahedra,
+        "tetra": ts.into_tetrahedra(hexahedra),
+        "wedge": into_wedges(hexahedra),
+        "pyramid": into_pyramids(hexahedra),
+    }
+    second = {
+        "hexahedron20": ts.into_quadratic(hexahedra),
+        "hexahedron27": ts.into_quadratic(hexahedra, centres=True),
+        "tetra10": ts.into_quadratic(first["tetra"]),
+        "wedge15": ts.into_quadratic(first["wedge"]),
+        "pyramid13": ts.into_quadratic(first["pyramid"]),
+    }
+    return first | second
+
+
 def main() -> None:
     """Prints the table and draws the picture."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--meshes", type=Path, required=True)
     parser.add_argument("--picture", type=Path)
+    parser.add_argument("--only", help="one element")
     asked = parser.parse_args()
     hexahedra = ts.read_mesh(asked.meshes / "cylinder_Hexa.msh", unit="m")
     truth = ts.read_mesh(asked.meshes / "truthCylinder-Deformed.obj", unit="m")
-    meshes = {"hexahedron 8": hexahedra, "tetrahedron 4": ts.into_tetrahedra(hexahedra)}
     print(
-        "| element | cells | quadrature | law | end y [mm] | end z [mm] "
-        "| off the measured end [mm] | surface, mean [mm] | surface, max [mm] | Newton |"
+        "| element | cells | nodes | quadrature | law | end y [mm] | end z [mm] "
+        "| off the measured end [mm] | surface, mean [mm] | surface, max [mm] | Newton | s |"
     )
-    print("|---|---|---|---|---|---|---|---|---|---|")
-    for element, mesh in meshes.items():
-        for quadrature in ("full", "over") if element.startswith("hexa") else ("full",):
-            for law in ("hooke", "stvk"):
+    print("|---|---|---|---|---|---|---|---|---|---|---|---|")
+    for element, mesh in meshes_of(hexahedra).items():
+        if asked.only not in (None, element):
+            continue
+        laws = LAWS if element in ("hexahedron", "tetra") else ("stvk", "neo_hooke")
+        for law in laws:
+            for quadrature in ("full", "over") if element == "hexahedron" else ("full",):
                 simulation, row = run(mesh, truth.points, law, quadrature)
                 print(
-                    f"| {element} | {mesh.cell_count} | {quadrature} | {law} | {row['end_y']:.1f} "
-                    f"| {row['end_z']:.1f} | {row['end']:.1f} | {row['mean']:.1f} "
-                    f"| {row['max']:.1f} | {row['newton']} |",
+                    f"| {element} | {mesh.cell_count} | {mesh.node_count} | {quadrature} | {law} "
+                    f"| {row['end_y']:.1f} | {row['end_z']:.1f} | {row['end']:.1f} "
+                    f"| {row['mean']:.1f} | {row['max']:.1f} | {row['newton']} "
+                    f"| {row['seconds']:.0f} |",
                     flush=True,
                 )
-                if asked.picture and element.startswith("hexa") and law == "stvk":
+                if asked.picture and (element, law) == ("hexahedron", "stvk"):
                     draw(asked.picture, mesh, simulation, truth)
     print(f"\nmeasured end: y {1e3 * MEASURED_END[1]:.1f} mm, z {1e3 * MEASURED_END[2]:.1f} mm")
 

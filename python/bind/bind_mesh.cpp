@@ -11,6 +11,7 @@
 #include "tissu/base/error.h"
 #include "tissu/element/measure.h"
 #include "tissu/element/reference_cell.h"
+#include "tissu/force/load.h"
 #include "tissu/mesh/box.h"
 #include "tissu/mesh/cell_shape.h"
 #include "tissu/mesh/quality.h"
@@ -96,6 +97,24 @@ py::tuple boundary_surface(const Reals& positions, const Blocks& blocks) {
                         to_array<std::int32_t>(surface.quads, 4), to_array<std::int32_t>(surface.quad_cell));
 }
 
+py::list boundary_faces(const Reals& positions, const Blocks& blocks) {
+  py::list result;
+  for (const tissu::FaceBlock& some : tissu::boundary_face_blocks(to_mesh(positions, blocks))) {
+    const auto columns = static_cast<py::ssize_t>(some.nodes.size() / some.cells.size());
+    result.append(py::make_tuple(std::string(some.type), to_array<std::int32_t>(some.nodes, columns),
+                                 to_array<std::int32_t>(some.cells)));
+  }
+  return result;
+}
+
+/// Each node's share of the area of the faces [m2].
+py::array_t<double> face_areas(const std::string& type, const Reals& positions, const Ints& faces) {
+  std::vector<double> areas(static_cast<std::size_t>(positions.shape(0)), 0.0);
+  const tissu::FaceCells some{type, {faces.data(), faces.data() + faces.size()}};
+  tissu::add_areas(some, {positions.data(), static_cast<std::size_t>(positions.size())}, areas);
+  return to_array<double>(areas);
+}
+
 py::tuple turn_reversed_cells(const Reals& positions, const Blocks& blocks) {
   tissu::Mesh mesh = to_mesh(positions, blocks);
   const std::int32_t count = tissu::turn_reversed_cells(mesh);
@@ -131,6 +150,8 @@ void bind_mesh(py::module_& m) {
   m.def("cell_faces", &cell_faces, py::kw_only(), "cell_type"_a);
   m.def("box_mesh", &box_mesh, py::kw_only(), "origin"_a, "size"_a, "cells"_a, "split"_a);
   m.def("boundary_surface", &boundary_surface, py::kw_only(), "positions"_a, "blocks"_a);
+  m.def("boundary_faces", &boundary_faces, py::kw_only(), "positions"_a, "blocks"_a);
+  m.def("face_areas", &face_areas, py::kw_only(), "type"_a, "positions"_a, "faces"_a);
   m.def("turn_reversed_cells", &turn_reversed_cells, py::kw_only(), "positions"_a, "blocks"_a);
   const auto measure = [&m](const char* name, auto function) {
     m.def(

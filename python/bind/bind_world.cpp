@@ -56,13 +56,10 @@ void add_elastic(WorldDescription& world, const std::string& body, const std::st
   world.body(body).elastic.push_back(std::move(block));
 }
 
-std::vector<std::array<std::int32_t, 3>> to_triangles(const Ints& array) {
-  with_columns(array, 3, "triangles");
-  std::vector<std::array<std::int32_t, 3>> triangles(static_cast<std::size_t>(array.shape(0)));
-  for (std::size_t i = 0; i < triangles.size(); ++i) {
-    for (std::size_t k = 0; k < 3; ++k) triangles[i][k] = array.data()[3 * i + k];
-  }
-  return triangles;
+std::vector<FaceCells> to_faces(const std::vector<std::pair<std::string, Ints>>& faces) {
+  std::vector<FaceCells> result;
+  for (const auto& [type, nodes] : faces) result.push_back({type, to_vector(nodes)});
+  return result;
 }
 
 Motion to_motion(const Doubles& times, const Doubles& displacements, const Doubles& angles,
@@ -147,12 +144,13 @@ void bind_world(py::module_& m) {
           py::kw_only(), arg("name"), arg("body"), arg("nodes"), arg("forces"), arg("times"), arg("factors"))
       .def(
           "add_pressure",
-          [](WorldDescription& world, const std::string& name, const std::string& body, const Ints& triangles,
-             double pressure, const Doubles& times, const Doubles& factors) {
+          [](WorldDescription& world, const std::string& name, const std::string& body,
+             const std::vector<std::pair<std::string, Ints>>& faces, double pressure, const Doubles& times,
+             const Doubles& factors) {
             world.pressures.push_back(
-                {name, world.body(body).name, to_triangles(triangles), pressure, to_history(times, factors)});
+                {name, world.body(body).name, to_faces(faces), pressure, to_history(times, factors)});
           },
-          py::kw_only(), arg("name"), arg("body"), arg("triangles"), arg("pressure"), arg("times"),
+          py::kw_only(), arg("name"), arg("body"), arg("faces"), arg("pressure"), arg("times"),
           arg("factors"))
       .def(
           "fix",

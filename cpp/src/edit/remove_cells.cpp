@@ -24,37 +24,13 @@ void number_cells(BodyDescription& body) {
   }
 }
 
-void keep(std::vector<double>& values, const std::vector<std::size_t>& kept) {
-  if (values.size() <= 1) return;
-  std::vector<double> result;
-  result.reserve(kept.size());
-  for (const std::size_t i : kept) result.push_back(values[i]);
-  values = std::move(result);
-}
-
 /// Takes the named cells out of a block, and out of `wanted`.
 void remove_from(ElasticBlock& block, Numbers& wanted) {
-  const auto nodes = static_cast<std::size_t>(reference_cell(block.element, block.quadrature).nodes);
   std::vector<std::size_t> kept;
   for (std::size_t i = 0; i < block.cell_numbers.size(); ++i) {
     if (wanted.erase(block.cell_numbers[i]) == 0) kept.push_back(i);
   }
-  if (kept.size() == block.cell_numbers.size()) return;
-  std::vector<std::int32_t> cells;
-  std::vector<std::int32_t> numbers;
-  for (const std::size_t i : kept) {
-    const auto first = block.cells.begin() + static_cast<std::ptrdiff_t>(i * nodes);
-    cells.insert(cells.end(), first, first + static_cast<std::ptrdiff_t>(nodes));
-    numbers.push_back(block.cell_numbers[i]);
-  }
-  keep(block.density, kept);
-  keep(block.cross_section, kept);
-  for (auto& [name, values] : block.parameters) keep(values, kept);
-  for (LawUse& use : block.reinforcements) {
-    for (auto& [name, values] : use.parameters) keep(values, kept);
-  }
-  block.cells = std::move(cells);
-  block.cell_numbers = std::move(numbers);
+  if (kept.size() < block.cell_numbers.size()) block = part_of(block, kept);
 }
 
 /// Nodes of the body that no cell uses, held where they are.

@@ -135,11 +135,10 @@ std::size_t Elastic::bytes() const {
 }
 
 std::size_t Elastic::reals_per_cell() const {
-  const std::size_t m = static_cast<std::size_t>(reference_.dimension);
   const std::size_t frame = shape_.frames.empty() ? 0 : 9;
   std::size_t own = 0;  // of the law, where cells differ
   if (constants_stride_ != 0) own = static_cast<std::size_t>(constants_stride_) / kLanes;
-  return static_cast<std::size_t>(shape_.rest_points) * (m * m + 1 + frame) + own;
+  return static_cast<std::size_t>(shape_.rest_points) * (shape_.reals + frame) + own;
 }
 
 }  // namespace tissu

@@ -80,8 +80,12 @@ Elastic::Elastic(ElasticBlock block, ConstReals rest_positions, Isa isa, Threads
   lay_constants();
   const bool blind = std::ranges::all_of(
       laws_of(block_), [&](const LawUse& use) { return law_or_throw(block_, use).frame_invariant; });
-  shape_ = rest_shape({reference_, block_.cells, block_.cross_section, rest_positions}, order_, !blind);
+  shape_ = rest_shape({reference_, block_.cells, block_.cross_section, rest_positions}, order_,
+                      {.frames = !blind, .triangular = kernels_->triangular});
   if (!shape_.bad.empty()) {
+    if (!block_.cell_numbers.empty()) {
+      for (std::int32_t& cell : shape_.bad) cell = block_.cell_numbers[static_cast<std::size_t>(cell)];
+    }
     throw MeshError("body \"" + block_.body + "\" has " + std::to_string(shape_.bad.size()) + " of " +
                     std::to_string(cell_count()) + " cells of type " + block_.element +
                     " that are inverted or have no volume (" + first_five(shape_.bad) +

@@ -19,7 +19,7 @@ void Elastic::for_nodes(Function&& f) const {
   const auto nodes = static_cast<std::size_t>(reference_.nodes);
   const std::size_t points = reference_.points.size();
   const auto rest_points = static_cast<std::size_t>(shape_.rest_points);
-  const std::size_t rest = static_cast<std::size_t>(reference_.dimension * reference_.dimension) + 1;
+  const std::size_t rest = shape_.reals;
   std::vector<double> first(nodes);
   std::vector<double> second(nodes);
   for (std::size_t i = 0; i < order_.element.size(); ++i) {

@@ -45,7 +45,16 @@ struct Split {
   bool flat = true;
 };
 
-Split split(const Mat3& J, int m, bool in_plane) {
+/// Q of J = Q R with R upper triangular and positive on its diagonal, where J has a volume.
+Mat3 triangular_axes(const Mat3& J) {
+  Mat3 Q;
+  Q.col(0) = J.col(0).normalized();
+  Q.col(1) = (J.col(1) - J.col(1).dot(Q.col(0)) * Q.col(0)).normalized();
+  Q.col(2) = Q.col(0).cross(Q.col(1));
+  return Q;
+}
+
+Split split(const Mat3& J, int m, bool in_plane, bool triangular) {
   Split s{Mat3::Identity(), J};
   if (m == 2) {
     const Vec3 normal = J.col(0).cross(J.col(1)).normalized();
@@ -59,9 +68,10 @@ Split split(const Mat3& J, int m, bool in_plane) {
     s.Q.col(1) = across(s.Q.col(0));
     s.Q.col(2) = s.Q.col(0).cross(s.Q.col(1));
   }
+  if (m == 3 && triangular) s.Q = triangular_axes(J);
   for (int k = m; k < 3; ++k) s.R.col(k) = s.Q.col(k);
+  s.det = s.R.determinant() * s.Q.determinant();
   s.R = s.Q.transpose() * s.R;
-  s.det = s.R.determinant();
   const double scale = J.cwiseAbs().maxCoeff();
   s.flat = !(std::abs(s.det) > kFlat * std::pow(scale, m)) || (m == 3 && s.det < 0.0);
   s.det = std::abs(s.det);
@@ -87,10 +97,11 @@ double of_cell(const std::vector<double>& values, std::size_t e) {
 /// Writes the rest shape of the cells, lane by lane.
 class Layout {
  public:
-  Layout(const RestCells& cells, const ElementOrder& order, bool with_frames)
+  Layout(const RestCells& cells, const ElementOrder& order, RestForm form)
       : cells_(cells),
         order_(order),
         m_(static_cast<std::size_t>(cells.reference.dimension)),
+        triangular_(form.triangular && m_ == 3),
         in_plane_(m_ == 2 && lies_in_plane(cells.nodes, cells.X)) {
     const auto& points = cells.reference.points;
     const std::vector<char> affine = affine_cells(cells.reference, cells.nodes, cells.X);
@@ -101,8 +112,9 @@ class Layout {
     shape_.rest_points = all_affine ? 1 : static_cast<int>(points.size());
     for (const auto& point : points) volume_of_point_.push_back(all_affine ? total : point.weight);
     const std::size_t entries = order.element.size() * static_cast<std::size_t>(shape_.rest_points);
-    shape_.rest.resize(entries * (m_ * m_ + 1));
-    if (with_frames && m_ < 3 && !in_plane_) shape_.frames.resize(entries * 9);
+    shape_.reals = triangular_ ? 7 : m_ * m_ + 1;
+    shape_.rest.resize(entries * shape_.reals);
+    if (form.frames && m_ < 3 && !in_plane_) shape_.frames.resize(entries * 9);
     shape_.volumes.assign(affine.size(), 0.0);
   }
 
@@ -122,8 +134,8 @@ class Layout {
     bool good = true;
     Mat3 first;
     for (std::size_t g = 0; g < static_cast<std::size_t>(shape_.rest_points); ++g) {
-      const Split s =
-          split(jacobian(cells_.reference.points[g], cell, cells_.X), static_cast<int>(m_), in_plane_);
+      const Split s = split(jacobian(cells_.reference.points[g], cell, cells_.X), static_cast<int>(m_),
+                            in_plane_, triangular_);
       if (g == 0) first = s.Q;
       good = good && !s.flat && same_side(s.Q, first, static_cast<int>(m_));
       const double volume = s.flat ? 0.0 : volume_of_point_[g] * s.det * of_cell(cells_.cross_section, e);
@@ -135,12 +147,14 @@ class Layout {
 
   void write(std::size_t i, std::size_t g, const Split& s, double volume) {
     const std::size_t at = i / kLanes * static_cast<std::size_t>(shape_.rest_points) + g;
-    double* to = shape_.rest.data() + at * (m_ * m_ + 1) * kLanes + i % kLanes;
+    double* to = shape_.rest.data() + at * shape_.reals * kLanes + i % kLanes;
     const Mat3 inverse = s.flat ? Mat3(Mat3::Identity()) : Mat3(s.R.inverse());
-    for (std::size_t k = 0; k < m_ * m_; ++k) {
-      to[k * kLanes] = inverse(static_cast<Eigen::Index>(k / m_), static_cast<Eigen::Index>(k % m_));
+    for (std::size_t row = 0; row < m_; ++row) {
+      for (std::size_t column = triangular_ ? row : 0; column < m_; ++column, to += kLanes) {
+        *to = inverse(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(column));
+      }
     }
-    to[m_ * m_ * kLanes] = volume;
+    *to = volume;
     if (shape_.frames.empty()) return;
     double* frame = shape_.frames.data() + at * 9 * kLanes + i % kLanes;
     for (std::size_t k = 0; k < 9; ++k) {
@@ -151,6 +165,7 @@ class Layout {
   const RestCells& cells_;
   const ElementOrder& order_;
   std::size_t m_;
+  bool triangular_;
   bool in_plane_;  ///< z is the same everywhere: the axes of space serve
   std::vector<double> volume_of_point_;
   RestShape shape_;
@@ -173,8 +188,8 @@ std::vector<char> affine_cells(const ReferenceCell& reference, const std::vector
   return affine;
 }
 
-RestShape rest_shape(const RestCells& cells, const ElementOrder& order, bool with_frames) {
-  return Layout(cells, order, with_frames).lay();
+RestShape rest_shape(const RestCells& cells, const ElementOrder& order, RestForm form) {
+  return Layout(cells, order, form).lay();
 }
 
 }  // namespace tissu

@@ -71,6 +71,30 @@ Surface boundary_surface(const Mesh& mesh) {
   return surface;
 }
 
+std::vector<FaceBlock> boundary_face_blocks(const Mesh& mesh) {
+  struct Kind {
+    std::string_view type;
+    std::size_t nodes;
+  };
+  constexpr std::array<Kind, 5> kinds{
+      {{"triangle", 3}, {"quad", 4}, {"triangle6", 6}, {"quad8", 8}, {"quad9", 9}}};
+  std::array<FaceBlock, 5> found;
+  for (const Face& face : boundary_faces(mesh)) {
+    const auto n = face_nodes(mesh, face);
+    const auto count = static_cast<std::size_t>(std::ranges::find(n, -1) - n.begin());
+    const auto* kind = std::ranges::find(kinds, count, &Kind::nodes);
+    FaceBlock& block = found[static_cast<std::size_t>(kind - kinds.begin())];
+    block.type = kind->type;
+    block.nodes.insert(block.nodes.end(), n.begin(), n.begin() + static_cast<std::ptrdiff_t>(count));
+    block.cells.push_back(face.cell);
+  }
+  std::vector<FaceBlock> blocks;
+  for (FaceBlock& block : found) {
+    if (!block.cells.empty()) blocks.push_back(std::move(block));
+  }
+  return blocks;
+}
+
 std::int32_t overfull_face_count(const Mesh& mesh) {
   std::int32_t count = 0;
   for_each_face(all_faces(mesh),

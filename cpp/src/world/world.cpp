@@ -102,6 +102,26 @@ void refuse_massless(const Body& body, const std::vector<double>& masses, const 
   }
 }
 
+/// The body's blocks with node numbers of the world, affine cells apart from others.
+std::vector<ElasticBlock> blocks_of(const BodyDescription& body, const Body& made,
+                                    ConstReals rest_positions) {
+  std::vector<ElasticBlock> blocks;
+  std::int32_t first_cell = 0;
+  for (ElasticBlock elastic : body.elastic) {
+    elastic.body = body.name;
+    elastic.cells =
+        shifted(std::move(elastic.cells), made.first_node, made.node_count, "body \"" + body.name + "\"");
+    const ElementInfo* element = find_element(elastic.element);
+    const auto cells =
+        element == nullptr ? 0 : static_cast<std::int32_t>(elastic.cells.size()) / element->nodes;
+    for (ElasticBlock& part : split_affine(std::move(elastic), first_cell, rest_positions)) {
+      blocks.push_back(std::move(part));
+    }
+    first_cell += cells;
+  }
+  return blocks;
+}
+
 }  // namespace
 
 BodyDescription& WorldDescription::body(std::string_view name) {
@@ -157,10 +177,7 @@ void World::add_bodies(const WorldDescription& description) {
     Body& made = bodies_[i];
     std::vector<double> own(static_cast<std::size_t>(made.first_node + made.node_count), 0.0);
     std::vector<std::unique_ptr<ForceModel>> models;
-    for (ElasticBlock elastic : body.elastic) {
-      elastic.body = body.name;
-      elastic.cells =
-          shifted(std::move(elastic.cells), made.first_node, made.node_count, "body \"" + body.name + "\"");
+    for (ElasticBlock& elastic : blocks_of(body, made, rest_positions_)) {
       auto model = std::make_unique<Elastic>(std::move(elastic), rest_positions_, isa_, threads_);
       model->add_masses(own);
       model->add_weights(weights_);
@@ -192,14 +209,13 @@ void World::add_external(const WorldDescription& description) {
     const Body& on = body(pressure.body);
     check_table("pressure \"" + pressure.name + "\"", pressure.history.times,
                 pressure.history.factors.size());
-    auto triangles = pressure.triangles;
-    for (auto& triangle : triangles) {
-      const auto nodes = shifted({triangle.begin(), triangle.end()}, on.first_node, on.node_count,
-                                 "pressure \"" + pressure.name + "\"");
-      std::ranges::copy(nodes, triangle.begin());
+    auto faces = pressure.faces;
+    for (FaceCells& some : faces) {
+      some.nodes =
+          shifted(std::move(some.nodes), on.first_node, on.node_count, "pressure \"" + pressure.name + "\"");
     }
     forces_.push_back(
-        std::make_unique<Pressure>(pressure.name, std::move(triangles), pressure.pressure, pressure.history));
+        std::make_unique<Pressure>(pressure.name, std::move(faces), pressure.pressure, pressure.history));
   }
 }
 

@@ -10,7 +10,8 @@ from pathlib import Path
 
 import sympy as sp
 
-from tissu.codegen import kernels, thin
+from tissu.codegen import derive, kernels, thin
+from tissu.codegen import vocabulary as words
 from tissu.codegen.definition import Law
 from tissu.codegen.program import FUNCTIONS, Program
 from tissu.codegen.vocabulary import Expr
@@ -21,6 +22,7 @@ STANDARD = ("log", "exp", "sqrt", "cbrt")  # of <cmath>; the others are in tissu
 # What neither a parameter nor a constant may be called: names of the text around it, words of C++.
 _TAKEN = """
     A F P T dF dP energy stress stress_change tangent kName kLinear kFrameInvariant kAddition
+    kIsotropic kHomogeneous
     parameters constants compute small_strain require std tissu log exp sqrt cbrt positive step
     Tensor2 Tangent alignas alignof and and_eq asm assert auto bitand bitor bool break case catch
     char char8_t char16_t char32_t class co_await co_return co_yield compl concept const const_cast
@@ -148,6 +150,23 @@ DESCRIBED = {
 }
 
 
+def is_isotropic(law: Law) -> bool:
+    """Whether the energy is written in invariants of C alone."""
+    directed = set(words.a) | {words.I4, words.Ibar4}
+    return (
+        law.frame_invariant
+        and not derive.has_components(law.energy)
+        and not law.energy.free_symbols & directed
+    )
+
+
+def is_homogeneous(law: Law) -> bool:
+    """Whether twice the constants give twice the energy."""
+    constants = [sp.Symbol(name, real=True) for name in law.constants]
+    slope = sum(sp.diff(law.energy, c) * c for c in constants)
+    return bool(sp.expand(slope - law.energy) == 0)
+
+
 THIN = {2: "The same of a sheet, F of 3 x 2", 1: "The same of a line, F of 3 x 1"}
 
 
@@ -193,6 +212,8 @@ def structure(law: Law) -> str:
     flags = {
         "kLinear": (linear, "one tangent serves every F"),
         "kFrameInvariant": (law.frame_invariant, "blind to rotation"),
+        "kIsotropic": (is_isotropic(law), "blind to the axes of the rest shape"),
+        "kHomogeneous": (is_homogeneous(law), "in proportion to its constants"),
         "kAddition": (law.addition, "to be added to a base law"),
     }
     lines += [

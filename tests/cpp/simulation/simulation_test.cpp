@@ -48,7 +48,7 @@ TEST_F(SimulationTest, PresentEffectsHaveTheirRows) {
   world.gravity = Vec3(0, 0, -1);
   world.links = true;
   world.loads = {{"hand", "body", {3}, {0.1, 0.0, 0.0}, {}}};
-  world.pressures = {{"blood", "body", {{0, 1, 2}}, 1.0, {}}};
+  world.pressures = {{"blood", "body", {{"triangle", {0, 1, 2}}}, 1.0, {}}};
   Simulation simulation = test::simulate(world, test::implicit_euler());
   for (int i = 0; i < 3; ++i) simulation.step(0.01);
   EXPECT_EQ(effects(simulation),

@@ -128,7 +128,7 @@ TEST_F(WorldTest, RefusesNamesTwiceAndUnknown) {
   description_.loads = {{"hand", "nobody", {0}, {0, 0, 0}, {}}};
   expect_refused("a load on no body");
   description_.loads.clear();
-  description_.pressures = {{"blood", "nobody", {{0, 1, 2}}, 1.0, {}}};
+  description_.pressures = {{"blood", "nobody", {{"triangle", {0, 1, 2}}}, 1.0, {}}};
   expect_refused("a pressure on no body");
 }
 
@@ -141,7 +141,7 @@ TEST_F(WorldTest, RefusesNodesThatAreNotThere) {
     description_.loads = {{"hand", "body", {node}, {0, 0, 0}, {}}};
     expect_refused("load");
     description_ = good;
-    description_.pressures = {{"blood", "body", {{0, 1, node}}, 1.0, {}}};
+    description_.pressures = {{"blood", "body", {{"triangle", {0, 1, node}}}, 1.0, {}}};
     expect_refused("pressure");
     description_ = good;
     description_.bodies[0].elastic[0].cells[3] = node;
@@ -166,7 +166,7 @@ TEST_F(WorldTest, RefusesTablesOfAnotherLength) {
   description_.loads = {{"hand", "body", {0}, {1, 2, 3}, {{1.0, 0.0}, {1.0, 2.0}}}};
   expect_refused("a history that goes back in time");
   description_ = good;
-  description_.pressures = {{"blood", "body", {{0, 1, 2}}, 1.0, {{0.0, 1.0}, {1.0}}}};
+  description_.pressures = {{"blood", "body", {{"triangle", {0, 1, 2}}}, 1.0, {{0.0, 1.0}, {1.0}}}};
   expect_refused("a history without a factor");
   description_ = good;
   description_.fixed = {test::fixed({0})};

@@ -50,6 +50,15 @@ struct ElasticBlock {
   bool fused = true;  ///< kernels made for this element and law where there are such; else those of its shape
 };
 
+/// Some of a block's cells, `which` in ascending order, with what belongs to them.
+ElasticBlock part_of(const ElasticBlock& block, const std::vector<std::size_t>& which);
+
+/// A block's affine cells and its others apart, when it has both: one J serves an affine cell. `first_cell`
+/// is the number in its body of a block whose cells have none. What is not known is left to the model to
+/// refuse.
+std::vector<ElasticBlock> split_affine(ElasticBlock block, std::int32_t first_cell,
+                                       ConstReals rest_positions);
+
 /// Mean values over each cell, in the order of the block's cells.
 struct CellFields {
   std::vector<double> von_mises;       ///< of the Cauchy stress [Pa]

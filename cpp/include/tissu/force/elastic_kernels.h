@@ -18,7 +18,7 @@ namespace tissu {
 struct ElasticView {
   const std::uint16_t* places;  ///< [group][node][8]: 4 times the node's number in its chunk
   const std::int32_t* slots;    ///< [group][a][b][8], blocks of the matrix
-  const double* rest;           ///< [group][rest point][m m + 1][8]: J^-1 row by row, then the volume [m3]
+  const double* rest;  ///< [group][rest point][m m + 1, or 7][8]: J^-1 row by row, then the volume [m3]
   int rest_points;
   const double* weights;    ///< [point]: share of the volume in `rest` that belongs to the point
   const double* frames;     ///< [group][rest point][3][3][8]: axes that laws work in, null: those of space
@@ -60,6 +60,8 @@ struct ElasticKernels {
   /// mean over the element's volume of the Cauchy stress [Pa] xx yy zz yz xz xy, [group][6][8], and of det F,
   /// [group][8]
   void (*stress)(const ElasticView&, const Chunk&, const double* x, double* stresses, double* volume_ratios);
+  /// Rest shapes hold the upper triangle of R^-1 with J = Q R: the law does not see Q.
+  bool triangular = false;
 };
 
 /// The kernels compiled for an element, a law and a quadrature together, null when there are none; …

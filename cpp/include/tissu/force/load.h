@@ -2,10 +2,11 @@
 
 /// Loads from outside: forces on nodes, and pressure on faces.
 
-#include <array>
+#include <cstdint>
 #include <string>
 #include <vector>
 
+#include "tissu/element/reference_cell.h"
 #include "tissu/force/force_model.h"
 
 namespace tissu {
@@ -36,20 +37,30 @@ class NodalLoad final : public ForceModel {
   History history_;
 };
 
-/// Pressure that stays normal to the faces it acts on: for the triangle (x0, x1, x2), outward by its winding,
-/// f_a = -p/6 (x1 - x0) x (x2 - x0). Its stiffness is skew on an open surface; the symmetric part is used,
-/// which is exact for a pressure on a closed surface or one whose rim is held.
+/// Faces of one kind: node numbers face after face, in VTK order, anticlockwise seen from outside.
+struct FaceCells {
+  std::string element = "triangle";  ///< or triangle6, quad, quad8, quad9
+  std::vector<std::int32_t> nodes;
+};
+
+/// Adds each node's share of the area of the faces [m2], sum_g w_g |x,1 x x,2| N_a: what a traction that is
+/// the same everywhere gives to the nodes.
+void add_areas(const FaceCells& faces, ConstReals positions, std::vector<double>& nodal);
+
+/// Pressure that stays normal to the faces it acts on: f_a = -p sum_g w_g N_a (x,1 x x,2), with the rule that
+/// is exact for it. Its stiffness is skew on an open surface; the symmetric part is used, which is exact for
+/// a pressure on a closed surface or one whose rim is held.
 class Pressure final : public ForceModel {
  public:
-  Pressure(std::string name, std::vector<std::array<std::int32_t, 3>> triangles, double pressure,
-           History history);
+  Pressure(std::string name, std::vector<FaceCells> faces, double pressure, History history);
   [[nodiscard]] std::string_view effect() const override { return name_; }
   [[nodiscard]] ForceKind kind() const override { return ForceKind::external; }
   void couple(SparsityBuilder& builder) const override;
   void add_force(const State& state, Reals f) const override;
   void add_stiffness(const State& state, StiffnessScale scale, BlockMatrix& matrix) const override;
   void add_product(const State& state, StiffnessScale scale, ConstReals p, Reals out) const override;
-  /// p times the volume between the faces and the origin [J]
+  /// p times the volume between the faces and the origin [J]; of an open surface it depends on the origin,
+  /// and only its change where the rim is held means something.
   [[nodiscard]] double energy(const State& state) const override;
 
  private:
@@ -57,8 +68,13 @@ class Pressure final : public ForceModel {
   template <class Function>
   void for_blocks(const State& state, double scale, Function&& f) const;
 
+  struct Ruled {
+    std::vector<std::int32_t> nodes;
+    ReferenceCell rule;
+  };
+
   std::string name_;
-  std::vector<std::array<std::int32_t, 3>> triangles_;
+  std::vector<Ruled> faces_;
   double pressure_;  ///< [Pa]
   History history_;
 };

@@ -11,10 +11,11 @@
 
 namespace tissu {
 
-/// J = sum_a X_a (x) dN_a/dxi (3 x m) = Q R with Q orthonormal; a volume has Q = I. A cell whose J is the
-/// same everywhere is affine; where all cells are, one J each is kept.
+/// J = sum_a X_a (x) dN_a/dxi (3 x m) = Q R with Q orthonormal; a volume has Q = I, or R upper triangular. A
+/// cell whose J is the same everywhere is affine; where all cells are, one J each is kept.
 struct RestShape {
-  AlignedVector<double> rest;  ///< [group][rest point][m m + 1][8]: R^-1 row by row, then volume [m3]
+  AlignedVector<double> rest;  ///< [group][rest point][reals][8]: R^-1 row by row, then volume [m3]
+  std::size_t reals = 0;       ///< m m + 1; 7 when the upper triangle of R^-1 is kept
   AlignedVector<double>
       frames;           ///< [group][rest point][3][3][8]: Q and its complement; empty when Q = I serves
   int rest_points = 0;  ///< 1, or all points of the rule
@@ -32,8 +33,13 @@ struct RestCells {
   ConstReals X;
 };
 
-/// `with_frames`: a law is not blind to rotation, so that cells below three dimensions need their axes.
-RestShape rest_shape(const RestCells& cells, const ElementOrder& order, bool with_frames);
+/// What of Q R is kept.
+struct RestForm {
+  bool frames = false;      ///< a law is not blind to rotation, so that cells below three dimensions need Q
+  bool triangular = false;  ///< no law sees Q, so that a volume keeps R^-1 as a triangle
+};
+
+RestShape rest_shape(const RestCells& cells, const ElementOrder& order, RestForm form);
 
 /// Which cells are affine, to round-off.
 std::vector<char> affine_cells(const ReferenceCell& reference, const std::vector<std::int32_t>& cells,

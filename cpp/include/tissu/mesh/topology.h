@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <string_view>
 #include <vector>
 
 #include "tissu/mesh/mesh.h"
@@ -21,6 +22,14 @@ struct Surface {
 };
 
 Surface boundary_surface(const Mesh& mesh);
+
+/// The same faces whole, in a block for each type: triangle, quad, triangle6, quad8, quad9.
+struct FaceBlock {
+  std::string_view type;
+  std::vector<std::int32_t> nodes;  ///< face after face, VTK order, anticlockwise seen from outside
+  std::vector<std::int32_t> cells;  ///< cell number across the blocks
+};
+std::vector<FaceBlock> boundary_face_blocks(const Mesh& mesh);
 
 /// Number of faces that more than two cells share: cells there overlap.
 std::int32_t overfull_face_count(const Mesh& mesh);

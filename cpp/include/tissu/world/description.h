@@ -2,7 +2,6 @@
 
 /// What a world is built from, as plain data with node numbers local to each body.
 
-#include <array>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -46,7 +45,7 @@ struct LoadDescription {
 struct PressureDescription {
   std::string name;
   std::string body;
-  std::vector<std::array<std::int32_t, 3>> triangles;
+  std::vector<FaceCells> faces;
   double pressure = 0.0;  ///< [Pa]
   History history;
 };

@@ -3,128 +3,18 @@
 /// One text for every element, quadrature, law and instruction set: F from the nodes, the law at the point,
 /// the force back to the nodes.  f_a = -sum_g w_g P grad_a,  K_ab = sum_g w_g grad_a . dP/dF . grad_b.
 
-#include "packed.h"
-#include "tissu/law/tensor.h"
+#include "fused_point.h"
 
 namespace tissu::TISSU_KERNELS {
 
-/// dN_a/dxi_k at every point, as numbers the compiler folds into the code.
-template <class Element, class Rule>
-struct GradientTable {
-  double dN[Rule::kPoints][Element::kNodes][3];
-  constexpr GradientTable() : dN{} {
-    for (int g = 0; g < Rule::kPoints; ++g) {
-      const auto gradients = Element::gradients(Rule::points[static_cast<unsigned>(g)].xi);
-      TISSU_UNROLL
-      for (int a = 0; a < Element::kNodes; ++a) {
-        TISSU_UNROLL
-        for (int k = 0; k < 3; ++k)
-          dN[g][a][k] = gradients[static_cast<unsigned>(a)][static_cast<unsigned>(k)];
-      }
-    }
-  }
-};
-
 template <class Element, class Rule, template <class> class LawOf>
-struct Elastic {
-  using Tensor = Tensor2<Batch>;
-  using MaterialLaw = LawOf<Batch>;
-  static constexpr int kNodes = Element::kNodes;
-  static constexpr int kRest = 10;
-  static constexpr int kConstants = static_cast<int>(sizeof(MaterialLaw) / sizeof(Batch));
-  static constexpr GradientTable<Element, Rule> kTable{};
-
-  /// The lanes of one batch of a group.
-  struct Lanes {
-    const std::uint16_t* places;
-    const std::int32_t* slots;
-    const double* rest;
-    int point_stride;  ///< of `rest`
-    const double* weights;
-    MaterialLaw law;
-
-    TISSU_INLINE Lanes(const ElasticView& view, std::int32_t group, int lane)
-        : places(view.places + static_cast<std::ptrdiff_t>(group) * kNodes * kLanes + lane),
-          slots(view.slots + static_cast<std::ptrdiff_t>(group) * kNodes * kNodes * kLanes + lane),
-          rest(view.rest + static_cast<std::ptrdiff_t>(group) * view.rest_points * kRest * kLanes + lane),
-          point_stride(view.rest_points == 1 ? 0 : kRest * kLanes),
-          weights(view.weights) {
-      const double* constants = view.constants + group * view.constants_stride + lane;
-      Batch* values = reinterpret_cast<Batch*>(&law);
-      TISSU_UNROLL
-      for (int c = 0; c < kConstants; ++c) values[c] = Batch::load(constants + c * kLanes);
-    }
-    TISSU_INLINE void gather_all(const PackedNodes& from, Batch (&to)[kNodes][3]) const {
-      TISSU_UNROLL
-      for (int a = 0; a < kNodes; ++a) gather_packed(from.values, places + a * kLanes, to[a]);
-    }
-    TISSU_INLINE void scatter_all(PackedNodes& to, const Batch (&from)[kNodes][3]) const {
-      TISSU_UNROLL
-      for (int a = 0; a < kNodes; ++a) scatter_packed(to.values, places + a * kLanes, from[a]);
-    }
-    TISSU_INLINE Tensor inverse_jacobian(int point) const {
-      Tensor Jinv;
-      TISSU_UNROLL
-      for (int k = 0; k < 9; ++k)
-        Jinv.m[k / 3][k % 3] = Batch::load(rest + point * point_stride + k * kLanes);
-      return Jinv;
-    }
-    TISSU_INLINE Batch weight(int point) const {
-      const Batch volume = Batch::load(rest + point * point_stride + 9 * kLanes);
-      return Rule::kPoints == 1 ? volume : volume * Batch(weights[point]);
-    }
-  };
-
-  /// sum_a u_a (x) dN_a/dxi, times J^-1: F when u = x, dF when u is a change of x.
-  TISSU_INLINE static Tensor gradient(int point, const Batch (&u)[kNodes][3], const Tensor& Jinv) {
-    Tensor G;
-    TISSU_UNROLL
-    for (int i = 0; i < 3; ++i) {
-      TISSU_UNROLL
-      for (int k = 0; k < 3; ++k) {
-        Batch sum = u[0][i] * kTable.dN[point][0][k];
-        TISSU_UNROLL
-        for (int a = 1; a < kNodes; ++a) {
-          if (!__builtin_constant_p(kTable.dN[point][a][k]) || kTable.dN[point][a][k] != 0.0) {
-            sum += u[a][i] * kTable.dN[point][a][k];
-          }
-        }
-        G(i, k) = sum;
-      }
-    }
-    return tissu::product(G, Jinv);
-  }
-
-  /// f_a += s P J^-T dN_a/dxi
-  TISSU_INLINE static void spread(int point, const Tensor& P, const Tensor& Jinv, Batch s,
-                                  Batch (&f)[kNodes][3]) {
-    Tensor H = tissu::product_transposed(P, Jinv);
-    TISSU_UNROLL
-    for (int i = 0; i < 3; ++i) {
-      TISSU_UNROLL
-      for (int k = 0; k < 3; ++k) H(i, k) = H(i, k) * s;
-    }
-    TISSU_UNROLL
-    for (int a = 0; a < kNodes; ++a) {
-      TISSU_UNROLL
-      for (int i = 0; i < 3; ++i) {
-        TISSU_UNROLL
-        for (int k = 0; k < 3; ++k) {
-          if (!__builtin_constant_p(kTable.dN[point][a][k]) || kTable.dN[point][a][k] != 0.0) {
-            f[a][i] += H(i, k) * kTable.dN[point][a][k];
-          }
-        }
-      }
-    }
-  }
-
-  TISSU_INLINE static void clear(Batch (&f)[kNodes][3]) {
-    TISSU_UNROLL
-    for (int a = 0; a < kNodes; ++a) {
-      TISSU_UNROLL
-      for (int i = 0; i < 3; ++i) f[a][i] = Batch(0.0);
-    }
-  }
+struct Elastic : FusedPoint<Element, Rule, LawOf> {
+  using Base = FusedPoint<Element, Rule, LawOf>;
+  using Base::kNodes;
+  using typename Base::Inverse;
+  using typename Base::Lanes;
+  using typename Base::MaterialLaw;
+  using typename Base::Tensor;
 
   static void force(const ElasticView& view, const Chunk& chunk, const double* x, double* f) {
     PackedNodes positions;
@@ -137,12 +27,16 @@ struct Elastic {
         Batch position[kNodes][3];
         Batch result[kNodes][3];
         lanes.gather_all(positions, position);
-        clear(result);
+        Base::clear(result);
         for (int g = 0; g < Rule::kPoints; ++g) {
-          const Tensor Jinv = lanes.inverse_jacobian(g);
-          const Tensor F = gradient(g, position, Jinv);
-          spread(g, lanes.law.stress(F), Jinv, -lanes.weight(g), result);
+          const Inverse Jinv = lanes.inverse_jacobian(g);
+          const Tensor F = Base::gradient(g, position, Jinv);
+          Base::spread(g,
+                       Base::scaled(lanes.law, -lanes.weight(g),
+                                    [&](const MaterialLaw& law) { return law.stress(F); }),
+                       Jinv, result);
         }
+        Base::close(result);
         lanes.scatter_all(sums, result);
       }
     }
@@ -165,13 +59,17 @@ struct Elastic {
         Batch result[kNodes][3];
         lanes.gather_all(positions, position);
         lanes.gather_all(changes, change);
-        clear(result);
+        Base::clear(result);
         for (int g = 0; g < Rule::kPoints; ++g) {
-          const Tensor Jinv = lanes.inverse_jacobian(g);
-          const Tensor F = gradient(g, position, Jinv);
-          const Tensor dF = gradient(g, change, Jinv);
-          spread(g, lanes.law.stress_change(F, dF), Jinv, lanes.weight(g) * Batch(-scale), result);
+          const Inverse Jinv = lanes.inverse_jacobian(g);
+          const Tensor F = Base::gradient(g, position, Jinv);
+          const Tensor dF = Base::gradient(g, change, Jinv);
+          Base::spread(g,
+                       Base::scaled(lanes.law, lanes.weight(g) * Batch(-scale),
+                                    [&](const MaterialLaw& law) { return law.stress_change(F, dF); }),
+                       Jinv, result);
         }
+        Base::close(result);
         lanes.scatter_all(sums, result);
       }
     }
@@ -179,17 +77,9 @@ struct Elastic {
   }
 
   /// grad_a N at a point: J^-T dN_a/dxi
-  TISSU_INLINE static void rest_gradients(int point, const Tensor& Jinv, Batch (&grad)[kNodes][3]) {
+  TISSU_INLINE static void rest_gradients(int point, const Inverse& Jinv, Batch (&grad)[kNodes][3]) {
     TISSU_UNROLL
-    for (int a = 0; a < kNodes; ++a) {
-      TISSU_UNROLL
-      for (int j = 0; j < 3; ++j) {
-        Batch sum = Jinv(0, j) * kTable.dN[point][a][0];
-        TISSU_UNROLL
-        for (int k = 1; k < 3; ++k) sum += Jinv(k, j) * kTable.dN[point][a][k];
-        grad[a][j] = sum;
-      }
-    }
+    for (int a = 0; a < kNodes; ++a) Jinv.rest_gradient(Base::kTable.dN[point][a], grad[a]);
   }
 
   /// half(i, J, k) = A_iJkL grad_b[L]
@@ -222,8 +112,8 @@ struct Elastic {
 
   TISSU_INLINE static void point_stiffness(const Lanes& lanes, int g, const Batch (&position)[kNodes][3],
                                            double scale, Batch (&K)[kPairs][9]) {
-    const Tensor Jinv = lanes.inverse_jacobian(g);
-    Tangent<Batch> A = lanes.law.tangent(gradient(g, position, Jinv));
+    const Inverse Jinv = lanes.inverse_jacobian(g);
+    Tangent<Batch> A = lanes.law.tangent(Base::gradient(g, position, Jinv));
     const Batch s = lanes.weight(g) * Batch(-scale);
     for (Batch& a : A.a) a = a * s;
     Batch grad[kNodes][3];
@@ -301,7 +191,7 @@ struct Elastic {
         lanes.gather_all(positions, position);
         Batch sum(0.0);
         for (int g = 0; g < Rule::kPoints; ++g) {
-          sum += lanes.weight(g) * lanes.law.energy(gradient(g, position, lanes.inverse_jacobian(g)));
+          sum += lanes.weight(g) * lanes.law.energy(Base::gradient(g, position, lanes.inverse_jacobian(g)));
         }
         double* to = energies + static_cast<std::ptrdiff_t>(group) * kLanes + lane;
         (Batch::load(to) + sum).store(to);
@@ -326,7 +216,7 @@ struct Elastic {
         Batch sum[6];
         for (Batch& s : sum) s = Batch(0.0);
         for (int g = 0; g < Rule::kPoints; ++g) {
-          const Tensor F = gradient(g, position, lanes.inverse_jacobian(g));
+          const Tensor F = Base::gradient(g, position, lanes.inverse_jacobian(g));
           const Batch J = determinant(F);
           const Tensor tau = tissu::product_transposed(lanes.law.stress(F), F);
           const Batch w = lanes.weight(g);
@@ -345,8 +235,9 @@ struct Elastic {
   }
 
   static constexpr ElasticKernels table(std::string_view quadrature) {
-    return {Element::kName, MaterialLaw::kName, quadrature, kNodes,  3,
-            &force,         &product,           &stiffness, &energy, &stress};
+    return {
+        Element::kName, MaterialLaw::kName,     quadrature, kNodes, 3, &force, &product, &stiffness, &energy,
+        &stress,        MaterialLaw::kIsotropic};
   }
 };
 

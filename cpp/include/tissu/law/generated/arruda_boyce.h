@@ -28,6 +28,8 @@ struct ArrudaBoyce {
   static constexpr std::string_view kName = "arruda_boyce";
   static constexpr bool kLinear = false;         ///< one tangent serves every F
   static constexpr bool kFrameInvariant = true;  ///< blind to rotation
+  static constexpr bool kIsotropic = true;       ///< blind to the axes of the rest shape
+  static constexpr bool kHomogeneous = true;     ///< in proportion to its constants
   static constexpr bool kAddition = false;       ///< to be added to a base law
   T b1;                                          ///< mu/2
   T b2;                                          ///< mu/(20*lambda_m^2)

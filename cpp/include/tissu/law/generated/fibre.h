@@ -28,6 +28,8 @@ struct Fibre {
   static constexpr std::string_view kName = "fibre";
   static constexpr bool kLinear = false;         ///< one tangent serves every F
   static constexpr bool kFrameInvariant = true;  ///< blind to rotation
+  static constexpr bool kIsotropic = false;      ///< blind to the axes of the rest shape
+  static constexpr bool kHomogeneous = false;    ///< in proportion to its constants
   static constexpr bool kAddition = true;        ///< to be added to a base law
   T k1;
   T k2;

@@ -26,6 +26,8 @@ struct Hooke {
   static constexpr std::string_view kName = "hooke";
   static constexpr bool kLinear = true;           ///< one tangent serves every F
   static constexpr bool kFrameInvariant = false;  ///< blind to rotation
+  static constexpr bool kIsotropic = false;       ///< blind to the axes of the rest shape
+  static constexpr bool kHomogeneous = true;      ///< in proportion to its constants
   static constexpr bool kAddition = false;        ///< to be added to a base law
   T lambda;                                       ///< poisson*young/((1 - 2*poisson)*(poisson + 1))
   T mu;                                           ///< young/(2*poisson + 2)

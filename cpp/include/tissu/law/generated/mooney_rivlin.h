@@ -27,6 +27,8 @@ struct MooneyRivlin {
   static constexpr std::string_view kName = "mooney_rivlin";
   static constexpr bool kLinear = false;         ///< one tangent serves every F
   static constexpr bool kFrameInvariant = true;  ///< blind to rotation
+  static constexpr bool kIsotropic = true;       ///< blind to the axes of the rest shape
+  static constexpr bool kHomogeneous = true;     ///< in proportion to its constants
   static constexpr bool kAddition = false;       ///< to be added to a base law
   T c1;
   T c2;

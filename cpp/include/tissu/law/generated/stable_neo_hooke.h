@@ -28,6 +28,8 @@ struct StableNeoHooke {
   static constexpr std::string_view kName = "stable_neo_hooke";
   static constexpr bool kLinear = false;         ///< one tangent serves every F
   static constexpr bool kFrameInvariant = true;  ///< blind to rotation
+  static constexpr bool kIsotropic = true;       ///< blind to the axes of the rest shape
+  static constexpr bool kHomogeneous = false;    ///< in proportion to its constants
   static constexpr bool kAddition = false;       ///< to be added to a base law
   T mu_s;                                        ///< 4*young/(3*(2*poisson + 2))
   T lambda_s;  ///< poisson*young/((1 - 2*poisson)*(poisson + 1)) + 5*young/(6*(2*poisson + 2))

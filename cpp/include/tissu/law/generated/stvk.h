@@ -26,6 +26,8 @@ struct StVK {
   static constexpr std::string_view kName = "stvk";
   static constexpr bool kLinear = false;         ///< one tangent serves every F
   static constexpr bool kFrameInvariant = true;  ///< blind to rotation
+  static constexpr bool kIsotropic = true;       ///< blind to the axes of the rest shape
+  static constexpr bool kHomogeneous = true;     ///< in proportion to its constants
   static constexpr bool kAddition = false;       ///< to be added to a base law
   T lambda;                                      ///< poisson*young/((1 - 2*poisson)*(poisson + 1))
   T mu;                                          ///< young/(2*poisson + 2)

@@ -1,0 +1,139 @@
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <span>
+#include <utility>
+
+#include "tissu/base/error.h"
+#include "tissu/element/reference_cell.h"
+#include "tissu/force/load.h"
+
+namespace tissu {
+namespace {
+
+using Nodes = std::span<const std::int32_t>;
+
+/// The rule that integrates N_a (x,1 x x,2) exactly: of degree p + 2 (p - 1) on triangles, p + 2 p - 1 along
+/// each side of a quadrangle.
+ReferenceCell exact_rule(const std::string& element) {
+  const ElementInfo* info = find_element(element);
+  if (info == nullptr || info->dimension != 2) {
+    throw ParameterError("faces of type \"" + element +
+                         "\" carry no load; triangle, triangle6, quad, quad8 and quad9 do.");
+  }
+  const bool triangle = element.starts_with("triangle");
+  const int degree = 3 * info->order - (triangle ? 2 : 1);
+  const auto* enough =
+      std::ranges::find_if(info->rules, [&](const RuleInfo& rule) { return rule.degree >= degree; });
+  return reference_cell(element, enough == info->rules.end() ? info->rules.back().name : enough->name);
+}
+
+/// x,1 and x,2 at a point.
+std::array<Vec3, 2> tangents(const ReferenceCell::Point& point, Nodes face, ConstReals x) {
+  std::array<Vec3, 2> t = {Vec3::Zero(), Vec3::Zero()};
+  for (std::size_t a = 0; a < face.size(); ++a) {
+    for (std::size_t k = 0; k < 2; ++k) t[k] += point.gradients[a][k] * block(x, face[a]);
+  }
+  return t;
+}
+
+/// Calls f(nodes of the face, point, x,1 and x,2) for each point of each face.
+template <class Function>
+void for_points(Nodes faces, const ReferenceCell& rule, ConstReals x, Function&& f) {
+  const auto count = static_cast<std::size_t>(rule.nodes);
+  for (std::size_t first = 0; first + count <= faces.size(); first += count) {
+    const Nodes face = faces.subspan(first, count);
+    for (const ReferenceCell::Point& point : rule.points) f(face, point, tangents(point, face, x));
+  }
+}
+
+/// [a]x, the matrix of b -> a x b
+Mat3 cross_matrix(const Vec3& a) {
+  Mat3 m;
+  m << 0.0, -a.z(), a.y(), a.z(), 0.0, -a.x(), -a.y(), a.x(), 0.0;
+  return m;
+}
+
+}  // namespace
+
+void add_areas(const FaceCells& faces, ConstReals positions, std::vector<double>& nodal) {
+  for_points(faces.nodes, exact_rule(faces.element), positions,
+             [&](Nodes face, const ReferenceCell::Point& point, const auto& t) {
+               const double area = point.weight * t[0].cross(t[1]).norm();
+               for (std::size_t a = 0; a < face.size(); ++a)
+                 nodal[static_cast<std::size_t>(face[a])] += area * point.values[a];
+             });
+}
+
+Pressure::Pressure(std::string name, std::vector<FaceCells> faces, double pressure, History history)
+    : name_(std::move(name)), pressure_(pressure), history_(std::move(history)) {
+  for (FaceCells& some : faces) faces_.push_back({std::move(some.nodes), exact_rule(some.element)});
+}
+
+double Pressure::pressure_at(const State& state) const {
+  return state.load_factor * pressure_ * history_.at(state.time);
+}
+
+void Pressure::couple(SparsityBuilder& builder) const {
+  for (const Ruled& some : faces_) builder.add_cells(some.nodes, some.rule.nodes);
+}
+
+void Pressure::add_force(const State& state, Reals f) const {
+  const double p = pressure_at(state);
+  for (const Ruled& some : faces_) {
+    for_points(some.nodes, some.rule, state.positions,
+               [&](Nodes face, const ReferenceCell::Point& point, const auto& t) {
+                 const Vec3 push = -p * point.weight * t[0].cross(t[1]);
+                 for (std::size_t a = 0; a < face.size(); ++a) block(f, face[a]) += point.values[a] * push;
+               });
+  }
+}
+
+/// The normal changes with x_b by D_b = N_b,2 [x,1]x - N_b,1 [x,2]x, which is skew; so the symmetric part of
+/// the stiffness has the blocks (N_a D_b - N_b D_a) / 2.
+template <class Function>
+void Pressure::for_blocks(const State& state, double scale, Function&& f) const {
+  const double p = scale * pressure_at(state);
+  for (const Ruled& some : faces_) {
+    for_points(some.nodes, some.rule, state.positions,
+               [&](Nodes face, const ReferenceCell::Point& point, const auto& t) {
+                 const std::array<Mat3, 2> skew = {cross_matrix(t[0]), cross_matrix(t[1])};
+                 const auto D = [&](std::size_t b) {
+                   return Mat3(point.gradients[b][1] * skew[0] - point.gradients[b][0] * skew[1]);
+                 };
+                 for (std::size_t a = 0; a < face.size(); ++a) {
+                   for (std::size_t b = 0; b < face.size(); ++b) {
+                     if (a == b) continue;
+                     f(face[a], face[b],
+                       Mat3(-0.5 * p * point.weight * (point.values[a] * D(b) - point.values[b] * D(a))));
+                   }
+                 }
+               });
+  }
+}
+
+void Pressure::add_stiffness(const State& state, StiffnessScale scale, BlockMatrix& matrix) const {
+  for_blocks(state, scale.position,
+             [&](std::int32_t a, std::int32_t b, const Mat3& B) { matrix.add(a, b, B); });
+}
+
+void Pressure::add_product(const State& state, StiffnessScale scale, ConstReals p, Reals out) const {
+  for_blocks(state, scale.position,
+             [&](std::int32_t a, std::int32_t b, const Mat3& B) { block(out, a) += B * block(p, b); });
+}
+
+/// A third of the flux of x.
+double Pressure::energy(const State& state) const {
+  const ConstReals x(state.positions);
+  double flux = 0.0;
+  for (const Ruled& some : faces_) {
+    for_points(some.nodes, some.rule, x, [&](Nodes face, const ReferenceCell::Point& point, const auto& t) {
+      Vec3 place = Vec3::Zero();
+      for (std::size_t a = 0; a < face.size(); ++a) place += point.values[a] * block(x, face[a]);
+      flux += point.weight * place.dot(t[0].cross(t[1]));
+    });
+  }
+  return pressure_ * history_.at(state.time) * flux / 3.0;
+}
+
+}  // namespace tissu

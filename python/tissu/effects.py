@@ -63,6 +63,8 @@ def effects_of(scene: Scene, counts: Mapping[str, str] | None = None) -> list[Ef
 def absent_of(scene: Scene) -> list[str]:
     """Effects that the scene does not ask for; none of them runs or is stored."""
     present = {
+        "sheets": any(body.thickness is not None for body in scene.bodies.values()),
+        "lines": any(body.section is not None for body in scene.bodies.values()),
         "viscosity": any(body.viscosity is not None for body in scene.bodies.values()),
         "gravity": scene.gravity is not None,
         "fixed nodes": bool(scene.fixed),
@@ -88,6 +90,13 @@ def _of_body(name: str, body: Body) -> list[Effect]:
         where = name if region is None else f"{name}, region {region}"
         path = f"bodies.{name}.law" + ("" if region is None else f".{region}")
         effects.append(Effect(f"elasticity of {where}", f"{path} is {_law(law)}"))
+    if body.thickness is not None:
+        plane = "" if body.plane is None else f", plane is {body.plane}"
+        why = f"bodies.{name}.thickness is {body.thickness:g} m{plane}"
+        effects.append(Effect(f"sheets of {name}", why))
+    if body.section is not None:
+        why = f"bodies.{name}.section is {body.section:g} m^2"
+        effects.append(Effect(f"lines of {name}", why))
     if body.viscosity is not None:
         v = body.viscosity
         why = (

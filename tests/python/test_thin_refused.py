@@ -223,3 +223,55 @@ def test_pictures_show_sheets_and_lines(tmp_path, cell, field):
     left = picture[60:240, :250].reshape(-1, 3)
     coloured = np.ptp(left, axis=1) > 0.1  # the clay of a body at rest; words and bars are grey
     assert coloured.sum() > (100 if cell == "line" else 2000)
+
+
+def test_surfaces_named_in_a_file_have_laws_of_their_own(tmp_path):
+    """Two triangles of a Gmsh file in the groups 1 and 2, beside a line in the group 1 of lines."""
+    points = [(0.0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)]
+    meshio.write(
+        tmp_path / "two.msh",
+        meshio.Mesh(
+            np.array(points),
+            [("line", [[0, 1]]), ("triangle", [[0, 1, 2], [0, 2, 3]])],
+            cell_data={
+                "gmsh:physical": [np.array([1]), np.array([1, 2])],
+                "gmsh:geometrical": [np.array([1]), np.array([1, 1])],
+            },
+            field_data={
+                "left": np.array([1, 2]),
+                "right": np.array([2, 2]),
+                "edge": np.array([1, 1]),
+            },
+        ),
+        file_format="gmsh22",
+        binary=False,
+    )
+    soft, stiff = LAW, LAW.replace(young=3e4)
+    body = Body(
+        mesh=str(tmp_path / "two.msh"),
+        law={"left": soft, "right": stiff},
+        density=1e3,
+        thickness=0.1,
+        plane="strain",
+    )
+    simulation = Scene(bodies={"b": body}, step=ImplicitEuler(0.01)).compile()
+    mesh = simulation.meshes["b"]
+    assert {name: cells.tolist() for name, cells in mesh.regions.items()} == {
+        "left": [0],
+        "right": [1],
+    }
+    simulation.positions["b"][:, 0] *= 1.01
+    stress = simulation.cell_fields("b")["von_mises"]
+    assert stress[1] == pytest.approx(3 * stress[0], rel=1e-9)
+    both = body.replace(section=1e-3, law={"left": soft, "right": stiff, "edge": stiff})
+    again = Scene(bodies={"b": both}, step=ImplicitEuler(0.01)).compile().meshes["b"]
+    assert again.regions["edge"].tolist() == again.regions["lines"].tolist() == [2]
+
+
+def test_the_check_says_which_sheets_and_lines_there_are():
+    body = Body(mesh=PLATE, law=LAW, density=1e3, thickness="2 mm", plane="strain")
+    check = check_scene(Scene(bodies={"b": body}, step=ImplicitEuler(0.01)))
+    told = [str(effect) for effect in check.effects]
+    assert "sheets of b: bodies.b.thickness is 0.002 m, plane is strain" in told
+    assert "lines" in check.absent
+    assert "sheets" not in check.absent

@@ -35,6 +35,7 @@ class Mesh:
         thin: which cells below three dimensions are simulated: 2 for surfaces, 1 for lines; the
             others only mark borders.
         regions: name -> numbers int32 of cells, increasing; a cell may be in several.
+        border_regions: the same of all surface cells and then all line cells, simulated or not.
         source: file it was read from, None when it was made.
         unit: unit of length of the file.
         scale: factor on all lengths, on top of the unit.
@@ -48,6 +49,7 @@ class Mesh:
     cells: tuple[CellBlock, ...]
     thin: tuple[int, ...] = ()
     regions: Mapping[str, Ints] = field(default_factory=dict)
+    border_regions: Mapping[str, Ints] = field(default_factory=dict)
     source: str | None = None
     unit: str = "m"
     scale: float = 1.0
@@ -62,8 +64,11 @@ class Mesh:
         object.__setattr__(self, "cells", tuple(self.cells))
         self._require_finite()
         self._require_nodes()
-        regions = {str(name): self._region(name, of) for name, of in self.regions.items()}
-        object.__setattr__(self, "regions", MappingProxyType(regions))
+        of_borders = sum(len(block) for block in self.border_blocks)
+        for name, count in (("regions", self.cell_count), ("border_regions", of_borders)):
+            given = getattr(self, name).items()
+            regions = {str(region): _region(region, cells, count) for region, cells in given}
+            object.__setattr__(self, name, MappingProxyType(regions))
 
     @property
     def volume_blocks(self) -> tuple[CellBlock, ...]:
@@ -71,10 +76,15 @@ class Mesh:
         return tuple(block for block in self.cells if block.type in handled_types() and len(block))
 
     @property
-    def thin_blocks(self) -> tuple[CellBlock, ...]:
-        """The surface and line cells that are simulated: surfaces first."""
+    def border_blocks(self) -> tuple[CellBlock, ...]:
+        """The surface cells and then the line cells, simulated or not."""
         found = [b for b in self.cells if b.type in thin_types() and len(b)]
-        return tuple(b for m in (2, 1) if m in self.thin for b in found if dimension(b.type) == m)
+        return tuple(b for m in (2, 1) for b in found if dimension(b.type) == m)
+
+    @property
+    def thin_blocks(self) -> tuple[CellBlock, ...]:
+        """The surface cells and then the line cells, where they are simulated."""
+        return tuple(b for b in self.border_blocks if dimension(b.type) in self.thin)
 
     @property
     def body_blocks(self) -> tuple[CellBlock, ...]:
@@ -132,7 +142,9 @@ class Mesh:
     def surface_mesh(self) -> Mesh:
         """The outer surface as a mesh of its own, with the nodes on it only."""
         blocks = self.surface().faces
-        alone = dataclasses.replace(self, cells=blocks, thin=(), regions={}, notes=())
+        alone = dataclasses.replace(
+            self, cells=blocks, thin=(), regions={}, border_regions={}, notes=()
+        )
         return alone.without_unused_nodes()
 
     def parts(self) -> Ints:
@@ -160,10 +172,12 @@ class Mesh:
         number = np.cumsum(keep, dtype=np.int32) - 1
         rows = [block.nodes[keep[block.nodes].all(axis=1)] for block in self.cells]
         blocks = [CellBlock(b.type, number[r]) for b, r in zip(self.cells, rows, strict=True)]
+        borders = [np.array(keep[b.nodes].all(axis=1), dtype=bool) for b in self.border_blocks]
         return dataclasses.replace(
             self,
             points=self.points[keep],
             cells=tuple(block for block in blocks if len(block)),
+            border_regions=thins.kept(self.border_regions, borders),
             notes=(*self.notes, f"{counted(len(unused), 'node')} dropped: no cell uses them"),
         )
 
@@ -192,15 +206,17 @@ class Mesh:
                     f"numbers from 0 to {self.node_count - 1} are accepted"
                 )
 
-    def _region(self, name: str, cells: Ints) -> Ints:
-        numbers = np.unique(np.asarray(cells, dtype=np.int32)).astype(np.int32)
-        if len(numbers) and not 0 <= numbers[0] <= numbers[-1] < self.cell_count:
-            raise MeshError(
-                f"region '{name}' has cells from {numbers[0]} to {numbers[-1]}; "
-                f"numbers from 0 to {self.cell_count - 1} are accepted"
-            )
-        numbers.flags.writeable = False
-        return numbers
+
+def _region(name: str, cells: Ints, count: int) -> Ints:
+    """The numbers of a region's cells, of `count` there are, increasing and read-only."""
+    numbers = np.unique(np.asarray(cells, dtype=np.int32)).astype(np.int32)
+    if len(numbers) and not 0 <= numbers[0] <= numbers[-1] < count:
+        raise MeshError(
+            f"region '{name}' has cells from {numbers[0]} to {numbers[-1]}; "
+            f"numbers from 0 to {count - 1} are accepted"
+        )
+    numbers.flags.writeable = False
+    return numbers
 
 
 def first_five(numbers: Ints | np.ndarray[tuple[int], np.dtype[np.int64]]) -> str:

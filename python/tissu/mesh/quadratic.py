@@ -47,7 +47,8 @@ def into_quadratic(mesh: Mesh, *, centres: bool = False) -> Mesh:
         CellBlock(names[block.type], np.hstack([block.nodes, new]))
         for block, new in zip(blocks, numbers, strict=True)
     )
-    return dataclasses.replace(mesh, points=np.vstack([mesh.points, middles]), cells=cells)
+    points = np.vstack([mesh.points, middles])
+    return dataclasses.replace(mesh, points=points, cells=cells, border_regions={})
 
 
 def _groups(block: CellBlock, centres: bool) -> Ints:

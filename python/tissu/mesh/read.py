@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from tissu import _core
 from tissu.counted import are, counted
 from tissu.errors import MeshError, ParameterError
-from tissu.mesh.cell import CellBlock, Floats, Ints, dimension, handled_types
+from tissu.mesh.cell import CellBlock, Floats, Ints, dimension
 from tissu.mesh.format import reader, sniffed
 from tissu.mesh.mesh import Mesh, first_five
 from tissu.mesh.raw import RawMesh
@@ -88,8 +88,13 @@ def _ordered(raw: RawMesh, factor: float, *, source: str, unit: str, scale: floa
         kind = "volume cell" if mesh.volume_blocks else "cell"
         idle = f"{counted(len(unused), 'node')} {are(len(unused))} used by no {kind}"
         notes.append(f"{idle} ({first_five(unused)})")
-    regions = _regions(raw, rows, blocks)
-    return dataclasses.replace(mesh, cells=blocks, regions=regions, notes=tuple(notes))
+    return dataclasses.replace(
+        mesh,
+        cells=blocks,
+        regions=_regions(raw, rows, blocks, mesh.volume_blocks),
+        border_regions=_regions(raw, rows, blocks, mesh.border_blocks),
+        notes=tuple(notes),
+    )
 
 
 def _three_columns(points: NDArray[Any], notes: list[str]) -> Floats:
@@ -139,15 +144,17 @@ def _left_out(blocks: tuple[CellBlock, ...]) -> list[str]:
     ]
 
 
-def _regions(raw: RawMesh, rows: list[list[int]], blocks: tuple[CellBlock, ...]) -> dict[str, Ints]:
-    """Regions as numbers of volume cells; those without any are dropped."""
+def _regions(
+    raw: RawMesh,
+    rows: list[list[int]],
+    blocks: tuple[CellBlock, ...],
+    among: tuple[CellBlock, ...],
+) -> dict[str, Ints]:
+    """Regions as numbers of the cells of some blocks; those without any are dropped."""
+    rows_of = {block.type: of for block, of in zip(blocks, rows, strict=True)}
     regions = {}
     for name, masks in raw.regions.items():
-        columns = [
-            np.concatenate([masks[i] for i in of])
-            for block, of in zip(blocks, rows, strict=True)
-            if block.type in handled_types()
-        ]
+        columns = [np.concatenate([masks[i] for i in rows_of[block.type]]) for block in among]
         cells = np.flatnonzero(np.concatenate(columns)) if columns else np.empty(0)
         if len(cells):
             regions[name] = cells.astype(np.int32)

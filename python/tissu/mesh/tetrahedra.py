@@ -37,7 +37,12 @@ def into_tetrahedra(mesh: Mesh) -> Mesh:
     }
     note = "cells cut into tetrahedra"
     cut = dataclasses.replace(
-        mesh, cells=tuple(blocks), regions=regions, source=None, notes=(*mesh.notes, note)
+        mesh,
+        cells=tuple(blocks),
+        regions=regions,
+        border_regions={},
+        source=None,
+        notes=(*mesh.notes, note),
     )
     quadratic = any(cell_table()[block.type].order > 1 for block in mesh.volume_blocks)
     return cut.without_unused_nodes() if quadratic else cut

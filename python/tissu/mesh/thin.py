@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import dataclasses
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
 from tissu import _core
 from tissu.mesh.cell import CellBlock, Floats, Ints, dimension
@@ -31,21 +33,42 @@ _QUADS = {
 def with_thin(mesh: Mesh, *, sheets: bool, lines: bool) -> Mesh:
     """The same mesh with its surface cells, its line cells or both simulated.
 
-    Where it then simulates cells of several dimensions, each kind is a region by the name in KINDS,
-    unless the mesh has one of this name already.
+    Their border regions are regions then. Where it simulates cells of several dimensions, each kind
+    is a region by the name in KINDS, unless the mesh has one of this name already.
     """
     chosen = tuple(m for m, wanted in ((2, sheets), (1, lines)) if wanted)
-    made = dataclasses.replace(mesh, thin=chosen)
-    counts = {m: sum(len(b) for b in made.body_blocks if dimension(b.type) == m) for m in KINDS}
+    if chosen == mesh.thin:
+        return mesh
+    solid = sum(len(block) for block in mesh.volume_blocks)
+    regions = {name: cells[cells < solid] for name, cells in mesh.regions.items()}
+    made = dataclasses.replace(mesh, thin=chosen, regions=regions)
+    inside = [np.full(len(b), dimension(b.type) in chosen) for b in mesh.border_blocks]
+    for name, cells in kept(mesh.border_regions, inside).items():
+        regions[name] = np.concatenate([regions.get(name, cells[:0]), cells + solid])
+    return dataclasses.replace(made, regions={**_kinds(made), **regions})
+
+
+def _kinds(mesh: Mesh) -> dict[str, Ints]:
+    """The cells of each kind, where there are several."""
+    counts = {m: sum(len(b) for b in mesh.body_blocks if dimension(b.type) == m) for m in KINDS}
     ends = np.cumsum(list(counts.values()))
     present = {
         KINDS[m]: np.arange(end - counts[m], end, dtype=np.int32)
         for m, end in zip(KINDS, ends, strict=True)
         if counts[m]
     }
-    if len(present) < 2:
-        return made
-    return dataclasses.replace(made, regions={**present, **mesh.regions})
+    return present if len(present) > 1 else {}
+
+
+def kept(regions: Mapping[str, Ints], keep: Sequence[NDArray[np.bool_]]) -> dict[str, Ints]:
+    """Regions of blocks of which some cells stay (a mask for each block), by their new numbers.
+
+    Those that lose all their cells are dropped.
+    """
+    mask = np.concatenate([np.empty(0, dtype=bool), *keep])
+    number = np.cumsum(mask, dtype=np.int32) - 1
+    found = {name: number[cells[mask[cells]]] for name, cells in regions.items()}
+    return {name: cells for name, cells in found.items() if len(cells)}
 
 
 def sizes(mesh: Mesh, block: CellBlock) -> Floats:

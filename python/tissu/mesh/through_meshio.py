@@ -145,7 +145,7 @@ def _regions(mesh: Any) -> dict[str, list[NDArray[np.bool_]]]:
         if name.startswith(_MARK):
             found[name.removeprefix(_MARK)] = [block != 0 for block in values]
         elif name in _TAGS:
-            found |= tagged_regions(values, _names(mesh, name), ignore_zero=_TAGS[name])
+            found |= _tagged(mesh, name, values)
     sizes = [len(block.data) for block in mesh.cells]
     for name, members in mesh.cell_sets.items():
         if not name.startswith("gmsh:") and len(members) == len(sizes):
@@ -153,14 +153,33 @@ def _regions(mesh: Any) -> dict[str, list[NDArray[np.bool_]]]:
     return found
 
 
+def _tagged(mesh: Any, tag: str, values: list[NDArray[Any]]) -> dict[str, list[NDArray[np.bool_]]]:
+    """Regions of numbered cells; Gmsh's physical groups are numbered for each dimension anew."""
+    if tag != "gmsh:physical":
+        return tagged_regions(values, _names(mesh, tag), ignore_zero=_TAGS[tag])
+    found: dict[str, list[NDArray[np.bool_]]] = {}
+    for m in (3, 2, 1):
+        own = [
+            of if dimension(block.type) == m else np.zeros_like(of)
+            for of, block in zip(values, mesh.cells, strict=True)
+        ]
+        for name, masks in tagged_regions(own, _physical(mesh, m), ignore_zero=True).items():
+            before = found.get(name, [np.zeros(len(mask), dtype=bool) for mask in masks])
+            found[name] = [a | b for a, b in zip(before, masks, strict=True)]
+    return found
+
+
+def _physical(mesh: Any, of_dimension: int) -> dict[int, str]:
+    """Names of Gmsh's physical groups of a dimension by their numbers."""
+    return {
+        int(value[0]): name
+        for name, value in mesh.field_data.items()
+        if np.size(value) == 2 and int(value[1]) == of_dimension
+    }
+
+
 def _names(mesh: Any, tag: str) -> dict[int, str]:
-    """Names of the numbers of volume regions: Gmsh's physical names, or the families of MED."""
-    if tag == "gmsh:physical":
-        return {
-            int(value[0]): name
-            for name, value in mesh.field_data.items()
-            if np.size(value) == 2 and int(value[1]) == 3
-        }
+    """Names of the numbers of regions: the families of MED."""
     if tag == "cell_tags":
         families: Mapping[int, list[str]] = getattr(mesh, "cell_tags", {})
         return {number: " ".join(names) for number, names in families.items()}

@@ -68,11 +68,19 @@ def draw(
     """
     if field not in LABELS:
         raise ParameterError(f"field '{field}'; accepted: {', '.join(LABELS)}")
-    gravity = simulation.scene.gravity
-    up = (0.0, 0.0, 1.0) if gravity is None or not np.any(gravity) else -np.asarray(gravity)
+    up = _up(simulation)
     title = simulation.scene.name
     shape, time = shape_of(simulation, field), simulation.time
     draw_shape(shape, path, title=title, time=time, up=up, size=size, field=field)
+
+
+def _up(simulation: Simulation) -> Array:
+    """What points to the top: against gravity; without it z, or y of flat bodies."""
+    gravity = simulation.scene.gravity
+    if gravity is not None and np.any(gravity):
+        return -np.asarray(gravity, dtype=np.float64)
+    flat = all(np.ptp(mesh.points[:, 2]) == 0 for mesh in simulation.meshes.values())
+    return np.array([0.0, 1.0, 0.0] if flat else [0.0, 0.0, 1.0])
 
 
 def draw_shape(

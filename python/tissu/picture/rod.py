@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 
-LINE = 0.004  # radius of the rod that stands for a line, as a share of the body's diagonal
+LINE = 0.008  # radius of the rod that stands for a line, as a share of the body's diagonal
 _SIDES = 6
 
 

@@ -253,7 +253,7 @@ def keep_cells(mesh: Mesh, cells: NDArray[np.int32]) -> Mesh:
         blocks.append(dataclasses.replace(block, nodes=block.nodes[rows]))
         first += len(block.nodes)
     regions = {name: number[of[keep[of]]] for name, of in mesh.regions.items()}
-    return dataclasses.replace(mesh, cells=tuple(blocks), regions=regions)
+    return dataclasses.replace(mesh, cells=tuple(blocks), regions=regions, border_regions={})
 
 
 def _views(values: Floats, ranges: Mapping[str, tuple[int, int]]) -> dict[str, Floats]:

@@ -14,7 +14,7 @@ from functools import lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from tissu.errors import LawError, SceneError
+from tissu.errors import SceneError
 from tissu.scene.body import Body, MeshFile
 from tissu.scene.part import KEEP_PROBLEMS, Part
 from tissu.scene.problem import Path as FieldPath
@@ -85,7 +85,12 @@ def parse_scene(text: str, *, base: Path | None = None, name: str = "text") -> S
                 f"{', '.join(Scene.model_fields)} is accepted"
             ]
         )
-    laws, refused = _own_laws(data, base)
+    laws: list[type[UserLaw]] = []
+    refused: list[Problem] = []
+    if data.get("laws"):
+        from tissu.user_law.of_scene import laws_of_scene
+
+        laws, refused = laws_of_scene(data["laws"], base)
     problems += refused
     context = {"base": base, "laws": laws, "laws_refused": bool(refused), KEEP_PROBLEMS: True}
     scene = Scene.model_validate(data, context=context)
@@ -210,30 +215,6 @@ def _walk(
                 )
             lines[inner] = key.start_mark.line + 1
             _walk(value, inner, lines, problems, above)
-
-
-def _own_laws(
-    data: Mapping[str, Any], base: Path | None
-) -> tuple[list[type[UserLaw]], list[Problem]]:
-    """The laws of the files that the scene names, and what is wrong with those."""
-    laws: list[type[UserLaw]] = []
-    problems: list[Problem] = []
-    files = data.get("laws")
-    for number, file in enumerate(files if isinstance(files, list) else ()):
-        if not isinstance(file, str):
-            continue  # the scene's own check says so
-        from tissu.user_law import read_law
-
-        try:
-            law = read_law((base or Path()) / file)
-            if law.made in [other.made for other in laws]:
-                continue
-            if law.__name__ in [other.__name__ for other in laws]:
-                raise LawError(f"{file}: another file has a law of this name; rename one of them.")
-            laws.append(law)
-        except LawError as error:
-            problems.append(Problem(("laws", number), str(error)))
-    return laws, problems
 
 
 def _plain(value: Any, folder: Path | None) -> Any:

@@ -20,6 +20,7 @@ The stages, each in its own module:
     compiler    C++                  -> the library, by the compiler of this machine
     cache       the library          -> kept for the next time
     made        all of it            -> the core's LoadedLaw, and what a summary records
+    of_scene    files a scene names  -> their laws
 """
 
 from tissu.user_law.define import law, law_from_record, read_law

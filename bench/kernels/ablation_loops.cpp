@@ -83,11 +83,7 @@ void run(const AblationBlock& block, const double* x, double* f, double* sink) {
   PackedNodes forces;
   for (std::size_t c = 0; c < block.chunk_count; ++c) {
     const Chunk& chunk = block.chunks[c];
-    if constexpr ((kParts & kGather) != 0) {
-      positions.load(chunk, x);
-    } else if (c == 0) {
-      positions.load(chunk, x);
-    }
+    if ((kParts & kGather) != 0 || c == 0) positions.load(chunk, x);
     if constexpr ((kParts & kScatter) != 0) forces.clear(chunk);
     for (auto group = static_cast<std::size_t>(chunk.begin); group < static_cast<std::size_t>(chunk.end);
          ++group) {

@@ -58,6 +58,7 @@ void add_elastic(WorldDescription& world, const std::string& body, const std::st
 
 std::vector<FaceCells> to_faces(const std::vector<std::pair<std::string, Ints>>& faces) {
   std::vector<FaceCells> result;
+  result.reserve(faces.size());
   for (const auto& [type, nodes] : faces) result.push_back({type, to_vector(nodes)});
   return result;
 }

@@ -46,8 +46,8 @@ class FaceLoadTest : public testing::TestWithParam<std::string> {
   State state_;
 };
 
-// The faces are exact. The volume is too where its rule is: not for det J of degree 3 on a tetrahedron, nor for
-// pyramids, whose shape functions are rational.
+// The faces are exact. The volume is too where its rule is: not for det J of degree 3 on a tetrahedron, nor
+// for pyramids, whose shape functions are rational.
 TEST_P(FaceLoadTest, EnclosesTheVolume) {
   const double tolerance = GetParam().starts_with("pyramid") ? 2e-3 : GetParam() == "tetra10" ? 1e-5 : 1e-12;
   EXPECT_NEAR(Pressure("p", faces_, 1.0, {}).energy(state_), volumes(mesh_)[0], tolerance);

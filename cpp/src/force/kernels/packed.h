@@ -79,8 +79,8 @@ TISSU_INLINE void scatter_packed(double* values, const std::uint16_t* place, con
 /// A 3-vector for each node of a chunk. Not initialised: it is made on the stack of every call.
 struct PackedNodes {
   alignas(64) double values[4 * Chunk::kMostNodes];
-  // Half a page on, so that the same node of two copies does not have the same low bits of its address: a load
-  // would wait for the store to the other copy.
+  // Half a page on, so that the same node of two copies does not have the same low bits of its address: a
+  // load would wait for the store to the other copy.
   double apart[264];
 
   void load(const Chunk& chunk, const double* from) {

@@ -10,10 +10,12 @@ from pathlib import Path
 from tissu.codegen import cpp, listing
 from tissu.codegen.checks import check_law
 from tissu.codegen.definition import LAWS, Law, read_laws
+from tissu.codegen.elements import element_texts
 from tissu.errors import LawError
 
 ROOT = Path(__file__).resolve().parents[3]
 HEADERS = "cpp/include/tissu/law/generated"
+ELEMENTS = "cpp/include/tissu/element/generated"
 TABLE = "cpp/src/law/generated/laws.cpp"
 
 
@@ -22,7 +24,14 @@ def made_files(laws: Sequence[Law], root: Path) -> dict[Path, str]:
     files = {root / HEADERS / f"{law.name}.h": cpp.header(law) for law in laws}
     files[root / HEADERS / "all.h"] = listing.type_list(laws)
     files[root / TABLE] = listing.table(laws)
-    return {path: cpp.formatted(text, path) for path, text in files.items()}
+    made = {path: cpp.formatted(text, path) for path, text in files.items()}
+    return made | {root / path: text for path, text in element_texts().items()}
+
+
+def _left_over(files: dict[Path, str], root: Path) -> list[Path]:
+    """Made files that no law and no element asks for."""
+    found = [*sorted((root / HEADERS).glob("*.h")), *sorted((root / ELEMENTS).glob("*.h"))]
+    return [path for path in found if path not in files]
 
 
 def stale(files: dict[Path, str], root: Path) -> list[str]:
@@ -33,25 +42,21 @@ def stale(files: dict[Path, str], root: Path) -> list[str]:
             problems.append(f"{path.relative_to(root)} is missing")
         elif path.read_text(encoding="utf-8") != text:
             problems.append(f"{path.relative_to(root)} is not what the formulae give")
-    known = {path.name for path in files}
-    for path in sorted((root / HEADERS).glob("*.h")):
-        if path.name not in known:
-            problems.append(f"{path.relative_to(root)} has no law")
-    return problems
+    left = _left_over(files, root)
+    return problems + [f"{path.relative_to(root)} has no law or element" for path in left]
 
 
 def update(files: dict[Path, str], root: Path) -> list[str]:
-    """Writes what changed, takes out what has no law; one line for each."""
+    """Writes what changed, takes out what is left over; one line for each."""
     done = []
     for path, text in files.items():
         path.parent.mkdir(parents=True, exist_ok=True)
         if not path.exists() or path.read_text(encoding="utf-8") != text:
             path.write_text(text, encoding="utf-8")
             done.append(f"wrote {path.relative_to(root)}")
-    for path in sorted((root / HEADERS).glob("*.h")):
-        if path not in files:
-            path.unlink()
-            done.append(f"removed {path.relative_to(root)}")
+    for path in _left_over(files, root):
+        path.unlink()
+        done.append(f"removed {path.relative_to(root)}")
     return done
 
 

@@ -1,17 +1,15 @@
 """The table of elements: nodes, shape functions and quadrature, from which their C++ is made.
 
 Nodes: corners, middles of edges, middles of faces, centre. Adding an element is one entry of
-`elements()`. `python -m tissu.codegen.elements --check | --update` compares or writes the C++.
+`elements()`. `python -m tissu.codegen --check | --update` compares or writes the C++.
 """
 
 from __future__ import annotations
 
-import argparse
 import inspect
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cache
-from pathlib import Path
 from typing import Any
 
 import sympy
@@ -146,28 +144,3 @@ def element_texts() -> dict[str, str]:
     folder = "cpp/include/tissu/element/generated"
     texts = {f"{folder}/{e.name}.h": element_header(e) for e in elements()}
     return {**texts, f"{folder}/all.h": list_header(elements())}
-
-
-def _main() -> int:
-    parser = argparse.ArgumentParser(description="The C++ of the elements, from their table.")
-    choice = parser.add_mutually_exclusive_group(required=True)
-    choice.add_argument("--check", action="store_true", help="say which files differ")
-    choice.add_argument("--update", action="store_true", help="write the files")
-    update = parser.parse_args().update
-    root = Path(__file__).parents[3]
-    texts = element_texts()
-    differ = [p for p, text in texts.items() if not _is(root / p, text)]
-    for path in differ:
-        print(f"{'written' if update else 'differs'}: {path}")
-        if update:
-            (root / path).parent.mkdir(parents=True, exist_ok=True)
-            (root / path).write_text(texts[path], encoding="utf-8")
-    return 1 if differ and not update else 0
-
-
-def _is(path: Path, text: str) -> bool:
-    return path.is_file() and path.read_text(encoding="utf-8") == text
-
-
-if __name__ == "__main__":
-    raise SystemExit(_main())

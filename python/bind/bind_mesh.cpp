@@ -146,6 +146,18 @@ void bind_mesh(py::module_& m) {
   m.def("cell_types", &cell_types);
   m.def("elements", &elements);
   m.def("cell_measures", &cell_measures, py::kw_only(), "positions"_a, "cell_type"_a, "nodes"_a);
+  m.def(
+      "zero_energy_modes",
+      [](const std::string& type, const std::string& quadrature) {
+        const tissu::ElementInfo* element = tissu::find_element(type);
+        const tissu::RuleInfo* rule = element == nullptr ? nullptr : element->rule(quadrature);
+        if (rule == nullptr) {
+          throw tissu::ParameterError("there is no element \"" + type + "\" with a quadrature \"" +
+                                      quadrature + "\".");
+        }
+        return rule->zero_energy_modes;
+      },
+      py::kw_only(), "cell_type"_a, "quadrature"_a);
   m.def("cell_edges", &cell_edges, py::kw_only(), "cell_type"_a);
   m.def("cell_faces", &cell_faces, py::kw_only(), "cell_type"_a);
   m.def("box_mesh", &box_mesh, py::kw_only(), "origin"_a, "size"_a, "cells"_a, "split"_a);

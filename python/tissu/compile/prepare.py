@@ -11,6 +11,7 @@ from tissu.compile.balance import check_supports
 from tissu.compile.material import cell_groups, density_of
 from tissu.compile.meshes import known_mesh
 from tissu.compile.prepared import Held, Ints, LoadedNodes, Prepared, PreparedBody
+from tissu.compile.quadrature import check_quadrature
 from tissu.compile.select import selected_faces, selected_nodes
 from tissu.compile.thin import note_bending
 from tissu.counted import counted
@@ -63,6 +64,7 @@ def _prepare_body(prepared: Prepared, name: str) -> None:
             held = Fixed(name, on=SurfaceNodes(), axes="z")
             prepared.held.append(Held(held, (*path, "plane"), every))
         note_bending(known.mesh, body, prepared.scene, path, findings)
+        check_quadrature(known.mesh, body, prepared.scene, path, findings)
         groups = cell_groups(known.mesh, body, path, findings)
         if len(findings.problems) == before:
             density = density_of(body, known.mesh, path, findings)

@@ -74,8 +74,8 @@ class Body(Part):
     """density [kg/m^3]; this or `mass`"""
     mass: Annotated[units.Mass, Field(gt=0.0)] | None = None
     """total mass [kg]; this or `density`"""
-    quadrature: Literal["full", "over"] = "full"
-    """points at which hexahedra are integrated"""
+    quadrature: Literal["reduced", "full", "over"] = "full"
+    """points at which cells are integrated; `reduced` leaves some cells modes without energy"""
     viscosity: Rayleigh | None = None
     """viscosity; absent: none"""
     thickness: Annotated[units.Length, Field(gt=0.0)] | None = None
@@ -96,7 +96,7 @@ class Body(Part):
             law: Law | Mapping[str, Law],
             density: units.Number | None = ...,
             mass: units.Number | None = ...,
-            quadrature: Literal["full", "over"] = ...,
+            quadrature: Literal["reduced", "full", "over"] = ...,
             viscosity: Rayleigh | None = ...,
             thickness: units.Number | None = ...,
             section: units.Number | None = ...,

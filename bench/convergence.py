@@ -13,41 +13,64 @@ import itertools
 import sys
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "tests" / "convergence"))
 
+from convergence_picture import Series, draw
+
 from distorted import MESHES
-from order import Errors, errors, orders
-from shape_basis import ORDER
+from distorted_flat import FLAT_MESHES
+from order import errors, orders
+from shape_basis import LINES, ORDER, SURFACES, VOLUMES
 
 COUNTS = {1: (4, 8, 12), 2: (2, 4, 6)}
+FLAT_COUNTS = (8, 16, 24)
 KINDS = ("regular", "smooth", "jittered", "trapezoids")
+LAWS = ("hooke", "stvk")
 FINER = (4, 6, 8, 12)  # for the elements that lose an order
 LOSING = ("hexahedron20", "wedge15", "pyramid13")
-Series = tuple[tuple[int, ...], list[Errors]]
+FLAT = {"plane strain": SURFACES, "plane stress": SURFACES, "uniaxial stress": LINES}
 
 HEAD = """# Orders of convergence, measured
 
 A displacement field u(X) is chosen, the body force that makes it an equilibrium is derived by
-SymPy, and the cube of one metre is solved with that force and u on its whole boundary. The field is
-smooth, without symmetry, with strains of up to 0.2; lambda = 1.2 Pa, mu = 0.8 Pa. Errors are L2
-norms over the cube: of the displacement, and of the strain (small for Hooke, Green-Lagrange's for
-St-Venant-Kirchhoff). Loads and errors are integrated by shape functions and quadrature of the
-tests' own (`tests/convergence`), so that the library is not measured with itself. Quadrature of
-the library: `full`. Direct solver, Newton to 1e-11.
+SymPy, and the cube of one metre is solved with that force and u on its whole boundary; for elements
+below three dimensions the square of one metre under plane strain and plane stress, and the line of
+one metre under uniaxial stress. The field is smooth, without symmetry, with strains of up to 0.2;
+lambda = 1.2 Pa, mu = 0.8 Pa. Errors are L2 norms over the cube, square or line: of the
+displacement, and of the strain (small for Hooke, Green-Lagrange's for St-Venant-Kirchhoff). Loads
+and errors are integrated by shape functions and quadrature of the tests' own (`tests/convergence`),
+so that the library is not measured with itself. Quadrature of the library: `full`. Direct solver,
+Newton to 1e-11.
 
 Theory: displacement p + 1, strain p; p = 1 for straight elements, 2 for those with middle nodes.
 
 ![Errors against the number of cells](pictures/convergence.png)
+
+Drawn for St-Venant-Kirchhoff, surfaces under plane stress, and for the lost order for Hooke.
 
 Meshes: **regular**; **smooth**: all nodes moved by one smooth map, cells stay curved and distorted
 as they shrink; **jittered**: corners moved at random by a fifth of a cell (a tenth where cells are
 thinner), edges straight; **trapezoids**: every second layer of corners tilted to and fro, of one
 shape at every size.
 
+## Volumes
+
 Orders of displacement and strain between the two finest meshes (12 and 8 cells along an edge for
 p = 1, 6 and 4 for p = 2), and nodes and displacement error of the finest regular one:
+
+"""
+
+BELOW = """## Surfaces and lines
+
+The same between 24 and 16 cells along an edge. Triangles are halves of the quads; there are no
+trapezoids of lines.
+
+"""
+
+LOST = """## The lost order
+
+Orders from mesh to mesh of the elements that do not keep theirs:
 
 """
 
@@ -58,12 +81,15 @@ TAIL = """## What to read from it
   its edges are straight, and the 27-node hexahedron, which holds the squares of its trilinear map;
   both reproduce a quadratic field on trapezoids to round-off. (A random mesh has another shape for
   each size, so that its orders scatter.)
-- The 20-node hexahedron, the 15-node wedge and the 13-node pyramid do not hold those squares. On
-  cells that stay distorted as they shrink they fall to orders 2 and 1: Arnold, Boffi and Falk,
-  *Approximation by quadrilateral finite elements*, Math. Comp. 71 (2002). With a smooth field the
-  lost term is still small beside the rest on the meshes above, and the orders lie between; with a
-  quadratic field it is all there is. A mesh that is refined from a coarse one grows affine, and
-  keeps the full order.
+- The same below three dimensions, where finer meshes are cheap: quads of four and nine nodes,
+  triangles and lines have their full order on every mesh, under plane strain, plane stress and
+  uniaxial stress.
+- The 20-node hexahedron, the 15-node wedge, the 13-node pyramid and the 8-node quad do not hold
+  those squares. On cells that stay distorted as they shrink they fall to orders 2 and 1: Arnold,
+  Boffi and Falk, *Approximation by quadrilateral finite elements*, Math. Comp. 71 (2002). With a
+  smooth field the lost term is still small beside the rest on the meshes above, and the orders lie
+  between; with a quadratic field it is all there is. A mesh that is refined from a coarse one grows
+  affine, and keeps the full order.
 - On curved cells the full rule of the ten-node tetrahedron (four points, exact on affine cells)
   fails the patch test by an error of third order; `over` passes it, as every other element does
   with `full`.
@@ -73,9 +99,12 @@ Printed by `python bench/convergence.py --picture docs/pictures/convergence.png`
 """
 
 
-def measure(kind: str, cell: str, law: str, name: str, counts: tuple[int, ...]) -> Series:
+def measure(
+    kind: str, cell: str, law: str, name: str, counts: tuple[int, ...], setting: str = "solid"
+) -> Series:
     """Errors on a family of meshes."""
-    return counts, [errors(MESHES[kind](cell, n), cell, law, name) for n in counts]
+    make = MESHES[kind] if setting == "solid" else FLAT_MESHES[kind]
+    return counts, [errors(make(cell, n), cell, law, name, setting=setting) for n in counts]
 
 
 def last_orders(series: Series) -> tuple[float, float]:
@@ -86,16 +115,43 @@ def last_orders(series: Series) -> tuple[float, float]:
     return float(displacement[-1]), float(strain[-1])
 
 
-def table(all_series: dict[tuple[str, str, str], Series]) -> Iterator[str]:
-    """A row for each element and law, a pair of orders for each kind of mesh."""
-    yield f"| element | law | {' | '.join(KINDS)} | nodes | error, regular |"
-    yield "|---|---|" + "---|" * (len(KINDS) + 2)
-    for cell in ORDER:
-        for law in ("hooke", "stvk"):
-            pairs = [last_orders(all_series[kind, cell, law]) for kind in KINDS]
-            finest = all_series["regular", cell, law][1][-1]
-            shown = " | ".join(f"{u:.2f}, {e:.2f}" for u, e in pairs)
-            yield f"| {cell} | {law} | {shown} | {finest.nodes} | {finest.displacement:.1e} m |"
+Found = dict[tuple[str, str, str, str], Series]  # of setting, kind, cell and law
+
+
+def measured(setting: str, cells: list[str]) -> Found:
+    """Errors of the cells on every kind of mesh, with both laws."""
+    kinds = [kind for kind in KINDS if kind != "trapezoids" or setting != "uniaxial stress"]
+    return {
+        (setting, kind, cell, law): measure(
+            kind,
+            cell,
+            law,
+            "smooth",
+            COUNTS[ORDER[cell]] if setting == "solid" else FLAT_COUNTS,
+            setting,
+        )
+        for kind in kinds
+        for cell in cells
+        for law in LAWS
+    }
+
+
+def table(found: Found, cells_of: dict[str, list[str]]) -> Iterator[str]:
+    """A row for each element, setting and law, a pair of orders for each kind of mesh."""
+    named = "" if "solid" in cells_of else " setting |"
+    yield f"| element |{named} law | {' | '.join(KINDS)} | nodes | error, regular |"
+    yield "|---|---|" + ("---|" if named else "") + "---|" * (len(KINDS) + 2)
+    for setting, cells in cells_of.items():
+        for cell, law in itertools.product(cells, LAWS):
+            pairs = [_pair(found.get((setting, kind, cell, law))) for kind in KINDS]
+            finest = found[setting, "regular", cell, law][1][-1]
+            words = [cell, setting, law] if named else [cell, law]
+            row = [*words, *pairs, str(finest.nodes), f"{finest.displacement:.1e} m"]
+            yield f"| {' | '.join(row)} |"
+
+
+def _pair(series: Series | None) -> str:
+    return "–" if series is None else "{:.2f}, {:.2f}".format(*last_orders(series))
 
 
 def losing_table(all_series: dict[str, Series]) -> Iterator[str]:
@@ -109,72 +165,26 @@ def losing_table(all_series: dict[str, Series]) -> Iterator[str]:
         yield f"| {cell} | {' | '.join(f'{a:.2f}, {b:.2f}' for a, b in zip(u, e, strict=True))} |"
 
 
-def draw(path: Path, smooth: dict[str, Series], losing: dict[str, Series]) -> None:
-    """Three panels of errors against h: displacement, strain, and the lost order."""
-    import matplotlib
-
-    matplotlib.use("Agg")
-    from matplotlib import pyplot
-
-    figure, axes = pyplot.subplots(1, 3, figsize=(12.5, 4.6), layout="constrained")
-    titles = (
-        "displacement error [m], smooth map",
-        "strain error [1], smooth map",
-        "displacement error [m], trapezoids,\nquadratic field (Hooke)",
-    )
-    for panel, title in zip(axes, titles, strict=True):
-        panel.set(xscale="log", yscale="log", xlabel="cells along an edge", title=title)
-        panel.set_xticks([2, 4, 6, 8, 12], ["2", "4", "6", "8", "12"])
-        panel.minorticks_off()
-        panel.grid(True, which="major", color="0.9")
-    colours = dict(zip(ORDER, pyplot.get_cmap("tab10").colors, strict=False))
-    for cell, series in smooth.items():
-        for panel, field in zip(axes, ("displacement", "strain"), strict=False):
-            _curve(panel, series, field, cell, colours[cell])
-    for cell, series in losing.items():
-        _curve(axes[2], series, "displacement", cell, colours[cell])
-    _slopes(axes[0], {2: (4, 4e-3), 3: (2, 9e-4)})
-    _slopes(axes[1], {1: (4, 4.5e-2), 2: (2, 1.1e-2)})
-    _slopes(axes[2], {2: (4, 3.2e-5), 3: (4, 1e-5)})
-    figure.legend(*axes[0].get_legend_handles_labels(), loc="outside lower center", ncols=5)
-    figure.savefig(path, dpi=110)
-
-
-def _curve(panel: Any, series: Series, field: str, cell: str, colour: Any) -> None:
-    counts, found = series
-    style = "-o" if ORDER[cell] == 1 else "--s"
-    values = [getattr(e, field) for e in found]
-    panel.plot(counts, values, style, color=colour, label=cell, markersize=4)
-
-
-def _slopes(panel: Any, starts: dict[int, tuple[int, float]]) -> None:
-    """Grey lines of the orders of the theory, from (cells, error) to three times the cells."""
-    for order, (cells, error) in starts.items():
-        line = [error, error / 3**order]
-        panel.plot([cells, 3 * cells], line, color="0.55", linewidth=1)
-        middle = (1.75 * cells, error / 1.75**order)
-        place = {"xytext": (5, 4), "textcoords": "offset points"}
-        panel.annotate(f"order {order}", middle, color="0.35", **place)
-
-
 def main() -> None:
     """Prints the page and draws the picture."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--picture", type=Path)
     asked = parser.parse_args()
-    found = {
-        (kind, cell, law): measure(kind, cell, law, "smooth", COUNTS[ORDER[cell]])
-        for kind in KINDS
-        for cell in ORDER
-        for law in ("hooke", "stvk")
-    }
+    volumes = measured("solid", VOLUMES)
+    flat = {key: one for setting in FLAT for key, one in measured(setting, FLAT[setting]).items()}
     losing = {cell: measure("trapezoids", cell, "hooke", "quadratic", FINER) for cell in LOSING}
+    losing["quad8"] = measure("trapezoids", "quad8", "hooke", "quadratic", FINER, "plane stress")
     print(HEAD, end="")
-    print("\n".join(table(found)) + "\n")
+    print("\n".join(table(volumes, {"solid": VOLUMES})) + "\n")
+    print(BELOW, end="")
+    print("\n".join(table(flat, FLAT)) + "\n")
+    print(LOST, end="")
     print("\n".join(losing_table(losing)) + "\n")
     print(TAIL, end="")
     if asked.picture:
-        smooth = {cell: found["smooth", cell, "stvk"] for cell in ORDER}
+        found = {**volumes, **flat}
+        chosen = (("solid", VOLUMES), ("plane stress", SURFACES), ("uniaxial stress", LINES))
+        smooth = {c: found[s, "smooth", c, "stvk"] for s, cells in chosen for c in cells}
         draw(asked.picture, smooth, losing)
 
 

@@ -1,6 +1,9 @@
 """Manufactured solutions: a field u(X), and the body force that makes it an equilibrium.
 
 Div P + b = 0, P from F = I + grad u. Everything is derived by SymPy from u and the energy.
+
+Below three dimensions the field is u(X, Y, 0) or u(X, 0, 0) along the axes that are left. Across
+them either nothing strains, or the strain is what takes the stress away.
 """
 
 from functools import cache
@@ -28,7 +31,9 @@ QUADRATIC = (
     0.08 * x * y + 0.06 * y**2 - 0.04 * z**2 + 0.02 * z,
     0.09 * z * x - 0.05 * x**2 + 0.07 * y * z + 0.03 * y**2,
 )
-FIELDS = {"smooth": SMOOTH, "quadratic": QUADRATIC}
+AFFINE = (0.15 * x + 0.12 * y, 0.04 * x - 0.15 * y + 0.1 * z, 0.06 * y + 0.05 * z - 0.08 * x)
+FIELDS = {"smooth": SMOOTH, "quadratic": QUADRATIC, "affine": AFFINE}
+SETTINGS = {"solid": 3, "plane strain": 2, "plane stress": 2, "uniaxial stress": 1}  # dimensions
 
 
 def strain_of(law, G):
@@ -38,18 +43,35 @@ def strain_of(law, G):
 
 
 @cache
-def field(name, law):
-    """Functions of points (n, 3): u (n, 3) [m], grad u (n, 3, 3), body force (n, 3) [N/m3]."""
-    u = sympy.Matrix(FIELDS[name])
+def field(name, law, setting="solid"):
+    """Functions of points (n, 3): u (n, 3) [m], grad u (n, 3, 3), body force (n, 3) [N/m3].
+
+    They are zero along the axes that the setting leaves out.
+    """
+    d = SETTINGS[setting]
+    u = sympy.Matrix([*FIELDS[name][:d], *[0] * (3 - d)]).subs(dict.fromkeys(X[d:], 0))
     G = u.jacobian(X)
     identity = sympy.eye(3)
     if law == "hooke":
         strain, front = (G + G.T) / 2, identity
     else:
         strain, front = (G + G.T + G.T * G) / 2, identity + G
+    if setting.endswith("stress"):
+        strain = _without_stress_across(strain, d)
     P = front * (LAMBDA * strain.trace() * identity + 2 * MU * strain)
     b = sympy.Matrix([-sum(sympy.diff(P[i, j], X[j]) for j in range(3)) for i in range(3)])
     return tuple(_function(matrix) for matrix in (u, G, b))
+
+
+def _without_stress_across(strain, d):
+    """The strain with the diagonal terms behind the d-th that make those of the stress zero."""
+    unknown = sympy.symbols("e1:4")[d:]
+    whole = strain + sympy.diag(*[0] * d, *unknown)
+    # Of the trace of the d first only: LAMBDA (trace + sum(unknown)) + 2 MU unknown_i = 0.
+    trace = sympy.Symbol("trace")
+    zero = [LAMBDA * (trace + sum(unknown)) + 2 * MU * e for e in unknown]
+    found = sympy.solve(zero, unknown)
+    return whole.subs({e: found[e].subs(trace, strain.trace()) for e in unknown})
 
 
 def _function(matrix):

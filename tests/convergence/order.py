@@ -10,15 +10,17 @@ from dataclasses import dataclass
 import numpy as np
 
 import manufactured
-from shape_basis import ORDER, cubature, family, shapes
+from shape_basis import DIMENSION, ORDER, cubature, family, shapes
 from tissu import _core
 
 NEWTON = 1e-11  # relative residual: far below any error measured here
+# Thickness [m] of surfaces, section [m2] of lines: not 1, so that it counts.
+CROSS_SECTION = {"solid": 1.0, "plane strain": 0.3, "plane stress": 0.3, "uniaxial stress": 0.07}
 
 
 @dataclass(frozen=True)
 class Errors:
-    """L2 norms over the unit cube: displacement [m], strain [1]; nodes for the record."""
+    """L2 norms over the unit cube, square or line: displacement [m], strain [1]; and the nodes."""
 
     displacement: float
     strain: float
@@ -29,15 +31,16 @@ class Integrals:
     """Places, gradients and weights of the oracle's quadrature points of all cells."""
 
     def __init__(self, mesh, cell):
-        (block,) = mesh.volume_blocks
-        self.cells = block.nodes
+        (block,) = mesh.cells
+        self.cells, d = block.nodes, DIMENSION[family(cell)]
         points, weights = cubature(family(cell), 3 + (ORDER[cell] > 1))
         self.N, dN = shapes(cell, points)
         corners = mesh.points[self.cells]
-        J = np.einsum("eai,gaj->egij", corners, dN)
+        J = np.einsum("eai,gaj->egij", corners[..., :d], dN[..., :d])
         self.w = weights * np.linalg.det(J)
         assert self.w.min() > 0
-        self.grad = np.einsum("gaj,egji->egai", dN, np.linalg.inv(J))
+        self.grad = np.zeros((*self.w.shape, dN.shape[1], 3))
+        self.grad[..., :d] = np.einsum("gaj,egji->egai", dN[..., :d], np.linalg.inv(J))
         self.X = np.einsum("ga,eai->egi", self.N, corners)
 
     def loads(self, body_force, count):
@@ -51,12 +54,12 @@ class Integrals:
         return float(np.sqrt((self.w * squares).sum()))
 
 
-def cube(mesh, law, parameters, quadrature="full"):
-    """A builder with the mesh as body "cube", of one law and 1 kg/m3."""
+def cube(mesh, law, parameters, quadrature="full", setting="solid"):
+    """A builder with the mesh as body "cube", of one law and 1 kg/m3, held in line or plane."""
     builder = _core.WorldBuilder()
     builder.add_body(name="cube", positions=mesh.points)
     first = 0
-    for block in mesh.volume_blocks:
+    for block in mesh.cells:
         builder.add_elastic(
             body="cube",
             cell_type=block.type,
@@ -66,19 +69,30 @@ def cube(mesh, law, parameters, quadrature="full"):
             parameters={name: np.array([value]) for name, value in parameters.items()},
             density=np.array([1.0]),
             quadrature=quadrature,
+            cross_section=np.array([CROSS_SECTION[setting]]),
+            plane=_core.Plane.strain if setting == "plane strain" else _core.Plane.stress,
         )
         first += len(block)
+    across = 7 - _along(setting)
+    if across:
+        every = np.arange(mesh.node_count, dtype=np.int32)
+        builder.fix(body="cube", nodes=every, axes=across)
     return builder
 
 
-def lead(builder, nodes, displacements):
+def _along(setting):
+    """Mask of the axes that a setting has: x is 1, y 2, z 4."""
+    return 2 ** manufactured.SETTINGS[setting] - 1
+
+
+def lead(builder, nodes, displacements, setting="solid"):
     """Each node goes to a displacement of its own in the first second."""
     still = {"angles": np.zeros(2), "center": np.zeros(3), "axis": np.array([0.0, 0.0, 1.0])}
     for node in nodes:
         builder.prescribe(
             body="cube",
             nodes=np.array([node], dtype=np.int32),
-            axes=7,
+            axes=_along(setting),
             times=np.array([0.0, 1.0]),
             displacements=np.stack([np.zeros(3), displacements[node]]),
             **still,
@@ -95,25 +109,27 @@ def rested(builder):
     return simulation
 
 
-def on_faces(mesh):
-    """Numbers of the nodes on the faces of the unit cube."""
-    return np.flatnonzero(((mesh.points < 1e-9) | (mesh.points > 1 - 1e-9)).any(axis=1))
+def on_faces(mesh, dimension=3):
+    """Numbers of the nodes on the faces of the unit cube, edges of the square, ends of the line."""
+    points = mesh.points[:, :dimension]
+    return np.flatnonzero(((points < 1e-9) | (points > 1 - 1e-9)).any(axis=1))
 
 
-def errors(mesh, cell, law, name="smooth", quadrature="full"):
+def errors(mesh, cell, law, name="smooth", quadrature="full", setting="solid"):
     """Of the computed solution against the manufactured one."""
-    u, grad_u, body_force = manufactured.field(name, law)
+    u, grad_u, body_force = manufactured.field(name, law, setting)
     integrals = Integrals(mesh, cell)
-    builder = cube(mesh, law, manufactured.PARAMETERS, quadrature)
+    builder = cube(mesh, law, manufactured.PARAMETERS, quadrature, setting)
     builder.add_load(
         name="b",
         body="cube",
         nodes=np.arange(mesh.node_count, dtype=np.int32),
-        forces=integrals.loads(body_force, mesh.node_count),
+        forces=CROSS_SECTION[setting] * integrals.loads(body_force, mesh.node_count),
         times=np.array([0.0]),
         factors=np.array([1.0]),
     )
-    lead(builder, on_faces(mesh), u(mesh.points))
+    boundary = on_faces(mesh, manufactured.SETTINGS[setting])
+    lead(builder, boundary, u(mesh.points), setting)
     found = rested(builder).positions - mesh.points
     of_cells = found[integrals.cells]
     u_h = np.einsum("ga,eai->egi", integrals.N, of_cells)

@@ -197,10 +197,8 @@ def main() -> None:
             for quadrature in ("full", "over") if element == "hexahedron" else ("full",):
                 simulation, row = run(mesh, truth.points, law, quadrature, asked.load_steps)
                 if row is None:
-                    print(
-                        size = f"{mesh.cell_count} | {mesh.node_count}"
-                        print(f"| {element} | {size} | {quadrature} | {law} | none found |")
-                    )
+                    size = f"{mesh.cell_count} | {mesh.node_count}"
+                    print(f"| {element} | {size} | {quadrature} | {law} | none found |")
                     continue
                 print(
                     f"| {element} | {mesh.cell_count} | {mesh.node_count} | {quadrature} | {law} "

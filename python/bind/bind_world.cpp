@@ -101,14 +101,16 @@ void bind_world(py::module_& m) {
 
   py::enum_<Plane>(m, "Plane").value("stress", Plane::stress).value("strain", Plane::strain);
   py::class_<WorldDescription>(m, "WorldBuilder")
-      .def(py::init([](int threads, bool editable, bool links) {
+      .def(py::init([](int threads, bool editable, bool links, bool consistent_weight) {
              WorldDescription world;
              world.threads = threads;
              world.editable = editable;
+             world.consistent_weight = consistent_weight;
              world.links = links;
              return world;
            }),
-           py::kw_only(), arg("threads") = 1, arg("editable") = false, arg("links") = false)
+           py::kw_only(), arg("threads") = 1, arg("editable") = false, arg("links") = false,
+           arg("consistent_weight") = false)
       .def(
           "add_body",
           [](WorldDescription& world, const std::string& name, const Doubles& positions) {

@@ -83,7 +83,12 @@ class Plane:
 
 class WorldBuilder:
     def __init__(
-        self, *, threads: int = 1, editable: bool = False, links: bool = False
+        self,
+        *,
+        threads: int = 1,
+        editable: bool = False,
+        links: bool = False,
+        consistent_weight: bool = False,
     ) -> None: ...
     def add_body(self, *, name: str, positions: Floats) -> int: ...
     def add_elastic(

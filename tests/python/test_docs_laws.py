@@ -24,6 +24,17 @@ def test_the_example_runs():
     assert names["Gent"].__doc__.startswith("Gent 1996")
 
 
+def test_the_file_of_the_page_makes_the_same_law(tmp_path):
+    import tissu as ts
+    from tissu.user_law import law_from_record
+
+    text = re.search(r"```python gent.py\n(.*?)```", PAGE, re.DOTALL)[1]
+    (tmp_path / "gent.py").write_text(text, encoding="utf-8")
+    law = ts.read_law(tmp_path / "gent.py")
+    assert law(mu=3e3, jm=2.0, kappa=6e4).type == "gent"
+    assert law_from_record(law.made.record()).made.digest == law.made.digest
+
+
 @pytest.mark.parametrize("word", formula.__all__)
 def test_every_word_of_the_vocabulary_is_there(word):
     assert getattr(formula, word) is not None

@@ -261,3 +261,23 @@ def test_wrong_files_are_refused_with_the_reason(case, tmp_path):
     (tmp_path / "soft.py").write_text(SOFT.replace(good, bad), encoding="utf-8")
     with pytest.raises(ts.LawError, match=reason):
         ts.read_law(tmp_path / "soft.py")
+
+
+def test_a_record_of_lame_s_constants_is_read(tmp_path):
+    """`lambda` is a word of Python, and a constant of most laws."""
+    from tissu.codegen.definition import LAWS
+
+    (tmp_path / "mine.py").write_text((LAWS / "neo_hooke.py").read_text())
+    record = ts.read_law(tmp_path / "mine.py").made.record()
+    assert "lambda" in record["formula"]
+    assert f"sha256:{law_from_record(record).made.digest}" == record["digest"]
+
+
+@pytest.mark.parametrize("text", ["__import__('os').getcwd()", "mu * secret", "[mu]", "mu *"])
+def test_a_record_is_arithmetic_or_refused(tmp_path, text):
+    from tissu.codegen.definition import LAWS
+
+    (tmp_path / "mine.py").write_text((LAWS / "neo_hooke.py").read_text())
+    record = ts.read_law(tmp_path / "mine.py").made.record()
+    with pytest.raises(ts.LawError, match="of a record"):
+        law_from_record({**record, "formula": text})

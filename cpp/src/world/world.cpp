@@ -197,7 +197,10 @@ void World::add_bodies(const WorldDescription& description) {
 }
 
 void World::add_external(const WorldDescription& description) {
-  if (description.gravity) forces_.push_back(std::make_unique<Gravity>(weights_, *description.gravity));
+  if (description.gravity) {
+    const std::vector<double>& pulled = description.consistent_weight ? weights_ : mass_.nodal();
+    forces_.push_back(std::make_unique<Gravity>(pulled, *description.gravity));
+  }
   for (const LoadDescription& load : description.loads) {
     const Body& on = body(load.body);
     check_size("load \"" + load.name + "\"", load.forces.size(), 3 * load.nodes.size());

@@ -50,7 +50,11 @@ def build_world(prepared: Prepared) -> Any:
     from tissu._core import WorldBuilder
 
     scene = prepared.scene
-    builder = WorldBuilder(threads=usable_threads(scene.threads), editable=scene.editing)
+    builder = WorldBuilder(
+        threads=usable_threads(scene.threads),
+        editable=scene.editing,
+        consistent_weight=isinstance(scene.step, Static),
+    )
     for name in prepared.bodies:
         _add_body(builder, prepared, name)
     if scene.gravity is not None:

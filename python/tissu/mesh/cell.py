@@ -105,7 +105,15 @@ class CellBlock:
 
     def __post_init__(self) -> None:
         dimension(self.type)
-        nodes = np.array(self.nodes, dtype=np.int32, order="C")
+        given = np.asarray(self.nodes)
+        if given.size and not np.issubdtype(given.dtype, np.integer):
+            raise MeshError(f"found node numbers of type {given.dtype}; whole numbers are accepted")
+        if given.size and not 0 <= given.min() <= given.max() <= np.iinfo(np.int32).max:
+            raise MeshError(
+                f"found node numbers from {given.min()} to {given.max()}; "
+                "0 to 2147483647 are accepted"
+            )
+        nodes = np.array(given, dtype=np.int32, order="C")
         if nodes.ndim != 2:
             raise MeshError(
                 f"found node numbers of shape {nodes.shape} for the cells of type '{self.type}'; "

@@ -227,6 +227,11 @@ class Simulation:
         given = np.atleast_1d(np.asarray(cells))
         if given.size and not np.issubdtype(given.dtype, np.integer):
             raise ParameterError(f"found cells of type {given.dtype}; whole numbers are accepted")
+        if body not in self._meshes:
+            raise ParameterError(f"no body is named '{body}'; there are {', '.join(self._meshes)}")
+        beyond = given[(given < 0) | (given > np.iinfo(np.int32).max)]
+        if beyond.size:
+            raise ParameterError(f"body '{body}' has no cell {beyond.flat[0]}")
         numbers = np.unique(given).astype(np.int32)
         if len(numbers) >= self._meshes[body].cell_count:
             raise ParameterError(f"that would leave no cell of body '{body}'; keep at least one")

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import keyword
 import os
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -145,15 +146,16 @@ def law_from_record(record: Mapping[str, Any]) -> type[UserLaw]:
     import sympy as sp
 
     from tissu.codegen.definition import VOCABULARY
-    from tissu.codegen.vocabulary import Parameter, Requirement, positive
+    from tissu.codegen.vocabulary import F, Parameter, Requirement, positive
 
     parameters = [Parameter(**fields) for fields in record["parameters"]]
     names = [p.name for p in parameters] + list(record["constants"])
-    words = {str(symbol): symbol for symbol in VOCABULARY} | {"positive": positive}
+    words = {str(symbol): symbol for symbol in (*VOCABULARY, *F.components)}
+    words["positive"] = positive
     words |= {name: sp.Symbol(name, real=True) for name in names}
 
     def read(text: str) -> Any:
-        return sp.sympify(text, locals=words)
+        return _read_formula(text, words)
 
     return law(
         record["name"],
@@ -166,6 +168,37 @@ def law_from_record(record: Mapping[str, Any]) -> type[UserLaw]:
         ],
         frame_invariant=record["frame_invariant"],
     )
+
+
+def _read_formula(text: str, words: Mapping[str, Any]) -> Any:
+    """The expression that a record's text stands for: arithmetic on known words, nothing else.
+
+    Raises:
+        LawError: another word, or what is no arithmetic.
+    """
+    import sympy as sp
+    from sympy.parsing.sympy_parser import parse_expr, standard_transformations
+
+    known = {f"w_{name}": word for name, word in words.items()}
+    known |= {f"w_{f}": getattr(sp, f) for f in ("log", "exp", "sqrt", "Rational")}
+    renamed = re.sub(r"(?<![\w.])[A-Za-z_]\w*", lambda match: f"w_{match[0]}", text)
+    unknown = sorted(set(re.findall(r"w_\w+", renamed)) - set(known))
+    if unknown or not re.fullmatch(r"[\w\s.+\-*/(),]*", text):
+        found = unknown[0][2:] if unknown else text
+        raise LawError(
+            f"found '{found}' in the formula of a record; arithmetic on its constants is accepted"
+        )
+    try:
+        return parse_expr(
+            renamed,
+            local_dict=known,
+            global_dict={"Integer": sp.Integer, "Float": sp.Float, "Symbol": sp.Symbol},
+            transformations=standard_transformations,
+        )
+    except (SyntaxError, TypeError, ValueError) as error:
+        raise LawError(
+            f"found '{text}' as the formula of a record; it is no arithmetic: {error}"
+        ) from None
 
 
 def _need_sympy() -> None:

@@ -65,6 +65,10 @@ struct WorldDescription {
   std::vector<FrameDescription> frames;
   std::vector<FixedNodes> fixed;
   std::optional<Vec3> gravity;  ///< [m/s2]
+  /// Gravity pulls at the nodes by sum_g w_g rho N_a, which statics needs. With inertia beside it, it pulls
+  /// at the masses that inertia has, so that a body falls without being deformed. The two differ for
+  /// quadratic elements only.
+  bool consistent_weight = false;
   std::vector<LoadDescription> loads;
   std::vector<PressureDescription> pressures;
   bool links = false;     ///< springs between points may be made and unmade while it runs

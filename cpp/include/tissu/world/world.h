@@ -69,7 +69,7 @@ class World {
   Threads threads_;
   Mass mass_;
   std::vector<double>
-      weights_;  ///< what gravity pulls at each node [kg]; equal to the mass for linear elements
+      weights_;  ///< sum_g w_g rho N_a of each node [kg]; equal to the mass for linear elements
   FixedDofs fixed_;
   std::vector<std::unique_ptr<ForceModel>> forces_;
   Links* links_ = nullptr;

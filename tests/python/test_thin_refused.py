@@ -4,6 +4,7 @@ import meshio
 import numpy as np
 import pytest
 
+import tissu as ts
 from tissu.compile import check_scene
 from tissu.errors import SceneError
 from tissu.mesh import CellBlock, Mesh, bar_mesh
@@ -275,3 +276,18 @@ def test_the_check_says_which_sheets_and_lines_there_are():
     assert "sheets of b: bodies.b.thickness is 0.002 m, plane is strain" in told
     assert "lines" in check.absent
     assert "sheets" not in check.absent
+
+
+def test_what_pulls_a_flat_body_along_z_is_noted():
+    mesh = ts.bar_mesh(size=(1, 1, 0), cells=(1, 1, 0), cell="quad")
+    body = ts.Body(
+        mesh=mesh, law=ts.Hooke(young=1e3, poisson=0.3), density=1e3, thickness=0.1, plane="strain"
+    )
+    scene = ts.Scene(
+        bodies={"b": body},
+        gravity=(0, 0, -9.81),
+        loads=[ts.NodalLoad("b", on=ts.Nodes([0]), force=(0, 0, 1))],
+        step=ts.ImplicitEuler(0.01),
+    )
+    notes = scene.check().notes
+    assert sum("whose `plane` holds z" in note for note in notes) == 2

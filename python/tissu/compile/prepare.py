@@ -13,7 +13,7 @@ from tissu.compile.meshes import known_mesh
 from tissu.compile.prepared import Held, Ints, LoadedNodes, Prepared, PreparedBody
 from tissu.compile.quadrature import check_quadrature
 from tissu.compile.select import selected_faces, selected_nodes
-from tissu.compile.thin import note_bending
+from tissu.compile.thin import note_bending, note_held_plane
 from tissu.counted import counted
 from tissu.errors import ParameterError
 from tissu.scene.part import problems_in
@@ -64,6 +64,7 @@ def _prepare_body(prepared: Prepared, name: str) -> None:
             held = Fixed(name, on=SurfaceNodes(), axes="z")
             prepared.held.append(Held(held, (*path, "plane"), every))
         note_bending(known.mesh, body, prepared.scene, path, findings)
+        note_held_plane(name, body, prepared.scene, findings)
         check_quadrature(known.mesh, body, prepared.scene, path, findings)
         groups = cell_groups(known.mesh, body, path, findings)
         if len(findings.problems) == before:

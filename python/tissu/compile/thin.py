@@ -53,7 +53,8 @@ def check_thin(mesh: Mesh, body: Body, path: Path, findings: Findings) -> bool:
     found = {dimension(block.type) for block in mesh.thin_blocks}
     for m, field, words in ((2, "thickness", "triangles or quads"), (1, "section", "lines")):
         if m in mesh.thin and m not in found:
-            text = f"found a {field}, but no {words} in the mesh; leave it out"
+            out = "it and `plane`" if m == 2 and getattr(body, "plane", None) else "it"
+            text = f"found a {field}, but no {words} in the mesh; leave {out} out"
             findings.problem((*path, field), text)
     if getattr(body, "plane", None) is not None:
         low, high = mesh.bounds[:, 2]
@@ -74,6 +75,21 @@ def note_bending(mesh: Mesh, body: Body, scene: Scene, path: Path, findings: Fin
             f"{path[0]}.{path[1]}: sheets and lines do not resist bending; where they lie flat and "
             "nothing else holds their nodes a static step fails: hold those, or let it move in time"
         )
+
+
+def note_held_plane(name: str, body: Body, scene: Scene, findings: Findings) -> None:
+    """Note what pulls a flat body along z, where it is held."""
+    if body.plane is None:
+        return
+    gravity = getattr(scene, "gravity", None)
+    if gravity is not None and gravity[2] != 0.0:
+        findings.note(f"gravity: its z does not move body '{name}', whose `plane` holds z")
+    for number, load in enumerate(getattr(scene, "loads", ())):
+        along = getattr(load, "force", None) or getattr(load, "traction", None)
+        if getattr(load, "body", None) == name and along is not None and along[2] != 0.0:
+            findings.note(
+                f"loads[{number}]: its z does not move body '{name}', whose `plane` holds z"
+            )
 
 
 def check_law(law: Law, cell_type: str, path: Path, findings: Findings) -> None:

@@ -75,7 +75,11 @@ def test_nothing_that_is_not_asked_for(calls):
 def test_options(calls):
     # Never more threads than the machine has; the bits are the same.
     usable = min(3, tissu._core.build_info()["threads_available"])
-    assert only(calls(threads=3, editing=True), "options") == {"threads": usable, "editable": True}
+    assert only(calls(threads=3, editing=True), "options") == {
+        "threads": usable,
+        "editable": True,
+        "consistent_weight": False,
+    }
 
 
 def test_body_and_density_from_mass(calls):

@@ -54,6 +54,12 @@ def test_unknown_cell_type_and_wrong_width_are_refused() -> None:
         CellBlock("tetra", np.zeros((1, 3)))
 
 
+@pytest.mark.parametrize("nodes", [[[0.5, 1.9, 2, 3]], [[0, 1, 2, 2**32]]])
+def test_numbers_are_not_cut_off(nodes) -> None:
+    with pytest.raises(MeshError, match="whole numbers up to 2147483647 are accepted"):
+        CellBlock("tetra", nodes)
+
+
 def test_blocks_that_are_not_handled_stay_and_are_named() -> None:
     points = np.vstack([TETRA, np.random.default_rng(0).random((6, 3))])
     mesh = one(points, ("tetra", [[0, 1, 2, 3]]), ("wedge12", [list(range(4, 10))]))

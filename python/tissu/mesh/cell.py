@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import reprlib
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cache
@@ -106,12 +107,12 @@ class CellBlock:
     def __post_init__(self) -> None:
         dimension(self.type)
         given = np.asarray(self.nodes)
-        if given.size and not np.issubdtype(given.dtype, np.integer):
-            raise MeshError(f"found node numbers of type {given.dtype}; whole numbers are accepted")
-        if given.size and not 0 <= given.min() <= given.max() <= np.iinfo(np.int32).max:
+        with np.errstate(invalid="ignore"):
+            whole = given.size == 0 or bool(np.all(given == np.floor(given)))
+        if not whole or (given.size and np.abs(given).max() > np.iinfo(np.int32).max):
             raise MeshError(
-                f"found node numbers from {given.min()} to {given.max()}; "
-                "0 to 2147483647 are accepted"
+                f"found node numbers {reprlib.repr(given.ravel().tolist())} for the cells of type "
+                f"'{self.type}'; whole numbers up to 2147483647 are accepted"
             )
         nodes = np.array(given, dtype=np.int32, order="C")
         if nodes.ndim != 2:

@@ -291,3 +291,24 @@ def test_what_pulls_a_flat_body_along_z_is_noted():
     )
     notes = scene.check().notes
     assert sum("whose `plane` holds z" in note for note in notes) == 2
+
+
+@pytest.mark.parametrize(
+    "wrong",
+    [
+        {"thickness": "-1 mm"},
+        {"thickness": "1 mm", "plane": "foo"},
+        {"thickness": "1 mm", "mass": 1},
+        {"thickness": "1 mm", "law": "{type: neo_hooke, young: -1 kPa, poisson: 0.3}"},
+    ],
+)
+def test_another_fault_does_not_hide_a_law_that_sheets_cannot_have(wrong):
+    law = "{type: neo_hooke, young: 1 kPa, poisson: 0.3}"
+    fields = {"law": law, "density": 1000, **wrong}
+    body = "".join(f"    {name}: {value}\n" for name, value in fields.items())
+    text = "bodies:\n  b:\n    mesh: {type: bar, size: [1, 1, 0], cells: [2, 2, 0], cell: quad}\n"
+    text += f"{body}step: {{type: implicit_euler, dt: 10 ms}}\n"
+    with pytest.raises(SceneError) as caught:
+        ts.Scene.from_yaml_text(text).compile()
+    assert len(caught.value.problems) == 2, caught.value.problems
+    assert any("found neo_hooke for sheets" in problem for problem in caught.value.problems)

@@ -8,7 +8,7 @@ import numpy as np
 
 from tissu.compile.prepared import Findings, Floats, Group, Ints
 from tissu.compile.select import region_cells
-from tissu.compile.thin import check_law, cross_section_of, material_volume
+from tissu.compile.thin import check_law, material_volume
 from tissu.counted import are, counted
 from tissu.errors import ParameterError
 from tissu.mesh.mesh import first_five
@@ -28,6 +28,7 @@ def cell_groups(mesh: Mesh, body: Body, path: Path, findings: Findings) -> list[
     owner = _law_of_cells(mesh, body, path, findings)
     if owner is None:
         return []
+    _check_laws(mesh, laws, owner, path, findings)
     groups, first = [], 0
     for block in mesh.body_blocks:
         nodes = np.asarray(block.nodes)
@@ -39,14 +40,19 @@ def cell_groups(mesh: Mesh, body: Body, path: Path, findings: Findings) -> list[
             cells = numbers[np.isin(owner[numbers], of_kind)]
             values, fibres = _parameters(laws, owner[cells]), _fibres(laws, owner[cells])
             rows = nodes[cells - first]
-            cross_section = cross_section_of(body, str(block.type))
-            groups.append(
-                Group(str(block.type), rows, cells, kind[0], values, fibres, kind[2], cross_section)
-            )
-            check_law(laws[of_kind[0]], str(block.type), path, findings)
+            groups.append(Group(str(block.type), rows, cells, kind[0], values, fibres, kind[2]))
         first += len(nodes)
     _note_locking(laws, path, findings)
     return groups
+
+
+def _check_laws(mesh: Mesh, laws: list[Law], owner: Ints, path: Path, findings: Findings) -> None:
+    """Laws that their cells cannot have, whatever is wrong with their parameters."""
+    first = 0
+    for block in mesh.body_blocks:
+        for number in np.unique(owner[first : first + len(block)]):
+            check_law(laws[number], str(block.type), path, findings)
+        first += len(block)
 
 
 def density_of(body: Body, mesh: Mesh, path: Path, findings: Findings) -> float:

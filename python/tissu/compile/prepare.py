@@ -59,17 +59,23 @@ def _prepare_body(prepared: Prepared, name: str) -> None:
         if known is None:
             return
         prepared.meshes[name] = known
-        if body.plane is not None:
-            every = np.arange(known.mesh.node_count, dtype=np.int32)
-            held = Fixed(name, on=SurfaceNodes(), axes="z")
-            prepared.held.append(Held(held, (*path, "plane"), every))
-        note_bending(known.mesh, body, prepared.scene, path, findings)
-        note_held_plane(name, body, prepared.scene, findings)
-        check_quadrature(known.mesh, body, prepared.scene, path, findings)
+        _hold_plane(prepared, name, known.mesh)
+        for check in (note_bending, note_held_plane, check_quadrature):
+            with contextlib.suppress(Unknown):  # each says what it can
+                check(known.mesh, body, prepared.scene, path, findings)
         groups = cell_groups(known.mesh, body, path, findings)
         if len(findings.problems) == before:
             density = density_of(body, known.mesh, path, findings)
             prepared.bodies[name] = PreparedBody(known.mesh, groups, density)
+
+
+def _hold_plane(prepared: Prepared, name: str, mesh: Mesh) -> None:
+    """All nodes of a flat body keep their z."""
+    if getattr(prepared.scene.bodies[name], "plane", None) is None:
+        return
+    every = np.arange(mesh.node_count, dtype=np.int32)
+    held = Fixed(name, on=SurfaceNodes(), axes="z")
+    prepared.held.append(Held(held, ("bodies", name, "plane"), every))
 
 
 def _prepare_support(prepared: Prepared, path: Path, support: Fixed | Prescribed) -> None:

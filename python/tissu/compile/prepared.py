@@ -51,7 +51,6 @@ class Group:
         parameters: for each parameter, (1,) or (e,) values in SI.
         fibres: the same for the fibres added to the law; empty: none.
         made: what a law of one's own is made of; None: a law of the library.
-        cross_section: thickness [m] of sheets, section [m2] of lines; 1 of volumes.
     """
 
     cell_type: str
@@ -61,7 +60,6 @@ class Group:
     parameters: dict[str, Floats]
     fibres: dict[str, Floats] = field(default_factory=dict)
     made: MadeLaw | None = None
-    cross_section: float = 1.0
 
     @property
     def surface(self) -> bool:

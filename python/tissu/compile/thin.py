@@ -77,10 +77,11 @@ def note_bending(mesh: Mesh, body: Body, scene: Scene, path: Path, findings: Fin
         )
 
 
-def note_held_plane(name: str, body: Body, scene: Scene, findings: Findings) -> None:
+def note_held_plane(_mesh: Mesh, body: Body, scene: Scene, path: Path, findings: Findings) -> None:
     """Note what pulls a flat body along z, where it is held."""
     if body.plane is None:
         return
+    name = path[1]
     gravity = getattr(scene, "gravity", None)
     if gravity is not None and gravity[2] != 0.0:
         findings.note(f"gravity: its z does not move body '{name}', whose `plane` holds z")

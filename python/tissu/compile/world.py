@@ -9,6 +9,7 @@ import numpy as np
 from tissu.compile.check import check_of
 from tissu.compile.prepare import prepare
 from tissu.compile.prepared import Held, LoadedNodes, Prepared
+from tissu.compile.thin import cross_section_of
 from tissu.effects import load_name
 from tissu.errors import SceneError
 from tissu.mesh.whole_faces import nodal_areas
@@ -93,7 +94,7 @@ def _add_body(builder: WorldBuilder, prepared: Prepared, name: str) -> None:
             quadrature=body.quadrature,
             reinforcements=[("fibre", group.fibres)] if group.fibres else [],
             loaded=None if group.made is None else group.made.build().loaded,
-            cross_section=np.array([group.cross_section]),
+            cross_section=np.array([cross_section_of(body, group.cell_type)]),
             plane=Plane.strain if body.plane == "strain" and group.surface else Plane.stress,
         )
     if body.viscosity is not None:

@@ -39,7 +39,7 @@ Beam beam_of(const benchmark::State& run) {
 void count_elements(benchmark::State& run, const World& world) {
   double elements = 0.0;
   for (const Body& body : world.bodies()) {
-    for (const Elastic* elastic : body.elastic) elements += elastic->cell_count();
+    for (const BodyModel* elastic : body.models) elements += elastic->cell_count();
   }
   run.counters["elements"] = elements;
   run.counters["ns/element"] = benchmark::Counter(
@@ -49,7 +49,7 @@ void count_elements(benchmark::State& run, const World& world) {
 void force(benchmark::State& run) {
   Beam beam = beam_of(run);
   const Bent bent(beam);
-  const Elastic& elastic = *bent.world.bodies().front().elastic.front();
+  const BodyModel& elastic = *bent.world.bodies().front().models.front();
   std::vector<double> f(bent.state.positions.size(), 0.0);
   for (auto _ : run) {
     elastic.add_force(bent.state, f);
@@ -60,7 +60,7 @@ void force(benchmark::State& run) {
 
 void product_of_elements(benchmark::State& run) {
   const Bent bent(beam_of(run));
-  const Elastic& elastic = *bent.world.bodies().front().elastic.front();
+  const BodyModel& elastic = *bent.world.bodies().front().models.front();
   std::vector<double> out(bent.state.positions.size(), 0.0);
   for (auto _ : run) {
     elastic.add_product(bent.state, {1.0, 0.0}, bent.state.positions, out);
@@ -71,7 +71,7 @@ void product_of_elements(benchmark::State& run) {
 
 void assembly(benchmark::State& run) {
   const Bent bent(beam_of(run));
-  const Elastic& elastic = *bent.world.bodies().front().elastic.front();
+  const BodyModel& elastic = *bent.world.bodies().front().models.front();
   BlockMatrix matrix(bent.world.sparsity(), bent.world.isa(), bent.world.threads());
   for (auto _ : run) {
     matrix.clear();
@@ -84,7 +84,7 @@ void assembly(benchmark::State& run) {
 void product(benchmark::State& run) {
   const Bent bent(beam_of(run));
   BlockMatrix matrix(bent.world.sparsity(), bent.world.isa(), bent.world.threads());
-  bent.world.bodies().front().elastic.front()->add_stiffness(bent.state, {-1.0, 0.0}, matrix);
+  bent.world.bodies().front().models.front()->add_stiffness(bent.state, {-1.0, 0.0}, matrix);
   std::vector<double> out(bent.state.positions.size(), 0.0);
   for (auto _ : run) {
     matrix.multiply(bent.state.positions, out);

@@ -35,8 +35,8 @@ py::dict to_dict(const Energy& energy) {
 
 py::dict cell_fields(const Simulation& simulation, const std::string& name) {
   CellFields all;
-  for (const Elastic* elastic : simulation.world().body(name).elastic) {
-    const CellFields fields = elastic->fields(simulation.state());
+  for (const BodyModel* model : simulation.world().body(name).models) {
+    const CellFields fields = model->fields(simulation.state());
     const auto append = [](std::vector<double>& to, const std::vector<double>& from) {
       to.insert(to.end(), from.begin(), from.end());
     };

@@ -23,10 +23,10 @@ LawParameters to_parameters(const Parameters& parameters) {
 py::list elastic_blocks(const World& world) {
   py::list result;
   for (const Body& body : world.bodies()) {
-    for (const Elastic* elastic : body.elastic) {
-      const ElasticBlock& block = elastic->block();
-      result.append(py::make_tuple(body.name, block.element, block.law, elastic->cell_count(),
-                                   elastic->bytes(), elastic->reals_per_cell()));
+    for (const BodyModel* model : body.models) {
+      const ElasticBlock& block = model->block();
+      result.append(py::make_tuple(body.name, block.element, block.law, model->cell_count(), model->bytes(),
+                                   model->reals_per_cell()));
     }
   }
   return result;

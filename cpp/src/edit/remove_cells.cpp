@@ -93,11 +93,11 @@ std::shared_ptr<const World> remove_cells(const World& world, const State& state
 
 std::vector<std::int32_t> remaining_cells(const World& world, std::string_view body) {
   std::vector<std::int32_t> numbers;
-  for (const Elastic* elastic : world.body(body).elastic) {
-    const auto& own = elastic->block().cell_numbers;
+  for (const BodyModel* model : world.body(body).models) {
+    const auto& own = model->block().cell_numbers;
     if (own.empty()) {
       const auto first = static_cast<std::int32_t>(numbers.size());
-      for (std::int32_t i = 0; i < elastic->cell_count(); ++i) numbers.push_back(first + i);
+      for (std::int32_t i = 0; i < model->cell_count(); ++i) numbers.push_back(first + i);
     } else {
       numbers.insert(numbers.end(), own.begin(), own.end());
     }

@@ -1,7 +1,11 @@
+#include "tissu/force/elastic_block.h"
+
 #include <cstddef>
 #include <numeric>
 
-#include "tissu/force/elastic.h"
+#include "tissu/base/error.h"
+#include "tissu/element/reference_cell.h"
+#include "tissu/force/rest_shape.h"
 
 namespace tissu {
 namespace {
@@ -15,6 +19,22 @@ std::vector<double> chosen(const std::vector<double>& values, const std::vector<
 }
 
 }  // namespace
+
+void check_size(const ElasticBlock& block, const std::vector<double>& values, std::string_view what,
+                std::size_t cells) {
+  if (values.size() == 1 || values.size() == cells) return;
+  throw ParameterError("body \"" + block.body + "\" has " + std::to_string(values.size()) + " values of " +
+                       std::string(what) + " for " + std::to_string(cells) +
+                       " cells; give one, or one for each cell.");
+}
+
+std::string first_five(const std::vector<std::int32_t>& numbers) {
+  std::string text;
+  for (std::size_t i = 0; i < numbers.size() && i < 5; ++i) {
+    text += (i == 0 ? "" : ", ") + std::to_string(numbers[i]);
+  }
+  return numbers.size() > 5 ? text + ", …" : text;
+}
 
 ElasticBlock part_of(const ElasticBlock& block, const std::vector<std::size_t>& which) {
   const auto nodes = static_cast<std::size_t>(find_element(block.element)->nodes);

@@ -27,19 +27,19 @@ struct Culprit {
   std::string why;
 };
 
-std::int32_t number_of(const Elastic& elastic, std::int32_t first, std::size_t cell) {
-  const auto& numbers = elastic.block().cell_numbers;
+std::int32_t number_of(const BodyModel& model, std::int32_t first, std::size_t cell) {
+  const auto& numbers = model.block().cell_numbers;
   return numbers.empty() ? first + static_cast<std::int32_t>(cell) : numbers[cell];
 }
 
-/// Calls f(body, block, number of its first cell) for each elastic block.
+/// Calls f(body, block, number of its first cell) for each block of its model.
 template <class Function>
 void for_blocks(const World& world, Function&& f) {
   for (const Body& body : world.bodies()) {
     std::int32_t first = 0;
-    for (const Elastic* elastic : body.elastic) {
-      f(body, *elastic, first);
-      first += elastic->cell_count();
+    for (const BodyModel* model : body.models) {
+      f(body, *model, first);
+      first += model->cell_count();
     }
   }
 }
@@ -47,14 +47,14 @@ void for_blocks(const World& world, Function&& f) {
 /// The first cell that has the node.
 Culprit cell_of_node(const World& world, std::int32_t node) {
   Culprit found;
-  for_blocks(world, [&](const Body& body, const Elastic& elastic, std::int32_t first) {
+  for_blocks(world, [&](const Body& body, const BodyModel& model, std::int32_t first) {
     if (found.element >= 0) return;
-    const auto& cells = elastic.block().cells;
+    const auto& cells = model.block().cells;
     const auto at = std::ranges::find(cells, node);
     if (at == cells.end()) return;
     const auto cell =
-        static_cast<std::size_t>(at - cells.begin()) / static_cast<std::size_t>(elastic.nodes_per_cell());
-    found = {body.name, number_of(elastic, first, cell),
+        static_cast<std::size_t>(at - cells.begin()) / static_cast<std::size_t>(model.nodes_per_cell());
+    found = {body.name, number_of(model, first, cell),
              "node " + std::to_string(node - body.first_node) + " of it was not finite or too fast"};
   });
   return found;
@@ -64,12 +64,12 @@ Culprit cell_of_node(const World& world, std::int32_t node) {
 Culprit worst_cell(const World& world, const State& state) {
   Culprit worst;
   double smallest = std::numeric_limits<double>::infinity();
-  for_blocks(world, [&](const Body& body, const Elastic& elastic, std::int32_t first) {
-    const CellFields fields = elastic.fields(state);
+  for_blocks(world, [&](const Body& body, const BodyModel& model, std::int32_t first) {
+    const CellFields fields = model.fields(state);
     for (std::size_t e = 0; e < fields.volume_ratio.size(); ++e) {
       if (fields.volume_ratio[e] >= smallest) continue;
       smallest = fields.volume_ratio[e];
-      worst = {body.name, number_of(elastic, first, e), "its volume ratio was " + text(smallest)};
+      worst = {body.name, number_of(model, first, e), "its volume ratio was " + text(smallest)};
     }
   });
   return worst;

@@ -8,6 +8,7 @@
 #include "tissu/base/error.h"
 #include "tissu/force/gravity.h"
 #include "tissu/force/load.h"
+#include "tissu/force/models.h"
 #include "tissu/force/rayleigh.h"
 
 namespace tissu {
@@ -178,10 +179,10 @@ void World::add_bodies(const WorldDescription& description) {
     std::vector<double> own(static_cast<std::size_t>(made.first_node + made.node_count), 0.0);
     std::vector<std::unique_ptr<ForceModel>> models;
     for (ElasticBlock& elastic : blocks_of(body, made, rest_positions_)) {
-      auto model = std::make_unique<Elastic>(std::move(elastic), rest_positions_, isa_, threads_);
+      auto model = make_model(std::move(elastic), rest_positions_, isa_, threads_);
       model->add_masses(own);
       model->add_weights(weights_);
-      made.elastic.push_back(model.get());
+      made.models.push_back(model.get());
       models.push_back(std::move(model));
     }
     for (std::size_t n = 0; n < own.size(); ++n) masses[n] += own[n];

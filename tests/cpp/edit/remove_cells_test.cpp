@@ -125,7 +125,7 @@ TEST_P(RemoveCells, StepAfterStep) {
 TEST_P(RemoveCells, TakesMassAndEnergyOfTheCellsAway) {
   Simulation simulation = run(world_);
   for (int i = 0; i < 5; ++i) simulation.step(0.01);
-  const Elastic& before = *simulation.world().body("body").elastic[0];
+  const BodyModel& before = *simulation.world().body("body").models[0];
   const CellFields fields = before.fields(simulation.state());
   double mass = simulation.world().mass().total();
   double energy = simulation.energy().elastic;
@@ -148,7 +148,7 @@ TEST_P(RemoveCells, KeepsTheNumbersOfTheFirstDay) {
     remove(simulation, cells);
     for (const std::int32_t cell : cells) std::erase(expected, cell);
     EXPECT_EQ(remaining_cells(simulation.world(), "body"), expected);
-    EXPECT_EQ(simulation.world().body("body").elastic[0]->block().cell_numbers, expected);
+    EXPECT_EQ(simulation.world().body("body").models[0]->block().cell_numbers, expected);
   }
 }
 
@@ -270,7 +270,7 @@ TEST(RemoveLines, SectionsStayWithTheirCells) {
   world.editable = true;
   Simulation simulation = test::simulate(world, test::implicit_euler(), test::conjugate_gradient());
   simulation.replace_world(remove_cells(simulation.world(), simulation.state(), "body", Numbers{0}));
-  EXPECT_EQ(simulation.world().bodies()[0].elastic[0]->volumes(), (std::vector{2.0, 3.0}));
+  EXPECT_EQ(simulation.world().bodies()[0].models[0]->volumes(), (std::vector{2.0, 3.0}));
 }
 
 }  // namespace

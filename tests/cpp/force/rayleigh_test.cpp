@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "../world/sample_worlds.h"
+#include "tissu/force/elastic.h"
 #include "verbs.h"
 
 namespace tissu {

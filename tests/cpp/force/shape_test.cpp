@@ -3,6 +3,7 @@
 #include "../world/sample_worlds.h"
 #include "tissu/assembly/block_matrix.h"
 #include "tissu/element/generated/all.h"
+#include "tissu/force/elastic.h"
 #include "tissu/law/generated/all.h"
 #include "tissu/law/law_info.h"
 

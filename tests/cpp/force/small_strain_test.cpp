@@ -4,6 +4,7 @@
 
 #include "../world/sample_worlds.h"
 #include "tissu/element/generated/all.h"
+#include "tissu/force/elastic.h"
 #include "tissu/law/law_info.h"
 #include "verbs.h"
 

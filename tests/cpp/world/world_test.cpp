@@ -56,7 +56,7 @@ TEST_F(WorldTest, HoldsMixedCells) {
   // box nodes run x, y, z; VTK goes round: tetrahedra over the nodes 4 5 7 6
   description_.bodies[0].elastic[1].cells = {4, 5, 7, 8, 4, 7, 6, 8};
   const World world(description_);
-  EXPECT_EQ(world.body("body").elastic.size(), 2U);
+  EXPECT_EQ(world.body("body").models.size(), 2U);
   EXPECT_NEAR(world.mass().total(), 2.0 + 6.0 / 3.0, 1e-14);
 }
 

@@ -9,7 +9,7 @@
 
 #include "tissu/assembly/fixed_dofs.h"
 #include "tissu/base/isa.h"
-#include "tissu/force/elastic.h"
+#include "tissu/force/elastic_block.h"
 #include "tissu/force/load.h"
 
 namespace tissu {

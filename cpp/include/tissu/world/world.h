@@ -11,7 +11,7 @@
 #include "tissu/assembly/fixed_dofs.h"
 #include "tissu/assembly/mass.h"
 #include "tissu/assembly/sparsity.h"
-#include "tissu/force/elastic.h"
+#include "tissu/force/body_model.h"
 #include "tissu/force/force_model.h"
 #include "tissu/force/links.h"
 #include "tissu/world/description.h"
@@ -22,7 +22,7 @@ struct Body {
   std::string name;
   std::int32_t first_node;
   std::int32_t node_count;
-  std::vector<const Elastic*> elastic;
+  std::vector<const BodyModel*> models;
 };
 
 class World {

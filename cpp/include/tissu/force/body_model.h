@@ -1,0 +1,42 @@
+#pragma once
+
+/// What a body is made of: a force model that owns a block of cells, their masses and their fields.
+
+#include <cstdint>
+#include <vector>
+
+#include "tissu/force/elastic_block.h"
+#include "tissu/force/force_model.h"
+
+namespace tissu {
+
+/// Mean values over each cell, in the order of the block's cells; empty where the model does not know them.
+struct CellFields {
+  std::vector<double> von_mises;       ///< of the Cauchy stress [Pa]
+  std::vector<double> energy_density;  ///< per rest volume [J/m3]
+  std::vector<double> volume_ratio;    ///< det F
+};
+
+class BodyModel : public ForceModel {
+ public:
+  [[nodiscard]] ForceKind kind() const override { return ForceKind::elastic; }
+
+  [[nodiscard]] virtual const ElasticBlock& block() const = 0;
+  [[nodiscard]] virtual std::int32_t cell_count() const = 0;
+  [[nodiscard]] virtual int nodes_per_cell() const = 0;
+  [[nodiscard]] virtual const std::vector<double>& volumes() const = 0;  ///< at rest [m3]
+  /// Adds each node's lumped mass [kg]: sum_g w_g rho N_a for elements of first order; for the others the
+  /// mass of the cell in proportion to the integral of N_a^2 (Hinton, Rock and Zienkiewicz 1976), which is
+  /// never negative.
+  virtual void add_masses(std::vector<double>& nodal) const = 0;
+  /// Adds each node's share of a body force, sum_g w_g rho N_a [kg]: consistent, and negative at some corners
+  /// of quadratic elements.
+  virtual void add_weights(std::vector<double>& nodal) const = 0;
+  [[nodiscard]] virtual CellFields fields(const State& state) const = 0;
+  /// What it holds of its cells, node and matrix places included.
+  [[nodiscard]] virtual std::size_t bytes() const = 0;
+  /// Numbers kept of each cell's rest shape and law; those that all cells share are kept once.
+  [[nodiscard]] virtual std::size_t reals_per_cell() const = 0;
+};
+
+}  // namespace tissu

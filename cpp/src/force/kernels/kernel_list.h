@@ -6,6 +6,7 @@
 
 #include "tissu/force/elastic_kernels.h"
 #include "tissu/force/law_kernels.h"
+#include "tissu/force/prony_kernels.h"
 
 namespace tissu {
 
@@ -17,6 +18,10 @@ struct LawTables {
   const LawKernels* first;
   std::size_t count;
 };
+struct PronyTables {
+  const PronyKernels* first;
+  std::size_t count;
+};
 
 #define TISSU_KERNEL_LISTS(isa)    \
   namespace isa {                  \
@@ -24,6 +29,8 @@ struct LawTables {
   KernelList hexahedron_kernels(); \
   KernelList shape_kernels();      \
   LawTables law_kernels();         \
+  LawTables viscous_laws();        \
+  PronyTables prony_kernels();     \
   }
 TISSU_KERNEL_LISTS(baseline)
 TISSU_KERNEL_LISTS(avx2)

@@ -124,7 +124,10 @@ void bind_simulation(py::module_& m) {
       .def("step", &Simulation::step, arg("dt"), py::call_guard<py::gil_scoped_release>())
       .def_property(
           "time", [](const Simulation& s) { return s.state().time; },
-          [](Simulation& s, double time) { s.state().time = time; })
+          [](Simulation& s, double time) {
+            s.state().memory_time += time - s.state().time;
+            s.state().time = time;
+          })
       .def_property_readonly("integrator_name",
                              [](const Simulation& s) { return std::string(s.integrator().name()); })
       .def_property_readonly("solver_name",

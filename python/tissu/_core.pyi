@@ -48,6 +48,7 @@ def jacobian_ranges(*, positions: Floats, blocks: Blocks) -> Floats: ...
 
 def kernel_flags(*, instruction_set: str) -> str: ...
 
+def models() -> list[tuple[str, str, list[str], list[str], dict[str, tuple[str, str]]]]: ...
 def laws() -> list[tuple[str, dict[str, float], int, bool, list[int]]]: ...
 
 class LoadedLaw:
@@ -81,6 +82,16 @@ class Plane:
     stress: ClassVar[Plane]
     strain: ClassVar[Plane]
 
+class ModelUse:
+    def __init__(
+        self,
+        *,
+        name: str = "fem",
+        rotation: str = "polar",
+        tangent: str = "approximate",
+        equal_masses: bool = False,
+    ) -> None: ...
+
 class WorldBuilder:
     def __init__(
         self,
@@ -106,6 +117,7 @@ class WorldBuilder:
         loaded: LoadedLaw | None = None,
         cross_section: Floats = ...,
         plane: Plane = ...,
+        model: ModelUse = ...,
     ) -> None: ...
     def add_rayleigh(self, *, body: str, mass: float, stiffness: float) -> None: ...
     def add_gravity(self, *, acceleration: Floats) -> None: ...

@@ -172,6 +172,14 @@ class Simulation:
         """
         return np.flatnonzero(self.cell_fields(body)["volume_ratio"] <= 0.0).astype(np.int32)
 
+    def largest_frequency(self) -> float:
+        """The largest eigenfrequency omega of the free nodes at the present state [rad/s].
+
+        By Lanczos' method on M^-1/2 K M^-1/2. An explicit step without damping is stable below
+        2 / omega; 0 where nothing is stiff.
+        """
+        return float(self._core.largest_frequency())
+
     def profile(self) -> Profile:
         """Times by stage; see `Profile`. `clear_profile` starts anew."""
         seconds = self._core.profile_step_seconds()

@@ -85,6 +85,7 @@ _HOMES = {
     ),
     "tissu.user_law": ("law", "read_law"),
     "tissu.simulation": ("Plan", "Profile", "Simulation", "StepReport"),
+    "tissu.comparison": ("Comparison", "compare"),
     "tissu.picture": ("draw", "draw_overlay"),
 }
 _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}

@@ -1,5 +1,7 @@
 """Types of the names that the package loads when they are asked for; see __init__.py."""
 
+from tissu.comparison import Comparison as Comparison
+from tissu.comparison import compare as compare
 from tissu.errors import Diverged as Diverged
 from tissu import formula as formula
 from tissu.errors import LawError as LawError

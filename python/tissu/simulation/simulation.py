@@ -180,6 +180,10 @@ class Simulation:
         """
         return float(self._core.largest_frequency())
 
+    def model_bytes(self) -> int:
+        """What the models of all bodies keep of their cells, places in the matrix included."""
+        return sum(int(block[4]) for block in self._world.elastic_blocks)
+
     def profile(self) -> Profile:
         """Times by stage; see `Profile`. `clear_profile` starts anew."""
         seconds = self._core.profile_step_seconds()

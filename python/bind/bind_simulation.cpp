@@ -158,6 +158,7 @@ void bind_simulation(py::module_& m) {
             s.replace_world(remove_cells(s.world(), s.state(), body, numbers));
           },
           py::kw_only(), arg("body"), arg("cells"))
+      .def("settle", &Simulation::settle)
       .def("largest_frequency", [](const Simulation& s) { return largest_frequency(s.world(), s.state()); })
       .def(
           "remaining_cells",

@@ -104,9 +104,17 @@ void bind_world(py::module_& m) {
   py::enum_<Plane>(m, "Plane").value("stress", Plane::stress).value("strain", Plane::strain);
   py::class_<ModelUse>(m, "ModelUse")
       .def(py::init([](const std::string& name, const std::string& rotation, const std::string& tangent,
-                       bool equal_masses) { return ModelUse{name, rotation, tangent, equal_masses}; }),
+                       bool equal_masses, const Ints& kept) {
+             ModelUse model;
+             model.name = name;
+             model.rotation = rotation;
+             model.tangent = tangent;
+             model.equal_masses = equal_masses;
+             model.kept = to_vector(kept);
+             return model;
+           }),
            py::kw_only(), arg("name") = "fem", arg("rotation") = "polar", arg("tangent") = "approximate",
-           arg("equal_masses") = false);
+           arg("equal_masses") = false, arg("kept") = std::vector<std::int32_t>{});
   py::class_<WorldDescription>(m, "WorldBuilder")
       .def(py::init([](int threads, bool editable, bool links, bool consistent_weight) {
              WorldDescription world;

@@ -55,6 +55,7 @@ _HOMES = {
         "Body",
         "Box",
         "Cholesky",
+        "Condensed",
         "ConjugateGradient",
         "Corotational",
         "FEM",

@@ -29,6 +29,7 @@ from tissu.scene import Yeoh as Yeoh
 from tissu.scene import Body as Body
 from tissu.scene import Box as Box
 from tissu.scene import Cholesky as Cholesky
+from tissu.scene import Condensed as Condensed
 from tissu.scene import ConjugateGradient as ConjugateGradient
 from tissu.scene import Corotational as Corotational
 from tissu.scene import FEM as FEM

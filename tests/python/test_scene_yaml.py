@@ -149,6 +149,7 @@ def models():
         ts.MassSpring(masses="equal"),
         ts.MassLink(),
         ts.MassTensor(),
+        ts.Condensed(keep="surface"),
         {"a": ts.MassLink(), "b": ts.FEM()},
     ]
     bodies = [ts.Body(mesh=mesh, law=law, density=1e3, model=model) for model in each]

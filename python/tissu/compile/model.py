@@ -5,12 +5,15 @@ from __future__ import annotations
 from functools import cache
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+import numpy as np
+
 from tissu import _core
 from tissu.counted import counted
+from tissu.scene.model import Condensed
 from tissu.scene.problem import Problem, one_of_words
 
 if TYPE_CHECKING:
-    from tissu.compile.prepared import Findings
+    from tissu.compile.prepared import Findings, Group, Ints, Prepared
     from tissu.scene.law import Law
     from tissu.scene.model import Model
     from tissu.scene.problem import Path
@@ -48,14 +51,34 @@ def law_of_model(model: Model, law: Law) -> str:
     return next((name for name in _STANDS_IN.get(law.type, ()) if name in taken), law.type)
 
 
-def use_of(model: Model) -> Any:
-    """The core's words for a model."""
+def use_of(model: Model, kept: Ints) -> Any:
+    """The core's words for a model; `kept` are the nodes that a condensed region keeps."""
     return _core.ModelUse(
         name=model.type,
         rotation=getattr(model, "rotation", "polar"),
         tangent=getattr(model, "tangent", "approximate"),
         equal_masses=getattr(model, "masses", "volume") == "equal",
+        kept=kept,
     )
+
+
+def kept_nodes(prepared: Prepared, name: str, group: Group) -> Ints:
+    """Nodes of a condensed region that stay unknowns; none for other models."""
+    if not isinstance(group.model, Condensed):
+        return np.empty(0, dtype=np.int32)
+    body = prepared.bodies[name]
+    shared = [other.nodes.ravel() for other in body.groups if other is not group]
+    held = [held.nodes for held in prepared.held if held.support.body == name]
+    loaded = [loaded.nodes for loaded in prepared.loaded if loaded.load.body == name]
+    faces = [
+        block.nodes.ravel()
+        for loaded in prepared.loaded
+        if loaded.load.body == name
+        for block in loaded.faces
+    ]
+    surface = [body.mesh.surface().nodes] if group.model.keep == "surface" else []
+    every = np.concatenate([*shared, *held, *loaded, *faces, *surface, np.empty(0, dtype=np.int32)])
+    return np.intersect1d(every, group.nodes).astype(np.int32)
 
 
 def check_model(

@@ -15,7 +15,7 @@ from tissu.scene.law import (
     Yeoh,
 )
 from tissu.scene.load import NodalLoad, Pressure, Traction
-from tissu.scene.model import FEM, Corotational, MassLink, MassSpring, MassTensor
+from tissu.scene.model import FEM, Condensed, Corotational, MassLink, MassSpring, MassTensor
 from tissu.scene.scene import Output, Scene
 from tissu.scene.selection import Box, Nodes, Plane, Region, Sphere, SurfaceNodes
 from tissu.scene.step import Cholesky, ConjugateGradient, ImplicitEuler, Newton, Static
@@ -28,6 +28,7 @@ __all__ = [
     "Body",
     "Box",
     "Cholesky",
+    "Condensed",
     "ConjugateGradient",
     "Corotational",
     "Fibres",

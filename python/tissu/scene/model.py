@@ -63,8 +63,20 @@ class MassTensor(Part):
     type: Literal["mass-tensor"] = "mass-tensor"
 
 
-MODELS: tuple[type[Part], ...] = (FEM, Corotational, MassSpring, MassLink, MassTensor)
-Model = FEM | Corotational | MassSpring | MassLink | MassTensor
+class Condensed(Part):
+    """Hooke's law with inner nodes eliminated once: small displacements, few unknowns."""
+
+    type: Literal["condensed"] = "condensed"
+    keep: Literal["touched", "surface"] = "touched"
+    """nodes that stay unknowns: those held, led, loaded or shared with others, or the surface too"""
+
+    if TYPE_CHECKING:
+
+        def __init__(self, *, keep: Literal["touched", "surface"] = ...) -> None: ...
+
+
+MODELS: tuple[type[Part], ...] = (FEM, Corotational, MassSpring, MassLink, MassTensor, Condensed)
+Model = FEM | Corotational | MassSpring | MassLink | MassTensor | Condensed
 
 
 def _one_model(value: Any, info: ValidationInfo) -> Any:

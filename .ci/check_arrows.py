@@ -21,8 +21,8 @@ CPP: dict[str, set[str]] = {
     "field": {"base", "element"},
     "state": {"base"},
     "assembly": {"base", "mesh", "state"},
-    "force": {"base", "mesh", "element", "law", "field", "assembly", "state"},
     "solve": {"base", "assembly"},
+    "force": {"base", "mesh", "element", "law", "field", "assembly", "state", "solve"},
     "world": {"base", "mesh", "element", "law", "force", "assembly", "state"},
     "step": {"base", "assembly", "solve", "force", "state", "world"},
     "edit": {"base", "mesh", "element", "law", "force", "assembly", "state", "world"},
@@ -57,6 +57,7 @@ PYTHON: dict[str, set[str]] = {
         "simulation",
         "_core",
     },
+    "comparison": {"errors", "mesh", "scene", "simulation"},
     "picture": {"errors", "mesh"},
     "output": {"errors", "counted", "mesh", "simulation", "picture", "_core"},
 }

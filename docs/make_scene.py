@@ -16,6 +16,7 @@ ORDER = (
     ("The scene", ("Scene", "Output")),
     ("Bodies and meshes", ("Body", "MeshFile", "BarMesh")),
     ("Laws and viscosity", _LAWS),
+    ("Models", ("FEM", "Corotational", "MassSpring", "MassLink", "MassTensor", "Condensed")),
     ("Selections: which nodes", ("Box", "Sphere", "Plane", "Nodes", "SurfaceNodes", "Region")),
     ("Supports and motion", ("Fixed", "Prescribed", "Rotation")),
     ("Loads", ("NodalLoad", "Traction", "Pressure")),

@@ -46,6 +46,7 @@ inline py::array_t<double> view_of(std::vector<double>& values, std::int32_t fir
 }
 
 void bind_law(py::module_& m);
+void bind_model(py::module_& m);
 void bind_world(py::module_& m);
 void bind_simulation(py::module_& m);
 

@@ -5,6 +5,7 @@
 #include "tissu/simulation/simulation.h"
 #include "tissu/solve/cholesky.h"
 #include "tissu/solve/conjugate_gradient.h"
+#include "tissu/step/frequency.h"
 #include "tissu/step/implicit_euler.h"
 #include "tissu/step/static_equilibrium.h"
 
@@ -160,6 +161,8 @@ void bind_simulation(py::module_& m) {
             s.replace_world(remove_cells(s.world(), s.state(), body, numbers));
           },
           py::kw_only(), arg("body"), arg("cells"))
+      .def("settle", &Simulation::settle)
+      .def("largest_frequency", [](const Simulation& s) { return largest_frequency(s.world(), s.state()); })
       .def(
           "remaining_cells",
           [](const Simulation& s, const std::string& body) {

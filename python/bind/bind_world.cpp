@@ -36,7 +36,8 @@ void add_elastic(WorldDescription& world, const std::string& body, const std::st
                  const Ints& cells, const Ints& cell_numbers, const std::string& law,
                  const Parameters& parameters, const Doubles& density, const std::string& quadrature,
                  const std::vector<std::pair<std::string, Parameters>>& reinforcements,
-                 const std::shared_ptr<LoadedLaw>& loaded, const Doubles& cross_section, Plane plane) {
+                 const std::shared_ptr<LoadedLaw>& loaded, const Doubles& cross_section, Plane plane,
+                 const ModelUse& model) {
   ElasticBlock block;
   block.element = cell_type;
   block.law = law;
@@ -53,6 +54,7 @@ void add_elastic(WorldDescription& world, const std::string& body, const std::st
   block.density = to_vector(density);
   block.cross_section = to_vector(cross_section);
   block.plane = plane;
+  block.model = model;
   world.body(body).elastic.push_back(std::move(block));
 }
 
@@ -100,6 +102,19 @@ void bind_world(py::module_& m) {
                              [](const World& world) { return std::string(name(world.isa())); });
 
   py::enum_<Plane>(m, "Plane").value("stress", Plane::stress).value("strain", Plane::strain);
+  py::class_<ModelUse>(m, "ModelUse")
+      .def(py::init([](const std::string& name, const std::string& rotation, const std::string& tangent,
+                       bool equal_masses, const Ints& kept) {
+             ModelUse model;
+             model.name = name;
+             model.rotation = rotation;
+             model.tangent = tangent;
+             model.equal_masses = equal_masses;
+             model.kept = to_vector(kept);
+             return model;
+           }),
+           py::kw_only(), arg("name") = "fem", arg("rotation") = "polar", arg("tangent") = "approximate",
+           arg("equal_masses") = false, arg("kept") = std::vector<std::int32_t>{});
   py::class_<WorldDescription>(m, "WorldBuilder")
       .def(py::init([](int threads, bool editable, bool links, bool consistent_weight) {
              WorldDescription world;
@@ -124,7 +139,7 @@ void bind_world(py::module_& m) {
            arg("cell_numbers"), arg("law"), arg("parameters"), arg("density"), arg("quadrature") = "full",
            arg("reinforcements") = std::vector<std::pair<std::string, Parameters>>{},
            arg("loaded") = py::none(), arg("cross_section") = std::vector<double>{1.0},
-           arg("plane") = Plane::stress)
+           arg("plane") = Plane::stress, arg("model") = ModelUse{})
       .def(
           "add_rayleigh",
           [](WorldDescription& world, const std::string& body, double mass, double stiffness) {

@@ -52,6 +52,7 @@ PYBIND11_MODULE(_core, m) {
   m.def("build_info", [] { return bind::to_dict(tissu::build_info()); });
   bind_mesh(m);
   bind::bind_law(m);  // before what takes one
+  bind::bind_model(m);
   bind::bind_world(m);
   bind::bind_simulation(m);
 }

@@ -1,5 +1,7 @@
 """Types of the names that the package loads when they are asked for; see __init__.py."""
 
+from tissu.comparison import Comparison as Comparison
+from tissu.comparison import compare as compare
 from tissu.errors import Diverged as Diverged
 from tissu import formula as formula
 from tissu.errors import LawError as LawError
@@ -27,10 +29,16 @@ from tissu.scene import Yeoh as Yeoh
 from tissu.scene import Body as Body
 from tissu.scene import Box as Box
 from tissu.scene import Cholesky as Cholesky
+from tissu.scene import Condensed as Condensed
 from tissu.scene import ConjugateGradient as ConjugateGradient
+from tissu.scene import Corotational as Corotational
+from tissu.scene import FEM as FEM
 from tissu.scene import Fixed as Fixed
 from tissu.scene import Hooke as Hooke
 from tissu.scene import ImplicitEuler as ImplicitEuler
+from tissu.scene import MassLink as MassLink
+from tissu.scene import MassSpring as MassSpring
+from tissu.scene import MassTensor as MassTensor
 from tissu.scene import MeshFile as MeshFile
 from tissu.scene import Newton as Newton
 from tissu.scene import NodalLoad as NodalLoad

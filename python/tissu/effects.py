@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from tissu.scene.body import Body
     from tissu.scene.law import Law
+    from tissu.scene.model import Model
     from tissu.scene.scene import Scene
     from tissu.scene.selection import Selection
     from tissu.scene.step import Step
@@ -90,6 +91,11 @@ def _of_body(name: str, body: Body) -> list[Effect]:
         where = name if region is None else f"{name}, region {region}"
         path = f"bodies.{name}.law" + ("" if region is None else f".{region}")
         effects.append(Effect(f"elasticity of {where}", f"{path} is {_law(law)}"))
+    for region, model in body.models().items():
+        if model.type != "fem":
+            where = name if region is None else f"{name}, region {region}"
+            path = f"bodies.{name}.model" + ("" if region is None else f".{region}")
+            effects.append(Effect(f"model of {where}", f"{path} is {_model(model)}"))
     if body.thickness is not None:
         plane = "" if body.plane is None else f", plane is {body.plane}"
         why = f"bodies.{name}.thickness is {body.thickness:g} m{plane}"
@@ -118,6 +124,11 @@ def _law(law: Law) -> str:
     words = ", ".join(f"{n} {value:g}" + ("" if n in pure else " Pa") for n, value in values)
     fibres = "" if law.fibres is None else f", fibres k1 {law.fibres.k1:g}, k2 {law.fibres.k2:g}"
     return f"{law.type} with {words}{fibres}"
+
+
+def _model(model: Model) -> str:
+    words = [f"{n} {getattr(model, n)}" for n in type(model).model_fields if n != "type"]
+    return model.type + (f" with {', '.join(words)}" if words else "")
 
 
 def _nodes(on: Selection, count: str | None) -> str:

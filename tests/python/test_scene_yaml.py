@@ -139,8 +139,32 @@ def other_laws():
     return [ts.Scene(bodies={"bar": body}, step=step) for body in bodies]
 
 
-def test_every_law_comes_back():
-    for scene in other_laws():
+def models():
+    """A scene for each model, and one with a map of them."""
+    mesh = ts.BarMesh(size=(1, 1, 1), cells=(1, 1, 1))
+    step, law = ts.ImplicitEuler(0.01), ts.StVK(young=1e3, poisson=0.3)
+    each = [
+        ts.FEM(),
+        ts.Corotational(rotation="frame", tangent="exact"),
+        ts.MassSpring(masses="equal"),
+        ts.MassLink(),
+        ts.MassTensor(),
+        ts.Condensed(keep="surface"),
+        {"a": ts.MassLink(), "b": ts.FEM()},
+    ]
+    bodies = [ts.Body(mesh=mesh, law=law, density=1e3, model=model) for model in each]
+    return [ts.Scene(bodies={"bar": body}, step=step) for body in bodies]
+
+
+def test_a_model_may_be_named_by_a_word():
+    text = models()[3].to_yaml()
+    written = "model:\n      type: mass-link"
+    assert written in text
+    assert ts.Scene.from_yaml_text(text.replace(written, "model: mass-link")) == models()[3]
+
+
+def test_every_law_and_model_comes_back():
+    for scene in [*other_laws(), *models()]:
         assert ts.Scene.from_yaml_text(scene.to_yaml()) == scene
 
 
@@ -149,6 +173,7 @@ def test_every_part_is_in_the_round_trip():
     import tissu.scene
 
     text = repr(everything()) + repr(organ("a")) + repr(ConjugateGradient()) + repr(other_laws())
+    text += repr(models())
     missing = [name for name in tissu.scene.__all__ if f"{name}(" not in text]
     assert missing == ["UserLaw"]
 

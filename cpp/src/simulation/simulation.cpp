@@ -102,10 +102,21 @@ StepReport Simulation::step(double h) {
   }
   if (!std::isfinite(report.residual) || !is_sane()) roll_back(h);
   world_->remember(state_);
+  settled_ = false;
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   profile_.add_step(seconds);
   report.milliseconds = 1e3 * seconds;
   return report;
+}
+
+void Simulation::settle() {
+  if (settled_) return;
+  for (const Body& body : world_->bodies()) {
+    for (const BodyModel* model : body.models) {
+      if (!model->eliminated().empty()) model->settle(state_);
+    }
+  }
+  settled_ = true;
 }
 
 /// How far a node may move in one step [m]; a scene without extent has no measure of it.

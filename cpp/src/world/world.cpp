@@ -1,10 +1,10 @@
 #include "tissu/world/world.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <functional>
 
+#include "checks.h"
 #include "tissu/base/error.h"
 #include "tissu/force/gravity.h"
 #include "tissu/force/load.h"
@@ -41,36 +41,6 @@ double box_diagonal(const std::vector<double>& positions, const std::vector<Fram
   return box.isEmpty() ? 0.0 : box.diagonal().norm();
 }
 
-/// Refuses tables whose columns differ in length, and times that do not ascend.
-void check_table(const std::string& where, const std::vector<double>& times, std::size_t values) {
-  if (times.size() != values) {
-    throw ParameterError(where + " has " + std::to_string(times.size()) + " times and " +
-                         std::to_string(values) + " values; give one value for each time.");
-  }
-  if (!std::ranges::is_sorted(times, std::less_equal<>())) {
-    throw ParameterError(where + " has times that do not ascend; give each later than the one before.");
-  }
-}
-
-void check_size(const std::string& where, std::size_t found, std::size_t accepted) {
-  if (found == accepted) return;
-  throw ParameterError(where + " has " + std::to_string(found) + " numbers where " +
-                       std::to_string(accepted) + " are needed, three for each node.");
-}
-
-void check_frame(const FrameDescription& frame, std::size_t number) {
-  const std::string where = "frame " + std::to_string(number);
-  if (!(frame.mass > 0.0) || !std::isfinite(frame.mass)) {
-    throw ParameterError(where + " has a mass of " + std::to_string(frame.mass) +
-                         " kg; it must be positive and finite.");
-  }
-  const Eigen::LLT<Mat3> factor(frame.inertia);
-  if (!frame.inertia.allFinite() || !frame.inertia.isApprox(frame.inertia.transpose()) ||
-      factor.info() != Eigen::Success) {
-    throw ParameterError(where + " has an inertia that is not symmetric and positive definite.");
-  }
-}
-
 /// The instruction set asked for, or the best; one that this machine lacks is refused.
 Isa isa_of(const WorldDescription& description) {
   if (!description.isa) return choose_isa();
@@ -87,34 +57,26 @@ Threads threads_of(const WorldDescription& description) {
                        std::to_string(available_threads()) + " are of no use.");
 }
 
-/// A node without mass would make the matrix singular, unless it is held.
-void refuse_massless(const Body& body, const std::vector<double>& masses, const FixedDofs& fixed) {
-  std::int32_t missing = 0;
-  std::int32_t example = 0;
-  for (std::int32_t i = 0; i < body.node_count; ++i) {
-    const auto node = static_cast<std::size_t>(body.first_node + i);
-    if (masses[node] > 0.0 || fixed.masks()[node] == FixedDofs::kAllAxes) continue;
-    if (missing++ == 0) example = i;
-  }
-  if (missing > 0) {
-    throw MeshError("body \"" + body.name + "\" has " + std::to_string(missing) +
-                    " nodes that no cell uses or whose mass is not positive (the first is node " +
-                    std::to_string(example) + "); drop them from the mesh.");
-  }
-}
-
 /// The body's blocks with node numbers of the world, affine cells apart from others.
-std::vector<ElasticBlock> blocks_of(const BodyDescription& body, const Body& made,
-                                    ConstReals rest_positions) {
+std::vector<ElasticBlock> blocks_of(const BodyDescription& body, const Body& made, ConstReals rest_positions,
+                                    const std::optional<Vec3>& gravity) {
   std::vector<ElasticBlock> blocks;
   std::int32_t first_cell = 0;
   for (ElasticBlock elastic : body.elastic) {
     elastic.body = body.name;
     elastic.cells =
         shifted(std::move(elastic.cells), made.first_node, made.node_count, "body \"" + body.name + "\"");
+    elastic.model.kept = shifted(std::move(elastic.model.kept), made.first_node, made.node_count,
+                                 "the model of body \"" + body.name + "\"");
+    if (gravity) elastic.model.gravity = *gravity;
     const ElementInfo* element = find_element(elastic.element);
     const auto cells =
         element == nullptr ? 0 : static_cast<std::int32_t>(elastic.cells.size()) / element->nodes;
+    if (elastic.model.name == "condensed") {  // one region, one matrix
+      blocks.push_back(std::move(elastic));
+      first_cell += cells;
+      continue;
+    }
     for (ElasticBlock& part : split_affine(std::move(elastic), first_cell, rest_positions)) {
       blocks.push_back(std::move(part));
     }
@@ -141,6 +103,7 @@ World::World(WorldDescription description) : isa_(isa_of(description)), threads_
   }
   fixed_ = FixedDofs(blocks());
   add_fixed(description);
+  hold_eliminated(description);
   for (const Body& body : bodies_) refuse_massless(body, mass_.nodal(), fixed_);
   SparsityBuilder builder(blocks());
   for (const auto& model : forces_) model->couple(builder);
@@ -178,7 +141,7 @@ void World::add_bodies(const WorldDescription& description) {
     Body& made = bodies_[i];
     std::vector<double> own(static_cast<std::size_t>(made.first_node + made.node_count), 0.0);
     std::vector<std::unique_ptr<ForceModel>> models;
-    for (ElasticBlock& elastic : blocks_of(body, made, rest_positions_)) {
+    for (ElasticBlock& elastic : blocks_of(body, made, rest_positions_, description.gravity)) {
       auto model = make_model(std::move(elastic), rest_positions_, isa_, threads_);
       model->add_masses(own);
       model->add_weights(weights_);
@@ -238,6 +201,18 @@ void World::add_fixed(const WorldDescription& description) {
       block(Reals(start), nodes[i]) = block(ConstReals(fixed.positions), static_cast<std::int32_t>(i));
     }
     fixed_.add(nodes, start, fixed.axes, fixed.motion);
+  }
+}
+
+/// Eliminated nodes are no unknowns: they are held for the solver, and their model says where they are.
+void World::hold_eliminated(const WorldDescription& description) {
+  for (const Body& body : bodies_) {
+    for (const BodyModel* model : body.models) {
+      const auto eliminated = model->eliminated();
+      if (eliminated.empty()) continue;
+      refuse_touched(body, *model, description, fixed_);
+      fixed_.add(eliminated, rest_positions_, FixedDofs::kAllAxes, {});
+    }
   }
 }
 

@@ -82,6 +82,32 @@ def info(
         typer.echo(info_text())
 
 
+@app.command("compare")
+def compare_command(
+    scene: SceneFile,
+    models: Annotated[
+        str, typer.Option(help="Names with commas: mass-spring,mass-link,fem; default: all.")
+    ] = "",
+    reference: Annotated[
+        str,
+        typer.Option(
+            help="What errors are measured against: finest (fem, second order), a model's name, "
+            "or another scene file."
+        ),
+    ] = "finest",
+    out: Annotated[
+        Path | None,
+        typer.Option("--out", "-o", help="Folder; default: results/SCENE-compare."),
+    ] = None,
+    debug: Debug = False,
+) -> None:
+    """Run a scene with each of several models; write a table and a figure."""
+    with reported(debug=debug):
+        from tissu.cli.compare import compare_scene
+
+        compare_scene(scene, models, reference, out or Path("results") / f"{scene.stem}-compare")
+
+
 @mesh_app.command("info")
 def mesh_info(
     file: Annotated[Path, typer.Argument(metavar="FILE", help="A mesh of any known format.")],

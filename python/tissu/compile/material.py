@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from tissu.compile.model import check_model, law_of_model
 from tissu.compile.prepared import Findings, Floats, Group, Ints
 from tissu.compile.select import region_cells
 from tissu.compile.thin import check_law, material_volume
@@ -23,27 +24,55 @@ _LOCKING = 0.48  # Poisson's ratio above which first-order elements are noticeab
 
 
 def cell_groups(mesh: Mesh, body: Body, path: Path, findings: Findings) -> list[Group]:
-    """The body's cells in blocks of one cell type and one kind of law, in mesh order."""
+    """The body's cells in blocks of one cell type, kind of law and model, in mesh order."""
     laws = list(body.laws().values())
-    owner = _law_of_cells(mesh, body, path, findings)
+    owner = _owner_of_cells(mesh, body.law, (*path, "law"), findings)
     if owner is None:
         return []
     _check_laws(mesh, laws, owner, path, findings)
-    groups, first = [], 0
+    models = list(body.models().values())
+    carrier = _owner_of_cells(mesh, body.model, (*path, "model"), findings)
+    if carrier is None:
+        return []
+    groups: list[Group] = []
+    first = 0
     for block in mesh.body_blocks:
-        nodes = np.asarray(block.nodes)
-        numbers = np.arange(first, first + len(nodes), dtype=np.int32)
-        kinds = [(law.type, law.fibres is not None, type(law).made) for law in laws]
-        present, first_cell = np.unique(owner[numbers], return_index=True)
-        for kind in dict.fromkeys(kinds[n] for n in present[np.argsort(first_cell)]):
-            of_kind = [n for n, other in enumerate(kinds) if other == kind]
-            cells = numbers[np.isin(owner[numbers], of_kind)]
-            values, fibres = _parameters(laws, owner[cells]), _fibres(laws, owner[cells])
-            rows = nodes[cells - first]
-            groups.append(Group(str(block.type), rows, cells, kind[0], values, fibres, kind[2]))
-        first += len(nodes)
+        cells = np.arange(first, first + len(block.nodes), dtype=np.int32)
+        for law, model, count in _pairs(owner[cells], carrier[cells]):
+            check_model(models[model], laws[law], str(block.type), count, path, findings)
+        for some in _alike(laws, owner[cells], carrier[cells]):
+            law, model = laws[owner[cells[some[0]]]], models[carrier[cells[some[0]]]]
+            of_cells = owner[cells[some]]
+            groups.append(
+                Group(
+                    cell_type=str(block.type),
+                    nodes=np.asarray(block.nodes)[some],
+                    cells=cells[some],
+                    law=law_of_model(model, law),
+                    parameters=_parameters(laws, of_cells),
+                    fibres=_fibres(laws, of_cells),
+                    made=type(law).made,
+                    model=model,
+                )
+            )
+        first += len(block.nodes)
     _note_locking(laws, path, findings)
     return groups
+
+
+def _pairs(owner: Ints, carrier: Ints) -> list[tuple[int, int, int]]:
+    """The pairs of a law and a model that cells have, and how many have them."""
+    pairs, counts = np.unique(np.stack([owner, carrier]), axis=1, return_counts=True)
+    return [(int(law), int(model), int(n)) for (law, model), n in zip(pairs.T, counts, strict=True)]
+
+
+def _alike(laws: list[Law], owner: Ints, carrier: Ints) -> list[Ints]:
+    """The places of the cells that can stand in one block, by their first: one kind of law each."""
+    kinds = [(law.type, law.fibres is not None, type(law).made) for law in laws]
+    number = np.array([kinds.index(kind) for kind in kinds], dtype=np.int64)
+    keys = number[owner] * (int(carrier.max(initial=0)) + 1) + carrier
+    found, first = np.unique(keys, return_index=True)
+    return [np.flatnonzero(keys == key).astype(np.int32) for key in found[np.argsort(first)]]
 
 
 def _check_laws(mesh: Mesh, laws: list[Law], owner: Ints, path: Path, findings: Findings) -> None:
@@ -67,18 +96,19 @@ def density_of(body: Body, mesh: Mesh, path: Path, findings: Findings) -> float:
     return float(density)
 
 
-def _law_of_cells(mesh: Mesh, body: Body, path: Path, findings: Findings) -> Ints | None:
-    """For each cell the number of its law; None when regions do not give each cell exactly one."""
+def _owner_of_cells(mesh: Mesh, given: object, path: Path, findings: Findings) -> Ints | None:
+    """For each cell the number of its law or model; None when regions do not give it just one."""
+    what = str(path[-1])
     count = np.zeros(mesh.cell_count, dtype=np.int32)
     owner = np.zeros(mesh.cell_count, dtype=np.int32)
-    if not isinstance(body.law, dict):
+    if not isinstance(given, dict):
         return owner
     known = True
-    for number, region in enumerate(body.law):
+    for number, region in enumerate(given):
         try:
             cells = region_cells(region, mesh)
         except ParameterError as error:
-            findings.problem((*path, "law", region), str(error))
+            findings.problem((*path, region), str(error))
             known = False
             continue
         count[cells] += 1
@@ -86,16 +116,16 @@ def _law_of_cells(mesh: Mesh, body: Body, path: Path, findings: Findings) -> Int
     if not known:
         return None
     for wrong, words in (
-        (count == 0, "in no region of the law"),
-        (count > 1, "in several regions of the law"),
+        (count == 0, f"in no region of the {what}"),
+        (count > 1, f"in several regions of the {what}"),
     ):
         if wrong.any():
             cells_text = f"first: {first_five(np.flatnonzero(wrong))}"
             findings.problem(
-                (*path, "law"),
+                path,
                 f"{wrong.sum()} of {counted(len(count), 'cell')} {are(wrong.sum())} {words} "
                 f"({cells_text}); "
-                "each cell needs one law",
+                f"each cell needs one {what}",
             )
     return owner if bool((count == 1).all()) else None
 

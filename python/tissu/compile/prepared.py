@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from tissu.counted import counted
 from tissu.mesh.cell import dimension
+from tissu.scene.model import FEM, Model
 from tissu.scene.problem import Path, Problem
 
 if TYPE_CHECKING:
@@ -51,6 +52,7 @@ class Group:
         parameters: for each parameter, (1,) or (e,) values in SI.
         fibres: the same for the fibres added to the law; empty: none.
         made: what a law of one's own is made of; None: a law of the library.
+        model: what computes the cells' forces.
     """
 
     cell_type: str
@@ -60,6 +62,7 @@ class Group:
     parameters: dict[str, Floats]
     fibres: dict[str, Floats] = field(default_factory=dict)
     made: MadeLaw | None = None
+    model: Model = field(default_factory=FEM)
 
     @property
     def surface(self) -> bool:

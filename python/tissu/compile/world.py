@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from tissu.compile.check import check_of
+from tissu.compile.model import kept_nodes, use_of
 from tissu.compile.prepare import prepare
 from tissu.compile.prepared import Held, LoadedNodes, Prepared
 from tissu.compile.thin import cross_section_of
@@ -96,6 +97,7 @@ def _add_body(builder: WorldBuilder, prepared: Prepared, name: str) -> None:
             loaded=None if group.made is None else group.made.build().loaded,
             cross_section=np.array([cross_section_of(body, group.cell_type)]),
             plane=Plane.strain if body.plane == "strain" and group.surface else Plane.stress,
+            model=use_of(group.model, kept_nodes(prepared, name, group)),
         )
     if body.viscosity is not None:
         builder.add_rayleigh(

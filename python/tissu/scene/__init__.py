@@ -15,22 +15,29 @@ from tissu.scene.law import (
     Yeoh,
 )
 from tissu.scene.load import NodalLoad, Pressure, Traction
+from tissu.scene.model import FEM, Condensed, Corotational, MassLink, MassSpring, MassTensor
 from tissu.scene.scene import Output, Scene
 from tissu.scene.selection import Box, Nodes, Plane, Region, Sphere, SurfaceNodes
 from tissu.scene.step import Cholesky, ConjugateGradient, ImplicitEuler, Newton, Static
 from tissu.scene.support import Fixed, Prescribed, Rotation
 
 __all__ = [
+    "FEM",
     "ArrudaBoyce",
     "BarMesh",
     "Body",
     "Box",
     "Cholesky",
+    "Condensed",
     "ConjugateGradient",
+    "Corotational",
     "Fibres",
     "Fixed",
     "Hooke",
     "ImplicitEuler",
+    "MassLink",
+    "MassSpring",
+    "MassTensor",
     "MeshFile",
     "MooneyRivlin",
     "NeoHooke",

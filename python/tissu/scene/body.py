@@ -12,6 +12,7 @@ from pydantic import AfterValidator, Field, PlainValidator, ValidationInfo
 from tissu import units
 from tissu.scene.bar import BarMesh
 from tissu.scene.law import Law, LawOrMap, Rayleigh
+from tissu.scene.model import FEM, Model, ModelOrMap
 from tissu.scene.part import Part, chosen
 from tissu.scene.problem import Problem
 from tissu.scene.unknown import rule
@@ -70,6 +71,10 @@ class Body(Part):
     """a mesh file, a bar, or (in Python) a Mesh"""
     law: LawOrMap
     """the material's law, or a map from the mesh's regions to laws"""
+    model: ModelOrMap = FEM()
+    """what computes the cells' forces, by name: fem, corotational, mass-spring, mass-link,
+    mass-tensor, condensed; or a map from the mesh's regions to models
+    """
     density: Annotated[units.Density, Field(gt=0.0)] | None = None
     """density [kg/m^3]; this or `mass`"""
     mass: Annotated[units.Mass, Field(gt=0.0)] | None = None
@@ -94,6 +99,7 @@ class Body(Part):
             *,
             mesh: MeshFile | BarMesh | Mesh | str | os.PathLike[str],
             law: Law | Mapping[str, Law],
+            model: Model | str | Mapping[str, Model | str] = ...,
             density: units.Number | None = ...,
             mass: units.Number | None = ...,
             quadrature: Literal["reduced", "full", "over"] = ...,
@@ -122,3 +128,9 @@ class Body(Part):
         if not isinstance(self.law, dict):
             return {None: self.law}
         return {region: law for region, law in self.law.items()}
+
+    def models(self) -> dict[str | None, Model]:
+        """Models by region; the key None stands for the whole body."""
+        if not isinstance(self.model, dict):
+            return {None: self.model}
+        return {region: model for region, model in self.model.items()}

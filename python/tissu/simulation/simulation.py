@@ -32,8 +32,6 @@ class Simulation:
     Attributes:
         scene: what it was compiled from.
         meshes: body -> mesh at rest; follows the removal of cells.
-        positions: body -> (n, 3) view of the present positions [m]; no copy, writable.
-        velocities: body -> (n, 3) view of the velocities [m/s]; no copy, writable.
     """
 
     def __init__(
@@ -55,8 +53,8 @@ class Simulation:
         self._steps = 0
         self._simulated = 0.0
         ranges = {name: self._core.body_range(name) for name in meshes}
-        self.positions = MappingProxyType(_views(self._core.positions, ranges))
-        self.velocities = MappingProxyType(_views(self._core.velocities, ranges))
+        self._positions = MappingProxyType(_views(self._core.positions, ranges))
+        self._velocities = MappingProxyType(_views(self._core.velocities, ranges))
 
     def __repr__(self) -> str:
         """Name, time, steps, and the size of each body."""
@@ -76,6 +74,22 @@ class Simulation:
         return MappingProxyType(self._meshes)
 
     @property
+    def positions(self) -> Mapping[str, Floats]:
+        """Body -> (n, 3) view of the present positions [m]; no copy, writable.
+
+        A view that is kept follows every step, but for the eliminated nodes of condensed regions:
+        they are put in their places when this is asked for.
+        """
+        self._core.settle()
+        return self._positions
+
+    @property
+    def velocities(self) -> Mapping[str, Floats]:
+        """Body -> (n, 3) view of the velocities [m/s]; no copy, writable; see `positions`."""
+        self._core.settle()
+        return self._velocities
+
+    @property
     def bodies(self) -> tuple[str, ...]:
         """Names of the bodies."""
         return tuple(self._meshes)
@@ -88,6 +102,7 @@ class Simulation:
     @property
     def state(self) -> Mapping[str, Any]:
         """Time [s], and positions [m] and velocities [m/s] of all nodes as (n, 3) views."""
+        self._core.settle()
         return {
             "time": self.time,
             "positions": self._core.positions,
@@ -161,6 +176,7 @@ class Simulation:
             von_mises: of the Cauchy stress (e,) [Pa]; energy_density: per rest volume (e,) [J/m^3];
             volume_ratio: det F (e,).
         """
+        self._core.settle()
         fields = self._core.cell_fields(body)
         order = np.argsort(self._core.remaining_cells(body), kind="stable")
         return {name: values[order] for name, values in fields.items()}
@@ -171,6 +187,18 @@ class Simulation:
         Looked for only when asked: a step does not pay for it.
         """
         return np.flatnonzero(self.cell_fields(body)["volume_ratio"] <= 0.0).astype(np.int32)
+
+    def largest_frequency(self) -> float:
+        """The largest eigenfrequency omega of the free nodes at the present state [rad/s].
+
+        By Lanczos' method on M^-1/2 K M^-1/2. An explicit step without damping is stable below
+        2 / omega; 0 where nothing is stiff.
+        """
+        return float(self._core.largest_frequency())
+
+    def model_bytes(self) -> int:
+        """What the models of all bodies keep of their cells, places in the matrix included."""
+        return sum(int(block[4]) for block in self._world.elastic_blocks)
 
     def profile(self) -> Profile:
         """Times by stage; see `Profile`. `clear_profile` starts anew."""

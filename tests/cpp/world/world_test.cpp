@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <map>
 #include <numeric>
 
 #include "../world/sample_worlds.h"
@@ -58,6 +59,29 @@ TEST_F(WorldTest, HoldsMixedCells) {
   const World world(description_);
   EXPECT_EQ(world.body("body").models.size(), 2U);
   EXPECT_NEAR(world.mass().total(), 2.0 + 6.0 / 3.0, 1e-14);
+}
+
+/// Affine cells and others of one block are worked through apart; each keeps its number in the body.
+TEST_F(WorldTest, NumbersCellsThroughBlocksThatAreSplit) {
+  Mesh mesh = box_mesh(Vec3::Zero(), Vec3(4, 1, 1), {4, 1, 1}, Split::none);
+  for (std::int32_t i = 0; i < mesh.node_count(); ++i) {
+    if (mesh.node(i).x() == 2.0 && mesh.node(i).y() == 1.0)
+      mesh.positions[3 * static_cast<std::size_t>(i)] += 0.2;
+  }
+  BodyDescription body = test::body_of(mesh);
+  const ElasticBlock all = body.elastic[0];
+  body.elastic = {part_of(all, {0}), part_of(all, {1, 2, 3})};
+  body.elastic[1].density = {1.0, 2.0, 3.0};
+  description_.bodies = {body};
+  const World world(description_);
+  std::map<std::int32_t, double> density;  // by the number of the cell; the first block has none of its own
+  for (const BodyModel* model : world.body("body").models) {
+    for (std::size_t i = 0; i < model->block().cell_numbers.size(); ++i) {
+      density[model->block().cell_numbers[i]] = model->block().density[i];
+    }
+  }
+  EXPECT_EQ(density, (std::map<std::int32_t, double>{{1, 1.0}, {2, 2.0}, {3, 3.0}}));
+  EXPECT_EQ(world.body("body").models.size(), 3U);
 }
 
 TEST_F(WorldTest, StartsAtRest) {

@@ -3,6 +3,7 @@
 /// What a body is made of: a force model that owns a block of cells, their masses and their fields.
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "tissu/force/elastic_block.h"
@@ -32,6 +33,11 @@ class BodyModel : public ForceModel {
   /// Adds each node's share of a body force, sum_g w_g rho N_a [kg]: consistent, and negative at some corners
   /// of quadratic elements.
   virtual void add_weights(std::vector<double>& nodal) const = 0;
+  /// Nodes that are no unknowns: the model knows where they are from the others. None may belong to other
+  /// models, be held, or carry a load.
+  [[nodiscard]] virtual std::span<const std::int32_t> eliminated() const { return {}; }
+  /// Puts those nodes where they are.
+  virtual void settle(State& /*state*/) const {}
   [[nodiscard]] virtual CellFields fields(const State& state) const = 0;
   /// What it holds of its cells, node and matrix places included.
   [[nodiscard]] virtual std::size_t bytes() const = 0;

@@ -36,6 +36,9 @@ class Simulation {
   [[nodiscard]] const Integrator& integrator() const { return *integrator_; }
   [[nodiscard]] const LinearSolver& solver() const { return *solver_; }
 
+  /// Puts nodes that are no unknowns where they are now, for whoever looks at positions or velocities.
+  void settle();
+
   /// Goes on with another world of the same unknowns, made by an editor from this one.
   void replace_world(std::shared_ptr<const World> world);
 
@@ -50,6 +53,7 @@ class Simulation {
   Profile profile_;
   State state_;
   State last_good_;
+  bool settled_ = true;
 };
 
 }  // namespace tissu

@@ -65,6 +65,7 @@ class World {
   void add_viscosity(const BodyDescription& body, const Body& made);
   void add_external(const WorldDescription& description);
   void add_fixed(const WorldDescription& description);
+  void hold_eliminated(const WorldDescription& description);
 
   std::vector<Body> bodies_;
   std::vector<double> rest_positions_;

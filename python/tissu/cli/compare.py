@@ -1,0 +1,37 @@
+"""`tissu compare`: one scene with several models, as a table and a figure."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import typer
+
+from tissu.output import prepare_folder
+
+
+def compare_scene(file: Path, models: str, reference: str, out: Path) -> None:
+    """Runs the comparison and writes compare.csv, compare.md and compare.png.
+
+    Raises:
+        SceneError: the scene does not compile.
+        ParameterError: an unknown model, or a reference that does not fit.
+    """
+    from tissu.comparison import compare
+    from tissu.comparison.figure import draw
+    from tissu.output.folder import whole_file
+    from tissu.scene import Scene
+
+    asked = [name.strip() for name in models.split(",") if name.strip()]
+    scene = Scene.from_yaml(file)
+    against = (
+        Scene.from_yaml(reference) if Path(reference).suffix in (".yaml", ".yml") else reference
+    )
+    found = compare(scene, models=asked, reference=against)
+    folder = prepare_folder(out)
+    for name, text in (("compare.csv", found.to_csv()), ("compare.md", found.to_markdown())):
+        with whole_file(folder / name) as target:
+            target.write_text(text, encoding="utf-8")
+    with whole_file(folder / "compare.png") as target:
+        drawn = draw(found, target)
+    typer.echo(str(found))
+    typer.echo(f"written: {folder}/compare.csv, compare.md" + (", compare.png" if drawn else ""))

@@ -1,0 +1,118 @@
+"""Running the scene with each model."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from tissu.comparison.reference import errors, finest, with_model
+from tissu.comparison.table import Comparison, Row
+from tissu.comparison.trace import Trace, trace
+from tissu.errors import ParameterError, SceneError
+from tissu.scene.model import MODELS
+from tissu.scene.problem import nearest, one_of_words
+
+if TYPE_CHECKING:
+    from tissu.scene import Scene
+
+
+def model_names() -> list[str]:
+    """The names of the models."""
+    return [str(cls.model_fields["type"].default) for cls in MODELS]
+
+
+def compare(
+    scene: Scene, *, models: Sequence[object] = (), reference: Scene | str = "finest"
+) -> Comparison:
+    """Run the same scene with each of several models, and measure them.
+
+    A model that cannot carry the scene's cells or law is a row that says why. Where a model
+    computes another law than the scene's, the scene's own Young's modulus and Poisson's ratio go
+    on (`tissu check` says so).
+
+    Args:
+        scene: with a duration, or static.
+        models: their names, or models with their own fields; empty: all.
+        reference: what errors are measured against: "finest", which is fem with elements of second
+            order on the same cells; the name of a model; or another scene with the same step and
+            duration, whose bodies have nodes wherever this one's have.
+
+    Raises:
+        ParameterError: an unknown model, or a reference that does not fit.
+        SceneError: the scene itself does not compile.
+    """
+    asked = list(models) or model_names()
+    for model in [*asked, *([reference] if isinstance(reference, str) else [])]:
+        _check_name(model, also=("finest",) if model is reference else ())
+    traces: dict[str, Trace | SceneError] = {}
+    for model in asked:
+        traces[_word(model)] = _tried(scene, model)
+    richest, words = _reference(scene, reference, traces)
+    rows = [_row(word, found, richest) for word, found in traces.items()]
+    cells = sum(mesh.cell_count for mesh in scene.compile().meshes.values())
+    return Comparison(scene.name, cells, words, tuple(rows))
+
+
+def _check_name(model: object, *, also: Sequence[str] = ()) -> None:
+    names = [*model_names(), *also]
+    if isinstance(model, str) and model not in names:
+        raise ParameterError(
+            f"unknown model '{model}'{nearest(model, names)} Accepted: {one_of_words(names)}"
+        )
+
+
+def _word(model: object) -> str:
+    """What a row is called."""
+    if isinstance(model, str):
+        return model
+    given = [
+        f"{n} {getattr(model, n)}" for n in getattr(model, "model_fields_set", ()) if n != "type"
+    ]
+    return str(getattr(model, "type", model)) + (f" ({', '.join(sorted(given))})" if given else "")
+
+
+def _tried(scene: Scene, model: object) -> Trace | SceneError:
+    try:
+        return trace(with_model(scene, model))
+    except SceneError as error:
+        if all(".model" in problem for problem in error.problems):
+            return error
+        raise
+
+
+def _reference(
+    scene: Scene, reference: Scene | str, traces: dict[str, Trace | SceneError]
+) -> tuple[Trace, str]:
+    if reference == "finest":
+        found, words = finest(scene, dict(scene.compile().meshes))
+    elif isinstance(reference, str):
+        known = traces.get(reference)
+        found = known if isinstance(known, Trace) else trace(with_model(scene, reference))
+        words = f"{reference} on the same mesh"
+    else:
+        found, words = trace(reference), f"the scene {reference.name}"
+    if found.stopped:
+        raise ParameterError(f"the reference stopped before its end: {found.stopped}")
+    return found, words
+
+
+def _row(word: str, found: Trace | SceneError, reference: Trace) -> Row:
+    if isinstance(found, SceneError):
+        return Row(word, "refused", why="; ".join(found.problems))
+    known = found.times.size > 0
+    mean, largest, size = errors(found, reference) if known else (None, None, 0.0)
+    return Row(
+        model=word,
+        outcome="stopped" if found.stopped else "finished",
+        mean_error=mean,
+        largest_error=largest,
+        mean_percent=100.0 * mean / size if mean is not None and size > 0.0 else None,
+        ms_per_step=found.ms_per_step if found.steps else None,
+        iterations_per_step=found.iterations_per_step,
+        unconverged=found.unconverged,
+        bytes_per_cell=found.model_bytes / max(1, found.cells),
+        megabytes=(found.model_bytes + found.matrix_bytes) / 1e6,
+        stable_step=2.0 / found.frequency if found.frequency > 0.0 else None,
+        inverted=found.inverted,
+        why=found.stopped,
+    )

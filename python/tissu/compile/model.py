@@ -1,0 +1,112 @@
+"""Which law a model runs with, and the cells and laws that it cannot carry."""
+
+from __future__ import annotations
+
+from functools import cache
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from tissu import _core
+from tissu.counted import counted
+from tissu.scene.model import Condensed
+from tissu.scene.problem import Problem, one_of_words
+
+if TYPE_CHECKING:
+    from tissu.compile.prepared import Findings, Group, Ints, Prepared
+    from tissu.scene.law import Law
+    from tissu.scene.model import Model
+    from tissu.scene.problem import Path
+
+# The law that stands in for one that a model does not take: the same Young's modulus and Poisson's
+# ratio, so that both agree at small strain.
+_STANDS_IN = {
+    "hooke": ("stvk",),
+    "stvk": ("hooke",),
+    "neo_hooke": ("stvk", "hooke"),
+    "stable_neo_hooke": ("neo_hooke", "stvk", "hooke"),
+}
+
+
+class ModelInfo(NamedTuple):
+    """What a model says of itself; empty laws or elements: any."""
+
+    form: str
+    laws: list[str]
+    elements: list[str]
+    abilities: dict[str, tuple[str, str]]
+
+
+@cache
+def models() -> dict[str, ModelInfo]:
+    """What each model of the core says of itself, by its name."""
+    return {row[0]: ModelInfo(*row[1:]) for row in _core.models()}
+
+
+def law_of_model(model: Model, law: Law) -> str:
+    """Name of the law that the model computes for a law of a scene; the law's own where it can."""
+    taken = models()[model.type].laws
+    if not taken or law.type in taken:
+        return law.type
+    return next((name for name in _STANDS_IN.get(law.type, ()) if name in taken), law.type)
+
+
+def use_of(model: Model, kept: Ints) -> Any:
+    """The core's words for a model; `kept` are the nodes that a condensed region keeps."""
+    return _core.ModelUse(
+        name=model.type,
+        rotation=getattr(model, "rotation", "polar"),
+        tangent=getattr(model, "tangent", "approximate"),
+        equal_masses=getattr(model, "masses", "volume") == "equal",
+        kept=kept,
+    )
+
+
+def kept_nodes(prepared: Prepared, name: str, group: Group) -> Ints:
+    """Nodes of a condensed region that stay unknowns; none for other models."""
+    if not isinstance(group.model, Condensed):
+        return np.empty(0, dtype=np.int32)
+    body = prepared.bodies[name]
+    shared = [other.nodes.ravel() for other in body.groups if other is not group]
+    held = [held.nodes for held in prepared.held if held.support.body == name]
+    loaded = [loaded.nodes for loaded in prepared.loaded if loaded.load.body == name]
+    faces = [
+        block.nodes.ravel()
+        for loaded in prepared.loaded
+        if loaded.load.body == name
+        for block in loaded.faces
+    ]
+    surface = [body.mesh.surface().nodes] if group.model.keep == "surface" else []
+    every = np.concatenate([*shared, *held, *loaded, *faces, *surface, np.empty(0, dtype=np.int32)])
+    return np.intersect1d(every, group.nodes).astype(np.int32)
+
+
+def check_model(
+    model: Model, law: Law, cell_type: str, count: int, path: Path, findings: Findings
+) -> None:
+    """Report cells and laws that a model cannot carry; note a law that stands in for another."""
+    info = models()[model.type]
+    place = (*path, "model")
+    if info.elements and cell_type not in info.elements:
+        text = f"found {model.type} for {counted(count, f'{cell_type} cell')}; it takes "
+        _tell_once(place, f"{text}{one_of_words(info.elements)}: or take the model fem", findings)
+    if not info.laws:
+        return
+    if law.fibres is not None:
+        _tell_once(place, f"found {model.type} for a law with fibres; only fem has them", findings)
+    used = law_of_model(model, law)
+    if used not in info.laws:
+        taken = one_of_words(info.laws)
+        text = f"found {model.type} for the law {law.type}; it takes {taken}, and laws with young "
+        _tell_once(place, f"{text}and poisson in their place; or take the model fem", findings)
+    elif used != law.type:
+        text = f"{path[0]}.{path[1]}: the model {model.type} computes {used} in place of {law.type}"
+        note = f"{text}, with the same young and poisson: equal at small strain only"
+        if note not in findings.notes:
+            findings.note(note)
+
+
+def _tell_once(place: Path, text: str, findings: Findings) -> None:
+    problem = Problem(place, text)
+    if problem not in findings.problems:
+        findings.problems.append(problem)

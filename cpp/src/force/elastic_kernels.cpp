@@ -14,6 +14,7 @@ struct Lists {
   LawTables laws;
   LawTables viscous;
   PronyTables prony;
+  const SpringKernels* springs;
 };
 
 Lists lists(Isa isa) {
@@ -24,7 +25,8 @@ Lists lists(Isa isa) {
             shape_kernels(),
             law_kernels(),
             viscous_laws(),
-            prony_kernels()};
+            prony_kernels(),
+            spring_kernels()};
   }
   if (isa == Isa::avx2) {
     using namespace avx2;
@@ -32,7 +34,8 @@ Lists lists(Isa isa) {
             shape_kernels(),
             law_kernels(),
             viscous_laws(),
-            prony_kernels()};
+            prony_kernels(),
+            spring_kernels()};
   }
 #endif
   (void)isa;
@@ -41,7 +44,8 @@ Lists lists(Isa isa) {
           shape_kernels(),
           law_kernels(),
           viscous_laws(),
-          prony_kernels()};
+          prony_kernels(),
+          spring_kernels()};
 }
 
 }  // namespace
@@ -63,6 +67,8 @@ const ElasticKernels* find_shape_kernels(Isa isa, int nodes, int dimension) {
   }
   return nullptr;
 }
+
+const SpringKernels* find_spring_kernels(Isa isa) { return lists(isa).springs; }
 
 const PronyKernels* find_prony_kernels(Isa isa, int nodes) {
   const PronyTables list = lists(isa).prony;

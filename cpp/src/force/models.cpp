@@ -8,6 +8,7 @@
 #include "tissu/base/error.h"
 #include "tissu/force/condensed.h"
 #include "tissu/force/elastic.h"
+#include "tissu/force/mass_spring.h"
 
 namespace tissu {
 namespace {
@@ -29,7 +30,7 @@ Entry entry() {
 
 /// A model is added here, and in tests/cpp/force/models_test.cpp.
 const std::vector<Entry>& entries() {
-  static const std::vector<Entry> all = {entry<Elastic>(), entry<Condensed>()};
+  static const std::vector<Entry> all = {entry<Elastic>(), entry<Condensed>(), entry<MassSpring>()};
   return all;
 }
 

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <numeric>
 
+#include "tissu/base/error.h"
 #include "tissu/force/centroid_damping.h"
 #include "tissu/force/kelvin_voigt.h"
+#include "tissu/force/spring_dampers.h"
 #include "tissu/world/world.h"
 
 namespace tissu {
@@ -20,15 +22,30 @@ ElasticBlock numbered(const BodyModel& model, std::int32_t first) {
   return block;
 }
 
+/// A node that is no unknown has no speed of its own.
+void refuse_eliminated(const Body& body) {
+  if (std::ranges::all_of(body.models, [](const BodyModel* model) { return model->eliminated().empty(); }))
+    return;
+  throw ParameterError("body \"" + body.name +
+                       "\" has a viscosity of its cells and a condensed region, whose inner nodes have no "
+                       "speed; take Rayleigh's, or another model.");
+}
+
 }  // namespace
 
 void World::add_viscosity(const BodyDescription& body, const Body& made) {
   const Viscosity& viscosity = body.viscosity;
   check_viscosity(body.name, viscosity);
+  if (viscosity.any()) refuse_eliminated(made);
   if (viscosity.shear > 0.0 || viscosity.bulk > 0.0) {
+    const Lame coefficients{viscosity.bulk, viscosity.shear};
     for (const BodyModel* model : made.models) {
-      forces_.push_back(std::make_unique<KelvinVoigt>(model->block(), Lame{viscosity.bulk, viscosity.shear},
-                                                      rest_positions_, isa_, threads_));
+      if (const auto* springs = dynamic_cast<const MassSpring*>(model)) {
+        forces_.push_back(std::make_unique<SpringDampers>(*springs, coefficients));
+      } else {
+        forces_.push_back(
+            std::make_unique<KelvinVoigt>(model->block(), coefficients, rest_positions_, isa_, threads_));
+      }
     }
   }
   if (viscosity.centroid > 0.0) {

@@ -14,6 +14,7 @@ from tissu.compile.prepared import Held, Ints, LoadedNodes, Prepared, PreparedBo
 from tissu.compile.quadrature import check_quadrature
 from tissu.compile.select import selected_faces, selected_nodes
 from tissu.compile.thin import note_bending, note_held_plane
+from tissu.compile.viscosity import check_viscosity
 from tissu.counted import counted
 from tissu.errors import ParameterError
 from tissu.scene.part import problems_in
@@ -60,7 +61,7 @@ def _prepare_body(prepared: Prepared, name: str) -> None:
             return
         prepared.meshes[name] = known
         _hold_plane(prepared, name, known.mesh)
-        for check in (note_bending, note_held_plane, check_quadrature):
+        for check in (note_bending, note_held_plane, check_quadrature, check_viscosity):
             with contextlib.suppress(Unknown):  # each says what it can
                 check(known.mesh, body, prepared.scene, path, findings)
         groups = cell_groups(known.mesh, body, path, findings)

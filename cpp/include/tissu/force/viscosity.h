@@ -23,6 +23,7 @@ struct Viscosity {
   std::vector<PronyBranch> prony = {};
 
   static constexpr std::size_t kMostBranches = 16;
+  [[nodiscard]] bool any() const { return shear > 0.0 || bulk > 0.0 || centroid > 0.0 || !prony.empty(); }
 };
 
 /// Refuses coefficients that are negative or not finite, branches without a time, and more than there may be.

@@ -7,6 +7,7 @@
 #include "tissu/force/elastic_kernels.h"
 #include "tissu/force/law_kernels.h"
 #include "tissu/force/prony_kernels.h"
+#include "tissu/force/spring_kernels.h"
 
 namespace tissu {
 
@@ -23,14 +24,15 @@ struct PronyTables {
   std::size_t count;
 };
 
-#define TISSU_KERNEL_LISTS(isa)    \
-  namespace isa {                  \
-  KernelList tetra_kernels();      \
-  KernelList hexahedron_kernels(); \
-  KernelList shape_kernels();      \
-  LawTables law_kernels();         \
-  LawTables viscous_laws();        \
-  PronyTables prony_kernels();     \
+#define TISSU_KERNEL_LISTS(isa)          \
+  namespace isa {                        \
+  KernelList tetra_kernels();            \
+  KernelList hexahedron_kernels();       \
+  KernelList shape_kernels();            \
+  LawTables law_kernels();               \
+  LawTables viscous_laws();              \
+  PronyTables prony_kernels();           \
+  const SpringKernels* spring_kernels(); \
   }
 TISSU_KERNEL_LISTS(baseline)
 TISSU_KERNEL_LISTS(avx2)

@@ -1,5 +1,7 @@
 #include "tissu/force/mass_spring.h"
 
+#include <gtest/gtest.h>
+
 #include <cmath>
 #include <numbers>
 #include <numeric>

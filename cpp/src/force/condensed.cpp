@@ -123,40 +123,31 @@ void Condensed::condense() {
   S_ = (0.5 * (S_ + S_.transpose())).eval();  // equal to round-off: every user may rely on it
 }
 
-/// What kept nodes feel of forces m_i e_axis on the inner ones, -K_ki K_ii^-1 m_i e_axis.
+/// Inertia in proportion to the kept nodes' own, so that none is negative; gravity as it is felt through the
+/// region, weight_k - K_ki K_ii^-1 weight_i, less what it does to the masses that the kept nodes have.
 void Condensed::share_masses() {
   std::vector<double> own(rest_.size() / 3, 0.0);
+  std::vector<double> pulled(rest_.size() / 3, 0.0);
   elastic_.add_masses(own);
-  masses_.resize(kept_.size());
-  for (std::size_t k = 0; k < kept_.size(); ++k) masses_[k] = own[static_cast<std::size_t>(kept_[k])];
+  elastic_.add_weights(pulled);
+  double total = 0.0;
+  double kept = 0.0;
+  for (const double m : own) total += m;
+  for (const std::int32_t k : kept_) kept += own[static_cast<std::size_t>(k)];
+  for (const std::int32_t k : kept_) masses_.push_back(own[static_cast<std::size_t>(k)] * total / kept);
+
   const Vec3 g = elastic_.block().model.gravity;
-  pull_ = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(3 * kept_.size()));
   weight_.assign(rest_.size(), 0.0);
-  std::vector<double> b(rest_.size());
+  for (const std::int32_t i : inner_)
+    tissu::block(Reals(weight_), i) = pulled[static_cast<std::size_t>(i)] * g;
+  std::vector<double> b = weight_;
   std::vector<double> x(rest_.size());
-  std::vector<double> share(kept_.size(), 0.0);
-  for (int axis = 0; axis < 3; ++axis) {
-    std::ranges::fill(b, 0.0);
-    for (const std::int32_t i : inner_) {
-      tissu::block(Reals(b), i)[axis] = own[static_cast<std::size_t>(i)];
-      tissu::block(Reals(weight_), i)[axis] = own[static_cast<std::size_t>(i)] * g[axis];
-    }
-    solve_inner(b, x);
-    K_->multiply(x, b);
-    for (std::size_t k = 0; k < kept_.size(); ++k) {
-      const Vec3 felt = -tissu::block(ConstReals(b), kept_[k]);
-      pull_.segment<3>(static_cast<Eigen::Index>(3 * k)) += g[axis] * felt;
-      share[k] += felt[axis] / 3.0;
-    }
-  }
+  solve_inner(b, x);
+  K_->multiply(x, b);
+  pull_.resize(static_cast<Eigen::Index>(3 * kept_.size()));
   for (std::size_t k = 0; k < kept_.size(); ++k) {
-    masses_[k] += share[k];
-    pull_.segment<3>(static_cast<Eigen::Index>(3 * k)) -=
-        share[k] * g;  // gravity pulls at the masses already
-    if (masses_[k] > 0.0) continue;
-    throw ParameterError("body \"" + elastic_.block().body + "\": the model condensed would give node " +
-                         std::to_string(kept_[k]) +
-                         " no positive mass; keep the whole surface of the region.");
+    const double less = pulled[static_cast<std::size_t>(kept_[k])] - masses_[k];
+    pull_.segment<3>(static_cast<Eigen::Index>(3 * k)) = less * g - tissu::block(ConstReals(b), kept_[k]);
   }
 }
 

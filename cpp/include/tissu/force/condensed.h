@@ -39,8 +39,7 @@ class Condensed final : public BodyModel {
   [[nodiscard]] std::int32_t cell_count() const override { return elastic_.cell_count(); }
   [[nodiscard]] int nodes_per_cell() const override { return elastic_.nodes_per_cell(); }
   [[nodiscard]] const std::vector<double>& volumes() const override { return elastic_.volumes(); }
-  /// Of kept nodes: their own, and their share of the inner nodes', by the displacements that a rigid
-  /// translation of the kept nodes causes.
+  /// Those of the inner nodes go to the kept ones, in proportion to their own: slow motion only.
   void add_masses(std::vector<double>& nodal) const override;
   void add_weights(std::vector<double>& nodal) const override { add_masses(nodal); }
   [[nodiscard]] CellFields fields(const State& state) const override { return elastic_.fields(state); }

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "tissu/base/error.h"
+#include "tissu/force/corotational.h"
 #include "tissu/force/elastic.h"
 
 namespace tissu {
@@ -28,7 +29,7 @@ Entry entry() {
 
 /// A model is added here, and in tests/cpp/force/models_test.cpp.
 const std::vector<Entry>& entries() {
-  static const std::vector<Entry> all = {entry<Elastic>()};
+  static const std::vector<Entry> all = {entry<Elastic>(), entry<Corotational>()};
   return all;
 }
 

@@ -7,6 +7,7 @@
 
 #include "tissu/base/error.h"
 #include "tissu/force/condensed.h"
+#include "tissu/force/corotational.h"
 #include "tissu/force/elastic.h"
 
 namespace tissu {
@@ -29,7 +30,7 @@ Entry entry() {
 
 /// A model is added here, and in tests/cpp/force/models_test.cpp.
 const std::vector<Entry>& entries() {
-  static const std::vector<Entry> all = {entry<Elastic>(), entry<Condensed>()};
+  static const std::vector<Entry> all = {entry<Elastic>(), entry<Corotational>(), entry<Condensed>()};
   return all;
 }
 

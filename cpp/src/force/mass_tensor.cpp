@@ -36,16 +36,16 @@ void point_fields(const Law& law, const Mat3& F, double& energy, double& von_mis
 
 ModelInfo MassTensor::info() {
   using enum Ability::Can;
-  return {
-      .name = "mass-tensor",
-      .form = "the energy as a polynomial in displacements, constants on nodes, edges, faces and cells",
-      .laws = {"hooke", "stvk"},
-      .elements = {"tetra"},
-      .poisson = {yes, "of the law"},
-      .rotation = {partly, "stvk: exact, but round-off grows with the cube of the displacement; hooke: no"},
-      .strain = {partly, "stvk: to a compression of 0.577; hooke: no"},
-      .inversion = {no, "a cell inside out is at rest too"},
-      .topology = {yes, "constants change where cells go, and nowhere else"}};
+  return {.name = "mass-tensor",
+          .form = "the energy as a polynomial in displacements, constants on nodes, edges, faces and cells",
+          .laws = {"hooke", "stvk"},
+          .elements = {"tetra"},
+          .poisson = {yes, "of the law"},
+          .rotation = {partly,
+                       "stvk: exact, but round-off grows with the cube of what it moves nodes by; hooke: no"},
+          .strain = {partly, "stvk: to a compression of 0.577; hooke: no"},
+          .inversion = {no, "a cell inside out is at rest too"},
+          .topology = {yes, "constants change where cells go, and nowhere else"}};
 }
 
 MassTensor::MassTensor(ElasticBlock block, ConstReals rest_positions, Isa isa, Threads threads)
@@ -123,7 +123,8 @@ MassTensorView MassTensor::view(const Part& part) const {
   return {.places = part.table.order.places.data(),
           .slots = part.table.slots.data(),
           .constants = part.table.constants.data(),
-          .rest = X_.data()};
+          .rest = X_.data(),
+          .origin = block_.cells.front()};
 }
 
 /// Calls f(kernels, view, chunk) for every chunk of every part.

@@ -6,7 +6,8 @@
 /// edges and faces, as Picinbono counts them, and 6 of its own; in a mesh it shares them with its neighbours.
 ///
 /// The sums cancel where displacements are large against strains, so round-off grows with the cube of the
-/// displacement over the size of a cell. A removed cell changes the constants of its own parts only.
+/// displacement over the size of a cell; displacements are counted from that of one node, so that a
+/// translation costs no digits, but a turn does. A removed cell changes the constants of its own parts only.
 
 #include <vector>
 

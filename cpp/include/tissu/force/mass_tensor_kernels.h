@@ -18,6 +18,7 @@ struct MassTensorView {
   const std::int32_t* slots;    ///< [group][a][b][8], blocks of the matrix
   const double* constants;      ///< [group][reals][8]
   const double* rest;           ///< positions at rest [m], of the whole world
+  std::int32_t origin;          ///< node from whose displacement the others are counted
 };
 
 /// All functions add to what they write. x, f, p are arrays of 3-vectors of the whole world.

@@ -186,13 +186,16 @@ struct MassTensor : Pattern {
       for (int lane = 0; lane < kLanes; lane += kWidth) f(Lanes(view, group, lane), group, lane);
     }
   }
-  /// u = x - X
+  /// u = x - X, less that of one node of the body: the energy does not see a translation, its terms do.
   static void load_displacements(const MassTensorView& view, const Chunk& chunk, const double* x,
                                  PackedNodes& u) {
+    double shift[3];
+    for (int k = 0; k < 3; ++k) shift[k] = at(x, view.origin, 3)[k] - at(view.rest, view.origin, 3)[k];
     u.load(chunk, x);
     for (std::int32_t i = 0; i < chunk.node_count; ++i) {
       const double* X = at(view.rest, chunk.nodes[i], 3);
-      for (int k = 0; k < 3; ++k) u.values[4 * static_cast<std::ptrdiff_t>(i) + k] -= X[k];
+      double* to = u.values + 4 * static_cast<std::ptrdiff_t>(i);
+      for (int k = 0; k < 3; ++k) to[k] = (to[k] - X[k]) - shift[k];
     }
   }
 

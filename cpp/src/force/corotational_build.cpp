@@ -91,9 +91,9 @@ ModelInfo Corotational::info() {
           .laws = {"hooke"},
           .elements = {"tetra", "hexahedron", "wedge", "pyramid"},
           .poisson = {yes, "of the law"},
-          .rotation = {partly, "of cells; not with small"},
-          .strain = {no, "linear: strains of a cell beside 1"},
-          .inversion = {yes, "with polar; the approximate tangent stays positive"},
+          .rotation = {yes, "any, but with small"},
+          .strain = {partly, "linear in the cell's axes"},
+          .inversion = {yes, "with the approximate tangent"},
           .topology = {yes, "cell by cell"}};
 }
 
@@ -114,9 +114,9 @@ Corotational::Corotational(ElasticBlock block, ConstReals rest_positions, Isa is
 
 void Corotational::choose_kernels(Isa isa, bool one_jacobian) {
   const bool exact = block_.model.tangent == "exact" && rotation_ != Rotation::small;
-  const bool same_force = block_.element == "tetra" && rotation_ == Rotation::polar;
   tangents_ = find_corotational_kernels(isa, block_.element, one_jacobian, exact);
-  forces_ = find_corotational_kernels(isa, block_.element, one_jacobian, exact && !same_force);
+  forces_ = find_corotational_kernels(isa, block_.element, one_jacobian,
+                                      exact || rotation_ == Rotation::polar);
   if (forces_ != nullptr && tangents_ != nullptr) return;
   throw ParameterError("body \"" + block_.body + "\" asks for the model corotational with the element " +
                        block_.element + "; this model takes tetra, hexahedron, wedge and pyramid.");

@@ -16,7 +16,10 @@ void over(const double* F, double* R, std::size_t count, Function&& f) {
 }
 
 void polar(const double* F, double* R, std::size_t count) {
-  over(F, R, count, [](const Matrix& A) { return polar_rotation(A); });
+  over(F, R, count, [](const Matrix& A) {
+    Batch trace;
+    return polar_rotation(A, trace);
+  });
 }
 void by_eigenvector(const double* F, double* R, std::size_t count) {
   over(F, R, count, [](const Matrix& A) {

@@ -17,7 +17,8 @@ struct TurningHooke : Hooke<T> {
 
 [[gnu::noinline]] inline void find_rotation(Rotation kind, const Matrix& F, Matrix& R) {
   if (kind == Rotation::polar) {
-    R = polar_rotation(F);
+    Batch trace;
+    R = polar_rotation(F, trace);
   } else if (kind == Rotation::frame) {
     R = frame_rotation(F);
   } else {

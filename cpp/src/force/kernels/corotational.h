@@ -1,13 +1,13 @@
 #pragma once
 
 /// Corotational linear elasticity: Hooke's law in the axes of each cell,
-///   W = sum_g w_g (lambda / 2 tr(e_g)^2 + mu e_g : e_g),  e_g = sym(R^T F_g) - I,  one R for a cell,
-///   f_a = -R sum_g w_g sigma_g grad_a = -R sum_b K_ab (R^T x_b - X_b),  df/dx = -R K R^T.
+///   W = sum_g w_g (lambda / 2 tr(e_g)^2 + mu e_g : e_g) [J],  e_g = sym(R^T F_g) - I,  one R for a cell,
+///   f_a = -R sum_g w_g sigma_g grad_a = -R sum_b K_ab (R^T x_b - X_b) [N],  df/dx = -R K R^T.
 /// That leaves out that R follows x. With kExact it does not: the moment t = dW/dw of the stresses about the
 /// cell adds -t . dw/dx to the force, and the tangent is the derivative of all (spin.h). For tetrahedra with
-/// `polar` t vanishes; for the others it is of second order in what differs from a uniform strain.
-/// Source: Felippa, A systematic approach to the element-independent corotational dynamics of finite elements,
-/// 2000; derived here for one rotation at the centre.
+/// `polar` t vanishes; for other cells it is of second order in the part of the strain that is not uniform.
+/// Sources: the force, Mueller and Gross, Interactive virtual materials, Graphics Interface 2004; the terms of t
+/// and their derivative are worked out here.
 
 #include "corotated_cell.h"
 #include "spin.h"
@@ -59,7 +59,37 @@ struct Corotational : CorotatedCell<Element, Rule, LawOf> {
     }
   }
 
+  /// A cell of one point with `polar`: P = 2 mu (F - R) + lambda (tr(R^T F) - 3) R, whatever kExact.
+  static void polar_force(const CorotationalView& view, const Chunk& chunk, const double* x, double* f) {
+    PackedNodes positions;
+    PackedNodes sums;
+    positions.load(chunk, x);
+    sums.clear(chunk);
+    for_batches(chunk, [&](std::int32_t group, int lane) {
+      const typename Base::Lanes lanes(view.cells, group, lane);
+      const Inverse Jinv = lanes.inverse_jacobian(0);
+      Nodal u;
+      lanes.gather_all(positions, u);
+      const Matrix F = Base::gradient(0, u, Jinv);
+      Batch trace;
+      Matrix P = polar_rotation(F, trace);
+      const Batch w = -lanes.weight(0);
+      const Batch two_mu = w * Batch(2.0) * lanes.law.mu;
+      const Batch of_R = w * lanes.law.lambda * (trace - Batch(3.0)) - two_mu;
+      TISSU_UNROLL
+      for (int k = 0; k < 9; ++k) P.m[k / 3][k % 3] = two_mu * F.m[k / 3][k % 3] + of_R * P.m[k / 3][k % 3];
+      Base::clear(u);
+      Base::spread(0, P, Jinv, u);
+      Base::close(u);
+      lanes.scatter_all(sums, u);
+    });
+    sums.add_to(chunk, f);
+  }
+
   static void force(const CorotationalView& view, const Chunk& chunk, const double* x, double* f) {
+    if constexpr (Rule::kPoints == 1) {
+      if (view.rotation == Rotation::polar) return polar_force(view, chunk, x, f);
+    }
     PackedNodes positions;
     PackedNodes sums;
     positions.load(chunk, x);

@@ -4,6 +4,6 @@
 
 namespace tissu::TISSU_KERNELS {
 
-CorotationalList corotational_hexahedron() { return {CorotationalTables<Hexahedron8>::all, 4}; }
+CorotationalList corotational_hexahedron() { return {CorotationalTables<Hexahedron8>::all, CorotationalTables<Hexahedron8>::kCount}; }
 
 }  // namespace tissu::TISSU_KERNELS

@@ -182,15 +182,17 @@ struct CorotationalStiffness : Corotational<Element, Rule, LawOf, kExact> {
   }
 };
 
-/// The tables of an element: cells of one J and others, approximate and exact.
+/// The tables of an element: cells of one J, and others. The others are those of elements that need not be
+/// affine, and of all with `small`, which has nothing beyond the approximate tangent.
 template <class Element>
 struct CorotationalTables {
   using Full = typename Element::Full;
+  static constexpr int kCount = Element::kAffine ? 3 : 4;
   static constexpr CorotationalKernels all[] = {
       CorotationalStiffness<Element, Full, TurningHooke, false>::table(),
       CorotationalStiffness<Element, Full, TurningHooke, true>::table(),
       CorotationalStiffness<Element, Full, Hooke, false>::table(),
-      CorotationalStiffness<Element, Full, Hooke, true>::table(),
+      CorotationalStiffness<Element, Full, Hooke, !Element::kAffine>::table(),
   };
 };
 

@@ -4,6 +4,6 @@
 
 namespace tissu::TISSU_KERNELS {
 
-CorotationalList corotational_tetra() { return {CorotationalTables<Tetra4>::all, 4}; }
+CorotationalList corotational_tetra() { return {CorotationalTables<Tetra4>::all, CorotationalTables<Tetra4>::kCount}; }
 
 }  // namespace tissu::TISSU_KERNELS

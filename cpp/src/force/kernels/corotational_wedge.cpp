@@ -4,6 +4,6 @@
 
 namespace tissu::TISSU_KERNELS {
 
-CorotationalList corotational_wedge() { return {CorotationalTables<Wedge6>::all, 4}; }
+CorotationalList corotational_wedge() { return {CorotationalTables<Wedge6>::all, CorotationalTables<Wedge6>::kCount}; }
 
 }  // namespace tissu::TISSU_KERNELS

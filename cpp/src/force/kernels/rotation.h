@@ -10,9 +10,8 @@
 ///   p(x) = (x^2 - |F|^2)^2 - 8 x det F - 4 |cof F|^2,
 /// and R follows without an eigenvector (Markley, FOAM, J. Astronaut. Sci. 41(2), 1993):
 ///   R = ((k + |F|^2) F + lambda cof F - F F^T F) / z,  k = (lambda^2 - |F|^2) / 2,  z = k lambda - det F,
-/// z = (s1 + s2)(s2 + s3)(s3 + s1). What lambda lacks turns R into R G with G symmetric, so that one step of
-/// Newton and Schulz, R (3 I - R^T R) / 2, gives the same R. Where z is too small for that the nearest
-/// rotation is about to jump or is not unique; such lanes take the eigenvector of D by Jacobi's rotations.
+/// z = (s1 + s2)(s2 + s3)(s3 + s1). Where z is small the nearest rotation is about to jump or is not unique;
+/// such lanes take the eigenvector of D by Jacobi's rotations.
 ///
 /// frame: the first column of F, the second made orthogonal to it, and their cross product.
 
@@ -164,77 +163,71 @@ struct Davenport {
   R = davenport.largest();
 }
 
-/// The largest root of p, from sqrt(3) |F| downwards. Three steps bring stretches of 1/2 to 2 to round-off.
-TISSU_INLINE Batch largest_root(Batch norm2, Batch det, Batch cofactor2) {
-  const Batch two(2.0);
-  const Batch four(4.0);
-  const Batch eight_det = Batch(8.0) * det;
-  const Batch four_c = four * cofactor2;
-  Batch x = sqrt(Batch(3.0) * norm2);
-  TISSU_UNROLL
-  for (int i = 0; i < 3; ++i) {
-    const Batch x2 = x * x;
-    const Batch d = x2 - norm2;
-    const Batch p = d * d - (x * eight_det + four_c);
-    const Batch dp = four * x * d - eight_det;
-    const Batch half_d2p = two * d + four * x2;  // (12 x^2 - 4 |F|^2) / 2
-    x = x - p * dp / (dp * dp - p * half_d2p);
-  }
-  return x;
-}
+/// The largest root of p, from sqrt(3) |F| downwards, and the last of three steps, whose cube is the error.
+struct LargestRoot {
+  Batch x;
+  Batch last;
 
-/// (3 I - R^T R) / 2, and the largest entry of R^T R - I.
-TISSU_INLINE Matrix schulz(const Matrix& R, Batch& off) {
-  Matrix E;
-  off = Batch(0.0);
-  TISSU_UNROLL
-  for (int i = 0; i < 3; ++i) {
+  TISSU_INLINE LargestRoot(Batch start, Batch norm2, Batch det, Batch cofactor2) : x(start) {
+    const Batch two(2.0);
+    const Batch four(4.0);
+    const Batch eight_det = Batch(8.0) * det;
+    const Batch four_c = four * cofactor2;
     TISSU_UNROLL
-    for (int j = i; j < 3; ++j) {
-      Batch sum = R(0, i) * R(0, j) + R(1, i) * R(1, j) + R(2, i) * R(2, j);
-      if (i == j) sum = sum - Batch(1.0);
-      off = larger(magnitude(sum), off);
-      E(i, j) = E(j, i) = Batch(i == j ? 1.0 : 0.0) - Batch(0.5) * sum;
+    for (int i = 0; i < 3; ++i) {
+      const Batch x2 = x * x;
+      const Batch d = x2 - norm2;
+      const Batch p = d * d - (x * eight_det + four_c);
+      const Batch dp = four * x * d - eight_det;
+      const Batch half_d2p = two * d + four * x2;  // (12 x^2 - 4 |F|^2) / 2
+      last = p * dp / (dp * dp - p * half_d2p);
+      x = x - last;
     }
   }
-  return E;
-}
+};
 
-/// The rotation nearest to F.
-TISSU_INLINE Matrix polar_rotation(const Matrix& F) {
-  constexpr double kSmall = 1e-3;  ///< of z / |F|^3, 1.54 at rest: R is good to 1e-16 / kSmall and a little
-  constexpr double kOff = 1e-7;    ///< from a rotation: its square is what Schulz' step leaves
+/// The rotation nearest to F; `trace` is tr(R^T F).
+TISSU_INLINE Matrix polar_rotation(const Matrix& F, Batch& trace) {
+  constexpr double kSmall = 1e-2;  ///< of z / |F|^3, 1.54 at rest: R is good to 1e-16 / kSmall and a little
+  constexpr double kStep = 1e-5;   ///< of x: what its cube leaves is round-off
   const Matrix C = cofactors(F);
   const Batch norm2 = square(F);
+  const Batch norm = sqrt(norm2);
   const Batch det = F(0, 0) * C(0, 0) + F(0, 1) * C(0, 1) + F(0, 2) * C(0, 2);
-  const Batch x = largest_root(norm2, det, square(C));
+  const LargestRoot root(norm * Batch(1.7320508075688772), norm2, det, square(C));
+  const Batch x = root.x;
   const Batch k = Batch(0.5) * (x * x - norm2);
   const Batch z = k * x - det;
   const Batch inverse = Batch(1.0) / z;
   const Batch of_F = (k + norm2) * inverse;
   const Batch of_C = x * inverse;
-  const Matrix G = transposed_product(F, F);
+  Matrix G = transposed_product(F, F);
+  TISSU_UNROLL
+  for (int i = 0; i < 9; ++i) G.m[i / 3][i % 3] = (i % 4 == 0 ? of_F : Batch(0.0)) - G.m[i / 3][i % 3] * inverse;
   Matrix R;
   TISSU_UNROLL
   for (int i = 0; i < 3; ++i) {
     TISSU_UNROLL
     for (int j = 0; j < 3; ++j) {
-      const Batch cube = F(i, 0) * G(0, j) + F(i, 1) * G(1, j) + F(i, 2) * G(2, j);
-      R(i, j) = of_F * F(i, j) + of_C * C(i, j) - cube * inverse;
+      R(i, j) = F(i, 0) * G(0, j) + F(i, 1) * G(1, j) + F(i, 2) * G(2, j) + of_C * C(i, j);
     }
   }
-  Batch off;
-  const Matrix E = schulz(R, off);
-  R = product(R, E);
-  // Lanes with a NaN or too small a z fail a comparison that is true of the good ones.
-  const Batch good = choose(Batch(kOff), off, choose(z, Batch(kSmall) * norm2 * sqrt(norm2), 1.0, 0.0), 0.0);
-  if (all_above(good, Batch(0.0))) return R;
-  Matrix exact;
-  polar_by_eigenvector(F, exact);
+  trace = x;
+  // A NaN fails all three; beyond 1e+-30 the sixth powers of the root leave the range of a double.
+  const Batch zero(0.0);
+  const Batch sized = choose(norm, Batch(1e-30), choose(Batch(1e30), norm, Batch(1.0), zero), zero);
+  const Batch settled = choose(Batch(kStep) * x, magnitude(root.last), sized, zero);
+  const Batch good = choose(z, Batch(kSmall) * norm2 * norm, settled, zero);
+  if (all_above(good, zero)) return R;
+  Matrix sure;
+  polar_by_eigenvector(F, sure);
+  Batch sum(0.0);
   for (int i = 0; i < 9; ++i) {
     Batch& r = R.m[i / 3][i % 3];
-    r = choose(good, Batch(0.0), r, exact.m[i / 3][i % 3]);
+    r = choose(good, zero, r, sure.m[i / 3][i % 3]);
+    sum += r * F.m[i / 3][i % 3];
   }
+  trace = choose(good, zero, trace, sum);
   return R;
 }
 

@@ -54,7 +54,10 @@ MassTensor::MassTensor(ElasticBlock block, ConstReals rest_positions, Isa isa, T
       linear_(block_.law == "hooke"),
       X_(rest_positions.begin(), rest_positions.end()) {
   check_laws(block_, static_cast<std::size_t>(cell_count()));
-  lay();
+  lay_cells(X_, {.frames = false, .triangular = true});
+  order_ = {};  // no loop runs over whole cells, and of their shape only the volume is kept
+  shape_.rest = {};
+  lay_laws();
   for (int size = 1; size <= 4; ++size) {
     const MassTensorKernels* kernels = find_mass_tensor_kernels(isa_, linear_, size);
     if (kernels == nullptr) continue;
@@ -65,22 +68,25 @@ MassTensor::MassTensor(ElasticBlock block, ConstReals rest_positions, Isa isa, T
 
 MassTensor::MassTensor(const MassTensor& before, ElasticBlock left, const std::vector<std::int32_t>& removed)
     : CellModel(std::move(left), before.threads_), isa_(before.isa_), linear_(before.linear_), X_(before.X_) {
-  lay();
+  lay_laws();
   std::vector<std::int32_t> gone;
-  for (const std::int32_t e : removed) {
-    const auto first = before.block_.cells.begin() + 4 * static_cast<std::ptrdiff_t>(e);
-    gone.insert(gone.end(), first, first + 4);
+  std::size_t next = 0;
+  for (std::int32_t e = 0; e < before.cell_count(); ++e) {
+    const auto at = static_cast<std::size_t>(e);
+    if (next < removed.size() && removed[next] == e) {
+      gone.insert(gone.end(), &before.block_.cells[4 * at], &before.block_.cells[4 * at] + 4);
+      ++next;
+    } else {
+      shape_.volumes.push_back(before.shape_.volumes[at]);
+    }
   }
   const auto cell_of = [this](std::int32_t e) { return cell(e); };
   for (const Part& part : before.parts_) {
-    parts_.push_back({part.kernels, tissu::without(part.table, gone, block_.cells, cell_of, X_)});
+    parts_.push_back({part.kernels, tissu::without(part.table, gone, block_.cells, cell_of, X_.size() / 3)});
   }
 }
 
-void MassTensor::lay() {
-  lay_cells(X_, {.frames = false, .triangular = true});
-  keep_volumes();
-  order_.places = {};  // no loop runs over whole cells
+void MassTensor::lay_laws() {
   const LawUse use{block_.law, block_.parameters, block_.loaded};
   const bool uniform =
       std::ranges::all_of(use.parameters, [](const auto& p) { return p.second.size() == 1; });
@@ -126,6 +132,17 @@ MassTensorView MassTensor::view(const Part& part) const {
           .rest = X_.data(),
           .origin = block_.cells.front()};
 }
+
+/// A quarter of each cell's mass at each of its nodes.
+void MassTensor::add_masses(std::vector<double>& nodal) const {
+  for (std::size_t i = 0; i < block_.cells.size(); ++i) {
+    const auto cell = static_cast<std::int32_t>(i / 4);
+    nodal[static_cast<std::size_t>(block_.cells[i])] +=
+        0.25 * of_cell(block_.density, cell) * shape_.volumes[i / 4];
+  }
+}
+
+void MassTensor::add_weights(std::vector<double>& nodal) const { add_masses(nodal); }
 
 /// Calls f(kernels, view, chunk) for every chunk of every part.
 template <class Function>
@@ -191,7 +208,7 @@ CellFields MassTensor::fields(const State& state) const {
 }
 
 std::size_t MassTensor::bytes() const {
-  std::size_t sum = CellModel::bytes() + (shape_.rest.size() + X_.size() + 2 * lame_.size()) * sizeof(double);
+  std::size_t sum = (X_.size() + 2 * lame_.size()) * sizeof(double);
   for (const Part& part : parts_) sum += part.table.bytes();
   return sum;
 }
@@ -207,10 +224,7 @@ std::size_t MassTensor::reals_per_cell() const {
 
 std::size_t MassTensor::constants() const {
   std::size_t sum = 0;
-  for (const Part& part : parts_) {
-    sum += part.table.nodes.size() / static_cast<std::size_t>(part.table.size) *
-           static_cast<std::size_t>(part.table.reals);
-  }
+  for (const Part& part : parts_) sum += part.table.held();
   return sum;
 }
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <utility>
 
 namespace tissu {
 namespace {
@@ -14,10 +13,10 @@ constexpr std::int32_t kNone = std::numeric_limits<std::int32_t>::max();
 using Key = std::array<std::int32_t, 4>;
 
 /// One of them, and a cell that has it.
-struct Part {
+struct CellPart {
   Key key;
   std::int32_t cell;
-  auto operator<=>(const Part&) const = default;
+  auto operator<=>(const CellPart&) const = default;
 };
 
 /// The parts of a cell: every choice of `size` of its nodes.
@@ -37,8 +36,8 @@ void for_parts(const std::int32_t* cell, int size, Function&& f) {
 
 /// The parts of all cells that `wanted` takes, ascending, and those of one key in the order of their cells.
 template <class Predicate>
-std::vector<Part> parts_of(TensorCells cells, int size, Predicate&& wanted) {
-  std::vector<Part> parts;
+std::vector<CellPart> parts_of(TensorCells cells, int size, Predicate&& wanted) {
+  std::vector<CellPart> parts;
   for (std::size_t e = 0; e < cells.size() / 4; ++e) {
     for_parts(&cells[4 * e], size, [&](const Key& key) {
       if (wanted(key)) parts.push_back({key, static_cast<std::int32_t>(e)});
@@ -48,140 +47,58 @@ std::vector<Part> parts_of(TensorCells cells, int size, Predicate&& wanted) {
   return parts;
 }
 
-/// B, C and D of one tetrahedron.
-struct Formulae {
-  const TensorCell& of;
-
-  [[nodiscard]] double dot(std::size_t a, std::size_t b) const { return of.g[a].dot(of.g[b]); }
-  void add_B(std::size_t a, std::size_t b, double*& to) const {
-    const Mat3 B =
-        of.volume * (of.lame.lambda * of.g[a] * of.g[b].transpose() +
-                     of.lame.mu * of.g[b] * of.g[a].transpose() + of.lame.mu * dot(a, b) * Mat3::Identity());
-    for (int k = 0; k < 9; ++k) *to++ += B(k / 3, k % 3);
-  }
-  void add_C(double times, std::size_t a, std::size_t b, std::size_t c, double*& to) const {
-    const Vec3 C = of.volume * (of.lame.lambda / 2.0 * of.g[a] * dot(b, c) +
-                                of.lame.mu / 2.0 * (of.g[c] * dot(a, b) + of.g[b] * dot(a, c)));
-    for (int k = 0; k < 3; ++k) *to++ += times * C[k];
-  }
-  void add_D(double times, std::size_t a, std::size_t b, std::size_t c, std::size_t d, double*& to) const {
-    *to++ += times * of.volume *
-             (of.lame.lambda / 8.0 * dot(a, b) * dot(c, d) + of.lame.mu / 4.0 * dot(a, d) * dot(b, c));
-  }
-};
-
-using Local = std::array<std::size_t, 4>;
-
-void add_node(const Formulae& of, const Local& at, double* to) {
-  const auto p = at[0];
-  of.add_C(1.0, p, p, p, to);
-  of.add_D(2.0, p, p, p, p, to);
-}
-
-void add_edge(const Formulae& of, const Local& at, double* to) {
-  const auto [p, j, unused, neither] = at;
-  of.add_C(2.0, p, p, j, to);
-  of.add_C(1.0, j, p, p, to);
-  of.add_C(2.0, j, j, p, to);
-  of.add_C(1.0, p, j, j, to);
-  of.add_D(4.0, j, p, p, p, to);
-  of.add_D(4.0, j, j, j, p, to);
-  of.add_D(2.0, j, j, p, p, to);
-  of.add_D(4.0, j, p, j, p, to);
-  of.add_D(4.0, p, j, j, p, to);
-}
-
-void add_face(const Formulae& of, const Local& at, double* to) {
-  const auto each = [&](auto&& f) {
-    for (std::size_t i = 0; i < 3; ++i) f(at[i], at[(i + 1) % 3], at[(i + 2) % 3]);
-  };
-  each([&](auto a, auto b, auto c) { of.add_C(2.0, a, b, c, to); });
-  each([&](auto a, auto b, auto c) { of.add_D(4.0, a, a, b, c, to); });
-  each([&](auto a, auto b, auto c) {
-    of.add_D(4.0, a, b, a, c, to);
-    of.add_D(4.0, b, a, a, c, to);
-  });
-}
-
-void add_tetra(const Formulae& of, const Local& at, double* to) {
-  const auto [a, b, c, d] = at;
-  // Beside (u_a . u_b) (u_c . u_d) stand D^abcd and D^bacd; likewise for the two other ways to pair four
-  // nodes.
-  of.add_D(4.0, a, b, c, d, to);
-  of.add_D(4.0, b, a, c, d, to);
-  of.add_D(4.0, a, c, b, d, to);
-  of.add_D(4.0, c, a, b, d, to);
-  of.add_D(4.0, a, d, b, c, to);
-  of.add_D(4.0, d, a, b, c, to);
-}
-
 /// Adds what a cell gives to one of its parts.
-void add_constants(const TensorCell& cell, const std::int32_t* nodes, const Key& key, int size, int reals,
-                   double* to) {
-  Local at = {};
-  for (std::size_t i = 0; i < static_cast<std::size_t>(size); ++i) {
+void add_part(const TensorCell& cell, const std::int32_t* nodes, const Key& key, const TensorTable& table,
+              double* to) {
+  std::array<std::size_t, 4> at = {};
+  for (std::size_t i = 0; i < static_cast<std::size_t>(table.size); ++i) {
     at[i] = static_cast<std::size_t>(std::find(nodes, nodes + 4, key[i]) - nodes);
   }
-  const Formulae of{cell};
-  if (size <= 2) of.add_B(at[0], at[size == 1 ? 0 : 1], to);
-  if (size <= 2 && reals == 9) return;
-  if (size == 1) add_node(of, at, to);
-  if (size == 2) add_edge(of, at, to);
-  if (size == 3) add_face(of, at, to);
-  if (size == 4) add_tetra(of, at, to);
+  add_tensor_constants(cell, at, table.size, table.reals == 9, to);
 }
 
-/// A table while it grows: keys ascending, their constants side by side.
-class Growing {
- public:
-  Growing(int size, int reals) : size_(size), reals_(reals) {}
-
-  double* append(const Key& key) {
-    nodes_.insert(nodes_.end(), key.begin(), key.begin() + size_);
-    values_.resize(values_.size() + static_cast<std::size_t>(reals_), 0.0);
-    return values_.data() + values_.size() - reals_;
+/// Sums up what cells give to one key, the parts from `first` on that have it. Returns the next.
+std::size_t sum_up(const std::vector<CellPart>& parts, std::size_t first, TensorCells cells,
+                   const TensorCellOf& cell_of, const TensorTable& table, double* to) {
+  const Key key = parts[first].key;
+  std::fill_n(to, table.reals, 0.0);
+  for (; first < parts.size() && parts[first].key == key; ++first) {
+    const std::int32_t cell = parts[first].cell;
+    add_part(cell_of(cell), &cells[4 * static_cast<std::size_t>(cell)], key, table, to);
   }
-  /// Sums up what the cells give to one key: the parts from `first` on that have it. Returns the next.
-  std::size_t append_sum(const std::vector<Part>& parts, std::size_t first, TensorCells cells,
-                         const TensorCellOf& cell_of) {
-    const Key key = parts[first].key;
-    double* to = append(key);
-    for (; first < parts.size() && parts[first].key == key; ++first) {
-      const std::int32_t cell = parts[first].cell;
-      add_constants(cell_of(cell), &cells[4 * static_cast<std::size_t>(cell)], key, size_, reals_, to);
-    }
-    computed_ += static_cast<std::size_t>(reals_);
-    return first;
+  return first;
+}
+
+/// The place of the first constant of a lane; the others follow kLanes apart.
+double* constants_of(TensorTable& table, std::size_t lane) {
+  return table.constants.data() + lane / kLanes * static_cast<std::size_t>(table.reals) * kLanes +
+         lane % kLanes;
+}
+void write_lane(TensorTable& table, std::size_t lane, const double* from) {
+  double* to = constants_of(table, lane);
+  for (int r = 0; r < table.reals; ++r)
+    to[static_cast<std::size_t>(r) * kLanes] = from == nullptr ? 0.0 : from[r];
+}
+
+TensorTable copy_of(const TensorTable& table) {
+  TensorTable copy;
+  copy.size = table.size;
+  copy.reals = table.reals;
+  copy.nodes = table.nodes;
+  copy.constants = table.constants;
+  copy.order.element = table.order.element;
+  copy.order.real = table.order.real;
+  copy.order.chunks = table.order.chunks;
+  copy.order.colour_begin = table.order.colour_begin;
+  copy.order.nodes = table.order.nodes;
+  copy.order.places = table.order.places;
+  for (Chunk& chunk : copy.order.chunks) {
+    chunk.nodes = copy.order.nodes.data() + (chunk.nodes - table.order.nodes.data());
   }
+  return copy;
+}
 
-  TensorTable lay(ConstReals X) {
-    TensorTable table;
-    table.size = size_;
-    table.reals = reals_;
-    table.computed = computed_;
-    table.nodes = std::move(nodes_);
-    if (table.nodes.empty()) return table;
-    table.order = order_elements(table.nodes, size_, X);
-    const auto reals = static_cast<std::size_t>(reals_);
-    table.constants.assign(table.order.element.size() * reals, 0.0);
-    for (std::size_t i = 0; i < table.order.element.size(); ++i) {
-      if (table.order.real[i] == 0) continue;
-      const double* from = &values_[static_cast<std::size_t>(table.order.element[i]) * reals];
-      double* to = &table.constants[i / kLanes * reals * kLanes + i % kLanes];
-      for (std::size_t r = 0; r < reals; ++r) to[r * kLanes] = from[r];
-    }
-    return table;
-  }
-
- private:
-  int size_;
-  int reals_;
-  std::vector<std::int32_t> nodes_;
-  std::vector<double> values_;
-  std::size_t computed_ = 0;
-};
-
-/// The lane of each part of a table.
+/// The lane of each node, edge, … of a table that is still there.
 std::vector<std::size_t> lanes_of(const TensorTable& table) {
   std::vector<std::size_t> lanes(table.nodes.size() / static_cast<std::size_t>(table.size));
   for (std::size_t i = 0; i < table.order.element.size(); ++i) {
@@ -190,6 +107,68 @@ std::vector<std::size_t> lanes_of(const TensorTable& table) {
   return lanes;
 }
 
+/// The number in a table of a key that it has.
+std::size_t number_of(const TensorTable& table, const Key& key) {
+  const auto size = static_cast<std::ptrdiff_t>(table.size);
+  const auto node = table.nodes.begin();
+  std::ptrdiff_t low = 0;
+  std::ptrdiff_t high = static_cast<std::ptrdiff_t>(table.nodes.size()) / size;
+  while (high - low > 1) {
+    const std::ptrdiff_t middle = (low + high) / 2;
+    const bool above = std::lexicographical_compare(key.begin(), key.begin() + size, node + middle * size,
+                                                    node + (middle + 1) * size);
+    (above ? high : low) = middle;
+  }
+  return static_cast<std::size_t>(low);
+}
+
+/// Lanes that have what is no longer there only pad from now on: they repeat another of their chunk, without
+/// constants. A chunk that has nothing left is empty.
+void bury(TensorTable& table, std::size_t lane) {
+  ElementOrder& order = table.order;
+  const std::int32_t gone = order.element[lane];
+  const auto group = static_cast<std::int32_t>(lane / kLanes);
+  Chunk& chunk =
+      *std::ranges::find_if(order.chunks, [&](const Chunk& c) { return c.begin <= group && group < c.end; });
+  const auto begin = static_cast<std::size_t>(chunk.begin) * kLanes;
+  const auto end = static_cast<std::size_t>(chunk.end) * kLanes;
+  order.real[lane] = 0;
+  write_lane(table, lane, nullptr);
+  std::size_t other = begin;
+  while (other < end && order.real[other] == 0) ++other;
+  if (other == end) {
+    chunk.end = chunk.begin;
+    return;
+  }
+  const auto size = static_cast<std::size_t>(table.size);
+  for (std::size_t i = begin; i < end; ++i) {
+    if (order.element[i] != gone) continue;
+    order.element[i] = order.element[other];
+    for (std::size_t a = 0; a < size; ++a) {
+      order.places[(i / kLanes * size + a) * kLanes + i % kLanes] =
+          order.places[(other / kLanes * size + a) * kLanes + other % kLanes];
+    }
+  }
+}
+
+/// The parts of some cells, each once, and their nodes.
+struct Touched {
+  Touched(TensorCells cells, int size, std::size_t nodes) : has_node(nodes, 0) {
+    for (const std::int32_t node : cells) has_node[static_cast<std::size_t>(node)] = 1;
+    for (const CellPart& part : parts_of(cells, size, [](const Key&) { return true; })) {
+      if (keys.empty() || keys.back() != part.key) keys.push_back(part.key);
+    }
+  }
+  [[nodiscard]] bool operator()(const Key& key) const {
+    const bool near = std::ranges::all_of(key, [&](std::int32_t node) {
+      return node == kNone || has_node[static_cast<std::size_t>(node)] != 0;
+    });
+    return near && std::ranges::binary_search(keys, key);
+  }
+  std::vector<Key> keys;
+  std::vector<char> has_node;
+};
+
 }  // namespace
 
 std::size_t TensorTable::bytes() const {
@@ -197,46 +176,51 @@ std::size_t TensorTable::bytes() const {
          (nodes.size() + order.nodes.size() + slots.size()) * sizeof(std::int32_t);
 }
 
+std::size_t TensorTable::held() const {
+  return static_cast<std::size_t>(std::ranges::count(order.real, 1)) * static_cast<std::size_t>(reals);
+}
+
 TensorTable tensor_table(int size, int reals, TensorCells cells, const TensorCellOf& cell_of, ConstReals X) {
-  const std::vector<Part> parts = parts_of(cells, size, [](const Key&) { return true; });
-  Growing growing(size, reals);
-  for (std::size_t i = 0; i < parts.size();) i = growing.append_sum(parts, i, cells, cell_of);
-  return growing.lay(X);
+  const std::vector<CellPart> parts = parts_of(cells, size, [](const Key&) { return true; });
+  TensorTable table;
+  table.size = size;
+  table.reals = reals;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    if (i > 0 && parts[i].key == parts[i - 1].key) continue;
+    table.nodes.insert(table.nodes.end(), parts[i].key.begin(), parts[i].key.begin() + size);
+  }
+  table.order = order_elements(table.nodes, size, X);
+  table.constants.assign(table.order.element.size() * static_cast<std::size_t>(reals), 0.0);
+  const std::vector<std::size_t> lanes = lanes_of(table);
+  std::vector<double> sum(static_cast<std::size_t>(reals));
+  std::size_t next = 0;
+  for (const std::size_t lane : lanes) {
+    next = sum_up(parts, next, cells, cell_of, table, sum.data());
+    write_lane(table, lane, sum.data());
+  }
+  table.computed = table.held();
+  return table;
 }
 
 TensorTable without(const TensorTable& before, TensorCells removed, TensorCells cells,
-                    const TensorCellOf& cell_of, ConstReals X) {
-  std::vector<Key> touched;
-  std::vector<char> at(X.size() / 3, 0);  // nodes of removed cells
-  for (const Part& part : parts_of(removed, before.size, [](const Key&) { return true; })) {
-    if (touched.empty() || touched.back() != part.key) touched.push_back(part.key);
-    for (const std::int32_t node : part.key) {
-      if (node != kNone) at[static_cast<std::size_t>(node)] = 1;
-    }
-  }
-  const auto is_touched = [&](const Key& key) {
-    const bool near = std::ranges::all_of(
-        key, [&](std::int32_t node) { return node == kNone || at[static_cast<std::size_t>(node)] != 0; });
-    return near && std::ranges::binary_search(touched, key);
-  };
-  const std::vector<Part> parts = parts_of(cells, before.size, is_touched);
-  const std::vector<std::size_t> lanes = lanes_of(before);
-  const auto reals = static_cast<std::size_t>(before.reals);
-  const auto size = static_cast<std::size_t>(before.size);
-  Growing growing(before.size, before.reals);
+                    const TensorCellOf& cell_of, std::size_t nodes) {
+  TensorTable table = copy_of(before);
+  const Touched touched(removed, table.size, nodes);
+  const std::vector<CellPart> parts = parts_of(cells, table.size, touched);
+  const std::vector<std::size_t> lanes = lanes_of(table);
+  std::vector<double> sum(static_cast<std::size_t>(table.reals));
   std::size_t next = 0;
-  for (std::size_t i = 0; i < lanes.size(); ++i) {
-    Key key = {kNone, kNone, kNone, kNone};
-    std::copy_n(&before.nodes[i * size], size, key.begin());
+  for (const Key& key : touched.keys) {
+    const std::size_t lane = lanes[number_of(table, key)];
     if (next < parts.size() && parts[next].key == key) {
-      next = growing.append_sum(parts, next, cells, cell_of);
-    } else if (!is_touched(key)) {
-      double* to = growing.append(key);
-      const double* from = &before.constants[lanes[i] / kLanes * reals * kLanes + lanes[i] % kLanes];
-      for (std::size_t r = 0; r < reals; ++r) to[r] = from[r * kLanes];
+      next = sum_up(parts, next, cells, cell_of, table, sum.data());
+      write_lane(table, lane, sum.data());
+      table.computed += sum.size();
+    } else {
+      bury(table, lane);
     }
   }
-  return growing.lay(X);
+  return table;
 }
 
 }  // namespace tissu

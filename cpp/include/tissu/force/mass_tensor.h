@@ -2,7 +2,7 @@
 
 /// Mass-tensor, as published: the energy of linear tetrahedra as a polynomial of degree four in the
 /// displacements, whose constants stand on the nodes, edges, faces and tetrahedra of the mesh
-/// (tensor_table.h), and nothing of the rest shape beside them. A tetrahedron alone has 280 on its nodes,
+/// (tensor_constants.h), and nothing of the rest shape beside them. A tetrahedron alone has 280 on its nodes,
 /// edges and faces, as Picinbono counts them, and 6 of its own; in a mesh it shares them with its neighbours.
 ///
 /// The sums cancel where displacements are large against strains, so round-off grows with the cube of the
@@ -28,6 +28,8 @@ class MassTensor final : public CellModel {
   [[nodiscard]] std::string_view effect() const override { return "elasticity"; }
   [[nodiscard]] bool has_constant_stiffness() const override { return linear_; }
   void bind(const Sparsity& pattern) override;
+  void add_masses(std::vector<double>& nodal) const override;
+  void add_weights(std::vector<double>& nodal) const override;
   void add_force(const State& state, Reals f) const override;
   void add_stiffness(const State& state, StiffnessScale scale, BlockMatrix& matrix) const override;
   void add_product(const State& state, StiffnessScale scale, ConstReals p, Reals out) const override;
@@ -51,8 +53,7 @@ class MassTensor final : public CellModel {
     TensorTable table;
   };
   MassTensor(const MassTensor& before, ElasticBlock left, const std::vector<std::int32_t>& removed);
-  /// All but the constants.
-  void lay();
+  void lay_laws();
   [[nodiscard]] TensorCell cell(std::int32_t number) const;
   [[nodiscard]] const Lame& lame_of(std::int32_t cell) const;
   [[nodiscard]] MassTensorView view(const Part& part) const;

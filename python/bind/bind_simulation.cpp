@@ -170,6 +170,12 @@ void bind_simulation(py::module_& m) {
           },
           py::kw_only(), arg("body"), arg("cells"))
       .def("settle", &Simulation::settle)
+      .def("reactions",
+           [](const Simulation& s) {
+             const std::vector<double> forces = s.reactions();
+             return py::array_t<double>({static_cast<py::ssize_t>(forces.size() / 3), py::ssize_t{3}},
+                                        forces.data());
+           })
       .def("largest_frequency", [](const Simulation& s) { return largest_frequency(s.world(), s.state()); })
       .def(
           "remaining_cells",

@@ -73,18 +73,34 @@ std::int32_t CellModel::cell_count() const {
 
 void CellModel::couple(SparsityBuilder& builder) const { builder.add_cells(block_.cells, reference_.nodes); }
 
+void CellModel::keep_volumes() {
+  AlignedVector<double> volumes;
+  const std::size_t reals = shape_.reals;
+  for (std::size_t i = 0; i < shape_.rest.size(); ++i) {
+    if (i / kLanes % reals == reals - 1) volumes.push_back(shape_.rest[i]);
+  }
+  volumes.shrink_to_fit();
+  shape_.rest = std::move(volumes);
+  shape_.reals = 1;
+}
+
 void CellModel::bind(const Sparsity& pattern) {
-  const auto n = static_cast<std::size_t>(reference_.nodes);
-  const auto groups = static_cast<std::size_t>(order_.groups());
-  slots_.resize(groups * n * n * kLanes);
-  threads_.for_pieces(order_.groups(), [&](std::int32_t begin, std::int32_t end) {
+  lay_slots(order_, block_.cells, reference_.nodes, pattern, slots_);
+}
+
+void CellModel::lay_slots(const ElementOrder& order, const std::vector<std::int32_t>& cells, int size,
+                          const Sparsity& pattern, AlignedVector<std::int32_t>& to) const {
+  const auto n = static_cast<std::size_t>(size);
+  const auto groups = static_cast<std::size_t>(order.groups());
+  to.resize(groups * n * n * kLanes);
+  threads_.for_pieces(order.groups(), [&](std::int32_t begin, std::int32_t end) {
     for (auto group = static_cast<std::size_t>(begin); group < static_cast<std::size_t>(end); ++group) {
-      std::int32_t* slots = slots_.data() + group * n * n * kLanes;
+      std::int32_t* slots = to.data() + group * n * n * kLanes;
       for (std::size_t a = 0; a < n; ++a) {
         for (std::size_t b = 0; b < n; ++b) {
           for (std::size_t lane = 0; lane < kLanes; ++lane) {
             const std::int32_t* cell =
-                block_.cells.data() + static_cast<std::size_t>(order_.element[group * kLanes + lane]) * n;
+                cells.data() + static_cast<std::size_t>(order.element[group * kLanes + lane]) * n;
             slots[(a * n + b) * kLanes + lane] = pattern.slot(cell[a], cell[b]);
           }
         }

@@ -1,26 +1,8 @@
 #include "tissu/force/condensed.h"
 
-#include <algorithm>
-#include <iterator>
-#include <string>
 #include <utility>
 
-#include "tissu/assembly/fixed_dofs.h"
-#include "tissu/base/error.h"
-
 namespace tissu {
-namespace {
-
-ElasticBlock checked(ElasticBlock block) {
-  if (block.model.kept.empty()) {
-    throw ParameterError("body \"" + block.body +
-                         "\" asks for the model condensed and keeps no node; keep its surface, or the nodes "
-                         "that are held, loaded or shared with other cells.");
-  }
-  return block;
-}
-
-}  // namespace
 
 ModelInfo Condensed::info() {
   using enum Ability::Can;
@@ -36,160 +18,38 @@ ModelInfo Condensed::info() {
 }
 
 Condensed::Condensed(ElasticBlock block, ConstReals rest_positions, Isa isa, Threads threads)
-    : elastic_(checked(std::move(block)), rest_positions, isa, threads),
-      rest_(rest_positions.begin(), rest_positions.end()) {
-  sort_nodes();
-  assemble(rest_positions, isa);
-  condense();
-  share_masses();
-}
+    : region_(std::make_shared<CondensedRegion>(std::move(block), rest_positions, isa, threads)),
+      block_(region_->elastic().block()) {}
 
-void Condensed::sort_nodes() {
-  const ElasticBlock& block = elastic_.block();
-  std::vector<std::int32_t> nodes = block.cells;
-  std::ranges::sort(nodes);
-  nodes.erase(std::ranges::unique(nodes).begin(), nodes.end());
-  std::vector<std::int32_t> kept = block.model.kept;
-  std::ranges::sort(kept);
-  std::ranges::set_intersection(nodes, kept, std::back_inserter(kept_));
-  std::ranges::set_difference(nodes, kept, std::back_inserter(inner_));
-  constexpr std::size_t kMostKept = 3000;
-  if (kept_.empty()) checked({});
-  if (kept_.size() > kMostKept) {
-    throw ParameterError("body \"" + block.body + "\": the model condensed would keep " +
-                         std::to_string(kept_.size()) + " nodes, whose dense matrix is too large; at most " +
-                         std::to_string(kMostKept) + " are accepted: keep only those that are touched.");
-  }
-}
-
-void Condensed::assemble(ConstReals rest_positions, Isa isa) {
-  SparsityBuilder builder(static_cast<std::int32_t>(rest_positions.size() / 3));
-  elastic_.couple(builder);
-  pattern_ = builder.build();
-  elastic_.bind(pattern_);
-  State rest;
-  rest.positions = rest_;
-  for (auto* matrix : {&K_, &Kii_}) {
-    *matrix = std::make_unique<BlockMatrix>(pattern_, isa, Threads(1));
-    (*matrix)->clear();
-    elastic_.add_stiffness(rest, {-1.0, 0.0}, **matrix);
-  }
-  given_.assign(rest_positions.size() / 3, FixedDofs::kAllAxes);
-  for (const std::int32_t node : inner_) given_[static_cast<std::size_t>(node)] = 0;
-  std::vector<std::int32_t> rows;
-  for (std::int32_t i = 0; i < K_->rows(); ++i) {
-    if (given_[static_cast<std::size_t>(i)] != 0) rows.push_back(i);
-  }
-  Kii_->constrain(rows, given_);
-}
-
-void Condensed::solve_inner(Reals b, Reals x) const {
-  for (std::size_t i = 0; i < given_.size(); ++i) {
-    if (given_[i] != 0) tissu::block(b, static_cast<std::int32_t>(i)).setZero();
-  }
-  std::ranges::fill(x, 0.0);
-  if (inner_.empty()) return;
-  const SolveReport report = factor_.solve(*Kii_, b, x, 0.0);
-  if (report.positive_definite) return;
-  throw ParameterError(
-      "body \"" + elastic_.block().body +
-      "\": the model condensed has inner nodes that its kept nodes do not hold; keep more of "
-      "them, or the whole surface.");
-}
-
-void Condensed::condense() {
-  const std::size_t size = rest_.size();
-  const auto n = static_cast<Eigen::Index>(3 * kept_.size());
-  S_.resize(n, n);
-  std::vector<double> unit(size, 0.0);
-  std::vector<double> column(size);
-  std::vector<double> inner(size);
-  std::vector<double> through(size);
-  for (Eigen::Index j = 0; j < n; ++j) {
-    const std::int32_t node = kept_[static_cast<std::size_t>(j / 3)];
-    tissu::block(Reals(unit), node)[j % 3] = 1.0;
-    K_->multiply(unit, column);
-    tissu::block(Reals(unit), node)[j % 3] = 0.0;
-    std::vector<double>& b = through;
-    b = column;
-    solve_inner(b, inner);  // K_ii^-1 K_ij
-    K_->multiply(inner, through);
-    for (std::size_t k = 0; k < kept_.size(); ++k) {
-      const Vec3 entry =
-          tissu::block(ConstReals(column), kept_[k]) - tissu::block(ConstReals(through), kept_[k]);
-      S_.block<3, 1>(static_cast<Eigen::Index>(3 * k), j) = entry;
-    }
-  }
-  S_ = (0.5 * (S_ + S_.transpose())).eval();  // equal to round-off: every user may rely on it
-}
-
-/// What kept nodes feel of forces m_i e_axis on the inner ones, -K_ki K_ii^-1 m_i e_axis.
-void Condensed::share_masses() {
-  std::vector<double> own(rest_.size() / 3, 0.0);
-  elastic_.add_masses(own);
-  masses_.resize(kept_.size());
-  for (std::size_t k = 0; k < kept_.size(); ++k) masses_[k] = own[static_cast<std::size_t>(kept_[k])];
-  const Vec3 g = elastic_.block().model.gravity;
-  pull_ = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(3 * kept_.size()));
-  weight_.assign(rest_.size(), 0.0);
-  std::vector<double> b(rest_.size());
-  std::vector<double> x(rest_.size());
-  std::vector<double> share(kept_.size(), 0.0);
-  for (int axis = 0; axis < 3; ++axis) {
-    std::ranges::fill(b, 0.0);
-    for (const std::int32_t i : inner_) {
-      tissu::block(Reals(b), i)[axis] = own[static_cast<std::size_t>(i)];
-      tissu::block(Reals(weight_), i)[axis] = own[static_cast<std::size_t>(i)] * g[axis];
-    }
-    solve_inner(b, x);
-    K_->multiply(x, b);
-    for (std::size_t k = 0; k < kept_.size(); ++k) {
-      const Vec3 felt = -tissu::block(ConstReals(b), kept_[k]);
-      pull_.segment<3>(static_cast<Eigen::Index>(3 * k)) += g[axis] * felt;
-      share[k] += felt[axis] / 3.0;
-    }
-  }
-  for (std::size_t k = 0; k < kept_.size(); ++k) {
-    masses_[k] += share[k];
-    pull_.segment<3>(static_cast<Eigen::Index>(3 * k)) -=
-        share[k] * g;  // gravity pulls at the masses already
-    if (masses_[k] > 0.0) continue;
-    throw ParameterError("body \"" + elastic_.block().body + "\": the model condensed would give node " +
-                         std::to_string(kept_[k]) +
-                         " no positive mass; keep the whole surface of the region.");
-  }
+std::unique_ptr<BodyModel> Condensed::without(ElasticBlock left,
+                                              const std::vector<std::int32_t>& removed) const {
+  if (!removed.empty()) return nullptr;
+  return std::unique_ptr<BodyModel>(new Condensed(region_, std::move(left)));
 }
 
 void Condensed::couple(SparsityBuilder& builder) const {
-  builder.add_cells(kept_, static_cast<int>(kept_.size()));
+  builder.add_cells(region_->kept(), static_cast<int>(region_->kept().size()));
 }
 
 void Condensed::bind(const Sparsity& pattern) {
+  const std::vector<std::int32_t>& kept = region_->kept();
   slots_.clear();
-  slots_.reserve(kept_.size() * kept_.size());
-  for (const std::int32_t row : kept_) {
-    for (const std::int32_t column : kept_) slots_.push_back(pattern.slot(row, column));
+  slots_.reserve(kept.size() * kept.size());
+  for (const std::int32_t row : kept) {
+    for (const std::int32_t column : kept) slots_.push_back(pattern.slot(row, column));
   }
-}
-
-Eigen::VectorXd Condensed::displacements(const State& state) const {
-  Eigen::VectorXd u(static_cast<Eigen::Index>(3 * kept_.size()));
-  for (std::size_t k = 0; k < kept_.size(); ++k) {
-    u.segment<3>(static_cast<Eigen::Index>(3 * k)) =
-        tissu::block(ConstReals(state.positions), kept_[k]) - tissu::block(ConstReals(rest_), kept_[k]);
-  }
-  return u;
 }
 
 /// f_row += scale sum_column S_row,column p_column, straight from and to arrays of the whole world.
 template <class Value>
 void Condensed::multiply(double scale, Value&& p, Reals f) const {
-  const std::size_t n = kept_.size();
+  const std::vector<std::int32_t>& kept = region_->kept();
+  const std::size_t n = kept.size();
   for (std::size_t column = 0; column < n; ++column) {
-    const Vec3 value = scale * p(kept_[column]);
-    const double* S = S_.data() + 9 * n * column;
+    const Vec3 value = scale * p(kept[column]);
+    const double* S = region_->stiffness().data() + 9 * n * column;
     for (std::size_t row = 0; row < n; ++row, S += 3) {
-      double* to = f.data() + 3 * static_cast<std::ptrdiff_t>(kept_[row]);
+      double* to = f.data() + 3 * static_cast<std::ptrdiff_t>(kept[row]);
       for (std::size_t i = 0; i < 3; ++i) {
         to[i] += S[i] * value[0] + S[3 * n + i] * value[1] + S[6 * n + i] * value[2];
       }
@@ -198,26 +58,30 @@ void Condensed::multiply(double scale, Value&& p, Reals f) const {
 }
 
 void Condensed::add_force(const State& state, Reals f) const {
+  const std::vector<std::int32_t>& kept = region_->kept();
   multiply(
       -1.0,
       [&](std::int32_t node) {
-        return Vec3(tissu::block(ConstReals(state.positions), node) - tissu::block(ConstReals(rest_), node));
+        return Vec3(tissu::block(ConstReals(state.positions), node) -
+                    tissu::block(ConstReals(region_->rest()), node));
       },
       f);
-  for (std::size_t k = 0; k < kept_.size(); ++k) {
-    tissu::block(f, kept_[k]) += state.load_factor * pull_.segment<3>(static_cast<Eigen::Index>(3 * k));
+  for (std::size_t k = 0; k < kept.size(); ++k) {
+    tissu::block(f, kept[k]) +=
+        state.load_factor * region_->pull().segment<3>(static_cast<Eigen::Index>(3 * k));
   }
 }
 
 void Condensed::add_stiffness(const State& /*state*/, StiffnessScale scale, BlockMatrix& matrix) const {
+  const std::vector<std::int32_t>& kept = region_->kept();
   if (scale.position == 0.0) return;
   double* values = matrix.values();
-  const std::size_t n = kept_.size();
+  const std::size_t n = kept.size();
   for (std::size_t row = 0; row < n; ++row) {
     for (std::size_t column = 0; column < n; ++column) {
       Eigen::Map<Mat3>(values + 9 * static_cast<std::ptrdiff_t>(slots_[row * n + column])) -=
-          scale.position *
-          S_.block<3, 3>(static_cast<Eigen::Index>(3 * row), static_cast<Eigen::Index>(3 * column));
+          scale.position * region_->stiffness().block<3, 3>(static_cast<Eigen::Index>(3 * row),
+                                                            static_cast<Eigen::Index>(3 * column));
     }
   }
 }
@@ -228,45 +92,28 @@ void Condensed::add_product(const State& /*state*/, StiffnessScale scale, ConstR
 }
 
 double Condensed::energy(const State& state) const {
-  const Eigen::VectorXd u = displacements(state);
-  return 0.5 * u.dot(S_ * u) - u.dot(pull_);
+  const std::vector<std::int32_t>& kept = region_->kept();
+  Eigen::VectorXd u(static_cast<Eigen::Index>(3 * kept.size()));
+  for (std::size_t k = 0; k < kept.size(); ++k) {
+    u.segment<3>(static_cast<Eigen::Index>(3 * k)) = tissu::block(ConstReals(state.positions), kept[k]) -
+                                                     tissu::block(ConstReals(region_->rest()), kept[k]);
+  }
+  return 0.5 * u.dot(region_->stiffness() * u) - u.dot(region_->pull());
 }
 
 void Condensed::add_masses(std::vector<double>& nodal) const {
-  for (std::size_t k = 0; k < kept_.size(); ++k) nodal[static_cast<std::size_t>(kept_[k])] += masses_[k];
+  const std::vector<std::int32_t>& kept = region_->kept();
+  for (std::size_t k = 0; k < kept.size(); ++k)
+    nodal[static_cast<std::size_t>(kept[k])] += region_->masses()[k];
 }
 
 std::size_t Condensed::bytes() const {
-  return static_cast<std::size_t>(S_.size()) * sizeof(double) + slots_.size() * sizeof(std::int32_t);
+  return static_cast<std::size_t>(region_->stiffness().size()) * sizeof(double) +
+         slots_.size() * sizeof(std::int32_t);
 }
 
 std::size_t Condensed::reals_per_cell() const {
-  return static_cast<std::size_t>(S_.size()) / static_cast<std::size_t>(cell_count());
-}
-
-void Condensed::settle(State& state) const {
-  const std::scoped_lock lock(looking_);
-  std::vector<double> of_kept(rest_.size(), 0.0);
-  std::vector<double> b(rest_.size());
-  std::vector<double> x(rest_.size());
-  for (const std::int32_t k : kept_) {
-    tissu::block(Reals(of_kept), k) =
-        tissu::block(ConstReals(state.positions), k) - tissu::block(ConstReals(rest_), k);
-  }
-  K_->multiply(of_kept, b);
-  for (std::size_t i = 0; i < b.size(); ++i) b[i] = state.load_factor * weight_[i] - b[i];
-  solve_inner(b, x);
-  for (const std::int32_t i : inner_) {
-    tissu::block(Reals(state.positions), i) =
-        tissu::block(ConstReals(rest_), i) + tissu::block(ConstReals(x), i);
-  }
-  for (const std::int32_t k : kept_)
-    tissu::block(Reals(of_kept), k) = tissu::block(ConstReals(state.velocities), k);
-  K_->multiply(of_kept, b);
-  for (double& value : b) value = -value;
-  solve_inner(b, x);
-  for (const std::int32_t i : inner_)
-    tissu::block(Reals(state.velocities), i) = tissu::block(ConstReals(x), i);
+  return static_cast<std::size_t>(region_->stiffness().size()) / static_cast<std::size_t>(cell_count());
 }
 
 }  // namespace tissu

@@ -7,8 +7,11 @@
 
 #include "tissu/base/error.h"
 #include "tissu/force/condensed.h"
+#include "tissu/force/corotational.h"
 #include "tissu/force/elastic.h"
+#include "tissu/force/mass_link.h"
 #include "tissu/force/mass_spring.h"
+#include "tissu/force/mass_tensor.h"
 
 namespace tissu {
 namespace {
@@ -30,7 +33,8 @@ Entry entry() {
 
 /// A model is added here, and in tests/cpp/force/models_test.cpp.
 const std::vector<Entry>& entries() {
-  static const std::vector<Entry> all = {entry<Elastic>(), entry<Condensed>(), entry<MassSpring>()};
+  static const std::vector<Entry> all = {entry<Elastic>(),  entry<Corotational>(), entry<MassSpring>(),
+                                         entry<MassLink>(), entry<MassTensor>(),   entry<Condensed>()};
   return all;
 }
 
@@ -50,6 +54,10 @@ void check_taken(const ElasticBlock& block, const ModelInfo& info) {
   };
   refuse("element", block.element, info.elements);
   refuse("law", block.law, info.laws);
+  if (!info.laws.empty() && block.loaded) {
+    throw ParameterError("body \"" + block.body + "\" asks for the model " + std::string(info.name) +
+                         " with the law " + block.law + " of its own; only the model fem takes such laws.");
+  }
   if (info.laws.empty() || block.reinforcements.empty()) return;
   throw ParameterError("body \"" + block.body + "\" asks for the model " + std::string(info.name) +
                        " with fibres; only the model fem takes them.");

@@ -109,6 +109,28 @@ StepReport Simulation::step(double h) {
   return report;
 }
 
+std::vector<double> Simulation::reactions() const {
+  std::vector<double> result(state_.positions.size(), 0.0);
+  for (const auto& model : world_->forces()) model->add_force(state_, result);
+  for (double& value : result) value = -value;
+  const double h = state_.time - last_good_.time;
+  if (h > 0.0) {
+    std::vector<double> change = state_.velocities;
+    for (std::size_t i = 0; i < change.size(); ++i) change[i] -= last_good_.velocities[i];
+    world_->mass().add_product(state_, 1.0 / h, change, result);
+  }
+  const std::vector<std::uint8_t>& masks = world_->fixed().masks();
+  for (std::size_t i = 0; i < result.size(); ++i) {
+    if (((masks[i / 3] >> (i % 3)) & 1) == 0) result[i] = 0.0;
+  }
+  for (const Body& body : world_->bodies()) {
+    for (const BodyModel* model : body.models) {
+      for (const std::int32_t node : model->eliminated()) block(Reals(result), node).setZero();
+    }
+  }
+  return result;
+}
+
 void Simulation::settle() {
   if (settled_) return;
   for (const Body& body : world_->bodies()) {

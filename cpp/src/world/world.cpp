@@ -93,8 +93,9 @@ BodyDescription& WorldDescription::body(std::string_view name) {
   return *found;
 }
 
-World::World(WorldDescription description) : isa_(isa_of(description)), threads_(threads_of(description)) {
-  add_bodies(description);
+World::World(WorldDescription description, const World* before)
+    : isa_(isa_of(description)), threads_(threads_of(description)) {
+  add_bodies(description, before);
   add_external(description);
   if (description.links) {
     auto links = std::make_unique<Links>();
@@ -113,7 +114,7 @@ World::World(WorldDescription description) : isa_(isa_of(description)), threads_
   if (description.editable) description_ = std::move(description);
 }
 
-void World::add_bodies(const WorldDescription& description) {
+void World::add_bodies(const WorldDescription& description, const World* before) {
   for (const BodyDescription& body : description.bodies) {
     if (std::ranges::find(bodies_, body.name, &Body::name) != bodies_.end()) {
       throw ParameterError("two bodies are called \"" + body.name + "\"; give each its own name.");
@@ -142,7 +143,8 @@ void World::add_bodies(const WorldDescription& description) {
     std::vector<double> own(static_cast<std::size_t>(made.first_node + made.node_count), 0.0);
     std::vector<std::unique_ptr<ForceModel>> models;
     for (ElasticBlock& elastic : blocks_of(body, made, rest_positions_, description.gravity)) {
-      auto model = make_model(std::move(elastic), rest_positions_, isa_, threads_);
+      auto model = before == nullptr ? nullptr : edited_model(before->body(body.name).models, elastic);
+      if (model == nullptr) model = make_model(std::move(elastic), rest_positions_, isa_, threads_);
       model->add_masses(own);
       model->add_weights(weights_);
       made.models.push_back(model.get());

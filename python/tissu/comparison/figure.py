@@ -30,6 +30,10 @@ def draw(comparison: Comparison, path: Path) -> bool:
             axes.plot(row.ms_per_step, ends[1], "_", color=f"C{number}", markersize=12)
     axes.set_xscale("log")
     axes.set_yscale("log")
+    for axis in (axes.xaxis, axes.yaxis):
+        axis.set_major_formatter("{x:g}")
+        axis.set_minor_formatter("{x:g}")
+        axis.set_tick_params(which="minor", labelsize=7)
     axes.set_xlabel("time per step [ms]")
     axes.set_ylabel("distance from the reference [mm]: mean (dot), largest (bar)")
     axes.set_title(

@@ -14,9 +14,12 @@ from tissu.scene.problem import Problem, one_of_words
 
 if TYPE_CHECKING:
     from tissu.compile.prepared import Findings, Group, Ints, Prepared
+    from tissu.mesh import Mesh
+    from tissu.scene.body import Body
     from tissu.scene.law import Law
     from tissu.scene.model import Model
     from tissu.scene.problem import Path
+    from tissu.scene.scene import Scene
 
 # The law that stands in for one that a model does not take: the same Young's modulus and Poisson's
 # ratio, so that both agree at small strain.
@@ -104,6 +107,16 @@ def check_model(
         note = f"{text}, with the same young and poisson: equal at small strain only"
         if note not in findings.notes:
             findings.note(note)
+
+
+def note_condensed(_mesh: Mesh, body: Body, scene: Scene, path: Path, findings: Findings) -> None:
+    """Note that a condensed region has no inertia inside, where time is stepped."""
+    condensed = any(isinstance(model, Condensed) for model in body.models().values())
+    if condensed and getattr(getattr(scene, "step", None), "type", "static") != "static":
+        findings.note(
+            f"{path[0]}.{path[1]}: inner nodes of a condensed region follow the others at once, "
+            "as in slow motion; their mass stands on the nodes that are kept"
+        )
 
 
 def _tell_once(place: Path, text: str, findings: Findings) -> None:

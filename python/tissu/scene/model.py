@@ -68,7 +68,7 @@ class Condensed(Part):
 
     type: Literal["condensed"] = "condensed"
     keep: Literal["touched", "surface"] = "touched"
-    """nodes that stay unknowns: those held, led, loaded or shared with others, or the surface too"""
+    """what stays unknown: nodes held, led, loaded or shared with others, or the surface too"""
 
     if TYPE_CHECKING:
 

@@ -165,6 +165,15 @@ class Simulation:
         """Displacements (n, 3) of the nodes of a body from rest [m]."""
         return self.positions[body] - self._meshes[body].points
 
+    def reactions(self, body: str) -> Floats:
+        """Forces (n, 3) that supports and led nodes give to a body [N]; zero where nothing is held.
+
+        M dv/dt - f, with the change of velocity of the latest step; in equilibrium minus the sum of
+        the elastic and external forces.
+        """
+        first, count = self._core.body_range(body)
+        return self._core.reactions()[first : first + count]
+
     def energy(self) -> dict[str, float]:
         """Kinetic, elastic and potential energy, and their total [J]."""
         return self._core.energy()

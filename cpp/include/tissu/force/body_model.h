@@ -3,6 +3,7 @@
 /// What a body is made of: a force model that owns a block of cells, their masses and their fields.
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -43,6 +44,18 @@ class BodyModel : public ForceModel {
   [[nodiscard]] virtual std::size_t bytes() const = 0;
   /// Numbers kept of each cell's rest shape and law; those that all cells share are kept once.
   [[nodiscard]] virtual std::size_t reals_per_cell() const = 0;
+
+  /// Itself without some of its cells, their numbers in its block ascending; `left` is the block of the
+  /// others. Null: it has nothing to take over, and is made anew.
+  [[nodiscard]] virtual std::unique_ptr<BodyModel> without(
+      ElasticBlock /*left*/, const std::vector<std::int32_t>& /*removed*/) const {
+    return nullptr;
+  }
 };
+
+/// The model among these, a body's before an edit, that carried all cells of `left`, without its other cells;
+/// null when there is none, or when it is to be made anew.
+std::unique_ptr<BodyModel> edited_model(const std::vector<const BodyModel*>& before,
+                                        const ElasticBlock& left);
 
 }  // namespace tissu

@@ -35,14 +35,24 @@ class CellModel : public BodyModel {
   /// Gives the cells their order and rest shape; refuses cells that are inverted or have no volume.
   void lay_cells(ConstReals rest_positions, RestForm form);
 
+  /// Keeps of the rest shape only the volumes: for models that have constants of their own.
+  void keep_volumes();
+  /// Places in the matrix of the pairs of nodes of each lane, [group][a][b][8]; `cells` have `size` nodes.
+  void lay_slots(const ElementOrder& order, const std::vector<std::int32_t>& cells, int size,
+                 const Sparsity& pattern, AlignedVector<std::int32_t>& slots) const;
+
   /// Calls f(chunk) for every chunk; those that run at the same time share no node.
   template <class Function>
   void for_chunks(Function&& f) const {
-    for (std::int32_t colour = 0; colour < order_.colours(); ++colour) {
-      const std::int32_t begin = order_.colour_begin[static_cast<std::size_t>(colour)];
-      const std::int32_t end = order_.colour_begin[static_cast<std::size_t>(colour) + 1];
+    for_chunks(order_, f);
+  }
+  template <class Function>
+  void for_chunks(const ElementOrder& order, Function&& f) const {
+    for (std::int32_t colour = 0; colour < order.colours(); ++colour) {
+      const std::int32_t begin = order.colour_begin[static_cast<std::size_t>(colour)];
+      const std::int32_t end = order.colour_begin[static_cast<std::size_t>(colour) + 1];
       threads_.for_each(end - begin,
-                        [&](std::int32_t c) { f(order_.chunks[static_cast<std::size_t>(begin + c)]); });
+                        [&](std::int32_t c) { f(order.chunks[static_cast<std::size_t>(begin + c)]); });
     }
   }
   /// Calls f(lane number, cell) for every lane that is not only there to pad: group = number / kLanes.

@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <span>
+#include <vector>
 
 #include "tissu/base/profile.h"
 #include "tissu/solve/linear_solver.h"
@@ -36,6 +37,9 @@ class Simulation {
   [[nodiscard]] const Integrator& integrator() const { return *integrator_; }
   [[nodiscard]] const LinearSolver& solver() const { return *solver_; }
 
+  /// What supports and led nodes give to the bodies [N], three for each node, zero where nothing is held:
+  /// M dv/dt - f with the change of velocity of the latest step.
+  [[nodiscard]] std::vector<double> reactions() const;
   /// Puts nodes that are no unknowns where they are now, for whoever looks at positions or velocities.
   void settle();
 

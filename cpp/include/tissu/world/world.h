@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "tissu/assembly/fixed_dofs.h"
@@ -29,7 +30,9 @@ struct Body {
 class World {
  public:
   /// Builds everything that a step needs; refuses a description that cannot be simulated.
-  explicit World(WorldDescription description);
+  explicit World(WorldDescription description) : World(std::move(description), nullptr) {}
+  /// The world that comes of removing cells from `before`, whose models hand over what stays as it is.
+  World(WorldDescription description, const World* before);
 
   [[nodiscard]] std::int32_t blocks() const { return static_cast<std::int32_t>(rest_positions_.size() / 3); }
   [[nodiscard]] const std::vector<Body>& bodies() const { return bodies_; }
@@ -61,7 +64,7 @@ class World {
   void carry_memory(const World& before, State& state) const;
 
  private:
-  void add_bodies(const WorldDescription& description);
+  void add_bodies(const WorldDescription& description, const World* before);
   void add_viscosity(const BodyDescription& body, const Body& made);
   void add_external(const WorldDescription& description);
   void add_fixed(const WorldDescription& description);

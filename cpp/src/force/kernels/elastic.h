@@ -4,6 +4,7 @@
 /// the force back to the nodes.  f_a = -sum_g w_g P grad_a,  K_ab = sum_g w_g grad_a . dP/dF . grad_b.
 
 #include "fused_point.h"
+#include "scatter_pairs.h"
 
 namespace tissu::TISSU_KERNELS {
 
@@ -96,16 +97,6 @@ struct Elastic : FusedPoint<Element, Rule, LawOf> {
     }
   }
 
-  /// Adds the block (a, b) and, when a != b, its transpose as (b, a). `block` is column by column.
-  TISSU_INLINE static void scatter_pair(const Lanes& lanes, int a, int b, const Batch (&block)[9],
-                                        double* blocks) {
-    scatter_add_block(blocks, lanes.slots + (a * kNodes + b) * kLanes, block);
-    if (a == b) return;
-    const Batch transposed[9] = {block[0], block[3], block[6], block[1], block[4],
-                                 block[7], block[2], block[5], block[8]};
-    scatter_add_block(blocks, lanes.slots + (b * kNodes + a) * kLanes, transposed);
-  }
-
   static constexpr int kFirst =
       Element::kAffine ? 1 : 0;  ///< node 0 of an affine cell follows from the others
   static constexpr int kPairs = (kNodes - kFirst) * (kNodes - kFirst + 1) / 2;
@@ -135,29 +126,6 @@ struct Elastic : FusedPoint<Element, Rule, LawOf> {
     }
   }
 
-  /// Block (0, b) = -sum_a (a, b) of an affine cell, because its gradients sum to zero.
-  TISSU_INLINE static void scatter_first_node(const Lanes& lanes, const Batch (&K)[kPairs][9],
-                                              double* blocks) {
-    Batch corner[9];
-    for (Batch& entry : corner) entry = Batch(0.0);
-    for (int b = 1; b < kNodes; ++b) {
-      Batch row[9];
-      for (Batch& entry : row) entry = Batch(0.0);
-      TISSU_UNROLL
-      for (int a = 1; a < kNodes; ++a) {
-        const int high = a < b ? b : a;
-        const int low = a < b ? a : b;
-        const Batch(&block)[9] = K[(high - 1) * high / 2 + low - 1];
-        TISSU_UNROLL
-        for (int c = 0; c < 9; ++c) row[c] -= a <= b ? block[c] : block[(c % 3) * 3 + c / 3];
-      }
-      TISSU_UNROLL
-      for (int c = 0; c < 9; ++c) corner[c] -= row[c];
-      scatter_pair(lanes, 0, b, row, blocks);
-    }
-    scatter_pair(lanes, 0, 0, corner, blocks);
-  }
-
   static void stiffness(const ElasticView& view, const Chunk& chunk, const double* x, double scale,
                         double* blocks) {
     PackedNodes positions;
@@ -174,9 +142,9 @@ struct Elastic : FusedPoint<Element, Rule, LawOf> {
         for (int g = 0; g < Rule::kPoints; ++g) point_stiffness(lanes, g, position, scale, K);
         int pair = 0;
         for (int b = kFirst; b < kNodes; ++b) {
-          for (int a = kFirst; a <= b; ++a, ++pair) scatter_pair(lanes, a, b, K[pair], blocks);
+          for (int a = kFirst; a <= b; ++a, ++pair) scatter_pair<kNodes>(lanes.slots, a, b, K[pair], blocks);
         }
-        if constexpr (Element::kAffine) scatter_first_node(lanes, K, blocks);
+        if constexpr (Element::kAffine) scatter_first_node<kNodes>(lanes.slots, K, blocks);
       }
     }
   }

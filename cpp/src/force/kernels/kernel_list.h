@@ -4,6 +4,7 @@
 
 #include <cstddef>
 
+#include "tissu/force/corotational_kernels.h"
 #include "tissu/force/elastic_kernels.h"
 #include "tissu/force/law_kernels.h"
 #include "tissu/force/prony_kernels.h"
@@ -23,16 +24,24 @@ struct PronyTables {
   const PronyKernels* first;
   std::size_t count;
 };
+struct CorotationalList {
+  const CorotationalKernels* first;
+  std::size_t count;
+};
 
-#define TISSU_KERNEL_LISTS(isa)          \
-  namespace isa {                        \
-  KernelList tetra_kernels();            \
-  KernelList hexahedron_kernels();       \
-  KernelList shape_kernels();            \
-  LawTables law_kernels();               \
-  LawTables viscous_laws();              \
-  PronyTables prony_kernels();           \
-  const SpringKernels* spring_kernels(); \
+#define TISSU_KERNEL_LISTS(isa)               \
+  namespace isa {                             \
+  KernelList tetra_kernels();                 \
+  KernelList hexahedron_kernels();            \
+  KernelList shape_kernels();                 \
+  LawTables law_kernels();                    \
+  CorotationalList corotational_tetra();      \
+  CorotationalList corotational_hexahedron(); \
+  CorotationalList corotational_wedge();      \
+  CorotationalList corotational_pyramid();    \
+  LawTables viscous_laws();                   \
+  PronyTables prony_kernels();                \
+  const SpringKernels* spring_kernels();      \
   }
 TISSU_KERNEL_LISTS(baseline)
 TISSU_KERNEL_LISTS(avx2)

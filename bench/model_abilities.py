@@ -1,0 +1,218 @@
+"""Prints docs/models.md: what each model says it can represent, and what it does: --write, --check.
+
+The words come from the models' classes (`_core.models`), the figures are measured here on a cube of
+tetrahedra. `--check` compares the words only: figures of time differ from machine to machine.
+"""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+
+import tissu as ts
+from tissu.compile.model import models
+
+PAGE = Path(__file__).resolve().parents[1] / "docs" / "models.md"
+YOUNG = 20e3  # Pa
+SIDE = 0.05  # m
+CAN = {"yes": "yes", "partly": "partly", "no": "no"}
+
+HEAD = """# Models
+
+What computes the forces of a body's cells is chosen by `model:` of a body, and nothing else of the
+scene changes: a law that a model does not take is replaced by the nearest it takes, with the same
+Young's modulus and Poisson's ratio, and `tissu check` says so. `tissu compare SCENE --models
+mass-spring,mass-link,mass-tensor,corotational,fem` runs a scene with each.
+
+```yaml
+bodies:
+  liver:
+    mesh: liver.vtu
+    law: {type: stvk, young: 4 kPa, poisson: 0.45}
+    model: mass-link               # or {type: corotational, tangent: exact}, or a map from regions
+    density: 1050
+```
+
+The words in this table are those of the models' classes, the figures were measured by
+`python bench/model_abilities.py --write` on a cube of 162 tetrahedra with E = 20 kPa, nu = 0.3.
+
+"""
+
+
+def low(axis: int) -> ts.Box:
+    """The plane where a coordinate is zero."""
+    return ts.Box((None,) * 3, tuple(1e-9 if i == axis else None for i in range(3)))
+
+
+def law(name: str, poisson: float) -> ts.StVK | ts.Hooke:
+    """The law a model is asked for: StVK where it takes it."""
+    taken = models()[name].laws
+    return (ts.StVK if not taken or "stvk" in taken else ts.Hooke)(young=YOUNG, poisson=poisson)
+
+
+def cube(name: str, *, poisson: float = 0.3, F: float = 1.0, **changes: object) -> ts.Scene:
+    """The cube between planes of symmetry, its top led to the stretch F in steps of 5 %."""
+    steps = max(1, int(np.ceil(abs(F - 1) / 0.05)))
+    times = [float(t) for t in range(steps + 1)]
+    model = ts.Condensed(keep="surface") if name == "condensed" else name
+    fields: dict[str, object] = {
+        "bodies": {
+            "cube": ts.Body(
+                mesh=ts.BarMesh(size=(SIDE,) * 3, cells=(3, 3, 3), cell="tetra"),
+                law=law(name, poisson),
+                density=1000,
+                model=model,
+            )
+        },
+        "fixed": [ts.Fixed("cube", on=low(i), axes="xyz"[i]) for i in range(3)],
+        "prescribed": [
+            ts.Prescribed(
+                "cube",
+                on=ts.Box((None, None, SIDE - 1e-9), (None,) * 3),
+                times=times,
+                displacements=[(0, 0, (F - 1) * SIDE * t / steps) for t in times],
+                axes="z",
+            )
+        ],
+        "step": ts.Static(solver=ts.Cholesky(), newton=ts.Newton(iterations=60, tolerance=1e-9)),
+        "duration": steps,
+    }
+    return ts.Scene(**{**fields, **changes})  # type: ignore[arg-type]
+
+
+def stretched(name: str, poisson: float, F: float) -> tuple[float, float]:
+    """Force over E A, and contraction across over stretch along; not a number where it fails."""
+    simulation = cube(name, poisson=poisson, F=F).compile()
+    try:
+        if not all([report.converged for report in simulation.run()]):
+            return float("nan"), float("nan")
+    except ts.Diverged:
+        return float("nan"), float("nan")
+    rest = simulation.meshes["cube"].points
+    top, side = rest[:, 2] > SIDE - 1e-9, rest[:, 0] > SIDE - 1e-9
+    force = simulation.reactions("cube")[top, 2].sum() / (YOUNG * SIDE**2)
+    across = simulation.displacements("cube")[side, 0].mean() / SIDE
+    return float(force), float(-across / (F - 1))
+
+
+def of_poisson(name: str) -> str:
+    """Contraction of a cube stretched by 0.1 %, for two ratios."""
+    found = [stretched(name, poisson, 1.001)[1] for poisson in (0.3, 0.45)]
+    return f"0.3 gives {found[0]:.3f}, 0.45 gives {found[1]:.3f}"
+
+
+def of_rotation(name: str) -> str:
+    """Energy of a quarter turn, over that of a strain of one tenth."""
+    simulation = cube(name).compile()
+    here, rest = simulation.positions["cube"], simulation.meshes["cube"].points
+    here[:] = rest * [1.1, 1.0, 1.0]
+    scale = simulation.energy()["elastic"]
+    here[:] = rest @ np.array([[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
+    share = abs(simulation.energy()["elastic"]) / scale
+    return (
+        f"a quarter turn costs {share:.0e} of a tenth of strain"
+        if share < 1e-3
+        else (f"a quarter turn costs {share:.0f} times a tenth of strain")
+    )
+
+
+def of_strain(name: str) -> str:
+    """Force at two stretches, over E A."""
+
+    def show(F: float) -> str:
+        force = stretched(name, 0.3, F)[0]
+        return f"{force:+.3f}" if np.isfinite(force) else "no equilibrium"
+
+    return f"force / E A at stretch 0.7: {show(0.7)}, 1.5: {show(1.5)}"
+
+
+def of_inversion(name: str) -> str:
+    """Whether a cube of which one free node was pushed through its cells comes back, in 5 s."""
+    scene = cube(
+        name,
+        prescribed=[],
+        duration=5,
+        step=ts.ImplicitEuler(0.02, newton=ts.Newton(iterations=20)),
+    )
+    body = scene.bodies["cube"].replace(viscosity=ts.Rayleigh(mass=2.0))
+    simulation = scene.replace(bodies={"cube": body}).compile()
+    rest = simulation.meshes["cube"].points
+    corner = int(np.argmax(rest.sum(axis=1)))
+    if name == "condensed":
+        return "linear: there is nothing to invert"
+    simulation.positions["cube"][corner] -= 0.6 * SIDE
+    before = len(simulation.inverted_cells("cube"))
+    try:
+        for _ in simulation.run():
+            pass
+    except ts.Diverged:
+        return f"{before} cells inside out: it stops with `Diverged`"
+    after = len(simulation.inverted_cells("cube"))
+    off = np.abs(simulation.displacements("cube")).max() / SIDE
+    back = after == 0 and off < 1e-3
+    return f"{before} cells inside out: " + ("come back" if back else f"{after} stay so")
+
+
+def of_topology(name: str) -> str:
+    """Whether a cell can be taken out while it runs."""
+    scene = cube(name, prescribed=[], editing=True, step=ts.ImplicitEuler(0.01))
+    simulation = scene.compile()
+    simulation.step()
+    simulation.remove_cells(body="cube", cells=[5])
+    simulation.step()
+    return "one of 162 cells goes between two steps"
+
+
+MEASURES: dict[str, tuple[str, Callable[[str], str]]] = {
+    "poisson": ("Poisson's ratio", of_poisson),
+    "rotation": ("large rotations", of_rotation),
+    "strain": ("large strains", of_strain),
+    "inversion": ("inverted cells", of_inversion),
+    "topology": ("topology change", of_topology),
+}
+
+
+def words(name: str) -> str:
+    """What a class says: laws, cells, and whether it can."""
+    info = models()[name]
+    laws = ", ".join(info.laws) or "any"
+    cells = ", ".join(info.elements) or "any"
+    told = "; ".join(
+        f"{MEASURES[key][0]}: {CAN[can]}, {how}" for key, (can, how) in info.abilities.items()
+    )
+    return f"`{name}`: {info.form}. Laws: {laws}. Cells: {cells}. {told}"
+
+
+def table() -> str:
+    """Abilities and what was measured, a row for each model."""
+    heads = [title for title, _ in MEASURES.values()]
+    lines = [f"| model | {' | '.join(heads)} | bytes a cell |", "|---" * (len(heads) + 2) + "|"]
+    for name, info in models().items():
+        cells = []
+        for key, (_, measure) in MEASURES.items():
+            can, how = info.abilities[key]
+            cells.append(f"{CAN[can]}: {how}. *{measure(name)}*")
+        simulation = cube(name).compile()
+        size = simulation.model_bytes() / simulation.meshes["cube"].cell_count
+        lines.append(f"| `{name}` | {' | '.join(cells)} | {size:.0f} |")
+    return "\n".join(lines)
+
+
+def page() -> str:
+    """The whole page."""
+    listed = "\n".join(f"- {words(name)}" for name in models())
+    return f"{HEAD}{table()}\n\n## In the classes' words\n\n{listed}\n"
+
+
+if __name__ == "__main__":
+    if "--check" in sys.argv[1:]:
+        text = PAGE.read_text(encoding="utf-8")
+        missing = [name for name in models() if words(name) not in text]
+        sys.exit(f"docs/models.md is not current for {', '.join(missing)}" if missing else 0)
+    if "--write" in sys.argv[1:]:
+        PAGE.write_text(page(), encoding="utf-8")
+    else:
+        print(page())

@@ -1,0 +1,122 @@
+"""tissu compare: what its rows say, against runs taken apart."""
+
+import csv
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+import tissu as ts
+from tissu.cli.app import app
+
+
+def beam(**changes):
+    fields = {
+        "bodies": {
+            "bar": ts.Body(
+                mesh=ts.BarMesh(size=(0.4, 0.1, 0.1), cells=(4, 1, 1), cell="hexahedron"),
+                law=ts.StVK(young="50 kPa", poisson=0.3),
+                density=1000,
+            )
+        },
+        "gravity": (0, 0, -9.81),
+        "fixed": [ts.Fixed("bar", on=ts.Plane((0, 0, 0), (1, 0, 0)))],
+        "step": ts.ImplicitEuler("10 ms"),
+        "duration": 0.1,
+    }
+    return ts.Scene(**{**fields, **changes})
+
+
+def final(scene):
+    simulation = scene.compile()
+    for _ in simulation.run():
+        pass
+    return simulation
+
+
+def test_the_reference_itself_has_no_error():
+    (row,) = ts.compare(beam(), models=["fem"], reference="fem").rows
+    assert (row.mean_error, row.largest_error, row.outcome) == (0.0, 0.0, "finished")
+    assert row.unconverged == 0
+    assert row.inverted == 0
+
+
+def test_errors_are_distances_from_the_quadratic_elements():
+    static = beam(step=ts.Static(), duration=None)
+    (row,) = ts.compare(static, models=["fem"]).rows
+    coarse = final(static)
+    fine = final(
+        static.replace(
+            bodies={
+                "bar": static.bodies["bar"].replace(mesh=ts.into_quadratic(coarse.meshes["bar"]))
+            }
+        )
+    )
+    rich = fine.displacements("bar")[: coarse.meshes["bar"].node_count]
+    apart = np.linalg.norm(coarse.displacements("bar") - rich, axis=1)
+    assert row.mean_error == pytest.approx(apart.mean(), rel=1e-12)
+    assert row.largest_error == pytest.approx(apart.max(), rel=1e-12)
+    largest = np.linalg.norm(rich, axis=1).max()
+    assert row.mean_percent == pytest.approx(100 * apart.mean() / largest, rel=1e-12)
+
+
+def test_another_scene_may_be_the_reference():
+    fine = beam(
+        bodies={
+            "bar": beam()
+            .bodies["bar"]
+            .replace(mesh=ts.BarMesh(size=(0.4, 0.1, 0.1), cells=(8, 2, 2), cell="hexahedron"))
+        },
+        name="fine",
+    )
+    comparison = ts.compare(beam(), models=["fem"], reference=fine)
+    assert comparison.reference == "the scene fine"
+    # 4 x 1 x 1 hexahedra are too stiff in bending; a tenth of a second shows the start of it.
+    assert comparison.rows[0].mean_percent > 0.5
+    with pytest.raises(ts.ParameterError, match="no node where"):
+        ts.compare(fine, models=["fem"], reference=beam())
+    with pytest.raises(ts.ParameterError, match="other times"):
+        ts.compare(beam(), models=["fem"], reference=fine.replace(step=ts.ImplicitEuler("5 ms")))
+
+
+def test_the_stable_step_is_that_of_the_largest_frequency():
+    (row,) = ts.compare(beam(), models=["fem"], reference="fem").rows
+    assert row.stable_step == pytest.approx(2 / beam().compile().largest_frequency())
+
+
+def test_a_model_that_cannot_is_a_row_that_says_why():
+    comparison = ts.compare(beam(), models=["fem", "mass-link"], reference="fem")
+    row = comparison.rows[1]
+    assert row.outcome == "refused"
+    assert "found mass-link for 4 hexahedron cells; it takes tetra" in row.why
+    assert "mass-link refused" in str(comparison)
+
+
+def test_unknown_models_name_the_nearest():
+    with pytest.raises(ts.ParameterError, match="did you mean 'mass-link'"):
+        ts.compare(beam(), models=["mass-lnk"])
+    with pytest.raises(ts.ParameterError, match="did you mean 'finest'"):
+        ts.compare(beam(), reference="finst")
+
+
+def test_the_command_writes_table_and_figure(tmp_path):
+    file = tmp_path / "beam.yaml"
+    beam(name="beam").save(file)
+    result = CliRunner().invoke(
+        app, ["compare", str(file), "--models", "fem,condensed", "-o", str(tmp_path / "out")]
+    )
+    assert result.exit_code == 0, result.output
+    with (tmp_path / "out" / "compare.csv").open(encoding="utf-8") as stream:
+        rows = list(csv.DictReader(stream))
+    assert [row["model"] for row in rows] == ["fem", "condensed"]
+    assert float(rows[0]["mean_error"]) > 0
+    assert "| fem |" in (tmp_path / "out" / "compare.md").read_text(encoding="utf-8")
+    assert (tmp_path / "out" / "compare.png").read_bytes().startswith(b"\x89PNG")
+
+
+def test_the_command_tells_a_wrong_model(tmp_path):
+    file = tmp_path / "beam.yaml"
+    beam().save(file)
+    result = CliRunner().invoke(app, ["compare", str(file), "--models", "fam"])
+    assert result.exit_code != 0
+    assert "unknown model 'fam'; did you mean 'fem'" in result.output

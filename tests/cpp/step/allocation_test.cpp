@@ -54,6 +54,7 @@ struct AllocationCase {
   Split split;
   int newton;
   int threads;
+  bool viscous = false;  ///< every viscosity there is
 };
 
 void PrintTo(const AllocationCase& c, std::ostream* out) { *out << c.name; }
@@ -65,6 +66,9 @@ class Allocation : public testing::TestWithParam<AllocationCase> {
     WorldDescription world;
     world.bodies = {test::body_of(mesh, {.law = GetParam().law, .young = 100.0})};
     world.bodies[0].rayleigh = {0.1, 0.001};
+    if (GetParam().viscous) {
+      world.bodies[0].viscosity = {0.1, 0.2, 0.3, {{0.5, 0.1}, {0.2, 1.0}}};
+    }
     world.gravity = Vec3(0, 0, -1);
     world.fixed = {test::fixed(test::nodes_at(mesh, 0, 0.0))};
     world.loads = {{"hand", "body", {3}, {0.1, 0.0, 0.0}, {{0.0, 1.0}, {0.0, 1.0}}}};
@@ -97,13 +101,14 @@ TEST_P(Allocation, ASteadyStepTakesNone) {
 #endif
 }
 
-INSTANTIATE_TEST_SUITE_P(Worlds, Allocation,
-                         testing::Values(AllocationCase{"stvk_tetra_once", "stvk", Split::six, 1, 1},
-                                         AllocationCase{"stvk_tetra_newton", "stvk", Split::six, 4, 1},
-                                         AllocationCase{"hooke_hexahedron_once", "hooke", Split::none, 1, 1},
-                                         AllocationCase{"stvk_hexahedron_two_threads", "stvk", Split::none, 1,
-                                                        2}),
-                         testing::PrintToStringParamName());
+INSTANTIATE_TEST_SUITE_P(
+    Worlds, Allocation,
+    testing::Values(AllocationCase{"stvk_tetra_once", "stvk", Split::six, 1, 1},
+                    AllocationCase{"stvk_tetra_newton", "stvk", Split::six, 4, 1},
+                    AllocationCase{"hooke_hexahedron_once", "hooke", Split::none, 1, 1},
+                    AllocationCase{"stvk_hexahedron_two_threads", "stvk", Split::none, 1, 2},
+                    AllocationCase{"stvk_tetra_viscous", "stvk", Split::six, 4, 2, true}),
+    testing::PrintToStringParamName());
 
 }  // namespace
 }  // namespace tissu

@@ -13,6 +13,7 @@ struct ThreadsCase {
   Split split;
   bool direct;
   int newton;
+  bool viscous = false;  ///< every viscosity there is
 };
 
 void PrintTo(const ThreadsCase& c, std::ostream* out) { *out << c.name; }
@@ -27,6 +28,9 @@ class SameBits : public testing::TestWithParam<ThreadsCase> {
     WorldDescription world;
     world.bodies = {test::body_of(mesh, {.young = 100.0})};
     world.bodies[0].rayleigh = {0.1, 0.001};
+    if (GetParam().viscous) {
+      world.bodies[0].viscosity = {0.1, 0.2, 0.3, {{0.5, 0.1}, {0.2, 1.0}}};
+    }
     world.gravity = Vec3(0.0, 0.0, -9.81);
     world.fixed = {test::fixed(test::nodes_at(mesh, 0, 0.0))};
     world.threads = threads;
@@ -52,6 +56,7 @@ TEST_P(SameBits, OnOneToFourThreads) {
     const State several = after_twenty_steps(threads);
     EXPECT_TRUE(same_bits(one.positions, several.positions)) << threads << " threads";
     EXPECT_TRUE(same_bits(one.velocities, several.velocities)) << threads << " threads";
+    EXPECT_TRUE(same_bits(one.memory, several.memory)) << threads << " threads";
   }
 }
 
@@ -64,7 +69,8 @@ INSTANTIATE_TEST_SUITE_P(Worlds, SameBits,
                          testing::Values(ThreadsCase{"tetra_conjugate_gradient", Split::six, false, 1},
                                          ThreadsCase{"tetra_cholesky", Split::six, true, 1},
                                          ThreadsCase{"tetra_newton", Split::six, false, 3},
-                                         ThreadsCase{"hexahedron_conjugate_gradient", Split::none, false, 1}),
+                                         ThreadsCase{"hexahedron_conjugate_gradient", Split::none, false, 1},
+                                         ThreadsCase{"tetra_viscous", Split::six, false, 2, true}),
                          testing::PrintToStringParamName());
 
 }  // namespace

@@ -1,0 +1,265 @@
+"""What viscosity does to a compressed cube and to a turning one: prints docs/viscosity.md.
+
+    python bench/viscosity.py --picture docs/pictures/viscosity.png > docs/viscosity.md
+
+The compression of Chendeb 2007, sections 3.5 and 3.6: a cube of 50 mm between sliding planes,
+St-Venant-Kirchhoff, E = 0.02 MPa, its force beside the closed form. Figure 3.8 shows the
+oscillations gone at a small coefficient, figure 3.9 the error that a large one brings in.
+"""
+
+from __future__ import annotations
+
+import argparse
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+import tissu as ts
+
+Floats = NDArray[np.float64]
+SIDE, YOUNG, POISSON, DENSITY = 0.05, 2e4, 0.3, 1e3  # m, Pa, 1, kg/m3
+SPEED, DEPTH, STEP = 0.15, 0.015, 1e-4  # m/s, m, s
+ETAS = (0.3, 1.0, 3.0, 10.0, 30.0, 100.0, 300.0)
+COEFFICIENTS = (1e4, 1e5, 3e5, 1e6, 3e6, 1e7, 3e7)
+SHARES = (3e-5, 1e-4, 3e-4, 1e-3, 3e-3, 1e-2, 3e-2)
+SMALL, LARGE = 2, 4  # which of the coefficients the picture shows
+
+HEAD = """# Viscosity, measured
+
+`viscosity:` of a body is one of four; each is an object beside the elastic model, and where a
+body has none, none is there.
+
+| `type` | force | turning of the whole body | where |
+|---|---|---|---|
+| `kelvin_voigt` | S = 2 eta dE/dt + zeta tr(dE/dt) I at every point | free | \
+any cell; `mass-spring`: a damper beside each spring |
+| `centroid` | f = -c V (v - mean v) of each cell (Chendeb 2007, 3.6.2) | braked | any cell |
+| `rayleigh` | f = -mass M v + stiffness K v | \
+braked by the share of the mass; by that of the stiffness under stress | any cell |
+| `prony` | S = g C : q, dq/dt = dE/dt - q / tau for each branch | free \
+| cells with a volume, in time |
+
+The derivative by the velocities is exact for all four. That of `kelvin_voigt` and `rayleigh` by
+the positions leaves out how the damping itself changes with the shape; it vanishes with the
+speed. `prony` is exact for a strain that goes evenly through a step; its tangent is complete.
+
+## A cube under compression
+
+A cube of 50 mm, St-Venant-Kirchhoff with E = 0.02 MPa and nu = 0.3, 1000 kg/m3, 625 tetrahedra,
+three planes of symmetry, is pressed by 15 mm at 150 mm/s: the planes slide, so that the closed
+form P = E/2 F (F^2 - 1) holds once the cube is at rest. Implicit Euler with 0.1 ms and Newton's
+method. The paper presses at 1 mm/s; then the blow at the start is 150 times smaller, and so is
+what a given viscosity adds: rho c v = 4.5 Pa there, {blow:.0f} Pa here, of {largest:.0f} Pa at
+the end.
+
+Of the pressure from 5 % of compression on: **oscillation**, the root mean square about its
+straight trend beside the closed form; **bias**, the mean distance from it; both in percent of the
+closed form's mean. A positive bias is too stiff.
+
+![Pressure against compression](pictures/viscosity.png)
+
+"""
+
+TAIL = """
+## What to read from it
+
+- Without viscosity the cube rings ({none:.1f} %): the steps' own damping, omega^2 dt / 2, hardly
+  touches it.
+- Figure 3.8: `centroid` with c = {good_c:g} N s/m^4 takes the oscillation to
+  {good_oscillation:.1f} % at a bias of {good_bias:.1f} %; `kelvin_voigt` does as much with eta =
+  {good_eta:g} Pa s.
+- Figure 3.9: with c = {bad_c:g} N s/m^4 the bias is {bad_bias:.0f} %. It is the viscosity's
+  stress, in proportion to the speed and to the coefficient.
+- The window between them is that of damping ratios around 0.1 to 0.5 of the slowest mode: eta =
+  10 to 30 Pa s here.
+- c of `centroid` is no property of a material: the damper that it makes grows with the square of
+  the cells' size. On cells of half the size c must be four times as large: {coarse:.1f} % and
+  {fine:.1f} % of oscillation with the same c on cells of 10 mm and 5 mm. eta of `kelvin_voigt` is
+  one.
+- The paper's 1e-3 has no unit and cannot be compared.
+"""
+
+TURNING = """
+## A body that turns
+
+The same cube, free, spun at one turn a second; what is left of its angular momentum after half a
+second, beside the same without viscosity (the steps' own loss):
+
+| viscosity | left |
+|---|---|
+"""
+
+
+@dataclass(frozen=True)
+class Run:
+    """A compression: stretch and pressure at each step."""
+
+    stretch: Floats
+    pressure: Floats
+
+    @property
+    def closed_form(self) -> Floats:
+        """P = E/2 F (F^2 - 1), positive where it presses [Pa]."""
+        return YOUNG / 2 * self.stretch * (1 - self.stretch**2)
+
+    def figures(self) -> tuple[float, float]:
+        """Oscillation and bias in percent of the mean pressure."""
+        late = self.stretch < 0.95
+        off = (self.pressure - self.closed_form)[late]
+        place = self.stretch[late]
+        trend = np.polyval(np.polyfit(place, off, 1), place)
+        mean = self.closed_form[late].mean()
+        return 100 * float((off - trend).std() / mean), 100 * float(off.mean() / mean)
+
+
+def plane(axis: int, *, low: bool) -> ts.Box:
+    """Nodes of the cube on a face across an axis."""
+    edge = tuple((1e-9 if low else SIDE - 1e-9) if i == axis else None for i in range(3))
+    return ts.Box(None, edge) if low else ts.Box(edge, None)
+
+
+def cube(viscosity: Any, cells: int) -> ts.Body:
+    """The cube of the paper."""
+    mesh = ts.bar_mesh(size=(SIDE,) * 3, cells=(cells,) * 3, cell="tetra", split="five")
+    law = ts.StVK(young=YOUNG, poisson=POISSON)
+    return ts.Body(mesh=mesh, law=law, density=DENSITY, viscosity=viscosity)
+
+
+def step() -> ts.ImplicitEuler:
+    """Small steps, solved to the end."""
+    return ts.ImplicitEuler(
+        STEP, newton=ts.Newton(iterations=8, tolerance=1e-6), solver=ts.Cholesky()
+    )
+
+
+def pressed(viscosity: Any = None, cells: int = 5) -> Run:
+    """The cube pressed at a constant speed."""
+    time = DEPTH / SPEED
+    simulation = ts.Scene(
+        bodies={"cube": cube(viscosity, cells)},
+        fixed=[ts.Fixed("cube", on=plane(i, low=True), axes="xyz"[i]) for i in range(3)],
+        prescribed=[
+            ts.Prescribed(
+                "cube",
+                on=plane(2, low=False),
+                times=[0, time],
+                displacements=[(0, 0, 0), (0, 0, -DEPTH)],
+                axes="z",
+            )
+        ],
+        step=step(),
+    ).compile()
+    base = simulation.meshes["cube"].points[:, 2] < 1e-9
+    stretch, pressure = [], []
+    for _ in range(round(time / STEP)):
+        simulation.step()
+        stretch.append(1 - SPEED * simulation.time / SIDE)
+        pressure.append(simulation.reactions("cube")[base, 2].sum() / SIDE**2)
+    return Run(np.array(stretch), np.array(pressure))
+
+
+def spin_left(viscosity: Any) -> float:
+    """Share of its angular momentum that a free cube keeps for half a second at a turn a second."""
+    simulation = ts.Scene(
+        bodies={"cube": cube(viscosity, 3)}, step=ts.ImplicitEuler(1e-3, newton=ts.Newton())
+    ).compile()
+    position, velocity = simulation.positions["cube"], simulation.velocities["cube"]
+    spin = np.array([0, 0, 2 * np.pi])
+    velocity[:] = np.cross(spin, position - SIDE / 2)
+
+    def moment() -> float:
+        arms = position - position.mean(axis=0)
+        return float(np.cross(arms, velocity)[:, 2].sum())
+
+    before = moment()
+    for _ in range(500):
+        simulation.step()
+    return moment() / before
+
+
+def row(name: str, unit: str, coefficient: float, run: Run) -> str:
+    """A line of the table."""
+    oscillation, bias = run.figures()
+    return f"| {name} | {coefficient:g} {unit} | {oscillation:.2f} | {bias:+.2f} |"
+
+
+def draw(path: Path, none: Run, runs: dict[str, dict[float, Run]]) -> None:
+    """Small coefficient, large coefficient, and both figures against eta."""
+    import matplotlib
+
+    matplotlib.use("Agg")
+    from matplotlib import pyplot
+
+    figure, (small, large, both) = pyplot.subplots(1, 3, figsize=(14, 4.4), layout="constrained")
+    compression = 100 * (1 - none.stretch)
+    of_centroid = runs["centroid"]
+    for panel, which, title in (
+        (small, SMALL, "a small coefficient (figure 3.8)"),
+        (large, LARGE, "a large coefficient (figure 3.9)"),
+    ):
+        c = COEFFICIENTS[which]
+        panel.plot(compression, none.pressure / 1e3, color="0.7", lw=1, label="no viscosity")
+        panel.plot(compression, none.closed_form / 1e3, "k--", lw=1.2, label="closed form")
+        label = f"centroid, c = {c:g} N s/m$^4$"
+        panel.plot(compression, of_centroid[c].pressure / 1e3, color="C3", lw=1.2, label=label)
+        panel.set(title=title, xlabel="compression [%]", ylabel="pressure [kPa]")
+        panel.legend(loc="upper left", frameon=False)
+        panel.set_ylim(-0.5, 6.5)
+    etas = list(runs["kelvin_voigt"])
+    figures = np.array([run.figures() for run in runs["kelvin_voigt"].values()])
+    both.loglog(etas, figures[:, 0], "o-", color="C0", label="oscillation")
+    both.loglog(etas, np.abs(figures[:, 1]), "s-", color="C3", label="bias, positive or negative")
+    both.axhline(none.figures()[0], color="0.7", lw=1, label="oscillation without viscosity")
+    both.set(title="kelvin_voigt", xlabel="eta [Pa s]", ylabel="% of the mean pressure")
+    both.legend(frameon=False)
+    figure.savefig(path, dpi=110)
+
+
+def main() -> None:
+    """Runs everything, prints the page and draws its picture."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--picture", type=Path)
+    picture = parser.parse_args().picture
+    none = pressed()
+    runs = {
+        "kelvin_voigt": {eta: pressed(ts.KelvinVoigt(eta=eta)) for eta in ETAS},
+        "centroid": {c: pressed(ts.Centroid(coefficient=c)) for c in COEFFICIENTS},
+        "rayleigh": {beta: pressed(ts.Rayleigh(stiffness=beta)) for beta in SHARES},
+    }
+    blow = DENSITY * np.sqrt(YOUNG / DENSITY) * SPEED
+    print(HEAD.format(blow=blow, largest=none.closed_form[-1]), end="")
+    print("| viscosity | coefficient | oscillation, % | bias, % |\n|---|---|---|---|")
+    oscillation, bias = none.figures()
+    print(f"| none | | {oscillation:.2f} | {bias:+.2f} |")
+    units = {"kelvin_voigt": "Pa s", "centroid": "N s/m^4", "rayleigh": "s"}
+    for name, of_kind in runs.items():
+        for coefficient, run in of_kind.items():
+            print(row(name, units[name], coefficient, run))
+    c, large = COEFFICIENTS[SMALL], COEFFICIENTS[LARGE]
+    good, bad = runs["centroid"][c].figures(), runs["centroid"][large].figures()
+    fine = pressed(ts.Centroid(coefficient=c), cells=10).figures()[0]
+    near = min(ETAS, key=lambda eta: abs(np.log(runs["kelvin_voigt"][eta].figures()[0] / good[0])))
+    words = {
+        **{"none": oscillation, "good_c": c, "good_oscillation": good[0], "good_bias": good[1]},
+        **{"good_eta": near, "bad_c": large, "bad_bias": bad[1], "coarse": good[0], "fine": fine},
+    }
+    print(TAIL.format(**words), end="")
+    print(TURNING, end="")
+    free = spin_left(None)
+    for name, viscosity in (
+        ("none", None),
+        (f"kelvin_voigt, eta {near:g} Pa s", ts.KelvinVoigt(eta=near)),
+        (f"centroid, c {c:g} N s/m^4", ts.Centroid(coefficient=c)),
+        ("rayleigh, stiffness 1 ms", ts.Rayleigh(stiffness=1e-3)),
+        ("rayleigh, mass 1 1/s", ts.Rayleigh(mass=1.0)),
+    ):
+        print(f"| {name} | {100 * spin_left(viscosity) / free:.2f} % |")
+    if picture is not None:
+        draw(picture, none, runs)
+
+
+if __name__ == "__main__":
+    main()

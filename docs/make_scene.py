@@ -10,7 +10,7 @@ import tissu.scene as scene
 PAGE = Path(__file__).with_name("scene.md")
 _LAWS = (
     *("Hooke", "StVK", "NeoHooke", "StableNeoHooke", "MooneyRivlin", "Yeoh", "ArrudaBoyce"),
-    *("Fibres", "Rayleigh"),
+    *("Fibres", "Rayleigh", "KelvinVoigt", "Centroid", "Prony", "PronyBranch"),
 )
 ORDER = (
     ("The scene", ("Scene", "Output")),

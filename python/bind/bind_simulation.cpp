@@ -1,4 +1,5 @@
 #include <functional>
+#include <limits>
 
 #include "bind.h"
 #include "tissu/edit/remove_cells.h"
@@ -34,24 +35,31 @@ py::dict to_dict(const Energy& energy) {
   return result;
 }
 
+/// A field of all models of a body: not a number where one does not know it, nothing where none does.
+void add_field(py::dict& result, const char* name, const std::vector<CellFields>& models,
+               const std::vector<std::size_t>& cells, std::vector<double> CellFields::*field) {
+  std::vector<double> all;
+  bool known = false;
+  for (std::size_t m = 0; m < models.size(); ++m) {
+    const std::vector<double>& values = models[m].*field;
+    known = known || !values.empty();
+    all.insert(all.end(), values.begin(), values.end());
+    if (values.empty()) all.insert(all.end(), cells[m], std::numeric_limits<double>::quiet_NaN());
+  }
+  if (known) result[name] = py::array_t<double>(static_cast<py::ssize_t>(all.size()), all.data());
+}
+
 py::dict cell_fields(const Simulation& simulation, const std::string& name) {
-  CellFields all;
+  std::vector<CellFields> models;
+  std::vector<std::size_t> cells;
   for (const BodyModel* model : simulation.world().body(name).models) {
-    const CellFields fields = model->fields(simulation.state());
-    const auto append = [](std::vector<double>& to, const std::vector<double>& from) {
-      to.insert(to.end(), from.begin(), from.end());
-    };
-    append(all.von_mises, fields.von_mises);
-    append(all.energy_density, fields.energy_density);
-    append(all.volume_ratio, fields.volume_ratio);
+    models.push_back(model->fields(simulation.state()));
+    cells.push_back(static_cast<std::size_t>(model->cell_count()));
   }
   py::dict result;
-  result["von_mises"] =
-      py::array_t<double>(static_cast<py::ssize_t>(all.von_mises.size()), all.von_mises.data());
-  result["energy_density"] =
-      py::array_t<double>(static_cast<py::ssize_t>(all.energy_density.size()), all.energy_density.data());
-  result["volume_ratio"] =
-      py::array_t<double>(static_cast<py::ssize_t>(all.volume_ratio.size()), all.volume_ratio.data());
+  add_field(result, "von_mises", models, cells, &CellFields::von_mises);
+  add_field(result, "energy_density", models, cells, &CellFields::energy_density);
+  add_field(result, "volume_ratio", models, cells, &CellFields::volume_ratio);
   return result;
 }
 
@@ -125,7 +133,10 @@ void bind_simulation(py::module_& m) {
       .def("step", &Simulation::step, arg("dt"), py::call_guard<py::gil_scoped_release>())
       .def_property(
           "time", [](const Simulation& s) { return s.state().time; },
-          [](Simulation& s, double time) { s.state().time = time; })
+          [](Simulation& s, double time) {
+            s.state().memory_time += time - s.state().time;
+            s.state().time = time;
+          })
       .def_property_readonly("integrator_name",
                              [](const Simulation& s) { return std::string(s.integrator().name()); })
       .def_property_readonly("solver_name",

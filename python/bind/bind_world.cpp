@@ -58,6 +58,13 @@ void add_elastic(WorldDescription& world, const std::string& body, const std::st
   world.body(body).elastic.push_back(std::move(block));
 }
 
+void add_viscosity(WorldDescription& world, const std::string& body, double shear, double bulk,
+                   double centroid, const std::vector<std::pair<double, double>>& branches) {
+  Viscosity viscosity{shear, bulk, centroid, {}};
+  for (const auto& [weight, time] : branches) viscosity.prony.push_back({weight, time});
+  world.body(body).viscosity = std::move(viscosity);
+}
+
 std::vector<FaceCells> to_faces(const std::vector<std::pair<std::string, Ints>>& faces) {
   std::vector<FaceCells> result;
   result.reserve(faces.size());
@@ -146,6 +153,9 @@ void bind_world(py::module_& m) {
             world.body(body).rayleigh = RayleighDamping{mass, stiffness};
           },
           py::kw_only(), arg("body"), arg("mass"), arg("stiffness"))
+      .def("add_viscosity", &add_viscosity, py::kw_only(), arg("body"), arg("shear") = 0.0,
+           arg("bulk") = 0.0, arg("centroid") = 0.0,
+           arg("branches") = std::vector<std::pair<double, double>>{})
       .def(
           "add_gravity",
           [](WorldDescription& world, const Doubles& acceleration) {

@@ -28,6 +28,7 @@ from tissu.scene import StableNeoHooke as StableNeoHooke
 from tissu.scene import Yeoh as Yeoh
 from tissu.scene import Body as Body
 from tissu.scene import Box as Box
+from tissu.scene import Centroid as Centroid
 from tissu.scene import Cholesky as Cholesky
 from tissu.scene import Condensed as Condensed
 from tissu.scene import ConjugateGradient as ConjugateGradient
@@ -36,6 +37,7 @@ from tissu.scene import FEM as FEM
 from tissu.scene import Fixed as Fixed
 from tissu.scene import Hooke as Hooke
 from tissu.scene import ImplicitEuler as ImplicitEuler
+from tissu.scene import KelvinVoigt as KelvinVoigt
 from tissu.scene import MassLink as MassLink
 from tissu.scene import MassSpring as MassSpring
 from tissu.scene import MassTensor as MassTensor
@@ -47,6 +49,8 @@ from tissu.scene import Output as Output
 from tissu.scene import Plane as Plane
 from tissu.scene import Prescribed as Prescribed
 from tissu.scene import Pressure as Pressure
+from tissu.scene import Prony as Prony
+from tissu.scene import PronyBranch as PronyBranch
 from tissu.scene import Rayleigh as Rayleigh
 from tissu.scene import Region as Region
 from tissu.scene import Rotation as Rotation

@@ -121,6 +121,15 @@ class WorldBuilder:
         model: ModelUse = ...,
     ) -> None: ...
     def add_rayleigh(self, *, body: str, mass: float, stiffness: float) -> None: ...
+    def add_viscosity(
+        self,
+        *,
+        body: str,
+        shear: float = 0.0,
+        bulk: float = 0.0,
+        centroid: float = 0.0,
+        branches: Sequence[tuple[float, float]] = (),
+    ) -> None: ...
     def add_gravity(self, *, acceleration: Floats) -> None: ...
     def add_load(
         self,

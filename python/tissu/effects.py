@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from tissu.scene.scene import Scene
     from tissu.scene.selection import Selection
     from tissu.scene.step import Step
+    from tissu.scene.viscosity import Viscosity
 
 
 @dataclass(frozen=True, slots=True)
@@ -104,10 +105,7 @@ def _of_body(name: str, body: Body) -> list[Effect]:
         why = f"bodies.{name}.section is {body.section:g} m^2"
         effects.append(Effect(f"lines of {name}", why))
     if body.viscosity is not None:
-        v = body.viscosity
-        why = (
-            f"bodies.{name}.viscosity is {v.type}, mass {v.mass:g} 1/s, stiffness {v.stiffness:g} s"
-        )
+        why = f"bodies.{name}.viscosity is {_viscosity(body.viscosity)}"
         effects.append(Effect(f"viscosity of {name}", why))
     return effects
 
@@ -124,6 +122,17 @@ def _law(law: Law) -> str:
     words = ", ".join(f"{n} {value:g}" + ("" if n in pure else " Pa") for n, value in values)
     fibres = "" if law.fibres is None else f", fibres k1 {law.fibres.k1:g}, k2 {law.fibres.k2:g}"
     return f"{law.type} with {words}{fibres}"
+
+
+def _viscosity(viscosity: Viscosity) -> str:
+    if viscosity.type == "rayleigh":
+        return f"rayleigh, mass {viscosity.mass:g} 1/s, stiffness {viscosity.stiffness:g} s"
+    if viscosity.type == "kelvin_voigt":
+        return f"kelvin_voigt, eta {viscosity.eta:g} Pa s, zeta {viscosity.zeta:g} Pa s"
+    if viscosity.type == "centroid":
+        return f"centroid, coefficient {viscosity.coefficient:g} N s/m^4"
+    branches = (f"weight {b.weight:g} time {b.time:g} s" for b in viscosity.branches)
+    return f"prony, {', '.join(branches)}"
 
 
 def _model(model: Model) -> str:

@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     """What a vector may be written as: three numbers in SI or texts with units."""
 
 _NUMBER = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*?)\s*", re.DOTALL)
+_APART = re.compile(r"(?<=\w) +(?=[^\W\d])")
 
 
 @dataclass(frozen=True, slots=True)
@@ -117,7 +118,8 @@ class Dimension:
 
 
 def _normal(unit: str) -> str:
-    """One spelling for each unit: no spaces, ^ for powers."""
+    """One spelling for each unit: no spaces, * between two units, ^ for powers."""
+    unit = _APART.sub("*", unit)
     for old, new in (
         ("**", "^"),
         ("²", "^2"),
@@ -180,9 +182,18 @@ ANGLE = Dimension(
 RATE = Dimension(
     "rate", "1/s", "0.1 1/s", {"1/s": 1.0, "/s": 1.0, "s^-1": 1.0, "1/ms": 1e3, "Hz": 1.0}
 )
+VISCOSITY = Dimension(
+    "viscosity", "Pa*s", "40 Pa s",
+    {"Pa*s": 1.0, "mPa*s": 1e-3, "kPa*s": 1e3},
+)  # fmt: skip
+DAMPING_PER_VOLUME = Dimension(
+    "damping per volume", "N*s/m^4", "2e5 N s/m^4",
+    {"N*s/m^4": 1.0, "kg/s/m^3": 1.0, "kg/m^3/s": 1.0},
+)  # fmt: skip
 NUMBER = Dimension("pure number", "", "0.45", {"%": 0.01})
 DIMENSIONS = (
     *(LENGTH, AREA, TIME, MASS, PRESSURE, DENSITY, FORCE, ACCELERATION, ANGLE, RATE),
+    *(VISCOSITY, DAMPING_PER_VOLUME),
     NUMBER,
 )
 
@@ -263,6 +274,8 @@ Mass = Annotated[float, BeforeValidator(MASS)]
 Pressure = Annotated[float, BeforeValidator(PRESSURE)]
 Density = Annotated[float, BeforeValidator(DENSITY)]
 Rate = Annotated[float, BeforeValidator(RATE)]
+Viscosity = Annotated[float, BeforeValidator(VISCOSITY)]
+DampingPerVolume = Annotated[float, BeforeValidator(DAMPING_PER_VOLUME)]
 Angle = Annotated[float, BeforeValidator(ANGLE)]
 Pure = Annotated[float, BeforeValidator(NUMBER)]
 Direction = Annotated[_Three, BeforeValidator(Triple(NUMBER))]

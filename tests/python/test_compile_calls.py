@@ -15,15 +15,19 @@ from tissu.scene import (
     BarMesh,
     Body,
     Box,
+    Centroid,
     Cholesky,
     ConjugateGradient,
     Fixed,
     Hooke,
     ImplicitEuler,
+    KelvinVoigt,
     Newton,
     NodalLoad,
     Prescribed,
     Pressure,
+    Prony,
+    PronyBranch,
     Rayleigh,
     Rotation,
     Scene,
@@ -120,6 +124,20 @@ def test_gravity_viscosity_fixed(calls):
     assert only(recorded, "add_gravity")["acceleration"].tolist() == [0, 0, -9.81]
     fixed = only(recorded, "fix")
     assert (len(fixed["nodes"]), fixed["axes"]) == (4, 5)
+
+
+@pytest.mark.parametrize(
+    ("viscosity", "fields"),
+    [
+        (KelvinVoigt(eta=3.0, zeta=4.0), {"shear": 3.0, "bulk": 4.0}),
+        (Centroid(coefficient=5.0), {"centroid": 5.0}),
+        (Prony(branches=[PronyBranch(weight=0.5, time=2.0)]), {"branches": [(0.5, 2.0)]}),
+    ],
+)
+def test_viscosities(calls, viscosity, fields):
+    recorded = calls(bodies={"bar": BODY.replace(viscosity=viscosity)})
+    assert only(recorded, "add_viscosity") == {"body": "bar", **fields}
+    assert not [name for name, _ in recorded if name == "add_rayleigh"]
 
 
 def test_prescribed(calls):

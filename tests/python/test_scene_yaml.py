@@ -156,6 +156,20 @@ def models():
     return [ts.Scene(bodies={"bar": body}, step=step) for body in bodies]
 
 
+def viscosities():
+    """A scene for each viscosity that `everything` lacks."""
+    mesh = ts.BarMesh(size=(1, 1, 1), cells=(1, 1, 1))
+    step, law = ts.ImplicitEuler(0.01), ts.StVK(young=1e3, poisson=0.3)
+    branch = ts.PronyBranch(weight=0.5, time="20 ms")
+    each = [
+        ts.KelvinVoigt(eta="3 Pa s", zeta=1.0),
+        ts.Centroid(coefficient="2 N s/m^4"),
+        ts.Prony(branches=[branch, ts.PronyBranch(weight=0.1, time=2.0)]),
+    ]
+    bodies = [ts.Body(mesh=mesh, law=law, density=1e3, viscosity=viscosity) for viscosity in each]
+    return [ts.Scene(bodies={"bar": body}, step=step) for body in bodies]
+
+
 def test_a_model_may_be_named_by_a_word():
     text = models()[3].to_yaml()
     written = "model:\n      type: mass-link"
@@ -173,7 +187,7 @@ def test_every_part_is_in_the_round_trip():
     import tissu.scene
 
     text = repr(everything()) + repr(organ("a")) + repr(ConjugateGradient()) + repr(other_laws())
-    text += repr(models())
+    text += repr(models()) + repr(viscosities())
     missing = [name for name in tissu.scene.__all__ if f"{name}(" not in text]
     assert missing == ["UserLaw"]
 

@@ -7,8 +7,7 @@
 namespace tissu {
 namespace {
 
-/// Lamé's lambda of a piece that is free to thin: 2 lambda mu / (lambda + 2 mu) for a sheet, and E - 2 mu for
-/// a line, so that lambda + 2 mu is Young's modulus there.
+/// Lamé's lambda, where a law has one, as in a piece that is free to thin.
 void release_across(const LawInfo& law, int dimension, std::span<double> constants) {
   double* lambda = nullptr;
   double mu = 0.0;
@@ -17,7 +16,7 @@ void release_across(const LawInfo& law, int dimension, std::span<double> constan
     if (law.constants[i] == "mu") mu = constants[i];
   }
   if (lambda == nullptr) return;
-  *lambda = dimension == 2 ? 2.0 * *lambda * mu / (*lambda + 2.0 * mu) : mu * *lambda / (*lambda + mu);
+  *lambda = free_lambda({*lambda, mu}, dimension);
 }
 
 }  // namespace

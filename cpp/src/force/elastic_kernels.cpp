@@ -12,22 +12,40 @@ struct Lists {
   std::array<KernelList, 2> fused;
   KernelList shapes;
   LawTables laws;
+  LawTables viscous;
+  PronyTables prony;
+  const SpringKernels* springs;
 };
 
 Lists lists(Isa isa) {
 #ifdef TISSU_X86_KERNELS
   if (isa == Isa::avx512) {
     using namespace avx512;
-    return {{tetra_kernels(), hexahedron_kernels()}, shape_kernels(), law_kernels()};
+    return {{tetra_kernels(), hexahedron_kernels()},
+            shape_kernels(),
+            law_kernels(),
+            viscous_laws(),
+            prony_kernels(),
+            spring_kernels()};
   }
   if (isa == Isa::avx2) {
     using namespace avx2;
-    return {{tetra_kernels(), hexahedron_kernels()}, shape_kernels(), law_kernels()};
+    return {{tetra_kernels(), hexahedron_kernels()},
+            shape_kernels(),
+            law_kernels(),
+            viscous_laws(),
+            prony_kernels(),
+            spring_kernels()};
   }
 #endif
   (void)isa;
   using namespace baseline;
-  return {{tetra_kernels(), hexahedron_kernels()}, shape_kernels(), law_kernels()};
+  return {{tetra_kernels(), hexahedron_kernels()},
+          shape_kernels(),
+          law_kernels(),
+          viscous_laws(),
+          prony_kernels(),
+          spring_kernels()};
 }
 
 }  // namespace
@@ -46,6 +64,24 @@ const ElasticKernels* find_shape_kernels(Isa isa, int nodes, int dimension) {
   const KernelList list = lists(isa).shapes;
   for (const ElasticKernels& k : std::span(list.first, list.count)) {
     if (k.nodes == nodes && k.dimension == dimension) return &k;
+  }
+  return nullptr;
+}
+
+const SpringKernels* find_spring_kernels(Isa isa) { return lists(isa).springs; }
+
+const PronyKernels* find_prony_kernels(Isa isa, int nodes) {
+  const PronyTables list = lists(isa).prony;
+  for (const PronyKernels& k : std::span(list.first, list.count)) {
+    if (k.forces.nodes == nodes) return &k;
+  }
+  return nullptr;
+}
+
+const LawKernels* find_viscous_law(Isa isa, int dimension) {
+  const LawTables list = lists(isa).viscous;
+  for (const LawKernels& k : std::span(list.first, list.count)) {
+    if (k.dimension == dimension) return &k;
   }
   return nullptr;
 }

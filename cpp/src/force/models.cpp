@@ -10,6 +10,7 @@
 #include "tissu/force/corotational.h"
 #include "tissu/force/elastic.h"
 #include "tissu/force/mass_link.h"
+#include "tissu/force/mass_spring.h"
 #include "tissu/force/mass_tensor.h"
 
 namespace tissu {
@@ -32,8 +33,8 @@ Entry entry() {
 
 /// A model is added here, and in tests/cpp/force/models_test.cpp.
 const std::vector<Entry>& entries() {
-  static const std::vector<Entry> all = {entry<Elastic>(), entry<Corotational>(), entry<MassLink>(),
-                                         entry<MassTensor>(), entry<Condensed>()};
+  static const std::vector<Entry> all = {entry<Elastic>(),  entry<Corotational>(), entry<MassSpring>(),
+                                         entry<MassLink>(), entry<MassTensor>(),   entry<Condensed>()};
   return all;
 }
 

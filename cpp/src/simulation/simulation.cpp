@@ -101,6 +101,7 @@ StepReport Simulation::step(double h) {
     throw;
   }
   if (!std::isfinite(report.residual) || !is_sane()) roll_back(h);
+  world_->remember(state_);
   settled_ = false;
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   profile_.add_step(seconds);
@@ -191,6 +192,7 @@ void Simulation::replace_world(std::shared_ptr<const World> world) {
     throw ParameterError("the new world has other unknowns than the one that runs.");
   }
   integrator_->prepare(*world, profile_);
+  world->carry_memory(*world_, state_);
   world_ = std::move(world);
 }
 

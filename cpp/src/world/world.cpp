@@ -158,6 +158,7 @@ void World::add_bodies(const WorldDescription& description, const World* before)
     } else {
       for (auto& model : models) forces_.push_back(std::move(model));
     }
+    add_viscosity(body, made);
   }
   mass_ = Mass(std::move(masses), std::move(frames));
 }
@@ -233,6 +234,7 @@ State World::rest_state() const {
   state.positions = rest_positions_;
   state.velocities.assign(rest_positions_.size(), 0.0);
   state.rotations = rest_rotations_;
+  state.memory.assign(memory_size_, 0.0);
   for (std::size_t k = 0; k < frames().size(); ++k) {
     block(Reals(state.velocities), frames()[k].block) = rest_speeds_[k];
     block(Reals(state.velocities), frames()[k].block + 1) = rest_spins_[k];

@@ -15,6 +15,7 @@ from tissu.compile.prepared import Held, Ints, LoadedNodes, Prepared, PreparedBo
 from tissu.compile.quadrature import check_quadrature
 from tissu.compile.select import selected_faces, selected_nodes
 from tissu.compile.thin import note_bending, note_held_plane
+from tissu.compile.viscosity import check_viscosity
 from tissu.counted import counted
 from tissu.errors import ParameterError
 from tissu.scene.part import problems_in
@@ -61,7 +62,8 @@ def _prepare_body(prepared: Prepared, name: str) -> None:
             return
         prepared.meshes[name] = known
         _hold_plane(prepared, name, known.mesh)
-        for check in (note_bending, note_held_plane, note_condensed, check_quadrature):
+        checks = (note_bending, note_held_plane, note_condensed, check_quadrature, check_viscosity)
+        for check in checks:
             with contextlib.suppress(Unknown):  # each says what it can
                 check(known.mesh, body, prepared.scene, path, findings)
         groups = cell_groups(known.mesh, body, path, findings)

@@ -17,11 +17,13 @@ from tissu.mesh.whole_faces import nodal_areas
 from tissu.scene.load import NodalLoad, Pressure
 from tissu.scene.step import ConjugateGradient, Static
 from tissu.scene.support import Fixed, axes_mask
+from tissu.scene.viscosity import Centroid, KelvinVoigt, Rayleigh
 
 if TYPE_CHECKING:
     from tissu._core import WorldBuilder
     from tissu.scene.scene import Scene
     from tissu.scene.step import Solver, Step
+    from tissu.scene.viscosity import Viscosity
     from tissu.simulation import Simulation
 
 
@@ -100,9 +102,19 @@ def _add_body(builder: WorldBuilder, prepared: Prepared, name: str) -> None:
             model=use_of(group.model, kept_nodes(prepared, name, group)),
         )
     if body.viscosity is not None:
-        builder.add_rayleigh(
-            body=name, mass=body.viscosity.mass, stiffness=body.viscosity.stiffness
-        )
+        _add_viscosity(builder, name, body.viscosity)
+
+
+def _add_viscosity(builder: WorldBuilder, name: str, viscosity: Viscosity) -> None:
+    if isinstance(viscosity, Rayleigh):
+        builder.add_rayleigh(body=name, mass=viscosity.mass, stiffness=viscosity.stiffness)
+    elif isinstance(viscosity, KelvinVoigt):
+        builder.add_viscosity(body=name, shear=viscosity.eta, bulk=viscosity.zeta)
+    elif isinstance(viscosity, Centroid):
+        builder.add_viscosity(body=name, centroid=viscosity.coefficient)
+    else:
+        branches = [(branch.weight, branch.time) for branch in viscosity.branches]
+        builder.add_viscosity(body=name, branches=branches)
 
 
 def _add_support(builder: WorldBuilder, held: Held) -> None:

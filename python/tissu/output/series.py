@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from tissu.simulation import Simulation
 
 FRAMES = "frames"
+_CELL_FIELDS = {"von_mises": "von_mises", "energy_density": "strain_energy_density"}
 Floats = NDArray[np.float64]
 
 
@@ -26,8 +27,8 @@ class Series:
     """Writes the bodies of a simulation at the times `write` is called.
 
     The points are where the nodes are at that time; point fields: displacement [m] and velocity
-    [m/s]; cell fields: von_mises [Pa] and strain_energy_density [J/m^3]. After each call all files
-    are complete and the index lists all of them.
+    [m/s]; cell fields: strain_energy_density [J/m^3], and von_mises [Pa] of models that know
+    it. After each call all files are complete and the index lists all of them.
 
     Attributes:
         index: the PVD file.
@@ -109,8 +110,9 @@ def write_vtu(path: Path, mesh: Mesh, simulation: Simulation, body: str) -> dict
             "velocity": np.array(simulation.velocities[body]),
         },
         cell_data={
-            "von_mises": by_block(fields["von_mises"]),
-            "strain_energy_density": by_block(fields["energy_density"]),
+            written: by_block(fields[name])
+            for name, written in _CELL_FIELDS.items()
+            if name in fields
         },
     )
     with whole_file(path) as partial:

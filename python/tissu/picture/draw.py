@@ -63,7 +63,8 @@ def draw(
         field: "displacement" [m] or "von_mises" [Pa], the latter averaged at the surface's points.
 
     Raises:
-        ParameterError: an unknown field, or a picture too small for its words.
+        ParameterError: an unknown field, von_mises of a model without stress, or a picture too
+            small for its words.
         TissuError: the file cannot be written.
     """
     if field not in LABELS:
@@ -146,7 +147,7 @@ def shape_of(simulation: Simulation, field: Field) -> Shape:
         if field == "displacement":
             values = np.linalg.norm(shift, axis=1)
         else:
-            every = simulation.cell_fields(name)["von_mises"]
+            every = _stress_of(simulation, name)
             values = _at_points(every[np.asarray(surface.cells)], triangles, now)
         used, numbers = np.unique(triangles, return_inverse=True)
         parts.append(
@@ -160,6 +161,16 @@ def shape_of(simulation: Simulation, field: Field) -> Shape:
                 at_ends = np.repeat(every[of_lines][:, None], 2, axis=1)
             parts.append(_rods(now - shift, now, ends, at_ends, radius))
     return _joined(parts)
+
+
+def _stress_of(simulation: Simulation, body: str) -> Array:
+    fields = simulation.cell_fields(body)
+    if "von_mises" not in fields:
+        raise ParameterError(
+            f"found the field von_mises of body '{body}', whose model has springs and no stress; "
+            "displacement is accepted"
+        )
+    return fields["von_mises"]
 
 
 def _rods(rest: Array, now: Array, ends: Ints, values: Array, radius: float) -> Shape:

@@ -8,7 +8,6 @@ from tissu.scene.law import (
     Hooke,
     MooneyRivlin,
     NeoHooke,
-    Rayleigh,
     StableNeoHooke,
     StVK,
     UserLaw,
@@ -20,6 +19,7 @@ from tissu.scene.scene import Output, Scene
 from tissu.scene.selection import Box, Nodes, Plane, Region, Sphere, SurfaceNodes
 from tissu.scene.step import Cholesky, ConjugateGradient, ImplicitEuler, Newton, Static
 from tissu.scene.support import Fixed, Prescribed, Rotation
+from tissu.scene.viscosity import Centroid, KelvinVoigt, Prony, PronyBranch, Rayleigh
 
 __all__ = [
     "FEM",
@@ -27,6 +27,7 @@ __all__ = [
     "BarMesh",
     "Body",
     "Box",
+    "Centroid",
     "Cholesky",
     "Condensed",
     "ConjugateGradient",
@@ -35,6 +36,7 @@ __all__ = [
     "Fixed",
     "Hooke",
     "ImplicitEuler",
+    "KelvinVoigt",
     "MassLink",
     "MassSpring",
     "MassTensor",
@@ -48,6 +50,8 @@ __all__ = [
     "Plane",
     "Prescribed",
     "Pressure",
+    "Prony",
+    "PronyBranch",
     "Rayleigh",
     "Region",
     "Rotation",

@@ -11,11 +11,12 @@ from pydantic import AfterValidator, Field, PlainValidator, ValidationInfo
 
 from tissu import units
 from tissu.scene.bar import BarMesh
-from tissu.scene.law import Law, LawOrMap, Rayleigh
+from tissu.scene.law import Law, LawOrMap
 from tissu.scene.model import FEM, Model, ModelOrMap
 from tissu.scene.part import Part, chosen
 from tissu.scene.problem import Problem
 from tissu.scene.unknown import rule
+from tissu.scene.viscosity import OneViscosity, Viscosity
 
 if TYPE_CHECKING:
     from tissu.mesh import Mesh
@@ -81,8 +82,8 @@ class Body(Part):
     """total mass [kg]; this or `density`"""
     quadrature: Literal["reduced", "full", "over"] = "full"
     """points at which cells are integrated; `reduced` leaves some cells modes without energy"""
-    viscosity: Rayleigh | None = None
-    """viscosity; absent: none"""
+    viscosity: OneViscosity | None = None
+    """rayleigh, kelvin_voigt, centroid or prony; absent: none"""
     thickness: Annotated[units.Length, Field(gt=0.0)] | None = None
     """thickness [m] of sheets: the triangles and quads of the mesh; absent: they only mark faces"""
     section: Annotated[units.Area, Field(gt=0.0)] | None = None
@@ -103,7 +104,7 @@ class Body(Part):
             density: units.Number | None = ...,
             mass: units.Number | None = ...,
             quadrature: Literal["reduced", "full", "over"] = ...,
-            viscosity: Rayleigh | None = ...,
+            viscosity: Viscosity | None = ...,
             thickness: units.Number | None = ...,
             section: units.Number | None = ...,
             plane: Literal["strain", "stress"] | None = ...,

@@ -1,4 +1,4 @@
-"""Laws of the material and viscosity, as a scene names them."""
+"""Laws of the material, as a scene names them."""
 
 from __future__ import annotations
 
@@ -204,26 +204,6 @@ class UserLaw(_Law):
             made.check({name: getattr(self, name) for name in made.parameters})
         except ParameterError as error:
             yield Problem((), str(error))
-
-
-class Rayleigh(Part):
-    """Viscosity proportional to mass and stiffness: C = mass M + stiffness K."""
-
-    type: Literal["rayleigh"] = "rayleigh"
-    mass: Annotated[units.Rate, Field(ge=0.0)] = 0.0
-    """share of the mass matrix [1/s]"""
-    stiffness: Annotated[units.Time, Field(ge=0.0)] = 0.0
-    """share of the stiffness matrix [s]"""
-
-    if TYPE_CHECKING:
-
-        def __init__(self, *, mass: units.Number = ..., stiffness: units.Number = ...) -> None: ...
-
-    @rule("mass", "stiffness")
-    def _some(self) -> Iterator[Problem]:
-        if not (self.mass or self.stiffness):
-            text = "found no mass and no stiffness; leave viscosity out to have none"
-            yield Problem((), text)
 
 
 LAWS: tuple[type[Part], ...] = (

@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
 #include "../world/sample_worlds.h"
+#include "reference_nodes.h"
 #include "tissu/assembly/block_matrix.h"
-#include "tissu/element/generated/all.h"
 #include "tissu/force/elastic.h"
 #include "tissu/law/generated/all.h"
 #include "tissu/law/law_info.h"
@@ -37,20 +37,6 @@ LawParameters typical(const LawInfo& law) {
   return parameters;
 }
 
-/// Reference coordinates of an element's nodes, zero beyond its dimension.
-std::vector<Vec3> coordinates(std::string_view name) {
-  std::vector<Vec3> found;
-  for_each_element([&](auto element) {
-    if (element.kName != name) return;
-    for (const auto& node : element.nodes) {
-      Vec3 x = Vec3::Zero();
-      for (std::size_t i = 0; i < node.size(); ++i) x[static_cast<Eigen::Index>(i)] = node[i];
-      found.push_back(x);
-    }
-  });
-  return found;
-}
-
 /// The reference cell, a little distorted; below three dimensions turned in space or in its plane.
 struct Sample {
   std::vector<double> positions;
@@ -63,7 +49,7 @@ Sample sample(const Case& c) {
   Mat3 turn = Mat3::Identity();
   if (c.lie == Lie::space) turn = Eigen::AngleAxisd(0.9, Vec3(0.48, -0.6, 0.64)).toRotationMatrix();
   if (c.lie == Lie::flat) turn = Eigen::AngleAxisd(0.9, Vec3::UnitZ()).toRotationMatrix();
-  for (Vec3 x : coordinates(c.element)) {
+  for (Vec3 x : test::reference_nodes(c.element)) {
     for (int i = 0; i < (c.lie == Lie::flat ? 2 : 3); ++i) x[i] += random.number(0.04);
     x = turn * x;
     made.positions.insert(made.positions.end(), x.data(), x.data() + 3);

@@ -26,4 +26,8 @@ struct LawKernels {
 /// The kernels of a law of the library for a reference dimension, or null when it has none.
 const LawKernels* find_law_kernels(Isa isa, std::string_view law, int dimension);
 
+/// Kelvin–Voigt's stress for a reference dimension: constants zeta and eta, dF the rate of F; neither energy
+/// nor stress, which are null.
+const LawKernels* find_viscous_law(Isa isa, int dimension);
+
 }  // namespace tissu

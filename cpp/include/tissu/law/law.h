@@ -31,4 +31,12 @@ struct Lame {
 /// Refuses E <= 0 and nu outside (-1, 0.5).
 Lame lame(double young, double poisson);
 
+/// Lamé's lambda of a piece of 2 or 1 dimensions that is free to thin: 2 lambda mu / (lambda + 2 mu) for a
+/// sheet, and E - 2 mu for a line, so that lambda + 2 mu is Young's modulus there; of a volume lambda itself.
+inline double free_lambda(Lame c, int dimension) {
+  if (dimension == 3) return c.lambda;
+  return dimension == 2 ? 2.0 * c.lambda * c.mu / (c.lambda + 2.0 * c.mu)
+                        : c.mu * c.lambda / (c.lambda + c.mu);
+}
+
 }  // namespace tissu

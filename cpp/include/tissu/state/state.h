@@ -1,6 +1,6 @@
 #pragma once
 
-/// What a step changes: positions, velocities, rotations of frames, time.
+/// What a step changes: positions, velocities, rotations of frames, what viscosity remembers, time.
 
 #include <cstdint>
 #include <vector>
@@ -23,6 +23,8 @@ struct State {
   std::vector<double>
       velocities;  ///< [m/s]; a frame's rotation block holds its angular velocity in space [rad/s]
   std::vector<Quaternion> rotations;  ///< one unit quaternion for each frame
+  std::vector<double> memory;  ///< internal variables of materials that remember; empty when there are none
+  double memory_time = 0.0;    ///< when the memory was written [s]
 
   [[nodiscard]] std::int32_t blocks() const { return static_cast<std::int32_t>(positions.size() / 3); }
 };

@@ -11,6 +11,7 @@
 #include "tissu/base/isa.h"
 #include "tissu/force/elastic_block.h"
 #include "tissu/force/load.h"
+#include "tissu/force/viscosity.h"
 
 namespace tissu {
 
@@ -23,7 +24,8 @@ struct BodyDescription {
   std::string name;
   std::vector<double> positions;  ///< at rest [m], three for each node
   std::vector<ElasticBlock> elastic;
-  std::optional<RayleighDamping> rayleigh;
+  std::optional<RayleighDamping> rayleigh = std::nullopt;
+  Viscosity viscosity = {};
 };
 
 struct FixedNodes {

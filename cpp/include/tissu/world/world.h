@@ -15,6 +15,7 @@
 #include "tissu/force/body_model.h"
 #include "tissu/force/force_model.h"
 #include "tissu/force/links.h"
+#include "tissu/force/prony.h"
 #include "tissu/world/description.h"
 
 namespace tissu {
@@ -57,9 +58,14 @@ class World {
 
   /// All bodies at rest at time zero.
   [[nodiscard]] State rest_state() const;
+  /// Materials that remember write into the memory what the step that led here adds to it.
+  void remember(State& state) const;
+  /// The memory of a state of another world, for those cells that this one has as well.
+  void carry_memory(const World& before, State& state) const;
 
  private:
   void add_bodies(const WorldDescription& description, const World* before);
+  void add_viscosity(const BodyDescription& body, const Body& made);
   void add_external(const WorldDescription& description);
   void add_fixed(const WorldDescription& description);
   void hold_eliminated(const WorldDescription& description);
@@ -77,6 +83,8 @@ class World {
   FixedDofs fixed_;
   std::vector<std::unique_ptr<ForceModel>> forces_;
   Links* links_ = nullptr;
+  std::vector<const Prony*> prony_;  ///< what remembers
+  std::size_t memory_size_ = 0;
   Sparsity sparsity_;
   std::optional<WorldDescription> description_;
   double extent_ = 0.0;

@@ -7,6 +7,8 @@
 #include "tissu/force/corotational_kernels.h"
 #include "tissu/force/elastic_kernels.h"
 #include "tissu/force/law_kernels.h"
+#include "tissu/force/prony_kernels.h"
+#include "tissu/force/spring_kernels.h"
 
 namespace tissu {
 
@@ -16,6 +18,10 @@ struct KernelList {
 };
 struct LawTables {
   const LawKernels* first;
+  std::size_t count;
+};
+struct PronyTables {
+  const PronyKernels* first;
   std::size_t count;
 };
 struct CorotationalList {
@@ -33,6 +39,9 @@ struct CorotationalList {
   CorotationalList corotational_hexahedron(); \
   CorotationalList corotational_wedge();      \
   CorotationalList corotational_pyramid();    \
+  LawTables viscous_laws();                   \
+  PronyTables prony_kernels();                \
+  const SpringKernels* spring_kernels();      \
   }
 TISSU_KERNEL_LISTS(baseline)
 TISSU_KERNEL_LISTS(avx2)

@@ -8,7 +8,21 @@
 
 namespace tissu::TISSU_KERNELS {
 
-template <int N, int M>
+/// The laws at a point: those of the view, with the constants of the group at all its points.
+struct LawsOfGroup {
+  /// Calls f(law, its constants) for each law.
+  template <class Function>
+  TISSU_INLINE static void for_each(const ElasticView& view, std::int32_t group, int /*point*/,
+                                    Function&& f) {
+    const double* constants = view.constants + group * view.constants_stride;
+    for (int l = 0; l < view.law_count; ++l) {
+      f(*view.laws[l], constants);
+      constants += static_cast<std::ptrdiff_t>(view.laws[l]->constants) * kLanes;
+    }
+  }
+};
+
+template <int N, int M, class Laws = LawsOfGroup>
 struct ShapeKernels : Shape<N, M> {
   using Base = Shape<N, M>;
   using Base::gradients_of;
@@ -22,24 +36,15 @@ struct ShapeKernels : Shape<N, M> {
     __builtin_memset(&values, 0, sizeof values);
   }
 
-  /// Calls f(law, its constants) for each law of a group.
-  template <class Function>
-  TISSU_INLINE static void for_laws(const ElasticView& view, std::int32_t group, Function&& f) {
-    const double* constants = view.constants + group * view.constants_stride;
-    for (int l = 0; l < view.law_count; ++l) {
-      f(*view.laws[l], constants);
-      constants += static_cast<std::ptrdiff_t>(view.laws[l]->constants) * kLanes;
-    }
-  }
-
   /// F at a point, in the axes that the laws work in.
   static void deformation(const ElasticView& view, std::int32_t group, int point, const Nodal& u, Point& F) {
     Base::gradient(gradients_of(view, point), rest_of(view, group, point), u, F);
     Base::turn_in(view, group, point, F);
   }
-  static void stress_at(const ElasticView& view, std::int32_t group, const Point& F, Point& P) {
+  static void stress_at(const ElasticView& view, std::int32_t group, int point, const Point& F, Point& P) {
     clear(P);
-    for_laws(view, group, [&](const LawKernels& law, const double* c) { law.stress(c, 1, F[0], P[0]); });
+    Laws::for_each(view, group, point,
+                   [&](const LawKernels& law, const double* c) { law.stress(c, 1, F[0], P[0]); });
   }
   static void spread_from(const ElasticView& view, std::int32_t group, int point, double scale, Point& P,
                           Nodal& f) {
@@ -61,7 +66,7 @@ struct ShapeKernels : Shape<N, M> {
       clear(result);
       for (int g = 0; g < view.points; ++g) {
         deformation(view, group, g, position, F);
-        stress_at(view, group, F, P);
+        stress_at(view, group, g, F, P);
         spread_from(view, group, g, -1.0, P, result);
       }
       Base::scatter_nodes(view, group, result, sums);
@@ -91,7 +96,7 @@ struct ShapeKernels : Shape<N, M> {
         deformation(view, group, g, position, F);
         deformation(view, group, g, change, dF);
         clear(dP);
-        for_laws(view, group, [&](const LawKernels& law, const double* c) {
+        Laws::for_each(view, group, g, [&](const LawKernels& law, const double* c) {
           law.stress_change(c, 1, F[0], dF[0], dP[0]);
         });
         spread_from(view, group, g, -scale, dP, result);
@@ -115,7 +120,8 @@ struct ShapeKernels : Shape<N, M> {
       for (int g = 0; g < view.points; ++g) {
         deformation(view, group, g, position, F);
         clear(A);
-        for_laws(view, group, [&](const LawKernels& law, const double* c) { law.tangent(c, 1, F[0], A[0]); });
+        Laws::for_each(view, group, g,
+                       [&](const LawKernels& law, const double* c) { law.tangent(c, 1, F[0], A[0]); });
         for (int lane = 0; lane < kLanes; lane += kWidth) {
           Batch B[3][M][3][M];
           Base::pull_back(rest_of(view, group, g), -scale * view.weights[g], lane, A, B);
@@ -140,7 +146,8 @@ struct ShapeKernels : Shape<N, M> {
         const double* volume = rest_of(view, group, g) + M * M * kLanes;
         deformation(view, group, g, position, F);
         clear(W);
-        for_laws(view, group, [&](const LawKernels& law, const double* c) { law.energy(c, 1, F[0], W); });
+        Laws::for_each(view, group, g,
+                       [&](const LawKernels& law, const double* c) { law.energy(c, 1, F[0], W); });
         for (int lane = 0; lane < kLanes; ++lane) to[lane] += view.weights[g] * volume[lane] * W[lane];
       }
     }
@@ -164,7 +171,7 @@ struct ShapeKernels : Shape<N, M> {
       for (int g = 0; g < view.points; ++g) {
         const double* measure = rest_of(view, group, g) + M * M * kLanes;
         deformation(view, group, g, position, F);
-        stress_at(view, group, F, P);
+        stress_at(view, group, g, F, P);
         Base::turn_out(view, group, g, F);
         Base::turn_out(view, group, g, P);
         for (int lane = 0; lane < kLanes; ++lane) {

@@ -52,7 +52,8 @@ inline std::vector<CorotationalCase> corotational_cases() {
 /// Nodes of a cell of each element in a grid cell with corners numbered as a hexahedron, 8 its centre.
 inline std::vector<std::vector<int>> pieces(const std::string& element) {
   if (element == "wedge") return {{0, 1, 2, 4, 5, 6}, {0, 2, 3, 4, 6, 7}};
-  return {{0, 1, 2, 3, 8}, {4, 7, 6, 5, 8}, {0, 4, 5, 1, 8}, {3, 2, 6, 7, 8}, {0, 3, 7, 4, 8}, {1, 5, 6, 2, 8}};
+  return {{0, 1, 2, 3, 8}, {4, 7, 6, 5, 8}, {0, 4, 5, 1, 8},
+          {3, 2, 6, 7, 8}, {0, 3, 7, 4, 8}, {1, 5, 6, 2, 8}};
 }
 
 /// A box of unit cells, all of one element.
@@ -106,9 +107,7 @@ class CorotationalTest : public testing::TestWithParam<CorotationalCase> {
 
   bool has(std::string_view word) const { return GetParam().rotation == word || GetParam().tangent == word; }
   /// The force is the gradient of the energy, and the tangent its derivative, whatever `tangent` says.
-  bool conserves() const {
-    return has("small") || has("polar") || has("exact");
-  }
+  bool conserves() const { return has("small") || has("polar") || has("exact"); }
   ElasticBlock block() const {
     ElasticBlock made = corotational_block(box_, GetParam().element);
     made.model.rotation = GetParam().rotation;

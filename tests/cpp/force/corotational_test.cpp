@@ -37,6 +37,10 @@ class CorotationalModel : public test::CorotationalTest {
   }
 };
 
+class CorotationalApproximate : public CorotationalModel {};
+class CorotationalTurning : public CorotationalModel {};
+class CorotationalSmall : public CorotationalModel {};
+
 TEST_P(CorotationalModel, ForceIsMinusGradientOfEnergyWhereItIsSaidToBe) {
   const Corotational model = made(varied_block());
   for (int i = 0; i < 5; ++i) {
@@ -97,8 +101,7 @@ TEST_P(CorotationalModel, MatrixIsThatOfTheProductAndSymmetric) {
 }
 
 /// Nodes anywhere: half of the cells are inside out.
-TEST_P(CorotationalModel, ApproximateTangentHasNoNegativeEigenvalueInAnyState) {
-  if (!has("approximate")) GTEST_SKIP();
+TEST_P(CorotationalApproximate, TangentHasNoNegativeEigenvalueInAnyState) {
   Corotational model = made(block());
   const Sparsity pattern = test::bind_alone(model, nodes());
   for (int i = 0; i < 3; ++i) {
@@ -112,8 +115,7 @@ TEST_P(CorotationalModel, ApproximateTangentHasNoNegativeEigenvalueInAnyState) {
   }
 }
 
-TEST_P(CorotationalModel, RigidMotionsHaveNoForce) {
-  if (has("small")) GTEST_SKIP();
+TEST_P(CorotationalTurning, RigidMotionsHaveNoForce) {
   const Corotational model = made(varied_block());
   for (int i = 0; i < 20; ++i) {
     const Mat3 R = i == 0 ? Mat3(Vec3(-1, -1, 1).asDiagonal()) : random_.rotation().toRotationMatrix();
@@ -123,8 +125,7 @@ TEST_P(CorotationalModel, RigidMotionsHaveNoForce) {
   }
 }
 
-TEST_P(CorotationalModel, SmallIsElasticHooke) {
-  if (!has("small")) GTEST_SKIP();
+TEST_P(CorotationalSmall, IsElasticHooke) {
   ElasticBlock same = varied_block();
   Corotational model = made(same);
   same.model = {};
@@ -138,8 +139,7 @@ TEST_P(CorotationalModel, SmallIsElasticHooke) {
 }
 
 /// Displacements of size s, then the body turned: Hooke's forces turned, but for terms in s^2.
-TEST_P(CorotationalModel, IsHookeTurnedAtSmallStrain) {
-  if (has("small")) GTEST_SKIP();
+TEST_P(CorotationalTurning, IsHookeTurnedAtSmallStrain) {
   ElasticBlock same = varied_block();
   const Corotational model = made(same);
   same.model = {};
@@ -248,6 +248,12 @@ TEST_P(CorotationalModel, SameBitsOnAnyNumberOfThreads) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, CorotationalModel, testing::ValuesIn(test::corotational_cases()),
+                         test::case_name);
+INSTANTIATE_TEST_SUITE_P(All, CorotationalApproximate,
+                         testing::ValuesIn(test::corotational_cases("approximate", true)), test::case_name);
+INSTANTIATE_TEST_SUITE_P(All, CorotationalTurning,
+                         testing::ValuesIn(test::corotational_cases("small", false)), test::case_name);
+INSTANTIATE_TEST_SUITE_P(All, CorotationalSmall, testing::ValuesIn(test::corotational_cases("small", true)),
                          test::case_name);
 
 }  // namespace

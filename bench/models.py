@@ -148,19 +148,23 @@ def conclusion(rows: Rows) -> str:
 def page(reports: list[Any]) -> str:
     """The whole of docs/models-cost.md."""
     rows = rows_of(reports)
+    whole = sum(any("/1/min" in b["name"] for b in report["benchmarks"]) for report in reports)
     load = max(report["context"]["load_avg"][0] for report in reports)
     times = "\n\n".join(time_table(rows, job) for job in JOBS)
     return f"""# What a tetrahedron costs in three forms
 
 Linear tetrahedra of St-Venant–Kirchhoff as continuum element (`fem`, 7 constants), in squared
 lengths of edges (`mass-link`, 27) and as a polynomial in displacements (`mass-tensor`, 280 and 6).
-All three give the same forces and tangents, to 1e-12: `tests/cpp/force/tetra_models_test.cpp`.
+All three give the same forces and tangents, to 1e-12 (the mass-tensor where displacements are no
+larger than a cell or so, its round-off grows with their cube):
+`tests/cpp/force/tetra_models_test.cpp`.
 Printed by `bench/models.py`; run it for your machine.
 {machine(reports[0])}
 
-The fastest of {len(reports)} passes: processor time on one thread, time by the clock on two. Others
-used the machine at the same time, with a load of up to {load:.0f}: figures on two threads are upper
-bounds, and those in brackets, above one thread's, say only that the second core was not free.
+The fastest of {whole} passes, and {len(reports) - whole} more on two threads: processor time on one
+thread, time by the clock on two. Others used the machine at the same time, with a load of up to
+{load:.0f}: figures on two threads are upper bounds, and those in brackets, above one thread's, say
+only that the second core was not free.
 
 {times}
 

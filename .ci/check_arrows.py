@@ -57,7 +57,7 @@ PYTHON: dict[str, set[str]] = {
         "simulation",
         "_core",
     },
-    "comparison": {"errors", "mesh", "scene", "simulation"},
+    "comparison": {"errors", "counted", "mesh", "scene", "simulation"},
     "picture": {"errors", "mesh"},
     "output": {"errors", "counted", "mesh", "simulation", "picture", "_core"},
 }

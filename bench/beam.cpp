@@ -15,6 +15,7 @@ WorldDescription describe(const Beam& beam) {
   ElasticBlock elastic;
   elastic.element = beam.element;
   elastic.law = beam.law;
+  elastic.model = beam.model;
   elastic.cells = mesh.blocks.front().nodes;
   elastic.parameters = {{"young", {beam.young}}, {"poisson", {beam.poisson}}};
   elastic.density = {beam.mass / beam.size.prod()};

@@ -33,7 +33,7 @@ def run(binary: Path, passes: int, repetitions: int) -> list[Any]:
         "--benchmark_format=json",
         f"--benchmark_repetitions={repetitions}",
     ]
-    environment = {**os.environ, "OMP_PROC_BIND": "true"}
+    environment = {**os.environ, "OMP_WAIT_POLICY": "active"}
     reports = []
     for _ in range(passes):
         done = subprocess.run(command, check=True, capture_output=True, text=True, env=environment)
@@ -67,18 +67,20 @@ def ns(rows: Rows, model: str, job: str, count: int, threads: int) -> float:
 def time_table(rows: Rows, job: str) -> str:
     """A job of the three models, by size and threads, and how many times the continuum element."""
     lines = []
-    for threads in (1, 2):
-        for count in COUNTS:
-            fem = ns(rows, "fem", job, count, threads)
-            line = [f"{count:,}, {threads} thread{'s' if threads > 1 else ''}", digits(fem)]
-            for model in MODELS[1:]:
-                own = ns(rows, model, job, count, threads)
-                line += [digits(own), f"{own / fem:.2f}"]
-            if job == "force":
-                known = f"model/expanded/force/{count}/{threads}" in rows
-                line.append(digits(ns(rows, "expanded", job, count, threads)) if known else "")
-            lines.append(line)
+    for count in COUNTS:
+        times = [ns(rows, model, job, count, 1) for model in MODELS]
+        line = [f"{count:,}", digits(times[0])]
+        for own in times[1:]:
+            line += [digits(own), f"{own / times[0]:.2f}"]
+        for own, model in zip(times, MODELS, strict=True):
+            both = ns(rows, model, job, count, 2)
+            line.append(digits(both) if both < own else f"({digits(both)})")
+        if job == "force":
+            known = f"model/expanded/force/{count}/1" in rows
+            line.append(digits(ns(rows, "expanded", job, count, 1)) if known else "")
+        lines.append(line)
     head = [f"{job}, ns a tetrahedron", "fem", "mass-link", "/ fem", "mass-tensor", "/ fem"]
+    head += [f"{model}, 2 threads" for model in MODELS]
     return table([*head, "280 each"] if job == "force" else head, lines)
 
 
@@ -146,17 +148,23 @@ def conclusion(rows: Rows) -> str:
 def page(reports: list[Any]) -> str:
     """The whole of docs/models-cost.md."""
     rows = rows_of(reports)
+    whole = sum(any("/1/min" in b["name"] for b in report["benchmarks"]) for report in reports)
+    load = max(report["context"]["load_avg"][0] for report in reports)
     times = "\n\n".join(time_table(rows, job) for job in JOBS)
     return f"""# What a tetrahedron costs in three forms
 
 Linear tetrahedra of St-Venant–Kirchhoff as continuum element (`fem`, 7 constants), in squared
 lengths of edges (`mass-link`, 27) and as a polynomial in displacements (`mass-tensor`, 280 and 6).
-All three give the same forces and tangents, to 1e-12: `tests/cpp/force/tetra_models_test.cpp`.
+All three give the same forces and tangents, to 1e-12 (the mass-tensor where displacements are no
+larger than a cell or so, its round-off grows with their cube):
+`tests/cpp/force/tetra_models_test.cpp`.
 Printed by `bench/models.py`; run it for your machine.
 {machine(reports[0])}
 
-The fastest of {len(reports)} passes on a machine that others used too: processor time on one
-thread, time by the clock on two, where a busy neighbour shows. Ratios in a row are what counts.
+The fastest of {whole} passes, and {len(reports) - whole} more on two threads: processor time on one
+thread, time by the clock on two. Others used the machine at the same time, with a load of up to
+{load:.0f}: figures on two threads are upper bounds, and those in brackets, above one thread's, say
+only that the second core was not free.
 
 {times}
 
@@ -174,14 +182,14 @@ what a model keeps beside them.
 {conclusion(rows)}
 
 For forces and products the continuum element wins on today's processors, because it reads least and
-computes no more: 7 numbers and about 160 operations for a force, where the mass-link has 27 numbers
-for about as many operations, and the mass-tensor some 75 for about 600. In the time that a core
-waits for one number from memory it does dozens of operations, so what is cheap to compute again is
-better not stored. The mass-link keeps up while its constants are in the nearest cache and falls
-behind once they come from farther away. Its matrix needs fewer operations than the element's, and
-writing it costs more than computing it: there the two are even, the mass-link a little ahead where
-that counts. Precomputed constants do not pay for the mass-tensor anywhere; that neighbours share
-them, 286 down to some 75, is what makes it bearable.
+computes no more: 7 numbers and about 160 operations for a force, counted in the source, where the
+mass-link has 27 numbers for about as many operations, and the mass-tensor some 75 for about 600. In
+the time that a core waits for one number from memory it does dozens of operations, so what is cheap
+to compute again is better not stored. The mass-link is close while its constants fit the caches
+easily, 2 MB of 10,000, and falls behind beyond. Its matrix needs fewer operations than the
+element's: it is ahead on small meshes, and on large ones, where writing the matrix costs more than
+computing it, the two are even. Stored constants do not pay for the mass-tensor anywhere; that
+neighbours share them, 286 down to some 75, is what makes it bearable.
 
 ## Cells that go
 

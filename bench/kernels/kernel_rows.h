@@ -8,6 +8,9 @@ namespace tissu::bench {
 /// of about `count` elements.
 void add_kernel_rows(int count);
 
+/// The rows "corotational/ELEMENT/ROTATION/TANGENT/JOB" on the same meshes.
+void add_corotational_rows(int count);
+
 /// The textbook's loops and the expanded mass-tensor on the same meshes.
 void add_baseline_rows(int count);
 

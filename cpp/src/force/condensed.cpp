@@ -13,8 +13,8 @@ ModelInfo Condensed::info() {
           .poisson = {yes, "of the law"},
           .rotation = {no, "linear"},
           .strain = {no, "linear"},
-          .inversion = {yes, "linear: the way back never ends"},
-          .topology = {no, "of its neighbours only"}};
+          .inversion = {yes, "linear"},
+          .topology = {partly, "neighbours at once; without cells of its own it is condensed again"}};
 }
 
 Condensed::Condensed(ElasticBlock block, ConstReals rest_positions, Isa isa, Threads threads)

@@ -115,15 +115,15 @@ Corotational::Corotational(ElasticBlock block, ConstReals rest_positions, Isa is
 void Corotational::choose_kernels(Isa isa, bool one_jacobian) {
   const bool exact = block_.model.tangent == "exact" && rotation_ != Rotation::small;
   tangents_ = find_corotational_kernels(isa, block_.element, one_jacobian, exact);
-  forces_ = find_corotational_kernels(isa, block_.element, one_jacobian,
-                                      exact || rotation_ == Rotation::polar);
+  forces_ =
+      find_corotational_kernels(isa, block_.element, one_jacobian, exact || rotation_ == Rotation::polar);
   if (forces_ != nullptr && tangents_ != nullptr) return;
   throw ParameterError("body \"" + block_.body + "\" asks for the model corotational with the element " +
                        block_.element + "; this model takes tetra, hexahedron, wedge and pyramid.");
 }
 
-/// The axes of J = Q T at the centre serve the whole cell: J^-1 of its points becomes J^-1 Q, and T^-1 is kept
-/// of the centre, where the rotation of F Q is found.
+/// The axes of J = Q T at the centre serve the whole cell: J^-1 of its points becomes J^-1 Q, and T^-1 is
+/// kept of the centre, where the rotation of F Q is found.
 void Corotational::lay_centres(ConstReals rest_positions) {
   const ReferenceCell centre = reference_cell(block_.element, "reduced");
   const auto nodes = static_cast<std::size_t>(reference_.nodes);

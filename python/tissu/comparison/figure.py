@@ -32,8 +32,10 @@ def draw(comparison: Comparison, path: Path) -> bool:
     axes.set_yscale("log")
     for axis in (axes.xaxis, axes.yaxis):
         axis.set_major_formatter("{x:g}")
-        axis.set_minor_formatter("{x:g}")
-        axis.set_tick_params(which="minor", labelsize=7)
+        low, high = axis.get_view_interval()
+        if high < 20.0 * low:
+            axis.set_minor_formatter("{x:g}")
+            axis.set_tick_params(which="minor", labelsize=7)
     axes.set_xlabel("time per step [ms]")
     axes.set_ylabel("distance from the reference [mm]: mean (dot), largest (bar)")
     axes.set_title(

@@ -11,6 +11,7 @@ from tissu.comparison.trace import Floats, Trace, trace
 from tissu.errors import MeshError, ParameterError
 from tissu.mesh import into_quadratic
 from tissu.scene.model import FEM
+from tissu.scene.step import Newton, Static
 
 if TYPE_CHECKING:
     from tissu.mesh import Mesh
@@ -26,7 +27,10 @@ def with_model(scene: Scene, model: object) -> Scene:
 
 
 def finest(scene: Scene, meshes: dict[str, Mesh]) -> tuple[Trace, str]:
-    """The scene with continuum elements of second order, where its cells have them."""
+    """The scene with continuum elements of second order, where its cells have them.
+
+    Where a step that is linearised once does not bring it to the end, Newton's method is iterated.
+    """
     bodies, words = {}, set()
     for name, body in scene.bodies.items():
         changes: dict[str, object] = {"model": FEM()}
@@ -38,7 +42,12 @@ def finest(scene: Scene, meshes: dict[str, Mesh]) -> tuple[Trace, str]:
         except MeshError:
             words.add("fem on the same mesh")
         bodies[name] = body.replace(**changes)
-    return trace(scene.replace(bodies=bodies)), ", ".join(sorted(words))
+    rich = scene.replace(bodies=bodies)
+    found = trace(rich)
+    if found.stopped and not isinstance(scene.step, Static) and scene.step.newton is None:
+        words.add("Newton iterated")
+        found = trace(rich.replace(step=scene.step.replace(newton=Newton(iterations=20))))
+    return found, ", ".join(sorted(words, reverse=True))
 
 
 def errors(found: Trace, reference: Trace) -> tuple[float, float, float]:

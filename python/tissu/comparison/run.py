@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from tissu.comparison.reference import errors, finest, with_model
 from tissu.comparison.table import Comparison, Row
 from tissu.comparison.trace import Trace, trace
+from tissu.counted import counted
 from tissu.errors import ParameterError, SceneError
 from tissu.scene.model import MODELS
 from tissu.scene.problem import nearest, one_of_words
@@ -92,8 +93,21 @@ def _reference(
     else:
         found, words = trace(reference), f"the scene {reference.name}"
     if found.stopped:
-        raise ParameterError(f"the reference stopped before its end: {found.stopped}")
-    return found, words
+        raise ParameterError(
+            f"the reference ({words}) stopped before its end, so name another with --reference: "
+            f"{found.stopped}"
+        )
+    return found, words + _doubts(found)
+
+
+def _doubts(reference: Trace) -> str:
+    """Why a reference may be no measure of others; empty: no sign of it."""
+    doubts = []
+    if reference.unconverged:
+        doubts.append(f"{reference.unconverged} of its {reference.steps} steps did not converge")
+    if reference.inverted:
+        doubts.append(f"{counted(reference.inverted, 'cell')} of it inside out at the end")
+    return f" (beware: {', '.join(doubts)})" if doubts else ""
 
 
 def _row(word: str, found: Trace | SceneError, reference: Trace) -> Row:

@@ -90,8 +90,8 @@ TEST_P(CorotationalRecovery, BoxFromAPointAndFromAPlane) {
   expect_return(box, flat);
 }
 
-/// Nodes anywhere: the box may come to rest in another equilibrium, some of its cells inside out. With `frame`
-/// moments are not in balance on the way, and it may be left spinning.
+/// Nodes anywhere: the box may come to rest in another equilibrium, some of its cells inside out. With
+/// `frame` moments are not in balance on the way, and it may be left spinning.
 TEST_P(CorotationalRecovery, BoxFromNodesAnywhereComesToRest) {
   const CellBox box = test::cell_box(GetParam().element, {3, 2, 2}, 0.05);
   for (unsigned seed = 1; seed < 6; ++seed) {

@@ -33,6 +33,7 @@ inline std::string case_name(const testing::TestParamInfo<CorotationalCase>& inf
   return text(info.param);
 }
 
+/// All of them for the set that runs here by itself; for the others distorted cells with the exact tangent.
 inline std::vector<CorotationalCase> corotational_cases() {
   std::vector<CorotationalCase> cases;
   for (const Isa isa : available_isas()) {
@@ -40,7 +41,8 @@ inline std::vector<CorotationalCase> corotational_cases() {
       for (const char* rotation : {"small", "frame", "polar"}) {
         for (const char* tangent : {"approximate", "exact"}) {
           for (const double distorted : {0.0, 0.1}) {
-            cases.push_back({element, rotation, tangent, distorted, isa});
+            const CorotationalCase made{element, rotation, tangent, distorted, isa};
+            if (isa == choose_isa() || (distorted > 0.0 && made.tangent == "exact")) cases.push_back(made);
           }
         }
       }
@@ -48,11 +50,19 @@ inline std::vector<CorotationalCase> corotational_cases() {
   }
   return cases;
 }
+/// Those with this rotation or tangent, or without.
+inline std::vector<CorotationalCase> corotational_cases(std::string_view word, bool with) {
+  std::vector<CorotationalCase> cases = corotational_cases();
+  std::erase_if(cases,
+                [&](const CorotationalCase& c) { return (c.rotation == word || c.tangent == word) != with; });
+  return cases;
+}
 
 /// Nodes of a cell of each element in a grid cell with corners numbered as a hexahedron, 8 its centre.
 inline std::vector<std::vector<int>> pieces(const std::string& element) {
   if (element == "wedge") return {{0, 1, 2, 4, 5, 6}, {0, 2, 3, 4, 6, 7}};
-  return {{0, 1, 2, 3, 8}, {4, 7, 6, 5, 8}, {0, 4, 5, 1, 8}, {3, 2, 6, 7, 8}, {0, 3, 7, 4, 8}, {1, 5, 6, 2, 8}};
+  return {{0, 1, 2, 3, 8}, {4, 7, 6, 5, 8}, {0, 4, 5, 1, 8},
+          {3, 2, 6, 7, 8}, {0, 3, 7, 4, 8}, {1, 5, 6, 2, 8}};
 }
 
 /// A box of unit cells, all of one element.
@@ -106,9 +116,7 @@ class CorotationalTest : public testing::TestWithParam<CorotationalCase> {
 
   bool has(std::string_view word) const { return GetParam().rotation == word || GetParam().tangent == word; }
   /// The force is the gradient of the energy, and the tangent its derivative, whatever `tangent` says.
-  bool conserves() const {
-    return has("small") || has("polar") || has("exact");
-  }
+  bool conserves() const { return has("small") || has("polar") || has("exact"); }
   ElasticBlock block() const {
     ElasticBlock made = corotational_block(box_, GetParam().element);
     made.model.rotation = GetParam().rotation;

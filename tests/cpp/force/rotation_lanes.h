@@ -16,8 +16,8 @@ struct Rotations {
 
 }  // namespace tissu::test
 
-#define TISSU_ROTATIONS(isa)  \
-  namespace tissu::isa {      \
+#define TISSU_ROTATIONS(isa)   \
+  namespace tissu::isa {       \
   test::Rotations rotations(); \
   }
 TISSU_ROTATIONS(baseline)

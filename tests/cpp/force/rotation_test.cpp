@@ -125,11 +125,11 @@ TEST_P(RotationTest, PolarOfInvertedFlatAndTinyOnes) {
   std::vector<Mat3> F;
   for (int i = 0; i < 2000; ++i) {
     F.push_back(stretched(random, Vec3(1.1, 0.9, -0.3)));
-    F.push_back(stretched(random, Vec3(1.0, 1.0, -1.0)));          // any axis may be turned: all are as near
-    F.push_back(stretched(random, Vec3(1.0, 0.8, -0.8 + 1e-9)));   // about to jump
-    F.push_back(stretched(random, Vec3(1.3, 0.4, 0.0)));           // rank 2
+    F.push_back(stretched(random, Vec3(1.0, 1.0, -1.0)));         // any axis may be turned: all are as near
+    F.push_back(stretched(random, Vec3(1.0, 0.8, -0.8 + 1e-9)));  // about to jump
+    F.push_back(stretched(random, Vec3(1.3, 0.4, 0.0)));          // rank 2
     F.push_back(stretched(random, Vec3(1.3, 1e-12, 0.0)));
-    F.push_back(stretched(random, Vec3(2.0, 0.0, 0.0)));           // rank 1
+    F.push_back(stretched(random, Vec3(2.0, 0.0, 0.0)));  // rank 1
     F.push_back(stretched(random, Vec3(2.0, 1.0, -0.5)) * std::pow(10.0, random.number(90.0)));
     F.push_back(stretched(random, Vec3(1e8, 1.0, 1e-8)));
   }

@@ -1,12 +1,8 @@
-#include <gtest/gtest.h>
-
 #include <cstring>
-#include <ostream>
+#include <limits>
 
-#include "../world/sample_worlds.h"
+#include "tetra_models_sample.h"
 #include "tissu/edit/remove_cells.h"
-#include "tissu/force/models.h"
-#include "verbs.h"
 
 /// The models that are other forms of linear tetrahedra: force, tangent, energy and fields of each against
 /// those of the continuum element with the same law, and what they owe to themselves.
@@ -15,93 +11,14 @@ namespace {
 
 using test::derivative;
 using test::force_of;
+using test::kEqual;
 using test::moved;
 using test::product_of;
 using test::relative_difference;
 using test::stiffness_of;
 using test::view;
 
-// Both forms sum some hundred products, each rounded to 1e-16, of numbers at most ten times their sum.
-constexpr double kEqual = 1e-12;
-
-struct ModelCase {
-  const char* model;
-  const char* law;
-  Isa isa;
-};
-
-std::string text(const ModelCase& c) {
-  std::string model = c.model;
-  std::ranges::replace(model, '-', '_');
-  return model + "_" + c.law + "_" + std::string(name(c.isa));
-}
-void PrintTo(const ModelCase& c, std::ostream* out) { *out << text(c); }
-
-std::vector<ModelCase> cases() {
-  std::vector<ModelCase> all;
-  for (const Isa isa : test::available_isas()) {
-    all.push_back({"mass-link", "stvk", isa});
-    all.push_back({"mass-link", "neo_hooke", isa});
-    all.push_back({"mass-tensor", "hooke", isa});
-    all.push_back({"mass-tensor", "stvk", isa});
-  }
-  return all;
-}
-
-/// 90 distorted tetrahedra, the last lanes of them only there to pad, whose parameters differ from cell to
-/// cell.
-class TetraModels : public testing::TestWithParam<ModelCase> {
- protected:
-  Mesh mesh_ = test::distorted_box({5, 3, 1}, Split::six, 0.1);
-  test::Random random_{17};
-
-  bool is_tensor() const { return std::string_view(GetParam().model) == "mass-tensor"; }
-  bool is_linear() const { return std::string_view(GetParam().law) == "hooke"; }
-  bool is_polynomial() const { return std::string_view(GetParam().law) != "neo_hooke"; }
-
-  ElasticBlock block(const char* model) const {
-    ElasticBlock block = test::elastic_block(mesh_.blocks[0], {.law = GetParam().law});
-    block.model.name = model;
-    test::Random random(12);
-    for (auto* values : {&block.parameters["young"], &block.parameters["poisson"], &block.density}) {
-      values->clear();
-    }
-    for (std::int32_t i = 0; i < mesh_.cell_count(); ++i) {
-      block.parameters["young"].push_back(3.0 + random.number());
-      block.parameters["poisson"].push_back(0.25 + random.number(0.2));
-      block.density.push_back(2.0 + random.number());
-    }
-    return block;
-  }
-  std::unique_ptr<BodyModel> made(const char* model, int threads = 1) const {
-    return make_model(block(model), mesh_.positions, GetParam().isa, Threads(threads));
-  }
-  std::unique_ptr<BodyModel> made() const { return made(GetParam().model); }
-  std::unique_ptr<BodyModel> continuum() const { return made("fem"); }
-
-  State rest() const {
-    State state;
-    state.positions = mesh_.positions;
-    state.velocities.assign(mesh_.positions.size(), 0.0);
-    return state;
-  }
-  State affine(const Mat3& F, const Vec3& shift = Vec3::Zero()) const {
-    State state = rest();
-    for (std::int32_t i = 0; i < mesh_.node_count(); ++i) {
-      tissu::block(Reals(state.positions), i) = F * mesh_.node(i) + shift;
-    }
-    return state;
-  }
-  /// Strains of up to 30 %, a turn, and nodes out of place. The terms of the expanded polynomial grow with
-  /// the fourth power of displacements, their sum with strains: a turn by a sixth of a circle moves nodes by
-  /// 5 m, a tenth of that is moderate.
-  State any_state() {
-    const double angle = random_.number(is_tensor() ? 0.1 : 1.0);
-    const Mat3 turn = Eigen::AngleAxisd(angle, random_.vector().normalized()).toRotationMatrix();
-    const Mat3 F = turn * (Mat3::Identity() + random_.matrix(0.15));
-    return moved(affine(F, random_.vector(0.5)), random_.numbers(mesh_.positions.size(), 0.08), 1.0);
-  }
-};
+class TetraModels : public test::TetraModelsTest {};
 
 TEST_P(TetraModels, EqualTheContinuumElement) {
   const auto model = made();
@@ -345,8 +262,8 @@ TEST_P(TetraModels, RefusesWhatItDoesNotTake) {
   EXPECT_THROW(make_model(good, mesh_.positions, GetParam().isa, Threads(1)), MeshError);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, TetraModels, testing::ValuesIn(cases()),
-                         [](const auto& info) { return text(info.param); });
+INSTANTIATE_TEST_SUITE_P(All, TetraModels, testing::ValuesIn(test::tetra_models()),
+                         [](const auto& info) { return test::text(info.param); });
 
 }  // namespace
 }  // namespace tissu

@@ -3,14 +3,16 @@
 /// Corotational linear elasticity: Hooke's law in axes that turn with each cell. Equations:
 /// src/force/kernels/corotational.h.
 ///
-/// One rotation for a cell, of F at its centre, not one for each quadrature point: a hexahedron then needs one
-/// in place of eight, K is the one of linear elasticity, and a cell that is crushed or inside out has one rest
-/// shape to go back to, where points that turn apart hold each other in a twist.
+/// One rotation for a cell, of F at its centre, not one for each quadrature point: a hexahedron needs one in
+/// place of eight, K is the one of linear elasticity, and a crushed cell has one rest shape to go back to.
 ///
-/// `tangent` approximate: f = -R K (R^T x - X) and R K R^T, which has no negative eigenvalue in any state and
-/// is what comes back from inversion. exact: f = -dW/dx and its derivative, also of R; energy and moment of
-/// momentum are kept. The forces are the same for tetrahedra with `polar`; for other cells they differ in
-/// second order of the part of the strain that is not uniform, and with `frame` of all strain.
+/// `polar`: f = -dW/dx with all of R's part, so that energy, momentum and its moment are kept, whatever the
+/// tangent. `frame` with the approximate tangent is the classical f = -R K (R^T x - X), whose moments are not
+/// in balance; with the exact tangent it is -dW/dx, which a squeezed frame makes stiff and rough.
+///
+/// `tangent` approximate: R K R^T, which has no negative eigenvalue in any state; cells come back from
+/// inversion with it. exact: the derivative of the force, for Newton's method near a solution; indefinite
+/// where cells are far from rest.
 
 #include <vector>
 

@@ -9,7 +9,8 @@
 
 namespace tissu::TISSU_KERNELS {
 
-/// Hooke's law in axes that turn with the cell: those of the rest shape do not matter, so J may be triangular.
+/// Hooke's law in axes that turn with the cell: those of the rest shape do not matter, so J may be
+/// triangular.
 template <class T>
 struct TurningHooke : Hooke<T> {
   static constexpr bool kIsotropic = true;

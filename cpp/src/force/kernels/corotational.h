@@ -6,8 +6,8 @@
 /// That leaves out that R follows x. With kExact it does not: the moment t = dW/dw of the stresses about the
 /// cell adds -t . dw/dx to the force, and the tangent is the derivative of all (spin.h). For tetrahedra with
 /// `polar` t vanishes; for other cells it is of second order in the part of the strain that is not uniform.
-/// Sources: the force, Mueller and Gross, Interactive virtual materials, Graphics Interface 2004; the terms of t
-/// and their derivative are worked out here.
+/// Sources: the force, Mueller and Gross, Interactive virtual materials, Graphics Interface 2004; the terms
+/// of t and their derivative are worked out here.
 
 #include "corotated_cell.h"
 #include "spin.h"
@@ -117,8 +117,7 @@ struct Corotational : CorotatedCell<Element, Rule, LawOf> {
     Base::clear(df);
     for (int g = 0; g < Rule::kPoints; ++g) {
       const Inverse Jinv = cell.lanes.inverse_jacobian(g);
-      const Matrix dT =
-          cell.stress_change(Base::gradient(g, q, Jinv), cell.lanes.weight(g) * Batch(-scale));
+      const Matrix dT = cell.stress_change(Base::gradient(g, q, Jinv), cell.lanes.weight(g) * Batch(-scale));
       Base::spread(g, dT, Jinv, df);
     }
   }

@@ -4,6 +4,8 @@
 
 namespace tissu::TISSU_KERNELS {
 
-CorotationalList corotational_hexahedron() { return {CorotationalTables<Hexahedron8>::all, CorotationalTables<Hexahedron8>::kCount}; }
+CorotationalList corotational_hexahedron() {
+  return {CorotationalTables<Hexahedron8>::all, CorotationalTables<Hexahedron8>::kCount};
+}
 
 }  // namespace tissu::TISSU_KERNELS

@@ -4,6 +4,8 @@
 
 namespace tissu::TISSU_KERNELS {
 
-CorotationalList corotational_pyramid() { return {CorotationalTables<Pyramid5>::all, CorotationalTables<Pyramid5>::kCount}; }
+CorotationalList corotational_pyramid() {
+  return {CorotationalTables<Pyramid5>::all, CorotationalTables<Pyramid5>::kCount};
+}
 
 }  // namespace tissu::TISSU_KERNELS

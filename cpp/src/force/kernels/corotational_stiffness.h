@@ -93,10 +93,10 @@ struct CorotationalStiffness : Corotational<Element, Rule, LawOf, kExact> {
   using Kernel = Corotational<Element, Rule, LawOf, kExact>;
   using Cell = typename Kernel::Cell;
   using Base = typename Kernel::Base;
-  using typename Kernel::Inverse;
   using Base::kFirst;
   using Base::kNodes;
   using Base::kPairs;
+  using typename Kernel::Inverse;
   using Gradients = Batch[Rule::kPoints][kNodes][3];
 
   /// R grad_a at every point
@@ -177,8 +177,10 @@ struct CorotationalStiffness : Corotational<Element, Rule, LawOf, kExact> {
   }
 
   static constexpr CorotationalKernels table() {
-    return {Element::kName,   Cell::MaterialLaw::kIsotropic, kExact, &Kernel::force, &Kernel::product, &stiffness,
-            &Kernel::energy, &Kernel::stress};
+    return {Element::kName,   Cell::MaterialLaw::kIsotropic,
+            kExact,           &Kernel::force,
+            &Kernel::product, &stiffness,
+            &Kernel::energy,  &Kernel::stress};
   }
 };
 

@@ -4,6 +4,8 @@
 
 namespace tissu::TISSU_KERNELS {
 
-CorotationalList corotational_tetra() { return {CorotationalTables<Tetra4>::all, CorotationalTables<Tetra4>::kCount}; }
+CorotationalList corotational_tetra() {
+  return {CorotationalTables<Tetra4>::all, CorotationalTables<Tetra4>::kCount};
+}
 
 }  // namespace tissu::TISSU_KERNELS

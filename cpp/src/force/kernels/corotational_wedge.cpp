@@ -4,6 +4,8 @@
 
 namespace tissu::TISSU_KERNELS {
 
-CorotationalList corotational_wedge() { return {CorotationalTables<Wedge6>::all, CorotationalTables<Wedge6>::kCount}; }
+CorotationalList corotational_wedge() {
+  return {CorotationalTables<Wedge6>::all, CorotationalTables<Wedge6>::kCount};
+}
 
 }  // namespace tissu::TISSU_KERNELS

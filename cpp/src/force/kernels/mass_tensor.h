@@ -1,183 +1,24 @@
 #pragma once
 
-/// The expanded energy of Picinbono on one node, edge, face or tetrahedron, for every instruction set.
-///
-/// With u_i the displacements of its nodes, m = (i, j) a pair of them and q_m = u_i . u_j,
-///   W = 1/2 sum u_i . B_ij u_j + sum_v (u_i(v) . c_v) q_m(v) + 1/2 sum_mn Q_mn q_m q_n       [J]
-///   w_m = dW/dq_m = sum_v:m (u_i . c_v) + sum_n Q_mn q_n
-///   dW/du_p = sum_j B_pj u_j + sum_v:p q_m c_v + sum_m w_m dq_m/du_p
-/// and the tangent is one derivative more. Which vectors c and which numbers Q there are is a pattern,
-/// written out by the compiler; f = -dW/du.
+/// The loops of the mass-tensor model: displacements from positions, terms of tensor_terms.h, f = -dW/du.
 
 #include "packed.h"
 #include "scatter_pairs.h"
+#include "tensor_terms.h"
 #include "tissu/force/mass_tensor_kernels.h"
 
 namespace tissu::TISSU_KERNELS {
 
-/// A vector c: its node and its pair.
-struct TensorVector {
-  int node;
-  int pair;
-};
-/// A number Q: its two pairs, and how many stored numbers it is the sum of.
-struct TensorNumber {
-  int m;
-  int n;
-  int stored;
-};
-
-// Constants are stored in this order: B row by row, the vectors, the numbers. Arrays of length one stand for
-// none where a count is zero.
-struct NodePattern {
-  static constexpr int kNodes = 1, kMatrices = 1, kPairs = 1, kVectors = 1, kNumbers = 1;
-  static constexpr int pair[][2] = {{0, 0}};
-  static constexpr TensorVector vector[] = {{0, 0}};
-  static constexpr TensorNumber number[] = {{0, 0, 1}};
-};
-struct EdgePattern {  // pairs pp pj jj
-  static constexpr int kNodes = 2, kMatrices = 1, kPairs = 3, kVectors = 4, kNumbers = 4;
-  static constexpr int pair[][2] = {{0, 0}, {0, 1}, {1, 1}};
-  static constexpr TensorVector vector[] = {{0, 1}, {1, 0}, {1, 1}, {0, 2}};
-  static constexpr TensorNumber number[] = {{0, 1, 1}, {1, 2, 1}, {0, 2, 1}, {1, 1, 2}};
-};
-struct FacePattern {  // pairs aa bb cc bc ca ab
-  static constexpr int kNodes = 3, kMatrices = 0, kPairs = 6, kVectors = 3, kNumbers = 6;
-  static constexpr int pair[][2] = {{0, 0}, {1, 1}, {2, 2}, {1, 2}, {2, 0}, {0, 1}};
-  static constexpr TensorVector vector[] = {{0, 3}, {1, 4}, {2, 5}};
-  static constexpr TensorNumber number[] = {{0, 3, 1}, {1, 4, 1}, {2, 5, 1}, {5, 4, 2}, {3, 5, 2}, {4, 3, 2}};
-};
-struct TetraPattern {  // pairs 01 23, 02 13, 03 12
-  static constexpr int kNodes = 4, kMatrices = 0, kPairs = 6, kVectors = 0, kNumbers = 3;
-  static constexpr int pair[][2] = {{0, 1}, {2, 3}, {0, 2}, {1, 3}, {0, 3}, {1, 2}};
-  static constexpr TensorVector vector[] = {{0, 0}};
-  static constexpr TensorNumber number[] = {{0, 1, 2}, {2, 3, 2}, {4, 5, 2}};
-};
-struct LinearNodePattern {
-  static constexpr int kNodes = 1, kMatrices = 1, kPairs = 0, kVectors = 0, kNumbers = 0;
-  static constexpr int pair[][2] = {{0, 0}};
-  static constexpr TensorVector vector[] = {{0, 0}};
-  static constexpr TensorNumber number[] = {{0, 0, 1}};
-};
-struct LinearEdgePattern : LinearNodePattern {
-  static constexpr int kNodes = 2;
-};
-
 template <class Pattern>
-struct MassTensor : Pattern {
-  using Pattern::kMatrices;
-  using Pattern::kNodes;
-  using Pattern::kNumbers;
-  using Pattern::kPairs;
-  using Pattern::kVectors;
-  using Pattern::number;
-  using Pattern::pair;
-  using Pattern::vector;
-
-  static constexpr int count_reals() {
-    int count = 9 * kMatrices + 3 * kVectors;
-    for (int k = 0; k < kNumbers; ++k) count += number[k].stored;
-    return count;
-  }
-  static constexpr int kReals = count_reals();
-  static constexpr int first_stored(int k) {
-    int at = 9 * kMatrices + 3 * kVectors;
-    for (int n = 0; n < k; ++n) at += number[n].stored;
-    return at;
-  }
-  static constexpr int at_least_one(int count) { return count > 0 ? count : 1; }
-  using Vectors = Batch[kNodes][3];
-  using Pairs = Batch[at_least_one(kPairs)];
-
-  /// One batch of a group.
-  struct Lanes {
-    const std::uint16_t* places;
-    const std::int32_t* slots;
-    const double* constants;
-
-    TISSU_INLINE Lanes(const MassTensorView& view, std::int32_t group, int lane)
-        : places(view.places + static_cast<std::ptrdiff_t>(group) * kNodes * kLanes + lane),
-          slots(view.slots + static_cast<std::ptrdiff_t>(group) * kNodes * kNodes * kLanes + lane),
-          constants(view.constants + static_cast<std::ptrdiff_t>(group) * kReals * kLanes + lane) {}
-    TISSU_INLINE void gather(const PackedNodes& nodes, Vectors& u) const {
-      TISSU_UNROLL
-      for (int a = 0; a < kNodes; ++a) gather_packed(nodes.values, places + a * kLanes, u[a]);
-    }
-    TISSU_INLINE void scatter(const Vectors& f, PackedNodes& sums) const {
-      TISSU_UNROLL
-      for (int a = 0; a < kNodes; ++a) scatter_packed(sums.values, places + a * kLanes, f[a]);
-    }
-    TISSU_INLINE Batch constant(int k) const { return Batch::load(constants + k * kLanes); }
-    TISSU_INLINE Batch c(int v, int i) const { return constant(9 * kMatrices + 3 * v + i); }
-    TISSU_INLINE Batch Q(int k) const {
-      const Batch first = constant(first_stored(k));
-      return number[k].stored == 1 ? first : first + constant(first_stored(k) + 1);
-    }
-  };
-
-  TISSU_INLINE static Batch dot(const Batch (&a)[3], const Batch (&b)[3]) {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-  }
-  TISSU_INLINE static void add(Batch s, const Batch (&a)[3], Batch (&to)[3]) {
-    TISSU_UNROLL
-    for (int i = 0; i < 3; ++i) to[i] += s * a[i];
-  }
-
-  TISSU_INLINE static void products(const Vectors& u, Pairs& q) {
-    TISSU_UNROLL
-    for (int m = 0; m < kPairs; ++m) q[m] = dot(u[pair[m][0]], u[pair[m][1]]);
-  }
-  /// w of u and q; dw of du and dq.
-  TISSU_INLINE static void weights(const Lanes& lanes, const Vectors& u, const Pairs& q, Pairs& w) {
-    TISSU_UNROLL
-    for (int m = 0; m < kPairs; ++m) w[m] = Batch(0.0);
-    TISSU_UNROLL
-    for (int v = 0; v < kVectors; ++v) {
-      TISSU_UNROLL
-      for (int i = 0; i < 3; ++i) w[vector[v].pair] += u[vector[v].node][i] * lanes.c(v, i);
-    }
-    TISSU_UNROLL
-    for (int k = 0; k < kNumbers; ++k) {
-      const Batch Q = lanes.Q(k);
-      w[number[k].m] += Q * q[number[k].n];
-      if (number[k].m != number[k].n) w[number[k].n] += Q * q[number[k].m];
-    }
-  }
-  /// r_p += sum_j B_pj u_j + sum_v:p q c
-  TISSU_INLINE static void add_constant_part(const Lanes& lanes, const Vectors& u, const Pairs& q,
-                                             Vectors& r) {
-    TISSU_UNROLL
-    for (int i = 0; i < (kMatrices > 0 ? 3 : 0); ++i) {
-      TISSU_UNROLL
-      for (int j = 0; j < 3; ++j) {
-        const Batch B = lanes.constant(3 * i + j);
-        r[0][i] += B * u[kNodes - 1][j];
-        if (kNodes == 2) r[kNodes - 1][j] += B * u[0][i];
-      }
-    }
-    TISSU_UNROLL
-    for (int v = 0; v < kVectors; ++v) {
-      TISSU_UNROLL
-      for (int i = 0; i < 3; ++i) r[vector[v].node][i] += q[vector[v].pair] * lanes.c(v, i);
-    }
-  }
-  /// r_p += sum_m w_m dq_m/du_p
-  TISSU_INLINE static void add_pairs(const Pairs& w, const Vectors& u, Vectors& r) {
-    TISSU_UNROLL
-    for (int m = 0; m < kPairs; ++m) {
-      const int i = pair[m][0];
-      const int j = pair[m][1];
-      add(i == j ? w[m] + w[m] : w[m], u[j], r[i]);
-      if (i != j) add(w[m], u[i], r[j]);
-    }
-  }
-  TISSU_INLINE static void clear(Vectors& r) {
-    TISSU_UNROLL
-    for (int a = 0; a < kNodes; ++a) {
-      TISSU_UNROLL
-      for (int i = 0; i < 3; ++i) r[a][i] = Batch(0.0);
-    }
-  }
+struct MassTensor : TensorTerms<Pattern> {
+  using Terms = TensorTerms<Pattern>;
+  using Terms::kNodes;
+  using Terms::kPairs;
+  using Terms::kReals;
+  using Terms::pair;
+  using typename Terms::Lanes;
+  using typename Terms::Pairs;
+  using typename Terms::Vectors;
 
   /// f(lanes, group, lane) for every batch of a chunk.
   template <class Function>
@@ -211,11 +52,11 @@ struct MassTensor : Pattern {
           Pairs q;
           Pairs w;
           lanes.gather(displacements, u);
-          clear(r);
-          products(u, q);
-          weights(lanes, u, q, w);
-          add_constant_part(lanes, u, q, r);
-          add_pairs(w, u, r);
+          Terms::clear(r);
+          Terms::products(u, q);
+          Terms::weights(lanes, u, q, w);
+          Terms::add_constant_part(lanes, u, q, r);
+          Terms::add_pairs(w, u, r);
           TISSU_UNROLL
           for (int a = 0; a < kNodes; ++a) {
             TISSU_UNROLL
@@ -245,17 +86,17 @@ struct MassTensor : Pattern {
           Pairs dw;
           lanes.gather(displacements, u);
           lanes.gather(changes, du);
-          clear(r);
-          products(u, q);
+          Terms::clear(r);
+          Terms::products(u, q);
           TISSU_UNROLL
           for (int m = 0; m < kPairs; ++m) {
-            dq[m] = dot(du[pair[m][0]], u[pair[m][1]]) + dot(u[pair[m][0]], du[pair[m][1]]);
+            dq[m] = Terms::dot(du[pair[m][0]], u[pair[m][1]]) + Terms::dot(u[pair[m][0]], du[pair[m][1]]);
           }
-          weights(lanes, u, q, w);
-          weights(lanes, du, dq, dw);
-          add_constant_part(lanes, du, dq, r);
-          add_pairs(w, du, r);
-          add_pairs(dw, u, r);
+          Terms::weights(lanes, u, q, w);
+          Terms::weights(lanes, du, dq, dw);
+          Terms::add_constant_part(lanes, du, dq, r);
+          Terms::add_pairs(w, du, r);
+          Terms::add_pairs(dw, u, r);
           TISSU_UNROLL
           for (int a = 0; a < kNodes; ++a) {
             TISSU_UNROLL
@@ -264,68 +105,6 @@ struct MassTensor : Pattern {
           lanes.scatter(r, sums);
         });
     sums.add_to(chunk, out);
-  }
-
-  /// dq_m/du_s times one axis.
-  TISSU_INLINE static Batch slope(int m, int s, const Vectors& u, int axis) {
-    const int i = pair[m][0];
-    const int j = pair[m][1];
-    if (i == j) return i == s ? u[i][axis] + u[i][axis] : Batch(0.0);
-    return i == s ? u[j][axis] : j == s ? u[i][axis] : Batch(0.0);
-  }
-  static constexpr bool holds(int m, int s) { return pair[m][0] == s || pair[m][1] == s; }
-
-  /// dw_m/du_s
-  TISSU_INLINE static void weight_slopes(const Lanes& lanes, int s, const Vectors& u,
-                                         Batch (&g)[at_least_one(kPairs)][3]) {
-    TISSU_UNROLL
-    for (int m = 0; m < kPairs; ++m) {
-      TISSU_UNROLL
-      for (int i = 0; i < 3; ++i) g[m][i] = Batch(0.0);
-    }
-    TISSU_UNROLL
-    for (int v = 0; v < kVectors; ++v) {
-      if (vector[v].node != s) continue;
-      TISSU_UNROLL
-      for (int i = 0; i < 3; ++i) g[vector[v].pair][i] += lanes.c(v, i);
-    }
-    TISSU_UNROLL
-    for (int k = 0; k < kNumbers; ++k) {
-      const int m = number[k].m;
-      const int n = number[k].n;
-      const Batch Q = lanes.Q(k);
-      TISSU_UNROLL
-      for (int i = 0; i < 3; ++i) {
-        if (holds(n, s)) g[m][i] += Q * slope(n, s, u, i);
-        if (m != n && holds(m, s)) g[n][i] += Q * slope(m, s, u, i);
-      }
-    }
-  }
-
-  /// d2W/du_p du_s, column by column.
-  TISSU_INLINE static void node_pair(const Lanes& lanes, int p, int s, const Vectors& u, const Pairs& w,
-                                     const Batch (&g)[at_least_one(kPairs)][3], Batch (&K)[9]) {
-    const bool has_matrix = kMatrices > 0 && (kNodes == 1 || p != s);
-    TISSU_UNROLL
-    for (int c = 0; c < 9; ++c) {
-      const int i = c % 3;
-      const int k = c / 3;
-      Batch sum = has_matrix ? lanes.constant(3 * i + k) : Batch(0.0);
-      TISSU_UNROLL
-      for (int v = 0; v < kVectors; ++v) {
-        if (vector[v].node == p && holds(vector[v].pair, s)) {
-          sum += lanes.c(v, i) * slope(vector[v].pair, s, u, k);
-        }
-      }
-      TISSU_UNROLL
-      for (int m = 0; m < kPairs; ++m) {
-        if (holds(m, p)) sum += slope(m, p, u, i) * g[m][k];
-        if (i != k || !holds(m, p) || !holds(m, s)) continue;
-        if (p == s && pair[m][0] == pair[m][1]) sum += w[m] + w[m];
-        if (p != s) sum += w[m];
-      }
-      K[c] = sum;
-    }
   }
 
   static void stiffness(const MassTensorView& view, const Chunk& chunk, const double* x, double scale,
@@ -338,17 +117,17 @@ struct MassTensor : Pattern {
           Pairs q;
           Pairs w;
           lanes.gather(displacements, u);
-          products(u, q);
-          weights(lanes, u, q, w);
+          Terms::products(u, q);
+          Terms::weights(lanes, u, q, w);
           TISSU_UNROLL
           for (int s = 0; s < kNodes; ++s) {
-            Batch g[at_least_one(kPairs)][3];
-            weight_slopes(lanes, s, u, g);
+            Batch g[Terms::at_least_one(kPairs)][3];
+            Terms::weight_slopes(lanes, s, u, g);
             TISSU_UNROLL
             for (int p = 0; p <= s; ++p) {
               if (p == s && kPairs == 0 && kNodes == 2) continue;  // an edge of Hooke has nothing there
               Batch K[9];
-              node_pair(lanes, p, s, u, w, g, K);
+              Terms::node_pair(lanes, p, s, u, w, g, K);
               for (Batch& entry : K) entry = Batch(-scale) * entry;
               scatter_pair<kNodes>(lanes.slots, p, s, K, blocks);
             }
@@ -366,14 +145,14 @@ struct MassTensor : Pattern {
           Pairs q;
           Pairs w;
           lanes.gather(displacements, u);
-          clear(Bu);
-          products(u, q);
-          weights(lanes, u, q, w);
+          Terms::clear(Bu);
+          Terms::products(u, q);
+          Terms::weights(lanes, u, q, w);
           // The vectors' part is once in u . r and once in w . q, where the numbers' part stands twice.
-          add_constant_part(lanes, u, q, Bu);
+          Terms::add_constant_part(lanes, u, q, Bu);
           Batch once(0.0);  // u . B u + vectors
           TISSU_UNROLL
-          for (int a = 0; a < kNodes; ++a) once += dot(u[a], Bu[a]);
+          for (int a = 0; a < kNodes; ++a) once += Terms::dot(u[a], Bu[a]);
           Batch twice(0.0);  // vectors + numbers, twice
           TISSU_UNROLL
           for (int m = 0; m < kPairs; ++m) twice += w[m] * q[m];

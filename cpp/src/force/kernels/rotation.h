@@ -66,7 +66,7 @@ TISSU_INLINE Batch larger(Batch a, Batch b) { return {a.v > b.v ? a.v : b.v}; }
 
 /// Davenport's matrix of F, diagonalised by Jacobi's rotations.
 struct Davenport {
-  static constexpr int kSweeps = 7;  ///< one more than any of a million matrices needed
+  static constexpr int kSweeps = 7;  ///< two million matrices, of low rank too, were diagonal by then
   Batch D[4][4];
   Batch V[4][4];  ///< eigenvectors, columns
 
@@ -203,7 +203,8 @@ TISSU_INLINE Matrix polar_rotation(const Matrix& F, Batch& trace) {
   const Batch of_C = x * inverse;
   Matrix G = transposed_product(F, F);
   TISSU_UNROLL
-  for (int i = 0; i < 9; ++i) G.m[i / 3][i % 3] = (i % 4 == 0 ? of_F : Batch(0.0)) - G.m[i / 3][i % 3] * inverse;
+  for (int i = 0; i < 9; ++i)
+    G.m[i / 3][i % 3] = (i % 4 == 0 ? of_F : Batch(0.0)) - G.m[i / 3][i % 3] * inverse;
   Matrix R;
   TISSU_UNROLL
   for (int i = 0; i < 3; ++i) {

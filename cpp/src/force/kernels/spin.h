@@ -2,8 +2,9 @@
 
 /// How the rotation R of a cell follows its nodes. R keeps three entries of A = R^T F at zero,
 ///   l(A) = (A_zy - t A_yz, t A_xz - A_zx, A_yx - t A_xy):
-/// t = 1 makes A symmetric, R that of the polar decomposition; t = 0 makes it triangular, R that of the frame.
-/// When F changes by R B, R changes by R [w] with l(B - [w] A) = 0, so that D w = l(B), D w = l([w] A).
+/// t = 1 makes A symmetric, R that of the polar decomposition; t = 0 makes it triangular, R that of the
+/// frame. When F changes by R B, R changes by R [w] with l(B - [w] A) = 0, so that D w = l(B), D w = l([w]
+/// A).
 
 #include "rotation.h"
 

@@ -41,7 +41,7 @@ The words in this table are those of the models' classes, the figures were measu
 
 ![Error against time of examples/beam.yaml](pictures/compare.png)
 
-`tissu compare examples/beam.yaml`: on this mesh the cells are too coarse for bending, and that error
+`tissu compare examples/beam.yaml`: cells of this size are too coarse for bending, and that error
 is the same for all forms of one energy; springs err by another stiffness.
 
 More: [the bar of 8 m, bent and twisted, with every model](model-bars.md), [what a tetrahedron

@@ -91,6 +91,13 @@ def test_another_law_is_computed_as_hookes_and_said_so():
     assert len(told) == 1
 
 
+def test_a_region_that_nothing_touches_is_told_by_check():
+    loose = scene("condensed", step=ts.ImplicitEuler(0.01)).replace(fixed=(), loads=())
+    (problem,) = loose.check().problems
+    assert problem.startswith("bodies.bar.model: found a condensed region of which no node is held")
+    assert loose.replace(bodies={"bar": loose.bodies["bar"].replace(model="fem")}).check().ok
+
+
 def test_a_law_without_young_is_refused():
     law = ts.MooneyRivlin(c1=1e3, c2=1e3, kappa=1e6)
     with pytest.raises(ts.SceneError, match=r"bar\.model: found condensed for the law mooney"):

@@ -92,7 +92,8 @@ def check_model(
     place = (*path, "model")
     if info.elements and cell_type not in info.elements:
         text = f"found {model.type} for {counted(count, f'{cell_type} cell')}; it takes "
-        _tell_once(place, f"{text}{one_of_words(info.elements)}: or take the model fem", findings)
+        text += f"{one_of_words(info.elements)}; take such cells, or the model fem"
+        _tell_once(place, text, findings)
     if not info.laws:
         return
     if law.fibres is not None:
@@ -107,6 +108,17 @@ def check_model(
         note = f"{text}, with the same young and poisson: equal at small strain only"
         if note not in findings.notes:
             findings.note(note)
+
+
+def check_kept(prepared: Prepared) -> None:
+    """Report condensed regions of which nothing would stay unknown."""
+    for name, body in prepared.bodies.items():
+        for group in body.groups:
+            if isinstance(group.model, Condensed) and not len(kept_nodes(prepared, name, group)):
+                text = "found a condensed region of which no node is held, led, loaded or shared "
+                text += "with other cells; hold one, or keep the surface: "
+                text += "{type: condensed, keep: surface}"
+                _tell_once(("bodies", name, "model"), text, prepared.findings)
 
 
 def note_condensed(_mesh: Mesh, body: Body, scene: Scene, path: Path, findings: Findings) -> None:

@@ -10,7 +10,7 @@ import numpy as np
 from tissu.compile.balance import check_supports
 from tissu.compile.material import cell_groups, density_of
 from tissu.compile.meshes import known_mesh
-from tissu.compile.model import note_condensed
+from tissu.compile.model import check_kept, note_condensed
 from tissu.compile.prepared import Held, Ints, LoadedNodes, Prepared, PreparedBody
 from tissu.compile.quadrature import check_quadrature
 from tissu.compile.select import selected_faces, selected_nodes
@@ -49,6 +49,7 @@ def prepare(scene: Scene) -> Prepared:
     for number, load in enumerate(getattr(scene, "loads", ())):
         with contextlib.suppress(Unknown):
             _prepare_load(prepared, ("loads", number), load)
+    check_kept(prepared)
     check_supports(prepared)
     return prepared
 

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <optional>
 #include <unordered_map>
-#include <utility>
 
 #include "tissu/base/error.h"
 
@@ -34,7 +33,7 @@ Lame small_strain(const ElasticBlock& block, std::int32_t cell) {
 
 }  // namespace
 
-Prony::Prony(const ElasticBlock& block, std::vector<PronyBranch> branches, std::size_t first,
+Prony::Prony(const ElasticBlock& block, const std::vector<PronyBranch>& branches, std::size_t first,
              ConstReals rest_positions, Isa isa, Threads threads)
     : ViscousCells(block, rest_positions, threads),
       kernels_(find_prony_kernels(isa, reference_.dimension == 3 ? reference_.nodes : 0)),

@@ -26,7 +26,7 @@ class Prony final : public ViscousCells {
  public:
   /// On the cells of `block`; its numbers in State::memory begin at `first`. Refuses sheets and lines, and
   /// laws without Lamé's moduli at rest.
-  Prony(const ElasticBlock& block, std::vector<PronyBranch> branches, std::size_t first,
+  Prony(const ElasticBlock& block, const std::vector<PronyBranch>& branches, std::size_t first,
         ConstReals rest_positions, Isa isa, Threads threads);
   [[nodiscard]] std::string_view effect() const override { return "Prony viscosity"; }
   void add_force(const State& state, Reals f) const override;

@@ -39,9 +39,14 @@ bodies:
 The words in this table are those of the models' classes, the figures were measured by
 `python bench/model_abilities.py --write` on a cube of 162 tetrahedra with E = 20 kPa, nu = 0.3.
 
+![Error against time of examples/beam.yaml](pictures/compare.png)
+
+`tissu compare examples/beam.yaml`: cells of this size are too coarse for bending, and that error
+is the same for all forms of one energy; springs err by another stiffness.
+
 More: [the bar of 8 m, bent and twisted, with every model](model-bars.md), [what a tetrahedron
-costs in three forms](models-cost.md), [condensed linear bodies](condensed.md), and
-[viscosity](viscosity.md).
+costs in three forms](models-cost.md), [condensed linear bodies](condensed.md), [the modulus of
+springs](apparent-modulus.md), and [viscosity](viscosity.md).
 
 """
 

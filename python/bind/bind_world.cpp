@@ -153,9 +153,8 @@ void bind_world(py::module_& m) {
             world.body(body).rayleigh = RayleighDamping{mass, stiffness};
           },
           py::kw_only(), arg("body"), arg("mass"), arg("stiffness"))
-      .def("add_viscosity", &add_viscosity, py::kw_only(), arg("body"), arg("shear") = 0.0,
-           arg("bulk") = 0.0, arg("centroid") = 0.0,
-           arg("branches") = std::vector<std::pair<double, double>>{})
+      .def("add_viscosity", &add_viscosity, py::kw_only(), arg("body"), arg("shear") = 0.0, arg("bulk") = 0.0,
+           arg("centroid") = 0.0, arg("branches") = std::vector<std::pair<double, double>>{})
       .def(
           "add_gravity",
           [](WorldDescription& world, const Doubles& acceleration) {

@@ -21,10 +21,10 @@ Condensed::Condensed(ElasticBlock block, ConstReals rest_positions, Isa isa, Thr
     : region_(std::make_shared<CondensedRegion>(std::move(block), rest_positions, isa, threads)),
       block_(region_->elastic().block()) {}
 
-std::unique_ptr<BodyModel> Condensed::without(ElasticBlock left,
+std::unique_ptr<BodyModel> Condensed::without(const ElasticBlock& left,
                                               const std::vector<std::int32_t>& removed) const {
   if (!removed.empty()) return nullptr;
-  return std::unique_ptr<BodyModel>(new Condensed(region_, std::move(left)));
+  return std::unique_ptr<BodyModel>(new Condensed(region_, left));
 }
 
 void Condensed::couple(SparsityBuilder& builder) const {

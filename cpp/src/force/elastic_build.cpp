@@ -78,7 +78,7 @@ void Elastic::lay_constants() {
     for (const auto& [name, values] : use.parameters) uniform = uniform && values.size() == 1;
   }
   const std::int32_t groups = uniform ? 1 : order_.groups();
-  constants_stride_ = uniform ? 0 : static_cast<std::ptrdiff_t>(count) * kLanes;
+  constants_stride_ = uniform ? 0 : static_cast<std::ptrdiff_t>(count * kLanes);
   constants_.resize(static_cast<std::size_t>(groups) * count * kLanes);
   std::vector<double> constants(count);
   for (std::size_t i = 0; i < static_cast<std::size_t>(groups) * kLanes; ++i) {

@@ -101,9 +101,9 @@ const Lame& MassTensor::lame_of(std::int32_t cell) const {
   return lame_[lame_.size() == 1 ? 0 : static_cast<std::size_t>(cell)];
 }
 
-std::unique_ptr<BodyModel> MassTensor::without(ElasticBlock left,
+std::unique_ptr<BodyModel> MassTensor::without(const ElasticBlock& left,
                                                const std::vector<std::int32_t>& removed) const {
-  return std::unique_ptr<BodyModel>(new MassTensor(*this, std::move(left), removed));
+  return std::unique_ptr<BodyModel>(new MassTensor(*this, left, removed));
 }
 
 TensorCell MassTensor::cell(std::int32_t number) const {

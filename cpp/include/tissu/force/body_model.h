@@ -48,7 +48,7 @@ class BodyModel : public ForceModel {
   /// Itself without some of its cells, their numbers in its block ascending; `left` is the block of the
   /// others. Null: it has nothing to take over, and is made anew.
   [[nodiscard]] virtual std::unique_ptr<BodyModel> without(
-      ElasticBlock /*left*/, const std::vector<std::int32_t>& /*removed*/) const {
+      const ElasticBlock& /*left*/, const std::vector<std::int32_t>& /*removed*/) const {
     return nullptr;
   }
 };

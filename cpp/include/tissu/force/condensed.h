@@ -45,7 +45,7 @@ class Condensed final : public BodyModel {
   [[nodiscard]] std::span<const std::int32_t> eliminated() const override { return region_->inner(); }
   void settle(State& state) const override { region_->settle(state); }
   /// The same region where no cell of its own goes.
-  [[nodiscard]] std::unique_ptr<BodyModel> without(ElasticBlock left,
+  [[nodiscard]] std::unique_ptr<BodyModel> without(const ElasticBlock& left,
                                                    const std::vector<std::int32_t>& removed) const override;
 
  private:

@@ -39,7 +39,7 @@ class MassTensor final : public CellModel {
   [[nodiscard]] std::size_t bytes() const override;
   /// Of a tetrahedron alone, as published; `bytes` has what a mesh holds.
   [[nodiscard]] std::size_t reals_per_cell() const override;
-  [[nodiscard]] std::unique_ptr<BodyModel> without(ElasticBlock left,
+  [[nodiscard]] std::unique_ptr<BodyModel> without(const ElasticBlock& left,
                                                    const std::vector<std::int32_t>& removed) const override;
 
   /// Constants that it holds, …

@@ -4,8 +4,8 @@
 
 namespace tissu {
 
-/// The largest eigenfrequency of the free degrees of freedom at a state [rad/s]: omega with K y = omega^2 M y,
-/// by Lanczos' method on M^-1/2 K M^-1/2 until it changes by less than a millionth. 0 when no stiffness is
+/// The largest eigenfrequency of the free degrees of freedom at a state [rad/s]: omega with K y = omega^2 M
+/// y, by Lanczos' method on M^-1/2 K M^-1/2 until it changes by less than a millionth. 0 when no stiffness is
 /// positive. An explicit method without damping is stable while its step is below 2 / omega (symplectic
 /// Euler).
 double largest_frequency(const World& world, const State& state);

@@ -170,7 +170,8 @@ struct CorotationalStiffness : Corotational<Element, Rule, LawOf, kExact> {
       }
       int pair = 0;
       for (int b = kFirst; b < kNodes; ++b) {
-        for (int a = kFirst; a <= b; ++a, ++pair) scatter_pair<Base::kNodes>(cell.lanes.slots, a, b, K[pair], blocks);
+        for (int a = kFirst; a <= b; ++a, ++pair)
+          scatter_pair<Base::kNodes>(cell.lanes.slots, a, b, K[pair], blocks);
       }
       if constexpr (Element::kAffine) scatter_first_node<Base::kNodes>(cell.lanes.slots, K, blocks);
     });

@@ -62,7 +62,7 @@ struct TensorTerms : Pattern {
     }
     TISSU_INLINE Batch constant(int k) const { return Batch::load(constants + k * kLanes); }
     TISSU_INLINE Batch c(int v, int i) const { return constant(9 * kMatrices + 3 * v + i); }
-    TISSU_INLINE Batch Q(int k) const {
+    TISSU_INLINE Batch quadratic(int k) const {
       const Batch first = constant(first_stored(k));
       return number[k].stored == 1 ? first : first + constant(first_stored(k) + 1);
     }
@@ -91,7 +91,7 @@ struct TensorTerms : Pattern {
     }
     TISSU_UNROLL
     for (int k = 0; k < kNumbers; ++k) {
-      const Batch Q = lanes.Q(k);
+      const Batch Q = lanes.quadratic(k);
       w[number[k].m] += Q * q[number[k].n];
       if (number[k].m != number[k].n) w[number[k].n] += Q * q[number[k].m];
     }
@@ -159,7 +159,7 @@ struct TensorTerms : Pattern {
     for (int k = 0; k < kNumbers; ++k) {
       const int m = number[k].m;
       const int n = number[k].n;
-      const Batch Q = lanes.Q(k);
+      const Batch Q = lanes.quadratic(k);
       TISSU_UNROLL
       for (int i = 0; i < 3; ++i) {
         if (holds(n, s)) g[m][i] += Q * slope(n, s, u, i);

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <optional>
 #include <unordered_map>
-#include <utility>
 
 #include "tissu/base/error.h"
 

@@ -36,7 +36,7 @@ struct ModelUse {
   std::string rotation = "polar";       ///< of corotational: small, frame or polar
   std::string tangent = "approximate";  ///< of corotational: approximate or exact
   bool equal_masses = false;            ///< of mass-spring: the same mass at every node
-  std::vector<std::int32_t> kept;       ///< of condensed: the nodes of the body that are not eliminated
+  std::vector<std::int32_t> kept = {};  ///< of condensed: the nodes of the body that are not eliminated
   Vec3 gravity = Vec3::Zero();          ///< of condensed: pulls at those that are [m/s2]; the world gives it
 };
 

@@ -22,10 +22,12 @@ CPP: dict[str, set[str]] = {
     "state": {"base"},
     "assembly": {"base", "mesh", "state"},
     "solve": {"base", "assembly"},
-    "force": {"base", "mesh", "element", "law", "field", "assembly", "state", "solve"},
-    "world": {"base", "mesh", "element", "law", "force", "assembly", "state"},
-    "step": {"base", "assembly", "solve", "force", "state", "world"},
-    "edit": {"base", "mesh", "element", "law", "force", "assembly", "state", "world"},
+    "force": {"base", "mesh", "element", "law", "assembly", "state"},
+    "model": {"base", "mesh", "element", "law", "field", "assembly", "state", "solve", "force"},
+    "viscosity": {"base", "mesh", "element", "law", "assembly", "state", "force", "model"},
+    "world": {"base", "mesh", "element", "law", "force", "model", "viscosity", "assembly", "state"},
+    "step": {"base", "assembly", "solve", "force", "model", "state", "world"},
+    "edit": {"base", "mesh", "element", "law", "force", "model", "assembly", "state", "world"},
     "io": {"base", "mesh"},
 }
 CPP["simulation"] = set(CPP)  # sees everything

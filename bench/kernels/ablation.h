@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "tissu/force/elastic_kernels.h"
+#include "tissu/model/elastic_kernels.h"
 
 namespace tissu::bench {
 

@@ -8,8 +8,8 @@
 #include "machine.h"
 #include "meshes.h"
 #include "operations.h"
-#include "tissu/force/elastic.h"
 #include "tissu/law/law_info.h"
+#include "tissu/model/elastic.h"
 
 namespace tissu::bench {
 namespace {

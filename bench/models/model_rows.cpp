@@ -14,8 +14,8 @@
 #include "../kernels/meshes.h"
 #include "tissu/assembly/block_matrix.h"
 #include "tissu/base/build.h"
-#include "tissu/force/mass_tensor.h"
-#include "tissu/force/models.h"
+#include "tissu/model/mass_tensor.h"
+#include "tissu/model/models.h"
 
 namespace tissu::bench {
 namespace {

@@ -1,5 +1,5 @@
 #include "bind.h"
-#include "tissu/force/models.h"
+#include "tissu/model/models.h"
 
 namespace tissu::bind {
 namespace {

@@ -1,30 +1,13 @@
-#include <functional>
 #include <limits>
 
 #include "bind.h"
+#include "specs.h"
 #include "tissu/edit/remove_cells.h"
 #include "tissu/simulation/simulation.h"
-#include "tissu/solve/cholesky.h"
-#include "tissu/solve/conjugate_gradient.h"
 #include "tissu/step/frequency.h"
-#include "tissu/step/implicit_euler.h"
-#include "tissu/step/static_equilibrium.h"
 
 namespace tissu::bind {
 namespace {
-
-/// How to make an integrator or a solver; each simulation makes its own.
-struct IntegratorSpec {
-  std::function<std::unique_ptr<Integrator>()> make;
-};
-struct SolverSpec {
-  std::function<std::unique_ptr<LinearSolver>()> make;
-};
-
-struct ImplicitEulerSpec : IntegratorSpec {};
-struct StaticSpec : IntegratorSpec {};
-struct ConjugateGradientSpec : SolverSpec {};
-struct CholeskySpec : SolverSpec {};
 
 py::dict to_dict(const Energy& energy) {
   py::dict result;
@@ -76,54 +59,10 @@ py::tuple body_range(const Simulation& simulation, const std::string& name) {
   return py::make_tuple(body.first_node, body.node_count);
 }
 
-void bind_methods(py::module_& m) {
-  using py::arg;
-  py::class_<IntegratorSpec>(m, "Integrator");
-  py::class_<SolverSpec>(m, "LinearSolver");
-  py::class_<ImplicitEulerSpec, IntegratorSpec>(m, "ImplicitEuler")
-      .def(py::init([](int iterations, double tolerance) {
-             return ImplicitEulerSpec{{[=]() -> std::unique_ptr<Integrator> {
-               return std::make_unique<ImplicitEuler>(NewtonSettings{iterations, tolerance});
-             }}};
-           }),
-           py::kw_only(), arg("newton_iterations") = 1, arg("newton_tolerance") = 1e-6);
-  py::class_<StaticSpec, IntegratorSpec>(m, "Static")
-      .def(py::init([](int iterations, double tolerance, int load_steps) {
-             return StaticSpec{{[=]() -> std::unique_ptr<Integrator> {
-               return std::make_unique<StaticEquilibrium>(
-                   StaticEquilibrium::Settings{NewtonSettings{iterations, tolerance}, load_steps});
-             }}};
-           }),
-           py::kw_only(), arg("newton_iterations"), arg("newton_tolerance"), arg("load_steps"));
-  py::class_<ConjugateGradientSpec, SolverSpec>(m, "ConjugateGradient")
-      .def(py::init([](double tolerance, int iterations) {
-             return ConjugateGradientSpec{{[=]() -> std::unique_ptr<LinearSolver> {
-               return std::make_unique<ConjugateGradient>(ConjugateGradient::Settings{tolerance, iterations});
-             }}};
-           }),
-           py::kw_only(), arg("tolerance") = 1e-6, arg("iterations") = 1000);
-  py::class_<CholeskySpec, SolverSpec>(m, "Cholesky").def(py::init([] {
-    return CholeskySpec{{[]() -> std::unique_ptr<LinearSolver> { return std::make_unique<Cholesky>(); }}};
-  }));
-}
-
-void bind_report(py::module_& m) {
-  py::class_<StepReport>(m, "StepReport")
-      .def_readonly("time", &StepReport::time)
-      .def_readonly("newton_iterations", &StepReport::newton_iterations)
-      .def_readonly("solver_iterations", &StepReport::solver_iterations)
-      .def_readonly("residual", &StepReport::residual)
-      .def_readonly("converged", &StepReport::converged)
-      .def_readonly("milliseconds", &StepReport::milliseconds)
-      .def_readonly("message", &StepReport::message);
-}
-
 }  // namespace
 
 void bind_simulation(py::module_& m) {
   using py::arg;
-  bind_methods(m);
-  bind_report(m);
   py::class_<Simulation>(m, "Simulation")
       .def(py::init([](const std::shared_ptr<World>& world, const IntegratorSpec& integrator,
                        const SolverSpec& solver) {
@@ -140,7 +79,9 @@ void bind_simulation(py::module_& m) {
       .def_property_readonly("integrator_name",
                              [](const Simulation& s) { return std::string(s.integrator().name()); })
       .def_property_readonly("solver_name",
-                             [](const Simulation& s) { return std::string(s.solver().name()); })
+                             [](const Simulation& s) {
+                               return s.solver() == nullptr ? std::string() : std::string(s.solver()->name());
+                             })
       .def_property_readonly("positions",
                              [](const py::object& self) {
                                auto& s = self.cast<Simulation&>();

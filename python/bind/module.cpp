@@ -54,5 +54,7 @@ PYBIND11_MODULE(_core, m) {
   bind::bind_law(m);  // before what takes one
   bind::bind_model(m);
   bind::bind_world(m);
+  bind::bind_solver(m);
+  bind::bind_step(m);
   bind::bind_simulation(m);
 }

@@ -84,7 +84,7 @@ Simulation::Simulation(std::shared_ptr<const World> world, std::unique_ptr<Integ
       solver_(std::move(solver)),
       state_(world_->rest_state()),
       last_good_(state_) {
-  integrator_->prepare(*world_, profile_);
+  integrator_->prepare(*world_, solver_.get(), profile_);
 }
 
 StepReport Simulation::step(double h) {
@@ -95,7 +95,7 @@ StepReport Simulation::step(double h) {
   last_good_ = state_;
   StepReport report;
   try {
-    report = integrator_->step(state_, h, *solver_);
+    report = integrator_->step(state_, h);
   } catch (...) {
     state_ = last_good_;
     throw;
@@ -191,7 +191,7 @@ void Simulation::replace_world(std::shared_ptr<const World> world) {
   if (world->blocks() != world_->blocks()) {
     throw ParameterError("the new world has other unknowns than the one that runs.");
   }
-  integrator_->prepare(*world, profile_);
+  integrator_->prepare(*world, solver_.get(), profile_);
   world->carry_memory(*world_, state_);
   world_ = std::move(world);
 }

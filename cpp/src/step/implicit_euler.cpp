@@ -20,14 +20,14 @@ ImplicitEuler::ImplicitEuler(NewtonSettings newton) : newton_(newton) {
   }
 }
 
-void ImplicitEuler::prepare(const World& world, Profile& profile) {
-  system_ = std::make_unique<System>(world, profile);
+void ImplicitEuler::prepare(const World& world, LinearSolver* solver, Profile& profile) {
+  system_ = std::make_unique<System>(world, solver, profile);
   start_ = world.rest_state();
   const std::size_t size = start_.positions.size();
   for (auto* v : {&v_, &first_, &trial_, &change_, &right_, &work_}) v->assign(size, 0.0);
 }
 
-StepReport ImplicitEuler::step(State& state, double h, LinearSolver& solver) {
+StepReport ImplicitEuler::step(State& state, double h) {
   const World& world = system_->world();
   StepReport report;
   start_ = state;
@@ -36,8 +36,8 @@ StepReport ImplicitEuler::step(State& state, double h, LinearSolver& solver) {
 
   system_->external_force(start_, work_);
   reference_ = h * norm(work_);
-  first_solve(h, solver, report);
-  if (newton_.iterations > 1) newton(state, h, solver, report);
+  first_solve(h, report);
+  if (newton_.iterations > 1) newton(state, h, report);
 
   move(start_, world.frames(), v_, h, state);
   state.velocities = v_;
@@ -47,7 +47,7 @@ StepReport ImplicitEuler::step(State& state, double h, LinearSolver& solver) {
   return report;
 }
 
-void ImplicitEuler::first_solve(double h, LinearSolver& solver, StepReport& report) {
+void ImplicitEuler::first_solve(double h, StepReport& report) {
   const World& world = system_->world();
   const FixedDofs& fixed = world.fixed();
   // Changes of velocity that are given, zero elsewhere.
@@ -73,7 +73,7 @@ void ImplicitEuler::first_solve(double h, LinearSolver& solver, StepReport& repo
   }
 
   system_->assemble(start_, 1.0, {-h * h, -h});
-  const SolveReport solved = system_->solve(solver, right_, change_, kFloor * reference_);
+  const SolveReport solved = system_->solve(right_, change_, kFloor * reference_);
   for (std::size_t i = 0; i < v_.size(); ++i) v_[i] += change_[i];
   report.newton_iterations = 1;
   report.solver_iterations = solved.iterations;
@@ -101,17 +101,16 @@ double ImplicitEuler::residual(State& state, double h, ConstReals v) {
   return norm(right_);
 }
 
-void ImplicitEuler::newton(State& state, double h, LinearSolver& solver, StepReport& report) {
+void ImplicitEuler::newton(State& state, double h, StepReport& report) {
   first_ = v_;
-  if (!iterate(state, h, LineSearch::off, solver, report)) {
+  if (!iterate(state, h, LineSearch::off, report)) {
     v_ = first_;
     report.newton_iterations = 1;
-    iterate(state, h, LineSearch::on, solver, report);
+    iterate(state, h, LineSearch::on, report);
   }
 }
 
-bool ImplicitEuler::iterate(State& state, double h, LineSearch search, LinearSolver& solver,
-                            StepReport& report) {
+bool ImplicitEuler::iterate(State& state, double h, LineSearch search, StepReport& report) {
   double now = residual(state, h, v_);
   const double reference = std::max({reference_, now, 1e-300});
   report.converged = false;
@@ -129,7 +128,7 @@ bool ImplicitEuler::iterate(State& state, double h, LineSearch search, LinearSol
     system_->assemble(state, 1.0, {-h * h, -h});
     if (now <= system_->round_off(state) / h) break;
     std::ranges::fill(change_, 0.0);
-    report.solver_iterations += system_->solve(solver, right_, change_, 0.0).iterations;
+    report.solver_iterations += system_->solve(right_, change_, 0.0).iterations;
     ++report.newton_iterations;
     double share = 1.0;
     double next = 0.0;

@@ -22,14 +22,14 @@ StaticEquilibrium::StaticEquilibrium(Settings settings) : settings_(settings) {
   }
 }
 
-void StaticEquilibrium::prepare(const World& world, Profile& profile) {
-  system_ = std::make_unique<System>(world, profile);
+void StaticEquilibrium::prepare(const World& world, LinearSolver* solver, Profile& profile) {
+  system_ = std::make_unique<System>(world, solver, profile);
   before_ = world.rest_state();
   const std::size_t size = before_.positions.size();
   for (auto* v : {&change_, &right_, &work_}) v->assign(size, 0.0);
 }
 
-StepReport StaticEquilibrium::step(State& state, double h, LinearSolver& solver) {
+StepReport StaticEquilibrium::step(State& state, double h) {
   StepReport report;
   state.time += h;
   std::ranges::fill(state.velocities, 0.0);
@@ -40,7 +40,7 @@ StepReport StaticEquilibrium::step(State& state, double h, LinearSolver& solver)
     before_ = state;
     const double to = std::min(1.0, done + part * (1.0 + 1e-12));
     state.load_factor = loaded_ ? 1.0 : to;
-    if (equilibrate(state, (to - done) / (1.0 - done), solver, report)) {
+    if (equilibrate(state, (to - done) / (1.0 - done), report)) {
       done = to >= 1.0 - 1e-12 ? 1.0 : to;
       continue;
     }
@@ -65,18 +65,17 @@ double StaticEquilibrium::residual(const State& state) {
   return norm(right_);
 }
 
-bool StaticEquilibrium::equilibrate(State& state, double share, LinearSolver& solver, StepReport& report) {
-  if (iterate(state, share, LineSearch::off, solver, report)) return true;
+bool StaticEquilibrium::equilibrate(State& state, double share, StepReport& report) {
+  if (iterate(state, share, LineSearch::off, report)) return true;
   const double time = state.time;
   const double factor = state.load_factor;
   state = before_;
   state.time = time;
   state.load_factor = factor;
-  return iterate(state, share, LineSearch::on, solver, report);
+  return iterate(state, share, LineSearch::on, report);
 }
 
-bool StaticEquilibrium::iterate(State& state, double share, LineSearch search, LinearSolver& solver,
-                                StepReport& report) {
+bool StaticEquilibrium::iterate(State& state, double share, LineSearch search, StepReport& report) {
   const FixedDofs& fixed = system_->world().fixed();
   system_->external_force(state, work_);
   double reference = std::max(norm(work_), 1e-300);
@@ -101,7 +100,7 @@ bool StaticEquilibrium::iterate(State& state, double share, LineSearch search, L
       for (std::size_t k = 0; k < right_.size(); ++k) right_[k] += work_[k];
     }
     std::ranges::copy(work_, change_.begin());
-    report.solver_iterations += system_->solve(solver, right_, change_, 0.0).iterations;
+    report.solver_iterations += system_->solve(right_, change_, 0.0).iterations;
     ++report.newton_iterations;
     const double next = go(state, search == LineSearch::on && !led ? now : kHopeless);
     if (search == LineSearch::on && !led && !(next < now)) return false;

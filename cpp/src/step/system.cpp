@@ -4,10 +4,13 @@
 #include <cmath>
 #include <limits>
 
+#include "tissu/base/error.h"
+
 namespace tissu {
 
-System::System(const World& world, Profile& profile)
+System::System(const World& world, LinearSolver* solver, Profile& profile)
     : world_(world),
+      solver_(solver),
       profile_(profile),
       matrix_(world.sparsity(), world.isa(), world.threads()),
       mass_row_(profile.row("inertia", "matrix")),
@@ -51,7 +54,7 @@ void System::add_product(const State& state, StiffnessScale scale, ConstReals p,
 
 void System::assemble(const State& state, double mass, StiffnessScale scale) {
   const bool same = assembled_ && mass_scale_ == mass && scale_.position == scale.position &&
-                    scale_.velocity == scale.velocity;
+                    scale_.velocity == scale.velocity && scale_.definite == scale.definite;
   if (same && world_.is_linear()) return;
   {
     const Timed timed(profile_, mass_row_);
@@ -81,9 +84,10 @@ double System::round_off(const State& state) const {
   return std::numeric_limits<double>::epsilon() * std::sqrt(sum);
 }
 
-SolveReport System::solve(LinearSolver& solver, ConstReals b, Reals x, double floor) {
+SolveReport System::solve(ConstReals b, Reals x, double floor) {
+  if (solver_ == nullptr) throw ParameterError("this method solves systems: give it a linear solver.");
   const Timed timed(profile_, solve_row_);
-  return solver.solve(matrix_, b, x, floor);
+  return solver_->solve(matrix_, b, x, floor);
 }
 
 }  // namespace tissu

@@ -4,9 +4,9 @@
 #include <numeric>
 
 #include "tissu/base/error.h"
-#include "tissu/force/centroid_damping.h"
-#include "tissu/force/kelvin_voigt.h"
-#include "tissu/force/spring_dampers.h"
+#include "tissu/viscosity/centroid_damping.h"
+#include "tissu/viscosity/kelvin_voigt.h"
+#include "tissu/viscosity/spring_dampers.h"
 #include "tissu/world/world.h"
 
 namespace tissu {

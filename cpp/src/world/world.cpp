@@ -8,8 +8,8 @@
 #include "tissu/base/error.h"
 #include "tissu/force/gravity.h"
 #include "tissu/force/load.h"
-#include "tissu/force/models.h"
-#include "tissu/force/rayleigh.h"
+#include "tissu/model/models.h"
+#include "tissu/viscosity/rayleigh.h"
 
 namespace tissu {
 namespace {

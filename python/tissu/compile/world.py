@@ -10,19 +10,20 @@ from tissu.compile.check import check_of
 from tissu.compile.model import kept_nodes, use_of
 from tissu.compile.prepare import prepare
 from tissu.compile.prepared import Held, LoadedNodes, Prepared
+from tissu.compile.solver import solver_of
+from tissu.compile.step import integrator_of
 from tissu.compile.thin import cross_section_of
 from tissu.effects import load_name
 from tissu.errors import SceneError
 from tissu.mesh.whole_faces import nodal_areas
 from tissu.scene.load import NodalLoad, Pressure
-from tissu.scene.step import ConjugateGradient, Static
+from tissu.scene.step import Static
 from tissu.scene.support import Fixed, axes_mask
 from tissu.scene.viscosity import Centroid, KelvinVoigt, Rayleigh
 
 if TYPE_CHECKING:
     from tissu._core import WorldBuilder
     from tissu.scene.scene import Scene
-    from tissu.scene.step import Solver, Step
     from tissu.scene.viscosity import Viscosity
     from tissu.simulation import Simulation
 
@@ -162,30 +163,3 @@ def _add_load(builder: WorldBuilder, loaded: LoadedNodes, prepared: Prepared) ->
     builder.add_load(
         name=name, body=load.body, nodes=nodes.astype(np.int32), forces=forces, **series
     )
-
-
-def integrator_of(step: Step) -> Any:
-    """The core's integrator for a step."""
-    from tissu import _core
-
-    newton = step.newton
-    if isinstance(step, Static):
-        return _core.Static(
-            newton_iterations=step.newton.iterations,
-            newton_tolerance=step.newton.tolerance,
-            load_steps=step.load_steps,
-        )
-    if newton is None:
-        return _core.ImplicitEuler(newton_iterations=1)
-    return _core.ImplicitEuler(
-        newton_iterations=newton.iterations, newton_tolerance=newton.tolerance
-    )
-
-
-def solver_of(solver: Solver) -> Any:
-    """The core's linear solver."""
-    from tissu import _core
-
-    if isinstance(solver, ConjugateGradient):
-        return _core.ConjugateGradient(tolerance=solver.tolerance, iterations=solver.iterations)
-    return _core.Cholesky()

@@ -1,6 +1,6 @@
 """The C++ of a shared library with one law. In: a Law. Out: text that hands over a LawLibrary.
 
-The layout is that of cpp/include/tissu/force/law_library.h.
+The layout is that of cpp/include/tissu/model/law_library.h.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ _HEAD = """#include <cmath>
 #include <string_view>
 
 #include "kernels/point.h"
-#include "tissu/force/law_library.h"
+#include "tissu/model/law_library.h"
 #include "tissu/law/functions.h"
 #include "tissu/law/tensor.h"
 

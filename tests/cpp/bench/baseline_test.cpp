@@ -7,7 +7,7 @@
 #include "../../../bench/baseline/textbook.h"
 #include "../force/verbs.h"
 #include "../world/sample_worlds.h"
-#include "tissu/force/elastic.h"
+#include "tissu/model/elastic.h"
 
 namespace tissu {
 namespace {

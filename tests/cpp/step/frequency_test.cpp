@@ -28,7 +28,7 @@ TEST(LargestFrequency, IsThatOfOneMassOnOneSpring) {
 /// The largest eigenvalue of the dense M^-1/2 K M^-1/2.
 double dense_frequency(const World& world, const State& state) {
   Profile profile;
-  System system(world, profile);
+  System system(world, nullptr, profile);
   system.assemble(state, 0.0, {-1.0, 0.0});
   Eigen::MatrixXd K = test::dense(system.matrix());
   for (std::int32_t i = 0; i < world.blocks(); ++i) {

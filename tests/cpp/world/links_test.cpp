@@ -49,7 +49,7 @@ TEST_P(RunTimeLinks, PullFarNodesTogether) {
 TEST_P(RunTimeLinks, BringExtraBlocksThatGoAgain) {
   const World world(world_);
   Profile profile;
-  System system(world, profile);
+  System system(world, nullptr, profile);
   const State state = world.rest_state();
   system.assemble(state, 1.0, {-1e-4, -1e-2});
   EXPECT_TRUE(system.matrix().extra().empty());

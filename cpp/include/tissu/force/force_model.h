@@ -13,6 +13,8 @@ namespace tissu {
 struct StiffnessScale {
   double position = 0.0;
   double velocity = 0.0;
+  /// Of the matrix only: each cell's share of -df/dx is replaced by the nearest positive semi-definite one.
+  bool definite = false;
 };
 
 enum class ForceKind { elastic, external };

@@ -22,6 +22,7 @@ struct Energy {
 
 class Simulation {
  public:
+  /// `solver` may be null for methods that solve no system.
   Simulation(std::shared_ptr<const World> world, std::unique_ptr<Integrator> integrator,
              std::unique_ptr<LinearSolver> solver);
 
@@ -35,7 +36,8 @@ class Simulation {
   [[nodiscard]] Energy energy() const;
   [[nodiscard]] Profile& profile() { return profile_; }
   [[nodiscard]] const Integrator& integrator() const { return *integrator_; }
-  [[nodiscard]] const LinearSolver& solver() const { return *solver_; }
+  /// Null when no system is solved.
+  [[nodiscard]] const LinearSolver* solver() const { return solver_.get(); }
 
   /// What supports and led nodes give to the bodies [N], three for each node, zero where nothing is held:
   /// M dv/dt - f with the change of velocity of the latest step.

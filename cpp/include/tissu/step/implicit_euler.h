@@ -16,16 +16,16 @@ class ImplicitEuler final : public Integrator {
  public:
   explicit ImplicitEuler(NewtonSettings newton = {});
   [[nodiscard]] std::string_view name() const override { return "implicit Euler"; }
-  void prepare(const World& world, Profile& profile) override;
-  StepReport step(State& state, double h, LinearSolver& solver) override;
+  void prepare(const World& world, LinearSolver* solver, Profile& profile) override;
+  StepReport step(State& state, double h) override;
 
  private:
-  void first_solve(double h, LinearSolver& solver, StepReport& report);
-  void newton(State& state, double h, LinearSolver& solver, StepReport& report);
+  void first_solve(double h, StepReport& report);
+  void newton(State& state, double h, StepReport& report);
   enum class LineSearch { off, on };
   /// Newton's iteration: with whole steps, which may pass through worse states on the way to a better one, or
   /// with steps that are halved until the residual falls. True when it converged.
-  bool iterate(State& state, double h, LineSearch search, LinearSolver& solver, StepReport& report);
+  bool iterate(State& state, double h, LineSearch search, StepReport& report);
   /// residual_ = h f - M (v - v0) at x0 + h v; its norm.
   double residual(State& state, double h, ConstReals v);
 

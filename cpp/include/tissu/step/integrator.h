@@ -2,6 +2,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "tissu/base/profile.h"
 #include "tissu/solve/linear_solver.h"
@@ -34,10 +35,15 @@ class Integrator {
   Integrator& operator=(const Integrator&) = delete;
 
   [[nodiscard]] virtual std::string_view name() const = 0;
-  /// Allocates what its steps need. Called before the first step, and again after an edit.
-  virtual void prepare(const World& world, Profile& profile) = 0;
+  /// Allocates what its steps need. Called before the first step, and again after an edit. `solver` outlives
+  /// the steps; null for methods that solve no system.
+  virtual void prepare(const World& world, LinearSolver* solver, Profile& profile) = 0;
   /// Moves the state by h [s]. The state is undefined when it throws.
-  virtual StepReport step(State& state, double h, LinearSolver& solver) = 0;
+  virtual StepReport step(State& state, double h) = 0;
+  /// What the next step needs beside the state, such as earlier states: nothing for methods of one step.
+  [[nodiscard]] virtual std::vector<double> memory() const { return {}; }
+  /// Goes on from what `memory` gave; an empty one starts anew.
+  virtual void restore(ConstReals /*memory*/) {}
 };
 
 }  // namespace tissu

@@ -19,16 +19,16 @@ class StaticEquilibrium final : public Integrator {
   };
   explicit StaticEquilibrium(Settings settings);
   [[nodiscard]] std::string_view name() const override { return "static equilibrium"; }
-  void prepare(const World& world, Profile& profile) override;
-  StepReport step(State& state, double h, LinearSolver& solver) override;
+  void prepare(const World& world, LinearSolver* solver, Profile& profile) override;
+  StepReport step(State& state, double h) override;
 
  private:
   /// Newton from the present state, led nodes going `share` of their way first; true when it converged.
-  bool equilibrate(State& state, double share, LinearSolver& solver, StepReport& report);
+  bool equilibrate(State& state, double share, StepReport& report);
   enum class LineSearch { off, on };
   /// Newton's iteration: with whole steps, which may pass through worse states on the way to a better one, or
   /// with steps that are halved until the residual falls.
-  bool iterate(State& state, double share, LineSearch search, LinearSolver& solver, StepReport& report);
+  bool iterate(State& state, double share, LineSearch search, StepReport& report);
   /// Moves by change_, halved until the residual is below `below`; the residual.
   double go(State& state, double below);
   double residual(const State& state);

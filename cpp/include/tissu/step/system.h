@@ -13,7 +13,8 @@ namespace tissu {
 
 class System {
  public:
-  System(const World& world, Profile& profile);
+  /// `solver` may be null where no system is solved.
+  System(const World& world, LinearSolver* solver, Profile& profile);
 
   [[nodiscard]] const World& world() const { return world_; }
   /// f = all forces
@@ -26,7 +27,7 @@ class System {
   /// Nothing is done when a linear world is asked for the matrix it has.
   void assemble(const State& state, double mass, StiffnessScale scale);
   /// Solves A x = b from the first guess x.
-  SolveReport solve(LinearSolver& solver, ConstReals b, Reals x, double floor);
+  SolveReport solve(ConstReals b, Reals x, double floor);
 
   /// What round-off alone can leave in A x: epsilon |diag(A) x|.
   [[nodiscard]] double round_off(const State& state) const;
@@ -40,6 +41,7 @@ class System {
     std::size_t stiffness;
   };
   const World& world_;
+  LinearSolver* solver_;
   Profile& profile_;
   BlockMatrix matrix_;
   std::vector<Rows> rows_;

@@ -9,9 +9,9 @@
 
 #include "tissu/assembly/fixed_dofs.h"
 #include "tissu/base/isa.h"
-#include "tissu/force/elastic_block.h"
 #include "tissu/force/load.h"
-#include "tissu/force/viscosity.h"
+#include "tissu/model/elastic_block.h"
+#include "tissu/viscosity/viscosity.h"
 
 namespace tissu {
 

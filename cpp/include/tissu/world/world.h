@@ -12,10 +12,10 @@
 #include "tissu/assembly/fixed_dofs.h"
 #include "tissu/assembly/mass.h"
 #include "tissu/assembly/sparsity.h"
-#include "tissu/force/body_model.h"
 #include "tissu/force/force_model.h"
 #include "tissu/force/links.h"
-#include "tissu/force/prony.h"
+#include "tissu/model/body_model.h"
+#include "tissu/viscosity/prony.h"
 #include "tissu/world/description.h"
 
 namespace tissu {

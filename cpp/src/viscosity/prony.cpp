@@ -1,0 +1,153 @@
+#include "tissu/viscosity/prony.h"
+
+#include <cmath>
+#include <optional>
+#include <unordered_map>
+
+#include "tissu/base/error.h"
+
+namespace tissu {
+namespace {
+
+constexpr std::size_t kEntries = 6;  ///< of a symmetric tensor
+
+Lame small_strain(const ElasticBlock& block, std::int32_t cell) {
+  const LawUse use{block.law, block.parameters, block.loaded};
+  const LawInfo& info = law_info(block, use);
+  if (use.loaded) {
+    std::vector<double> parameters;
+    for (const LawParameter& parameter : info.parameters) {
+      parameters.push_back(of_cell(use.parameters.at(std::string(parameter.name)), cell));
+    }
+    const std::optional<Lame> moduli = use.loaded->small_strain(parameters);
+    if (moduli) return *moduli;
+  } else if (info.small_strain != nullptr) {
+    std::vector<double> constants(info.constants.size());
+    cell_constants(block, use, cell, constants);
+    return info.small_strain(constants.data());
+  }
+  throw ParameterError("body \"" + block.body + "\" asks for a Prony series with the law \"" + block.law +
+                       "\", which is not isotropic at rest; the branches need Lamé's moduli, so take another "
+                       "viscosity.");
+}
+
+}  // namespace
+
+Prony::Prony(const ElasticBlock& block, const std::vector<PronyBranch>& branches, std::size_t first,
+             ConstReals rest_positions, Isa isa, Threads threads)
+    : ViscousCells(block, rest_positions, threads),
+      kernels_(find_prony_kernels(isa, reference_.dimension == 3 ? reference_.nodes : 0)),
+      first_(first) {
+  if (kernels_ == nullptr) {
+    throw ParameterError("body \"" + block_.body + "\" asks for a Prony series on cells of type " +
+                         block_.element + "; only cells with a volume take it, so take another viscosity.");
+  }
+  for (const PronyBranch& branch : branches) {
+    shares_.push_back(branch.weight);
+    times_.push_back(branch.time);
+  }
+  lay_moduli();
+}
+
+void Prony::lay_moduli() {
+  bool uniform = true;
+  for (const auto& [name, values] : block_.parameters) uniform = uniform && values.size() == 1;
+  const std::size_t groups = uniform ? 1 : static_cast<std::size_t>(order_.groups());
+  constants_stride_ = uniform ? 0 : static_cast<std::ptrdiff_t>(2 * kLanes);
+  constants_.resize(groups * 2 * kLanes);
+  for (std::size_t i = 0; i < groups * kLanes; ++i) {
+    const Lame moduli = small_strain(block_, order_.element[i]);
+    double* group = constants_.data() + i / kLanes * 2 * kLanes;
+    group[i % kLanes] = moduli.lambda;
+    group[kLanes + i % kLanes] = moduli.mu;
+  }
+}
+
+Prony::Course Prony::course(const State& state) const {
+  const double h = state.time - state.memory_time;
+  Course result{};
+  for (std::size_t k = 0; k < times_.size(); ++k) {
+    const double share = h / times_[k];
+    result.decay[k] = std::exp(-share);
+    result.rise[k] = share == 0.0 ? 1.0 : -std::expm1(-share) / share;
+  }
+  return result;
+}
+
+PronyView Prony::prony_view(const State& state, const Course& course) const {
+  PronyView result{};
+  static_cast<ElasticView&>(result) = view();
+  result.memory = state.memory.data() + first_;
+  result.branches = static_cast<int>(shares_.size());
+  result.shares = shares_.data();
+  result.decay = course.decay.data();
+  result.rise = course.rise.data();
+  return result;
+}
+
+void Prony::add_force(const State& state, Reals f) const {
+  const Course now = course(state);
+  const PronyView v = prony_view(state, now);
+  for_chunks([&](const Chunk& chunk) { kernels_->forces.force(v, chunk, state.positions.data(), f.data()); });
+}
+
+void Prony::add_product(const State& state, StiffnessScale scale, ConstReals p, Reals out) const {
+  if (scale.position == 0.0) return;
+  const Course now = course(state);
+  const PronyView v = prony_view(state, now);
+  for_chunks([&](const Chunk& chunk) {
+    kernels_->forces.product(v, chunk, state.positions.data(), scale.position, p.data(), out.data());
+  });
+}
+
+void Prony::add_stiffness(const State& state, StiffnessScale scale, BlockMatrix& matrix) const {
+  if (scale.position == 0.0) return;
+  const Course now = course(state);
+  const PronyView v = prony_view(state, now);
+  double* values = matrix.values();
+  for_chunks([&](const Chunk& chunk) {
+    kernels_->forces.stiffness(v, chunk, state.positions.data(), scale.position, values);
+  });
+}
+
+double Prony::energy(const State& state) const {
+  const Course now = course(state);
+  const PronyView v = prony_view(state, now);
+  std::vector<double> energies(order_.element.size(), 0.0);
+  for_chunks(
+      [&](const Chunk& chunk) { kernels_->energy(v, chunk, state.positions.data(), energies.data()); });
+  double sum = 0.0;
+  for (const double e : energies) sum += e;
+  return sum;
+}
+
+std::size_t Prony::reals_of_cell() const {
+  return reference_.points.size() * (1 + shares_.size()) * kEntries;
+}
+
+std::size_t Prony::memory_size() const { return order_.element.size() * reals_of_cell(); }
+
+void Prony::advance(State& state) const {
+  const Course now = course(state);
+  const PronyView v = prony_view(state, now);
+  double* memory = state.memory.data() + first_;
+  for_chunks([&](const Chunk& chunk) { kernels_->advance(v, chunk, state.positions.data(), memory); });
+}
+
+void Prony::take_over(const Prony& before, ConstReals memory_before, Reals memory) const {
+  std::unordered_map<std::int32_t, std::size_t> lane_of;
+  before.for_lanes(
+      [&](std::size_t lane, std::size_t cell) { lane_of[before.block_.cell_numbers[cell]] = lane; });
+  const std::size_t reals = reals_of_cell();
+  for (std::size_t to = 0; to < order_.element.size(); ++to) {  // lanes that pad as well
+    const auto found = lane_of.find(block_.cell_numbers[static_cast<std::size_t>(order_.element[to])]);
+    if (found == lane_of.end()) continue;
+    const std::size_t from = found->second;
+    for (std::size_t k = 0; k < reals; ++k) {
+      memory[first_ + (to / kLanes * reals + k) * kLanes + to % kLanes] =
+          memory_before[before.first_ + (from / kLanes * reals + k) * kLanes + from % kLanes];
+    }
+  }
+}
+
+}  // namespace tissu

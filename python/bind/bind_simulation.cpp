@@ -65,10 +65,11 @@ void bind_simulation(py::module_& m) {
   using py::arg;
   py::class_<Simulation>(m, "Simulation")
       .def(py::init([](const std::shared_ptr<World>& world, const IntegratorSpec& integrator,
-                       const SolverSpec& solver) {
-             return std::make_unique<Simulation>(world, integrator.make(), solver.make());
+                       const SolverSpec* solver) {
+             return std::make_unique<Simulation>(world, integrator.make(),
+                                                 solver == nullptr ? nullptr : solver->make());
            }),
-           py::kw_only(), arg("world"), arg("integrator"), arg("solver"))
+           py::kw_only(), arg("world"), arg("integrator"), arg("solver").none(true))
       .def("step", &Simulation::step, arg("dt"), py::call_guard<py::gil_scoped_release>())
       .def_property(
           "time", [](const Simulation& s) { return s.state().time; },
@@ -117,6 +118,7 @@ void bind_simulation(py::module_& m) {
              return py::array_t<double>({static_cast<py::ssize_t>(forces.size() / 3), py::ssize_t{3}},
                                         forces.data());
            })
+      .def("stable_step", &Simulation::stable_step)
       .def("largest_frequency", [](const Simulation& s) { return largest_frequency(s.world(), s.state()); })
       .def(
           "remaining_cells",

@@ -15,6 +15,7 @@ class StepReport:
         newton_iterations: linearisations.
         solver_iterations: of the linear solver, over all linearisations.
         residual: of the linear system, or of Newton's equation when it is iterated; relative.
+        indefinite: systems whose matrix was not positive definite, and was made so.
         converged: every tolerance was met.
         milliseconds: wall time.
         message: why it did not converge; empty when it did.
@@ -25,6 +26,7 @@ class StepReport:
     newton_iterations: int
     solver_iterations: int
     residual: float
+    indefinite: int
     converged: bool
     milliseconds: float
     message: str

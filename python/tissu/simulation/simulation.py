@@ -25,6 +25,9 @@ if TYPE_CHECKING:
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int32]
 
+_SHARE_OF_STABLE = 0.9
+"""of the stable step, for the step auto: room for what the body stiffens in between"""
+
 
 class Simulation:
     """A compiled scene that can be stepped; made by `Scene.compile()`.
@@ -41,7 +44,7 @@ class Simulation:
         world: _core.World,
         meshes: Mapping[str, Mesh],
         integrator: _core.Integrator,
-        solver: _core.LinearSolver,
+        solver: _core.LinearSolver | None,
         check: Check,
     ) -> None:
         self.scene = scene
@@ -64,7 +67,8 @@ class Simulation:
             for name, mesh in self._meshes.items()
         )
         step = self.scene.step
-        how = step.type if step.type == "static" else f"{step.type} dt {self.dt:g} s"
+        dt = getattr(step, "dt", None)
+        how = step.type + ("" if dt is None else f" dt {dt}" if dt == "auto" else f" dt {dt:g} s")
         when = f"t = {self.time:.6g} s after {steps}"
         return f"Simulation('{self.scene.name}', {when}; {bodies}; {how})"
 
@@ -111,8 +115,20 @@ class Simulation:
 
     @property
     def dt(self) -> float:
-        """Time step of the scene [s]; 1 for a static scene, whose time only tells loads apart."""
-        return float(getattr(self.scene.step, "dt", 1.0))
+        """Time step of the scene [s], where it is auto nine tenths of the stable step at present.
+
+        1 for a static scene, whose time only tells loads apart.
+        """
+        dt = getattr(self.scene.step, "dt", 1.0)
+        return _SHARE_OF_STABLE * self.stable_step if dt == "auto" else float(dt)
+
+    @property
+    def stable_step(self) -> float:
+        """The largest stable step of an explicit method at the present state [s]; else infinite.
+
+        From the largest eigenfrequency and damping; measured again when the cells have deformed.
+        """
+        return float(self._core.stable_step())
 
     def step(self, dt: units.Number | None = None) -> StepReport:
         """Take one step.
@@ -134,6 +150,7 @@ class Simulation:
             newton_iterations=report.newton_iterations,
             solver_iterations=report.solver_iterations,
             residual=report.residual,
+            indefinite=report.indefinite,
             converged=report.converged,
             milliseconds=report.milliseconds,
             message=report.message,
@@ -153,6 +170,9 @@ class Simulation:
         span = self._duration() if duration is None else units.TIME(duration)
         if not span >= 0.0:
             raise ParameterError(f"the duration is {span:g} s; it must not be negative")
+        if getattr(self.scene.step, "dt", None) == "auto":
+            yield from self._run_stable(span)
+            return
         # Whole steps; a remainder of more than a millionth of a step is a shorter last step.
         whole = int(span / self.dt * (1.0 + 1e-12) + 1e-6)
         for _ in range(whole):
@@ -160,6 +180,15 @@ class Simulation:
         rest = span - whole * self.dt
         if rest > 1e-6 * self.dt:
             yield self.step(rest)
+
+    def _run_stable(self, span: float) -> Iterator[StepReport]:
+        """Steps of nine tenths of the stable one; the last two share what is left."""
+        end = self.time + span
+        while True:
+            dt, left = self.dt, end - self.time
+            if left <= 1e-6 * dt:
+                return
+            yield self.step(left if left <= dt else 0.5 * left if left < 2.0 * dt else dt)
 
     def displacements(self, body: str) -> Floats:
         """Displacements (n, 3) of the nodes of a body from rest [m]."""
@@ -244,7 +273,8 @@ class Simulation:
             unknowns=3 * self._world.blocks,
             matrix_blocks=self._world.matrix_blocks,
             integrator=self._core.integrator_name,
-            solver=self._core.solver_name,
+            solver=self._core.solver_name or "no linear system",
+            stable_step=self.stable_step,
             threads=self._world.threads,
             instruction_set=self._world.instruction_set,
         )

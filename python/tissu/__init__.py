@@ -91,6 +91,7 @@ _HOMES = {
         "Scene",
         "Sphere",
         "StVK",
+        "Start",
         "Static",
         "SurfaceNodes",
         "Traction",

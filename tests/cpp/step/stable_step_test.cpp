@@ -64,7 +64,7 @@ WorldDescription bar() {
 /// Largest velocity after many steps of a share of the limit, from a small push.
 double speed_after(const std::string& method, double share, int steps) {
   Simulation simulation = test::simulate(bar(), test::method_named(method).make(), nullptr);
-  Random random(3);
+  test::Random random(3);
   for (double& v : simulation.state().velocities) v = random.number(1e-6);
   simulation.world().fixed().clear(simulation.state().velocities);
   const double h = share * simulation.stable_step();
@@ -120,24 +120,18 @@ TEST(StableStep, FollowsTheDeformation) {
   Simulation simulation = test::simulate(world, test::method_named("symplectic_euler").make(), nullptr);
   const double at_rest = simulation.stable_step();
   Oscillator::start(simulation, 0.0, 20.0);
-  // Enough steps to look at the lengths again, on the way out.
-  double stretched = at_rest;
-  for (int i = 0; i < 40; ++i) {
+  double limit = at_rest;
+  double F = 1.0;
+  while (Oscillator::v(simulation) > 0.0) {
     simulation.step(0.02 * at_rest);
-    stretched = std::min(stretched, simulation.stable_step());
+    limit = simulation.stable_step();
+    F = std::max(F, 1.0 + Oscillator::u(simulation));
   }
-  const double F = 1.0 + Oscillator::u(simulation);
-  ASSERT_GT(F, 1.2);
-  // Measured within the last sixteen steps, at a stretch that differs by less than a tenth or what they add.
+  ASSERT_GT(F, 1.5);
+  // Measured when the length had last changed by a tenth, or up to sixteen steps before.
   const double expected = at_rest / std::sqrt((3.0 * F * F - 1.0) / 2.0);
-  EXPECT_NEAR(stretched / expected, 1.0, 0.25);
-  EXPECT_LT(stretched, 0.9 * at_rest);
-}
-
-TEST(StableStep, ANodeWithoutMassIsRefused) {
-  WorldDescription world = bar();
-  for (double x : {9.0, 9.0, 9.0}) world.bodies[0].positions.push_back(x);
-  EXPECT_THROW(test::simulate(world, test::method_named("symplectic_euler").make(), nullptr), ParameterError);
+  EXPECT_GE(limit, 0.999 * expected);
+  EXPECT_LE(limit, 1.25 * expected);
 }
 
 }  // namespace

@@ -34,7 +34,8 @@ StepReport ExplicitMethod::step(State& state, double h) {
     std::string message = "the step is " + text(h) + " s at t = " + text(state.time) + " s; " +
                           std::string(name()) + " is stable up to " + text(limit) + " s here (2 / omega is " +
                           text(2.0 / largest_frequency(world(), state)) + " s)";
-    if (method.growth > 0.0) message += ", counting as stable what takes a second to grow by a factor e";
+    if (method.growth > 0.0)
+      message += ", counting as stable what takes a hundred seconds to grow by a factor e";
     throw ParameterError(message + "; take dt: auto, a smaller dt, or an implicit method.");
   }
   StepReport report;

@@ -9,7 +9,7 @@ namespace tissu {
 namespace {
 
 constexpr double kLookEvery = 8.0;  ///< steps
-constexpr double kDeformed = 0.05;  ///< share of an edge's length
+constexpr double kDeformed = 0.02;  ///< share of an edge's length
 constexpr double kRoundOff = 1e-12;
 constexpr int kHalvings = 60;
 

@@ -1,5 +1,3 @@
-#include <limits>
-
 #include "bind.h"
 #include "specs.h"
 #include "tissu/edit/remove_cells.h"
@@ -18,31 +16,27 @@ py::dict to_dict(const Energy& energy) {
   return result;
 }
 
-/// A field of all models of a body: not a number where one does not know it, nothing where none does.
+/// A field of all models of a body; left out where one of them does not know it.
 void add_field(py::dict& result, const char* name, const std::vector<CellFields>& models,
-               const std::vector<std::size_t>& cells, std::vector<double> CellFields::*field) {
+               std::vector<double> CellFields::* field) {
   std::vector<double> all;
-  bool known = false;
-  for (std::size_t m = 0; m < models.size(); ++m) {
-    const std::vector<double>& values = models[m].*field;
-    known = known || !values.empty();
+  for (const CellFields& model : models) {
+    const std::vector<double>& values = model.*field;
+    if (values.empty()) return;
     all.insert(all.end(), values.begin(), values.end());
-    if (values.empty()) all.insert(all.end(), cells[m], std::numeric_limits<double>::quiet_NaN());
   }
-  if (known) result[name] = py::array_t<double>(static_cast<py::ssize_t>(all.size()), all.data());
+  result[name] = py::array_t<double>(static_cast<py::ssize_t>(all.size()), all.data());
 }
 
 py::dict cell_fields(const Simulation& simulation, const std::string& name) {
   std::vector<CellFields> models;
-  std::vector<std::size_t> cells;
   for (const BodyModel* model : simulation.world().body(name).models) {
     models.push_back(model->fields(simulation.state()));
-    cells.push_back(static_cast<std::size_t>(model->cell_count()));
   }
   py::dict result;
-  add_field(result, "von_mises", models, cells, &CellFields::von_mises);
-  add_field(result, "energy_density", models, cells, &CellFields::energy_density);
-  add_field(result, "volume_ratio", models, cells, &CellFields::volume_ratio);
+  add_field(result, "von_mises", models, &CellFields::von_mises);
+  add_field(result, "energy_density", models, &CellFields::energy_density);
+  add_field(result, "volume_ratio", models, &CellFields::volume_ratio);
   return result;
 }
 

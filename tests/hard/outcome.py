@@ -83,17 +83,19 @@ def with_method(scene: ts.Scene, method: str) -> ts.Scene:
     if method in EXPLICIT:
         return scene.replace(step=cls())
     if method == "bdf2_fixed_point":
-        # h^2 omega^2 + h c < 1 contracts; symplectic Euler is stable for (h / 2)^2 omega^2 + h c / 2 < 1.
+        # h^2 omega^2 + h c < 1 contracts: half the stable step of symplectic Euler.
         stable = scene.replace(step=ts.SymplecticEuler()).compile().stable_step
         return scene.replace(step=cls(dt=min(own.dt, 0.45 * stable)))
     kept = {name: getattr(own, name) for name in ("newton", "solver") if hasattr(own, name)}
     return scene.replace(step=cls(dt=own.dt, **kept))
 
 
-def outcome(scene: ts.Scene) -> Outcome:
-    """Run a scene and say what came of it."""
+def outcome(scene: ts.Scene, *, keep: list[ts.Simulation] | None = None) -> Outcome:
+    """Run a scene and say what came of it; `keep` gets its simulation."""
     try:
         simulation = scene.compile()
+        if keep is not None:
+            keep.append(simulation)
     except ts.TissuError as error:
         return Outcome("refused", message=_first_line(error))
     steps = 1 if scene.step.type == "static" else scene.duration / simulation.dt

@@ -211,8 +211,8 @@ class Simulation:
         """Mean values over each cell of a body, in the order of its mesh's volume cells.
 
         Returns:
-            von_mises: of the Cauchy stress (e,) [Pa], absent where the model has none, and not a
-            number in regions whose model has none; energy_density: per rest volume (e,) [J/m^3];
+            von_mises: of the Cauchy stress (e,) [Pa], absent where the model of some of its cells
+            has none; energy_density: per rest volume (e,) [J/m^3];
             volume_ratio: det F (e,).
         """
         self._core.settle()

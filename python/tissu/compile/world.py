@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from tissu.checkpoint import read_checkpoint
 from tissu.compile.check import check_of
 from tissu.compile.model import kept_nodes, use_of
 from tissu.compile.prepare import prepare
@@ -28,12 +30,14 @@ if TYPE_CHECKING:
     from tissu.simulation import Simulation
 
 
-def compile_scene(scene: Scene) -> Simulation:
-    """Turn a scene into a simulation.
+def compile_scene(scene: Scene, checkpoint: Path | None = None) -> Simulation:
+    """Turn a scene into a simulation, at rest or where a checkpoint left it.
 
     Raises:
         SceneError: problems of the scene or its meshes; all of them.
+        CheckpointError: a checkpoint that is absent, damaged, or of another scene or version.
     """
+    saved = None if checkpoint is None else read_checkpoint(checkpoint)
     prepared = prepare(scene)
     check = check_of(prepared)
     if check.problems:
@@ -47,6 +51,7 @@ def compile_scene(scene: Scene) -> Simulation:
         integrator=integrator_of(scene.step),
         solver=solver_of(scene.step.solver),
         check=check,
+        checkpoint=saved,
     )
 
 

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "bind.h"
 #include "tissu/simulation/simulation.h"
 
@@ -6,12 +8,11 @@ namespace {
 
 using Doubles = Array<double>;
 
-Doubles to_array(const std::vector<double>& values) {
-  return {static_cast<py::ssize_t>(values.size()), values.data()};
-}
-
-py::array_t<std::int32_t> to_array(const std::vector<std::int32_t>& values) {
-  return {static_cast<py::ssize_t>(values.size()), values.data()};
+template <class T>
+Array<T> to_array(const std::vector<T>& values) {
+  Array<T> result(static_cast<py::ssize_t>(values.size()));
+  std::ranges::copy(values, result.mutable_data());
+  return result;
 }
 
 /// x, y, z, w of each, one after the other.

@@ -172,7 +172,7 @@ def advance(
     duration, _ = span(simulation.scene)
     ending = Ending("finished", FINISHED)
     files.begin(simulation)
-    with RunProgress(duration, quiet=quiet) as progress:
+    with RunProgress(duration, quiet=quiet, start=simulation.time) as progress:
         steps = iter(simulation.run(until=duration))
         try:
             while (step := files.clock.timed("steps", steps)) is not None:

@@ -18,6 +18,7 @@ from tissu.simulation.plan import Plan
 from tissu.simulation.profile import Profile, profile_of
 from tissu.simulation.remaining import keep_cells, removed_cells
 from tissu.simulation.report import StepReport
+from tissu.simulation.schedule import steps_of, steps_until
 
 if TYPE_CHECKING:
     from tissu.checkpoint import Checkpoint, Resumed
@@ -170,18 +171,11 @@ class Simulation:
         span = self._duration() if given is None else units.TIME(given)
         if not span >= 0.0:
             raise ParameterError(f"the duration is {span:g} s; it must not be negative")
-        done = 0
+        steps = steps_of(span, self.dt)
         if until is not None:
-            done = self._steps
-            if abs(self.time - done * self.dt) > 1e-3 * self.dt:  # not all steps were whole ones
-                done, span = 0, max(span - self.time, 0.0)
-        # Whole steps; a remainder of more than a millionth of a step is a shorter last step.
-        whole = int(span / self.dt * (1.0 + 1e-12) + 1e-6)
-        for _ in range(done, whole):
-            yield self.step()
-        rest = span - whole * self.dt
-        if rest > 1e-6 * self.dt and done <= whole:
-            yield self.step(rest)
+            steps = steps_until(span, self.dt, time=self.time, taken=self._steps)
+        for dt in steps:
+            yield self.step(dt)
 
     def save_checkpoint(self, path: str | os.PathLike[str]) -> None:
         """Write a file from which `scene.compile(checkpoint=path)` goes on with the same bits.

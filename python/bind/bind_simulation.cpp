@@ -69,10 +69,11 @@ void bind_simulation(py::module_& m) {
   py::class_<Simulation> simulation(m, "Simulation");
   simulation
       .def(py::init([](const std::shared_ptr<World>& world, const IntegratorSpec& integrator,
-                       const SolverSpec& solver) {
-             return std::make_unique<Simulation>(world, integrator.make(), solver.make());
+                       const SolverSpec* solver) {
+             return std::make_unique<Simulation>(world, integrator.make(),
+                                                 solver == nullptr ? nullptr : solver->make());
            }),
-           py::kw_only(), arg("world"), arg("integrator"), arg("solver"))
+           py::kw_only(), arg("world"), arg("integrator"), arg("solver").none(true))
       .def("step", &Simulation::step, arg("dt"), py::call_guard<py::gil_scoped_release>())
       .def_property(
           "time", [](const Simulation& s) { return s.state().time; },
@@ -121,6 +122,7 @@ void bind_simulation(py::module_& m) {
              return py::array_t<double>({static_cast<py::ssize_t>(forces.size() / 3), py::ssize_t{3}},
                                         forces.data());
            })
+      .def("stable_step", &Simulation::stable_step)
       .def("largest_frequency", [](const Simulation& s) { return largest_frequency(s.world(), s.state()); })
       .def(
           "remaining_cells",

@@ -38,6 +38,14 @@ from tissu.scene import FEM as FEM
 from tissu.scene import Fixed as Fixed
 from tissu.scene import Hooke as Hooke
 from tissu.scene import ImplicitEuler as ImplicitEuler
+from tissu.scene import BDF2 as BDF2
+from tissu.scene import BDF2FixedPoint as BDF2FixedPoint
+from tissu.scene import ExplicitEuler as ExplicitEuler
+from tissu.scene import ImplicitMidpoint as ImplicitMidpoint
+from tissu.scene import Newmark as Newmark
+from tissu.scene import RK2 as RK2
+from tissu.scene import RK4 as RK4
+from tissu.scene import SymplecticEuler as SymplecticEuler
 from tissu.scene import KelvinVoigt as KelvinVoigt
 from tissu.scene import MassLink as MassLink
 from tissu.scene import MassSpring as MassSpring

@@ -168,9 +168,56 @@ class WorldBuilder:
 
 class Integrator: ...
 
+class ExplicitEuler(Integrator):
+    def __init__(self) -> None: ...
+
+class SymplecticEuler(Integrator):
+    def __init__(self) -> None: ...
+
+class RungeKutta(Integrator):
+    def __init__(self, *, order: int) -> None: ...
+
 class ImplicitEuler(Integrator):
     def __init__(
-        self, *, newton_iterations: int = 1, newton_tolerance: float = 1e-6
+        self,
+        *,
+        newton_iterations: int = 1,
+        newton_tolerance: float = 1e-6,
+        indefinite: str = "project",
+    ) -> None: ...
+
+class ImplicitMidpoint(Integrator):
+    def __init__(
+        self,
+        *,
+        newton_iterations: int = 1,
+        newton_tolerance: float = 1e-6,
+        indefinite: str = "project",
+    ) -> None: ...
+
+class Bdf2(Integrator):
+    def __init__(
+        self,
+        *,
+        newton_iterations: int = 1,
+        newton_tolerance: float = 1e-6,
+        indefinite: str = "project",
+    ) -> None: ...
+
+class Newmark(Integrator):
+    def __init__(
+        self,
+        *,
+        beta: float = 0.25,
+        gamma: float = 0.5,
+        newton_iterations: int = 1,
+        newton_tolerance: float = 1e-6,
+        indefinite: str = "project",
+    ) -> None: ...
+
+class Bdf2FixedPoint(Integrator):
+    def __init__(
+        self, *, iterations: int = 50, tolerance: float = 1e-6, anderson: int = 0
     ) -> None: ...
 
 class Static(Integrator):
@@ -196,6 +243,8 @@ class StepReport:
     @property
     def residual(self) -> float: ...
     @property
+    def indefinite(self) -> int: ...
+    @property
     def converged(self) -> bool: ...
     @property
     def milliseconds(self) -> float: ...
@@ -203,7 +252,7 @@ class StepReport:
     def message(self) -> str: ...
 
 class Simulation:
-    def __init__(self, *, world: World, integrator: Integrator, solver: LinearSolver) -> None: ...
+    def __init__(self, *, world: World, integrator: Integrator, solver: LinearSolver | None) -> None: ...
     def step(self, dt: float) -> StepReport: ...
     @property
     def time(self) -> float: ...
@@ -227,6 +276,7 @@ class Simulation:
     def remove_cells(self, *, body: str, cells: Ints) -> None: ...
     def settle(self) -> None: ...
     def reactions(self) -> Floats: ...
+    def stable_step(self) -> float: ...
     def largest_frequency(self) -> float: ...
     def remaining_cells(self, body: str) -> Ints: ...
     def snapshot(self) -> dict[str, Any]: ...

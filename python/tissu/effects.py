@@ -113,7 +113,8 @@ def _of_body(name: str, body: Body) -> list[Effect]:
 def _of_step(step: Step) -> Effect:
     if step.type == "static":
         return Effect("equilibrium", f"step is static, in {step.load_steps} load steps")
-    return Effect("inertia", f"step is {step.type} with dt {step.dt:g} s")
+    dt = step.dt if isinstance(step.dt, str) else f"{step.dt:g} s"
+    return Effect("inertia", f"step is {step.type} with dt {dt}")
 
 
 def _law(law: Law) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -13,12 +14,13 @@ from tissu.compile.model import kept_nodes, use_of
 from tissu.compile.prepare import prepare
 from tissu.compile.prepared import Held, LoadedNodes, Prepared
 from tissu.compile.solver import solver_of
-from tissu.compile.step import integrator_of
+from tissu.compile.step import integrator_of, solver_in
 from tissu.compile.thin import cross_section_of
 from tissu.effects import load_name
 from tissu.errors import SceneError
 from tissu.mesh.whole_faces import nodal_areas
 from tissu.scene.load import NodalLoad, Pressure
+from tissu.scene.problem import Problem
 from tissu.scene.step import Static
 from tissu.scene.support import Fixed, axes_mask
 from tissu.scene.viscosity import Centroid, KelvinVoigt, Rayleigh
@@ -44,15 +46,33 @@ def compile_scene(scene: Scene, checkpoint: Path | None = None) -> Simulation:
         raise SceneError(check.problems)
     from tissu.simulation import Simulation
 
-    return Simulation(
+    solver = solver_in(scene.step)
+    simulation = Simulation(
         scene=scene,
         world=build_world(prepared),
         meshes={name: body.mesh for name, body in prepared.bodies.items()},
         integrator=integrator_of(scene.step),
-        solver=solver_of(scene.step.solver),
+        solver=None if solver is None else solver_of(solver),
         check=check,
         checkpoint=saved,
     )
+    problem = None if saved is not None else unstable_step(simulation)
+    if problem is not None:
+        raise SceneError([problem.sentence(scene.source)])
+    return simulation
+
+
+def unstable_step(simulation: Simulation) -> Problem | None:
+    """A step that is above the stable one of an explicit method at rest, or auto where none is."""
+    dt, stable = getattr(simulation.scene.step, "dt", None), simulation.stable_step
+    if dt == "auto" and not math.isfinite(stable):
+        text = "found auto, but nothing is stiff, so that every step is stable; a time is accepted"
+        return Problem(("step", "dt"), text)
+    if not isinstance(dt, float) or dt <= stable * (1.0 + 1e-9):
+        return None
+    name = simulation.plan().integrator
+    text = f"found {dt:g} s; {name} is stable up to {stable:.4g} s at rest; take dt: auto, "
+    return Problem(("step", "dt"), text + "a smaller step, or an implicit method")
 
 
 def build_world(prepared: Prepared) -> Any:

@@ -18,13 +18,29 @@ from tissu.scene.model import FEM, Condensed, Corotational, MassLink, MassSpring
 from tissu.scene.scene import Output, Scene
 from tissu.scene.selection import Box, Nodes, Plane, Region, Sphere, SurfaceNodes
 from tissu.scene.solver import Cholesky, ConjugateGradient
-from tissu.scene.step import ImplicitEuler, Newton, Static
+from tissu.scene.step import (
+    BDF2,
+    RK2,
+    RK4,
+    BDF2FixedPoint,
+    ExplicitEuler,
+    ImplicitEuler,
+    ImplicitMidpoint,
+    Newmark,
+    Newton,
+    Static,
+    SymplecticEuler,
+)
 from tissu.scene.support import Fixed, Prescribed, Rotation
 from tissu.scene.viscosity import Centroid, KelvinVoigt, Prony, PronyBranch, Rayleigh
 
 __all__ = [
+    "BDF2",
     "FEM",
+    "RK2",
+    "RK4",
     "ArrudaBoyce",
+    "BDF2FixedPoint",
     "BarMesh",
     "Body",
     "Box",
@@ -33,10 +49,12 @@ __all__ = [
     "Condensed",
     "ConjugateGradient",
     "Corotational",
+    "ExplicitEuler",
     "Fibres",
     "Fixed",
     "Hooke",
     "ImplicitEuler",
+    "ImplicitMidpoint",
     "KelvinVoigt",
     "MassLink",
     "MassSpring",
@@ -44,6 +62,7 @@ __all__ = [
     "MeshFile",
     "MooneyRivlin",
     "NeoHooke",
+    "Newmark",
     "Newton",
     "NodalLoad",
     "Nodes",
@@ -62,6 +81,7 @@ __all__ = [
     "StableNeoHooke",
     "Static",
     "SurfaceNodes",
+    "SymplecticEuler",
     "Traction",
     "UserLaw",
     "Yeoh",

@@ -3,6 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import Protocol
+
+
+class Stepped(Protocol):
+    """What is stepped: where it stands [s], and the step that it would take now [s]."""
+
+    @property
+    def time(self) -> float: ...
+    @property
+    def dt(self) -> float: ...
 
 
 def steps_of(span: float, dt: float, *, taken: int = 0) -> Iterator[float]:
@@ -28,3 +38,12 @@ def steps_until(end: float, dt: float, *, time: float, taken: int) -> Iterator[f
     if abs(time - taken * dt) > 1e-3 * dt:  # not all of them were whole
         return steps_of(max(end - time, 0.0), dt)
     return steps_of(end, dt, taken=taken)
+
+
+def stable_steps(moved: Stepped, end: float) -> Iterator[float]:
+    """Steps [s] as long as they may be at present; the last two share what is left until `end`."""
+    while True:
+        dt, left = moved.dt, end - moved.time
+        if left <= 1e-6 * dt:
+            return
+        yield left if left <= dt else 0.5 * left if left < 2.0 * dt else dt

@@ -17,8 +17,8 @@ from tissu.errors import ParameterError
 from tissu.simulation.plan import Plan
 from tissu.simulation.profile import Profile, profile_of
 from tissu.simulation.remaining import keep_cells, removed_cells
-from tissu.simulation.report import StepReport
-from tissu.simulation.schedule import steps_of, steps_until
+from tissu.simulation.report import StepReport, report_of
+from tissu.simulation.schedule import stable_steps, steps_of, steps_until
 
 if TYPE_CHECKING:
     from tissu.checkpoint import Checkpoint, Resumed
@@ -28,6 +28,9 @@ if TYPE_CHECKING:
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int32]
+
+_SHARE_OF_STABLE = 0.9
+"""of the stable step, for the step auto: room for what the body stiffens in between"""
 
 
 class Simulation:
@@ -46,7 +49,7 @@ class Simulation:
         world: _core.World,
         meshes: Mapping[str, Mesh],
         integrator: _core.Integrator,
-        solver: _core.LinearSolver,
+        solver: _core.LinearSolver | None,
         check: Check,
         checkpoint: Checkpoint | None = None,
     ) -> None:
@@ -74,7 +77,8 @@ class Simulation:
             for name, mesh in self._meshes.items()
         )
         step = self.scene.step
-        how = step.type if step.type == "static" else f"{step.type} dt {self.dt:g} s"
+        dt = getattr(step, "dt", None)
+        how = step.type + ("" if dt is None else f" dt {dt}" if dt == "auto" else f" dt {dt:g} s")
         when = f"t = {self.time:.6g} s after {steps}"
         return f"Simulation('{self.scene.name}', {when}; {bodies}; {how})"
 
@@ -121,8 +125,20 @@ class Simulation:
 
     @property
     def dt(self) -> float:
-        """Time step of the scene [s]; 1 for a static scene, whose time only tells loads apart."""
-        return float(getattr(self.scene.step, "dt", 1.0))
+        """Time step of the scene [s], where it is auto nine tenths of the stable step at present.
+
+        1 for a static scene, whose time only tells loads apart.
+        """
+        dt = getattr(self.scene.step, "dt", 1.0)
+        return _SHARE_OF_STABLE * self.stable_step if dt == "auto" else float(dt)
+
+    @property
+    def stable_step(self) -> float:
+        """The largest stable step of an explicit method at the present state [s]; else infinite.
+
+        From the largest eigenfrequency and damping; measured again when the cells have deformed.
+        """
+        return float(self._core.stable_step())
 
     def step(self, dt: units.Number | None = None) -> StepReport:
         """Take one step.
@@ -138,16 +154,7 @@ class Simulation:
         report = self._core.step(h)
         self._steps += 1
         self._simulated += h
-        return StepReport(
-            number=self._steps,
-            time=report.time,
-            newton_iterations=report.newton_iterations,
-            solver_iterations=report.solver_iterations,
-            residual=report.residual,
-            converged=report.converged,
-            milliseconds=report.milliseconds,
-            message=report.message,
-        )
+        return report_of(report, number=self._steps)
 
     def run(
         self, duration: units.Number | None = None, *, until: units.Number | None = None
@@ -171,8 +178,11 @@ class Simulation:
         span = self._duration() if given is None else units.TIME(given)
         if not span >= 0.0:
             raise ParameterError(f"the duration is {span:g} s; it must not be negative")
-        steps = steps_of(span, self.dt)
-        if until is not None:
+        if getattr(self.scene.step, "dt", None) == "auto":
+            steps = stable_steps(self, self.time + span if until is None else span)
+        elif until is None:
+            steps = steps_of(span, self.dt)
+        else:
             steps = steps_until(span, self.dt, time=self.time, taken=self._steps)
         for dt in steps:
             yield self.step(dt)
@@ -265,7 +275,8 @@ class Simulation:
             unknowns=3 * self._world.blocks,
             matrix_blocks=self._world.matrix_blocks,
             integrator=self._core.integrator_name,
-            solver=self._core.solver_name,
+            solver=self._core.solver_name or "no linear system",
+            stable_step=self.stable_step,
             threads=self._world.threads,
             instruction_set=self._world.instruction_set,
         )

@@ -31,6 +31,9 @@ class Simulation {
   /// node would fly further than a thousand times the size of the scene.
   StepReport step(double h);
 
+  /// The largest step that is stable now [s]; infinite for methods that have no such limit.
+  [[nodiscard]] double stable_step() { return integrator_->stable_step(state_); }
+
   [[nodiscard]] const World& world() const { return *world_; }
   [[nodiscard]] const State& state() const { return state_; }
   [[nodiscard]] State& state() { return state_; }

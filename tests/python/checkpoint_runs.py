@@ -27,10 +27,11 @@ SOLVERS = classes(solvers.Solver)
 def scene(step, solver, threads=1):
     """A bar that is pushed and led in time, with a memory where the step allows one."""
     cls = STEPS[step]
-    fields = {"dt": 1e-3} if "dt" in cls.model_fields else {}
-    if "solver" in cls.model_fields:
+    known = cls.model_fields
+    fields = {"dt": 1e-3} if "dt" in known and known["dt"].default != "auto" else {}
+    if "solver" in known:
         fields["solver"] = SOLVERS[solver]()
-    dt = fields.get("dt", 1.0)
+    dt = 1e-3 if "dt" in known else 1.0
     body = ts.Body(
         mesh=ts.BarMesh(size=(0.4, 0.1, 0.1), cells=(8, 2, 2)),
         law=ts.StVK(young=4e3, poisson=0.3),

@@ -7,12 +7,15 @@ from typing import Protocol
 
 
 class Stepped(Protocol):
-    """What is stepped: where it stands [s], and the step that it would take now [s]."""
+    """What is stepped."""
 
     @property
-    def time(self) -> float: ...
+    def time(self) -> float:
+        """Where it stands [s]."""
+
     @property
-    def dt(self) -> float: ...
+    def dt(self) -> float:
+        """The step that it would take now [s]."""
 
 
 def steps_of(span: float, dt: float, *, taken: int = 0) -> Iterator[float]:

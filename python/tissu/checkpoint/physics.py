@@ -6,6 +6,7 @@ import hashlib
 import json
 import math
 from collections.abc import Iterator, Mapping
+from itertools import zip_longest
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -40,16 +41,25 @@ def physics_of(scene: Scene, meshes: Mapping[str, Mesh]) -> dict[str, Any]:
 
 def differences(there: Mapping[str, Any], here: Mapping[str, Any]) -> str:
     """Where two scenes differ, the first of them in full; empty when they do not."""
-    one, two = dict(_leaves(there)), dict(_leaves(here))
-    absent = object()
-    paths = [path for path in {**one, **two} if one.get(path, absent) != two.get(path, absent)]
-    texts = [
-        f"{path} is {_shown(one, path)} there and {_shown(two, path)} here"
-        for path in paths[:_SHOWN]
-    ]
-    if len(paths) > _SHOWN:
-        texts.append(f"{counted(len(paths) - _SHOWN, 'field')} more")
-    return ", ".join(texts)
+    found = list(_differences(there, here, ""))
+    if len(found) > _SHOWN:
+        more = counted(len(found) - _SHOWN, "more difference")
+        return ", ".join(found[:_SHOWN]) + f", and {more}"
+    return ", ".join(found)
+
+
+def _differences(one: Any, two: Any, path: str) -> Iterator[str]:
+    """Field by field; parts of another type in that alone."""
+    if isinstance(one, Mapping) and isinstance(two, Mapping):
+        same_type = one.get("type") == two.get("type")
+        for name in {**one, **two} if same_type else ("type",):
+            below = f"{path}.{name}" if path else str(name)
+            yield from _differences(one.get(name), two.get(name), below)
+    elif isinstance(one, list) and isinstance(two, list) and _has_parts(one + two):
+        for number, (item, other) in enumerate(zip_longest(one, two)):
+            yield from _differences(item, other, f"{path}[{number}]")
+    elif one != two:
+        yield f"{path} is {_shown(one)} there and {_shown(two)} here"
 
 
 def _plain(value: Any) -> Any:
@@ -93,19 +103,12 @@ def _digest(*arrays: Any) -> str:
     return total.hexdigest()[:16]
 
 
-def _leaves(value: Any, path: str = "") -> Iterator[tuple[str, Any]]:
-    if isinstance(value, Mapping) and value:
-        for name, item in value.items():
-            yield from _leaves(item, f"{path}.{name}" if path else str(name))
-    elif isinstance(value, list) and any(isinstance(item, Mapping) for item in value):
-        for number, item in enumerate(value):
-            yield from _leaves(item, f"{path}[{number}]")
-    else:
-        yield path, value
+def _has_parts(values: list[Any]) -> bool:
+    return any(isinstance(value, Mapping) for value in values)
 
 
-def _shown(leaves: Mapping[str, Any], path: str) -> str:
-    if path not in leaves or leaves[path] is None:
+def _shown(value: Any) -> str:
+    if value is None:
         return "absent"
-    text = str(leaves[path])
+    text = str(value.get("type", "given") if isinstance(value, Mapping) else value)
     return text if len(text) <= 60 else f"{text[:57]}..."

@@ -12,15 +12,20 @@ _LAWS = (
     *("Hooke", "StVK", "NeoHooke", "StableNeoHooke", "MooneyRivlin", "Yeoh", "ArrudaBoyce"),
     *("Fibres", "Rayleigh", "KelvinVoigt", "Centroid", "Prony", "PronyBranch"),
 )
+_STEPS = (
+    *("ExplicitEuler", "SymplecticEuler", "RK2", "RK4"),
+    *("ImplicitEuler", "ImplicitMidpoint", "BDF2", "Newmark", "BDF2FixedPoint", "Static", "Newton"),
+)
 ORDER = (
     ("The scene", ("Scene", "Output")),
-    ("Bodies and meshes", ("Body", "MeshFile", "BarMesh")),
+    ("Bodies and meshes", ("Body", "Start", "MeshFile", "BarMesh")),
     ("Laws and viscosity", _LAWS),
     ("Models", ("FEM", "Corotational", "MassSpring", "MassLink", "MassTensor", "Condensed")),
     ("Selections: which nodes", ("Box", "Sphere", "Plane", "Nodes", "SurfaceNodes", "Region")),
     ("Supports and motion", ("Fixed", "Prescribed", "Rotation")),
     ("Loads", ("NodalLoad", "Traction", "Pressure")),
-    ("Steps and solvers", ("ImplicitEuler", "Static", "Newton", "ConjugateGradient", "Cholesky")),
+    ("Steps", _STEPS),
+    ("Linear solvers", ("ConjugateGradient", "Cholesky")),
 )
 HEAD = """# Scene files
 

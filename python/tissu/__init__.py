@@ -92,6 +92,7 @@ _HOMES = {
         "Scene",
         "Sphere",
         "StVK",
+        "Start",
         "Static",
         "SurfaceNodes",
         "Traction",

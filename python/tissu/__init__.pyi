@@ -66,6 +66,7 @@ from tissu.scene import Rotation as Rotation
 from tissu.scene import Scene as Scene
 from tissu.scene import Sphere as Sphere
 from tissu.scene import StVK as StVK
+from tissu.scene import Start as Start
 from tissu.scene import Static as Static
 from tissu.scene import SurfaceNodes as SurfaceNodes
 from tissu.scene import Traction as Traction

@@ -1,8 +1,8 @@
 """Kills a process that writes checkpoints, again and again, and looks at what it leaves.
 
 python checkpoint_killed.py FOLDER KILLS prints one JSON object: how often the file was not whole or
-not one of the two states that it may be, how often the kill came in the midst of a write, and what
-lies in the folder in the end.
+not one of the two states that it may be, how often the kill left a file half done beside it, how
+often the state was the one before and the one being written, and what lies in the folder in the end.
 """
 
 import hashlib
@@ -48,7 +48,7 @@ def write_for_ever(simulation, path, log):
 
 
 def kill_once(simulation, path, log_path, moment):
-    """The states that may be in the file after a kill: the latest done, and the one begun."""
+    """The two states that may be in the file after a kill: the latest done, and the one begun."""
     log = os.open(log_path, os.O_WRONLY | os.O_CREAT | os.O_TRUNC | os.O_APPEND)
     child = os.fork()
     if child == 0:
@@ -64,28 +64,31 @@ def kill_once(simulation, path, log_path, moment):
     os.waitpid(child, 0)
     lines = [line.split() for line in log_path.read_text().splitlines()]
     done = [line for line in lines if line[0] == "done"][-1]
-    return {(float(number), now) for _, number, now in (done, lines[-1])}
+    return [(float(number), now) for _, number, now in (done, lines[-1])]
 
 
 def main(folder, kills):
     random.seed(5)
     path, log_path = folder / "run.checkpoint", folder / "log"
     simulation = SCENE.compile()
-    wrong, midst, most = [], 0, 0
+    wrong, halves, most, before, new = [], 0, 0, 0, 0
     for _ in range(kills):
         allowed = kill_once(simulation, path, log_path, random.uniform(0.0, 0.03))
-        midst += len(allowed) - 1
-        most = max(most, len(list(folder.glob(".*"))))
+        beside = len(list(folder.glob(".*")))
+        halves, most = halves + (beside > 0), max(most, beside)
         try:
             found = read_checkpoint(path).snapshot
             state = (found["time"], digest(found["positions"]))
+            if allowed[0] != allowed[1]:
+                before, new = before + (state == allowed[0]), new + (state == allowed[1])
             if state not in allowed:
                 wrong.append(f"{state} is none of {allowed}")
         except ts.CheckpointError as error:
             wrong.append(str(error))
     simulation.save_checkpoint(path)
     left = sorted(p.name for p in folder.iterdir())
-    print(json.dumps({"wrong": wrong, "midst": midst, "most": most, "left": left}))
+    told = {"wrong": wrong, "halves": halves, "most": most, "before": before, "new": new}
+    print(json.dumps({**told, "left": left}))
 
 
 if __name__ == "__main__":

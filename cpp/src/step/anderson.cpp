@@ -9,8 +9,8 @@ namespace {
 using Small = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, Anderson::kMost, Anderson::kMost>;
 using SmallVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, Anderson::kMost, 1>;
 
-/// Keeps differences that are nearly the same apart: a share of the largest of their squares.
-constexpr double kRegularisation = 1e-14;
+/// Keeps differences that are nearly the same apart, once each is scaled to length 1.
+constexpr double kRegularisation = 1e-13;
 
 double dot(ConstReals a, ConstReals b, ConstReals weight) {
   double sum = 0.0;
@@ -29,7 +29,7 @@ void Anderson::resize(std::size_t size) {
   count_ = 0;
 }
 
-void Anderson::advance(Reals x, ConstReals change, ConstReals weight) {
+void Anderson::advance(Reals x, ConstReals change, double mixing, ConstReals weight) {
   if (depth_ > 0 && count_ > 0) {
     const auto slot = static_cast<std::size_t>((count_ - 1) % depth_);
     for (std::size_t i = 0; i < x.size(); ++i) {
@@ -41,7 +41,7 @@ void Anderson::advance(Reals x, ConstReals change, ConstReals weight) {
     std::ranges::copy(x, x_.begin());
     std::ranges::copy(change, change_.begin());
   }
-  for (std::size_t i = 0; i < x.size(); ++i) x[i] += change[i];
+  for (std::size_t i = 0; i < x.size(); ++i) x[i] += mixing * change[i];
   const int known = std::min(count_, depth_);
   ++count_;
   if (known == 0) return;
@@ -55,13 +55,16 @@ void Anderson::advance(Reals x, ConstReals change, ConstReals weight) {
     }
     right(a) = dot(row, change, weight);
   }
-  gram.diagonal().array() += kRegularisation * gram.diagonal().maxCoeff();
-  const SmallVector shares = gram.ldlt().solve(right);
+  // Later differences may be far smaller than earlier ones.
+  const SmallVector scale = gram.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+  gram = scale.asDiagonal() * gram * scale.asDiagonal();
+  gram.diagonal().array() += kRegularisation;
+  const SmallVector shares = scale.cwiseProduct(gram.ldlt().solve(scale.cwiseProduct(right)).eval());
   if (!shares.allFinite()) return;
   for (int a = 0; a < known; ++a) {
     const auto& dx = x_differences_[static_cast<std::size_t>(a)];
     const auto& dg = change_differences_[static_cast<std::size_t>(a)];
-    for (std::size_t i = 0; i < x.size(); ++i) x[i] -= shares(a) * (dx[i] + dg[i]);
+    for (std::size_t i = 0; i < x.size(); ++i) x[i] -= shares(a) * (dx[i] + mixing * dg[i]);
   }
 }
 

@@ -6,7 +6,7 @@
 namespace tissu {
 namespace {
 
-constexpr double kGrowth = 1.0;  ///< [1/s]
+constexpr double kGrowth = 0.01;  ///< [1/s]
 
 double forward(double h, double omega, double damping) {
   const auto [one, other] = eigenvalues(omega, damping);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <string>
 
 #include "tissu/base/error.h"
@@ -12,6 +13,13 @@ namespace tissu {
 namespace {
 
 constexpr double kHopeless = 1e6;  ///< times the first residual: the iteration does not contract
+std::string text(double value) {
+  char buffer[32];
+  (void)std::snprintf(buffer, sizeof buffer, "%.4g", value);
+  return buffer;
+}
+
+constexpr double kLeast = 1.0 / 64;  ///< share of a change that is taken
 
 }  // namespace
 
@@ -58,6 +66,7 @@ StepReport Bdf2FixedPoint::step(State& state, double h) {
 
 void Bdf2FixedPoint::iterate(State& state, double reference, StepReport& report) {
   anderson_.begin();
+  double mixing = 1.0;
   double now = solver_.residual(state, v_);
   reference = std::max({reference, now, 1e-300});
   while (true) {
@@ -67,20 +76,27 @@ void Bdf2FixedPoint::iterate(State& state, double reference, StepReport& report)
     if (!(report.residual < kHopeless)) break;
     std::ranges::copy(solver_.right(), change_.begin());
     solver_.world().mass().divide(solver_.stage().base, change_);
-    anderson_.advance(v_, change_, weight_);
-    now = solver_.residual(state, v_);
+    anderson_.advance(v_, change_, mixing, weight_);
+    const double next = solver_.residual(state, v_);
+    // Accelerated beyond its limit, the iteration may take less of each change than grows.
+    if (settings_.anderson > 0 && !(next < now)) mixing = std::max(0.5 * mixing, kLeast);
+    now = next;
     ++report.solver_iterations;
   }
   if (!report.converged) report.message = "the fixed-point iteration stopped before its tolerance";
 }
 
 void Bdf2FixedPoint::refuse(double h) const {
-  const double omega = largest_frequency(solver_.world(), start_);
-  const double ratio = h * h * omega * omega;
-  throw Error("the fixed-point iteration of the step from t = " + std::to_string(start_.time) +
-              " s with dt = " + std::to_string(h) + " s does not contract: h^2 omega^2 is " +
-              std::to_string(ratio) + ", and 9/4 is the limit without acceleration; take dt below " +
-              std::to_string(1.5 / omega) + " s, or use bdf2 or implicit_euler.");
+  const Vibration fastest = fastest_vibration(solver_.world(), start_);
+  const double omega = fastest.frequency;
+  const double damping = fastest.largest_damping;
+  // A first step, of backward Euler, contracts while h^2 omega^2 + h c < 1.
+  const double limit = 2.0 / (damping + std::sqrt(damping * damping + 4.0 * omega * omega));
+  throw Error("the fixed-point iteration of the step from t = " + text(start_.time) +
+              " s with dt = " + text(h) + " s does not contract: h^2 omega^2 is " +
+              text(h * h * omega * omega) + " and h c is " + text(h * damping) +
+              ", where without damping 9/4 is the limit; take dt below " + text(limit) +
+              " s, Anderson's acceleration, or bdf2.");
 }
 
 }  // namespace tissu

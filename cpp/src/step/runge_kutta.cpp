@@ -20,7 +20,7 @@ constexpr std::array<Tableau, 2> kSecond{{{0.0, 0.0}, {0.5, 1.0}}};
 constexpr std::array<Tableau, 4> kFourth{
     {{0.0, 1.0 / 6.0}, {0.5, 1.0 / 3.0}, {0.5, 1.0 / 3.0}, {1.0, 1.0 / 6.0}}};
 
-constexpr double kGrowth = 1.0;  ///< of the second order [1/s]
+constexpr double kGrowth = 0.01;  ///< of the second order [1/s]
 
 template <int Order>
 double factor(double h, double omega, double damping) {

@@ -8,8 +8,8 @@
 namespace tissu {
 namespace {
 
-constexpr double kLookEvery = 16.0;  ///< steps
-constexpr double kDeformed = 0.1;    ///< share of an edge's length
+constexpr double kLookEvery = 8.0;  ///< steps
+constexpr double kDeformed = 0.02;  ///< share of an edge's length
 constexpr double kRoundOff = 1e-12;
 constexpr int kHalvings = 60;
 

@@ -14,6 +14,7 @@ from tissu.compile.model import kept_nodes, use_of
 from tissu.compile.prepare import prepare
 from tissu.compile.prepared import Held, LoadedNodes, Prepared
 from tissu.compile.solver import solver_of
+from tissu.compile.start import begin
 from tissu.compile.step import integrator_of, solver_in
 from tissu.compile.thin import cross_section_of
 from tissu.effects import load_name
@@ -56,7 +57,10 @@ def compile_scene(scene: Scene, checkpoint: Path | None = None) -> Simulation:
         check=check,
         checkpoint=saved,
     )
-    problem = None if saved is not None else unstable_step(simulation)
+    if saved is not None:
+        return simulation
+    begin(simulation, prepared)
+    problem = unstable_step(simulation)
     if problem is not None:
         raise SceneError([problem.sentence(scene.source)])
     return simulation

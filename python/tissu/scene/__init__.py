@@ -18,6 +18,7 @@ from tissu.scene.model import FEM, Condensed, Corotational, MassLink, MassSpring
 from tissu.scene.scene import Output, Scene
 from tissu.scene.selection import Box, Nodes, Plane, Region, Sphere, SurfaceNodes
 from tissu.scene.solver import Cholesky, ConjugateGradient
+from tissu.scene.start import Start
 from tissu.scene.step import (
     BDF2,
     RK2,
@@ -79,6 +80,7 @@ __all__ = [
     "Sphere",
     "StVK",
     "StableNeoHooke",
+    "Start",
     "Static",
     "SurfaceNodes",
     "SymplecticEuler",

@@ -15,6 +15,7 @@ from tissu.scene.law import Law, LawOrMap
 from tissu.scene.model import FEM, Model, ModelOrMap
 from tissu.scene.part import Part, chosen
 from tissu.scene.problem import Problem
+from tissu.scene.start import Start
 from tissu.scene.unknown import rule
 from tissu.scene.viscosity import OneViscosity, Viscosity
 
@@ -93,6 +94,9 @@ class Body(Part):
     long, or without stress across, as in a plate; absent: its sheets are free in space and to thin
     """
 
+    start: Start | None = None
+    """state at time zero; absent: at rest"""
+
     if TYPE_CHECKING:
 
         def __init__(
@@ -108,6 +112,7 @@ class Body(Part):
             thickness: units.Number | None = ...,
             section: units.Number | None = ...,
             plane: Literal["strain", "stress"] | None = ...,
+            start: Start | None = ...,
         ) -> None: ...
 
     @rule("density", "mass")

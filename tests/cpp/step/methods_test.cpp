@@ -29,7 +29,8 @@ class Methods : public testing::TestWithParam<Method> {
   }
 };
 
-constexpr double kStep = 2e-3;  // below every limit here, explicit Euler's too
+/// Below every limit here.
+double step_of(const Method& method) { return 2e-3 / test::finer(method); }
 
 TEST_P(Methods, LeadNodesWhereTheyAreToBe) {
   WorldDescription world = bar();
@@ -42,8 +43,8 @@ TEST_P(Methods, LeadNodesWhereTheyAreToBe) {
   world.fixed = {test::fixed(test::nodes_at(mesh_, 0, 0.0)), test::fixed(tip)};
   world.fixed[1].motion = motion;
   Simulation simulation = simulate(world);
-  for (int i = 0; i < 60; ++i) {
-    simulation.step(kStep);
+  for (int i = 0; i < 60 * test::finer(GetParam()); ++i) {
+    simulation.step(step_of(GetParam()));
     for (const std::int32_t node : tip) {
       const Vec3 to = motion.position(mesh_.node(node), simulation.state().time);
       EXPECT_LT((block(ConstReals(simulation.state().positions), node) - to).norm(), 1e-14);
@@ -73,7 +74,7 @@ TEST_P(Methods, KeepMomentum) {
     return std::pair(linear, angular);
   };
   const auto [linear, angular] = momentum();
-  for (int i = 0; i < 100; ++i) simulation.step(kStep);
+  for (int i = 0; i < 100 * test::finer(GetParam()); ++i) simulation.step(step_of(GetParam()));
   const auto [linear_after, angular_after] = momentum();
   EXPECT_LT((linear_after - linear).norm(), 1e-11 * linear.norm());
   // Newton stops at 1e-13 of the residual: the moments of what is left.
@@ -95,15 +96,15 @@ TEST_P(Methods, GoOnFromTheirMemoryBitForBit) {
   Cholesky solver;
   State straight = shared->rest_state();
   const std::unique_ptr<Integrator> one = begin(solver);
-  for (int i = 0; i < 25; ++i) one->step(straight, i == 7 ? 0.5 * kStep : kStep);
+  for (int i = 0; i < 25; ++i) one->step(straight, i == 7 ? 0.5 * step_of(GetParam()) : step_of(GetParam()));
   State stopped = straight;
   const std::vector<double> memory = one->memory();
-  for (int i = 0; i < 25; ++i) one->step(straight, kStep);
+  for (int i = 0; i < 25; ++i) one->step(straight, step_of(GetParam()));
 
   Cholesky other;
   const std::unique_ptr<Integrator> two = begin(other);
   two->restore(memory);
-  for (int i = 0; i < 25; ++i) two->step(stopped, kStep);
+  for (int i = 0; i < 25; ++i) two->step(stopped, step_of(GetParam()));
   EXPECT_EQ(std::memcmp(straight.positions.data(), stopped.positions.data(),
                         straight.positions.size() * sizeof(double)),
             0);
@@ -120,10 +121,10 @@ TEST_P(Methods, ForgetWhatBelongsToAnotherState) {
   for (std::int32_t node = 0; node < mesh_.node_count(); ++node) {
     block(Reals(moved.state().velocities), node) = Vec3(0.0, 0.0, mesh_.node(node).x());
   }
-  for (int i = 0; i < 5; ++i) moved.step(kStep);
+  for (int i = 0; i < 5; ++i) moved.step(step_of(GetParam()));
   moved.state().positions = moved.world().rest_positions();
   std::ranges::fill(moved.state().velocities, 0.0);
-  for (int i = 0; i < 5; ++i) moved.step(kStep);
+  for (int i = 0; i < 5; ++i) moved.step(step_of(GetParam()));
   for (std::size_t i = 0; i < moved.state().positions.size(); ++i) {
     EXPECT_NEAR(moved.state().positions[i], moved.world().rest_positions()[i], 1e-13);
   }
@@ -135,7 +136,7 @@ TEST_P(Methods, GiveTheSameBitsOnAnyNumberOfThreads) {
     world.gravity = Vec3(0.0, 0.0, -1.0);
     world.fixed = {test::fixed(test::nodes_at(mesh_, 0, 0.0))};
     Simulation simulation = simulate(world);
-    for (int i = 0; i < 20; ++i) simulation.step(kStep);
+    for (int i = 0; i < 20; ++i) simulation.step(step_of(GetParam()));
     return simulation.state().positions;
   };
   const std::vector<double> one = run(1);
@@ -158,12 +159,12 @@ TEST_P(Methods, TakeLoadsInTime) {
   }
   world.loads = {{"push", "body", all, forces, {{0.0, 0.1, 0.100001}, {1.0, 1.0, 0.0}}}};
   Simulation simulation = simulate(world);
-  for (int i = 0; i < 100; ++i) simulation.step(kStep);
+  for (int i = 0; i < 100 * test::finer(GetParam()); ++i) simulation.step(step_of(GetParam()));
   std::vector<double> each(simulation.state().velocities.size(), 0.0);
   simulation.world().mass().add_product(simulation.state(), 1.0, simulation.state().velocities, each);
   double impulse = 0.0;
   for (std::size_t i = 1; i < each.size(); i += 3) impulse += each[i];
-  EXPECT_NEAR(impulse, 0.1, 1.01 * kStep);
+  EXPECT_NEAR(impulse, 0.1, 1.01 * step_of(GetParam()));
 }
 
 INSTANTIATE_TEST_SUITE_P(All, Methods, testing::ValuesIn(test::all_methods()),

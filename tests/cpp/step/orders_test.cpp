@@ -30,8 +30,7 @@ double oscillator_error(const Method& method, int steps) {
   return std::hypot(Oscillator::u(simulation) - u, (Oscillator::v(simulation) - v) / w);
 }
 
-/// Steps enough for explicit Euler's limit, 2 / omega^2 = 1.5 % of a second here.
-int steps_of(const Method& method) { return method.order == 4 ? 40 : 200; }
+int steps_of(const Method& method) { return method.order == 4 ? 40 : 200 * test::finer(method); }
 
 // The slope differs from the order by the next term of the error, a share h omega / 2 < 0.01 of it per order.
 TEST_P(Orders, OfTheLinearOscillator) {
@@ -68,7 +67,7 @@ double distance(const std::vector<double>& a, const std::vector<double>& b) {
 TEST_P(Orders, OfAStVKBar) {
   const Method& method = GetParam();
   static const std::vector<double> exact = Bar::end(test::method_named("rk4"), 2000);
-  const int n = method.order == 4 ? 60 : 400;
+  const int n = method.order == 4 ? 60 : 400 * test::finer(method);
   const double coarse = distance(Bar::end(method, n), exact);
   const double fine = distance(Bar::end(method, 2 * n), exact);
   EXPECT_GT(coarse, 1e-11);  // far above the error of the reference

@@ -17,8 +17,9 @@ class Anderson {
   explicit Anderson(int depth) : depth_(depth) {}
   void resize(std::size_t size);
   void begin() { count_ = 0; }
-  /// x becomes the next iterate; `change` is G(x) - x. Entries count by `weight`.
-  void advance(Reals x, ConstReals change, ConstReals weight);
+  /// x becomes the next iterate; `change` is G(x) - x, of which the share `mixing` is taken. Entries count by
+  /// `weight`.
+  void advance(Reals x, ConstReals change, double mixing, ConstReals weight);
 
  private:
   int depth_;

@@ -2,7 +2,7 @@
 
 python checkpoint_killed.py FOLDER KILLS prints one JSON object: how often the file was not whole or
 not one of the two states that it may be, how often the kill left a file half done beside it, how
-often the state was the one before and the one being written, and what lies in the folder in the end.
+often the state was the one before and the one being written, and what lies in the folder at last.
 """
 
 import hashlib

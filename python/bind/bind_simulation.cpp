@@ -55,9 +55,13 @@ py::tuple body_range(const Simulation& simulation, const std::string& name) {
 
 }  // namespace
 
+/// Of bind_snapshot.cpp.
+void bind_snapshot(py::class_<Simulation>& simulation);
+
 void bind_simulation(py::module_& m) {
   using py::arg;
-  py::class_<Simulation>(m, "Simulation")
+  py::class_<Simulation> simulation(m, "Simulation");
+  simulation
       .def(py::init([](const std::shared_ptr<World>& world, const IntegratorSpec& integrator,
                        const SolverSpec* solver) {
              return std::make_unique<Simulation>(world, integrator.make(),
@@ -121,6 +125,7 @@ void bind_simulation(py::module_& m) {
             return py::array_t<std::int32_t>(static_cast<py::ssize_t>(cells.size()), cells.data());
           },
           arg("body"));
+  bind_snapshot(simulation);
 }
 
 }  // namespace tissu::bind

@@ -30,6 +30,7 @@ _HOMES = {
         "ParameterError",
         "LawError",
         "SceneError",
+        "CheckpointError",
         "Diverged",
     ),
     "tissu.mesh": (

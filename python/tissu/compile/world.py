@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import math
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from tissu.checkpoint import read_checkpoint
 from tissu.compile.check import check_of
 from tissu.compile.model import kept_nodes, use_of
 from tissu.compile.prepare import prepare
@@ -31,12 +33,14 @@ if TYPE_CHECKING:
     from tissu.simulation import Simulation
 
 
-def compile_scene(scene: Scene) -> Simulation:
-    """Turn a scene into a simulation.
+def compile_scene(scene: Scene, checkpoint: Path | None = None) -> Simulation:
+    """Turn a scene into a simulation, at rest or where a checkpoint left it.
 
     Raises:
         SceneError: problems of the scene or its meshes; all of them.
+        CheckpointError: a checkpoint that is absent, damaged, or of another scene or version.
     """
+    saved = None if checkpoint is None else read_checkpoint(checkpoint)
     prepared = prepare(scene)
     check = check_of(prepared)
     if check.problems:
@@ -51,7 +55,10 @@ def compile_scene(scene: Scene) -> Simulation:
         integrator=integrator_of(scene.step),
         solver=None if solver is None else solver_of(solver),
         check=check,
+        checkpoint=saved,
     )
+    if saved is not None:
+        return simulation
     begin(simulation, prepared)
     problem = unstable_step(simulation)
     if problem is not None:

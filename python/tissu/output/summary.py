@@ -72,7 +72,7 @@ def summarise(
     """
     from tissu import _core
 
-    build = dict(_core.build_info())
+    build, resumed = dict(_core.build_info()), simulation.resumed_from
     every_note = [*(note for mesh in simulation.meshes.values() for note in mesh.notes), *notes]
     return {
         "tissu": build.pop("version", ""),
@@ -85,6 +85,7 @@ def summarise(
         "laws": [law.record() for law in simulation.scene.own_laws()],
         "meshes": {name: mesh_data(mesh) for name, mesh in simulation.meshes.items()},
         "simulated_seconds": simulation.time,
+        "resumed_from": None if resumed is None else dataclasses.asdict(resumed),
         "steps": dataclasses.asdict(tally),
         "timings": profile_data(simulation),
         "wall_seconds": dict(wall_seconds),

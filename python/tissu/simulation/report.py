@@ -3,6 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from tissu import _core
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,3 +43,18 @@ class StepReport:
         text = f"step {self.number}: t = {self.time:.6g} s, residual {self.residual:.1e}"
         text += f" after {iterations}, {self.milliseconds:.1f} ms"
         return text if self.converged else f"{text}; not converged: {self.message}"
+
+
+def report_of(report: _core.StepReport, *, number: int) -> StepReport:
+    """The core's report of the step with this number."""
+    return StepReport(
+        number=number,
+        time=report.time,
+        newton_iterations=report.newton_iterations,
+        solver_iterations=report.solver_iterations,
+        residual=report.residual,
+        indefinite=report.indefinite,
+        converged=report.converged,
+        milliseconds=report.milliseconds,
+        message=report.message,
+    )

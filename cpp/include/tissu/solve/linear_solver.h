@@ -25,6 +25,8 @@ class LinearSolver {
   /// x holds the first guess and then the answer. A right-hand side below `floor` counts as `floor` when the
   /// residual is judged, so that a body at rest is not solved to the last bit of its round-off.
   virtual SolveReport solve(const BlockMatrix& matrix, ConstReals b, Reals x, double floor) = 0;
+  /// Drops what is kept of earlier solves, so that the next one answers as the first would.
+  virtual void forget() {}
 };
 
 }  // namespace tissu

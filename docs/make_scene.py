@@ -12,11 +12,15 @@ _LAWS = (
     *("Hooke", "StVK", "NeoHooke", "StableNeoHooke", "MooneyRivlin", "Yeoh", "ArrudaBoyce"),
     *("Fibres", "Rayleigh", "KelvinVoigt", "Centroid", "Prony", "PronyBranch"),
 )
+_MODELS = (
+    *("FEM", "Corotational", "MassSpring", "MassLink", "MassTensor"),
+    *("Condensed", "MeanDilatation"),
+)
 ORDER = (
     ("The scene", ("Scene", "Output")),
     ("Bodies and meshes", ("Body", "MeshFile", "BarMesh")),
     ("Laws and viscosity", _LAWS),
-    ("Models", ("FEM", "Corotational", "MassSpring", "MassLink", "MassTensor", "Condensed")),
+    ("Models", _MODELS),
     ("Selections: which nodes", ("Box", "Sphere", "Plane", "Nodes", "SurfaceNodes", "Region")),
     ("Supports and motion", ("Fixed", "Prescribed", "Rotation")),
     ("Loads", ("NodalLoad", "Traction", "Pressure")),

@@ -67,6 +67,7 @@ _HOMES = {
         "MassLink",
         "MassSpring",
         "MassTensor",
+        "MeanDilatation",
         "MeshFile",
         "Newton",
         "NodalLoad",

@@ -76,6 +76,7 @@ _HOMES = {
         "MassLink",
         "MassSpring",
         "MassTensor",
+        "MeanDilatation",
         "MeshFile",
         "Newton",
         "NodalLoad",

@@ -14,7 +14,15 @@ from tissu.scene.law import (
     Yeoh,
 )
 from tissu.scene.load import NodalLoad, Pressure, Traction
-from tissu.scene.model import FEM, Condensed, Corotational, MassLink, MassSpring, MassTensor
+from tissu.scene.model import (
+    FEM,
+    Condensed,
+    Corotational,
+    MassLink,
+    MassSpring,
+    MassTensor,
+    MeanDilatation,
+)
 from tissu.scene.scene import Output, Scene
 from tissu.scene.selection import Box, Nodes, Plane, Region, Sphere, SurfaceNodes
 from tissu.scene.solver import Cholesky, ConjugateGradient
@@ -60,6 +68,7 @@ __all__ = [
     "MassLink",
     "MassSpring",
     "MassTensor",
+    "MeanDilatation",
     "MeshFile",
     "MooneyRivlin",
     "NeoHooke",

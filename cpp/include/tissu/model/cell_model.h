@@ -33,7 +33,8 @@ class CellModel : public BodyModel {
   /// are not positive.
   CellModel(ElasticBlock block, Threads threads);
   /// Gives the cells their order and rest shape; refuses cells that are inverted or have no volume.
-  void lay_cells(ConstReals rest_positions, RestForm form);
+  /// Cells of one number in `together` stand in one chunk (element_order.h).
+  void lay_cells(ConstReals rest_positions, RestForm form, std::span<const std::int32_t> together = {});
 
   /// Keeps of the rest shape only the volumes: for models that have constants of their own.
   void keep_volumes();

@@ -1,0 +1,162 @@
+#include "tissu/model/mean_dilatation.h"
+
+#include <array>
+
+#include "patch_matrix.h"
+
+namespace tissu {
+namespace {
+
+constexpr std::size_t kMostNodes = 8;  ///< of a cell
+
+static_assert(ElementOrder::chunk_size(kMostNodes) == kMostChunkCells);
+
+/// PatchParts of one chunk. Not initialised: it is made on the stack of every call.
+struct ChunkParts {
+  std::array<double, kMostChunkCells * kMostNodes*(kMostNodes + 1) / 2 * 9> matrices;
+  std::array<double, kMostChunkCells * kMostNodes * 3> stresses;
+  std::array<double, kMostChunkCells * kMostNodes * 3> volumes;
+  std::array<double, kMostChunkCells> slopes;
+  std::array<double, kMostChunkCells> curvatures;
+
+  PatchParts view() {
+    return {matrices.data(), stresses.data(), volumes.data(), slopes.data(), curvatures.data()};
+  }
+};
+
+}  // namespace
+
+MeanDilatationView MeanDilatation::view() const {
+  return {.cells = {.places = order_.places.data(),
+                    .slots = nullptr,
+                    .rest = shape_.rest.data(),
+                    .rest_points = shape_.rest_points,
+                    .weights = shape_.weights.data(),
+                    .frames = nullptr,
+                    .constants = constants_.data(),
+                    .constants_stride = constants_stride_,
+                    .gradients = gradients_.data(),
+                    .points = static_cast<int>(reference_.points.size()),
+                    .laws = laws_.data(),
+                    .law_count = static_cast<int>(laws_.size())},
+          .first_patch = table_.first_patch.data(),
+          .first_lane = table_.first_lane.data(),
+          .lanes = table_.lanes.data(),
+          .inverse_volumes = table_.inverse_volumes.data()};
+}
+
+void MeanDilatation::couple(SparsityBuilder& builder) const {
+  for (std::size_t p = 0; p + 1 < table_.first_node.size(); ++p) {
+    const std::int32_t count = table_.first_node[p + 1] - table_.first_node[p];
+    builder.add_cells({table_.nodes.data() + table_.first_node[p], static_cast<std::size_t>(count)}, count);
+  }
+}
+
+void MeanDilatation::bind(const Sparsity& pattern) {
+  table_.slots.resize(static_cast<std::size_t>(table_.first_slot.back()));
+  threads_.for_pieces(table_.count(), [&](std::int32_t begin, std::int32_t end) {
+    for (auto p = static_cast<std::size_t>(begin); p < static_cast<std::size_t>(end); ++p) {
+      std::int32_t* slot = table_.slots.data() + table_.first_slot[p];
+      for (std::int32_t a = table_.first_node[p]; a < table_.first_node[p + 1]; ++a) {
+        for (std::int32_t b = table_.first_node[p]; b < table_.first_node[p + 1]; ++b) {
+          *slot++ = pattern.slot(table_.nodes[static_cast<std::size_t>(a)],
+                                 table_.nodes[static_cast<std::size_t>(b)]);
+        }
+      }
+    }
+  });
+}
+
+void MeanDilatation::add_force(const State& state, Reals f) const {
+  const MeanDilatationView v = view();
+  for_chunks([&](const Chunk& chunk) { kernels_->force(v, chunk, state.positions.data(), f.data()); });
+}
+
+void MeanDilatation::add_product(const State& state, StiffnessScale scale, ConstReals p, Reals out) const {
+  if (scale.position == 0.0) return;
+  const MeanDilatationView v = view();
+  for_chunks([&](const Chunk& chunk) {
+    kernels_->product(v, chunk, state.positions.data(), scale.position, p.data(), out.data());
+  });
+}
+
+void MeanDilatation::add_stiffness(const State& state, StiffnessScale scale, BlockMatrix& matrix) const {
+  if (scale.position == 0.0) return;
+  const MeanDilatationView v = view();
+  double* values = matrix.values();
+  for_chunks([&](const Chunk& chunk) {
+    ChunkParts parts;
+    kernels_->stiffness(v, chunk, state.positions.data(), parts.view());
+    add_patches(chunk, parts.view(), scale, values);
+  });
+}
+
+void MeanDilatation::add_patches(const Chunk& chunk, const PatchParts& parts, StiffnessScale scale,
+                                 double* blocks) const {
+  const int nodes = reference_.nodes;
+  const std::int32_t pairs = nodes * (nodes + 1) / 2;
+  const auto first = table_.first_patch[static_cast<std::size_t>(chunk.begin)];
+  const auto end = table_.first_patch[static_cast<std::size_t>(chunk.end)];
+  PatchMatrix patch;
+  for (auto p = static_cast<std::size_t>(first); p < static_cast<std::size_t>(end); ++p) {
+    patch.begin(table_.first_node[p + 1] - table_.first_node[p]);
+    std::ptrdiff_t lane = 0;
+    for (std::int32_t i = table_.first_lane[p]; i < table_.first_lane[p + 1]; ++i) {
+      lane = table_.lanes[static_cast<std::size_t>(i)] - chunk.begin * ElementOrder::kLanes;
+      const std::uint8_t* places = table_.places.data() + static_cast<std::ptrdiff_t>(i) * nodes;
+      patch.add_cell(places, nodes, parts.matrices + lane * pairs * 9);
+      patch.add_vectors(places, nodes, parts.stresses + lane * nodes * 3, parts.volumes + lane * nodes * 3);
+    }
+    patch.close(parts.slopes[lane], parts.curvatures[lane]);
+    if (scale.definite) patch.make_definite();
+    patch.scatter(table_.slots.data() + table_.first_slot[p], -scale.position, blocks);
+  }
+}
+
+std::vector<double> MeanDilatation::energies(const State& state) const {
+  std::vector<double> result(order_.element.size(), 0.0);
+  const MeanDilatationView v = view();
+  for_chunks([&](const Chunk& chunk) { kernels_->energy(v, chunk, state.positions.data(), result.data()); });
+  return result;
+}
+
+double MeanDilatation::energy(const State& state) const {
+  double sum = 0.0;
+  for (const double e : energies(state)) sum += e;
+  return sum;
+}
+
+CellFields MeanDilatation::fields(const State& state) const {
+  const std::size_t lanes = order_.element.size();
+  std::vector<double> stresses(6 * lanes);
+  std::vector<double> ratios(lanes);
+  const MeanDilatationView v = view();
+  for_chunks([&](const Chunk& chunk) {
+    kernels_->stress(v, chunk, state.positions.data(), stresses.data(), ratios.data());
+  });
+  const std::vector<double> stored = energies(state);
+  CellFields fields;
+  const auto cells = static_cast<std::size_t>(cell_count());
+  fields.von_mises.resize(cells);
+  fields.energy_density.resize(cells);
+  fields.volume_ratio.resize(cells);
+  for_lanes([&](std::size_t lane, std::size_t cell) {
+    fields.von_mises[cell] = von_mises(stresses.data(), lane);
+    fields.energy_density[cell] = stored[lane] / shape_.volumes[cell];
+    fields.volume_ratio[cell] = ratios[lane];
+  });
+  return fields;
+}
+
+std::size_t MeanDilatation::bytes() const {
+  return CellModel::bytes() + table_.bytes() + of_cell_.size() * sizeof(std::int32_t) +
+         (shape_.rest.size() + constants_.size() + X_.size()) * sizeof(double);
+}
+
+std::size_t MeanDilatation::reals_per_cell() const {
+  std::size_t own = 0;  // of the law, where cells differ
+  if (constants_stride_ != 0) own = static_cast<std::size_t>(constants_stride_) / kLanes;
+  return static_cast<std::size_t>(shape_.rest_points) * shape_.reals + own + 1;  // 1 / V
+}
+
+}  // namespace tissu

@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 
 import tissu as ts
-from tissu.compile import check_scene
 
 NEWTON = ts.Newton(iterations=60, tolerance=1e-9)
 SIZE = (0.4, 0.1, 0.1)  # m

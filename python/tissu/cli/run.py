@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import math
 import time
 from collections.abc import Iterator
 from dataclasses import dataclass, field
@@ -15,7 +16,7 @@ from tissu.cli.outcome import DIVERGED, FINISHED, complain
 from tissu.cli.progress import RunProgress
 from tissu.cli.timetable import Timetable
 from tissu.counted import counted
-from tissu.errors import Diverged
+from tissu.errors import Diverged, TissuError
 from tissu.output import Series, StepTally, prepare_folder, summarise, write_summary
 
 if TYPE_CHECKING:
@@ -66,7 +67,7 @@ class Ending:
     """How a run ended.
 
     Attributes:
-        status: "finished", "interrupted" or "diverged".
+        status: "finished", "interrupted", "diverged", or "stopped": a step was refused.
         code: exit code of the command.
         message: why it is not finished.
         error: what stopped it.
@@ -75,7 +76,7 @@ class Ending:
     status: str
     code: int
     message: str = ""
-    error: Diverged | None = None
+    error: TissuError | None = None
 
 
 def run_scene(job: Job, *, debug: bool = False) -> int:
@@ -184,8 +185,9 @@ def advance(
                     text = f"{when}; all files are complete"
                     ending = Ending("interrupted", interrupted.code, text)
                     break
-        except Diverged as error:
-            ending = Ending("diverged", DIVERGED, str(error), error)
+        except TissuError as error:
+            status = "diverged" if isinstance(error, Diverged) else "stopped"
+            ending = Ending(status, DIVERGED, str(error), error)
     files.end(simulation, ending)
     return ending
 
@@ -227,6 +229,10 @@ def report(
     if tally.unconverged:
         share = f"{tally.unconverged} of {counted(tally.steps, 'step')}"
         print(f"{share} did not converge, the first: {tally.first_unconverged}")
+    if tally.indefinite:
+        print(f"{counted(tally.indefinite, 'system')} not positive definite, and made so")
+    if math.isfinite(simulation.stable_step):
+        print(f"stable up to {simulation.stable_step:.4g} s a step at the end")
     if simulation.resumed_from is not None:
         print(resumed_words(simulation.resumed_from))
     if series.inverted:

@@ -56,9 +56,7 @@ class MassTensor final : public CellModel {
   void lay_laws();
   [[nodiscard]] TensorCell cell(std::int32_t number) const;
   [[nodiscard]] const Lame& lame_of(std::int32_t cell) const;
-  [[nodiscard]] MassTensorView view(const Part& part) const;
-  template <class Function>
-  void for_parts(Function&& f) const;
+  [[nodiscard]] Loops<MassTensorKernels, MassTensorView> loops(const Part& part) const;
 
   Isa isa_;
   bool linear_;

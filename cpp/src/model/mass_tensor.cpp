@@ -8,6 +8,7 @@
 
 #include "tissu/law/hooke.h"
 #include "tissu/law/stvk.h"
+#include "tissu/model/elastic.h"
 
 namespace tissu {
 namespace {
@@ -118,6 +119,7 @@ TensorCell MassTensor::cell(std::int32_t number) const {
 }
 
 void MassTensor::bind(const Sparsity& pattern) {
+  elements_.reset();  // they know another pattern
   for (Part& part : parts_) {
     lay_slots(part.table.order, part.table.nodes, part.table.size, pattern, part.table.slots);
   }
@@ -148,7 +150,20 @@ void MassTensor::add_force(const State& state, Reals f) const {
   for (const Part& part : parts_) force_by(loops(part), state.positions, f);
 }
 
+const BodyModel& MassTensor::elements(const Sparsity& pattern) const {
+  const std::scoped_lock one_makes_them(making_elements_);
+  if (elements_ == nullptr) {
+    elements_ = std::make_unique<Elastic>(block_, X_, isa_, threads_);
+    elements_->bind(pattern);
+  }
+  return *elements_;
+}
+
 void MassTensor::add_stiffness(const State& state, StiffnessScale scale, BlockMatrix& matrix) const {
+  if (scale.definite && !linear_) {
+    elements(matrix.sparsity()).add_stiffness(state, scale, matrix);
+    return;
+  }
   for (const Part& part : parts_) stiffness_by(loops(part), state.positions, scale, matrix);
 }
 
@@ -187,6 +202,8 @@ CellFields MassTensor::fields(const State& state) const {
 std::size_t MassTensor::bytes() const {
   std::size_t sum = (X_.size() + 2 * lame_.size()) * sizeof(double);
   for (const Part& part : parts_) sum += part.table.bytes();
+  const std::scoped_lock nobody_makes_them(making_elements_);
+  if (elements_ != nullptr) sum += elements_->bytes();
   return sum;
 }
 

@@ -83,14 +83,17 @@ class CellModel : public BodyModel {
       loops.kernels.product(loops.view, chunk, x.data(), scale, p.data(), out.data());
     });
   }
-  /// matrix += scale.position * df/dx
+  /// matrix += scale.position * df/dx, made definite where that is asked for and need be.
   template <class L>
   void stiffness_by(const L& loops, ConstReals x, StiffnessScale scale, BlockMatrix& matrix) const {
     if (scale.position == 0.0) return;
+    auto loop = loops.kernels.stiffness;
+    if constexpr (requires { loops.kernels.definite; }) {
+      if (scale.definite && loops.kernels.definite != nullptr) loop = loops.kernels.definite;
+    }
     double* blocks = matrix.values();
-    for_chunks(loops.order, [&](const Chunk& chunk) {
-      loops.kernels.stiffness(loops.view, chunk, x.data(), scale.position, blocks);
-    });
+    for_chunks(loops.order,
+               [&](const Chunk& chunk) { loop(loops.view, chunk, x.data(), scale.position, blocks); });
   }
   /// Of each lane [J].
   template <class L>

@@ -26,23 +26,16 @@ struct ChunkParts {
 
 }  // namespace
 
-MeanDilatationView MeanDilatation::view() const {
-  return {.cells = {.places = order_.places.data(),
-                    .slots = nullptr,
-                    .rest = shape_.rest.data(),
-                    .rest_points = shape_.rest_points,
-                    .weights = shape_.weights.data(),
-                    .frames = nullptr,
-                    .constants = constants_.data(),
-                    .constants_stride = constants_stride_,
-                    .gradients = gradients_.data(),
-                    .points = static_cast<int>(reference_.points.size()),
-                    .laws = laws_.data(),
-                    .law_count = static_cast<int>(laws_.size())},
-          .first_patch = table_.first_patch.data(),
-          .first_lane = table_.first_lane.data(),
-          .lanes = table_.lanes.data(),
-          .inverse_volumes = table_.inverse_volumes.data()};
+Loops<MeanDilatationKernels, MeanDilatationView> MeanDilatation::loops() const {
+  MeanDilatationView view{.cells = cell_view(),
+                          .first_patch = table_.first_patch.data(),
+                          .first_lane = table_.first_lane.data(),
+                          .lanes = table_.lanes.data(),
+                          .inverse_volumes = table_.inverse_volumes.data()};
+  view.cells.gradients = gradients_.data();
+  view.cells.laws = laws_.data();
+  view.cells.law_count = static_cast<int>(laws_.size());
+  return {*kernels_, view, order_};
 }
 
 void MeanDilatation::couple(SparsityBuilder& builder) const {
@@ -67,26 +60,19 @@ void MeanDilatation::bind(const Sparsity& pattern) {
   });
 }
 
-void MeanDilatation::add_force(const State& state, Reals f) const {
-  const MeanDilatationView v = view();
-  for_chunks([&](const Chunk& chunk) { kernels_->force(v, chunk, state.positions.data(), f.data()); });
-}
+void MeanDilatation::add_force(const State& state, Reals f) const { force_by(loops(), state.positions, f); }
 
 void MeanDilatation::add_product(const State& state, StiffnessScale scale, ConstReals p, Reals out) const {
-  if (scale.position == 0.0) return;
-  const MeanDilatationView v = view();
-  for_chunks([&](const Chunk& chunk) {
-    kernels_->product(v, chunk, state.positions.data(), scale.position, p.data(), out.data());
-  });
+  product_by(loops(), state.positions, scale.position, p, out);
 }
 
 void MeanDilatation::add_stiffness(const State& state, StiffnessScale scale, BlockMatrix& matrix) const {
   if (scale.position == 0.0) return;
-  const MeanDilatationView v = view();
+  const auto cells = loops();
   double* values = matrix.values();
-  for_chunks([&](const Chunk& chunk) {
+  for_chunks(order_, [&](const Chunk& chunk) {
     ChunkParts parts;
-    kernels_->stiffness(v, chunk, state.positions.data(), parts.view());
+    kernels_->stiffness(cells.view, chunk, state.positions.data(), parts.view());
     add_patches(chunk, parts.view(), scale, values);
   });
 }
@@ -113,40 +99,9 @@ void MeanDilatation::add_patches(const Chunk& chunk, const PatchParts& parts, St
   }
 }
 
-std::vector<double> MeanDilatation::energies(const State& state) const {
-  std::vector<double> result(order_.element.size(), 0.0);
-  const MeanDilatationView v = view();
-  for_chunks([&](const Chunk& chunk) { kernels_->energy(v, chunk, state.positions.data(), result.data()); });
-  return result;
-}
+double MeanDilatation::energy(const State& state) const { return energy_by(loops(), state.positions); }
 
-double MeanDilatation::energy(const State& state) const {
-  double sum = 0.0;
-  for (const double e : energies(state)) sum += e;
-  return sum;
-}
-
-CellFields MeanDilatation::fields(const State& state) const {
-  const std::size_t lanes = order_.element.size();
-  std::vector<double> stresses(6 * lanes);
-  std::vector<double> ratios(lanes);
-  const MeanDilatationView v = view();
-  for_chunks([&](const Chunk& chunk) {
-    kernels_->stress(v, chunk, state.positions.data(), stresses.data(), ratios.data());
-  });
-  const std::vector<double> stored = energies(state);
-  CellFields fields;
-  const auto cells = static_cast<std::size_t>(cell_count());
-  fields.von_mises.resize(cells);
-  fields.energy_density.resize(cells);
-  fields.volume_ratio.resize(cells);
-  for_lanes([&](std::size_t lane, std::size_t cell) {
-    fields.von_mises[cell] = von_mises(stresses.data(), lane);
-    fields.energy_density[cell] = stored[lane] / shape_.volumes[cell];
-    fields.volume_ratio[cell] = ratios[lane];
-  });
-  return fields;
-}
+CellFields MeanDilatation::fields(const State& state) const { return fields_by(loops(), state.positions); }
 
 std::size_t MeanDilatation::bytes() const {
   return CellModel::bytes() + table_.bytes() + of_cell_.size() * sizeof(std::int32_t) +

@@ -79,7 +79,7 @@ MeanDilatation::MeanDilatation(ElasticBlock block, std::vector<std::int32_t> of_
 void MeanDilatation::lay(ConstReals rest_positions) {
   lay_cells(rest_positions, {}, of_cell_);
   table_ = patch_table(of_cell_, block_.cells, reference_.nodes, order_, shape_.volumes);
-  lay_constants();
+  lay_law_constants();
 }
 
 std::unique_ptr<BodyModel> MeanDilatation::without(const ElasticBlock& left,
@@ -101,36 +101,24 @@ void MeanDilatation::choose_kernels() {
     (void)law_info(block_, use);
     laws_.push_back(use.loaded ? use.loaded->kernels(3) : find_law_kernels(isa_, use.law, 3));
   }
-  for (const ReferenceCell::Point& point : reference_.points) {
-    for (const auto& gradient : point.gradients) {
-      gradients_.insert(gradients_.end(), gradient.begin(), gradient.end());
-    }
-  }
+  gradients_ = reference_gradients();
 }
 
-void MeanDilatation::lay_constants() {
+void MeanDilatation::lay_law_constants() {
   const std::vector<LawUse> uses = laws_of(block_);
-  bool uniform = true;
+  bool same = true;
   std::size_t count = 0;
   for (const LawUse& use : uses) {
     count += law_info(block_, use).constants.size();
-    for (const auto& [name, values] : use.parameters) uniform = uniform && values.size() == 1;
+    same = same && uniform(use.parameters);
   }
-  const std::size_t lanes = uniform ? kLanes : order_.element.size();
-  constants_stride_ = uniform ? 0 : static_cast<std::ptrdiff_t>(count * kLanes);
-  constants_.resize(lanes * count);
-  std::vector<double> constants(count);
-  for (std::size_t i = 0; i < lanes; ++i) {
-    std::span<double> left(constants);
+  lay_constants(count, same, [&](std::size_t lane, std::span<double> constants) {
     for (const LawUse& use : uses) {
-      const std::size_t own = law_info(block_, use).constants.size();
-      cell_constants(block_, use, order_.element[i], left.first(own));
-      left = left.subspan(own);
+      const std::span<double> of_law = constants.first(law_info(block_, use).constants.size());
+      cell_constants(block_, use, order_.element[lane], of_law);
+      constants = constants.subspan(of_law.size());
     }
-    for (std::size_t c = 0; c < count; ++c) {
-      constants_[(i / kLanes * count + c) * kLanes + i % kLanes] = constants[c];
-    }
-  }
+  });
 }
 
 }  // namespace tissu

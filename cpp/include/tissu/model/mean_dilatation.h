@@ -54,9 +54,8 @@ class MeanDilatation final : public CellModel {
                  Threads threads);
   void lay(ConstReals rest_positions);
   void choose_kernels();
-  void lay_constants();
-  [[nodiscard]] MeanDilatationView view() const;
-  [[nodiscard]] std::vector<double> energies(const State& state) const;
+  void lay_law_constants();
+  [[nodiscard]] Loops<MeanDilatationKernels, MeanDilatationView> loops() const;
   void add_patches(const Chunk& chunk, const PatchParts& parts, StiffnessScale scale, double* blocks) const;
 
   Isa isa_;
@@ -66,8 +65,6 @@ class MeanDilatation final : public CellModel {
   const MeanDilatationKernels* kernels_ = nullptr;
   std::vector<const LawKernels*> laws_;
   std::vector<double> gradients_;  ///< [point][node][3]
-  AlignedVector<double> constants_;
-  std::ptrdiff_t constants_stride_ = 0;
 };
 
 }  // namespace tissu

@@ -20,7 +20,10 @@ ORDER = (
     ("Selections: which nodes", ("Box", "Sphere", "Plane", "Nodes", "SurfaceNodes", "Region")),
     ("Supports and motion", ("Fixed", "Prescribed", "Rotation")),
     ("Loads", ("NodalLoad", "Traction", "Pressure")),
-    ("Steps and solvers", ("ImplicitEuler", "Static", "Newton", "ConjugateGradient", "Cholesky")),
+    (
+        "Steps and solvers",
+        ("ImplicitEuler", "Static", "Newton", "Auto", "ConjugateGradient", "Cholesky"),
+    ),
 )
 HEAD = """# Scene files
 

@@ -46,6 +46,7 @@ _HOMES = {
     ),
     "tissu.scene": (
         "ArrudaBoyce",
+        "Auto",
         "BarMesh",
         "Fibres",
         "MooneyRivlin",

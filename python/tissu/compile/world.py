@@ -10,7 +10,7 @@ from tissu.compile.check import check_of
 from tissu.compile.model import kept_nodes, use_of
 from tissu.compile.prepare import prepare
 from tissu.compile.prepared import Held, LoadedNodes, Prepared
-from tissu.compile.solver import solver_of
+from tissu.compile.solver import chosen_solver, solver_of
 from tissu.compile.step import integrator_of
 from tissu.compile.thin import cross_section_of
 from tissu.effects import load_name
@@ -45,7 +45,7 @@ def compile_scene(scene: Scene) -> Simulation:
         world=build_world(prepared),
         meshes={name: body.mesh for name, body in prepared.bodies.items()},
         integrator=integrator_of(scene.step),
-        solver=solver_of(scene.step.solver),
+        solver=solver_of(chosen_solver(prepared)),
         check=check,
     )
 

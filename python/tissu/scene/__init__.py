@@ -17,7 +17,7 @@ from tissu.scene.load import NodalLoad, Pressure, Traction
 from tissu.scene.model import FEM, Condensed, Corotational, MassLink, MassSpring, MassTensor
 from tissu.scene.scene import Output, Scene
 from tissu.scene.selection import Box, Nodes, Plane, Region, Sphere, SurfaceNodes
-from tissu.scene.solver import Cholesky, ConjugateGradient
+from tissu.scene.solver import Auto, Cholesky, ConjugateGradient
 from tissu.scene.step import ImplicitEuler, Newton, Static
 from tissu.scene.support import Fixed, Prescribed, Rotation
 from tissu.scene.viscosity import Centroid, KelvinVoigt, Prony, PronyBranch, Rayleigh
@@ -25,6 +25,7 @@ from tissu.scene.viscosity import Centroid, KelvinVoigt, Prony, PronyBranch, Ray
 __all__ = [
     "FEM",
     "ArrudaBoyce",
+    "Auto",
     "BarMesh",
     "Body",
     "Box",

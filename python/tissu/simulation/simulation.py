@@ -14,7 +14,7 @@ from tissu import _core, units
 from tissu.counted import counted
 from tissu.errors import ParameterError
 from tissu.simulation.plan import Plan
-from tissu.simulation.profile import Profile, ProfileRow
+from tissu.simulation.profile import Profile, ProfileRow, Solves
 from tissu.simulation.report import StepReport
 
 if TYPE_CHECKING:
@@ -228,6 +228,7 @@ class Simulation:
             p95_ms=1e3 * float(p95),
             max_ms=1e3 * float(seconds.max()) if steps else 0.0,
             real_time_factor=self._simulated / total if total else 0.0,
+            solves=Solves(*self._core.profile_solves()),
         )
 
     def clear_profile(self) -> None:

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "tissu/force/force_model.h"
@@ -26,6 +27,8 @@ class Links final : public ForceModel {
   /// Takes over the links of another world of the same unknowns.
   void take_over(const Links& other) { links_ = other.links_; }
   [[nodiscard]] std::size_t size() const { return links_.size(); }
+  /// The pairs of rows that they couple now.
+  [[nodiscard]] std::vector<std::pair<std::int32_t, std::int32_t>> coupled() const;
 
   [[nodiscard]] std::string_view effect() const override { return "links"; }
   [[nodiscard]] ForceKind kind() const override { return ForceKind::elastic; }

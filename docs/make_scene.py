@@ -29,7 +29,7 @@ ORDER = (
     ("Supports and motion", ("Fixed", "Prescribed", "Rotation")),
     ("Loads", ("NodalLoad", "Traction", "Pressure")),
     ("Steps", _STEPS),
-    ("Linear solvers", ("ConjugateGradient", "Cholesky")),
+    ("Linear solvers", ("Auto", "ConjugateGradient", "Cholesky")),
 )
 HEAD = """# Scene files
 

@@ -95,6 +95,12 @@ void bind_simulation(py::module_& m) {
       .def("energy", [](const Simulation& s) { return to_dict(s.energy()); })
       .def("cell_fields", &cell_fields, arg("body"))
       .def("profile_rows", &profile_rows)
+      .def("profile_solves",
+           [](Simulation& s) {
+             const Profile::Solves& solves = s.profile().solves();
+             return py::make_tuple(solves.solves, solves.iterations, solves.preparations, solves.failures,
+                                   solves.residual);
+           })
       .def("profile_steps", [](Simulation& s) { return s.profile().steps(); })
       .def("profile_step_seconds",
            [](Simulation& s) {

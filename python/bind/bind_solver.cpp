@@ -1,3 +1,6 @@
+#include <array>
+#include <string_view>
+
 #include "bind.h"
 #include "specs.h"
 #include "tissu/solve/cholesky.h"
@@ -9,18 +12,44 @@ namespace {
 struct ConjugateGradientSpec : SolverSpec {};
 struct CholeskySpec : SolverSpec {};
 
+template <class Value>
+using Names = std::span<const std::pair<std::string_view, Value>>;
+
+constexpr std::pair<std::string_view, Preconditioning> kPreconditioners[] = {
+    {"jacobi", Preconditioning::jacobi},
+    {"block_jacobi", Preconditioning::block_jacobi},
+    {"incomplete_cholesky", Preconditioning::incomplete_cholesky},
+    {"stale_cholesky", Preconditioning::stale_cholesky}};
+constexpr std::pair<std::string_view, Precision> kPrecisions[] = {{"double", Precision::full},
+                                                                  {"single", Precision::single}};
+constexpr std::pair<std::string_view, Product> kMatrices[] = {{"assembled", Product::assembled},
+                                                              {"free", Product::free}};
+
+template <class Value>
+Value named(Names<Value> names, const std::string& name) {
+  for (const auto& [known, value] : names) {
+    if (known == name) return value;
+  }
+  throw ParameterError("found \"" + name + "\" as a choice of the conjugate gradient, which has none such.");
+}
+
 }  // namespace
 
 void bind_solver(py::module_& m) {
   using py::arg;
   py::class_<SolverSpec>(m, "LinearSolver");
   py::class_<ConjugateGradientSpec, SolverSpec>(m, "ConjugateGradient")
-      .def(py::init([](double tolerance, int iterations) {
+      .def(py::init([](double tolerance, int iterations, const std::string& preconditioner,
+                       const std::string& precision, const std::string& matrix) {
+             const ConjugateGradient::Settings settings{
+                 tolerance, iterations, named<Preconditioning>(kPreconditioners, preconditioner),
+                 named<Precision>(kPrecisions, precision), named<Product>(kMatrices, matrix)};
              return ConjugateGradientSpec{{[=]() -> std::unique_ptr<LinearSolver> {
-               return std::make_unique<ConjugateGradient>(ConjugateGradient::Settings{tolerance, iterations});
+               return std::make_unique<ConjugateGradient>(settings);
              }}};
            }),
-           py::kw_only(), arg("tolerance") = 1e-6, arg("iterations") = 1000);
+           py::kw_only(), arg("tolerance") = 1e-6, arg("iterations") = 1000,
+           arg("preconditioner") = "block_jacobi", arg("precision") = "double", arg("matrix") = "assembled");
   py::class_<CholeskySpec, SolverSpec>(m, "Cholesky").def(py::init([] {
     return CholeskySpec{{[]() -> std::unique_ptr<LinearSolver> { return std::make_unique<Cholesky>(); }}};
   }));

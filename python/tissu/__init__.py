@@ -47,6 +47,7 @@ _HOMES = {
     ),
     "tissu.scene": (
         "ArrudaBoyce",
+        "Auto",
         "BarMesh",
         "Fibres",
         "MooneyRivlin",

@@ -21,6 +21,7 @@ from tissu.mesh import mixed_bar_mesh as mixed_bar_mesh
 from tissu.mesh import read_mesh as read_mesh
 from tissu.mesh import write_mesh as write_mesh
 from tissu.scene import ArrudaBoyce as ArrudaBoyce
+from tissu.scene import Auto as Auto
 from tissu.scene import BarMesh as BarMesh
 from tissu.scene import Fibres as Fibres
 from tissu.scene import MooneyRivlin as MooneyRivlin

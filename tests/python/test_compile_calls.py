@@ -185,11 +185,18 @@ def test_integrators_and_solvers(monkeypatch):
     assert made == {"ImplicitEuler": {"newton_iterations": 1}}
     world.integrator_of(ImplicitEuler(0.01, newton=Newton(iterations=7, tolerance=1e-9)))
     world.integrator_of(Static(load_steps=3))
-    world.solver_of(ConjugateGradient(iterations=5))
+    gradient = ConjugateGradient(iterations=5, preconditioner="stale_cholesky", precision="single")
+    world.solver_of(gradient)
     world.solver_of(Cholesky())
     assert made == {
         "ImplicitEuler": {"newton_iterations": 7, "newton_tolerance": 1e-9},
         "Static": {"newton_iterations": 10, "newton_tolerance": 1e-6, "load_steps": 3},
-        "ConjugateGradient": {"tolerance": 1e-6, "iterations": 5},
+        "ConjugateGradient": {
+            "tolerance": 1e-6,
+            "iterations": 5,
+            "preconditioner": "stale_cholesky",
+            "precision": "single",
+            "matrix": "assembled",
+        },
         "Cholesky": {},
     }

@@ -1,24 +1,13 @@
 #include "tissu/assembly/block_matrix.h"
 
 #include <algorithm>
-#include <atomic>
+#include <cmath>
+#include <limits>
 
 #include "kernels/product_list.h"
 
 namespace tissu {
 namespace {
-
-using MultiplyRows = void (*)(const std::int64_t*, const std::int32_t*, const double*, std::int32_t,
-                              std::int32_t, const double*, double*);
-
-MultiplyRows choose(Isa isa) {
-#ifdef TISSU_X86_KERNELS
-  if (isa == Isa::avx512) return &avx512::multiply_rows;
-  if (isa == Isa::avx2) return &avx2::multiply_rows;
-#endif
-  (void)isa;
-  return &baseline::multiply_rows;
-}
 
 void clear_masked(double* block, unsigned row_mask, unsigned column_mask) {
   for (unsigned c = 0; c < 3; ++c) {
@@ -28,16 +17,10 @@ void clear_masked(double* block, unsigned row_mask, unsigned column_mask) {
   }
 }
 
-/// Numbers that tell matrices apart, even one made where another was.
-std::uint64_t next_id() {
-  static std::atomic<std::uint64_t> last{0};
-  return ++last;
-}
-
 }  // namespace
 
 BlockMatrix::BlockMatrix(const Sparsity& sparsity, Isa isa, Threads threads)
-    : sparsity_(&sparsity), threads_(threads), id_(next_id()), multiply_rows_(choose(isa)) {
+    : sparsity_(&sparsity), isa_(isa), threads_(threads), multiply_rows_(multiply_rows_of<double>(isa)) {
   // One number more than needed: a register of four read at the last column of the last block stays inside.
   values_.assign(static_cast<std::size_t>(9 * sparsity.blocks() + 1), 0.0);
   diagonal_.reserve(static_cast<std::size_t>(sparsity.rows()));
@@ -52,8 +35,8 @@ void BlockMatrix::clear() {
               values_.begin() + std::min<std::int64_t>(size, std::int64_t{64} * end), 0.0);
   });
   extra_.clear();
-  given_ = nullptr;
-  ++version_;
+  set_given(nullptr);
+  count_change();
 }
 
 bool BlockMatrix::add_to_extra(std::int32_t row, std::int32_t column, const Mat3& block) {
@@ -67,7 +50,7 @@ bool BlockMatrix::add_to_extra(std::int32_t row, std::int32_t column, const Mat3
 }
 
 void BlockMatrix::add(std::int32_t row, std::int32_t column, const Mat3& block) {
-  ++version_;
+  count_change();
   const std::int32_t slot = sparsity_->slot(row, column);
   if (slot >= 0) {
     double* to = values_.data() + 9 * static_cast<std::ptrdiff_t>(slot);
@@ -81,7 +64,7 @@ void BlockMatrix::add(std::int32_t row, std::int32_t column, const Mat3& block) 
 }
 
 void BlockMatrix::add_diagonal(std::int32_t row, double value) {
-  ++version_;
+  count_change();
   double* to = values_.data() + 9 * diagonal_slot(row);
   to[0] += value;
   to[4] += value;
@@ -98,13 +81,27 @@ void BlockMatrix::multiply(ConstReals p, Reals out) const {
   }
 }
 
+void BlockMatrix::diagonal_blocks(Reals blocks) const {
+  for (std::int32_t i = 0; i < rows(); ++i) {
+    std::copy_n(values_.data() + 9 * diagonal_slot(i), 9, blocks.data() + 9 * static_cast<std::ptrdiff_t>(i));
+  }
+}
+
+double BlockMatrix::round_off(ConstReals x) const {
+  double sum = 0.0;
+  for (std::int32_t i = 0; i < rows(); ++i) {
+    sum += diagonal_block(i).diagonal().cwiseProduct(block(x, i)).squaredNorm();
+  }
+  return std::numeric_limits<double>::epsilon() * std::sqrt(sum);
+}
+
 Mat3 BlockMatrix::diagonal_block(std::int32_t row) const {
   return Eigen::Map<const Mat3>(values_.data() + 9 * diagonal_slot(row));
 }
 
 void BlockMatrix::constrain(const std::vector<std::int32_t>& rows, const std::vector<std::uint8_t>& masks) {
-  ++version_;
-  given_ = &masks;
+  count_change();
+  set_given(&masks);
   for (const std::int32_t r : rows) {
     const unsigned mask = masks[static_cast<std::size_t>(r)];
     for (auto s = sparsity_->row_begin[static_cast<std::size_t>(r)];

@@ -25,6 +25,7 @@ void Profile::clear() {
     row.calls = 0;
     row.seconds = 0.0;
   }
+  solves_ = {};
   step_seconds_.clear();
   steps_ = 0;
 }

@@ -93,6 +93,21 @@ std::int32_t Links::add(const LinkPoint& a, const LinkPoint& b, double stiffness
   return static_cast<std::int32_t>(links_.size()) - 1;
 }
 
+std::vector<std::pair<std::int32_t, std::int32_t>> Links::coupled() const {
+  std::vector<std::pair<std::int32_t, std::int32_t>> pairs;
+  for (const Link& link : links_) {
+    for (const LinkPoint& point : {link.a, link.b}) {
+      if (point.frame >= 0) pairs.emplace_back(point.block, point.block + 1);
+    }
+    for (std::int32_t i = 0; i < (link.a.frame < 0 ? 1 : 2); ++i) {
+      for (std::int32_t j = 0; j < (link.b.frame < 0 ? 1 : 2); ++j) {
+        pairs.emplace_back(link.a.block + i, link.b.block + j);
+      }
+    }
+  }
+  return pairs;
+}
+
 void Links::add_force(const State& state, Reals f) const {
   for (const Link& link : links_) {
     const Vec3 force = link.stiffness * (position(state, link.b) - position(state, link.a));

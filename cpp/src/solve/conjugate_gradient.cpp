@@ -1,131 +1,201 @@
 #include "tissu/solve/conjugate_gradient.h"
 
-#include <Eigen/LU>
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 
+#include "iteration.h"
 #include "tissu/base/error.h"
 
 namespace tissu {
 namespace {
 
-/// A residual this many times the right-hand side: the matrix is singular, and x runs off along its kernel.
-constexpr double kLost = 1e8;
+/// How far iterations in single precision lower a residual, and how many there are, before it is computed
+/// again in double.
+constexpr double kSingleDepth = 1e-2;
+constexpr int kSingleIterations = 100;
+/// A residual this many times what the iterations count themselves: single precision has lost its way.
+constexpr double kFaithful = 3.0;
+/// Iterations that single precision may take without halving the residual.
+const int kPatience = getenv("PAT")?atoi(getenv("PAT")):200;
 
-double dot(const Threads& threads, std::int32_t rows, ConstReals a, ConstReals b,
-           std::vector<double>& partial) {
-  return threads.sum(rows, partial, [&](std::int32_t begin, std::int32_t end) {
-    double sum = 0.0;
-    for (auto i = 3 * static_cast<std::size_t>(begin); i < 3 * static_cast<std::size_t>(end); ++i)
-      sum += a[i] * b[i];
-    return sum;
-  });
+std::string name_of(const ConjugateGradient::Settings& settings) {
+  std::string name = "conjugate gradient, ";
+  switch (settings.preconditioning) {
+    case Preconditioning::jacobi:
+      name += "Jacobi";
+      break;
+    case Preconditioning::block_jacobi:
+      name += "block-Jacobi";
+      break;
+    case Preconditioning::incomplete_cholesky:
+      name += "incomplete Cholesky";
+      break;
+    case Preconditioning::stale_cholesky:
+      name += "stale Cholesky";
+      break;
+  }
+  if (settings.precision == Precision::single) name += ", single precision";
+  if (settings.product == Product::free) name += ", matrix-free";
+  return name;
 }
 
 }  // namespace
 
-ConjugateGradient::ConjugateGradient(Settings settings) : settings_(settings) {
+ConjugateGradient::ConjugateGradient(Settings settings) : settings_(settings), name_(name_of(settings)) {
   if (!(settings.tolerance > 0.0) || settings.iterations < 1) {
     throw ParameterError("conjugate gradient needs a positive tolerance and at least one iteration.");
   }
+  const bool diagonal = settings.preconditioning == Preconditioning::jacobi ||
+                        settings.preconditioning == Preconditioning::block_jacobi;
+  if (settings.product == Product::free && (!diagonal || settings.precision == Precision::single)) {
+    throw ParameterError(
+        "conjugate gradient without a matrix works in double precision with a Jacobi or block-Jacobi "
+        "preconditioner; assemble the matrix for others.");
+  }
 }
 
-void ConjugateGradient::resize(std::size_t size) {
-  for (auto* v : {&r_, &z_, &p_, &q_}) v->resize(size);
-  inverse_.resize(3 * size);
-  partial_square_.resize(static_cast<std::size_t>(Threads::pieces(static_cast<std::int32_t>(size / 3))));
+ConjugateGradient::~ConjugateGradient() = default;
+
+template <>
+Iteration<double>& ConjugateGradient::iteration() {
+  if (!full_) full_ = std::make_unique<Iteration<double>>(settings_.preconditioning);
+  return *full_;
+}
+template <>
+Iteration<float>& ConjugateGradient::iteration() {
+  if (!single_) single_ = std::make_unique<Iteration<float>>(settings_.preconditioning);
+  return *single_;
 }
 
-void ConjugateGradient::invert_diagonal(const BlockMatrix& matrix) {
-  matrix.threads().for_pieces(matrix.rows(), [&](std::int32_t begin, std::int32_t end) {
-    for (std::int32_t i = begin; i < end; ++i) {
-      const Mat3 D = matrix.diagonal_block(i);
-      Eigen::Map<Mat3> inverse(inverse_.data() + 9 * static_cast<std::ptrdiff_t>(i));
-      // A block that is not positive definite would turn the preconditioner; its diagonal, made positive,
-      // will not.
-      const bool definite =
-          D(0, 0) > 0.0 && D.topLeftCorner<2, 2>().determinant() > 0.0 && D.determinant() > 0.0;
-      if (definite) {
-        inverse = D.inverse();
-      } else {
-        const Vec3 d = D.diagonal().cwiseAbs();
-        inverse = Mat3((d.array() > 0.0).select(d.cwiseInverse(), Vec3::Zero()).asDiagonal());
-      }
-    }
-  });
+double ConjugateGradient::residual(const LinearOperator& A, ConstReals b, ConstReals x) {
+  r_.resize(b.size());
+  const bool zero = std::ranges::all_of(x, [](double value) { return value == 0.0; });
+  if (zero) {
+    std::ranges::copy(b, r_.begin());
+  } else {
+    A.multiply(x, r_);
+    for (std::size_t i = 0; i < r_.size(); ++i) r_[i] = b[i] - r_[i];
+  }
+  return std::sqrt(dot<double>(A.threads(), r_, r_, partial_));
 }
 
-double ConjugateGradient::precondition(const Threads& threads, double& square) {
-  const auto rows = static_cast<std::int32_t>(r_.size() / 3);
-  const double rz = threads.sum(rows, partial_, [&](std::int32_t begin, std::int32_t end) {
-    double sum = 0.0;
-    double squares = 0.0;
-    for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
-      const double* m = inverse_.data() + 9 * i;
-      const double* r = r_.data() + 3 * i;
-      double* z = z_.data() + 3 * i;
-      for (int k = 0; k < 3; ++k) z[k] = m[k] * r[0] + m[3 + k] * r[1] + m[6 + k] * r[2];
-      sum += r[0] * z[0] + r[1] * z[1] + r[2] * z[2];
-      squares += r[0] * r[0] + r[1] * r[1] + r[2] * r[2];
-    }
-    partial_square_[static_cast<std::size_t>(begin / Threads::kPiece)] = squares;
-    return sum;
-  });
-  square = 0.0;
-  for (const double s : partial_square_) square += s;
-  return rz;
+template <class T>
+void ConjugateGradient::prepare(const LinearOperator& A, bool forced, SolveReport& report) {
+  const auto begin = std::chrono::steady_clock::now();
+  if (!iteration<T>().prepare(A, forced)) return;
+  ++report.preparations;
+  report.preparation_seconds +=
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
-SolveReport ConjugateGradient::solve(const BlockMatrix& matrix, ConstReals b, Reals x, double floor) {
-  resize(b.size());
-  invert_diagonal(matrix);
-  const Threads& threads = matrix.threads();
-  const std::int32_t rows = matrix.rows();
+End ConjugateGradient::full_round(const LinearOperator& A, Reals x, double target, SolveReport& report) {
+  Iteration<double>& iteration = this->iteration<double>();
+  change_.resize(r_.size());
+  const End end = iteration.run(A, r_, change_, target, settings_.iterations - report.iterations);
+  report.iterations += iteration.iterations();
+  for (std::size_t i = 0; i < x.size(); ++i) x[i] += change_[i];
+  return end;
+}
+
+/// The same with the residual divided by its length, so that no number leaves the range of single precision.
+End ConjugateGradient::single_round(const LinearOperator& A, Reals x, double length, double target,
+                                    SolveReport& report) {
+  Iteration<float>& iteration = this->iteration<float>();
+  single_r_.resize(r_.size());
+  single_change_.resize(r_.size());
+  for (std::size_t i = 0; i < r_.size(); ++i) single_r_[i] = static_cast<float>(r_[i] / length);
+  const double depth = std::max(0.5 * target / length, kSingleDepth);
+  const int most = std::min(kSingleIterations, settings_.iterations - report.iterations);
+  const End end = iteration.run(A, single_r_, single_change_, depth, most);
+  report.iterations += iteration.iterations();
+  if (end == End::lost) return end;
+  const double scale = length * iteration.scale();
+  for (std::size_t i = 0; i < x.size(); ++i) x[i] += scale * static_cast<double>(single_change_[i]);
+  return end;
+}
+
+SolveReport ConjugateGradient::solve(const LinearOperator& A, ConstReals b, Reals x, double floor) {
+  if (needs_matrix() && A.matrix() == nullptr) {
+    throw ParameterError("this conjugate gradient needs an assembled matrix.");
+  }
   SolveReport report;
-  const double reference = std::max(std::sqrt(dot(threads, rows, b, b, partial_)), floor);
+  const double reference = std::max(std::sqrt(dot<double>(A.threads(), b, b, partial_)), floor);
   if (reference == 0.0) {
     std::ranges::fill(x, 0.0);
     report.converged = true;
     return report;
   }
-
-  matrix.multiply(x, r_);
-  for (std::size_t i = 0; i < r_.size(); ++i) r_[i] = b[i] - r_[i];
-  double square = 0.0;
-  double rz = precondition(threads, square);
-  std::ranges::copy(z_, p_.begin());
-  while (true) {
-    report.residual = std::sqrt(square) / reference;
-    report.converged = report.residual <= settings_.tolerance;
-    if (report.converged || report.iterations == settings_.iterations) break;
-    if (!(report.residual < kLost)) {
-      report.positive_definite = false;
-      break;
-    }
-    matrix.multiply(p_, q_);
-    const double curvature = dot(threads, rows, p_, q_, partial_);
-    if (!(curvature > 0.0)) {
-      report.positive_definite = false;
-      break;
-    }
-    const double alpha = rz / curvature;
-    threads.for_pieces(rows, [&](std::int32_t begin, std::int32_t end) {
-      for (auto i = 3 * static_cast<std::size_t>(begin); i < 3 * static_cast<std::size_t>(end); ++i) {
-        x[i] += alpha * p_[i];
-        r_[i] -= alpha * q_[i];
-      }
-    });
-    const double next = precondition(threads, square);
-    const double beta = next / rz;
-    rz = next;
-    threads.for_pieces(rows, [&](std::int32_t begin, std::int32_t end) {
-      for (auto i = 3 * static_cast<std::size_t>(begin); i < 3 * static_cast<std::size_t>(end); ++i) {
-        p_[i] = z_[i] + beta * p_[i];
-      }
-    });
-    ++report.iterations;
-  }
+  if (full_) full_->begin_solve();
+  if (single_) single_->begin_solve();
+  rounds(A, b, x, reference, report);
+  if (full_) full_->end_solve();
+  if (single_) single_->end_solve();
   return report;
+}
+
+void ConjugateGradient::rounds(const LinearOperator& A, ConstReals b, Reals x, double reference,
+                               SolveReport& report) {
+  bool single = settings_.precision == Precision::single;
+  bool renew = false;
+  double size = residual(A, b, x);
+  double best = size;  // of single precision, and the iterations at which it was found
+  int lowered = 0;
+  for (int round = 0;; ++round) {
+    report.residual = size / reference;
+    report.converged = report.residual <= settings_.tolerance;
+    if (!report.converged && round > 0) {
+      report.converged = report.residual <= attainable(A, x, reference, settings_.tolerance);
+    }
+    if (report.converged || report.iterations >= settings_.iterations) return;
+    const double before = size;
+    const double target = settings_.tolerance * reference;
+    End end{};
+    if (single) {
+      prepare<float>(A, renew, report);
+      end = single_round(A, x, size, target, report);
+    } else {
+      prepare<double>(A, renew, report);
+      end = full_round(A, x, target, report);
+    }
+    size = residual(A, b, x);
+    renew = end == End::renewal;
+    if (renew) continue;
+    if (single) {
+      if (size < 0.5 * best) {
+        best = size;
+        lowered = report.iterations;
+      }
+      const bool ended = end == End::reached || end == End::exhausted;
+      const bool falls = report.iterations - lowered < kPatience + lowered / 4 && 2 * report.iterations < settings_.iterations;
+      if (ended && falls && size < kFaithful * before * single_->residual()) {
+        single_->go_on(size / before);
+      } else {
+        single = false;
+      }
+      continue;
+    }
+    if (end == End::reached && size < 0.5 * before) {
+      full_->go_on(1.0);
+      continue;
+    }
+    report.residual = size / reference;
+    report.positive_definite = end == End::reached || end == End::exhausted;
+    report.converged = report.positive_definite &&
+                       report.residual <= attainable(A, x, reference, settings_.tolerance);
+    return;
+  }
+}
+
+void ConjugateGradient::forget() {
+  if (full_) full_->forget();
+  if (single_) single_->forget();
+}
+
+std::size_t ConjugateGradient::bytes() const {
+  const std::size_t vectors = (r_.size() + change_.size()) * sizeof(double) +
+                              (single_r_.size() + single_change_.size()) * sizeof(float);
+  return vectors + (full_ ? full_->bytes() : 0) + (single_ ? single_->bytes() : 0);
 }
 
 }  // namespace tissu

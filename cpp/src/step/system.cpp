@@ -1,8 +1,7 @@
 #include "tissu/step/system.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
+#include <chrono>
 
 #include "tissu/base/error.h"
 
@@ -12,9 +11,7 @@ System::System(const World& world, LinearSolver* solver, Profile& profile)
     : world_(world),
       solver_(solver),
       profile_(profile),
-      matrix_(world.sparsity(), world.isa(), world.threads()),
-      mass_row_(profile.row("inertia", "matrix")),
-      solve_row_(profile.row("linear solver", "solve")) {
+      mass_row_(profile.row("inertia", "matrix")) {
   for (const auto& model : world.forces()) {
     Rows rows{};
     rows.force = profile.row(model->effect(), "force");
@@ -24,6 +21,14 @@ System::System(const World& world, LinearSolver* solver, Profile& profile)
     }
     rows_.push_back(rows);
   }
+  if (solver == nullptr) return;
+  preparation_row_ = profile.row("linear solver", solver->preparation());
+  solve_row_ = profile.row("linear solver", "solve");
+}
+
+const LinearOperator& System::A() const {
+  if (free_) return *free_;
+  return *matrix_;
 }
 
 void System::force(const State& state, Reals f) {
@@ -56,38 +61,49 @@ void System::assemble(const State& state, double mass, StiffnessScale scale) {
   const bool same = assembled_ && mass_scale_ == mass && scale_.position == scale.position &&
                     scale_.velocity == scale.velocity && scale_.definite == scale.definite;
   if (same && world_.is_linear()) return;
-  {
-    const Timed timed(profile_, mass_row_);
-    matrix_.clear();
-    if (mass != 0.0) world_.mass().add_to(matrix_, state, mass);
+  if (solver_ != nullptr && !solver_->needs_matrix()) {
+    if (!free_) free_.emplace(world_);
+    free_->set(state, mass, scale);
+  } else {
+    assemble_blocks(state, mass, scale);
   }
-  for (std::size_t i = 0; i < rows_.size(); ++i) {
-    const ForceModel& model = *world_.forces()[i];
-    if (!model.has_stiffness()) continue;
-    const Timed timed(profile_, rows_[i].stiffness);
-    model.add_stiffness(state, scale, matrix_);
-  }
-  matrix_.constrain(world_.fixed().rows(), world_.fixed().masks());
   assembled_ = true;
   mass_scale_ = mass;
   scale_ = scale;
 }
 
-double System::round_off(const State& state) const {
-  double sum = 0.0;
-  for (std::int32_t i = 0; i < matrix_.rows(); ++i) {
-    sum += matrix_.diagonal_block(i)
-               .diagonal()
-               .cwiseProduct(block(ConstReals(state.positions), i))
-               .squaredNorm();
+void System::assemble_blocks(const State& state, double mass, StiffnessScale scale) {
+  if (!matrix_) matrix_.emplace(world_.sparsity(), world_.isa(), world_.threads());
+  {
+    const Timed timed(profile_, mass_row_);
+    matrix_->clear();
+    if (mass != 0.0) world_.mass().add_to(*matrix_, state, mass);
   }
-  return std::numeric_limits<double>::epsilon() * std::sqrt(sum);
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    const ForceModel& model = *world_.forces()[i];
+    if (!model.has_stiffness()) continue;
+    const Timed timed(profile_, rows_[i].stiffness);
+    model.add_stiffness(state, scale, *matrix_);
+  }
+  matrix_->constrain(world_.fixed().rows(), world_.fixed().masks());
 }
+
+double System::round_off(const State& state) const { return A().round_off(state.positions); }
 
 SolveReport System::solve(ConstReals b, Reals x, double floor) {
   if (solver_ == nullptr) throw ParameterError("this method solves systems: give it a linear solver.");
-  const Timed timed(profile_, solve_row_);
-  return solver_->solve(matrix_, b, x, floor);
+  const auto start = std::chrono::steady_clock::now();
+  const SolveReport report = solver_->solve(A(), b, x, floor);
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  profile_.add(preparation_row_, report.preparation_seconds, report.preparations);
+  profile_.add(solve_row_, seconds - report.preparation_seconds);
+  Profile::Solves& solves = profile_.solves();
+  solves.solves += 1;
+  solves.iterations += report.iterations;
+  solves.preparations += report.preparations;
+  solves.failures += report.converged ? 0 : 1;
+  solves.residual = std::max(solves.residual, report.residual);
+  return report;
 }
 
 }  // namespace tissu

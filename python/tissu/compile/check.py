@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from tissu.compile.prepare import prepare
+from tissu.compile.solver import choice_of
 from tissu.effects import Effect, absent_of, effects_of
 
 if TYPE_CHECKING:
@@ -63,9 +64,14 @@ def problems_of(scene: Scene) -> list[str]:
 def check_of(prepared: Prepared) -> Check:
     """The same as check_scene for a scene that is resolved already."""
     scene = prepared.scene
+    problems = _sentences(prepared)
+    choice = None if problems else choice_of(prepared)
     return Check(
-        problems=_sentences(prepared),
-        notes=list(prepared.findings.notes),
+        problems=problems,
+        notes=[
+            *prepared.findings.notes,
+            *([] if choice is None else [f"step.solver: auto is {choice.why}"]),
+        ],
         effects=effects_of(scene, prepared.counts()),
         absent=absent_of(scene),
     )

@@ -18,7 +18,6 @@ from tissu.scene.step import (
 )
 
 if TYPE_CHECKING:
-    from tissu.scene.solver import Solver
     from tissu.scene.step import Implicit, Step
 
 
@@ -61,8 +60,3 @@ def _implicit(step: Implicit) -> Any:
         BDF2: _core.Bdf2,
     }
     return classes[type(step)](**newton)
-
-
-def solver_in(step: Step) -> Solver | None:
-    """The step's linear solver; None for methods that solve no system."""
-    return getattr(step, "solver", None)

@@ -13,9 +13,9 @@ from tissu.compile.check import check_of
 from tissu.compile.model import kept_nodes, use_of
 from tissu.compile.prepare import prepare
 from tissu.compile.prepared import Held, LoadedNodes, Prepared
-from tissu.compile.solver import solver_of
+from tissu.compile.solver import chosen_solver, solver_of
 from tissu.compile.start import begin
-from tissu.compile.step import integrator_of, solver_in
+from tissu.compile.step import integrator_of
 from tissu.compile.thin import cross_section_of
 from tissu.effects import load_name
 from tissu.errors import SceneError
@@ -47,7 +47,7 @@ def compile_scene(scene: Scene, checkpoint: Path | None = None) -> Simulation:
         raise SceneError(check.problems)
     from tissu.simulation import Simulation
 
-    solver = solver_in(scene.step)
+    solver = chosen_solver(prepared)
     simulation = Simulation(
         scene=scene,
         world=build_world(prepared),

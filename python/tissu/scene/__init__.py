@@ -25,7 +25,7 @@ from tissu.scene.model import (
 )
 from tissu.scene.scene import Output, Scene
 from tissu.scene.selection import Box, Nodes, Plane, Region, Sphere, SurfaceNodes
-from tissu.scene.solver import Cholesky, ConjugateGradient
+from tissu.scene.solver import Auto, Cholesky, ConjugateGradient
 from tissu.scene.start import Start
 from tissu.scene.step import (
     BDF2,
@@ -49,6 +49,7 @@ __all__ = [
     "RK2",
     "RK4",
     "ArrudaBoyce",
+    "Auto",
     "BDF2FixedPoint",
     "BarMesh",
     "Body",

@@ -2,36 +2,84 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated, Literal
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
-from pydantic import Field
+from pydantic import BeforeValidator, Field
 
 from tissu import units
 from tissu.scene.part import Part, one_of
+from tissu.scene.problem import Problem
+from tissu.scene.unknown import rule
 
 _Tolerance = Annotated[units.Pure, Field(gt=0.0, lt=1.0)]
 _Count = Annotated[int, Field(ge=1)]
+Preconditioner = Literal["jacobi", "block_jacobi", "incomplete_cholesky", "stale_cholesky"]
+Precision = Literal["double", "single"]
+Matrix = Literal["assembled", "free"]
+
+
+class Auto(Part):
+    """The solver chosen by size, kind of step and editing; `plan()` says which, and why."""
+
+    type: Literal["auto"] = "auto"
+    tolerance: _Tolerance = 1e-6
+    """residual relative to the right-hand side at which iterations stop"""
+
+    if TYPE_CHECKING:
+
+        def __init__(self, *, tolerance: units.Number = ...) -> None: ...
 
 
 class ConjugateGradient(Part):
-    """Conjugate gradient with block-Jacobi preconditioner."""
+    """Preconditioned conjugate gradient."""
 
     type: Literal["conjugate_gradient"] = "conjugate_gradient"
     tolerance: _Tolerance = 1e-6
     """residual relative to the right-hand side at which it stops"""
     iterations: _Count = 1000
     """largest number of iterations in a solve"""
+    preconditioner: Preconditioner = "block_jacobi"
+    """the diagonal, its 3x3 blocks, a factor without fill, or the factor of an earlier matrix"""
+    precision: Precision = "double"
+    """of the iterations; residuals are double and correct single ones to the tolerance"""
+    matrix: Matrix = "assembled"
+    """free: the products of the forces themselves, no matrix; with jacobi and block_jacobi"""
+
+    @rule("matrix")
+    def _free_is_simple(self) -> Iterator[Problem]:
+        if self.matrix != "free":
+            return
+        if self.preconditioner not in ("jacobi", "block_jacobi"):
+            text = f"found {self.preconditioner} with matrix free; it is made of a matrix: "
+            yield Problem(("preconditioner",), text + "jacobi and block_jacobi are accepted")
+        if self.precision == "single":
+            text = "found single with matrix free; the products of forces are double: "
+            yield Problem(("precision",), text + "double is accepted")
 
     if TYPE_CHECKING:
 
-        def __init__(self, *, tolerance: units.Number = ..., iterations: int = ...) -> None: ...
+        def __init__(
+            self,
+            *,
+            tolerance: units.Number = ...,
+            iterations: int = ...,
+            preconditioner: Preconditioner = ...,
+            precision: Precision = ...,
+            matrix: Matrix = ...,
+        ) -> None: ...
 
 
 class Cholesky(Part):
-    """Sparse Cholesky factorisation (CHOLMOD)."""
+    """Sparse Cholesky factorisation (CHOLMOD), its symbolic part kept while the mesh is."""
 
     type: Literal["cholesky"] = "cholesky"
 
 
-Solver = ConjugateGradient | Cholesky
-OneSolver = Annotated[Solver, one_of(ConjugateGradient, Cholesky)]
+def _by_type(value: Any) -> Any:
+    """A solver with its own settings may be named alone: `solver: auto`."""
+    return {"type": value} if isinstance(value, str) else value
+
+
+Solver = ConjugateGradient | Cholesky | Auto
+OneSolver = Annotated[Solver, one_of(ConjugateGradient, Cholesky, Auto), BeforeValidator(_by_type)]

@@ -10,6 +10,8 @@ import numpy as np
 if TYPE_CHECKING:
     from tissu import _core
 
+from tissu.counted import counted
+
 
 @dataclass(frozen=True, slots=True)
 class ProfileRow:
@@ -17,7 +19,7 @@ class ProfileRow:
 
     Attributes:
         effect: elasticity, gravity, linear solver, …
-        stage: force, product, matrix or solve.
+        stage: force, product, matrix, preconditioner, factor or solve.
         calls: over all steps.
         ms_per_step: wall time [ms].
         share: of the wall time of all steps, 0 to 1.
@@ -31,6 +33,34 @@ class ProfileRow:
 
 
 @dataclass(frozen=True, slots=True)
+class Solves:
+    """What the linear solver did in all steps.
+
+    Attributes:
+        solves: linear systems.
+        iterations: of all of them; a direct solve counts one.
+        preparations: preconditioners or factors made.
+        failures: systems that were not solved to the tolerance.
+        residual: the largest |b - A x| / |b|.
+    """
+
+    solves: int
+    iterations: int
+    preparations: int
+    failures: int
+    residual: float
+
+    def __str__(self) -> str:
+        """One line."""
+        failed = f", {self.failures} not to the tolerance" if self.failures else ""
+        return (
+            f"linear solver: {counted(self.solves, 'system')}{failed}, "
+            f"{self.iterations / max(self.solves, 1):.3g} iterations each, "
+            f"{self.preparations} prepared, largest residual {self.residual:.2g}"
+        )
+
+
+@dataclass(frozen=True, slots=True)
 class Profile:
     """Times of a simulation.
 
@@ -41,6 +71,7 @@ class Profile:
         p95_ms: 95 % of them were shorter.
         max_ms: the longest of them.
         real_time_factor: simulated time for wall time; above 1 is faster than life.
+        solves: what the linear solver did.
     """
 
     rows: tuple[ProfileRow, ...]
@@ -49,6 +80,7 @@ class Profile:
     p95_ms: float
     max_ms: float
     real_time_factor: float
+    solves: Solves
 
     def __str__(self) -> str:
         """A table: effect, calls, milliseconds a step, share."""
@@ -60,6 +92,8 @@ class Profile:
         for name, row in zip(names, self.rows, strict=True):
             values = f"{row.calls:>7}  {row.ms_per_step:>9.4f}  {100 * row.share:>5.1f}%"
             lines.append(f"{name:<{width}}  {values}")
+        if self.solves.solves:
+            lines.append(str(self.solves))
         lines.append(
             f"step: p50 {self.p50_ms:.3f} ms, p95 {self.p95_ms:.3f} ms, max {self.max_ms:.3f} ms; "
             f"{self.real_time_factor:.3g} times real time"
@@ -85,4 +119,5 @@ def profile_of(core: _core.Simulation, simulated: float) -> Profile:
         p95_ms=1e3 * float(p95),
         max_ms=1e3 * float(seconds.max()) if steps else 0.0,
         real_time_factor=simulated / total if total else 0.0,
+        solves=Solves(*core.profile_solves()),
     )

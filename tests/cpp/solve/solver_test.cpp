@@ -1,30 +1,22 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
-#include <functional>
 #include <memory>
 #include <optional>
-#include <ostream>
 
 #include "../assembly/dense.h"
 #include "../base/differences.h"
 #include "../world/sample_worlds.h"
+#include "solver_cases.h"
 
-/// Both solvers against a dense factor, on the same systems.
+/// Every solver against a dense factor, on the same systems.
 namespace tissu {
 namespace {
 
 using test::dense;
 using test::view;
 
-struct SolverCase {
-  const char* name;
-  std::function<std::unique_ptr<LinearSolver>()> make;
-};
-
-void PrintTo(const SolverCase& c, std::ostream* out) { *out << c.name; }
-
-class SolverTest : public testing::TestWithParam<SolverCase> {
+class SolverTest : public testing::TestWithParam<test::SolverCase> {
  protected:
   static Sparsity grid_pattern(std::array<int, 3> cells) {
     const Mesh mesh = box_mesh(Vec3::Zero(), Vec3::Ones(), cells, Split::six);
@@ -81,7 +73,7 @@ class SolverTest : public testing::TestWithParam<SolverCase> {
   test::Random random_{71};
   Sparsity pattern_ = grid_pattern({4, 3, 3});
   BlockMatrix matrix_{pattern_, Isa::baseline, Threads(1)};
-  std::unique_ptr<LinearSolver> solver_ = GetParam().make();
+  std::unique_ptr<LinearSolver> solver_ = GetParam().make(1e-13);
 };
 
 TEST_P(SolverTest, AgreesWithADenseFactor) {
@@ -219,10 +211,7 @@ TEST_P(SolverTest, KeepsConstrainedValuesExactly) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Both, SolverTest,
-                         testing::Values(SolverCase{"cholesky", [] { return std::make_unique<Cholesky>(); }},
-                                         SolverCase{"conjugate_gradient",
-                                                    [] { return test::conjugate_gradient(); }}),
+INSTANTIATE_TEST_SUITE_P(All, SolverTest, testing::ValuesIn(test::solver_cases()),
                          [](const auto& info) { return info.param.name; });
 
 TEST(ConjugateGradient, StopsAtItsIterations) {
@@ -246,6 +235,14 @@ TEST(ConjugateGradient, StopsAtItsIterations) {
 }
 
 TEST(ConjugateGradient, RefusesSettingsWithoutSense) {
+  using Settings = ConjugateGradient::Settings;
+  const auto free = [](Preconditioning preconditioning, Precision precision) {
+    return Settings{1e-6, 10, preconditioning, precision, Product::free};
+  };
+  EXPECT_NO_THROW(ConjugateGradient(free(Preconditioning::jacobi, Precision::full)));
+  EXPECT_THROW(ConjugateGradient(free(Preconditioning::incomplete_cholesky, Precision::full)), ParameterError);
+  EXPECT_THROW(ConjugateGradient(free(Preconditioning::stale_cholesky, Precision::full)), ParameterError);
+  EXPECT_THROW(ConjugateGradient(free(Preconditioning::jacobi, Precision::single)), ParameterError);
   EXPECT_THROW(ConjugateGradient({0.0, 10}), ParameterError);
   EXPECT_THROW(ConjugateGradient({-1.0, 10}), ParameterError);
   EXPECT_THROW(ConjugateGradient({1e-6, 0}), ParameterError);

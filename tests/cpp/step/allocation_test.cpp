@@ -56,7 +56,13 @@ struct AllocationCase {
   int newton;
   int threads;
   bool viscous = false;  ///< every viscosity there is
+  ConjugateGradient::Settings solver = {};
 };
+
+constexpr ConjugateGradient::Settings with(Preconditioning kind, Precision precision = Precision::full,
+                                           Product product = Product::assembled) {
+  return {1e-6, 5000, kind, precision, product};
+}
 
 void PrintTo(const AllocationCase& c, std::ostream* out) { *out << c.name; }
 
@@ -81,7 +87,8 @@ class Allocation : public testing::TestWithParam<AllocationCase> {
 TEST_P(Allocation, ASteadyStepTakesNone) {
 #ifdef TISSU_COUNTS_ALLOCATIONS
   Simulation simulation =
-      test::simulate(world(), test::implicit_euler(GetParam().newton, 1e-6), test::conjugate_gradient(1e-6));
+      test::simulate(world(), test::implicit_euler(GetParam().newton, 1e-6),
+                     std::make_unique<ConjugateGradient>(GetParam().solver));
   simulation.step(0.01);
   simulation.step(0.01);
   allocations = 0;
@@ -108,7 +115,15 @@ INSTANTIATE_TEST_SUITE_P(
                     AllocationCase{"stvk_tetra_newton", "stvk", Split::six, 4, 1},
                     AllocationCase{"hooke_hexahedron_once", "hooke", Split::none, 1, 1},
                     AllocationCase{"stvk_hexahedron_two_threads", "stvk", Split::none, 1, 2},
-                    AllocationCase{"stvk_tetra_viscous", "stvk", Split::six, 4, 2, true}),
+                    AllocationCase{"stvk_tetra_viscous", "stvk", Split::six, 4, 2, true},
+                    AllocationCase{"incomplete_cholesky", "stvk", Split::six, 1, 2, false,
+                                   with(Preconditioning::incomplete_cholesky)},
+                    AllocationCase{"stale_cholesky_kept", "hooke", Split::six, 1, 1, false,
+                                   with(Preconditioning::stale_cholesky)},
+                    AllocationCase{"single_precision", "stvk", Split::six, 1, 1, false,
+                                   with(Preconditioning::incomplete_cholesky, Precision::single)},
+                    AllocationCase{"matrix_free", "stvk", Split::six, 1, 1, false,
+                                   with(Preconditioning::block_jacobi, Precision::full, Product::free)}),
     testing::PrintToStringParamName());
 
 // Squeezed flat, so that every cell is projected: by the axes of F, by eigenvalues, at once, in any model.

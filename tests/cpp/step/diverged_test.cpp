@@ -132,10 +132,13 @@ TEST_P(DivergedTest, InStatics) {
 class GivesUp final : public LinearSolver {
  public:
   [[nodiscard]] std::string_view name() const override { return "gives up"; }
-  SolveReport solve(const BlockMatrix& matrix, ConstReals b, Reals x, double floor) override {
+  [[nodiscard]] std::string_view preparation() const override { return direct_.preparation(); }
+  SolveReport solve(const LinearOperator& A, ConstReals b, Reals x, double floor) override {
     if (++calls_ > 1) throw Error("it is out of memory.");
-    return direct_.solve(matrix, b, x, floor);
+    return direct_.solve(A, b, x, floor);
   }
+  void forget() override { direct_.forget(); }
+  [[nodiscard]] std::size_t bytes() const override { return direct_.bytes(); }
 
  private:
   int calls_ = 0;

@@ -7,11 +7,10 @@
 #include <cstdint>
 #include <vector>
 
+#include "tissu/assembly/linear_operator.h"
 #include "tissu/assembly/sparsity.h"
 #include "tissu/base/array.h"
 #include "tissu/base/isa.h"
-#include "tissu/base/parallel.h"
-#include "tissu/base/vec.h"
 
 namespace tissu {
 
@@ -22,15 +21,15 @@ struct ExtraBlock {
   std::array<double, 9> values;  ///< column by column
 };
 
-class BlockMatrix {
+class BlockMatrix final : public LinearOperator {
  public:
   BlockMatrix(const Sparsity& sparsity, Isa isa, Threads threads);
 
   [[nodiscard]] const Sparsity& sparsity() const { return *sparsity_; }
-  [[nodiscard]] std::int32_t rows() const { return sparsity_->rows(); }
+  [[nodiscard]] std::int32_t rows() const override { return sparsity_->rows(); }
   /// [slot][9], column by column; asking for them to write counts as a change.
   [[nodiscard]] double* values() {
-    ++version_;
+    count_change();
     return values_.data();
   }
   [[nodiscard]] const double* values() const { return values_.data(); }
@@ -38,15 +37,6 @@ class BlockMatrix {
   [[nodiscard]] std::int64_t diagonal_slot(std::int32_t row) const {
     return diagonal_[static_cast<std::size_t>(row)];
   }
-  /// No two matrices have the same, and one keeps its own as long as it lives: so does its pattern.
-  [[nodiscard]] std::uint64_t id() const { return id_; }
-  /// Grows with every change of the values.
-  [[nodiscard]] std::uint64_t version() const { return version_; }
-  /// The axis of this row was made that of the identity by `constrain`.
-  [[nodiscard]] bool is_given(std::int32_t row, int axis) const {
-    return given_ != nullptr && (((*given_)[static_cast<std::size_t>(row)] >> axis) & 1) != 0;
-  }
-
   /// All values zero, extra blocks gone, a new version.
   void clear();
   /// Adds a block anywhere; one that is not in the pattern becomes an extra block.
@@ -54,25 +44,28 @@ class BlockMatrix {
   /// Adds to the diagonal of one diagonal block.
   void add_diagonal(std::int32_t row, double value);
   /// out = A p
-  void multiply(ConstReals p, Reals out) const;
+  void multiply(ConstReals p, Reals out) const override;
+  void diagonal_blocks(Reals blocks) const override;
+  [[nodiscard]] double diagonal_cost() const override { return 0.0; }
+  [[nodiscard]] double round_off(ConstReals x) const override;
+  [[nodiscard]] const BlockMatrix* matrix() const override { return this; }
   [[nodiscard]] Mat3 diagonal_block(std::int32_t row) const;
   /// Makes rows and columns of the degrees of freedom in `masks` (bits x=1 y=2 z=4 for each row) those of the
   /// identity; `rows` are the rows with a mask. Both must outlive the next `clear`.
   void constrain(const std::vector<std::int32_t>& rows, const std::vector<std::uint8_t>& masks);
 
-  [[nodiscard]] const Threads& threads() const { return threads_; }
-  [[nodiscard]] std::size_t bytes() const;
+  [[nodiscard]] const Threads& threads() const override { return threads_; }
+  [[nodiscard]] Isa isa() const { return isa_; }
+  [[nodiscard]] std::size_t bytes() const override;
 
  private:
   [[nodiscard]] bool add_to_extra(std::int32_t row, std::int32_t column, const Mat3& block);
   const Sparsity* sparsity_;
+  Isa isa_;
   Threads threads_;
   AlignedVector<double> values_;
   std::vector<std::int64_t> diagonal_;
   std::vector<ExtraBlock> extra_;
-  std::uint64_t id_;
-  std::uint64_t version_ = 0;
-  const std::vector<std::uint8_t>* given_ = nullptr;
   void (*multiply_rows_)(const std::int64_t* row_begin, const std::int32_t* column, const double* values,
                          std::int32_t begin, std::int32_t end, const double* p, double* out);
 };

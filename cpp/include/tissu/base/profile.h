@@ -20,10 +20,19 @@ class Profile {
     double seconds = 0.0;
   };
 
+  /// What the linear solver did.
+  struct Solves {
+    std::int64_t solves = 0;
+    std::int64_t iterations = 0;
+    std::int64_t preparations = 0;  ///< preconditioners or factors made
+    std::int64_t failures = 0;      ///< solves that did not converge
+    double residual = 0.0;          ///< the largest, relative to the right-hand side
+  };
+
   /// The number of the row of an effect's stage; made when it is not there yet.
   std::size_t row(std::string_view effect, std::string_view stage);
-  void add(std::size_t row, double seconds) {
-    rows_[row].calls += 1;
+  void add(std::size_t row, double seconds, std::int64_t calls = 1) {
+    rows_[row].calls += calls;
     rows_[row].seconds += seconds;
   }
   void add_step(double seconds);
@@ -31,6 +40,8 @@ class Profile {
 
   [[nodiscard]] const std::vector<Row>& rows() const { return rows_; }
   [[nodiscard]] std::int64_t steps() const { return steps_; }
+  [[nodiscard]] const Solves& solves() const { return solves_; }
+  [[nodiscard]] Solves& solves() { return solves_; }
   /// Durations of the latest steps [s], at most kKept, in no order.
   [[nodiscard]] const std::vector<double>& step_seconds() const { return step_seconds_; }
 
@@ -38,6 +49,7 @@ class Profile {
 
  private:
   std::vector<Row> rows_;
+  Solves solves_;
   std::vector<double> step_seconds_;
   std::int64_t steps_ = 0;
 };

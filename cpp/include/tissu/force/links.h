@@ -1,5 +1,6 @@
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "tissu/force/force_model.h"
@@ -30,6 +31,8 @@ class Links final : public ForceModel {
   [[nodiscard]] std::vector<double> numbers() const;
   /// The links that `numbers` told.
   void restore(ConstReals numbers);
+  /// The pairs of rows that they couple now.
+  [[nodiscard]] std::vector<std::pair<std::int32_t, std::int32_t>> coupled() const;
 
   [[nodiscard]] std::string_view effect() const override { return "links"; }
   [[nodiscard]] ForceKind kind() const override { return ForceKind::elastic; }

@@ -1,38 +1,78 @@
 #pragma once
 
+#include <memory>
+#include <string>
 #include <vector>
 
 #include "tissu/solve/linear_solver.h"
 
 namespace tissu {
 
-/// Conjugate gradient, preconditioned with the inverses of the diagonal 3x3 blocks (block-Jacobi). Stops at
-/// |b - A x| <= tolerance |b|, and at the first direction p with p . A p <= 0: such a matrix is not positive
-/// definite, and the report says so.
+enum class Preconditioning {
+  jacobi,               ///< the inverse of the diagonal
+  block_jacobi,         ///< the inverses of the diagonal 3x3 blocks
+  incomplete_cholesky,  ///< of 3x3 blocks, in the pattern of the matrix
+  stale_cholesky,       ///< the factor of an earlier matrix
+};
+
+/// How the iterations compute; residuals are always double.
+enum class Precision { full, single };
+
+/// What the iterations multiply with: an assembled matrix, or the forces' own products.
+enum class Product { assembled, free };
+
+template <class T>
+class Iteration;
+enum class End;
+
+/// Preconditioned conjugate gradient in rounds: r = b - A x from x itself, then iterations that lower r until
+/// their own count of it is at the tolerance. It converged when the next true residual says so.
+///
+/// It stops at the first direction p with p . A p <= 0 or residual with r . M^-1 r <= 0: such a matrix is not
+/// positive definite, and the report says so. In single precision, where that or a residual that does not
+/// fall may be round-off, the solve goes on in double.
+///
+/// A preconditioner is made again when that pays: when the iterations spent beyond those of its first solve
+/// cost as much as making it (renewal.h).
 class ConjugateGradient final : public LinearSolver {
  public:
   struct Settings {
     double tolerance = 1e-6;
     int iterations = 1000;
+    Preconditioning preconditioning = Preconditioning::block_jacobi;
+    Precision precision = Precision::full;
+    Product product = Product::assembled;
   };
   explicit ConjugateGradient(Settings settings);
-  [[nodiscard]] std::string_view name() const override { return "conjugate gradient, block-Jacobi"; }
-  SolveReport solve(const BlockMatrix& matrix, ConstReals b, Reals x, double floor) override;
+  ~ConjugateGradient() override;
+  [[nodiscard]] std::string_view name() const override { return name_; }
+  [[nodiscard]] std::string_view preparation() const override { return "preconditioner"; }
+  [[nodiscard]] bool needs_matrix() const override { return settings_.product == Product::assembled; }
+  SolveReport solve(const LinearOperator& A, ConstReals b, Reals x, double floor) override;
+  void forget() override;
+  [[nodiscard]] std::size_t bytes() const override;
 
  private:
-  void resize(std::size_t size);
-  void invert_diagonal(const BlockMatrix& matrix);
-  /// z = D^-1 r, and returns r . z; |r|^2 goes into `square`.
-  double precondition(const Threads& threads, double& square);
+  /// r_ = b - A x; |r_|
+  double residual(const LinearOperator& A, ConstReals b, ConstReals x);
+  void rounds(const LinearOperator& A, ConstReals b, Reals x, double reference, SolveReport& report);
+  template <class T>
+  void prepare(const LinearOperator& A, bool forced, SolveReport& report);
+  /// Iterations from r_, whose sum is added to x.
+  End full_round(const LinearOperator& A, Reals x, double target, SolveReport& report);
+  End single_round(const LinearOperator& A, Reals x, double length, double target, SolveReport& report);
+  template <class T>
+  Iteration<T>& iteration();
 
   Settings settings_;
-  std::vector<double> inverse_;  ///< [row][9], column by column
+  std::string name_;
   std::vector<double> r_;
-  std::vector<double> z_;
-  std::vector<double> p_;
-  std::vector<double> q_;
+  std::vector<double> change_;  ///< of x in a round
+  std::vector<float> single_r_;
+  std::vector<float> single_change_;
   std::vector<double> partial_;
-  std::vector<double> partial_square_;
+  std::unique_ptr<Iteration<double>> full_;
+  std::unique_ptr<Iteration<float>> single_;
 };
 
 }  // namespace tissu

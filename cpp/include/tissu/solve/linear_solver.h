@@ -3,17 +3,21 @@
 #include <string_view>
 
 #include "tissu/assembly/block_matrix.h"
+#include "tissu/assembly/linear_operator.h"
 
 namespace tissu {
 
 struct SolveReport {
   int iterations = 0;             ///< 1 for a direct solve
   double residual = 0.0;          ///< |b - A x| / |b|
-  bool converged = false;         ///< the residual is within the tolerance
+  bool converged = false;         ///< the residual, computed from x, is within the tolerance
   bool positive_definite = true;  ///< false: x is a descent direction of the problem, not its solution
+  int preparations = 0;           ///< how often a preconditioner or a factor was made
+  double preparation_seconds = 0.0;
 };
 
-/// Solves A x = b with a symmetric matrix that is meant to be positive definite.
+/// Solves A x = b with a symmetric matrix that is meant to be positive definite. Nothing that it decides
+/// depends on time measured: the same calls give the same bits.
 class LinearSolver {
  public:
   LinearSolver() = default;
@@ -22,11 +26,21 @@ class LinearSolver {
   LinearSolver& operator=(const LinearSolver&) = delete;
 
   [[nodiscard]] virtual std::string_view name() const = 0;
+  /// What it makes of a matrix before it solves, as profiles name it.
+  [[nodiscard]] virtual std::string_view preparation() const = 0;
+  /// It reads the blocks; false: products are enough.
+  [[nodiscard]] virtual bool needs_matrix() const { return true; }
   /// x holds the first guess and then the answer. A right-hand side below `floor` counts as `floor` when the
   /// residual is judged, so that a body at rest is not solved to the last bit of its round-off.
-  virtual SolveReport solve(const BlockMatrix& matrix, ConstReals b, Reals x, double floor) = 0;
-  /// Drops what is kept of earlier solves, so that the next one answers as the first would.
-  virtual void forget() {}
+  virtual SolveReport solve(const LinearOperator& A, ConstReals b, Reals x, double floor) = 0;
+  /// Drops what it keeps of earlier matrices: the next solve gives the bits that a new solver gives.
+  virtual void forget() = 0;
+  /// What it keeps, the matrix itself not counted.
+  [[nodiscard]] virtual std::size_t bytes() const = 0;
 };
+
+/// Residual to which x is accepted where round-off does not let it fall to `tolerance`: what round-off alone
+/// leaves in A x, but never more than `kWorst`, so that an x that ran off is not taken for an answer.
+double attainable(const LinearOperator& A, ConstReals x, double reference, double tolerance);
 
 }  // namespace tissu

@@ -2,11 +2,13 @@
 
 /// Forces and matrix of a world, timed: what every integrator asks for.
 
+#include <optional>
 #include <vector>
 
 #include "tissu/assembly/block_matrix.h"
 #include "tissu/base/profile.h"
 #include "tissu/solve/linear_solver.h"
+#include "tissu/step/free_operator.h"
 #include "tissu/world/world.h"
 
 namespace tissu {
@@ -24,7 +26,8 @@ class System {
   /// out += (scale.position df/dx + scale.velocity df/dv) p
   void add_product(const State& state, StiffnessScale scale, ConstReals p, Reals out);
   /// A = mass M + scale.position df/dx + scale.velocity df/dv, given degrees of freedom as the identity.
-  /// Nothing is done when a linear world is asked for the matrix it has.
+  /// Nothing is done when a linear world is asked for the matrix it has. For a solver that needs no matrix,
+  /// A is a product only, at a copy of the state.
   void assemble(const State& state, double mass, StiffnessScale scale);
   /// Solves A x = b from the first guess x.
   SolveReport solve(ConstReals b, Reals x, double floor);
@@ -32,7 +35,10 @@ class System {
   /// What round-off alone can leave in A x: epsilon |diag(A) x|.
   [[nodiscard]] double round_off(const State& state) const;
 
-  [[nodiscard]] const BlockMatrix& matrix() const { return matrix_; }
+  /// What was assembled, or is multiplied with. Only after `assemble`.
+  [[nodiscard]] const LinearOperator& A() const;
+  /// The blocks, of a solver that needs them. Only after `assemble`.
+  [[nodiscard]] const BlockMatrix& matrix() const { return *matrix_; }
 
  private:
   struct Rows {
@@ -40,13 +46,17 @@ class System {
     std::size_t product;
     std::size_t stiffness;
   };
+  void assemble_blocks(const State& state, double mass, StiffnessScale scale);
+
   const World& world_;
   LinearSolver* solver_;
   Profile& profile_;
-  BlockMatrix matrix_;
+  std::optional<BlockMatrix> matrix_;  ///< one of the two, made when it is first asked for
+  std::optional<FreeOperator> free_;
   std::vector<Rows> rows_;
   std::size_t mass_row_;
-  std::size_t solve_row_;
+  std::size_t preparation_row_ = 0;
+  std::size_t solve_row_ = 0;
   bool assembled_ = false;
   double mass_scale_ = 0.0;
   StiffnessScale scale_;

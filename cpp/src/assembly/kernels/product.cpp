@@ -5,18 +5,41 @@
 #include <cstddef>
 #include <cstring>
 
+#include "four.h"
 #include "product_list.h"
 
 namespace tissu::TISSU_KERNELS {
 namespace {
 
-using Four = double __attribute__((vector_size(32)));
-
-[[gnu::always_inline]] inline void add_block(const double* block, const double* p, Four (&sum)[3]) {
+template <class T>
+[[gnu::always_inline]] inline void add_block(const T* block, const T* p, Four<T> (&sum)[3]) {
   for (int k = 0; k < 3; ++k) {
-    Four column;
+    Four<T> column;
     std::memcpy(&column, block + 3 * k, sizeof column);
     sum[k] += column * p[k];
+  }
+}
+
+template <class T>
+[[gnu::always_inline]] inline void multiply(const std::int64_t* row_begin, const std::int32_t* column,
+                                            const T* values, std::int32_t begin, std::int32_t end,
+                                            const T* p, T* out) {
+  using V = Four<T>;
+  for (std::int32_t r = begin; r < end; ++r) {
+    V even[3] = {V{}, V{}, V{}};
+    V odd[3] = {V{}, V{}, V{}};
+    std::int64_t s = row_begin[r];
+    const std::int64_t last = row_begin[r + 1];
+    for (; s + 1 < last; s += 2) {
+      add_block<T>(values + 9 * s, p + 3 * static_cast<std::ptrdiff_t>(column[s]), even);
+      add_block<T>(values + 9 * s + 9, p + 3 * static_cast<std::ptrdiff_t>(column[s + 1]), odd);
+    }
+    if (s < last) add_block<T>(values + 9 * s, p + 3 * static_cast<std::ptrdiff_t>(column[s]), even);
+    const V sum = (even[0] + odd[0]) + (even[1] + odd[1]) + (even[2] + odd[2]);
+    T* to = out + 3 * static_cast<std::ptrdiff_t>(r);
+    to[0] = sum[0];
+    to[1] = sum[1];
+    to[2] = sum[2];
   }
 }
 
@@ -24,22 +47,12 @@ using Four = double __attribute__((vector_size(32)));
 
 void multiply_rows(const std::int64_t* row_begin, const std::int32_t* column, const double* values,
                    std::int32_t begin, std::int32_t end, const double* p, double* out) {
-  for (std::int32_t r = begin; r < end; ++r) {
-    Four even[3] = {Four{}, Four{}, Four{}};
-    Four odd[3] = {Four{}, Four{}, Four{}};
-    std::int64_t s = row_begin[r];
-    const std::int64_t last = row_begin[r + 1];
-    for (; s + 1 < last; s += 2) {
-      add_block(values + 9 * s, p + 3 * static_cast<std::ptrdiff_t>(column[s]), even);
-      add_block(values + 9 * s + 9, p + 3 * static_cast<std::ptrdiff_t>(column[s + 1]), odd);
-    }
-    if (s < last) add_block(values + 9 * s, p + 3 * static_cast<std::ptrdiff_t>(column[s]), even);
-    const Four sum = (even[0] + odd[0]) + (even[1] + odd[1]) + (even[2] + odd[2]);
-    double* to = out + 3 * static_cast<std::ptrdiff_t>(r);
-    to[0] = sum[0];
-    to[1] = sum[1];
-    to[2] = sum[2];
-  }
+  multiply(row_begin, column, values, begin, end, p, out);
+}
+
+void multiply_rows(const std::int64_t* row_begin, const std::int32_t* column, const float* values,
+                   std::int32_t begin, std::int32_t end, const float* p, float* out) {
+  multiply(row_begin, column, values, begin, end, p, out);
 }
 
 }  // namespace tissu::TISSU_KERNELS

@@ -1,19 +1,37 @@
 #pragma once
 
-/// The product of rows of a block matrix, for each instruction set.
+/// The product of rows of a block matrix, for each instruction set, in double and in single precision.
 
 #include <cstdint>
 
+#include "tissu/base/isa.h"
+
 namespace tissu {
+
+template <class T>
+using MultiplyRows = void (*)(const std::int64_t* row_begin, const std::int32_t* column, const T* values,
+                              std::int32_t begin, std::int32_t end, const T* p, T* out);
 
 #define TISSU_PRODUCT(isa)                                                                            \
   namespace isa {                                                                                     \
   void multiply_rows(const std::int64_t* row_begin, const std::int32_t* column, const double* values, \
                      std::int32_t begin, std::int32_t end, const double* p, double* out);             \
+  void multiply_rows(const std::int64_t* row_begin, const std::int32_t* column, const float* values,  \
+                     std::int32_t begin, std::int32_t end, const float* p, float* out);               \
   }
 TISSU_PRODUCT(baseline)
 TISSU_PRODUCT(avx2)
 TISSU_PRODUCT(avx512)
 #undef TISSU_PRODUCT
+
+template <class T>
+MultiplyRows<T> multiply_rows_of(Isa isa) {
+#ifdef TISSU_X86_KERNELS
+  if (isa == Isa::avx512) return &avx512::multiply_rows;
+  if (isa == Isa::avx2) return &avx2::multiply_rows;
+#endif
+  (void)isa;
+  return &baseline::multiply_rows;
+}
 
 }  // namespace tissu

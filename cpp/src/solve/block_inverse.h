@@ -1,0 +1,25 @@
+#pragma once
+
+#include <Eigen/LU>
+
+#include "tissu/base/vec.h"
+
+namespace tissu {
+
+inline bool is_definite(const Mat3& D) {
+  return D(0, 0) > 0.0 && D.topLeftCorner<2, 2>().determinant() > 0.0 && D.determinant() > 0.0;
+}
+
+/// The inverse of the block's diagonal, made positive; zero where it is zero.
+inline Mat3 diagonal_inverse(const Mat3& D) {
+  const Vec3 d = D.diagonal().cwiseAbs();
+  return (d.array() > 0.0).select(d.cwiseInverse(), Vec3::Zero()).asDiagonal();
+}
+
+/// The inverse of a block. One that is not positive definite would turn a preconditioner; its diagonal, made
+/// positive, will not.
+inline Mat3 positive_inverse(const Mat3& D) {
+  return is_definite(D) ? Mat3(D.inverse()) : diagonal_inverse(D);
+}
+
+}  // namespace tissu

@@ -1,0 +1,119 @@
+#include "block_triangle.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace tissu {
+namespace {
+
+std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
+
+/// One thread takes the rows as they come, which reads memory in order; several take them group by group.
+RowGroups grouped(std::int32_t rows, bool reversed, int threads, const std::vector<std::int64_t>& begin,
+                  const std::vector<std::int32_t>& column) {
+  RowGroups groups;
+  groups.rows.resize(at(rows));
+  std::iota(groups.rows.begin(), groups.rows.end(), 0);
+  if (reversed) std::ranges::reverse(groups.rows);
+  if (threads == 1) {
+    groups.begin = {0, rows};
+    return groups;
+  }
+  std::vector<std::int32_t> level(at(rows), 0);
+  std::int32_t levels = 0;
+  for (const std::int32_t r : groups.rows) {
+    for (auto s = begin[at(r)]; s < begin[at(r) + 1]; ++s) {
+      level[at(r)] = std::max(level[at(r)], level[at(column[at(s)])] + 1);
+    }
+    levels = std::max(levels, level[at(r)] + 1);
+  }
+  std::ranges::stable_sort(groups.rows, {}, [&](std::int32_t r) { return level[at(r)]; });
+  groups.begin.assign(at(levels) + 1, 0);
+  for (const std::int32_t l : level) ++groups.begin[at(l) + 1];
+  std::partial_sum(groups.begin.begin(), groups.begin.end(), groups.begin.begin());
+  return groups;
+}
+
+}  // namespace
+
+void BlockTriangle::update(const BlockMatrix& matrix) {
+  found_.clear();
+  for (const ExtraBlock& e : matrix.extra()) found_.emplace_back(e.row, e.column);
+  if (matrix_ == matrix.id() && found_ == extra_) return;
+  matrix_ = matrix.id();
+  extra_ = found_;
+  gather(matrix);
+  transpose();
+  count_pairs();
+  const int threads = matrix.threads().count();
+  forward = grouped(matrix.rows(), false, threads, lower_begin, lower_column);
+  backward = grouped(matrix.rows(), true, threads, upper_begin, upper_column);
+}
+
+void BlockTriangle::gather(const BlockMatrix& matrix) {
+  const Sparsity& pattern = matrix.sparsity();
+  lower_begin.assign(1, 0);
+  lower_column.clear();
+  source_.clear();
+  std::vector<std::pair<std::int32_t, std::int64_t>> row;  // column and source
+  std::vector<std::vector<std::pair<std::int32_t, std::int64_t>>> outside(extra_.empty() ? 0
+                                                                                         : at(matrix.rows()));
+  for (std::size_t e = 0; e < extra_.size(); ++e) {
+    const auto [r, c] = extra_[e];
+    if (c < r) outside[at(r)].emplace_back(c, -1 - static_cast<std::int64_t>(e));
+  }
+  for (std::int32_t r = 0; r < matrix.rows(); ++r) {
+    row.clear();
+    for (auto s = pattern.row_begin[at(r)]; pattern.column[at(s)] < r; ++s) {
+      row.emplace_back(pattern.column[at(s)], s);
+    }
+    if (!outside.empty() && !outside[at(r)].empty()) {
+      row.insert(row.end(), outside[at(r)].begin(), outside[at(r)].end());
+      std::ranges::sort(row);
+    }
+    for (const auto& [column, source] : row) {
+      lower_column.push_back(column);
+      source_.push_back(source);
+    }
+    lower_begin.push_back(static_cast<std::int64_t>(lower_column.size()));
+  }
+}
+
+void BlockTriangle::transpose() {
+  const auto rows = static_cast<std::int32_t>(lower_begin.size()) - 1;
+  upper_begin.assign(at(rows) + 1, 0);
+  for (const std::int32_t c : lower_column) ++upper_begin[at(c) + 1];
+  std::partial_sum(upper_begin.begin(), upper_begin.end(), upper_begin.begin());
+  upper_column.resize(lower_column.size());
+  upper_place.resize(lower_column.size());
+  std::vector<std::int64_t> next(upper_begin.begin(), upper_begin.end() - 1);
+  for (std::int32_t r = 0; r < rows; ++r) {
+    for (auto b = lower_begin[at(r)]; b < lower_begin[at(r) + 1]; ++b) {
+      const std::int64_t to = next[at(lower_column[at(b)])]++;
+      upper_column[at(to)] = r;
+      upper_place[at(to)] = b;
+    }
+  }
+}
+
+void BlockTriangle::count_pairs() {
+  pairs_ = 0;
+  std::vector<std::int32_t> mark(lower_begin.size(), -1);
+  for (std::int32_t r = 0; r + 1 < static_cast<std::int32_t>(lower_begin.size()); ++r) {
+    for (auto b = lower_begin[at(r)]; b < lower_begin[at(r) + 1]; ++b) mark[at(lower_column[at(b)])] = r;
+    for (auto b = lower_begin[at(r)]; b < lower_begin[at(r) + 1]; ++b) {
+      const std::int32_t j = lower_column[at(b)];
+      for (auto c = lower_begin[at(j)]; c < lower_begin[at(j) + 1]; ++c) {
+        pairs_ += mark[at(lower_column[at(c)])] == r ? 1 : 0;
+      }
+    }
+  }
+}
+
+std::size_t BlockTriangle::bytes() const {
+  const auto blocks = lower_column.size();
+  return blocks * (2 * sizeof(std::int32_t) + 2 * sizeof(std::int64_t)) +
+         lower_begin.size() * (2 * sizeof(std::int64_t) + 2 * sizeof(std::int32_t));
+}
+
+}  // namespace tissu

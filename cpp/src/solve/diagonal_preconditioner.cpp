@@ -1,0 +1,71 @@
+#include "diagonal_preconditioner.h"
+
+#include "block_inverse.h"
+
+namespace tissu {
+namespace {
+
+/// Calls f(row, diagonal block times scale) for every row; `blocks` is scratch where there is no matrix.
+template <class Function>
+void for_diagonal(const LinearOperator& A, double scale, std::vector<double>& blocks, Function&& f) {
+  const BlockMatrix* matrix = A.matrix();
+  if (matrix == nullptr) {
+    blocks.resize(9 * static_cast<std::size_t>(A.rows()));
+    A.diagonal_blocks(blocks);
+  }
+  A.threads().for_pieces(A.rows(), [&](std::int32_t begin, std::int32_t end) {
+    for (std::int32_t i = begin; i < end; ++i) {
+      const Mat3 D = matrix != nullptr
+                         ? matrix->diagonal_block(i)
+                         : Mat3(Eigen::Map<const Mat3>(blocks.data() + 9 * static_cast<std::ptrdiff_t>(i)));
+      f(i, Mat3(scale * D));
+    }
+  });
+}
+
+}  // namespace
+
+template <class T>
+void Jacobi<T>::make(const LinearOperator& A, double scale) {
+  inverse_.resize(3 * static_cast<std::size_t>(A.rows()));
+  price_ = A.diagonal_cost();
+  for_diagonal(A, scale, blocks_, [&](std::int32_t i, const Mat3& D) {
+    const Vec3 inverse = diagonal_inverse(D).diagonal();
+    for (int k = 0; k < 3; ++k) inverse_[static_cast<std::size_t>(3 * i + k)] = static_cast<T>(inverse[k]);
+  });
+}
+
+template <class T>
+void Jacobi<T>::apply_rows(std::int32_t begin, std::int32_t end, const T* r, T* z) {
+  for (auto i = 3 * static_cast<std::size_t>(begin); i < 3 * static_cast<std::size_t>(end); ++i) {
+    z[i] = inverse_[i] * r[i];
+  }
+}
+
+template <class T>
+void BlockJacobi<T>::make(const LinearOperator& A, double scale) {
+  inverse_.resize(9 * static_cast<std::size_t>(A.rows()));
+  price_ = A.diagonal_cost();
+  for_diagonal(A, scale, blocks_, [&](std::int32_t i, const Mat3& D) {
+    const Mat3 inverse = positive_inverse(D);
+    T* to = inverse_.data() + 9 * static_cast<std::ptrdiff_t>(i);
+    for (int k = 0; k < 9; ++k) to[k] = static_cast<T>(inverse.data()[k]);
+  });
+}
+
+template <class T>
+void BlockJacobi<T>::apply_rows(std::int32_t begin, std::int32_t end, const T* r, T* z) {
+  for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
+    const T* m = inverse_.data() + 9 * i;
+    const T* in = r + 3 * i;
+    T* out = z + 3 * i;
+    for (int k = 0; k < 3; ++k) out[k] = m[k] * in[0] + m[3 + k] * in[1] + m[6 + k] * in[2];
+  }
+}
+
+template class Jacobi<double>;
+template class Jacobi<float>;
+template class BlockJacobi<double>;
+template class BlockJacobi<float>;
+
+}  // namespace tissu

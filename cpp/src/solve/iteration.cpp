@@ -1,0 +1,181 @@
+#include "iteration.h"
+
+#include <algorithm>
+#include <cmath>
+#include <type_traits>
+
+#include "diagonal_preconditioner.h"
+#include "incomplete_cholesky.h"
+#include "stale_cholesky.h"
+
+namespace tissu {
+namespace {
+
+/// A residual this many times the first: the matrix is singular, and x runs off along its kernel.
+constexpr double kLost = 1e8;
+
+template <class T>
+std::unique_ptr<Preconditioner<T>> make_preconditioner(Preconditioning kind) {
+  switch (kind) {
+    case Preconditioning::jacobi:
+      return std::make_unique<Jacobi<T>>();
+    case Preconditioning::incomplete_cholesky:
+      return std::make_unique<IncompleteCholesky<T>>();
+    case Preconditioning::stale_cholesky:
+      return std::make_unique<StaleCholesky<T>>();
+    case Preconditioning::block_jacobi:
+      break;
+  }
+  return std::make_unique<BlockJacobi<T>>();
+}
+
+}  // namespace
+
+template <class T>
+Iteration<T>::Iteration(Preconditioning kind) : M_(make_preconditioner<T>(kind)) {}
+
+template <class T>
+double Iteration<T>::scale() const {
+  return std::is_same_v<T, float> ? matrix_.scale() : 1.0;
+}
+
+template <class T>
+bool Iteration<T>::prepare(const LinearOperator& A, bool forced) {
+  if constexpr (std::is_same_v<T, float>) matrix_.update(*A.matrix());
+  const bool serves = made_ && id_ == A.id() && given_ == A.given();
+  if (serves && version_ == A.version()) return false;
+  if (serves && !forced && !renewal_.due()) return false;
+  made_ = false;
+  M_->make(A, scale());
+  renewal_.made(M_->price());
+
+  made_ = true;
+  made_midway_ = forced;
+  id_ = A.id();
+  version_ = A.version();
+  given_ = A.given();
+  return true;
+}
+
+template <class T>
+void Iteration<T>::begin_solve() {
+  spent_ = 0;
+  goes_on_ = false;
+  made_midway_ = false;
+}
+
+template <class T>
+void Iteration<T>::end_solve() {
+  if (spent_ > 0 && !made_midway_) renewal_.used(spent_);
+}
+
+template <class T>
+void Iteration<T>::multiply(const LinearOperator& A) {
+  if constexpr (std::is_same_v<T, float>) {
+    matrix_.multiply(p_, q_);
+  } else {
+    A.multiply(p_, q_);
+  }
+}
+
+template <class T>
+double Iteration<T>::advance(const Threads& threads, std::span<T> r, std::span<T> d, double alpha,
+                             double& square) {
+  const auto rows = static_cast<std::int32_t>(r.size() / 3);
+  squares_.resize(static_cast<std::size_t>(Threads::pieces(rows)));
+  const T a = static_cast<T>(alpha);
+  const bool local = M_->is_local();
+  double rz = threads.sum(rows, partial_, [&](std::int32_t begin, std::int32_t end) {
+    const auto first = 3 * static_cast<std::size_t>(begin);
+    const auto last = 3 * static_cast<std::size_t>(end);
+    for (std::size_t i = first; i < last; ++i) {
+      d[i] += a * p_[i];
+      r[i] -= a * q_[i];
+    }
+    if (local) M_->apply_rows(begin, end, r.data(), z_.data());
+    double sum = 0.0;
+    double squares = 0.0;
+    for (std::size_t i = first; i < last; ++i) {
+      sum += static_cast<double>(r[i]) * static_cast<double>(z_[i]);
+      squares += static_cast<double>(r[i]) * static_cast<double>(r[i]);
+    }
+    squares_[static_cast<std::size_t>(begin / Threads::kPiece)] = squares;
+    return sum;
+  });
+  square = 0.0;
+  for (const double s : squares_) square += s;
+  if (!local) {
+    M_->apply(r, z_);
+    rz = dot<T>(threads, r, z_, partial_);
+  }
+  return rz;
+}
+
+template <class T>
+void Iteration<T>::go_on(double scale) {
+  goes_on_ = true;
+  for (T& p : p_) p = static_cast<T>(static_cast<double>(p) / scale);
+  rz_ /= scale * scale;
+}
+
+template <class T>
+void Iteration<T>::turn(const Threads& threads, double beta) {
+  const T b = static_cast<T>(beta);
+  threads.for_pieces(static_cast<std::int32_t>(p_.size() / 3), [&](std::int32_t begin, std::int32_t end) {
+    for (auto i = 3 * static_cast<std::size_t>(begin); i < 3 * static_cast<std::size_t>(end); ++i) {
+      p_[i] = z_[i] + b * p_[i];
+    }
+  });
+}
+
+template <class T>
+End Iteration<T>::run(const LinearOperator& A, std::span<T> r, std::span<T> d, double target, int most) {
+  const Threads& threads = A.threads();
+  z_.resize(r.size());
+  p_.resize(r.size());
+  q_.assign(r.size(), T(0));
+  if (!goes_on_) std::ranges::fill(p_, T(0));
+  std::ranges::fill(d, T(0));
+  const double left =
+      version_ == A.version() ? Renewal::kUnlimited : std::min(0.5 * most, renewal_.left() - spent_);
+  iterations_ = 0;
+  double square = 0.0;
+  double rz = advance(threads, r, d, 0.0, square);
+  double beta = goes_on_ && rz_ > 0.0 ? rz / rz_ : 0.0;
+  goes_on_ = false;
+  const double first = std::sqrt(square);
+  while (true) {
+    residual_ = std::sqrt(square);
+    if (residual_ <= target) return End::reached;
+    if (iterations_ >= most) return End::exhausted;
+    if (!(residual_ < kLost * first)) return End::lost;
+    if (!(rz > 0.0)) return End::curvature;
+    if (iterations_ >= left) return End::renewal;
+    turn(threads, beta);
+    rz_ = rz;
+    multiply(A);
+    const double curvature = dot<T>(threads, p_, q_, partial_);
+    if (!(curvature > 0.0)) return End::curvature;
+    rz = advance(threads, r, d, rz_ / curvature, square);
+    beta = rz / rz_;
+    ++iterations_;
+    ++spent_;
+  }
+}
+
+template <class T>
+void Iteration<T>::forget() {
+  made_ = false;
+  renewal_ = Renewal();
+  M_->forget();
+}
+
+template <class T>
+std::size_t Iteration<T>::bytes() const {
+  return (z_.size() + p_.size() + q_.size()) * sizeof(T) + matrix_.bytes() + M_->bytes();
+}
+
+template class Iteration<double>;
+template class Iteration<float>;
+
+}  // namespace tissu

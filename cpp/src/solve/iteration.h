@@ -1,0 +1,91 @@
+#pragma once
+
+/// The iterations of the conjugate gradient, in one precision, with their preconditioner.
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "preconditioner.h"
+#include "renewal.h"
+#include "single_matrix.h"
+
+namespace tissu {
+
+/// Why iterations ended.
+enum class End {
+  reached,    ///< their own count of the residual is at the target
+  exhausted,  ///< there were as many as allowed
+  renewal,    ///< with a preconditioner that does not pay any more
+  curvature,  ///< p . A p <= 0 or r . M^-1 r <= 0: not positive definite, as far as this precision can tell
+  lost,       ///< the residual grew without bound, as with a singular matrix
+};
+
+/// Sums over pieces of rows, of products taken in double.
+template <class T>
+double dot(const Threads& threads, std::span<const T> a, std::span<const T> b,
+           std::vector<double>& partial) {
+  return threads.sum(static_cast<std::int32_t>(a.size() / 3), partial,
+                     [&](std::int32_t begin, std::int32_t end) {
+                       double sum = 0.0;
+                       for (auto i = 3 * static_cast<std::size_t>(begin);
+                            i < 3 * static_cast<std::size_t>(end); ++i) {
+                         sum += static_cast<double>(a[i]) * static_cast<double>(b[i]);
+                       }
+                       return sum;
+                     });
+}
+
+template <class T>
+class Iteration {
+ public:
+  explicit Iteration(Preconditioning kind);
+
+  /// Makes the preconditioner where there is none for this operator, where another is due, or where it is
+  /// `forced` and not of these values already; true when it did.
+  bool prepare(const LinearOperator& A, bool forced);
+  /// Lowers |r| to `target` and gives what it takes as d.
+  End run(const LinearOperator& A, std::span<T> r, std::span<T> d, double target, int most);
+  /// The next run goes on in the directions of the latest one, whose residual it is given computed anew and
+  /// divided by `scale` times what the latest was divided by. Otherwise it starts its own.
+  void go_on(double scale);
+  /// A solve begins, or is over.
+  void begin_solve();
+  void end_solve();
+  /// Iterations of the latest run.
+  [[nodiscard]] int iterations() const { return iterations_; }
+  /// |r| at its end, as the iterations count it.
+  [[nodiscard]] double residual() const { return residual_; }
+  /// What the matrix that it works with was multiplied by.
+  [[nodiscard]] double scale() const;
+  void forget();
+  [[nodiscard]] std::size_t bytes() const;
+
+ private:
+  void multiply(const LinearOperator& A);
+  /// p = z + beta p
+  void turn(const Threads& threads, double beta);
+  /// d += alpha p, r -= alpha q, z = M^-1 r; r . z, and |r|^2 into `square`.
+  double advance(const Threads& threads, std::span<T> r, std::span<T> d, double alpha, double& square);
+
+  std::unique_ptr<Preconditioner<T>> M_;
+  Renewal renewal_;
+  bool made_ = false;
+  bool made_midway_ = false;
+  std::uint64_t id_ = 0;
+  std::uint64_t version_ = 0;
+  const std::vector<std::uint8_t>* given_ = nullptr;
+  int spent_ = 0;  ///< iterations of this solve
+  int iterations_ = 0;
+  double residual_ = 0.0;
+  bool goes_on_ = false;
+  double rz_ = 0.0;  ///< r . z when p_ was made
+  SingleMatrix matrix_;  ///< of single precision only
+  std::vector<T> z_;
+  std::vector<T> p_;
+  std::vector<T> q_;
+  std::vector<double> partial_;
+  std::vector<double> squares_;
+};
+
+}  // namespace tissu

@@ -1,0 +1,41 @@
+#pragma once
+
+/// What the iterations ask of a preconditioner M.
+
+#include <span>
+
+#include "tissu/assembly/linear_operator.h"
+#include "tissu/solve/conjugate_gradient.h"
+
+namespace tissu {
+
+/// T: the precision in which it stores and works.
+template <class T>
+class Preconditioner {
+ public:
+  Preconditioner() = default;
+  virtual ~Preconditioner() = default;
+  Preconditioner(const Preconditioner&) = delete;
+  Preconditioner& operator=(const Preconditioner&) = delete;
+
+  /// Made from the values that A has now, each multiplied by `scale`; symmetric and positive definite
+  /// whatever A is.
+  virtual void make(const LinearOperator& A, double scale) = 0;
+  /// The price of the latest making, counted in iterations.
+  [[nodiscard]] virtual double price() const = 0;
+  /// Rows of z = M^-1 r depend on the same rows of r only, and `apply_rows` gives them.
+  [[nodiscard]] virtual bool is_local() const { return false; }
+  virtual void apply_rows(std::int32_t /*begin*/, std::int32_t /*end*/, const T* /*r*/, T* /*z*/) {}
+  /// z = M^-1 r
+  virtual void apply(std::span<const T> r, std::span<T> z) {
+    apply_rows(0, static_cast<std::int32_t>(r.size() / 3), r.data(), z.data());
+  }
+  /// The next making gives the bits of a first one.
+  virtual void forget() {}
+  [[nodiscard]] virtual std::size_t bytes() const = 0;
+};
+
+/// Bytes that an iteration reads beside the matrix and the preconditioner, for each row of three: its vectors.
+inline constexpr double kVectorBytes = 12 * 3 * sizeof(double);
+
+}  // namespace tissu

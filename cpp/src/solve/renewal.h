@@ -1,0 +1,37 @@
+#pragma once
+
+/// When to make a preconditioner again.
+
+#include <algorithm>
+
+namespace tissu {
+
+/// The rule of who rents skis: what an old preconditioner costs in iterations beyond those of its best solve
+/// is added up, and a new one is made when the sum reaches the price of making it. Whatever the matrices do,
+/// that costs at most twice what knowing them beforehand would. Prices are counted in iterations, from
+/// numbers of operations and bytes, never from time measured: the same run decides the same.
+class Renewal {
+ public:
+  /// A preconditioner was made, at a price in iterations.
+  void made(double price) { *this = Renewal{price}; }
+  /// A solve took so many iterations with it.
+  void used(int iterations) {
+    best_ = best_ < 0 ? iterations : std::min(best_, iterations);
+    excess_ += iterations - best_;
+  }
+  [[nodiscard]] bool due() const { return excess_ >= price_; }
+  /// Iterations that a solve may take before a new one pays, the first ones that it has to take counted.
+  [[nodiscard]] double left() const { return best_ < 0 ? kUnlimited : best_ + (price_ - excess_); }
+
+  static constexpr double kUnlimited = 1e30;
+
+  Renewal() = default;
+
+ private:
+  explicit Renewal(double price) : price_(price) {}
+  double price_ = 0.0;
+  double excess_ = 0.0;
+  int best_ = -1;  ///< iterations of the best solve; -1: none yet
+};
+
+}  // namespace tissu

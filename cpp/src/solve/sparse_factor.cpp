@@ -1,0 +1,49 @@
+#include "sparse_factor.h"
+
+#include "factor_library.h"
+
+namespace tissu {
+namespace {
+
+constexpr double kFirstShift = 1e-4;
+constexpr double kLastShift = 1e6;
+
+}  // namespace
+
+SparseFactor::SparseFactor() : library_(std::make_unique<Library>()) {}
+SparseFactor::~SparseFactor() = default;
+std::string_view SparseFactor::library() { return Library::kName; }
+double SparseFactor::operations_per_byte() { return Library::kOperationsPerByte; }
+
+void SparseFactor::make(const BlockMatrix& matrix) {
+  Library& l = *library_;
+  l.ready = false;
+  if (l.lower.update_pattern(matrix)) l.analyse();
+  double shift = 0.0;
+  l.lower.update_values(matrix, shift);
+  while (!l.factorise()) {
+    shift = shift == 0.0 ? kFirstShift : 10.0 * shift;
+    if (shift > kLastShift) throw Error("the matrix of the step is not finite or has a zero diagonal.");
+    l.lower.update_values(matrix, shift);
+  }
+  l.definite = shift == 0.0;
+  l.ready = true;
+  l.id = matrix.id();
+  l.version = matrix.version();
+}
+
+bool SparseFactor::is_of(const BlockMatrix& matrix) const {
+  return library_->ready && library_->id == matrix.id() && library_->version == matrix.version();
+}
+bool SparseFactor::is_definite() const { return library_->definite; }
+void SparseFactor::solve(ConstReals b, Reals x) { library_->solve(b, x); }
+void SparseFactor::forget() { library_->ready = false; }
+double SparseFactor::operations() const { return library_->operations; }
+double SparseFactor::number_bytes() const { return sizeof(double) * library_->numbers; }
+
+std::size_t SparseFactor::bytes() const {
+  const LowerTriangle& lower = library_->lower;
+  return library_->bytes() + lower.values.size() * (sizeof(double) + sizeof(int));
+}
+
+}  // namespace tissu

@@ -1,0 +1,45 @@
+#pragma once
+
+/// The Cholesky factor of a block matrix, made by CHOLMOD, or by Eigen in a build without it.
+
+#include <memory>
+#include <string_view>
+
+#include "tissu/assembly/block_matrix.h"
+
+namespace tissu {
+
+class SparseFactor {
+ public:
+  SparseFactor();
+  ~SparseFactor();
+  SparseFactor(const SparseFactor&) = delete;
+  SparseFactor& operator=(const SparseFactor&) = delete;
+
+  static std::string_view library();
+
+  /// Factors the matrix, with its symbolic part kept while the pattern is. A matrix that is not positive
+  /// definite gets a growing share of its diagonal added until it is. Throws Error when none is large enough.
+  void make(const BlockMatrix& matrix);
+  /// It belongs to the values that the matrix has now.
+  [[nodiscard]] bool is_of(const BlockMatrix& matrix) const;
+  /// The matrix was positive definite as it was.
+  [[nodiscard]] bool is_definite() const;
+  /// x = A^-1 b, with the matrix that the factor was made of.
+  void solve(ConstReals b, Reals x);
+  void forget();
+
+  /// Operations of a making, a multiplication with its addition counted as one.
+  [[nodiscard]] double operations() const;
+  /// How many operations of a making take the time of reading one byte from memory.
+  [[nodiscard]] static double operations_per_byte();
+  /// Bytes of the factor's numbers: what half a solve reads.
+  [[nodiscard]] double number_bytes() const;
+  [[nodiscard]] std::size_t bytes() const;
+
+ private:
+  struct Library;
+  std::unique_ptr<Library> library_;
+};
+
+}  // namespace tissu

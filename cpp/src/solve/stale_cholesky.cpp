@@ -1,0 +1,35 @@
+#include "stale_cholesky.h"
+
+#include <algorithm>
+
+namespace tissu {
+
+template <class T>
+void StaleCholesky<T>::make(const LinearOperator& A, double scale) {
+  factor_.make(*A.matrix());
+  inverse_scale_ = 1.0 / scale;
+  const double matrix = static_cast<double>(A.bytes());
+  const double iteration = matrix + 2.0 * factor_.number_bytes() + kVectorBytes * A.rows();
+  const double made = factor_.operations() / SparseFactor::operations_per_byte() + 2.0 * matrix +
+                      2.0 * factor_.number_bytes();
+  price_ = made / iteration;
+}
+
+template <>
+void StaleCholesky<double>::apply(std::span<const double> r, std::span<double> z) {
+  factor_.solve(r, z);
+}
+
+template <>
+void StaleCholesky<float>::apply(std::span<const float> r, std::span<float> z) {
+  right_.resize(r.size());
+  answer_.resize(r.size());
+  for (std::size_t i = 0; i < r.size(); ++i) right_[i] = inverse_scale_ * static_cast<double>(r[i]);
+  factor_.solve(right_, answer_);
+  for (std::size_t i = 0; i < r.size(); ++i) z[i] = static_cast<float>(answer_[i]);
+}
+
+template class StaleCholesky<double>;
+template class StaleCholesky<float>;
+
+}  // namespace tissu

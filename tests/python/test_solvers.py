@@ -1,0 +1,133 @@
+"""Linear solvers of a scene: what is accepted, what `auto` stands for, what is reported."""
+
+import itertools
+
+import numpy as np
+import pytest
+
+import tissu as ts
+from tissu.compile.solver import DIRECT_STATIC, DIRECT_STEP, choice_for, solver_of
+from tissu.errors import SceneError
+
+KINDS = [
+    *(
+        {"preconditioner": kind, "precision": precision}
+        for kind, precision in itertools.product(
+            ("jacobi", "block_jacobi", "incomplete_cholesky", "stale_cholesky"),
+            ("double", "single"),
+        )
+    ),
+    {"preconditioner": "jacobi", "matrix": "free"},
+    {"matrix": "free"},
+]
+
+
+def scene(solver, **changes):
+    mesh = ts.bar_mesh(size=(2, 1, 1), cells=(6, 3, 3), cell="tetra")
+    fields = {
+        "bodies": {"bar": ts.Body(mesh=mesh, law=ts.StVK(young=3e3, poisson=0.4), density=1e3)},
+        "gravity": (0, 0, -9.81),
+        "fixed": [ts.Fixed("bar", on=ts.Box((-1, -1, -1), (1e-9, 2, 2)))],
+        "step": ts.ImplicitEuler(0.01, solver=solver),
+        **changes,
+    }
+    return ts.Scene(**fields)
+
+
+def after(solver, steps=5):
+    simulation = scene(solver).compile()
+    for _ in range(steps):
+        assert simulation.step().converged
+    return simulation
+
+
+@pytest.fixture(scope="module")
+def direct():
+    return np.array(after(ts.Cholesky()).positions["bar"])
+
+
+@pytest.mark.parametrize("fields", KINDS, ids=lambda f: "-".join(f.values()))
+def test_every_solver_takes_the_same_steps(fields, direct):
+    simulation = after(ts.ConjugateGradient(tolerance=1e-12, **fields))
+    # each step is solved to 1e-12 of its right-hand side, and five add up
+    np.testing.assert_allclose(simulation.positions["bar"], direct, atol=1e-9)
+    profile = simulation.profile()
+    assert profile.solves.solves == 5
+    assert profile.solves.failures == 0
+    assert profile.solves.residual <= 1e-12
+    assert 1 <= profile.solves.preparations <= 5
+    stages = {row.stage for row in profile.rows if row.effect == "linear solver"}
+    assert stages == {"preconditioner", "solve"}
+    assert "linear solver: 5 systems" in str(profile)
+    simulation.clear_profile()
+    assert simulation.profile().solves.solves == 0
+
+
+def test_failures_are_counted():
+    simulation = scene(ts.ConjugateGradient(tolerance=1e-12, iterations=2)).compile()
+    report = simulation.step()
+    assert not report.converged
+    assert report.residual > 1e-12
+    assert simulation.profile().solves.failures == 1
+    assert "1 system, 1 not to the tolerance" in str(simulation.profile())
+
+
+def test_a_matrix_is_needed_by_what_is_made_of_it():
+    for fields, field in [
+        ({"preconditioner": "incomplete_cholesky"}, "preconditioner"),
+        ({"preconditioner": "stale_cholesky"}, "preconditioner"),
+        ({"precision": "single"}, "precision"),
+    ]:
+        with pytest.raises(SceneError, match=f"{field}: .*matrix free"):
+            ts.ConjugateGradient(matrix="free", **fields)
+
+
+def test_a_solver_may_be_named_alone():
+    text = """
+bodies:
+  bar:
+    mesh: {type: bar, size: [2, 1, 1], cells: [2, 1, 1]}
+    law: {type: hooke, young: 1 kPa, poisson: 0.3}
+    density: 1000
+step: {type: implicit_euler, dt: 10 ms, solver: %s}
+"""
+    assert ts.Scene.from_yaml_text(text % "auto").step.solver == ts.Auto()
+    assert ts.Scene.from_yaml_text(text % "{type: auto}").step.solver == ts.Auto()
+    assert ts.Scene.from_yaml_text(text % "cholesky").step.solver == ts.Cholesky()
+    with pytest.raises(SceneError, match="nearest|Accepted|accepted"):
+        ts.Scene.from_yaml_text(text % "automatic")
+    written = scene(ts.Auto()).step.replace(solver=ts.Auto(tolerance=1e-3))
+    assert written.solver.tolerance == 1e-3
+
+
+@pytest.mark.parametrize(
+    ("unknowns", "static", "editing", "chosen"),
+    [
+        (DIRECT_STEP, False, False, "cholesky"),
+        (DIRECT_STEP + 1, False, False, "block_jacobi"),
+        (DIRECT_STEP, False, True, "block_jacobi"),
+        (DIRECT_STATIC, True, False, "cholesky"),
+        (DIRECT_STATIC, True, True, "cholesky"),
+        (DIRECT_STATIC + 1, True, False, "incomplete_cholesky"),
+    ],
+)
+def test_auto_chooses_by_size_step_and_editing(unknowns, static, editing, chosen):
+    auto = ts.Auto(tolerance=1e-4)
+    choice = choice_for(auto, unknowns=unknowns, static=static, editing=editing)
+    solver = choice.solver
+    assert (solver.type if solver.type == "cholesky" else solver.preconditioner) == chosen
+    assert f"{unknowns} unknown" in choice.why
+    assert solver.type == "cholesky" or solver.tolerance == 1e-4
+
+
+def test_auto_says_why_in_the_plan():
+    simulation = scene(ts.Auto()).compile()
+    (note,) = [note for note in simulation.plan().notes if "solver" in note]
+    assert note.startswith("step.solver: auto is cholesky, since")
+    assert "336 unknowns" in note
+    assert simulation.plan().solver.startswith("Cholesky")
+    assert simulation.step().converged
+    static = scene(ts.Auto(), step=ts.Static(solver=ts.Auto()))
+    assert "without inertia" in str(static.compile().plan())
+    with pytest.raises(TypeError, match="choice_for"):
+        solver_of(ts.Auto())

@@ -11,10 +11,10 @@ POISSON = 0.4999
 
 
 def cantilever(cell, cells, model, poisson=POISSON, split=None):
-    """A bar held at one end that its weight bends by a quarter of its length."""
+    """A bar held at one end that its weight bends by a fifth of its length."""
     mesh = ts.BarMesh(size=SIZE, cells=cells, cell=cell, **({"split": split} if split else {}))
     body = ts.Body(
-        mesh=mesh, law=ts.NeoHooke(young=30e3, poisson=poisson), density=1000, model=model
+        mesh=mesh, law=ts.NeoHooke(young=300e3, poisson=poisson), density=1000, model=model
     )
     return ts.Scene(
         bodies={"bar": body},
@@ -25,13 +25,13 @@ def cantilever(cell, cells, model, poisson=POISSON, split=None):
 
 
 def sag(cell, cells, model="fem", **more):
-    """How far the middle of the free end goes down [m]."""
+    """How far the nodes of the free end go down, their mean [m]."""
     simulation = cantilever(cell, cells, model, **more).compile()
     report = simulation.step()
     assert report.converged, report
     points = simulation.meshes["bar"].points
-    end = np.abs(points - [SIZE[0], SIZE[1] / 2, SIZE[2] / 2]).sum(axis=1).argmin()
-    return -simulation.displacements("bar")[end, 1]
+    end = points[:, 0] > SIZE[0] - 1e-9
+    return -simulation.displacements("bar")[end, 1].mean()
 
 
 @pytest.fixture(scope="module")

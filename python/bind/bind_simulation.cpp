@@ -18,7 +18,7 @@ py::dict to_dict(const Energy& energy) {
 
 /// A field of all models of a body; left out where one of them does not know it.
 void add_field(py::dict& result, const char* name, const std::vector<CellFields>& models,
-               std::vector<double> CellFields::* field) {
+               std::vector<double> CellFields::*field) {
   std::vector<double> all;
   for (const CellFields& model : models) {
     const std::vector<double>& values = model.*field;
@@ -122,6 +122,8 @@ void bind_simulation(py::module_& m) {
              return py::array_t<double>({static_cast<py::ssize_t>(forces.size() / 3), py::ssize_t{3}},
                                         forces.data());
            })
+      .def("solver_bytes",
+           [](const Simulation& s) { return s.solver() == nullptr ? 0 : s.solver()->bytes(); })
       .def("stable_step", &Simulation::stable_step)
       .def("largest_frequency", [](const Simulation& s) { return largest_frequency(s.world(), s.state()); })
       .def(

@@ -257,6 +257,10 @@ class Simulation:
         """What the models of all bodies keep of their cells, places in the matrix included."""
         return sum(int(block[4]) for block in self._world.elastic_blocks)
 
+    def solver_bytes(self) -> int:
+        """What the linear solver keeps: vectors, preconditioners, factors; not the matrix."""
+        return int(self._core.solver_bytes())
+
     def profile(self) -> Profile:
         """Times by stage; see `Profile`. `clear_profile` starts anew."""
         return profile_of(self._core, self._simulated)

@@ -182,7 +182,7 @@ def test_integrators_and_solvers(monkeypatch):
             _core, name, lambda name=name, **fields: made.update({name: fields}), raising=False
         )
     world.integrator_of(ImplicitEuler(0.01))
-    assert made == {"ImplicitEuler": {"newton_iterations": 1}}
+    assert made == {"ImplicitEuler": {"newton_iterations": 1, "indefinite": "project"}}
     world.integrator_of(ImplicitEuler(0.01, newton=Newton(iterations=7, tolerance=1e-9)))
     world.integrator_of(Static(load_steps=3))
     gradient = ConjugateGradient(iterations=5, preconditioner="stale_cholesky", precision="single")

@@ -1,6 +1,5 @@
 """Mean dilatation: what locks near incompressibility, and how far the cure goes."""
 
-import numpy as np
 import pytest
 
 import tissu as ts

@@ -66,10 +66,10 @@ void StageSolver::solve(State& state, std::vector<double>& v, StepReport& report
 
   first_ = v;
   const int most = once ? kRescue : newton_.iterations;
-  if (iterate(state, v, Search::none, most, report)) return;
+  if (iterate(state, v, Search::none, most, report) && is_lower(state, v)) return;
   if (!once) {
     v = first_;
-    if (iterate(state, v, Search::residual, most, report)) return;
+    if (iterate(state, v, Search::residual, most, report) && is_lower(state, v)) return;
   }
   v = guess_;
   system_->world().fixed().copy(first_, v);
@@ -80,6 +80,17 @@ bool StageSolver::is_good_enough(State& state, ConstReals v) {
   if (!system_->world().is_linear()) return residual(state, v) <= kWorse * start_ + kFloor * reference_;
   place(state, v);
   return true;
+}
+
+bool StageSolver::is_lower(State& state, ConstReals v) {
+  std::ranges::copy(guess_, trial_.begin());
+  system_->world().fixed().copy(v, trial_);
+  const double before = potential(state, trial_);
+  double way = 0.0;
+  for (std::size_t i = 0; i < v.size(); ++i) way += (v[i] - trial_[i]) * (v[i] - trial_[i]);
+  const double after = potential(state, v);
+  // Dissipation and follower loads, which have no potential, are given room.
+  return after <= before + std::abs(before) + start_ * std::sqrt(way);
 }
 
 void StageSolver::place(State& state, ConstReals v) const {

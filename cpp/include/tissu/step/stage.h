@@ -47,6 +47,8 @@ class StageSolver {
   void first_solve(std::vector<double>& v, StepReport& report);
   /// What a step that is linearised once left over is no more than it found.
   bool is_good_enough(State& state, ConstReals v);
+  /// The solution is one that lies below the guess: far above it there may be others, which no body reaches.
+  bool is_lower(State& state, ConstReals v);
   /// Newton's iteration from v; true when it converged. Whole steps may pass through worse states on the way
   /// to a better one; else they are halved until the residual falls, or until the energy does.
   bool iterate(State& state, std::vector<double>& v, Search search, int most, StepReport& report);

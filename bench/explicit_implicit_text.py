@@ -45,9 +45,9 @@ one more for some.
 TAIL = """An implicit step costs {implicit:.1f} ms and an explicit one {explicit:.2f} ms,
 **{ratio:.0f} times as much; the paper has 66**. The paper concludes that the explicit method is
 the slower one but for soft and dense bodies, because it must take steps of 5e-5 s. With symplectic
-Euler at its own limit the whole pull costs about what a few implicit steps cost, and follows the waves as well.
-Implicit steps pay where cells are small or stiff (omega large) and the motion is slow: their cost
-does not know omega."""
+Euler at its own limit the whole pull costs about what a few implicit steps cost, and
+follows the waves as well. Implicit steps pay where cells are small or stiff (omega large)
+and the motion is slow: their cost does not know omega."""
 
 EQUILIBRIUM = """## Where they come to rest
 

@@ -189,7 +189,11 @@ def test_integrators_and_solvers(monkeypatch):
     world.solver_of(gradient)
     world.solver_of(Cholesky())
     assert made == {
-        "ImplicitEuler": {"newton_iterations": 7, "newton_tolerance": 1e-9},
+        "ImplicitEuler": {
+            "newton_iterations": 7,
+            "newton_tolerance": 1e-9,
+            "indefinite": "project",
+        },
         "Static": {"newton_iterations": 10, "newton_tolerance": 1e-6, "load_steps": 3},
         "ConjugateGradient": {
             "tolerance": 1e-6,

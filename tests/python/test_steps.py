@@ -162,7 +162,7 @@ def test_refuse_leaves_the_state_at_the_last_good_step() -> None:
         "bar",
         on=ts.Plane((0.2, 0, 0), (1, 0, 0)),
         times=(0, 0.2),
-        displacements=[(0, 0, 0), (-0.12, 0, 0)],
+        displacements=[(0, 0, 0), (-0.15, 0, 0)],
     )
 
     def pressed(indefinite: str) -> ts.Simulation:

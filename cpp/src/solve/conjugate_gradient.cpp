@@ -17,7 +17,7 @@ constexpr int kSingleIterations = 100;
 /// A residual this many times what the iterations count themselves: single precision has lost its way.
 constexpr double kFaithful = 3.0;
 /// Iterations that single precision may take without halving the residual.
-const int kPatience = getenv("PAT")?atoi(getenv("PAT")):200;
+const int kPatience = getenv("PAT") ? atoi(getenv("PAT")) : 200;
 
 std::string name_of(const ConjugateGradient::Settings& settings) {
   std::string name = "conjugate gradient, ";
@@ -167,7 +167,8 @@ void ConjugateGradient::rounds(const LinearOperator& A, ConstReals b, Reals x, d
         lowered = report.iterations;
       }
       const bool ended = end == End::reached || end == End::exhausted;
-      const bool falls = report.iterations - lowered < kPatience + lowered / 4 && 2 * report.iterations < settings_.iterations;
+      const bool falls = report.iterations - lowered < kPatience + lowered / 4 &&
+                         2 * report.iterations < settings_.iterations;
       if (ended && falls && size < kFaithful * before * single_->residual()) {
         single_->go_on(size / before);
       } else {
@@ -181,8 +182,8 @@ void ConjugateGradient::rounds(const LinearOperator& A, ConstReals b, Reals x, d
     }
     report.residual = size / reference;
     report.positive_definite = end == End::reached || end == End::exhausted;
-    report.converged = report.positive_definite &&
-                       report.residual <= attainable(A, x, reference, settings_.tolerance);
+    report.converged =
+        report.positive_definite && report.residual <= attainable(A, x, reference, settings_.tolerance);
     return;
   }
 }

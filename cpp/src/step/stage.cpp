@@ -237,11 +237,13 @@ bool StageSolver::advance(State& state, std::vector<double>& v, Search search, d
 
 bool StageSolver::descend(State& state, std::vector<double>& v, double& now) {
   const double slope = -std::inner_product(right_.begin(), right_.end(), change_.begin(), 0.0);
-  // Damping has no energy: what it takes is added with df/dv as it is at v, 1/2 push v . D v.
+  // Damping has no energy: what it takes is added with df/dv as it is at v, 1/2 push v . D v. One that gives,
+  // as Rayleigh's does where the stiffness is not positive, has none to be lowered.
   std::ranges::fill(first_, 0.0);
   system_->add_product(state, {0.0, -stage_.push}, change_, first_);
-  const double linear = std::inner_product(v.begin(), v.end(), first_.begin(), 0.0);
-  const double square = 0.5 * std::inner_product(change_.begin(), change_.end(), first_.begin(), 0.0);
+  double linear = std::inner_product(v.begin(), v.end(), first_.begin(), 0.0);
+  double square = 0.5 * std::inner_product(change_.begin(), change_.end(), first_.begin(), 0.0);
+  if (square < 0.0) linear = square = 0.0;
   const double from = potential(state, v);
   for (double share = 1.0; share > kShortestDown; share *= 0.5) {
     for (std::size_t i = 0; i < v.size(); ++i) trial_[i] = v[i] + share * change_[i];

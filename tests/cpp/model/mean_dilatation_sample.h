@@ -96,8 +96,8 @@ class DilatationTest : public testing::TestWithParam<DilatationCase> {
     state.velocities.assign(state.positions.size(), 0.0);
     return state;
   }
-  /// Strains of up to 30 %, a turn where the law is blind to it, and nodes out of place. Fibres, whose tangent
-  /// jumps where they go slack, are stretched.
+  /// Strains of up to 30 %, a turn where the law is blind to it, and nodes out of place. Fibres, whose
+  /// tangent jumps where they go slack, are stretched.
   State any_state(double out_of_place = 0.06) {
     const Mat3 turn = is_linear() ? Mat3(Mat3::Identity()) : random_.rotation().toRotationMatrix();
     Mat3 stretch = Mat3::Identity();

@@ -50,8 +50,8 @@ class Stretched : public testing::Test {
     std::vector<double> b = random.numbers(static_cast<std::size_t>(3 * world_.blocks()));
     world_.fixed().clear(b);
     x_.assign(b.size(), 0.0);
-    const SolveReport report = system_.A().matrix() == nullptr ? SolveReport{}
-                                                                : solver.solve(system_.A(), b, x_, 0.0);
+    const SolveReport report =
+        system_.A().matrix() == nullptr ? SolveReport{} : solver.solve(system_.A(), b, x_, 0.0);
     std::vector<double> product(b.size());
     system_.A().multiply(x_, product);
     own_residual_ = (view(b) - view(product)).norm() / view(b).norm();

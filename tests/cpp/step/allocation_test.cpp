@@ -86,9 +86,8 @@ class Allocation : public testing::TestWithParam<AllocationCase> {
 
 TEST_P(Allocation, ASteadyStepTakesNone) {
 #ifdef TISSU_COUNTS_ALLOCATIONS
-  Simulation simulation =
-      test::simulate(world(), test::implicit_euler(GetParam().newton, 1e-6),
-                     std::make_unique<ConjugateGradient>(GetParam().solver));
+  Simulation simulation = test::simulate(world(), test::implicit_euler(GetParam().newton, 1e-6),
+                                         std::make_unique<ConjugateGradient>(GetParam().solver));
   simulation.step(0.01);
   simulation.step(0.01);
   allocations = 0;

@@ -30,7 +30,7 @@ class StableStep {
  public:
   void prepare(const World& world);
   /// The limit at `state`: measured again when it is not known, or, looked at every few steps, when an edge
-  /// of a cell has changed by a tenth of its length.
+  /// of a cell has changed by a fiftieth of its length.
   double limit(const Amplification& method, const State& state);
 
   [[nodiscard]] std::vector<double> memory() const;

@@ -58,7 +58,9 @@ class Semidefinite : public testing::TestWithParam<Isa> {
       EXPECT_LE((back - F[i]).cwiseAbs().maxCoeff(), 1e-14 * size);
       EXPECT_GE(values[0], values[1] * (1.0 - 1e-14));
       EXPECT_GE(values[1], std::abs(values[2]) * (1.0 - 1e-14));
-      const Vec3 expected = Eigen::JacobiSVD<Mat3>(F[i] / size).singularValues() * size;
+      Eigen::JacobiSVD<Mat3> svd;
+      svd.compute(F[i] / size);
+      const Vec3 expected = svd.singularValues() * size;
       EXPECT_LE((values.cwiseAbs() - expected).cwiseAbs().maxCoeff(), 1e-14 * size);
     }
   }

@@ -161,10 +161,12 @@ class Forgetful final : public LinearSolver {
  public:
   explicit Forgetful(int& count) : count_(count) {}
   [[nodiscard]] std::string_view name() const override { return "forgetful"; }
-  SolveReport solve(const BlockMatrix& matrix, ConstReals b, Reals x, double floor) override {
-    return cholesky_.solve(matrix, b, x, floor);
+  [[nodiscard]] std::string_view preparation() const override { return cholesky_.preparation(); }
+  SolveReport solve(const LinearOperator& A, ConstReals b, Reals x, double floor) override {
+    return cholesky_.solve(A, b, x, floor);
   }
   void forget() override { ++count_; }
+  [[nodiscard]] std::size_t bytes() const override { return cholesky_.bytes(); }
 
  private:
   int& count_;

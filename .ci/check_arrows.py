@@ -47,7 +47,8 @@ PYTHON: dict[str, set[str]] = {
     "scene": {"errors", "counted", "units", "mesh", "yaml_io", "selection", "compile"},
     "user_law": {"errors", "units", "codegen", "scene", "_core"},
     "effects": {"errors", "mesh", "scene"},
-    "simulation": {"errors", "counted", "units", "mesh", "effects", "_core"},
+    "checkpoint": {"errors", "counted", "_core"},
+    "simulation": {"errors", "counted", "units", "mesh", "effects", "checkpoint", "_core"},
     "compile": {
         "errors",
         "counted",
@@ -56,6 +57,7 @@ PYTHON: dict[str, set[str]] = {
         "selection",
         "scene",
         "effects",
+        "checkpoint",
         "simulation",
         "_core",
     },

@@ -161,6 +161,7 @@ int main(int argc, char** argv) {
   tissu::bench::add_limit_rows();
   tissu::bench::add_kernel_rows(kElements);
   tissu::bench::add_corotational_rows(kElements);
+  tissu::bench::add_definite_rows(kElements);
   tissu::bench::add_ablation_rows(kElements);
   tissu::bench::add_baseline_rows(kElements);
   benchmark::Initialize(&argc, argv);

@@ -12,18 +12,24 @@ _LAWS = (
     *("Hooke", "StVK", "NeoHooke", "StableNeoHooke", "MooneyRivlin", "Yeoh", "ArrudaBoyce"),
     *("Fibres", "Rayleigh", "KelvinVoigt", "Centroid", "Prony", "PronyBranch"),
 )
+_STEPS = (
+    *("ExplicitEuler", "SymplecticEuler", "RK2", "RK4"),
+    *("ImplicitEuler", "ImplicitMidpoint", "BDF2", "Newmark", "BDF2FixedPoint", "Static", "Newton"),
+)
+_MODELS = (
+    *("FEM", "Corotational", "MassSpring", "MassLink", "MassTensor"),
+    *("Condensed", "MeanDilatation"),
+)
 ORDER = (
     ("The scene", ("Scene", "Output")),
-    ("Bodies and meshes", ("Body", "MeshFile", "BarMesh")),
+    ("Bodies and meshes", ("Body", "Start", "MeshFile", "BarMesh")),
     ("Laws and viscosity", _LAWS),
-    ("Models", ("FEM", "Corotational", "MassSpring", "MassLink", "MassTensor", "Condensed")),
+    ("Models", _MODELS),
     ("Selections: which nodes", ("Box", "Sphere", "Plane", "Nodes", "SurfaceNodes", "Region")),
     ("Supports and motion", ("Fixed", "Prescribed", "Rotation")),
     ("Loads", ("NodalLoad", "Traction", "Pressure")),
-    (
-        "Steps and solvers",
-        ("ImplicitEuler", "Static", "Newton", "Auto", "ConjugateGradient", "Cholesky"),
-    ),
+    ("Steps", _STEPS),
+    ("Linear solvers", ("Auto", "ConjugateGradient", "Cholesky")),
 )
 HEAD = """# Scene files
 

@@ -39,11 +39,15 @@ endfunction()
 
 # ---- sources that are compiled once for each instruction set, in a namespace of its name (TISSU_KERNELS)
 set(TISSU_ISAS baseline)
-set(TISSU_KERNEL_FLAGS -O3 -fno-math-errno -fno-trapping-math -ffp-contract=fast)
+set(TISSU_KERNEL_FLAGS -O3)
+if(TISSU_SANITIZE)
+  set(TISSU_KERNEL_FLAGS -O1)  # -O3 with checks takes very long to compile
+endif()
+list(APPEND TISSU_KERNEL_FLAGS -fno-math-errno -fno-trapping-math -ffp-contract=fast)
 # GCC takes the undefined upper halves of its own AVX-512 casts for a mistake.
 set(TISSU_QUIET -Wno-maybe-uninitialized -Wno-uninitialized)
 set(TISSU_FLAGS_baseline ${TISSU_QUIET} -Wno-psabi)
-if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64)$")
+if(TISSU_X86_KERNELS AND CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64)$")
   list(APPEND TISSU_ISAS avx2 avx512)
   set(TISSU_FLAGS_avx2 -mavx2 -mfma)
   set(TISSU_FLAGS_avx512 ${TISSU_QUIET} -mavx512f -mavx512vl -mavx512dq -mfma)

@@ -1,5 +1,3 @@
-#include <limits>
-
 #include "bind.h"
 #include "specs.h"
 #include "tissu/edit/remove_cells.h"
@@ -18,31 +16,27 @@ py::dict to_dict(const Energy& energy) {
   return result;
 }
 
-/// A field of all models of a body: not a number where one does not know it, nothing where none does.
+/// A field of all models of a body; left out where one of them does not know it.
 void add_field(py::dict& result, const char* name, const std::vector<CellFields>& models,
-               const std::vector<std::size_t>& cells, std::vector<double> CellFields::*field) {
+               std::vector<double> CellFields::*field) {
   std::vector<double> all;
-  bool known = false;
-  for (std::size_t m = 0; m < models.size(); ++m) {
-    const std::vector<double>& values = models[m].*field;
-    known = known || !values.empty();
+  for (const CellFields& model : models) {
+    const std::vector<double>& values = model.*field;
+    if (values.empty()) return;
     all.insert(all.end(), values.begin(), values.end());
-    if (values.empty()) all.insert(all.end(), cells[m], std::numeric_limits<double>::quiet_NaN());
   }
-  if (known) result[name] = py::array_t<double>(static_cast<py::ssize_t>(all.size()), all.data());
+  result[name] = py::array_t<double>(static_cast<py::ssize_t>(all.size()), all.data());
 }
 
 py::dict cell_fields(const Simulation& simulation, const std::string& name) {
   std::vector<CellFields> models;
-  std::vector<std::size_t> cells;
   for (const BodyModel* model : simulation.world().body(name).models) {
     models.push_back(model->fields(simulation.state()));
-    cells.push_back(static_cast<std::size_t>(model->cell_count()));
   }
   py::dict result;
-  add_field(result, "von_mises", models, cells, &CellFields::von_mises);
-  add_field(result, "energy_density", models, cells, &CellFields::energy_density);
-  add_field(result, "volume_ratio", models, cells, &CellFields::volume_ratio);
+  add_field(result, "von_mises", models, &CellFields::von_mises);
+  add_field(result, "energy_density", models, &CellFields::energy_density);
+  add_field(result, "volume_ratio", models, &CellFields::volume_ratio);
   return result;
 }
 
@@ -61,14 +55,19 @@ py::tuple body_range(const Simulation& simulation, const std::string& name) {
 
 }  // namespace
 
+/// Of bind_snapshot.cpp.
+void bind_snapshot(py::class_<Simulation>& simulation);
+
 void bind_simulation(py::module_& m) {
   using py::arg;
-  py::class_<Simulation>(m, "Simulation")
+  py::class_<Simulation> simulation(m, "Simulation");
+  simulation
       .def(py::init([](const std::shared_ptr<World>& world, const IntegratorSpec& integrator,
-                       const SolverSpec& solver) {
-             return std::make_unique<Simulation>(world, integrator.make(), solver.make());
+                       const SolverSpec* solver) {
+             return std::make_unique<Simulation>(world, integrator.make(),
+                                                 solver == nullptr ? nullptr : solver->make());
            }),
-           py::kw_only(), arg("world"), arg("integrator"), arg("solver"))
+           py::kw_only(), arg("world"), arg("integrator"), arg("solver").none(true))
       .def("step", &Simulation::step, arg("dt"), py::call_guard<py::gil_scoped_release>())
       .def_property(
           "time", [](const Simulation& s) { return s.state().time; },
@@ -123,6 +122,9 @@ void bind_simulation(py::module_& m) {
              return py::array_t<double>({static_cast<py::ssize_t>(forces.size() / 3), py::ssize_t{3}},
                                         forces.data());
            })
+      .def("solver_bytes",
+           [](const Simulation& s) { return s.solver() == nullptr ? 0 : s.solver()->bytes(); })
+      .def("stable_step", &Simulation::stable_step)
       .def("largest_frequency", [](const Simulation& s) { return largest_frequency(s.world(), s.state()); })
       .def(
           "remaining_cells",
@@ -131,6 +133,7 @@ void bind_simulation(py::module_& m) {
             return py::array_t<std::int32_t>(static_cast<py::ssize_t>(cells.size()), cells.data());
           },
           arg("body"));
+  bind_snapshot(simulation);
 }
 
 }  // namespace tissu::bind

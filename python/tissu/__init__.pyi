@@ -2,6 +2,7 @@
 
 from tissu.comparison import Comparison as Comparison
 from tissu.comparison import compare as compare
+from tissu.errors import CheckpointError as CheckpointError
 from tissu.errors import Diverged as Diverged
 from tissu import formula as formula
 from tissu.errors import LawError as LawError
@@ -38,10 +39,19 @@ from tissu.scene import FEM as FEM
 from tissu.scene import Fixed as Fixed
 from tissu.scene import Hooke as Hooke
 from tissu.scene import ImplicitEuler as ImplicitEuler
+from tissu.scene import BDF2 as BDF2
+from tissu.scene import BDF2FixedPoint as BDF2FixedPoint
+from tissu.scene import ExplicitEuler as ExplicitEuler
+from tissu.scene import ImplicitMidpoint as ImplicitMidpoint
+from tissu.scene import Newmark as Newmark
+from tissu.scene import RK2 as RK2
+from tissu.scene import RK4 as RK4
+from tissu.scene import SymplecticEuler as SymplecticEuler
 from tissu.scene import KelvinVoigt as KelvinVoigt
 from tissu.scene import MassLink as MassLink
 from tissu.scene import MassSpring as MassSpring
 from tissu.scene import MassTensor as MassTensor
+from tissu.scene import MeanDilatation as MeanDilatation
 from tissu.scene import MeshFile as MeshFile
 from tissu.scene import Newton as Newton
 from tissu.scene import NodalLoad as NodalLoad
@@ -58,6 +68,7 @@ from tissu.scene import Rotation as Rotation
 from tissu.scene import Scene as Scene
 from tissu.scene import Sphere as Sphere
 from tissu.scene import StVK as StVK
+from tissu.scene import Start as Start
 from tissu.scene import Static as Static
 from tissu.scene import SurfaceNodes as SurfaceNodes
 from tissu.scene import Traction as Traction

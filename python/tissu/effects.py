@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     from tissu.scene.model import Model
     from tissu.scene.scene import Scene
     from tissu.scene.selection import Selection
+    from tissu.scene.start import Start
     from tissu.scene.step import Step
     from tissu.scene.viscosity import Viscosity
 
@@ -104,6 +105,8 @@ def _of_body(name: str, body: Body) -> list[Effect]:
     if body.section is not None:
         why = f"bodies.{name}.section is {body.section:g} m^2"
         effects.append(Effect(f"lines of {name}", why))
+    if body.start is not None:
+        effects.append(Effect(f"start of {name}", f"bodies.{name}.start is {_start(body.start)}"))
     if body.viscosity is not None:
         why = f"bodies.{name}.viscosity is {_viscosity(body.viscosity)}"
         effects.append(Effect(f"viscosity of {name}", why))
@@ -113,7 +116,8 @@ def _of_body(name: str, body: Body) -> list[Effect]:
 def _of_step(step: Step) -> Effect:
     if step.type == "static":
         return Effect("equilibrium", f"step is static, in {step.load_steps} load steps")
-    return Effect("inertia", f"step is {step.type} with dt {step.dt:g} s")
+    dt = step.dt if isinstance(step.dt, str) else f"{step.dt:g} s"
+    return Effect("inertia", f"step is {step.type} with dt {dt}")
 
 
 def _law(law: Law) -> str:
@@ -122,6 +126,15 @@ def _law(law: Law) -> str:
     words = ", ".join(f"{n} {value:g}" + ("" if n in pure else " Pa") for n, value in values)
     fibres = "" if law.fibres is None else f", fibres k1 {law.fibres.k1:g}, k2 {law.fibres.k2:g}"
     return f"{law.type} with {words}{fibres}"
+
+
+def _start(start: Start) -> str:
+    words: list[str] = [start.shape] if start.shape != "rest" else []
+    if start.velocity is not None:
+        words.append(f"velocity {_vector(start.velocity)} m/s")
+    if start.spin is not None:
+        words.append(f"spin {_vector(start.spin)} rad/s")
+    return ", ".join(words) or "at rest"
 
 
 def _viscosity(viscosity: Viscosity) -> str:

@@ -34,6 +34,10 @@ class SceneError(TissuError):
         super().__init__(f"{head} in the scene:\n" + "\n".join(f"- {p}" for p in self.problems))
 
 
+class CheckpointError(TissuError):
+    """A checkpoint cannot be written, or gone on from: absent, damaged, of another scene."""
+
+
 class Diverged(TissuError):  # noqa: N818 - the field's word for it
     """A step gave a value that is not finite; the simulation stands at its last good step.
 

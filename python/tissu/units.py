@@ -190,10 +190,18 @@ DAMPING_PER_VOLUME = Dimension(
     "damping per volume", "N*s/m^4", "2e5 N s/m^4",
     {"N*s/m^4": 1.0, "kg/s/m^3": 1.0, "kg/m^3/s": 1.0},
 )  # fmt: skip
+VELOCITY = Dimension(
+    "velocity", "m/s", "1.5 m/s",
+    {"m/s": 1.0, "mm/s": 1e-3, "cm/s": 1e-2, "km/h": 1.0 / 3.6},
+)  # fmt: skip
+SPIN = Dimension(
+    "angular velocity", "rad/s", "90 deg/s",
+    {"rad/s": 1.0, "1/s": 1.0, "deg/s": math.pi / 180, "rpm": math.pi / 30},
+)  # fmt: skip
 NUMBER = Dimension("pure number", "", "0.45", {"%": 0.01})
 DIMENSIONS = (
     *(LENGTH, AREA, TIME, MASS, PRESSURE, DENSITY, FORCE, ACCELERATION, ANGLE, RATE),
-    *(VISCOSITY, DAMPING_PER_VOLUME),
+    *(VISCOSITY, DAMPING_PER_VOLUME, VELOCITY, SPIN),
     NUMBER,
 )
 
@@ -282,6 +290,8 @@ Direction = Annotated[_Three, BeforeValidator(Triple(NUMBER))]
 Position = Annotated[_Three, BeforeValidator(Triple(LENGTH))]
 OpenPosition = Annotated[_OpenThree, BeforeValidator(Triple(LENGTH, open=True))]
 Acceleration = Annotated[_Three, BeforeValidator(Triple(ACCELERATION))]
+Velocity = Annotated[_Three, BeforeValidator(Triple(VELOCITY))]
+Spin = Annotated[_Three, BeforeValidator(Triple(SPIN))]
 Force = Annotated[_Three, BeforeValidator(Triple(FORCE))]
 TractionVector = Annotated[_Three, BeforeValidator(Triple(PRESSURE))]
 Times = Annotated[tuple[Time, ...], BeforeValidator(listed)]

@@ -182,14 +182,18 @@ def test_integrators_and_solvers(monkeypatch):
             _core, name, lambda name=name, **fields: made.update({name: fields}), raising=False
         )
     world.integrator_of(ImplicitEuler(0.01))
-    assert made == {"ImplicitEuler": {"newton_iterations": 1}}
+    assert made == {"ImplicitEuler": {"newton_iterations": 1, "indefinite": "project"}}
     world.integrator_of(ImplicitEuler(0.01, newton=Newton(iterations=7, tolerance=1e-9)))
     world.integrator_of(Static(load_steps=3))
     gradient = ConjugateGradient(iterations=5, preconditioner="stale_cholesky", precision="single")
     world.solver_of(gradient)
     world.solver_of(Cholesky())
     assert made == {
-        "ImplicitEuler": {"newton_iterations": 7, "newton_tolerance": 1e-9},
+        "ImplicitEuler": {
+            "newton_iterations": 7,
+            "newton_tolerance": 1e-9,
+            "indefinite": "project",
+        },
         "Static": {"newton_iterations": 10, "newton_tolerance": 1e-6, "load_steps": 3},
         "ConjugateGradient": {
             "tolerance": 1e-6,

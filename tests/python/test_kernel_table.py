@@ -45,6 +45,19 @@ def test_baselines_are_shown_as_multiples_of_ours(kernels: ModuleType) -> None:
     assert "| tetra, force | 5 | 20 | 4.0 | 100 | 20.0 |" in text
 
 
+def test_a_definite_matrix_is_shown_beside_the_exact_one(kernels: ModuleType) -> None:
+    """5 ns and 10 ns an element; a row without its twin is left out."""
+    times = {
+        "fem/tetra/stvk/exact": 50.0,
+        "fem/tetra/stvk/definite": 100.0,
+        "fem/line/x/exact": 1.0,
+    }
+    entries = [entry(f"definite/{name}", ns) for name, ns in times.items()]
+    text = kernels.definite_table(kernels.rows_of({"benchmarks": entries}))
+    assert "| fem, tetra, stvk | 5 | 10 | 2.0 |" in text
+    assert "line" not in text
+
+
 def test_the_part_whose_absence_saves_most_bounds_the_kernel(kernels: ModuleType) -> None:
     """Of 10 ns the scatter takes 6."""
     parts = {

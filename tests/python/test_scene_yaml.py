@@ -150,6 +150,7 @@ def models():
         ts.MassLink(),
         ts.MassTensor(),
         ts.Condensed(keep="surface"),
+        ts.MeanDilatation(),
         {"a": ts.MassLink(), "b": ts.FEM()},
     ]
     bodies = [ts.Body(mesh=mesh, law=law, density=1e3, model=model) for model in each]

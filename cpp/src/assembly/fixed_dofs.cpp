@@ -55,6 +55,16 @@ void FixedDofs::set_velocities(ConstReals x, double time, double h, double share
   }
 }
 
+void FixedDofs::copy(ConstReals from, Reals to) const {
+  for (const std::int32_t row : rows_) {
+    for (int axis = 0; axis < 3; ++axis) {
+      if (((masks_[static_cast<std::size_t>(row)] >> axis) & 1) == 0) continue;
+      const auto i = static_cast<std::size_t>(3 * row + axis);
+      to[i] = from[i];
+    }
+  }
+}
+
 void FixedDofs::clear(Reals values) const {
   for (const std::int32_t row : rows_) {
     for (int axis = 0; axis < 3; ++axis) {

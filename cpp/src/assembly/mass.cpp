@@ -1,5 +1,6 @@
 #include "tissu/assembly/mass.h"
 
+#include <Eigen/Cholesky>
 #include <numeric>
 #include <utility>
 
@@ -18,6 +19,21 @@ void Mass::add_product(const State& state, double scale, ConstReals v, Reals out
   for (std::size_t k = 0; k < frames_.size(); ++k) {
     const std::int32_t r = frames_[k].block + 1;
     block(out, r) += scale * (spatial_inertia(frames_[k], state.rotations[k]) * block(v, r));
+  }
+}
+
+void Mass::divide(const State& state, Reals f) const {
+  std::size_t k = 0;
+  for (std::size_t i = 0; i < nodal_.size(); ++i) {
+    auto value = block(f, static_cast<std::int32_t>(i));
+    if (k < frames_.size() && static_cast<std::size_t>(frames_[k].block) + 1 == i) {
+      value = spatial_inertia(frames_[k], state.rotations[k]).ldlt().solve(Vec3(value));
+      ++k;
+    } else if (nodal_[i] > 0.0) {
+      value /= nodal_[i];
+    } else {
+      value.setZero();
+    }
   }
 }
 

@@ -33,13 +33,19 @@ void remove_from(ElasticBlock& block, Numbers& wanted) {
   if (kept.size() < block.cell_numbers.size()) block = part_of(block, kept);
 }
 
-/// Nodes of the body that no cell uses, held where they are.
-void hold_debris(WorldDescription& description, const BodyDescription& body, const State& state,
-                 std::int32_t first_node) {
+/// Which nodes of the body a cell uses.
+std::vector<char> used_nodes(const BodyDescription& body) {
   std::vector<char> used(body.positions.size() / 3, 0);
   for (const ElasticBlock& block : body.elastic) {
     for (const std::int32_t node : block.cells) used[static_cast<std::size_t>(node)] = 1;
   }
+  return used;
+}
+
+/// Nodes of the body that no cell uses, held where they are.
+void hold_debris(WorldDescription& description, const BodyDescription& body, const State& state,
+                 std::int32_t first_node) {
+  const std::vector<char> used = used_nodes(body);
   FixedNodes held;
   held.body = body.name;
   for (std::size_t node = 0; node < used.size(); ++node) {
@@ -103,6 +109,25 @@ std::vector<std::int32_t> remaining_cells(const World& world, std::string_view b
     }
   }
   return numbers;
+}
+
+LooseNodes loose_nodes(const World& world, std::string_view body) {
+  LooseNodes loose;
+  if (world.description() == nullptr) return loose;
+  const WorldDescription& description = *world.description();
+  const auto edited = std::ranges::find(description.bodies, body, &BodyDescription::name);
+  if (edited == description.bodies.end()) return loose;
+  const std::vector<char> used = used_nodes(*edited);
+  for (const FixedNodes& fixed : description.fixed) {
+    if (fixed.body != body || fixed.positions.empty()) continue;
+    for (std::size_t i = 0; i < fixed.nodes.size(); ++i) {
+      if (used[static_cast<std::size_t>(fixed.nodes[i])] != 0) continue;
+      loose.nodes.push_back(fixed.nodes[i]);
+      const auto at = fixed.positions.begin() + static_cast<std::ptrdiff_t>(3 * i);
+      loose.places.insert(loose.places.end(), at, at + 3);
+    }
+  }
+  return loose;
 }
 
 }  // namespace tissu

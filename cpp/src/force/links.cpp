@@ -1,11 +1,14 @@
 #include "tissu/force/links.h"
 
 #include <array>
+#include <string>
 
 #include "tissu/base/error.h"
 
 namespace tissu {
 namespace {
+
+constexpr std::size_t kNumbers = 11;  ///< of a link
 
 /// From the frame's origin to the point, in space.
 Vec3 arm(const State& state, const LinkPoint& point) {
@@ -54,6 +57,33 @@ void for_blocks(const State& state, const LinkPoint& a, const LinkPoint& b, Func
 }
 
 }  // namespace
+
+std::vector<double> Links::numbers() const {
+  std::vector<double> result;
+  for (const Link& link : links_) {
+    for (const LinkPoint& point : {link.a, link.b}) {
+      result.insert(result.end(), {static_cast<double>(point.block), static_cast<double>(point.frame),
+                                   point.place.x(), point.place.y(), point.place.z()});
+    }
+    result.push_back(link.stiffness);
+  }
+  return result;
+}
+
+void Links::restore(ConstReals numbers) {
+  if (numbers.size() % kNumbers != 0) {
+    throw ParameterError("found " + std::to_string(numbers.size()) + " numbers of links; a multiple of " +
+                         std::to_string(kNumbers) + " is accepted.");
+  }
+  links_.clear();
+  const auto point = [](const double* from) -> LinkPoint {
+    return {static_cast<std::int32_t>(from[0]), static_cast<std::int32_t>(from[1]),
+            Vec3(from[2], from[3], from[4])};
+  };
+  for (std::size_t i = 0; i < numbers.size(); i += kNumbers) {
+    links_.push_back({point(&numbers[i]), point(&numbers[i + 5]), numbers[i + 10]});
+  }
+}
 
 std::int32_t Links::add(const LinkPoint& a, const LinkPoint& b, double stiffness) {
   if (!(stiffness > 0.0)) {

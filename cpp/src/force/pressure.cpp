@@ -113,6 +113,7 @@ void Pressure::for_blocks(const State& state, double scale, Function&& f) const 
 }
 
 void Pressure::add_stiffness(const State& state, StiffnessScale scale, BlockMatrix& matrix) const {
+  if (scale.definite) return;
   for_blocks(state, scale.position,
              [&](std::int32_t a, std::int32_t b, const Mat3& B) { matrix.add(a, b, B); });
 }

@@ -17,6 +17,10 @@ std::string names_of(const Infos& infos) {
 
 }  // namespace
 
+bool uniform(const LawParameters& parameters) {
+  return std::ranges::all_of(parameters, [](const auto& parameter) { return parameter.second.size() == 1; });
+}
+
 std::vector<LawUse> laws_of(const ElasticBlock& block) {
   std::vector<LawUse> uses = {{block.law, block.parameters, block.loaded}};
   uses.insert(uses.end(), block.reinforcements.begin(), block.reinforcements.end());

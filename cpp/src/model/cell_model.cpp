@@ -44,6 +44,16 @@ void check_sizes(const ElasticBlock& block, const ReferenceCell& reference, std:
   }
 }
 
+/// Von Mises' stress of a lane's mean Cauchy stress xx yy zz yz xz xy, [group][6][8].
+double von_mises(const double* stresses, std::size_t lane) {
+  constexpr std::size_t kLanes = ElementOrder::kLanes;
+  const auto s = [&](std::size_t k) { return stresses[(lane / kLanes * 6 + k) * kLanes + lane % kLanes]; };
+  const double deviation =
+      (s(0) - s(1)) * (s(0) - s(1)) + (s(1) - s(2)) * (s(1) - s(2)) + (s(2) - s(0)) * (s(2) - s(0));
+  const double shear = s(3) * s(3) + s(4) * s(4) + s(5) * s(5);
+  return std::sqrt(0.5 * deviation + 3.0 * shear);
+}
+
 }  // namespace
 
 CellModel::CellModel(ElasticBlock block, Threads threads)
@@ -54,8 +64,8 @@ CellModel::CellModel(ElasticBlock block, Threads threads)
   check_sizes(block_, reference_, static_cast<std::size_t>(cell_count()));
 }
 
-void CellModel::lay_cells(ConstReals rest_positions, RestForm form) {
-  order_ = order_elements(block_.cells, reference_.nodes, rest_positions);
+void CellModel::lay_cells(ConstReals rest_positions, RestForm form, std::span<const std::int32_t> together) {
+  order_ = order_elements(block_.cells, reference_.nodes, rest_positions, together);
   shape_ = rest_shape({reference_, block_.cells, block_.cross_section, rest_positions}, order_, form);
   if (shape_.bad.empty()) return;
   if (!block_.cell_numbers.empty()) {
@@ -158,13 +168,44 @@ std::size_t CellModel::bytes() const {
          (order_.nodes.size() + slots_.size()) * sizeof(std::int32_t);
 }
 
-double von_mises(const double* stresses, std::size_t lane) {
-  constexpr std::size_t kLanes = ElementOrder::kLanes;
-  const auto s = [&](std::size_t k) { return stresses[(lane / kLanes * 6 + k) * kLanes + lane % kLanes]; };
-  const double deviation =
-      (s(0) - s(1)) * (s(0) - s(1)) + (s(1) - s(2)) * (s(1) - s(2)) + (s(2) - s(0)) * (s(2) - s(0));
-  const double shear = s(3) * s(3) + s(4) * s(4) + s(5) * s(5);
-  return std::sqrt(0.5 * deviation + 3.0 * shear);
+std::vector<double> CellModel::reference_gradients() const {
+  std::vector<double> gradients;
+  for (const ReferenceCell::Point& point : reference_.points) {
+    for (const auto& gradient : point.gradients) {
+      gradients.insert(gradients.end(), gradient.begin(), gradient.begin() + reference_.dimension);
+    }
+  }
+  return gradients;
+}
+
+ElasticView CellModel::cell_view() const {
+  return {.places = order_.places.data(),
+          .slots = slots_.data(),
+          .rest = shape_.rest.data(),
+          .rest_points = shape_.rest_points,
+          .weights = shape_.weights.data(),
+          .frames = nullptr,
+          .constants = constants_.data(),
+          .constants_stride = constants_stride_,
+          .gradients = nullptr,
+          .points = static_cast<int>(reference_.points.size()),
+          .laws = nullptr,
+          .law_count = 0};
+}
+
+CellFields CellModel::cell_fields(const std::vector<double>& stresses, const std::vector<double>& ratios,
+                                  const std::vector<double>& energies) const {
+  CellFields fields;
+  const auto cells = static_cast<std::size_t>(cell_count());
+  fields.von_mises.resize(cells);
+  fields.energy_density.resize(cells);
+  fields.volume_ratio.resize(cells);
+  for_lanes([&](std::size_t lane, std::size_t cell) {
+    fields.von_mises[cell] = von_mises(stresses.data(), lane);
+    fields.energy_density[cell] = energies[lane] / shape_.volumes[cell];
+    fields.volume_ratio[cell] = ratios[lane];
+  });
+  return fields;
 }
 
 }  // namespace tissu

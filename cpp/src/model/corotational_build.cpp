@@ -109,7 +109,10 @@ Corotational::Corotational(ElasticBlock block, ConstReals rest_positions, Isa is
   choose_kernels(isa, one_jacobian);
   lay_cells(rest_positions, {.frames = false, .triangular = one_jacobian});
   if (!one_jacobian && rotation_ != Rotation::small) lay_centres(rest_positions);
-  lay_constants();
+  const LawUse law = laws_of(block_).front();
+  lay_constants(2, uniform(law.parameters), [&](std::size_t lane, std::span<double> lambda_and_mu) {
+    cell_constants(block_, law, order_.element[lane], lambda_and_mu);
+  });
 }
 
 void Corotational::choose_kernels(Isa isa, bool one_jacobian) {
@@ -149,20 +152,6 @@ void Corotational::lay_centres(ConstReals rest_positions) {
         rest[k * kLanes] = turned(static_cast<Eigen::Index>(k / 3), static_cast<Eigen::Index>(k % 3));
       }
     }
-  }
-}
-
-void Corotational::lay_constants() {
-  const LawUse use = laws_of(block_).front();
-  const bool uniform =
-      std::ranges::all_of(use.parameters, [](const auto& parameter) { return parameter.second.size() == 1; });
-  const std::int32_t groups = uniform ? 1 : order_.groups();
-  constants_stride_ = uniform ? 0 : 2 * static_cast<std::ptrdiff_t>(kLanes);
-  constants_.resize(static_cast<std::size_t>(groups) * 2 * kLanes);
-  std::array<double, 2> constants{};  // lambda and mu
-  for (std::size_t i = 0; i < static_cast<std::size_t>(groups) * kLanes; ++i) {
-    cell_constants(block_, use, order_.element[i], constants);
-    for (std::size_t c = 0; c < 2; ++c) constants_[(i / kLanes * 2 + c) * kLanes + i % kLanes] = constants[c];
   }
 }
 

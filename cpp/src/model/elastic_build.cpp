@@ -41,7 +41,7 @@ Elastic::Elastic(ElasticBlock block, ConstReals rest_positions, Isa isa, Threads
   const bool blind = std::ranges::all_of(
       laws_of(block_), [&](const LawUse& use) { return law_info(block_, use).frame_invariant; });
   lay_cells(rest_positions, {.frames = !blind, .triangular = kernels_->triangular});
-  lay_constants();
+  lay_law_constants();
 }
 
 void Elastic::choose_kernels(Isa isa) {
@@ -62,38 +62,27 @@ void Elastic::choose_kernels(Isa isa) {
     throw ParameterError("body \"" + block_.body + "\": cells of type " + block_.element +
                          " cannot be simulated yet.");
   }
-  for (const ReferenceCell::Point& point : reference_.points) {
-    for (const auto& gradient : point.gradients) {
-      gradients_.insert(gradients_.end(), gradient.begin(), gradient.begin() + reference_.dimension);
-    }
-  }
+  gradients_ = reference_gradients();
 }
 
-void Elastic::lay_constants() {
+void Elastic::lay_law_constants() {
   const std::vector<LawUse> uses = laws_of(block_);
-  bool uniform = true;
+  bool same = true;
   std::size_t count = 0;
   for (const LawUse& use : uses) {
     count += law_info(block_, use).constants.size();
-    for (const auto& [name, values] : use.parameters) uniform = uniform && values.size() == 1;
+    same = same && uniform(use.parameters);
   }
-  const std::int32_t groups = uniform ? 1 : order_.groups();
-  constants_stride_ = uniform ? 0 : static_cast<std::ptrdiff_t>(count * kLanes);
-  constants_.resize(static_cast<std::size_t>(groups) * count * kLanes);
-  std::vector<double> constants(count);
-  for (std::size_t i = 0; i < static_cast<std::size_t>(groups) * kLanes; ++i) {
-    double* to = constants.data();
+  lay_constants(count, same, [&](std::size_t lane, std::span<double> constants) {
     for (const LawUse& use : uses) {
       const LawInfo& info = law_info(block_, use);
-      const std::span<double> of_law{to, info.constants.size()};
-      cell_constants(block_, use, order_.element[i], of_law);
+      const std::span<double> of_law = constants.first(info.constants.size());
+      cell_constants(block_, use, order_.element[lane], of_law);
       if (reference_.dimension < 3 && block_.plane == Plane::stress)
         release_across(info, reference_.dimension, of_law);
-      to += info.constants.size();
+      constants = constants.subspan(of_law.size());
     }
-    for (std::size_t c = 0; c < count; ++c)
-      constants_[(i / kLanes * count + c) * kLanes + i % kLanes] = constants[c];
-  }
+  });
 }
 
 }  // namespace tissu

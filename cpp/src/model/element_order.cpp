@@ -42,6 +42,28 @@ std::vector<std::int32_t> along_curve(std::span<const std::int32_t> cells, int s
   return order;
 }
 
+/// Puts elements of one number after the first of them.
+void bring_together(std::span<const std::int32_t> together, std::vector<std::int32_t>& curve) {
+  std::vector<std::int32_t> place(static_cast<std::size_t>(std::ranges::max(together)) + 1, -1);
+  std::int32_t next = 0;
+  for (const std::int32_t e : curve) {
+    std::int32_t& at = place[static_cast<std::size_t>(together[static_cast<std::size_t>(e)])];
+    if (at < 0) at = next++;
+  }
+  std::ranges::stable_sort(curve, {}, [&](std::int32_t e) {
+    return place[static_cast<std::size_t>(together[static_cast<std::size_t>(e)])];
+  });
+}
+
+/// The end of a chunk, not later than `end`, that no number reaches across.
+std::size_t end_between(std::span<const std::int32_t> together, const std::vector<std::int32_t>& curve,
+                        std::size_t begin, std::size_t end) {
+  const auto number = [&](std::size_t i) { return together[static_cast<std::size_t>(curve[i])]; };
+  std::size_t last = end;
+  while (last > begin && last < curve.size() && number(last) == number(last - 1)) --last;
+  return last > begin ? last : end;
+}
+
 /// Lanes of a group take elements far apart in their chunk, so that they seldom share a node and the sums of
 /// one lane do not wait for those of the lane before.
 void lay_chunk(std::span<const std::int32_t> elements, ElementOrder& order) {
@@ -134,12 +156,15 @@ void pack_nodes(std::span<const std::int32_t> cells, int size, ElementOrder& ord
 
 }  // namespace
 
-ElementOrder order_elements(std::span<const std::int32_t> cells, int size, ConstReals positions) {
-  const std::vector<std::int32_t> curve = along_curve(cells, size, positions);
+ElementOrder order_elements(std::span<const std::int32_t> cells, int size, ConstReals positions,
+                            std::span<const std::int32_t> together) {
+  std::vector<std::int32_t> curve = along_curve(cells, size, positions);
+  if (!together.empty()) bring_together(together, curve);
   ElementOrder order;
   const auto step = static_cast<std::size_t>(ElementOrder::chunk_size(size));
-  for (std::size_t begin = 0; begin < curve.size(); begin += step) {
-    const std::size_t end = std::min(curve.size(), begin + step);
+  for (std::size_t begin = 0, end = 0; begin < curve.size(); begin = end) {
+    end = std::min(curve.size(), begin + step);
+    if (!together.empty()) end = end_between(together, curve, begin, end);
     lay_chunk(std::span(curve).subspan(begin, end - begin), order);
   }
   sort_by_colour(colour_chunks(order, cells, size, positions.size() / 3), order);

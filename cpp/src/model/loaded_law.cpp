@@ -75,7 +75,7 @@ void LoadedLaw::read_tables() {
   }
   for (const LawLibraryKernels& k : list(library_->kernels, library_->kernel_count)) {
     kernels_.push_back({library_->name, library_->linear != 0, k.dimension, library_->constant_count,
-                        k.energy, k.stress, k.stress_change, k.tangent});
+                        k.energy, k.stress, k.stress_change, k.tangent, library_->isotropic != 0});
   }
   info_ = {library_->name,          parameters_,       constants_, library_->frame_invariant != 0,
            library_->addition != 0, library_->compute, nullptr};

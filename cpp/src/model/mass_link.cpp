@@ -1,6 +1,7 @@
 #include "tissu/model/mass_link.h"
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -80,90 +81,48 @@ MassLink::MassLink(ElasticBlock block, ConstReals rest_positions, Isa isa, Threa
     : CellModel(std::move(block), threads), kernels_(find_mass_link_kernels(isa, block_.law)) {
   check_laws(block_, static_cast<std::size_t>(cell_count()));
   lay_cells(rest_positions, {.frames = false, .triangular = true});
-  lay_constants(rest_positions);
+  lay_links(rest_positions);
   keep_volumes();
 }
 
-void MassLink::lay_constants(ConstReals rest_positions) {
-  const auto reals = static_cast<std::size_t>(kernels_->reals);
-  constants_.resize(order_.element.size() * reals);
+void MassLink::lay_links(ConstReals rest_positions) {
   const LawUse use{block_.law, block_.parameters, block_.loaded};
-  for (std::size_t i = 0; i < order_.element.size(); ++i) {
-    const std::int32_t e = order_.element[i];
+  const auto reals = static_cast<std::size_t>(kernels_->reals);
+  lay_constants(reals, false, [&](std::size_t lane, std::span<double> constants) {
+    const std::int32_t e = order_.element[lane];
     const std::int32_t* nodes = &block_.cells[4 * static_cast<std::size_t>(e)];
     LinkCell cell;
     gradient_products(nodes, rest_positions, cell.s);
     cell.squares = squares_of(nodes, rest_positions);
     cell.volume = shape_.volumes[static_cast<std::size_t>(e)];
-    cell.counted = order_.real[i] != 0 ? cell.volume : 0.0;
+    cell.counted = order_.real[lane] != 0 ? cell.volume : 0.0;
     std::array<double, 2> lame;
     cell_constants(block_, use, e, lame);
     cell.lame = {lame[0], lame[1]};
-    const auto constants = block_.law == "stvk" ? stvk_constants(cell) : neo_hooke_constants(cell);
-    for (std::size_t k = 0; k < reals; ++k) {
-      constants_[(i / kLanes * reals + k) * kLanes + i % kLanes] = constants[k];
-    }
-  }
+    std::ranges::copy(block_.law == "stvk" ? stvk_constants(cell) : neo_hooke_constants(cell),
+                      constants.begin());
+  });
 }
 
-MassLinkView MassLink::view() const {
-  return {.places = order_.places.data(), .slots = slots_.data(), .constants = constants_.data()};
+Loops<MassLinkKernels, MassLinkView> MassLink::loops() const {
+  return {*kernels_, {order_.places.data(), slots_.data(), constants_.data()}, order_};
 }
 
-void MassLink::add_force(const State& state, Reals f) const {
-  const MassLinkView v = view();
-  for_chunks([&](const Chunk& chunk) { kernels_->force(v, chunk, state.positions.data(), f.data()); });
-}
+void MassLink::add_force(const State& state, Reals f) const { force_by(loops(), state.positions, f); }
 
 void MassLink::add_stiffness(const State& state, StiffnessScale scale, BlockMatrix& matrix) const {
-  if (scale.position == 0.0) return;
-  const MassLinkView v = view();
-  double* values = matrix.values();
-  for_chunks([&](const Chunk& chunk) {
-    kernels_->stiffness(v, chunk, state.positions.data(), scale.position, values);
-  });
+  stiffness_by(loops(), state.positions, scale, matrix);
 }
 
 void MassLink::add_product(const State& state, StiffnessScale scale, ConstReals p, Reals out) const {
-  if (scale.position == 0.0) return;
-  const MassLinkView v = view();
-  for_chunks([&](const Chunk& chunk) {
-    kernels_->product(v, chunk, state.positions.data(), scale.position, p.data(), out.data());
-  });
+  product_by(loops(), state.positions, scale.position, p, out);
 }
 
-std::vector<double> MassLink::energies(const State& state) const {
-  std::vector<double> result(order_.element.size(), 0.0);
-  const MassLinkView v = view();
-  for_chunks([&](const Chunk& chunk) { kernels_->energy(v, chunk, state.positions.data(), result.data()); });
-  return result;
-}
-
-double MassLink::energy(const State& state) const {
-  double sum = 0.0;
-  for (const double e : energies(state)) sum += e;
-  return sum;
-}
+double MassLink::energy(const State& state) const { return energy_by(loops(), state.positions); }
 
 CellFields MassLink::fields(const State& state) const {
-  const std::size_t lanes = order_.element.size();
-  std::vector<double> stresses(6 * lanes);
-  std::vector<double> now(lanes);
-  const MassLinkView v = view();
-  for_chunks([&](const Chunk& chunk) {
-    kernels_->stress(v, chunk, state.positions.data(), stresses.data(), now.data());
-  });
-  const std::vector<double> stored = energies(state);
-  const auto cells = static_cast<std::size_t>(cell_count());
-  CellFields fields;
-  fields.von_mises.resize(cells);
-  fields.energy_density.resize(cells);
-  fields.volume_ratio.resize(cells);
-  for_lanes([&](std::size_t lane, std::size_t cell) {
-    fields.von_mises[cell] = von_mises(stresses.data(), lane);
-    fields.energy_density[cell] = stored[lane] / shape_.volumes[cell];
-    fields.volume_ratio[cell] = now[lane] / shape_.volumes[cell];
-  });
+  CellFields fields = fields_by(loops(), state.positions);
+  for (std::size_t e = 0; e < shape_.volumes.size(); ++e) fields.volume_ratio[e] /= shape_.volumes[e];
   return fields;
 }
 

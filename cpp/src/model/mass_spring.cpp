@@ -5,11 +5,12 @@
 #include <array>
 #include <utility>
 
+#include "tissu/model/tetra_edges.h"
+
 namespace tissu {
 namespace {
 
 constexpr std::size_t kNodes = 4;
-constexpr std::array<std::array<std::size_t, 2>, 6> kEdges{{{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
 
 double distance(ConstReals x, std::int32_t a, std::int32_t b) { return (block(x, b) - block(x, a)).norm(); }
 
@@ -33,9 +34,7 @@ MassSpring::MassSpring(ElasticBlock block, ConstReals rest_positions, Isa isa, T
   check_laws(block_, static_cast<std::size_t>(cell_count()));
   const LawUse law = laws_of(block_).front();
   std::array<double, 2> constants;  // of hooke and stvk, for the sake of what they refuse
-  const bool uniform =
-      std::ranges::all_of(law.parameters, [](const auto& parameter) { return parameter.second.size() == 1; });
-  for (std::int32_t cell = 0; cell < (uniform ? 1 : cell_count()); ++cell) {
+  for (std::int32_t cell = 0; cell < (uniform(law.parameters) ? 1 : cell_count()); ++cell) {
     cell_constants(block_, law, cell, constants);
   }
   lay_cells(rest_positions, {.frames = false, .triangular = false});
@@ -55,8 +54,9 @@ void MassSpring::lay_springs(ConstReals rest_positions) {
   };
   std::vector<Piece> pieces;
   for (std::size_t i = 0; i < block_.cells.size(); i += kNodes) {
-    for (const auto& [a, b] : kEdges) {
-      const auto [low, high] = std::minmax(block_.cells[i + a], block_.cells[i + b]);
+    for (const auto& [a, b] : kTetraEdges) {
+      const auto [low, high] = std::minmax(block_.cells[i + static_cast<std::size_t>(a)],
+                                           block_.cells[i + static_cast<std::size_t>(b)]);
       pieces.push_back({low, high, static_cast<std::int32_t>(i / kNodes)});
     }
   }
@@ -101,69 +101,41 @@ void MassSpring::bind(const Sparsity& pattern) {
   }
 }
 
-SpringView MassSpring::view(const double* damping) const {
-  return {.places = springs_.places.data(),
-          .slots = spring_slots_.data(),
-          .stiffness = stiffness_.data(),
-          .length = length_.data(),
-          .damping = damping};
+Loops<SpringKernels, SpringView> MassSpring::loops(const double* damping) const {
+  return {*kernels_,
+          {.places = springs_.places.data(),
+           .slots = spring_slots_.data(),
+           .stiffness = stiffness_.data(),
+           .length = length_.data(),
+           .damping = damping},
+          springs_};
 }
 
-template <class Function>
-void MassSpring::for_spring_chunks(Function&& f) const {
-  for (std::int32_t colour = 0; colour < springs_.colours(); ++colour) {
-    const std::int32_t begin = springs_.colour_begin[static_cast<std::size_t>(colour)];
-    const std::int32_t end = springs_.colour_begin[static_cast<std::size_t>(colour) + 1];
-    threads_.for_each(end - begin,
-                      [&](std::int32_t c) { f(springs_.chunks[static_cast<std::size_t>(begin + c)]); });
-  }
-}
-
-void MassSpring::add_force(const State& state, Reals f) const {
-  const SpringView v = view();
-  for_spring_chunks([&](const Chunk& chunk) { kernels_->force(v, chunk, state.positions.data(), f.data()); });
-}
+void MassSpring::add_force(const State& state, Reals f) const { force_by(loops(), state.positions, f); }
 
 void MassSpring::add_stiffness(const State& state, StiffnessScale scale, BlockMatrix& matrix) const {
-  if (scale.position == 0.0) return;
-  const SpringView v = view();
-  double* values = matrix.values();
-  for_spring_chunks([&](const Chunk& chunk) {
-    kernels_->stiffness(v, chunk, state.positions.data(), scale.position, values);
-  });
+  stiffness_by(loops(), state.positions, scale, matrix);
 }
 
 void MassSpring::add_product(const State& state, StiffnessScale scale, ConstReals p, Reals out) const {
-  if (scale.position == 0.0) return;
-  const SpringView v = view();
-  for_spring_chunks([&](const Chunk& chunk) {
-    kernels_->product(v, chunk, state.positions.data(), scale.position, p.data(), out.data());
-  });
+  product_by(loops(), state.positions, scale.position, p, out);
 }
 
 void MassSpring::add_damping(const double* damping, ConstReals x, double scale, ConstReals p,
                              Reals out) const {
-  const SpringView v = view(damping);
-  for_spring_chunks([&](const Chunk& chunk) {
+  const SpringView v = loops(damping).view;
+  for_chunks(springs_, [&](const Chunk& chunk) {
     kernels_->damping_product(v, chunk, x.data(), scale, p.data(), out.data());
   });
 }
 
 void MassSpring::add_damping(const double* damping, ConstReals x, double scale, BlockMatrix& matrix) const {
-  const SpringView v = view(damping);
+  const SpringView v = loops(damping).view;
   double* values = matrix.values();
-  for_spring_chunks([&](const Chunk& chunk) { kernels_->damping(v, chunk, x.data(), scale, values); });
+  for_chunks(springs_, [&](const Chunk& chunk) { kernels_->damping(v, chunk, x.data(), scale, values); });
 }
 
-double MassSpring::energy(const State& state) const {
-  std::vector<double> energies(springs_.element.size(), 0.0);
-  const SpringView v = view();
-  for_spring_chunks(
-      [&](const Chunk& chunk) { kernels_->energy(v, chunk, state.positions.data(), energies.data()); });
-  double sum = 0.0;
-  for (const double e : energies) sum += e;
-  return sum;
-}
+double MassSpring::energy(const State& state) const { return energy_by(loops(), state.positions); }
 
 void MassSpring::add_masses(std::vector<double>& nodal) const {
   std::vector<char> used(nodal.size(), 0);
@@ -191,9 +163,8 @@ CellFields MassSpring::fields(const State& state) const {
     const std::int32_t* cell = block_.cells.data() + kNodes * e;
     const auto place = static_cast<std::int32_t>(kNodes * e);
     double squares = 0.0;
-    for (const auto& [a, b] : kEdges) {
-      const double l0 =
-          distance(rest_, place + static_cast<std::int32_t>(a), place + static_cast<std::int32_t>(b));
+    for (const auto& [a, b] : kTetraEdges) {
+      const double l0 = distance(rest_, place + a, place + b);
       const double strain = distance(state.positions, cell[a], cell[b]) / l0 - 1.0;
       squares += strain * strain;
     }

@@ -8,6 +8,7 @@
 
 #include "tissu/law/hooke.h"
 #include "tissu/law/stvk.h"
+#include "tissu/model/elastic.h"
 
 namespace tissu {
 namespace {
@@ -88,9 +89,7 @@ MassTensor::MassTensor(const MassTensor& before, ElasticBlock left, const std::v
 
 void MassTensor::lay_laws() {
   const LawUse use{block_.law, block_.parameters, block_.loaded};
-  const bool uniform =
-      std::ranges::all_of(use.parameters, [](const auto& p) { return p.second.size() == 1; });
-  for (std::int32_t e = 0; e < (uniform ? 1 : cell_count()); ++e) {
+  for (std::int32_t e = 0; e < (uniform(use.parameters) ? 1 : cell_count()); ++e) {
     std::array<double, 2> constants;
     cell_constants(block_, use, e, constants);
     lame_.push_back({constants[0], constants[1]});
@@ -120,17 +119,20 @@ TensorCell MassTensor::cell(std::int32_t number) const {
 }
 
 void MassTensor::bind(const Sparsity& pattern) {
+  elements_.reset();  // they know another pattern
   for (Part& part : parts_) {
     lay_slots(part.table.order, part.table.nodes, part.table.size, pattern, part.table.slots);
   }
 }
 
-MassTensorView MassTensor::view(const Part& part) const {
-  return {.places = part.table.order.places.data(),
-          .slots = part.table.slots.data(),
-          .constants = part.table.constants.data(),
-          .rest = X_.data(),
-          .origin = block_.cells.front()};
+Loops<MassTensorKernels, MassTensorView> MassTensor::loops(const Part& part) const {
+  return {*part.kernels,
+          {.places = part.table.order.places.data(),
+           .slots = part.table.slots.data(),
+           .constants = part.table.constants.data(),
+           .rest = X_.data(),
+           .origin = block_.cells.front()},
+          part.table.order};
 }
 
 /// A quarter of each cell's mass at each of its nodes.
@@ -144,45 +146,35 @@ void MassTensor::add_masses(std::vector<double>& nodal) const {
 
 void MassTensor::add_weights(std::vector<double>& nodal) const { add_masses(nodal); }
 
-/// Calls f(kernels, view, chunk) for every chunk of every part.
-template <class Function>
-void MassTensor::for_parts(Function&& f) const {
-  for (const Part& part : parts_) {
-    const MassTensorView v = view(part);
-    for_chunks(part.table.order, [&](const Chunk& chunk) { f(*part.kernels, v, chunk); });
-  }
+void MassTensor::add_force(const State& state, Reals f) const {
+  for (const Part& part : parts_) force_by(loops(part), state.positions, f);
 }
 
-void MassTensor::add_force(const State& state, Reals f) const {
-  for_parts([&](const MassTensorKernels& kernels, const MassTensorView& v, const Chunk& chunk) {
-    kernels.force(v, chunk, state.positions.data(), f.data());
-  });
+const BodyModel& MassTensor::elements(const Sparsity& pattern) const {
+  const std::scoped_lock one_makes_them(making_elements_);
+  if (elements_ == nullptr) {
+    elements_ = std::make_unique<Elastic>(block_, X_, isa_, threads_);
+    elements_->bind(pattern);
+  }
+  return *elements_;
 }
 
 void MassTensor::add_stiffness(const State& state, StiffnessScale scale, BlockMatrix& matrix) const {
-  if (scale.position == 0.0) return;
-  double* values = matrix.values();
-  for_parts([&](const MassTensorKernels& kernels, const MassTensorView& v, const Chunk& chunk) {
-    kernels.stiffness(v, chunk, state.positions.data(), scale.position, values);
-  });
+  if (scale.definite && !linear_) {
+    elements(matrix.sparsity()).add_stiffness(state, scale, matrix);
+    return;
+  }
+  for (const Part& part : parts_) stiffness_by(loops(part), state.positions, scale, matrix);
 }
 
 void MassTensor::add_product(const State& state, StiffnessScale scale, ConstReals p, Reals out) const {
-  if (scale.position == 0.0) return;
-  for_parts([&](const MassTensorKernels& kernels, const MassTensorView& v, const Chunk& chunk) {
-    kernels.product(v, chunk, state.positions.data(), scale.position, p.data(), out.data());
-  });
+  for (const Part& part : parts_) product_by(loops(part), state.positions, scale.position, p, out);
 }
 
 double MassTensor::energy(const State& state) const {
   double sum = 0.0;
   for (const Part& part : parts_) {
-    std::vector<double> energies(part.table.order.element.size(), 0.0);
-    const MassTensorView v = view(part);
-    for_chunks(part.table.order, [&](const Chunk& chunk) {
-      part.kernels->energy(v, chunk, state.positions.data(), energies.data());
-    });
-    for (const double e : energies) sum += e;
+    for (const double e : energies_by(loops(part), state.positions)) sum += e;
   }
   return sum;
 }
@@ -210,6 +202,8 @@ CellFields MassTensor::fields(const State& state) const {
 std::size_t MassTensor::bytes() const {
   std::size_t sum = (X_.size() + 2 * lame_.size()) * sizeof(double);
   for (const Part& part : parts_) sum += part.table.bytes();
+  const std::scoped_lock nobody_makes_them(making_elements_);
+  if (elements_ != nullptr) sum += elements_->bytes();
   return sum;
 }
 

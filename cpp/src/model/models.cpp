@@ -12,6 +12,7 @@
 #include "tissu/model/mass_link.h"
 #include "tissu/model/mass_spring.h"
 #include "tissu/model/mass_tensor.h"
+#include "tissu/model/mean_dilatation.h"
 
 namespace tissu {
 namespace {
@@ -33,8 +34,9 @@ Entry entry() {
 
 /// A model is added here, and in tests/cpp/model/models_test.cpp.
 const std::vector<Entry>& entries() {
-  static const std::vector<Entry> all = {entry<Elastic>(),  entry<Corotational>(), entry<MassSpring>(),
-                                         entry<MassLink>(), entry<MassTensor>(),   entry<Condensed>()};
+  static const std::vector<Entry> all = {entry<Elastic>(),       entry<Corotational>(), entry<MassSpring>(),
+                                         entry<MassLink>(),      entry<MassTensor>(),   entry<Condensed>(),
+                                         entry<MeanDilatation>()};
   return all;
 }
 
@@ -56,11 +58,12 @@ void check_taken(const ElasticBlock& block, const ModelInfo& info) {
   refuse("law", block.law, info.laws);
   if (!info.laws.empty() && block.loaded) {
     throw ParameterError("body \"" + block.body + "\" asks for the model " + std::string(info.name) +
-                         " with the law " + block.law + " of its own; only the model fem takes such laws.");
+                         " with the law " + block.law +
+                         " of its own; only the models fem and mean-dilatation take such laws.");
   }
   if (info.laws.empty() || block.reinforcements.empty()) return;
   throw ParameterError("body \"" + block.body + "\" asks for the model " + std::string(info.name) +
-                       " with fibres; only the model fem takes them.");
+                       " with fibres; only the models fem and mean-dilatation take them.");
 }
 
 }  // namespace

@@ -191,7 +191,9 @@ void Simulation::replace_world(std::shared_ptr<const World> world) {
   if (world->blocks() != world_->blocks()) {
     throw ParameterError("the new world has other unknowns than the one that runs.");
   }
+  const std::vector<double> memory = integrator_->memory();
   integrator_->prepare(*world, solver_.get(), profile_);
+  integrator_->restore(memory);
   world->carry_memory(*world_, state_);
   world_ = std::move(world);
 }

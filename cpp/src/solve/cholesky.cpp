@@ -12,8 +12,8 @@
 namespace tissu {
 namespace {
 
-constexpr double kWorst = 1e-6;      ///< residual of an answer that is accepted
-constexpr double kRefined = 1e-10;   ///< an answer above it is refined
+constexpr double kWorst = 1e-6;     ///< residual of an answer that is accepted
+constexpr double kRefined = 1e-10;  ///< an answer above it is refined
 constexpr int kMostRefinements = 5;
 
 }  // namespace

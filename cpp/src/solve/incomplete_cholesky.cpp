@@ -9,9 +9,9 @@ namespace {
 
 constexpr double kFirstShift = 1e-3;
 constexpr double kLastShift = 1e3;
-constexpr double kKept = 0.1;      ///< a larger shift is not tried first at the next matrix
-constexpr double kSmallest = 1e-6; ///< of a pivot, of what it was before the subtraction
-constexpr double kPairBytes = 1000; ///< what a pair of blocks costs, in bytes read from memory
+constexpr double kKept = 0.1;        ///< a larger shift is not tried first at the next matrix
+constexpr double kSmallest = 1e-6;   ///< of a pivot, of what it was before the subtraction
+constexpr double kPairBytes = 1000;  ///< what a pair of blocks costs, in bytes read from memory
 
 template <class T>
 Eigen::Map<Eigen::Matrix<T, 3, 3>> block_of(AlignedVector<T>& values, std::int64_t b) {
@@ -52,7 +52,8 @@ void IncompleteCholesky<T>::make(const LinearOperator& A, double scale) {
   const double vectors = kVectorBytes * matrix.rows();
   const double iteration = static_cast<double>(matrix.bytes()) + vectors +
                            static_cast<double>(2 * triangle_.blocks()) * 9.0 * sizeof(T);
-  const double made = static_cast<double>(matrix.bytes()) + kPairBytes * static_cast<double>(triangle_.pairs());
+  const double made =
+      static_cast<double>(matrix.bytes()) + kPairBytes * static_cast<double>(triangle_.pairs());
   price_ = tries * made / iteration;
 }
 
@@ -94,7 +95,8 @@ bool IncompleteCholesky<T>::factor_row(const BlockMatrix& A, double scale, std::
       other += difference >= 0 ? 1 : 0;
     }
     const Block stored = S.template cast<T>();
-    const Block weighted = stored * Eigen::Map<const Block>(inverse_.data() + 9 * static_cast<std::ptrdiff_t>(j));
+    const Block weighted =
+        stored * Eigen::Map<const Block>(inverse_.data() + 9 * static_cast<std::ptrdiff_t>(j));
     block_of(lower_, b) = stored;
     block_of(upper_, b) = weighted;
     D -= (weighted * stored.transpose()).template cast<double>();

@@ -8,10 +8,7 @@
 namespace tissu {
 
 System::System(const World& world, LinearSolver* solver, Profile& profile)
-    : world_(world),
-      solver_(solver),
-      profile_(profile),
-      mass_row_(profile.row("inertia", "matrix")) {
+    : world_(world), solver_(solver), profile_(profile), mass_row_(profile.row("inertia", "matrix")) {
   for (const auto& model : world.forces()) {
     Rows rows{};
     rows.force = profile.row(model->effect(), "force");

@@ -12,33 +12,23 @@ KelvinVoigt::KelvinVoigt(const ElasticBlock& block, Lame viscosity, ConstReals r
   constants_.insert(constants_.end(), kLanes, viscosity.mu);
 }
 
-ElasticView KelvinVoigt::rate_view() const {
+Loops<ElasticKernels, ElasticView> KelvinVoigt::loops() const {
   ElasticView v = view();
   v.laws = &law_;
   v.law_count = 1;
-  return v;
-}
-
-void KelvinVoigt::add_rate(ConstReals x, double scale, ConstReals p, Reals out) const {
-  const ElasticView v = rate_view();
-  for_chunks([&](const Chunk& chunk) { kernels_->product(v, chunk, x.data(), scale, p.data(), out.data()); });
+  return {*kernels_, v, order_};
 }
 
 void KelvinVoigt::add_force(const State& state, Reals f) const {
-  add_rate(state.positions, 1.0, state.velocities, f);
+  product_by(loops(), state.positions, 1.0, state.velocities, f);
 }
 
 void KelvinVoigt::add_product(const State& state, StiffnessScale scale, ConstReals p, Reals out) const {
-  if (scale.velocity != 0.0) add_rate(state.positions, scale.velocity, p, out);
+  product_by(loops(), state.positions, scale.velocity, p, out);
 }
 
 void KelvinVoigt::add_stiffness(const State& state, StiffnessScale scale, BlockMatrix& matrix) const {
-  if (scale.velocity == 0.0) return;
-  const ElasticView v = rate_view();
-  double* values = matrix.values();
-  for_chunks([&](const Chunk& chunk) {
-    kernels_->stiffness(v, chunk, state.positions.data(), scale.velocity, values);
-  });
+  stiffness_by(loops(), state.positions, {.position = scale.velocity}, matrix);
 }
 
 }  // namespace tissu

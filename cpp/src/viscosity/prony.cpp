@@ -46,21 +46,11 @@ Prony::Prony(const ElasticBlock& block, const std::vector<PronyBranch>& branches
     shares_.push_back(branch.weight);
     times_.push_back(branch.time);
   }
-  lay_moduli();
-}
-
-void Prony::lay_moduli() {
-  bool uniform = true;
-  for (const auto& [name, values] : block_.parameters) uniform = uniform && values.size() == 1;
-  const std::size_t groups = uniform ? 1 : static_cast<std::size_t>(order_.groups());
-  constants_stride_ = uniform ? 0 : static_cast<std::ptrdiff_t>(2 * kLanes);
-  constants_.resize(groups * 2 * kLanes);
-  for (std::size_t i = 0; i < groups * kLanes; ++i) {
-    const Lame moduli = small_strain(block_, order_.element[i]);
-    double* group = constants_.data() + i / kLanes * 2 * kLanes;
-    group[i % kLanes] = moduli.lambda;
-    group[kLanes + i % kLanes] = moduli.mu;
-  }
+  lay_constants(2, uniform(block_.parameters), [&](std::size_t lane, std::span<double> lambda_and_mu) {
+    const Lame moduli = small_strain(block_, order_.element[lane]);
+    lambda_and_mu[0] = moduli.lambda;
+    lambda_and_mu[1] = moduli.mu;
+  });
 }
 
 Prony::Course Prony::course(const State& state) const {
@@ -87,38 +77,23 @@ PronyView Prony::prony_view(const State& state, const Course& course) const {
 
 void Prony::add_force(const State& state, Reals f) const {
   const Course now = course(state);
-  const PronyView v = prony_view(state, now);
-  for_chunks([&](const Chunk& chunk) { kernels_->forces.force(v, chunk, state.positions.data(), f.data()); });
+  force_by(Loops{kernels_->forces, prony_view(state, now), order_}, state.positions, f);
 }
 
 void Prony::add_product(const State& state, StiffnessScale scale, ConstReals p, Reals out) const {
-  if (scale.position == 0.0) return;
   const Course now = course(state);
-  const PronyView v = prony_view(state, now);
-  for_chunks([&](const Chunk& chunk) {
-    kernels_->forces.product(v, chunk, state.positions.data(), scale.position, p.data(), out.data());
-  });
+  product_by(Loops{kernels_->forces, prony_view(state, now), order_}, state.positions, scale.position, p,
+             out);
 }
 
 void Prony::add_stiffness(const State& state, StiffnessScale scale, BlockMatrix& matrix) const {
-  if (scale.position == 0.0) return;
   const Course now = course(state);
-  const PronyView v = prony_view(state, now);
-  double* values = matrix.values();
-  for_chunks([&](const Chunk& chunk) {
-    kernels_->forces.stiffness(v, chunk, state.positions.data(), scale.position, values);
-  });
+  stiffness_by(Loops{kernels_->forces, prony_view(state, now), order_}, state.positions, scale, matrix);
 }
 
 double Prony::energy(const State& state) const {
   const Course now = course(state);
-  const PronyView v = prony_view(state, now);
-  std::vector<double> energies(order_.element.size(), 0.0);
-  for_chunks(
-      [&](const Chunk& chunk) { kernels_->energy(v, chunk, state.positions.data(), energies.data()); });
-  double sum = 0.0;
-  for (const double e : energies) sum += e;
-  return sum;
+  return energy_by(Loops{*kernels_, prony_view(state, now), order_}, state.positions);
 }
 
 std::size_t Prony::reals_of_cell() const {
@@ -131,7 +106,8 @@ void Prony::advance(State& state) const {
   const Course now = course(state);
   const PronyView v = prony_view(state, now);
   double* memory = state.memory.data() + first_;
-  for_chunks([&](const Chunk& chunk) { kernels_->advance(v, chunk, state.positions.data(), memory); });
+  for_chunks(order_,
+             [&](const Chunk& chunk) { kernels_->advance(v, chunk, state.positions.data(), memory); });
 }
 
 void Prony::take_over(const Prony& before, ConstReals memory_before, Reals memory) const {

@@ -28,7 +28,9 @@ void Rayleigh::add_force(const State& state, Reals f) const {
 
 void Rayleigh::add_stiffness(const State& state, StiffnessScale scale, BlockMatrix& matrix) const {
   const double position = scale.position + beta_ * scale.velocity;
-  for (const auto& model : elastic_) model->add_stiffness(state, {position, 0.0}, matrix);
+  for (const auto& model : elastic_) {
+    model->add_stiffness(state, {position, 0.0, scale.definite}, matrix);
+  }
   if (alpha_ == 0.0 || scale.velocity == 0.0) return;
   for (std::size_t i = 0; i < masses_.size(); ++i) {
     matrix.add_diagonal(static_cast<std::int32_t>(i), -alpha_ * scale.velocity * masses_[i]);

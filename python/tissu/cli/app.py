@@ -39,6 +39,20 @@ def run(
         int | None,
         typer.Option(min=1, help="Number of threads; default: the scene's."),
     ] = None,
+    resume: Annotated[
+        Path | None,
+        typer.Option(metavar="FILE", help="Go on from this checkpoint, with the same bits."),
+    ] = None,
+    checkpoint: Annotated[
+        Path | None,
+        typer.Option(
+            metavar="FILE", help="Write a checkpoint there: at the end, also after Ctrl-C."
+        ),
+    ] = None,
+    checkpoint_every: Annotated[
+        str | None,
+        typer.Option(metavar="TIME", help="And whenever this simulated time has passed: '1 s'."),
+    ] = None,
     quiet: Annotated[bool, typer.Option("--quiet", "-q", help="Print errors only.")] = False,
     debug: Debug = False,
 ) -> None:
@@ -46,7 +60,9 @@ def run(
     from tissu.cli.run import Job, run_scene
 
     with reported(debug=debug):
-        job = Job(scene, out or Path("results") / scene.stem, duration, threads, quiet)
+        folder = out or Path("results") / scene.stem
+        again = (resume, checkpoint, checkpoint_every)
+        job = Job(scene, folder, duration, threads, quiet, *again)
         raise typer.Exit(run_scene(job, debug=debug))
 
 

@@ -17,10 +17,12 @@ class RunProgress:
     Args:
         duration: simulated time of the whole run [s].
         quiet: show nothing.
+        start: simulated time at which it goes on [s].
     """
 
-    def __init__(self, duration: float, *, quiet: bool) -> None:
+    def __init__(self, duration: float, *, quiet: bool, start: float = 0.0) -> None:
         self._duration = duration
+        self._start = start
         self._progress: Progress | None = None
         self._begin = time.perf_counter()
         self._steps = 0
@@ -47,19 +49,19 @@ class RunProgress:
         """One more step, after which `simulated` seconds of the run are done."""
         self._steps += 1
         if self._progress is not None:
-            elapsed = time.perf_counter() - self._begin
-            words = progress_words(simulated, self._duration, self._steps, elapsed)
+            elapsed = max(time.perf_counter() - self._begin, 1e-9)
+            rate = (simulated - self._start) / elapsed
+            words = progress_words(simulated, self._duration, self._steps / elapsed, rate)
             self._progress.update(self._task, completed=simulated, words=words)
 
 
-def progress_words(simulated: float, duration: float, steps: int, elapsed: float) -> str:
-    """What is said beside the bar; the real-time factor is simulated over elapsed time."""
-    elapsed = max(elapsed, 1e-9)
-    left = max(duration - simulated, 0.0) * elapsed / simulated if simulated > 0 else float("inf")
+def progress_words(simulated: float, duration: float, steps: float, rate: float) -> str:
+    """What is said beside the bar: steps a second, and simulated time over elapsed time."""
+    left = max(duration - simulated, 0.0) / rate if rate > 0 else float("inf")
     shown = f"{left:.0f} s left" if left < 1e6 else ""
     return (
-        f"{simulated:.2f} of {duration:.2f} s   {steps / elapsed:.0f} steps/s   "
-        f"{simulated / elapsed:.2f}x real time   {shown}"
+        f"{simulated:.2f} of {duration:.2f} s   {steps:.0f} steps/s   "
+        f"{rate:.2f}x real time   {shown}"
     )
 
 

@@ -3,21 +3,24 @@
 from __future__ import annotations
 
 import contextlib
+import math
 import time
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeVar
 
-from tissu import units
+from tissu.cli.checkpoints import Checkpoints, checkpoints_option, positive_time
 from tissu.cli.interruption import Interruption, interruption
 from tissu.cli.outcome import DIVERGED, FINISHED, complain
 from tissu.cli.progress import RunProgress
+from tissu.cli.timetable import Timetable
 from tissu.counted import counted
-from tissu.errors import Diverged, ParameterError
+from tissu.errors import Diverged, TissuError
 from tissu.output import Series, StepTally, prepare_folder, summarise, write_summary
 
 if TYPE_CHECKING:
+    from tissu.checkpoint import Resumed
     from tissu.scene import Scene
     from tissu.simulation import Simulation
 
@@ -33,6 +36,9 @@ class Job:
     duration: str | None
     threads: int | None
     quiet: bool
+    resume: Path | None = None
+    checkpoint: Path | None = None
+    checkpoint_every: str | None = None
 
 
 @dataclass(slots=True)
@@ -61,7 +67,7 @@ class Ending:
     """How a run ended.
 
     Attributes:
-        status: "finished", "interrupted" or "diverged".
+        status: "finished", "interrupted", "diverged", or "stopped": a step was refused.
         code: exit code of the command.
         message: why it is not finished.
         error: what stopped it.
@@ -70,7 +76,7 @@ class Ending:
     status: str
     code: int
     message: str = ""
-    error: Diverged | None = None
+    error: TissuError | None = None
 
 
 def run_scene(job: Job, *, debug: bool = False) -> int:
@@ -78,16 +84,19 @@ def run_scene(job: Job, *, debug: bool = False) -> int:
 
     Raises:
         SceneError: problems of the scene; all of them.
+        CheckpointError: it cannot go on from the checkpoint, or write one.
         TissuError: the output folder cannot be written.
     """
     clock, tally = Clock(), StepTally()
     with clock.stage("compile"):
         scene = load(job)
         folder = prepare_folder(job.out)
-        simulation = scene.compile()
+        checkpoints = checkpoints_option(job.checkpoint, job.checkpoint_every)
+        simulation = scene.compile(checkpoint=job.resume)
     with interruption() as interrupted:
         series = Series(simulation, folder)
-        ending = advance(simulation, series, tally, clock, interrupted, quiet=job.quiet)
+        files = Files(series, checkpoints, Timetable(span(scene)[1]), clock)
+        ending = advance(simulation, files, tally, interrupted, quiet=job.quiet)
         picture = conclude(simulation, series, tally, clock, ending)
     if not job.quiet:
         report(simulation, series, tally, clock, picture)
@@ -108,62 +117,78 @@ def load(job: Job) -> Scene:
     from tissu.scene.scene import accepted
     from tissu.yaml_io import read_scene
 
-    duration = None if job.duration is None else duration_option(job.duration)
+    duration = None if job.duration is None else positive_time(job.duration, "--duration")
     scene = accepted(read_scene(job.scene, to_run=duration is None))
     asked = {"duration": duration, "threads": job.threads}
     changes = {name: value for name, value in asked.items() if value is not None}
     return scene.replace(**changes) if changes else scene
 
 
-def duration_option(text: str) -> float:
-    """The simulated time asked for by --duration [s].
+@dataclass(slots=True)
+class Files:
+    """What is written while the scene runs, at the times when it is due."""
 
-    Raises:
-        ParameterError: it is no positive time.
-    """
-    try:
-        duration = units.TIME(text)
-    except ParameterError as error:
-        raise ParameterError(f"option --duration: {error}") from None
-    if duration <= 0.0:
-        raise ParameterError(f"option --duration: found '{text}'; more than 0 s is accepted")
-    return duration
+    series: Series
+    checkpoints: Checkpoints
+    times: Timetable
+    clock: Clock
+
+    def begin(self, simulation: Simulation) -> None:
+        """Writes what a series begins with."""
+        self.times.wait(simulation.time)
+        self.checkpoints.begin(simulation)
+        if self.series.count == 0:
+            self._write(simulation)
+
+    def write_due(self, simulation: Simulation) -> None:
+        """Writes what is due after a step."""
+        if self.times.is_due(simulation.time):
+            self._write(simulation)
+            self.times.wait(simulation.time)
+        with self.clock.stage("output"):
+            self.checkpoints.write_due(simulation)
+
+    def end(self, simulation: Simulation, ending: Ending) -> None:
+        """Writes the last results, and the checkpoint of a run that can go on."""
+        self._write(simulation)
+        if ending.error is None:
+            with self.clock.stage("output"):
+                self.checkpoints.write(simulation)
+
+    def _write(self, simulation: Simulation) -> None:
+        if simulation.time > self.series.last_time:
+            with self.clock.stage("output"):
+                self.series.write()
 
 
 def advance(
     simulation: Simulation,
-    series: Series,
+    files: Files,
     tally: StepTally,
-    clock: Clock,
     interrupted: Interruption,
     *,
     quiet: bool,
 ) -> Ending:
     """Steps to the end and writes results on the way."""
-    duration, every = span(simulation.scene)
-    ending, due = Ending("finished", FINISHED), every
-    with clock.stage("output"):
-        series.write()
-    with RunProgress(duration, quiet=quiet) as progress:
-        steps = iter(simulation.run(duration))
+    duration, _ = span(simulation.scene)
+    ending = Ending("finished", FINISHED)
+    files.begin(simulation)
+    with RunProgress(duration, quiet=quiet, start=simulation.time) as progress:
+        steps = iter(simulation.run(until=duration))
         try:
-            while (step := clock.timed("steps", steps)) is not None:
+            while (step := files.clock.timed("steps", steps)) is not None:
                 tally.add(step)
                 progress.advance(simulation.time)
-                if simulation.time > due - 1e-6 * every:
-                    with clock.stage("output"):
-                        series.write()
-                    due = every * (int(simulation.time / every + 1e-6) + 1)
+                files.write_due(simulation)
                 if interrupted.number:
                     when = f"{interrupted.word} at t = {simulation.time:.4g} s"
                     text = f"{when}; all files are complete"
                     ending = Ending("interrupted", interrupted.code, text)
                     break
-        except Diverged as error:
-            ending = Ending("diverged", DIVERGED, str(error), error)
-    if simulation.time > series.last_time:
-        with clock.stage("output"):
-            series.write()
+        except TissuError as error:
+            status = "diverged" if isinstance(error, Diverged) else "stopped"
+            ending = Ending(status, DIVERGED, str(error), error)
+    files.end(simulation, ending)
     return ending
 
 
@@ -204,8 +229,21 @@ def report(
     if tally.unconverged:
         share = f"{tally.unconverged} of {counted(tally.steps, 'step')}"
         print(f"{share} did not converge, the first: {tally.first_unconverged}")
+    if tally.indefinite:
+        print(f"{counted(tally.indefinite, 'system')} not positive definite, and made so")
+    if math.isfinite(simulation.stable_step):
+        print(f"stable up to {simulation.stable_step:.4g} s a step at the end")
+    if simulation.resumed_from is not None:
+        print(resumed_words(simulation.resumed_from))
     if series.inverted:
         print(series.inverted)
     print(f"result:  {series.index} ({counted(series.count, 'time')})")
     print(f"summary: {series.index.with_name('summary.json')}")
     print(f"picture: {picture}")
+
+
+def resumed_words(resumed: Resumed) -> str:
+    """From where a run went on, and what is to be known of it."""
+    taken = counted(resumed.steps, "step")
+    text = f"went on from {resumed.file}, at t = {resumed.time:.4g} s after {taken}"
+    return f"{text}; {resumed.note}" if resumed.note else text

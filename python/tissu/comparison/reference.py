@@ -11,7 +11,7 @@ from tissu.comparison.trace import Floats, Trace, trace
 from tissu.errors import MeshError, ParameterError
 from tissu.mesh import into_quadratic
 from tissu.scene.model import FEM
-from tissu.scene.step import Newton, Static
+from tissu.scene.step import Newton
 
 if TYPE_CHECKING:
     from tissu.mesh import Mesh
@@ -44,7 +44,7 @@ def finest(scene: Scene, meshes: dict[str, Mesh]) -> tuple[Trace, str]:
         bodies[name] = body.replace(**changes)
     rich = scene.replace(bodies=bodies)
     found = trace(rich)
-    if found.stopped and not isinstance(scene.step, Static) and scene.step.newton is None:
+    if found.stopped and getattr(scene.step, "newton", scene) is None:
         words.add("Newton iterated")
         found = trace(rich.replace(step=scene.step.replace(newton=Newton(iterations=20))))
     return found, ", ".join(sorted(words, reverse=True))

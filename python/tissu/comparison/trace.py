@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from tissu.errors import Diverged
+from tissu.errors import TissuError
 
 if TYPE_CHECKING:
     from tissu.scene import Scene
@@ -75,7 +75,7 @@ def trace(scene: Scene) -> Trace:
             if report.number % every == 0:
                 times.append(simulation.time)
                 samples.append(_displacements(simulation))
-    except Diverged as error:
+    except TissuError as error:
         stopped = str(error)
     if not stopped and (not times or times[-1] != simulation.time):
         times.append(simulation.time)

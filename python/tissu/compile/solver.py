@@ -68,10 +68,13 @@ def choice_of(prepared: Prepared) -> Choice | None:
     return choice_for(auto, unknowns=3 * nodes, static=static, editing=scene.editing)
 
 
-def chosen_solver(prepared: Prepared) -> Solver:
-    """The scene's solver, chosen where it is `auto`."""
+def chosen_solver(prepared: Prepared) -> ConjugateGradient | Cholesky | None:
+    """The scene's solver, chosen where it is `auto`; None for steps that solve no system."""
     choice = choice_of(prepared)
-    return prepared.scene.step.solver if choice is None else choice.solver
+    if choice is not None:
+        return choice.solver
+    solver: ConjugateGradient | Cholesky | None = getattr(prepared.scene.step, "solver", None)
+    return solver
 
 
 def solver_of(solver: Solver) -> Any:

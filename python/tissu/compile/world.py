@@ -2,21 +2,26 @@
 
 from __future__ import annotations
 
+import math
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from tissu.checkpoint import read_checkpoint
 from tissu.compile.check import check_of
 from tissu.compile.model import kept_nodes, use_of
 from tissu.compile.prepare import prepare
 from tissu.compile.prepared import Held, LoadedNodes, Prepared
 from tissu.compile.solver import chosen_solver, solver_of
+from tissu.compile.start import begin
 from tissu.compile.step import integrator_of
 from tissu.compile.thin import cross_section_of
 from tissu.effects import load_name
 from tissu.errors import SceneError
 from tissu.mesh.whole_faces import nodal_areas
 from tissu.scene.load import NodalLoad, Pressure
+from tissu.scene.problem import Problem
 from tissu.scene.step import Static
 from tissu.scene.support import Fixed, axes_mask
 from tissu.scene.viscosity import Centroid, KelvinVoigt, Rayleigh
@@ -28,26 +33,50 @@ if TYPE_CHECKING:
     from tissu.simulation import Simulation
 
 
-def compile_scene(scene: Scene) -> Simulation:
-    """Turn a scene into a simulation.
+def compile_scene(scene: Scene, checkpoint: Path | None = None) -> Simulation:
+    """Turn a scene into a simulation, at rest or where a checkpoint left it.
 
     Raises:
         SceneError: problems of the scene or its meshes; all of them.
+        CheckpointError: a checkpoint that is absent, damaged, or of another scene or version.
     """
+    saved = None if checkpoint is None else read_checkpoint(checkpoint)
     prepared = prepare(scene)
     check = check_of(prepared)
     if check.problems:
         raise SceneError(check.problems)
     from tissu.simulation import Simulation
 
-    return Simulation(
+    solver = chosen_solver(prepared)
+    simulation = Simulation(
         scene=scene,
         world=build_world(prepared),
         meshes={name: body.mesh for name, body in prepared.bodies.items()},
         integrator=integrator_of(scene.step),
-        solver=solver_of(chosen_solver(prepared)),
+        solver=None if solver is None else solver_of(solver),
         check=check,
+        checkpoint=saved,
     )
+    if saved is not None:
+        return simulation
+    begin(simulation, prepared)
+    problem = unstable_step(simulation)
+    if problem is not None:
+        raise SceneError([problem.sentence(scene.source)])
+    return simulation
+
+
+def unstable_step(simulation: Simulation) -> Problem | None:
+    """A step that is above the stable one of an explicit method at rest, or auto where none is."""
+    dt, stable = getattr(simulation.scene.step, "dt", None), simulation.stable_step
+    if dt == "auto" and not math.isfinite(stable):
+        text = "found auto, but nothing is stiff, so that every step is stable; a time is accepted"
+        return Problem(("step", "dt"), text)
+    if not isinstance(dt, float) or dt <= stable * (1.0 + 1e-9):
+        return None
+    name = simulation.plan().integrator
+    text = f"found {dt:g} s; {name} is stable up to {stable:.4g} s at rest; take dt: auto, "
+    return Problem(("step", "dt"), text + "a smaller step, or an implicit method")
 
 
 def build_world(prepared: Prepared) -> Any:

@@ -40,6 +40,9 @@ class Series:
     def __init__(self, simulation: Simulation, folder: str | PathLike[str]) -> None:
         """Takes away what an earlier series of this name left in the folder.
 
+        A simulation that went on from a checkpoint continues the series in the folder: frames
+        until that time stay, later ones are taken away.
+
         Raises:
             TissuError: the folder cannot be written.
         """
@@ -50,7 +53,9 @@ class Series:
         self.count = 0
         self.last_time = -1.0
         self.inverted = ""
-        _clear(self.index)
+        if simulation.resumed_from is not None:
+            self._continue(len(simulation.meshes))
+        _clear(self.index, kept=self._entries)
 
     def write(self) -> None:
         """Writes the present state of every body.
@@ -72,6 +77,20 @@ class Series:
         self.last_time = simulation.time
         with whole_file(self.index) as partial:
             partial.write_text(_index(self._entries), encoding="utf-8")
+
+    def _continue(self, bodies: int) -> None:
+        """Takes over what is in the folder until the present time, when it is all there."""
+        time = self._simulation.time
+        text = self.index.read_text(encoding="utf-8") if self.index.is_file() else ""
+        entries = [line for line in text.splitlines(keepends=True) if "<DataSet" in line]
+        times = [_number(r'timestep="([^"]+)"', entry) for entry in entries]
+        kept = [e for e, t in zip(entries, times, strict=True) if t <= time * (1.0 + 1e-8)]
+        whole = all((self._folder / name).is_file() for name in _frames("".join(kept)))
+        if not kept or not whole or len(kept) % bodies:
+            return
+        self._entries, self.count = kept, len(kept) // bodies
+        last = times[len(kept) - 1]
+        self.last_time = time if last >= time * (1.0 - 1e-8) else last
 
     def _look_for_inverted(self, body: str, volume_ratio: Floats) -> None:
         inverted = np.flatnonzero(volume_ratio <= 0.0)
@@ -128,11 +147,31 @@ def _index(entries: list[str]) -> str:
     )
 
 
-def _clear(index: Path) -> None:
-    """Removes the frames that an index lists, and the index; nothing else in the folder."""
+def _clear(index: Path, kept: list[str]) -> None:
+    """Removes the frames that an index lists, and the index; nothing else in the folder.
+
+    Frames of the entries to keep stay, in an index of their own.
+    """
     if not index.is_file():
         return
     text = index.read_text(encoding="utf-8", errors="replace")
-    index.unlink()
-    for name in re.findall(rf'file="({FRAMES}/[\w.-]+\.vtu)"', text):
+    if kept:
+        with whole_file(index) as partial:
+            partial.write_text(_index(kept), encoding="utf-8")
+    else:
+        index.unlink()
+    for name in set(_frames(text)) - set(_frames("".join(kept))):
         (index.parent / name).unlink(missing_ok=True)
+
+
+def _frames(text: str) -> list[str]:
+    return re.findall(rf'file="({FRAMES}/[\w.-]+\.vtu)"', text)
+
+
+def _number(pattern: str, text: str) -> float:
+    """The number that a pattern finds; infinity where there is none."""
+    found = re.search(pattern, text)
+    try:
+        return float(found[1]) if found is not None else float("inf")
+    except ValueError:
+        return float("inf")

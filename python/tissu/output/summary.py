@@ -29,6 +29,7 @@ class StepTally:
         unconverged: number of those that did not converge.
         newton_iterations: of all steps.
         solver_iterations: of all steps.
+        indefinite: systems whose matrix was not positive definite, and was made so.
         largest_residual: of all steps.
         first_unconverged: what the first step that did not converge said; empty: all did.
     """
@@ -37,6 +38,7 @@ class StepTally:
     unconverged: int = 0
     newton_iterations: int = 0
     solver_iterations: int = 0
+    indefinite: int = 0
     largest_residual: float = 0.0
     first_unconverged: str = ""
 
@@ -45,6 +47,7 @@ class StepTally:
         self.steps += 1
         self.newton_iterations += report.newton_iterations
         self.solver_iterations += report.solver_iterations
+        self.indefinite += report.indefinite
         self.largest_residual = max(self.largest_residual, report.residual)
         if not report.converged:
             self.unconverged += 1
@@ -65,14 +68,14 @@ def summarise(
     Args:
         simulation: at the end of its run.
         tally: the steps of the run.
-        status: "finished", "interrupted" or "diverged".
+        status: "finished", "interrupted", "diverged", or "stopped": a step was refused.
         wall_seconds: wall time by stage of the run: compile, steps, output, picture.
         files: what was written, by kind, relative to the folder of the summary.
         notes: sentences worth knowing.
     """
     from tissu import _core
 
-    build = dict(_core.build_info())
+    build, resumed = dict(_core.build_info()), simulation.resumed_from
     every_note = [*(note for mesh in simulation.meshes.values() for note in mesh.notes), *notes]
     return {
         "tissu": build.pop("version", ""),
@@ -85,6 +88,8 @@ def summarise(
         "laws": [law.record() for law in simulation.scene.own_laws()],
         "meshes": {name: mesh_data(mesh) for name, mesh in simulation.meshes.items()},
         "simulated_seconds": simulation.time,
+        "resumed_from": None if resumed is None else dataclasses.asdict(resumed),
+        "stable_step_seconds": simulation.stable_step,
         "steps": dataclasses.asdict(tally),
         "timings": profile_data(simulation),
         "wall_seconds": dict(wall_seconds),

@@ -14,18 +14,43 @@ from tissu.scene.law import (
     Yeoh,
 )
 from tissu.scene.load import NodalLoad, Pressure, Traction
-from tissu.scene.model import FEM, Condensed, Corotational, MassLink, MassSpring, MassTensor
+from tissu.scene.model import (
+    FEM,
+    Condensed,
+    Corotational,
+    MassLink,
+    MassSpring,
+    MassTensor,
+    MeanDilatation,
+)
 from tissu.scene.scene import Output, Scene
 from tissu.scene.selection import Box, Nodes, Plane, Region, Sphere, SurfaceNodes
 from tissu.scene.solver import Auto, Cholesky, ConjugateGradient
-from tissu.scene.step import ImplicitEuler, Newton, Static
+from tissu.scene.start import Start
+from tissu.scene.step import (
+    BDF2,
+    RK2,
+    RK4,
+    BDF2FixedPoint,
+    ExplicitEuler,
+    ImplicitEuler,
+    ImplicitMidpoint,
+    Newmark,
+    Newton,
+    Static,
+    SymplecticEuler,
+)
 from tissu.scene.support import Fixed, Prescribed, Rotation
 from tissu.scene.viscosity import Centroid, KelvinVoigt, Prony, PronyBranch, Rayleigh
 
 __all__ = [
+    "BDF2",
     "FEM",
+    "RK2",
+    "RK4",
     "ArrudaBoyce",
     "Auto",
+    "BDF2FixedPoint",
     "BarMesh",
     "Body",
     "Box",
@@ -34,17 +59,21 @@ __all__ = [
     "Condensed",
     "ConjugateGradient",
     "Corotational",
+    "ExplicitEuler",
     "Fibres",
     "Fixed",
     "Hooke",
     "ImplicitEuler",
+    "ImplicitMidpoint",
     "KelvinVoigt",
     "MassLink",
     "MassSpring",
     "MassTensor",
+    "MeanDilatation",
     "MeshFile",
     "MooneyRivlin",
     "NeoHooke",
+    "Newmark",
     "Newton",
     "NodalLoad",
     "Nodes",
@@ -61,8 +90,10 @@ __all__ = [
     "Sphere",
     "StVK",
     "StableNeoHooke",
+    "Start",
     "Static",
     "SurfaceNodes",
+    "SymplecticEuler",
     "Traction",
     "UserLaw",
     "Yeoh",

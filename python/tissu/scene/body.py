@@ -15,6 +15,7 @@ from tissu.scene.law import Law, LawOrMap
 from tissu.scene.model import FEM, Model, ModelOrMap
 from tissu.scene.part import Part, chosen
 from tissu.scene.problem import Problem
+from tissu.scene.start import Start
 from tissu.scene.unknown import rule
 from tissu.scene.viscosity import OneViscosity, Viscosity
 
@@ -74,7 +75,7 @@ class Body(Part):
     """the material's law, or a map from the mesh's regions to laws"""
     model: ModelOrMap = FEM()
     """what computes the cells' forces, by name: fem, corotational, mass-spring, mass-link,
-    mass-tensor, condensed; or a map from the mesh's regions to models
+    mass-tensor, condensed, mean-dilatation; or a map from the mesh's regions to models
     """
     density: Annotated[units.Density, Field(gt=0.0)] | None = None
     """density [kg/m^3]; this or `mass`"""
@@ -93,6 +94,9 @@ class Body(Part):
     long, or without stress across, as in a plate; absent: its sheets are free in space and to thin
     """
 
+    start: Start | None = None
+    """state at time zero; absent: at rest"""
+
     if TYPE_CHECKING:
 
         def __init__(
@@ -108,6 +112,7 @@ class Body(Part):
             thickness: units.Number | None = ...,
             section: units.Number | None = ...,
             plane: Literal["strain", "stress"] | None = ...,
+            start: Start | None = ...,
         ) -> None: ...
 
     @rule("density", "mass")

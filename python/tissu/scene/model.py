@@ -63,6 +63,12 @@ class MassTensor(Part):
     type: Literal["mass-tensor"] = "mass-tensor"
 
 
+class MeanDilatation(Part):
+    """Continuum cells of first order that share their change of volume: they do not lock."""
+
+    type: Literal["mean-dilatation"] = "mean-dilatation"
+
+
 class Condensed(Part):
     """Hooke's law with inner nodes eliminated once: small displacements, few unknowns."""
 
@@ -75,8 +81,11 @@ class Condensed(Part):
         def __init__(self, *, keep: Literal["touched", "surface"] = ...) -> None: ...
 
 
-MODELS: tuple[type[Part], ...] = (FEM, Corotational, MassSpring, MassLink, MassTensor, Condensed)
-Model = FEM | Corotational | MassSpring | MassLink | MassTensor | Condensed
+MODELS: tuple[type[Part], ...] = (
+    *(FEM, Corotational, MassSpring, MassLink, MassTensor),
+    *(Condensed, MeanDilatation),
+)
+Model = FEM | Corotational | MassSpring | MassLink | MassTensor | Condensed | MeanDilatation
 
 
 def _one_model(value: Any, info: ValidationInfo) -> Any:

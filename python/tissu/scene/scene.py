@@ -198,15 +198,21 @@ class Scene(Part):
 
         write_scene(self, Path(path))
 
-    def compile(self) -> Simulation:
+    def compile(self, *, checkpoint: str | os.PathLike[str] | None = None) -> Simulation:
         """Turn the scene into a simulation.
+
+        Args:
+            checkpoint: a file of `Simulation.save_checkpoint`, from which it goes on with the same
+                bits; absent: it begins at rest. Name, duration, threads and output of the scene
+                may be others than those of the scene that was saved.
 
         Raises:
             SceneError: problems of the scene or its meshes; all of them.
+            CheckpointError: the file is absent, damaged, or of another scene or version.
         """
         from tissu.compile import compile_scene
 
-        return compile_scene(self)
+        return compile_scene(self, None if checkpoint is None else Path(checkpoint))
 
     def check(self) -> Check:
         """Everything that compile() would refuse, and in plain words what the scene switches on."""

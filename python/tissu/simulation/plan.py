@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import isfinite
 from typing import TYPE_CHECKING
 
 from tissu.counted import counted
@@ -23,6 +24,7 @@ class Plan:
         matrix_blocks: 3x3 blocks of the system matrix.
         integrator: its name.
         solver: name of the linear solver.
+        stable_step: the largest stable step of an explicit method at rest [s]; else infinite.
         threads: how many.
         instruction_set: of the hot kernels.
     """
@@ -34,6 +36,7 @@ class Plan:
     matrix_blocks: int
     integrator: str
     solver: str
+    stable_step: float
     threads: int
     instruction_set: str
 
@@ -41,9 +44,10 @@ class Plan:
         """In plain words."""
         threads = counted(self.threads, "thread")
         blocks = counted(self.matrix_blocks, "block")
+        limit = f", stable up to {self.stable_step:.4g} s" if isfinite(self.stable_step) else ""
         lines = [
             f"{counted(self.unknowns, 'unknown')}, {blocks} in the matrix",
-            f"{self.integrator}; {self.solver}; {threads}, {self.instruction_set} kernels",
+            f"{self.integrator}{limit}; {self.solver}; {threads}, {self.instruction_set} kernels",
             "runs:",
             *(f"  - {effect}" for effect in self.effects),
         ]

@@ -3,6 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from tissu import _core
 
 from tissu.counted import counted
 
@@ -93,3 +99,25 @@ class Profile:
             f"{self.real_time_factor:.3g} times real time"
         )
         return "\n".join(lines)
+
+
+def profile_of(core: _core.Simulation, simulated: float) -> Profile:
+    """The times of a simulation that moved by `simulated` [s] since they were cleared."""
+    seconds = core.profile_step_seconds()
+    steps = core.profile_steps()
+    rows = [row for row in core.profile_rows() if row[2] > 0]
+    total = float(seconds.mean()) * steps if steps else 0.0
+    p50, p95 = np.percentile(seconds, [50, 95]) if steps else (0.0, 0.0)
+    return Profile(
+        rows=tuple(
+            ProfileRow(effect, stage, calls, 1e3 * spent / max(steps, 1), spent / total)
+            for effect, stage, calls, spent in rows
+            if total
+        ),
+        steps=steps,
+        p50_ms=1e3 * float(p50),
+        p95_ms=1e3 * float(p95),
+        max_ms=1e3 * float(seconds.max()) if steps else 0.0,
+        real_time_factor=simulated / total if total else 0.0,
+        solves=Solves(*core.profile_solves()),
+    )

@@ -3,6 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from tissu import _core
 
 
 @dataclass(frozen=True, slots=True)
@@ -15,6 +19,7 @@ class StepReport:
         newton_iterations: linearisations.
         solver_iterations: of the linear solver, over all linearisations.
         residual: of the linear system, or of Newton's equation when it is iterated; relative.
+        indefinite: systems whose matrix was not positive definite, and was made so.
         converged: every tolerance was met.
         milliseconds: wall time.
         message: why it did not converge; empty when it did.
@@ -25,6 +30,7 @@ class StepReport:
     newton_iterations: int
     solver_iterations: int
     residual: float
+    indefinite: int
     converged: bool
     milliseconds: float
     message: str
@@ -37,3 +43,18 @@ class StepReport:
         text = f"step {self.number}: t = {self.time:.6g} s, residual {self.residual:.1e}"
         text += f" after {iterations}, {self.milliseconds:.1f} ms"
         return text if self.converged else f"{text}; not converged: {self.message}"
+
+
+def report_of(report: _core.StepReport, *, number: int) -> StepReport:
+    """The core's report of the step with this number."""
+    return StepReport(
+        number=number,
+        time=report.time,
+        newton_iterations=report.newton_iterations,
+        solver_iterations=report.solver_iterations,
+        residual=report.residual,
+        indefinite=report.indefinite,
+        converged=report.converged,
+        milliseconds=report.milliseconds,
+        message=report.message,
+    )

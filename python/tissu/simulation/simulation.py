@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-import dataclasses
+import os
 from collections.abc import Iterator, Mapping
+from pathlib import Path
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
@@ -14,16 +15,22 @@ from tissu import _core, units
 from tissu.counted import counted
 from tissu.errors import ParameterError
 from tissu.simulation.plan import Plan
-from tissu.simulation.profile import Profile, ProfileRow, Solves
-from tissu.simulation.report import StepReport
+from tissu.simulation.profile import Profile, profile_of
+from tissu.simulation.remaining import keep_cells, removed_cells
+from tissu.simulation.report import StepReport, report_of
+from tissu.simulation.schedule import stable_steps, steps_of, steps_until
 
 if TYPE_CHECKING:
+    from tissu.checkpoint import Checkpoint, Resumed
     from tissu.compile import Check
     from tissu.mesh import Mesh
     from tissu.scene import Scene
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int32]
+
+_SHARE_OF_STABLE = 0.9
+"""of the stable step, for the step auto: room for what the body stiffens in between"""
 
 
 class Simulation:
@@ -32,6 +39,7 @@ class Simulation:
     Attributes:
         scene: what it was compiled from.
         meshes: body -> mesh at rest; follows the removal of cells.
+        resumed_from: the checkpoint that it went on from; None: it began at rest.
     """
 
     def __init__(
@@ -41,8 +49,9 @@ class Simulation:
         world: _core.World,
         meshes: Mapping[str, Mesh],
         integrator: _core.Integrator,
-        solver: _core.LinearSolver,
+        solver: _core.LinearSolver | None,
         check: Check,
+        checkpoint: Checkpoint | None = None,
     ) -> None:
         self.scene = scene
         self._check = check
@@ -52,9 +61,13 @@ class Simulation:
         self._rest = {name: mesh for name, mesh in meshes.items()}
         self._steps = 0
         self._simulated = 0.0
+        self._physics_known: dict[str, Any] | None = None
         ranges = {name: self._core.body_range(name) for name in meshes}
         self._positions = MappingProxyType(_views(self._core.positions, ranges))
         self._velocities = MappingProxyType(_views(self._core.velocities, ranges))
+        self.resumed_from: Resumed | None = None
+        if checkpoint is not None:
+            self._go_on_from(checkpoint)
 
     def __repr__(self) -> str:
         """Name, time, steps, and the size of each body."""
@@ -64,7 +77,8 @@ class Simulation:
             for name, mesh in self._meshes.items()
         )
         step = self.scene.step
-        how = step.type if step.type == "static" else f"{step.type} dt {self.dt:g} s"
+        dt = getattr(step, "dt", None)
+        how = step.type + ("" if dt is None else f" dt {dt}" if dt == "auto" else f" dt {dt:g} s")
         when = f"t = {self.time:.6g} s after {steps}"
         return f"Simulation('{self.scene.name}', {when}; {bodies}; {how})"
 
@@ -111,8 +125,20 @@ class Simulation:
 
     @property
     def dt(self) -> float:
-        """Time step of the scene [s]; 1 for a static scene, whose time only tells loads apart."""
-        return float(getattr(self.scene.step, "dt", 1.0))
+        """Time step of the scene [s], where it is auto nine tenths of the stable step at present.
+
+        1 for a static scene, whose time only tells loads apart.
+        """
+        dt = getattr(self.scene.step, "dt", 1.0)
+        return _SHARE_OF_STABLE * self.stable_step if dt == "auto" else float(dt)
+
+    @property
+    def stable_step(self) -> float:
+        """The largest stable step of an explicit method at the present state [s]; else infinite.
+
+        From the largest eigenfrequency and damping; measured again when the cells have deformed.
+        """
+        return float(self._core.stable_step())
 
     def step(self, dt: units.Number | None = None) -> StepReport:
         """Take one step.
@@ -128,38 +154,59 @@ class Simulation:
         report = self._core.step(h)
         self._steps += 1
         self._simulated += h
-        return StepReport(
-            number=self._steps,
-            time=report.time,
-            newton_iterations=report.newton_iterations,
-            solver_iterations=report.solver_iterations,
-            residual=report.residual,
-            converged=report.converged,
-            milliseconds=report.milliseconds,
-            message=report.message,
-        )
+        return report_of(report, number=self._steps)
 
-    def run(self, duration: units.Number | None = None) -> Iterator[StepReport]:
+    def run(
+        self, duration: units.Number | None = None, *, until: units.Number | None = None
+    ) -> Iterator[StepReport]:
         """Step until `duration` has passed, and yield each report.
 
         Args:
             duration: simulated time [s], or text such as "2 s"; the scene's when it is not given.
                 A static scene without one takes a single step.
+            until: in place of it, the time at which it ends [s]: the steps that a run from time
+                zero to then would take from here on. A simulation that went on from a checkpoint
+                ends with the same steps as one that never stopped.
 
         Raises:
-            ParameterError: neither gives a duration, or it is negative.
+            ParameterError: neither gives a duration, both do, or it is negative.
             Diverged: see `step`.
         """
-        span = self._duration() if duration is None else units.TIME(duration)
+        if duration is not None and until is not None:
+            raise ParameterError("found duration and until; one of them is accepted")
+        given = duration if until is None else until
+        span = self._duration() if given is None else units.TIME(given)
         if not span >= 0.0:
             raise ParameterError(f"the duration is {span:g} s; it must not be negative")
-        # Whole steps; a remainder of more than a millionth of a step is a shorter last step.
-        whole = int(span / self.dt * (1.0 + 1e-12) + 1e-6)
-        for _ in range(whole):
-            yield self.step()
-        rest = span - whole * self.dt
-        if rest > 1e-6 * self.dt:
-            yield self.step(rest)
+        if getattr(self.scene.step, "dt", None) == "auto":
+            steps = stable_steps(self, self.time + span if until is None else span)
+        elif until is None:
+            steps = steps_of(span, self.dt)
+        else:
+            steps = steps_until(span, self.dt, time=self.time, taken=self._steps)
+        for dt in steps:
+            yield self.step(dt)
+
+    def save_checkpoint(self, path: str | os.PathLike[str]) -> None:
+        """Write a file from which `scene.compile(checkpoint=path)` goes on with the same bits.
+
+        The file is replaced in one move: a process that is killed meanwhile leaves the one before
+        or this one whole. What the linear solver keeps of earlier steps, such as a factor, is
+        dropped, so that both the simulation that runs on and the one that goes on from the file
+        step without it.
+
+        Raises:
+            CheckpointError: it cannot be written; a file that was there before still is.
+        """
+        from tissu.checkpoint import checkpoint
+
+        checkpoint.Checkpoint(
+            scene=self.scene.name,
+            physics=self._physics(),
+            steps=self._steps,
+            snapshot=self._core.snapshot(),
+            build=checkpoint.build(),
+        ).write(Path(path))
 
     def displacements(self, body: str) -> Floats:
         """Displacements (n, 3) of the nodes of a body from rest [m]."""
@@ -182,8 +229,8 @@ class Simulation:
         """Mean values over each cell of a body, in the order of its mesh's volume cells.
 
         Returns:
-            von_mises: of the Cauchy stress (e,) [Pa], absent where the model has none, and not a
-            number in regions whose model has none; energy_density: per rest volume (e,) [J/m^3];
+            von_mises: of the Cauchy stress (e,) [Pa], absent where the model of some of its cells
+            has none; energy_density: per rest volume (e,) [J/m^3];
             volume_ratio: det F (e,).
         """
         self._core.settle()
@@ -210,26 +257,13 @@ class Simulation:
         """What the models of all bodies keep of their cells, places in the matrix included."""
         return sum(int(block[4]) for block in self._world.elastic_blocks)
 
+    def solver_bytes(self) -> int:
+        """What the linear solver keeps: vectors, preconditioners, factors; not the matrix."""
+        return int(self._core.solver_bytes())
+
     def profile(self) -> Profile:
         """Times by stage; see `Profile`. `clear_profile` starts anew."""
-        seconds = self._core.profile_step_seconds()
-        steps = self._core.profile_steps()
-        rows = [row for row in self._core.profile_rows() if row[2] > 0]
-        total = float(seconds.mean()) * steps if steps else 0.0
-        p50, p95 = np.percentile(seconds, [50, 95]) if steps else (0.0, 0.0)
-        return Profile(
-            rows=tuple(
-                ProfileRow(effect, stage, calls, 1e3 * spent / max(steps, 1), spent / total)
-                for effect, stage, calls, spent in rows
-                if total
-            ),
-            steps=steps,
-            p50_ms=1e3 * float(p50),
-            p95_ms=1e3 * float(p95),
-            max_ms=1e3 * float(seconds.max()) if steps else 0.0,
-            real_time_factor=self._simulated / total if total else 0.0,
-            solves=Solves(*self._core.profile_solves()),
-        )
+        return profile_of(self._core, self._simulated)
 
     def clear_profile(self) -> None:
         """Forget the times so far, to warm up before measuring."""
@@ -245,7 +279,8 @@ class Simulation:
             unknowns=3 * self._world.blocks,
             matrix_blocks=self._world.matrix_blocks,
             integrator=self._core.integrator_name,
-            solver=self._core.solver_name,
+            solver=self._core.solver_name or "no linear system",
+            stable_step=self.stable_step,
             threads=self._world.threads,
             instruction_set=self._world.instruction_set,
         )
@@ -263,20 +298,28 @@ class Simulation:
         Raises:
             ParameterError: the scene was compiled without `editing: true`, or has no such cell.
         """
-        given = np.atleast_1d(np.asarray(cells))
-        if given.size and not np.issubdtype(given.dtype, np.integer):
-            raise ParameterError(f"found cells of type {given.dtype}; whole numbers are accepted")
-        if body not in self._meshes:
-            raise ParameterError(f"no body is named '{body}'; there are {', '.join(self._meshes)}")
-        beyond = given[(given < 0) | (given > np.iinfo(np.int32).max)]
-        if beyond.size:
-            raise ParameterError(f"body '{body}' has no cell {beyond.flat[0]}")
-        numbers = np.unique(given).astype(np.int32)
-        if len(numbers) >= self._meshes[body].cell_count:
-            raise ParameterError(f"that would leave no cell of body '{body}'; keep at least one")
-        self._core.remove_cells(body=body, cells=numbers)
+        self._core.remove_cells(body=body, cells=removed_cells(self._meshes, body, cells))
+        self._follow_cells(body)
+
+    def _follow_cells(self, body: str) -> None:
         remaining = np.sort(self._core.remaining_cells(body))
-        self._meshes[body] = keep_cells(self._rest[body], remaining)
+        if len(remaining) < self._meshes[body].cell_count:
+            self._meshes[body] = keep_cells(self._rest[body], remaining)
+
+    def _go_on_from(self, checkpoint: Checkpoint) -> None:
+        checkpoint.require(self._physics())
+        self._core.restore(dict(checkpoint.snapshot))
+        self._steps = checkpoint.steps
+        for body in self._rest:
+            self._follow_cells(body)
+        self.resumed_from = checkpoint.resumed()
+
+    def _physics(self) -> dict[str, Any]:
+        from tissu.checkpoint import physics_of
+
+        if self._physics_known is None:
+            self._physics_known = physics_of(self.scene, self._rest)
+        return self._physics_known
 
     def _duration(self) -> float:
         if self.scene.duration is not None:
@@ -284,20 +327,6 @@ class Simulation:
         if self.scene.step.type == "static":
             return self.dt
         raise ParameterError("the scene has no duration; give one to run()")
-
-
-def keep_cells(mesh: Mesh, cells: NDArray[np.int32]) -> Mesh:
-    """A mesh with some of its volume cells only, by their increasing numbers; all nodes stay."""
-    keep = np.zeros(mesh.cell_count, dtype=bool)
-    keep[cells] = True
-    number = np.cumsum(keep, dtype=np.int32) - 1
-    blocks, first = [], 0
-    for block in mesh.body_blocks:
-        rows = keep[first : first + len(block.nodes)]
-        blocks.append(dataclasses.replace(block, nodes=block.nodes[rows]))
-        first += len(block.nodes)
-    regions = {name: number[of[keep[of]]] for name, of in mesh.regions.items()}
-    return dataclasses.replace(mesh, cells=tuple(blocks), regions=regions, border_regions={})
 
 
 def _views(values: Floats, ranges: Mapping[str, tuple[int, int]]) -> dict[str, Floats]:

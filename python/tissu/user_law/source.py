@@ -35,7 +35,7 @@ constexpr LawLibraryKernels kKernels[] = {
     {kTable.dimension, kTable.energy, kTable.stress, kTable.stress_change, kTable.tangent}};
 constexpr LawLibrary kLibrary = {
     kLawLibraryVersion, sizeof(LawLibrary), TISSU_KERNELS::kLanes, TISSU_TEXT_OF(TISSU_KERNELS),
-    kName, kTable.linear, kFrameInvariant, kAddition,
+    kName, kTable.linear, kFrameInvariant, kTable.isotropic, kAddition,
     sizeof(kParameters) / sizeof(kParameters[0]), sizeof(kConstants) / sizeof(kConstants[0]),
     kRequirementCount, 1,
     kParameters, kConstants, kRequirements, kKernels, &compute, kSmallStrain};
@@ -43,7 +43,7 @@ constexpr LawLibrary kLibrary = {
 }  // namespace
 }  // namespace tissu::made
 
-extern "C" [[gnu::visibility("default")]] const tissu::LawLibrary* tissu_law_v1() {
+extern "C" [[gnu::visibility("default")]] const tissu::LawLibrary* tissu_law_v2() {
   return &tissu::made::kLibrary;
 }
 """

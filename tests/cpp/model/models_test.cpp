@@ -4,8 +4,7 @@
 
 #include <numeric>
 
-#include "../force/verbs.h"
-#include "../world/sample_worlds.h"
+#include "projection_sample.h"
 
 /// What every model of the list must do, so that a new one is in these tests by being in the list.
 namespace tissu {
@@ -82,6 +81,32 @@ TEST_P(EveryModel, ProductIsItsMatrix) {
   EXPECT_LT((K * test::view(p) - Kp).norm(), 1e-12 * Kp.norm());
   EXPECT_LT((K - K.transpose()).norm(), 1e-12 * K.norm());
   EXPECT_EQ(test::product_of(*model, state, {0.0, 1.0}, p).norm(), 0.0);  // elastic: no df/dv
+}
+
+// A body of many cells, squeezed and at random, whatever the threads.
+TEST_P(EveryModel, HasADefiniteMatrixWhenAskedFor) {
+  const auto model = made();
+  const Sparsity pattern = test::bind_alone(*model, mesh_.node_count());
+  const State near = near_rest();
+  for (const std::string& name : test::states()) {
+    SCOPED_TRACE(name);
+    const State state = test::put(mesh_.positions, name);
+    const Eigen::MatrixXd K = test::stiffness_of(*model, state, test::kDefinite, pattern);
+    test::expect_definite(K);
+    test::expect_near(test::stiffness_of(*model, state, {0.25, 0.0, true}, pattern), -0.25 * K, 1e-15);
+    for (const int threads : {2, 3, 4}) {
+      const auto other = make_model(block(), mesh_.positions, Isa::baseline, Threads(threads));
+      other->bind(pattern);
+      EXPECT_EQ(test::stiffness_of(*other, state, test::kDefinite, pattern), K) << threads;
+    }
+  }
+  const State stretched = test::put(mesh_.positions, "stretched");
+  test::expect_near(test::stiffness_of(*model, stretched, test::kDefinite, pattern),
+                    test::stiffness_of(*model, stretched, test::kExact, pattern), 1e-11);
+  // It is asked of the matrix only.
+  const std::vector<double> p = test::Random(6).numbers(near.positions.size(), 1.0);
+  EXPECT_EQ(test::product_of(*model, near, test::kDefinite, p),
+            test::product_of(*model, near, test::kExact, p));
 }
 
 TEST_P(EveryModel, RestsAtRestAndPullsNothingAlong) {

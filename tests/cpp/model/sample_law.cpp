@@ -42,6 +42,7 @@ constexpr LawLibrary kLibrary = {TISSU_TEST_LAYOUT,
                                  "sample",
                                  kTable.linear,
                                  true,
+                                 kTable.isotropic,
                                  false,
                                  2,
                                  2,
@@ -57,4 +58,4 @@ constexpr LawLibrary kLibrary = {TISSU_TEST_LAYOUT,
 }  // namespace
 }  // namespace tissu
 
-extern "C" [[gnu::visibility("default")]] const tissu::LawLibrary* tissu_law_v1() { return &tissu::kLibrary; }
+extern "C" [[gnu::visibility("default")]] const tissu::LawLibrary* tissu_law_v2() { return &tissu::kLibrary; }

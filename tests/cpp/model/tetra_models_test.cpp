@@ -251,7 +251,7 @@ TEST_P(TetraModels, RefusesWhatItDoesNotTake) {
   expect(bad, "takes tetra");
   bad = good;
   bad.reinforcements = {{"fibre", {}}};
-  expect(bad, "only the model fem takes them");
+  expect(bad, "only the models fem and mean-dilatation take them");
   bad = good;
   bad.parameters["young"] = {-1.0};
   EXPECT_NE(message(bad).find("young"), std::string::npos) << message(bad);

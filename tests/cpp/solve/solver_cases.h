@@ -21,8 +21,7 @@ struct SolverCase {
 inline void PrintTo(const SolverCase& c, std::ostream* out) { *out << c.name; }
 
 inline SolverCase gradient_case(std::string name, Preconditioning preconditioning,
-                                Precision precision = Precision::full,
-                                Product product = Product::assembled) {
+                                Precision precision = Precision::full, Product product = Product::assembled) {
   return {std::move(name), [=](double tolerance) {
             return std::make_unique<ConjugateGradient>(
                 ConjugateGradient::Settings{tolerance, 5000, preconditioning, precision, product});

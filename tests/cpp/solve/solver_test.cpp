@@ -240,7 +240,8 @@ TEST(ConjugateGradient, RefusesSettingsWithoutSense) {
     return Settings{1e-6, 10, preconditioning, precision, Product::free};
   };
   EXPECT_NO_THROW(ConjugateGradient(free(Preconditioning::jacobi, Precision::full)));
-  EXPECT_THROW(ConjugateGradient(free(Preconditioning::incomplete_cholesky, Precision::full)), ParameterError);
+  EXPECT_THROW(ConjugateGradient(free(Preconditioning::incomplete_cholesky, Precision::full)),
+               ParameterError);
   EXPECT_THROW(ConjugateGradient(free(Preconditioning::stale_cholesky, Precision::full)), ParameterError);
   EXPECT_THROW(ConjugateGradient(free(Preconditioning::jacobi, Precision::single)), ParameterError);
   EXPECT_THROW(ConjugateGradient({0.0, 10}), ParameterError);

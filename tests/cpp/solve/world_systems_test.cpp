@@ -146,8 +146,8 @@ INSTANTIATE_TEST_SUITE_P(Links, FreeProduct, testing::Bool());
 /// The whole step without a matrix ends where the one with a matrix does.
 TEST(FreeProduct, StepsTheSame) {
   const auto run = [](Product product) {
-    auto solver = std::make_unique<ConjugateGradient>(ConjugateGradient::Settings{
-        1e-12, 5000, Preconditioning::block_jacobi, Precision::full, product});
+    auto solver = std::make_unique<ConjugateGradient>(
+        ConjugateGradient::Settings{1e-12, 5000, Preconditioning::block_jacobi, Precision::full, product});
     Simulation simulation = test::simulate(bar(Split::six, false), test::implicit_euler(), std::move(solver));
     for (int i = 0; i < 10; ++i) EXPECT_TRUE(simulation.step(0.02).converged);
     return simulation.state().positions;

@@ -4,6 +4,7 @@
 #include <cstdlib>
 
 #include "../world/sample_worlds.h"
+#include "tissu/model/models.h"
 
 /// A steady step takes no memory. Counted in malloc and its kin, below operator new and below Eigen.
 
@@ -85,9 +86,8 @@ class Allocation : public testing::TestWithParam<AllocationCase> {
 
 TEST_P(Allocation, ASteadyStepTakesNone) {
 #ifdef TISSU_COUNTS_ALLOCATIONS
-  Simulation simulation =
-      test::simulate(world(), test::implicit_euler(GetParam().newton, 1e-6),
-                     std::make_unique<ConjugateGradient>(GetParam().solver));
+  Simulation simulation = test::simulate(world(), test::implicit_euler(GetParam().newton, 1e-6),
+                                         std::make_unique<ConjugateGradient>(GetParam().solver));
   simulation.step(0.01);
   simulation.step(0.01);
   allocations = 0;
@@ -124,6 +124,46 @@ INSTANTIATE_TEST_SUITE_P(
                     AllocationCase{"matrix_free", "stvk", Split::six, 1, 1, false,
                                    with(Preconditioning::block_jacobi, Precision::full, Product::free)}),
     testing::PrintToStringParamName());
+
+// Squeezed flat, so that every cell is projected: by the axes of F, by eigenvalues, at once, in any model.
+TEST(AllocationOfModels, ADefiniteMatrixTakesNone) {
+#ifdef TISSU_COUNTS_ALLOCATIONS
+  const Mesh mesh = box_mesh(Vec3::Zero(), Vec3(2, 1, 1), {4, 3, 3}, Split::six);
+  for (const ModelInfo& info : all_models()) {
+    ElasticBlock block = test::elastic_block(
+        mesh.blocks[0], {info.laws.empty() ? "stvk" : std::string(info.laws.front()), 100.0});
+    block.model.name = info.name;
+    block.model.tangent = "exact";
+    for (std::int32_t i = 0; i < mesh.node_count(); ++i) block.model.kept.push_back(i);
+    if (info.name == "fem") {
+      block.reinforcements = {{"fibre",
+                               {{"k1", {9.0}},
+                                {"k2", {1.0}},
+                                {"direction_x", {1.0}},
+                                {"direction_y", {0.0}},
+                                {"direction_z", {0.0}}}}};
+    }
+    const auto model = make_model(block, mesh.positions, choose_isa(), Threads(2));
+    SparsityBuilder builder(mesh.node_count());
+    model->couple(builder);
+    const Sparsity pattern = builder.build();
+    model->bind(pattern);
+    BlockMatrix matrix(pattern, choose_isa(), Threads(2));
+    matrix.clear();
+    State state;
+    state.positions = mesh.positions;
+    for (std::size_t i = 0; i < state.positions.size(); i += 3) state.positions[i] *= 0.3;
+    model->add_stiffness(state, {-1.0, 0.0, true}, matrix);
+    allocations = 0;
+    counting = true;
+    model->add_stiffness(state, {-1.0, 0.0, true}, matrix);
+    counting = false;
+    EXPECT_EQ(allocations, 0) << info.name;
+  }
+#else
+  GTEST_SKIP() << "allocations are counted with the GNU C library and without sanitizers only";
+#endif
+}
 
 }  // namespace
 }  // namespace tissu

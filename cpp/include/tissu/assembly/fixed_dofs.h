@@ -40,6 +40,8 @@ class FixedDofs {
   /// Sets the led components of v so that x + h v is where they are to be at `time`; `share` < 1 goes only
   /// that part of the way.
   void set_velocities(ConstReals x, double time, double h, double share, Reals v) const;
+  /// to = from in the led components.
+  void copy(ConstReals from, Reals to) const;
   /// Zero in the led components.
   void clear(Reals values) const;
 

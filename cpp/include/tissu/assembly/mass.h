@@ -21,6 +21,8 @@ class Mass {
 
   /// out += scale M v
   void add_product(const State& state, double scale, ConstReals v, Reals out) const;
+  /// f = M^-1 f; zero where there is no mass
+  void divide(const State& state, Reals f) const;
   /// matrix += scale M
   void add_to(BlockMatrix& matrix, const State& state, double scale) const;
   /// 1/2 v^T M v [J]

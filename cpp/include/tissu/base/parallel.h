@@ -49,7 +49,8 @@ class Threads {
   static constexpr std::int32_t pieces(std::int32_t count) { return (count + kPiece - 1) / kPiece; }
 
  private:
-  /// call(called, i) for i in [0, count), shared out over the threads of OpenMP.
+  /// call(called, i) for i in [0, count), shared out over the threads of OpenMP (or of
+  /// the C++ library, in a build for the thread sanitizer).
   static void share(int threads, std::int32_t count, void (*call)(void*, std::int32_t), void* called);
   static constexpr std::int32_t begin_of(std::int32_t piece) { return piece * kPiece; }
   static constexpr std::int32_t end_of(std::int32_t piece, std::int32_t count) {

@@ -13,7 +13,8 @@ namespace tissu {
 struct StiffnessScale {
   double position = 0.0;
   double velocity = 0.0;
-  /// Of the matrix only: each cell's share of -df/dx is replaced by the nearest positive semi-definite one.
+  /// Of the matrix only, not of the product: each cell's share of -df/dx is replaced by the nearest positive
+  /// semi-definite one, that of continuum elements point by point. df/dv is so as it is.
   bool definite = false;
 };
 

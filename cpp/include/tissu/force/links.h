@@ -27,6 +27,10 @@ class Links final : public ForceModel {
   /// Takes over the links of another world of the same unknowns.
   void take_over(const Links& other) { links_ = other.links_; }
   [[nodiscard]] std::size_t size() const { return links_.size(); }
+  /// Eleven numbers for each link: block, frame and place of either point, and the stiffness.
+  [[nodiscard]] std::vector<double> numbers() const;
+  /// The links that `numbers` told.
+  void restore(ConstReals numbers);
   /// The pairs of rows that they couple now.
   [[nodiscard]] std::vector<std::pair<std::int32_t, std::int32_t>> coupled() const;
 

@@ -49,7 +49,9 @@ void add_areas(const FaceCells& faces, ConstReals positions, std::vector<double>
 
 /// Pressure that stays normal to the faces it acts on: f_a = -p sum_g w_g N_a (x,1 x x,2), with the rule that
 /// is exact for it. Its stiffness is skew on an open surface; the symmetric part is used, which is exact for
-/// a pressure on a closed surface or one whose rim is held.
+/// a pressure on a closed surface or one whose rim is held. A definite matrix goes without it: the
+/// eigenvalues of a face sum to zero, so half of what it says would be gone, and on a closed surface the
+/// faces' parts cancel each other, their halves would not.
 class Pressure final : public ForceModel {
  public:
   Pressure(std::string name, std::vector<FaceCells> faces, double pressure, History history);

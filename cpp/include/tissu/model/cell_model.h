@@ -1,7 +1,9 @@
 #pragma once
 
 /// What all models on cells share: cells in groups of eight lanes, their rest shape, masses, places in the
-/// matrix, and the loop over the chunks.
+/// matrix, and the loops over the chunks.
+
+#include <numeric>
 
 #include "tissu/base/array.h"
 #include "tissu/base/parallel.h"
@@ -11,6 +13,14 @@
 #include "tissu/model/rest_shape.h"
 
 namespace tissu {
+
+/// What the loops of a model run with: its kernels, what these read, and the order of the chunks.
+template <class Kernels, class View>
+struct Loops {
+  const Kernels& kernels;
+  View view;
+  const ElementOrder& order;
+};
 
 class CellModel : public BodyModel {
  public:
@@ -33,19 +43,85 @@ class CellModel : public BodyModel {
   /// are not positive.
   CellModel(ElasticBlock block, Threads threads);
   /// Gives the cells their order and rest shape; refuses cells that are inverted or have no volume.
-  void lay_cells(ConstReals rest_positions, RestForm form);
+  /// Cells of one number in `together` stand in one chunk (element_order.h).
+  void lay_cells(ConstReals rest_positions, RestForm form, std::span<const std::int32_t> together = {});
 
   /// Keeps of the rest shape only the volumes: for models that have constants of their own.
   void keep_volumes();
   /// Places in the matrix of the pairs of nodes of each lane, [group][a][b][8]; `cells` have `size` nodes.
   void lay_slots(const ElementOrder& order, const std::vector<std::int32_t>& cells, int size,
                  const Sparsity& pattern, AlignedVector<std::int32_t>& slots) const;
+  /// Lays `count` constants of each lane, which of_lane(lane number, constants) writes, as kernels read them;
+  /// of one group only, when its constants serve all cells.
+  template <class Function>
+  void lay_constants(std::size_t count, bool uniform, Function&& of_lane) {
+    const auto groups = uniform ? std::size_t{1} : static_cast<std::size_t>(order_.groups());
+    constants_stride_ = uniform ? 0 : static_cast<std::ptrdiff_t>(count * kLanes);
+    constants_.resize(groups * count * kLanes);
+    std::vector<double> constants(count);
+    for (std::size_t i = 0; i < groups * kLanes; ++i) {
+      of_lane(i, std::span<double>(constants));
+      for (std::size_t c = 0; c < count; ++c)
+        constants_[(i / kLanes * count + c) * kLanes + i % kLanes] = constants[c];
+    }
+  }
+  /// dN_a/dxi, [point][node][m]: what ElasticView::gradients reads.
+  [[nodiscard]] std::vector<double> reference_gradients() const;
+  /// The cells as kernels read them, without gradients, frames and laws.
+  [[nodiscard]] ElasticView cell_view() const;
+
+  // The verbs of a model, each a loop over the chunks. Those that run at the same time share no node.
+  template <class L>
+  void force_by(const L& loops, ConstReals x, Reals f) const {
+    for_chunks(loops.order,
+               [&](const Chunk& chunk) { loops.kernels.force(loops.view, chunk, x.data(), f.data()); });
+  }
+  /// out += scale * (df/dx) p
+  template <class L>
+  void product_by(const L& loops, ConstReals x, double scale, ConstReals p, Reals out) const {
+    if (scale == 0.0) return;
+    for_chunks(loops.order, [&](const Chunk& chunk) {
+      loops.kernels.product(loops.view, chunk, x.data(), scale, p.data(), out.data());
+    });
+  }
+  /// matrix += scale.position * df/dx, made definite where that is asked for and need be.
+  template <class L>
+  void stiffness_by(const L& loops, ConstReals x, StiffnessScale scale, BlockMatrix& matrix) const {
+    if (scale.position == 0.0) return;
+    auto loop = loops.kernels.stiffness;
+    if constexpr (requires { loops.kernels.definite; }) {
+      if (scale.definite && loops.kernels.definite != nullptr) loop = loops.kernels.definite;
+    }
+    double* blocks = matrix.values();
+    for_chunks(loops.order,
+               [&](const Chunk& chunk) { loop(loops.view, chunk, x.data(), scale.position, blocks); });
+  }
+  /// Of each lane [J].
+  template <class L>
+  [[nodiscard]] std::vector<double> energies_by(const L& loops, ConstReals x) const {
+    std::vector<double> energies(loops.order.element.size(), 0.0);
+    for_chunks(loops.order, [&](const Chunk& chunk) {
+      loops.kernels.energy(loops.view, chunk, x.data(), energies.data());
+    });
+    return energies;
+  }
+  template <class L>
+  [[nodiscard]] double energy_by(const L& loops, ConstReals x) const {
+    const std::vector<double> energies = energies_by(loops, x);
+    return std::accumulate(energies.begin(), energies.end(), 0.0);
+  }
+  /// `volume_ratio` holds what the kernels write beside their stresses.
+  template <class L>
+  [[nodiscard]] CellFields fields_by(const L& loops, ConstReals x) const {
+    std::vector<double> stresses(6 * loops.order.element.size());
+    std::vector<double> ratios(loops.order.element.size());
+    for_chunks(loops.order, [&](const Chunk& chunk) {
+      loops.kernels.stress(loops.view, chunk, x.data(), stresses.data(), ratios.data());
+    });
+    return cell_fields(stresses, ratios, energies_by(loops, x));
+  }
 
   /// Calls f(chunk) for every chunk; those that run at the same time share no node.
-  template <class Function>
-  void for_chunks(Function&& f) const {
-    for_chunks(order_, f);
-  }
   template <class Function>
   void for_chunks(const ElementOrder& order, Function&& f) const {
     for (std::int32_t colour = 0; colour < order.colours(); ++colour) {
@@ -69,13 +145,14 @@ class CellModel : public BodyModel {
   ElementOrder order_;
   RestShape shape_;
   AlignedVector<std::int32_t> slots_;  ///< [group][a][b][8], blocks of the matrix
+  AlignedVector<double> constants_;    ///< [group or one][constant][8]
+  std::ptrdiff_t constants_stride_ = 0;
 
  private:
+  [[nodiscard]] CellFields cell_fields(const std::vector<double>& stresses, const std::vector<double>& ratios,
+                                       const std::vector<double>& energies) const;
   template <class Function>
   void for_nodes(Function&& f) const;
 };
-
-/// Von Mises' stress of each lane's mean Cauchy stress xx yy zz yz xz xy, [group][6][8].
-double von_mises(const double* stresses, std::size_t lane);
 
 }  // namespace tissu

@@ -43,16 +43,12 @@ class Corotational final : public CellModel {
  private:
   void choose_kernels(Isa isa, bool one_jacobian);
   void lay_centres(ConstReals rest_positions);
-  void lay_constants();
-  [[nodiscard]] CorotationalView view() const;
-  [[nodiscard]] std::vector<double> energies(const State& state) const;
+  [[nodiscard]] Loops<CorotationalKernels, CorotationalView> loops(const CorotationalKernels& kernels) const;
 
   Rotation rotation_ = Rotation::polar;
   const CorotationalKernels* forces_ = nullptr;
   const CorotationalKernels* tangents_ = nullptr;
   AlignedVector<double> centres_;  ///< [group][6][8], empty where one J serves the cell
-  AlignedVector<double> constants_;
-  std::ptrdiff_t constants_stride_ = 0;
 };
 
 }  // namespace tissu

@@ -30,6 +30,9 @@ struct CorotationalKernels {
   void (*energy)(const CorotationalView&, const Chunk&, const double* x, double* energies);
   void (*stress)(const CorotationalView&, const Chunk&, const double* x, double* stresses,
                  double* volume_ratios);
+  /// As `stiffness`, each cell's matrix replaced by the nearest positive semi-definite one; null where it is
+  /// so in every state.
+  void (*definite)(const CorotationalView&, const Chunk&, const double* x, double scale, double* blocks);
 };
 
 /// Null when there are none.

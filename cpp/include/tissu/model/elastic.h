@@ -29,15 +29,12 @@ class Elastic final : public CellModel {
 
  private:
   void choose_kernels(Isa isa);
-  void lay_constants();
-  [[nodiscard]] ElasticView view() const;
-  [[nodiscard]] std::vector<double> energies(const State& state) const;
+  void lay_law_constants();
+  [[nodiscard]] Loops<ElasticKernels, ElasticView> loops() const;
 
   const ElasticKernels* kernels_ = nullptr;
   std::vector<const LawKernels*> laws_;
   std::vector<double> gradients_;  ///< [point][node][m]
-  AlignedVector<double> constants_;
-  std::ptrdiff_t constants_stride_ = 0;
 };
 
 }  // namespace tissu

@@ -19,6 +19,9 @@ namespace tissu {
 /// Parameters of a law by name, in SI units: one number, or one for each cell.
 using LawParameters = std::map<std::string, std::vector<double>>;
 
+/// They are the same for all cells.
+bool uniform(const LawParameters& parameters);
+
 /// A law with its parameters.
 struct LawUse {
   std::string law;

@@ -62,6 +62,9 @@ struct ElasticKernels {
   void (*stress)(const ElasticView&, const Chunk&, const double* x, double* stresses, double* volume_ratios);
   /// Rest shapes hold the upper triangle of R^-1 with J = Q R: the law does not see Q.
   bool triangular = false;
+  /// As `stiffness`, dP/dF replaced at every point by the nearest positive semi-definite one; null where it
+  /// is so in every state.
+  void (*definite)(const ElasticView&, const Chunk&, const double* x, double scale, double* blocks) = nullptr;
 };
 
 /// The kernels compiled for an element, a law and a quadrature together, null when there are none; …

@@ -37,7 +37,9 @@ struct ElementOrder {
   [[nodiscard]] std::int32_t colours() const { return static_cast<std::int32_t>(colour_begin.size()) - 1; }
 };
 
-/// `cells` holds cell after cell of `size` node numbers.
-ElementOrder order_elements(std::span<const std::int32_t> cells, int size, ConstReals positions);
+/// `cells` holds cell after cell of `size` node numbers. `together`, a number for each cell where it is not
+/// empty: cells of one number, no more than a chunk has, stand in one chunk.
+ElementOrder order_elements(std::span<const std::int32_t> cells, int size, ConstReals positions,
+                            std::span<const std::int32_t> together = {});
 
 }  // namespace tissu

@@ -21,6 +21,7 @@ struct LawKernels {
   void (*stress)(const double* constants, int points, const double* F, double* P);
   void (*stress_change)(const double* constants, int points, const double* F, const double* dF, double* dP);
   void (*tangent)(const double* constants, int points, const double* F, double* A);
+  bool isotropic = false;  ///< blind to rotation, and to the axes of the rest shape
 };
 
 /// The kernels of a law of the library for a reference dimension, or null when it has none.

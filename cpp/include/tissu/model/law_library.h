@@ -1,15 +1,15 @@
 #pragma once
 
 /// What a shared library with one law hands over, in plain C, so that any compiler may have made it. A
-/// library exports `extern "C" const tissu::LawLibrary* tissu_law_v1()`; a layout that changes gets another
+/// library exports `extern "C" const tissu::LawLibrary* tissu_law_v2()`; a layout that changes gets another
 /// number, in the name of that function too.
 
 #include <cstdint>
 
 namespace tissu {
 
-inline constexpr std::int32_t kLawLibraryVersion = 1;
-inline constexpr const char* kLawLibraryEntry = "tissu_law_v1";
+inline constexpr std::int32_t kLawLibraryVersion = 2;
+inline constexpr const char* kLawLibraryEntry = "tissu_law_v2";
 
 /// As LawParameter of law_info.h.
 struct LawLibraryParameter {
@@ -49,6 +49,7 @@ struct LawLibrary {
   const char* name;
   std::int32_t linear;
   std::int32_t frame_invariant;
+  std::int32_t isotropic;
   std::int32_t addition;
   std::int32_t parameter_count;
   std::int32_t constant_count;

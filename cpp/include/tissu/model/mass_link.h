@@ -38,12 +38,10 @@ class MassLink final : public CellModel {
   [[nodiscard]] std::size_t reals_per_cell() const override;
 
  private:
-  void lay_constants(ConstReals rest_positions);
-  [[nodiscard]] MassLinkView view() const;
-  [[nodiscard]] std::vector<double> energies(const State& state) const;
+  void lay_links(ConstReals rest_positions);
+  [[nodiscard]] Loops<MassLinkKernels, MassLinkView> loops() const;
 
   const MassLinkKernels* kernels_ = nullptr;
-  AlignedVector<double> constants_;  ///< [group][reals][8]
 };
 
 }  // namespace tissu

@@ -33,6 +33,8 @@ struct MassLinkKernels {
   void (*energy)(const MassLinkView&, const Chunk&, const double* x, double* energies);
   /// Cauchy stress [Pa] xx yy zz yz xz xy, [group][6][8], and volume as it is now [m3], [group][8]
   void (*stress)(const MassLinkView&, const Chunk&, const double* x, double* stresses, double* volumes);
+  /// As `stiffness`, each cell's matrix replaced by the nearest positive semi-definite one.
+  void (*definite)(const MassLinkView&, const Chunk&, const double* x, double scale, double* blocks);
 };
 
 /// Null when the law has no form in edge lengths here.

@@ -50,9 +50,7 @@ class MassSpring final : public CellModel {
  private:
   void lay_springs(ConstReals rest_positions);
   [[nodiscard]] double young(std::size_t cell) const;
-  [[nodiscard]] SpringView view(const double* damping = nullptr) const;
-  template <class Function>
-  void for_spring_chunks(Function&& f) const;
+  [[nodiscard]] Loops<SpringKernels, SpringView> loops(const double* damping = nullptr) const;
 
   const SpringKernels* kernels_;
   std::vector<double> rest_;        ///< of the cells' nodes: what fields are measured from

@@ -8,7 +8,12 @@
 /// The sums cancel where displacements are large against strains, so round-off grows with the cube of the
 /// displacement over the size of a cell; displacements are counted from that of one node, so that a
 /// translation costs no digits, but a turn does. A removed cell changes the constants of its own parts only.
+///
+/// A definite matrix is that of continuum elements, which have the same energy: what stands on a node, an
+/// edge or a face is indefinite at rest too, and no cell's. They are made when the first is asked for.
 
+#include <memory>
+#include <mutex>
 #include <vector>
 
 #include "tissu/model/cell_model.h"
@@ -56,15 +61,18 @@ class MassTensor final : public CellModel {
   void lay_laws();
   [[nodiscard]] TensorCell cell(std::int32_t number) const;
   [[nodiscard]] const Lame& lame_of(std::int32_t cell) const;
-  [[nodiscard]] MassTensorView view(const Part& part) const;
-  template <class Function>
-  void for_parts(Function&& f) const;
+  [[nodiscard]] Loops<MassTensorKernels, MassTensorView> loops(const Part& part) const;
+
+  /// Continuum elements with the same energy, bound to a pattern.
+  [[nodiscard]] const BodyModel& elements(const Sparsity& pattern) const;
 
   Isa isa_;
   bool linear_;
   std::vector<double> X_;   ///< positions at rest of the whole world
   std::vector<Lame> lame_;  ///< of all cells, or of each
   std::vector<Part> parts_;
+  mutable std::mutex making_elements_;
+  mutable std::unique_ptr<BodyModel> elements_;  ///< of StVK, once a definite matrix has been asked for
 };
 
 }  // namespace tissu

@@ -30,6 +30,9 @@ struct SpringKernels {
   void (*damping_product)(const SpringView&, const Chunk&, const double* x, double scale, const double* p,
                           double* out);
   void (*damping)(const SpringView&, const Chunk&, const double* x, double scale, double* blocks);
+  /// As `stiffness`, each spring's matrix positive semi-definite: one that is shorter than at rest does not
+  /// push sideways.
+  void (*definite)(const SpringView&, const Chunk&, const double* x, double scale, double* blocks);
 };
 
 const SpringKernels* find_spring_kernels(Isa isa);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "tissu/base/profile.h"
+#include "tissu/simulation/snapshot.h"
 #include "tissu/solve/linear_solver.h"
 #include "tissu/step/integrator.h"
 #include "tissu/world/world.h"
@@ -30,6 +31,9 @@ class Simulation {
   /// node would fly further than a thousand times the size of the scene.
   StepReport step(double h);
 
+  /// The largest step that is stable now [s]; infinite for methods that have no such limit.
+  [[nodiscard]] double stable_step() { return integrator_->stable_step(state_); }
+
   [[nodiscard]] const World& world() const { return *world_; }
   [[nodiscard]] const State& state() const { return state_; }
   [[nodiscard]] State& state() { return state_; }
@@ -44,6 +48,13 @@ class Simulation {
   [[nodiscard]] std::vector<double> reactions() const;
   /// Puts nodes that are no unknowns where they are now, for whoever looks at positions or velocities.
   void settle();
+
+  /// What a simulation of the same scene needs to go on from here, with the same bits. The solver forgets
+  /// what it keeps of earlier steps, since whoever goes on from the snapshot does not have it.
+  Snapshot snapshot();
+  /// Goes on from a snapshot of a simulation of the same scene; this one has all its cells still. Refuses
+  /// what does not fit the world.
+  void restore(const Snapshot& snapshot);
 
   /// Goes on with another world of the same unknowns, made by an editor from this one.
   void replace_world(std::shared_ptr<const World> world);

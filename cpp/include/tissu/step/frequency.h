@@ -10,4 +10,13 @@ namespace tissu {
 /// Euler).
 double largest_frequency(const World& world, const State& state);
 
+/// What limits explicit steps [rad/s, 1/s].
+struct Vibration {
+  double frequency = 0.0;        ///< the largest, omega
+  double damping = 0.0;          ///< y . D y / y . M y of its shape y, D = -df/dv
+  double largest_damping = 0.0;  ///< the largest eigenvalue of M^-1 D
+};
+/// Those at a state, to a thousandth.
+Vibration fastest_vibration(const World& world, const State& state);
+
 }  // namespace tissu

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,16 +16,25 @@ struct StepReport {
   int newton_iterations = 0;
   int solver_iterations = 0;
   double residual = 0.0;      ///< of the last linear system, or of Newton's equation when it is iterated
+  int indefinite = 0;         ///< systems whose matrix was not positive definite, and was made so
   bool converged = false;     ///< every tolerance was met
   double milliseconds = 0.0;  ///< wall time of the step
   std::string message;        ///< empty, or why it did not converge
 };
 
+/// What to do where the matrix of a step is not positive definite, as it may be under compression.
+enum class Indefinite {
+  project,  ///< each cell's share is replaced by the nearest positive semi-definite one, in such steps only
+  regularise,  ///< a growing share of the diagonal is added until it is
+  refuse       ///< the step is not taken
+};
+
 /// Newton's iteration inside a step.
 struct NewtonSettings {
-  int iterations = 1;  ///< 1: the equations are linearised once
+  int iterations = 1;  ///< 1: the equations are linearised once, and iterated only where that made them worse
   double tolerance =
       1e-6;  ///< on the norm of the residual, relative to the external force and the first residual
+  Indefinite indefinite = Indefinite::project;
 };
 
 class Integrator {
@@ -38,6 +48,10 @@ class Integrator {
   /// Allocates what its steps need. Called before the first step, and again after an edit. `solver` outlives
   /// the steps; null for methods that solve no system.
   virtual void prepare(const World& world, LinearSolver* solver, Profile& profile) = 0;
+  /// The largest step that is stable at a state [s]; infinite for methods that have no such limit.
+  [[nodiscard]] virtual double stable_step(const State& /*state*/) {
+    return std::numeric_limits<double>::infinity();
+  }
   /// Moves the state by h [s]. The state is undefined when it throws.
   virtual StepReport step(State& state, double h) = 0;
   /// What the next step needs beside the state, such as earlier states: nothing for methods of one step.

@@ -21,6 +21,9 @@ class StaticEquilibrium final : public Integrator {
   [[nodiscard]] std::string_view name() const override { return "static equilibrium"; }
   void prepare(const World& world, LinearSolver* solver, Profile& profile) override;
   StepReport step(State& state, double h) override;
+  /// One number: whether the external loads act in full already.
+  [[nodiscard]] std::vector<double> memory() const override { return {loaded_ ? 1.0 : 0.0}; }
+  void restore(ConstReals memory) override { loaded_ = !memory.empty() && memory[0] != 0.0; }
 
  private:
   /// Newton from the present state, led nodes going `share` of their way first; true when it converged.

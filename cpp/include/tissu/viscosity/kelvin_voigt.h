@@ -25,9 +25,8 @@ class KelvinVoigt final : public ViscousCells {
   void add_product(const State& state, StiffnessScale scale, ConstReals p, Reals out) const override;
 
  private:
-  /// out += scale D p, D = df/dv
-  void add_rate(ConstReals x, double scale, ConstReals p, Reals out) const;
-  [[nodiscard]] ElasticView rate_view() const;
+  /// Their product and stiffness are those of df/dv.
+  [[nodiscard]] Loops<ElasticKernels, ElasticView> loops() const;
 
   const ElasticKernels* kernels_;
   const LawKernels* law_;

@@ -49,7 +49,6 @@ class Prony final : public ViscousCells {
   };
   [[nodiscard]] Course course(const State& state) const;
   [[nodiscard]] PronyView prony_view(const State& state, const Course& course) const;
-  void lay_moduli();
   [[nodiscard]] std::size_t reals_of_cell() const;
 
   const PronyKernels* kernels_;

@@ -23,8 +23,6 @@ class ViscousCells : public CellModel {
   [[nodiscard]] ElasticView view() const;
 
   std::vector<double> gradients_;  ///< [point][node][m]
-  AlignedVector<double> constants_;
-  std::ptrdiff_t constants_stride_ = 0;
 };
 
 }  // namespace tissu

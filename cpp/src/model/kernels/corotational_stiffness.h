@@ -7,6 +7,7 @@
 /// time: kept, it would be 300 numbers of a hexahedron, and no less to turn.
 
 #include "corotational.h"
+#include "semidefinite.h"
 
 namespace tissu::TISSU_KERNELS {
 
@@ -153,6 +154,31 @@ struct CorotationalStiffness : Corotational<Element, Rule, LawOf, kExact> {
     }
   }
 
+  /// scale df/dx
+  TISSU_INLINE static void all_blocks_of(const CorotationalView& view, const Cell& cell, double scale,
+                                         Batch (&K)[kPairs][9]) {
+    blocks_of(cell, scale, K);
+    if constexpr (kExact) {
+      const SpinBlocks<Element, Rule, LawOf> spin(view, cell);
+      int pair = 0;
+      for (int b = kFirst; b < kNodes; ++b) {
+        for (int a = kFirst; a <= b; ++a, ++pair) spin.add_to(a, b, Batch(-scale), K[pair]);
+      }
+    }
+  }
+  TISSU_INLINE static void make_definite(double scale, Batch (&K)[kPairs][9]) {
+    if constexpr (kFirst == 1) {
+      static_assert(kNodes == 4);
+      make_tetra_semidefinite(K);
+    } else {
+      make_cell_semidefinite<kNodes>(K);
+    }
+    for (auto& block : K) {
+      for (Batch& entry : block) entry = Batch(-scale) * entry;
+    }
+  }
+
+  template <bool kDefinite>
   static void stiffness(const CorotationalView& view, const Chunk& chunk, const double* x, double scale,
                         double* blocks) {
     PackedNodes positions;
@@ -160,14 +186,8 @@ struct CorotationalStiffness : Corotational<Element, Rule, LawOf, kExact> {
     Kernel::for_batches(chunk, [&](std::int32_t group, int lane) {
       const Cell cell(view, positions, group, lane);
       Batch K[kPairs][9];
-      blocks_of(cell, scale, K);
-      if constexpr (kExact) {
-        const SpinBlocks<Element, Rule, LawOf> spin(view, cell);
-        int pair = 0;
-        for (int b = kFirst; b < kNodes; ++b) {
-          for (int a = kFirst; a <= b; ++a, ++pair) spin.add_to(a, b, Batch(-scale), K[pair]);
-        }
-      }
+      all_blocks_of(view, cell, kDefinite ? -1.0 : scale, K);
+      if constexpr (kDefinite) make_definite(scale, K);
       int pair = 0;
       for (int b = kFirst; b < kNodes; ++b) {
         for (int a = kFirst; a <= b; ++a, ++pair)
@@ -177,11 +197,21 @@ struct CorotationalStiffness : Corotational<Element, Rule, LawOf, kExact> {
     });
   }
 
+  /// R K R^T has no negative eigenvalue.
+  static constexpr auto definite() -> decltype(CorotationalKernels::definite) {
+    if constexpr (kExact) {
+      return &stiffness<true>;
+    } else {
+      return nullptr;
+    }
+  }
+
   static constexpr CorotationalKernels table() {
     return {Element::kName,   Cell::MaterialLaw::kIsotropic,
             kExact,           &Kernel::force,
-            &Kernel::product, &stiffness,
-            &Kernel::energy,  &Kernel::stress};
+            &Kernel::product, &stiffness<false>,
+            &Kernel::energy,  &Kernel::stress,
+            definite()};
   }
 };
 

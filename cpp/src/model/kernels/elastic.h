@@ -3,6 +3,7 @@
 /// One text for every element, quadrature, law and instruction set: F from the nodes, the law at the point,
 /// the force back to the nodes.  f_a = -sum_g w_g P grad_a,  K_ab = sum_g w_g grad_a . dP/dF . grad_b.
 
+#include "definite_tangent.h"
 #include "fused_point.h"
 #include "scatter_pairs.h"
 
@@ -101,10 +102,20 @@ struct Elastic : FusedPoint<Element, Rule, LawOf> {
       Element::kAffine ? 1 : 0;  ///< node 0 of an affine cell follows from the others
   static constexpr int kPairs = (kNodes - kFirst) * (kNodes - kFirst + 1) / 2;
 
+  template <bool kDefinite>
   TISSU_INLINE static void point_stiffness(const Lanes& lanes, int g, const Batch (&position)[kNodes][3],
                                            double scale, Batch (&K)[kPairs][9]) {
     const Inverse Jinv = lanes.inverse_jacobian(g);
-    Tangent<Batch> A = lanes.law.tangent(Base::gradient(g, position, Jinv));
+    const Tensor F = Base::gradient(g, position, Jinv);
+    Tangent<Batch> A;
+    if constexpr (kDefinite) {
+      PrincipalAxes axes;
+      axes.find(F);
+      A = lanes.law.tangent(axes.stretch);
+      axes.make_definite(A);
+    } else {
+      A = lanes.law.tangent(F);
+    }
     const Batch s = lanes.weight(g) * Batch(-scale);
     for (Batch& a : A.a) a = a * s;
     Batch grad[kNodes][3];
@@ -126,6 +137,7 @@ struct Elastic : FusedPoint<Element, Rule, LawOf> {
     }
   }
 
+  template <bool kDefinite>
   static void stiffness(const ElasticView& view, const Chunk& chunk, const double* x, double scale,
                         double* blocks) {
     PackedNodes positions;
@@ -139,7 +151,7 @@ struct Elastic : FusedPoint<Element, Rule, LawOf> {
         for (auto& block : K) {
           for (Batch& entry : block) entry = Batch(0.0);
         }
-        for (int g = 0; g < Rule::kPoints; ++g) point_stiffness(lanes, g, position, scale, K);
+        for (int g = 0; g < Rule::kPoints; ++g) point_stiffness<kDefinite>(lanes, g, position, scale, K);
         int pair = 0;
         for (int b = kFirst; b < kNodes; ++b) {
           for (int a = kFirst; a <= b; ++a, ++pair) scatter_pair<kNodes>(lanes.slots, a, b, K[pair], blocks);
@@ -202,10 +214,29 @@ struct Elastic : FusedPoint<Element, Rule, LawOf> {
     }
   }
 
+  /// A law that is linear has a tangent without negative eigenvalues; the others here are isotropic.
+  static constexpr auto definite() -> decltype(ElasticKernels::definite) {
+    if constexpr (MaterialLaw::kLinear) {
+      return nullptr;
+    } else {
+      static_assert(MaterialLaw::kIsotropic);
+      return &stiffness<true>;
+    }
+  }
+
   static constexpr ElasticKernels table(std::string_view quadrature) {
-    return {
-        Element::kName, MaterialLaw::kName,     quadrature, kNodes, 3, &force, &product, &stiffness, &energy,
-        &stress,        MaterialLaw::kIsotropic};
+    return {Element::kName,
+            MaterialLaw::kName,
+            quadrature,
+            kNodes,
+            3,
+            &force,
+            &product,
+            &stiffness<false>,
+            &energy,
+            &stress,
+            MaterialLaw::kIsotropic,
+            definite()};
   }
 };
 

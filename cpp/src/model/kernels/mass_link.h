@@ -9,6 +9,7 @@
 #include "link_laws.h"
 #include "packed.h"
 #include "scatter_pairs.h"
+#include "semidefinite.h"
 #include "tissu/model/mass_link_kernels.h"
 
 namespace tissu::TISSU_KERNELS {
@@ -176,6 +177,7 @@ struct MassLink {
     }
   }
 
+  template <bool kDefinite>
   static void stiffness(const MassLinkView& view, const Chunk& chunk, const double* x, double scale,
                         double* blocks) {
     PackedNodes positions;
@@ -187,10 +189,18 @@ struct MassLink {
           Batch H[kEdgePairs];
           lanes.law.tensions(at, t);
           lanes.law.moduli(at, H);
-          for (Batch& value : t) value = Batch(-scale) * value;
-          for (Batch& value : H) value = Batch(-scale) * value;
           Batch K[6][9];
-          node_pairs(at, t, H, K);
+          if constexpr (kDefinite) {
+            node_pairs(at, t, H, K);
+            make_tetra_semidefinite(K);
+            for (auto& block : K) {
+              for (Batch& value : block) value = Batch(-scale) * value;
+            }
+          } else {
+            for (Batch& value : t) value = Batch(-scale) * value;
+            for (Batch& value : H) value = Batch(-scale) * value;
+            node_pairs(at, t, H, K);
+          }
           int pair = 0;
           for (int q = 1; q < 4; ++q) {
             for (int p = 1; p <= q; ++p, ++pair) scatter_pair<4>(lanes.slots, p, q, K[pair], blocks);
@@ -235,7 +245,7 @@ struct MassLink {
   }
 
   static constexpr MassLinkKernels table() {
-    return {Law::kName, Law::kReals, &force, &product, &stiffness, &energy, &stress};
+    return {Law::kName, Law::kReals, &force, &product, &stiffness<false>, &energy, &stress, &stiffness<true>};
   }
 };
 

@@ -72,8 +72,8 @@ struct LawAtPoints {
   }
 
   static constexpr LawKernels table() {
-    return {
-        MaterialLaw::kName, MaterialLaw::kLinear, M, kConstants, &energy, &stress, &stress_change, &tangent};
+    return {MaterialLaw::kName, MaterialLaw::kLinear,   M, kConstants, &energy, &stress, &stress_change,
+            &tangent,           MaterialLaw::kIsotropic};
   }
 };
 

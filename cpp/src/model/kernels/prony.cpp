@@ -37,6 +37,7 @@ const double* lame_of(const PronyView& view, std::int32_t group) {
 
 /// The law `Overstress` with what the memory of a point makes of its constants.
 struct OverstressOfMemory {
+  static bool isotropic(const ElasticView&) { return false; }  // what is remembered has axes of its own
   template <class Function>
   static void for_each(const ElasticView& base, std::int32_t group, int point, Function&& f) {
     const auto& view = static_cast<const PronyView&>(base);
@@ -151,7 +152,8 @@ struct Prony : ShapeKernels<N, 3, OverstressOfMemory> {
   }
 
   static constexpr PronyKernels table() {
-    return {{"", "", "", N, 3, &Base::force, &Base::product, &Base::stiffness, nullptr, nullptr},
+    return {{"", "", "", N, 3, &Base::force, &Base::product, &Base::template assemble<Base::exact_tangent>,
+             nullptr, nullptr, false, &Base::definite},
             &energy,
             &advance};
   }

@@ -4,12 +4,19 @@
 /// point the law is called for the eight elements of a group. Next to elastic.h, which is compiled for one
 /// element, quadrature and law and keeps F in registers, it costs a pass through the first-level cache.
 
+#include "definite_tangent.h"
 #include "shape.h"
 
 namespace tissu::TISSU_KERNELS {
 
 /// The laws at a point: those of the view, with the constants of the group at all its points.
 struct LawsOfGroup {
+  static bool isotropic(const ElasticView& view) {
+    for (int l = 0; l < view.law_count; ++l) {
+      if (!view.laws[l]->isotropic) return false;
+    }
+    return true;
+  }
   /// Calls f(law, its constants) for each law.
   template <class Function>
   TISSU_INLINE static void for_each(const ElasticView& view, std::int32_t group, int /*point*/,
@@ -106,8 +113,44 @@ struct ShapeKernels : Shape<N, M> {
     sums.add_to(chunk, out);
   }
 
-  static void stiffness(const ElasticView& view, const Chunk& chunk, const double* x, double scale,
-                        double* blocks) {
+  /// dP/dF
+  static void exact_tangent(const ElasticView& view, std::int32_t group, int point, const Point& F,
+                            PointTangent& A) {
+    clear(A);
+    Laws::for_each(view, group, point,
+                   [&](const LawKernels& law, const double* c) { law.tangent(c, 1, F[0], A[0]); });
+  }
+  /// The positive semi-definite tangent nearest to it, for any law, …
+  static void definite_tangent(const ElasticView& view, std::int32_t group, int point, const Point& F,
+                               PointTangent& A) {
+    exact_tangent(view, group, point, F, A);
+    make_tangents_semidefinite<Base::kEntries>(A);
+  }
+  /// … and for laws that are isotropic.
+  static void isotropic_tangent(const ElasticView& view, std::int32_t group, int point, const Point& F,
+                                PointTangent& A) {
+    alignas(64) Point stretch;
+    PrincipalAxes axes[kLanes / kWidth];
+    for (int lane = 0; lane < kLanes; lane += kWidth) {
+      Matrix at;
+      for (int k = 0; k < 9; ++k) at.m[k / 3][k % 3] = Batch::load(F[k] + lane);
+      axes[lane / kWidth].find(at);
+      for (int k = 0; k < 9; ++k) axes[lane / kWidth].stretch.m[k / 3][k % 3].store(stretch[k] + lane);
+    }
+    exact_tangent(view, group, point, stretch, A);
+    for (int lane = 0; lane < kLanes; lane += kWidth) {
+      Tangent<Batch> at;
+      for (int k = 0; k < Base::kTangent; ++k) at.a[k] = Batch::load(A[k] + lane);
+      axes[lane / kWidth].make_definite(at);
+      for (int k = 0; k < Base::kTangent; ++k) at.a[k].store(A[k] + lane);
+    }
+  }
+  using TangentAt = void(const ElasticView& view, std::int32_t group, int point, const Point& F,
+                         PointTangent& A);
+
+  template <TangentAt tangent>
+  static void assemble(const ElasticView& view, const Chunk& chunk, const double* x, double scale,
+                       double* blocks) {
     PackedNodes positions;
     alignas(64) Nodal position;
     alignas(64) Point F;
@@ -119,9 +162,7 @@ struct ShapeKernels : Shape<N, M> {
       clear(K);
       for (int g = 0; g < view.points; ++g) {
         deformation(view, group, g, position, F);
-        clear(A);
-        Laws::for_each(view, group, g,
-                       [&](const LawKernels& law, const double* c) { law.tangent(c, 1, F[0], A[0]); });
+        tangent(view, group, g, F, A);
         for (int lane = 0; lane < kLanes; lane += kWidth) {
           Batch B[3][M][3][M];
           Base::pull_back(rest_of(view, group, g), -scale * view.weights[g], lane, A, B);
@@ -131,6 +172,13 @@ struct ShapeKernels : Shape<N, M> {
       }
       Base::scatter_pairs(view, group, K, blocks);
     }
+  }
+  static void definite(const ElasticView& view, const Chunk& chunk, const double* x, double scale,
+                       double* blocks) {
+    if constexpr (M == 3) {
+      if (Laws::isotropic(view)) return assemble<isotropic_tangent>(view, chunk, x, scale, blocks);
+    }
+    assemble<definite_tangent>(view, chunk, x, scale, blocks);
   }
 
   static void energy(const ElasticView& view, const Chunk& chunk, const double* x, double* energies) {
@@ -204,7 +252,7 @@ struct ShapeKernels : Shape<N, M> {
   }
 
   static constexpr ElasticKernels table() {
-    return {"", "", "", N, M, &force, &product, &stiffness, &energy, &stress};
+    return {"", "", "", N, M, &force, &product, &assemble<exact_tangent>, &energy, &stress, false, &definite};
   }
 };
 

@@ -65,6 +65,15 @@ TISSU_INLINE Answer of_spring(const SpringView& view, std::ptrdiff_t at, const P
   const Batch share = Batch::load(view.length + at) * now.inverse;
   return {k * share * now.inverse * now.inverse, k * (Batch(1.0) - share)};
 }
+/// Of a spring, nearest to that and without negative eigenvalues: shorter than at rest, it has k along itself
+/// and nothing across. (Shorter than kShortest it has less than k.)
+TISSU_INLINE Answer of_definite_spring(const SpringView& view, std::ptrdiff_t at, const Pulled& now) {
+  const Batch k = Batch::load(view.stiffness + at);
+  const Batch share = Batch::load(view.length + at) * now.inverse;
+  const Batch one(1.0);
+  const Batch most{share.v > one.v ? one.v : share.v};
+  return {k * most * now.inverse * now.inverse, k * positive(Batch(1.0) - share)};
+}
 /// Of a damper: c d d^T / l^2
 TISSU_INLINE Answer of_damper(const SpringView& view, std::ptrdiff_t at, const Pulled& now) {
   return {Batch::load(view.damping + at) * now.inverse * now.inverse, Batch(0.0)};
@@ -146,8 +155,13 @@ void energy(const SpringView& view, const Chunk& chunk, const double* x, double*
   });
 }
 
-constexpr SpringKernels kTable = {&force,  &product<of_spring>, &matrix<of_spring>,
-                                  &energy, &product<of_damper>, &matrix<of_damper>};
+constexpr SpringKernels kTable = {&force,
+                                  &product<of_spring>,
+                                  &matrix<of_spring>,
+                                  &energy,
+                                  &product<of_damper>,
+                                  &matrix<of_damper>,
+                                  &matrix<of_definite_spring>};
 
 }  // namespace
 

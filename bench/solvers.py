@@ -1,0 +1,213 @@
+"""Prints docs/solvers.md: what every linear solver costs from 1e3 to 1e6 unknowns: --write.
+
+--small stops at 1e4 unknowns.
+"""
+
+from __future__ import annotations
+
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+import tissu as ts
+
+ROOT = Path(__file__).resolve().parents[1]
+PAGE = ROOT / "docs" / "solvers.md"
+PICTURE = ROOT / "docs" / "pictures" / "solvers.png"
+SIZES = (6, 14, 31, 68)
+"""cubes along an edge: 1e3, 1e4, 1e5 and 1e6 unknowns"""
+MOST_SECONDS = 60.0
+"""a solver whose last system took a tenth of this is not tried on the next size"""
+SOLVERS = {
+    "jacobi": ts.ConjugateGradient(preconditioner="jacobi", iterations=20000),
+    "block_jacobi": ts.ConjugateGradient(iterations=20000),
+    "block_jacobi, single": ts.ConjugateGradient(precision="single", iterations=20000),
+    "block_jacobi, no matrix": ts.ConjugateGradient(matrix="free", iterations=20000),
+    "incomplete_cholesky": ts.ConjugateGradient(
+        preconditioner="incomplete_cholesky", iterations=20000
+    ),
+    "incomplete_cholesky, single": ts.ConjugateGradient(
+        preconditioner="incomplete_cholesky", precision="single", iterations=20000
+    ),
+    "stale_cholesky": ts.ConjugateGradient(preconditioner="stale_cholesky", iterations=20000),
+    "cholesky": ts.Cholesky(),
+}
+HEAD = """# Linear solvers
+
+Every step of an implicit method solves A x = b; a static one as well. `solver:` of a step says how:
+
+- `conjugate_gradient` with `preconditioner: jacobi` or `block_jacobi`: the inverse of the diagonal,
+  or of its 3x3 blocks; nothing to make, many iterations;
+- … `incomplete_cholesky`: a factor of 3x3 blocks in the pattern of the matrix, shifted where it
+  breaks down (Manteuffel 1980); rows of its triangular solves that do not need
+  each other run on all threads;
+- … `stale_cholesky`: the factor of an earlier matrix (CHOLMOD), made anew when the iterations
+  beyond those of its first solve have cost as much as a factor;
+- … `precision: single`: iterations in single precision, half the bytes; residuals in double
+  correct them to the tolerance, and where they do not fall the solve goes on in double;
+- … `matrix: free`: no matrix at all, the products of the forces themselves;
+- `cholesky`: a sparse factor (CHOLMOD); its symbolic part is kept while the mesh is;
+- `auto`: one of these by size, kind of step and editing; `plan()` says which, and why.
+
+Whether a preconditioner pays is told by counts (iterations, flops, bytes of the factor), never by
+a clock: runs give the same bits. A solve has converged when the residual computed from x says so. A
+matrix that turns out not to be positive definite is reported by every solver; what a step then does
+is its `indefinite:` (project, regularise, refuse).
+
+A cube of tetrahedra (10 kPa, nu 0.3, 10 cm), held at its floor, bent by its weight; tolerance 1e-6;
+one thread. Each entry is iterations, time for one system, and the bytes that the solver keeps for
+each unknown beside the matrix ({matrix:.0f} bytes for each unknown, none without one). The exponent
+is that of the growth of the time between the last two sizes.
+
+"""
+TAIL = """
+What bounds them: products read the matrix once, {matrix:.0f} bytes for each unknown, half in
+single precision, and run at the bandwidth of the memory once it leaves the caches; triangles
+read as much and wait for each other; a factor of a three-dimensional mesh takes work that grows as
+n^2 and memory with n^(4/3). With inertia the matrix is the mass and a little stiffness, and
+iterations stay few; without, their number grows with the number of cells along the cube.
+
+Printed by `python bench/solvers.py --write`.
+"""
+
+
+@dataclass(frozen=True)
+class Row:
+    """One measured solver."""
+
+    solver: str
+    unknowns: int
+    iterations: float
+    seconds: float
+    bytes: float
+    converged: bool
+
+
+def cube(cells: int, *, static: bool, solver: object) -> ts.Scene:
+    """The cube of a size."""
+    law = {"young": "10 kPa", "poisson": 0.3}
+    body = ts.Body(
+        mesh=ts.BarMesh(size=(0.1, 0.1, 0.1), cells=(cells, cells, cells), cell="tetra"),
+        law=ts.Hooke(**law) if static else ts.StVK(**law),  # type: ignore[arg-type]
+        density=1000,
+    )
+    step = ts.Static(solver=solver) if static else ts.ImplicitEuler("10 ms", solver=solver)  # type: ignore[arg-type]
+    return ts.Scene(
+        bodies={"cube": body},
+        gravity=(0, 0, -9.81),
+        fixed=[ts.Fixed("cube", on=ts.Plane((0, 0, 0), (0, 0, 1)))],
+        step=step,
+    )
+
+
+def measured(name: str, cells: int, *, static: bool) -> tuple[Row, float]:
+    """A row, and the matrix's bytes for each unknown."""
+    simulation = cube(cells, static=static, solver=SOLVERS[name]).compile()
+    simulation.step()
+    if not static:
+        simulation.clear_profile()
+        simulation.step()
+    profile = simulation.profile()
+    rows = [row for row in profile.rows if row.effect == "linear solver"]
+    seconds = sum(row.ms_per_step for row in rows) / 1e3 * profile.steps
+    solves, unknowns = profile.solves, simulation.plan().unknowns
+    row = Row(
+        name,
+        unknowns,
+        solves.iterations / max(1, solves.solves),
+        seconds / max(1, solves.solves),
+        simulation.solver_bytes() / unknowns,
+        solves.failures == 0,
+    )
+    return row, 76.0 * simulation.plan().matrix_blocks / unknowns
+
+
+def study(sizes: tuple[int, ...], *, static: bool) -> tuple[list[list[Row]], float]:
+    """Rows by solver, and the matrix's bytes for each unknown at the largest size."""
+    found, matrix = [], 0.0
+    for name in SOLVERS:
+        rows: list[Row] = []
+        for cells in sizes:
+            if rows and rows[-1].seconds > MOST_SECONDS / 30:
+                break
+            if cells > 40 and name in ("cholesky", "stale_cholesky"):
+                break  # a factor of a million unknowns does not fit
+            row, matrix = measured(name, cells, static=static)
+            print("static" if static else "inertia", row, file=sys.stderr, flush=True)
+            rows.append(row)
+        found.append(rows)
+    return found, matrix
+
+
+def exponent(rows: list[Row]) -> float:
+    """Of the growth of seconds with unknowns, between the last two sizes."""
+    before, last = rows[-2], rows[-1]
+    return float(np.log(last.seconds / before.seconds) / np.log(last.unknowns / before.unknowns))
+
+
+def table(found: list[list[Row]]) -> str:
+    """Markdown."""
+    sizes = sorted({row.unknowns for rows in found for row in rows})
+    head = " | ".join(f"{size:,} unknowns" for size in sizes)
+    lines = [f"| | {head} | exponent |", "|---|" + "---|" * (len(sizes) + 1)]
+    for rows in found:
+        known = {row.unknowns: row for row in rows}
+        cells = [entry(known[size]) if size in known else "not run" for size in sizes]
+        grown = f"{exponent(rows):.2f}" if len(rows) > 1 else ""
+        lines.append(f"| {rows[0].solver} | {' | '.join(cells)} | {grown} |")
+    return "\n".join(lines)
+
+
+def entry(row: Row) -> str:
+    """Iterations, time and bytes of one row."""
+    mark = "" if row.converged else " (not to the tolerance)"
+    ms = 1e3 * row.seconds
+    spent = f"{ms:.3g} ms" if ms < 1e3 else f"{row.seconds:.3g} s"
+    return f"{row.iterations:.0f}, {spent}, {row.bytes:.0f} B{mark}"
+
+
+def picture(studies: dict[str, list[list[Row]]]) -> None:
+    """Seconds against unknowns, a panel for each study."""
+    import matplotlib as mpl
+
+    mpl.use("Agg")
+    from matplotlib import pyplot as plt
+
+    figure, panels = plt.subplots(1, len(studies), figsize=(11, 4.4), sharey=True)
+    for axes, (title, found) in zip(panels, studies.items(), strict=True):
+        for number, rows in enumerate(found):
+            x, y = [r.unknowns for r in rows], [r.seconds for r in rows]
+            axes.loglog(x, y, "o-", color=f"C{number}", label=rows[0].solver, markersize=5)
+        axes.set_title(title)
+        axes.set_xlabel("unknowns")
+        axes.grid(visible=True, which="major", alpha=0.3)
+    panels[0].set_ylabel("seconds for one system")
+    panels[-1].legend(fontsize=8, frameon=False)
+    figure.tight_layout()
+    figure.savefig(PICTURE, dpi=110)
+
+
+def page(sizes: tuple[int, ...]) -> tuple[str, dict[str, list[list[Row]]]]:
+    """The whole page and what it was measured from."""
+    inertia, matrix = study(sizes, static=False)
+    still, _ = study(sizes, static=True)
+    parts = [
+        HEAD.format(matrix=matrix),
+        "## A step of 10 ms with inertia\n\nIterations, seconds, bytes.\n\n" + table(inertia),
+        "\n\n## Static, Hooke's law\n\nThe first system, with all that is made for it.\n\n"
+        + table(still),
+        "\n\n![Seconds against unknowns](pictures/solvers.png)\n",
+        TAIL.format(matrix=matrix),
+    ]
+    return "".join(parts), {"10 ms, with inertia": inertia, "static": still}
+
+
+if __name__ == "__main__":
+    text, studies = page(SIZES[:2] if "--small" in sys.argv else SIZES)
+    if "--write" in sys.argv:
+        PAGE.write_text(text, encoding="utf-8")
+        picture(studies)
+    else:
+        print(text)

@@ -1,0 +1,31 @@
+#pragma once
+
+/// Everything that the next step of a simulation depends on and its scene does not tell, as plain numbers.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "tissu/state/state.h"
+
+namespace tissu {
+
+struct Snapshot {
+  /// What edits left of a body; only of worlds that can be edited.
+  struct BodyCells {
+    std::string body;
+    std::vector<std::int32_t> cells;        ///< still there, by their first numbers
+    std::vector<std::int32_t> loose_nodes;  ///< that no cell uses, numbers in the body
+    std::vector<double> places;             ///< where these are held [m], three for each
+  };
+
+  State state;
+  bool settled = true;                    ///< eliminated nodes stand in their places
+  double time_before = 0.0;               ///< the latest step began [s]
+  std::vector<double> velocities_before;  ///< and had these velocities: reactions are computed from them
+  std::vector<double> integrator;         ///< Integrator::memory()
+  std::vector<double> links;              ///< Links::numbers()
+  std::vector<BodyCells> bodies;
+};
+
+}  // namespace tissu

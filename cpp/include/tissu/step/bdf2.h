@@ -1,0 +1,25 @@
+#pragma once
+
+#include "tissu/step/bdf2_history.h"
+
+namespace tissu {
+
+/// The backward differentiation formula of second order (Curtiss, Hirschfelder 1952), for steps that may
+/// change: 3 x1 - 4 x0 + x-1 = 2 h v1, the same for v and M^-1 f. Damps fast vibrations.
+class Bdf2 final : public Integrator {
+ public:
+  explicit Bdf2(NewtonSettings newton = {}) : solver_(newton) {}
+  [[nodiscard]] std::string_view name() const override { return "BDF2"; }
+  void prepare(const World& world, LinearSolver* solver, Profile& profile) override;
+  StepReport step(State& state, double h) override;
+  [[nodiscard]] std::vector<double> memory() const override { return history_.memory(); }
+  void restore(ConstReals memory) override { history_.restore(memory); }
+
+ private:
+  StageSolver solver_;
+  Bdf2History history_;
+  State start_;
+  std::vector<double> v_;
+};
+
+}  // namespace tissu

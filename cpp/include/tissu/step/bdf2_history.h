@@ -1,0 +1,30 @@
+#pragma once
+
+#include "tissu/step/stage.h"
+#include "tissu/step/state_mark.h"
+
+namespace tissu {
+
+/// The state before the last one, which BDF2 needs; known only when the last step led to the present state.
+class Bdf2History {
+ public:
+  void prepare(const World& world);
+  /// Makes the stage of a step of h from `start`: with r = h / (step before), s = r^2 / (1 + 2 r),
+  /// x1 = x0 + s (x0 - x-1) + a v1, v1 = v0 + s (v0 - v-1) + a M^-1 f(x1, v1), a = h (1 + r) / (1 + 2 r);
+  /// r = 1 gives 4/3, -1/3, 2/3. Without history the step is one of backward Euler.
+  void begin(const State& start, double h, StageSolver& solver);
+  /// The step of h from `start` led to `end`.
+  void keep(const State& start, double h, const State& end);
+
+  [[nodiscard]] std::vector<double> memory() const;
+  void restore(ConstReals memory);
+
+ private:
+  State before_;
+  double step_ = 0.0;
+  StateMark end_;
+  std::vector<double> way_;
+  State extrapolated_;  ///< the state before, in the rotations of the base
+};
+
+}  // namespace tissu

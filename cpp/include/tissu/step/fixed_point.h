@@ -1,0 +1,40 @@
+#pragma once
+
+#include "tissu/step/anderson.h"
+#include "tissu/step/bdf2_history.h"
+
+namespace tissu {
+
+/// BDF2 by Banach's fixed-point iteration (Chendeb 2007, section 2.4.4), without any matrix:
+/// v <- v^ + a M^-1 f(x(v), v). It contracts only while h^2 omega^2 < 9/4, omega the largest
+/// eigenfrequency; Anderson's acceleration goes beyond.
+class Bdf2FixedPoint final : public Integrator {
+ public:
+  struct Settings {
+    int iterations = 50;
+    double tolerance =
+        1e-6;          ///< on the norm of the residual, relative to the external force and the first one
+    int anderson = 0;  ///< differences that Anderson's acceleration keeps; 0: without
+  };
+  explicit Bdf2FixedPoint(Settings settings);
+  [[nodiscard]] std::string_view name() const override;
+  void prepare(const World& world, LinearSolver* solver, Profile& profile) override;
+  StepReport step(State& state, double h) override;
+  [[nodiscard]] std::vector<double> memory() const override { return history_.memory(); }
+  void restore(ConstReals memory) override { history_.restore(memory); }
+
+ private:
+  void iterate(State& state, double reference, StepReport& report);
+  [[noreturn]] void refuse(double h) const;
+
+  Settings settings_;
+  StageSolver solver_;
+  Bdf2History history_;
+  Anderson anderson_;
+  State start_;
+  std::vector<double> v_;
+  std::vector<double> change_;
+  std::vector<double> weight_;  ///< mass of each degree of freedom
+};
+
+}  // namespace tissu

@@ -1,0 +1,22 @@
+#pragma once
+
+#include "tissu/step/stage.h"
+
+namespace tissu {
+
+/// Implicit midpoint rule: M (v1 - v0) = h f((x0 + x1) / 2, (v0 + v1) / 2), x1 = x0 + h (v0 + v1) / 2. Of
+/// second order; keeps linear and angular momentum, and the energy of linear systems.
+class ImplicitMidpoint final : public Integrator {
+ public:
+  explicit ImplicitMidpoint(NewtonSettings newton = {}) : solver_(newton) {}
+  [[nodiscard]] std::string_view name() const override { return "implicit midpoint"; }
+  void prepare(const World& world, LinearSolver* solver, Profile& profile) override;
+  StepReport step(State& state, double h) override;
+
+ private:
+  StageSolver solver_;
+  State start_;
+  std::vector<double> mean_;  ///< velocity
+};
+
+}  // namespace tissu

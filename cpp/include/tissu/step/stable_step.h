@@ -1,0 +1,51 @@
+#pragma once
+
+/// The largest step for which an explicit method is stable.
+
+#include <complex>
+#include <cstdint>
+#include <vector>
+
+#include "tissu/step/frequency.h"
+
+namespace tissu {
+
+/// What an explicit method multiplies the amplitude of a vibration by in a step of h; `growth` [1/s] is what
+/// it may: methods that make every undamped vibration grow have a limit only in that sense.
+struct Amplification {
+  /// Largest |eigenvalue| of one step of x'' = -omega^2 x - damping x'.
+  double (*factor)(double h, double omega, double damping);
+  double growth = 0.0;
+};
+
+/// The largest h whose factor stays within 1 + growth for the fastest vibration and for the most damped
+/// motion [s]; infinite where nothing is stiff or damped.
+double largest_stable_step(const Amplification& method, const Vibration& vibration);
+
+/// Eigenvalues of x'' = -omega^2 x - damping x'.
+std::pair<std::complex<double>, std::complex<double>> eigenvalues(double omega, double damping);
+
+/// Watches how far a world's cells have been deformed since its vibration was measured.
+class StableStep {
+ public:
+  void prepare(const World& world);
+  /// The limit at `state`: measured again when it is not known, or, looked at every few steps, when an edge
+  /// of a cell has changed by a fiftieth of its length.
+  double limit(const Amplification& method, const State& state);
+
+  [[nodiscard]] std::vector<double> memory() const;
+  void restore(ConstReals memory);
+
+ private:
+  [[nodiscard]] bool has_deformed(const State& state) const;
+  void measure(const Amplification& method, const State& state);
+
+  const World* world_ = nullptr;
+  double limit_ = 0.0;  ///< 0: not known
+  double age_ = 0.0;    ///< steps since the lengths were looked at
+  double time_ = 0.0;   ///< of the state that was asked about last
+  std::vector<std::int32_t> edges_;
+  std::vector<double> lengths_;
+};
+
+}  // namespace tissu

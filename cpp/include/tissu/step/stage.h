@@ -1,0 +1,81 @@
+#pragma once
+
+/// The equation that every implicit method solves, and Newton's iteration for it.
+
+#include <memory>
+#include <vector>
+
+#include "tissu/step/integrator.h"
+#include "tissu/step/system.h"
+
+namespace tissu {
+
+/// M (v - v^) = push f(x(v), v) at the time of `base`, x(v) = the positions of `base` moved by `move` v: one
+/// implicit method is one choice of `base`, v^ (the velocities of `base`), `move` and `push` [s].
+///
+struct Stage {
+  State base;
+  double move = 0.0;
+  double push = 0.0;
+};
+
+class StageSolver {
+ public:
+  explicit StageSolver(NewtonSettings newton);
+  void prepare(const World& world, LinearSolver* solver, Profile& profile);
+  /// The stage, to be filled before `solve`.
+  [[nodiscard]] Stage& stage() { return stage_; }
+  [[nodiscard]] System& system() { return *system_; }
+  [[nodiscard]] const World& world() const { return system_->world(); }
+
+  /// Begins a step of h from `start`: the stage takes `start` with `time` as its base, moved and pushed by h.
+  void begin(const State& start, double time, double h);
+  /// Where motion is given: v is the mean velocity of the step of h from `start` to `time`, and the base
+  /// stands where it leads to `share` of the way.
+  void lead(const State& start, double time, double h, double share);
+  /// Those velocities, put into v.
+  void copy_given(Reals v) const { system_->world().fixed().copy(given_, v); }
+  /// Solves for v from the guess that it holds; `state` gets x(v) and v. The report is added to.
+  void solve(State& state, std::vector<double>& v, StepReport& report);
+
+  /// push f - M (v - v^) at x(v), which goes into `state` with v; zero where motion is given. Its norm.
+  double residual(State& state, ConstReals v);
+  [[nodiscard]] ConstReals right() const { return right_; }
+
+ private:
+  enum class Search { none, residual, energy };
+  void first_solve(std::vector<double>& v, StepReport& report);
+  /// What a step that is linearised once left over is no more than it found.
+  bool is_good_enough(State& state, ConstReals v);
+  /// The solution is one that lies below the guess: far above it there may be others, which no body reaches.
+  bool is_lower(State& state, ConstReals v);
+  /// Newton's iteration from v; true when it converged. Whole steps may pass through worse states on the way
+  /// to a better one; else they are halved until the residual falls, or until the energy does.
+  bool iterate(State& state, std::vector<double>& v, Search search, int most, StepReport& report);
+  bool advance(State& state, std::vector<double>& v, Search search, double& now);
+  bool descend(State& state, std::vector<double>& v, double& now);
+  /// The matrix of the equation: mass M - push D - push move K.
+  void assemble(const State& state, bool definite, double mass = 1.0);
+  /// Solves A change_ = right_ with that matrix at `state`; it is made definite where it is not.
+  SolveReport solve_linear(const State& state, double floor, bool definite, StepReport& report);
+  /// `state` = x(v) and v.
+  void place(State& state, ConstReals v) const;
+  /// Half |v - v^|^2 in M, and push / move of what the forces store: its slope is minus the residual.
+  double potential(State& state, ConstReals v);
+
+  NewtonSettings newton_;
+  std::unique_ptr<System> system_;
+  Stage stage_;
+  std::vector<double> given_;  ///< mean velocities where motion is given
+  std::vector<double> guess_;
+  std::vector<double> first_;
+  std::vector<double> trial_;
+  std::vector<double> change_;
+  std::vector<double> right_;
+  std::vector<double> work_;
+  std::vector<double> momentum_;
+  double reference_ = 0.0;  ///< push |external force|
+  double start_ = 0.0;      ///< residual that the first solve found
+};
+
+}  // namespace tissu

@@ -1,0 +1,72 @@
+#include "tissu/step/bdf2_history.h"
+
+#include <algorithm>
+
+namespace tissu {
+
+void Bdf2History::prepare(const World& world) {
+  before_ = world.rest_state();
+  way_ = before_.velocities;
+  extrapolated_ = before_;
+  end_.forget();
+}
+
+void Bdf2History::begin(const State& start, double h, StageSolver& solver) {
+  const std::vector<Frame>& frames = solver.world().frames();
+  solver.begin(start, start.time + h, h);
+  if (end_.is(start)) {
+    Stage& stage = solver.stage();
+    const double r = h / step_;
+    const double share = r * r / (1.0 + 2.0 * r);
+    stage.move = stage.push = h * (1.0 + r) / (1.0 + 2.0 * r);
+    for (std::size_t i = 0; i < way_.size(); ++i) way_[i] = start.positions[i] - before_.positions[i];
+    for (std::size_t k = 0; k < frames.size(); ++k) {
+      const Eigen::AngleAxisd turn(start.rotations[k] * before_.rotations[k].conjugate());
+      block(Reals(way_), frames[k].block + 1) = turn.angle() * turn.axis();
+    }
+    move(start, frames, way_, share, stage.base);
+    // Of frames the angular momenta, as angular velocities of the base.
+    extrapolated_.velocities = before_.velocities;
+    extrapolated_.rotations = stage.base.rotations;
+    keep_angular_momentum(before_, frames, extrapolated_);
+    keep_angular_momentum(start, frames, stage.base);
+    for (std::size_t i = 0; i < way_.size(); ++i) {
+      stage.base.velocities[i] += share * (stage.base.velocities[i] - extrapolated_.velocities[i]);
+    }
+  }
+  solver.lead(start, start.time + h, h, 1.0);
+}
+
+void Bdf2History::keep(const State& start, double h, const State& end) {
+  before_ = start;
+  step_ = h;
+  end_.set(end);
+}
+
+std::vector<double> Bdf2History::memory() const {
+  if (end_.is_empty()) return {};
+  std::vector<double> memory;
+  end_.append_to(memory);
+  memory.push_back(step_);
+  memory.insert(memory.end(), before_.positions.begin(), before_.positions.end());
+  memory.insert(memory.end(), before_.velocities.begin(), before_.velocities.end());
+  for (const Quaternion& q : before_.rotations)
+    memory.insert(memory.end(), q.coeffs().begin(), q.coeffs().end());
+  return memory;
+}
+
+void Bdf2History::restore(ConstReals memory) {
+  end_.forget();
+  if (memory.empty()) return;
+  const std::size_t size = way_.size();
+  ConstReals left = end_.take_from(memory, size);
+  step_ = left.front();
+  std::ranges::copy(left.subspan(1, size), before_.positions.begin());
+  std::ranges::copy(left.subspan(1 + size, size), before_.velocities.begin());
+  left = left.subspan(1 + 2 * size);
+  for (std::size_t k = 0; k < before_.rotations.size(); ++k) {
+    before_.rotations[k].coeffs() = Eigen::Map<const Eigen::Vector4d>(left.data() + 4 * k);
+  }
+}
+
+}  // namespace tissu

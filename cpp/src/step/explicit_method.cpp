@@ -1,0 +1,70 @@
+#include "tissu/step/explicit_method.h"
+
+#include <cmath>
+#include <cstdio>
+
+#include "tissu/base/error.h"
+
+namespace tissu {
+namespace {
+
+std::string text(double value) {
+  char buffer[32];
+  (void)std::snprintf(buffer, sizeof buffer, "%.4g", value);
+  return buffer;
+}
+
+/// Steps that differ by no more than this share are the same.
+constexpr double kSame = 1e-9;
+
+}  // namespace
+
+void ExplicitMethod::prepare(const World& world, LinearSolver* /*solver*/, Profile& profile) {
+  system_ = std::make_unique<System>(world, nullptr, profile);
+  start_ = world.rest_state();
+  stable_.prepare(world);
+}
+
+double ExplicitMethod::stable_step(const State& state) { return stable_.limit(amplification(), state); }
+
+StepReport ExplicitMethod::step(State& state, double h) {
+  const double limit = stable_step(state);
+  if (h > limit * (1.0 + kSame)) {
+    const Amplification method = amplification();
+    std::string message = "the step is " + text(h) + " s at t = " + text(state.time) + " s; " +
+                          std::string(name()) + " is stable up to " + text(limit) + " s here (2 / omega is " +
+                          text(2.0 / largest_frequency(world(), state)) + " s)";
+    if (method.growth > 0.0)
+      message += ", counting as stable what takes a hundred seconds to grow by a factor e";
+    throw ParameterError(message + "; take dt: auto, a smaller dt, or an implicit method.");
+  }
+  StepReport report;
+  start_ = state;
+  state.time = start_.time + h;
+  advance(state, h);
+  keep_angular_momentum(start_, world().frames(), state);
+  report.time = state.time;
+  report.converged = true;
+  return report;
+}
+
+void ExplicitMethod::acceleration(const State& state, Reals a) {
+  system_->force(state, a);
+  world().mass().divide(start_, a);
+  world().fixed().clear(a);
+}
+
+void ExplicitMethod::lead(State& state, double since) const {
+  const FixedDofs& fixed = world().fixed();
+  if (fixed.empty()) return;
+  fixed.set_velocities(start_.positions, state.time, since, 1.0, state.velocities);
+  for (const std::int32_t row : fixed.rows()) {
+    for (int axis = 0; axis < 3; ++axis) {
+      if (((fixed.masks()[static_cast<std::size_t>(row)] >> axis) & 1) == 0) continue;
+      const auto i = static_cast<std::size_t>(3 * row + axis);
+      state.positions[i] = start_.positions[i] + since * state.velocities[i];
+    }
+  }
+}
+
+}  // namespace tissu

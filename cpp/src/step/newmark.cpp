@@ -1,0 +1,74 @@
+#include "tissu/step/newmark.h"
+
+#include "tissu/base/error.h"
+
+namespace tissu {
+
+Newmark::Newmark(Settings settings) : beta_(settings.beta), gamma_(settings.gamma), solver_(settings.newton) {
+  if (!(beta_ > 0.0 && beta_ <= 0.5 && gamma_ >= 0.5 && gamma_ <= 1.0 && 2.0 * beta_ >= gamma_)) {
+    throw ParameterError(
+        "Newmark's method needs 0.5 <= gamma <= 1 and gamma / 2 <= beta <= 0.5: others are unstable for "
+        "large "
+        "steps.");
+  }
+}
+
+void Newmark::prepare(const World& world, LinearSolver* solver, Profile& profile) {
+  solver_.prepare(world, solver, profile);
+  start_ = world.rest_state();
+  v_ = start_.velocities;
+  a_ = start_.velocities;
+  end_.forget();
+}
+
+void Newmark::find_acceleration(const State& state) {
+  if (end_.is(state)) return;
+  solver_.system().force(state, a_);
+  solver_.world().mass().divide(state, a_);
+}
+
+StepReport Newmark::step(State& state, double h) {
+  StepReport report;
+  start_ = state;
+  find_acceleration(start_);
+  const double ratio = beta_ / gamma_;
+  solver_.begin(start_, start_.time + h, h);
+  Stage& stage = solver_.stage();
+  stage.push = gamma_ * h;
+  stage.move = ratio * h;
+  const double by_velocity = (1.0 - ratio) * h;
+  const double by_acceleration = (0.5 - beta_ - ratio * (1.0 - gamma_)) * h * h;
+  for (std::size_t i = 0; i < a_.size(); ++i) {
+    v_[i] = by_velocity * start_.velocities[i] + by_acceleration * a_[i];
+    stage.base.velocities[i] = start_.velocities[i] + (1.0 - gamma_) * h * a_[i];
+  }
+  tissu::move(start_, solver_.world().frames(), v_, 1.0, stage.base);
+  keep_angular_momentum(start_, solver_.world().frames(), stage.base);
+  solver_.lead(start_, start_.time + h, h, 1.0);
+  v_ = state.velocities;
+  solver_.solve(state, v_, report);
+  for (std::size_t i = 0; i < a_.size(); ++i) {
+    a_[i] = (v_[i] - stage.base.velocities[i]) / (gamma_ * h);
+  }
+  keep_angular_momentum(stage.base, solver_.world().frames(), state);
+  report.time = state.time;
+  end_.set(state);
+  return report;
+}
+
+std::vector<double> Newmark::memory() const {
+  if (end_.is_empty()) return {};
+  std::vector<double> memory;
+  end_.append_to(memory);
+  memory.insert(memory.end(), a_.begin(), a_.end());
+  return memory;
+}
+
+void Newmark::restore(ConstReals memory) {
+  end_.forget();
+  if (memory.empty()) return;
+  const ConstReals a = end_.take_from(memory, a_.size());
+  a_.assign(a.begin(), a.end());
+}
+
+}  // namespace tissu

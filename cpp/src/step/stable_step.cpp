@@ -1,0 +1,112 @@
+#include "tissu/step/stable_step.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace tissu {
+namespace {
+
+constexpr double kLookEvery = 8.0;  ///< steps
+constexpr double kDeformed = 0.02;  ///< share of an edge's length
+constexpr double kRoundOff = 1e-12;
+constexpr int kHalvings = 60;
+
+}  // namespace
+
+std::pair<std::complex<double>, std::complex<double>> eigenvalues(double omega, double damping) {
+  const std::complex<double> root = std::sqrt(std::complex<double>(0.25 * damping * damping - omega * omega));
+  return {-0.5 * damping + root, -0.5 * damping - root};
+}
+
+double largest_stable_step(const Amplification& method, const Vibration& vibration) {
+  const double rate = std::max(vibration.frequency, vibration.largest_damping);
+  if (!(rate > 0.0)) return std::numeric_limits<double>::infinity();
+  const auto is_stable = [&](double h) {
+    const double most = std::exp(method.growth * h) + kRoundOff;
+    return method.factor(h, vibration.frequency, vibration.damping) <= most &&
+           method.factor(h, 0.0, vibration.largest_damping) <= most;
+  };
+  // The stable steps reach from zero to a limit: bisection on their logarithm.
+  double high = 8.0 / rate;
+  double low = high;
+  for (int i = 0; i < kHalvings && !is_stable(low); ++i) {
+    high = low;
+    low *= 0.5;
+  }
+  if (!is_stable(low)) return 0.0;
+  for (int i = 0; i < kHalvings; ++i) {
+    const double middle = std::sqrt(low * high);
+    (is_stable(middle) ? low : high) = middle;
+  }
+  return low;
+}
+
+void StableStep::prepare(const World& world) {
+  world_ = &world;
+  limit_ = 0.0;
+  edges_.clear();
+  for (const Body& body : world.bodies()) {
+    for (const BodyModel* model : body.models) {
+      const auto& cells = model->block().cells;
+      const auto size = static_cast<std::size_t>(model->nodes_per_cell());
+      for (std::size_t first = 0; first + size <= cells.size(); first += size) {
+        for (std::size_t k = 0; k < size; ++k) {
+          edges_.push_back(cells[first + k]);
+          edges_.push_back(cells[first + (k + 1) % size]);
+        }
+      }
+    }
+  }
+  lengths_.assign(edges_.size() / 2, 0.0);
+}
+
+double StableStep::limit(const Amplification& method, const State& state) {
+  if (limit_ != 0.0 && state.time == time_) return limit_;
+  time_ = state.time;
+  age_ += 1.0;
+  if (limit_ == 0.0) {
+    measure(method, state);
+  } else if (age_ >= kLookEvery) {
+    age_ = 0.0;
+    if (has_deformed(state)) measure(method, state);
+  }
+  return limit_;
+}
+
+bool StableStep::has_deformed(const State& state) const {
+  const ConstReals x(state.positions);
+  for (std::size_t e = 0; e < lengths_.size(); ++e) {
+    const double now = (block(x, edges_[2 * e]) - block(x, edges_[2 * e + 1])).norm();
+    if (!(std::abs(now - lengths_[e]) <= kDeformed * lengths_[e])) return true;
+  }
+  return false;
+}
+
+void StableStep::measure(const Amplification& method, const State& state) {
+  limit_ = largest_stable_step(method, fastest_vibration(*world_, state));
+  age_ = 0.0;
+  const ConstReals x(state.positions);
+  for (std::size_t e = 0; e < lengths_.size(); ++e) {
+    lengths_[e] = (block(x, edges_[2 * e]) - block(x, edges_[2 * e + 1])).norm();
+  }
+}
+
+std::vector<double> StableStep::memory() const {
+  std::vector<double> memory{limit_, age_, time_};
+  memory.insert(memory.end(), lengths_.begin(), lengths_.end());
+  return memory;
+}
+
+void StableStep::restore(ConstReals memory) {
+  limit_ = 0.0;
+  // Cells were removed since: what was measured is not of this world.
+  if (memory.size() != lengths_.size() + 3) return;
+  limit_ = memory[0];
+  age_ = memory[1];
+  time_ = memory[2];
+  std::ranges::copy(memory.subspan(3), lengths_.begin());
+}
+
+}  // namespace tissu

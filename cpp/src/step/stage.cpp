@@ -1,0 +1,260 @@
+#include "tissu/step/stage.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "tissu/base/error.h"
+#include "tissu/base/norm.h"
+
+namespace tissu {
+namespace {
+
+constexpr double kFloor = 1e-3;  ///< of the external impulse: a smaller right-hand side is judged against it
+constexpr double kWorse = 2.0;   ///< a linearised step that leaves this much more residual is iterated on
+constexpr int kRescue = 10;      ///< Newton iterations at most where a linearised step made things worse
+constexpr double kHopeless = 1e9;       ///< times the first residual: Newton's iteration has lost its way
+constexpr double kShortest = 1e-3;      ///< a Newton step is not cut below this, …
+constexpr double kShortestDown = 1e-9;  ///< … or below this where the energy is to fall
+constexpr double kArmijo = 1e-4;        ///< share of the fall that the slope promises
+constexpr double kFirstMass = 0.1;      ///< share of the mass that is added first to make a matrix definite
+constexpr double kLastMass = 1e9;
+
+}  // namespace
+
+StageSolver::StageSolver(NewtonSettings newton) : newton_(newton) {
+  if (newton.iterations < 1 || !(newton.tolerance > 0.0)) {
+    throw ParameterError("Newton's iteration needs at least one iteration and a positive tolerance.");
+  }
+}
+
+void StageSolver::prepare(const World& world, LinearSolver* solver, Profile& profile) {
+  system_ = std::make_unique<System>(world, solver, profile);
+  stage_.base = world.rest_state();
+  for (auto* v : {&given_, &guess_, &first_, &trial_, &change_, &right_, &work_, &momentum_}) {
+    v->assign(stage_.base.positions.size(), 0.0);
+  }
+}
+
+void StageSolver::begin(const State& start, double time, double h) {
+  stage_.base = start;
+  stage_.base.time = time;
+  stage_.move = h;
+  stage_.push = h;
+}
+
+void StageSolver::lead(const State& start, double time, double h, double share) {
+  const FixedDofs& fixed = system_->world().fixed();
+  fixed.set_velocities(start.positions, time, h, 1.0, given_);
+  const double from = share * h - stage_.move;
+  for (const std::int32_t row : fixed.rows()) {
+    for (int axis = 0; axis < 3; ++axis) {
+      if (((fixed.masks()[static_cast<std::size_t>(row)] >> axis) & 1) == 0) continue;
+      const auto i = static_cast<std::size_t>(3 * row + axis);
+      stage_.base.positions[i] = from == 0.0 ? start.positions[i] : start.positions[i] + from * given_[i];
+    }
+  }
+}
+
+void StageSolver::solve(State& state, std::vector<double>& v, StepReport& report) {
+  system_->external_force(stage_.base, work_);
+  reference_ = stage_.push * norm(work_);
+  guess_ = v;
+  first_solve(v, report);
+  const bool once = newton_.iterations == 1;
+  if (once && is_good_enough(state, v)) return;
+
+  first_ = v;
+  const int most = once ? kRescue : newton_.iterations;
+  if (iterate(state, v, Search::none, most, report) && is_lower(state, v)) return;
+  if (!once) {
+    v = first_;
+    if (iterate(state, v, Search::residual, most, report) && is_lower(state, v)) return;
+  }
+  v = guess_;
+  system_->world().fixed().copy(first_, v);
+  iterate(state, v, Search::energy, most, report);
+}
+
+bool StageSolver::is_good_enough(State& state, ConstReals v) {
+  if (!system_->world().is_linear()) return residual(state, v) <= kWorse * start_ + kFloor * reference_;
+  place(state, v);
+  return true;
+}
+
+bool StageSolver::is_lower(State& state, ConstReals v) {
+  std::ranges::copy(guess_, trial_.begin());
+  system_->world().fixed().copy(v, trial_);
+  const double before = potential(state, trial_);
+  double way = 0.0;
+  for (std::size_t i = 0; i < v.size(); ++i) way += (v[i] - trial_[i]) * (v[i] - trial_[i]);
+  const double after = potential(state, v);
+  // Dissipation and follower loads, which have no potential, are given room.
+  return after <= before + std::abs(before) + start_ * std::sqrt(way);
+}
+
+void StageSolver::place(State& state, ConstReals v) const {
+  move(stage_.base, system_->world().frames(), v, stage_.move, state);
+  std::ranges::copy(v, state.velocities.begin());
+  state.time = stage_.base.time;
+}
+
+void StageSolver::first_solve(std::vector<double>& v, StepReport& report) {
+  const World& world = system_->world();
+  const FixedDofs& fixed = world.fixed();
+  const double h2 = stage_.move * stage_.push;
+  State& base = stage_.base;
+  // Changes of velocity that are given, zero elsewhere.
+  std::ranges::copy(v, trial_.begin());
+  fixed.copy(given_, trial_);
+  for (std::size_t i = 0; i < v.size(); ++i) change_[i] = trial_[i] - v[i];
+
+  // push f(base, v) + push move K (v + given) + push D given - M (v - v^ + given)
+  std::swap(base.velocities, v);
+  system_->force(base, right_);
+  std::swap(base.velocities, v);
+  for (double& r : right_) r *= stage_.push;
+  system_->add_product(base, {h2, 0.0}, trial_, right_);
+  if (std::ranges::any_of(change_, [](double c) { return c != 0.0; })) {
+    system_->add_product(base, {0.0, stage_.push}, change_, right_);
+    world.mass().add_product(base, -1.0, change_, right_);
+  }
+  for (std::size_t i = 0; i < v.size(); ++i) work_[i] = v[i] - base.velocities[i];
+  world.mass().add_product(base, -1.0, work_, right_);
+  fixed.clear(right_);
+  start_ = norm(right_);
+  fixed.copy(change_, right_);
+
+  assemble(base, false);
+  const SolveReport solved = solve_linear(base, kFloor * reference_, false, report);
+  for (std::size_t i = 0; i < v.size(); ++i) v[i] += change_[i];
+  report.newton_iterations += 1;
+  report.residual = solved.residual;
+  report.converged = solved.converged;
+  if (!solved.converged) report.message = "the linear solver stopped before its tolerance";
+}
+
+void StageSolver::assemble(const State& state, bool definite, double mass) {
+  system_->assemble(state, mass, {-stage_.move * stage_.push, -stage_.push, definite});
+}
+
+SolveReport StageSolver::solve_linear(const State& state, double floor, bool definite, StepReport& report) {
+  std::ranges::copy(change_, work_.begin());
+  SolveReport solved = system_->solve(right_, change_, floor);
+  report.solver_iterations += solved.iterations;
+  if (solved.positive_definite) return solved;
+  ++report.indefinite;
+  if (newton_.indefinite == Indefinite::refuse) {
+    throw Error("the matrix of the step to t = " + std::to_string(state.time) +
+                " s is not positive definite, as under strong compression; take a smaller dt, or say "
+                "indefinite: project instead of refuse.");
+  }
+  const auto again = [&](double mass, bool projected) {
+    assemble(state, projected, mass);
+    std::ranges::copy(work_, change_.begin());
+    solved = system_->solve(right_, change_, floor);
+    report.solver_iterations += solved.iterations;
+    return solved.positive_definite;
+  };
+  const bool project = newton_.indefinite == Indefinite::project;
+  if (project && !definite && again(1.0, true)) return solved;
+  for (double more = kFirstMass; more < kLastMass; more *= 10.0) {
+    if (again(1.0 + more, project)) break;
+  }
+  return solved;
+}
+
+double StageSolver::residual(State& state, ConstReals v) {
+  const World& world = system_->world();
+  place(state, v);
+  system_->force(state, right_);
+  for (std::size_t i = 0; i < right_.size(); ++i) {
+    right_[i] *= stage_.push;
+    work_[i] = v[i] - stage_.base.velocities[i];
+  }
+  world.mass().add_product(stage_.base, -1.0, work_, right_);
+  world.fixed().clear(right_);
+  return norm(right_);
+}
+
+double StageSolver::potential(State& state, ConstReals v) {
+  const World& world = system_->world();
+  place(state, v);
+  std::ranges::fill(momentum_, 0.0);
+  for (std::size_t i = 0; i < v.size(); ++i) work_[i] = v[i] - stage_.base.velocities[i];
+  world.mass().add_product(stage_.base, 0.5, work_, momentum_);
+  double sum = std::inner_product(work_.begin(), work_.end(), momentum_.begin(), 0.0);
+  for (const auto& model : world.forces()) sum += stage_.push / stage_.move * model->energy(state);
+  return sum;
+}
+
+bool StageSolver::iterate(State& state, std::vector<double>& v, Search search, int most, StepReport& report) {
+  report.newton_iterations = 1;
+  report.converged = false;
+  double now = residual(state, v);
+  const double reference = std::max({reference_, now, 1e-300});
+  while (true) {
+    report.residual = now / reference;
+    if (!(report.residual < kHopeless)) {
+      report.message = "Newton's iteration ran away";
+      return false;
+    }
+    if (report.residual <= newton_.tolerance) break;
+    if (report.newton_iterations >= most) {
+      report.message = "Newton's iteration stopped before its tolerance";
+      return false;
+    }
+    assemble(state, search == Search::energy);
+    if (now <= system_->round_off(state) / stage_.move) break;
+    std::ranges::fill(change_, 0.0);
+    solve_linear(state, 0.0, search == Search::energy, report);
+    ++report.newton_iterations;
+    if (!advance(state, v, search, now)) {
+      report.message = "Newton's residual could not be lowered further";
+      return false;
+    }
+  }
+  report.converged = true;
+  report.message.clear();
+  return true;
+}
+
+bool StageSolver::advance(State& state, std::vector<double>& v, Search search, double& now) {
+  if (search == Search::energy) return descend(state, v, now);
+  double share = 1.0;
+  double next = 0.0;
+  while (true) {
+    for (std::size_t i = 0; i < v.size(); ++i) trial_[i] = v[i] + share * change_[i];
+    next = residual(state, trial_);
+    if (search == Search::none || next < now || share < kShortest) break;
+    share *= 0.5;
+  }
+  if (search == Search::residual && !(next < now)) return false;
+  std::swap(v, trial_);
+  now = next;
+  return true;
+}
+
+bool StageSolver::descend(State& state, std::vector<double>& v, double& now) {
+  const double slope = -std::inner_product(right_.begin(), right_.end(), change_.begin(), 0.0);
+  // Damping has no energy: what it takes is added with df/dv as it is at v, 1/2 push v . D v. One that gives,
+  // as Rayleigh's does where the stiffness is not positive, has none to be lowered.
+  std::ranges::fill(first_, 0.0);
+  system_->add_product(state, {0.0, -stage_.push}, change_, first_);
+  double linear = std::inner_product(v.begin(), v.end(), first_.begin(), 0.0);
+  double square = 0.5 * std::inner_product(change_.begin(), change_.end(), first_.begin(), 0.0);
+  if (square < 0.0) linear = square = 0.0;
+  const double from = potential(state, v);
+  for (double share = 1.0; share > kShortestDown; share *= 0.5) {
+    for (std::size_t i = 0; i < v.size(); ++i) trial_[i] = v[i] + share * change_[i];
+    const double to = potential(state, trial_) + share * (linear + share * square);
+    if (!(to <= from + kArmijo * share * slope)) continue;
+    now = residual(state, trial_);
+    std::swap(v, trial_);
+    return true;
+  }
+  residual(state, v);
+  return false;
+}
+
+}  // namespace tissu

@@ -1,0 +1,31 @@
+#include "tissu/step/state_mark.h"
+
+namespace tissu {
+
+void StateMark::set(const State& state) {
+  time_ = state.time;
+  positions_ = state.positions;
+  velocities_ = state.velocities;
+}
+
+bool StateMark::is(const State& state) const {
+  return !positions_.empty() && time_ == state.time && positions_ == state.positions &&
+         velocities_ == state.velocities;
+}
+
+void StateMark::append_to(std::vector<double>& memory) const {
+  memory.push_back(time_);
+  memory.insert(memory.end(), positions_.begin(), positions_.end());
+  memory.insert(memory.end(), velocities_.begin(), velocities_.end());
+}
+
+ConstReals StateMark::take_from(ConstReals memory, std::size_t size) {
+  time_ = memory.front();
+  const ConstReals positions = memory.subspan(1, size);
+  const ConstReals velocities = memory.subspan(1 + size, size);
+  positions_.assign(positions.begin(), positions.end());
+  velocities_.assign(velocities.begin(), velocities.end());
+  return memory.subspan(1 + 2 * size);
+}
+
+}  // namespace tissu

@@ -1,0 +1,107 @@
+#include <algorithm>
+
+#include "bind.h"
+#include "tissu/simulation/simulation.h"
+
+namespace tissu::bind {
+namespace {
+
+using Doubles = Array<double>;
+
+template <class T>
+Array<T> to_array(const std::vector<T>& values) {
+  Array<T> result(static_cast<py::ssize_t>(values.size()));
+  std::ranges::copy(values, result.mutable_data());
+  return result;
+}
+
+/// x, y, z, w of each, one after the other.
+std::vector<double> numbers_of(const std::vector<Quaternion>& rotations) {
+  std::vector<double> result;
+  for (const Quaternion& rotation : rotations) {
+    result.insert(result.end(), rotation.coeffs().data(), rotation.coeffs().data() + 4);
+  }
+  return result;
+}
+
+std::vector<Quaternion> rotations_of(const std::vector<double>& numbers) {
+  std::vector<Quaternion> result;
+  for (std::size_t i = 0; i + 4 <= numbers.size(); i += 4) {
+    Quaternion rotation;
+    std::copy_n(numbers.data() + i, 4, rotation.coeffs().data());
+    result.push_back(rotation);
+  }
+  return result;
+}
+
+py::dict to_dict(const Snapshot& snapshot) {
+  py::dict result;
+  const State& state = snapshot.state;
+  result["time"] = state.time;
+  result["time_before"] = snapshot.time_before;
+  result["load_factor"] = state.load_factor;
+  result["memory_time"] = state.memory_time;
+  result["settled"] = snapshot.settled;
+  result["positions"] = to_array(state.positions);
+  result["velocities"] = to_array(state.velocities);
+  result["velocities_before"] = to_array(snapshot.velocities_before);
+  result["rotations"] = to_array(numbers_of(state.rotations));
+  result["memory"] = to_array(state.memory);
+  result["integrator"] = to_array(snapshot.integrator);
+  result["links"] = to_array(snapshot.links);
+  for (std::size_t i = 0; i < snapshot.bodies.size(); ++i) {
+    const Snapshot::BodyCells& body = snapshot.bodies[i];
+    const std::string number = std::to_string(i);
+    result[py::str("body_" + number)] = body.body;
+    result[py::str("cells_" + number)] = to_array(body.cells);
+    result[py::str("loose_nodes_" + number)] = to_array(body.loose_nodes);
+    result[py::str("places_" + number)] = to_array(body.places);
+  }
+  return result;
+}
+
+template <class T>
+T value(const py::dict& from, const std::string& name) {
+  if (!from.contains(name.c_str())) throw ParameterError("the snapshot has no \"" + name + "\".");
+  return from[name.c_str()].cast<T>();
+}
+
+std::vector<double> doubles(const py::dict& from, const std::string& name) {
+  return to_vector(value<Doubles>(from, name));
+}
+
+Snapshot from_dict(const py::dict& from) {
+  Snapshot snapshot;
+  State& state = snapshot.state;
+  state.time = value<double>(from, "time");
+  snapshot.time_before = value<double>(from, "time_before");
+  state.load_factor = value<double>(from, "load_factor");
+  state.memory_time = value<double>(from, "memory_time");
+  snapshot.settled = value<bool>(from, "settled");
+  state.positions = doubles(from, "positions");
+  state.velocities = doubles(from, "velocities");
+  snapshot.velocities_before = doubles(from, "velocities_before");
+  state.rotations = rotations_of(doubles(from, "rotations"));
+  state.memory = doubles(from, "memory");
+  snapshot.integrator = doubles(from, "integrator");
+  snapshot.links = doubles(from, "links");
+  for (std::size_t i = 0; from.contains(("body_" + std::to_string(i)).c_str()); ++i) {
+    const std::string number = std::to_string(i);
+    snapshot.bodies.push_back({value<std::string>(from, "body_" + number),
+                               to_vector(value<Array<std::int32_t>>(from, "cells_" + number)),
+                               to_vector(value<Array<std::int32_t>>(from, "loose_nodes_" + number)),
+                               doubles(from, "places_" + number)});
+  }
+  return snapshot;
+}
+
+}  // namespace
+
+void bind_snapshot(py::class_<Simulation>& simulation) {
+  simulation.def("snapshot", [](Simulation& s) { return to_dict(s.snapshot()); })
+      .def(
+          "restore", [](Simulation& s, const py::dict& snapshot) { s.restore(from_dict(snapshot)); },
+          py::arg("snapshot"));
+}
+
+}  // namespace tissu::bind

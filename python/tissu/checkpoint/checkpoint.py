@@ -1,0 +1,159 @@
+"""A checkpoint: what a simulation needs to go on, what wrote it, and for which scene."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from tissu import _core
+from tissu.checkpoint.archive import DamagedError, pack, unpack
+from tissu.checkpoint.physics import differences
+from tissu.checkpoint.whole import write_whole
+from tissu.errors import CheckpointError
+
+FORMAT = 1
+_COLUMNS = {"positions": 3, "velocities": 3, "velocities_before": 3, "rotations": 4, "links": 11}
+
+
+@dataclass(frozen=True, slots=True)
+class Resumed:
+    """Where a simulation went on from.
+
+    Attributes:
+        file: the checkpoint.
+        time: simulated time at which it was taken [s].
+        steps: that were taken until then.
+        note: why the bits need not be those of the run that goes on there; empty: they are.
+    """
+
+    file: str
+    time: float
+    steps: int
+    note: str
+
+
+@dataclass(frozen=True, slots=True)
+class Checkpoint:
+    """A moment of a simulation.
+
+    Attributes:
+        scene: name of the scene.
+        physics: what its motion depends on; see `physics_of`.
+        steps: that were taken.
+        snapshot: numbers and arrays of the core, exact.
+        build: version, compiler, instruction set and libraries of the tissu that took it.
+        file: it was read from; None: it was taken here.
+    """
+
+    scene: str
+    physics: Mapping[str, Any]
+    steps: int
+    snapshot: Mapping[str, Any]
+    build: Mapping[str, Any]
+    file: Path | None = None
+
+    def write(self, path: Path) -> None:
+        """Write the file: whole at every moment, the one before or this one.
+
+        Raises:
+            CheckpointError: it cannot be written.
+        """
+        arrays = {k: v for k, v in self.snapshot.items() if isinstance(v, np.ndarray)}
+        header = {
+            "format": FORMAT,
+            "tissu": self.build["version"],
+            "build": self.build,
+            "scene": self.scene,
+            "steps": self.steps,
+            "snapshot": {k: v for k, v in self.snapshot.items() if k not in arrays},
+            "physics": self.physics,
+        }
+        shaped = {
+            name: values.reshape(-1, _COLUMNS[name]) if name in _COLUMNS else values
+            for name, values in arrays.items()
+        }
+        write_whole(path, pack(header, shaped))
+
+    def require(self, physics: Mapping[str, Any]) -> None:
+        """Refuse a scene that moves in another way.
+
+        Raises:
+            CheckpointError: it does, and where it differs.
+        """
+        found = differences(self.physics, physics)
+        if found:
+            raise CheckpointError(
+                f"checkpoint {self.file}: it was written for another scene: {found}; go on with "
+                "the scene that it was written for, or start anew without it"
+            )
+
+    def resumed(self) -> Resumed:
+        """What is told of a simulation that went on from here."""
+        now, note = build(), ""
+        other = [name for name in now if now[name] != self.build.get(name)]
+        if other:
+            told = ", ".join(f"{name} {_told(self.build.get(name))}" for name in other)
+            note = (
+                f"the checkpoint was written with {told}, and this runs with "
+                f"{', '.join(_told(now[name]) for name in other)}: it goes on to round-off, not "
+                "with the same bits"
+            )
+        return Resumed(str(self.file), float(self.snapshot["time"]), self.steps, note)
+
+
+def read_checkpoint(path: Path) -> Checkpoint:
+    """Read what `Checkpoint.write` wrote.
+
+    Raises:
+        CheckpointError: it is absent, damaged, or of another version.
+    """
+    header, arrays = _contents(path)
+    version = _core.build_info()["version"]
+    if header.get("format") != FORMAT or header.get("tissu") != version:
+        raise CheckpointError(
+            f"checkpoint {path}: it has format {header.get('format')} of tissu "
+            f"{header.get('tissu')}; format {FORMAT} of tissu {version} is accepted: go on with "
+            "the tissu that wrote it"
+        )
+    return Checkpoint(
+        scene=header["scene"],
+        physics=header["physics"],
+        steps=header["steps"],
+        snapshot={**header["snapshot"], **arrays},
+        build=header["build"],
+        file=path,
+    )
+
+
+def build() -> dict[str, Any]:
+    """What the bits of a step depend on beside the scene: version, compiler, kernels, libraries."""
+    told = _core.build_info()
+    return {name: told[name] for name in ("version", "compiler", "instruction_set", "libraries")}
+
+
+def _contents(path: Path) -> tuple[dict[str, Any], dict[str, Any]]:
+    try:
+        return unpack(path.read_bytes())
+    except DamagedError:
+        raise CheckpointError(
+            f"checkpoint {path}: its checksum does not match its contents, so it is damaged, cut "
+            "short, or no checkpoint of tissu; go on from another one, or start anew"
+        ) from None
+    except FileNotFoundError:
+        raise CheckpointError(
+            f"checkpoint {path}: there is no such file; name one that save_checkpoint or "
+            "tissu run --checkpoint wrote"
+        ) from None
+    except OSError as error:
+        why = error.strerror or str(error)
+        raise CheckpointError(f"checkpoint {path}: cannot be read ({why})") from None
+
+
+def _told(value: object) -> str:
+    if isinstance(value, Mapping):
+        return ", ".join(f"{name} {item}" for name, item in value.items())
+    return str(value)

@@ -1,0 +1,94 @@
+"""A file that is whole at every moment: the one before, or the new one; never a part of either."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import re
+from pathlib import Path
+
+from tissu.errors import CheckpointError
+
+
+def write_whole(path: Path, data: bytes) -> None:
+    """Puts `data` in the place of a file, in one move that outlives a crash of the machine.
+
+    Written beside its place and flushed to the disk, then renamed; the folder is flushed after it.
+    What processes that were killed have left beside it is taken away first.
+
+    Raises:
+        CheckpointError: it cannot be written; the file before is still there.
+    """
+    place = Path(os.path.realpath(path))
+    partial = _partial(place, os.getpid())
+    try:
+        _clear(place)
+        try:
+            with open(partial, "wb") as file:
+                file.write(data)
+                file.flush()
+                os.fsync(file.fileno())
+            os.replace(partial, place)
+        finally:
+            partial.unlink(missing_ok=True)
+        _flush_folder(place.parent)
+    except OSError as error:
+        raise _unwritable(path, error) from None
+
+
+def prepare_place(path: Path) -> None:
+    """Makes the folder of a checkpoint and tries it, before a run rather than in its midst.
+
+    Raises:
+        CheckpointError: nothing can be written there.
+    """
+    place = Path(os.path.realpath(path))
+    probe = place.with_name(f".{place.name}.{os.getpid()}.probe")
+    try:
+        if place.is_dir():
+            raise IsADirectoryError(0, "it is a folder")
+        place.parent.mkdir(parents=True, exist_ok=True)
+        probe.touch()
+        probe.unlink()
+    except OSError as error:
+        raise _unwritable(path, error) from None
+
+
+def _partial(place: Path, process: int) -> Path:
+    return place.with_name(f".{place.name}.{process}.partial")
+
+
+def _clear(place: Path) -> None:
+    """Removes what earlier writers of this file left that run no more."""
+    pattern = re.compile(re.escape(f".{place.name}.") + r"(\d+)\.partial")
+    for name in os.listdir(place.parent):
+        match = pattern.fullmatch(name)
+        if match is not None and not _runs(int(match[1])):
+            (place.parent / name).unlink(missing_ok=True)
+
+
+def _runs(process: int) -> bool:
+    try:
+        os.kill(process, 0)
+    except ProcessLookupError:
+        return False
+    except (PermissionError, OverflowError):
+        return True
+    return True
+
+
+def _flush_folder(folder: Path) -> None:
+    """So that the new name of the file is on the disk too; not every file system can."""
+    descriptor = os.open(folder, os.O_RDONLY)
+    try:
+        with contextlib.suppress(OSError):
+            os.fsync(descriptor)
+    finally:
+        os.close(descriptor)
+
+
+def _unwritable(path: Path, error: OSError) -> CheckpointError:
+    why = error.strerror or str(error)
+    return CheckpointError(
+        f"checkpoint {path}: cannot be written ({why}); name a file in a folder that can be written"
+    )

@@ -1,0 +1,50 @@
+"""Meshes of bodies from which cells were removed."""
+
+from __future__ import annotations
+
+import dataclasses
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from tissu.errors import ParameterError
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from tissu.mesh import Mesh
+
+
+def removed_cells(meshes: Mapping[str, Mesh], body: str, cells: ArrayLike) -> NDArray[np.int32]:
+    """The numbers of cells to take out of a body, each once, increasing.
+
+    Raises:
+        ParameterError: they are no whole numbers, there is no such body, or no cell would be left.
+    """
+    given = np.atleast_1d(np.asarray(cells))
+    if given.size and not np.issubdtype(given.dtype, np.integer):
+        raise ParameterError(f"found cells of type {given.dtype}; whole numbers are accepted")
+    if body not in meshes:
+        raise ParameterError(f"no body is named '{body}'; there are {', '.join(meshes)}")
+    beyond = given[(given < 0) | (given > np.iinfo(np.int32).max)]
+    if beyond.size:
+        raise ParameterError(f"body '{body}' has no cell {beyond.flat[0]}")
+    numbers = np.unique(given).astype(np.int32)
+    if len(numbers) >= meshes[body].cell_count:
+        raise ParameterError(f"that would leave no cell of body '{body}'; keep at least one")
+    return numbers
+
+
+def keep_cells(mesh: Mesh, cells: NDArray[np.int32]) -> Mesh:
+    """A mesh with some of its volume cells only, by their increasing numbers; all nodes stay."""
+    keep = np.zeros(mesh.cell_count, dtype=bool)
+    keep[cells] = True
+    number = np.cumsum(keep, dtype=np.int32) - 1
+    blocks, first = [], 0
+    for block in mesh.body_blocks:
+        rows = keep[first : first + len(block.nodes)]
+        blocks.append(dataclasses.replace(block, nodes=block.nodes[rows]))
+        first += len(block.nodes)
+    regions = {name: number[of[keep[of]]] for name, of in mesh.regions.items()}
+    return dataclasses.replace(mesh, cells=tuple(blocks), regions=regions, border_regions={})

@@ -1,0 +1,170 @@
+"""`tissu run` with checkpoints, as a user meets it: killed, stopped, gone on, refused."""
+
+import hashlib
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+
+import pytest
+
+SCENE = """\
+name: bar
+bodies:
+  bar:
+    mesh: {type: bar, size: [0.2, 0.05, 0.05], cells: [16, 4, 4]}
+    law: {type: stvk, young: 20 kPa, poisson: 0.4}
+    density: 1000
+    viscosity: {type: prony, branches: [{weight: 0.5, time: 50 ms}]}
+gravity: [0, 0, -9.81]
+fixed:
+  - {body: bar, on: {type: box, min: [null, null, null], max: [1 mm, null, null]}}
+step: {type: implicit_euler, dt: 5 ms}
+duration: 503 ms
+output: {every: 30 ms}
+"""
+
+
+@pytest.fixture
+def scene(tmp_path):
+    path = tmp_path / "bar.yaml"
+    path.write_text(SCENE)
+    return path
+
+
+def command(*words):
+    return [sys.executable, "-m", "tissu.cli", "run", *map(str, words)]
+
+
+def run(*words):
+    return subprocess.run(command(*words), capture_output=True, text=True, timeout=120)
+
+
+def stopped(words, number, ready):
+    """A run that gets a signal as soon as `ready()`; its exit code and what it said."""
+    child = subprocess.Popen(
+        command(*words),
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler),
+    )
+    limit = time.monotonic() + 60
+    while child.poll() is None and time.monotonic() < limit and not ready():
+        time.sleep(1e-3)
+    assert child.poll() is None, "the run ended before the signal"
+    os.kill(child.pid, number)
+    _, said = child.communicate(timeout=60)
+    return child.returncode, said
+
+
+def results(folder):
+    """The digests of index and frames, by name."""
+    files = [folder / "bar.pvd", *(folder / "frames").iterdir()]
+    return {f.name: hashlib.sha256(f.read_bytes()).hexdigest() for f in files}
+
+
+def summary(folder):
+    return json.loads((folder / "summary.json").read_text())
+
+
+def test_a_killed_run_goes_on_as_if_nothing_had_been(scene, tmp_path):
+    """Killed twice, with frames behind the checkpoint; then the same files as a run at one go."""
+    options = ["--checkpoint-every", "40 ms", "-q"]
+    straight, killed = tmp_path / "straight", tmp_path / "killed"
+    ended = run(scene, "-o", straight, "--checkpoint", straight / "c", *options)
+    assert (ended.returncode, ended.stderr) == (0, "")
+    assert summary(straight)["resumed_from"] is None
+    words = [scene, "-o", killed, "--checkpoint", killed / "c", *options]
+    frames = killed / "frames"
+
+    def there(count):
+        return lambda: (killed / "c").exists() and len(list(frames.glob("*.vtu"))) >= count
+
+    assert stopped(words, signal.SIGKILL, there(4))[0] == -signal.SIGKILL
+    again = [*words, "--resume", killed / "c"]
+    assert stopped(again, signal.SIGKILL, there(9))[0] == -signal.SIGKILL
+    ended = run(*again)
+    assert (ended.returncode, ended.stderr) == (0, "")
+    assert len(results(straight)) == 19  # 0, 30, ..., 480 and 503 ms, and the index
+    assert results(killed) == results(straight)
+    assert (killed / "c").read_bytes() == (straight / "c").read_bytes()
+    told = summary(killed)
+    begun = told["resumed_from"]
+    assert begun["file"] == str(killed / "c")
+    assert begun["time"] == pytest.approx(0.005 * begun["steps"])
+    assert begun["steps"] + told["steps"]["steps"] == 101
+    assert told["simulated_seconds"] == summary(straight)["simulated_seconds"]
+
+
+@pytest.mark.parametrize(
+    ("number", "code"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)], ids=["int", "term"]
+)
+def test_a_stopped_run_leaves_its_checkpoint(scene, tmp_path, number, code):
+    out, file = tmp_path / "out", tmp_path / "new" / "c"
+    words = [scene, "-o", out, "--checkpoint", file, "--duration", "1000 s"]
+    ended, said = stopped(words, number, lambda: len(list(out.glob("frames/*.vtu"))) > 1)
+    assert ended == code
+    assert "all files are complete" in said
+    assert [p.name for p in file.parent.iterdir()] == ["c"]
+    stood = summary(out)["simulated_seconds"]
+    ended = run(
+        scene, "-o", tmp_path / "other", "--resume", file, "--duration", f"{stood + 0.02} s"
+    )
+    assert ended.returncode == 0, ended.stderr
+    assert f"went on from {file}, at t = {stood:.4g} s" in ended.stdout
+    told = summary(tmp_path / "other")
+    assert told["resumed_from"]["time"] == stood
+    assert told["steps"]["steps"] == 4
+    index = (tmp_path / "other" / "bar.pvd").read_text()
+    assert f'timestep="{stood:.9g}"' in index  # another folder: the series begins there
+    done = run(scene, "-o", tmp_path / "other", "--resume", file, "--duration", f"{stood} s")
+    assert (done.returncode, summary(tmp_path / "other")["steps"]["steps"]) == (0, 0)
+
+
+def test_threads_and_repeated_runs_write_the_same_files(scene, tmp_path):
+    found = []
+    for number, threads in enumerate((1, 1, 2, 3, 4)):
+        out = tmp_path / str(number)
+        ended = run(scene, "-o", out, "--threads", threads, "--duration", "100 ms", "-q")
+        assert ended.returncode == 0, ended.stderr
+        found.append(results(out))
+    assert len(found[0]) == 6
+    assert all(other == found[0] for other in found)
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["--checkpoint-every", "1 s"], "option --checkpoint-every: found without --checkpoint"),
+        (
+            ["--checkpoint", "c", "--checkpoint-every", "1 kg"],
+            "option --checkpoint-every: found '1",
+        ),
+        (["--checkpoint", "c", "--checkpoint-every", "0 s"], "more than 0 s is accepted"),
+        (["--checkpoint", "."], "cannot be written (it is a folder)"),
+        (["--checkpoint", "bar.yaml/c"], "cannot be written"),
+        (["--resume", "absent"], "checkpoint absent: there is no such file"),
+        (["--resume", "bar.yaml"], "checkpoint bar.yaml: its checksum does not match"),
+    ],
+)
+def test_options_are_refused_in_words(scene, tmp_path, monkeypatch, words, said):
+    monkeypatch.chdir(tmp_path)
+    ended = run(scene.name, "-o", "out", *words)
+    assert ended.returncode == 2
+    assert said in ended.stderr
+    assert "Traceback" not in ended.stderr
+    assert ended.stdout == ""
+
+
+def test_a_checkpoint_of_another_scene_is_refused(scene, tmp_path):
+    file = tmp_path / "c"
+    made = run(scene, "-o", tmp_path / "out", "--checkpoint", file, "--duration", "20 ms", "-q")
+    assert made.returncode == 0, made.stderr
+    scene.write_text(SCENE.replace("20 kPa", "30 kPa"))
+    ended = run(scene, "-o", tmp_path / "out", "--resume", file)
+    assert ended.returncode == 2
+    assert "bodies.bar.law.young is 20000.0 there and 30000.0 here" in ended.stderr
+    assert summary(tmp_path / "out")["steps"]["steps"] == 4  # what was there is left alone

@@ -110,6 +110,9 @@ def outcome(scene: ts.Scene, *, keep: list[ts.Simulation] | None = None) -> Outc
     try:
         for report in simulation.run():
             count, unconverged = count + 1, unconverged + (not report.converged)
+            if count > MOST_STEPS:
+                text = f"its stable step fell to {simulation.dt / 0.9:.2g} s: not run to the end"
+                return Outcome("refused", bound=bound, steps=count, message=text)
             for name, size in sizes.items():
                 moved = simulation.displacements(name)
                 bound = max(bound, float(np.abs(moved).max()) / size)

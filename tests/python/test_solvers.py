@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import tissu as ts
-from tissu.compile.solver import DIRECT_STATIC, DIRECT_STEP, choice_for, solver_of
+from tissu.compile.solver import DIRECT_STATIC, PLAIN_STEP, choice_for, solver_of
 from tissu.errors import SceneError
 
 KINDS = [
@@ -103,11 +103,11 @@ step: {type: implicit_euler, dt: 10 ms, solver: %s}
 @pytest.mark.parametrize(
     ("unknowns", "static", "editing", "chosen"),
     [
-        (DIRECT_STEP, False, False, "cholesky"),
-        (DIRECT_STEP + 1, False, False, "block_jacobi"),
-        (DIRECT_STEP, False, True, "block_jacobi"),
+        (PLAIN_STEP, False, False, "block_jacobi"),
+        (PLAIN_STEP + 1, False, False, "incomplete_cholesky"),
+        (PLAIN_STEP, False, True, "block_jacobi"),
         (DIRECT_STATIC, True, False, "cholesky"),
-        (DIRECT_STATIC, True, True, "cholesky"),
+        (DIRECT_STATIC, True, True, "incomplete_cholesky"),
         (DIRECT_STATIC + 1, True, False, "incomplete_cholesky"),
     ],
 )
@@ -123,9 +123,9 @@ def test_auto_chooses_by_size_step_and_editing(unknowns, static, editing, chosen
 def test_auto_says_why_in_the_plan():
     simulation = scene(ts.Auto()).compile()
     (note,) = [note for note in simulation.plan().notes if "solver" in note]
-    assert note.startswith("step.solver: auto is cholesky, since")
+    assert note.startswith("step.solver: auto is conjugate_gradient with block_jacobi, since")
     assert "336 unknowns" in note
-    assert simulation.plan().solver.startswith("Cholesky")
+    assert simulation.plan().solver == "conjugate gradient, block-Jacobi"
     assert simulation.step().converged
     static = scene(ts.Auto(), step=ts.Static(solver=ts.Auto()))
     assert "without inertia" in str(static.compile().plan())

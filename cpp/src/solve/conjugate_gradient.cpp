@@ -16,8 +16,22 @@ constexpr double kSingleDepth = 1e-2;
 constexpr int kSingleIterations = 100;
 /// A residual this many times what the iterations count themselves: single precision has lost its way.
 constexpr double kFaithful = 3.0;
-/// Iterations that single precision may take without halving the residual.
-const int kPatience = getenv("PAT") ? atoi(getenv("PAT")) : 200;
+/// Iterations that it may take without halving the residual, beside a quarter of those before.
+constexpr int kPatience = 200;
+
+/// Whether single precision still lowers the residual.
+struct Progress {
+  double best;      ///< residual
+  int lowered = 0;  ///< iterations at which it was found
+
+  bool goes_on(double size, int iterations, int allowed) {
+    if (size < 0.5 * best) {
+      best = size;
+      lowered = iterations;
+    }
+    return iterations - lowered < kPatience + lowered / 4 && 2 * iterations < allowed;
+  }
+};
 
 std::string name_of(const ConjugateGradient::Settings& settings) {
   std::string name = "conjugate gradient, ";
@@ -139,8 +153,7 @@ void ConjugateGradient::rounds(const LinearOperator& A, ConstReals b, Reals x, d
   bool single = settings_.precision == Precision::single;
   bool renew = false;
   double size = residual(A, b, x);
-  double best = size;  // of single precision, and the iterations at which it was found
-  int lowered = 0;
+  Progress progress{size};
   for (int round = 0;; ++round) {
     report.residual = size / reference;
     report.converged = report.residual <= settings_.tolerance;
@@ -162,18 +175,10 @@ void ConjugateGradient::rounds(const LinearOperator& A, ConstReals b, Reals x, d
     renew = end == End::renewal;
     if (renew) continue;
     if (single) {
-      if (size < 0.5 * best) {
-        best = size;
-        lowered = report.iterations;
-      }
-      const bool ended = end == End::reached || end == End::exhausted;
-      const bool falls = report.iterations - lowered < kPatience + lowered / 4 &&
-                         2 * report.iterations < settings_.iterations;
-      if (ended && falls && size < kFaithful * before * single_->residual()) {
-        single_->go_on(size / before);
-      } else {
-        single = false;
-      }
+      single = (end == End::reached || end == End::exhausted) &&
+               size < kFaithful * before * single_->residual() &&
+               progress.goes_on(size, report.iterations, settings_.iterations);
+      if (single) single_->go_on(size / before);
       continue;
     }
     if (end == End::reached && size < 0.5 * before) {

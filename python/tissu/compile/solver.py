@@ -13,11 +13,11 @@ if TYPE_CHECKING:
     from tissu.compile.prepared import Prepared
     from tissu.scene.solver import Solver
 
-# Where one overtakes another, in unknowns: from docs/solvers.md, on one core.
-DIRECT_STATIC = 60_000
-"""below it, a factor costs less than the iterations of a static system"""
-DIRECT_STEP = 1_500
-"""below it, a factor costs less than the iterations of a step with inertia"""
+# Where one overtakes another, in unknowns, on one core: see docs/solvers.md.
+DIRECT_STATIC = 10_000
+"""up to it, the factor of a static system takes some tenths of a second, however ill-conditioned"""
+PLAIN_STEP = 3_000
+"""up to it, block-Jacobi solves a step with inertia before incomplete Cholesky is prepared"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,26 +35,24 @@ def choice_for(auto: Auto, *, unknowns: int, static: bool, editing: bool) -> Cho
         auto: the solver of the scene.
         unknowns: numbers that a step solves for.
         static: without inertia, so that the system is far from diagonal.
-        editing: cells are removed while it runs, which makes a factor worthless.
+        editing: cells are removed while it runs, after which a factor is ordered anew.
     """
     size = counted(unknowns, "unknown")
-    kind = "without inertia" if static else "with inertia"
-    limit = DIRECT_STATIC if static else DIRECT_STEP
-    if unknowns <= limit and not (editing and not static):
-        why = f"cholesky, since at most {limit:,} unknowns {kind} are solved fastest by a factor"
-        return Choice(Cholesky(), f"{why} ({size})")
-    if static:
-        why = "conjugate_gradient with incomplete_cholesky, since without inertia it takes the "
-        why += f"fewest operations above {limit:,} unknowns"
-        solver = ConjugateGradient(
-            tolerance=auto.tolerance, iterations=10_000, preconditioner="incomplete_cholesky"
-        )
-        return Choice(solver, f"{why} ({size})")
-    why = "conjugate_gradient with block_jacobi, since inertia keeps its iterations few"
-    if editing and unknowns <= limit:
-        why += " and editing would make a factor worthless"
+    if static and not editing and unknowns <= DIRECT_STATIC:
+        why = f"cholesky, since up to {DIRECT_STATIC} unknowns without inertia a factor is cheap "
+        return Choice(Cholesky(), f"{why}and no condition slows it down ({size})")
     solver = ConjugateGradient(tolerance=auto.tolerance, iterations=10_000)
-    return Choice(solver, f"{why} ({size})")
+    if not static and unknowns <= PLAIN_STEP:
+        why = f"conjugate_gradient with block_jacobi, since up to {PLAIN_STEP} unknowns with "
+        return Choice(solver, f"{why}inertia its few iterations need nothing prepared ({size})")
+    why = "conjugate_gradient with incomplete_cholesky, since it takes several times fewer "
+    if static and unknowns <= DIRECT_STATIC:
+        why = "conjugate_gradient with incomplete_cholesky, since editing would order a factor "
+        why += f"anew after each cut ({size})"
+    else:
+        kind = "without inertia" if static else "with inertia"
+        why += f"iterations than block_jacobi {kind} ({size})"
+    return Choice(solver.replace(preconditioner="incomplete_cholesky"), why)
 
 
 def choice_of(prepared: Prepared) -> Choice | None:

@@ -55,6 +55,7 @@ struct AllocationCase {
   int newton;
   int threads;
   bool viscous = false;  ///< every viscosity there is
+  const char* model = "fem";
 };
 
 void PrintTo(const AllocationCase& c, std::ostream* out) { *out << c.name; }
@@ -65,6 +66,7 @@ class Allocation : public testing::TestWithParam<AllocationCase> {
     const Mesh mesh = box_mesh(Vec3::Zero(), Vec3(2, 1, 1), {8, 5, 5}, GetParam().split);
     WorldDescription world;
     world.bodies = {test::body_of(mesh, {.law = GetParam().law, .young = 100.0})};
+    for (ElasticBlock& block : world.bodies[0].elastic) block.model.name = GetParam().model;
     world.bodies[0].rayleigh = {0.1, 0.001};
     if (GetParam().viscous) {
       world.bodies[0].viscosity = {0.1, 0.2, 0.3, {{0.5, 0.1}, {0.2, 1.0}}};
@@ -101,14 +103,18 @@ TEST_P(Allocation, ASteadyStepTakesNone) {
 #endif
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Worlds, Allocation,
-    testing::Values(AllocationCase{"stvk_tetra_once", "stvk", Split::six, 1, 1},
-                    AllocationCase{"stvk_tetra_newton", "stvk", Split::six, 4, 1},
-                    AllocationCase{"hooke_hexahedron_once", "hooke", Split::none, 1, 1},
-                    AllocationCase{"stvk_hexahedron_two_threads", "stvk", Split::none, 1, 2},
-                    AllocationCase{"stvk_tetra_viscous", "stvk", Split::six, 4, 2, true}),
-    testing::PrintToStringParamName());
+INSTANTIATE_TEST_SUITE_P(Worlds, Allocation,
+                         testing::Values(AllocationCase{"stvk_tetra_once", "stvk", Split::six, 1, 1},
+                                         AllocationCase{"stvk_tetra_newton", "stvk", Split::six, 4, 1},
+                                         AllocationCase{"hooke_hexahedron_once", "hooke", Split::none, 1, 1},
+                                         AllocationCase{"stvk_hexahedron_two_threads", "stvk", Split::none, 1,
+                                                        2},
+                                         AllocationCase{"stvk_tetra_viscous", "stvk", Split::six, 4, 2, true},
+                                         AllocationCase{"mean_dilatation_tetra", "stvk", Split::six, 4, 2,
+                                                        false, "mean-dilatation"},
+                                         AllocationCase{"mean_dilatation_hexahedron", "neo_hooke",
+                                                        Split::none, 1, 1, false, "mean-dilatation"}),
+                         testing::PrintToStringParamName());
 
 }  // namespace
 }  // namespace tissu

@@ -1,6 +1,7 @@
 """The measured phantom: a silicone cantilever that bends under its own weight.
 
     python bench/phantom.py --meshes FOLDER [--picture docs/pictures/phantom.png] [--only ELEMENT]
+        [--model fem|mean-dilatation] [--laws LAW ...]
 
 FOLDER holds `cylinder_Hexa.msh` (the rest mesh) and `truthCylinder-Deformed.obj` (the same phantom
 as measured after bending), both from SOFA's repository, examples/Benchmark/Accuracy/mesh. Material
@@ -52,10 +53,17 @@ def material(law: str, poisson: float) -> ts.Law:
 
 
 def scene_of(
-    mesh: ts.Mesh, law: str, quadrature: str = "full", poisson: float = 0.49, load_steps: int = 1
+    mesh: ts.Mesh,
+    law: str,
+    quadrature: str = "full",
+    poisson: float = 0.49,
+    load_steps: int = 1,
+    model: str = "fem",
 ) -> ts.Scene:
     """The phantom held at its root and left to its weight, as a static scene."""
-    body = ts.Body(mesh=mesh, law=material(law, poisson), mass=0.216, quadrature=quadrature)
+    body = ts.Body(
+        mesh=mesh, law=material(law, poisson), mass=0.216, quadrature=quadrature, model=model
+    )
     held = ts.Fixed("phantom", on=ts.Box((None, None, -1e-3), (None, None, 1e-3)))
     newton = ts.Newton(iterations=40, tolerance=1e-8)
     return ts.Scene(
@@ -96,11 +104,11 @@ def _distance_to_triangles(p: Floats, corners: Floats) -> Floats:
 
 
 def run(
-    mesh: ts.Mesh, measured: Floats, law: str, quadrature: str, load_steps: int
+    mesh: ts.Mesh, measured: Floats, law: str, quadrature: str, load_steps: int, model: str
 ) -> tuple[ts.Simulation, dict[str, float] | None]:
     """One computation and its distances to the measurement [mm]; None without an equilibrium."""
     begin = time.perf_counter()
-    simulation = scene_of(mesh, law, quadrature, load_steps=load_steps).compile()
+    simulation = scene_of(mesh, law, quadrature, load_steps=load_steps, model=model).compile()
     report = simulation.step()
     seconds = time.perf_counter() - begin
     if not report.converged:
@@ -173,43 +181,57 @@ def meshes_of(hexahedra: ts.Mesh) -> dict[str, ts.Mesh]:
     return first | second
 
 
+def rows_of(element: str, laws: list[str] | None) -> list[tuple[str, str, str]]:
+    """Law, quadrature and model of each row of an element."""
+    few = ("stvk", "neo_hooke")
+    first_order = element in ("hexahedron", "tetra", "wedge", "pyramid")
+    rows = [
+        (law, quadrature, "fem")
+        for law in laws or (LAWS if element in ("hexahedron", "tetra") else few)
+        for quadrature in (("full", "over") if element == "hexahedron" else ("full",))
+    ]
+    return rows + [(law, "full", "mean-dilatation") for law in laws or few if first_order]
+
+
 def main() -> None:
     """Prints the table and draws the picture."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--meshes", type=Path, required=True)
     parser.add_argument("--picture", type=Path)
     parser.add_argument("--only", help="one element")
+    parser.add_argument("--model", help="one model: fem or mean-dilatation")
     parser.add_argument("--laws", nargs="*", help="laws, in place of those that the table has")
     parser.add_argument("--load-steps", type=int, default=1, help="parts the weight is put on in")
     asked = parser.parse_args()
     hexahedra = ts.read_mesh(asked.meshes / "cylinder_Hexa.msh", unit="m")
     truth = ts.read_mesh(asked.meshes / "truthCylinder-Deformed.obj", unit="m")
     print(
-        "| element | cells | nodes | quadrature | law | end y [mm] | end z [mm] "
+        "| element | cells | nodes | model | quadrature | law | end y [mm] | end z [mm] "
         "| off the measured end [mm] | surface, mean [mm] | surface, max [mm] | Newton | s |"
     )
-    print("|---|---|---|---|---|---|---|---|---|---|---|---|")
+    print("|---|---|---|---|---|---|---|---|---|---|---|---|---|")
     for element, mesh in meshes_of(hexahedra).items():
         if asked.only not in (None, element):
             continue
-        laws = asked.laws or (LAWS if element in ("hexahedron", "tetra") else ("stvk", "neo_hooke"))
-        for law in laws:
-            for quadrature in ("full", "over") if element == "hexahedron" else ("full",):
-                simulation, row = run(mesh, truth.points, law, quadrature, asked.load_steps)
-                if row is None:
-                    size = f"{mesh.cell_count} | {mesh.node_count}"
-                    print(f"| {element} | {size} | {quadrature} | {law} | none found |")
-                    continue
-                print(
-                    f"| {element} | {mesh.cell_count} | {mesh.node_count} | {quadrature} | {law} "
-                    f"| {row['end_y']:.1f} | {row['end_z']:.1f} | {row['end']:.1f} "
-                    f"| {row['mean']:.1f} | {row['max']:.1f} | {row['newton']} "
-                    f"| {row['seconds']:.0f} |",
-                    flush=True,
-                )
-                if asked.picture and (element, law) == ("hexahedron", "stvk"):
-                    draw(asked.picture, mesh, simulation, truth)
+        for law, quadrature, model in rows_of(element, asked.laws):
+            if asked.model not in (None, model):
+                continue
+            simulation, row = run(mesh, truth.points, law, quadrature, asked.load_steps, model)
+            name = f"{element} | {mesh.cell_count} | {mesh.node_count} | {model} | {quadrature}"
+            print(f"| {name} | {law} {numbers(row)}", flush=True)
+            if row and asked.picture and (element, law, model) == ("hexahedron", "stvk", "fem"):
+                draw(asked.picture, mesh, simulation, truth)
     print(f"\nmeasured end: y {1e3 * MEASURED_END[1]:.1f} mm, z {1e3 * MEASURED_END[2]:.1f} mm")
+
+
+def numbers(row: dict[str, float] | None) -> str:
+    """The rest of a table's row."""
+    if row is None:
+        return "| none found |"
+    return (
+        f"| {row['end_y']:.1f} | {row['end_z']:.1f} | {row['end']:.1f} "
+        f"| {row['mean']:.1f} | {row['max']:.1f} | {row['newton']} | {row['seconds']:.0f} |"
+    )
 
 
 def draw(path: Path, mesh: ts.Mesh, simulation: ts.Simulation, truth: ts.Mesh) -> None:

@@ -27,7 +27,7 @@ from tissu.scene import (
 )
 
 BAR = BarMesh(size=(2, 1, 1), cells=(2, 1, 1))
-SOFT = StVK(young=3e3, poisson=0.45)
+SOFT = StVK(young=3e3, poisson=0.4)
 END = Box(None, (0, None, None))
 
 

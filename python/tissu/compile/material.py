@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from tissu.compile.locking import note_locking
 from tissu.compile.model import check_model, law_of_model
 from tissu.compile.prepared import Findings, Floats, Group, Ints
 from tissu.compile.select import region_cells
@@ -18,9 +19,8 @@ if TYPE_CHECKING:
     from tissu.mesh import Mesh
     from tissu.scene.body import Body
     from tissu.scene.law import Law
+    from tissu.scene.model import Model
     from tissu.scene.problem import Path
-
-_LOCKING = 0.48  # Poisson's ratio above which first-order elements are noticeably too stiff
 
 
 def cell_groups(mesh: Mesh, body: Body, path: Path, findings: Findings) -> list[Group]:
@@ -35,11 +35,13 @@ def cell_groups(mesh: Mesh, body: Body, path: Path, findings: Findings) -> list[
     if carrier is None:
         return []
     groups: list[Group] = []
+    used: list[tuple[str, Law, Model]] = []
     first = 0
     for block in mesh.body_blocks:
         cells = np.arange(first, first + len(block.nodes), dtype=np.int32)
         for law, model, count in _pairs(owner[cells], carrier[cells]):
             check_model(models[model], laws[law], str(block.type), count, path, findings)
+            used.append((str(block.type), laws[law], models[model]))
         for some in _alike(laws, owner[cells], carrier[cells]):
             law, model = laws[owner[cells[some[0]]]], models[carrier[cells[some[0]]]]
             of_cells = owner[cells[some]]
@@ -56,7 +58,7 @@ def cell_groups(mesh: Mesh, body: Body, path: Path, findings: Findings) -> list[
                 )
             )
         first += len(block.nodes)
-    _note_locking(laws, path, findings)
+    note_locking(used, body.quadrature, path, findings)
     return groups
 
 
@@ -154,12 +156,3 @@ def _fibres(laws: list[Law], owner: Ints) -> dict[str, Floats]:
     if len(used) == 1:
         return values
     return {name: value[of_cell] for name, value in values.items()}
-
-
-def _note_locking(laws: list[Law], path: Path, findings: Findings) -> None:
-    poisson = max(getattr(law, "poisson", 0.0) for law in laws)
-    if poisson > _LOCKING:
-        findings.note(
-            f"{path[0]}.{path[1]}: with Poisson's ratio {poisson:g} first-order elements lock: "
-            "it is computed too stiff; expect displacements that are too small, most in bending"
-        )

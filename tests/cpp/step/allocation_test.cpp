@@ -57,6 +57,7 @@ struct AllocationCase {
   int threads;
   bool viscous = false;  ///< every viscosity there is
   ConjugateGradient::Settings solver = {};
+  const char* model = "fem";
 };
 
 constexpr ConjugateGradient::Settings with(Preconditioning kind, Precision precision = Precision::full,
@@ -72,6 +73,7 @@ class Allocation : public testing::TestWithParam<AllocationCase> {
     const Mesh mesh = box_mesh(Vec3::Zero(), Vec3(2, 1, 1), {8, 5, 5}, GetParam().split);
     WorldDescription world;
     world.bodies = {test::body_of(mesh, {.law = GetParam().law, .young = 100.0})};
+    for (ElasticBlock& block : world.bodies[0].elastic) block.model.name = GetParam().model;
     world.bodies[0].rayleigh = {0.1, 0.001};
     if (GetParam().viscous) {
       world.bodies[0].viscosity = {0.1, 0.2, 0.3, {{0.5, 0.1}, {0.2, 1.0}}};
@@ -110,19 +112,23 @@ TEST_P(Allocation, ASteadyStepTakesNone) {
 
 INSTANTIATE_TEST_SUITE_P(
     Worlds, Allocation,
-    testing::Values(AllocationCase{"stvk_tetra_once", "stvk", Split::six, 1, 1},
-                    AllocationCase{"stvk_tetra_newton", "stvk", Split::six, 4, 1},
-                    AllocationCase{"hooke_hexahedron_once", "hooke", Split::none, 1, 1},
-                    AllocationCase{"stvk_hexahedron_two_threads", "stvk", Split::none, 1, 2},
-                    AllocationCase{"stvk_tetra_viscous", "stvk", Split::six, 4, 2, true},
-                    AllocationCase{"incomplete_cholesky", "stvk", Split::six, 1, 2, false,
-                                   with(Preconditioning::incomplete_cholesky)},
-                    AllocationCase{"stale_cholesky_kept", "hooke", Split::six, 1, 1, false,
-                                   with(Preconditioning::stale_cholesky)},
-                    AllocationCase{"single_precision", "stvk", Split::six, 1, 1, false,
-                                   with(Preconditioning::incomplete_cholesky, Precision::single)},
-                    AllocationCase{"matrix_free", "stvk", Split::six, 1, 1, false,
-                                   with(Preconditioning::block_jacobi, Precision::full, Product::free)}),
+    testing::Values(
+        AllocationCase{"stvk_tetra_once", "stvk", Split::six, 1, 1},
+        AllocationCase{"stvk_tetra_newton", "stvk", Split::six, 4, 1},
+        AllocationCase{"hooke_hexahedron_once", "hooke", Split::none, 1, 1},
+        AllocationCase{"stvk_hexahedron_two_threads", "stvk", Split::none, 1, 2},
+        AllocationCase{"stvk_tetra_viscous", "stvk", Split::six, 4, 2, true},
+        AllocationCase{"incomplete_cholesky", "stvk", Split::six, 1, 2, false,
+                       with(Preconditioning::incomplete_cholesky)},
+        AllocationCase{"stale_cholesky_kept", "hooke", Split::six, 1, 1, false,
+                       with(Preconditioning::stale_cholesky)},
+        AllocationCase{"single_precision", "stvk", Split::six, 1, 1, false,
+                       with(Preconditioning::incomplete_cholesky, Precision::single)},
+        AllocationCase{"matrix_free", "stvk", Split::six, 1, 1, false,
+                       with(Preconditioning::block_jacobi, Precision::full, Product::free)},
+        AllocationCase{"mean_dilatation_tetra", "stvk", Split::six, 4, 2, false, {}, "mean-dilatation"},
+        AllocationCase{
+            "mean_dilatation_hexahedron", "neo_hooke", Split::none, 1, 1, false, {}, "mean-dilatation"}),
     testing::PrintToStringParamName());
 
 // Squeezed flat, so that every cell is projected: by the axes of F, by eigenvalues, at once, in any model.

@@ -14,6 +14,7 @@ struct ThreadsCase {
   bool direct;
   int newton;
   bool viscous = false;  ///< every viscosity there is
+  const char* model = "fem";
 };
 
 void PrintTo(const ThreadsCase& c, std::ostream* out) { *out << c.name; }
@@ -27,6 +28,7 @@ class SameBits : public testing::TestWithParam<ThreadsCase> {
     const Mesh mesh = box_mesh(Vec3::Zero(), Vec3(2, 1, 1), {split == Split::none ? 15 : 9, n, n}, split);
     WorldDescription world;
     world.bodies = {test::body_of(mesh, {.young = 100.0})};
+    for (ElasticBlock& block : world.bodies[0].elastic) block.model.name = GetParam().model;
     world.bodies[0].rayleigh = {0.1, 0.001};
     if (GetParam().viscous) {
       world.bodies[0].viscosity = {0.1, 0.2, 0.3, {{0.5, 0.1}, {0.2, 1.0}}};
@@ -70,7 +72,11 @@ INSTANTIATE_TEST_SUITE_P(Worlds, SameBits,
                                          ThreadsCase{"tetra_cholesky", Split::six, true, 1},
                                          ThreadsCase{"tetra_newton", Split::six, false, 3},
                                          ThreadsCase{"hexahedron_conjugate_gradient", Split::none, false, 1},
-                                         ThreadsCase{"tetra_viscous", Split::six, false, 2, true}),
+                                         ThreadsCase{"tetra_viscous", Split::six, false, 2, true},
+                                         ThreadsCase{"tetra_mean_dilatation", Split::six, false, 2, false,
+                                                     "mean-dilatation"},
+                                         ThreadsCase{"hexahedron_mean_dilatation", Split::none, true, 1,
+                                                     false, "mean-dilatation"}),
                          testing::PrintToStringParamName());
 
 }  // namespace

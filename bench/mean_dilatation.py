@@ -1,0 +1,128 @@
+"""Prints docs/mean-dilatation.md: a cantilever that locks, and its cure: --write."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+import tissu as ts
+
+PAGE = Path(__file__).resolve().parents[1] / "docs" / "mean-dilatation.md"
+SIZE = (0.4, 0.1, 0.1)  # m
+CELLS = ("hexahedron", "tetra", "wedge", "pyramid")
+GRIDS = ((8, 2, 2), (12, 3, 3), (16, 4, 4))
+MODELS = ("fem", "mean-dilatation")
+RATIOS = (0.3, 0.4, 0.45, 0.47, 0.48, 0.49, 0.499, 0.4999)
+
+HEAD = """# Locking, and mean dilatation
+
+Where a material hardly changes its volume, cells of first order lock: a bending cell would have to
+change the volume at its points, and does not bend. `tissu check` notes it from Poisson's ratio 0.45
+on. The model `mean-dilatation` gives each *patch* of cells one volume ratio:
+
+    E = sum_g w_g W((theta / J_g)^(1/3) F_g),   theta = sum_g w_g J_g / sum_g w_g  of the patch
+
+A patch is one hexahedron (Nagtegaal, Parks and Rice 1974; Simo, Taylor and Pister 1985), or about
+eight tetrahedra, or six wedges or pyramids around a node (after de Souza Neto, Andrade Pires and
+Owen 2005). Force and tangent are those of this energy: momentum and energy are kept, the matrix is
+symmetric. Where F is the same everywhere it is `fem` to round-off. Any law and fibres are taken; no
+patch reaches from one region or material to another. The price is a matrix that couples all nodes
+of a patch, and about three passes over the cells in place of one.
+
+```yaml
+model: mean-dilatation
+```
+
+A bar of 40 x 10 x 10 cm, held at one end, under its own weight: St-Venant-Kirchhoff, E = 300 kPa,
+1000 kg/m3; the end goes down by a quarter of the length.
+
+"""
+TAIL = """
+## What it does not do
+
+- **Coarse cells stay too stiff in bending** for another reason than volume (tetrahedra and wedges
+  most): that error goes with the square of the cells' size, at any Poisson's ratio.
+- **The pressure is that of a patch**, as coarse as the patches. For a cube held all around the
+  inf-sup constant of the tetrahedra's patches is 0.05 to 0.08 on 3 to 6 cells a side and a few
+  pressures (at most 7) are felt by no displacement, of wedges 0.26 to 0.35 and of pyramids 0.25 to
+  0.39 with none; a regular grid of hexahedra has 3 n - 2 such pressures (7 to 16), the well-known
+  chessboard (`tests/cpp/model/cell_pressure_test.cpp`). Displacements do not suffer;
+  stress of a single cell may.
+- **Size of patches.** Measured on this bar with neo-Hooke and nu = 0.4999, grids of 8 x 2 x 2 and
+  16 x 4 x 4, three ways of cutting into tetrahedra, sag over the converged one: nearly cell by cell
+  0.35 to 0.65 and 0.41 to 0.84; patches of 6: 0.71 to 1.05 and 0.90 to 0.93; of 8: 0.70 to 0.97 and
+  0.90 to 0.93; of 12: 0.79 to 1.31 and 0.93 to 0.94; of 24: 1.2 to 1.4 and 0.93 to 1.01.
+- **Crushed cells.** Below a tenth of its volume a point takes less and less part in the mean, and
+  inside out none: energy and force stay finite, and the law sees the sign of its own J. So a law
+  that takes inverted cells (stable neo-Hooke) brings them back, and neo-Hooke refuses them with the
+  same message as under `fem`.
+- **Removed cells** leave the others in their patches.
+- **Quadratic cells** need no cure: take `hexahedron20` with `quadrature: reduced` in a static scene
+  where bending has to be right.
+"""
+
+
+def sag(cell: str, cells: tuple[int, int, int], model: str, poisson: float) -> float:
+    """How far the nodes of the free end go down, their mean [m]; not a number where it fails."""
+    reduced = cell == "hexahedron20"
+    scene = ts.Scene(
+        bodies={
+            "bar": ts.Body(
+                mesh=ts.BarMesh(size=SIZE, cells=cells, cell=cell),
+                law=ts.StVK(young=300e3, poisson=poisson),
+                density=1000,
+                model=model,
+                quadrature="reduced" if reduced else "full",
+            )
+        },
+        fixed=[ts.Fixed("bar", on=ts.Plane((0, 0, 0), (1, 0, 0)))],
+        gravity=(0, -9.81, 0),
+        step=ts.Static(newton=ts.Newton(iterations=60, tolerance=1e-9), solver=ts.Cholesky()),
+    )
+    simulation = scene.compile()
+    if not simulation.step().converged:
+        return float("nan")
+    end = simulation.meshes["bar"].points[:, 0] > SIZE[0] - 1e-9
+    return float(-simulation.displacements("bar")[end, 1].mean())
+
+
+def reference() -> tuple[list[str], float]:
+    """Rows of the quadratic cells at nu = 0.4999, and the value they go to."""
+    rows, found = [], []
+    for cells in ((4, 2, 2), (8, 4, 4), (16, 8, 8)):
+        found.append(sag("hexahedron20", cells, "fem", 0.4999))
+        rows.append(f"| {'x'.join(map(str, cells))} | {1e3 * found[-1]:.1f} |")
+    limit = found[2] + (found[2] - found[1]) ** 2 / (2 * found[1] - found[0] - found[2])
+    return rows, limit
+
+
+def page() -> str:
+    """The whole page, measured."""
+    rows, limit = reference()
+    lines = ["## Against quadratic cells, nu = 0.4999", ""]
+    lines += ["Hexahedra of 20 nodes at 2 x 2 x 2 points, which do not lock:", ""]
+    lines += ["| grid | sag [mm] |", "|---|---|", *rows]
+    lines += [f"| limit (Aitken) | {1e3 * limit:.1f} |", ""]
+    lines += ["Cells of first order, sag over that limit, `fem` -> `mean-dilatation`:", ""]
+    lines += ["| grid | " + " | ".join(CELLS) + " |", "|---" * (1 + len(CELLS)) + "|"]
+    for grid in GRIDS:
+        pairs = [[sag(c, grid, m, 0.4999) / limit for m in MODELS] for c in CELLS]
+        cells = [f"{fem:.2f} -> {mean:.2f}" for fem, mean in pairs]
+        lines.append(f"| {'x'.join(map(str, grid))} | " + " | ".join(cells) + " |")
+    lines += ["", "## Where it begins", ""]
+    lines += ["Sag of `fem` over that of `mean-dilatation` on the same 12 x 3 x 3 grid:", ""]
+    lines += ["| nu | " + " | ".join(CELLS) + " |", "|---" * (1 + len(CELLS)) + "|"]
+    for nu in RATIOS:
+        ratios = [
+            sag(c, GRIDS[1], "fem", nu) / sag(c, GRIDS[1], "mean-dilatation", nu) for c in CELLS
+        ]
+        lines.append(f"| {nu} | " + " | ".join(f"{r:.2f}" for r in ratios) + " |")
+    lines += ["", "Printed by `python bench/mean_dilatation.py --write`."]
+    return HEAD + "\n".join(lines) + "\n" + TAIL
+
+
+if __name__ == "__main__":
+    if "--write" in sys.argv[1:]:
+        PAGE.write_text(page(), encoding="utf-8")
+    else:
+        print(page())

@@ -171,6 +171,26 @@ def viscosities():
     return [ts.Scene(bodies={"bar": body}, step=step) for body in bodies]
 
 
+def methods():
+    """A scene for each method of steps and each solver that `everything` lacks, and a start."""
+    mesh = ts.BarMesh(size=(1, 1, 1), cells=(1, 1, 1))
+    start = ts.Start(velocity=(1, 0, 0), spin=(0, 0, 2), shape="random", seed=3)
+    body = ts.Body(mesh=mesh, law=ts.StVK(young=1e3, poisson=0.3), density=1e3, start=start)
+    solver = ConjugateGradient(preconditioner="stale_cholesky", precision="single")
+    each = [
+        ts.ExplicitEuler("auto"),
+        ts.SymplecticEuler(1e-4),
+        ts.RK2(1e-4),
+        ts.RK4("1 ms"),
+        ts.ImplicitEuler(0.01, solver=ts.Auto(tolerance=1e-8), indefinite="refuse"),
+        ts.ImplicitMidpoint(0.01, solver=solver),
+        ts.BDF2(0.01, newton=Newton(iterations=3)),
+        ts.Newmark(0.01, beta=0.3, gamma=0.6),
+        ts.BDF2FixedPoint(1e-3, iterations=9, anderson=2),
+    ]
+    return [ts.Scene(bodies={"bar": body}, step=step) for step in each]
+
+
 def test_a_model_may_be_named_by_a_word():
     text = models()[3].to_yaml()
     written = "model:\n      type: mass-link"
@@ -178,8 +198,8 @@ def test_a_model_may_be_named_by_a_word():
     assert ts.Scene.from_yaml_text(text.replace(written, "model: mass-link")) == models()[3]
 
 
-def test_every_law_and_model_comes_back():
-    for scene in [*other_laws(), *models()]:
+def test_every_law_model_and_method_comes_back():
+    for scene in [*other_laws(), *models(), *methods()]:
         assert ts.Scene.from_yaml_text(scene.to_yaml()) == scene
 
 
@@ -188,7 +208,7 @@ def test_every_part_is_in_the_round_trip():
     import tissu.scene
 
     text = repr(everything()) + repr(organ("a")) + repr(ConjugateGradient()) + repr(other_laws())
-    text += repr(models()) + repr(viscosities())
+    text += repr(models()) + repr(viscosities()) + repr(methods())
     missing = [name for name in tissu.scene.__all__ if f"{name}(" not in text]
     assert missing == ["UserLaw"]
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <string_view>
 
 #include "tissu/base/error.h"
 #include "tissu/base/norm.h"
@@ -13,6 +14,8 @@ namespace {
 constexpr double kFloor = 1e-3;  ///< of the external impulse: a smaller right-hand side is judged against it
 constexpr double kWorse = 2.0;   ///< a linearised step that leaves this much more residual is iterated on
 constexpr int kRescue = 10;      ///< Newton iterations at most where a linearised step made things worse
+constexpr double kFalling =
+    0.5;  ///< of the residual before: an iteration that gets so far was only stopped early
 constexpr double kHopeless = 1e9;       ///< times the first residual: Newton's iteration has lost its way
 constexpr double kShortest = 1e-3;      ///< a Newton step is not cut below this, …
 constexpr double kShortestDown = 1e-9;  ///< … or below this where the energy is to fall
@@ -66,14 +69,19 @@ void StageSolver::solve(State& state, std::vector<double>& v, StepReport& report
 
   first_ = v;
   const int most = once ? kRescue : newton_.iterations;
-  if (iterate(state, v, Search::none, most, report) && is_lower(state, v)) return;
+  report.message.clear();
+  const std::string_view why = iterate(state, v, Search::none, most, report);
+  if ((why.empty() || is_falling_) && is_lower(state, v)) {
+    report.message = why;
+    return;
+  }
   if (!once) {
     v = first_;
-    if (iterate(state, v, Search::residual, most, report) && is_lower(state, v)) return;
+    if (iterate(state, v, Search::residual, most, report).empty() && is_lower(state, v)) return;
   }
   v = guess_;
   system_->world().fixed().copy(first_, v);
-  iterate(state, v, Search::energy, most, report);
+  report.message = iterate(state, v, Search::energy, most, report);
 }
 
 bool StageSolver::is_good_enough(State& state, ConstReals v) {
@@ -188,35 +196,30 @@ double StageSolver::potential(State& state, ConstReals v) {
   return sum;
 }
 
-bool StageSolver::iterate(State& state, std::vector<double>& v, Search search, int most, StepReport& report) {
+std::string_view StageSolver::iterate(State& state, std::vector<double>& v, Search search, int most,
+                                      StepReport& report) {
   report.newton_iterations = 1;
   report.converged = false;
   double now = residual(state, v);
   const double reference = std::max({reference_, now, 1e-300});
+  double lowest = now;
+  is_falling_ = false;
   while (true) {
     report.residual = now / reference;
-    if (!(report.residual < kHopeless)) {
-      report.message = "Newton's iteration ran away";
-      return false;
-    }
+    if (!(report.residual < kHopeless)) return "Newton's iteration ran away";
     if (report.residual <= newton_.tolerance) break;
-    if (report.newton_iterations >= most) {
-      report.message = "Newton's iteration stopped before its tolerance";
-      return false;
-    }
+    if (report.newton_iterations >= most) return "Newton's iteration stopped before its tolerance";
     assemble(state, search == Search::energy);
     if (now <= system_->round_off(state) / stage_.move) break;
     std::ranges::fill(change_, 0.0);
     solve_linear(state, 0.0, search == Search::energy, report);
     ++report.newton_iterations;
-    if (!advance(state, v, search, now)) {
-      report.message = "Newton's residual could not be lowered further";
-      return false;
-    }
+    if (!advance(state, v, search, now)) return "Newton's residual could not be lowered further";
+    is_falling_ = now < kFalling * lowest;
+    lowest = std::min(lowest, now);
   }
   report.converged = true;
-  report.message.clear();
-  return true;
+  return {};
 }
 
 bool StageSolver::advance(State& state, std::vector<double>& v, Search search, double& now) {

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <map>
 
 #include "../force/verbs.h"
@@ -72,11 +73,14 @@ inline double least_share(const Eigen::MatrixXd& A) {
   return largest == 0.0 ? 0.0 : values[0] / largest;
 }
 
-/// Symmetric, and no eigenvalue below round-off.
-inline void expect_definite(const Eigen::MatrixXd& A) {
-  EXPECT_LE((A - A.transpose()).cwiseAbs().maxCoeff(), 1e-13 * A.cwiseAbs().maxCoeff());
-  EXPECT_GE(least_share(A), -1e-12);
+/// Symmetric, and no eigenvalue below round-off, which is that of `exact`: where all of it is negative,
+/// nothing but its round-off is left.
+inline void expect_definite(const Eigen::MatrixXd& A, const Eigen::MatrixXd& exact) {
+  const double scale = std::max(A.cwiseAbs().maxCoeff(), exact.cwiseAbs().maxCoeff());
+  EXPECT_LE((A - A.transpose()).cwiseAbs().maxCoeff(), 1e-13 * scale);
+  EXPECT_GE(least_share(A) * A.cwiseAbs().maxCoeff(), -1e-12 * scale);
 }
+inline void expect_definite(const Eigen::MatrixXd& A) { expect_definite(A, A); }
 
 /// To a share of the largest entry of `scale`.
 inline void expect_near(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B, double share,

@@ -96,18 +96,18 @@ class CellModel : public BodyModel {
     for_chunks(loops.order,
                [&](const Chunk& chunk) { loop(loops.view, chunk, x.data(), scale.position, blocks); });
   }
-  /// Of each lane [J].
+  /// Of each lane [J]; valid until the next call.
   template <class L>
-  [[nodiscard]] std::vector<double> energies_by(const L& loops, ConstReals x) const {
-    std::vector<double> energies(loops.order.element.size(), 0.0);
+  [[nodiscard]] const std::vector<double>& energies_by(const L& loops, ConstReals x) const {
+    energies_.assign(loops.order.element.size(), 0.0);
     for_chunks(loops.order, [&](const Chunk& chunk) {
-      loops.kernels.energy(loops.view, chunk, x.data(), energies.data());
+      loops.kernels.energy(loops.view, chunk, x.data(), energies_.data());
     });
-    return energies;
+    return energies_;
   }
   template <class L>
   [[nodiscard]] double energy_by(const L& loops, ConstReals x) const {
-    const std::vector<double> energies = energies_by(loops, x);
+    const std::vector<double>& energies = energies_by(loops, x);
     return std::accumulate(energies.begin(), energies.end(), 0.0);
   }
   /// `volume_ratio` holds what the kernels write beside their stresses.
@@ -151,6 +151,7 @@ class CellModel : public BodyModel {
  private:
   [[nodiscard]] CellFields cell_fields(const std::vector<double>& stresses, const std::vector<double>& ratios,
                                        const std::vector<double>& energies) const;
+  mutable std::vector<double> energies_;  ///< of each lane, from the first time that they are asked for
   template <class Function>
   void for_nodes(Function&& f) const;
 };

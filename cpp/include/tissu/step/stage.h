@@ -3,6 +3,7 @@
 /// The equation that every implicit method solves, and Newton's iteration for it.
 
 #include <memory>
+#include <string_view>
 #include <vector>
 
 #include "tissu/step/integrator.h"
@@ -49,9 +50,10 @@ class StageSolver {
   bool is_good_enough(State& state, ConstReals v);
   /// The solution is one that lies below the guess: far above it there may be others, which no body reaches.
   bool is_lower(State& state, ConstReals v);
-  /// Newton's iteration from v; true when it converged. Whole steps may pass through worse states on the way
-  /// to a better one; else they are halved until the residual falls, or until the energy does.
-  bool iterate(State& state, std::vector<double>& v, Search search, int most, StepReport& report);
+  /// Newton's iteration from v; why it did not converge, or nothing. Whole steps may pass through worse
+  /// states on the way to a better one; else they are halved until the residual falls, or until the energy
+  /// does.
+  std::string_view iterate(State& state, std::vector<double>& v, Search search, int most, StepReport& report);
   bool advance(State& state, std::vector<double>& v, Search search, double& now);
   bool descend(State& state, std::vector<double>& v, double& now);
   /// The matrix of the equation: mass M - push D - push move K.
@@ -74,8 +76,9 @@ class StageSolver {
   std::vector<double> right_;
   std::vector<double> work_;
   std::vector<double> momentum_;
-  double reference_ = 0.0;  ///< push |external force|
-  double start_ = 0.0;      ///< residual that the first solve found
+  double reference_ = 0.0;   ///< push |external force|
+  double start_ = 0.0;       ///< residual that the first solve found
+  bool is_falling_ = false;  ///< the last of Newton's iterations at least halved the least residual
 };
 
 }  // namespace tissu

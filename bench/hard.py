@@ -37,9 +37,10 @@ TAIL = "This page is printed by `python bench/hard.py --write`.\n"
 def cell(found: Outcome, notes: list[str]) -> str:
     """One entry of the table."""
     if found.kind == "refused":
-        if found.message not in notes:
-            notes.append(found.message)
-        return f"refused ({notes.index(found.message) + 1})"
+        said = found.message.replace(f"{ROOT}/", "")
+        if said not in notes:
+            notes.append(said)
+        return f"refused ({notes.index(said) + 1})"
     marks = ("*" if found.unconverged else "") + ("!" if found.inverted else "")
     return f"{found.kind} {found.bound:.3g}{marks}"
 

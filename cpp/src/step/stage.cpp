@@ -71,7 +71,7 @@ void StageSolver::solve(State& state, std::vector<double>& v, StepReport& report
   const int most = once ? kRescue : newton_.iterations;
   report.message.clear();
   const std::string_view why = iterate(state, v, Search::none, most, report);
-  if ((why.empty() || is_falling_) && is_lower(state, v)) {
+  if ((why.empty() || (!once && is_falling_)) && is_lower(state, v)) {
     report.message = why;
     return;
   }

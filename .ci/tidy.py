@@ -16,10 +16,7 @@ ROOT = Path(__file__).resolve().parent.parent
 BUILD = ROOT / "build/main"
 STAMPS = ROOT / "build/tidy"
 FOLDERS = ("cpp/src", "python/bind", "bench")
-# GCC's omp.h does not parse with clang; the text without threads is the one that is checked.
 EXTRA = [
-    "-UTISSU_HAVE_OPENMP",
-    "-fno-openmp",
     "-Wno-unknown-warning-option",
     # libstdc++ 12 uses its own deprecated get_temporary_buffer in std::stable_sort.
     "-Wno-deprecated-declarations",

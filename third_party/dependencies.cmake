@@ -53,12 +53,6 @@ tissu_dependency(CCD
   GIT https://github.com/danfis/libccd.git
   TAG 7931e764a19ef6b21b443376c699bbc9c6d4fba8  # the head after 2.1
   WHY "needed by FCL")
-tissu_dependency(OPENMP
-  VERSIONS ">= 3.1"
-  LICENCE "GPL-3 with the GCC runtime exception (libgomp)"
-  DEBIAN "g++"
-  INSTALL yes
-  WHY "threads; part of the compiler, nothing is fetched: without it everything runs on one thread")
 tissu_dependency(PYBIND11
   VERSIONS ">= 2.12"
   LICENCE "BSD-3-Clause"
@@ -149,17 +143,7 @@ if(TISSU_WITH_FCL)
   message(STATUS "tissu: FCL ${fcl_VERSION}")
 endif()
 
-# ---- OpenMP --------------------------------------------------------------------------------------------------------
-set(TISSU_HAVE_OPENMP OFF)
-if(TISSU_WITH_OPENMP AND NOT TISSU_STD_THREADS)
-  find_package(OpenMP 3.1 QUIET COMPONENTS CXX)
-  if(TARGET OpenMP::OpenMP_CXX)
-    set(TISSU_HAVE_OPENMP ON)
-    message(STATUS "tissu: OpenMP ${OpenMP_CXX_VERSION}")
-  else()
-    message(STATUS "tissu: the compiler has no OpenMP: one thread")
-  endif()
-endif()
+find_package(Threads REQUIRED)
 
 # ---- only for the Python module, the tests, the benchmarks -----------------------------------------------------------
 if(SKBUILD)
@@ -209,15 +193,7 @@ function(tissu_link_dependencies target)
   # disagree about the size and alignment of Eigen's fixed-size types.
   target_compile_definitions(${target} PUBLIC EIGEN_MAX_ALIGN_BYTES=16)
   target_link_libraries(${target} PUBLIC Eigen3::Eigen)
-  if(TISSU_HAVE_OPENMP)
-    target_link_libraries(${target} PRIVATE OpenMP::OpenMP_CXX)
-    target_compile_definitions(${target} PRIVATE TISSU_HAVE_OPENMP)
-  endif()
-  if(TISSU_STD_THREADS)
-    find_package(Threads REQUIRED)
-    target_link_libraries(${target} PRIVATE Threads::Threads)
-    target_compile_definitions(${target} PRIVATE TISSU_STD_THREADS)
-  endif()
+  target_link_libraries(${target} PRIVATE Threads::Threads)
   if(TISSU_HAVE_CHOLMOD)
     target_link_libraries(${target} PRIVATE SuiteSparse::CHOLMOD)
     target_compile_definitions(${target} PRIVATE TISSU_HAVE_CHOLMOD TISSU_CHOLMOD_VERSION="${CHOLMOD_VERSION}")

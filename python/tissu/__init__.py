@@ -15,13 +15,7 @@ Everything is in SI units and float64; arrays are (n, 3); nodes of cells are in 
 from __future__ import annotations
 
 import importlib
-import os
 from typing import Any
-
-# Idle threads sleep soon instead of spinning: a busy machine is not slowed to a crawl. Set before
-# the core loads OpenMP, and only where the user has not chosen.
-if "OMP_WAIT_POLICY" not in os.environ:
-    os.environ.setdefault("GOMP_SPINCOUNT", "20000")
 
 _HOMES = {
     "tissu.errors": (

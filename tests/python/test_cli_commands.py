@@ -12,7 +12,6 @@ import numpy as np
 import pytest
 
 import tissu
-from tissu.cli.info import openmp_version
 
 SCENE = """\
 name: bar
@@ -122,9 +121,6 @@ def test_check_says_what_is_on_and_why(scene):
 def test_info_names_version_and_libraries():
     ended = tissu_command("info")
     assert ended.returncode == 0
-    assert openmp_version("201511") == "4.5"
-    assert openmp_version("202911") == "202911"
-    assert "201511" not in ended.stdout
     for words in (tissu.__version__, "threads", "instruction set", "numpy", "Eigen"):
         assert words.lower() in ended.stdout.lower()
     assert tissu_command("--version").stdout.strip() == f"tissu {tissu.__version__}"

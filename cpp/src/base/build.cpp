@@ -18,9 +18,6 @@ BuildInfo build_info() {
 #ifdef TISSU_CHOLMOD_VERSION
   info.libraries.emplace_back("CHOLMOD", TISSU_CHOLMOD_VERSION);
 #endif
-#ifdef _OPENMP
-  info.libraries.emplace_back("OpenMP", number(_OPENMP));
-#endif
 #ifdef TISSU_FCL_VERSION
   info.libraries.emplace_back("FCL", TISSU_FCL_VERSION);
 #endif

@@ -10,25 +10,6 @@ from typing import Any
 PYTHON_LIBRARIES = ("numpy", "pydantic", "meshio", "matplotlib", "typer", "rich", "pint", "PyYAML")
 
 
-# Date of a specification, which compilers tell -> its version (openmp.org, Specifications).
-OPENMP = {
-    "200505": "2.5",
-    "200805": "3.0",
-    "201107": "3.1",
-    "201307": "4.0",
-    "201511": "4.5",
-    "201811": "5.0",
-    "202011": "5.1",
-    "202111": "5.2",
-    "202411": "6.0",
-}
-
-
-def openmp_version(date: str) -> str:
-    """The version of OpenMP that a compiler's date stands for; an unknown date as it is."""
-    return OPENMP.get(date, date)
-
-
 def info_text() -> str:
     """Version, threads, instruction set in use, linked libraries, as lines."""
     from tissu import _core
@@ -40,8 +21,6 @@ def info_lines(build: Mapping[str, Any]) -> list[str]:
     """The lines, from what the core says of itself."""
     shown = dict(build)
     libraries = dict(shown.pop("libraries", {}))
-    if "OpenMP" in libraries:
-        libraries["OpenMP"] = openmp_version(str(libraries["OpenMP"]))
     lines = [f"{'tissu':<18} {shown.pop('version', '?')}"]
     names = {"threads_available": "threads", "instruction_set": "instruction set"}
     lines += [f"{names.get(key, key.replace('_', ' ')):<18} {shown[key]}" for key in shown]

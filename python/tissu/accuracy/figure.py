@@ -30,7 +30,7 @@ def draw(study: Study) -> Figure | None:
     FigureCanvasAgg(figure)
     axes = figure.add_subplot()
     for number, (name, points) in enumerate(curves.items()):
-        x, y = zip(*points, strict=True)
+        x, y = [point[0] for point in points], [point[1] for point in points]
         mark = _MARKS[number % len(_MARKS)]
         axes.plot(x, y, mark + "-", color=f"C{number % 10}", label=name, markersize=5, linewidth=1)
     best = [run for run in front(study.runs) if run.share and run.seconds]

@@ -171,7 +171,8 @@ class PlaceReference(_Reference):
         points = np.asarray(simulation.meshes[self.body].points)
         near = self._nearest(points)
         positions = np.asarray(simulation.positions[self.body])[near]
-        return positions.mean(axis=0, keepdims=True) - np.array([self.rest])
+        there: Floats = positions.mean(axis=0, keepdims=True) - np.array([self.rest])
+        return there
 
     def _nearest(self, points: Floats) -> NDArray[np.intp]:
         off = np.linalg.norm(points - np.array(self.rest), axis=1)

@@ -77,9 +77,10 @@ def bench_accuracy(job: Job) -> None:
 
 
 def _preset(word: str) -> Preset:
-    if word == "small" or word == "full":
-        return word
-    raise ParameterError(f"--preset: found '{word}'; small or full is accepted")
+    known: dict[str, Preset] = {"small": "small", "full": "full"}
+    if word not in known:
+        raise ParameterError(f"--preset: found '{word}'; small or full is accepted")
+    return known[word]
 
 
 def _missing(case: Case, meshes: Path | None) -> str:

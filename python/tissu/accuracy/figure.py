@@ -41,6 +41,11 @@ def draw(study: Study) -> Figure | None:
         axes.axhline(100.0 * goal, color="black", linewidth=0.5, linestyle=":")
     axes.set_xscale("log")
     axes.set_yscale("log")
+    for axis in (axes.xaxis, axes.yaxis):
+        axis.set_major_formatter("{x:g}")
+        low, high = axis.get_view_interval()
+        axis.set_minor_formatter("{x:g}" if high < 20.0 * low else "")
+        axis.set_tick_params(which="minor", labelsize=7)
     axes.set_xlabel("time from the scene to the result [ms]")
     axes.set_ylabel("mean error, of the largest displacement [%]")
     axes.set_title(study.case.title, fontsize=10)

@@ -60,7 +60,7 @@ def bench_accuracy(job: Job) -> None:
     begin = time.perf_counter()
     studies: list[Study] = []
     for case in found:
-        why = _missing(case, job.meshes)
+        why = missing(case, job.meshes)
         if why and not job.names:
             typer.echo(f"{case.name}: left out, since it {why}\n")
             continue
@@ -83,7 +83,7 @@ def _preset(word: str) -> Preset:
     return known[word]
 
 
-def _missing(case: Case, meshes: Path | None) -> str:
+def missing(case: Case, meshes: Path | None) -> str:
     """Why a case cannot run here; empty: it can."""
     if not case.needs:
         return ""

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from tissu.accuracy.change import changed
 from tissu.accuracy.measure import Deviation
-from tissu.errors import ParameterError, SceneError, TissuError
+from tissu.errors import SceneError, TissuError
 
 if TYPE_CHECKING:
     from tissu.accuracy.case import Case, Preset
@@ -173,8 +173,6 @@ def _timed(scene: Any) -> tuple[Simulation, float, int, int, int, bool, str]:
             iterations += report.solver_iterations
             newton += report.newton_iterations
             converged = converged and report.converged
-    except ParameterError:
-        raise
     except TissuError as error:
         stopped = str(error)
     seconds = time.perf_counter() - begin

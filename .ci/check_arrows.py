@@ -62,6 +62,7 @@ PYTHON: dict[str, set[str]] = {
         "_core",
     },
     "comparison": {"errors", "counted", "mesh", "scene", "simulation"},
+    "accuracy": {"errors", "scene", "yaml_io", "simulation"},
     "picture": {"errors", "mesh"},
     "output": {"errors", "counted", "mesh", "simulation", "picture", "_core"},
 }

@@ -99,6 +99,21 @@ def parse_scene(text: str, *, base: Path | None = None, name: str = "text") -> S
     return scene
 
 
+def scene_mapping(path: Path) -> dict[str, Any]:
+    """What a scene file says, as it stands there: words, numbers, lists and mappings.
+
+    Raises:
+        SceneError: the file cannot be read, or is not YAML.
+    """
+    try:
+        data, _, _ = _load(path.read_text(encoding="utf-8"), str(path))
+    except OSError as error:
+        raise SceneError([f"{path}: the scene file cannot be read: {error.strerror}"]) from None
+    if not isinstance(data, dict):
+        raise SceneError([f"{path}: a mapping with the keys of a scene is accepted"])
+    return data
+
+
 def scene_data(scene: Scene, *, folder: Path | None = None) -> dict[str, Any]:
     """The scene as mappings, lists and numbers; with `folder`, paths of meshes relative to it.
 

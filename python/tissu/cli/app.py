@@ -18,6 +18,8 @@ app = typer.Typer(
 )
 mesh_app = typer.Typer(help="Look at meshes and make them.", no_args_is_help=True)
 app.add_typer(mesh_app, name="mesh")
+bench_app = typer.Typer(help="Measure what accuracy costs.", no_args_is_help=True)
+app.add_typer(bench_app, name="bench")
 
 SceneFile = Annotated[Path, typer.Argument(metavar="SCENE", help="A scene (YAML).")]
 Debug = Annotated[bool, typer.Option("--debug", help="Show tracebacks.")]
@@ -122,6 +124,44 @@ def compare_command(
         from tissu.cli.compare import compare_scene
 
         compare_scene(scene, models, reference, out or Path("results") / f"{scene.stem}-compare")
+
+
+@bench_app.callback()
+def bench_options() -> None:
+    """Measure what accuracy costs."""
+
+
+@bench_app.command("accuracy")
+def bench_accuracy_command(
+    cases: Annotated[
+        list[str] | None,
+        typer.Argument(metavar="[CASE]...", help="Names of cases, as --list prints; default: all."),
+    ] = None,
+    preset: Annotated[
+        str, typer.Option(help="small (about two minutes) or full (under an hour).")
+    ] = "small",
+    folder: Annotated[
+        Path | None,
+        typer.Option("--cases", metavar="FOLDER", help="Cases of your own instead of tissu's."),
+    ] = None,
+    meshes: Annotated[
+        Path | None,
+        typer.Option(metavar="FOLDER", help="Meshes of cases that do not come with tissu."),
+    ] = None,
+    listed: Annotated[bool, typer.Option("--list", help="Print the cases and leave.")] = False,
+    out: Annotated[Path, typer.Option("--out", "-o", help="Folder of the results.")] = Path(
+        "results/accuracy"
+    ),
+    debug: Debug = False,
+) -> None:
+    """Run cases with every element, law, model, method and solver; write tables and diagrams."""
+    with reported(debug=debug):
+        from tissu.cli.bench import Job, bench_accuracy, list_cases
+
+        if listed:
+            list_cases(folder)
+            return
+        bench_accuracy(Job(cases or [], preset, folder, meshes, out))
 
 
 @mesh_app.command("info")

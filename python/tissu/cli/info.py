@@ -17,6 +17,17 @@ def info_text() -> str:
     return "\n".join(info_lines(_core.build_info()))
 
 
+def machine_line() -> str:
+    """What times were measured on, in one sentence."""
+    from tissu import _core
+
+    build = _core.build_info()
+    return (
+        f"tissu {build['version']}, {build['compiler']}, {build['instruction_set']} kernels, "
+        f"{build['threads_available']} threads available, {platform.machine()}."
+    )
+
+
 def info_lines(build: Mapping[str, Any]) -> list[str]:
     """The lines, from what the core says of itself."""
     shown = dict(build)

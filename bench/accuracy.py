@@ -1,0 +1,145 @@
+"""Writes docs/accuracy.md and its pictures: every case of `tissu bench accuracy`, measured.
+
+    python bench/accuracy.py --write [--preset full] [--meshes FOLDER] [CASE …]
+
+Without --write the page is printed. Cases that need meshes which are not there are left out.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+import time
+from pathlib import Path
+
+from tissu.accuracy import Study, front, read_cases, study
+from tissu.accuracy.figure import draw
+from tissu.accuracy.front import sentence
+from tissu.accuracy.table import COLUMNS, cells
+from tissu.cli.bench import missing
+from tissu.cli.info import machine_line
+
+ROOT = Path(__file__).resolve().parents[1]
+PAGE = ROOT / "docs" / "accuracy.md"
+HEAD = """# What accuracy costs in time
+
+`tissu bench accuracy` runs cases whose answer is known with every element, law, model, method of
+steps, solver and resolution that they name, and writes for each run its error and its time:
+
+```
+tissu bench accuracy                     # all cases, about two minutes
+tissu bench accuracy bar swing           # some
+tissu bench accuracy --preset full       # all runs of all cases
+tissu bench accuracy --list              # what cases there are
+```
+
+`results/accuracy/accuracy.html` is one page with the diagrams, the tables and the answers, and
+needs no other file; `accuracy.csv` holds the same runs, a PNG each diagram.
+
+**Error**: distance from the reference, the mean over its places (a deflection curve, points, a
+whole field), as a share of the largest displacement; never from a beam formula. **Time**: wall time
+from the scene to the result, with everything that is made on the way; runs under 0.2 s are taken
+three times, and the fastest counts. **Front**: runs that no other beats in both.
+
+## A case of your own
+
+A case is a scene, `NAME.yaml`, which `tissu run` takes as well, and beside it `NAME.study.yaml`:
+
+```yaml
+title: A bar that is pulled
+reference: {type: points, body: bar, file: NAME.npz}   # or curve, affine, place
+choices:
+  - name: "{cell}"                                     # the value of a varied field
+    vary:                                              # every combination; the last makes a curve
+      bodies.bar.mesh.cell: [hexahedron, tetra]
+      bodies.bar.mesh.cells: [[4, 2, 2], [8, 4, 4]]
+    small: {bodies.bar.mesh.cells: [[4, 2, 2]]}        # instead, in the small preset
+```
+
+`tissu bench accuracy --cases FOLDER` runs what is there. References are `points` (arrays `points`
+and `displacements` of an .npz; nodes elsewhere are not compared), `curve` (stations along a line, a
+cubic between them), `affine` (u = G X) and `place` (where one place goes). The cases of tissu stand
+in `bench/cases`; `make_references.py` there makes the references that are our own.
+
+"""
+
+
+def table(one: Study, labels: set[str]) -> str:
+    """Markdown of some runs."""
+    head = ["run", *COLUMNS]
+    lines = ["| " + " | ".join(head) + " |", "|---" + "|---:" * len(COLUMNS) + "|"]
+    for run, row in zip(one.runs, cells(one), strict=True):
+        if run.label in labels:
+            lines.append("| " + " | ".join([row[0].removesuffix(" *"), *row[1:]]) + " |")
+    return "\n".join(lines)
+
+
+def printed(one: Study) -> str:
+    """The paper's numbers beside ours."""
+    if not one.case.printed:
+        return ""
+    ours = {run.label: run for run in one.runs}
+    lines = ["", "| printed | error [mm] | ms/step | our run | error [mm] | ms/step |"]
+    lines.append("|---|---:|---:|---|---:|---:|")
+    for entry in one.case.printed:
+        run = ours.get(entry.run or "")
+        theirs = ["-" if entry.error is None else f"{1e3 * entry.error:.3g}"]
+        theirs.append("-" if entry.ms is None else f"{entry.ms:g}")
+        mine = ["-", "-", "-"]
+        if run is not None and run.mean is not None and run.ms_per_step is not None:
+            mine = [run.label, f"{1e3 * run.mean:.3g}", f"{run.ms_per_step:.3g}"]
+        lines.append(f"| {entry.where}: {entry.what} | {' | '.join([*theirs, *mine])} |")
+    return "\n".join(lines) + "\n"
+
+
+def section(one: Study) -> str:
+    """A case of the page."""
+    case = one.case
+    best = {run.label for run in front(one.runs)}
+    failed = [f"- {r.label}: {r.outcome}: {r.why}" for r in one.runs if not r.counts]
+    parts = [
+        f"## {case.title}",
+        case.about,
+        f"**{sentence(one)}**",
+        f"![Error against time](pictures/accuracy-{case.name}.png)",
+        f"The front, of {len(one.runs)} runs:",
+        table(one, best),
+        printed(one),
+        "\n".join(f"- {note}" for note in case.notes),
+        "\n".join(failed),
+    ]
+    return "\n\n".join(part for part in parts if part) + "\n"
+
+
+def main() -> None:
+    """Runs, prints or writes."""
+    parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
+    parser.add_argument("names", nargs="*", metavar="CASE")
+    parser.add_argument("--preset", choices=("small", "full"), default="full")
+    parser.add_argument("--meshes", type=Path)
+    parser.add_argument("--write", action="store_true")
+    asked = parser.parse_args()
+    begin = time.perf_counter()
+    parts = []
+    for case in read_cases(ROOT / "bench" / "cases", asked.names):
+        if missing(case, asked.meshes):
+            continue
+        one = study(case, asked.preset, meshes=asked.meshes)
+        print(case.name, sentence(one), f"{time.perf_counter() - begin:.0f} s", file=sys.stderr)
+        parts.append(section(one))
+        figure = draw(one)
+        if figure is not None and asked.write:
+            picture = ROOT / "docs" / "pictures" / f"accuracy-{case.name}.png"
+            figure.savefig(picture, dpi=80, format="png")
+    minutes = (time.perf_counter() - begin) / 60
+    tail = f"Written by `python bench/accuracy.py --write` in {minutes:.0f} minutes; "
+    tail += f"{machine_line()}\n"
+    text = HEAD + "\n".join([*parts, tail])
+    if asked.write:
+        PAGE.write_text(text, encoding="utf-8")
+    else:
+        print(text)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,57 @@
+"""The Pareto front of error and time, and what is cheapest for an error."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from tissu.accuracy.study import Run, Study
+
+
+def front(runs: Sequence[Run]) -> list[Run]:
+    """Runs that no other beats in both error and time to the result, fastest first."""
+    best: list[Run] = []
+    for run in sorted((r for r in runs if r.counts), key=_cost):
+        assert run.share is not None
+        if not best or run.share < (best[-1].share or 0.0):
+            best.append(run)
+    return best
+
+
+def cheapest(runs: Sequence[Run], error: float) -> Run | None:
+    """The fastest run whose mean error is at most this share of the reference; None: none is."""
+    good = [run for run in runs if run.counts and run.share is not None and run.share <= error]
+    return min(good, key=_cost) if good else None
+
+
+def sentence(study: Study) -> str:
+    """What is cheapest for each of the case's goals."""
+    parts = []
+    for goal in study.case.goals:
+        run = cheapest(study.runs, goal)
+        if run is not None:
+            parts.append(f"for {_percent(goal)} the cheapest is {run.label}, {_ms(run)}")
+            continue
+        nearest = min(
+            (r for r in study.runs if r.counts), key=lambda r: r.share or 0.0, default=None
+        )
+        if nearest is None or nearest.share is None:
+            return "No run came to its end."
+        parts.append(
+            f"no run reaches {_percent(goal)}: the nearest is {nearest.label} with "
+            f"{_percent(nearest.share)}, {_ms(nearest)}"
+        )
+    text = "; ".join(parts)
+    return text[0].upper() + text[1:] + "."
+
+
+def _cost(run: Run) -> tuple[float, float]:
+    return run.seconds or 0.0, run.share or 0.0
+
+
+def _percent(share: float) -> str:
+    return f"{100.0 * share:.2g} %"
+
+
+def _ms(run: Run) -> str:
+    seconds = run.seconds or 0.0
+    return f"{1e3 * seconds:.3g} ms" if seconds < 1.0 else f"{seconds:.3g} s"

@@ -1,0 +1,56 @@
+"""The runs of a study as CSV, and as cells of a table."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+from collections.abc import Callable, Iterable
+from dataclasses import asdict, fields
+
+from tissu.accuracy.front import front
+from tissu.accuracy.study import Run, Study
+
+
+def to_csv(studies: Iterable[Study]) -> str:
+    """A line of names, then a line for each run; SI units but for ms and megabytes."""
+    names = ["case", *(field.name for field in fields(Run)), "on_front"]
+    text = io.StringIO()
+    writer = csv.DictWriter(text, names, lineterminator="\n")
+    writer.writeheader()
+    for study in studies:
+        best = {id(run) for run in front(study.runs)}
+        for run in study.runs:
+            row = asdict(run) | {"changes": json.dumps(run.changes)}
+            writer.writerow({"case": study.case.name, **row, "on_front": int(id(run) in best)})
+    return text.getvalue()
+
+
+def _number(value: float | None, factor: float = 1.0) -> str:
+    return "-" if value is None else f"{factor * value:.3g}"
+
+
+COLUMNS: dict[str, Callable[[Run], str]] = {
+    "error, mean [mm]": lambda run: _number(run.mean, 1e3),
+    "largest [mm]": lambda run: _number(run.largest, 1e3),
+    "mean [%]": lambda run: _number(run.share, 100.0),
+    "ms/step": lambda run: _number(run.ms_per_step),
+    "to the result [ms]": lambda run: _number(run.seconds, 1e3),
+    "steps": lambda run: str(run.steps) if run.steps else "-",
+    "Newton": lambda run: str(run.newton) if run.newton else "-",
+    "iterations": lambda run: str(run.iterations) if run.iterations else "-",
+    "unknowns": lambda run: str(run.unknowns) if run.unknowns else "-",
+    "memory [MB]": lambda run: _number(run.megabytes),
+}
+"""Heads of the table, and what stands under them."""
+
+
+def cells(study: Study) -> list[list[str]]:
+    """Rows of text: label, columns, and why a run has none; the front is marked with a star."""
+    best = {id(run) for run in front(study.runs)}
+    rows = []
+    for run in study.runs:
+        mark = " *" if id(run) in best else ""
+        why = f" ({run.outcome}: {run.why})" if run.why else ""
+        rows.append([run.label + mark + why, *(show(run) for show in COLUMNS.values())])
+    return rows

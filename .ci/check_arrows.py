@@ -62,6 +62,7 @@ PYTHON: dict[str, set[str]] = {
         "_core",
     },
     "comparison": {"errors", "counted", "mesh", "scene", "simulation"},
+    "advice": {"errors", "counted", "units", "mesh", "scene", "simulation"},
     "picture": {"errors", "mesh"},
     "output": {"errors", "counted", "mesh", "simulation", "picture", "_core"},
 }

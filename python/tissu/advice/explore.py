@@ -1,0 +1,76 @@
+"""Coordinate by coordinate from the scene's own setting to a cheaper or more accurate one."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from tissu.advice.choices import PARTS, Choices, is_explicit
+from tissu.advice.rows import Row, row_of
+from tissu.scene.step import Static
+
+if TYPE_CHECKING:
+    from tissu.advice.laboratory import Laboratory, Tried
+    from tissu.advice.reference import Reference
+
+_SHARE_OF_RUN = 1.0 / 3.0  # of what is left of the budget that one run may take
+_CLEARLY = 0.95  # of the cost, or of what is missed, for a setting to count as better
+_PASSES = 6
+
+
+def explore(lab: Laboratory, own: Tried, reference: Reference, choices: Choices) -> None:
+    """Try the parts of a setting one after the other, going on from the best so far.
+
+    A pass over all parts is followed by another while it has found something better and there is
+    time. Explicit and implicit methods are gone through apart, those of the scene's own kind first,
+    since what is best for one kind is seldom best for the other.
+    """
+    if isinstance(own.setting.step, Static):
+        _descend(lab, own, reference, choices)
+        return
+    own_kind = is_explicit(own.setting)
+    _descend(lab, own, reference, replace(choices, explicit=own_kind, until=0.5 * lab.left))
+    other = replace(choices, explicit=not own_kind)
+    for setting in other.of("step", own.setting):
+        begun = lab.run(setting, allowance=_SHARE_OF_RUN * lab.left)
+        if begun is not None and begun.finished:
+            _descend(lab, begun, reference, other)
+            return
+
+
+def _descend(lab: Laboratory, own: Tried, reference: Reference, choices: Choices) -> None:
+    """From a setting to the best one that single changes lead to."""
+    best, value = own, _value(row_of(own, reference, choices.goal))
+    for tried in lab.tried.values():  # the runs for the reference are settings too
+        found = _value(row_of(tried, reference, choices.goal))
+        if choices.allows(tried.setting) and tried is not reference.tried and _better(found, value):
+            best, value = tried, found
+    for _ in range(_PASSES):
+        before = best
+        for part in PARTS:
+            start = best
+            for setting in choices.of(part, start.setting):
+                if lab.left <= choices.until:
+                    return
+                other = lab.run(setting, allowance=_SHARE_OF_RUN * lab.left)
+                if other is None:
+                    continue
+                found = _value(row_of(other, reference, choices.goal))
+                if _better(found, value):
+                    best, value = other, found
+        if best is before:
+            return
+
+
+def _value(row: Row) -> tuple[float, float]:
+    """What is missed, then the cost: less is better."""
+    return row.missed, math.inf if row.ms_per_update is None else row.ms_per_update
+
+
+def _better(one: tuple[float, float], other: tuple[float, float]) -> bool:
+    if not math.isfinite(other[0]):
+        return math.isfinite(one[0])
+    if one[0] < other[0] + math.log(_CLEARLY) or (one[0] == 0.0 < other[0]):
+        return True
+    return one[0] <= other[0] and one[1] < _CLEARLY * other[1]

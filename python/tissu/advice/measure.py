@@ -1,0 +1,186 @@
+"""Running a scene with one setting: where the watched points go, and what a step costs."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tissu.advice.places import Places, places
+from tissu.errors import TissuError
+
+if TYPE_CHECKING:
+    from tissu.scene import Scene
+    from tissu.simulation import Simulation
+
+Floats = NDArray[np.float64]
+
+_SAMPLES = 20  # times at which displacements are kept, at most
+_BLOCK_BYTES = 9 * 8 + 4  # a 3x3 block of the matrix and its column
+_FORESEEN_FROM = 3  # steps after which the time of the whole run is foreseen
+
+
+@dataclass(frozen=True, slots=True)
+class Watch:
+    """What is watched: the same points at the same times with every setting.
+
+    Attributes:
+        points: body -> (k, 3) at rest [m].
+        times: (t,) increasing [s]; the last is the end of the run.
+    """
+
+    points: Mapping[str, Floats]
+    times: Floats
+
+
+@dataclass(frozen=True, slots=True)
+class Measured:
+    """What a run leaves behind.
+
+    Attributes:
+        moved: (t, p, 3) displacements of the watched points of all bodies [m]; fewer times when
+            it stopped.
+        cells: of all bodies.
+        unknowns: numbers that a step solves for.
+        steps: how many were taken.
+        unconverged: how many of them did not converge.
+        dt: mean length of a step [s].
+        ms_per_step: median wall time of a step.
+        megabytes: models, matrix and linear solver.
+        seconds: wall time of all of it, compilation included.
+        stopped: why it ended early; empty: it did not.
+        over_budget: whether that was for want of time.
+    """
+
+    moved: Floats
+    cells: int
+    unknowns: int
+    steps: int
+    unconverged: int
+    dt: float
+    ms_per_step: float
+    megabytes: float
+    seconds: float
+    stopped: str = ""
+    over_budget: bool = False
+
+
+def watch(simulation: Simulation) -> Watch:
+    """The nodes of a simulation's meshes, at up to 20 times of its run.
+
+    The times are ends of its steps; where there are enough of them, also of steps twice as long.
+    """
+    points = {name: np.array(mesh.points) for name, mesh in simulation.meshes.items()}
+    span, dt = _span(simulation), simulation.dt
+    steps = max(1, int(span / dt * (1.0 + 1e-12) + 1e-6))
+    every = max(1, -(-steps // _SAMPLES))
+    if every > 1 or steps >= _SAMPLES:
+        every += every % 2
+    times: Floats = np.asarray(dt * np.arange(every, steps + 1, every), dtype=np.float64)
+    if not len(times) or times[-1] < span * (1.0 - 1e-9):
+        times = np.append(times, span)
+    return Watch(points, times)
+
+
+def measure(scene: Scene, watched: Watch, *, allowance: float) -> Measured:
+    """Run a scene for its duration, or until it is clear that it takes longer than allowed.
+
+    Displacements between two steps are interpolated linearly.
+
+    Args:
+        scene: with a duration, or static.
+        watched: points and times.
+        allowance: wall time [s], for compilation and steps.
+
+    Raises:
+        SceneError: the scene does not compile.
+        ParameterError: a watched point is in no cell.
+    """
+    begin = time.perf_counter()
+    simulation = scene.compile()
+    samples = Samples(
+        watched,
+        {name: places(at, simulation.meshes[name]) for name, at in watched.points.items()},
+    )
+    samples.keep(simulation)
+    unconverged, stopped, over = 0, "", False
+    compiled = time.perf_counter()
+    span = _span(simulation)
+    try:
+        for report in simulation.run():
+            unconverged += not report.converged
+            samples.keep(simulation)
+            now = time.perf_counter()
+            foreseen = compiled - begin + (now - compiled) * max(span / simulation.time, 1.0)
+            late = report.number >= _FORESEEN_FROM and foreseen > 1.1 * allowance
+            if simulation.time < span * (1.0 - 1e-9) and (late or now - begin > allowance):
+                stopped = f"it would take about {foreseen:.2g} s, of which {allowance:.2g} s are "
+                stopped, over = stopped + "left for it", True
+                break
+    except TissuError as error:
+        stopped = str(error)
+    profile = simulation.profile()
+    blocks = simulation.plan().matrix_blocks
+    solver = simulation.solver_bytes()
+    return Measured(
+        moved=samples.stacked(),
+        cells=sum(mesh.cell_count for mesh in simulation.meshes.values()),
+        unknowns=simulation.plan().unknowns,
+        steps=profile.steps,
+        unconverged=unconverged,
+        dt=simulation.time / max(1, profile.steps),
+        ms_per_step=profile.p50_ms,
+        megabytes=(simulation.model_bytes() + blocks * _BLOCK_BYTES + solver) / 1e6,
+        seconds=time.perf_counter() - begin,
+        stopped=stopped,
+        over_budget=over,
+    )
+
+
+@dataclass(slots=True)
+class Samples:
+    """Displacements of the watched points at the watched times."""
+
+    watched: Watch
+    at: Mapping[str, Places]
+    _kept: list[Floats] = field(default_factory=list)
+    _before: tuple[float, Floats] | None = None
+
+    def keep(self, simulation: Simulation) -> None:
+        """Take the samples that are due after a step."""
+        now = simulation.time
+        moved = np.concatenate(
+            [at.values(simulation.displacements(name)) for name, at in self.at.items()]
+        )
+        slack = 1e-9 * self.watched.times[-1]
+        while len(self._kept) < len(self.watched.times):
+            due = float(self.watched.times[len(self._kept)])
+            if due > now + slack:
+                break
+            if self._before is None or due >= now - slack:
+                self._kept.append(moved)
+            else:
+                then, earlier = self._before
+                share = (due - then) / (now - then)
+                self._kept.append((1.0 - share) * earlier + share * moved)
+        self._before = (now, moved)
+
+    def stacked(self) -> Floats:
+        """(t, p, 3), of the times that were reached."""
+        points = sum(len(points) for points in self.watched.points.values())
+        return np.array(self._kept).reshape(-1, points, 3)
+
+
+def mean_distance(one: Floats, other: Floats) -> float:
+    """Mean distance of points over all times [m]."""
+    return float(np.linalg.norm(one - other, axis=-1).mean())
+
+
+def _span(simulation: Simulation) -> float:
+    """Simulated time of the run [s]."""
+    duration = simulation.scene.duration
+    return simulation.dt if duration is None else float(duration)

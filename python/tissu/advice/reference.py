@@ -1,0 +1,189 @@
+"""The richest run of the scene that the budget affords, and what its own error is."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import TYPE_CHECKING
+
+from tissu.advice.laboratory import Laboratory, Tried
+from tissu.advice.measure import Floats
+from tissu.advice.richardson import Estimate, estimate
+from tissu.advice.setting import Setting
+from tissu.scene.solver import Auto
+from tissu.scene.step import (
+    BDF2,
+    BDF2FixedPoint,
+    ImplicitEuler,
+    ImplicitMidpoint,
+    Newmark,
+    Newton,
+    Static,
+)
+
+if TYPE_CHECKING:
+    from tissu.scene.step import Step
+
+_DIVISORS = (4, 2, 1)  # of the scene's time step
+_SHARE_OF_FIRST = 0.25  # of the time for the reference that its first run may take
+_SAME_AS_FEM = ("mass-tensor", "mass-link", "mean-dilatation")  # in the limit of small cells
+_TOLERANCE = 1e-8
+
+
+@dataclass(frozen=True, slots=True)
+class Reference:
+    """What the errors of other settings are measured against.
+
+    Attributes:
+        tried: the run.
+        space: what runs with larger cells say of it; None: not known.
+        time: what runs with longer steps say of it; None: not known.
+        dynamic: whether time is stepped.
+        richer: whether it is richer than the scene's own setting.
+    """
+
+    tried: Tried
+    space: Estimate | None
+    time: Estimate | None
+    dynamic: bool
+    richer: bool
+
+    @property
+    def moved(self) -> Floats:
+        """(t, p, 3) its displacements [m]."""
+        assert self.tried.measured is not None
+        return self.tried.measured.moved
+
+    @property
+    def error(self) -> float | None:
+        """Its own error, mean over points and times [m]; None: not known."""
+        if self.space is None or (self.dynamic and self.time is None):
+            return None
+        return self.space.error + (self.time.error if self.time is not None else 0.0)
+
+
+def find_reference(lab: Laboratory, own: Tried, *, share: float) -> Reference:
+    """Climb to ever richer settings while they take no longer than a share of the budget.
+
+    First cells of second order and a quarter of the time step (a half, or the whole, where that is
+    too long), then ever more cells; then cheaper runs that show its order.
+
+    Args:
+        lab: where they run.
+        own: the scene's own setting, which has run.
+        share: of what is left of the budget.
+    """
+    begin = time.perf_counter()
+    whole = share * lab.left
+    setting = own.setting
+
+    def left(part: float = 1.0) -> float:
+        return part * whole - (time.perf_counter() - begin)
+
+    best = _first(lab, setting, left)
+    if best is None:
+        return Reference(own, None, None, not isinstance(setting.step, Static), False)
+    levels = {Fraction(1): best}
+    _climb(lab, best.setting, levels, left)
+    _descend(lab, best.setting, levels, left)
+    scales = [scale for scale in sorted(levels) if lab.resolutions.exact(scale)]
+    space = estimate([float(1 / s) for s in scales], [_moved(levels[s]) for s in scales])
+    best = levels[max(levels)]
+    if max(levels) not in scales[-1:]:
+        space = None
+    steps = _time_sequence(lab, levels[min(levels)], left)
+    return Reference(best, space, steps, not isinstance(setting.step, Static), True)
+
+
+def rich_step(step: Step, divisor: int) -> Step:
+    """A step that leaves less error: shorter, Newton iterated, second order for implicit Euler."""
+    newton, solver = Newton(iterations=20, tolerance=1e-6), Auto(tolerance=_TOLERANCE)
+    if isinstance(step, Static):
+        iterations = max(30, step.newton.iterations)
+        return step.replace(newton=Newton(iterations=iterations, tolerance=1e-8), solver=solver)
+    if isinstance(step, (ImplicitEuler, BDF2FixedPoint)):
+        return BDF2(dt=step.dt / divisor, newton=newton, solver=solver)
+    if isinstance(step, (BDF2, ImplicitMidpoint, Newmark)):
+        return step.replace(dt=step.dt / divisor, newton=newton, solver=solver)
+    return step if step.dt == "auto" else step.replace(dt=step.dt / divisor)
+
+
+def _first(lab: Laboratory, own: Setting, left: Callable[..., float]) -> Tried | None:
+    """The scene's own number of cells, of second order where it can be, with a rich step."""
+    orders = (2, own.order) if own.order == 1 else (own.order,)
+    divisors = _DIVISORS if getattr(own.step, "dt", "auto") != "auto" else (1,)
+    for order in orders:
+        for model in dict.fromkeys((_model(lab), "")):
+            for divisor in divisors:
+                step = rich_step(own.step, divisor)
+                last = divisor == divisors[-1] and order == orders[-1]
+                allowance = left(1.0 if last else _SHARE_OF_FIRST)
+                found = lab.run(Setting(own.scale, order, model, step), allowance=allowance)
+                if found is not None and found.finished:
+                    return found if found.setting.key() != own.key() else None
+    return None
+
+
+def _model(lab: Laboratory) -> str:
+    """The model that the scene's own one tends to for small cells; empty: itself."""
+    models = [model.type for body in lab.scene.bodies.values() for model in body.models().values()]
+    return "fem" if all(model in _SAME_AS_FEM for model in models) else ""
+
+
+def _climb(
+    lab: Laboratory, first: Setting, levels: dict[Fraction, Tried], left: Callable[..., float]
+) -> None:
+    """Add runs with more cells, as long as they are affordable."""
+    for scale in (Fraction(2), Fraction(3), Fraction(4)):
+        found = _at(lab, first, scale, left)
+        if found is None and lab.resolutions.bodies(scale, first.order) is None:
+            continue
+        if found is None:
+            break
+        levels[scale] = found
+    if max(levels) == 1:
+        found = _at(lab, first, Fraction(3, 2), left)
+        if found is not None:
+            levels[Fraction(3, 2)] = found
+
+
+def _descend(
+    lab: Laboratory, first: Setting, levels: dict[Fraction, Tried], left: Callable[..., float]
+) -> None:
+    """Add runs with fewer cells until there are three, whose cells are all larger alike."""
+    for part in (Fraction(2, 3), Fraction(1, 2), Fraction(1, 3), Fraction(1, 4)):
+        if len(levels) < 3 and lab.resolutions.exact(part):
+            found = _at(lab, first, part, left)
+            if found is not None:
+                levels[part] = found
+
+
+def _at(
+    lab: Laboratory, first: Setting, scale: Fraction, left: Callable[..., float]
+) -> Tried | None:
+    found = lab.run(Setting(scale, first.order, first.model, first.step), allowance=left())
+    return found if found is not None and found.finished else None
+
+
+def _time_sequence(lab: Laboratory, tried: Tried, left: Callable[..., float]) -> Estimate | None:
+    """What steps of four and two times the length say of the reference's, on the fewest cells."""
+    setting = tried.setting
+    dt = getattr(setting.step, "dt", "auto")
+    if isinstance(dt, str):
+        return None
+    runs = []
+    for factor in (4, 2):
+        step = setting.step.replace(dt=factor * dt)
+        longer = Setting(setting.scale, setting.order, setting.model, step)
+        found = lab.run(longer, allowance=left())
+        if found is None or not found.finished:
+            return None
+        runs.append(_moved(found))
+    return estimate([4.0 * dt, 2.0 * dt, dt], [*runs, _moved(tried)])
+
+
+def _moved(tried: Tried) -> Floats:
+    assert tried.measured is not None
+    return tried.measured.moved

@@ -52,7 +52,7 @@ class Choices:
         finest: setting of the reference, beyond which nothing can be judged.
         models: models to try beside those that keep the scene's laws.
         explicit: whether methods without a system are tried, or only those.
-        until: what is to be left of the budget at the end [s].
+        until: what is to be left of the budget then [s].
     """
 
     lab: Laboratory

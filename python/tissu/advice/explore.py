@@ -22,16 +22,17 @@ _PASSES = 6
 def explore(lab: Laboratory, own: Tried, reference: Reference, choices: Choices) -> None:
     """Try the parts of a setting one after the other, going on from the best so far.
 
-    A pass over all parts is followed by another while it has found something better and there is
-    time. Explicit and implicit methods are gone through apart, those of the scene's own kind first,
-    since what is best for one kind is seldom best for the other.
+    From the scene's own setting; then from the best that has run, the runs for the reference among
+    them; then with methods of the other kind, explicit or implicit, since what is best for one kind
+    is seldom best for the other.
     """
+    kind = is_explicit(own.setting)
+    of_own_kind = replace(choices, explicit=kind)
+    _descend(lab, own, reference, replace(of_own_kind, until=0.6 * lab.left))
+    _descend(lab, _best(lab, own, reference, of_own_kind), reference, of_own_kind)
     if isinstance(own.setting.step, Static):
-        _descend(lab, own, reference, choices)
         return
-    own_kind = is_explicit(own.setting)
-    _descend(lab, own, reference, replace(choices, explicit=own_kind, until=0.5 * lab.left))
-    other = replace(choices, explicit=not own_kind)
+    other = replace(choices, explicit=not kind, until=0.0)
     for setting in other.of("step", own.setting):
         begun = lab.run(setting, allowance=_SHARE_OF_RUN * lab.left)
         if begun is not None and begun.finished:
@@ -39,18 +40,17 @@ def explore(lab: Laboratory, own: Tried, reference: Reference, choices: Choices)
             return
 
 
-def _descend(lab: Laboratory, own: Tried, reference: Reference, choices: Choices) -> None:
-    """From a setting to the best one that single changes lead to."""
-    best, value = own, _value(row_of(own, reference, choices.goal))
-    for tried in lab.tried.values():  # the runs for the reference are settings too
-        found = _value(row_of(tried, reference, choices.goal))
-        if choices.allows(tried.setting) and tried is not reference.tried and _better(found, value):
-            best, value = tried, found
+def _descend(lab: Laboratory, start: Tried, reference: Reference, choices: Choices) -> None:
+    """From a setting to the best one that single changes lead to.
+
+    A pass over all parts is followed by another while it has found something better and there is
+    time.
+    """
+    best, value = start, _value(row_of(start, reference, choices.goal))
     for _ in range(_PASSES):
         before = best
         for part in PARTS:
-            start = best
-            for setting in choices.of(part, start.setting):
+            for setting in choices.of(part, best.setting):
                 if lab.left <= choices.until:
                     return
                 other = lab.run(setting, allowance=_SHARE_OF_RUN * lab.left)
@@ -61,6 +61,17 @@ def _descend(lab: Laboratory, own: Tried, reference: Reference, choices: Choices
                     best, value = other, found
         if best is before:
             return
+
+
+def _best(lab: Laboratory, own: Tried, reference: Reference, choices: Choices) -> Tried:
+    """The best setting so far, but for the reference's."""
+    best, value = own, _value(row_of(own, reference, choices.goal))
+    for tried in lab.tried.values():
+        if tried is not reference.tried and choices.allows(tried.setting):
+            found = _value(row_of(tried, reference, choices.goal))
+            if _better(found, value):
+                best, value = tried, found
+    return best
 
 
 def _value(row: Row) -> tuple[float, float]:

@@ -10,13 +10,15 @@ from typing import TYPE_CHECKING
 
 from tissu.advice.measure import Measured, Watch, measure
 from tissu.advice.resolution import Resolutions
-from tissu.advice.setting import Setting, mesh_words, solver_words, step_words
+from tissu.advice.setting import Setting, scene_words
 from tissu.errors import SceneError
+from tissu.scene.step import Static
 
 if TYPE_CHECKING:
     from tissu.scene import Scene
 
 _POWER = 1.3  # a step's time grows with this power of the unknowns, roughly
+_STATIC_POWER = 2.0  # that of a static one, whose systems are factorised or ill-conditioned
 _CERTAIN = 4.0  # how far off that may be before a run is not even tried
 
 
@@ -45,9 +47,7 @@ class Tried:
 
     def words(self) -> str:
         """What ran, and how long a step took."""
-        step = self.scene.step
-        meshes = ", ".join(mesh_words(body) for body in self.scene.bodies.values())
-        name = f"{meshes}, {step_words(step)}, {solver_words(step)}"
+        name = ", ".join(scene_words(self.scene))
         if self.measured is None:
             return f"{name}: {self.why}"
         stopped = f"; {self.why}" if self.why else ""
@@ -92,7 +92,8 @@ class Laboratory:
             return known
         found = self._tried(setting, scene, allowance)
         self.tried[setting.key()] = found
-        self.told(found)
+        if not found.refused:
+            self.told(found)
         return found
 
     def _tried(self, setting: Setting, scene: Scene, allowance: float) -> Tried:
@@ -117,8 +118,9 @@ class Laboratory:
         own = next(t for t in self.tried.values() if t.measured is known)
         growth = float(setting.scale / own.setting.scale) ** 3
         growth *= 4.0 if setting.order > own.setting.order else 1.0
-        foreseen = 1e-3 * known.ms_per_step * float(growth**_POWER)
-        return foreseen / _CERTAIN > allowance
+        static = isinstance(setting.step, Static)
+        foreseen = 1e-3 * known.ms_per_step * float(growth ** (_STATIC_POWER if static else _POWER))
+        return foreseen > (allowance if static else _CERTAIN * allowance)
 
 
 def _for_want_of_time(known: Tried, allowance: float) -> bool:

@@ -108,7 +108,7 @@ def _near(points: Floats, corners: Floats, slack: float) -> tuple[Ints, Ints]:
     counts = np.maximum(np.ceil((stop - start) / size).astype(np.int64), 1)
 
     def column(places: Floats) -> Ints:
-        return np.clip(((places - start) / size).astype(np.int64), 0, counts - 1)
+        return np.asarray(np.clip(((places - start) / size).astype(np.int64), 0, counts - 1))
 
     first, last = column(low), column(high)
     spread = last - first + 1
@@ -122,8 +122,8 @@ def _near(points: Floats, corners: Floats, slack: float) -> tuple[Ints, Ints]:
     order = np.argsort(column_of, kind="stable")
     column_of, cell = column_of[order], cell[order]
     wanted = np.ravel_multi_index(column(points).T, counts)
-    begin = np.searchsorted(column_of, wanted, side="left")
-    many = np.searchsorted(column_of, wanted, side="right") - begin
+    begin: Ints = np.asarray(np.searchsorted(column_of, wanted, side="left"))
+    many: Ints = np.asarray(np.searchsorted(column_of, wanted, side="right")) - begin
     point = np.repeat(np.arange(len(points)), many)
     near = cell[np.arange(many.sum()) - np.repeat(many.cumsum() - many, many) + begin[point]]
     inside = ((points[point] >= low[near]) & (points[point] <= high[near])).all(axis=1)

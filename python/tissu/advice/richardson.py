@@ -50,7 +50,7 @@ def estimate(sizes: Sequence[float], runs: Sequence[Floats]) -> Estimate | None:
         return None
 
     def ratio(p: float) -> float:
-        return (h1**p - h2**p) / (h2**p - h3**p)
+        return float((h1**p - h2**p) / (h2**p - h3**p))
 
     low, high = LOWEST, HIGHEST
     if not ratio(low) <= coarse / fine <= ratio(high):

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from tissu.advice.measure import Floats, mean_distance
-from tissu.advice.setting import mesh_words, solver_words, step_words
+from tissu.advice.setting import scene_words
 
 if TYPE_CHECKING:
     from tissu.advice.goal import Goal
@@ -86,13 +86,7 @@ class Row:
 def row_of(tried: Tried, reference: Reference, goal: Goal) -> Row:
     """The row of a setting that was tried."""
     scene, measured = tried.scene, tried.measured
-    models = [model.type for body in scene.bodies.values() for model in body.models().values()]
-    words = (
-        ", ".join(mesh_words(body) for body in scene.bodies.values()),
-        " and ".join(dict.fromkeys(models)),
-        step_words(scene.step),
-        solver_words(scene.step),
-    )
+    words = scene_words(scene)
     if measured is None:
         return Row(*words, "refused" if tried.refused else "not run", why=tried.why, scene=scene)
     is_reference = tried is reference.tried

@@ -44,6 +44,17 @@ class Setting:
         return self.scale, self.order, self.model, f"{self.step!r}"
 
 
+def scene_words(scene: Scene) -> tuple[str, str, str, str]:
+    """Meshes, models, step and solver of a scene."""
+    models = [model.type for body in scene.bodies.values() for model in body.models().values()]
+    return (
+        ", ".join(mesh_words(body) for body in scene.bodies.values()),
+        " and ".join(dict.fromkeys(models)),
+        step_words(scene.step),
+        solver_words(scene.step),
+    )
+
+
 def mesh_words(body: Body) -> str:
     """The mesh of a body: "8x2x2 hexahedron20", "organ.vtu", "39464 tetra"."""
     mesh = body.mesh

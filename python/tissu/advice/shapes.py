@@ -50,18 +50,18 @@ class Shape:
 
     def local(self, points: Floats, corners: Floats) -> tuple[Floats, Floats]:
         """Local coordinates (p, m) of points (p, 3) in cells (p, c, 3), and what is left [m]."""
-        inverse = np.linalg.inv(_monomials(self.corners, self.linear))
-        found = np.repeat(self.corners.mean(axis=0)[None], len(points), axis=0)
+        inverse = np.asarray(np.linalg.inv(_monomials(self.corners, self.linear)), dtype=np.float64)
+        found: Floats = np.repeat(self.corners.mean(axis=0)[None], len(points), axis=0)
         for _ in range(_ITERATIONS):
             slopes = np.einsum("pmq,qa->pam", _slopes(found, self.linear), inverse)
             edges = np.einsum("pam,pac->pcm", slopes, corners)
             left = points - self._at(found, inverse, corners)
             step = np.einsum("pmc,pc->pm", np.linalg.pinv(edges), left)
-            found = np.clip(found + step, -4.0, 4.0)
+            found = np.asarray(np.clip(found + step, -4.0, 4.0), dtype=np.float64)
             if not np.abs(step).max(initial=0.0) > 1e-13:
                 break
         left = points - self._at(found, inverse, corners)
-        return found, np.linalg.norm(left, axis=1)
+        return found, np.asarray(np.linalg.norm(left, axis=1))
 
     def _at(self, local: Floats, inverse: Floats, corners: Floats) -> Floats:
         weights = _monomials(local, self.linear) @ inverse

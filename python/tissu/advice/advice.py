@@ -140,6 +140,7 @@ _WORDS: dict[str, Callable[[Row], str]] = {
     "": _mark,
 }
 _NUMBERS: dict[str, Callable[[Row], str]] = {
+    "distance [mm]": lambda row: _number(row.distance, 1e3),
     "error [mm]": lambda row: _number(row.error, 1e3),
     "[%]": lambda row: _number(row.error_percent),
     "ms/update": lambda row: _number(row.ms_per_update),

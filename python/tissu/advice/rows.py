@@ -30,8 +30,9 @@ class Row:
         unknowns: numbers that a step solves for.
         steps: how many were taken.
         unconverged: steps that did not converge.
-        error: distance from the reference, mean over watched points and times [m]; of the reference
-            itself its own error, where it is known.
+        distance: from the reference, mean over watched points and times [m].
+        error: the distance and, where it is known, the reference's own error beside it: at most so
+            far is the setting from the truth [m]; of the reference absent where it is not known.
         error_percent: the same in percent of the reference's largest displacement.
         ms_per_step: median wall time of a step.
         ms_per_update: of the steps of an update.
@@ -55,6 +56,7 @@ class Row:
     unknowns: int | None = None
     steps: int | None = None
     unconverged: int | None = None
+    distance: float | None = None
     error: float | None = None
     error_percent: float | None = None
     ms_per_step: float | None = None
@@ -90,7 +92,8 @@ def row_of(tried: Tried, reference: Reference, goal: Goal) -> Row:
     if measured is None:
         return Row(*words, "refused" if tried.refused else "not run", why=tried.why, scene=scene)
     is_reference = tried is reference.tried
-    error = _error(tried, reference.moved) if not is_reference else reference.error
+    distance = _distance(tried, reference.moved)
+    error = reference.error if is_reference else _plus(distance, reference.error)
     largest = largest_move(reference.moved)
     excess = math.inf if error is None else goal.share_of(error, largest)
     timed = measured.steps > 0
@@ -102,6 +105,7 @@ def row_of(tried: Tried, reference: Reference, goal: Goal) -> Row:
         unknowns=measured.unknowns,
         steps=measured.steps,
         unconverged=measured.unconverged,
+        distance=distance,
         error=error,
         error_percent=100.0 * error / largest if error is not None and largest > 0.0 else None,
         ms_per_step=measured.ms_per_step if timed else None,
@@ -123,8 +127,12 @@ def largest_move(moved: Floats) -> float:
     return math.sqrt(float((moved**2).sum(axis=-1).max(initial=0.0)))
 
 
-def _error(tried: Tried, reference: Floats) -> float | None:
+def _distance(tried: Tried, reference: Floats) -> float | None:
     measured = tried.measured
     if measured is None or measured.stopped or len(measured.moved) != len(reference):
         return None
     return mean_distance(measured.moved, reference)
+
+
+def _plus(distance: float | None, own: float | None) -> float | None:
+    return None if distance is None else distance + (own or 0.0)

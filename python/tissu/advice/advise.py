@@ -104,10 +104,10 @@ def _own_run(lab: Laboratory, setting: Setting, budget: float) -> Tried:
     own = lab.run(setting, allowance=max(lab.left, 1e-9))
     assert own is not None
     measured = own.measured
-    if measured is not None and measured.over_budget:
+    if measured is not None and measured.foreseen > 0.0:
         raise ParameterError(
-            f"a budget of {budget:g} s does not suffice for one run of the scene: "
-            f"{measured.stopped}; give a larger one, or the scene a shorter duration"
+            f"budget: found {budget:g} s; one run of the scene takes about {measured.foreseen:.2g} s: "
+            "give more than that, or the scene a shorter duration"
         )
     return own
 

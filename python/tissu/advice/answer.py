@@ -43,7 +43,7 @@ def sentence(rows: Sequence[Row], goal: Goal) -> str:
     if not fast.meets_rate:
         parts.append(
             f"the rate of {goal.rate:g} updates a second cannot be met: the highest found is "
-            f"{fast.rate:.3g}, {_times(fast.rate_excess)} fewer, of {fast.name}"
+            f"{fast.rate:.3g}, {_times(fast.rate_excess)} too few, of {fast.name}"
         )
     if not parts:
         parts = _not_together(rows, goal)
@@ -75,6 +75,8 @@ def doubts(reference: Reference, goal: Goal, largest: float) -> str:
     texts = []
     if not reference.richer:
         texts.append("errors are distances from the scene's own setting; give a larger --budget")
+    elif reference.error is None:
+        texts.append("the reference's own error is not known, so that of the others may be larger")
     elif reference.error is not None and goal.share_of(reference.error, largest) > 1.0:
         texts.append(
             f"the reference's own error of about {_share(reference.error, largest)} is more than "
@@ -117,7 +119,7 @@ def _not_together(rows: Sequence[Row], goal: Goal) -> list[str]:
         f"the error of {goal.error_words()} and the rate of {goal.rate:g} updates a second cannot "
         "be met together",
         f"with the error met the highest rate is {exact.rate:.3g}, {_times(exact.rate_excess)} "
-        f"fewer, of {exact.name}",
+        f"too few, of {exact.name}",
         f"with the rate met the least error is {error_words(fast, goal)}, "
         f"{_times(fast.error_excess)} as much, of {fast.name}",
     ]

@@ -126,4 +126,4 @@ class Laboratory:
 def _for_want_of_time(known: Tried, allowance: float) -> bool:
     """Whether it was stopped for time, and would now be given more."""
     measured = known.measured
-    return measured is not None and measured.over_budget and allowance > 2.0 * measured.seconds
+    return measured is not None and measured.foreseen > 0.0 and allowance > measured.foreseen

@@ -53,7 +53,8 @@ class Measured:
         megabytes: models, matrix and linear solver.
         seconds: wall time of all of it, compilation included.
         stopped: why it ended early; empty: it did not.
-        over_budget: whether that was for want of time.
+        foreseen: what the whole run would have taken, where it was stopped for want of time [s];
+            0: it was not.
     """
 
     moved: Floats
@@ -66,7 +67,7 @@ class Measured:
     megabytes: float
     seconds: float
     stopped: str = ""
-    over_budget: bool = False
+    foreseen: float = 0.0
 
 
 def watch(simulation: Simulation) -> Watch:
@@ -107,7 +108,7 @@ def measure(scene: Scene, watched: Watch, *, allowance: float) -> Measured:
         {name: places(at, simulation.meshes[name]) for name, at in watched.points.items()},
     )
     samples.keep(simulation)
-    unconverged, stopped, over = 0, "", False
+    unconverged, stopped, over = 0, "", 0.0
     compiled = time.perf_counter()
     span = _span(simulation)
     try:
@@ -118,8 +119,8 @@ def measure(scene: Scene, watched: Watch, *, allowance: float) -> Measured:
             foreseen = compiled - begin + (now - compiled) * max(span / simulation.time, 1.0)
             late = report.number >= _FORESEEN_FROM and foreseen > 1.1 * allowance
             if simulation.time < span * (1.0 - 1e-9) and (late or now - begin > allowance):
-                stopped = f"it would take about {foreseen:.2g} s, of which {allowance:.2g} s are "
-                stopped, over = stopped + "left for it", True
+                stopped = f"it would take about {foreseen:.2g} s; {allowance:.2g} s are left for it"
+                over = foreseen
                 break
     except TissuError as error:
         stopped = str(error)
@@ -137,7 +138,7 @@ def measure(scene: Scene, watched: Watch, *, allowance: float) -> Measured:
         megabytes=(simulation.model_bytes() + blocks * _BLOCK_BYTES + solver) / 1e6,
         seconds=time.perf_counter() - begin,
         stopped=stopped,
-        over_budget=over,
+        foreseen=over,
     )
 
 

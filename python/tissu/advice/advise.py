@@ -106,8 +106,8 @@ def _own_run(lab: Laboratory, setting: Setting, budget: float) -> Tried:
     measured = own.measured
     if measured is not None and measured.foreseen > 0.0:
         raise ParameterError(
-            f"budget: found {budget:g} s; one run of the scene takes about {measured.foreseen:.2g} s: "
-            "give more than that, or the scene a shorter duration"
+            f"budget: found {budget:g} s; one run of the scene takes about "
+            f"{measured.foreseen:.2g} s: give more than that, or the scene a shorter duration"
         )
     return own
 

@@ -57,7 +57,9 @@ def reference_words(reference: Reference, row: Row, largest: float) -> str:
             f"{row.name}: the scene's own setting, since nothing richer fitted in the budget; its "
             "own error is not known"
         )
-    parts = [_order_words("cells", reference.space, largest)]
+    parts = ["the cells are as they are"]
+    if reference.meshes_change:
+        parts = [_order_words("cells", reference.space, largest)]
     if reference.dynamic:
         parts.append(_order_words("steps", reference.time, largest))
     whole = reference.error
@@ -77,7 +79,9 @@ def doubts(reference: Reference, goal: Goal, largest: float) -> str:
         texts.append("errors are distances from the scene's own setting; give a larger --budget")
     elif reference.error is None:
         texts.append("the reference's own error is not known, so that of the others may be larger")
-    elif reference.error is not None and goal.share_of(reference.error, largest) > 1.0:
+    if reference.richer and reference.meshes_change and not reference.finer:
+        texts.append("no richer mesh fitted in the budget, so the errors lack those of the cells")
+    if reference.error is not None and goal.share_of(reference.error, largest) > 1.0:
         texts.append(
             f"the reference's own error of about {_share(reference.error, largest)} is more than "
             "the one asked for; a larger --budget affords a better one"

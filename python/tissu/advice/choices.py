@@ -39,6 +39,7 @@ _KEEPS_LAW = {  # models that may stand in for one another, and the laws that th
     "mass-link": ("stvk", "neo_hooke"),
     "corotational": ("hooke",),
 }
+_OF_BOTH_ORDERS = ("", "fem", "condensed")  # models that take cells of second order
 _IMPLICIT = (ImplicitEuler, ImplicitMidpoint, BDF2, Newmark)
 
 
@@ -127,6 +128,8 @@ class Choices:
     def _orders(self, setting: Setting) -> Iterator[Setting]:
         """The other order, with the same cells, and second order with fewer of them."""
         other = replace(setting, order=3 - setting.order)
+        if other.order == 2 and other.model not in _OF_BOTH_ORDERS:
+            other = replace(other, model="")
         if other.order <= self.finest.order:
             yield other
         if other.order == 2:
@@ -144,7 +147,8 @@ class Choices:
         keep = [n for n, taken in _KEEPS_LAW.items() if taken is None or laws <= set(taken)]
         for name in [*(keep if own & set(keep) else []), *self.models]:
             if name not in own:
-                yield replace(setting, model=name)
+                order = setting.order if name in _OF_BOTH_ORDERS else 1
+                yield replace(setting, model=name, order=order)
 
 
 def is_explicit(setting: Setting) -> bool:

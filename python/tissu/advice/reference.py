@@ -41,14 +41,39 @@ class Reference:
         space: what runs with larger cells say of it; None: not known.
         time: what runs with longer steps say of it; None: not known.
         dynamic: whether time is stepped.
-        richer: whether it is richer than the scene's own setting.
+        own: the scene's own setting.
+        meshes_change: whether there are other meshes of the scene at all.
     """
 
     tried: Tried
     space: Estimate | None
     time: Estimate | None
     dynamic: bool
-    richer: bool
+    own: Setting
+    meshes_change: bool
+
+    @property
+    def richer(self) -> bool:
+        """Whether it is richer than the scene's own setting."""
+        return self.tried.setting.key() != self.own.key()
+
+    @property
+    def finer(self) -> bool:
+        """Whether its cells are more, or of higher order, than the scene's own."""
+        return _cells(self.tried.setting) != _cells(self.own)
+
+    def judges(self, setting: Setting) -> bool:
+        """Whether it tells the error of a setting, as far as it is known.
+
+        Not of one that has the same cells, or the same steps, of which the error is not known: both
+        are off alike.
+        """
+        rich = self.tried.setting
+        same_cells = self.finer and _cells(setting) == _cells(rich)
+        same_steps = _steps(self.own) != _steps(rich) and _steps(setting) == _steps(rich)
+        return not (same_cells and self.space is None) and not (
+            self.dynamic and same_steps and self.time is None
+        )
 
     @property
     def moved(self) -> Floats:
@@ -59,9 +84,9 @@ class Reference:
     @property
     def error(self) -> float | None:
         """Its own error, mean over points and times [m]; None: not known."""
-        if self.space is None or (self.dynamic and self.time is None):
+        if (self.meshes_change and self.space is None) or (self.dynamic and self.time is None):
             return None
-        return self.space.error + (self.time.error if self.time is not None else 0.0)
+        return sum(found.error for found in (self.space, self.time) if found is not None)
 
 
 def find_reference(lab: Laboratory, own: Tried, *, share: float) -> Reference:
@@ -77,14 +102,15 @@ def find_reference(lab: Laboratory, own: Tried, *, share: float) -> Reference:
     """
     begin = time.perf_counter()
     whole = share * lab.left
-    setting = own.setting
+    setting, changes = own.setting, lab.resolutions.can_change
+    dynamic = not isinstance(setting.step, Static)
 
     def left(part: float = 1.0) -> float:
         return part * whole - (time.perf_counter() - begin)
 
     best = _first(lab, setting, left)
     if best is None:
-        return Reference(own, None, None, not isinstance(setting.step, Static), False)
+        return Reference(own, None, None, dynamic, setting, changes)
     levels = {Fraction(1): best}
     _climb(lab, best.setting, levels, left)
     _descend(lab, best.setting, levels, left)
@@ -94,7 +120,15 @@ def find_reference(lab: Laboratory, own: Tried, *, share: float) -> Reference:
     if max(levels) not in scales[-1:]:
         space = None
     steps = _time_sequence(lab, levels[min(levels)], left)
-    return Reference(best, space, steps, not isinstance(setting.step, Static), True)
+    return Reference(best, space, steps, dynamic, setting, changes)
+
+
+def _cells(setting: Setting) -> tuple[Fraction, int]:
+    return setting.scale, setting.order
+
+
+def _steps(setting: Setting) -> tuple[str, object]:
+    return setting.step.type, getattr(setting.step, "dt", None)
 
 
 def rich_step(step: Step, divisor: int) -> Step:

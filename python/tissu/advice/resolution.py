@@ -75,6 +75,11 @@ class Resolutions:
                 changed = True
         return found if changed else None
 
+    @property
+    def can_change(self) -> bool:
+        """Whether there are other cells for any of the bodies."""
+        return bool(self._makers)
+
     def exact(self, scale: Fraction) -> bool:
         """Whether all cells are `scale` times as many along each edge, none of them rounded."""
         counts = [

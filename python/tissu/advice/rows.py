@@ -32,7 +32,7 @@ class Row:
         unconverged: steps that did not converge.
         distance: from the reference, mean over watched points and times [m].
         error: the distance and, where it is known, the reference's own error beside it: at most so
-            far is the setting from the truth [m]; of the reference absent where it is not known.
+            far is the setting from the truth [m]; absent where nothing is known of it.
         error_percent: the same in percent of the reference's largest displacement.
         ms_per_step: median wall time of a step.
         ms_per_update: of the steps of an update.
@@ -93,7 +93,9 @@ def row_of(tried: Tried, reference: Reference, goal: Goal) -> Row:
         return Row(*words, "refused" if tried.refused else "not run", why=tried.why, scene=scene)
     is_reference = tried is reference.tried
     distance = _distance(tried, reference.moved)
+    judged = reference.judges(tried.setting)
     error = reference.error if is_reference else _plus(distance, reference.error)
+    error = error if judged or is_reference else None
     largest = largest_move(reference.moved)
     excess = math.inf if error is None else goal.share_of(error, largest)
     timed = measured.steps > 0

@@ -1,6 +1,10 @@
 """tissu advise: what its table says, against runs taken apart, and the scene it writes."""
 
+import contextlib
 import csv
+import io
+import re
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -268,3 +272,14 @@ def test_the_command_tells_a_wrong_error(tmp_path):
     result = CliRunner().invoke(app, ["advise", str(file), "--error", "0"])
     assert result.exit_code == 2
     assert "error: found 0; more than 0 is accepted" in result.output
+
+
+def test_the_example_of_the_page_runs():
+    page = (Path(__file__).parents[2] / "docs" / "advise.md").read_text(encoding="utf-8")
+    text = re.search(r"```python\n(.*?)```", page, re.DOTALL)[1]
+    names = {}
+    with contextlib.redirect_stdout(io.StringIO()) as out:
+        exec(compile(text, "advise.md", "exec"), names)
+    advice = names["advice"]
+    assert f"{advice.chosen is not None} {advice.best.name} " in out.getvalue()
+    assert names["simulation"].scene == advice.best.scene

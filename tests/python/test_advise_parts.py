@@ -144,12 +144,21 @@ def test_samples_stand_at_times_of_longer_steps_too_and_at_the_end():
 def test_between_two_steps_displacements_are_linear():
     scene = falling(step=ts.ImplicitMidpoint("20 ms"), duration=0.06)
     points = {"bar": np.array(scene.compile().meshes["bar"].points)}
-    found = measure(scene, Watch(points, np.array([0.02, 0.03, 0.06])), allowance=60.0)
+    watched = Watch(points, {"bar": np.arange(12)}, np.array([0.02, 0.03, 0.06]))
+    found = measure(scene, watched, allowance=60.0)
     fall = -0.5 * 10 * np.array([0.02, 0.02, 0.04, 0.06]) ** 2
     at = [fall[0], 0.5 * (fall[1] + fall[2]), fall[3]]
     assert found.moved[:, :, 2] == pytest.approx(np.repeat([at], 12, axis=0).T, rel=1e-9)
     assert found.steps == 3
     assert found.dt == pytest.approx(0.02)
+
+
+def test_of_large_meshes_every_so_many_nodes_are_watched():
+    body = falling().bodies["bar"]
+    fine = body.replace(mesh=ts.BarMesh(size=(0.2, 0.1, 0.1), cells=(39, 14, 14)))
+    watched = watch(falling(bodies={"bar": fine}).compile())
+    assert len(watched.points["bar"]) == 9000
+    assert np.array_equal(watched.nodes["bar"], np.arange(0, 9000, 3))
 
 
 def test_a_run_that_takes_too_long_is_stopped():

@@ -95,7 +95,7 @@ class Choices:
             return
         lengths = [factor * step.dt for factor in (0.5, 2.0)] + [update] * (step.dt > update)
         for dt in lengths:
-            if shortest * (1.0 - 1e-9) <= dt <= update * (1.0 + 1e-9):
+            if min(shortest, update) * (1.0 - 1e-9) <= dt <= update * (1.0 + 1e-9):
                 yield replace(setting, step=step.replace(dt=dt))
         if isinstance(step, BDF2FixedPoint):
             yield replace(setting, step=BDF2(dt=step.dt, solver=Auto(tolerance=1e-4)))

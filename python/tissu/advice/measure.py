@@ -14,12 +14,14 @@ from tissu.advice.places import Places, places
 from tissu.errors import TissuError
 
 if TYPE_CHECKING:
+    from tissu.mesh import Mesh
     from tissu.scene import Scene
     from tissu.simulation import Simulation
 
 Floats = NDArray[np.float64]
 
 _SAMPLES = 20  # times at which displacements are kept, at most
+_POINTS = 4000  # nodes of a body whose displacements are kept, at most
 _BLOCK_BYTES = 9 * 8 + 4  # a 3x3 block of the matrix and its column
 _FORESEEN_FROM = 3  # steps after which the time of the whole run is foreseen
 
@@ -29,12 +31,25 @@ class Watch:
     """What is watched: the same points at the same times with every setting.
 
     Attributes:
-        points: body -> (k, 3) at rest [m].
+        points: body -> (n, 3) nodes of the scene's own mesh at rest [m].
+        nodes: body -> (k,) numbers of those that are watched.
         times: (t,) increasing [s]; the last is the end of the run.
     """
 
     points: Mapping[str, Floats]
+    nodes: Mapping[str, NDArray[np.int64]]
     times: Floats
+
+    def places(self, name: str, mesh: Mesh) -> Places:
+        """Where the watched points of a body stand in one of its meshes.
+
+        Raises:
+            ParameterError: a point is in no cell.
+        """
+        points, nodes = self.points[name], self.nodes[name]
+        if np.array_equal(points, mesh.points[: len(points)]):  # the same nodes, and maybe more
+            return Places(nodes[:, None], np.ones((len(nodes), 1)))
+        return places(points[nodes], mesh)
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,7 +86,7 @@ class Measured:
 
 
 def watch(simulation: Simulation) -> Watch:
-    """The nodes of a simulation's meshes, at up to 20 times of its run.
+    """The nodes of a simulation's meshes, of large ones every so many, at up to 20 times.
 
     The times are ends of its steps; where there are enough of them, also of steps twice as long.
     """
@@ -84,7 +99,8 @@ def watch(simulation: Simulation) -> Watch:
     times: Floats = np.asarray(dt * np.arange(every, steps + 1, every), dtype=np.float64)
     if not len(times) or times[-1] < span * (1.0 - 1e-9):
         times = np.append(times, span)
-    return Watch(points, times)
+    nodes = {name: np.arange(0, len(at), -(-len(at) // _POINTS)) for name, at in points.items()}
+    return Watch(points, nodes, times)
 
 
 def measure(scene: Scene, watched: Watch, *, allowance: float) -> Measured:
@@ -105,7 +121,7 @@ def measure(scene: Scene, watched: Watch, *, allowance: float) -> Measured:
     simulation = scene.compile()
     samples = Samples(
         watched,
-        {name: places(at, simulation.meshes[name]) for name, at in watched.points.items()},
+        {name: watched.places(name, simulation.meshes[name]) for name in watched.points},
     )
     samples.keep(simulation)
     unconverged, stopped, over = 0, "", 0.0
@@ -150,10 +166,16 @@ class Samples:
     at: Mapping[str, Places]
     _kept: list[Floats] = field(default_factory=list)
     _before: tuple[float, Floats] | None = None
+    _time: float = 0.0
 
     def keep(self, simulation: Simulation) -> None:
         """Take the samples that are due after a step."""
         now = simulation.time
+        step, self._time = now - self._time, now
+        if len(self._kept) == len(self.watched.times):
+            return
+        if self.watched.times[len(self._kept)] > now + 2.0 * step > 0.0:
+            return  # not even the next step reaches it
         moved = np.concatenate(
             [at.values(simulation.displacements(name)) for name, at in self.at.items()]
         )
@@ -172,7 +194,7 @@ class Samples:
 
     def stacked(self) -> Floats:
         """(t, p, 3), of the times that were reached."""
-        points = sum(len(points) for points in self.watched.points.values())
+        points = sum(len(nodes) for nodes in self.watched.nodes.values())
         return np.array(self._kept).reshape(-1, points, 3)
 
 

@@ -26,8 +26,9 @@ from tissu.scene.step import (
 if TYPE_CHECKING:
     from tissu.scene.step import Step
 
-_DIVISORS = (4, 2, 1)  # of the scene's time step
-_SHARE_OF_FIRST = 0.25  # of the time for the reference that its first run may take
+_DIVISORS = {4: 0.25, 2: 0.4, 1: 0.8}
+"""Of the scene's time step -> share of the time for the reference that its first run may take."""
+
 _SAME_AS_FEM = ("mass-tensor", "mass-link", "mean-dilatation")  # in the limit of small cells
 _TOLERANCE = 1e-8
 
@@ -147,13 +148,12 @@ def rich_step(step: Step, divisor: int) -> Step:
 def _first(lab: Laboratory, own: Setting, left: Callable[..., float]) -> Tried | None:
     """The scene's own number of cells, of second order where it can be, with a rich step."""
     orders = (2, own.order) if own.order == 1 else (own.order,)
-    divisors = _DIVISORS if getattr(own.step, "dt", "auto") != "auto" else (1,)
+    divisors = _DIVISORS if getattr(own.step, "dt", "auto") != "auto" else {1: 0.8}
     for order in orders:
         for model in dict.fromkeys((_model(lab), "")):
-            for divisor in divisors:
+            for divisor, share in divisors.items():
                 step = rich_step(own.step, divisor)
-                last = divisor == divisors[-1] and order == orders[-1]
-                allowance = left(1.0 if last else _SHARE_OF_FIRST)
+                allowance = left(share if order == orders[0] else 1.0)
                 found = lab.run(Setting(own.scale, order, model, step), allowance=allowance)
                 if found is not None and found.finished:
                     return found if found.setting.key() != own.key() else None

@@ -8,13 +8,11 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 from tissu.advice.resolution import SCALES
+from tissu.advice.setting import Setting, is_explicit
 from tissu.scene.solver import Auto, Cholesky, ConjugateGradient
 from tissu.scene.step import (
     BDF2,
-    RK2,
-    RK4,
     BDF2FixedPoint,
-    ExplicitEuler,
     ImplicitEuler,
     ImplicitMidpoint,
     Newmark,
@@ -26,7 +24,6 @@ from tissu.scene.step import (
 if TYPE_CHECKING:
     from tissu.advice.goal import Goal
     from tissu.advice.laboratory import Laboratory
-    from tissu.advice.setting import Setting
 
 PARTS = ("step", "scale", "order", "newton", "solver", "tolerance", "model")
 """Parts of a setting, in the order in which they are tried."""
@@ -149,11 +146,6 @@ class Choices:
             if name not in own:
                 order = setting.order if name in _OF_BOTH_ORDERS else 1
                 yield replace(setting, model=name, order=order)
-
-
-def is_explicit(setting: Setting) -> bool:
-    """Whether the method solves no system."""
-    return isinstance(setting.step, (ExplicitEuler, SymplecticEuler, RK2, RK4))
 
 
 def _newtons(setting: Setting) -> Iterator[Setting]:

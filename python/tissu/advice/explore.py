@@ -6,8 +6,9 @@ import math
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from tissu.advice.choices import PARTS, Choices, is_explicit
+from tissu.advice.choices import PARTS, Choices
 from tissu.advice.rows import Row, row_of
+from tissu.advice.setting import is_explicit
 from tissu.scene.step import Static
 
 if TYPE_CHECKING:

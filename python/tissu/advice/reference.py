@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from tissu.advice.laboratory import Laboratory, Tried
 from tissu.advice.measure import Floats
 from tissu.advice.richardson import Estimate, estimate
-from tissu.advice.setting import Setting
+from tissu.advice.setting import Setting, is_explicit
 from tissu.scene.solver import Auto
 from tissu.scene.step import (
     BDF2,
@@ -142,13 +142,14 @@ def rich_step(step: Step, divisor: int) -> Step:
         return BDF2(dt=step.dt / divisor, newton=newton, solver=solver)
     if isinstance(step, (BDF2, ImplicitMidpoint, Newmark)):
         return step.replace(dt=step.dt / divisor, newton=newton, solver=solver)
-    return step if step.dt == "auto" else step.replace(dt=step.dt / divisor)
+    return step.replace(dt="auto")
 
 
 def _first(lab: Laboratory, own: Setting, left: Callable[..., float]) -> Tried | None:
     """The scene's own number of cells, of second order where it can be, with a rich step."""
     orders = (2, own.order) if own.order == 1 else (own.order,)
-    divisors = _DIVISORS if getattr(own.step, "dt", "auto") != "auto" else {1: 0.8}
+    stepped = hasattr(own.step, "dt") and not is_explicit(own)
+    divisors = _DIVISORS if stepped else {1: 0.8}
     for order in orders:
         for model in dict.fromkeys((_model(lab), "")):
             for divisor, share in divisors.items():
@@ -156,7 +157,7 @@ def _first(lab: Laboratory, own: Setting, left: Callable[..., float]) -> Tried |
                 allowance = left(share if order == orders[0] else 1.0)
                 found = lab.run(Setting(own.scale, order, model, step), allowance=allowance)
                 if found is not None and found.finished:
-                    return found if found.setting.key() != own.key() else None
+                    return found
     return None
 
 
@@ -202,20 +203,28 @@ def _at(
 
 
 def _time_sequence(lab: Laboratory, tried: Tried, left: Callable[..., float]) -> Estimate | None:
-    """What steps of four and two times the length say of the reference's, on the fewest cells."""
-    setting = tried.setting
-    dt = getattr(setting.step, "dt", "auto")
-    if isinstance(dt, str):
+    """What other steps say of the reference's, on the fewest cells.
+
+    Of implicit methods four and two times the length; of explicit ones, whose step is the stable
+    one and so never longer with more cells, a half and a quarter.
+    """
+    assert tried.measured is not None
+    step: Any = tried.setting.step
+    if isinstance(step, Static):
         return None
+    explicit = is_explicit(tried.setting)
+    dt = tried.measured.dt if explicit else step.dt
     runs = []
-    for factor in (4, 2):
-        step = setting.step.replace(dt=factor * dt)
-        longer = Setting(setting.scale, setting.order, setting.model, step)
-        found = lab.run(longer, allowance=left())
+    for factor in (0.5, 0.25) if explicit else (4, 2):
+        other = replace(tried.setting, step=step.replace(dt=factor * dt))
+        found = lab.run(other, allowance=left())
         if found is None or not found.finished:
             return None
         runs.append(_moved(found))
-    return estimate([4.0 * dt, 2.0 * dt, dt], [*runs, _moved(tried)])
+    if not explicit:
+        return estimate([4.0, 2.0, 1.0], [*runs, _moved(tried)])
+    finest = estimate([4.0, 2.0, 1.0], [_moved(tried), *runs])
+    return None if finest is None else Estimate(finest.order, finest.error * 4.0**finest.order)
 
 
 def _moved(tried: Tried) -> Floats:

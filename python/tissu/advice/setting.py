@@ -7,6 +7,7 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 from tissu.scene.solver import Auto, ConjugateGradient
+from tissu.scene.step import RK2, RK4, ExplicitEuler, SymplecticEuler
 
 if TYPE_CHECKING:
     from tissu.advice.resolution import Resolutions
@@ -42,6 +43,11 @@ class Setting:
     def key(self) -> tuple[Fraction, int, str, str]:
         """What tells it from other settings."""
         return self.scale, self.order, self.model, f"{self.step!r}"
+
+
+def is_explicit(setting: Setting) -> bool:
+    """Whether the method solves no system."""
+    return isinstance(setting.step, (ExplicitEuler, SymplecticEuler, RK2, RK4))
 
 
 def scene_words(scene: Scene) -> tuple[str, str, str, str]:

@@ -120,7 +120,7 @@ def find_reference(lab: Laboratory, own: Tried, *, share: float) -> Reference:
     best = levels[max(levels)]
     if max(levels) not in scales[-1:]:
         space = None
-    steps = _time_sequence(lab, levels[min(levels)], left)
+    steps = _time_sequence(lab, levels[min(levels)], best, left)
     return Reference(best, space, steps, dynamic, setting, changes)
 
 
@@ -202,13 +202,15 @@ def _at(
     return found if found is not None and found.finished else None
 
 
-def _time_sequence(lab: Laboratory, tried: Tried, left: Callable[..., float]) -> Estimate | None:
+def _time_sequence(
+    lab: Laboratory, tried: Tried, best: Tried, left: Callable[..., float]
+) -> Estimate | None:
     """What other steps say of the reference's, on the fewest cells.
 
     Of implicit methods four and two times the length; of explicit ones, whose step is the stable
-    one and so never longer with more cells, a half and a quarter.
+    one, a half and a quarter, taken to the step that the reference has with its cells.
     """
-    assert tried.measured is not None
+    assert tried.measured is not None and best.measured is not None
     step: Any = tried.setting.step
     if isinstance(step, Static):
         return None
@@ -224,7 +226,10 @@ def _time_sequence(lab: Laboratory, tried: Tried, left: Callable[..., float]) ->
     if not explicit:
         return estimate([4.0, 2.0, 1.0], [*runs, _moved(tried)])
     finest = estimate([4.0, 2.0, 1.0], [_moved(tried), *runs])
-    return None if finest is None else Estimate(finest.order, finest.error * 4.0**finest.order)
+    if finest is None:
+        return None
+    longer = 4.0 * best.measured.dt / dt
+    return Estimate(finest.order, finest.error * longer**finest.order)
 
 
 def _moved(tried: Tried) -> Floats:

@@ -49,14 +49,16 @@ def resting():
 
 
 def samples(scene, points, times):
-    """Displacements at `points` at rest, at `times`, which are ends of steps of the scene."""
+    """Displacements at `points` at rest, linear between the ends of the scene's steps."""
     simulation = scene.compile()
     at = places(points, simulation.meshes["bar"])
-    found = []
+    ends, moved = [0.0], [np.zeros_like(points)]
     for _ in simulation.run():
-        if np.isclose(times, simulation.time, rtol=1e-9).any():
-            found.append(at.values(simulation.displacements("bar")))
-    return np.array(found)
+        ends.append(simulation.time)
+        moved.append(at.values(simulation.displacements("bar")))
+    flat = np.reshape(moved, (len(ends), -1))
+    found = [np.interp(times, ends, column) for column in flat.T]
+    return np.transpose(found).reshape(len(times), *points.shape)
 
 
 def reference_of(advice):
@@ -75,13 +77,9 @@ def test_distances_are_those_of_runs_taken_apart(moving):
     times = 0.01 * np.arange(1, 11)
     rich = samples(reference_of(moving).scene, points, times)
     assert moving.largest == pytest.approx(np.linalg.norm(rich, axis=2).max(), rel=1e-9)
-    judged = [
-        row
-        for row in moving.rows
-        if row.distance and row.error and getattr(row.scene.step, "dt", 1) in (0.01, 0.005, 0.0025)
-    ]
-    assert len(judged) >= 3
-    for row in judged:
+    judged = [row for row in moving.rows if row.distance and row.error]
+    assert len(judged) >= 5
+    for row in (*judged[:3], *judged[-3:]):
         apart = np.linalg.norm(samples(row.scene, points, times) - rich, axis=2).mean()
         assert row.distance == pytest.approx(apart, rel=1e-6)
         own = moving.reference_error or 0.0
@@ -114,7 +112,7 @@ def test_the_reference_is_richer_and_says_its_own_error(moving):
     row = reference_of(moving)
     assert row.unknowns == max(r.unknowns for r in moving.rows if r.outcome == "finished")
     assert "hexahedron20" in row.mesh
-    assert row.step.startswith("bdf2 2.5 ms, newton")
+    assert row.step in ("bdf2 2.5 ms", "symplectic_euler auto")  # whichever took less time
     if moving.reference_error is None:
         assert "its own error is not known" in moving.reference
         assert row.error is None

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
@@ -12,6 +13,7 @@ from tissu.advice.setting import is_explicit
 from tissu.scene.step import Static
 
 if TYPE_CHECKING:
+    from tissu.advice.goal import Goal
     from tissu.advice.laboratory import Laboratory, Tried
     from tissu.advice.reference import Reference
 
@@ -27,11 +29,12 @@ def explore(lab: Laboratory, own: Tried, reference: Reference, choices: Choices)
     them; then with methods of the other kind, explicit or implicit, since what is best for one kind
     is seldom best for the other.
     """
-    kind = is_explicit(own.setting)
+    kind, static = is_explicit(own.setting), isinstance(own.setting.step, Static)
     of_own_kind = replace(choices, explicit=kind)
     _descend(lab, own, reference, replace(of_own_kind, until=0.6 * lab.left))
-    _descend(lab, _best(lab, own, reference, of_own_kind), reference, of_own_kind)
-    if isinstance(own.setting.step, Static):
+    again = replace(of_own_kind, until=0.0 if static else 0.5 * lab.left)
+    _descend(lab, _best(lab, own, reference, of_own_kind), reference, again)
+    if static:
         return
     other = replace(choices, explicit=not kind, until=0.0)
     for setting in other.of("step", own.setting):
@@ -54,7 +57,11 @@ def _descend(lab: Laboratory, start: Tried, reference: Reference, choices: Choic
             for setting in choices.of(part, best.setting):
                 if lab.left <= choices.until:
                     return
-                other = lab.run(setting, allowance=_SHARE_OF_RUN * lab.left)
+                other = lab.run(
+                    setting,
+                    allowance=_SHARE_OF_RUN * lab.left,
+                    too_slow=_slower_than(value, choices.goal),
+                )
                 if other is None:
                     continue
                 found = _value(row_of(other, reference, choices.goal))
@@ -62,6 +69,16 @@ def _descend(lab: Laboratory, start: Tried, reference: Reference, choices: Choic
                     best, value = other, found
         if best is before:
             return
+
+
+def _slower_than(value: tuple[float, float], goal: Goal) -> Callable[[float, float], bool]:
+    """Whether steps are clearly slower than those of a setting that meets the goal.
+
+    Where none is known, than four times what the rate allows, and than twice the best so far.
+    """
+    missed, cost = value
+    most = 1.5 * cost if missed == 0.0 else max(2.0 * cost, 4e3 / goal.rate)
+    return lambda ms_per_step, dt: goal.per_update(ms_per_step, dt) > most
 
 
 def _best(lab: Laboratory, own: Tried, reference: Reference, choices: Choices) -> Tried:

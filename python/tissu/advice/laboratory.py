@@ -78,8 +78,14 @@ class Laboratory:
         """What is left of the budget [s]."""
         return self.end - time.perf_counter()
 
-    def run(self, setting: Setting, *, allowance: float) -> Tried | None:
-        """Run a setting, if it was not run before.
+    def run(
+        self,
+        setting: Setting,
+        *,
+        allowance: float,
+        too_slow: Callable[[float, float], bool] = lambda ms_per_step, dt: False,
+    ) -> Tried | None:
+        """Run a setting, if it was not run before; the arguments are those of `measure`.
 
         Returns:
             None where there is no mesh of it, or no time at all.
@@ -90,17 +96,23 @@ class Laboratory:
         scene = setting.scene(self.scene, self.resolutions)
         if scene is None or allowance <= 0.0:
             return known
-        found = self._tried(setting, scene, allowance)
+        found = self._tried(setting, scene, allowance, too_slow)
         self.tried[setting.key()] = found
         if not found.refused:
             self.told(found)
         return found
 
-    def _tried(self, setting: Setting, scene: Scene, allowance: float) -> Tried:
+    def _tried(
+        self,
+        setting: Setting,
+        scene: Scene,
+        allowance: float,
+        too_slow: Callable[[float, float], bool],
+    ) -> Tried:
         if self._surely_over(setting, allowance):
             return Tried(setting, scene, None, "it would take longer than what is left for it")
         try:
-            measured = measure(scene, self.watched, allowance=allowance)
+            measured = measure(scene, self.watched, allowance=allowance, too_slow=too_slow)
         except SceneError as error:
             return Tried(setting, scene, None, "; ".join(error.problems), refused=True)
         return Tried(setting, scene, measured, measured.stopped)

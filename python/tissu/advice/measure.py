@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
@@ -23,7 +23,8 @@ Floats = NDArray[np.float64]
 _SAMPLES = 20  # times at which displacements are kept, at most
 _POINTS = 4000  # nodes of a body whose displacements are kept, at most
 _BLOCK_BYTES = 9 * 8 + 4  # a 3x3 block of the matrix and its column
-_FORESEEN_FROM = 3  # steps after which the time of the whole run is foreseen
+_HOW_LATE = (4.0, 2.0, 1.1)  # over the time allowed: foreseen after 1, 2, and more steps
+_TIMED_FROM = 6  # steps after which one is known to be slow
 
 
 @dataclass(frozen=True, slots=True)
@@ -103,7 +104,13 @@ def watch(simulation: Simulation) -> Watch:
     return Watch(points, nodes, times)
 
 
-def measure(scene: Scene, watched: Watch, *, allowance: float) -> Measured:
+def measure(
+    scene: Scene,
+    watched: Watch,
+    *,
+    allowance: float,
+    too_slow: Callable[[float, float], bool] = lambda ms_per_step, dt: False,
+) -> Measured:
     """Run a scene for its duration, or until it is clear that it takes longer than allowed.
 
     Displacements between two steps are interpolated linearly.
@@ -112,6 +119,7 @@ def measure(scene: Scene, watched: Watch, *, allowance: float) -> Measured:
         scene: with a duration, or static.
         watched: points and times.
         allowance: wall time [s], for compilation and steps.
+        too_slow: whether steps of so many ms and of a length [s] are of no use.
 
     Raises:
         SceneError: the scene does not compile.
@@ -133,10 +141,17 @@ def measure(scene: Scene, watched: Watch, *, allowance: float) -> Measured:
             samples.keep(simulation)
             now = time.perf_counter()
             foreseen = compiled - begin + (now - compiled) * max(span / simulation.time, 1.0)
-            late = report.number >= _FORESEEN_FROM and foreseen > 1.1 * allowance
-            if simulation.time < span * (1.0 - 1e-9) and (late or now - begin > allowance):
+            late = foreseen > _HOW_LATE[min(report.number, 3) - 1] * allowance
+            if simulation.time >= span * (1.0 - 1e-9):
+                continue
+            if late or now - begin > allowance:
                 stopped = f"it would take about {foreseen:.2g} s; {allowance:.2g} s are left for it"
                 over = foreseen
+                break
+            if report.number == _TIMED_FROM and too_slow(
+                simulation.profile().p50_ms, simulation.time / report.number
+            ):
+                stopped = "it is clearly slower than what is needed"
                 break
     except TissuError as error:
         stopped = str(error)

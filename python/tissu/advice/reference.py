@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import time
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -21,16 +22,18 @@ from tissu.scene.step import (
     Newmark,
     Newton,
     Static,
+    SymplecticEuler,
 )
 
 if TYPE_CHECKING:
     from tissu.scene.step import Step
 
-_DIVISORS = {4: 0.25, 2: 0.4, 1: 0.8}
+_DIVISORS = {4: 0.2, 2: 0.4, 1: 0.7}
 """Of the scene's time step -> share of the time for the reference that its first run may take."""
 
+_MORE = 0.3  # of that time beside, for cells of the scene's own order
 _SAME_AS_FEM = ("mass-tensor", "mass-link", "mean-dilatation")  # in the limit of small cells
-_TOLERANCE = 1e-8
+_TOLERANCE = 1e-6
 
 
 @dataclass(frozen=True, slots=True)
@@ -93,8 +96,9 @@ class Reference:
 def find_reference(lab: Laboratory, own: Tried, *, share: float) -> Reference:
     """Climb to ever richer settings while they take no longer than a share of the budget.
 
-    First cells of second order and a quarter of the time step (a half, or the whole, where that is
-    too long), then ever more cells; then cheaper runs that show its order.
+    First cells of second order and a quarter of the time step or, where that is cheaper, stable
+    explicit steps (a half of the step, or the whole, where neither is affordable); then ever more
+    cells; then cheaper runs that show its order.
 
     Args:
         lab: where they run.
@@ -133,32 +137,66 @@ def _steps(setting: Setting) -> tuple[str, object]:
 
 
 def rich_step(step: Step, divisor: int) -> Step:
-    """A step that leaves less error: shorter, Newton iterated, second order for implicit Euler."""
-    newton, solver = Newton(iterations=20, tolerance=1e-6), Auto(tolerance=_TOLERANCE)
+    """A step that leaves less error: shorter, of second order where it is implicit Euler's.
+
+    Where the scene's own steps are linearised once, these are too: what that costs grows with the
+    step and is part of its error.
+    """
+    solver = Auto(tolerance=_TOLERANCE)
     if isinstance(step, Static):
         iterations = max(30, step.newton.iterations)
         return step.replace(newton=Newton(iterations=iterations, tolerance=1e-8), solver=solver)
-    if isinstance(step, (ImplicitEuler, BDF2FixedPoint)):
-        return BDF2(dt=step.dt / divisor, newton=newton, solver=solver)
+    if isinstance(step, BDF2FixedPoint):
+        return BDF2(dt=step.dt / divisor, solver=solver)
+    if isinstance(step, ImplicitEuler):
+        return BDF2(dt=step.dt / divisor, newton=step.newton, solver=solver)
     if isinstance(step, (BDF2, ImplicitMidpoint, Newmark)):
-        return step.replace(dt=step.dt / divisor, newton=newton, solver=solver)
+        return step.replace(dt=step.dt / divisor, solver=solver)
     return step.replace(dt="auto")
 
 
 def _first(lab: Laboratory, own: Setting, left: Callable[..., float]) -> Tried | None:
     """The scene's own number of cells, of second order where it can be, with a rich step."""
-    orders = (2, own.order) if own.order == 1 else (own.order,)
-    stepped = hasattr(own.step, "dt") and not is_explicit(own)
-    divisors = _DIVISORS if stepped else {1: 0.8}
-    for order in orders:
+    for order in (2, own.order) if own.order == 1 else (own.order,):
         for model in dict.fromkeys((_model(lab), "")):
-            for divisor, share in divisors.items():
-                step = rich_step(own.step, divisor)
-                allowance = left(share if order == orders[0] else 1.0)
-                found = lab.run(Setting(own.scale, order, model, step), allowance=allowance)
-                if found is not None and found.finished:
-                    return found
+            found = _richest_step(lab, Setting(own.scale, order, model, own.step), own, left)
+            if found is not None:
+                return found
     return None
+
+
+def _richest_step(
+    lab: Laboratory, setting: Setting, own: Setting, left: Callable[..., float]
+) -> Tried | None:
+    """A quarter of the step or the stable explicit one, whichever is cheaper; else longer ones."""
+    more = _MORE if setting.order == own.order else 0.0
+    divided = hasattr(own.step, "dt") and not is_explicit(own)
+    runs: list[Tried] = []
+    for divisor, share in (_DIVISORS if divided else {1: 0.7}).items():
+        allowance = left(share + more)
+        if _hopeless(runs, divisor, allowance):
+            continue
+        steps = [rich_step(own.step, divisor)] + [SymplecticEuler()] * (divisor == 4)
+        for step in steps:
+            found = lab.run(replace(setting, step=step), allowance=allowance)
+            if found is not None and found.refused:
+                return None
+            runs += [found] if found is not None else []
+        finished = [run for run in runs if run.finished and run.measured is not None]
+        if finished:
+            return min(finished, key=_seconds)
+    return None
+
+
+def _hopeless(runs: list[Tried], divisor: int, allowance: float) -> bool:
+    """Whether a run with a quarter of the step was so slow that one with fewer is too."""
+    if not runs or runs[0].measured is None:
+        return False
+    return runs[0].measured.foreseen * divisor / 4.0 > 1.5 * allowance
+
+
+def _seconds(tried: Tried) -> float:
+    return tried.measured.seconds if tried.measured is not None else math.inf
 
 
 def _model(lab: Laboratory) -> str:

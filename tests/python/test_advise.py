@@ -11,8 +11,8 @@ import pytest
 from typer.testing import CliRunner
 
 import tissu as ts
-from tissu.advice.figure import front
 from tissu.advice.places import places
+from tissu.advice.rows import front
 from tissu.cli.app import app
 
 

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import csv
 import io
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, fields
 from typing import TYPE_CHECKING
 
 from tissu.advice.answer import cheapest, nearest, sentence
 from tissu.advice.goal import Goal
-from tissu.advice.rows import Row
+from tissu.advice.rows import Row, front
+from tissu.counted import counted
 
 if TYPE_CHECKING:
     from tissu.scene import Scene
@@ -87,15 +88,26 @@ class Advice:
             "",
             f"| {' | '.join(head)} |",
             "|" + "---|" * len(head),
-            *(f"| {' | '.join(cells)} |" for cells in self._cells()),
+            *(f"| {' | '.join(cells)} |" for cells in self._cells(self.rows)),
             "",
             *self._last_lines(),
         ]
         return "\n".join(lines) + "\n"
 
     def __str__(self) -> str:
-        """A table for a terminal, and the answer."""
-        rows = [[*_WORDS, *_NUMBERS], *self._cells()]
+        """The rows worth a look, for a terminal, and the answer; `to_markdown` has all of them.
+
+        They are the scene itself, the reference, the one to take, and those than which none is both
+        faster and more accurate.
+        """
+        kept = [
+            self.rows[0],
+            self.best,
+            *front(self.rows),
+            *(r for r in self.rows if r.is_reference),
+        ]
+        worth = [row for row in self.rows if any(row is one for one in kept)]
+        rows = [[*_WORDS, *_NUMBERS], *self._cells(worth)]
         widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
         lines = [
             "  ".join(
@@ -105,12 +117,14 @@ class Advice:
             for row in rows
         ]
         head = f"{self.name}: errors against {self.reference}"
-        return "\n".join([head, *lines, "", *self._last_lines()])
+        ran = f"{counted(len(self.rows), 'setting')} in {self.seconds:.0f} s, of which the "
+        ran += "scene's own, the reference and those that none beats in time and error:"
+        return "\n".join([head, ran, *lines, "", *self._last_lines()])
 
-    def _cells(self) -> list[list[str]]:
+    def _cells(self, rows: Sequence[Row]) -> list[list[str]]:
         return [
             [*(show(row) for show in _WORDS.values()), *(show(row) for show in _NUMBERS.values())]
-            for row in self.rows
+            for row in rows
         ]
 
     def _last_lines(self) -> list[str]:

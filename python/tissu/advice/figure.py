@@ -2,27 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import textwrap
 from pathlib import Path
 from typing import TYPE_CHECKING
+
+from tissu.advice.rows import front
 
 if TYPE_CHECKING:
     from tissu.advice.advice import Advice
     from tissu.advice.rows import Row
 
 
-def front(rows: Sequence[Row]) -> list[Row]:
-    """The rows than which none is both faster and more accurate (Pareto), fastest first."""
-    known = [row for row in rows if row.error is not None and row.ms_per_update is not None]
-    found: list[Row] = []
-    for row in sorted(known, key=lambda row: (row.ms_per_update, row.error)):
-        if not found or (row.error or 0.0) < (found[-1].error or 0.0):
-            found.append(row)
-    return found
-
-
 def _time(row: Row) -> float:
     return row.ms_per_update or 0.0
+
+
+def _touch(one: tuple[float, float], other: tuple[float, float]) -> bool:
+    """Whether two points of the figure are too near for a number at each."""
+    return all(abs(a - b) < 0.1 * max(a, b) for a, b in zip(one, other, strict=True))
 
 
 def draw(advice: Advice, path: Path) -> bool:
@@ -33,7 +30,7 @@ def draw(advice: Advice, path: Path) -> bool:
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
 
-    figure = Figure(figsize=(8.5, 5.5), layout="constrained")
+    figure = Figure(figsize=(8.5, 6.5), layout="constrained")
     FigureCanvasAgg(figure)
     axes = figure.add_subplot()
     scale, unit = (1e3, "mm") if advice.goal.is_length or not advice.largest else (0.0, "%")
@@ -45,10 +42,13 @@ def draw(advice: Advice, path: Path) -> bool:
     best = [row for row in front(rows) if row.error]
     places = ([_time(row) for row in best], [shown(row) for row in best])
     axes.plot(*places, "o-", color="C0", label="none is faster and more accurate")
+    names: list[tuple[tuple[float, float], str]] = []
     for row in best:
         at = (_time(row), shown(row))
-        text = f"{row.mesh}, {row.model}\n{row.step}"
-        axes.annotate(text, at, (4, 4), textcoords="offset points", fontsize=6)
+        if not names or not _touch(at, names[-1][0]):
+            names.append((at, f"{row.mesh}, {row.model}, {row.step}, {row.solver}"))
+            axes.annotate(str(len(names)), at, (4, 4), textcoords="offset points", fontsize=9)
+    listed = "\n".join(f"{number} {name}" for number, (_, name) in enumerate(names, 1))
     own, taken = advice.rows[0], advice.best
     for row, mark, label in ((own, "s", "the scene as it is"), (taken, "*", "advised")):
         if row.error and row.ms_per_update:
@@ -62,8 +62,16 @@ def draw(advice: Advice, path: Path) -> bool:
     axes.set_yscale("log")
     axes.set_xlabel(f"time of an update [ms]; dashed: {advice.goal.rate:g} a second")
     axes.set_ylabel(f"mean error [{unit}]; dashed: {advice.goal.error_words()}")
-    axes.set_title(f"{advice.name}: errors against\n{advice.reference}", fontsize=8, wrap=True)
+    title = f"{advice.name}: errors against {advice.reference}"
+    axes.set_title("\n".join(textwrap.wrap(title, 110)), fontsize=8, loc="left")
+    for axis in (axes.xaxis, axes.yaxis):
+        axis.set_major_formatter("{x:g}")
+        low, high = axis.get_view_interval()
+        if high < 20.0 * low:
+            axis.set_minor_formatter("{x:g}")
+            axis.set_tick_params(which="minor", labelsize=7)
     axes.grid(visible=True, which="both", linewidth=0.3)
-    axes.legend()
+    axes.legend(fontsize=8)
+    figure.supxlabel(listed, fontsize=7, ha="left", x=0.08)
     figure.savefig(path, dpi=120, format="png")
     return True

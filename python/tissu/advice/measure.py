@@ -24,6 +24,7 @@ _SAMPLES = 20  # times at which displacements are kept, at most
 _POINTS = 4000  # nodes of a body whose displacements are kept, at most
 _BLOCK_BYTES = 9 * 8 + 4  # a 3x3 block of the matrix and its column
 _HOW_LATE = (4.0, 2.0, 1.1)  # over the time allowed: foreseen after 1, 2, and more steps
+_SEEN = 0.03  # of the time allowed that steps must have taken before anything is foreseen
 _TIMED_FROM = 6  # steps after which one is known to be slow
 
 
@@ -135,15 +136,18 @@ def measure(
     unconverged, stopped, over = 0, "", 0.0
     compiled = time.perf_counter()
     span = _span(simulation)
+    first: tuple[float, float] | None = None  # end of the first step: wall and simulated time
     try:
         for report in simulation.run():
             unconverged += not report.converged
             samples.keep(simulation)
             now = time.perf_counter()
-            foreseen = compiled - begin + (now - compiled) * max(span / simulation.time, 1.0)
-            late = foreseen > _HOW_LATE[min(report.number, 3) - 1] * allowance
             if simulation.time >= span * (1.0 - 1e-9):
                 continue
+            first = first or (now, simulation.time)
+            foreseen = now - begin + _rest(first, (now, simulation.time), compiled, span)
+            late = foreseen > _HOW_LATE[min(report.number, 3) - 1] * allowance
+            late = late and now - compiled > _SEEN * allowance
             if late or now - begin > allowance:
                 stopped = f"it would take about {foreseen:.2g} s; {allowance:.2g} s are left for it"
                 over = foreseen
@@ -171,6 +175,16 @@ def measure(
         stopped=stopped,
         foreseen=over,
     )
+
+
+def _rest(
+    first: tuple[float, float], last: tuple[float, float], compiled: float, span: float
+) -> float:
+    """Wall time that the rest of a run will take [s]; its first step tells more only alone."""
+    wall, moved = last[0] - first[0], last[1] - first[1]
+    if not moved > 0.0:
+        wall, moved = first[0] - compiled, first[1]
+    return wall / moved * (span - last[1])
 
 
 @dataclass(slots=True)

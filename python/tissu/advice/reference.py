@@ -173,12 +173,9 @@ def _richest_step(
     divided = hasattr(own.step, "dt") and not is_explicit(own)
     runs: list[Tried] = []
     for divisor, share in (_DIVISORS if divided else {1: 0.7}).items():
-        allowance = left(share + more)
-        if _hopeless(runs, divisor, allowance):
-            continue
-        steps = [rich_step(own.step, divisor)] + [SymplecticEuler()] * (divisor == 4)
-        for step in steps:
-            found = lab.run(replace(setting, step=step), allowance=allowance)
+        steps = [rich_step(own.step, divisor)] + [SymplecticEuler()] * divided
+        for step in steps[_hopeless(runs, divisor, left(share + more)) :]:
+            found = lab.run(replace(setting, step=step), allowance=left(share + more))
             if found is not None and found.refused:
                 return None
             runs += [found] if found is not None else []

@@ -194,6 +194,8 @@ def test_nodes_selected_by_number_keep_their_mesh():
     ends = ts.Fixed("bar", on=ts.Nodes([0, 5, 10, 15]))
     advice = ts.advise(static().replace(fixed=[ends]), "1%", 1, budget=2)
     assert {row.mesh for row in advice.rows} == {"4x1x1 hexahedron"}
+    assert "note: 'bar' keeps its mesh: nodes of it are selected by their numbers" in str(advice)
+    assert "the cells are as they are" in advice.reference
 
 
 def test_an_explicit_scene_is_advised_too():
@@ -233,6 +235,8 @@ def test_scenes_that_cannot_be_advised_are_told():
         ts.advise(beam(duration=None))
     with pytest.raises(ts.ParameterError, match="one run of the scene takes about"):
         ts.advise(beam(duration=10_000), budget="1 ms")
+    with pytest.raises(ts.ParameterError, match="in which nothing moves"):
+        ts.advise(beam(gravity=None))
     with pytest.raises(ts.SceneError, match="selects no node"):
         ts.advise(beam(fixed=[ts.Fixed("bar", on=ts.Plane((9, 0, 0), (1, 0, 0)))]))
 

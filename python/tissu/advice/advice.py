@@ -34,6 +34,7 @@ class Advice:
         time_order: order in the time step; None: none, or the scene is static.
         rows: one for each setting, in the order in which they ran; the scene's own comes first.
         seconds: wall time that all of it took.
+        notes: bodies that keep their mesh, each with the reason.
         doubt: why errors may say less than they seem to; empty: no sign of it.
     """
 
@@ -46,6 +47,7 @@ class Advice:
     time_order: float | None
     rows: tuple[Row, ...]
     seconds: float
+    notes: tuple[str, ...] = ()
     doubt: str = ""
 
     @property
@@ -128,7 +130,8 @@ class Advice:
         ]
 
     def _last_lines(self) -> list[str]:
-        return [self.answer, *([f"beware: {self.doubt}"] if self.doubt else [])]
+        notes = [f"note: {note}" for note in self.notes]
+        return [self.answer, *notes, *([f"beware: {self.doubt}"] if self.doubt else [])]
 
 
 def _number(value: float | None, factor: float = 1.0) -> str:

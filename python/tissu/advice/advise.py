@@ -7,13 +7,15 @@ from collections.abc import Callable, Sequence
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from tissu.advice.advice import Advice
 from tissu.advice.answer import doubts, reference_words
 from tissu.advice.choices import Choices
 from tissu.advice.explore import explore
-from tissu.advice.goal import budget_seconds, goal
+from tissu.advice.goal import Goal, budget_seconds, goal
 from tissu.advice.laboratory import Laboratory, Tried
-from tissu.advice.measure import watch
+from tissu.advice.measure import Watch, watch
 from tissu.advice.reference import find_reference
 from tissu.advice.resolution import Resolutions
 from tissu.advice.rows import largest_move, row_of
@@ -28,6 +30,7 @@ if TYPE_CHECKING:
     from tissu.scene import Scene
 
 _SHARE_OF_REFERENCE = 0.4  # of the budget, for the reference and its order
+_STILL = 1e-9  # of the extent: no node that moves less is said to move
 
 
 def advise(
@@ -58,7 +61,8 @@ def advise(
 
     Raises:
         ParameterError: an error, a rate or a budget that is not positive, a scene without duration,
-            an unknown model, or a budget that does not suffice for one run of the scene.
+            an unknown model, a budget that does not suffice for one run of the scene, or a share of
+            the motion of a scene in which nothing moves.
         SceneError: the scene itself does not compile.
     """
     begin = time.perf_counter()
@@ -73,6 +77,7 @@ def advise(
     resolutions = Resolutions(scene, simulation.meshes)
     lab = Laboratory(scene, resolutions, watch(simulation), begin + seconds, _teller(told))
     own = _own_run(lab, Setting(Fraction(1), resolutions.order, "", scene.step), seconds)
+    _check_motion(own, lab.watched, asked)
     reference = find_reference(lab, own, share=_SHARE_OF_REFERENCE)
     explore(lab, own, reference, Choices(lab, asked, reference.tried.setting, models))
     rows = tuple(
@@ -91,6 +96,7 @@ def advise(
         time_order=None if reference.time is None else reference.time.order,
         rows=rows,
         seconds=time.perf_counter() - begin,
+        notes=tuple(f"'{name}' keeps its mesh: {why}" for name, why in resolutions.fixed.items()),
         doubt=doubts(reference, asked, largest),
     )
 
@@ -110,6 +116,22 @@ def _own_run(lab: Laboratory, setting: Setting, budget: float) -> Tried:
             f"{measured.foreseen:.2g} s: give more than that, or the scene a shorter duration"
         )
     return own
+
+
+def _check_motion(own: Tried, watched: Watch, asked: Goal) -> None:
+    """Refuse a share of a motion that is none.
+
+    Raises:
+        ParameterError: the scene's own run moves by round-off only.
+    """
+    if own.measured is None or own.measured.stopped or asked.is_length:
+        return
+    extent = max(float(np.ptp(points, axis=0).max()) for points in watched.points.values())
+    if largest_move(own.measured.moved) <= _STILL * extent:
+        raise ParameterError(
+            "error: found a share of the largest displacement of a scene in which nothing moves; "
+            "a length is accepted, such as '0.5 mm'"
+        )
 
 
 def _check_models(models: Sequence[str]) -> None:

@@ -33,7 +33,10 @@ def sentence(rows: Sequence[Row], goal: Goal) -> str:
     fast = min(rows, key=lambda row: row.rate_excess, default=None)
     near = nearest(rows)
     if exact is None or fast is None or near is None or near.error is None:
-        return f"nothing that ran can be judged, so {_asked(goal)} stay unanswered"
+        return (
+            f"of nothing that ran is the error known, so {_asked(goal)} stays unanswered; a larger "
+            "--budget affords more"
+        )
     parts = []
     if not exact.meets_error:
         parts.append(

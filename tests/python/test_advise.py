@@ -281,3 +281,14 @@ def test_the_example_of_the_page_runs():
     advice = names["advice"]
     assert f"{advice.chosen is not None} {advice.best.name} " in out.getvalue()
     assert names["simulation"].scene == advice.best.scene
+
+
+def test_the_command_writes_the_nearest_scene_where_none_is_good_enough(tmp_path):
+    file, out = tmp_path / "beam.yaml", tmp_path / "out"
+    static().save(file)
+    words = ["advise", str(file), "--error", "0.1 mm", "--rate", "1e9", "--budget", "1 s"]
+    result = CliRunner().invoke(app, [*words, "-o", str(out)])
+    assert result.exit_code == 0, result.output
+    assert "cannot be met" in result.output
+    assert "scene.yaml (nearest: " in result.output
+    assert ts.Scene.from_yaml(out / "scene.yaml").check().ok

@@ -46,7 +46,7 @@ def draw(advice: Advice, path: Path) -> bool:
     for row in best:
         at = (_time(row), shown(row))
         if not names or not _touch(at, names[-1][0]):
-            names.append((at, f"{row.mesh}, {row.model}, {row.step}, {row.solver}"))
+            names.append((at, row.name))
             axes.annotate(str(len(names)), at, (4, 4), textcoords="offset points", fontsize=9)
     listed = "\n".join(f"{number} {name}" for number, (_, name) in enumerate(names, 1))
     own, taken = advice.rows[0], advice.best

@@ -63,6 +63,7 @@ PYTHON: dict[str, set[str]] = {
     },
     "comparison": {"errors", "counted", "mesh", "scene", "simulation"},
     "accuracy": {"errors", "scene", "yaml_io", "simulation"},
+    "advice": {"errors", "counted", "units", "mesh", "scene", "simulation"},
     "picture": {"errors", "mesh"},
     "output": {"errors", "counted", "mesh", "simulation", "picture", "_core"},
 }

@@ -38,6 +38,7 @@ _HOMES = {
         "into_quadratic",
         "into_tetrahedra",
         "mixed_bar_mesh",
+        "refined",
     ),
     "tissu.scene": (
         "ArrudaBoyce",
@@ -97,6 +98,7 @@ _HOMES = {
     "tissu.user_law": ("law", "read_law"),
     "tissu.simulation": ("Plan", "Profile", "Simulation", "StepReport"),
     "tissu.comparison": ("Comparison", "compare"),
+    "tissu.advice": ("Advice", "advise"),
     "tissu.picture": ("draw", "draw_overlay"),
 }
 _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}

@@ -1,5 +1,7 @@
 """Types of the names that the package loads when they are asked for; see __init__.py."""
 
+from tissu.advice import Advice as Advice
+from tissu.advice import advise as advise
 from tissu.comparison import Comparison as Comparison
 from tissu.comparison import compare as compare
 from tissu.errors import CheckpointError as CheckpointError
@@ -19,6 +21,7 @@ from tissu.mesh import into_quadratic as into_quadratic
 from tissu.mesh import into_tetrahedra as into_tetrahedra
 from tissu.mesh import mixed_bar_mesh as mixed_bar_mesh
 from tissu.mesh import read_mesh as read_mesh
+from tissu.mesh import refined as refined
 from tissu.mesh import write_mesh as write_mesh
 from tissu.scene import ArrudaBoyce as ArrudaBoyce
 from tissu.scene import Auto as Auto

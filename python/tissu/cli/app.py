@@ -164,6 +164,44 @@ def bench_accuracy_command(
         bench_accuracy(Job(cases or [], preset, folder, meshes, out))
 
 
+@app.command("advise")
+def advise_command(
+    scene: SceneFile,
+    error: Annotated[
+        str,
+        typer.Option(
+            help="Mean error accepted: of the largest displacement (1%, 0.01) or a length "
+            "('0.5 mm')."
+        ),
+    ] = "1%",
+    rate: Annotated[
+        float,
+        typer.Option(
+            help="Updates a second, each 1/rate seconds of simulated time further; of a static "
+            "scene, solves a second."
+        ),
+    ] = 30.0,
+    budget: Annotated[
+        str, typer.Option(metavar="TIME", help="Wall time for all runs together.")
+    ] = "60 s",
+    models: Annotated[
+        str,
+        typer.Option(help="Models to try beside those that keep the scene's laws, with commas."),
+    ] = "",
+    out: Annotated[
+        Path | None,
+        typer.Option("--out", "-o", help="Folder; default: results/SCENE-advice."),
+    ] = None,
+    debug: Debug = False,
+) -> None:
+    """Find the cheapest setting that meets an error and a rate; write its scene and a table."""
+    with reported(debug=debug):
+        from tissu.cli.advise import advise_scene
+
+        folder = out or Path("results") / f"{scene.stem}-advice"
+        advise_scene(scene, error=error, rate=rate, budget=budget, models=models, out=folder)
+
+
 @mesh_app.command("info")
 def mesh_info(
     file: Annotated[Path, typer.Argument(metavar="FILE", help="A mesh of any known format.")],

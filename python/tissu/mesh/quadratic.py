@@ -48,7 +48,7 @@ def into_quadratic(mesh: Mesh, *, centres: bool = False) -> Mesh:
         for block, new in zip(blocks, numbers, strict=True)
     )
     points = np.vstack([mesh.points, middles])
-    return dataclasses.replace(mesh, points=points, cells=cells, border_regions={})
+    return dataclasses.replace(mesh, points=points, cells=cells, border_regions={}, source=None)
 
 
 def _groups(block: CellBlock, centres: bool) -> Ints:

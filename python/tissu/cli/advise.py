@@ -1,0 +1,46 @@
+"""`tissu advise`: the cheapest setting of a scene that is good enough, and its scene file."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+import typer
+
+from tissu.output import prepare_folder
+
+
+def advise_scene(
+    file: Path, *, error: str, rate: float, budget: str, models: str, out: Path
+) -> None:
+    """Tries the settings and writes scene.yaml, table.csv, advice.md and advice.png.
+
+    Raises:
+        SceneError: the scene does not compile.
+        ParameterError: an option that is not accepted, or a budget too small for one run.
+        TissuError: the folder cannot be written.
+    """
+    from tissu.advice import advise
+    from tissu.advice.figure import draw
+    from tissu.output.folder import whole_file
+    from tissu.scene import Scene
+
+    asked = [name.strip() for name in models.split(",") if name.strip()]
+    scene = Scene.from_yaml(file)
+    folder = prepare_folder(out)
+    told = _tell if sys.stderr.isatty() else None
+    found = advise(scene, error, rate, budget=budget, models=asked, told=told)
+    for name, text in (("table.csv", found.to_csv()), ("advice.md", found.to_markdown())):
+        with whole_file(folder / name) as target:
+            target.write_text(text, encoding="utf-8")
+    found.scene.save(folder / "scene.yaml")
+    with whole_file(folder / "advice.png") as target:
+        drawn = draw(found, target)
+    typer.echo(str(found))
+    kind = "chosen" if found.chosen is not None else "nearest"
+    files = "table.csv, advice.md" + (", advice.png" if drawn else "")
+    typer.echo(f"written: {folder}/scene.yaml ({kind}: {found.best.name}), {files}")
+
+
+def _tell(text: str) -> None:
+    print(text, file=sys.stderr)

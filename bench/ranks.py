@@ -60,7 +60,7 @@ def sums_of_subsets(ranks: tuple[int, ...], size: int | None) -> NDArray[np.floa
     by_size[0, 0] = 1.0
     for rank in ranks:
         by_size[1:, rank:] += by_size[:-1, : total + 1 - rank].copy()
-    return by_size[size]
+    return np.asarray(by_size[size])
 
 
 def chance_of(counts: NDArray[np.float64], found: int) -> float:

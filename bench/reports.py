@@ -40,7 +40,7 @@ def parsed(text: str, where: str) -> dict[str, Any]:
         raise NotComparableError(
             f'{where} has no list "benchmarks", so it is no report of tissu-bench.'
         )
-    return report
+    return dict(report)
 
 
 def times_of(report: dict[str, Any], where: str) -> Times:

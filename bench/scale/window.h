@@ -19,10 +19,10 @@ class Window {
   /// preconditioner is made at least once.
   Window(std::shared_ptr<const World> world, const ConjugateGradient::Settings& solver, int before,
          int steps);
-  /// The loop of a row and its counters: elements, nodes, steps of an iteration, steps/s, ns/element of a step, iterations of a step, the
-  /// shares of time of forces, matrix, preconditioner and solve, the bandwidth that the solve reached as a
-  /// share of the machine's limit, the residual; bytes/element held by models, matrix and solver. "failed"
-  /// counts solves that did not reach the tolerance.
+  /// The loop of a row and its counters: elements, nodes, steps of an iteration, steps/s, ns/element of a
+  /// step, iterations of a step, the shares of time of forces, matrix, preconditioner and solve, the
+  /// bandwidth that the solve reached as a share of the machine's limit, the residual; bytes/element held by
+  /// models, matrix and solver. "failed" counts solves that did not reach the tolerance.
   void measure(benchmark::State& run);
   /// What the process grew by while the simulation was made and took its first steps [bytes].
   [[nodiscard]] double resident() const { return resident_; }
@@ -34,6 +34,7 @@ class Window {
   ConjugateGradient::Settings solver_;
   int steps_;
   double resident_;
+  double processor_seconds_ = 0.0;  ///< of the latest measurement
   Simulation simulation_;
   Snapshot start_;
 };

@@ -68,7 +68,7 @@ def measured(binary: Path, rows: str, repetitions: int) -> dict[str, Any]:
         "--benchmark_format=json",
         f"--benchmark_repetitions={repetitions}",
     ]
-    environment = {**os.environ, "OMP_WAIT_POLICY": "active"}
+    environment = {"OMP_WAIT_POLICY": "active", **os.environ}
     try:
         done = subprocess.run(command, capture_output=True, text=True, env=environment, check=False)
     except OSError as error:

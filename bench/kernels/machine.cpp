@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <ctime>
 #include <numeric>
 #include <string>
 #include <utility>
@@ -67,17 +68,23 @@ double multiply_adds(int threads) {
   return std::accumulate(done.begin(), done.end(), 0.0);
 }
 
+/// Seconds of the processor for one thread, whom others may keep waiting, and by the clock for several.
+double now(int threads) {
+  std::timespec time{};
+  (void)clock_gettime(threads == 1 ? CLOCK_THREAD_CPUTIME_ID : CLOCK_MONOTONIC, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
 /// The shortest time of a call [s].
 template <class Function>
-double shortest(Function&& f) {
-  using Clock = std::chrono::steady_clock;
+double shortest(int threads, Function&& f) {
   double best = 1e30;
-  const auto end = Clock::now() + kSearch;
-  while (Clock::now() < end) {
-    const auto start = Clock::now();
+  const auto end = std::chrono::steady_clock::now() + kSearch;
+  while (std::chrono::steady_clock::now() < end) {
+    const double start = now(threads);
     f();
     benchmark::ClobberMemory();
-    best = std::min(best, std::chrono::duration<double>(Clock::now() - start).count());
+    best = std::min(best, now(threads) - start);
   }
   return best;
 }
@@ -85,11 +92,11 @@ double shortest(Function&& f) {
 double triad_rate(std::size_t count, int threads) {
   Triad triad(count, threads);
   const std::size_t times = times_of(count);
-  return static_cast<double>(times) * triad.bytes() / shortest([&] { triad.run(times); });
+  return static_cast<double>(times) * triad.bytes() / shortest(threads, [&] { triad.run(times); });
 }
 
 Limits measured(int threads) {
-  const double seconds = shortest([&] { (void)multiply_adds(threads); });
+  const double seconds = shortest(threads, [&] { (void)multiply_adds(threads); });
   return {threads, multiply_adds(threads) / seconds,
           triad_rate(kTriadL2 * static_cast<std::size_t>(threads), threads), triad_rate(kTriadL3, threads),
           triad_rate(kTriadMemory, threads)};

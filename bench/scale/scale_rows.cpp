@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "../kernels/machine.h"
+#include "../kernels/time_row.h"
 #include "cube.h"
 #include "window.h"
 
@@ -107,9 +108,7 @@ void step(benchmark::State& run, const Solver& solver, int size, int threads) {
 void add(const std::string& what, int size, int threads,
          const std::function<void(benchmark::State&)>& function) {
   const std::string title = "scale/" + what + "/" + std::to_string(size) + "/" + std::to_string(threads);
-  benchmark::RegisterBenchmark(title.c_str(), function)
-      ->MinTime(threads == 1 ? kMinTime : kShort)
-      ->UseRealTime();
+  time_row(benchmark::RegisterBenchmark(title.c_str(), function), threads, threads == 1 ? kMinTime : kShort);
 }
 
 }  // namespace

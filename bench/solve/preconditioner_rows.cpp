@@ -11,6 +11,7 @@
 #include "../../cpp/src/solve/single_matrix.h"
 #include "../../cpp/src/solve/stale_cholesky.h"
 #include "../kernels/machine.h"
+#include "../kernels/time_row.h"
 #include "../scale/cube.h"
 #include "solve_rows.h"
 #include "traffic.h"
@@ -105,14 +106,13 @@ void add_rows(const Row& row, int size, int threads) {
   const std::string end = std::string(std::is_same_v<T, double> ? "/double/" : "/single/") +
                           std::to_string(size) + "/" + std::to_string(threads);
   const std::string name = "solve/" + std::string(row.name);
-  benchmark::RegisterBenchmark((name + " set-up" + end).c_str(),
-                               [=](benchmark::State& run) { set_up<T>(run, row, size, threads); })
-      ->MinTime(kMinTime)
-      ->UseRealTime();
-  benchmark::RegisterBenchmark((name + " application" + end).c_str(),
-                               [=](benchmark::State& run) { application<T>(run, row, size, threads); })
-      ->MinTime(kMinTime)
-      ->UseRealTime();
+  auto* made = benchmark::RegisterBenchmark(
+      (name + " set-up" + end).c_str(), [=](benchmark::State& run) { set_up<T>(run, row, size, threads); });
+  time_row(made, threads, kMinTime);
+  auto* applied =
+      benchmark::RegisterBenchmark((name + " application" + end).c_str(),
+                                   [=](benchmark::State& run) { application<T>(run, row, size, threads); });
+  time_row(applied, threads, kMinTime);
 }
 
 }  // namespace

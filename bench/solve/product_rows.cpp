@@ -5,6 +5,7 @@
 
 #include "../../cpp/src/solve/single_matrix.h"
 #include "../kernels/machine.h"
+#include "../kernels/time_row.h"
 #include "../scale/cube.h"
 #include "solve_rows.h"
 #include "traffic.h"
@@ -51,14 +52,12 @@ void single_product(benchmark::State& run, int size, int threads) {
 
 void add_product_rows(int size, int threads) {
   const std::string end = std::to_string(size) + "/" + std::to_string(threads);
-  benchmark::RegisterBenchmark(("solve/product/double/" + end).c_str(),
-                               [=](benchmark::State& run) { product(run, size, threads); })
-      ->MinTime(kMinTime)
-      ->UseRealTime();
-  benchmark::RegisterBenchmark(("solve/product/single/" + end).c_str(),
-                               [=](benchmark::State& run) { single_product(run, size, threads); })
-      ->MinTime(kMinTime)
-      ->UseRealTime();
+  auto* row = benchmark::RegisterBenchmark(("solve/product/double/" + end).c_str(),
+                                           [=](benchmark::State& run) { product(run, size, threads); });
+  time_row(row, threads, kMinTime);
+  row = benchmark::RegisterBenchmark(("solve/product/single/" + end).c_str(),
+                                     [=](benchmark::State& run) { single_product(run, size, threads); });
+  time_row(row, threads, kMinTime);
 }
 
 }  // namespace tissu::bench

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "../beam.h"
+#include "../kernels/time_row.h"
 #include "../scale/window.h"
 #include "mixed_body.h"
 
@@ -41,10 +42,8 @@ void add(const std::string& name, Described described, Preconditioning kind) {
       Window window(std::make_shared<const World>(described(threads)), settings(kind), kBefore, kSteps);
       window.measure(run);
     };
-    benchmark::RegisterBenchmark(("target/" + name + "/" + std::to_string(threads)).c_str(), row)
-        ->MinTime(kMinSeconds)
-        ->UseRealTime()
-        ->Unit(benchmark::kMillisecond);
+    const std::string title = "target/" + name + "/" + std::to_string(threads);
+    time_row(benchmark::RegisterBenchmark(title.c_str(), row), threads, kMinSeconds);
   }
 }
 

@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import Any
 
 from kernels import ROOT, digits, machine, table
-from scaling_rows import Row, Rows, others, rows_of, run
+from scaling_rows import Row, Rows, others, rows_of, run, threads_of
 from targets import (
     MILLION,
     PARTS,
@@ -24,7 +24,7 @@ from targets import (
     TARGETS,
     best_solver,
     exponent,
-    speed_up,
+    on_threads,
     step_row,
 )
 
@@ -37,9 +37,10 @@ def share(row: Row, counter: str) -> str:
 def target_table(rows: Rows) -> str:
     """The targets, and why those are missed that are."""
     found = [target(rows) for target in TARGETS]
-    lines = [[t.wanted, t.measured, "yes" if t.met else "**no**"] for t in found]
+    words = {True: "yes", False: "**no**", None: ""}
+    lines = [[t.wanted, t.measured, words[t.met]] for t in found]
     text = table(["target", "measured", "met"], lines).replace("---:", "---")
-    reasons = [f"- **{t.wanted}**: {t.why}" for t in found if not t.met]
+    reasons = [f"- **{t.wanted}**: {t.why}" for t in found if t.met is False]
     return "\n".join([text, "", "Missed, and what bounds it:", "", *reasons]) if reasons else text
 
 
@@ -50,10 +51,10 @@ def limit_table(rows: Rows) -> str:
         kind = name.split("/")[1]
         if not name.startswith("limit/") or kind.endswith("2 threads"):
             continue
-        both = next(r for n, r in rows.items() if n.startswith(f"limit/{kind}, 2 threads"))
+        both = [r for n, r in rows.items() if n.startswith(f"limit/{kind}, 2 threads")]
         unit = "GFLOP/s" if "GFLOP/s" in row.counters else "GB/s"
-        rates = [row[unit], both[unit]]
-        lines.append([f"{kind}, {unit}", *map(digits, rates), f"{rates[1] / rates[0]:.2f}"])
+        two = [digits(both[0][unit]), f"{both[0][unit] / row[unit]:.2f}"] if both else ["", ""]
+        lines.append([f"{kind}, {unit}", digits(row[unit]), *two])
     return table(["at most", "1 thread", "2 threads", "two / one"], lines)
 
 
@@ -61,10 +62,11 @@ def part_table(rows: Rows, part: str) -> str:
     """A part by size and threads."""
     lines = []
     for size in SIZES:
-        one, two = (rows[f"scale/{part}/{size}/{threads}"] for threads in (1, 2))
-        ns = [digits(row.per_element) for row in (one, two)]
-        ratio = f"{speed_up(rows, part, size):.2f}"
-        lines.append([f"{one['elements']:,.0f}", *ns, ratio, digits(one["bytes/element"])])
+        found = on_threads(rows, f"scale/{part}/{size}")
+        one, two = found[1], found.get(2)
+        gained = [digits(two.per_element), f"{one.ns / two.ns:.2f}"] if two else ["", ""]
+        line = [f"{one['elements']:,.0f}", digits(one.per_element), *gained]
+        lines.append([*line, digits(one["bytes/element"])])
     head = [f"{part}, elements", "ns an element", "2 threads", "speed-up", "bytes an element"]
     return table(head, lines)
 
@@ -73,13 +75,14 @@ def step_table(rows: Rows, solver: str) -> str:
     """Whole steps with a solver."""
     lines = []
     for size in SIZES:
-        one, two = (step_row(rows, solver, size, threads) for threads in (1, 2))
+        found = on_threads(rows, f"scale/step, {solver}/{size}")
+        one, two = found[1], found.get(2)
+        gained = [digits(two.step_ms), f"{one.ns / two.ns:.2f}"] if two else ["", ""]
         lines.append(
             [
                 f"{one['elements']:,.0f}",
                 digits(one.step_ms),
-                digits(two.step_ms),
-                f"{one.ns / two.ns:.2f}",
+                *gained,
                 digits(one.rate),
                 f"{one['iterations']:.0f}",
                 *(share(one, f"{part} share") for part in ("matrix", "preconditioner", "solve")),
@@ -101,6 +104,9 @@ def best_table(rows: Rows) -> str:
     for size in SIZES:
         line = [f"{step_row(rows, SOLVERS[0], size)['elements']:,.0f}"]
         for threads in (1, 2):
+            if f"scale/step, {SOLVERS[0]}/{size}/{threads}" not in rows:
+                line += ["", ""]
+                continue
             best = best_solver(rows, size, threads)
             line += [best, digits(step_row(rows, best, size, threads).step_ms)]
         lines.append(line)
@@ -115,12 +121,10 @@ def solve_table(rows: Rows) -> str:
             continue
         _, what, precision, *_ = name.split("/")
         two = rows.get(name[:-1] + "2")
-        if two is None:
-            continue
         line = [f"{what}, {precision}, {one['elements']:,.0f}", digits(one["bytes"] / 1e6)]
-        for row in (one, two):
-            line += [digits(row.ns / 1e3), share(row, "of bandwidth")]
-        lines.append([*line, f"{one.ns / two.ns:.2f}"])
+        line += [digits(one.ns / 1e3), share(one, "of bandwidth")]
+        line += [digits(two.ns / 1e3), share(two, "of bandwidth")] if two else ["", ""]
+        lines.append([*line, f"{one.ns / two.ns:.2f}" if two else ""])
     head = ["part, precision, elements", "MB", "us", "of triad", "us, 2 threads", "of triad"]
     return table([*head, "speed-up"], lines)
 
@@ -145,10 +149,13 @@ def load_text(reports: list[dict[str, Any]]) -> str:
     )
     if used < 0.1:
         return f"{text}."
-    return (
-        f"{text}: a loaded machine. Processor time on one thread stands that well; times on two "
-        "threads are upper bounds, and speed-ups and shares of two threads' limits lower ones."
+    one = (
+        f"{text}: a loaded machine. Times of one thread are processor time, which leaves out when "
+        "it had to wait, but not that caches and memory were shared."
     )
+    if not any(threads_of(name) == 2 for name in rows_of(reports)):
+        return f"{one} Two threads were not measured."
+    return f"{one} Times on two threads are upper bounds, and their speed-ups lower ones."
 
 
 def page(reports: list[dict[str, Any]]) -> str:
@@ -216,6 +223,7 @@ def main() -> None:
     parser.add_argument("--json", type=Path, help="what --save kept, instead of running")
     parser.add_argument("--save", type=Path, help="where to keep what was measured")
     parser.add_argument("--binary", type=Path, default=ROOT / "build/main/bench/tissu-bench")
+    parser.add_argument("--threads", type=int, default=2, choices=(1, 2), help="at most")
     parser.add_argument("--passes", type=int, default=2)
     parser.add_argument("--repetitions", type=int, default=3)
     parser.add_argument("--out", type=Path, default=ROOT / "docs/scaling.md")
@@ -223,7 +231,7 @@ def main() -> None:
     if given.json is not None:
         reports = json.loads(given.json.read_text(encoding="utf-8"))
     else:
-        reports = run(given.binary, given.passes, given.repetitions)
+        reports = run(given.binary, given.passes, given.repetitions, given.threads)
     if given.save is not None:
         given.save.write_text(json.dumps(reports), encoding="utf-8")
     text = page(reports)

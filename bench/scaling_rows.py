@@ -13,21 +13,31 @@ from typing import Any
 
 from reports import UNITS, measured
 
-# Read first and last: the limits belong to the whole run. A million elements take their time, and
-# are measured in one pass; the rest in several, of which a disturbed one does no harm.
-LIMITS = "^limit/"
+# The limits come first and last, they belong to the whole run. A million elements take their time
+# and are measured in one pass; the rest in several, of which a disturbed one does no harm.
+# {threads} is the end of a row's name.
+ONE_LIMITS, LIMITS = "^limit/[^,]*$", "^limit/"
+PARTS = "^scale/(force|tangent product|assembly|matrix product)"
 SHORT = (
     "^(kernel|baseline/textbook)/tetra/stvk/force|^rotation/",
-    "^solve/.*/(1000|20000)/",
-    "^scale/(force|tangent product|assembly|matrix product)/(1000|10000|100000)/",
-    "^scale/step.*/(1000|10000|100000)/",
-    "^target/|^corotational step",
+    "^solve/.*/(1000|20000)/{threads}(/|$)",
+    PARTS + "/(1000|10000|100000)/{threads}(/|$)",
+    "^scale/step.*/(1000|10000|100000)/{threads}(/|$)",
+    "^(target/.*|corotational step, 20 CG)/{threads}(/|$)",
 )
 LONG = (
-    "^solve/.*/1000000/",
-    "^scale/(force|tangent product|assembly|matrix product)/1000000/",
-    "^scale/step.*/1000000/",
+    "^solve/.*/1000000/{threads}(/|$)",
+    PARTS + "/1000000/{threads}(/|$)",
+    "^scale/step.*/1000000/{threads}(/|$)",
 )
+
+
+def filters(passes: int, threads: int) -> list[str]:
+    """Patterns of the rows of one thread, or of those of one and two."""
+    ends = "1" if threads == 1 else "[12]"
+    limits = ONE_LIMITS if threads == 1 else LIMITS
+    rows = [pattern.replace("{threads}", ends) for pattern in (*SHORT * passes, *LONG)]
+    return [limits, *rows, limits]
 
 
 @dataclass(frozen=True)
@@ -110,11 +120,10 @@ def watched(notes: dict[str, Any]) -> Iterator[None]:
     notes["seconds"] = spent
 
 
-def run(binary: Path, passes: int, repetitions: int) -> list[dict[str, Any]]:
+def run(binary: Path, passes: int, repetitions: int, threads: int) -> list[dict[str, Any]]:
     """Reports of everything that the page needs."""
-    filters = [LIMITS, *SHORT * passes, *LONG, LIMITS]
     reports = []
-    for rows in filters:
+    for rows in filters(passes, threads):
         notes: dict[str, Any] = {}
         with watched(notes):
             report = measured(binary, rows, repetitions)

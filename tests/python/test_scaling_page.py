@@ -7,8 +7,6 @@ import sys
 from pathlib import Path
 from typing import Any
 
-import pytest
-
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "bench"))
 
 import scaling
@@ -64,7 +62,7 @@ def test_every_target_is_met_by_good_numbers() -> None:
     found = [target(rows) for target in targets.TARGETS]
     assert all(target.met for target in found)
     assert found[0].measured == "5.0 times (10.0 against 50.0 ns an element)"
-    assert found[3].measured.startswith("250 steps/s on one thread, 500 on two")
+    assert found[3].measured.startswith("250 steps/s on one thread, 500 steps/s on two")
     assert "Missed" not in scaling.target_table(rows)
 
 
@@ -122,8 +120,23 @@ def test_names_lose_what_the_library_appends() -> None:
     assert scaling_rows.threads_of("scale/force/1000/1") == 1
 
 
-@pytest.mark.parametrize("rows", [scaling_rows.LONG, scaling_rows.SHORT])
-def test_patterns_take_no_row_of_the_others(rows: tuple[str, ...]) -> None:
-    names = ["scale/force/1000000/1/min_time:0.050", "scale/force/1000/1/min_time:0.050"]
-    taken = {name for name in names for pattern in rows if re.search(pattern, name)}
-    assert taken == {names[0] if rows is scaling_rows.LONG else names[1]}
+def test_without_two_threads_the_page_says_so_and_has_the_rest() -> None:
+    made = report()
+    rows = [e for e in made[0]["benchmarks"] if not re.search("/2/min|, 2 threads", e["name"])]
+    made[0]["benchmarks"] = rows
+    text = scaling.page(made)
+    assert "Two threads were not measured." in text
+    assert "from 10,000 elements on | not measured |  |" in text
+    assert "| multiply-add, GFLOP/s | 20 |  |  |" in text
+
+
+def test_every_row_is_measured_in_one_pass_of_the_patterns_that_are_meant() -> None:
+    rows = ["limit/triad from L2/8", "limit/multiply-add, 2 threads/real_time", "rotation/polar"]
+    rows += [f"scale/{part}/{size}/{threads}/min_time:0.050"
+             for part in ("force", "step, block_jacobi") for size in targets.SIZES
+             for threads in (1, 2)]  # fmt: skip
+    for threads in (1, 2):
+        patterns = scaling_rows.filters(1, threads)[:-1]  # the limits come twice
+        for row in rows:
+            wanted = threads >= scaling_rows.threads_of(row.split("/min_time")[0])
+            assert sum(bool(re.search(p, row)) for p in patterns) == int(wanted), row

@@ -21,6 +21,7 @@ JOBS = ("force", "product", "assembly")
 # The rows that are set against each other are measured before and after the others, so that a busy
 # moment of a shared machine does not decide a ratio.
 COMPARED = "^((limit|ablation|baseline)/|kernel/(tetra|hexahedron)/stvk/)"
+TWO_THREADS = ", 2 threads"
 FILTERS = (COMPARED, "^kernel/", "^definite/", COMPARED)
 
 
@@ -82,11 +83,13 @@ def limits_table(rows: dict[str, Row]) -> str:
     """What the machine reaches with nothing else to do."""
     lines = []
     for name, row in rows.items():
-        if not name.startswith("limit/"):
+        if not name.startswith("limit/") or name.endswith(TWO_THREADS):
             continue
         unit = "GFLOP/s" if "GFLOP/s" in row.counters else "GB/s"
-        lines.append([name.removeprefix("limit/"), f"{row.counters[unit]:.1f} {unit}"])
-    return table(["one thread", "at most"], lines)
+        both = rows.get(name + TWO_THREADS)
+        rates = [f"{r.counters[unit]:.1f} {unit}" if r else "" for r in (row, both)]
+        lines.append([name.removeprefix("limit/"), *rates])
+    return table(["at most", "1 thread", "2 threads"], lines)
 
 
 def baseline_table(rows: dict[str, Row]) -> str:

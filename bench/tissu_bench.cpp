@@ -1,5 +1,7 @@
 /// tissu-bench: what the parts of a step cost on the published beam (beam.h), and whole steps of it; the
-/// machine's limits, the kernels of every element and law, what bounds them, and two baselines.
+/// machine's limits, the kernels of every element and law, what bounds them, and two baselines; products and
+/// preconditioners (solve/…), sizes from a thousand to a million elements (scale/…), what was set as a target
+/// (target/…).
 ///   tissu-bench --benchmark_filter=step --benchmark_format=json
 ///   tissu-bench --benchmark_filter=kernel/tetra
 
@@ -9,6 +11,10 @@
 #include "kernels/ablation.h"
 #include "kernels/kernel_rows.h"
 #include "kernels/machine.h"
+#include "kernels/rotation_rows.h"
+#include "scale/scale_rows.h"
+#include "solve/solve_rows.h"
+#include "target/target_rows.h"
 #include "tissu/base/build.h"
 #include "tissu/simulation/simulation.h"
 #include "tissu/solve/cholesky.h"
@@ -163,7 +169,11 @@ int main(int argc, char** argv) {
   tissu::bench::add_corotational_rows(kElements);
   tissu::bench::add_definite_rows(kElements);
   tissu::bench::add_ablation_rows(kElements);
+  tissu::bench::add_rotation_rows(kElements);
   tissu::bench::add_baseline_rows(kElements);
+  tissu::bench::add_solve_rows();
+  tissu::bench::add_scale_rows();
+  tissu::bench::add_target_rows();
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
   benchmark::RunSpecifiedBenchmarks();

@@ -56,7 +56,6 @@ ROWS = (
     Row("snapshots", "snapshots", r"\bSimulation::snapshot\b"),
     Row("reactions", "reactions", r"\bSimulation::reactions\b"),
     Row("energies", "energies", r"\bSimulation::energy\b|\bkinetic_energy\b"),
-    Row("a second thread", "threads", r"\bGOMP_|\bgomp_|\bThreads::share\b"),
     Row("gravity, explicit step", "explicit-gravity", r"\bGravity\b", "explicit"),
     Row("fixed nodes, explicit step", "explicit-fixed", r"\bMotion\b", "explicit"),
     Row("implicit step", "bare", r"\b(BlockMatrix|ConjugateGradient|StageSolver)\b", "explicit"),
@@ -66,21 +65,21 @@ ROWS = (
 # What looks, in each step of the bare scene, whether there is such an effect: a loop over nothing,
 # or one question. It takes the same on every mesh.
 ASKED = {
-    "fixed or led nodes": r"\bFixedDofs::|\bBlockMatrix::constrain\b",
-    "what remembers": r"\bWorld::remember\b",
+    "loads": r"\bSystem::external_force\b",
+    "fixed or led nodes": r"\bFixedDofs::|\bBlockMatrix::constrain\b|\bStageSolver::lead\b",
     "rigid frames": r"\bkeep_angular_momentum\b",
-    "linear worlds": r"\bWorld::is_linear\b|has_constant_stiffness",
+    "what remembers": r"\bWorld::remember\b",
 }
 
 # What the bare scene does ask for.
 PRESENT = {
-    "elasticity": r"\b(Elastic|CellModel)\b",
-    "linear solver": r"\b(ConjugateGradient|Iteration|BlockJacobi|Renewal|multiply_rows|dot)\b",
-    "matrix": r"\b(BlockMatrix|LinearOperator)\b",
-    "inertia": r"\bMass\b",
-    "method": r"\b(ImplicitEuler|StageSolver|System)\b",
-    "loop and roll back": r"\bSimulation\b",
-    "profile": r"\bProfile\b",
+    "elasticity": r"\b(Elastic|CellModel|BodyModel|ForceModel|StVK)\b.*::",
+    "inertia": r"\bMass::",
+    "linear solver": r"\b(ConjugateGradient|Iteration<|BlockJacobi<|attainable)",
+    "matrix": r"\b(BlockMatrix::|multiply_rows\b)",
+    "method": r"\b(ImplicitEuler|StageSolver|System|World)::|\bmove\(",
+    "loop and roll back": r"\bSimulation::|^tissu_effects_steps$",
+    "profile": r"\bProfile::",
 }
 # Of the libraries beside the program: the clock, copies of vectors, words of a report.
 LIBRARIES = {"C library": r"^lib[cm][.-]", "C++ library": r"^libstdc\+\+"}

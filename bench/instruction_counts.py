@@ -78,7 +78,6 @@ def count(scenes: Sequence[str], *, size: int, steps: int) -> list[Counts]:
             *("--compress-strings=no", "--compress-pos=no"),
         ]
         command = [*valgrind, str(PROGRAM), "count", str(size), str(steps), *scenes]
-        # valgrind shows the program the processor that it plays, so the set is chosen for that one.
         done = subprocess.run(
             command, capture_output=True, text=True, env=surroundings(), check=False
         )

@@ -11,6 +11,7 @@
 #include <iostream>
 #include <string>
 
+#include "ascending_memory.h"
 #include "scene.h"
 #include "tissu/base/build.h"
 
@@ -40,6 +41,7 @@ void warm_up(Scene& scene) {
 }
 
 void count(int n, int steps, const std::vector<std::string>& names) {
+  let_memory_ascend();
   for (const std::string& name : names) {
     Scene scene = make_scene(name, n);
     warm_up(scene);

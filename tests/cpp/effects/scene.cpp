@@ -58,7 +58,6 @@ void ask_reactions(Bar& bar) {
 void ask_energies(Bar& bar) {
   bar.before = [](Simulation& simulation) { (void)simulation.energy(); };
 }
-void use_two_threads(Bar& bar) { bar.world.threads = 2; }
 void add_corotational(Bar& bar) { bar.add_body("corotational", "hooke"); }
 void add_mass_spring(Bar& bar) {
   bar.add_body("mass-spring", "hooke");
@@ -111,7 +110,6 @@ constexpr std::array kRecipes = {
     Recipe{"snapshots", &take_snapshots},
     Recipe{"reactions", &ask_reactions},
     Recipe{"energies", &ask_energies},
-    Recipe{"threads", &use_two_threads},
     Recipe{"explicit", &step_explicitly},
     Recipe{"explicit-gravity", &fall_explicitly},
     Recipe{"explicit-fixed", &hold_explicitly},

@@ -80,6 +80,7 @@ PRESENT = {
     "method": r"\b(ImplicitEuler|StageSolver|System|World)::|\bmove\(",
     "loop and roll back": r"\bSimulation::|^tissu_effects_steps$",
     "profile": r"\bProfile::",
+    "words of a report": r"^operator (new|delete)",
 }
 # Of the libraries beside the program: the clock, copies of vectors, words of a report.
 LIBRARIES = {"C library": r"^lib[cm][.-]", "C++ library": r"^libstdc\+\+"}

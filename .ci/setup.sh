@@ -18,6 +18,7 @@ if command -v flock >/dev/null; then flock 9; fi   # two at once would spoil eac
 step_python
 step_system
 step_venv
+step_optional "$purpose"
 step_packages "$purpose"
 step_build
 step_configure "$purpose"

@@ -65,13 +65,34 @@ step_system() {
   right=$(privilege) || fail "these packages are missing and this user may not install them; run
   sudo apt-get update && sudo apt-get install -y ${missing% }
 then the same command again (or, with a C++ compiler and the network at hand, set TISSU_NO_APT=1)."
-  say "installing with apt: ${missing% }"
+  install_packages "$right" "${missing% }" || fail "apt could not install ${missing% }; the reason is above."
+}
+
+# $1: how this user may install, $2: Debian packages.
+install_packages() {
+  local right=$1 packages=$2
+  say "installing with apt: $packages"
   {
     # shellcheck disable=SC2086
     $right DEBIAN_FRONTEND=noninteractive apt-get -q -o DPkg::Lock::Timeout=400 update
     # shellcheck disable=SC2086
-    $right DEBIAN_FRONTEND=noninteractive apt-get -q -o DPkg::Lock::Timeout=400 install -y --no-install-recommends $missing
-  } >>"$log" 2>&1 9>&- || fail "apt could not install ${missing% }; the reason is above."
+    $right DEBIAN_FRONTEND=noninteractive apt-get -q -o DPkg::Lock::Timeout=400 install -y --no-install-recommends $packages
+  } >>"$log" 2>&1 9>&-
+}
+
+# $1: demo, test, lint or bench. What tests use where it is there, and are skipped without; asked for once.
+step_optional() {
+  local right
+  [ "$1" = test ] || return 0
+  command -v valgrind >/dev/null && return
+  is_done optional valgrind && return
+  mark_done optional valgrind
+  if [ -n "${TISSU_NO_APT:-}" ] || ! command -v apt-get >/dev/null || ! right=$(privilege); then
+    say "no valgrind: the tests that count instructions are skipped"
+    return
+  fi
+  install_packages "$right" valgrind ||
+    say "apt could not install valgrind ($log): the tests that count instructions are skipped"
 }
 
 step_venv() {

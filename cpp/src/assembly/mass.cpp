@@ -23,14 +23,23 @@ void Mass::add_product(const State& state, double scale, ConstReals v, Reals out
 }
 
 void Mass::divide(const State& state, Reals f) const {
-  std::size_t k = 0;
-  for (std::size_t i = 0; i < nodal_.size(); ++i) {
-    auto value = block(f, static_cast<std::int32_t>(i));
-    if (k < frames_.size() && static_cast<std::size_t>(frames_[k].block) + 1 == i) {
-      value = spatial_inertia(frames_[k], state.rotations[k]).ldlt().solve(Vec3(value));
-      ++k;
-    } else if (nodal_[i] > 0.0) {
-      value /= nodal_[i];
+  std::int32_t from = 0;
+  for (std::size_t k = 0; k < frames_.size(); ++k) {
+    const std::int32_t r = frames_[k].block + 1;
+    divide_rows(from, r, f);
+    auto value = block(f, r);
+    value = spatial_inertia(frames_[k], state.rotations[k]).ldlt().solve(Vec3(value));
+    from = r + 1;
+  }
+  divide_rows(from, static_cast<std::int32_t>(nodal_.size()), f);
+}
+
+void Mass::divide_rows(std::int32_t begin, std::int32_t end, Reals f) const {
+  for (std::int32_t i = begin; i < end; ++i) {
+    const double m = nodal_[static_cast<std::size_t>(i)];
+    auto value = block(f, i);
+    if (m > 0.0) {
+      value /= m;
     } else {
       value.setZero();
     }

@@ -6,7 +6,6 @@
 #include <string>
 
 #include "tissu/base/error.h"
-#include "tissu/base/norm.h"
 #include "tissu/step/frequency.h"
 
 namespace tissu {
@@ -55,8 +54,8 @@ StepReport Bdf2FixedPoint::step(State& state, double h) {
   v_ = state.velocities;
   history_.begin(start_, h, solver_);
   solver_.copy_given(v_);
-  solver_.system().external_force(solver_.stage().base, change_);
-  iterate(state, solver_.stage().push * norm(change_), report);
+  const double load = solver_.system().external_force(solver_.stage().base, change_);
+  iterate(state, solver_.stage().push * load, report);
   if (!report.converged && !(report.residual < 1.0)) refuse(h);
   keep_angular_momentum(solver_.stage().base, solver_.world().frames(), state);
   history_.keep(start_, h, state);

@@ -19,12 +19,16 @@ void FreeOperator::set(const State& state, double mass, StiffnessScale scale) {
 
 void FreeOperator::multiply(ConstReals p, Reals out) const {
   const FixedDofs& fixed = world_.fixed();
-  free_.assign(p.begin(), p.end());
-  fixed.clear(free_);
+  ConstReals x = p;
+  if (!fixed.empty()) {
+    free_.assign(p.begin(), p.end());
+    fixed.clear(free_);
+    x = free_;
+  }
   std::ranges::fill(out, 0.0);
-  if (mass_ != 0.0) world_.mass().add_product(state_, mass_, free_, out);
+  if (mass_ != 0.0) world_.mass().add_product(state_, mass_, x, out);
   for (const auto& model : world_.forces()) {
-    if (model->has_stiffness()) model->add_product(state_, scale_, free_, out);
+    if (model->has_stiffness()) model->add_product(state_, scale_, x, out);
   }
   for (const std::int32_t row : fixed.rows()) {
     for (int axis = 0; axis < 3; ++axis) {

@@ -60,8 +60,7 @@ void StageSolver::lead(const State& start, double time, double h, double share) 
 }
 
 void StageSolver::solve(State& state, std::vector<double>& v, StepReport& report) {
-  system_->external_force(stage_.base, work_);
-  reference_ = stage_.push * norm(work_);
+  reference_ = stage_.push * system_->external_force(stage_.base, work_);
   guess_ = v;
   first_solve(v, report);
   const bool once = newton_.iterations == 1;
@@ -113,17 +112,22 @@ void StageSolver::first_solve(std::vector<double>& v, StepReport& report) {
   const double h2 = stage_.move * stage_.push;
   State& base = stage_.base;
   // Changes of velocity that are given, zero elsewhere.
-  std::ranges::copy(v, trial_.begin());
-  fixed.copy(given_, trial_);
-  for (std::size_t i = 0; i < v.size(); ++i) change_[i] = trial_[i] - v[i];
+  ConstReals led = v;  // v with them
+  std::ranges::fill(change_, 0.0);
+  if (!fixed.empty()) {
+    std::ranges::copy(v, trial_.begin());
+    fixed.copy(given_, trial_);
+    led = trial_;
+    for (std::size_t i = 0; i < v.size(); ++i) change_[i] = led[i] - v[i];
+  }
 
   // push f(base, v) + push move K (v + given) + push D given - M (v - v^ + given)
   std::swap(base.velocities, v);
   system_->force(base, right_);
   std::swap(base.velocities, v);
   for (double& r : right_) r *= stage_.push;
-  system_->add_product(base, {h2, 0.0}, trial_, right_);
-  if (std::ranges::any_of(change_, [](double c) { return c != 0.0; })) {
+  system_->add_product(base, {h2, 0.0}, led, right_);
+  if (!fixed.empty() && std::ranges::any_of(change_, [](double c) { return c != 0.0; })) {
     system_->add_product(base, {0.0, stage_.push}, change_, right_);
     world.mass().add_product(base, -1.0, change_, right_);
   }

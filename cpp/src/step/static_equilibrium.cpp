@@ -77,8 +77,7 @@ bool StaticEquilibrium::equilibrate(State& state, double share, StepReport& repo
 
 bool StaticEquilibrium::iterate(State& state, double share, LineSearch search, StepReport& report) {
   const FixedDofs& fixed = system_->world().fixed();
-  system_->external_force(state, work_);
-  double reference = std::max(norm(work_), 1e-300);
+  double reference = std::max(system_->external_force(state, work_), 1e-300);
   double now = residual(state);
 
   // The way of the led nodes, taken by the whole body in its linear answer.

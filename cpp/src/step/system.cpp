@@ -2,10 +2,17 @@
 
 #include <algorithm>
 #include <chrono>
+#include <memory>
 
 #include "tissu/base/error.h"
+#include "tissu/base/norm.h"
 
 namespace tissu {
+namespace {
+
+bool is_external(const std::unique_ptr<ForceModel>& model) { return model->kind() == ForceKind::external; }
+
+}  // namespace
 
 System::System(const World& world, LinearSolver* solver, Profile& profile)
     : world_(world), solver_(solver), profile_(profile), mass_row_(profile.row("inertia", "matrix")) {
@@ -36,13 +43,15 @@ void System::force(const State& state, Reals f) {
   }
 }
 
-void System::external_force(const State& state, Reals f) {
+double System::external_force(const State& state, Reals f) {
+  if (std::ranges::none_of(world_.forces(), is_external)) return 0.0;
   std::ranges::fill(f, 0.0);
   for (std::size_t i = 0; i < rows_.size(); ++i) {
-    if (world_.forces()[i]->kind() != ForceKind::external) continue;
+    if (!is_external(world_.forces()[i])) continue;
     const Timed timed(profile_, rows_[i].force);
     world_.forces()[i]->add_force(state, f);
   }
+  return norm(f);
 }
 
 void System::add_product(const State& state, StiffnessScale scale, ConstReals p, Reals out) {

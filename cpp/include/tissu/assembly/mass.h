@@ -29,6 +29,9 @@ class Mass {
   [[nodiscard]] double kinetic_energy(const State& state) const;
 
  private:
+  /// The same for rows without rotations.
+  void divide_rows(std::int32_t begin, std::int32_t end, Reals f) const;
+
   std::vector<double> nodal_;
   std::vector<Frame> frames_;
 };

@@ -38,7 +38,7 @@ class FreeOperator final : public LinearOperator {
   State state_;
   double mass_ = 0.0;
   StiffnessScale scale_;
-  mutable std::vector<double> free_;  ///< p without the given numbers
+  mutable std::vector<double> free_;  ///< p without the given numbers; where there are any
   mutable std::vector<double> unit_;
   mutable std::vector<double> column_;
   mutable std::vector<double> diagonal_;  ///< three numbers for each row

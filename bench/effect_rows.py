@@ -1,0 +1,142 @@
+"""The effects that a scene may have, and by which functions each is known when it runs."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from instruction_counts import Counts, Function, count
+
+
+@dataclass(frozen=True)
+class Row:
+    """An effect.
+
+    Attributes:
+        effect: what it is called.
+        scene: of tissu-effects, which has it.
+        without: the scene that has everything but it.
+        own: matches the functions that run for it alone; None where it has none in a step.
+    """
+
+    effect: str
+    scene: str
+    own: str | None
+    without: str = "bare"
+
+
+ROWS = (
+    Row("gravity", "gravity", r"\bGravity\b"),
+    Row("nodal load", "nodal-load", r"\b(NodalLoad|History)\b"),
+    Row("traction", "traction", r"\b(NodalLoad|History)\b"),
+    Row("pressure", "pressure", r"\bPressure\b"),
+    Row("fixed nodes", "fixed", r"\bMotion\b"),
+    Row("prescribed motion", "prescribed", r"\b(Motion|interpolate|locate)\b"),
+    Row("Rayleigh damping", "rayleigh", r"\bRayleigh\b"),
+    Row("Kelvin–Voigt viscosity", "kelvin-voigt", r"\b(KelvinVoigt|ViscousCells|StrainRate)\b"),
+    Row("centroid viscosity", "centroid", r"\bCentroidDamping\b"),
+    Row("Prony series", "prony", r"Prony|Overstress"),
+    Row("sheets", "sheets", r"ShapeKernels<3, 2\b"),
+    Row("lines", "lines", r"ShapeKernels<2, 1\b"),
+    Row("fibres", "fibres", r"\bFibre\b"),
+    Row("cells of a second type", "hexahedra", r"\bHexahedron8\b"),
+    Row("corotational cells", "corotational", r"\bCorotational"),
+    Row("mass-spring, with dampers", "mass-spring", r"\b(MassSpring|SpringDampers)\b"),
+    Row("mass-link", "mass-link", r"\bMassLink\b"),
+    Row("mass-tensor", "mass-tensor", r"\bMassTensor\b"),
+    Row("mean dilatation", "mean-dilatation", r"\bMeanDilatation\b"),
+    Row("condensed region", "condensed", r"\bCondensed"),
+    Row("rigid frame", "frame", r"\bspatial_inertia\b"),
+    Row("run-time spring", "link", r"\bLinks\b"),
+    Row("editing allowed, nothing removed", "editable", None),
+    Row("a cell removed in each step", "editing", r"\b(remove_cells|edited_model|replace_world)\b"),
+    Row("Newton's iteration", "newton", r"\bStageSolver::(iterate|advance|potential)\b"),
+    Row("indefinite matrices projected", "indefinite", r"stiffness<true>|definite"),
+    Row("snapshots", "snapshots", r"\bSimulation::snapshot\b"),
+    Row("reactions", "reactions", r"\bSimulation::reactions\b"),
+    Row("energies", "energies", r"\bSimulation::energy\b|\bkinetic_energy\b"),
+    Row("gravity, explicit step", "explicit-gravity", r"\bGravity\b", "explicit"),
+    Row("fixed nodes, explicit step", "explicit-fixed", r"\bMotion\b", "explicit"),
+    Row("implicit step", "bare", r"\b(BlockMatrix|ConjugateGradient|StageSolver)\b", "explicit"),
+    Row("inertia", "hanging", r"\bMass\b", "static"),
+)
+
+# What looks, in each step of the bare scene, whether there is such an effect: a loop over nothing,
+# or one question. It takes the same on every mesh.
+ASKED = {
+    "loads": r"\bSystem::external_force\b",
+    "fixed or led nodes": r"\bFixedDofs::|\bBlockMatrix::constrain\b|\bStageSolver::lead\b",
+    "rigid frames": r"\bkeep_angular_momentum\b",
+    "what remembers": r"\bWorld::remember\b",
+}
+
+# What the bare scene does ask for.
+PRESENT = {
+    "elasticity": r"\b(Elastic|CellModel|BodyModel|ForceModel|StVK)\b.*::",
+    "inertia": r"\bMass::",
+    "linear solver": r"\b(ConjugateGradient|Iteration<|BlockJacobi<|attainable)",
+    "matrix": r"\b(BlockMatrix::|multiply_rows\b)",
+    "method": r"\b(ImplicitEuler|StageSolver|System|World)::|\bmove\(",
+    "loop and roll back": r"\bSimulation::|^tissu_effects_steps$",
+    "profile": r"\bProfile::",
+    "words of a report": r"^operator (new|delete)",
+}
+# Of the libraries beside the program: the clock, copies of vectors, words of a report.
+LIBRARIES = {"C library": r"^lib[cm][.-]", "C++ library": r"^libstdc\+\+"}
+
+
+def matching(own: Mapping[Function, int], pattern: str) -> dict[Function, int]:
+    """The functions whose name the pattern finds, with their instructions."""
+    wanted = re.compile(pattern)
+    return {function: n for function, n in own.items() if wanted.search(function.name)}
+
+
+def instructions_of(counts: Counts, pattern: str) -> int:
+    """Instructions, in all steps, of the functions whose name the pattern finds."""
+    return sum(matching(counts.own, pattern).values())
+
+
+def shares(counts: Counts) -> dict[str, int]:
+    """Where the instructions of the bare scene go: by part, questions last, `unknown` if any."""
+    parts: dict[str, int] = {}
+    for function, instructions in counts.own.items():
+        part = part_of(function)
+        parts[part] = parts.get(part, 0) + instructions
+    return parts
+
+
+def part_of(function: Function) -> str:
+    """The part of the bare scene that a function belongs to."""
+    for part, pattern in LIBRARIES.items():
+        if re.search(pattern, function.library):
+            return part
+    for part, pattern in (*ASKED.items(), *PRESENT.items()):
+        if re.search(pattern, function.name):
+            return part
+    return "unknown"
+
+
+@dataclass(frozen=True)
+class Measured:
+    """A row's counts: without the effect, with it, and without it again in the same process."""
+
+    row: Row
+    without: Counts
+    present: Counts
+    again: Counts
+
+
+def measure(*, size: int, steps: int) -> list[Measured]:
+    """Counts every row's scene, each between two runs of the scene without the effect."""
+    scenes: list[str] = []
+    places: list[int] = []
+    for row in ROWS:
+        scenes += [row.without] if not scenes or scenes[-1] != row.without else []
+        places.append(len(scenes))
+        scenes += [row.scene, row.without]
+    counts = count(scenes, size=size, steps=steps)
+    return [
+        Measured(row, *counts[place - 1 : place + 2])
+        for row, place in zip(ROWS, places, strict=True)
+    ]

@@ -1,0 +1,198 @@
+"""What an effect costs where it is absent, and where it is present: prints docs/absent-effects.md.
+
+    python bench/effects.py [--write] [--rounds 100]
+
+Counts instructions with valgrind's callgrind, and times the scenes in turn. Needs valgrind and
+`cmake --build build/main --target tissu-effects`; TISSU_EFFECTS names another program.
+"""
+
+from __future__ import annotations
+
+import argparse
+import datetime
+import statistics
+import sys
+from dataclasses import dataclass
+from typing import Any
+
+import effect_rows
+import instruction_counts
+from effect_rows import Measured
+from instruction_counts import ROOT, Counts
+from kernels import commit, processor, table
+
+PAGE = ROOT / "docs/absent-effects.md"
+COUNTED, STEPS = 2, 2  # size of the bar and steps that are counted
+TIMED, TIMED_STEPS = 3, 2
+SIZES = (1, 2, 3, 4)
+TITLE = "# What an effect costs where it is absent"
+
+
+@dataclass(frozen=True)
+class Timing:
+    """Medians of the seconds of a step."""
+
+    without: float
+    present: float
+    again: float
+
+
+def timing_of(scenes: list[dict[str, Any]]) -> Timing:
+    """Medians of the three scenes of a row."""
+    return Timing(*(statistics.median(one["seconds"]) / TIMED_STEPS for one in scenes))
+
+
+def counted_table(measured: list[Measured]) -> str:
+    """A line for each effect: instructions of a step, and those of its own functions."""
+    lines = []
+    for one in measured:
+        own = one.row.own
+        runs = (one.without, one.present, one.again)
+        lines.append(
+            [
+                one.row.effect,
+                one.row.without,
+                *(f"{counts.per_step:,}" for counts in runs),
+                *(
+                    "" if own is None else f"{effect_rows.instructions_of(counts, own) // STEPS:,}"
+                    for counts in runs
+                ),
+            ]
+        )
+    head = ["effect", "scene without it", "without", "with", "without again"]
+    return table([*head, "its own, without", "its own, with", "its own, without again"], lines)
+
+
+def timed_table(timings: list[tuple[str, Timing]]) -> str:
+    """A line for each effect: medians and their ratios."""
+    lines = [
+        [
+            effect,
+            *(f"{1e3 * ms:.3f}" for ms in (timing.without, timing.present, timing.again)),
+            f"{timing.present / timing.without:.2f}",
+            f"{timing.again / timing.without:.3f}",
+        ]
+        for effect, timing in timings
+    ]
+    head = ["effect", "without, ms", "with, ms", "without again, ms"]
+    return table([*head, "with / without", "again / without"], lines)
+
+
+def asked_table(bare: list[Counts]) -> str:
+    """Questions of a bare step, on finer and finer meshes."""
+    lines = [
+        [what, *(f"{effect_rows.instructions_of(one, pattern) / STEPS:g}" for one in bare)]
+        for what, pattern in effect_rows.ASKED.items()
+    ]
+    return table(["instructions a step", *(f"{one.scene['cells']:,} cells" for one in bare)], lines)
+
+
+def shares_table(bare: Counts) -> str:
+    """Where the instructions of a bare step go."""
+    parts = effect_rows.shares(bare)
+    lines = [
+        [part, f"{n / STEPS:,.0f}", f"{100 * n / bare.total:.3f} %"]
+        for part, n in sorted(parts.items(), key=lambda item: -item[1])
+    ]
+    return table(["part of a bare step", "instructions", "share"], lines)
+
+
+def same(measured: list[Measured]) -> str:
+    """How many scenes came out the same after their effect had run."""
+    counts = sum(one.again.own == one.without.own for one in measured)
+    bits = sum(one.again.scene["checksum"] == one.without.scene["checksum"] for one in measured)
+    return (
+        f"Of {len(measured)} scenes without an effect, {counts} take the same instructions, "
+        f"function by function, before and after the scene with it has run in the same process; "
+        f"{bits} move with the same bits."
+    )
+
+
+def page(
+    measured: list[Measured],
+    bare: list[Counts],
+    timings: list[tuple[str, Timing]],
+    rounds: int,
+    timed: dict[str, Any],
+) -> str:
+    """The whole of docs/absent-effects.md."""
+    counted = measured[0].without.scene
+    return f"""{TITLE}
+
+Printed by `python bench/effects.py --write`, not written by hand;
+`tests/python/test_absent_effects.py` holds what it says. An effect that a scene does not ask for is
+not in the world: no object, no flag that is read for each node or cell. So its functions take no
+instruction of a step.
+
+The bare scene is a bar of StVK tetrahedra that was set off with a velocity and then left alone: no
+gravity, no load, nothing held. Implicit Euler, linearised once, ten iterations of conjugate
+gradient whatever the residual, one thread. Each scene with an effect is the bare one (or the one
+named) with that effect, and runs between two runs of the scene without it.
+
+## Instructions
+
+Of a step, and of what is done between two steps, by valgrind's callgrind; kernels for
+{counted["isa"]}, {counted["cells"]:,} tetrahedra. "Its own" are those of functions that run for the
+effect alone, known by their names (`bench/effect_rows.py`).
+
+{counted_table(measured)}
+
+{same(measured)}
+
+## Questions
+
+What a step asks of the world to find that there is nothing to do: loops over empty lists. It takes
+the same on every mesh.
+
+{asked_table(bare)}
+
+## Where the instructions of a bare step go
+
+{bare[-1].scene["cells"]:,} tetrahedra. Every function belongs to one of these parts.
+
+{shares_table(bare[-1])}
+
+## Time
+
+Medians of {rounds} rounds, in each of which the three scenes of a row take {TIMED_STEPS} steps one
+after the other; kernels for {timed["isa"]}, {timed["nodes"]:,} nodes, one thread unless said.
+{timed["compiler"]}, {processor()}, commit {commit()}, {datetime.date.today().isoformat()}. The
+machine is shared: by how much "again / without" differs from 1 is its noise.
+
+{timed_table(timings)}
+"""
+
+
+def main() -> int:
+    """Counts, times, prints or writes."""
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0] if __doc__ else None)
+    parser.add_argument("--write", action="store_true", help=f"write {PAGE.relative_to(ROOT)}")
+    parser.add_argument("--rounds", type=int, default=100)
+    arguments = parser.parse_args()
+    why = instruction_counts.missing()
+    if why is not None:
+        print(f"effects: {why}", file=sys.stderr)
+        return 1
+    measured = effect_rows.measure(size=COUNTED, steps=STEPS)
+    bare = [instruction_counts.count(["bare"], size=n, steps=STEPS)[0] for n in SIZES]
+    timings, timed = [], {}
+    for row in effect_rows.ROWS:
+        scenes = instruction_counts.seconds(
+            [row.without, row.scene, row.without],
+            size=TIMED,
+            steps=TIMED_STEPS,
+            rounds=arguments.rounds,
+        )
+        timed = scenes[0]
+        timings.append((row.effect, timing_of(scenes)))
+        print(row.effect, timings[-1][1], file=sys.stderr, flush=True)
+    text = page(measured, bare, timings, arguments.rounds, timed)
+    if arguments.write:
+        PAGE.write_text(text, encoding="utf-8")
+    else:
+        print(text)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

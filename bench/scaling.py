@@ -84,7 +84,7 @@ def step_table(rows: Rows, solver: str) -> str:
                 digits(one.step_ms),
                 *gained,
                 digits(one.rate),
-                f"{one['iterations']:.0f}",
+                f"{one['CG iterations']:.0f}",
                 *(share(one, f"{part} share") for part in ("matrix", "preconditioner", "solve")),
                 share(one, "solve of bandwidth"),
                 digits(one["bytes/element"]),

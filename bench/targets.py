@@ -172,7 +172,7 @@ def rates(rows: Rows, name: str) -> tuple[str, Row]:
     """Steps a second on one thread and on two; the row of one."""
     found = on_threads(rows, name)
     text = ", ".join(f"{row.rate:.0f} steps/s {on(threads)}" for threads, row in found.items())
-    return f"{text} ({found[1]['iterations']:.0f} iterations a step)", found[1]
+    return f"{text} ({found[1]['CG iterations']:.0f} iterations a step)", found[1]
 
 
 def mixed(rows: Rows) -> Target:
@@ -222,13 +222,15 @@ def growth(rows: Rows) -> Target:
     solver = best_solver(rows, MILLION)
     small, large = (step_row(rows, solver, size) for size in (SIZES[1], MILLION))
     found = exponent(small, large, lambda row: row.step_ms)
-    iterations = exponent(small, large, lambda row: row["iterations"])
-    solve = exponent(small, large, lambda row: row.step_ms * row["solve share"] / row["iterations"])
+    iterations = exponent(small, large, lambda row: row["CG iterations"])
+    solve = exponent(
+        small, large, lambda row: row.step_ms * row["solve share"] / row["CG iterations"]
+    )
     rest = exponent(small, large, lambda row: row.step_ms * (1 - row["solve share"]))
     why = (
         f"The cost is {(large['elements'] / small['elements']) ** (found - EXPONENT):.1f} times "
         f"what the target allows at {large['elements']:,.0f} elements. Iterations grow from "
-        f"{small['iterations']:.0f} to {large['iterations']:.0f} a step, n^{iterations:.2f}; an "
+        f"{small['CG iterations']:.0f} to {large['CG iterations']:.0f} a step, n^{iterations:.2f}; an "
         f"iteration costs n^{solve:.2f}, as the matrix leaves the caches (it reaches "
         f"{100 * small['solve of bandwidth']:.0f} % of the triad's bandwidth from where it fits "
         f"with few elements, {100 * large['solve of bandwidth']:.0f} % with many); the rest of a "

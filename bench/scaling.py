@@ -180,7 +180,8 @@ repetition, of processor time on one thread and by the clock on two.
 {limit_table(rows)}
 
 The triad `a = b + s c` counts three numbers of eight bytes, L2 of two threads is that of both. A
-product that only reads may come out above it.
+product that only reads may come out above it, and so may data of somewhat more than 12 MB, for
+which the memory's limit is taken, in a cache that has room for them.
 
 ## A cube of tetrahedra
 

@@ -242,10 +242,10 @@ def growth(rows: Rows) -> Target:
         f"{small['CG iterations']:.0f} to {large['CG iterations']:.0f} a step, "
         f"n^{iterations:.2f}; an iteration costs n^{solve:.2f}, as the matrix leaves the caches "
         f"(it reaches {100 * small['solve of bandwidth']:.0f} % of the triad's bandwidth from "
-        f"where it fits with few elements, {100 * large['solve of bandwidth']:.0f} % with many); the rest of a "
-        f"step n^{rest:.2f}. Waves cross more cells in a step as the cells get smaller, and a "
-        "preconditioner that couples neighbours only needs an iteration for each few cells: "
-        "n^(1/3) at worst."
+        f"where it fits with few elements, {100 * large['solve of bandwidth']:.0f} % with many); "
+        f"the rest of a step n^{rest:.2f}. Waves cross more cells in a step as the cells get "
+        "smaller, and a preconditioner that couples neighbours only needs an iteration for each "
+        "few cells: n^(1/3) at worst."
     )
     return Target(
         f"cost of a step no faster than n^{EXPONENT} from 10,000 to 1,000,000 elements",

@@ -84,7 +84,7 @@ def step_table(rows: Rows, solver: str) -> str:
                 digits(one.step_ms),
                 *gained,
                 digits(one.rate),
-                f"{one['iterations']:.0f}",
+                f"{one['CG iterations']:.0f}",
                 *(share(one, f"{part} share") for part in ("matrix", "preconditioner", "solve")),
                 share(one, "solve of bandwidth"),
                 digits(one["bytes/element"]),
@@ -180,7 +180,8 @@ repetition, of processor time on one thread and by the clock on two.
 {limit_table(rows)}
 
 The triad `a = b + s c` counts three numbers of eight bytes, L2 of two threads is that of both. A
-product that only reads may come out above it.
+product that only reads may come out above it, and so may data of somewhat more than 12 MB, for
+which the memory's limit is taken, in a cache that has room for them.
 
 ## A cube of tetrahedra
 

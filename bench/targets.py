@@ -172,7 +172,7 @@ def rates(rows: Rows, name: str) -> tuple[str, Row]:
     """Steps a second on one thread and on two; the row of one."""
     found = on_threads(rows, name)
     text = ", ".join(f"{row.rate:.0f} steps/s {on(threads)}" for threads, row in found.items())
-    return f"{text} ({found[1]['iterations']:.0f} iterations a step)", found[1]
+    return f"{text} ({found[1]['CG iterations']:.0f} iterations a step)", found[1]
 
 
 def mixed(rows: Rows) -> Target:
@@ -195,23 +195,32 @@ def mixed(rows: Rows) -> Target:
 
 
 def corotational(rows: Rows) -> Target:
-    """Fifty thousand tetrahedra; the published setting of 20 iterations beside a solve to 1e-6."""
-    names = (
-        "target/corotational 50k, block_jacobi",
-        "target/corotational 50k, incomplete_cholesky",
+    """Fifty thousand tetrahedra with the iterations of the published figure."""
+    found = on_threads(rows, "corotational step, 20 CG")
+    published = {threads: 1e9 / row.ns for threads, row in found.items()}
+    return Target(
+        f"50,688 corotational tetrahedra above {COROTATIONAL:.0f} steps a second, 20 iterations "
+        "of the conjugate gradient as published",
+        ", ".join(f"{rate:.0f} steps/s {on(threads)}" for threads, rate in published.items()),
+        published[1] > COROTATIONAL,
+        f"{missed(published[1], COROTATIONAL)} on one thread.",
     )
+
+
+def corotational_solved(rows: Rows) -> Target:
+    """The same beam, every step solved."""
+    names = [
+        f"target/corotational 50k, {solver}" for solver in ("block_jacobi", "incomplete_cholesky")
+    ]
     name = max(names, key=lambda n: rows[f"{n}/1"].rate)
     text, one = rates(rows, name)
-    found = on_threads(rows, "corotational step, 20 CG")
-    published = ", ".join(f"{1e9 / row.ns:.0f} steps/s {on(n)}" for n, row in found.items())
     why = (
         f"{missed(one.rate, COROTATIONAL)} on one thread; of a step {shares(one)}, the solve at "
-        f"{100 * one['solve of bandwidth']:.0f} % of the triad's bandwidth. With the published "
-        f"20 iterations: {published}."
+        f"{100 * one['solve of bandwidth']:.0f} % of the triad's bandwidth."
     )
     return Target(
-        f"{one['elements']:,.0f} corotational tetrahedra above {COROTATIONAL:.0f} steps a second",
-        f"20 iterations: {published}; to 1e-6: {text}, {name.rsplit(', ', 1)[1]}",
+        f"the same above {COROTATIONAL:.0f} steps a second, solved to 1e-6",
+        f"{text}, {name.rsplit(', ', 1)[1]}",
         one.rate > COROTATIONAL,
         why,
     )
@@ -222,19 +231,21 @@ def growth(rows: Rows) -> Target:
     solver = best_solver(rows, MILLION)
     small, large = (step_row(rows, solver, size) for size in (SIZES[1], MILLION))
     found = exponent(small, large, lambda row: row.step_ms)
-    iterations = exponent(small, large, lambda row: row["iterations"])
-    solve = exponent(small, large, lambda row: row.step_ms * row["solve share"] / row["iterations"])
+    iterations = exponent(small, large, lambda row: row["CG iterations"])
+    solve = exponent(
+        small, large, lambda row: row.step_ms * row["solve share"] / row["CG iterations"]
+    )
     rest = exponent(small, large, lambda row: row.step_ms * (1 - row["solve share"]))
     why = (
         f"The cost is {(large['elements'] / small['elements']) ** (found - EXPONENT):.1f} times "
         f"what the target allows at {large['elements']:,.0f} elements. Iterations grow from "
-        f"{small['iterations']:.0f} to {large['iterations']:.0f} a step, n^{iterations:.2f}; an "
-        f"iteration costs n^{solve:.2f}, as the matrix leaves the caches (it reaches "
-        f"{100 * small['solve of bandwidth']:.0f} % of the triad's bandwidth from where it fits "
-        f"with few elements, {100 * large['solve of bandwidth']:.0f} % with many); the rest of a "
-        f"step n^{rest:.2f}. Waves cross more cells in a step as the cells get smaller, and a "
-        "preconditioner that couples neighbours only needs an iteration for each few cells: "
-        "n^(1/3) at worst."
+        f"{small['CG iterations']:.0f} to {large['CG iterations']:.0f} a step, "
+        f"n^{iterations:.2f}; an iteration costs n^{solve:.2f}, as the matrix leaves the caches "
+        f"(it reaches {100 * small['solve of bandwidth']:.0f} % of the triad's bandwidth from "
+        f"where it fits with few elements, {100 * large['solve of bandwidth']:.0f} % with many); "
+        f"the rest of a step n^{rest:.2f}. Waves cross more cells in a step as the cells get "
+        "smaller, and a preconditioner that couples neighbours only needs an iteration for each "
+        "few cells: n^(1/3) at worst."
     )
     return Target(
         f"cost of a step no faster than n^{EXPONENT} from 10,000 to 1,000,000 elements",
@@ -269,6 +280,7 @@ TARGETS: tuple[Callable[[Rows], Target], ...] = (
     product,
     mixed,
     corotational,
+    corotational_solved,
     growth,
     memory,
 )

@@ -76,7 +76,7 @@ void Window::count_time(benchmark::State& run) {
   run.counters["steps"] = steps_;
   run.counters["steps/s"] = Counter(steps_, kRate);
   run.counters["ns/element"] = Counter(elements * steps_ * 1e-9, kRate | Counter::kInvert);
-  run.counters["iterations"] = iterations / steps;
+  run.counters["CG iterations"] = iterations / steps;
   run.counters["failed"] = static_cast<double>(profile.solves().failures);
 
   double seconds = 0.0;

@@ -20,7 +20,7 @@ class Window {
   Window(std::shared_ptr<const World> world, const ConjugateGradient::Settings& solver, int before,
          int steps);
   /// The loop of a row and its counters: elements, nodes, steps of an iteration, steps/s, ns/element of a
-  /// step, iterations of a step, the shares of time of forces, matrix, preconditioner and solve, the
+  /// step, CG iterations of a step, the shares of time of forces, matrix, preconditioner and solve, the
   /// bandwidth that the solve reached as a share of the machine's limit, the residual; bytes/element held by
   /// models, matrix and solver. "failed" counts solves that did not reach the tolerance.
   void measure(benchmark::State& run);

@@ -25,7 +25,7 @@ def entry(name: str, ns: float, **counters: float) -> dict[str, Any]:
 
 def step(name: str, ms: float, **counters: float) -> dict[str, Any]:
     """One of whole steps, ten in an iteration."""
-    numbers = {**dict.fromkeys(STEP, 0.25), "iterations": 20.0, "nodes": 500.0, "steps": 10.0}
+    numbers = {**dict.fromkeys(STEP, 0.25), "CG iterations": 20.0, "nodes": 500.0, "steps": 10.0}
     resident = {"resident bytes/element": 800.0}
     return entry(name, 1e7 * ms, **{**numbers, **resident, **counters})
 

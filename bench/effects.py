@@ -1,6 +1,6 @@
 """What an effect costs where it is absent, and where it is present: prints docs/absent-effects.md.
 
-    python bench/effects.py [--write] [--rounds 100]
+    python bench/effects.py [--write] [--rounds 30]
 
 Counts instructions with valgrind's callgrind, and times the scenes in turn. Needs valgrind and
 `cmake --build build/main --target tissu-effects`; TISSU_EFFECTS names another program.
@@ -22,9 +22,9 @@ from instruction_counts import ROOT, Counts
 from kernels import commit, processor, table
 
 PAGE = ROOT / "docs/absent-effects.md"
-COUNTED, STEPS = 2, 2  # size of the bar and steps that are counted
-TIMED, TIMED_STEPS = 3, 2
-SIZES = (1, 2, 3, 4)
+COUNTED, STEPS = 1, 2  # size of the bar and steps that are counted
+TIMED, TIMED_STEPS = 2, 5
+SIZES = (1, 2, 3)
 TITLE = "# What an effect costs where it is absent"
 
 
@@ -167,7 +167,7 @@ def main() -> int:
     """Counts, times, prints or writes."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0] if __doc__ else None)
     parser.add_argument("--write", action="store_true", help=f"write {PAGE.relative_to(ROOT)}")
-    parser.add_argument("--rounds", type=int, default=100)
+    parser.add_argument("--rounds", type=int, default=30)
     arguments = parser.parse_args()
     why = instruction_counts.missing()
     if why is not None:

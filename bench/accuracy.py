@@ -131,9 +131,9 @@ def main() -> None:
         if figure is not None and asked.write:
             picture = ROOT / "docs" / "pictures" / f"accuracy-{case.name}.png"
             figure.savefig(picture, dpi=80, format="png")
-    minutes = (time.perf_counter() - begin) / 60
-    tail = f"Written by `python bench/accuracy.py --write` in {minutes:.0f} minutes; "
-    tail += f"{machine_line()}\n"
+    seconds = time.perf_counter() - begin
+    how = f"--write --preset {asked.preset}"
+    tail = f"Written by `python bench/accuracy.py {how}` in {seconds:.0f} s; {machine_line()}\n"
     text = HEAD + "\n".join([*parts, tail])
     if asked.write:
         PAGE.write_text(text, encoding="utf-8")

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <numeric>
+#include <optional>
 #include <queue>
 #include <utility>
 
+#include "tissu/base/error.h"
 #include "tissu/mesh/cell_shape.h"
 
 namespace tissu {
@@ -225,9 +227,10 @@ class Grouping {
 
 std::vector<std::int32_t> group_cells(std::string_view element, std::span<const std::int32_t> cells, int size,
                                       std::span<const std::int32_t> kinds) {
-  const CellType type = *cell_type(element);
-  if (type != CellType::hexahedron)
-    return Grouping(type, cells, static_cast<std::size_t>(size), kinds).found();
+  const std::optional<CellType> type = cell_type(element);
+  if (!type) throw ParameterError("unknown cell type \"" + std::string(element) + "\".");
+  if (*type != CellType::hexahedron)
+    return Grouping(*type, cells, static_cast<std::size_t>(size), kinds).found();
   Numbers own(cells.size() / static_cast<std::size_t>(size));
   std::iota(own.begin(), own.end(), 0);
   return own;

@@ -11,9 +11,9 @@ namespace tissu {
 ///
 ///   S_ij = A_ij - sum_k S_ik D_k^-1 S_jk^T,   D_i = A_ii - sum_k S_ik D_k^-1 S_ik^T
 ///
-/// Where a D_i comes out that is not positive definite, all starts again with a share of the diagonal added to
-/// A (Manteuffel, An incomplete factorization technique for positive definite linear systems, Math. Comp. 34,
-/// 1980), tenfold each time.
+/// Where a D_i comes out that is not positive definite, all starts again with a share of the diagonal added
+/// to A (Manteuffel, An incomplete factorization technique for positive definite linear systems, Math. Comp.
+/// 34, 1980), tenfold each time.
 template <class T>
 class IncompleteCholesky final : public Preconditioner<T> {
  public:

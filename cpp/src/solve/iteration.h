@@ -23,17 +23,15 @@ enum class End {
 
 /// Sums over pieces of rows, of products taken in double.
 template <class T>
-double dot(const Threads& threads, std::span<const T> a, std::span<const T> b,
-           std::vector<double>& partial) {
-  return threads.sum(static_cast<std::int32_t>(a.size() / 3), partial,
-                     [&](std::int32_t begin, std::int32_t end) {
-                       double sum = 0.0;
-                       for (auto i = 3 * static_cast<std::size_t>(begin);
-                            i < 3 * static_cast<std::size_t>(end); ++i) {
-                         sum += static_cast<double>(a[i]) * static_cast<double>(b[i]);
-                       }
-                       return sum;
-                     });
+double dot(const Threads& threads, std::span<const T> a, std::span<const T> b, std::vector<double>& partial) {
+  return threads.sum(
+      static_cast<std::int32_t>(a.size() / 3), partial, [&](std::int32_t begin, std::int32_t end) {
+        double sum = 0.0;
+        for (auto i = 3 * static_cast<std::size_t>(begin); i < 3 * static_cast<std::size_t>(end); ++i) {
+          sum += static_cast<double>(a[i]) * static_cast<double>(b[i]);
+        }
+        return sum;
+      });
 }
 
 template <class T>
@@ -79,7 +77,7 @@ class Iteration {
   int iterations_ = 0;
   double residual_ = 0.0;
   bool goes_on_ = false;
-  double rz_ = 0.0;  ///< r . z when p_ was made
+  double rz_ = 0.0;      ///< r . z when p_ was made
   SingleMatrix matrix_;  ///< of single precision only
   std::vector<T> z_;
   std::vector<T> p_;

@@ -35,7 +35,8 @@ class Preconditioner {
   [[nodiscard]] virtual std::size_t bytes() const = 0;
 };
 
-/// Bytes that an iteration reads beside the matrix and the preconditioner, for each row of three: its vectors.
+/// Bytes that an iteration reads beside the matrix and the preconditioner, for each row of three: its
+/// vectors.
 inline constexpr double kVectorBytes = 12 * 3 * sizeof(double);
 
 }  // namespace tissu

@@ -30,9 +30,14 @@ System::System(const World& world, LinearSolver* solver, Profile& profile)
   solve_row_ = profile.row("linear solver", "solve");
 }
 
-const LinearOperator& System::A() const {
-  if (free_) return *free_;
+const BlockMatrix& System::matrix() const {
+  if (!matrix_) throw Error("a matrix is asked for where products alone are made.");
   return *matrix_;
+}
+
+const LinearOperator& System::system_matrix() const {
+  if (free_) return *free_;
+  return matrix();
 }
 
 void System::force(const State& state, Reals f) {
@@ -94,12 +99,12 @@ void System::assemble_blocks(const State& state, double mass, StiffnessScale sca
   matrix_->constrain(world_.fixed().rows(), world_.fixed().masks());
 }
 
-double System::round_off(const State& state) const { return A().round_off(state.positions); }
+double System::round_off(const State& state) const { return system_matrix().round_off(state.positions); }
 
 SolveReport System::solve(ConstReals b, Reals x, double floor) {
   if (solver_ == nullptr) throw ParameterError("this method solves systems: give it a linear solver.");
   const auto start = std::chrono::steady_clock::now();
-  const SolveReport report = solver_->solve(A(), b, x, floor);
+  const SolveReport report = solver_->solve(system_matrix(), b, x, floor);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   profile_.add(preparation_row_, report.preparation_seconds, report.preparations);
   profile_.add(solve_row_, seconds - report.preparation_seconds);

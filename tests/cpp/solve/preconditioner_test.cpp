@@ -50,10 +50,11 @@ class Stretched : public testing::Test {
     std::vector<double> b = random.numbers(static_cast<std::size_t>(3 * world_.blocks()));
     world_.fixed().clear(b);
     x_.assign(b.size(), 0.0);
-    const SolveReport report =
-        system_.A().matrix() == nullptr ? SolveReport{} : solver.solve(system_.A(), b, x_, 0.0);
+    const SolveReport report = system_.system_matrix().matrix() == nullptr
+                                   ? SolveReport{}
+                                   : solver.solve(system_.system_matrix(), b, x_, 0.0);
     std::vector<double> product(b.size());
-    system_.A().multiply(x_, product);
+    system_.system_matrix().multiply(x_, product);
     own_residual_ = (view(b) - view(product)).norm() / view(b).norm();
     return report;
   }
@@ -121,8 +122,8 @@ TEST(SinglePrecision, GivesWayWhereItFails) {
       const auto solver = test::gradient_case("", kind, precision).make(1e-6);
       std::vector<double> x(b.size(), 0.0);
       std::vector<double> product(b.size());
-      const SolveReport report = solver->solve(system.A(), b, x, 0.0);
-      system.A().multiply(x, product);
+      const SolveReport report = solver->solve(system.system_matrix(), b, x, 0.0);
+      system.system_matrix().multiply(x, product);
       const double residual = (view(b) - view(product)).norm() / view(b).norm();
       EXPECT_NEAR(report.residual, residual, 1e-6 * residual);
       EXPECT_TRUE(report.converged);
@@ -223,7 +224,7 @@ TEST_F(Stretched, ASingularSystemHasNoAnswer) {
   const std::vector<double> b(static_cast<std::size_t>(3 * world.blocks()), 1.0);
   for (const test::SolverCase& c : test::solver_cases()) {
     std::vector<double> x(b.size(), 0.0);
-    const SolveReport report = c.make(1e-8)->solve(system.A(), b, x, 0.0);
+    const SolveReport report = c.make(1e-8)->solve(system.system_matrix(), b, x, 0.0);
     EXPECT_FALSE(report.converged) << c.name;
     EXPECT_TRUE(view(x).allFinite()) << c.name;
   }

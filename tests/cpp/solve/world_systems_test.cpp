@@ -84,7 +84,8 @@ TEST_P(WorldSystems, AreSolved) {
     const std::vector<double> b = random.numbers(state.positions.size());
     std::vector<double> x(b.size(), 0.0);
     for (std::size_t k = 0; k < b.size(); ++k) {
-      if (system.A().is_given(static_cast<std::int32_t>(k / 3), static_cast<int>(k % 3))) x[k] = b[k];
+      if (system.system_matrix().is_given(static_cast<std::int32_t>(k / 3), static_cast<int>(k % 3)))
+        x[k] = b[k];
     }
     const SolveReport report = system.solve(b, x, 0.0);
     EXPECT_TRUE(report.converged);

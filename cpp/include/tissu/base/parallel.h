@@ -49,8 +49,8 @@ class Threads {
   static constexpr std::int32_t pieces(std::int32_t count) { return (count + kPiece - 1) / kPiece; }
 
  private:
-  /// call(called, i) for i in [0, count), shared out over threads that all loops of the process have in common,
-  /// or on the thread that calls where another loop has them.
+  /// call(called, i) for i in [0, count), shared out over threads that all loops of the process have in
+  /// common, or on the thread that calls where another loop has them.
   static void share(int threads, std::int32_t count, void (*call)(void*, std::int32_t), void* called);
   static constexpr std::int32_t begin_of(std::int32_t piece) { return piece * kPiece; }
   static constexpr std::int32_t end_of(std::int32_t piece, std::int32_t count) {

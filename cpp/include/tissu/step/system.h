@@ -37,9 +37,9 @@ class System {
   [[nodiscard]] double round_off(const State& state) const;
 
   /// What was assembled, or is multiplied with. Only after `assemble`.
-  [[nodiscard]] const LinearOperator& A() const;
+  [[nodiscard]] const LinearOperator& system_matrix() const;
   /// The blocks, of a solver that needs them. Only after `assemble`.
-  [[nodiscard]] const BlockMatrix& matrix() const { return *matrix_; }
+  [[nodiscard]] const BlockMatrix& matrix() const;
 
  private:
   struct Rows {

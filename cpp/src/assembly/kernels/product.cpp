@@ -22,8 +22,8 @@ template <class T>
 
 template <class T>
 [[gnu::always_inline]] inline void multiply(const std::int64_t* row_begin, const std::int32_t* column,
-                                            const T* values, std::int32_t begin, std::int32_t end,
-                                            const T* p, T* out) {
+                                            const T* values, std::int32_t begin, std::int32_t end, const T* p,
+                                            T* out) {
   using V = Four<T>;
   for (std::int32_t r = begin; r < end; ++r) {
     V even[3] = {V{}, V{}, V{}};

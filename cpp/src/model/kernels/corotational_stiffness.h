@@ -89,6 +89,8 @@ struct SpinBlocks {
   }
 };
 
+using CorotationalDefiniteLoop = decltype(CorotationalKernels::definite);
+
 template <class Element, class Rule, template <class> class LawOf, bool kExact>
 struct CorotationalStiffness : Corotational<Element, Rule, LawOf, kExact> {
   using Kernel = Corotational<Element, Rule, LawOf, kExact>;
@@ -198,7 +200,7 @@ struct CorotationalStiffness : Corotational<Element, Rule, LawOf, kExact> {
   }
 
   /// R K R^T has no negative eigenvalue.
-  static constexpr auto definite() -> decltype(CorotationalKernels::definite) {
+  static constexpr CorotationalDefiniteLoop definite() {
     if constexpr (kExact) {
       return &stiffness<true>;
     } else {

@@ -9,6 +9,8 @@
 
 namespace tissu::TISSU_KERNELS {
 
+using DefiniteLoop = decltype(ElasticKernels::definite);
+
 template <class Element, class Rule, template <class> class LawOf>
 struct Elastic : FusedPoint<Element, Rule, LawOf> {
   using Base = FusedPoint<Element, Rule, LawOf>;
@@ -215,7 +217,7 @@ struct Elastic : FusedPoint<Element, Rule, LawOf> {
   }
 
   /// A law that is linear has a tangent without negative eigenvalues; the others here are isotropic.
-  static constexpr auto definite() -> decltype(ElasticKernels::definite) {
+  static constexpr DefiniteLoop definite() {
     if constexpr (MaterialLaw::kLinear) {
       return nullptr;
     } else {

@@ -109,7 +109,7 @@ def shares(counts: Counts) -> dict[str, int]:
 def part_of(function: Function) -> str:
     """The part of the bare scene that a function belongs to."""
     for part, pattern in LIBRARIES.items():
-        if re.search(pattern, function.library):
+        if re.search(pattern, function.object_file):
             return part
     for part, pattern in (*ASKED.items(), *PRESENT.items()):
         if re.search(pattern, function.name):

@@ -24,7 +24,7 @@ COUNTED = "tissu_effects_steps"
 class Function(NamedTuple):
     """A function of the program or of a library."""
 
-    library: str  # name of the file it comes from
+    object_file: str  # name of the file it comes from
     name: str
 
 
@@ -106,14 +106,14 @@ def own_instructions(lines: Iterable[str]) -> dict[Function, int]:
     tells what the called function took in all, which is counted where that function stands.
     """
     own: dict[Function, int] = {}
-    library, function, total = "", None, None
+    object_file, function, total = "", None, None
     of_call = False
     for line in lines:
         key, separator, value = line.partition("=")
         if separator and key == "ob":
-            library = Path(value).name
+            object_file = Path(value).name
         elif separator and key == "fn":
-            function = Function(library, value)
+            function = Function(object_file, value)
         elif separator and key == "calls":
             of_call = True
         elif line.startswith("totals:"):

@@ -121,7 +121,7 @@ def measured(name: str, cells: int, *, static: bool) -> tuple[Row, float]:
         simulation.solver_bytes() / unknowns,
         solves.failures == 0,
     )
-    return row, 76.0 * simulation.plan().matrix_blocks / unknowns
+    return row, simulation.plan().matrix_bytes / unknowns
 
 
 def study(sizes: tuple[int, ...], *, static: bool) -> tuple[list[list[Row]], float]:

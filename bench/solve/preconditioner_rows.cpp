@@ -6,10 +6,8 @@
 #include <type_traits>
 #include <vector>
 
-#include "../../cpp/src/solve/diagonal_preconditioner.h"
-#include "../../cpp/src/solve/incomplete_cholesky.h"
+#include "../../cpp/src/solve/make_preconditioner.h"
 #include "../../cpp/src/solve/single_matrix.h"
-#include "../../cpp/src/solve/stale_cholesky.h"
 #include "../kernels/machine.h"
 #include "../kernels/time_row.h"
 #include "../scale/cube.h"
@@ -29,21 +27,6 @@ constexpr Row kRows[] = {{"jacobi", Preconditioning::jacobi, 1'000'000},
                          {"incomplete_cholesky", Preconditioning::incomplete_cholesky, 1'000'000},
                          {"stale_cholesky", Preconditioning::stale_cholesky, 20'000}};
 
-template <class T>
-std::unique_ptr<Preconditioner<T>> made(Preconditioning kind) {
-  switch (kind) {
-    case Preconditioning::jacobi:
-      return std::make_unique<Jacobi<T>>();
-    case Preconditioning::incomplete_cholesky:
-      return std::make_unique<IncompleteCholesky<T>>();
-    case Preconditioning::stale_cholesky:
-      return std::make_unique<StaleCholesky<T>>();
-    case Preconditioning::block_jacobi:
-      break;
-  }
-  return std::make_unique<BlockJacobi<T>>();
-}
-
 /// What single precision multiplies the matrix with.
 template <class T>
 double scale_of(const BlockMatrix& matrix) {
@@ -62,7 +45,7 @@ void count(benchmark::State& run, const Cube& cube, double kept) {
 template <class T>
 void set_up(benchmark::State& run, const Row& row, int size, int threads) {
   const Cube& cube = cube_of(size, threads);
-  const auto M = made<T>(row.kind);
+  const auto M = make_preconditioner<T>(row.kind);
   const double scale = scale_of<T>(cube.matrix());
   M->make(cube.matrix(), scale);
   for (auto _ : run) {
@@ -85,7 +68,7 @@ template <class T>
 void application(benchmark::State& run, const Row& row, int size, int threads) {
   using benchmark::Counter;
   const Cube& cube = cube_of(size, threads);
-  const auto M = made<T>(row.kind);
+  const auto M = make_preconditioner<T>(row.kind);
   M->make(cube.matrix(), scale_of<T>(cube.matrix()));
   const std::vector<T> r(cube.state().positions.begin(), cube.state().positions.end());
   std::vector<T> z(r.size());

@@ -11,27 +11,14 @@ import pytest
 from typer.testing import CliRunner
 
 import tissu as ts
+from beam import beam as swinging
 from tissu.advice.places import places
 from tissu.advice.rows import front
 from tissu.cli.app import app
 
 
 def beam(**changes):
-    fields = {
-        "name": "beam",
-        "bodies": {
-            "bar": ts.Body(
-                mesh=ts.BarMesh(size=(0.4, 0.1, 0.1), cells=(4, 1, 1), cell="hexahedron"),
-                law=ts.StVK(young="200 kPa", poisson=0.3),
-                density=1000,
-            )
-        },
-        "gravity": (0, 0, -9.81),
-        "fixed": [ts.Fixed("bar", on=ts.Plane((0, 0, 0), (1, 0, 0)))],
-        "step": ts.ImplicitEuler("10 ms"),
-        "duration": 0.1,
-    }
-    return ts.Scene(**{**fields, **changes})
+    return swinging("200 kPa", **changes)
 
 
 def static():

@@ -4,30 +4,13 @@
 #include <cmath>
 #include <type_traits>
 
-#include "diagonal_preconditioner.h"
-#include "incomplete_cholesky.h"
-#include "stale_cholesky.h"
+#include "make_preconditioner.h"
 
 namespace tissu {
 namespace {
 
 /// A residual this many times the first: the matrix is singular, and x runs off along its kernel.
 constexpr double kLost = 1e8;
-
-template <class T>
-std::unique_ptr<Preconditioner<T>> make_preconditioner(Preconditioning kind) {
-  switch (kind) {
-    case Preconditioning::jacobi:
-      return std::make_unique<Jacobi<T>>();
-    case Preconditioning::incomplete_cholesky:
-      return std::make_unique<IncompleteCholesky<T>>();
-    case Preconditioning::stale_cholesky:
-      return std::make_unique<StaleCholesky<T>>();
-    case Preconditioning::block_jacobi:
-      break;
-  }
-  return std::make_unique<BlockJacobi<T>>();
-}
 
 }  // namespace
 

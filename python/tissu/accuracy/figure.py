@@ -6,6 +6,7 @@ import io
 from typing import TYPE_CHECKING
 
 from tissu.accuracy.front import front
+from tissu.picture.chart import chart, logarithmic
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -17,18 +18,13 @@ _MARKS = "osD^vP*X<>ph"
 
 def draw(study: Study) -> Figure | None:
     """The diagram; None where no run has both an error and a time."""
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
-    from matplotlib.figure import Figure
-
     curves: dict[str, list[tuple[float, float]]] = {}
     for run in study.runs:
         if run.counts and run.share and run.seconds:
             curves.setdefault(run.curve, []).append((1e3 * run.seconds, 100.0 * run.share))
     if not curves:
         return None
-    figure = Figure(figsize=(9.5, 5.2), layout="constrained")
-    FigureCanvasAgg(figure)
-    axes = figure.add_subplot()
+    figure, axes = chart(9.5, 5.2)
     for number, (name, points) in enumerate(curves.items()):
         x, y = [point[0] for point in points], [point[1] for point in points]
         mark = _MARKS[number % len(_MARKS)]
@@ -39,13 +35,7 @@ def draw(study: Study) -> Figure | None:
     axes.step(x, y, where="post", color="black", linewidth=2.5, alpha=0.25, label="front")
     for goal in study.case.goals:
         axes.axhline(100.0 * goal, color="black", linewidth=0.5, linestyle=":")
-    axes.set_xscale("log")
-    axes.set_yscale("log")
-    for axis in (axes.xaxis, axes.yaxis):
-        axis.set_major_formatter("{x:g}")
-        low, high = axis.get_view_interval()
-        axis.set_minor_formatter("{x:g}" if high < 20.0 * low else "")
-        axis.set_tick_params(which="minor", labelsize=7)
+    logarithmic(axes)
     axes.set_xlabel("time from the scene to the result [ms]")
     axes.set_ylabel("mean error, of the largest displacement [%]")
     axes.set_title(study.case.title, fontsize=10)

@@ -4,17 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from tissu import pareto
 from tissu.accuracy.study import Run, Study
 
 
 def front(runs: Sequence[Run]) -> list[Run]:
     """Runs that no other beats in both error and time to the result, fastest first."""
-    best: list[Run] = []
-    for run in sorted((r for r in runs if r.counts), key=_cost):
-        assert run.share is not None
-        if not best or run.share < (best[-1].share or 0.0):
-            best.append(run)
-    return best
+    known = [run for run in runs if run.counts]
+    return pareto.front(known, lambda run: run.seconds or 0.0, lambda run: run.share or 0.0)
 
 
 def cheapest(runs: Sequence[Run], error: float) -> Run | None:

@@ -16,7 +16,6 @@ if TYPE_CHECKING:
     from tissu.accuracy.case import Case, Preset
     from tissu.simulation import Simulation
 
-_BLOCK_BYTES = 9 * 8 + 4  # a 3x3 block of the matrix and its column
 _SHORT = 0.2
 """s: a run that takes less is repeated, and the fastest counts"""
 _REPEATS = 3
@@ -132,7 +131,7 @@ def _run(
     deviation = case.reference.deviation(simulation)
     profile, plan = simulation.profile(), simulation.plan()
     kept = simulation.model_bytes() + simulation.solver_bytes()
-    kept += plan.matrix_blocks * _BLOCK_BYTES if profile.solves.solves else 0
+    kept += plan.matrix_bytes if profile.solves.solves else 0
     run = Run(
         label=label,
         curve=curve,

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from tissu.advice.rows import front
+from tissu.picture.chart import chart, logarithmic
 
 if TYPE_CHECKING:
     from tissu.advice.advice import Advice
@@ -27,12 +28,7 @@ def draw(advice: Advice, path: Path) -> bool:
     rows = [row for row in advice.rows if row.error and row.ms_per_update]
     if not rows:
         return False
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
-    from matplotlib.figure import Figure
-
-    figure = Figure(figsize=(8.5, 6.5), layout="constrained")
-    FigureCanvasAgg(figure)
-    axes = figure.add_subplot()
+    figure, axes = chart(8.5, 6.5)
     scale, unit = (1e3, "mm") if advice.goal.is_length or not advice.largest else (0.0, "%")
 
     def shown(row: Row) -> float:
@@ -58,18 +54,11 @@ def draw(advice: Advice, path: Path) -> bool:
     if advice.goal.is_length == bool(scale):
         axes.axhline(allowed, color="0.3", linewidth=0.8, linestyle="--")
     axes.axvline(1e3 / advice.goal.rate, color="0.3", linewidth=0.8, linestyle="--")
-    axes.set_xscale("log")
-    axes.set_yscale("log")
+    logarithmic(axes)
     axes.set_xlabel(f"time of an update [ms]; dashed: {advice.goal.rate:g} a second")
     axes.set_ylabel(f"mean error [{unit}]; dashed: {advice.goal.error_words()}")
     title = f"{advice.name}: errors against {advice.reference}"
     axes.set_title("\n".join(textwrap.wrap(title, 110)), fontsize=8, loc="left")
-    for axis in (axes.xaxis, axes.yaxis):
-        axis.set_major_formatter("{x:g}")
-        low, high = axis.get_view_interval()
-        if high < 20.0 * low:
-            axis.set_minor_formatter("{x:g}")
-            axis.set_tick_params(which="minor", labelsize=7)
     axes.grid(visible=True, which="both", linewidth=0.3)
     axes.legend(fontsize=8)
     figure.supxlabel(listed, fontsize=7, ha="left", x=0.08)

@@ -22,7 +22,6 @@ Floats = NDArray[np.float64]
 
 _SAMPLES = 20  # times at which displacements are kept, at most
 _POINTS = 4000  # nodes of a body whose displacements are kept, at most
-_BLOCK_BYTES = 9 * 8 + 4  # a 3x3 block of the matrix and its column
 _HOW_LATE = (4.0, 2.0, 1.1)  # over the time allowed: foreseen after 1, 2, and more steps
 _SEEN = 0.03  # of the time allowed that steps must have taken before anything is foreseen
 _TIMED_FROM = 6  # steps after which one is known to be slow
@@ -160,7 +159,7 @@ def measure(
     except TissuError as error:
         stopped = str(error)
     profile = simulation.profile()
-    blocks = simulation.plan().matrix_blocks
+    matrix = simulation.plan().matrix_bytes
     solver = simulation.solver_bytes()
     return Measured(
         moved=samples.stacked(),
@@ -170,7 +169,7 @@ def measure(
         unconverged=unconverged,
         dt=simulation.time / max(1, profile.steps),
         ms_per_step=profile.p50_ms,
-        megabytes=(simulation.model_bytes() + blocks * _BLOCK_BYTES + solver) / 1e6,
+        megabytes=(simulation.model_bytes() + matrix + solver) / 1e6,
         seconds=time.perf_counter() - begin,
         stopped=stopped,
         foreseen=over,

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
+from tissu import pareto
 from tissu.advice.measure import Floats, mean_distance
 from tissu.advice.setting import scene_words
 
@@ -144,8 +145,4 @@ def _plus(distance: float | None, own: float | None) -> float | None:
 def front(rows: Sequence[Row]) -> list[Row]:
     """The rows than which none is both faster and more accurate (Pareto), fastest first."""
     known = [row for row in rows if row.error is not None and row.ms_per_update is not None]
-    found: list[Row] = []
-    for row in sorted(known, key=lambda row: (row.ms_per_update, row.error)):
-        if not found or (row.error or 0.0) < (found[-1].error or 0.0):
-            found.append(row)
-    return found
+    return pareto.front(known, lambda row: row.ms_per_update or 0.0, lambda row: row.error or 0.0)

@@ -5,6 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from tissu.picture.chart import chart, logarithmic
+
 if TYPE_CHECKING:
     from tissu.comparison.table import Comparison
 
@@ -14,12 +16,7 @@ def draw(comparison: Comparison, path: Path) -> bool:
     rows = [row for row in comparison.rows if row.mean_error and row.ms_per_step]
     if not rows:
         return False
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
-    from matplotlib.figure import Figure
-
-    figure = Figure(figsize=(7.5, 5.0), layout="constrained")
-    FigureCanvasAgg(figure)
-    axes = figure.add_subplot()
+    figure, axes = chart(7.5, 5.0)
     for number, row in enumerate(rows):
         assert row.mean_error is not None and row.ms_per_step is not None
         mean = 1e3 * row.mean_error
@@ -28,14 +25,7 @@ def draw(comparison: Comparison, path: Path) -> bool:
             ends = [mean, 1e3 * row.largest_error]
             axes.plot([row.ms_per_step] * 2, ends, "-", color=f"C{number}", linewidth=1.0)
             axes.plot(row.ms_per_step, ends[1], "_", color=f"C{number}", markersize=12)
-    axes.set_xscale("log")
-    axes.set_yscale("log")
-    for axis in (axes.xaxis, axes.yaxis):
-        axis.set_major_formatter("{x:g}")
-        low, high = axis.get_view_interval()
-        if high < 20.0 * low:
-            axis.set_minor_formatter("{x:g}")
-            axis.set_tick_params(which="minor", labelsize=7)
+    logarithmic(axes)
     axes.set_xlabel("time per step [ms]")
     axes.set_ylabel("distance from the reference [mm]: mean (dot), largest (bar)")
     axes.set_title(

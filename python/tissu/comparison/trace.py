@@ -17,7 +17,6 @@ if TYPE_CHECKING:
 Floats = NDArray[np.float64]
 
 _SAMPLES = 20  # times at which displacements are kept, at most
-_BLOCK_BYTES = 9 * 8 + 4  # a 3x3 block of the matrix and its column
 
 
 @dataclass(frozen=True, slots=True)
@@ -92,7 +91,7 @@ def trace(scene: Scene) -> Trace:
         ms_per_step=profile.p50_ms,
         iterations_per_step=iterations / max(1, profile.steps),
         model_bytes=simulation.model_bytes(),
-        matrix_bytes=simulation.plan().matrix_blocks * _BLOCK_BYTES,
+        matrix_bytes=simulation.plan().matrix_bytes,
         cells=sum(mesh.cell_count for mesh in simulation.meshes.values()),
         inverted=sum(len(simulation.inverted_cells(name)) for name in simulation.bodies),
         frequency=frequency,

@@ -40,6 +40,11 @@ class Plan:
     threads: int
     instruction_set: str
 
+    @property
+    def matrix_bytes(self) -> int:
+        """What the system matrix takes: nine numbers and a column for each block."""
+        return self.matrix_blocks * (9 * 8 + 4)
+
     def __str__(self) -> str:
         """In plain words."""
         threads = counted(self.threads, "thread")

@@ -53,6 +53,21 @@ py::tuple body_range(const Simulation& simulation, const std::string& name) {
   return py::make_tuple(body.first_node, body.node_count);
 }
 
+/// Rotation matrices (n, 3, 3) of a body's nodes, which are frames; none where they are not.
+py::array_t<double> rotations(const Simulation& simulation, const std::string& name) {
+  const Body& body = simulation.world().body(name);
+  const py::ssize_t count = body.first_frame < 0 ? 0 : body.node_count;
+  py::array_t<double> result({count, py::ssize_t{3}, py::ssize_t{3}});
+  auto values = result.mutable_unchecked<3>();
+  for (py::ssize_t i = 0; i < count; ++i) {
+    const Mat3 R = simulation.state().rotations[static_cast<std::size_t>(body.first_frame + i)].toRotationMatrix();
+    for (py::ssize_t r = 0; r < 3; ++r) {
+      for (py::ssize_t c = 0; c < 3; ++c) values(i, r, c) = R(r, c);
+    }
+  }
+  return result;
+}
+
 }  // namespace
 
 /// Of bind_snapshot.cpp.
@@ -91,6 +106,7 @@ void bind_simulation(py::module_& m) {
                                auto& s = self.cast<Simulation&>();
                                return view_of(s.state().velocities, 0, s.world().blocks(), self);
                              })
+      .def("rotations", &rotations, arg("body"))
       .def("body_range", &body_range, arg("body"))
       .def("energy", [](const Simulation& s) { return to_dict(s.energy()); })
       .def("cell_fields", &cell_fields, arg("body"))

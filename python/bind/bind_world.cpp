@@ -88,10 +88,11 @@ Motion to_motion(const Doubles& times, const Doubles& displacements, const Doubl
   return motion;
 }
 
-void add_fixed(WorldDescription& world, const std::string& body, const Ints& nodes, int axes, Motion motion) {
+void add_fixed(WorldDescription& world, const std::string& body, const Ints& nodes, int axes, bool rotations,
+               Motion motion) {
   if (axes < 1 || axes > 7) throw ParameterError("axes must be a mask of x = 1, y = 2 and z = 4.");
   world.fixed.push_back(
-      {world.body(body).name, to_vector(nodes), static_cast<std::uint8_t>(axes), std::move(motion), {}});
+      {world.body(body).name, to_vector(nodes), static_cast<std::uint8_t>(axes), std::move(motion), {}, rotations, true});
 }
 
 }  // namespace
@@ -111,17 +112,18 @@ void bind_world(py::module_& m) {
   py::enum_<Plane>(m, "Plane").value("stress", Plane::stress).value("strain", Plane::strain);
   py::class_<ModelUse>(m, "ModelUse")
       .def(py::init([](const std::string& name, const std::string& rotation, const std::string& tangent,
-                       bool equal_masses, const Ints& kept) {
+                       const std::string& section, bool equal_masses, const Ints& kept) {
              ModelUse model;
              model.name = name;
              model.rotation = rotation;
              model.tangent = tangent;
+             model.section = section;
              model.equal_masses = equal_masses;
              model.kept = to_vector(kept);
              return model;
            }),
            py::kw_only(), arg("name") = "fem", arg("rotation") = "polar", arg("tangent") = "approximate",
-           arg("equal_masses") = false, arg("kept") = std::vector<std::int32_t>{});
+           arg("section") = "whole", arg("equal_masses") = false, arg("kept") = std::vector<std::int32_t>{});
   py::class_<WorldDescription>(m, "WorldBuilder")
       .def(py::init([](int threads, bool editable, bool links, bool consistent_weight) {
              WorldDescription world;
@@ -135,13 +137,14 @@ void bind_world(py::module_& m) {
            arg("consistent_weight") = false)
       .def(
           "add_body",
-          [](WorldDescription& world, const std::string& name, const Doubles& positions) {
+          [](WorldDescription& world, const std::string& name, const Doubles& positions, bool frames) {
             std::size_t first = 0;
             for (const BodyDescription& body : world.bodies) first += body.positions.size() / 3;
             world.bodies.push_back({name, to_vector(with_columns(positions, 3, "positions")), {}, {}});
+            world.bodies.back().frames = frames;
             return first;
           },
-          py::kw_only(), arg("name"), arg("positions"))
+          py::kw_only(), arg("name"), arg("positions"), arg("frames") = false)
       .def("add_elastic", &add_elastic, py::kw_only(), arg("body"), arg("cell_type"), arg("cells"),
            arg("cell_numbers"), arg("law"), arg("parameters"), arg("density"), arg("quadrature") = "full",
            arg("reinforcements") = std::vector<std::pair<std::string, Parameters>>{},
@@ -164,11 +167,12 @@ void bind_world(py::module_& m) {
       .def(
           "add_load",
           [](WorldDescription& world, const std::string& name, const std::string& body, const Ints& nodes,
-             const Doubles& forces, const Doubles& times, const Doubles& factors) {
+             const Doubles& forces, const Doubles& times, const Doubles& factors, bool moments) {
             world.loads.push_back({name, world.body(body).name, to_vector(nodes),
-                                   to_vector(with_columns(forces, 3, "forces")), to_history(times, factors)});
+                                   to_vector(with_columns(forces, 3, "forces")), to_history(times, factors), moments});
           },
-          py::kw_only(), arg("name"), arg("body"), arg("nodes"), arg("forces"), arg("times"), arg("factors"))
+          py::kw_only(), arg("name"), arg("body"), arg("nodes"), arg("forces"), arg("times"), arg("factors"),
+          arg("moments") = false)
       .def(
           "add_pressure",
           [](WorldDescription& world, const std::string& name, const std::string& body,
@@ -181,19 +185,19 @@ void bind_world(py::module_& m) {
           arg("factors"))
       .def(
           "fix",
-          [](WorldDescription& world, const std::string& body, const Ints& nodes, int axes) {
-            add_fixed(world, body, nodes, axes, {});
+          [](WorldDescription& world, const std::string& body, const Ints& nodes, int axes, bool rotations) {
+            add_fixed(world, body, nodes, axes, rotations, {});
           },
-          py::kw_only(), arg("body"), arg("nodes"), arg("axes") = 7)
+          py::kw_only(), arg("body"), arg("nodes"), arg("axes") = 7, arg("rotations") = false)
       .def(
           "prescribe",
           [](WorldDescription& world, const std::string& body, const Ints& nodes, int axes,
              const Doubles& times, const Doubles& displacements, const Doubles& angles, const Doubles& center,
-             const Doubles& axis) {
-            add_fixed(world, body, nodes, axes, to_motion(times, displacements, angles, center, axis));
+             const Doubles& axis, bool rotations) {
+            add_fixed(world, body, nodes, axes, rotations, to_motion(times, displacements, angles, center, axis));
           },
           py::kw_only(), arg("body"), arg("nodes"), arg("axes"), arg("times"), arg("displacements"),
-          arg("angles"), arg("center"), arg("axis"))
+          arg("angles"), arg("center"), arg("axis"), arg("rotations") = false)
       .def(
           "build", [](const WorldDescription& world) { return std::make_shared<World>(world); },
           py::call_guard<py::gil_scoped_release>());

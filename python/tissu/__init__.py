@@ -73,6 +73,8 @@ _HOMES = {
         "MassSpring",
         "MassTensor",
         "MeanDilatation",
+        "Moment",
+        "Frames",
         "MeshFile",
         "Newton",
         "NodalLoad",

@@ -54,7 +54,9 @@ from tissu.scene import KelvinVoigt as KelvinVoigt
 from tissu.scene import MassLink as MassLink
 from tissu.scene import MassSpring as MassSpring
 from tissu.scene import MassTensor as MassTensor
+from tissu.scene import Frames as Frames
 from tissu.scene import MeanDilatation as MeanDilatation
+from tissu.scene import Moment as Moment
 from tissu.scene import MeshFile as MeshFile
 from tissu.scene import Newton as Newton
 from tissu.scene import NodalLoad as NodalLoad

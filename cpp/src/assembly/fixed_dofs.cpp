@@ -31,20 +31,37 @@ Vec3 Motion::position(const Vec3& rest, double time) const {
   return center + Eigen::AngleAxisd(angle, axis) * (rest - center) + displacement;
 }
 
+double Motion::angle(double time) const { return interpolate(times, angles, time, 0.0); }
+
 void FixedDofs::add(std::span<const std::int32_t> nodes, ConstReals rest_positions, std::uint8_t mask,
                     const Motion& motion) {
   motions_.push_back(motion);
   const auto number = static_cast<std::int32_t>(motions_.size() - 1);
-  for (const std::int32_t node : nodes) {
-    led_.push_back({node, mask, number, block(rest_positions, node)});
-    masks_[static_cast<std::size_t>(node)] |= mask;
-    rows_.push_back(node);
+  for (const std::int32_t node : nodes) led_.push_back({node, mask, number, block(rest_positions, node)});
+  lead(nodes, mask);
+}
+
+void FixedDofs::add_rotations(std::span<const std::int32_t> blocks, std::span<const std::int32_t> frames,
+                              std::span<const Quaternion> rest, const Motion& motion) {
+  motions_.push_back(motion);
+  const auto number = static_cast<std::int32_t>(motions_.size() - 1);
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    led_rotations_.push_back({blocks[i], frames[i], number, rest[static_cast<std::size_t>(frames[i])]});
+  }
+  lead(blocks, kAllAxes);
+}
+
+void FixedDofs::lead(std::span<const std::int32_t> rows, std::uint8_t mask) {
+  for (const std::int32_t row : rows) {
+    masks_[static_cast<std::size_t>(row)] |= mask;
+    rows_.push_back(row);
   }
   std::ranges::sort(rows_);
   rows_.erase(std::ranges::unique(rows_).begin(), rows_.end());
 }
 
-void FixedDofs::set_velocities(ConstReals x, double time, double h, double share, Reals v) const {
+void FixedDofs::set_velocities(const State& from, double time, double h, double share, Reals v) const {
+  const ConstReals x = from.positions;
   for (const Led& led : led_) {
     const Vec3 target = motions_[static_cast<std::size_t>(led.motion)].position(led.rest, time);
     for (int axis = 0; axis < 3; ++axis) {
@@ -52,6 +69,29 @@ void FixedDofs::set_velocities(ConstReals x, double time, double h, double share
       const auto i = static_cast<std::size_t>(3 * led.node + axis);
       v[i] = share * (target[axis] - x[i]) / h;
     }
+  }
+  for (const LedRotation& led : led_rotations_) {
+    const Motion& motion = motions_[static_cast<std::size_t>(led.motion)];
+    const double angle = motion.angle(time);
+    const Quaternion target(Eigen::AngleAxisd(angle, motion.axis) * led.rest);
+    const Quaternion way = target * from.rotations[static_cast<std::size_t>(led.frame)].conjugate();
+    // A way of half a turn has two axes: that of the motion since a step before.
+    const Vec3 expected = (angle - motion.angle(time - h)) * motion.axis;
+    block(v, led.block) = share / h * nearest_turn(way, expected);
+  }
+}
+
+void FixedDofs::place(const State& from, double h, ConstReals v, State& to) const {
+  for (const Led& led : led_) {
+    for (int axis = 0; axis < 3; ++axis) {
+      if (((led.mask >> axis) & 1) == 0) continue;
+      const auto i = static_cast<std::size_t>(3 * led.node + axis);
+      to.positions[i] = from.positions[i] + h * v[i];
+    }
+  }
+  for (const LedRotation& led : led_rotations_) {
+    const auto k = static_cast<std::size_t>(led.frame);
+    to.rotations[k] = (turn_by(h * block(v, led.block)) * from.rotations[k]).normalized();
   }
 }
 

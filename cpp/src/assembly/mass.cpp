@@ -17,7 +17,7 @@ void Mass::add_product(const State& state, double scale, ConstReals v, Reals out
     for (std::size_t k = 3 * i; k < 3 * i + 3; ++k) out[k] += m * v[k];
   }
   for (std::size_t k = 0; k < frames_.size(); ++k) {
-    const std::int32_t r = frames_[k].block + 1;
+    const std::int32_t r = frames_[k].rotation;
     block(out, r) += scale * (spatial_inertia(frames_[k], state.rotations[k]) * block(v, r));
   }
 }
@@ -25,7 +25,7 @@ void Mass::add_product(const State& state, double scale, ConstReals v, Reals out
 void Mass::divide(const State& state, Reals f) const {
   std::int32_t from = 0;
   for (std::size_t k = 0; k < frames_.size(); ++k) {
-    const std::int32_t r = frames_[k].block + 1;
+    const std::int32_t r = frames_[k].rotation;
     divide_rows(from, r, f);
     auto value = block(f, r);
     value = spatial_inertia(frames_[k], state.rotations[k]).ldlt().solve(Vec3(value));
@@ -51,7 +51,7 @@ void Mass::add_to(BlockMatrix& matrix, const State& state, double scale) const {
     if (nodal_[i] != 0.0) matrix.add_diagonal(static_cast<std::int32_t>(i), scale * nodal_[i]);
   }
   for (std::size_t k = 0; k < frames_.size(); ++k) {
-    const std::int32_t r = frames_[k].block + 1;
+    const std::int32_t r = frames_[k].rotation;
     matrix.add(r, r, scale * spatial_inertia(frames_[k], state.rotations[k]));
   }
 }

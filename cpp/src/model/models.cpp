@@ -8,6 +8,7 @@
 #include "tissu/base/error.h"
 #include "tissu/model/condensed.h"
 #include "tissu/model/corotational.h"
+#include "tissu/model/frames.h"
 #include "tissu/model/elastic.h"
 #include "tissu/model/mass_link.h"
 #include "tissu/model/mass_spring.h"
@@ -36,7 +37,7 @@ Entry entry() {
 const std::vector<Entry>& entries() {
   static const std::vector<Entry> all = {entry<Elastic>(),       entry<Corotational>(), entry<MassSpring>(),
                                          entry<MassLink>(),      entry<MassTensor>(),   entry<Condensed>(),
-                                         entry<MeanDilatation>()};
+                                         entry<MeanDilatation>(), entry<Frames>()};
   return all;
 }
 

@@ -1,6 +1,8 @@
 #include "tissu/state/state.h"
 
 #include <Eigen/LU>
+#include <cmath>
+#include <numbers>
 
 namespace tissu {
 
@@ -9,21 +11,34 @@ Mat3 spatial_inertia(const Frame& frame, const Quaternion& rotation) {
   return R * frame.inertia * R.transpose();
 }
 
+Quaternion turn_by(const Vec3& w) {
+  const double angle = w.norm();
+  const Vec3 axis = angle > 0.0 ? Vec3(w / angle) : Vec3::UnitX();
+  return Quaternion(Eigen::AngleAxisd(angle, axis));
+}
+
+Vec3 nearest_turn(const Quaternion& q, const Vec3& expected) {
+  // |log q| <= pi about an axis a; a itself is unknown of a whole turn, and taken as expected then.
+  Vec3 axis = q.vec();
+  const double sine = axis.norm();
+  axis = sine > 1e-12 ? Vec3(axis / sine) : Vec3(expected.normalized());
+  const double angle = 2.0 * std::atan2(sine, q.w());
+  const double turns = std::round((expected.dot(axis) - angle) / (2.0 * std::numbers::pi));
+  return (angle + 2.0 * std::numbers::pi * turns) * axis;
+}
+
 void move(const State& from, const std::vector<Frame>& frames, ConstReals v, double h, State& to) {
   for (std::size_t i = 0; i < from.positions.size(); ++i) to.positions[i] = from.positions[i] + h * v[i];
   for (std::size_t k = 0; k < frames.size(); ++k) {
-    const std::int32_t rotation_block = frames[k].block + 1;
+    const std::int32_t rotation_block = frames[k].rotation;
     block(Reals(to.positions), rotation_block).setZero();
-    const Vec3 turn = h * block(v, rotation_block);
-    const double angle = turn.norm();
-    const Vec3 axis = angle > 0.0 ? Vec3(turn / angle) : Vec3::UnitX();
-    to.rotations[k] = (Quaternion(Eigen::AngleAxisd(angle, axis)) * from.rotations[k]).normalized();
+    to.rotations[k] = (turn_by(h * block(v, rotation_block)) * from.rotations[k]).normalized();
   }
 }
 
 void keep_angular_momentum(const State& from, const std::vector<Frame>& frames, State& to) {
   for (std::size_t k = 0; k < frames.size(); ++k) {
-    auto omega = block(Reals(to.velocities), frames[k].block + 1);
+    auto omega = block(Reals(to.velocities), frames[k].rotation);
     const Vec3 momentum = spatial_inertia(frames[k], from.rotations[k]) * omega;
     omega = spatial_inertia(frames[k], to.rotations[k]).inverse() * momentum;
   }

@@ -22,7 +22,7 @@ void Bdf2History::begin(const State& start, double h, StageSolver& solver) {
     for (std::size_t i = 0; i < way_.size(); ++i) way_[i] = start.positions[i] - before_.positions[i];
     for (std::size_t k = 0; k < frames.size(); ++k) {
       const Eigen::AngleAxisd turn(start.rotations[k] * before_.rotations[k].conjugate());
-      block(Reals(way_), frames[k].block + 1) = turn.angle() * turn.axis();
+      block(Reals(way_), frames[k].rotation) = turn.angle() * turn.axis();
     }
     move(start, frames, way_, share, stage.base);
     // Of frames the angular momenta, as angular velocities of the base.

@@ -57,14 +57,8 @@ void ExplicitMethod::acceleration(const State& state, Reals a) {
 void ExplicitMethod::lead(State& state, double since) const {
   const FixedDofs& fixed = world().fixed();
   if (fixed.empty()) return;
-  fixed.set_velocities(start_.positions, state.time, since, 1.0, state.velocities);
-  for (const std::int32_t row : fixed.rows()) {
-    for (int axis = 0; axis < 3; ++axis) {
-      if (((fixed.masks()[static_cast<std::size_t>(row)] >> axis) & 1) == 0) continue;
-      const auto i = static_cast<std::size_t>(3 * row + axis);
-      state.positions[i] = start_.positions[i] + since * state.velocities[i];
-    }
-  }
+  fixed.set_velocities(start_, state.time, since, 1.0, state.velocities);
+  fixed.place(start_, since, state.velocities, state);
 }
 
 }  // namespace tissu

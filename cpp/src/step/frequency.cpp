@@ -26,7 +26,7 @@ class ScaledMatrix {
     for (const double m : world.mass().nodal()) root_.push_back(m > 0.0 ? 1.0 / std::sqrt(m) : 0.0);
     for (std::size_t k = 0; k < world.frames().size(); ++k) {
       const Mat3 inertia = spatial_inertia(world.frames()[k], state.rotations[k]);
-      root_[static_cast<std::size_t>(world.frames()[k].block) + 1] = 1.0;
+      root_[static_cast<std::size_t>(world.frames()[k].rotation)] = 1.0;
       turning_.emplace_back(Eigen::SelfAdjointEigenSolver<Mat3>(inertia).operatorInverseSqrt());
     }
     scaled_.resize(state.positions.size());
@@ -47,7 +47,7 @@ class ScaledMatrix {
   void divide(Reals x) const {
     for (std::size_t i = 0; i < root_.size(); ++i) block(x, static_cast<std::int32_t>(i)) *= root_[i];
     for (std::size_t k = 0; k < turning_.size(); ++k) {
-      const std::int32_t r = world_.frames()[k].block + 1;
+      const std::int32_t r = world_.frames()[k].rotation;
       block(x, r) = turning_[k] * Vec3(block(ConstReals(x), r));
     }
     free(x);

@@ -48,15 +48,8 @@ void StageSolver::begin(const State& start, double time, double h) {
 
 void StageSolver::lead(const State& start, double time, double h, double share) {
   const FixedDofs& fixed = system_->world().fixed();
-  fixed.set_velocities(start.positions, time, h, 1.0, given_);
-  const double from = share * h - stage_.move;
-  for (const std::int32_t row : fixed.rows()) {
-    for (int axis = 0; axis < 3; ++axis) {
-      if (((fixed.masks()[static_cast<std::size_t>(row)] >> axis) & 1) == 0) continue;
-      const auto i = static_cast<std::size_t>(3 * row + axis);
-      stage_.base.positions[i] = from == 0.0 ? start.positions[i] : start.positions[i] + from * given_[i];
-    }
-  }
+  fixed.set_velocities(start, time, h, 1.0, given_);
+  fixed.place(start, share * h - stage_.move, given_, stage_.base);
 }
 
 void StageSolver::solve(State& state, std::vector<double>& v, StepReport& report) {
@@ -226,12 +219,23 @@ std::string_view StageSolver::iterate(State& state, std::vector<double>& v, Sear
   return {};
 }
 
+void StageSolver::go(ConstReals v, double share) {
+  for (std::size_t i = 0; i < v.size(); ++i) trial_[i] = v[i] + share * change_[i];
+  // Forces are derived by turning frames as they stand: exp(move v') = exp(move share change) exp(move v).
+  for (const Frame& frame : system_->world().frames()) {
+    const Vec3 turned = stage_.move * block(v, frame.rotation);
+    const Vec3 more = stage_.move * share * block(ConstReals(change_), frame.rotation);
+    block(Reals(trial_), frame.rotation) =
+        nearest_turn(turn_by(more) * turn_by(turned), turned + more) / stage_.move;
+  }
+}
+
 bool StageSolver::advance(State& state, std::vector<double>& v, Search search, double& now) {
   if (search == Search::energy) return descend(state, v, now);
   double share = 1.0;
   double next = 0.0;
   while (true) {
-    for (std::size_t i = 0; i < v.size(); ++i) trial_[i] = v[i] + share * change_[i];
+    go(v, share);
     next = residual(state, trial_);
     if (search == Search::none || next < now || share < kShortest) break;
     share *= 0.5;
@@ -253,7 +257,7 @@ bool StageSolver::descend(State& state, std::vector<double>& v, double& now) {
   if (square < 0.0) linear = square = 0.0;
   const double from = potential(state, v);
   for (double share = 1.0; share > kShortestDown; share *= 0.5) {
-    for (std::size_t i = 0; i < v.size(); ++i) trial_[i] = v[i] + share * change_[i];
+    go(v, share);
     const double to = potential(state, trial_) + share * (linear + share * square);
     if (!(to <= from + kArmijo * share * slope)) continue;
     now = residual(state, trial_);

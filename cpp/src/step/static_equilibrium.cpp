@@ -82,7 +82,7 @@ bool StaticEquilibrium::iterate(State& state, double share, LineSearch search, S
 
   // The way of the led nodes, taken by the whole body in its linear answer.
   std::ranges::fill(work_, 0.0);
-  fixed.set_velocities(state.positions, state.time, 1.0, share, work_);
+  fixed.set_velocities(state, state.time, 1.0, share, work_);
   bool led = std::ranges::any_of(work_, [](double w) { return w != 0.0; });
   if (led) system_->add_product(state, {1.0, 0.0}, work_, right_);
 

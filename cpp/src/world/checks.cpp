@@ -38,6 +38,15 @@ void check_frame(const FrameDescription& frame, std::size_t number) {
   }
 }
 
+void check_inertia(const std::string& body, std::int32_t node, const Mat3& inertia) {
+  const Eigen::LLT<Mat3> factor(inertia);
+  const double least = factor.info() == Eigen::Success ? factor.matrixLLT().diagonal().minCoeff() : 0.0;
+  if (inertia.allFinite() && least * least > 1e-12 * inertia.trace()) return;
+  throw MeshError("body \"" + body + "\": frame " + std::to_string(node) +
+                  " has no inertia about some axis: too few integration points listen to it, or all on one "
+                  "line; take more points, or give lines and sheets their section.");
+}
+
 void refuse_massless(const Body& body, const std::vector<double>& masses, const FixedDofs& fixed) {
   std::int32_t missing = 0;
   std::int32_t example = 0;

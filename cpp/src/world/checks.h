@@ -14,6 +14,8 @@ void check_table(const std::string& where, const std::vector<double>& times, std
 /// Lists that do not have three numbers for each node.
 void check_size(const std::string& where, std::size_t found, std::size_t accepted);
 /// Masses and inertias that are not positive.
+/// Refuses a node that is a frame without inertia.
+void check_inertia(const std::string& body, std::int32_t node, const Mat3& inertia);
 void check_frame(const FrameDescription& frame, std::size_t number);
 /// A node without mass would make the matrix singular, unless it is held.
 void refuse_massless(const Body& body, const std::vector<double>& masses, const FixedDofs& fixed);

@@ -6,6 +6,7 @@
 
 #include "checks.h"
 #include "tissu/base/error.h"
+#include "tissu/force/frame_weight.h"
 #include "tissu/force/gravity.h"
 #include "tissu/force/load.h"
 #include "tissu/model/models.h"
@@ -30,10 +31,26 @@ std::vector<std::int32_t> shifted(std::vector<std::int32_t> nodes, std::int32_t 
   return nodes;
 }
 
+/// Numbers from the body's own nodes on are those of nodes that it shares with others.
+std::vector<std::int32_t> with_shared(std::vector<std::int32_t> nodes, const Body& made,
+                                      const std::vector<std::int32_t>& shared) {
+  const auto count = made.node_count + static_cast<std::int32_t>(shared.size());
+  for (std::int32_t& node : nodes) {
+    if (node >= made.node_count && node < count) {
+      node = shared[static_cast<std::size_t>(node - made.node_count)] - made.first_node;
+    } else if (node < 0 || node >= count) {
+      throw ParameterError("body \"" + made.name + "\" names node " + std::to_string(node) +
+                           "; the body has nodes 0 to " + std::to_string(count - 1) + ".");
+    }
+    node += made.first_node;
+  }
+  return nodes;
+}
+
 /// Diagonal of the box around the nodes and the origins of frames; the blocks of rotations are no positions.
 double box_diagonal(const std::vector<double>& positions, const std::vector<Frame>& frames) {
   std::vector<char> is_rotation(positions.size() / 3, 0);
-  for (const Frame& frame : frames) is_rotation[static_cast<std::size_t>(frame.block) + 1] = 1;
+  for (const Frame& frame : frames) is_rotation[static_cast<std::size_t>(frame.rotation)] = 1;
   Eigen::AlignedBox3d box;
   for (std::size_t i = 0; i < is_rotation.size(); ++i) {
     if (is_rotation[i] == 0) box.extend(Vec3(block(ConstReals(positions), static_cast<std::int32_t>(i))));
@@ -57,22 +74,35 @@ Threads threads_of(const WorldDescription& description) {
                        std::to_string(available_threads()) + " are of no use.");
 }
 
+/// The frame at each block of the unknown, -1 where there is none.
+std::vector<std::int32_t> frames_at_blocks(const std::vector<Frame>& frames, std::int32_t blocks) {
+  std::vector<std::int32_t> result(static_cast<std::size_t>(blocks), -1);
+  for (std::size_t k = 0; k < frames.size(); ++k)
+    result[static_cast<std::size_t>(frames[k].block)] = static_cast<std::int32_t>(k);
+  return result;
+}
+
+/// A model works on its body's cells as one: their affine cells are not set apart.
+bool keeps_cells_together(const ElasticBlock& block) {
+  return block.model.name == "condensed" || block.model.name == "frames";
+}
+
 /// The body's blocks with node numbers of the world, affine cells apart from others.
-std::vector<ElasticBlock> blocks_of(const BodyDescription& body, const Body& made, ConstReals rest_positions,
+std::vector<ElasticBlock> blocks_of(const BodyDescription& body, const Body& made,
+                                    const std::vector<std::int32_t>& shared, ConstReals rest_positions,
                                     const std::optional<Vec3>& gravity) {
   std::vector<ElasticBlock> blocks;
   std::int32_t first_cell = 0;
   for (ElasticBlock elastic : body.elastic) {
     elastic.body = body.name;
-    elastic.cells =
-        shifted(std::move(elastic.cells), made.first_node, made.node_count, "body \"" + body.name + "\"");
+    elastic.cells = with_shared(std::move(elastic.cells), made, shared);
     elastic.model.kept = shifted(std::move(elastic.model.kept), made.first_node, made.node_count,
                                  "the model of body \"" + body.name + "\"");
     if (gravity) elastic.model.gravity = *gravity;
     const ElementInfo* element = find_element(elastic.element);
     const auto cells =
         element == nullptr ? 0 : static_cast<std::int32_t>(elastic.cells.size()) / element->nodes;
-    if (elastic.model.name == "condensed") {  // one region, one matrix
+    if (keeps_cells_together(elastic)) {
       blocks.push_back(std::move(elastic));
       first_cell += cells;
       continue;
@@ -119,39 +149,41 @@ void World::add_bodies(const WorldDescription& description, const World* before)
     if (std::ranges::find(bodies_, body.name, &Body::name) != bodies_.end()) {
       throw ParameterError("two bodies are called \"" + body.name + "\"; give each its own name.");
     }
-    bodies_.push_back({body.name, blocks(), static_cast<std::int32_t>(body.positions.size() / 3), {}});
+    bodies_.push_back({body.name, blocks(), static_cast<std::int32_t>(body.positions.size() / 3), {}, -1});
     rest_positions_.insert(rest_positions_.end(), body.positions.begin(), body.positions.end());
   }
-  const std::int32_t first_frame = blocks();
-  rest_positions_.resize(rest_positions_.size() + 6 * description.frames.size(), 0.0);
-  std::vector<Frame> frames;
-  for (const FrameDescription& frame : description.frames) {
-    check_frame(frame, frames.size());
-    frames.push_back({first_frame + 2 * static_cast<std::int32_t>(frames.size()), frame.mass, frame.inertia});
-    block(Reals(rest_positions_), frames.back().block) = frame.position;
-    rest_rotations_.push_back(frame.rotation.normalized());
-    rest_speeds_.push_back(frame.velocity);
-    rest_spins_.push_back(frame.angular_velocity);
-  }
+  std::vector<Frame> frames = add_frames(description);
+  const std::vector<std::int32_t> frame_at = frames_at_blocks(frames, blocks());
+  const auto first_rotation =
+      frames.empty() ? 0 : frames.back().rotation - static_cast<std::int32_t>(frames.size()) + 1;
 
   std::vector<double> masses(static_cast<std::size_t>(blocks()), 0.0);
   for (const Frame& frame : frames) masses[static_cast<std::size_t>(frame.block)] = frame.mass;
   weights_ = masses;
+  std::vector<Mat3> inertias(frames.size(), Mat3::Zero());
+  if (description.gravity && description.consistent_weight) moments_.assign(frames.size(), Vec3::Zero());
   for (std::size_t i = 0; i < description.bodies.size(); ++i) {
     const BodyDescription& body = description.bodies[i];
     Body& made = bodies_[i];
-    std::vector<double> own(static_cast<std::size_t>(made.first_node + made.node_count), 0.0);
+    std::vector<double> own(masses.size(), 0.0);
     std::vector<std::unique_ptr<ForceModel>> models;
-    for (ElasticBlock& elastic : blocks_of(body, made, rest_positions_, description.gravity)) {
+    const std::vector<std::int32_t> shared = shared_nodes(body);
+    for (ElasticBlock& elastic : blocks_of(body, made, shared, rest_positions_, description.gravity)) {
+      if (!frames.empty()) {
+        elastic.first_rotation = first_rotation;
+        for (const std::int32_t node : elastic.cells)
+          elastic.frames.push_back(frame_at[static_cast<std::size_t>(node)]);
+      }
       auto model = before == nullptr ? nullptr : edited_model(before->body(body.name).models, elastic);
       if (model == nullptr) model = make_model(std::move(elastic), rest_positions_, isa_, threads_);
       model->add_masses(own);
+      model->add_inertias(inertias);
+      if (description.gravity && description.consistent_weight) model->add_moments(moments_);
       model->add_weights(weights_);
       made.models.push_back(model.get());
       models.push_back(std::move(model));
     }
     for (std::size_t n = 0; n < own.size(); ++n) masses[n] += own[n];
-    own.resize(masses.size(), 0.0);
     if (body.rayleigh) {
       forces_.push_back(
           std::make_unique<Rayleigh>(std::move(models), own, body.rayleigh->mass, body.rayleigh->stiffness));
@@ -160,19 +192,73 @@ void World::add_bodies(const WorldDescription& description, const World* before)
     }
     add_viscosity(body, made);
   }
+  add_inertias(inertias, frames);
   mass_ = Mass(std::move(masses), std::move(frames));
+}
+
+/// Rigid bodies that stand alone, then the nodes of bodies that are frames, whose rotations stand together.
+std::vector<Frame> World::add_frames(const WorldDescription& description) {
+  const std::int32_t first = blocks();
+  rest_positions_.resize(rest_positions_.size() + 6 * description.frames.size(), 0.0);
+  std::vector<Frame> frames;
+  for (const FrameDescription& frame : description.frames) {
+    check_frame(frame, frames.size());
+    const auto at = first + 2 * static_cast<std::int32_t>(frames.size());
+    frames.push_back({at, at + 1, frame.mass, frame.inertia});
+    block(Reals(rest_positions_), frames.back().block) = frame.position;
+    rest_rotations_.push_back(frame.rotation.normalized());
+    rest_speeds_.push_back(frame.velocity);
+    rest_spins_.push_back(frame.angular_velocity);
+  }
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    if (!description.bodies[i].frames) continue;
+    bodies_[i].first_frame = static_cast<std::int32_t>(frames.size());
+    for (std::int32_t node = 0; node < bodies_[i].node_count; ++node) {
+      frames.push_back({bodies_[i].first_node + node, blocks() + node, 0.0, Mat3::Zero()});
+    }
+    const auto count = static_cast<std::size_t>(bodies_[i].node_count);
+    rest_positions_.resize(rest_positions_.size() + 3 * count, 0.0);
+    rest_rotations_.resize(frames.size(), Quaternion::Identity());
+    rest_speeds_.resize(frames.size(), Vec3::Zero());
+    rest_spins_.resize(frames.size(), Vec3::Zero());
+  }
+  return frames;
+}
+
+std::vector<std::int32_t> World::shared_nodes(const BodyDescription& description) const {
+  std::vector<std::int32_t> nodes;
+  for (const SharedNode& shared : description.shared) {
+    const Body& other = body(shared.body);
+    nodes.push_back(shifted({shared.node}, other.first_node, other.node_count,
+                            "what body \"" + description.name + "\" shares with \"" + other.name + "\"")
+                        .front());
+  }
+  return nodes;
+}
+
+/// Inertias that the models gave to the frames of their bodies.
+void World::add_inertias(const std::vector<Mat3>& inertias, std::vector<Frame>& frames) const {
+  for (std::size_t k = 0; k < frames.size(); ++k) frames[k].inertia += inertias[k];
+  for (const Body& body : bodies_) {
+    for (std::int32_t i = 0; body.first_frame >= 0 && i < body.node_count; ++i) {
+      check_inertia(body.name, i, frames[static_cast<std::size_t>(body.first_frame + i)].inertia);
+    }
+  }
 }
 
 void World::add_external(const WorldDescription& description) {
   if (description.gravity) {
     const std::vector<double>& pulled = description.consistent_weight ? weights_ : mass_.nodal();
     forces_.push_back(std::make_unique<Gravity>(pulled, *description.gravity));
+    if (!moments_.empty())
+      forces_.push_back(std::make_unique<FrameWeight>(frames(), moments_, *description.gravity));
   }
   for (const LoadDescription& load : description.loads) {
     const Body& on = body(load.body);
     check_size("load \"" + load.name + "\"", load.forces.size(), 3 * load.nodes.size());
     check_table("load \"" + load.name + "\"", load.history.times, load.history.factors.size());
     auto nodes = shifted(load.nodes, on.first_node, on.node_count, "load \"" + load.name + "\"");
+    if (load.moments) nodes = rotations_of(on, nodes, "load \"" + load.name + "\"");
     forces_.push_back(std::make_unique<NodalLoad>(load.name, std::move(nodes), load.forces, load.history));
   }
   for (const PressureDescription& pressure : description.pressures) {
@@ -202,8 +288,24 @@ void World::add_fixed(const WorldDescription& description) {
     for (std::size_t i = 0; i < fixed.positions.size() / 3; ++i) {
       block(Reals(start), nodes[i]) = block(ConstReals(fixed.positions), static_cast<std::int32_t>(i));
     }
-    fixed_.add(nodes, start, fixed.axes, fixed.motion);
+    if (fixed.translations) fixed_.add(nodes, start, fixed.axes, fixed.motion);
+    if (!fixed.rotations) continue;
+    std::vector<std::int32_t> numbers;
+    for (const std::int32_t node : nodes) numbers.push_back(on.first_frame + node - on.first_node);
+    fixed_.add_rotations(rotations_of(on, nodes, where), numbers, rest_rotations_, fixed.motion);
   }
+}
+
+std::vector<std::int32_t> World::rotations_of(const Body& body, std::vector<std::int32_t> nodes,
+                                              const std::string& where) const {
+  if (body.first_frame < 0) {
+    throw ParameterError(where + " names rotations of body \"" + body.name +
+                         "\", whose nodes have none; only nodes that are frames do.");
+  }
+  for (std::int32_t& node : nodes) {
+    node = frames()[static_cast<std::size_t>(body.first_frame + node - body.first_node)].rotation;
+  }
+  return nodes;
 }
 
 /// Eliminated nodes are no unknowns: they are held for the solver, and their model says where they are.

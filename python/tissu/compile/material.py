@@ -29,7 +29,8 @@ def cell_groups(mesh: Mesh, body: Body, path: Path, findings: Findings) -> list[
     owner = _owner_of_cells(mesh, body.law, (*path, "law"), findings)
     if owner is None:
         return []
-    _check_laws(mesh, laws, owner, path, findings)
+    if not body.has_rotations:  # frames take laws of volumes on sheets and lines
+        _check_laws(mesh, laws, owner, path, findings)
     models = list(body.models().values())
     carrier = _owner_of_cells(mesh, body.model, (*path, "model"), findings)
     if carrier is None:

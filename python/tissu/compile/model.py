@@ -9,7 +9,7 @@ import numpy as np
 
 from tissu import _core
 from tissu.counted import counted
-from tissu.scene.model import Condensed
+from tissu.scene.model import WITH_ROTATIONS, Condensed
 from tissu.scene.problem import Problem, one_of_words
 
 if TYPE_CHECKING:
@@ -60,6 +60,7 @@ def use_of(model: Model, kept: Ints) -> Any:
         name=model.type,
         rotation=getattr(model, "rotation", "polar"),
         tangent=getattr(model, "tangent", "approximate"),
+        section=getattr(model, "section", "whole"),
         equal_masses=getattr(model, "masses", "volume") == "equal",
         kept=kept,
     )
@@ -119,6 +120,28 @@ def check_kept(prepared: Prepared) -> None:
                 text += "with other cells; hold one, or keep the surface: "
                 text += "{type: condensed, keep: surface}"
                 _tell_once(("bodies", name, "model"), text, prepared.findings)
+
+
+def check_rotations(prepared: Prepared) -> None:
+    """Report bodies of which only some cells give their nodes a rotation, and what asks for one."""
+    for name, body in getattr(prepared.scene, "bodies", {}).items():
+        kinds = {isinstance(model, WITH_ROTATIONS) for model in body.models().values()}
+        if len(kinds) == 2:
+            names = one_of_words(sorted({model.type for model in body.models().values()}))
+            text = f"found {names} in one body; frames and other models share no node: give each "
+            _tell_once(("bodies", name, "model"), f"{text}a body of its own", prepared.findings)
+        if True in kinds and body.viscosity is not None and body.viscosity.type != "rayleigh":
+            text = f"found {body.viscosity.type} for frames; rayleigh is accepted"
+            _tell_once(("bodies", name, "viscosity"), text, prepared.findings)
+        if True in kinds and getattr(prepared.scene, "editing", False):
+            text = "found true with a body of frames, whose cells cannot be removed; leave it out"
+            _tell_once(("editing",), text, prepared.findings)
+    for number, load in enumerate(getattr(prepared.scene, "loads", ())):
+        asked = getattr(prepared.scene, "bodies", {}).get(getattr(load, "body", None))
+        if load.type == "moment" and asked is not None and not asked.has_rotations:
+            text = f"found a moment on '{load.body}', whose nodes have no rotation; "
+            text += "frames have one, other bodies take forces"
+            _tell_once(("loads", number), text, prepared.findings)
 
 
 def note_condensed(_mesh: Mesh, body: Body, scene: Scene, path: Path, findings: Findings) -> None:

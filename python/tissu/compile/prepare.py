@@ -10,7 +10,7 @@ import numpy as np
 from tissu.compile.balance import check_supports
 from tissu.compile.material import cell_groups, density_of
 from tissu.compile.meshes import known_mesh
-from tissu.compile.model import check_kept, note_condensed
+from tissu.compile.model import check_kept, check_rotations, note_condensed
 from tissu.compile.prepared import Held, Ints, LoadedNodes, Prepared, PreparedBody
 from tissu.compile.quadrature import check_quadrature
 from tissu.compile.select import selected_faces, selected_nodes
@@ -50,6 +50,8 @@ def prepare(scene: Scene) -> Prepared:
         with contextlib.suppress(Unknown):
             _prepare_load(prepared, ("loads", number), load)
     check_kept(prepared)
+    with contextlib.suppress(Unknown):
+        check_rotations(prepared)
     check_supports(prepared)
     return prepared
 
@@ -116,7 +118,7 @@ def _prepare_load(prepared: Prepared, path: Path, load: Load) -> None:
         return
     faces: tuple[CellBlock, ...] = ()
     known = prepared.meshes[load.body]
-    if load.type != "nodal" and known.surface:
+    if load.type not in ("nodal", "moment") and known.surface:
         faces = selected_faces(nodes, known.mesh)
         if not faces:
             text = f"{_words(load.on)} selects {counted(len(nodes), 'node')} of body '{load.body}'"

@@ -140,7 +140,7 @@ class Prepared:
             faces = sum(len(block) for block in loaded.faces)
             text = (
                 counted(faces, "face")
-                if loaded.load.type != "nodal"
+                if loaded.load.type not in ("nodal", "moment")
                 else counted(len(loaded.nodes), "node")
             )
             counts[f"{loaded.path[0]}[{loaded.path[1]}]"] = text

@@ -70,7 +70,7 @@ def check_thin(mesh: Mesh, body: Body, path: Path, findings: Findings) -> bool:
 def note_bending(mesh: Mesh, body: Body, scene: Scene, path: Path, findings: Findings) -> None:
     """Note that a static step may fail where only sheets and lines hold nodes."""
     static = getattr(getattr(scene, "step", None), "type", None) == "static"
-    if static and mesh.thin_blocks and getattr(body, "plane", None) is None:
+    if static and mesh.thin_blocks and not body.has_rotations and body.plane is None:
         findings.note(
             f"{path[0]}.{path[1]}: sheets and lines do not resist bending; where they lie flat and "
             "nothing else holds their nodes a static step fails: hold those, or let it move in time"

@@ -20,10 +20,10 @@ from tissu.compile.thin import cross_section_of
 from tissu.effects import load_name
 from tissu.errors import SceneError
 from tissu.mesh.whole_faces import nodal_areas
-from tissu.scene.load import NodalLoad, Pressure
+from tissu.scene.load import Moment, NodalLoad, Pressure
 from tissu.scene.problem import Problem
 from tissu.scene.step import Static
-from tissu.scene.support import Fixed, axes_mask
+from tissu.scene.support import Fixed, axes_mask, holds_rotations
 from tissu.scene.viscosity import Centroid, KelvinVoigt, Rayleigh
 
 if TYPE_CHECKING:
@@ -94,7 +94,7 @@ def build_world(prepared: Prepared) -> Any:
     if scene.gravity is not None:
         builder.add_gravity(acceleration=np.array(scene.gravity))
     for held in prepared.held:
-        _add_support(builder, held)
+        _add_support(builder, held, prepared.scene.bodies[held.support.body].has_rotations)
     for loaded in prepared.loaded:
         _add_load(builder, loaded, prepared)
     return builder.build()
@@ -114,7 +114,11 @@ def _add_body(builder: WorldBuilder, prepared: Prepared, name: str) -> None:
     from tissu._core import Plane
 
     body, ready = prepared.scene.bodies[name], prepared.bodies[name]
-    builder.add_body(name=name, positions=np.ascontiguousarray(ready.mesh.points, dtype=np.float64))
+    builder.add_body(
+        name=name,
+        positions=np.ascontiguousarray(ready.mesh.points, dtype=np.float64),
+        frames=body.has_rotations,
+    )
     for group in ready.groups:
         builder.add_elastic(
             body=name,
@@ -147,11 +151,12 @@ def _add_viscosity(builder: WorldBuilder, name: str, viscosity: Viscosity) -> No
         builder.add_viscosity(body=name, branches=branches)
 
 
-def _add_support(builder: WorldBuilder, held: Held) -> None:
+def _add_support(builder: WorldBuilder, held: Held, frames: bool) -> None:
     support = held.support
+    rotations = frames and holds_rotations(support)
     axes = axes_mask(support.axes)
     if isinstance(support, Fixed):
-        builder.fix(body=support.body, nodes=held.nodes, axes=axes)
+        builder.fix(body=support.body, nodes=held.nodes, axes=axes, rotations=rotations)
         return
     count, rotation = len(support.times), support.rotation
     displacements = (
@@ -161,6 +166,7 @@ def _add_support(builder: WorldBuilder, held: Held) -> None:
         body=support.body,
         nodes=held.nodes,
         axes=axes,
+        rotations=rotations,
         times=np.array(support.times),
         displacements=displacements,
         angles=np.zeros(count) if rotation is None else np.array(rotation.angles),
@@ -183,12 +189,18 @@ def _add_load(builder: WorldBuilder, loaded: LoadedNodes, prepared: Prepared) ->
         )
         return
     nodes = loaded.nodes
-    if isinstance(load, NodalLoad):
-        forces = np.tile(np.array(load.force) / len(nodes), (len(nodes), 1))
+    if isinstance(load, NodalLoad | Moment):
+        total = load.force if isinstance(load, NodalLoad) else load.moment
+        forces = np.tile(np.array(total) / len(nodes), (len(nodes), 1))
     else:
         shares = nodal_areas(prepared.bodies[load.body].mesh, loaded.faces)
         nodes = np.flatnonzero(shares).astype(np.int32)
         forces = shares[nodes, None] * np.array(load.traction)
     builder.add_load(
-        name=name, body=load.body, nodes=nodes.astype(np.int32), forces=forces, **series
+        name=name,
+        body=load.body,
+        nodes=nodes.astype(np.int32),
+        forces=forces,
+        moments=isinstance(load, Moment),
+        **series,
     )

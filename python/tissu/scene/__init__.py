@@ -13,11 +13,12 @@ from tissu.scene.law import (
     UserLaw,
     Yeoh,
 )
-from tissu.scene.load import NodalLoad, Pressure, Traction
+from tissu.scene.load import Moment, NodalLoad, Pressure, Traction
 from tissu.scene.model import (
     FEM,
     Condensed,
     Corotational,
+    Frames,
     MassLink,
     MassSpring,
     MassTensor,
@@ -62,6 +63,7 @@ __all__ = [
     "ExplicitEuler",
     "Fibres",
     "Fixed",
+    "Frames",
     "Hooke",
     "ImplicitEuler",
     "ImplicitMidpoint",
@@ -71,6 +73,7 @@ __all__ = [
     "MassTensor",
     "MeanDilatation",
     "MeshFile",
+    "Moment",
     "MooneyRivlin",
     "NeoHooke",
     "Newmark",

@@ -12,7 +12,7 @@ from pydantic import AfterValidator, Field, PlainValidator, ValidationInfo
 from tissu import units
 from tissu.scene.bar import BarMesh
 from tissu.scene.law import Law, LawOrMap
-from tissu.scene.model import FEM, Model, ModelOrMap
+from tissu.scene.model import FEM, WITH_ROTATIONS, Model, ModelOrMap
 from tissu.scene.part import Part, chosen
 from tissu.scene.problem import Problem
 from tissu.scene.start import Start
@@ -75,7 +75,7 @@ class Body(Part):
     """the material's law, or a map from the mesh's regions to laws"""
     model: ModelOrMap = FEM()
     """what computes the cells' forces, by name: fem, corotational, mass-spring, mass-link,
-    mass-tensor, condensed, mean-dilatation; or a map from the mesh's regions to models
+    mass-tensor, condensed, mean-dilatation, frames; or a map from the mesh's regions to models
     """
     density: Annotated[units.Density, Field(gt=0.0)] | None = None
     """density [kg/m^3]; this or `mass`"""
@@ -128,6 +128,11 @@ class Body(Part):
             text = f"found plane {self.plane} without thickness; both are accepted together: "
             text += "thickness: 1 m makes every force one per metre"
             yield Problem((), text)
+
+    @property
+    def has_rotations(self) -> bool:
+        """Whether its nodes are frames: they can turn, be held against it, and carry moments."""
+        return all(isinstance(model, WITH_ROTATIONS) for model in self.models().values())
 
     def laws(self) -> dict[str | None, Law]:
         """Laws by region; the key None stands for the whole body."""

@@ -61,6 +61,26 @@ class NodalLoad(_Load):
         ) -> None: ...
 
 
+class Moment(_Load):
+    """A total moment shared equally by the selected nodes, which are frames; it keeps its axis."""
+
+    type: Literal["moment"] = "moment"
+    moment: units.Moment
+    """total moment [N m]"""
+
+    if TYPE_CHECKING:
+
+        def __init__(
+            self,
+            body: str,
+            *,
+            on: Selection,
+            moment: units.VectorLike,
+            times: Series | None = ...,
+            factors: Series | None = ...,
+        ) -> None: ...
+
+
 class Traction(_Load):
     """A force per rest area that keeps its direction, on faces whose nodes are all selected."""
 
@@ -101,5 +121,5 @@ class Pressure(_Load):
         ) -> None: ...
 
 
-Load = NodalLoad | Traction | Pressure
-OneLoad = Annotated[Load, one_of(NodalLoad, Traction, Pressure)]
+Load = NodalLoad | Moment | Traction | Pressure
+OneLoad = Annotated[Load, one_of(NodalLoad, Moment, Traction, Pressure)]

@@ -81,11 +81,37 @@ class Condensed(Part):
         def __init__(self, *, keep: Literal["touched", "surface"] = ...) -> None: ...
 
 
+class Frames(Part):
+    """Nodes that are frames of six degrees of freedom; any law on volumes, sheets and lines."""
+
+    type: Literal["frames"] = "frames"
+    tangent: Literal["full", "material"] = "full"
+    """the derivative of the force, or its part dE : C : dE, never indefinite (as published)"""
+    section: Literal["whole", "middle"] = "whole"
+    """points of sheets and lines: through the section, which resists bending and twist, or on its
+    middle only, as published
+    """
+
+    if TYPE_CHECKING:
+
+        def __init__(
+            self,
+            *,
+            tangent: Literal["full", "material"] = ...,
+            section: Literal["whole", "middle"] = ...,
+        ) -> None: ...
+
+
 MODELS: tuple[type[Part], ...] = (
     *(FEM, Corotational, MassSpring, MassLink, MassTensor),
-    *(Condensed, MeanDilatation),
+    *(Condensed, MeanDilatation, Frames),
 )
-Model = FEM | Corotational | MassSpring | MassLink | MassTensor | Condensed | MeanDilatation
+Model = (
+    FEM | Corotational | MassSpring | MassLink | MassTensor | Condensed | MeanDilatation | Frames
+)
+
+WITH_ROTATIONS: tuple[type[Part], ...] = (Frames,)
+"""models whose nodes have a rotation beside their place"""
 
 
 def _one_model(value: Any, info: ValidationInfo) -> Any:

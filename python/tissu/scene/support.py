@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Annotated, ClassVar
+from typing import TYPE_CHECKING, Annotated, ClassVar, Literal
 
 from pydantic import AfterValidator, BeforeValidator
 
@@ -65,6 +65,12 @@ def axes_mask(axes: str) -> int:
     return sum(1 << "xyz".index(letter) for letter in axes)
 
 
+def holds_rotations(support: Fixed | Prescribed) -> bool:
+    """Whether it gives the rotation of nodes that are frames."""
+    given = getattr(support, "rotations", None)
+    return given == "held" or (given is None and len(getattr(support, "axes", "")) == 3)
+
+
 class Fixed(Part):
     """Nodes that stay where they are at rest, on some or all axes."""
 
@@ -75,10 +81,19 @@ class Fixed(Part):
     """which nodes: a box, sphere, plane, nodes, surface or region"""
     axes: Axes = "xyz"
     """axes held: letters out of xyz"""
+    rotations: Literal["held", "free"] | None = None
+    """of nodes that are frames: whether their rotation is held too; absent: where all axes are"""
 
     if TYPE_CHECKING:
 
-        def __init__(self, body: str, *, on: Selection, axes: str = ...) -> None: ...
+        def __init__(
+            self,
+            body: str,
+            *,
+            on: Selection,
+            axes: str = ...,
+            rotations: Literal["held", "free"] | None = ...,
+        ) -> None: ...
 
 
 class Rotation(Part):
@@ -118,6 +133,8 @@ class Prescribed(Part):
     """which nodes: a box, sphere, plane, nodes, surface or region"""
     axes: Axes = "xyz"
     """axes moved: letters out of xyz"""
+    rotations: Literal["held", "free"] | None = None
+    """of nodes that are frames: whether their rotation is given too; absent: where all axes are"""
     times: IncreasingTimes
     """strictly increasing times [s]"""
     displacements: units.Displacements | None = None
@@ -133,6 +150,7 @@ class Prescribed(Part):
             *,
             on: Selection,
             axes: str = ...,
+            rotations: Literal["held", "free"] | None = ...,
             times: Sequence[units.Number] | units.VectorLike,
             displacements: Sequence[units.VectorLike] | None = ...,
             rotation: Rotation | None = ...,

@@ -212,6 +212,18 @@ class Simulation:
         """Displacements (n, 3) of the nodes of a body from rest [m]."""
         return self.positions[body] - self._meshes[body].points
 
+    def rotations(self, body: str) -> Floats:
+        """Rotation matrices (n, 3, 3) of the nodes of a body from rest.
+
+        Raises:
+            ParameterError: its nodes are no frames.
+        """
+        found = self._core.rotations(body)
+        if not len(found):
+            text = f"found body '{body}', whose nodes have no rotation; those of frames have one"
+            raise ParameterError(text)
+        return found
+
     def reactions(self, body: str) -> Floats:
         """Forces (n, 3) that supports and led nodes give to a body [N]; zero where nothing is held.
 

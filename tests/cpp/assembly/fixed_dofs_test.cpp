@@ -70,6 +70,11 @@ class FixedDofsTest : public testing::Test {
     fixed_.add(std::vector<std::int32_t>{3}, rest_, FixedDofs::kAllAxes, {});
     fixed_.add(std::vector<std::int32_t>{1}, rest_, 5, rising);  // x and z
   }
+  static State at(const std::vector<double>& x) {
+    State state;
+    state.positions = x;
+    return state;
+  }
   std::vector<double> rest_ = {0, 0, 0, 1, 1, 1, 2, 2, 2, 3, 3, 3};
   FixedDofs fixed_{4};
 };
@@ -85,11 +90,11 @@ TEST_F(FixedDofsTest, ListsItsRows) {
 TEST_F(FixedDofsTest, VelocitiesLeadToTheTarget) {
   const std::vector<double> x = {0, 0, 0, 1.5, 1, 1, 2, 2, 2, 3, 3.25, 3};
   std::vector<double> v(12, 9.0);
-  fixed_.set_velocities(x, 0.5, 0.25, 1.0, v);
+  fixed_.set_velocities(at(x), 0.5, 0.25, 1.0, v);
   // node 1 goes to x = 1.5, z = 2.5; node 3 back to rest; the rest is left alone
   EXPECT_EQ(v, (std::vector<double>{9, 9, 9, 0, 9, 6, 9, 9, 9, 0, -1, 0}));
   std::ranges::fill(v, 9.0);
-  fixed_.set_velocities(x, 0.5, 0.25, 0.5, v);  // half of the way
+  fixed_.set_velocities(at(x), 0.5, 0.25, 0.5, v);  // half of the way
   EXPECT_EQ(v, (std::vector<double>{9, 9, 9, 0, 9, 3, 9, 9, 9, 0, -0.5, 0}));
 }
 
@@ -105,7 +110,7 @@ TEST_F(FixedDofsTest, GathersAxes) {
   EXPECT_EQ(fixed_.masks()[1], 7);
   EXPECT_EQ(fixed_.rows(), (std::vector<std::int32_t>{1, 3}));
   std::vector<double> v(12, 9.0);
-  fixed_.set_velocities(rest_, 1.0, 1.0, 1.0, v);
+  fixed_.set_velocities(at(rest_), 1.0, 1.0, 1.0, v);
   EXPECT_EQ(v, (std::vector<double>{9, 9, 9, 1, 0, 3, 9, 9, 9, 0, 0, 0}));
 }
 

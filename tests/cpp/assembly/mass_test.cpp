@@ -13,7 +13,7 @@ namespace {
 class MassTest : public testing::Test {
  protected:
   MassTest() {
-    Frame frame{1, 3.0, Mat3::Zero()};
+    Frame frame{1, 2, 3.0, Mat3::Zero()};
     frame.inertia << 2.0, 0.1, 0.2, 0.1, 3.0, 0.3, 0.2, 0.3, 4.0;
     mass_ = Mass({2.0, 3.0, 0.0}, {frame});
     state_.positions = random_.numbers(9);

@@ -19,7 +19,7 @@ using test::view;
 class LinksTest : public testing::Test {
  protected:
   LinksTest() {
-    frames_ = {{2, 1.0, Mat3::Identity()}, {4, 1.0, Mat3::Identity()}};
+    frames_ = {{2, 3, 1.0, Mat3::Identity()}, {4, 5, 1.0, Mat3::Identity()}};
     state_.positions = random_.numbers(18);
     for (const std::size_t rotation : {9U, 15U}) {
       for (std::size_t k = 0; k < 3; ++k) state_.positions[rotation + k] = 0.0;

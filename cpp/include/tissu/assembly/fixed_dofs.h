@@ -20,6 +20,8 @@ struct Motion {
   Vec3 axis = Vec3::UnitX();        ///< of length 1
 
   [[nodiscard]] Vec3 position(const Vec3& rest, double time) const;
+  /// The angle at `time`, turns and all [rad].
+  [[nodiscard]] double angle(double time) const;
 };
 
 class FixedDofs {
@@ -33,13 +35,19 @@ class FixedDofs {
   void add(std::span<const std::int32_t> nodes, ConstReals rest_positions, std::uint8_t mask,
            const Motion& motion);
 
+  /// Gives the rotation of some frames: their rotations' blocks, and their numbers in the state.
+  void add_rotations(std::span<const std::int32_t> blocks, std::span<const std::int32_t> frames,
+                     std::span<const Quaternion> rest, const Motion& motion);
+
   [[nodiscard]] bool empty() const { return rows_.empty(); }
   [[nodiscard]] const std::vector<std::int32_t>& rows() const { return rows_; }
   [[nodiscard]] const std::vector<std::uint8_t>& masks() const { return masks_; }
 
-  /// Sets the led components of v so that x + h v is where they are to be at `time`; `share` < 1 goes only
-  /// that part of the way.
-  void set_velocities(ConstReals x, double time, double h, double share, Reals v) const;
+  /// Sets the led components of v so that a state moved by h v is where they are to be at `time`; `share` < 1
+  /// goes only that part of the way.
+  void set_velocities(const State& from, double time, double h, double share, Reals v) const;
+  /// The led places and rotations of `to` are those of `from` moved by h v.
+  void place(const State& from, double h, ConstReals v, State& to) const;
   /// to = from in the led components.
   void copy(ConstReals from, Reals to) const;
   /// Zero in the led components.
@@ -52,9 +60,17 @@ class FixedDofs {
     std::int32_t motion;
     Vec3 rest;
   };
+  struct LedRotation {
+    std::int32_t block;
+    std::int32_t frame;
+    std::int32_t motion;
+    Quaternion rest;
+  };
+  void lead(std::span<const std::int32_t> rows, std::uint8_t mask);
   std::vector<std::int32_t> rows_;
   std::vector<std::uint8_t> masks_;
   std::vector<Led> led_;
+  std::vector<LedRotation> led_rotations_;
   std::vector<Motion> motions_;
 };
 

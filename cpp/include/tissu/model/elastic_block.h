@@ -12,6 +12,7 @@
 
 #include "tissu/base/vec.h"
 #include "tissu/law/law_info.h"
+#include "tissu/model/frame_points.h"
 #include "tissu/model/loaded_law.h"
 
 namespace tissu {
@@ -37,7 +38,8 @@ enum class Plane : std::uint8_t { stress, strain };
 struct ModelUse {
   std::string name = "fem";
   std::string rotation = "polar";       ///< of corotational: small, frame or polar
-  std::string tangent = "approximate";  ///< of corotational: approximate or exact
+  std::string tangent = "approximate";  ///< of corotational: approximate or exact; of frames: full or material
+  std::string section = "whole";        ///< of frames in sheets and lines: whole or middle
   bool equal_masses = false;            ///< of mass-spring: the same mass at every node
   std::vector<std::int32_t> kept = {};  ///< of condensed: the nodes of the body that are not eliminated
   Vec3 gravity = Vec3::Zero();          ///< of condensed: pulls at those that are [m/s2]; the world gives it
@@ -59,6 +61,12 @@ struct ElasticBlock {
   std::vector<double> cross_section = {1.0};
   Plane plane = Plane::stress;
   ModelUse model;
+  /// Of models with rotations at their nodes: the frame of each entry of `cells`, and where rotations begin:
+  /// that of frame k is the block first_rotation + k. The world gives both.
+  std::vector<std::int32_t> frames = {};
+  std::int32_t first_rotation = 0;
+  /// Of frames without cells: their points; `cells` holds the frames of each. Null: the cells' own.
+  std::shared_ptr<const FramePoints> points = nullptr;
   bool fused = true;  ///< kernels made for this element and law where there are such; else those of its shape
 };
 

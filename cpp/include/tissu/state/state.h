@@ -9,9 +9,10 @@
 
 namespace tissu {
 
-/// A rigid frame owns two 3-vectors of the unknown: translation (`block`) and rotation (`block` + 1).
+/// A rigid frame owns two 3-vectors of the unknown, its translation and its rotation.
 struct Frame {
-  std::int32_t block;
+  std::int32_t block;     ///< of its origin
+  std::int32_t rotation;  ///< of its rotation
   double mass;   ///< [kg]
   Mat3 inertia;  ///< about its origin, in its own axes [kg m2]
 };
@@ -28,6 +29,11 @@ struct State {
 
   [[nodiscard]] std::int32_t blocks() const { return static_cast<std::int32_t>(positions.size() / 3); }
 };
+
+/// exp(w), the rotation by |w| about w.
+Quaternion turn_by(const Vec3& w);
+/// The w with exp(w) = q that is nearest to `expected`: rotations are known up to whole turns only.
+Vec3 nearest_turn(const Quaternion& q, const Vec3& expected);
 
 /// to = from moved by h v: x + h v for translations, exp(h omega) R for rotations. Velocities are left.
 void move(const State& from, const std::vector<Frame>& frames, ConstReals v, double h, State& to);

@@ -54,6 +54,8 @@ class StageSolver {
   /// states on the way to a better one; else they are halved until the residual falls, or until the energy
   /// does.
   std::string_view iterate(State& state, std::vector<double>& v, Search search, int most, StepReport& report);
+  /// trial = v and that share of the change.
+  void go(ConstReals v, double share);
   bool advance(State& state, std::vector<double>& v, Search search, double& now);
   bool descend(State& state, std::vector<double>& v, double& now);
   /// The matrix of the equation: mass M - push D - push move K.

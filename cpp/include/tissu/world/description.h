@@ -20,12 +20,20 @@ struct RayleighDamping {
   double stiffness = 0.0;  ///< beta [s]
 };
 
+struct SharedNode {
+  std::string body;
+  std::int32_t node = 0;
+};
+
 struct BodyDescription {
   std::string name;
   std::vector<double> positions;  ///< at rest [m], three for each node
   std::vector<ElasticBlock> elastic;
   std::optional<RayleighDamping> rayleigh = std::nullopt;
   Viscosity viscosity = {};
+  bool frames = false;  ///< its nodes are frames: they have a rotation too, none at rest
+  /// Frames of other bodies that this body's cells use as well: numbers from its own node count on.
+  std::vector<SharedNode> shared = {};
 };
 
 struct FixedNodes {
@@ -34,6 +42,8 @@ struct FixedNodes {
   std::uint8_t axes = FixedDofs::kAllAxes;
   Motion motion;
   std::vector<double> positions;  ///< where the motion starts, three for each node; empty: at rest
+  bool rotations = false;         ///< of frames: their rotation is given too
+  bool translations = true;       ///< false: only their rotation
 };
 
 struct LoadDescription {
@@ -42,6 +52,7 @@ struct LoadDescription {
   std::vector<std::int32_t> nodes;
   std::vector<double> forces;  ///< [N], three for each node
   History history;
+  bool moments = false;  ///< they are moments [N m] on frames, about axes of space
 };
 
 struct PressureDescription {

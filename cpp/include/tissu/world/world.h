@@ -25,6 +25,7 @@ struct Body {
   std::int32_t first_node;
   std::int32_t node_count;
   std::vector<const BodyModel*> models;
+  std::int32_t first_frame = -1;  ///< number of its first node's frame; -1: its nodes have no rotation
 };
 
 class World {
@@ -65,6 +66,12 @@ class World {
 
  private:
   void add_bodies(const WorldDescription& description, const World* before);
+  std::vector<Frame> add_frames(const WorldDescription& description);
+  [[nodiscard]] std::vector<std::int32_t> shared_nodes(const BodyDescription& description) const;
+  void add_inertias(const std::vector<Mat3>& inertias, std::vector<Frame>& frames) const;
+  /// The blocks of the rotations of some nodes; refuses those of a body whose nodes have none.
+  [[nodiscard]] std::vector<std::int32_t> rotations_of(const Body& body, std::vector<std::int32_t> nodes,
+                                                       const std::string& where) const;
   void add_viscosity(const BodyDescription& body, const Body& made);
   void add_external(const WorldDescription& description);
   void add_fixed(const WorldDescription& description);
@@ -80,6 +87,7 @@ class World {
   Mass mass_;
   std::vector<double>
       weights_;  ///< sum_g w_g rho N_a of each node [kg]; equal to the mass for linear elements
+  std::vector<Vec3> moments_;  ///< of the weight of each frame, in its axes [kg m]; empty unless asked for
   FixedDofs fixed_;
   std::vector<std::unique_ptr<ForceModel>> forces_;
   Links* links_ = nullptr;

@@ -1,0 +1,24 @@
+"""Where points lie: frames and integration points of bodies without a mesh.
+
+After Bosman, Duriez and Cotin, Connective tissues simulation on GPU, VRIPHYS 2013, and Bosman's
+thesis of 2014: frames and integration points are sampled apart, the points more densely.
+"""
+
+from tissu.sampling.grid import grid_cells, grid_points
+from tissu.sampling.poisson import poisson_count, poisson_distance, poisson_points
+from tissu.sampling.region import Region
+from tissu.sampling.shares import Shares, point_shares, point_volumes
+from tissu.sampling.surface import Surface
+
+__all__ = [
+    "Region",
+    "Shares",
+    "Surface",
+    "grid_cells",
+    "grid_points",
+    "point_shares",
+    "point_volumes",
+    "poisson_count",
+    "poisson_distance",
+    "poisson_points",
+]

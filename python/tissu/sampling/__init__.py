@@ -4,21 +4,28 @@ After Bosman, Duriez and Cotin, Connective tissues simulation on GPU, VRIPHYS 20
 thesis of 2014: frames and integration points are sampled apart, the points more densely.
 """
 
+from tissu.sampling.between import Between, between
 from tissu.sampling.grid import grid_cells, grid_points
 from tissu.sampling.poisson import poisson_count, poisson_distance, poisson_points
 from tissu.sampling.region import Region
 from tissu.sampling.shares import Shares, point_shares, point_volumes
 from tissu.sampling.surface import Surface
+from tissu.sampling.thin import ThinPoints, line_points, sheet_points
 
 __all__ = [
+    "Between",
     "Region",
     "Shares",
     "Surface",
+    "ThinPoints",
+    "between",
     "grid_cells",
     "grid_points",
+    "line_points",
     "point_shares",
     "point_volumes",
     "poisson_count",
     "poisson_distance",
     "poisson_points",
+    "sheet_points",
 ]

@@ -33,6 +33,17 @@ class TriangleTree:
             sample = sample[np.minimum(starts + _BRANCHES // 2, len(sample) - 1)]
             self._levels.append((low, high, sample))
 
+    @property
+    def bounds(self) -> Floats:
+        """Smallest and largest coordinates (2, 3) [m]."""
+        low, high, _ = self._levels[-1]
+        return np.array([low.min(axis=0), high.max(axis=0)])
+
+    @property
+    def nodes(self) -> Floats:
+        """Positions (n, 3) [m] of the corners, each once."""
+        return np.unique(self._corners.reshape(-1, 3), axis=0)
+
     def nearest(self, points: Floats, limit: float = math.inf) -> tuple[Floats, Floats]:
         """Nearest points (n, 3) and their distances (n,) [m]; NaN and infinity beyond `limit`."""
         found, distance = np.full(points.shape, np.nan), np.full(len(points), np.inf)

@@ -4,69 +4,22 @@ import numpy as np
 import pytest
 
 import tissu as ts
+from closed_surfaces import (
+    SURFACES,
+    box,
+    icosphere,
+    l_shape,
+    scattered,
+    smallest_gap,
+    to_nearest,
+    torus,
+)
 from tissu import sampling as sp
-
-
-def icosphere(level, radius=1.0, centre=(0.0, 0.0, 0.0)):
-    """An icosahedron whose triangles are cut into four `level` times, corners on the sphere."""
-    g = (1.0 + 5.0**0.5) / 2.0
-    points = np.array([(0, i, j * g) for i in (-1, 1) for j in (-1, 1)], dtype=float)
-    points = np.concatenate([np.roll(points, k, axis=1) for k in range(3)])
-    near = np.linalg.norm(points[:, None] - points, axis=2) < 2.1
-    rows = [(i, j, k) for i in range(12) for j in range(i) for k in range(j)]
-    rows = np.array([r for r in rows if near[r[0], r[1]] and near[r[1], r[2]] and near[r[0], r[2]]])
-    inwards = np.linalg.det(points[rows]) < 0
-    rows[inwards] = rows[inwards][:, [0, 2, 1]]
-    for _ in range(level):
-        edges = np.sort(rows[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
-        ends, number = np.unique(edges, axis=0, return_inverse=True)
-        m = number.reshape(-1, 3) + len(points)
-        points = np.vstack([points, points[ends].mean(axis=1)])
-        of = [rows[:, 0], m[:, 0], m[:, 2], rows[:, 1], m[:, 1], rows[:, 2]]
-        parts = [(0, 1, 2), (1, 3, 4), (2, 4, 5), (1, 4, 2)]
-        rows = np.concatenate([np.stack([of[i] for i in part], axis=1) for part in parts])
-    return points / np.linalg.norm(points, axis=1)[:, None] * radius + centre, rows
-
-
-def torus(big=1.0, small=0.4, around=48, across=24):
-    i, j = np.divmod(np.arange(around * across), across)
-    u, v = 2 * np.pi * i / around, 2 * np.pi * j / across
-    ring = big + small * np.cos(v)
-    points = np.stack([ring * np.cos(u), ring * np.sin(u), small * np.sin(v)], axis=1)
-    after, up = (i + 1) % around * across, (j + 1) % across
-    a, b, c, d = i * across + j, after + j, after + up, i * across + up
-    return points, np.concatenate([np.stack([a, b, c], 1), np.stack([a, c, d], 1)])
-
-
-def box(size=(0.4, 0.2, 0.1), cells=(4, 2, 1), origin=(0.0, 0.0, 0.0)):
-    return sp.Surface.of(ts.bar_mesh(size=size, cells=cells, origin=origin))
-
-
-def l_shape():
-    """Three cubes of side 1: the middle one at the origin, one along x, one along y."""
-    cubes = ts.bar_mesh(size=(2, 2, 1), cells=(2, 2, 1), cell="hexahedron")
-    block = ts.CellBlock("hexahedron", cubes.cells[0].nodes[[0, 1, 2]])
-    return sp.Surface.of(ts.Mesh(points=cubes.points, cells=(block,)))
-
-
-SURFACES = {
-    "box": box,
-    "sphere": lambda: sp.Surface(*icosphere(3)),
-    "torus": lambda: sp.Surface(*torus()),
-    "l_shape": l_shape,
-    "organ": lambda: sp.Surface.of(ts.read_mesh("examples/organ.vtu")),
-}
 
 
 @pytest.fixture(scope="module", params=SURFACES)
 def surface(request):
     return SURFACES[request.param]()
-
-
-def scattered(surface, count, seed=1, margin=0.1):
-    low, high = surface.bounds
-    wider = margin * (high - low)
-    return np.random.default_rng(seed).uniform(low - wider, high + wider, (count, 3))
 
 
 def winding_numbers(surface, points):
@@ -76,16 +29,6 @@ def winding_numbers(surface, points):
     up = (a * np.cross(b, c)).sum(axis=2)
     down = la * lb * lc + (a * b).sum(2) * lc + (b * c).sum(2) * la + (c * a).sum(2) * lb
     return np.arctan2(up, down).sum(axis=1) / (2 * np.pi)
-
-
-def smallest_gap(points):
-    away = np.linalg.norm(points[:, None] - points, axis=2)
-    return away[~np.eye(len(points), dtype=bool)].min(initial=np.inf)
-
-
-def to_nearest(places, points):
-    parts = np.array_split(places, 50)
-    return np.concatenate([np.linalg.norm(p[:, None] - points, axis=2).min(axis=1) for p in parts])
 
 
 # Surfaces
@@ -238,72 +181,6 @@ def test_a_count_is_met(count):
         assert abs(found - count) <= max(1.0, 0.03 * count)
 
 
-# Shares
-
-
-def test_shares_of_cells_of_a_grid_are_the_cells():
-    points = sp.grid_cells(box(), 0.05)
-    shares = sp.point_shares(box(), points)
-    # Planes between points on a grid cut fine cells squarely: nothing is left but round-off.
-    assert shares.volumes == pytest.approx(np.full(len(points), 0.05**3), rel=1e-9)
-    assert shares.volumes.sum() == pytest.approx(box().volume, rel=1e-14)
-
-
-def test_shares_add_up_and_are_positive(surface):
-    points = sp.poisson_count(surface, 60)
-    shares = sp.point_shares(surface, points)
-    assert shares.volumes.min() > 0.0
-    assert shares.volumes.sum() == pytest.approx(surface.volume, rel=1e-14)
-    # Against random places: 20 000 of them give a sixtieth with a standard error of 5 %.
-    places = scattered(surface, 60000, margin=0.0)
-    places = places[surface.inside(places)]
-    owner = np.linalg.norm(places[:, None] - points, axis=2).argmin(axis=1)
-    counted = np.bincount(owner, minlength=len(points))
-    expected = shares.volumes / surface.volume * len(places)
-    assert (np.abs(counted - expected) < 5.0 * np.sqrt(expected) + 0.02 * expected).all()
-    assert np.array_equal(shares.volumes, sp.point_volumes(surface, points))
-
-
-def test_moments_of_one_point_are_those_of_the_body():
-    surface, point = box(), np.array([[0.1, 0.05, 0.05]])
-    shares = sp.point_shares(surface, point, fineness=4000)
-    size, away = np.array([0.4, 0.2, 0.1]), np.array([0.1, 0.05, 0.0])
-    exact = surface.volume * (np.diag(size**2 / 12.0) + np.outer(away, away))
-    # The cells fill the box and each has the moment of a box: only round-off is left.
-    assert shares.moments[0] == pytest.approx(exact, rel=1e-9, abs=1e-12 * exact.max())
-    assert shares.centres[0] == pytest.approx([0.2, 0.1, 0.05], rel=1e-9)
-    inertia = surface.volume * (size[1] ** 2 + size[2] ** 2) / 12.0 + surface.volume * 0.05**2
-    assert shares.inertia[0, 0, 0] == pytest.approx(inertia, rel=1e-9)
-
-
-def test_inertia_of_shares_is_that_of_a_ball():
-    surface = sp.Surface(*icosphere(4))
-    points = sp.poisson_count(surface, 40)
-    shares = sp.point_shares(surface, points, fineness=1000)
-    # Steiner: moments about the points, moved to the middle, add up to those of the ball.
-    first = shares.volumes[:, None] * (shares.centres - points)
-    moved = (
-        shares.moments
-        + points[:, :, None] * first[:, None]
-        + first[:, :, None] * points[:, None]
-        + shares.volumes[:, None, None] * points[:, :, None] * points[:, None]
-    )
-    total = moved.sum(axis=0)
-    # Flat triangles of 0.14 lose 0.2 % of the volume, and 5/3 of that of the moment.
-    assert total == pytest.approx(4 * np.pi / 15 * np.eye(3), rel=0.01, abs=0.005)
-
-
-def test_points_that_cannot_share_are_refused():
-    with pytest.raises(ts.ParameterError, match=r"1 of 2 points outside \(first: 1\)"):
-        sp.point_volumes(box(), [[0.1, 0.1, 0.05], [1.0, 0.1, 0.05]])
-    with pytest.raises(ts.ParameterError, match="1 of 2 points at the place of another"):
-        sp.point_volumes(box(), [[0.1, 0.1, 0.05]] * 2)
-    with pytest.raises(ts.ParameterError, match="found no points"):
-        sp.point_volumes(box(), np.empty((0, 3)))
-    with pytest.raises(ts.ParameterError, match="found fineness 2;"):
-        sp.point_volumes(box(), [[0.1, 0.1, 0.05]], fineness=2)
-
-
 # Unlucky inputs
 
 LENGTHS = [
@@ -329,6 +206,12 @@ def test_unlucky_lengths_are_refused(make, length, words):
 def test_unlucky_counts_are_refused(count):
     with pytest.raises(ts.ParameterError, match="a whole number from 1 on is accepted"):
         sp.poisson_count(box(), count)
+
+
+@pytest.mark.parametrize("seed", [-1, 0.5, None])
+def test_unlucky_seeds_are_refused(seed):
+    with pytest.raises(ts.ParameterError, match="a whole number from 0 on is accepted"):
+        sp.poisson_points(box(), 0.1, seed=seed)
 
 
 def test_a_grid_that_misses_the_region_is_refused():

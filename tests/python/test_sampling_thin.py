@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import tissu as ts
-from test_sampling import box, icosphere, smallest_gap, to_nearest
+from closed_surfaces import box, icosphere, smallest_gap, to_nearest
 from tissu import sampling as sp
 
 # Sheets and lines

@@ -1,7 +1,7 @@
 """Where points lie: frames and integration points of bodies without a mesh.
 
-After Bosman, Duriez and Cotin, Connective tissues simulation on GPU, VRIPHYS 2013, and Bosman's
-thesis of 2014: frames and integration points are sampled apart, the points more densely.
+After Bosman, Duriez and Cotin, Modèle pour la simulation de tissus connectifs, REFIG 2014: frames
+and integration points are two Poisson-disk samplings of the same region, the points more densely.
 """
 
 from tissu.sampling.between import Between, between

@@ -15,7 +15,7 @@ from tissu.sampling.nearest import TriangleTree
 from tissu.sampling.region import Bools, Indices, positions, positive
 from tissu.sampling.surface import Surface
 
-_FINE = 32  # cells along the longest side of the bounds when the volume is measured
+_FINE = (16, 32)  # cells along the longest side: to find the bounds, then to measure the volume
 _DRAWS = 2  # random places in each
 
 
@@ -138,8 +138,8 @@ class Between:
         """Bounds, volume and its standard error: a coarse look for the bounds, then a fine one."""
         rng = np.random.default_rng(0)
         box, volume, error = self._box, 0.0, 0.0
-        for _ in range(2):
-            cells, size = _cells(box)
+        for fine in _FINE:
+            cells, size = _cells(box, fine)
             hits = np.zeros(len(cells))
             for _ in range(_DRAWS):
                 hits += self.inside(box[0] + (cells + rng.random(cells.shape)) * size)
@@ -160,10 +160,10 @@ class Between:
         return box, volume, error
 
 
-def _cells(box: Floats) -> tuple[Indices, Floats]:
+def _cells(box: Floats, fine: int) -> tuple[Indices, Floats]:
     """Places (m, 3) and sides (3,) of the fine cells of a box."""
     sides = np.ptp(box, axis=0)
-    counts = np.maximum(np.ceil(_FINE * sides / sides.max()), 4).astype(np.int64)
+    counts = np.maximum(np.ceil(fine * sides / sides.max()), 4).astype(np.int64)
     cells = np.stack(np.meshgrid(*map(np.arange, counts), indexing="ij"), axis=-1)
     return cells.reshape(-1, 3), sides / counts
 

@@ -61,30 +61,37 @@ class TriangleTree:
             seen = points[who]
             np.minimum.at(bound, who, _square(seen - sample[node]))
             gap = np.maximum(np.maximum(low[node] - seen, seen - high[node]), 0.0)
-            keep = _square(gap) <= bound[who] * (1.0 + 1e-12)
-            who, node = who[keep], node[keep]
+            least = _square(gap)
+            keep = least <= bound[who] * (1.0 + 1e-12)
+            who, node, least = who[keep], node[keep], least[keep]
             if depth:
                 last = len(self._levels[depth - 1][0])
                 who = np.repeat(who, _BRANCHES)
                 node = (node[:, None] * _BRANCHES + np.arange(_BRANCHES)).ravel()
                 who, node = who[node < last], node[node < last]
-        return self._best(points, who, node, limit)
-
-    def _best(
-        self, points: Floats, who: Indices, triangle: Indices, limit: float
-    ) -> tuple[Floats, Floats]:
         found, best = np.full(points.shape, np.nan), np.full(len(points), np.inf)
+        ahead = np.full(len(points), np.inf)
+        np.minimum.at(ahead, who, least)
+        first = least == ahead[who]  # the triangles that look nearest, then what they leave open
+        self._improve(points, who[first], node[first], found, best)
+        rest = ~first & (least < best[who])
+        self._improve(points, who[rest], node[rest], found, best)
+        beyond = best > limit * limit
+        found[beyond], best[beyond] = np.nan, np.inf
+        return found, np.sqrt(best)
+
+    def _improve(
+        self, points: Floats, who: Indices, triangle: Indices, found: Floats, best: Floats
+    ) -> None:
+        """Takes over what is nearer among pairs of a point and a triangle; squares in `best`."""
         for start in range(0, len(who), 200_000):
             part = slice(start, start + 200_000)
             seen, asked = who[part], points[who[part]]
             place = closest_on_triangles(asked, self._corners[triangle[part]])
-            square = _square(place - asked)
-            np.minimum.at(best, seen, square)
-            first = square == best[seen]
-            found[seen[first]] = place[first]
-        beyond = best > limit * limit
-        found[beyond], best[beyond] = np.nan, np.inf
-        return found, np.sqrt(best)
+            away = _square(place - asked)
+            np.minimum.at(best, seen, away)
+            nearest = away == best[seen]
+            found[seen[nearest]] = place[nearest]
 
 
 def closest_on_triangles(points: Floats, corners: Floats) -> Floats:

@@ -10,7 +10,7 @@ import numpy as np
 from tissu.errors import ParameterError
 from tissu.mesh.cell import Floats
 from tissu.sampling.darts import Darts
-from tissu.sampling.region import Indices, Region, fitting
+from tissu.sampling.region import Indices, Region, drawn, fitting
 
 _ROUNDS = (16, 4, 4, 4, 4, 4)  # of darts, one in each cell, before cells are halved
 _DENSITY = 0.8  # points per distance^3 of a large region, measured; where the search starts
@@ -21,8 +21,8 @@ def poisson_points(region: Region, distance: float, *, seed: int = 0) -> Floats:
     """Points (n, 3) [m] inside a region, no two nearer than `distance`, with no room for another.
 
     Room is looked for down to cubes of diagonal distance / 32: nothing inside is further than
-    33/32 of the distance from a point, but for parts of the region thinner than a tenth of the
-    distance, which may be missed. The same seed gives the same points.
+    33/32 of the distance from a point, but for parts of the region thinner than a fifth of the
+    distance, of which corners may be missed. The same seed gives the same points.
 
     Args:
         region: what the points lie in.
@@ -34,7 +34,7 @@ def poisson_points(region: Region, distance: float, *, seed: int = 0) -> Floats:
             point inside.
     """
     darts = Darts(region.bounds, fitting(region, distance, "distance"))
-    rng = np.random.default_rng(seed)
+    rng = drawn(seed)
     cells = np.stack(np.meshgrid(*map(np.arange, darts.shape), indexing="ij"), axis=-1)
     cells = cells.reshape(-1, 3)
     for level, rounds in enumerate(_ROUNDS):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from operator import index
 from typing import Protocol
 
 import numpy as np
@@ -77,6 +78,18 @@ def fitting(region: Region, length: float, name: str) -> float:
             f"{MOST_CELLS:.0e} are accepted: take a larger one"
         )
     return value
+
+
+def drawn(seed: int) -> np.random.Generator:
+    """Random numbers that a seed decides.
+
+    Raises:
+        ParameterError: the seed is no whole number from 0 on.
+    """
+    try:
+        return np.random.default_rng(index(seed))
+    except (TypeError, ValueError):
+        raise ParameterError(f"found seed {seed!r}; a whole number from 0 on is accepted") from None
 
 
 def positive(length: float, name: str) -> float:

@@ -76,10 +76,10 @@ def fine_cells(region: Region, count: int, fineness: int) -> tuple[Floats, Float
     sides = np.ptp(region.bounds, axis=0)
     step = (region.volume / (count * fineness)) ** (1 / 3)
     counts = np.maximum(np.ceil(sides / step), 4).astype(np.int64)
-    if 8 * counts.prod() > MOST_CELLS * 4:
+    if counts.prod() > MOST_CELLS / 5:
         raise ParameterError(
             f"found {count} points with fineness {fineness}, which makes {counts.prod():.2g} "
-            f"cells; up to {MOST_CELLS // 2:.0e} are accepted: take a smaller fineness"
+            f"cells; up to {MOST_CELLS / 5:.0e} are accepted: take a smaller fineness"
         )
     size = sides / counts
     axes = np.meshgrid(*map(np.arange, counts), indexing="ij")

@@ -14,7 +14,7 @@ from tissu.mesh.surface import area
 from tissu.sampling.chains import chains
 from tissu.sampling.closed import require_triangles
 from tissu.sampling.greedy import spaced
-from tissu.sampling.region import MOST_CELLS, Indices, positions, positive
+from tissu.sampling.region import MOST_CELLS, Indices, drawn, positions, positive
 from tissu.sampling.shares import shared_out
 
 _FINE = 8  # candidates along the distance of two points
@@ -64,7 +64,7 @@ def sheet_points(
     _require_size(areas.sum(), "area", "triangles")
     centres, of = _fine_centres(points, triangles, value / _FINE)
     weights = areas[of] / np.bincount(of, minlength=len(triangles))[of]
-    chosen = spaced(centres, value, np.random.default_rng(seed))
+    chosen = spaced(centres, value, drawn(seed))
     widths = np.repeat(np.sqrt(weights)[:, None], 3, axis=1)
     sizes = shared_out(centres[chosen], centres, weights, widths).volumes
     a, b, c = points[triangles[of[chosen]]].swapaxes(0, 1)

@@ -59,15 +59,20 @@ def between(
             f"found two bodies that intersect, at least {depth:.3g} m deep; bodies that are apart "
             "or touch are accepted: move one away by that much or more"
         )
-    ends = gap(tree_a, tree_b)
+    return Between(a, b, value, tree_a, tree_b, _reached_gap(tree_a, tree_b, value))
+
+
+def _reached_gap(a: TriangleTree, b: TriangleTree, reach: float) -> float:
+    """The gap [m], refused when it is not within reach."""
+    ends = gap(a, b)
     length = float(np.linalg.norm(ends[1] - ends[0]))
-    if value < length * (1.0 + 1e-6):
+    if reach < length * (1.0 + 1e-6):
         raise ParameterError(
-            f"found reach {value:g} m, and nothing lies between the bodies: the gap is "
+            f"found reach {reach:g} m, and nothing lies between the bodies: the gap is "
             f"{length:.6g} m; a reach of more than that is accepted: give {2.0 * length:.3g} m, "
             "or bring the bodies nearer"
         )
-    return Between(a, b, value, tree_a, tree_b, length)
+    return length
 
 
 @dataclass(frozen=True, eq=False)
@@ -100,6 +105,9 @@ class Between:
         low, high = self._box
         answer = ((places >= low) & (places <= high)).all(axis=1)
         numbers = np.flatnonzero(answer)
+        solid = self.a.inside(places[numbers]) | self.b.inside(places[numbers])
+        answer[numbers[solid]] = False
+        numbers = numbers[~solid]
         on_a, d_a = self.tree_a.nearest(places[numbers], self.reach)
         near = np.isfinite(d_a)
         answer[numbers[~near]] = False
@@ -107,8 +115,8 @@ class Between:
         seen = places[numbers]
         on_b, d_b = self.tree_b.nearest(seen, self.reach)
         held = d_a + d_b <= self.reach
-        apart = np.einsum("ij,ij->i", on_a[held] - seen[held], on_b[held] - seen[held]) <= 0.0
-        held[held] = apart & ~self.a.inside(seen[held]) & ~self.b.inside(seen[held])
+        seen = seen[held]
+        held[held] = np.einsum("ij,ij->i", on_a[held] - seen, on_b[held] - seen) <= 0.0
         answer[numbers] = held
         return np.asarray(answer)
 

@@ -53,8 +53,7 @@ def between(
     """
     value = positive(reach, "reach")
     tree_a, tree_b = _tree(a, nodes_a, "nodes_a"), _tree(b, nodes_b, "nodes_b")
-    depth = overlap(a, b)
-    if depth > 0.0:
+    if (depth := overlap(a, b)) > 0.0:
         raise MeshError(
             f"found two bodies that intersect, at least {depth:.3g} m deep; bodies that are apart "
             "or touch are accepted: move one away by that much or more"

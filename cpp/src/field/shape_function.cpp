@@ -12,19 +12,29 @@
 namespace tissu {
 namespace {
 
+// Name, neighbours, complete, interpolates, takes a radius, takes neighbours, needs a grid, meaning.
 constexpr std::array kInfos{
     ShapeFunctionInfo{
         "shepard", 4, "constant", true, false, true, false,
         "Inverse distance to a power: any frames, weights between 0 and 1, flat at each frame."},
+    ShapeFunctionInfo{"wendland", 4, "constant", false, true, true, false,
+                      "A smooth bump of finite support around each frame, normalised: any frames, weights "
+                      "between 0 and 1, no cusps."},
+    ShapeFunctionInfo{"cubic_spline", 4, "constant", false, true, true, false,
+                      "The cubic B-spline around each frame, normalised: as wendland, flatter at the frame."},
     ShapeFunctionInfo{"linear", 4, "linear", true, false, false, false,
                       "Barycentric coordinates of a tetrahedron of near frames: constant gradients, a jump "
                       "where the tetrahedron changes."},
     ShapeFunctionInfo{
         "trilinear", 8, "linear", true, false, false, true,
         "Products of linear functions along the axes of a grid of frames: continuous everywhere."},
+    ShapeFunctionInfo{"moving_least_squares", 12, "linear", false, true, true, false,
+                      "The plane that fits the near frames best, seen through Wendland's window: any frames, "
+                      "weights that may be negative."},
 };
 using Make = std::unique_ptr<ShapeFunction> (*)(const ShapeRequest&);
-constexpr std::array<Make, kInfos.size()> kMakes{make_shepard, make_linear, make_trilinear};
+constexpr std::array<Make, kInfos.size()> kMakes{make_shepard, make_wendland,  make_cubic_spline,
+                                                 make_linear,  make_trilinear, make_moving_least_squares};
 
 /// Writes a row to its place, frames ascending. False where a number of it is not finite.
 bool put(const ShapeRow& row, std::size_t point, std::vector<std::size_t>& order, FrameWeights& all) {

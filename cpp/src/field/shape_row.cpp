@@ -45,6 +45,11 @@ void check_implied_neighbours(const ShapeRequest& request, int implied, std::str
                        std::string(because) + "; leave the number out.");
 }
 
+std::string unreached(double distance, double radius) {
+  return "is reached by no frame: the nearest is " + metres(distance) + " away, the support ends at " +
+         metres(radius) + "; ask for a greater radius or add frames";
+}
+
 std::string metres(double value) {
   std::ostringstream text;
   text.precision(6);

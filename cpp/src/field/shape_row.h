@@ -73,6 +73,9 @@ std::unique_ptr<ShapeFunction> make_moving_least_squares(const ShapeRequest& req
 /// A function whose number of neighbours follows from the frames takes 0, its own number and what follows.
 void check_implied_neighbours(const ShapeRequest& request, int implied, std::string_view because);
 
+/// That the nearest frame, at a distance [m], is outside of the support.
+std::string unreached(double distance, double radius);
+
 /// A length in metres, for messages.
 std::string metres(double value);
 

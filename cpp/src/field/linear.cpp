@@ -16,7 +16,7 @@ namespace {
 
 constexpr int kCandidates = 12;
 constexpr int kMoreCandidates = 24;  ///< where all simplices of the first are flat
-constexpr double kWellShaped = 0.2;
+constexpr double kWellShaped = 0.4;
 constexpr double kFlattest = 0.02;
 constexpr double kInside = 1.0 + 1e-9;
 constexpr double kMostExcess = 100.0;  ///< sum |w_i| of an extrapolation

@@ -1,4 +1,5 @@
 #include <Eigen/Cholesky>
+#include <cmath>
 
 #include "affine_span.h"
 #include "shape_row.h"

@@ -6,7 +6,7 @@
 #include "shape_row.h"
 #include "tissu/base/error.h"
 
-/// The trilinear functions of a grid of frames (bosman2014 section 5): with xi_a the place of the point in
+/// The trilinear functions of a grid of frames (bosman2014 section 5.2): with xi_a the place of the point in
 /// its cell along axis a, 0 to 1, and h_a the cell's edge [m],
 ///
 ///   w = prod_a N_a,   N_a = xi_a or 1 - xi_a,   dw/dX_a = +-1/h_a prod_(b != a) N_b [1/m]

@@ -21,7 +21,19 @@ class EveryShapeFunction : public testing::TestWithParam<ShapeFunctionInfo> {
   std::vector<double> frames_ = test::sample_frames(info_);
   std::vector<double> points_ = test::sample_points(kPoints);
 
-  FrameWeights at(ConstReals points) const { return shape_weights(test::use_of(info_), frames_, points); }
+  FrameWeights at(ConstReals points) const { return at(test::use_of(info_), points); }
+  FrameWeights at(const ShapeFunctionUse& use, ConstReals points) const {
+    return shape_weights(use, frames_, points);
+  }
+  /// The function as it comes, and with each number it takes.
+  std::vector<ShapeFunctionUse> uses() const {
+    std::vector<ShapeFunctionUse> all{test::use_of(info_), test::use_of(info_)};
+    all.back().power = 3.5;
+    if (info_.takes_neighbours) all.emplace_back(test::use_of(info_)).neighbours = 15;
+    if (info_.takes_radius) all.emplace_back(test::use_of(info_)).radius = 1.9 * kSpacing;
+    return all;
+  }
+  void expect_gradients_of(const ShapeFunctionUse& use) const;
 };
 
 TEST_P(EveryShapeFunction, SaysWhatItIs) {
@@ -54,32 +66,33 @@ TEST_P(EveryShapeFunction, HasNoRowsForNoPoints) {
 
 // Round-off of a few sums of numbers near one, and of gradients near one over a poor cell's height.
 TEST_P(EveryShapeFunction, IsAPartitionOfUnity) {
-  const FrameWeights all = at(points_);
-  for (std::size_t s = 0; s < kPoints; ++s) {
-    const RowView row{all, s};
-    EXPECT_NEAR(row.sum(), 1.0, 1e-12) << s;
-    EXPECT_LT(row.gradient_sum().norm() * kSpacing, 1e-11) << s;
+  for (const ShapeFunctionUse& use : uses()) {
+    const FrameWeights all = at(use, points_);
+    for (std::size_t s = 0; s < kPoints; ++s) {
+      const RowView row{all, s};
+      EXPECT_NEAR(row.sum(), 1.0, 1e-12) << s;
+      EXPECT_LT(row.gradient_sum().norm() * kSpacing, 1e-11) << s;
+    }
   }
 }
 
 // Differences of fourth order with h = 1e-4 of the spacing: 1e-16 of the fifth derivative, 1e-12 of
 // round-off. A point that changes its neighbours within the difference is left out; there are few.
-TEST_P(EveryShapeFunction, HasTheGradientsOfItsWeights) {
-  const FrameWeights all = at(points_);
+void EveryShapeFunction::expect_gradients_of(const ShapeFunctionUse& use) const {
+  const FrameWeights all = at(use, points_);
   std::size_t checked = 0;
   for (std::size_t s = 0; s < kPoints; ++s) {
     const RowView row{all, s};
     const Vec3 x = block(ConstReals(points_), static_cast<std::int32_t>(s));
     for (int axis = 0; axis < 3; ++axis) {
       bool same = true;
-      const Eigen::VectorXd difference = test::derivative(
-          [&](double h) -> Eigen::VectorXd {
-            const Vec3 moved = x + h * Vec3::Unit(axis);
-            const FrameWeights there = at({moved.data(), 3});
-            same = same && RowView{there, 0}.numbers() == row.numbers();
-            return test::view(there.weights);
-          },
-          1e-4 * kSpacing);
+      const auto weights_at = [&](double h) -> Eigen::VectorXd {
+        const Vec3 moved = x + h * Vec3::Unit(axis);
+        const FrameWeights there = at(use, {moved.data(), 3});
+        same = same && RowView{there, 0}.numbers() == row.numbers();
+        return test::view(there.weights);
+      };
+      const Eigen::VectorXd difference = test::derivative(weights_at, 1e-4 * kSpacing);
       if (!same) continue;
       ++checked;
       for (std::size_t i = 0; i < row.size(); ++i) {
@@ -92,19 +105,25 @@ TEST_P(EveryShapeFunction, HasTheGradientsOfItsWeights) {
   EXPECT_GT(checked, 2 * kPoints);
 }
 
+TEST_P(EveryShapeFunction, HasTheGradientsOfItsWeights) {
+  for (const ShapeFunctionUse& use : uses()) expect_gradients_of(use);
+}
+
 TEST_P(EveryShapeFunction, IsAsCompleteAsItSays) {
-  const FrameWeights all = at(points_);
-  double worst = 0.0;
-  for (std::size_t s = 0; s < kPoints; ++s) {
-    const RowView row{all, s};
-    const Vec3 x = block(ConstReals(points_), static_cast<std::int32_t>(s));
-    worst = std::max(worst, (row.position(frames_) - x).norm() / kSpacing);
-    worst = std::max(worst, (row.position_gradient(frames_) - Mat3::Identity()).norm());
-  }
-  if (info_.complete == "linear") {
-    EXPECT_LT(worst, 1e-9);
-  } else {
-    EXPECT_GT(worst, 0.1);
+  for (const ShapeFunctionUse& use : uses()) {
+    const FrameWeights all = at(use, points_);
+    double worst = 0.0;
+    for (std::size_t s = 0; s < kPoints; ++s) {
+      const RowView row{all, s};
+      const Vec3 x = block(ConstReals(points_), static_cast<std::int32_t>(s));
+      worst = std::max(worst, (row.position(frames_) - x).norm() / kSpacing);
+      worst = std::max(worst, (row.position_gradient(frames_) - Mat3::Identity()).norm());
+    }
+    if (info_.complete == "linear") {
+      EXPECT_LT(worst, 1e-9);
+    } else {
+      EXPECT_GT(worst, 0.1);
+    }
   }
 }
 

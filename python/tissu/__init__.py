@@ -94,6 +94,7 @@ _HOMES = {
         "Start",
         "Static",
         "SurfaceNodes",
+        "Tissue",
         "Traction",
         "UserLaw",
     ),

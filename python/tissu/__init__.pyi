@@ -76,6 +76,7 @@ from tissu.scene import StVK as StVK
 from tissu.scene import Start as Start
 from tissu.scene import Static as Static
 from tissu.scene import SurfaceNodes as SurfaceNodes
+from tissu.scene import Tissue as Tissue
 from tissu.scene import Traction as Traction
 from tissu.scene import UserLaw as UserLaw
 from tissu.simulation import Plan as Plan

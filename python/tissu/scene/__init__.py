@@ -42,6 +42,7 @@ from tissu.scene.step import (
     SymplecticEuler,
 )
 from tissu.scene.support import Fixed, Prescribed, Rotation
+from tissu.scene.tissue import Tissue
 from tissu.scene.viscosity import Centroid, KelvinVoigt, Prony, PronyBranch, Rayleigh
 
 __all__ = [
@@ -97,6 +98,7 @@ __all__ = [
     "Static",
     "SurfaceNodes",
     "SymplecticEuler",
+    "Tissue",
     "Traction",
     "UserLaw",
     "Yeoh",

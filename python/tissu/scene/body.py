@@ -56,7 +56,8 @@ def _is_mesh(value: object) -> bool:
     return type(value).__name__ == "Mesh" and hasattr(value, "points") and hasattr(value, "cells")
 
 
-def _mesh_source(value: Any, info: ValidationInfo) -> Any:
+def mesh_source(value: Any, info: ValidationInfo) -> Any:
+    """A mesh file, a bar or a mesh in memory, by what is given."""
     if _is_mesh(value):
         return value
     if isinstance(value, (str, os.PathLike)):
@@ -69,7 +70,7 @@ def _mesh_source(value: Any, info: ValidationInfo) -> Any:
 class Body(Part):
     """Something soft: a mesh with a law, a density or a total mass, and maybe viscosity."""
 
-    mesh: Annotated[Any, PlainValidator(_mesh_source)]
+    mesh: Annotated[Any, PlainValidator(mesh_source)]
     """a mesh file, a bar, or (in Python) a Mesh"""
     law: LawOrMap
     """the material's law, or a map from the mesh's regions to laws"""

@@ -19,6 +19,7 @@ from tissu.scene.part import Part, problems_in
 from tissu.scene.problem import Problem, Source, nearest, one_of_words
 from tissu.scene.step import OneStep, Step
 from tissu.scene.support import Fixed, Prescribed
+from tissu.scene.tissue import Tissue, tissues_of
 from tissu.scene.unknown import Unknown, rule
 
 if TYPE_CHECKING:
@@ -63,8 +64,10 @@ class Scene(Part):
 
     name: str = "scene"
     """name of the scene, used for the files that are written"""
-    bodies: Annotated[dict[str, Body], Field(min_length=1), BeforeValidator(_by_name)]
+    bodies: Annotated[dict[str, Body], BeforeValidator(_by_name)] = Field(default_factory=dict)
     """bodies by name"""
+    tissue: Annotated[dict[str, Tissue], BeforeValidator(_by_name)] = Field(default_factory=dict)
+    """connective tissue by name: made of frames, inside a surface or between two bodies"""
     gravity: units.Acceleration | None = None
     """acceleration of gravity [m/s^2]; absent: none"""
     fixed: tuple[Fixed, ...] = ()
@@ -93,7 +96,8 @@ class Scene(Part):
             self,
             *,
             name: str = ...,
-            bodies: Mapping[str, Body],
+            bodies: Mapping[str, Body] = ...,
+            tissue: Mapping[str, Tissue] = ...,
             gravity: units.VectorLike | None = ...,
             fixed: Sequence[Fixed] = ...,
             prescribed: Sequence[Prescribed] = ...,
@@ -109,7 +113,7 @@ class Scene(Part):
     @rule()
     def _names_bodies(self) -> Iterator[Problem]:
         """Names that no body has; a body with problems is a body too."""
-        bodies = self.bodies
+        bodies = {**self.bodies, **tissues_of(self)}
         for group in ("fixed", "prescribed", "loads"):
             for number, item in enumerate(getattr(self, group, ())):
                 with contextlib.suppress(Unknown):
@@ -117,6 +121,21 @@ class Scene(Part):
                         text = f"no body is named '{item.body}'{nearest(item.body, bodies)} "
                         text += f"Bodies: {one_of_words(bodies)}"
                         yield Problem((group, number, "body"), text)
+
+    @rule("bodies", "tissue")
+    def _has_bodies(self) -> Iterator[Problem]:
+        """Something to simulate, each by one name; tissue lies between bodies that there are."""
+        if not self.bodies and not self.tissue:
+            yield Problem(("bodies",), "found no body and no tissue; at least one is accepted")
+        for name, tissue in self.tissue.items():
+            if name in self.bodies:
+                yield Problem(("tissue", name), f"found '{name}' as a body too; names are unique")
+            with contextlib.suppress(Unknown):
+                for end, body in enumerate(tissue.between or ()):
+                    if body not in self.bodies:
+                        text = f"no body is named '{body}'{nearest(body, self.bodies)} "
+                        text += f"Bodies: {one_of_words(self.bodies)}"
+                        yield Problem(("tissue", name, "between", end), text)
 
     def _refusal(self) -> list[str]:
         from tissu.compile import problems_of

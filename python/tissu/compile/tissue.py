@@ -1,0 +1,159 @@
+"""Connective tissue of a scene: sampled, and tied to the bodies that it lies between."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from tissu import _core, sampling
+from tissu.compile.prepared import Floats, Ints, KnownMesh, Prepared
+from tissu.compile.riding import Weights, carried
+from tissu.compile.select import selected_nodes
+from tissu.errors import ParameterError, TissuError
+from tissu.mesh import CellBlock, Mesh
+from tissu.scene.unknown import Unknown
+
+if TYPE_CHECKING:
+    from tissu.sampling import Region
+    from tissu.scene.problem import Path
+    from tissu.scene.tissue import Tissue
+
+
+@dataclass(frozen=True, slots=True)
+class PreparedTissue:
+    """A tissue as the world takes it.
+
+    Attributes:
+        mesh: its own frames, as points that no cell joins.
+        points: its integration points (p, 3) [m] and
+        volumes: their volumes (p,) [m^3].
+        shared: nodes of bodies that it holds, by name and number.
+        weights: how the points listen to its frames and, by numbers after those, to these nodes.
+        density: [kg/m^3].
+    """
+
+    mesh: Mesh
+    points: Floats
+    volumes: Floats
+    shared: list[tuple[str, int]]
+    weights: Weights
+    density: float
+
+
+def prepare_tissue(prepared: Prepared, name: str) -> None:
+    """Sample a tissue and tie it; problems are told, and leave it out."""
+    tissue, path = prepared.scene.tissue[name], ("tissue", name)
+    try:
+        made = _made(prepared, name, tissue)
+    except TissuError as error:
+        prepared.findings.problem(path, str(error))
+        return
+    except Unknown:
+        return
+    if made is not None:
+        prepared.meshes[name] = KnownMesh(made.mesh)
+        prepared.tissues[name] = made
+
+
+def _made(prepared: Prepared, name: str, tissue: Tissue) -> PreparedTissue | None:
+    if tissue.between is None:
+        region, held = _filled(tissue), []
+    else:
+        if any(body not in prepared.bodies for body in tissue.between):
+            return None  # told already
+        region, held = _between(prepared, tissue, ("tissue", name))
+    frames, points = _sampled(region, tissue)
+    volumes = sampling.point_volumes(region, points)
+    places = [prepared.bodies[body].mesh.points[nodes] for body, nodes in held]
+    origins = np.concatenate([frames, *places])
+    weights = Weights(
+        *_core.shape_weights(
+            name=tissue.shape,
+            neighbours=tissue.neighbours or 0,
+            frames=np.ascontiguousarray(origins),
+            points=np.ascontiguousarray(points),
+            body=name,
+        )
+    )
+    shared = [(body, int(node)) for body, nodes in held for node in nodes]
+    weights, shared = carried(prepared, weights, len(frames), shared, points)
+    _require_ties(tissue, weights, len(frames), shared)
+    idle = np.setdiff1d(np.arange(len(frames)), weights.frames)
+    if len(idle):
+        text = f"{len(idle)} of {len(frames)} frames have no point that listens to them; "
+        raise ParameterError(f"{text}more points, or more neighbours, are accepted")
+    mesh = Mesh(points=frames, cells=(CellBlock("vertex", np.arange(len(frames))[:, None]),))
+    density = tissue.density if tissue.mass is None else tissue.mass / float(volumes.sum())
+    assert density is not None  # the tissue has one of both
+    return PreparedTissue(mesh, points, volumes, shared, weights, float(density))
+
+
+def _filled(tissue: Tissue) -> Region:
+    from tissu.compile.meshes import mesh_of
+
+    return sampling.Surface.of(mesh_of(tissue.inside))
+
+
+def _between(
+    prepared: Prepared, tissue: Tissue, path: Path
+) -> tuple[Region, list[tuple[str, Ints]]]:
+    """The space between two bodies, and the nodes of each that it may hold."""
+    assert tissue.between is not None and tissue.reach is not None
+    meshes = [prepared.bodies[name].mesh for name in tissue.between]
+    surfaces = [_surface_of(mesh) for mesh in meshes]
+    held: list[Ints] = []
+    for end, mesh in enumerate(meshes):
+        if tissue.on is not None:
+            nodes = selected_nodes(tissue.on[end], mesh)
+            nodes = np.intersect1d(nodes, mesh.surface().nodes).astype(np.int32)
+        else:
+            nodes = mesh.surface().nodes
+            near = surfaces[1 - end].distance(mesh.points[nodes]) <= tissue.reach
+            nodes = nodes[near]
+        if not len(nodes):
+            raise ParameterError(
+                f"found no node of '{tissue.between[end]}' within the reach of {tissue.reach:g} m "
+                f"of '{tissue.between[1 - end]}'; a longer reach is accepted"
+            )
+        held.append(nodes.astype(np.int32))
+    chosen = (None, None) if tissue.on is None else (held[0], held[1])
+    region = sampling.between(
+        *surfaces, tissue.reach, nodes_a=chosen[0], nodes_b=chosen[1]
+    )
+    return region, list(zip(tissue.between, held, strict=True))
+
+
+def _surface_of(mesh: Mesh) -> sampling.Surface:
+    """The closed surface of a body; of sheets that are closed, their own."""
+    if mesh.volume_blocks:
+        return sampling.Surface.of(mesh)
+    return sampling.Surface(mesh.points, mesh.surface().triangles)
+
+
+def _sampled(region: Region, tissue: Tissue) -> tuple[Floats, Floats]:
+    """Frames and points inside the region, about as many as asked."""
+    if tissue.sampling == "poisson":
+        frames = sampling.poisson_count(region, tissue.frames, seed=tissue.seed)
+        # The distance of n points in a volume goes with n^(-1/3): one search serves both.
+        ratio = (tissue.frames / tissue.points) ** (1.0 / 3.0)
+        distance = sampling.poisson_distance(region, tissue.frames, seed=tissue.seed) * ratio
+        return frames, sampling.poisson_points(region, distance, seed=tissue.seed + 1)
+    spacing = (region.volume / np.array([tissue.frames, tissue.points])) ** (1.0 / 3.0)
+    return (
+        sampling.grid_points(region, float(spacing[0])),
+        sampling.grid_cells(region, float(spacing[1])),
+    )
+
+
+def _require_ties(
+    tissue: Tissue, weights: Weights, own: int, shared: list[tuple[str, int]]
+) -> None:
+    """Tissue that lies between two bodies holds both."""
+    used = np.unique(weights.frames)
+    bodies = {shared[number - own][0] for number in used if number >= own}
+    for body in tissue.between or ():
+        if body not in bodies:
+            text = f"no point listens to a node of '{body}', so that it is not tied; "
+            raise ParameterError(f"{text}more points, more neighbours or fewer frames are accepted")

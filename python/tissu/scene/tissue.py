@@ -1,0 +1,119 @@
+"""Connective tissue: frames and points without a mesh, inside a surface or between two bodies."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import TYPE_CHECKING, Annotated, Any, Literal
+
+from pydantic import Field, PlainValidator, ValidationInfo
+
+from tissu import units
+from tissu.scene.body import MeshFile, mesh_source
+from tissu.scene.law import Law, OneLaw
+from tissu.scene.part import Part
+from tissu.scene.problem import Problem
+from tissu.scene.selection import On, Selection
+from tissu.scene.unknown import rule
+
+if TYPE_CHECKING:
+    import os
+
+    from tissu.mesh import Mesh
+
+ShapeName = Literal[
+    "shepard", "wendland", "cubic_spline", "linear", "trilinear", "moving_least_squares"
+]
+Count = Annotated[int, Field(ge=1)]
+
+
+def _inside(value: Any, info: ValidationInfo) -> Any:
+    return None if value is None else mesh_source(value, info)
+
+
+class Tissue(Part):
+    """Soft tissue made of frames and integration points; it ties the bodies it lies between.
+
+    Frames have six degrees of freedom. Points listen to the frames near them, and, between two
+    bodies, to the nodes of these: nodes with a rotation are frames of the tissue too, others carry
+    it by the cells they belong to.
+    """
+
+    between: tuple[str, str] | None = None
+    """names of two bodies that it ties together; this or `inside`"""
+    inside: Annotated[Any, PlainValidator(_inside)] = None
+    """a mesh whose closed surface it fills: a file, a bar or (in Python) a Mesh"""
+    reach: Annotated[units.Length, Field(gt=0.0)] | None = None
+    """longest way from one of the two bodies to the other through it [m]"""
+    on: tuple[On, On] | None = None
+    """which nodes of the two bodies it may hold; absent: all within reach"""
+    frames: Count
+    """number of its own frames, about"""
+    points: Count
+    """number of its integration points, about"""
+    sampling: Literal["poisson", "grid"] = "poisson"
+    """how frames and points are laid: as far from each other as can be, or on a regular grid"""
+    seed: Annotated[int, Field(ge=0)] = 0
+    """of the Poisson sampling"""
+    shape: ShapeName = "shepard"
+    """shape function: how the points listen to the frames"""
+    neighbours: Count | None = None
+    """frames that a point listens to; absent: as many as the shape function wants"""
+    law: OneLaw
+    """the material's law"""
+    density: Annotated[units.Density, Field(gt=0.0)] | None = None
+    """density [kg/m^3]; this or `mass`"""
+    mass: Annotated[units.Mass, Field(gt=0.0)] | None = None
+    """total mass [kg]; this or `density`"""
+    tangent: Literal["full", "material"] = "full"
+    """the derivative of the force, or its part that is never indefinite, as published"""
+
+    if TYPE_CHECKING:
+
+        def __init__(
+            self,
+            *,
+            between: tuple[str, str] | None = ...,
+            inside: MeshFile | Mesh | str | os.PathLike[str] | None = ...,
+            reach: units.Number | None = ...,
+            on: tuple[Selection, Selection] | None = ...,
+            frames: int,
+            points: int,
+            sampling: Literal["poisson", "grid"] = ...,
+            seed: int = ...,
+            shape: ShapeName = ...,
+            neighbours: int | None = ...,
+            law: Law,
+            density: units.Number | None = ...,
+            mass: units.Number | None = ...,
+            tangent: Literal["full", "material"] = ...,
+        ) -> None: ...
+
+    @rule("between", "inside")
+    def _one_place(self) -> Iterator[Problem]:
+        if (self.between is None) == (self.inside is None):
+            found = "neither" if self.between is None else "both"
+            text = f"found {found} of between and inside; exactly one of them is accepted"
+            yield Problem((), text)
+
+    @rule("between", "reach", "on")
+    def _reach_belongs_to_between(self) -> Iterator[Problem]:
+        if self.between is None and not (self.reach is None and self.on is None):
+            yield Problem((), "found reach or on without between; they are accepted beside it")
+        if self.between is not None and self.reach is None:
+            text = "found between without reach; the longest way from one body to the other "
+            yield Problem((), f"{text}through the tissue is needed, such as 2 cm")
+        if self.between is not None and self.between[0] == self.between[1]:
+            yield Problem(("between",), f"found '{self.between[0]}' twice; two bodies are accepted")
+
+    @rule("density", "mass")
+    def _one_of_density_and_mass(self) -> Iterator[Problem]:
+        if (self.density is None) == (self.mass is None):
+            found = "neither" if self.density is None else "both"
+            text = f"found {found} of density and mass; exactly one of them is accepted"
+            yield Problem((), text)
+
+
+def tissues_of(scene: Any) -> Mapping[str, Tissue]:
+    """The tissues of a scene by name, whose fields may have problems."""
+    found: Mapping[str, Tissue] = getattr(scene, "tissue", {})
+    return found

@@ -105,9 +105,8 @@ std::string Linear::fill(const Vec3& x, ShapeRow& row) {
   Best best = best_of(x, kCandidates);
   if (best.simplex.quality == 0.0 && nearest_.count() > kCandidates) best = best_of(x, kMoreCandidates);
   if (best.simplex.quality == 0.0) {
-    return "has near frames that are in one plane or on one line, though the frames as a whole are not; move "
-           "or "
-           "add frames there, or take another shape function";
+    return "has near frames that are in one plane or on one line, though the frames as a whole are not; "
+           "move or add frames there, or take another shape function";
   }
   if (best.simplex.excess > kMostExcess) {
     return "lies far outside of its frames, so that their weights would exceed " +

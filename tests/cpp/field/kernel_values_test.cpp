@@ -50,34 +50,39 @@ TEST(Shepard, FollowsItsLimitAtAFrame) {
   }
 }
 
-TEST(Shepard, ListensToTheNearestFrames) {
-  const auto frames = test::Random(3).numbers(3 * 500);
-  const auto points = test::Random(4).numbers(3 * 100, 1.3);
-  const FrameWeights all = shape_weights({.neighbours = 9}, frames, points);
-  for (std::int32_t s = 0; s < 100; ++s) {
+/// Against sorting all frames by distance, then number.
+void expect_nearest(ConstReals frames, ConstReals points, int neighbours) {
+  const FrameWeights all = shape_weights({.neighbours = neighbours}, frames, points);
+  for (std::int32_t s = 0; s < static_cast<std::int32_t>(points.size() / 3); ++s) {
     std::vector<std::pair<double, std::int32_t>> by_distance;
-    for (std::int32_t i = 0; i < 500; ++i) {
-      by_distance.emplace_back((block(ConstReals(frames), i) - block(ConstReals(points), s)).norm(), i);
+    for (std::int32_t i = 0; i < static_cast<std::int32_t>(frames.size() / 3); ++i) {
+      by_distance.emplace_back((block(frames, i) - block(points, s)).squaredNorm(), i);
     }
     std::ranges::sort(by_distance);
     std::vector<std::int32_t> nearest;
-    for (std::size_t i = 0; i < 9; ++i) nearest.push_back(by_distance[i].second);
+    for (std::size_t i = 0; i < all.frames.size() / (points.size() / 3); ++i)
+      nearest.push_back(by_distance[i].second);
     std::ranges::sort(nearest);
     EXPECT_EQ((RowView{all, static_cast<std::size_t>(s)}.numbers()), nearest) << s;
   }
 }
 
-// Whole coordinates, so that the eight corners of the cell are as far to the last bit.
+TEST(Shepard, ListensToTheNearestFrames) {
+  expect_nearest(test::Random(3).numbers(std::size_t{3} * 500),
+                 test::Random(4).numbers(std::size_t{3} * 100, 1.3), 9);
+}
+
+// Half and whole coordinates: many frames are as far to the last bit, also across the splits of the tree.
 TEST(Shepard, TakesTheLowerNumbersOfFramesAsFar) {
   std::vector<double> frames;
-  for (const double z : {0.0, 1.0, 2.0}) {
-    for (const double y : {0.0, 1.0, 2.0}) {
-      for (const double x : {0.0, 1.0, 2.0}) frames.insert(frames.end(), {x, y, z});
-    }
+  std::vector<double> points;
+  for (int i = 0; i < 512; ++i) {
+    const std::array<double, 3> x{static_cast<double>(i * 5 % 8), static_cast<double>(i / 8 * 3 % 8),
+                                  static_cast<double>(i / 64)};
+    frames.insert(frames.end(), x.begin(), x.end());
+    for (const double a : x) points.push_back(a + (i % 2 == 0 ? 0.5 : 0.0));
   }
-  const std::vector<double> point{0.5, 0.5, 0.5};
-  const FrameWeights all = shape_weights({.neighbours = 4}, frames, point);
-  EXPECT_EQ(all.frames, (std::vector<std::int32_t>{0, 1, 3, 4}));
+  for (const int neighbours : {4, 9}) expect_nearest(frames, points, neighbours);
 }
 
 // (1 - r)^4 (4 r + 1): 0.6328125 at 1/4, 0.015625 at 3/4.

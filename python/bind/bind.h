@@ -54,4 +54,5 @@ void bind_step(py::module_& m);
 
 }  // namespace tissu::bind
 
-void bind_mesh(pybind11::module_& m);
+void bind_mesh(py::module_& m);
+void bind_field(py::module_& m);

@@ -1,6 +1,7 @@
 #include "bind.h"
 #include "specs.h"
 #include "tissu/edit/remove_cells.h"
+#include "tissu/model/frames.h"
 #include "tissu/simulation/simulation.h"
 #include "tissu/step/frequency.h"
 
@@ -68,6 +69,18 @@ py::array_t<double> rotations(const Simulation& simulation, const std::string& n
   return result;
 }
 
+/// Where the integration points of a body of frames are (p, 3).
+py::array_t<double> points(const Simulation& simulation, const std::string& name) {
+  std::vector<double> all;
+  for (const BodyModel* model : simulation.world().body(name).models) {
+    const auto* frames = dynamic_cast<const Frames*>(model);
+    if (frames == nullptr) continue;
+    const std::vector<double> some = frames->points(simulation.state());
+    all.insert(all.end(), some.begin(), some.end());
+  }
+  return py::array_t<double>({static_cast<py::ssize_t>(all.size() / 3), py::ssize_t{3}}, all.data());
+}
+
 }  // namespace
 
 /// Of bind_snapshot.cpp.
@@ -107,6 +120,7 @@ void bind_simulation(py::module_& m) {
                                return view_of(s.state().velocities, 0, s.world().blocks(), self);
                              })
       .def("rotations", &rotations, arg("body"))
+      .def("points", &points, arg("body"))
       .def("body_range", &body_range, arg("body"))
       .def("energy", [](const Simulation& s) { return to_dict(s.energy()); })
       .def("cell_fields", &cell_fields, arg("body"))

@@ -58,6 +58,35 @@ void add_elastic(WorldDescription& world, const std::string& body, const std::st
   world.body(body).elastic.push_back(std::move(block));
 }
 
+/// Points of a body of frames: which nodes of its own and then of `shared` each listens to, and how.
+void add_points(WorldDescription& world, const std::string& body,
+                const std::vector<std::pair<std::string, std::int32_t>>& shared, const Ints& frames,
+                const Doubles& weights, const Doubles& gradients, const Doubles& positions,
+                const Doubles& volumes, const std::string& law, const Parameters& parameters,
+                const Parameters& fibres, const std::shared_ptr<LoadedLaw>& loaded, double density,
+                const ModelUse& model) {
+  if (frames.ndim() != 2) throw ParameterError("frames must have the shape (p, k).");
+  auto points = std::make_shared<FramePoints>();
+  points->neighbours = static_cast<int>(frames.shape(1));
+  points->weights = to_vector(weights);
+  points->gradients = to_vector(gradients);
+  points->positions = to_vector(with_columns(positions, 3, "positions"));
+  points->volumes = to_vector(volumes);
+  ElasticBlock block;
+  block.element = "points";
+  block.cells = to_vector(frames);
+  block.points = std::move(points);
+  block.law = law;
+  block.loaded = loaded;
+  block.parameters = to_parameters(parameters);
+  if (!fibres.empty()) block.reinforcements.push_back({"fibre", to_parameters(fibres)});
+  block.density = {density};
+  block.model = model;
+  BodyDescription& made = world.body(body);
+  for (const auto& [other, node] : shared) made.shared.push_back({other, node});
+  made.elastic.push_back(std::move(block));
+}
+
 void add_viscosity(WorldDescription& world, const std::string& body, double shear, double bulk,
                    double centroid, const std::vector<std::pair<double, double>>& branches) {
   Viscosity viscosity{shear, bulk, centroid, {}};
@@ -150,6 +179,9 @@ void bind_world(py::module_& m) {
            arg("reinforcements") = std::vector<std::pair<std::string, Parameters>>{},
            arg("loaded") = py::none(), arg("cross_section") = std::vector<double>{1.0},
            arg("plane") = Plane::stress, arg("model") = ModelUse{})
+      .def("add_points", &add_points, py::kw_only(), arg("body"), arg("shared"), arg("frames"), arg("weights"),
+           arg("gradients"), arg("positions"), arg("volumes"), arg("law"), arg("parameters"), arg("fibres"),
+           arg("loaded").none(true), arg("density"), arg("model"))
       .def(
           "add_rayleigh",
           [](WorldDescription& world, const std::string& body, double mass, double stiffness) {

@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from tissu.scene.selection import Selection
     from tissu.scene.start import Start
     from tissu.scene.step import Step
+    from tissu.scene.tissue import Tissue
     from tissu.scene.viscosity import Viscosity
 
 
@@ -42,6 +43,8 @@ def effects_of(scene: Scene, counts: Mapping[str, str] | None = None) -> list[Ef
     """
     counts = counts or {}
     effects = [effect for name, body in scene.bodies.items() for effect in _of_body(name, body)]
+    for name, tissue in scene.tissue.items():
+        effects += _of_tissue(name, tissue)
     if scene.gravity is not None:
         effects.append(Effect("gravity", f"gravity is {_vector(scene.gravity)} m/s^2"))
     for number, fixed in enumerate(scene.fixed):
@@ -67,6 +70,8 @@ def absent_of(scene: Scene) -> list[str]:
     """Effects that the scene does not ask for; none of them runs or is stored."""
     present = {
         "sheets": any(body.thickness is not None for body in scene.bodies.values()),
+        "frames": bool(scene.tissue) or any(b.has_rotations for b in scene.bodies.values()),
+        "connective tissue": bool(scene.tissue),
         "lines": any(body.section is not None for body in scene.bodies.values()),
         "viscosity": any(body.viscosity is not None for body in scene.bodies.values()),
         "gravity": scene.gravity is not None,
@@ -111,6 +116,15 @@ def _of_body(name: str, body: Body) -> list[Effect]:
         why = f"bodies.{name}.viscosity is {_viscosity(body.viscosity)}"
         effects.append(Effect(f"viscosity of {name}", why))
     return effects
+
+
+def _of_tissue(name: str, tissue: Tissue) -> list[Effect]:
+    place = (
+        "inside a surface" if tissue.between is None else "between " + " and ".join(tissue.between)
+    )
+    why = f"tissue.{name} is {place}, of about {tissue.frames} frames and {tissue.points} points"
+    law = Effect(f"elasticity of {name}", f"tissue.{name}.law is {_law(tissue.law)}")
+    return [Effect(f"connective tissue {name}", why), law]
 
 
 def _of_step(step: Step) -> Effect:

@@ -113,9 +113,8 @@ std::string MovingLeastSquares::fill(const Vec3& x, ShapeRow& row) {
         window_.phi[column] * (axes_ * C.tail<3>() - Q_ * C) + C[0] * window_.gradients.col(column);
   }
   if (is_complete(row)) return {};
-  return "lies far outside of its frames, or these are too few in its support; add frames around it, or ask "
-         "for "
-         "a greater radius or more neighbours";
+  return "lies far outside of its frames, or these are too few in its support; "
+         "add frames around it, or ask for a greater radius or more neighbours";
 }
 
 }  // namespace

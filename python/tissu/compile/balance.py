@@ -26,7 +26,7 @@ def check_supports(prepared: Prepared) -> None:
     with contextlib.suppress(Unknown):
         doubtful = _doubtful(prepared)
         for name, known in prepared.meshes.items():
-            if name not in doubtful:
+            if name not in doubtful and name not in prepared.tissues:
                 _check_held(prepared, name, known.mesh)
 
 

@@ -52,8 +52,8 @@ def cell_groups(mesh: Mesh, body: Body, path: Path, findings: Findings) -> list[
                     nodes=np.asarray(block.nodes)[some],
                     cells=cells[some],
                     law=law_of_model(model, law),
-                    parameters=_parameters(laws, of_cells),
-                    fibres=_fibres(laws, of_cells),
+                    parameters=parameters_of(laws, of_cells),
+                    fibres=fibres_of(laws, of_cells),
                     made=type(law).made,
                     model=model,
                 )
@@ -133,7 +133,7 @@ def _owner_of_cells(mesh: Mesh, given: object, path: Path, findings: Findings) -
     return owner if bool((count == 1).all()) else None
 
 
-def _parameters(laws: list[Law], owner: Ints) -> dict[str, Floats]:
+def parameters_of(laws: list[Law], owner: Ints) -> dict[str, Floats]:
     """Parameters of cells: one value when all cells share their law, else one for each cell."""
     used, of_cell = np.unique(owner, return_inverse=True)
     names = [n for n in type(laws[used[0]]).model_fields if n not in ("type", "fibres")]
@@ -143,7 +143,7 @@ def _parameters(laws: list[Law], owner: Ints) -> dict[str, Floats]:
     return {name: value[of_cell] for name, value in values.items()}
 
 
-def _fibres(laws: list[Law], owner: Ints) -> dict[str, Floats]:
+def fibres_of(laws: list[Law], owner: Ints) -> dict[str, Floats]:
     """Parameters of the fibres of cells, none when their law has no fibres."""
     used, of_cell = np.unique(owner, return_inverse=True)
     rows = []

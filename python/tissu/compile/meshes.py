@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, cast
 
 import numpy as np
 
@@ -38,7 +38,7 @@ def known_mesh(body: Body, path: Path, findings: Findings) -> KnownMesh | None:
     place = (*path, "mesh")
     try:
         mesh = with_thin(
-            _mesh_of(body), sheets=_asks(body, "thickness"), lines=_asks(body, "section")
+            mesh_of(body.mesh), sheets=_asks(body, "thickness"), lines=_asks(body, "section")
         )
     except TissuError as error:
         findings.problem(place, str(error))
@@ -65,9 +65,8 @@ def _asks(body: Body, field: str) -> bool:
     return getattr(body, field, "unreadable") is not None
 
 
-def _mesh_of(body: Body) -> Mesh:
-    """The mesh, read or made; in the file's own unit when that is unknown."""
-    source = body.mesh
+def mesh_of(source: object) -> Mesh:
+    """The mesh of a source, read or made; in the file's own unit when that is unknown."""
     if isinstance(source, MeshFile):
         unit, scale = getattr(source, "unit", "m"), getattr(source, "scale", 1.0)
         return read_mesh(source.file, unit=unit, scale=scale)
@@ -86,8 +85,7 @@ def _mesh_of(body: Body) -> Mesh:
             split=source.split,
             origin=source.origin,
         )
-    mesh: Mesh = source
-    return mesh
+    return cast("Mesh", source)
 
 
 def _useless(mesh: Mesh) -> str | None:

@@ -15,6 +15,7 @@ from tissu.compile.prepared import Held, Ints, LoadedNodes, Prepared, PreparedBo
 from tissu.compile.quadrature import check_quadrature
 from tissu.compile.select import selected_faces, selected_nodes
 from tissu.compile.thin import note_bending, note_held_plane
+from tissu.compile.tissue import prepare_tissue
 from tissu.compile.viscosity import check_viscosity
 from tissu.counted import counted
 from tissu.errors import ParameterError
@@ -43,6 +44,8 @@ def prepare(scene: Scene) -> Prepared:
     prepared.findings.problems += problems_in(scene)
     for name in getattr(scene, "bodies", {}):
         _prepare_body(prepared, name)
+    for name in getattr(scene, "tissue", {}):
+        prepare_tissue(prepared, name)
     for group in ("fixed", "prescribed"):
         for number, support in enumerate(getattr(scene, group, ())):
             _prepare_support(prepared, (group, number), support)

@@ -14,6 +14,7 @@ from tissu.scene.model import FEM, Model
 from tissu.scene.problem import Path, Problem
 
 if TYPE_CHECKING:
+    from tissu.compile.tissue import PreparedTissue
     from tissu.mesh import CellBlock, Mesh
     from tissu.scene.load import Load
     from tissu.scene.scene import Scene
@@ -126,8 +127,13 @@ class Prepared:
     findings: Findings = field(default_factory=Findings)
     meshes: dict[str, KnownMesh] = field(default_factory=dict)
     bodies: dict[str, PreparedBody] = field(default_factory=dict)
+    tissues: dict[str, PreparedTissue] = field(default_factory=dict)
     held: list[Held] = field(default_factory=list)
     loaded: list[LoadedNodes] = field(default_factory=list)
+
+    def has_rotations(self, name: str) -> bool:
+        """Whether the nodes of a body or tissue are frames."""
+        return name in self.tissues or bool(self.scene.bodies[name].has_rotations)
 
     def counts(self) -> dict[str, str]:
         """What each support and load selects: "fixed[0]" -> "42 nodes"."""

@@ -101,7 +101,9 @@ def _cells_at_nodes(mesh: Mesh) -> dict[int, tuple[Ints, Floats]]:
     wanted = set(mesh.surface().nodes.tolist())
     for block in mesh.body_blocks:
         slopes = _core.mean_gradients(
-            cell_type=str(block.type), positions=mesh.points, cells=np.ascontiguousarray(block.nodes)
+            cell_type=str(block.type),
+            positions=mesh.points,
+            cells=np.ascontiguousarray(block.nodes),
         )
         for cell, of_nodes in zip(block.nodes, slopes, strict=True):
             for node, slope in zip(cell, of_nodes, strict=True):

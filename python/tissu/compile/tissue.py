@@ -119,9 +119,7 @@ def _between(
             )
         held.append(nodes.astype(np.int32))
     chosen = (None, None) if tissue.on is None else (held[0], held[1])
-    region = sampling.between(
-        *surfaces, tissue.reach, nodes_a=chosen[0], nodes_b=chosen[1]
-    )
+    region = sampling.between(*surfaces, tissue.reach, nodes_a=chosen[0], nodes_b=chosen[1])
     return region, list(zip(tissue.between, held, strict=True))
 
 

@@ -10,6 +10,7 @@ import numpy as np
 
 from tissu.checkpoint import read_checkpoint
 from tissu.compile.check import check_of
+from tissu.compile.material import fibres_of, parameters_of
 from tissu.compile.model import kept_nodes, use_of
 from tissu.compile.prepare import prepare
 from tissu.compile.prepared import Held, LoadedNodes, Prepared
@@ -52,6 +53,7 @@ def compile_scene(scene: Scene, checkpoint: Path | None = None) -> Simulation:
         scene=scene,
         world=build_world(prepared),
         meshes={name: body.mesh for name, body in prepared.bodies.items()},
+        tissues={name: tissue.mesh for name, tissue in prepared.tissues.items()},
         integrator=integrator_of(scene.step),
         solver=None if solver is None else solver_of(solver),
         check=check,
@@ -91,10 +93,12 @@ def build_world(prepared: Prepared) -> Any:
     )
     for name in prepared.bodies:
         _add_body(builder, prepared, name)
+    for name in prepared.tissues:
+        _add_tissue(builder, prepared, name)
     if scene.gravity is not None:
         builder.add_gravity(acceleration=np.array(scene.gravity))
     for held in prepared.held:
-        _add_support(builder, held, prepared.scene.bodies[held.support.body].has_rotations)
+        _add_support(builder, held, prepared.has_rotations(held.support.body))
     for loaded in prepared.loaded:
         _add_load(builder, loaded, prepared)
     return builder.build()
@@ -137,6 +141,29 @@ def _add_body(builder: WorldBuilder, prepared: Prepared, name: str) -> None:
         )
     if body.viscosity is not None:
         _add_viscosity(builder, name, body.viscosity)
+
+
+def _add_tissue(builder: WorldBuilder, prepared: Prepared, name: str) -> None:
+    from tissu._core import ModelUse
+
+    tissue, ready = prepared.scene.tissue[name], prepared.tissues[name]
+    law = tissue.law
+    builder.add_body(name=name, positions=np.array(ready.mesh.points), frames=True)
+    builder.add_points(
+        body=name,
+        shared=ready.shared,
+        frames=np.ascontiguousarray(ready.weights.frames, dtype=np.int32),
+        weights=np.ascontiguousarray(ready.weights.weights),
+        gradients=np.ascontiguousarray(ready.weights.gradients),
+        positions=np.ascontiguousarray(ready.points),
+        volumes=ready.volumes,
+        law=law.type,
+        parameters=parameters_of([law], np.zeros(1, dtype=np.int32)),
+        fibres=fibres_of([law], np.zeros(1, dtype=np.int32)),
+        loaded=None if type(law).made is None else type(law).made.build().loaded,
+        density=ready.density,
+        model=ModelUse(name="frames", tangent=tissue.tangent),
+    )
 
 
 def _add_viscosity(builder: WorldBuilder, name: str, viscosity: Viscosity) -> None:

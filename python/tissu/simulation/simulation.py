@@ -48,6 +48,7 @@ class Simulation:
         scene: Scene,
         world: _core.World,
         meshes: Mapping[str, Mesh],
+        tissues: Mapping[str, Mesh] | None = None,
         integrator: _core.Integrator,
         solver: _core.LinearSolver | None,
         check: Check,
@@ -62,7 +63,8 @@ class Simulation:
         self._steps = 0
         self._simulated = 0.0
         self._physics_known: dict[str, Any] | None = None
-        ranges = {name: self._core.body_range(name) for name in meshes}
+        self._tissues = dict(tissues or {})
+        ranges = {name: self._core.body_range(name) for name in [*meshes, *self._tissues]}
         self._positions = MappingProxyType(_views(self._core.positions, ranges))
         self._velocities = MappingProxyType(_views(self._core.velocities, ranges))
         self.resumed_from: Resumed | None = None
@@ -86,6 +88,22 @@ class Simulation:
     def meshes(self) -> Mapping[str, Mesh]:
         """Body -> mesh at rest, without the cells that were removed."""
         return MappingProxyType(self._meshes)
+
+    @property
+    def tissues(self) -> Mapping[str, Mesh]:
+        """Connective tissue -> its own frames at rest, as nodes that no cell joins."""
+        return MappingProxyType(self._tissues)
+
+    def points(self, name: str) -> Floats:
+        """Where the integration points (p, 3) of a body or tissue of frames are [m].
+
+        Raises:
+            ParameterError: it is not made of frames.
+        """
+        found = self._core.points(name)
+        if not len(found):
+            raise ParameterError(f"found '{name}', which is not made of frames and has no points")
+        return found
 
     @property
     def positions(self) -> Mapping[str, Floats]:
@@ -210,7 +228,7 @@ class Simulation:
 
     def displacements(self, body: str) -> Floats:
         """Displacements (n, 3) of the nodes of a body from rest [m]."""
-        return self.positions[body] - self._meshes[body].points
+        return self.positions[body] - {**self._meshes, **self._tissues}[body].points
 
     def rotations(self, body: str) -> Floats:
         """Rotation matrices (n, 3, 3) of the nodes of a body from rest.

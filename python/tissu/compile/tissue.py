@@ -59,7 +59,8 @@ def prepare_tissue(prepared: Prepared, name: str) -> None:
 
 def _made(prepared: Prepared, name: str, tissue: Tissue) -> PreparedTissue | None:
     if tissue.between is None:
-        region, held = _filled(tissue), []
+        region: Region = _filled(tissue)
+        held: list[tuple[str, Ints]] = []
     else:
         if any(body not in prepared.bodies for body in tissue.between):
             return None  # told already
@@ -84,7 +85,9 @@ def _made(prepared: Prepared, name: str, tissue: Tissue) -> PreparedTissue | Non
     if len(idle):
         text = f"{len(idle)} of {len(frames)} frames have no point that listens to them; "
         raise ParameterError(f"{text}more points, or more neighbours, are accepted")
-    mesh = Mesh(points=frames, cells=(CellBlock("vertex", np.arange(len(frames))[:, None]),))
+    mesh = Mesh(
+        points=frames, cells=(CellBlock("vertex", np.arange(len(frames), dtype=np.int32)[:, None]),)
+    )
     density = tissue.density if tissue.mass is None else tissue.mass / float(volumes.sum())
     assert density is not None  # the tissue has one of both
     return PreparedTissue(mesh, points, volumes, shared, weights, float(density))
@@ -119,7 +122,9 @@ def _between(
             )
         held.append(nodes.astype(np.int32))
     chosen = (None, None) if tissue.on is None else (held[0], held[1])
-    region = sampling.between(*surfaces, tissue.reach, nodes_a=chosen[0], nodes_b=chosen[1])
+    region = sampling.between(
+        surfaces[0], surfaces[1], tissue.reach, nodes_a=chosen[0], nodes_b=chosen[1]
+    )
     return region, list(zip(tissue.between, held, strict=True))
 
 

@@ -147,7 +147,7 @@ def _add_tissue(builder: WorldBuilder, prepared: Prepared, name: str) -> None:
     from tissu._core import ModelUse
 
     tissue, ready = prepared.scene.tissue[name], prepared.tissues[name]
-    law = tissue.law
+    law, made = tissue.law, type(tissue.law).made
     builder.add_body(name=name, positions=np.array(ready.mesh.points), frames=True)
     builder.add_points(
         body=name,
@@ -160,7 +160,7 @@ def _add_tissue(builder: WorldBuilder, prepared: Prepared, name: str) -> None:
         law=law.type,
         parameters=parameters_of([law], np.zeros(1, dtype=np.int32)),
         fibres=fibres_of([law], np.zeros(1, dtype=np.int32)),
-        loaded=None if type(law).made is None else type(law).made.build().loaded,
+        loaded=None if made is None else made.build().loaded,
         density=ready.density,
         model=ModelUse(name="frames", tangent=tissue.tangent),
     )

@@ -1,0 +1,127 @@
+"""Connective tissue: frames and points without a mesh, alone and between two bodies."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+import tissu as ts
+
+SOFT = ts.StVK(young=6e3, poisson=0.3)
+
+
+def _box(low: tuple[float, float, float], cells: int = 3, **body: Any) -> ts.Body:
+    mesh = ts.BarMesh(size=(0.1, 0.1, 0.05), cells=(cells, cells, 2), cell="hexahedron", origin=low)
+    return ts.Body(**{"mesh": mesh, "law": ts.StVK(young=2e4, poisson=0.3), "density": 1e3, **body})
+
+
+def _pair(**tissue: Any) -> dict[str, Any]:
+    given = {"between": ("upper", "lower"), "reach": 0.06, "frames": 20, "points": 200}
+    return {
+        "bodies": {"upper": _box((0, 0, 0.08)), "lower": _box((0, 0, 0), cells=4)},
+        "tissue": {"fascia": ts.Tissue(law=SOFT, density=1e3, **{**given, **tissue})},
+        "fixed": [ts.Fixed("upper", on=ts.Plane((0, 0, 0.13), (0, 0, 1)))],
+    }
+
+
+def test_tissue_alone_is_the_block_that_it_fills() -> None:
+    """A block pulled by its end stretches by F L / (E A) to what its frames can hold."""
+    block = ts.BarMesh(size=(0.2, 0.1, 0.1), cells=(2, 1, 1), cell="hexahedron")
+    tissue = ts.Tissue(inside=block, frames=45, points=400, sampling="grid", shape="trilinear",
+                       law=SOFT, mass=2.0)  # fmt: skip
+    scene = ts.Scene(
+        tissue={"block": tissue},
+        fixed=[ts.Fixed("block", on=ts.Plane((0, 0, 0), (1, 0, 0)))],
+        loads=[ts.NodalLoad("block", on=ts.Plane((0.2, 0, 0), (1, 0, 0)), force=(0.6, 0, 0))],
+        step=ts.Static(newton=ts.Newton(iterations=20)),
+    )
+    simulation = scene.compile()
+    assert simulation.step().converged
+    end = np.isclose(simulation.tissues["block"].points[:, 0], 0.2)
+    pull = simulation.displacements("block")[end, 0].mean()
+    # Held on all axes at its root it is up to 4 % stiffer than F L / (E A) = 2 mm; the force is
+    # shared equally by frames of which those at edges stand for less.
+    assert pull == pytest.approx(0.6 * 0.2 / (6e3 * 0.01), rel=0.08)
+    assert float(simulation._world.mass) == pytest.approx(2.0)
+
+
+@pytest.mark.parametrize("shape", ["shepard", "wendland", "moving_least_squares"])
+def test_tissue_passes_on_what_holds_the_other_body(shape: str) -> None:
+    """The lower body hangs on the upper one by the tissue; without it, it falls."""
+    fields = _pair(shape=shape)
+    step = ts.ImplicitEuler(dt=0.02, newton=ts.Newton(iterations=10))
+    scene = ts.Scene(**fields, gravity=(0, 0, -9.81), step=step, duration=1.0)
+    simulation = scene.compile()
+    assert all(report.converged for report in simulation.run())
+    drop = -simulation.displacements("lower")[:, 2].mean()
+    assert 1e-4 < drop < 0.05
+    alone = ts.Scene(**{**fields, "tissue": {}}, gravity=(0, 0, -9.81), step=step, duration=1.0)
+    fallen = alone.compile()
+    list(fallen.run())
+    assert -fallen.displacements("lower")[:, 2].mean() > 4.0
+
+
+def test_tied_bodies_carried_together_are_free_of_force() -> None:
+    """All that is tied is turned and moved as one: no energy, whatever rides on what."""
+    simulation = ts.Scene(**_pair(), step=ts.ImplicitEuler(dt=0.01)).compile()
+    assert simulation.energy()["elastic"] == pytest.approx(0.0, abs=1e-15)
+    spun = ts.Scene(
+        **{**_pair(), "fixed": ()},
+        prescribed=[
+            ts.Prescribed(
+                "upper",
+                on=ts.SurfaceNodes(),
+                times=(0, 1),
+                rotation=ts.Rotation(axis=(0, 1, 0), angles=(0, "90 deg")),
+            )
+        ],
+        step=ts.Static(load_steps=4, newton=ts.Newton(iterations=30)),
+    ).compile()
+    report = spun.step()
+    assert report.converged
+    size = 6e3 * 0.05**3
+    assert spun.energy()["elastic"] < 1e-9 * size
+    points = spun.meshes["lower"].points
+    turned = np.stack([points[:, 2], points[:, 1], -points[:, 0]], axis=1)
+    assert spun.positions["lower"] == pytest.approx(turned, abs=1e-6)
+
+
+def test_momentum_is_kept_across_the_tissue() -> None:
+    fields = _pair()
+    fields["fixed"] = ()
+    fields["bodies"]["lower"] = fields["bodies"]["lower"].replace(
+        start=ts.Start(velocity=(0.1, 0, -0.2))
+    )
+    simulation = ts.Scene(**fields, step=ts.ImplicitEuler(dt=0.01), duration=0.2).compile()
+    before = simulation.velocities["lower"].copy()
+    for _ in simulation.run():
+        pass
+    assert np.isfinite(simulation.positions["upper"]).all()
+    assert np.abs(simulation.velocities["upper"]).max() > 1e-3  # the pull has come through
+    assert np.abs(before).max() == pytest.approx(0.2)
+
+
+@pytest.mark.parametrize(
+    ("fields", "words"),
+    [
+        ({"reach": None}, "without reach"),
+        ({"reach": 0.01}, "reach"),
+        ({"between": ("upper", "lover")}, "no body is named 'lover'"),
+        ({"between": ("upper", "upper")}, "twice"),
+        ({"mass": 1.0}, "both of density and mass"),
+        ({"shape": "trilinear"}, "grid"),
+        ({"frames": 2, "neighbours": 500}, "neighbours|frames"),
+    ],
+)
+def test_tissue_refuses_in_one_sentence(fields: dict[str, Any], words: str) -> None:
+    with pytest.raises(ts.TissuError, match=words):
+        ts.Scene(**_pair(**fields), step=ts.ImplicitEuler(dt=0.01)).compile()
+
+
+def test_tissue_is_told_and_absent_where_it_is_not() -> None:
+    with_tissue = ts.Scene(**_pair(), step=ts.ImplicitEuler(dt=0.01)).check()
+    assert any("connective tissue fascia" in str(effect) for effect in with_tissue.effects)
+    without = ts.Scene(**{**_pair(), "tissue": {}}, step=ts.ImplicitEuler(dt=0.01)).check()
+    assert "connective tissue" in without.absent

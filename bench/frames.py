@@ -1,0 +1,183 @@
+"""Prints docs/frames.md: figures 6, 7, 8 and 13 and tables 1 to 3 of bosman2014 beside ours: --write."""
+
+from __future__ import annotations
+
+import sys
+import time
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+import tissu as ts
+
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+from frames_text import COUPLING, HEAD, SOFT_TEXT, SPEED, STEEL_TEXT, TENSION
+
+PAGE = Path(__file__).resolve().parents[1] / "docs" / "frames.md"
+STEEL_TIP, BEAM = 0.150174, 0.147185  # m: converged (CalculiX); rho g L^4 / (8 E I)
+NEWTON = ts.Newton(iterations=60, tolerance=1e-8)
+SECTIONS = ((25, 1), (25, 2), (25, 4), (25, 6))  # cells along, cells across: figure 6
+LENGTHS = ((6, 4), (12, 4), (24, 4), (48, 4))  # figure 7
+SOFT = ((10, 1), (20, 2), (32, 3), (48, 4))  # figure 8
+POINTS_CPU_GPU = ((360, 34.84, 14.85), (2600, 251.77, 17.11), (12700, 1228.8, 32.29),
+                  (34610, 3468.54, 66.1))  # fmt: skip
+
+
+def beam(size: tuple[float, ...], cells: tuple[int, ...], cell: str, **body: Any) -> ts.Scene:
+    """A cantilever under its weight."""
+    mesh = ts.BarMesh(size=size, cells=cells, cell=cell)
+    return ts.Scene(
+        bodies={"beam": ts.Body(mesh=mesh, **body)},
+        fixed=[ts.Fixed("beam", on=ts.Plane((0, 0, 0), (1, 0, 0)))],
+        gravity=(0, -9.81, 0),
+        step=ts.Static(newton=NEWTON, load_steps=body.get("density", 0) < 1 and 4 or 1),
+    )
+
+
+def sag(scene: ts.Scene) -> tuple[float, int, float]:
+    """Deflection of the end's middle [m], unknowns, seconds."""
+    simulation = scene.compile()
+    start = time.perf_counter()
+    report = simulation.step()
+    seconds = time.perf_counter() - start
+    if not report.converged:
+        return float("nan"), simulation.plan().unknowns, seconds
+    points = simulation.meshes["beam"].points
+    end = np.isclose(points[:, 0], points[:, 0].max())
+    return -float(simulation.displacements("beam")[end, 1].mean()), simulation.plan().unknowns, seconds
+
+
+def steel() -> str:
+    """Figures 6 and 7: the steel cantilever of 16 x 0.5 x 0.5 m."""
+    body = {"law": ts.StVK(young=200e9, poisson=0.3), "density": 7800.0, "model": "frames"}
+    rows = []
+    for figure, cases in (("6", SECTIONS), ("7", LENGTHS)):
+        for along, across in cases:
+            tip, unknowns, seconds = sag(beam((16, 0.5, 0.5), (along, across, across), "hexahedron", **body))
+            rows.append(
+                f"| {figure} | {along + 1} x {across + 1} x {across + 1} | {unknowns} | {1e3 * tip:.2f} | "
+                f"{100 * (tip / STEEL_TIP - 1):+.2f} % | {100 * (tip / BEAM - 1):+.2f} % | {1e3 * seconds:.0f} |"
+            )
+    head = "| figure | frames | unknowns | tip [mm] | to the converged solution | to the beam formula | ms |\n"
+    return head + "|---|---|---|---|---|---|---|\n" + "\n".join(rows) + "\n"
+
+
+def soft() -> str:
+    """Figures 8 and 13: the soft cantilever of 16 x 1 x 1 m, 5 kg, 40 kPa."""
+    law = ts.StVK(young=40e3, poisson=0.3)
+    kinds = {
+        "frames, 8 neighbours": ("hexahedron", "frames", law),
+        "frames, 4 neighbours": ("tetra", "frames", law),
+        "corotational hexahedra": ("hexahedron", "corotational", ts.Hooke(young=40e3, poisson=0.3)),
+        "corotational tetrahedra": ("tetra", "corotational", ts.Hooke(young=40e3, poisson=0.3)),
+        "StVK hexahedra": ("hexahedron", "fem", law),
+    }
+    density = 5.0 / 16.0
+    fine, _, _ = sag(beam((16, 1, 1), (64, 4, 4), "hexahedron20", law=law, density=density))
+    rows = [f"| quadratic hexahedra, 64 x 4 x 4 cells | | {fine:.3f} | |"]
+    cases = [(name, n, m) for name in kinds for n, m in SOFT]
+    cases += [("frames, 8 neighbours", 20, 2), ("StVK hexahedra", 64, 4)]
+    for name, along, across in dict.fromkeys(cases):
+        cell, model, of = kinds[name]
+        scene = beam((16, 1, 1), (along, across, across), cell, law=of, density=density, model=model)
+        tip, unknowns, _ = sag(scene)
+        rows.append(
+            f"| {name}, {along + 1} x {across + 1} x {across + 1} nodes | {unknowns} | {tip:.3f} | "
+            f"{100 * (tip / fine - 1):+.1f} % |"
+        )
+    return "| model | unknowns | sag of the end [m] | to the converged one |\n|---|---|---|---|\n" + "\n".join(rows) + "\n"
+
+
+def tension() -> str:
+    """Table 1: a cylinder of 6 m and radius 1 m drawn by 3 mm; u_r at the middle."""
+    rows = []
+    for across, along in ((4, 6), (8, 12), (12, 18)):
+        simulation = cylinder(across, along)
+        points, moved = simulation.meshes["beam"].points, simulation.displacements("beam")
+        middle = np.isclose(points[:, 0], 3.0) & np.isclose(np.hypot(points[:, 1], points[:, 2]), 1.0)
+        outward = points[middle, 1:]
+        radial = float((moved[middle, 1:] * outward).sum(axis=1).mean())
+        unknowns = simulation.plan().unknowns
+        rows.append(f"| {across} x {across} x {along} cells | {unknowns} | {1e3 * radial:.5f} | {100 * (radial / -1.5e-4 - 1):+.2f} % |")
+    return "| cells | unknowns | u_r [mm] | to -nu eps R = -0.15 mm |\n|---|---|---|---|\n" + "\n".join(rows) + "\n"
+
+
+def cylinder(across: int, along: int) -> ts.Simulation:
+    """A round bar of frames: a box of cells with its section drawn to a disc."""
+    mesh = ts.bar_mesh(size=(6, 2, 2), cells=(along, across, across), cell="hexahedron", origin=(0, -1, -1))
+    points = np.array(mesh.points)
+    y, z = points[:, 1].copy(), points[:, 2].copy()
+    points[:, 1], points[:, 2] = y * np.sqrt(1 - z**2 / 2), z * np.sqrt(1 - y**2 / 2)
+    disc = ts.Mesh(points=points, cells=mesh.cells)
+    body = ts.Body(mesh=disc, law=ts.StVK(young=1e9, poisson=0.3), density=1000.0, model="frames")
+    one = int(np.argmin(np.linalg.norm(points, axis=1)))
+    side = int(np.argmin(np.linalg.norm(points - [0, 1, 0], axis=1)))
+    simulation = ts.Scene(
+        bodies={"beam": body},
+        fixed=[
+            ts.Fixed("beam", on=ts.Plane((0, 0, 0), (1, 0, 0)), axes="x", rotations="held"),
+            ts.Fixed("beam", on=ts.Nodes([one]), axes="yz"),
+            ts.Fixed("beam", on=ts.Nodes([side]), axes="z"),
+        ],
+        prescribed=[
+            ts.Prescribed("beam", on=ts.Plane((6, 0, 0), (1, 0, 0)), axes="x", times=(0, 1),
+                          displacements=[(0, 0, 0), (0.003, 0, 0)])
+        ],
+        step=ts.Static(newton=NEWTON),
+    ).compile()  # fmt: skip
+    if not simulation.step().converged:
+        raise RuntimeError("the cylinder did not converge")
+    return simulation
+
+
+def speed(threads: int) -> str:
+    """Tables 2 and 3: a step of implicit Euler with 60 iterations."""
+    rows = []
+    for wanted, cpu, gpu in POINTS_CPU_GPU:
+        simulation = cloud(wanted, threads)
+        points = len(simulation.points("beam"))
+        for _ in range(3):
+            simulation.step()
+        simulation.clear_profile()
+        seconds = []
+        for _ in range(15):
+            start = time.perf_counter()
+            simulation.step()
+            seconds.append(time.perf_counter() - start)
+        ms = 1e3 * float(np.median(seconds))
+        frames = simulation.tissues["beam"].node_count
+        rows.append(f"| {wanted} | {points} | {frames} | {cpu:.0f} | {gpu:.1f} | {ms:.2f} | {cpu / ms:.0f} |")
+    head = "| points, paper | points | frames | paper's CPU [ms] | paper's GPU [ms] | ours [ms] | times its CPU |\n"
+    return head + "|---|---|---|---|---|---|---|\n" + "\n".join(rows) + "\n"
+
+
+def cloud(points: int, threads: int) -> ts.Simulation:
+    """A beam of frames without a mesh, a sixteenth as many as points, four neighbours each."""
+    bar = ts.BarMesh(size=(4, 1, 1), cells=(4, 1, 1), cell="hexahedron")
+    tissue = ts.Tissue(
+        inside=bar, frames=max(24, points // 16), points=points, sampling="grid", shape="linear",
+        law=ts.StVK(young=4e4, poisson=0.3), density=1000.0, tangent="material",
+    )  # fmt: skip
+    solver = ts.ConjugateGradient(tolerance=1e-14, iterations=60)
+    return ts.Scene(
+        tissue={"beam": tissue},
+        fixed=[ts.Fixed("beam", on=ts.Plane((0, 0, 0), (1, 0, 0)))],
+        gravity=(0, -9.81, 0),
+        step=ts.ImplicitEuler(dt=0.01, solver=solver),
+        threads=threads,
+    ).compile()
+
+
+def main() -> None:
+    """Prints the page, or writes it."""
+    parts = [HEAD, STEEL_TEXT, steel(), SOFT_TEXT, soft(), TENSION, tension(), SPEED, speed(2), COUPLING]
+    page = "\n".join(parts)
+    if "--write" in sys.argv:
+        PAGE.write_text(page, encoding="utf-8")
+    else:
+        print(page)
+
+
+if __name__ == "__main__":
+    main()

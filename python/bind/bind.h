@@ -51,8 +51,8 @@ void bind_world(py::module_& m);
 void bind_simulation(py::module_& m);
 void bind_solver(py::module_& m);
 void bind_step(py::module_& m);
+void bind_field(py::module_& m);
 
 }  // namespace tissu::bind
 
-void bind_mesh(py::module_& m);
-void bind_field(py::module_& m);
+void bind_mesh(pybind11::module_& m);

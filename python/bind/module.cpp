@@ -51,7 +51,7 @@ PYBIND11_MODULE(_core, m) {
   pybind11::register_local_exception_translator(&bind::translate);
   m.def("build_info", [] { return bind::to_dict(tissu::build_info()); });
   bind_mesh(m);
-  bind_field(m);
+  tissu::bind::bind_field(m);
   bind::bind_law(m);  // before what takes one
   bind::bind_model(m);
   bind::bind_world(m);

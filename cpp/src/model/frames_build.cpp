@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <span>
 #include <utility>
 
 #include "kernels/frame_list.h"
@@ -182,12 +183,12 @@ template <class Function>
 void Frames::for_neighbours(Function&& f) const {
   const auto k = static_cast<std::size_t>(points_.neighbours);
   for (std::size_t s = 0; s < points_.volumes.size(); ++s) {
+    const std::span<const double> w(points_.weights.data() + s * k, k);
+    const bool squares = std::ranges::min(w) < 0.0;
+    const auto weight = [&](double value) { return squares ? value * value : value; };
     double sum = 0.0;
-    for (std::size_t a = 0; a < k; ++a) sum += std::max(points_.weights[s * k + a], 0.0);
-    for (std::size_t a = 0; a < k; ++a) {
-      const double positive = std::max(points_.weights[s * k + a], 0.0) / sum;
-      f(s * k + a, density(s) * points_.volumes[s], positive);
-    }
+    for (const double value : w) sum += weight(value);
+    for (std::size_t a = 0; a < k; ++a) f(s * k + a, density(s) * points_.volumes[s], weight(w[a]) / sum);
   }
 }
 
@@ -207,7 +208,9 @@ void Frames::add_inertias(std::vector<Mat3>& of_frames) const {
   for_neighbours([&](std::size_t at, double mass, double share) {
     const Vec3 l = tissu::block(ConstReals(levers_), static_cast<std::int32_t>(at));
     const auto point = at / static_cast<std::size_t>(points_.neighbours);
-    const double own = points_.turning.empty() ? 0.0 : points_.turning[point];
+    const double own = !points_.turning.empty()  ? points_.turning[point]
+                       : points_.dimension == 3 ? std::pow(points_.volumes[point], 2.0 / 3.0) / 6.0
+                                                : 0.0;
     const std::int32_t frame = numbers_[static_cast<std::size_t>(listened_[at])];
     if (frame < 0) return;
     of_frames[static_cast<std::size_t>(frame)] += share * mass * ((l.squaredNorm() + own) * Mat3::Identity() - l * l.transpose());

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "base/random.h"
-#include "model/reference_nodes.h"
+#include "../base/random.h"
+#include "reference_nodes.h"
 #include "tissu/element/reference_cell.h"
 #include "tissu/model/frames.h"
 

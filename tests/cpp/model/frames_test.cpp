@@ -2,11 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Eigenvalues>
+
 #include <algorithm>
 #include <numeric>
 
-#include "base/differences.h"
-#include "model/frames_sample.h"
+#include "../base/differences.h"
+#include "frames_sample.h"
 #include "tissu/base/error.h"
 #include "tissu/law/generated/all.h"
 

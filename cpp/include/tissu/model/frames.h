@@ -35,9 +35,11 @@ class Frames final : public BodyModel {
   [[nodiscard]] std::int32_t cell_count() const override { return static_cast<std::int32_t>(volumes_.size()); }
   [[nodiscard]] int nodes_per_cell() const override { return nodes_per_cell_; }
   [[nodiscard]] const std::vector<double>& volumes() const override { return volumes_; }
-  /// Each point's mass goes to its frames in proportion to their weights, those below zero left out.
+  /// Each point's mass goes to its frames in proportion to their weights, or to the squares of these where
+  /// one is below zero (Hinton, Rock and Zienkiewicz 1976).
   void add_masses(std::vector<double>& nodal) const override;
   void add_weights(std::vector<double>& nodal) const override;
+  /// sum_s m_s (l^2 I - l l^T), and what a point has on its own: that of a cube of its volume.
   void add_inertias(std::vector<Mat3>& of_frames) const override;
   void add_moments(std::vector<Vec3>& of_frames) const override;
   [[nodiscard]] CellFields fields(const State& state) const override;

@@ -34,6 +34,8 @@ class BodyModel : public ForceModel {
   /// Adds each node's share of a body force, sum_g w_g rho N_a [kg]: consistent, and negative at some corners
   /// of quadratic elements.
   virtual void add_weights(std::vector<double>& nodal) const = 0;
+  /// Adds the lumped inertia [kg m2] of each frame, about its node and in its own axes.
+  virtual void add_inertias(std::vector<Mat3>& /*of_frames*/) const {}
   /// Nodes that are no unknowns: the model knows where they are from the others. None may belong to other
   /// models, be held, or carry a load.
   [[nodiscard]] virtual std::span<const std::int32_t> eliminated() const { return {}; }

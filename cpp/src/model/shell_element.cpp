@@ -12,6 +12,8 @@
 namespace tissu {
 namespace {
 
+using Vec9 = Eigen::Matrix<double, 9, 1>;
+
 constexpr int kMembrane[9] = {0, 1, 5, 6, 7, 11, 12, 13, 17};
 constexpr int kBending[9] = {2, 3, 4, 8, 9, 10, 14, 15, 16};
 
@@ -85,8 +87,8 @@ double ShellElement::nodal_inertia(double density) const {
 
 Vec18 ShellElement::stressed(const Vec18& d) const {
   Vec18 f;
-  f(kMembrane) = membrane_ * d(kMembrane);
-  f(kBending) = bending_ * d(kBending);
+  f(kMembrane) = membrane_.lazyProduct(Vec9(d(kMembrane)));
+  f(kBending) = bending_.lazyProduct(Vec9(d(kBending)));
   return f;
 }
 

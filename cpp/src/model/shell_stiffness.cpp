@@ -39,17 +39,17 @@ void turn_rotations(const ShellMotion& motion, Mat18& K) {
 /// A - B G
 void subtract(const ShellMotion& motion, const Mat183& B, Mat18& A) {
   for (int a = 0; a < 3; ++a) {
-    A.middleCols<3>(translation(a)) -= B * motion.G[static_cast<std::size_t>(a)];
+    A.middleCols<3>(translation(a)) -= B.lazyProduct(motion.G[static_cast<std::size_t>(a)]);
   }
 }
 
 /// P^T M P in place
 void project(const ShellMotion& motion, const Mat183& S, Mat18& M) {
-  const Mat183 MS = M * S;
+  const Mat183 MS = M.lazyProduct(S);
   subtract(motion, MS, M);
-  const Eigen::Matrix<double, 3, 18> SM = S.transpose() * M;
+  const Eigen::Matrix<double, 3, 18> SM = S.transpose().lazyProduct(M);
   for (int a = 0; a < 3; ++a) {
-    M.middleRows<3>(translation(a)) -= motion.G[static_cast<std::size_t>(a)].transpose() * SM;
+    M.middleRows<3>(translation(a)) -= motion.G[static_cast<std::size_t>(a)].transpose().lazyProduct(SM);
   }
 }
 
@@ -69,12 +69,13 @@ Mat3 axes_change(const ShellElement& element, const ShellMotion& motion, const S
 Mat18 in_space(const Mat3& R, const Mat18& A) {
   Mat18 K;
   for (int i = 0; i < 18; i += 3) {
-    for (int j = 0; j <= i; j += 3) {
+    for (int j = 0; j < i; j += 3) {
       const Mat3 even = 0.5 * (A.block<3, 3>(i, j) + A.block<3, 3>(j, i).transpose());
-      K.block<3, 3>(i, j) = R * even * R.transpose();
-      K.block<3, 3>(j, i) = K.block<3, 3>(i, j).transpose();
+      const Mat3 turned_block = R * even * R.transpose();
+      K.block<3, 3>(i, j) = turned_block;
+      K.block<3, 3>(j, i) = turned_block.transpose();
     }
-    const Mat3 diagonal = K.block<3, 3>(i, i);
+    const Mat3 diagonal = R * A.block<3, 3>(i, i) * R.transpose();
     K.block<3, 3>(i, i) = 0.5 * (diagonal + diagonal.transpose());
   }
   return K;

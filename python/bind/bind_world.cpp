@@ -141,18 +141,19 @@ void bind_world(py::module_& m) {
   py::enum_<Plane>(m, "Plane").value("stress", Plane::stress).value("strain", Plane::strain);
   py::class_<ModelUse>(m, "ModelUse")
       .def(py::init([](const std::string& name, const std::string& rotation, const std::string& tangent,
-                       const std::string& section, bool equal_masses, const Ints& kept) {
+                       const std::string& section, double drilling, bool equal_masses, const Ints& kept) {
              ModelUse model;
              model.name = name;
              model.rotation = rotation;
              model.tangent = tangent;
              model.section = section;
+             model.drilling = drilling;
              model.equal_masses = equal_masses;
              model.kept = to_vector(kept);
              return model;
            }),
            py::kw_only(), arg("name") = "fem", arg("rotation") = "polar", arg("tangent") = "approximate",
-           arg("section") = "whole", arg("equal_masses") = false, arg("kept") = std::vector<std::int32_t>{});
+           arg("section") = "whole", arg("drilling") = 1.0, arg("equal_masses") = false, arg("kept") = std::vector<std::int32_t>{});
   py::class_<WorldDescription>(m, "WorldBuilder")
       .def(py::init([](int threads, bool editable, bool links, bool consistent_weight) {
              WorldDescription world;

@@ -89,6 +89,7 @@ _HOMES = {
         "Region",
         "Rotation",
         "Scene",
+        "Shell",
         "Sphere",
         "StVK",
         "Start",

@@ -71,6 +71,7 @@ from tissu.scene import Rayleigh as Rayleigh
 from tissu.scene import Region as Region
 from tissu.scene import Rotation as Rotation
 from tissu.scene import Scene as Scene
+from tissu.scene import Shell as Shell
 from tissu.scene import Sphere as Sphere
 from tissu.scene import StVK as StVK
 from tissu.scene import Start as Start

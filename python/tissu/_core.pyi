@@ -95,6 +95,7 @@ class ModelUse:
         rotation: str = "polar",
         tangent: str = "approximate",
         section: str = "whole",
+        drilling: float = 1.0,
         equal_masses: bool = False,
         kept: Ints = ...,
     ) -> None: ...

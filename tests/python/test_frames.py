@@ -15,7 +15,7 @@ NEWTON = ts.Newton(iterations=30, tolerance=1e-9)
 
 
 def _static(**fields: Any) -> ts.Simulation:
-    simulation = ts.Scene(step=ts.Static(newton=NEWTON), **fields).compile()
+    simulation = ts.Scene(step=ts.Static(newton=NEWTON, solver=ts.Cholesky()), **fields).compile()
     assert simulation.step().converged
     return simulation
 

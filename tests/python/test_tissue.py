@@ -35,7 +35,7 @@ def test_tissue_alone_is_the_block_that_it_fills() -> None:
         tissue={"block": tissue},
         fixed=[ts.Fixed("block", on=ts.Plane((0, 0, 0), (1, 0, 0)))],
         loads=[ts.NodalLoad("block", on=ts.Plane((0.2, 0, 0), (1, 0, 0)), force=(0.6, 0, 0))],
-        step=ts.Static(newton=ts.Newton(iterations=20)),
+        step=ts.Static(newton=ts.Newton(iterations=20), solver=ts.Cholesky()),
     )
     simulation = scene.compile()
     assert simulation.step().converged
@@ -77,7 +77,7 @@ def test_tied_bodies_carried_together_are_free_of_force() -> None:
                 rotation=ts.Rotation(axis=(0, 1, 0), angles=(0, "90 deg")),
             )
         ],
-        step=ts.Static(load_steps=4, newton=ts.Newton(iterations=30)),
+        step=ts.Static(load_steps=4, newton=ts.Newton(iterations=30), solver=ts.Cholesky()),
     ).compile()
     report = spun.step()
     assert report.converged

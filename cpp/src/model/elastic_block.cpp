@@ -41,9 +41,14 @@ ElasticBlock part_of(const ElasticBlock& block, const std::vector<std::size_t>& 
   ElasticBlock part = block;
   part.cells.clear();
   part.cell_numbers.clear();
+  part.frames.clear();
   for (const std::size_t i : which) {
-    const auto first = block.cells.begin() + static_cast<std::ptrdiff_t>(i * nodes);
-    part.cells.insert(part.cells.end(), first, first + static_cast<std::ptrdiff_t>(nodes));
+    const auto insert = [&](const std::vector<std::int32_t>& from, std::vector<std::int32_t>& to) {
+      const auto first = from.begin() + static_cast<std::ptrdiff_t>(i * nodes);
+      to.insert(to.end(), first, first + static_cast<std::ptrdiff_t>(nodes));
+    };
+    insert(block.cells, part.cells);
+    if (!block.frames.empty()) insert(block.frames, part.frames);
     if (!block.cell_numbers.empty()) part.cell_numbers.push_back(block.cell_numbers[i]);
   }
   part.density = chosen(block.density, which);

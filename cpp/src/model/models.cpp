@@ -14,6 +14,7 @@
 #include "tissu/model/mass_spring.h"
 #include "tissu/model/mass_tensor.h"
 #include "tissu/model/mean_dilatation.h"
+#include "tissu/model/shell.h"
 
 namespace tissu {
 namespace {
@@ -35,9 +36,9 @@ Entry entry() {
 
 /// A model is added here, and in tests/cpp/model/models_test.cpp.
 const std::vector<Entry>& entries() {
-  static const std::vector<Entry> all = {entry<Elastic>(),       entry<Corotational>(), entry<MassSpring>(),
-                                         entry<MassLink>(),      entry<MassTensor>(),   entry<Condensed>(),
-                                         entry<MeanDilatation>(), entry<Frames>()};
+  static const std::vector<Entry> all = {entry<Elastic>(),        entry<Corotational>(), entry<MassSpring>(),
+                                         entry<MassLink>(),       entry<MassTensor>(),   entry<Condensed>(),
+                                         entry<MeanDilatation>(), entry<Frames>(),       entry<Shell>()};
   return all;
 }
 

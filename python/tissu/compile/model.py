@@ -61,6 +61,7 @@ def use_of(model: Model, kept: Ints) -> Any:
         rotation=getattr(model, "rotation", "polar"),
         tangent=getattr(model, "tangent", "approximate"),
         section=getattr(model, "section", "whole"),
+        drilling=float(getattr(model, "drilling", 1.0)),
         equal_masses=getattr(model, "masses", "volume") == "equal",
         kept=kept,
     )

@@ -61,7 +61,11 @@ def choice_of(prepared: Prepared) -> Choice | None:
     auto = getattr(scene.step, "solver", None)
     if not isinstance(auto, Auto):
         return None
-    nodes = sum(body.mesh.node_count for body in prepared.bodies.values())
+    nodes = sum(
+        body.mesh.node_count * (2 if prepared.has_rotations(name) else 1)
+        for name, body in prepared.bodies.items()
+    )
+    nodes += sum(2 * tissue.mesh.node_count for tissue in prepared.tissues.values())
     static = isinstance(scene.step, Static)
     return choice_for(auto, unknowns=3 * nodes, static=static, editing=scene.editing)
 

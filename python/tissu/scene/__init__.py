@@ -23,6 +23,7 @@ from tissu.scene.model import (
     MassSpring,
     MassTensor,
     MeanDilatation,
+    Shell,
 )
 from tissu.scene.scene import Output, Scene
 from tissu.scene.selection import Box, Nodes, Plane, Region, Sphere, SurfaceNodes
@@ -91,6 +92,7 @@ __all__ = [
     "Region",
     "Rotation",
     "Scene",
+    "Shell",
     "Sphere",
     "StVK",
     "StableNeoHooke",

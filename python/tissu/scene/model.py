@@ -6,8 +6,9 @@ from collections.abc import Mapping
 from functools import lru_cache
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
-from pydantic import PlainValidator, TypeAdapter, ValidationInfo
+from pydantic import Field, PlainValidator, TypeAdapter, ValidationInfo
 
+from tissu import units
 from tissu.errors import ParameterError
 from tissu.scene.part import Part, chosen, keeps_problems
 from tissu.scene.problem import Problem
@@ -102,15 +103,37 @@ class Frames(Part):
         ) -> None: ...
 
 
+class Shell(Part):
+    """Triangles that bend, six degrees of freedom at each node; Hooke's law, any rotation."""
+
+    type: Literal["shell"] = "shell"
+    drilling: Annotated[units.Pure, Field(gt=0.0)] = 1.0
+    """share of the higher-order stiffness of rotations about the normal: 1 is the optimal triangle
+    in its plane; 0.01 lets coarse cells of hollow organs bend, a strip one cell wide too easily
+    """
+
+    if TYPE_CHECKING:
+
+        def __init__(self, *, drilling: units.Number = ...) -> None: ...
+
+
 MODELS: tuple[type[Part], ...] = (
     *(FEM, Corotational, MassSpring, MassLink, MassTensor),
-    *(Condensed, MeanDilatation, Frames),
+    *(Condensed, MeanDilatation, Frames, Shell),
 )
 Model = (
-    FEM | Corotational | MassSpring | MassLink | MassTensor | Condensed | MeanDilatation | Frames
+    FEM
+    | Corotational
+    | MassSpring
+    | MassLink
+    | MassTensor
+    | Condensed
+    | MeanDilatation
+    | Frames
+    | Shell
 )
 
-WITH_ROTATIONS: tuple[type[Part], ...] = (Frames,)
+WITH_ROTATIONS: tuple[type[Part], ...] = (Frames, Shell)
 """models whose nodes have a rotation beside their place"""
 
 

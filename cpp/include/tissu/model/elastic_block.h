@@ -42,6 +42,7 @@ struct ModelUse {
   std::string section = "whole";        ///< of frames in sheets and lines: whole or middle
   bool equal_masses = false;            ///< of mass-spring: the same mass at every node
   std::vector<std::int32_t> kept = {};  ///< of condensed: the nodes of the body that are not eliminated
+  double drilling = 1.0;                ///< of shell: ShellSection::drilling
   Vec3 gravity = Vec3::Zero();          ///< of condensed: pulls at those that are [m/s2]; the world gives it
 };
 
@@ -53,7 +54,9 @@ struct ElasticBlock {
   std::string quadrature = "full";
   std::vector<std::int32_t> cells;         ///< cell after cell, node numbers of the world, VTK order
   std::vector<std::int32_t> cell_numbers;  ///< of each cell in its body; empty: 0, 1, 2, …
-  LawParameters parameters;                ///< of the law
+  std::vector<std::int32_t> frames;  ///< of each entry of `cells`, where nodes have rotations; else empty
+  std::int32_t first_rotation = 0;   ///< block of the rotation of frame 0; frame k's is first_rotation + k
+  LawParameters parameters;          ///< of the law
   std::shared_ptr<const LoadedLaw> loaded = nullptr;  ///< the law itself; null: the library's of this name
   std::vector<LawUse> reinforcements;                 ///< laws whose energies are added: fibres
   std::vector<double> density;                        ///< [kg/m3]
@@ -61,10 +64,6 @@ struct ElasticBlock {
   std::vector<double> cross_section = {1.0};
   Plane plane = Plane::stress;
   ModelUse model;
-  /// Of models with rotations at their nodes: the frame of each entry of `cells`, and where rotations begin:
-  /// that of frame k is the block first_rotation + k. The world gives both.
-  std::vector<std::int32_t> frames = {};
-  std::int32_t first_rotation = 0;
   /// Of frames without cells: their points; `cells` holds the frames of each. Null: the cells' own.
   std::shared_ptr<const FramePoints> points = nullptr;
   bool fused = true;  ///< kernels made for this element and law where there are such; else those of its shape

@@ -8,9 +8,10 @@ A frame has a place and a rotation; a few of them carry many integration points,
 
     p = sum_i w_i (x_i + R_i l_i),   F = sum_i (x_i + R_i l_i) (x) grad w_i + w_i R_i,
 
-so that any law of volumes makes forces and moments on them. No mesh is needed. `model: frames` takes the nodes of a
-mesh as frames and its shape functions as weights (hexahedra: trilinear, 8 neighbours; tetrahedra: linear, 4);
-`tissue` samples frames and points inside a surface, or between two bodies, and ties these together.
+so that any law of volumes makes forces and moments on them. No mesh is needed. `model: frames`
+takes the nodes of a mesh as frames and its shape functions as weights (hexahedra: trilinear, 8
+neighbours; tetrahedra: linear, 4); `tissue` samples frames and points inside a surface, or
+between two bodies, and ties these together.
 
 ```yaml
 tissue:
@@ -24,31 +25,34 @@ tissue:
     mass: 1 kg
 ```
 
-What is right to round-off, by test: forces are the gradient of the energy on the rotation group, products and matrices
-its second derivative (the geometric part included; `tangent: material` leaves it out, as published, and is never
-indefinite), rigid motions cost no energy at any rotation, momenta are kept, and any number of threads gives the same
-bits.
+What is right to round-off, by test: forces are the gradient of the energy on the rotation group,
+products and matrices its second derivative (the geometric part included; `tangent: material`
+leaves it out, as published, and is never indefinite), rigid motions cost no energy at any
+rotation, momenta are kept, and any number of threads gives the same bits.
 
-**Sheets and lines** are frames as well (`thickness`, `section`). Points on the middle of a sheet feel no curvature and
-those on the axis of a line no twist (the errata of the paper); ours stand through the section, where their moments of
-area are those of the plate and of a round rod, and each is free to thin, so that any law of volumes gives plane or
-uniaxial stress. `section: middle` is the published one.
+**Sheets and lines** are frames as well (`thickness`, `section`). Points on the middle of a sheet
+feel no curvature and those on the axis of a line no twist (the errata of the paper); ours stand
+through the section, where their moments of area are those of the plate and of a round rod, and
+each is free to thin, so that any law of volumes gives plane or uniaxial stress. `section: middle`
+is the published one.
 
-**Trilinear and linear weights** hold linear maps by their places alone: a turn that all frames share changes nothing
-inside a volume, so that at least one rotation is to be held in a static step (fixed nodes hold theirs).
+**Trilinear and linear weights** hold linear maps by their places alone: a turn that all frames
+share changes nothing inside a volume, so that at least one rotation is to be held in a static
+step (fixed nodes hold theirs).
 """
 
 STEEL_TEXT = """
 ## Figures 6 and 7: the steel cantilever, 16 x 0.5 x 0.5 m
 
-The paper measures against the beam formula, 147.19 mm. That is not what a mesh converges to: 150.17 mm (CalculiX,
-`B` of the reference). Full quadrature; time of one static step from rest.
+The paper measures against the beam formula, 147.19 mm. That is not what a mesh converges to:
+150.17 mm (CalculiX, `B` of the reference). Full quadrature; time of one static step from rest.
 """
 
 SOFT_TEXT = """
 ## Figures 8 and 13: the soft cantilever, 16 x 1 x 1 m, 5 kg, 40 kPa
 
-The end sinks by almost half the length. The paper: 21 x 3 x 3 frames within 2 % of 64 x 4 x 4 hexahedra.
+The end sinks by almost half the length. The paper: 21 x 3 x 3 frames within 2 % of 64 x 4 x 4
+hexahedra.
 """
 
 TENSION = """
@@ -60,15 +64,17 @@ The end face held along x only, as the closed form wants. The paper is within 0.
 SPEED = """
 ## Tables 2 and 3: a step with 60 iterations of conjugate gradients, two threads
 
-Points on a grid inside a box, four neighbours, implicit Euler linearised once: the tangent is assembled into blocks
-once a step (SIMD over points), and the 60 products are those of a sparse matrix.
+Points on a grid inside a box, four neighbours, implicit Euler linearised once: the tangent is
+assembled into blocks once a step (SIMD over points), and the 60 products are those of a sparse
+matrix.
 """
 
 COUPLING = """
 ## What ties bodies together
 
-A point between two bodies listens to the frames near it, and nodes of the bodies are frames too where they have a
-rotation. A node without one carries the point by the cell it belongs to: p moves with x_j + F l, F the cell's, so that
-the node b of the cell has the weight w_j (delta_jb + l . grad N_b). Forces and stiffness go back the same way, any
-resolution to any resolution, and both bodies and the tissue are one system.
+A point between two bodies listens to the frames near it, and nodes of the bodies are frames too
+where they have a rotation. A node without one carries the point by the cell it belongs to: p
+moves with x_j + F l, F the cell's, so that the node b of the cell has the weight w_j (delta_jb +
+l . grad N_b). Forces and stiffness go back the same way, any resolution to any resolution, and
+both bodies and the tissue are one system.
 """

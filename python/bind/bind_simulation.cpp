@@ -61,7 +61,8 @@ py::array_t<double> rotations(const Simulation& simulation, const std::string& n
   py::array_t<double> result({count, py::ssize_t{3}, py::ssize_t{3}});
   auto values = result.mutable_unchecked<3>();
   for (py::ssize_t i = 0; i < count; ++i) {
-    const Mat3 R = simulation.state().rotations[static_cast<std::size_t>(body.first_frame + i)].toRotationMatrix();
+    const Mat3 R =
+        simulation.state().rotations[static_cast<std::size_t>(body.first_frame + i)].toRotationMatrix();
     for (py::ssize_t r = 0; r < 3; ++r) {
       for (py::ssize_t c = 0; c < 3; ++c) values(i, r, c) = R(r, c);
     }

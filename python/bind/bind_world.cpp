@@ -120,8 +120,13 @@ Motion to_motion(const Doubles& times, const Doubles& displacements, const Doubl
 void add_fixed(WorldDescription& world, const std::string& body, const Ints& nodes, int axes, bool rotations,
                Motion motion) {
   if (axes < 1 || axes > 7) throw ParameterError("axes must be a mask of x = 1, y = 2 and z = 4.");
-  world.fixed.push_back(
-      {world.body(body).name, to_vector(nodes), static_cast<std::uint8_t>(axes), std::move(motion), {}, rotations, true});
+  world.fixed.push_back({world.body(body).name,
+                         to_vector(nodes),
+                         static_cast<std::uint8_t>(axes),
+                         std::move(motion),
+                         {},
+                         rotations,
+                         true});
 }
 
 }  // namespace
@@ -153,7 +158,8 @@ void bind_world(py::module_& m) {
              return model;
            }),
            py::kw_only(), arg("name") = "fem", arg("rotation") = "polar", arg("tangent") = "approximate",
-           arg("section") = "whole", arg("drilling") = 1.0, arg("equal_masses") = false, arg("kept") = std::vector<std::int32_t>{});
+           arg("section") = "whole", arg("drilling") = 1.0, arg("equal_masses") = false,
+           arg("kept") = std::vector<std::int32_t>{});
   py::class_<WorldDescription>(m, "WorldBuilder")
       .def(py::init([](int threads, bool editable, bool links, bool consistent_weight) {
              WorldDescription world;
@@ -180,9 +186,9 @@ void bind_world(py::module_& m) {
            arg("reinforcements") = std::vector<std::pair<std::string, Parameters>>{},
            arg("loaded") = py::none(), arg("cross_section") = std::vector<double>{1.0},
            arg("plane") = Plane::stress, arg("model") = ModelUse{})
-      .def("add_points", &add_points, py::kw_only(), arg("body"), arg("shared"), arg("frames"), arg("weights"),
-           arg("gradients"), arg("positions"), arg("volumes"), arg("law"), arg("parameters"), arg("fibres"),
-           arg("loaded").none(true), arg("density"), arg("model"))
+      .def("add_points", &add_points, py::kw_only(), arg("body"), arg("shared"), arg("frames"),
+           arg("weights"), arg("gradients"), arg("positions"), arg("volumes"), arg("law"), arg("parameters"),
+           arg("fibres"), arg("loaded").none(true), arg("density"), arg("model"))
       .def(
           "add_rayleigh",
           [](WorldDescription& world, const std::string& body, double mass, double stiffness) {
@@ -202,7 +208,8 @@ void bind_world(py::module_& m) {
           [](WorldDescription& world, const std::string& name, const std::string& body, const Ints& nodes,
              const Doubles& forces, const Doubles& times, const Doubles& factors, bool moments) {
             world.loads.push_back({name, world.body(body).name, to_vector(nodes),
-                                   to_vector(with_columns(forces, 3, "forces")), to_history(times, factors), moments});
+                                   to_vector(with_columns(forces, 3, "forces")), to_history(times, factors),
+                                   moments});
           },
           py::kw_only(), arg("name"), arg("body"), arg("nodes"), arg("forces"), arg("times"), arg("factors"),
           arg("moments") = false)
@@ -227,7 +234,8 @@ void bind_world(py::module_& m) {
           [](WorldDescription& world, const std::string& body, const Ints& nodes, int axes,
              const Doubles& times, const Doubles& displacements, const Doubles& angles, const Doubles& center,
              const Doubles& axis, bool rotations) {
-            add_fixed(world, body, nodes, axes, rotations, to_motion(times, displacements, angles, center, axis));
+            add_fixed(world, body, nodes, axes, rotations,
+                      to_motion(times, displacements, angles, center, axis));
           },
           py::kw_only(), arg("body"), arg("nodes"), arg("axes"), arg("times"), arg("displacements"),
           arg("angles"), arg("center"), arg("axis"), arg("rotations") = false)

@@ -106,7 +106,7 @@ def test_momentum_is_kept_across_the_tissue() -> None:
 @pytest.mark.parametrize(
     ("fields", "words"),
     [
-        ({"reach": None}, "without reach"),
+        ({"reach": None}, "neither of reach"),
         ({"reach": 0.01}, "reach"),
         ({"between": ("upper", "lover")}, "no body is named 'lover'"),
         ({"between": ("upper", "upper")}, "twice"),

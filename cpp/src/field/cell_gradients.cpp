@@ -21,7 +21,8 @@ void add_gradients(const ReferenceCell::Point& point, std::span<const std::int32
     throw MeshError("cell " + std::to_string(number) + " is inverted or has no volume; mend the mesh.");
   }
   for (std::size_t a = 0; a < cell.size(); ++a)
-    block(out, static_cast<std::int32_t>(a)) += share * (inverse * Gradient(point.gradients[a].data()).transpose());
+    block(out, static_cast<std::int32_t>(a)) +=
+        share * (inverse * Gradient(point.gradients[a].data()).transpose());
 }
 
 }  // namespace

@@ -39,8 +39,7 @@ void FrameWeight::add_product(const State& state, StiffnessScale scale, ConstRea
 
 double FrameWeight::energy(const State& state) const {
   double sum = 0.0;
-  for (const Moment& moment : moments_)
-    sum -= acceleration_.dot(state.rotations[moment.frame] * moment.c);
+  for (const Moment& moment : moments_) sum -= acceleration_.dot(state.rotations[moment.frame] * moment.c);
   return sum;
 }
 

@@ -12,7 +12,8 @@
 namespace tissu {
 namespace {
 
-constexpr double kFlat = 1e-14;  ///< of the m-th power of the largest entry of J: a measure below it is round-off
+constexpr double kFlat =
+    1e-14;  ///< of the m-th power of the largest entry of J: a measure below it is round-off
 
 using Cell = std::span<const std::int32_t>;
 
@@ -114,7 +115,8 @@ FramePoints points_of_cells(const ElasticBlock& block, ConstReals rest_positions
   std::vector<std::int32_t> bad;
   for (std::size_t e = 0; e < count; ++e) {
     const Cell of_cell = Cell(block.cells).subspan(e * nodes, nodes);
-    const double size = cell.dimension == 3 ? 1.0 : tissu::of_cell(block.cross_section, static_cast<std::int32_t>(e));
+    const double size =
+        cell.dimension == 3 ? 1.0 : tissu::of_cell(block.cross_section, static_cast<std::int32_t>(e));
     bool flat = false;
     for (const ReferenceCell::Point& point : cell.points) {
       const Place place = place_of(cell, point, of_cell, rest_positions);
@@ -128,7 +130,8 @@ FramePoints points_of_cells(const ElasticBlock& block, ConstReals rest_positions
         if (section.turning > 0.0) points.turning.push_back(section.turning);
       }
     }
-    if (flat) bad.push_back(block.cell_numbers.empty() ? static_cast<std::int32_t>(e) : block.cell_numbers[e]);
+    if (flat)
+      bad.push_back(block.cell_numbers.empty() ? static_cast<std::int32_t>(e) : block.cell_numbers[e]);
   }
   if (!bad.empty()) refuse(block, bad, count);
   return points;

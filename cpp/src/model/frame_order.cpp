@@ -8,7 +8,8 @@ namespace tissu {
 namespace {
 
 constexpr std::int32_t kLanes = FrameOrder::kLanes;
-constexpr std::size_t kWorthPadding = 4;  ///< points of the same frames fill a group of their own from here on
+constexpr std::size_t kWorthPadding =
+    4;  ///< points of the same frames fill a group of their own from here on
 
 using Row = std::span<const std::int32_t>;
 
@@ -52,7 +53,8 @@ void lay_groups(const Rows& rows, FrameOrder& order) {
     while (end < sorted.size() && std::ranges::equal(rows[sorted[end]], rows[sorted[begin]])) ++end;
     std::size_t at = begin;
     for (; end - at >= kWorthPadding; at = std::min(end, at + static_cast<std::size_t>(kLanes))) {
-      add_group(std::span(sorted).subspan(at, std::min(end - at, static_cast<std::size_t>(kLanes))), true, order);
+      add_group(std::span(sorted).subspan(at, std::min(end - at, static_cast<std::size_t>(kLanes))), true,
+                order);
     }
     mixed.insert(mixed.end(), sorted.begin() + static_cast<std::ptrdiff_t>(at),
                  sorted.begin() + static_cast<std::ptrdiff_t>(end));
@@ -105,7 +107,8 @@ void lay_shares(const Rows& rows, int k, std::int32_t count, FrameOrder& order) 
         f(rows[order.point[i]][static_cast<std::size_t>(a)], (group * k + a) * kLanes + lane);
     }
   };
-  for_places([&](std::int32_t frame, std::int32_t) { ++order.share_begin[static_cast<std::size_t>(frame) + 1]; });
+  for_places(
+      [&](std::int32_t frame, std::int32_t) { ++order.share_begin[static_cast<std::size_t>(frame) + 1]; });
   std::partial_sum(order.share_begin.begin(), order.share_begin.end(), order.share_begin.begin());
   order.share.resize(static_cast<std::size_t>(order.share_begin.back()));
   std::vector<std::int64_t> next(order.share_begin.begin(), order.share_begin.end() - 1);

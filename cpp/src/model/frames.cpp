@@ -61,7 +61,8 @@ void keep_material(const double* F, const double* P, double* A) {
       for (std::size_t J = 0; J < 3; ++J) {
         for (std::size_t L = J; L < 3; ++L)
           A[packed(3 * i + J, 3 * i + L) * kLanes + lane] -=
-              0.5 * (S(static_cast<int>(J), static_cast<int>(L)) + S(static_cast<int>(L), static_cast<int>(J)));
+              0.5 *
+              (S(static_cast<int>(J), static_cast<int>(L)) + S(static_cast<int>(L), static_cast<int>(J)));
       }
     }
   }
@@ -85,9 +86,8 @@ ModelInfo Frames::info() {
 template <class Function>
 void Frames::for_pieces(Function&& f) const {
   const std::int32_t pieces = (order_.groups() + kPiece - 1) / kPiece;
-  threads_.for_each(pieces, [&](std::int32_t p) {
-    f(p * kPiece, std::min(order_.groups(), (p + 1) * kPiece));
-  });
+  threads_.for_each(pieces,
+                    [&](std::int32_t p) { f(p * kPiece, std::min(order_.groups(), (p + 1) * kPiece)); });
 }
 
 template <class Function>

@@ -21,9 +21,8 @@ void check(const ElasticBlock& block, const FramePoints& points) {
   const auto k = static_cast<std::size_t>(points.neighbours);
   if (n == 0 || points.neighbours < 1 || points.neighbours > kMostNeighbours) {
     throw ParameterError(where + " has " + std::to_string(n) + " integration points with " +
-                         std::to_string(points.neighbours) +
-                         " frames each; at least one point, and 1 to " + std::to_string(kMostNeighbours) +
-                         " frames are accepted.");
+                         std::to_string(points.neighbours) + " frames each; at least one point, and 1 to " +
+                         std::to_string(kMostNeighbours) + " frames are accepted.");
   }
   const bool whole = points.frames.size() == n * k && points.weights.size() == n * k &&
                      points.gradients.size() == 3 * n * k && points.positions.size() == 3 * n &&
@@ -47,7 +46,8 @@ FramePoints points_for(const ElasticBlock& block, ConstReals rest_positions) {
 int nodes_of(const ElasticBlock& block) {
   if (block.points) return block.points->neighbours;
   const ReferenceCell cell = reference_cell(block.element, block.quadrature);
-  if (!cell.points.empty() && block.cells.size() % static_cast<std::size_t>(cell.nodes) == 0 && !block.cells.empty())
+  if (!cell.points.empty() && block.cells.size() % static_cast<std::size_t>(cell.nodes) == 0 &&
+      !block.cells.empty())
     return cell.nodes;
   throw ParameterError("body \"" + block.body + "\" asks for frames on cells of type \"" + block.element +
                        "\" with the quadrature \"" + block.quadrature +
@@ -111,7 +111,8 @@ void Frames::lay_frames() {
     rotations_.push_back(frame < 0 ? -1 : block_.first_rotation + frame);
   }
   for (const std::int32_t block : points_.frames) {
-    listened_.push_back(static_cast<std::int32_t>(std::ranges::lower_bound(blocks_, block) - blocks_.begin()));
+    listened_.push_back(
+        static_cast<std::int32_t>(std::ranges::lower_bound(blocks_, block) - blocks_.begin()));
   }
 }
 
@@ -135,7 +136,8 @@ void Frames::lay_coefficients(ConstReals rest_positions) {
       const std::size_t entry = i / kLanes * k + a;
       const Vec3 g = tissu::block(ConstReals(points_.gradients), static_cast<std::int32_t>(at));
       const Vec3 l = tissu::block(ConstReals(levers_), static_cast<std::int32_t>(at));
-      Eigen::Matrix<double, 3, 3, Eigen::RowMajor> B = l * g.transpose() + points_.weights[at] * Mat3::Identity();
+      Eigen::Matrix<double, 3, 3, Eigen::RowMajor> B =
+          l * g.transpose() + points_.weights[at] * Mat3::Identity();
       if (numbers_[static_cast<std::size_t>(listened_[at])] < 0) B.setZero();
       lanes_[entry * kLanes + i % kLanes] = listened_[at];
       double* to = coefficients_.data() + entry * 12 * kLanes + i % kLanes;
@@ -151,7 +153,8 @@ void Frames::couple(SparsityBuilder& builder) const {
   for (std::size_t i = 0; i < order_.point.size(); ++i) {
     if (order_.real[i] == 0 || (order_.shared[i / kLanes] != 0 && i % kLanes != 0)) continue;
     for (std::size_t a = 0; a < k; ++a) {
-      const auto frame = static_cast<std::size_t>(listened_[static_cast<std::size_t>(order_.point[i]) * k + a]);
+      const auto frame =
+          static_cast<std::size_t>(listened_[static_cast<std::size_t>(order_.point[i]) * k + a]);
       rows.insert(rows.end(), {blocks_[frame], rotation_row(frame)});
     }
   }
@@ -176,7 +179,8 @@ void Frames::bind(const Sparsity& pattern) {
 }
 
 double Frames::density(std::size_t point) const {
-  return of_cell(block_.density, points_.cells.empty() ? static_cast<std::int32_t>(point) : points_.cells[point]);
+  return of_cell(block_.density,
+                 points_.cells.empty() ? static_cast<std::int32_t>(point) : points_.cells[point]);
 }
 
 template <class Function>
@@ -208,12 +212,13 @@ void Frames::add_inertias(std::vector<Mat3>& of_frames) const {
   for_neighbours([&](std::size_t at, double mass, double share) {
     const Vec3 l = tissu::block(ConstReals(levers_), static_cast<std::int32_t>(at));
     const auto point = at / static_cast<std::size_t>(points_.neighbours);
-    const double own = !points_.turning.empty()  ? points_.turning[point]
+    const double own = !points_.turning.empty() ? points_.turning[point]
                        : points_.dimension == 3 ? std::pow(points_.volumes[point], 2.0 / 3.0) / 6.0
                                                 : 0.0;
     const std::int32_t frame = numbers_[static_cast<std::size_t>(listened_[at])];
     if (frame < 0) return;
-    of_frames[static_cast<std::size_t>(frame)] += share * mass * ((l.squaredNorm() + own) * Mat3::Identity() - l * l.transpose());
+    of_frames[static_cast<std::size_t>(frame)] +=
+        share * mass * ((l.squaredNorm() + own) * Mat3::Identity() - l * l.transpose());
   });
 }
 
@@ -241,7 +246,8 @@ std::vector<double> Frames::points(const State& state) const {
 }
 
 std::size_t Frames::bytes() const {
-  return (coefficients_.size() + lane_volumes_.size() + shares_.size() + q_.size() + dq_.size()) * sizeof(double) +
+  return (coefficients_.size() + lane_volumes_.size() + shares_.size() + q_.size() + dq_.size()) *
+             sizeof(double) +
          (lanes_.size() + slots_.size() + order_.share.size()) * sizeof(std::int32_t) + material_.bytes();
 }
 

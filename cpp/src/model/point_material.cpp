@@ -43,11 +43,11 @@ double inner(const double* a, const double* b, std::size_t lane) {
 struct PointMaterial::Thin {
   std::array<double, kLanes> s;
   std::array<Mat3, kLanes> S;
-  std::array<Mat3, kLanes> N;  ///< dS/ds
-  Nine stretched;              ///< F S
-  Nine across;                 ///< F N
-  Nine P;                      ///< P' at F S
-  Nine change;                 ///< A' : (F N)
+  std::array<Mat3, kLanes> N;        ///< dS/ds
+  Nine stretched;                    ///< F S
+  Nine across;                       ///< F N
+  Nine P;                            ///< P' at F S
+  Nine change;                       ///< A' : (F N)
   std::array<double, kLanes> slope;  ///< (F N) : A' : (F N)
 };
 
@@ -85,7 +85,8 @@ PointMaterial::PointMaterial(const ElasticBlock& block, const FramePoints& point
   axes_.resize(groups * 3 * kLanes);
   for (std::size_t i = 0; i < lanes.size(); ++i) {
     for (std::size_t c = 0; c < 3; ++c)
-      axes_[(i / kLanes * 3 + c) * kLanes + i % kLanes] = points.axes[3 * static_cast<std::size_t>(lanes[i]) + c];
+      axes_[(i / kLanes * 3 + c) * kLanes + i % kLanes] =
+          points.axes[3 * static_cast<std::size_t>(lanes[i]) + c];
   }
 }
 
@@ -107,7 +108,8 @@ void PointMaterial::law_change(const double* constants, const double* F, const d
 
 /// Newton's iteration for P'(F S) : (F N) = 0, from s = 1, no step beyond half or double.
 void PointMaterial::find_stretch(std::int32_t group, const double* F, Thin& thin) const {
-  const double* axes = axes_.data() + static_cast<std::ptrdiff_t>(group) * 3 * static_cast<std::ptrdiff_t>(kLanes);
+  const double* axes =
+      axes_.data() + static_cast<std::ptrdiff_t>(group) * 3 * static_cast<std::ptrdiff_t>(kLanes);
   for (std::size_t lane = 0; lane < kLanes; ++lane) {
     const Vec3 n(axes[lane], axes[kLanes + lane], axes[2 * kLanes + lane]);
     thin.N[lane] = n * n.transpose();
@@ -206,7 +208,8 @@ void PointMaterial::tangent(std::int32_t group, const double* F, double* A) cons
     unit.fill(0.0);
     std::fill_n(unit.data() + s * kLanes, kLanes, 1.0);
     stress_change(group, F, unit.data(), column.data());
-    for (std::size_t r = 0; r <= s; ++r) std::copy_n(column.data() + r * kLanes, kLanes, A + packed(r, s) * kLanes);
+    for (std::size_t r = 0; r <= s; ++r)
+      std::copy_n(column.data() + r * kLanes, kLanes, A + packed(r, s) * kLanes);
   }
 }
 

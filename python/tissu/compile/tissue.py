@@ -103,7 +103,10 @@ def _between(
     prepared: Prepared, tissue: Tissue, path: Path
 ) -> tuple[Region, list[tuple[str, Ints]]]:
     """The space between two bodies, and the nodes of each that it may hold."""
-    assert tissue.between is not None and tissue.reach is not None
+    assert tissue.between is not None
+    if tissue.inside is not None:
+        return _enclosing(prepared, tissue)
+    assert tissue.reach is not None  # a rule of the scene
     meshes = [prepared.bodies[name].mesh for name in tissue.between]
     surfaces = [_surface_of(mesh) for mesh in meshes]
     held: list[Ints] = []
@@ -126,6 +129,25 @@ def _between(
         surfaces[0], surfaces[1], tissue.reach, nodes_a=chosen[0], nodes_b=chosen[1]
     )
     return region, list(zip(tissue.between, held, strict=True))
+
+
+def _enclosing(prepared: Prepared, tissue: Tissue) -> tuple[Region, list[tuple[str, Ints]]]:
+    """The inside of a surface, and the nodes of two bodies that lie in it (figure 10)."""
+    region = _filled(tissue)
+    held = []
+    for end, name in enumerate(tissue.between or ()):
+        mesh = prepared.bodies[name].mesh
+        nodes = mesh.surface().nodes
+        if tissue.on is not None:
+            nodes = np.intersect1d(nodes, selected_nodes(tissue.on[end], mesh))
+        nodes = nodes[region.inside(mesh.points[nodes])].astype(np.int32)
+        if not len(nodes):
+            raise ParameterError(
+                f"found no node of '{name}' inside the surface that the tissue fills; nodes that "
+                "lie in it or on it are held: move the surface, or refine the body"
+            )
+        held.append((name, nodes))
+    return region, held
 
 
 def _surface_of(mesh: Mesh) -> sampling.Surface:

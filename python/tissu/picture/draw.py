@@ -15,6 +15,7 @@ from tissu.errors import ParameterError
 from tissu.mesh.thin import line_pieces
 from tissu.picture import layout
 from tissu.picture.camera import Camera, look_at
+from tissu.picture.dots import dots
 from tissu.picture.rod import LINE, rods, rods_values
 from tissu.picture.surface import render_surface
 
@@ -160,7 +161,20 @@ def shape_of(simulation: Simulation, field: Field) -> Shape:
             if field != "displacement":
                 at_ends = np.repeat(every[of_lines][:, None], 2, axis=1)
             parts.append(_rods(now - shift, now, ends, at_ends, radius))
+    for name in simulation.tissues:
+        parts.append(_tissue(simulation, name, field))
     return _joined(parts)
+
+
+def _tissue(simulation: Simulation, name: str, field: Field) -> Shape:
+    """The integration points of a tissue, half as wide as they are apart."""
+    rest, now = simulation.points(name, rest=True), simulation.points(name)
+    size = np.prod(np.maximum(np.ptp(rest, axis=0), 1e-9)) / len(rest)
+    radius = 0.25 * float(size) ** (1.0 / 3.0)
+    (before, triangles), (after, _) = dots(rest, radius), dots(now, radius)
+    shift = np.linalg.norm(now - rest, axis=1)
+    values = shift if field == "displacement" else _stress_of(simulation, name)
+    return Shape(before, after, triangles, np.repeat(values, 6))
 
 
 def _stress_of(simulation: Simulation, body: str) -> Array:

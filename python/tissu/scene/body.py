@@ -76,7 +76,8 @@ class Body(Part):
     """the material's law, or a map from the mesh's regions to laws"""
     model: ModelOrMap = FEM()
     """what computes the cells' forces, by name: fem, corotational, mass-spring, mass-link,
-    mass-tensor, condensed, mean-dilatation, frames, shell; or a map from the mesh's regions to models
+    mass-tensor, condensed, mean-dilatation, frames, shell; or a map from the mesh's regions to
+    models
     """
     density: Annotated[units.Density, Field(gt=0.0)] | None = None
     """density [kg/m^3]; this or `mass`"""

@@ -39,11 +39,13 @@ class Tissue(Part):
     """
 
     between: tuple[str, str] | None = None
-    """names of two bodies that it ties together; this or `inside`"""
+    """names of two bodies that it ties together; this, `inside` or both"""
     inside: Annotated[Any, PlainValidator(_inside)] = None
-    """a mesh whose closed surface it fills: a file, a bar or (in Python) a Mesh"""
+    """a mesh whose closed surface it fills: a file, a bar or (in Python) a Mesh; beside `between`
+    it holds the nodes of the two bodies that lie inside
+    """
     reach: Annotated[units.Length, Field(gt=0.0)] | None = None
-    """longest way from one of the two bodies to the other through it [m]"""
+    """longest way from one of the two bodies to the other through it [m]; not beside `inside`"""
     on: tuple[On, On] | None = None
     """which nodes of the two bodies it may hold; absent: all within reach"""
     frames: Count
@@ -88,20 +90,16 @@ class Tissue(Part):
             tangent: Literal["full", "material"] = ...,
         ) -> None: ...
 
-    @rule("between", "inside")
-    def _one_place(self) -> Iterator[Problem]:
-        if (self.between is None) == (self.inside is None):
-            found = "neither" if self.between is None else "both"
-            text = f"found {found} of between and inside; exactly one of them is accepted"
-            yield Problem((), text)
-
-    @rule("between", "reach", "on")
-    def _reach_belongs_to_between(self) -> Iterator[Problem]:
+    @rule("between", "inside", "reach", "on")
+    def _has_a_place(self) -> Iterator[Problem]:
+        if self.between is None and self.inside is None:
+            yield Problem((), "found neither between nor inside; one of them or both are accepted")
         if self.between is None and not (self.reach is None and self.on is None):
             yield Problem((), "found reach or on without between; they are accepted beside it")
-        if self.between is not None and self.reach is None:
-            text = "found between without reach; the longest way from one body to the other "
-            yield Problem((), f"{text}through the tissue is needed, such as 2 cm")
+        if self.between is not None and (self.reach is None) == (self.inside is None):
+            found = "neither" if self.reach is None else "both"
+            text = f"found between with {found} of reach (the longest way from one body to the "
+            yield Problem((), f"{text}other, such as 2 cm) and inside; one of them is accepted")
         if self.between is not None and self.between[0] == self.between[1]:
             yield Problem(("between",), f"found '{self.between[0]}' twice; two bodies are accepted")
 

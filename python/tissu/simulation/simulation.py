@@ -64,6 +64,7 @@ class Simulation:
         self._simulated = 0.0
         self._physics_known: dict[str, Any] | None = None
         self._tissues = dict(tissues or {})
+        self._rest_points = {name: self._core.points(name) for name in [*meshes, *self._tissues]}
         ranges = {name: self._core.body_range(name) for name in [*meshes, *self._tissues]}
         self._positions = MappingProxyType(_views(self._core.positions, ranges))
         self._velocities = MappingProxyType(_views(self._core.velocities, ranges))
@@ -94,14 +95,14 @@ class Simulation:
         """Connective tissue -> its own frames at rest, as nodes that no cell joins."""
         return MappingProxyType(self._tissues)
 
-    def points(self, name: str) -> Floats:
-        """Where the integration points (p, 3) of a body or tissue of frames are [m].
+    def points(self, name: str, *, rest: bool = False) -> Floats:
+        """Integration points (p, 3) of a body or tissue of frames, now or at rest [m].
 
         Raises:
             ParameterError: it is not made of frames.
         """
-        found = self._core.points(name)
-        if not len(found):
+        found = self._rest_points.get(name) if rest else self._core.points(name)
+        if found is None or not len(found):
             raise ParameterError(f"found '{name}', which is not made of frames and has no points")
         return found
 

@@ -52,7 +52,9 @@ class FramesSample {
   [[nodiscard]] const std::vector<double>& rest() const { return rest_; }
   [[nodiscard]] std::int32_t count() const { return count_; }
   [[nodiscard]] const std::vector<Frame>& frames() const { return frames_; }
-  [[nodiscard]] Frames model(int threads = 1) const { return {block_, rest_, choose_isa(), Threads(threads)}; }
+  [[nodiscard]] Frames model(int threads = 1) const {
+    return {block_, rest_, choose_isa(), Threads(threads)};
+  }
 
   [[nodiscard]] State rest_state() const {
     State state;

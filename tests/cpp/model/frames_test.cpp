@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
-
 #include <algorithm>
 #include <numeric>
 
@@ -23,11 +22,14 @@ std::vector<FramesCase> cases() {
   std::vector<FramesCase> all;
   BaseLaws::for_each([&](auto tag) {
     const std::string law(decltype(tag)::template Of<double>::kName);
-    for (const std::string element : {"tetra", "hexahedron", "triangle", "quad", "line"}) all.push_back({element, law});
+    for (const std::string element : {"tetra", "hexahedron", "triangle", "quad", "line"})
+      all.push_back({element, law});
   });
-  for (const std::string element : {"wedge", "pyramid", "tetra10", "hexahedron20", "hexahedron27", "triangle6", "line3"})
+  for (const std::string element :
+       {"wedge", "pyramid", "tetra10", "hexahedron20", "hexahedron27", "triangle6", "line3"})
     all.push_back({element, "stvk"});
-  for (const std::string element : {"triangle", "line"}) all.push_back({element, "neo_hooke", "full", "middle"});
+  for (const std::string element : {"triangle", "line"})
+    all.push_back({element, "neo_hooke", "full", "middle"});
   return all;
 }
 
@@ -95,8 +97,8 @@ TEST_P(FramesTest, ProductIsTheSecondDerivativeOfTheEnergy) {
     const std::vector<double> d = random.numbers(state.positions.size());
     std::vector<double> Kd(d.size(), 0.0);
     model_.add_product(state, {1.0, 0.0}, d, Kd);
-    const double second = test::derivative(
-        [&](double t) { return view(force(moved(state, d, t))).dot(view(d)); }, 1e-3);
+    const double second =
+        test::derivative([&](double t) { return view(force(moved(state, d, t))).dot(view(d)); }, 1e-3);
     EXPECT_NEAR(view(Kd).dot(view(d)), second, 1e-7 * size(state));
   }
 }
@@ -199,8 +201,9 @@ TEST(Frames, SheetsAndLinesAreFreeToThin) {
     const Frames model(block, sample.rest(), choose_isa(), Threads(1));
     State state = sample.rest_state();
     const double e = 1e-5;
-    const Vec3 axis = element == "line" ? Vec3(model.sample().axes[0], model.sample().axes[1], model.sample().axes[2])
-                                        : Vec3::UnitX();
+    const Vec3 axis = element == "line"
+                          ? Vec3(model.sample().axes[0], model.sample().axes[1], model.sample().axes[2])
+                          : Vec3::UnitX();
     if (element == "quad") continue;  // its nodes are no plane: below
     for (std::int32_t a = 0; a < sample.count(); ++a) {
       const Vec3 x = tissu::block(ConstReals(sample.rest()), a);

@@ -15,12 +15,12 @@ namespace tissu {
 
 /// What the loops read. Points stand in groups of eight lanes; lanes that only pad have no volume.
 struct FrameView {
-  int neighbours;               ///< k
-  const std::int32_t* frames;   ///< [group][k][8], numbers among the frames of the model
-  const double* coefficients;   ///< [group][k][12][8]: g, then B row by row
-  const double* volumes;        ///< [group][8]
-  const std::int32_t* slots;    ///< [group][a][b][4][8], blocks of the matrix: xx, xt, tx, tt
-  const std::uint8_t* shared;   ///< [group], all lanes have the same frames
+  int neighbours;              ///< k
+  const std::int32_t* frames;  ///< [group][k][8], numbers among the frames of the model
+  const double* coefficients;  ///< [group][k][12][8]: g, then B row by row
+  const double* volumes;       ///< [group][8]
+  const std::int32_t* slots;   ///< [group][a][b][4][8], blocks of the matrix: xx, xt, tx, tt
+  const std::uint8_t* shared;  ///< [group], all lanes have the same frames
 };
 
 /// Groups begin to end - 1; arrays over groups begin with group `begin`.

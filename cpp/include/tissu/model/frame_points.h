@@ -13,16 +13,17 @@ namespace tissu {
 /// are thin, and the points beside the line or the sheet (second order: their moments of area are those of
 /// the section) have the weights of the place they stand off from.
 struct FramePoints {
-  int neighbours = 0;                 ///< k
-  std::vector<std::int32_t> frames;   ///< [point][k], numbers among the nodes of the body
-  std::vector<double> weights;        ///< [point][k], w
-  std::vector<double> gradients;      ///< [point][k][3], dw/dX at rest [1/m]
-  std::vector<double> positions;      ///< [point][3], at rest [m]
-  std::vector<double> volumes;        ///< [point], at rest [m3]
-  std::vector<std::int32_t> cells;    ///< [point], the cell whose part it is; empty: each is its own
-  int dimension = 3;                  ///< 3 volume, 2 sheet, 1 line
-  std::vector<double> axes;           ///< [point][3], normal of the sheet or tangent of the line; of volumes empty
-  std::vector<double> turning;        ///< [point], inertia per mass that a point on its own has about `axes` [m2]; empty: none
+  int neighbours = 0;                ///< k
+  std::vector<std::int32_t> frames;  ///< [point][k], numbers among the nodes of the body
+  std::vector<double> weights;       ///< [point][k], w
+  std::vector<double> gradients;     ///< [point][k][3], dw/dX at rest [1/m]
+  std::vector<double> positions;     ///< [point][3], at rest [m]
+  std::vector<double> volumes;       ///< [point], at rest [m3]
+  std::vector<std::int32_t> cells;   ///< [point], the cell whose part it is; empty: each is its own
+  int dimension = 3;                 ///< 3 volume, 2 sheet, 1 line
+  std::vector<double> axes;  ///< [point][3], normal of the sheet or tangent of the line; of volumes empty
+  std::vector<double>
+      turning;  ///< [point], inertia per mass that a point on its own has about `axes` [m2]; empty: none
 
   [[nodiscard]] std::int32_t size() const { return static_cast<std::int32_t>(volumes.size()); }
 };

@@ -32,7 +32,9 @@ class Frames final : public BodyModel {
   [[nodiscard]] double energy(const State& state) const override;
 
   [[nodiscard]] const ElasticBlock& block() const override { return block_; }
-  [[nodiscard]] std::int32_t cell_count() const override { return static_cast<std::int32_t>(volumes_.size()); }
+  [[nodiscard]] std::int32_t cell_count() const override {
+    return static_cast<std::int32_t>(volumes_.size());
+  }
   [[nodiscard]] int nodes_per_cell() const override { return nodes_per_cell_; }
   [[nodiscard]] const std::vector<double>& volumes() const override { return volumes_; }
   /// Each point's mass goes to its frames in proportion to their weights, or to the squares of these where
@@ -80,17 +82,17 @@ class Frames final : public BodyModel {
   const FrameKernels* kernels_;
   FramePoints points_;
   int nodes_per_cell_;
-  std::vector<double> volumes_;           ///< of cells
-  std::vector<std::int32_t> blocks_;      ///< of each frame of the model: its origin, …
-  std::vector<std::int32_t> rotations_;   ///< … its rotation, …
-  std::vector<std::int32_t> numbers_;     ///< … and its number in the state; both -1 of plain nodes
-  std::vector<std::int32_t> listened_;    ///< [point][k], frames of the model
-  std::vector<double> levers_;            ///< [point][k][3], l
+  std::vector<double> volumes_;          ///< of cells
+  std::vector<std::int32_t> blocks_;     ///< of each frame of the model: its origin, …
+  std::vector<std::int32_t> rotations_;  ///< … its rotation, …
+  std::vector<std::int32_t> numbers_;    ///< … and its number in the state; both -1 of plain nodes
+  std::vector<std::int32_t> listened_;   ///< [point][k], frames of the model
+  std::vector<double> levers_;           ///< [point][k][3], l
   FrameOrder order_;
-  AlignedVector<std::int32_t> lanes_;     ///< [group][k][8], frames of the model
-  AlignedVector<double> coefficients_;    ///< [group][k][12][8]
-  AlignedVector<double> lane_volumes_;    ///< [group][8]
-  AlignedVector<std::int32_t> slots_;     ///< [group][a][b][4][8]
+  AlignedVector<std::int32_t> lanes_;   ///< [group][k][8], frames of the model
+  AlignedVector<double> coefficients_;  ///< [group][k][12][8]
+  AlignedVector<double> lane_volumes_;  ///< [group][8]
+  AlignedVector<std::int32_t> slots_;   ///< [group][a][b][4][8]
   PointMaterial material_;
   // Scratch.
   mutable AlignedVector<double> q_;       ///< [frame][12]

@@ -38,7 +38,8 @@ struct FrameLoops {
   /// M = R B
   TISSU_INLINE static void turned(const Nine& R, const Nine& B, Nine& M) {
     for (int i = 0; i < 3; ++i) {
-      for (int c = 0; c < 3; ++c) M[3 * i + c] = R[3 * i] * B[c] + R[3 * i + 1] * B[3 + c] + R[3 * i + 2] * B[6 + c];
+      for (int c = 0; c < 3; ++c)
+        M[3 * i + c] = R[3 * i] * B[c] + R[3 * i + 1] * B[3 + c] + R[3 * i + 2] * B[6 + c];
     }
   }
   /// g and M of one frame.
@@ -61,7 +62,8 @@ struct FrameLoops {
       for (int c = 0; c < 3; ++c) out[i] += M[j + c] * P[k + c] - M[k + c] * P[j + c];
     }
   }
-  /// 1/2 (M P^T + P M^T) - (M : P) I: what the moment changes by when M turns and P stays, its symmetric part.
+  /// 1/2 (M P^T + P M^T) - (M : P) I: what the moment changes by when M turns and P stays, its symmetric
+  /// part.
   TISSU_INLINE static void turning(const Nine& M, const Nine& P, Nine& out) {
     Batch sum(0.0);
     for (int k = 0; k < 9; ++k) sum += M[k] * P[k];
@@ -75,7 +77,8 @@ struct FrameLoops {
     }
   }
 
-  static void gradient(const FrameView& view, std::int32_t begin, std::int32_t end, const double* q, double* F);
+  static void gradient(const FrameView& view, std::int32_t begin, std::int32_t end, const double* q,
+                       double* F);
   static void gradient_change(const FrameView& view, std::int32_t begin, std::int32_t end, const double* q,
                               const double* dq, double* dF);
   static void force(const FrameView& view, std::int32_t begin, std::int32_t end, const double* q,

@@ -98,7 +98,8 @@ class FrameStiffness {
   }
   static void add_group(const FrameView& view, std::int32_t group, int lane, const double* q, const double* A,
                         double scale, double* blocks) {
-    const Batch v = Batch(-scale) * Batch::load(view.volumes + static_cast<std::ptrdiff_t>(group) * kLanes + lane);
+    const Batch v =
+        Batch(-scale) * Batch::load(view.volumes + static_cast<std::ptrdiff_t>(group) * kLanes + lane);
     Batch g[kMostNeighbours][3];
     Batch M[kMostNeighbours][9];
     for (int a = 0; a < view.neighbours; ++a) FrameLoops::lever(view, group, a, lane, q, g[a], M[a]);
@@ -117,7 +118,8 @@ class FrameStiffness {
   }
   static void add_turning(const FrameView& view, std::int32_t group, int lane, const double* q,
                           const double* P, double scale, double* blocks) {
-    const Batch v = Batch(-scale) * Batch::load(view.volumes + static_cast<std::ptrdiff_t>(group) * kLanes + lane);
+    const Batch v =
+        Batch(-scale) * Batch::load(view.volumes + static_cast<std::ptrdiff_t>(group) * kLanes + lane);
     Nine p;
     FrameLoops::load_nine(P, p);
     for (Batch& value : p) value = v * value;

@@ -208,6 +208,9 @@ void Frames::add_stiffness(const State& state, StiffnessScale scale, BlockMatrix
     kernels_->stiffness(view(), begin, end, q_.data(), A.data(), turning ? P.data() : nullptr, scale.position,
                         values);
   });
+  for (std::size_t i = 0; i < blocks_.size(); ++i) {
+    if (rotations_[i] >= 0) matrix.add_diagonal(rotations_[i], -scale.position * holds_[i]);
+  }
 }
 
 double Frames::energy(const State& state) const {

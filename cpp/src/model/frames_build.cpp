@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 #include <span>
@@ -14,6 +15,12 @@ namespace tissu {
 namespace {
 
 constexpr int kMostNeighbours = 27;
+/// Of the way from frame to point along a sheet or line, which rotations turn: half of it makes the
+/// deflection follow them as a parabola does (linked interpolation), so that bending takes no shear (Taylor
+/// and Auricchio 1993). The published one is whole.
+constexpr double kLinked = 0.5;
+/// Of the stiffness that a point has against turning alone: what holds rotations that nothing depends on.
+constexpr double kHold = 1e-7;
 
 void check(const ElasticBlock& block, const FramePoints& points) {
   const std::string where = "body \"" + block.body + "\"";
@@ -88,6 +95,7 @@ Frames::Frames(ElasticBlock block, ConstReals rest_positions, Isa isa, Threads t
   order_ = order_points(listened_, points_.neighbours, static_cast<std::int32_t>(blocks_.size()));
   lay_coefficients(rest_positions);
   material_ = PointMaterial(block_, points_, order_.point, isa);
+  lay_holds();
   q_.resize(12 * blocks_.size());
   dq_.resize(6 * blocks_.size());
   shares_.resize(static_cast<std::size_t>(order_.groups() * points_.neighbours) * 6 * kLanes);
@@ -116,14 +124,24 @@ void Frames::lay_frames() {
   }
 }
 
+Mat3 Frames::along(std::size_t point) const {
+  if (points_.dimension == 3) return Mat3::Identity();
+  const Vec3 axis = tissu::block(ConstReals(points_.axes), static_cast<std::int32_t>(point));
+  const Mat3 across = points_.dimension == 2 ? Mat3(axis * axis.transpose())
+                                             : Mat3(Mat3::Identity() - axis * axis.transpose());
+  const double share = block_.model.section == "middle" ? 1.0 : kLinked;
+  return share * (Mat3::Identity() - across) + across;
+}
+
 void Frames::lay_coefficients(ConstReals rest_positions) {
   const auto k = static_cast<std::size_t>(points_.neighbours);
   const std::size_t groups = order_.point.size() / kLanes;
   levers_.resize(3 * points_.weights.size());
   for (std::size_t i = 0; i < points_.weights.size(); ++i) {
-    tissu::block(Reals(levers_), static_cast<std::int32_t>(i)) =
-        tissu::block(ConstReals(points_.positions), static_cast<std::int32_t>(i / k)) -
-        tissu::block(rest_positions, points_.frames[i]);
+    const auto at = static_cast<std::int32_t>(i);
+    const Vec3 way = tissu::block(ConstReals(points_.positions), static_cast<std::int32_t>(i / k)) -
+                     tissu::block(rest_positions, points_.frames[i]);
+    tissu::block(Reals(levers_), at) = along(i / k) * way;
   }
   lanes_.resize(groups * k * kLanes);
   coefficients_.resize(groups * k * 12 * kLanes);
@@ -131,18 +149,37 @@ void Frames::lay_coefficients(ConstReals rest_positions) {
   for (std::size_t i = 0; i < order_.point.size(); ++i) {
     const auto point = static_cast<std::size_t>(order_.point[i]);
     if (order_.real[i] != 0) lane_volumes_[i] = points_.volumes[point];
+    const Mat3 A = along(point);
     for (std::size_t a = 0; a < k; ++a) {
       const std::size_t at = point * k + a;
       const std::size_t entry = i / kLanes * k + a;
       const Vec3 g = tissu::block(ConstReals(points_.gradients), static_cast<std::int32_t>(at));
       const Vec3 l = tissu::block(ConstReals(levers_), static_cast<std::int32_t>(at));
-      Eigen::Matrix<double, 3, 3, Eigen::RowMajor> B =
-          l * g.transpose() + points_.weights[at] * Mat3::Identity();
+      Eigen::Matrix<double, 3, 3, Eigen::RowMajor> B = l * g.transpose() + points_.weights[at] * A;
       if (numbers_[static_cast<std::size_t>(listened_[at])] < 0) B.setZero();
       lanes_[entry * kLanes + i % kLanes] = listened_[at];
       double* to = coefficients_.data() + entry * 12 * kLanes + i % kLanes;
       for (std::size_t c = 0; c < 3; ++c) to[c * kLanes] = g[static_cast<int>(c)];
       for (std::size_t c = 0; c < 9; ++c) to[(3 + c) * kLanes] = B.data()[c];
+    }
+  }
+}
+
+void Frames::lay_holds() {
+  holds_.assign(blocks_.size(), 0.0);
+  const auto k = static_cast<std::size_t>(points_.neighbours);
+  std::array<double, PointMaterial::kNine> F{};
+  for (const std::size_t c : {0U, 4U, 8U}) std::fill_n(F.data() + c * kLanes, kLanes, 1.0);
+  std::array<double, PointMaterial::kTangent> A;
+  for (std::size_t group = 0; group < order_.point.size() / kLanes; ++group) {
+    material_.tangent(static_cast<std::int32_t>(group), F.data(), A.data());
+    for (std::size_t i = 0; i < k * kLanes; ++i) {
+      const std::size_t lane = i % kLanes;
+      const double* B = coefficients_.data() + (group * k + i / kLanes) * 12 * kLanes + 3 * kLanes + lane;
+      double square = 0.0;
+      for (std::size_t c = 0; c < 9; ++c) square += B[c * kLanes] * B[c * kLanes];
+      holds_[static_cast<std::size_t>(lanes_[group * k * kLanes + i])] +=
+          kHold * std::abs(A[lane]) * square * lane_volumes_[group * kLanes + lane];
     }
   }
 }

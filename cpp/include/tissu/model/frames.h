@@ -58,6 +58,9 @@ class Frames final : public BodyModel {
 
   void lay_frames();
   void lay_coefficients(ConstReals rest_positions);
+  /// What of the way from frame to point follows the frame's rotation.
+  [[nodiscard]] Mat3 along(std::size_t point) const;
+  void lay_holds();
   [[nodiscard]] FrameView view() const;
   void gather(const State& state) const;
   /// Calls f(begin, end) for pieces of groups; those that run at the same time share no frame.
@@ -94,6 +97,10 @@ class Frames final : public BodyModel {
   AlignedVector<double> lane_volumes_;  ///< [group][8]
   AlignedVector<std::int32_t> slots_;   ///< [group][a][b][4][8]
   PointMaterial material_;
+  /// [J/rad2] of each frame. Some rotations of trilinear and linear frames move no point, such as turns about
+  /// x that depend on x alone: the matrix, and only it, holds them, so that a factor exists and each step of
+  /// Newton's leaves them where they are.
+  std::vector<double> holds_;
   // Scratch.
   mutable AlignedVector<double> q_;       ///< [frame][12]
   mutable AlignedVector<double> dq_;      ///< [frame][6]

@@ -14,7 +14,7 @@
 namespace tissu {
 namespace {
 
-constexpr int kMostNeighbours = 27;
+constexpr int kMostNeighbours = 64;
 /// Of the way from frame to point along a sheet or line, which rotations turn: half of it makes the
 /// deflection follow them as a parabola does (linked interpolation), so that bending takes no shear (Taylor
 /// and Auricchio 1993). The published one is whole.

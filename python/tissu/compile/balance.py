@@ -25,9 +25,19 @@ def check_supports(prepared: Prepared) -> None:
     _check_conflicts(prepared)
     with contextlib.suppress(Unknown):
         doubtful = _doubtful(prepared)
+        tied = {*prepared.tissues, *_tied(prepared)}
         for name, known in prepared.meshes.items():
-            if name not in doubtful and name not in prepared.tissues:
+            if name not in doubtful and name not in tied:
                 _check_held(prepared, name, known.mesh)
+
+
+def _tied(prepared: Prepared) -> set[str]:
+    """Bodies that tissue may hold by what it ties them to."""
+    return {
+        name
+        for tissue in getattr(prepared.scene, "tissue", {}).values()
+        for name in getattr(tissue, "between", None) or ()
+    }
 
 
 def _doubtful(prepared: Prepared) -> set[str]:

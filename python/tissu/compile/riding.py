@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from tissu.compile.prepared import Prepared
     from tissu.mesh import Mesh
 
-_MOST = 27  # nodes and frames that a point may listen to
+_MOST = 64  # nodes and frames that a point may listen to
 
 
 class Weights(NamedTuple):
@@ -96,7 +96,7 @@ def _packed(rows: list[dict[int, tuple[float, Floats]]]) -> Weights:
 
 
 def _cells_at_nodes(mesh: Mesh) -> dict[int, tuple[Ints, Floats]]:
-    """For each node of the surface a cell, and grad N_b of its nodes there [1/m]."""
+    """For each node of the surface a cell, and the mean grad N_b of its nodes (k, 3) [1/m]."""
     found: dict[int, tuple[Ints, Floats]] = {}
     wanted = set(mesh.surface().nodes.tolist())
     for block in mesh.body_blocks:
@@ -106,7 +106,7 @@ def _cells_at_nodes(mesh: Mesh) -> dict[int, tuple[Ints, Floats]]:
             cells=np.ascontiguousarray(block.nodes),
         )
         for cell, of_nodes in zip(block.nodes, slopes, strict=True):
-            for node, slope in zip(cell, of_nodes, strict=True):
-                if int(node) in wanted and int(node) not in found:
-                    found[int(node)] = (cell, slope)
+            for node in wanted.intersection(cell.tolist()):
+                found[node] = (cell, of_nodes)
+                wanted.remove(node)
     return found

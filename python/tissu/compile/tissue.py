@@ -165,11 +165,22 @@ def _sampled(region: Region, tissue: Tissue) -> tuple[Floats, Floats]:
         ratio = (tissue.frames / tissue.points) ** (1.0 / 3.0)
         distance = sampling.poisson_distance(region, tissue.frames, seed=tissue.seed) * ratio
         return frames, sampling.poisson_points(region, distance, seed=tissue.seed + 1)
-    spacing = (region.volume / np.array([tissue.frames, tissue.points])) ** (1.0 / 3.0)
-    return (
-        sampling.grid_points(region, float(spacing[0])),
-        sampling.grid_cells(region, float(spacing[1])),
-    )
+    spacing = float(region.volume / tissue.frames) ** (1.0 / 3.0)
+    sides = np.maximum(1, np.round((region.bounds[1] - region.bounds[0]) / spacing).astype(int) - 1)
+    # As many points in every cell of the grid: what frames add to linear fields must be zero in the
+    # mean of a cell, or it softens the tissue.
+    inside = max(2, round((tissue.points / int(np.prod(sides))) ** (1.0 / 3.0)))
+    edges = [np.linspace(a, b, n + 1) for a, b, n in zip(*region.bounds, sides, strict=True)]
+    fine = [
+        np.linspace(a, b, inside * n + 1) for a, b, n in zip(*region.bounds, sides, strict=True)
+    ]
+    return _grid(region, edges), _grid(region, [(e[1:] + e[:-1]) / 2 for e in fine])
+
+
+def _grid(region: Region, axes: list[Floats]) -> Floats:
+    """The points of a grid that lie inside."""
+    grid = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, 3)
+    return np.asarray(grid[region.inside(grid)])
 
 
 def _require_ties(

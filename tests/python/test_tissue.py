@@ -37,7 +37,7 @@ def test_tissue_alone_is_the_block_that_it_fills() -> None:
         fixed=[ts.Fixed("block", on=ts.Plane((0, 0, 0), (1, 0, 0)))],
         prescribed=[
             ts.Prescribed(
-                "block", on=end, axes="x", times=(0, 1), displacements=[(0, 0, 0), (0.002, 0, 0)]
+                "block", on=end, axes="x", rotations="held", times=(0, 1), displacements=[(0, 0, 0), (0.002, 0, 0)]
             )
         ],
         step=ts.Static(newton=ts.Newton(iterations=20), solver=ts.Cholesky()),

@@ -20,7 +20,7 @@ constexpr int kMostNeighbours = 64;
 /// and Auricchio 1993). The published one is whole.
 constexpr double kLinked = 0.5;
 /// Of the stiffness that a point has against turning alone: what holds rotations that nothing depends on.
-constexpr double kHold = 1e-7;
+constexpr double kHold = 1e-6;
 
 void check(const ElasticBlock& block, const FramePoints& points) {
   const std::string where = "body \"" + block.body + "\"";
@@ -167,6 +167,7 @@ void Frames::lay_coefficients(ConstReals rest_positions) {
 
 void Frames::lay_holds() {
   holds_.assign(blocks_.size(), 0.0);
+  if (points_.dimension < 3) return;  // there the directors turn with their frames
   const auto k = static_cast<std::size_t>(points_.neighbours);
   std::array<double, PointMaterial::kNine> F{};
   for (const std::size_t c : {0U, 4U, 8U}) std::fill_n(F.data() + c * kLanes, kLanes, 1.0);

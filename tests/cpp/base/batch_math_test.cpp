@@ -26,7 +26,7 @@ using Reference = long double (*)(long double);
 class BatchMathTest : public testing::TestWithParam<Isa> {
  protected:
   static BatchMath math() {
-#if defined(__x86_64__)
+#ifdef TISSU_X86_KERNELS
     if (GetParam() == Isa::avx512) return avx512::batch_math();
     if (GetParam() == Isa::avx2) return avx2::batch_math();
 #endif

@@ -43,7 +43,7 @@ constexpr double kProper = 1e-13;
 class RotationTest : public testing::TestWithParam<Isa> {
  protected:
   static Rotations rotations() {
-#if defined(__x86_64__)
+#ifdef TISSU_X86_KERNELS
     if (GetParam() == Isa::avx512) return avx512::rotations();
     if (GetParam() == Isa::avx2) return avx2::rotations();
 #endif

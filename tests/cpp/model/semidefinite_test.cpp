@@ -19,7 +19,7 @@ constexpr std::size_t kSizes[] = {3, 6, 9, 24};
 class Semidefinite : public testing::TestWithParam<Isa> {
  protected:
   static test::Projections projections() {
-#if defined(__x86_64__)
+#ifdef TISSU_X86_KERNELS
     if (GetParam() == Isa::avx512) return avx512::projections();
     if (GetParam() == Isa::avx2) return avx2::projections();
 #endif

@@ -17,9 +17,9 @@ from frames_text import COUPLING, HEAD, SOFT_TEXT, SPEED, STEEL_TEXT, TENSION
 PAGE = Path(__file__).resolve().parents[1] / "docs" / "frames.md"
 STEEL_TIP, BEAM = 0.150174, 0.147185  # m: converged (CalculiX); rho g L^4 / (8 E I)
 NEWTON = ts.Newton(iterations=60, tolerance=1e-8)
-SECTIONS = ((25, 1), (25, 2), (25, 4), (25, 6))  # cells along, cells across: figure 6
+SECTIONS = ((25, 2), (25, 3), (25, 4), (25, 6))  # cells along, cells across: figure 6
 LENGTHS = ((6, 4), (12, 4), (24, 4), (48, 4))  # figure 7
-SOFT = ((10, 1), (20, 2), (32, 3), (48, 4))  # figure 8
+SOFT = ((10, 1), (20, 2), (32, 3))  # figure 8
 POINTS_CPU_GPU = ((360, 34.84, 14.85), (2600, 251.77, 17.11), (12700, 1228.8, 32.29),
                   (34610, 3468.54, 66.1))  # fmt: skip
 
@@ -77,32 +77,45 @@ def steel() -> str:
     return table(head, rows)
 
 
+def settled(scene: ts.Scene) -> tuple[float, int, float]:
+    """As `sag`, where a damped swing comes to rest: far beyond what one static step reaches."""
+    body = scene.bodies["beam"].replace(viscosity=ts.Rayleigh(mass=2.0))
+    step = ts.ImplicitEuler(dt=0.2, newton=ts.Newton(iterations=15), solver=ts.Cholesky())
+    simulation = scene.replace(bodies={"beam": body}, step=step).compile()
+    start = time.perf_counter()
+    for _ in range(150):
+        simulation.step()
+    points = simulation.meshes["beam"].points
+    end = np.isclose(points[:, 0], points[:, 0].max())
+    moving = float(np.abs(simulation.velocities["beam"]).max())
+    tip = -float(simulation.displacements("beam")[end, 1].mean()) if moving < 1e-3 else np.nan
+    return tip, simulation.plan().unknowns, time.perf_counter() - start
+
+
 def soft() -> str:
     """Figures 8 and 13: the soft cantilever of 16 x 1 x 1 m, 5 kg, 40 kPa."""
-    law = ts.StVK(young=40e3, poisson=0.3)
-    kinds = {
+    law, hooke = ts.StVK(young=40e3, poisson=0.3), ts.Hooke(young=40e3, poisson=0.3)
+    kinds: dict[str, tuple[str, str, ts.Law]] = {
         "frames, 8 neighbours": ("hexahedron", "frames", law),
         "frames, 4 neighbours": ("tetra", "frames", law),
-        "corotational hexahedra": ("hexahedron", "corotational", ts.Hooke(young=40e3, poisson=0.3)),
-        "corotational tetrahedra": ("tetra", "corotational", ts.Hooke(young=40e3, poisson=0.3)),
+        "corotational hexahedra": ("hexahedron", "corotational", hooke),
+        "corotational tetrahedra": ("tetra", "corotational", hooke),
         "StVK hexahedra": ("hexahedron", "fem", law),
     }
     density = 5.0 / 16.0
-    fine, _, _ = sag(beam((16, 1, 1), (64, 4, 4), "hexahedron20", law=law, density=density))
-    rows = [f"| quadratic hexahedra, 64 x 4 x 4 cells | | {fine:.3f} | |"]
-    cases = [(name, n, m) for name in kinds for n, m in SOFT]
-    cases += [("frames, 8 neighbours", 20, 2), ("StVK hexahedra", 64, 4)]
-    for name, along, across in dict.fromkeys(cases):
-        cell, model, of = kinds[name]
-        scene = beam(
-            (16, 1, 1), (along, across, across), cell, law=of, density=density, model=model
-        )
-        tip, unknowns, _ = sag(scene)
-        rows.append(
-            f"| {name}, {along + 1} x {across + 1} x {across + 1} nodes | {unknowns} | {tip:.3f} | "
-            f"{100 * (tip / fine - 1):+.1f} % |"
-        )
-    return table("| model | unknowns | sag of the end [m] | to the converged one |", rows)
+    fine, _, _ = sag(beam((16, 1, 1), (48, 3, 3), "hexahedron20", law=law, density=density))
+    rows = [f"| quadratic StVK hexahedra, 48 x 3 x 3 cells | | {fine:.3f} | |"]
+    for name, (cell, model, of) in kinds.items():
+        sizes = [*SOFT, (64, 4)] if cell == "hexahedron" and model != "frames" else SOFT
+        for along, across in sizes:
+            cells = (along, across, across)
+            scene = beam((16, 1, 1), cells, cell, law=of, density=density, model=model)
+            tip, unknowns, _ = settled(scene)
+            rows.append(
+                f"| {name}, {along + 1} x {across + 1} x {across + 1} nodes | {unknowns} "
+                f"| {tip:.3f} | {100 * (tip / fine - 1):+.1f} % |"
+            )
+    return table("| model | unknowns | sag of the end [m] | to the converged |", rows)
 
 
 def tension() -> str:

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 
 import tissu as ts
+from tissu.output.series import Series
 
 SOFT = ts.StVK(young=6e3, poisson=0.3)
 
@@ -37,7 +39,12 @@ def test_tissue_alone_is_the_block_that_it_fills() -> None:
         fixed=[ts.Fixed("block", on=ts.Plane((0, 0, 0), (1, 0, 0)))],
         prescribed=[
             ts.Prescribed(
-                "block", on=end, axes="x", rotations="held", times=(0, 1), displacements=[(0, 0, 0), (0.002, 0, 0)]
+                "block",
+                on=end,
+                axes="x",
+                rotations="held",
+                times=(0, 1),
+                displacements=[(0, 0, 0), (0.002, 0, 0)],
             )
         ],
         step=ts.Static(newton=ts.Newton(iterations=20), solver=ts.Cholesky()),
@@ -131,3 +138,21 @@ def test_tissue_is_told_and_absent_where_it_is_not() -> None:
     assert any("connective tissue fascia" in str(effect) for effect in with_tissue.effects)
     without = ts.Scene(**{**_pair(), "tissue": {}}, step=ts.ImplicitEuler(dt=0.01)).check()
     assert "connective tissue" in without.absent
+
+
+def test_example_writes_its_points(tmp_path: Any) -> None:
+    """examples/tissue.yaml hangs together, and ParaView gets blocks and points."""
+    meshio = pytest.importorskip("meshio")
+    example = Path(__file__).resolve().parents[2] / "examples" / "tissue.yaml"
+    scene = ts.Scene.from_yaml(example)
+    assert ts.Scene.from_yaml_text(scene.to_yaml()) == scene
+    simulation = scene.compile()
+    series = Series(simulation, tmp_path)
+    series.write()
+    for report in simulation.run("0.1 s"):
+        assert report.converged, report
+    series.write()
+    found = meshio.read(tmp_path / "frames" / "fascia_00001.vtu")
+    assert found.points == pytest.approx(simulation.points("fascia"))
+    assert -0.05 < found.point_data["displacement"][:, 2].mean() < -1e-4
+    assert series.index.read_text().count("<DataSet") == 6

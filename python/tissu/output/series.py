@@ -28,7 +28,8 @@ class Series:
 
     The points are where the nodes are at that time; point fields: displacement [m] and velocity
     [m/s]; cell fields: strain_energy_density [J/m^3], and von_mises [Pa] of models that know
-    it. After each call all files are complete and the index lists all of them.
+    it. Of connective tissue its integration points. After each call all files are complete and
+    the index lists all of them.
 
     Attributes:
         index: the PVD file.
@@ -54,7 +55,7 @@ class Series:
         self.last_time = -1.0
         self.inverted = ""
         if simulation.resumed_from is not None:
-            self._continue(len(simulation.meshes))
+            self._continue(len(simulation.meshes) + len(simulation.tissues))
         _clear(self.index, kept=self._entries)
 
     def write(self) -> None:
@@ -65,10 +66,14 @@ class Series:
         """
         simulation = self._simulation
         (self._folder / FRAMES).mkdir(exist_ok=True)
-        for part, (body, mesh) in enumerate(simulation.meshes.items()):
+        for part, body in enumerate([*simulation.meshes, *simulation.tissues]):
             name = f"{FRAMES}/{file_name(body)}_{self.count:05d}.vtu"
-            fields = write_vtu(self._folder / name, mesh, simulation, body)
-            self._look_for_inverted(body, fields["volume_ratio"])
+            if body in simulation.tissues:
+                write_points(self._folder / name, simulation, body)
+            else:
+                mesh = simulation.meshes[body]
+                fields = write_vtu(self._folder / name, mesh, simulation, body)
+                self._look_for_inverted(body, fields["volume_ratio"])
             self._entries.append(
                 f'    <DataSet timestep="{simulation.time:.9g}" group="" part="{part}" '
                 f'name={quoteattr(body)} file="{name}"/>\n'
@@ -137,6 +142,26 @@ def write_vtu(path: Path, mesh: Mesh, simulation: Simulation, body: str) -> dict
     with whole_file(path) as partial:
         meshio.write(partial, result, file_format="vtu")
     return fields
+
+
+def write_points(path: Path, simulation: Simulation, tissue: str) -> None:
+    """Writes the integration points of a tissue at the present time.
+
+    Raises:
+        TissuError: the file cannot be written.
+    """
+    from tissu.mesh.through_meshio import library
+
+    meshio = library()
+    now, fields = simulation.points(tissue), simulation.cell_fields(tissue)
+    result = meshio.Mesh(
+        now,
+        [("vertex", np.arange(len(now))[:, None])],
+        point_data={"displacement": now - simulation.points(tissue, rest=True)},
+        cell_data={new: [fields[name]] for name, new in _CELL_FIELDS.items() if name in fields},
+    )
+    with whole_file(path) as partial:
+        meshio.write(partial, result, file_format="vtu")
 
 
 def _index(entries: list[str]) -> str:

@@ -56,6 +56,7 @@ PYTHON: dict[str, set[str]] = {
         "counted",
         "units",
         "mesh",
+        "sampling",
         "selection",
         "scene",
         "effects",

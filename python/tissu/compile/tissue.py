@@ -21,6 +21,10 @@ if TYPE_CHECKING:
     from tissu.scene.tissue import Tissue
 
 
+_NEAR_ENOUGH = 0.1
+"""of the number of points that is asked for"""
+
+
 @dataclass(frozen=True, slots=True)
 class PreparedTissue:
     """A tissue as the world takes it.
@@ -161,10 +165,15 @@ def _sampled(region: Region, tissue: Tissue) -> tuple[Floats, Floats]:
     """Frames and points inside the region, about as many as asked."""
     if tissue.sampling == "poisson":
         frames = sampling.poisson_count(region, tissue.frames, seed=tissue.seed)
-        # The distance of n points in a volume goes with n^(-1/3): one search serves both.
-        ratio = (tissue.frames / tissue.points) ** (1.0 / 3.0)
-        distance = sampling.poisson_distance(region, tissue.frames, seed=tissue.seed) * ratio
-        return frames, sampling.poisson_points(region, distance, seed=tissue.seed + 1)
+        # n points in a volume are n^(-1/3) apart; the border takes its share, so twice.
+        distance = sampling.poisson_distance(region, tissue.frames, seed=tissue.seed)
+        points = frames
+        for _ in range(3):
+            distance *= (len(points) / tissue.points) ** (1.0 / 3.0)
+            points = sampling.poisson_points(region, distance, seed=tissue.seed + 1)
+            if abs(len(points) / tissue.points - 1.0) < _NEAR_ENOUGH:
+                break
+        return frames, points
     spacing = float(region.volume / tissue.frames) ** (1.0 / 3.0)
     sides = np.maximum(1, np.round((region.bounds[1] - region.bounds[0]) / spacing).astype(int) - 1)
     # As many points in every cell of the grid: what frames add to linear fields must be zero in the

@@ -37,10 +37,11 @@ enum class Plane : std::uint8_t { stress, strain };
 /// Which of the models of `models.h` carries a block, and what only some of them ask for.
 struct ModelUse {
   std::string name = "fem";
-  std::string rotation = "polar";       ///< of corotational: small, frame or polar
-  std::string tangent = "approximate";  ///< of corotational: approximate or exact; of frames: full or material
-  std::string section = "whole";        ///< of frames in sheets and lines: whole or middle
-  bool equal_masses = false;            ///< of mass-spring: the same mass at every node
+  std::string rotation = "polar";  ///< of corotational: small, frame or polar
+  std::string tangent =
+      "approximate";              ///< of corotational: approximate or exact; of frames: full or material
+  std::string section = "whole";  ///< of frames in sheets and lines: whole or middle
+  bool equal_masses = false;      ///< of mass-spring: the same mass at every node
   std::vector<std::int32_t> kept = {};  ///< of condensed: the nodes of the body that are not eliminated
   double drilling = 1.0;                ///< of shell: ShellSection::drilling
   Vec3 gravity = Vec3::Zero();          ///< of condensed: pulls at those that are [m/s2]; the world gives it

@@ -13,8 +13,8 @@ namespace tissu {
 struct Frame {
   std::int32_t block;     ///< of its origin
   std::int32_t rotation;  ///< of its rotation
-  double mass;   ///< [kg]
-  Mat3 inertia;  ///< about its origin, in its own axes [kg m2]
+  double mass;            ///< [kg]
+  Mat3 inertia;           ///< about its origin, in its own axes [kg m2]
 };
 
 struct State {

@@ -86,7 +86,7 @@ class World {
   Threads threads_;
   Mass mass_;
   std::vector<double>
-      weights_;  ///< sum_g w_g rho N_a of each node [kg]; equal to the mass for linear elements
+      weights_;                ///< sum_g w_g rho N_a of each node [kg]; equal to the mass for linear elements
   std::vector<Vec3> moments_;  ///< of the weight of each frame, in its axes [kg m]; empty unless asked for
   FixedDofs fixed_;
   std::vector<std::unique_ptr<ForceModel>> forces_;

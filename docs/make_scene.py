@@ -18,16 +18,17 @@ _STEPS = (
 )
 _MODELS = (
     *("FEM", "Corotational", "MassSpring", "MassLink", "MassTensor"),
-    *("Condensed", "MeanDilatation"),
+    *("Condensed", "MeanDilatation", "Frames", "Shell"),
 )
 ORDER = (
     ("The scene", ("Scene", "Output")),
     ("Bodies and meshes", ("Body", "Start", "MeshFile", "BarMesh")),
+    ("Connective tissue", ("Tissue",)),
     ("Laws and viscosity", _LAWS),
     ("Models", _MODELS),
     ("Selections: which nodes", ("Box", "Sphere", "Plane", "Nodes", "SurfaceNodes", "Region")),
     ("Supports and motion", ("Fixed", "Prescribed", "Rotation")),
-    ("Loads", ("NodalLoad", "Traction", "Pressure")),
+    ("Loads", ("NodalLoad", "Moment", "Traction", "Pressure")),
     ("Steps", _STEPS),
     ("Linear solvers", ("Auto", "ConjugateGradient", "Cholesky")),
 )
@@ -45,7 +46,7 @@ of meshes, selections that select nothing. Without problems it says what the sce
 
 Volume cells of a mesh are simulated always; its triangles and quads where the body gives a
 `thickness`, its lines where it gives a `section`. They are stiff along themselves and do not resist
-bending. In space they are free to thin: no stress acts across a sheet, nor across a line. A body
+bending, but for the models `frames` and `shell`. In space they are free to thin: no stress acts across a sheet, nor across a line. A body
 that mixes them has the regions `volumes`, `sheets` and `lines`, for a map of laws or a selection:
 
 ```yaml
@@ -54,6 +55,10 @@ law:
   sheets: {{type: stvk, young: 1 MPa, poisson: 0.4}}
 thickness: 0.1 mm
 ```
+
+With `model: frames` or `shell` the nodes turn as well, and sheets bend ([frames](frames.md),
+[shells](shells.md)). A held node does not turn where all its axes are held, unless
+`rotations: free` says so.
 
 This page is printed from the classes by `python docs/make_scene.py`.
 """

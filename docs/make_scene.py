@@ -46,8 +46,9 @@ of meshes, selections that select nothing. Without problems it says what the sce
 
 Volume cells of a mesh are simulated always; its triangles and quads where the body gives a
 `thickness`, its lines where it gives a `section`. They are stiff along themselves and do not resist
-bending, but for the models `frames` and `shell`. In space they are free to thin: no stress acts across a sheet, nor across a line. A body
-that mixes them has the regions `volumes`, `sheets` and `lines`, for a map of laws or a selection:
+bending, but for the models `frames` and `shell`. In space they are free to thin: no stress acts
+across a sheet, nor across a line. A body that mixes them has the regions `volumes`, `sheets` and
+`lines`, for a map of laws or a selection:
 
 ```yaml
 law:

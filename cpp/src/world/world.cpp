@@ -291,6 +291,7 @@ void World::add_fixed(const WorldDescription& description) {
     if (fixed.translations) fixed_.add(nodes, start, fixed.axes, fixed.motion);
     if (!fixed.rotations) continue;
     std::vector<std::int32_t> numbers;
+    numbers.reserve(nodes.size());
     for (const std::int32_t node : nodes) numbers.push_back(on.first_frame + node - on.first_node);
     fixed_.add_rotations(rotations_of(on, nodes, where), numbers, rest_rotations_, fixed.motion);
   }

@@ -70,9 +70,9 @@ def absent_of(scene: Scene) -> list[str]:
     """Effects that the scene does not ask for; none of them runs or is stored."""
     present = {
         "sheets": any(body.thickness is not None for body in scene.bodies.values()),
+        "lines": any(body.section is not None for body in scene.bodies.values()),
         "frames": bool(scene.tissue) or any(b.has_rotations for b in scene.bodies.values()),
         "connective tissue": bool(scene.tissue),
-        "lines": any(body.section is not None for body in scene.bodies.values()),
         "viscosity": any(body.viscosity is not None for body in scene.bodies.values()),
         "gravity": scene.gravity is not None,
         "fixed nodes": bool(scene.fixed),

@@ -208,7 +208,7 @@ def test_the_front_holds_what_is_not_beaten(moving):
         ({"error": "1 kPa"}, "which is a pressure"),
         ({"rate": 0}, "rate: found 0; more than 0 updates a second"),
         ({"budget": "0 s"}, "budget: found 0 s; a time of more than 0 s"),
-        ({"models": ["fam"]}, "unknown model 'fam'; did you mean 'fem'"),
+        ({"models": ["femm"]}, "unknown model 'femm'; did you mean 'fem'"),
     ],
 )
 def test_wrong_goals_are_told(asked, said):

@@ -105,6 +105,6 @@ def test_the_command_writes_table_and_figure(tmp_path):
 def test_the_command_tells_a_wrong_model(tmp_path):
     file = tmp_path / "beam.yaml"
     beam().save(file)
-    result = CliRunner().invoke(app, ["compare", str(file), "--models", "fam"])
+    result = CliRunner().invoke(app, ["compare", str(file), "--models", "femm"])
     assert result.exit_code != 0
-    assert "unknown model 'fam'; did you mean 'fem'" in result.output
+    assert "unknown model 'femm'; did you mean 'fem'" in result.output

@@ -48,7 +48,10 @@ def test_each_effect_says_which_field_asks_for_it():
         "inertia: step is implicit_euler with dt 0.01 s",
         "cell removal: editing is true",
     ]
-    assert check.absent == ["sheets", "lines", "prescribed motion", "contact", "cutting", "haptics"]
+    assert check.absent == [
+        *("sheets", "lines", "frames", "connective tissue", "prescribed motion"),
+        *("contact", "cutting", "haptics"),
+    ]
     assert "Switched on:\n  - elasticity of bar" in str(check)
     assert "Problems" not in str(check)
 

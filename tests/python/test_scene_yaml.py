@@ -82,12 +82,27 @@ def everything():
             "bar": Body(mesh=bar, law=laws, mass=0.2, quadrature="over"),
             "organ": Body(mesh=MeshFile("o.msh", unit="mm"), law=laws["a"], density=1000),
         },
-        fixed=[Fixed("bar", on=Plane((0, 0, 0), (1, 0, 0), 1e-3), axes="xy")],
+        tissue={
+            "fascia": ts.Tissue(
+                between=("bar", "organ"),
+                reach="2 cm",
+                on=(Nodes([1, 2]), ts.SurfaceNodes()),
+                frames=22,
+                points=800,
+                shape="wendland",
+                neighbours=6,
+                law=laws["stvk"],
+                mass=0.1,
+            ),
+            "fat": ts.Tissue(inside=bar, frames=9, points=90, law=laws["a"], density=900),
+        },
+        fixed=[Fixed("bar", on=Plane((0, 0, 0), (1, 0, 0), 1e-3), axes="xy", rotations="free")],
         prescribed=[
             Prescribed("bar", on=Region("a"), times=[0, 1], rotation=turn),
             Prescribed("organ", on=SurfaceNodes(), times=[0], displacements=[(0, 0, 1)], axes="z"),
         ],
         loads=[
+            ts.Moment("bar", on=Nodes([3]), moment=(0, "2 N mm", 0)),
             NodalLoad("bar", on=Nodes([3]), force=(1e-9, 0, 0), **ramp),
             Traction("bar", on=Sphere((0, 0, 0), 1), traction=(0, 0, -100)),
             Pressure("organ", on=SurfaceNodes(), pressure=1e3, **ramp),
@@ -151,6 +166,8 @@ def models():
         ts.MassTensor(),
         ts.Condensed(keep="surface"),
         ts.MeanDilatation(),
+        ts.Frames(tangent="material", section="middle"),
+        ts.Shell(drilling=0.01),
         {"a": ts.MassLink(), "b": ts.FEM()},
     ]
     bodies = [ts.Body(mesh=mesh, law=law, density=1e3, model=model) for model in each]

@@ -138,6 +138,7 @@ TEST(AllocationOfModels, ADefiniteMatrixTakesNone) {
 #ifdef TISSU_COUNTS_ALLOCATIONS
   const Mesh mesh = box_mesh(Vec3::Zero(), Vec3(2, 1, 1), {4, 3, 3}, Split::six);
   for (const ModelInfo& info : all_models()) {
+    if (info.name == "frames" || info.name == "shell") continue;  // of nodes that have a rotation
     ElasticBlock block = test::elastic_block(
         mesh.blocks[0], {info.laws.empty() ? "stvk" : std::string(info.laws.front()), 100.0});
     block.model.name = info.name;

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <string_view>
+#include <vector>
 
 #include "lower_triangle.h"
 #include "sparse_factor.h"
@@ -120,6 +122,7 @@ struct SparseFactor::Library : FactorState {
   Eigen::SimplicialLLT<Eigen::SparseMatrix<double>, Eigen::Lower> llt;
   double operations = 0.0;
   double numbers = 0.0;
+  std::vector<double> diagonal;  ///< of A, in the order of the factor
 
   Eigen::Map<const Eigen::SparseMatrix<double>> view() const {
     const auto n = static_cast<Eigen::Index>(lower.column_begin.size()) - 1;
@@ -136,7 +139,7 @@ struct SparseFactor::Library : FactorState {
   }
   bool factorise() {
     llt.factorize(view());
-    if (llt.info() != Eigen::Success) return false;
+    if (llt.info() != Eigen::Success || is_singular()) return false;
     if (operations == 0.0) {
       const auto& L = llt.matrixL().nestedExpression();
       numbers = static_cast<double>(L.nonZeros());
@@ -146,6 +149,21 @@ struct SparseFactor::Library : FactorState {
       }
     }
     return true;
+  }
+  /// A pivot is what is left of A_cc = sum_k L_ck^2; round-off alone leaves no digit of it.
+  bool is_singular() {
+    constexpr double kLost = 64.0 * std::numeric_limits<double>::epsilon();
+    const auto& L = llt.matrixL().nestedExpression();
+    diagonal.assign(static_cast<std::size_t>(L.cols()), 0.0);
+    for (Eigen::Index c = 0; c < L.outerSize(); ++c) {
+      for (Eigen::SparseMatrix<double>::InnerIterator entry(L, c); entry; ++entry)
+        diagonal[static_cast<std::size_t>(entry.row())] += entry.value() * entry.value();
+    }
+    for (Eigen::Index c = 0; c < L.outerSize(); ++c) {
+      const Eigen::SparseMatrix<double>::InnerIterator pivot(L, c);  // the first entry of its column
+      if (!(pivot.value() * pivot.value() > kLost * diagonal[static_cast<std::size_t>(c)])) return true;
+    }
+    return false;
   }
   void solve(ConstReals b, Reals x) {
     Eigen::Map<Eigen::VectorXd>(x.data(), static_cast<Eigen::Index>(x.size())) =

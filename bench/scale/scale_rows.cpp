@@ -24,10 +24,13 @@ constexpr int kSizes[] = {1'000, 10'000, 100'000, 1'000'000};
 constexpr double kShort = 0.005;
 constexpr int kBefore = 2;  ///< steps from rest, after which the cube moves
 constexpr int kSteps = 3;
+constexpr int kMoreSteps = 10;  ///< of a solver that keeps what it made for several
+
 
 struct Solver {
   const char* name;
   ConjugateGradient::Settings settings;
+  int steps = kSteps;
 };
 
 ConjugateGradient::Settings settings(Preconditioning kind, Precision precision) {
@@ -43,7 +46,9 @@ const std::vector<Solver>& solvers() {
       {"block_jacobi", settings(Preconditioning::block_jacobi, Precision::full)},
       {"block_jacobi single", settings(Preconditioning::block_jacobi, Precision::single)},
       {"incomplete_cholesky", settings(Preconditioning::incomplete_cholesky, Precision::full)},
-      {"incomplete_cholesky single", settings(Preconditioning::incomplete_cholesky, Precision::single)}};
+      {"incomplete_cholesky single", settings(Preconditioning::incomplete_cholesky, Precision::single)},
+      {"multigrid", settings(Preconditioning::multigrid, Precision::full), kMoreSteps},
+      {"multigrid single", settings(Preconditioning::multigrid, Precision::single), kMoreSteps}};
   return all;
 }
 
@@ -97,7 +102,7 @@ void step(benchmark::State& run, const Solver& solver, int size, int threads) {
   const std::tuple<std::string, int, int> wanted{solver.name, size, threads};
   if (kept == nullptr || key != wanted) {
     kept.reset();
-    kept = std::make_unique<Window>(cube_of(size, threads).world(), solver.settings, kBefore, kSteps);
+    kept = std::make_unique<Window>(cube_of(size, threads).world(), solver.settings, kBefore, solver.steps);
     key = wanted;
   }
   kept->measure(run);

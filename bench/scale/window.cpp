@@ -88,6 +88,7 @@ void Window::count_time(benchmark::State& run) {
   run.counters["matrix share"] = seconds_in(profile, "matrix") / whole;
   run.counters["preconditioner share"] = seconds_in(profile, "preconditioner") / whole;
   run.counters["solve share"] = solve / whole;
+  if (!is_counted(solver_.preconditioning)) return;
   // One thread that others keep waiting is judged by the time that it had.
   const int threads = world.threads().count();
   const double had = threads == 1 ? std::min(1.0, processor_seconds_ / whole) : 1.0;

@@ -34,6 +34,7 @@ double preconditioner_bytes(Preconditioning kind, const Sparsity& pattern, doubl
       return off_diagonal * (9.0 * number + kColumn) + rows * (9.0 * number + 2.0 * kRowBegin);
     }
     case Preconditioning::stale_cholesky:
+    case Preconditioning::multigrid:
       break;
   }
   return 0.0;

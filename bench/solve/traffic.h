@@ -9,12 +9,16 @@
 
 namespace tissu::bench {
 
+/// What the solve moves is known from the pattern of the matrix: not that of a factor or of coarser levels.
+inline bool is_counted(Preconditioning kind) {
+  return kind != Preconditioning::stale_cholesky && kind != Preconditioning::multigrid;
+}
 /// The matrix alone: nine numbers and a column for each block, the begin of each row.
 double matrix_bytes(const Sparsity& pattern, double number);
 /// out = A p: the matrix and two vectors.
 double product_bytes(const Sparsity& pattern, double number);
 /// What a preconditioner in the matrix's pattern keeps and reads to be applied once, its vectors not
-/// counted; 0 for a factor, whose size is not in the pattern.
+/// counted; 0 where it is not in the pattern.
 double preconditioner_bytes(Preconditioning kind, const Sparsity& pattern, double number);
 /// z = M^-1 r with its vectors: two, and twice two more for the sweeps of an incomplete factor.
 double apply_bytes(Preconditioning kind, const Sparsity& pattern, double number);

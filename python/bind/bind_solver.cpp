@@ -19,7 +19,8 @@ constexpr std::pair<std::string_view, Preconditioning> kPreconditioners[] = {
     {"jacobi", Preconditioning::jacobi},
     {"block_jacobi", Preconditioning::block_jacobi},
     {"incomplete_cholesky", Preconditioning::incomplete_cholesky},
-    {"stale_cholesky", Preconditioning::stale_cholesky}};
+    {"stale_cholesky", Preconditioning::stale_cholesky},
+    {"multigrid", Preconditioning::multigrid}};
 constexpr std::pair<std::string_view, Precision> kPrecisions[] = {{"double", Precision::full},
                                                                   {"single", Precision::single}};
 constexpr std::pair<std::string_view, Product> kMatrices[] = {{"assembled", Product::assembled},

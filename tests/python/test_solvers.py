@@ -13,7 +13,7 @@ KINDS = [
     *(
         {"preconditioner": kind, "precision": precision}
         for kind, precision in itertools.product(
-            ("jacobi", "block_jacobi", "incomplete_cholesky", "stale_cholesky"),
+            ("jacobi", "block_jacobi", "incomplete_cholesky", "stale_cholesky", "multigrid"),
             ("double", "single"),
         )
     ),
@@ -76,6 +76,7 @@ def test_a_matrix_is_needed_by_what_is_made_of_it():
     for fields, field in [
         ({"preconditioner": "incomplete_cholesky"}, "preconditioner"),
         ({"preconditioner": "stale_cholesky"}, "preconditioner"),
+        ({"preconditioner": "multigrid"}, "preconditioner"),
         ({"precision": "single"}, "precision"),
     ]:
         with pytest.raises(SceneError, match=f"{field}: .*matrix free"):

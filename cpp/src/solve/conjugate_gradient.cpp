@@ -48,6 +48,9 @@ std::string name_of(const ConjugateGradient::Settings& settings) {
     case Preconditioning::stale_cholesky:
       name += "stale Cholesky";
       break;
+    case Preconditioning::multigrid:
+      name += "multigrid";
+      break;
   }
   if (settings.precision == Precision::single) name += ", single precision";
   if (settings.product == Product::free) name += ", matrix-free";

@@ -6,6 +6,7 @@
 
 #include "diagonal_preconditioner.h"
 #include "incomplete_cholesky.h"
+#include "multigrid.h"
 #include "stale_cholesky.h"
 
 namespace tissu {
@@ -19,6 +20,8 @@ std::unique_ptr<Preconditioner<T>> make_preconditioner(Preconditioning kind) {
       return std::make_unique<IncompleteCholesky<T>>();
     case Preconditioning::stale_cholesky:
       return std::make_unique<StaleCholesky<T>>();
+    case Preconditioning::multigrid:
+      return std::make_unique<Multigrid<T>>();
     case Preconditioning::block_jacobi:
       break;
   }

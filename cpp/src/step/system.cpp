@@ -97,6 +97,21 @@ void System::assemble_blocks(const State& state, double mass, StiffnessScale sca
     model.add_stiffness(state, scale, *matrix_);
   }
   matrix_->constrain(world_.fixed().rows(), world_.fixed().masks());
+  if (solver_ != nullptr && solver_->needs_places()) place_rows(state);
+}
+
+void System::place_rows(const State& state) {
+  if (places_.point.empty()) {
+    for (std::int32_t i = 0; i < world_.blocks(); ++i) places_.point.push_back(i);
+    for (const Frame& frame : world_.frames()) {
+      places_.point[static_cast<std::size_t>(frame.rotation)] = frame.block;
+    }
+  }
+  places_.positions = state.positions;
+  for (const Frame& frame : world_.frames()) {
+    block(Reals(places_.positions), frame.rotation) = block(ConstReals(state.positions), frame.block);
+  }
+  matrix_->set_places(&places_);
 }
 
 double System::round_off(const State& state) const { return system_matrix().round_off(state.positions); }

@@ -167,6 +167,7 @@ def _solvers(setting: Setting) -> Iterator[Setting]:
     for solver in (
         ConjugateGradient(tolerance=tolerance),
         ConjugateGradient(tolerance=tolerance, preconditioner="incomplete_cholesky"),
+        ConjugateGradient(tolerance=tolerance, preconditioner="multigrid"),
         Cholesky(),
         Auto(tolerance=tolerance),
     ):

@@ -14,7 +14,9 @@ from tissu.scene.unknown import rule
 
 _Tolerance = Annotated[units.Pure, Field(gt=0.0, lt=1.0)]
 _Count = Annotated[int, Field(ge=1)]
-Preconditioner = Literal["jacobi", "block_jacobi", "incomplete_cholesky", "stale_cholesky"]
+Preconditioner = Literal[
+    "jacobi", "block_jacobi", "incomplete_cholesky", "stale_cholesky", "multigrid"
+]
 Precision = Literal["double", "single"]
 Matrix = Literal["assembled", "free"]
 
@@ -40,7 +42,8 @@ class ConjugateGradient(Part):
     iterations: _Count = 1000
     """largest number of iterations in a solve"""
     preconditioner: Preconditioner = "block_jacobi"
-    """the diagonal, its 3x3 blocks, a factor without fill, or the factor of an earlier matrix"""
+    """the diagonal, its 3x3 blocks, a factor without fill, the factor of an earlier matrix, or a
+    multigrid of rigid aggregates"""
     precision: Precision = "double"
     """of the iterations; residuals are double and correct single ones to the tolerance"""
     matrix: Matrix = "assembled"

@@ -71,7 +71,7 @@ class Stretched : public testing::Test {
 
 TEST_F(Stretched, BetterPreconditionersTakeFewerIterations) {
   std::map<P, int> iterations;
-  for (const P kind : {P::jacobi, P::block_jacobi, P::incomplete_cholesky, P::stale_cholesky}) {
+  for (const P kind : {P::jacobi, P::block_jacobi, P::incomplete_cholesky, P::stale_cholesky, P::multigrid}) {
     const auto solver = gradient(kind);
     const SolveReport report = solve(*solver);
     EXPECT_TRUE(report.converged);
@@ -80,11 +80,12 @@ TEST_F(Stretched, BetterPreconditionersTakeFewerIterations) {
   }
   EXPECT_LT(iterations[P::block_jacobi], iterations[P::jacobi]);
   EXPECT_LT(2 * iterations[P::incomplete_cholesky], iterations[P::block_jacobi]);
+  EXPECT_LT(iterations[P::multigrid], iterations[P::block_jacobi]);
   EXPECT_LE(iterations[P::stale_cholesky], 2);  // its own factor: one, and one for round-off
 }
 
 TEST_F(Stretched, SinglePrecisionIsCorrectedToTheTolerance) {
-  for (const P kind : {P::jacobi, P::block_jacobi, P::incomplete_cholesky, P::stale_cholesky}) {
+  for (const P kind : {P::jacobi, P::block_jacobi, P::incomplete_cholesky, P::stale_cholesky, P::multigrid}) {
     const auto solver = gradient(kind, Precision::single, 1e-10);
     const SolveReport report = solve(*solver);
     EXPECT_TRUE(report.converged);
@@ -117,7 +118,7 @@ TEST(SinglePrecision, GivesWayWhereItFails) {
   system.assemble(world.rest_state(), 0.0, {-1.0, 0.0});
   std::vector<double> b(static_cast<std::size_t>(3 * world.blocks()), 1.0);
   world.fixed().clear(b);
-  for (const P kind : {P::block_jacobi, P::incomplete_cholesky, P::stale_cholesky}) {
+  for (const P kind : {P::block_jacobi, P::incomplete_cholesky, P::stale_cholesky, P::multigrid}) {
     for (const Precision precision : {Precision::full, Precision::single}) {
       const auto solver = test::gradient_case("", kind, precision).make(1e-6);
       std::vector<double> x(b.size(), 0.0);

@@ -38,6 +38,7 @@ inline std::vector<SolverCase> solver_cases() {
     cases.push_back(gradient_case("block_jacobi" + end, P::block_jacobi, precision));
     cases.push_back(gradient_case("incomplete_cholesky" + end, P::incomplete_cholesky, precision));
     cases.push_back(gradient_case("stale_cholesky" + end, P::stale_cholesky, precision));
+    cases.push_back(gradient_case("multigrid" + end, P::multigrid, precision));
   }
   return cases;
 }

@@ -124,6 +124,7 @@ INSTANTIATE_TEST_SUITE_P(
                        with(Preconditioning::incomplete_cholesky)},
         AllocationCase{"stale_cholesky_kept", "hooke", Split::six, 1, 1, false,
                        with(Preconditioning::stale_cholesky)},
+        AllocationCase{"multigrid", "stvk", Split::six, 1, 2, false, with(Preconditioning::multigrid)},
         AllocationCase{"single_precision", "stvk", Split::six, 1, 1, false,
                        with(Preconditioning::incomplete_cholesky, Precision::single)},
         AllocationCase{"matrix_free", "stvk", Split::six, 1, 1, false,

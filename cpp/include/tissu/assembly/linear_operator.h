@@ -11,6 +11,7 @@
 namespace tissu {
 
 class BlockMatrix;
+struct RowPlaces;
 
 class LinearOperator {
  public:
@@ -41,6 +42,10 @@ class LinearOperator {
   [[nodiscard]] std::uint64_t version() const { return version_; }
   /// For each row the axes (bits x=1 y=2 z=4) that were made those of the identity; null when there are none.
   [[nodiscard]] const std::vector<std::uint8_t>* given() const { return given_; }
+  /// Where the rows are; null where nobody said.
+  [[nodiscard]] const RowPlaces* places() const { return places_; }
+  /// Places that outlive it.
+  void set_places(const RowPlaces* places) { places_ = places; }
   [[nodiscard]] bool is_given(std::int32_t row, int axis) const {
     return given_ != nullptr && (((*given_)[static_cast<std::size_t>(row)] >> axis) & 1) != 0;
   }
@@ -54,6 +59,7 @@ class LinearOperator {
   std::uint64_t id_ = next_id();
   std::uint64_t version_ = 0;
   const std::vector<std::uint8_t>* given_ = nullptr;
+  const RowPlaces* places_ = nullptr;
 };
 
 }  // namespace tissu

@@ -13,6 +13,7 @@ enum class Preconditioning {
   block_jacobi,         ///< the inverses of the diagonal 3x3 blocks
   incomplete_cholesky,  ///< of 3x3 blocks, in the pattern of the matrix
   stale_cholesky,       ///< the factor of an earlier matrix
+  multigrid,            ///< a cycle through coarser and coarser rigid aggregates
 };
 
 /// How the iterations compute; residuals are always double.
@@ -48,6 +49,9 @@ class ConjugateGradient final : public LinearSolver {
   [[nodiscard]] std::string_view name() const override { return name_; }
   [[nodiscard]] std::string_view preparation() const override { return "preconditioner"; }
   [[nodiscard]] bool needs_matrix() const override { return settings_.product == Product::assembled; }
+  [[nodiscard]] bool needs_places() const override {
+    return settings_.preconditioning == Preconditioning::multigrid;
+  }
   SolveReport solve(const LinearOperator& A, ConstReals b, Reals x, double floor) override;
   void forget() override;
   [[nodiscard]] std::size_t bytes() const override;

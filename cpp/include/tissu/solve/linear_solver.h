@@ -30,6 +30,8 @@ class LinearSolver {
   [[nodiscard]] virtual std::string_view preparation() const = 0;
   /// It reads the blocks; false: products are enough.
   [[nodiscard]] virtual bool needs_matrix() const { return true; }
+  /// It asks where the rows of the matrix are.
+  [[nodiscard]] virtual bool needs_places() const { return false; }
   /// x holds the first guess and then the answer. A right-hand side below `floor` counts as `floor` when the
   /// residual is judged, so that a body at rest is not solved to the last bit of its round-off.
   virtual SolveReport solve(const LinearOperator& A, ConstReals b, Reals x, double floor) = 0;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "tissu/assembly/block_matrix.h"
+#include "tissu/assembly/row_places.h"
 #include "tissu/base/profile.h"
 #include "tissu/solve/linear_solver.h"
 #include "tissu/step/free_operator.h"
@@ -47,6 +48,8 @@ class System {
     std::size_t product;
     std::size_t stiffness;
   };
+  /// Tells the matrix where its rows are, for a solver that asks.
+  void place_rows(const State& state);
   void assemble_blocks(const State& state, double mass, StiffnessScale scale);
 
   const World& world_;
@@ -54,6 +57,7 @@ class System {
   Profile& profile_;
   std::optional<BlockMatrix> matrix_;  ///< one of the two, made when it is first asked for
   std::optional<FreeOperator> free_;
+  RowPlaces places_;  ///< empty unless the solver asks for them
   std::vector<Rows> rows_;
   std::size_t mass_row_;
   std::size_t preparation_row_ = 0;

@@ -1,0 +1,138 @@
+#include "chebyshev.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "block_inverse.h"
+
+namespace tissu {
+namespace {
+
+constexpr int kSteps = 2;           ///< of the polynomial
+constexpr int kPower = 12;          ///< iterations that find the largest eigenvalue
+constexpr double kAbove = 1.1;      ///< they come out below it
+constexpr double kSmoothed = 10.0;  ///< ratio of the eigenvalues between which it smooths
+
+/// out = D^-1 r for rows [begin, end).
+template <class T>
+void multiply_diagonal(const T* inverse, std::int32_t begin, std::int32_t end, const T* r, T* out) {
+  for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
+    const T* m = inverse + 9 * i;
+    const T* in = r + 3 * i;
+    for (std::size_t k = 0; k < 3; ++k) out[3 * i + k] = m[k] * in[0] + m[3 + k] * in[1] + m[6 + k] * in[2];
+  }
+}
+
+/// Numbers between -1 and 1 without a pattern, the same every time.
+double scattered(std::size_t i) {
+  const double x = std::sin(12.9898 * static_cast<double>(i) + 1.0) * 43758.5453;
+  return 2.0 * (x - std::floor(x)) - 1.0;
+}
+
+}  // namespace
+
+template <class T>
+void Chebyshev<T>::make(const LevelMatrix& A, Isa isa, const Threads& threads) {
+  A_.refer(*A.begin, *A.column, isa);
+  const auto size = 3 * static_cast<std::size_t>(A.rows());
+  inverse_.resize(3 * size);
+  for (auto* vector : {&r_, &d_, &q_}) vector->assign(size, T(0));
+  threads.for_pieces(A.rows(), [&](std::int32_t begin, std::int32_t end) {
+    for (std::int32_t i = begin; i < end; ++i) {
+      for (std::int64_t k = 9 * A.first(i); k < 9 * A.last(i); ++k) {
+        A_.block(0)[k] = static_cast<T>(A.scale * A.values[k]);
+      }
+      const Mat3 inverse = positive_inverse(A.diagonal(i));
+      Eigen::Map<Eigen::Matrix<T, 3, 3>>(inverse_.data() + 9 * static_cast<std::ptrdiff_t>(i)) =
+          (0.5 * (inverse + inverse.transpose())).template cast<T>();
+    }
+  });
+  find_largest(threads);
+}
+
+/// |D^-1 A d| / |d| in the norm of D, after some iterations d := D^-1 A d.
+template <class T>
+void Chebyshev<T>::find_largest(const Threads& threads) {
+  for (std::size_t i = 0; i < d_.size(); ++i) d_[i] = static_cast<T>(scattered(i));
+  largest_ = 0.0;
+  double before = 0.0;
+  for (int k = 0; k <= kPower; ++k) {
+    const double square = threads.sum(rows(), partial_, [&](std::int32_t begin, std::int32_t end) {
+      A_.multiply_rows(begin, end, d_.data(), q_.data());
+      multiply_diagonal(inverse_.data(), begin, end, q_.data(), r_.data());
+      double sum = 0.0;
+      for (auto i = 3 * static_cast<std::size_t>(begin); i < 3 * static_cast<std::size_t>(end); ++i) {
+        sum += static_cast<double>(q_[i]) * static_cast<double>(r_[i]);
+      }
+      return sum;
+    });
+    if (!(square > 0.0) || !std::isfinite(square)) break;
+    if (k > 0) largest_ = std::max(largest_, std::sqrt(square / before));
+    const double size = 1.0 / std::sqrt(square);
+    for (std::size_t i = 0; i < d_.size(); ++i) d_[i] = static_cast<T>(size * static_cast<double>(r_[i]));
+    before = 1.0;
+  }
+  if (!(largest_ > 0.0)) largest_ = 1.0;
+}
+
+template <class T>
+void Chebyshev<T>::smooth_from_zero(const Threads& threads, const T* b, T* x) {
+  std::copy_n(b, r_.size(), r_.data());
+  std::fill_n(x, r_.size(), T(0));
+  iterate(threads, x);
+}
+
+template <class T>
+void Chebyshev<T>::smooth(const Threads& threads, const T* b, T* x) {
+  threads.for_pieces(rows(), [&](std::int32_t begin, std::int32_t end) {
+    A_.multiply_rows(begin, end, x, r_.data());
+    for (auto i = 3 * static_cast<std::size_t>(begin); i < 3 * static_cast<std::size_t>(end); ++i) {
+      r_[i] = b[i] - r_[i];
+    }
+  });
+  iterate(threads, x);
+}
+
+template <class T>
+void Chebyshev<T>::iterate(const Threads& threads, T* x) {
+  const double upper = kAbove * largest_;
+  const double centre = 0.5 * (upper + upper / kSmoothed);
+  const double half = 0.5 * (upper - upper / kSmoothed);
+  double rho = half / centre;
+  for (int step = 0; step < kSteps; ++step) {
+    const double next = step == 0 ? 0.0 : 1.0 / (2.0 * centre / half - rho);
+    const T own = static_cast<T>(step == 0 ? 0.0 : next * rho);
+    const T share = static_cast<T>(step == 0 ? 1.0 / centre : 2.0 * next / half);
+    if (step > 0) rho = next;
+    threads.for_pieces(rows(), [&](std::int32_t begin, std::int32_t end) {
+      multiply_diagonal(inverse_.data(), begin, end, r_.data(), q_.data());
+      for (auto i = 3 * static_cast<std::size_t>(begin); i < 3 * static_cast<std::size_t>(end); ++i) {
+        d_[i] = step == 0 ? share * q_[i] : own * d_[i] + share * q_[i];
+        x[i] += d_[i];
+      }
+    });
+    threads.for_pieces(rows(), [&](std::int32_t begin, std::int32_t end) {
+      A_.multiply_rows(begin, end, d_.data(), q_.data());
+      for (auto i = 3 * static_cast<std::size_t>(begin); i < 3 * static_cast<std::size_t>(end); ++i) {
+        r_[i] -= q_[i];
+      }
+    });
+  }
+}
+
+template <class T>
+std::size_t Chebyshev<T>::bytes() const {
+  return A_.bytes() + (inverse_.size() + r_.size() + d_.size() + q_.size()) * sizeof(T);
+}
+
+template <class T>
+double Chebyshev<T>::cycle_bytes() const {
+  const auto products = static_cast<double>(2 * kSteps + 1);
+  const auto vectors = static_cast<double>((15 * kSteps + 6) * 3 * sizeof(T));
+  return products * static_cast<double>(A_.bytes()) + vectors * A_.rows();
+}
+
+template class Chebyshev<double>;
+template class Chebyshev<float>;
+
+}  // namespace tissu

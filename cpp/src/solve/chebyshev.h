@@ -1,0 +1,43 @@
+#pragma once
+
+#include <vector>
+
+#include "aggregates.h"
+#include "block_rows.h"
+
+namespace tissu {
+
+/// Smooths with a matrix: a Chebyshev polynomial of D^-1 A for the upper part of its eigenvalues (Adams,
+/// Brezina, Hu and Tuminaro, Parallel multigrid smoothing: polynomial versus Gauss-Seidel, J. Comput. Phys.
+/// 188, 2003). It is symmetric, and its sums do not depend on an order of rows.
+template <class T>
+class Chebyshev {
+ public:
+  /// Takes over the values, which live in the pattern of A.
+  void make(const LevelMatrix& A, Isa isa, const Threads& threads);
+  /// x from zero, or from what it is; afterwards `residual()` = b - A x.
+  void smooth_from_zero(const Threads& threads, const T* b, T* x);
+  void smooth(const Threads& threads, const T* b, T* x);
+  [[nodiscard]] const T* residual() const { return r_.data(); }
+  [[nodiscard]] const T* inverse() const { return inverse_.data(); }
+  /// Of D^-1 A, found by iteration: a few per cent below the true one.
+  [[nodiscard]] double largest() const { return largest_; }
+  [[nodiscard]] std::int32_t rows() const { return A_.rows(); }
+  [[nodiscard]] std::size_t bytes() const;
+  /// Bytes that smoothing twice reads.
+  [[nodiscard]] double cycle_bytes() const;
+
+ private:
+  void find_largest(const Threads& threads);
+  void iterate(const Threads& threads, T* x);
+
+  BlockRows<T> A_;
+  std::vector<T> inverse_;  ///< D^-1, [row][9]
+  std::vector<T> r_;
+  std::vector<T> d_;
+  std::vector<T> q_;
+  std::vector<double> partial_;
+  double largest_ = 0.0;
+};
+
+}  // namespace tissu

@@ -1,0 +1,163 @@
+#include "multigrid.h"
+
+#include <algorithm>
+
+namespace tissu {
+namespace {
+
+constexpr std::int32_t kDirect = 80;  ///< rows of a level that gets a factor
+constexpr double kCoarser = 0.7;      ///< rows that a next level has at most, of those of its finer one
+constexpr double kOverrelaxed = 4.0 / 3.0;
+constexpr double kPairBytes = 300;  ///< what a product of a block with a motion costs, in bytes read
+constexpr double kFirstShift = 1e-10;
+
+}  // namespace
+
+template <class T>
+void Multigrid<T>::make(const LinearOperator& A, double scale) {
+  const BlockMatrix& matrix = *A.matrix();
+  if (id_ != A.id() || given_ != A.given()) levels_.clear();
+  id_ = A.id();
+  given_ = A.given();
+  isa_ = matrix.isa();
+  threads_ = matrix.threads();
+  LevelMatrix level{&matrix.sparsity().row_begin, &matrix.sparsity().column, matrix.values(), scale, given_};
+  const bool fresh = levels_.empty();
+  if (fresh) start(level);
+  if (A.places() != nullptr) levels_.front()->places = *A.places();
+  for (std::size_t n = 0;; ++n) {
+    Level& fine = *levels_[n];
+    direct_ = level.rows() <= kDirect;
+    if (direct_) break;
+    fine.smoother.make(level, isa_, threads_);
+    if (fresh && !coarsen(level, fine)) break;
+    if (!fine.pattern) break;
+    if (fresh) levels_.push_back(std::make_unique<Level>());
+    Level& coarse = *levels_[n + 1];
+    place_aggregates(fine.aggregates, fine.places, coarse.places);
+    fine.P.refer(fine.prolongation.begin, fine.prolongation.column, isa_);
+    fine.R.refer(fine.restriction.begin, fine.restriction.column, isa_);
+    fill_prolongation(level, fine.aggregates, fine.places, coarse.places, fine.smoother.inverse(),
+                      kOverrelaxed / fine.smoother.largest(), *fine.pattern, threads_, fine.P);
+    fill_restriction(*fine.pattern, fine.P, threads_, fine.R);
+    fill_coarse_matrix(level, *fine.pattern, fine.P, threads_, fine.product, fine.next_values);
+    level = {&fine.next_pattern.begin, &fine.next_pattern.column, fine.next_values.data(), 1.0, nullptr};
+  }
+  if (direct_) factor(level);
+  set_price(A);
+}
+
+/// The first level; its rows are points at one place until others are known.
+template <class T>
+void Multigrid<T>::start(const LevelMatrix& A) {
+  levels_.push_back(std::make_unique<Level>());
+  RowPlaces& places = levels_.front()->places;
+  places.positions.assign(3 * static_cast<std::size_t>(A.rows()), 0.0);
+  places.point.resize(static_cast<std::size_t>(A.rows()));
+  for (std::int32_t i = 0; i < A.rows(); ++i) places.point[static_cast<std::size_t>(i)] = i;
+}
+
+template <class T>
+bool Multigrid<T>::coarsen(const LevelMatrix& A, Level& level) const {
+  level.aggregates = aggregate(A, level.places);
+  const std::int32_t rows = 2 * level.aggregates.count;
+  if (rows == 0 || rows > kCoarser * A.rows()) return false;
+  level.pattern.emplace(A, level.aggregates);
+  level.prolongation = twice_columns(level.pattern->prolongation);
+  level.restriction = twice_rows(level.pattern->restriction);
+  level.next_pattern = twice(level.pattern->matrix);
+  level.change.resize(3 * static_cast<std::size_t>(A.rows()));
+  level.right.resize(3 * static_cast<std::size_t>(rows));
+  level.answer.resize(level.right.size());
+  return true;
+}
+
+template <class T>
+void Multigrid<T>::factor(const LevelMatrix& A) {
+  const Eigen::Index size = 3 * A.rows();
+  dense_.setZero(size, size);
+  for (std::int32_t i = 0; i < A.rows(); ++i) {
+    for (std::int64_t b = A.first(i); b < A.last(i); ++b) {
+      dense_.block<3, 3>(3 * i, 3 * A.column_of(b)) = A.scale * A.block(b);
+    }
+  }
+  vector_.resize(size);
+  const double size_of_diagonal = std::max(dense_.diagonal().cwiseAbs().maxCoeff(), 1e-300);
+  factor_.compute(dense_);
+  for (double shift = kFirstShift; factor_.info() != Eigen::Success && shift < 1e6; shift *= 10.0) {
+    dense_.diagonal().array() += shift * size_of_diagonal;
+    factor_.compute(dense_);
+  }
+}
+
+template <class T>
+void Multigrid<T>::cycle(std::size_t number, const T* b, T* x) {
+  Level& level = *levels_[number];
+  const bool last = number + 1 == levels_.size();
+  if (last && direct_) {
+    for (Eigen::Index i = 0; i < vector_.size(); ++i) vector_[i] = static_cast<double>(b[i]);
+    factor_.solveInPlace(vector_);
+    for (Eigen::Index i = 0; i < vector_.size(); ++i) x[i] = static_cast<T>(vector_[i]);
+    return;
+  }
+  level.smoother.smooth_from_zero(threads_, b, x);
+  if (last) return;
+  level.R.multiply(threads_, level.smoother.residual(), level.right.data());
+  cycle(number + 1, level.right.data(), level.answer.data());
+  threads_.for_pieces(level.P.rows(), [&](std::int32_t begin, std::int32_t end) {
+    level.P.multiply_rows(begin, end, level.answer.data(), level.change.data());
+    for (auto i = 3 * static_cast<std::size_t>(begin); i < 3 * static_cast<std::size_t>(end); ++i) {
+      x[i] += level.change[i];
+    }
+  });
+  level.smoother.smooth(threads_, b, x);
+}
+
+template <class T>
+void Multigrid<T>::apply(std::span<const T> r, std::span<T> z) {
+  cycle(0, r.data(), z.data());
+}
+
+template <class T>
+void Multigrid<T>::set_price(const LinearOperator& A) {
+  double cycle = 0.0;
+  double made = 0.0;
+  for (const auto& level : levels_) {
+    const double smoothing = level->smoother.rows() > 0 ? level->smoother.cycle_bytes() : 0.0;
+    cycle += smoothing;
+    made += 3.0 * smoothing;
+    if (!level->pattern) continue;
+    cycle += static_cast<double>(level->P.bytes() + level->R.bytes());
+    made += 2.0 * kPairBytes * static_cast<double>(2 * level->pattern->product.blocks() * 4);
+  }
+  const double iteration = static_cast<double>(A.bytes()) + kVectorBytes * A.rows() + cycle;
+  price_ = made / iteration;
+}
+
+template <class T>
+std::size_t Multigrid<T>::bytes() const {
+  std::size_t sum = static_cast<std::size_t>(2 * dense_.size()) * sizeof(double);
+  for (const auto& level : levels_) {
+    sum += level->smoother.bytes() + level->P.bytes() + level->R.bytes();
+    sum +=
+        (level->product.size() + level->next_values.size() + level->places.positions.size()) * sizeof(double);
+    sum += (level->right.size() + level->answer.size() + level->change.size()) * sizeof(T);
+    sum += level->prolongation.bytes() + level->restriction.bytes() + level->next_pattern.bytes();
+    sum += (level->aggregates.of.size() + level->places.point.size()) * sizeof(std::int32_t);
+    if (level->pattern) sum += level->pattern->bytes();
+  }
+  return sum;
+}
+
+template <class T>
+std::vector<std::int32_t> Multigrid<T>::level_rows() const {
+  std::vector<std::int32_t> rows;
+  rows.reserve(levels_.size());
+  for (const auto& level : levels_) rows.push_back(static_cast<std::int32_t>(level->places.point.size()));
+  return rows;
+}
+
+template class Multigrid<double>;
+template class Multigrid<float>;
+
+}  // namespace tissu

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <Eigen/Cholesky>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "chebyshev.h"
+#include "preconditioner.h"
+#include "prolongation.h"
+
+namespace tissu {
+
+/// One V-cycle of a multigrid made from the matrix alone, by smoothed aggregation. Every level consists of
+/// rigid frames: aggregates of rows, each with a translation and a rotation about its centre, so that each
+/// is a matrix of 3x3 blocks as the first. Iterations do not grow with the number of rows.
+///
+/// Who belongs to which aggregate is decided once for a pattern and for what is given; values follow the
+/// matrix. Without places of the rows only translations are carried to the coarser levels.
+template <class T>
+class Multigrid final : public Preconditioner<T> {
+ public:
+  void make(const LinearOperator& A, double scale) override;
+  [[nodiscard]] double price() const override { return price_; }
+  void apply(std::span<const T> r, std::span<T> z) override;
+  void forget() override { levels_.clear(); }
+  [[nodiscard]] std::size_t bytes() const override;
+  /// Rows of each level, the coarsest last.
+  [[nodiscard]] std::vector<std::int32_t> level_rows() const;
+
+ private:
+  struct Level {
+    RowPlaces places;
+    Chebyshev<T> smoother;
+    Aggregates aggregates;
+    std::optional<CoarsePattern> pattern;  ///< to the next level; nothing on the coarsest
+    RowPattern prolongation;               ///< of 3x3 blocks
+    RowPattern restriction;
+    RowPattern next_pattern;
+    BlockRows<T> P;
+    BlockRows<T> R;
+    AlignedVector<double> product;
+    AlignedVector<double> next_values;
+    std::vector<T> right;   ///< of the next level
+    std::vector<T> answer;  ///< of the next level
+    std::vector<T> change;
+  };
+  void start(const LevelMatrix& A);
+  bool coarsen(const LevelMatrix& A, Level& level) const;
+  void factor(const LevelMatrix& A);
+  void cycle(std::size_t number, const T* b, T* x);
+  void set_price(const LinearOperator& A);
+
+  std::uint64_t id_ = 0;
+  const std::vector<std::uint8_t>* given_ = nullptr;
+  Isa isa_{};
+  Threads threads_;
+  std::vector<std::unique_ptr<Level>> levels_;
+  bool direct_ = false;  ///< the coarsest level is solved by its factor
+  Eigen::LLT<Eigen::MatrixXd> factor_;
+  Eigen::MatrixXd dense_;
+  Eigen::VectorXd vector_;
+  double price_ = 0.0;
+};
+
+}  // namespace tissu

@@ -1,0 +1,272 @@
+#include "prolongation.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+
+namespace tissu {
+namespace {
+
+using Motion = Eigen::Matrix<double, 3, 6>;  ///< of a row, by a translation and a rotation
+
+constexpr double kNoMotion = 1e-9;  ///< of the largest stiffness of an aggregate's rotations
+
+/// Rows made by `row(i, columns)`, which gives columns in any order and more than once.
+template <class Row>
+RowPattern pattern_of(std::int32_t rows, std::int32_t columns, Row&& row) {
+  RowPattern pattern;
+  pattern.begin.assign(1, 0);
+  std::vector<std::int32_t> seen(static_cast<std::size_t>(columns), -1);
+  for (std::int32_t i = 0; i < rows; ++i) {
+    row(i, [&](std::int32_t c) {
+      if (c < 0 || seen[static_cast<std::size_t>(c)] == i) return;
+      seen[static_cast<std::size_t>(c)] = i;
+      pattern.column.push_back(c);
+    });
+    std::sort(pattern.column.begin() + pattern.begin.back(), pattern.column.end());
+    pattern.begin.push_back(static_cast<std::int64_t>(pattern.column.size()));
+  }
+  return pattern;
+}
+
+RowPattern transposed(const RowPattern& pattern, std::int32_t columns, std::vector<std::int64_t>& place) {
+  RowPattern other;
+  other.begin.assign(static_cast<std::size_t>(columns) + 1, 0);
+  for (const std::int32_t c : pattern.column) ++other.begin[static_cast<std::size_t>(c) + 1];
+  for (std::size_t c = 1; c < other.begin.size(); ++c) other.begin[c] += other.begin[c - 1];
+  std::vector<std::int64_t> next(other.begin.begin(), other.begin.end() - 1);
+  other.column.resize(pattern.column.size());
+  place.resize(pattern.column.size());
+  for (std::int32_t i = 0; i < pattern.rows(); ++i) {
+    for (auto b = pattern.begin[static_cast<std::size_t>(i)];
+         b < pattern.begin[static_cast<std::size_t>(i) + 1]; ++b) {
+      const auto c = static_cast<std::size_t>(pattern.column[static_cast<std::size_t>(b)]);
+      const auto to = static_cast<std::size_t>(next[c]++);
+      other.column[to] = i;
+      place[to] = b;
+    }
+  }
+  return other;
+}
+
+/// How the row moves with its aggregate.
+Motion rigid_motion(const LevelMatrix& A, const RowPlaces& fine, const RowPlaces& coarse, std::int32_t row,
+                    std::int32_t aggregate) {
+  Motion motion = Motion::Zero();
+  if (fine.is_rotation(row)) {
+    motion.rightCols<3>().setIdentity();
+  } else {
+    const Vec3 arm =
+        block(ConstReals(fine.positions), row) - block(ConstReals(coarse.positions), 2 * aggregate);
+    motion.leftCols<3>().setIdentity();
+    motion.rightCols<3>() << 0.0, arm[2], -arm[1], -arm[2], 0.0, arm[0], arm[1], -arm[0], 0.0;
+  }
+  for (int k = 0; k < 3; ++k) {
+    if (((A.mask(row) >> k) & 1U) != 0) motion.row(k).setZero();
+  }
+  return motion;
+}
+
+/// Gives motions that cost nothing, as the rotation of a lone point, a stiffness: nothing drives them.
+void hold_idle(Eigen::Ref<Mat3> turning, double other) {
+  const double largest = turning.diagonal().maxCoeff();
+  if (!(largest > 0.0)) {
+    turning = Mat3::Identity() * (other > 0.0 ? other : 1.0);
+    return;
+  }
+  const Eigen::SelfAdjointEigenSolver<Mat3> eigen(turning);
+  for (int k = 0; k < 3; ++k) {
+    if (eigen.eigenvalues()[k] > kNoMotion * largest) continue;
+    turning += largest * eigen.eigenvectors().col(k) * eigen.eigenvectors().col(k).transpose();
+  }
+}
+
+std::int64_t begin_of(const RowPattern& pattern, std::int32_t row) {
+  return pattern.begin[static_cast<std::size_t>(row)];
+}
+std::int64_t end_of(const RowPattern& pattern, std::int32_t row) {
+  return pattern.begin[static_cast<std::size_t>(row) + 1];
+}
+
+/// Calls f(b, t) for the blocks b of a row of `from` and the blocks t of the same columns of a row of `to`,
+/// which has them all.
+template <class Function>
+void for_same_columns(const RowPattern& from, std::int32_t row, const RowPattern& to, std::int32_t other,
+                      Function&& f) {
+  std::int64_t t = begin_of(to, other);
+  for (std::int64_t b = begin_of(from, row); b < end_of(from, row); ++b) {
+    while (to.column[static_cast<std::size_t>(t)] != from.column[static_cast<std::size_t>(b)]) ++t;
+    f(b, t);
+  }
+}
+
+Eigen::Map<Motion> motion_at(AlignedVector<double>& values, std::int64_t b) {
+  return Eigen::Map<Motion>(values.data() + 18 * b);
+}
+
+template <class T>
+Eigen::Map<const Eigen::Matrix<T, 3, 6>> motion_at(const BlockRows<T>& P, std::int64_t b) {
+  return Eigen::Map<const Eigen::Matrix<T, 3, 6>>(P.block(2 * b));
+}
+
+}  // namespace
+
+CoarsePattern::CoarsePattern(const LevelMatrix& A, const Aggregates& aggregates) {
+  const std::int32_t count = aggregates.count;
+  const std::int32_t rows = A.rows();
+  prolongation = pattern_of(rows, count, [&](std::int32_t i, auto&& add) {
+    add(aggregates.of[static_cast<std::size_t>(i)]);
+    if (A.mask(i) == 7) return;
+    for (std::int64_t b = A.first(i); b < A.last(i); ++b) {
+      add(aggregates.of[static_cast<std::size_t>(A.column_of(b))]);
+    }
+  });
+  product = pattern_of(rows, count, [&](std::int32_t i, auto&& add) {
+    for (std::int64_t b = A.first(i); b < A.last(i); ++b) {
+      for (const std::int32_t a : prolongation.row(A.column_of(b))) add(a);
+    }
+  });
+  restriction = transposed(prolongation, count, place);
+  matrix = pattern_of(count, count, [&](std::int32_t a, auto&& add) {
+    add(a);
+    for (const std::int32_t i : restriction.row(a)) {
+      for (const std::int32_t c : product.row(i)) add(c);
+    }
+  });
+}
+
+std::size_t CoarsePattern::bytes() const {
+  return prolongation.bytes() + product.bytes() + restriction.bytes() + matrix.bytes() +
+         place.size() * sizeof(std::int64_t);
+}
+
+RowPattern twice_columns(const RowPattern& pattern) {
+  RowPattern result;
+  for (const std::int64_t begin : pattern.begin) result.begin.push_back(2 * begin);
+  for (const std::int32_t c : pattern.column) result.column.insert(result.column.end(), {2 * c, 2 * c + 1});
+  return result;
+}
+
+RowPattern twice_rows(const RowPattern& pattern) {
+  RowPattern result;
+  result.begin.assign(1, 0);
+  for (std::int32_t i = 0; i < pattern.rows(); ++i) {
+    for (int k = 0; k < 2; ++k) {
+      const auto row = pattern.row(i);
+      result.column.insert(result.column.end(), row.begin(), row.end());
+      result.begin.push_back(static_cast<std::int64_t>(result.column.size()));
+    }
+  }
+  return result;
+}
+
+RowPattern twice(const RowPattern& pattern) { return twice_rows(twice_columns(pattern)); }
+
+template <class T>
+void fill_prolongation(const LevelMatrix& A, const Aggregates& aggregates, const RowPlaces& fine,
+                       const RowPlaces& coarse, const T* inverse, double w, const CoarsePattern& pattern,
+                       const Threads& threads, BlockRows<T>& P) {
+  const RowPattern& columns = pattern.prolongation;
+  const auto aggregate = [&](std::int32_t row) { return aggregates.of[static_cast<std::size_t>(row)]; };
+  threads.for_pieces(A.rows(), [&](std::int32_t begin, std::int32_t end) {
+    for (std::int32_t i = begin; i < end; ++i) {
+      const Mat3 D = w * A.scale *
+                     Eigen::Map<const Eigen::Matrix<T, 3, 3>>(inverse + 9 * static_cast<std::ptrdiff_t>(i))
+                         .template cast<double>();
+      for (std::int64_t k = begin_of(columns, i); k < end_of(columns, i); ++k) {
+        const std::int32_t a = columns.column[static_cast<std::size_t>(k)];
+        Motion force = Motion::Zero();
+        for (std::int64_t b = A.first(i); b < A.last(i); ++b) {
+          const std::int32_t j = A.column_of(b);
+          if (aggregate(j) == a)
+            force.noalias() += A.block(b).lazyProduct(rigid_motion(A, fine, coarse, j, a));
+        }
+        Motion motion = -(D * force);
+        if (aggregate(i) == a) motion += rigid_motion(A, fine, coarse, i, a);
+        Eigen::Map<Eigen::Matrix<T, 3, 6>>(P.block(2 * k)) = motion.template cast<T>();
+      }
+    }
+  });
+}
+
+template <class T>
+void fill_restriction(const CoarsePattern& pattern, const BlockRows<T>& P, const Threads& threads,
+                      BlockRows<T>& R) {
+  using Block = Eigen::Matrix<T, 3, 3>;
+  threads.for_pieces(pattern.restriction.rows(), [&](std::int32_t begin, std::int32_t end) {
+    for (std::int32_t a = begin; a < end; ++a) {
+      const std::int64_t first = begin_of(pattern.restriction, a);
+      const std::int64_t count = end_of(pattern.restriction, a) - first;
+      for (std::int64_t b = first; b < first + count; ++b) {
+        const T* from = P.block(2 * pattern.place[static_cast<std::size_t>(b)]);
+        for (int half = 0; half < 2; ++half) {
+          Eigen::Map<Block>(R.block(first + half * count + b)) =
+              Eigen::Map<const Block>(from + 9 * half).transpose();
+        }
+      }
+    }
+  });
+}
+
+template <class T>
+void fill_coarse_matrix(const LevelMatrix& A, const CoarsePattern& pattern, const BlockRows<T>& P,
+                        const Threads& threads, AlignedVector<double>& product,
+                        AlignedVector<double>& values) {
+  product.resize(static_cast<std::size_t>(18 * pattern.product.blocks()));
+  threads.for_pieces(A.rows(), [&](std::int32_t begin, std::int32_t end) {
+    std::fill(product.begin() + 18 * begin_of(pattern.product, begin),
+              product.begin() + 18 * begin_of(pattern.product, end), 0.0);
+    for (std::int32_t i = begin; i < end; ++i) {
+      for (std::int64_t s = A.first(i); s < A.last(i); ++s) {
+        const Mat3 block = A.scale * A.block(s);
+        for_same_columns(
+            pattern.prolongation, A.column_of(s), pattern.product, i, [&](std::int64_t b, std::int64_t to) {
+              motion_at(product, to).noalias() += block.lazyProduct(motion_at(P, b).template cast<double>());
+            });
+      }
+    }
+  });
+  // The rows of an aggregate's translation lie before those of its rotation.
+  values.resize(static_cast<std::size_t>(36 * pattern.matrix.blocks() + 1));
+  threads.for_pieces(pattern.matrix.rows(), [&](std::int32_t begin, std::int32_t end) {
+    for (std::int32_t a = begin; a < end; ++a) {
+      const std::int64_t first = begin_of(pattern.matrix, a);
+      const std::int64_t count = end_of(pattern.matrix, a) - first;
+      double* upper = values.data() + 36 * first;
+      double* lower = upper + 18 * count;
+      std::fill(upper, lower + 18 * count, 0.0);
+      for (std::int64_t r = begin_of(pattern.restriction, a); r < end_of(pattern.restriction, a); ++r) {
+        const Motion moved = motion_at(P, pattern.place[static_cast<std::size_t>(r)]).template cast<double>();
+        const std::int32_t i = pattern.restriction.column[static_cast<std::size_t>(r)];
+        for_same_columns(pattern.product, i, pattern.matrix, a, [&](std::int64_t b, std::int64_t to) {
+          const Eigen::Map<Motion> force = motion_at(product, b);
+          Eigen::Map<Motion>(upper + 18 * (to - first)).noalias() +=
+              moved.leftCols<3>().transpose().lazyProduct(force);
+          Eigen::Map<Motion>(lower + 18 * (to - first)).noalias() +=
+              moved.rightCols<3>().transpose().lazyProduct(force);
+        });
+      }
+      const auto row = pattern.matrix.row(a);
+      const auto own = std::ranges::lower_bound(row, a) - row.begin();
+      const Eigen::Map<const Mat3> moving(upper + 18 * own);
+      Eigen::Map<Mat3> turning(lower + 18 * own + 9);
+      hold_idle(turning, moving.diagonal().maxCoeff());
+    }
+  });
+}
+
+template void fill_prolongation(const LevelMatrix&, const Aggregates&, const RowPlaces&, const RowPlaces&,
+                                const double*, double, const CoarsePattern&, const Threads&,
+                                BlockRows<double>&);
+template void fill_prolongation(const LevelMatrix&, const Aggregates&, const RowPlaces&, const RowPlaces&,
+                                const float*, double, const CoarsePattern&, const Threads&,
+                                BlockRows<float>&);
+template void fill_restriction(const CoarsePattern&, const BlockRows<double>&, const Threads&,
+                               BlockRows<double>&);
+template void fill_restriction(const CoarsePattern&, const BlockRows<float>&, const Threads&,
+                               BlockRows<float>&);
+template void fill_coarse_matrix(const LevelMatrix&, const CoarsePattern&, const BlockRows<double>&,
+                                 const Threads&, AlignedVector<double>&, AlignedVector<double>&);
+template void fill_coarse_matrix(const LevelMatrix&, const CoarsePattern&, const BlockRows<float>&,
+                                 const Threads&, AlignedVector<double>&, AlignedVector<double>&);
+
+}  // namespace tissu

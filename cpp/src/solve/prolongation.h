@@ -1,0 +1,46 @@
+#pragma once
+
+/// From the rows of a level to those of the next coarser one, and its matrix.
+
+#include "aggregates.h"
+#include "block_rows.h"
+
+namespace tissu {
+
+/// Who depends on whom, made once for a pattern. Columns of `prolongation` and `product` are aggregates.
+struct CoarsePattern {
+  RowPattern prolongation;          ///< of P
+  RowPattern product;               ///< of A P
+  RowPattern restriction;           ///< of P^T, the same for both rows of an aggregate; columns are fine rows
+  std::vector<std::int64_t> place;  ///< of a block of the restriction, in the prolongation
+  RowPattern matrix;                ///< of P^T A P, by aggregates
+
+  CoarsePattern(const LevelMatrix& A, const Aggregates& aggregates);
+  [[nodiscard]] std::size_t bytes() const;
+};
+
+/// Both columns or rows of an aggregate, one after the other.
+RowPattern twice_columns(const RowPattern& pattern);
+RowPattern twice_rows(const RowPattern& pattern);
+RowPattern twice(const RowPattern& pattern);
+
+/// Smoothed aggregation: P = (1 - w D^-1 A) P0, where P0 moves the rows of each aggregate as a rigid body, a
+/// point at x by t + r x (x - c) and a rotation by r, but not the axes that are given. `inverse`: the inverse
+/// diagonal blocks of A.
+template <class T>
+void fill_prolongation(const LevelMatrix& A, const Aggregates& aggregates, const RowPlaces& fine,
+                       const RowPlaces& coarse, const T* inverse, double w, const CoarsePattern& pattern,
+                       const Threads& threads, BlockRows<T>& P);
+
+/// P^T in the rows of the aggregates.
+template <class T>
+void fill_restriction(const CoarsePattern& pattern, const BlockRows<T>& P, const Threads& threads,
+                      BlockRows<T>& R);
+
+/// P^T A P, block by block; `product` is scratch for A P. Motions that no row takes part in get a diagonal.
+template <class T>
+void fill_coarse_matrix(const LevelMatrix& A, const CoarsePattern& pattern, const BlockRows<T>& P,
+                        const Threads& threads, AlignedVector<double>& product,
+                        AlignedVector<double>& values);
+
+}  // namespace tissu

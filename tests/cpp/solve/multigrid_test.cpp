@@ -1,0 +1,309 @@
+#include "../../../cpp/src/solve/multigrid.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <set>
+
+#include "../assembly/dense.h"
+#include "../base/differences.h"
+#include "../world/sample_worlds.h"
+#include "solver_cases.h"
+#include "tissu/step/system.h"
+
+/// A multigrid of rigid aggregates: what it is made of, that it stays symmetric, that its iterations stay
+/// few.
+namespace tissu {
+namespace {
+
+using test::dense;
+using test::view;
+
+/// The matrix of a cube of tetrahedra.
+class Cube {
+ public:
+  explicit Cube(int cells, bool held = true, double mass = 0.0, int threads = 1)
+      : world_(describe(cells, held, threads)),
+        chosen_({.preconditioning = Preconditioning::multigrid}),
+        system_(world_, &chosen_, profile_) {
+    system_.assemble(world_.rest_state(), mass, {-1.0, 0.0});
+  }
+  [[nodiscard]] const BlockMatrix& matrix() const { return system_.matrix(); }
+  [[nodiscard]] const World& world() const { return world_; }
+  [[nodiscard]] const RowPlaces& places() const { return *matrix().places(); }
+  [[nodiscard]] LevelMatrix level() const {
+    return {&matrix().sparsity().row_begin, &matrix().sparsity().column, matrix().values(), 1.0,
+            matrix().given()};
+  }
+  [[nodiscard]] SolveReport solve(Preconditioning kind, std::vector<double>& x,
+                                  Precision precision = Precision::full, double tolerance = 1e-8) const {
+    std::vector<double> b = test::Random(3).numbers(static_cast<std::size_t>(3 * world_.blocks()));
+    world_.fixed().clear(b);
+    x.assign(b.size(), 0.0);
+    return test::gradient_case("", kind, precision).make(tolerance)->solve(matrix(), b, x, 0.0);
+  }
+
+ private:
+  static WorldDescription describe(int cells, bool held, int threads) {
+    const Mesh mesh = box_mesh(Vec3::Zero(), Vec3::Ones(), {cells, cells, cells}, Split::six);
+    WorldDescription description;
+    description.threads = threads;
+    description.bodies = {test::body_of(mesh, {.young = 1e4})};
+    if (held) description.fixed = {test::fixed(test::nodes_at(mesh, 2, 0.0))};
+    return description;
+  }
+  World world_;
+  ConjugateGradient chosen_;
+  Profile profile_;
+  System system_;
+};
+
+/// The motion of rows that a translation and a rotation about the origin make.
+Eigen::VectorXd rigid(const RowPlaces& places, const Vec3& translation, const Vec3& rotation) {
+  const auto rows = static_cast<Eigen::Index>(places.point.size());
+  Eigen::VectorXd motion(3 * rows);
+  for (std::int32_t i = 0; i < rows; ++i) {
+    motion.segment<3>(3 * i) =
+        places.is_rotation(i)
+            ? rotation
+            : Vec3(translation + rotation.cross(Vec3(block(ConstReals(places.positions), i))));
+  }
+  return motion;
+}
+
+struct Coarse {
+  explicit Coarse(const Cube& cube) : level(cube.level()), aggregates(aggregate(level, cube.places())) {
+    place_aggregates(aggregates, cube.places(), places);
+    pattern.emplace(level, aggregates);
+    columns = twice_columns(pattern->prolongation);
+    rows = twice_rows(pattern->restriction);
+    smoother.make(level, Isa::baseline, Threads(1));
+    P.refer(columns.begin, columns.column, Isa::baseline);
+    R.refer(rows.begin, rows.column, Isa::baseline);
+    fill_prolongation(level, aggregates, cube.places(), places, smoother.inverse(), 1.0 / smoother.largest(),
+                      *pattern, Threads(1), P);
+    fill_restriction(*pattern, P, Threads(1), R);
+  }
+  static Eigen::MatrixXd full(const BlockRows<double>& B, const RowPattern& where, Eigen::Index size) {
+    Eigen::MatrixXd result = Eigen::MatrixXd::Zero(3 * where.rows(), size);
+    for (std::int32_t i = 0; i < where.rows(); ++i) {
+      const std::int64_t first = where.begin[static_cast<std::size_t>(i)];
+      const auto row = where.row(i);
+      for (std::size_t k = 0; k < row.size(); ++k) {
+        result.block<3, 3>(3 * i, 3 * row[k]) =
+            Eigen::Map<const Mat3>(B.block(first + static_cast<std::int64_t>(k)));
+      }
+    }
+    return result;
+  }
+  LevelMatrix level;
+  Aggregates aggregates;
+  RowPlaces places;
+  std::optional<CoarsePattern> pattern;
+  RowPattern columns;
+  RowPattern rows;
+  Chebyshev<double> smoother;
+  BlockRows<double> P;
+  BlockRows<double> R;
+};
+
+TEST(Aggregates, HoldEachFreeRowOnceAndHangTogether) {
+  const Cube cube(8);
+  const Aggregates found = aggregate(cube.level(), cube.places());
+  const Sparsity& pattern = cube.matrix().sparsity();
+  std::vector<int> sizes(static_cast<std::size_t>(found.count), 0);
+  for (std::int32_t i = 0; i < cube.matrix().rows(); ++i) {
+    const std::int32_t own = found.of[static_cast<std::size_t>(i)];
+    const bool given = cube.matrix().is_given(i, 0);
+    EXPECT_EQ(own < 0, given);
+    if (own < 0) continue;
+    ASSERT_LT(own, found.count);
+    ++sizes[static_cast<std::size_t>(own)];
+    bool together = false;  // with a neighbour
+    for (auto s = pattern.row_begin[static_cast<std::size_t>(i)];
+         s < pattern.row_begin[static_cast<std::size_t>(i) + 1]; ++s) {
+      const std::int32_t j = pattern.column[static_cast<std::size_t>(s)];
+      together |= j != i && found.of[static_cast<std::size_t>(j)] == own;
+    }
+    EXPECT_TRUE(together);
+  }
+  for (const int size : sizes) EXPECT_GE(size, 2);
+  // A neighbourhood in this mesh has up to 15 points: 576 free ones give some fifty.
+  EXPECT_LE(found.count, 100);
+  EXPECT_GE(found.count, 20);
+}
+
+/// 1e6 times as stiff: blocks between the parts are 1e-3 of the mean of their diagonals.
+TEST(Aggregates, LeaveAStiffPartAmongItself) {
+  const Mesh mesh = box_mesh(Vec3::Zero(), Vec3(8, 4, 4), {8, 4, 4}, Split::six);
+  WorldDescription description;
+  description.bodies = {test::body_of(mesh)};
+  ElasticBlock& elastic = description.bodies[0].elastic[0];
+  const std::size_t cells = elastic.cells.size() / 4;
+  elastic.parameters["young"].assign(cells, 1e3);
+  elastic.parameters["poisson"].assign(cells, 0.3);
+  std::vector<bool> stiff(static_cast<std::size_t>(mesh.node_count()), false);
+  for (std::size_t e = 0; e < cells; ++e) {
+    Vec3 centre = Vec3::Zero();
+    for (std::size_t k = 0; k < 4; ++k) centre += 0.25 * mesh.node(elastic.cells[4 * e + k]);
+    if (centre[0] < 4.0) continue;
+    elastic.parameters["young"][e] = 1e9;
+    for (std::size_t k = 0; k < 4; ++k) stiff[static_cast<std::size_t>(elastic.cells[4 * e + k])] = true;
+  }
+  const World world(description);
+  ConjugateGradient chosen({.preconditioning = Preconditioning::multigrid});
+  Profile profile;
+  System system(world, &chosen, profile);
+  system.assemble(world.rest_state(), 0.0, {-1.0, 0.0});
+  const BlockMatrix& A = system.matrix();
+  const Aggregates found =
+      aggregate({&A.sparsity().row_begin, &A.sparsity().column, A.values(), 1.0, A.given()}, *A.places());
+  std::vector<std::set<bool>> kinds(static_cast<std::size_t>(found.count));
+  for (std::size_t i = 0; i < stiff.size(); ++i) {
+    ASSERT_GE(found.of[i], 0);
+    kinds[static_cast<std::size_t>(found.of[i])].insert(stiff[i]);
+  }
+  for (const auto& kind : kinds) EXPECT_EQ(kind.size(), 1U);
+}
+
+TEST(Prolongation, CarriesRigidMotionsOfAFreeBodyExactly) {
+  const Cube cube(5, false);
+  const Coarse coarse(cube);
+  const auto size = static_cast<Eigen::Index>(3 * coarse.places.point.size());
+  const Eigen::MatrixXd P = Coarse::full(coarse.P, coarse.columns, size);
+  for (const auto& [t, w] :
+       {std::pair(Vec3(1, -2, 3), Vec3(0, 0, 0)), std::pair(Vec3(0, 0.5, 0), Vec3(2, -1, 3))}) {
+    const Eigen::VectorXd fine = rigid(cube.places(), t, w);
+    // A times a rigid motion is zero to round-off, which D^-1 leaves as it is
+    EXPECT_LE((P * rigid(coarse.places, t, w) - fine).norm(), 1e-13 * fine.norm() * 10.0);
+  }
+}
+
+TEST(Prolongation, DoesNotMoveWhatIsGiven) {
+  const Cube cube(5);
+  const Coarse coarse(cube);
+  const Eigen::MatrixXd P =
+      Coarse::full(coarse.P, coarse.columns, static_cast<Eigen::Index>(3 * coarse.places.point.size()));
+  for (std::int32_t i = 0; i < cube.matrix().rows(); ++i) {
+    if (cube.matrix().is_given(i, 0)) {
+      EXPECT_EQ(P.middleRows<3>(3 * i).cwiseAbs().maxCoeff(), 0.0);
+    }
+  }
+}
+
+TEST(Prolongation, MakesGalerkinsMatrix) {
+  const Cube cube(5);
+  const Coarse coarse(cube);
+  const auto size = static_cast<Eigen::Index>(3 * coarse.places.point.size());
+  const Eigen::MatrixXd P = Coarse::full(coarse.P, coarse.columns, size);
+  const Eigen::MatrixXd R = Coarse::full(coarse.R, coarse.rows, 3 * cube.matrix().rows());
+  EXPECT_EQ((R - P.transpose()).cwiseAbs().maxCoeff(), 0.0);
+  AlignedVector<double> product;
+  AlignedVector<double> values;
+  fill_coarse_matrix(coarse.level, *coarse.pattern, coarse.P, Threads(1), product, values);
+  const RowPattern where = twice(coarse.pattern->matrix);
+  BlockRows<double> made;
+  made.refer(where.begin, where.column, Isa::baseline);
+  std::copy_n(values.data(), 9 * where.blocks(), made.block(0));
+  const Eigen::MatrixXd wanted = P.transpose() * dense(cube.matrix()) * P;
+  EXPECT_LE(test::relative_difference(Coarse::full(made, where, size), wanted), 1e-13);
+}
+
+/// CG asks for no more than a symmetric and positive definite preconditioner.
+TEST(Multigrid, IsSymmetricAndPositive) {
+  const Cube cube(9);
+  Multigrid<double> M;
+  M.make(cube.matrix(), 1.0);
+  const std::vector<std::int32_t> rows = M.level_rows();
+  ASSERT_GE(rows.size(), 2U);
+  for (std::size_t k = 1; k < rows.size(); ++k) EXPECT_LT(rows[k], rows[k - 1]);
+  test::Random random(4);
+  const auto size = static_cast<std::size_t>(3 * cube.matrix().rows());
+  for (int k = 0; k < 5; ++k) {
+    const std::vector<double> a = random.numbers(size);
+    const std::vector<double> b = random.numbers(size);
+    std::vector<double> Ma(size);
+    std::vector<double> Mb(size);
+    M.apply(a, Ma);
+    M.apply(b, Mb);
+    const double scale = std::sqrt(view(a).dot(view(Ma)) * view(b).dot(view(Mb)));
+    EXPECT_GT(view(a).dot(view(Ma)), 0.0);
+    EXPECT_NEAR(view(a).dot(view(Mb)), view(b).dot(view(Ma)), 1e-12 * scale);
+  }
+}
+
+TEST(Multigrid, IterationsDoNotGrow) {
+  std::vector<double> x;
+  for (const Precision precision : {Precision::full, Precision::single}) {
+    std::vector<int> iterations;
+    for (const int cells : {6, 12, 20}) {
+      const SolveReport report = Cube(cells).solve(Preconditioning::multigrid, x, precision);
+      EXPECT_TRUE(report.converged);
+      iterations.push_back(report.iterations);
+    }
+    // block-Jacobi's grow as the number of cells along an edge, 3.3 times
+    EXPECT_LE(iterations[2], iterations[0] + 6);
+    EXPECT_LE(iterations[2], 25);
+  }
+  EXPECT_GE(Cube(20).solve(Preconditioning::block_jacobi, x).iterations, 150);
+}
+
+TEST(Multigrid, SolvesWithInertiaAlone) {
+  const Cube cube(6, true, 1e6);
+  std::vector<double> x;
+  const SolveReport report = cube.solve(Preconditioning::multigrid, x);
+  EXPECT_TRUE(report.converged);
+  EXPECT_LE(report.iterations, 20);
+}
+
+TEST(Multigrid, GivesTheSameBitsOnAnyNumberOfThreads) {
+  std::vector<double> one;
+  for (const int threads : {1, 2, 5}) {
+    std::vector<double> x;
+    EXPECT_TRUE(Cube(9, true, 0.0, threads).solve(Preconditioning::multigrid, x).converged);
+    if (threads == 1) one = x;
+    EXPECT_EQ(std::memcmp(one.data(), x.data(), x.size() * sizeof(double)), 0) << threads;
+  }
+}
+
+/// Nobody says where the rows are: translations alone are carried, more iterations, the same answer.
+TEST(Multigrid, ServesWithoutPlaces) {
+  const Cube cube(8);
+  BlockMatrix bare(cube.matrix().sparsity(), cube.matrix().isa(), Threads(1));
+  std::memcpy(bare.values(), cube.matrix().values(),
+              static_cast<std::size_t>(9 * bare.sparsity().blocks()) * sizeof(double));
+  std::vector<double> b = test::Random(3).numbers(static_cast<std::size_t>(3 * bare.rows()));
+  std::vector<double> x(b.size(), 0.0);
+  std::vector<double> y(b.size(), 0.0);
+  const auto solver = test::gradient_case("", Preconditioning::multigrid).make(1e-8);
+  const SolveReport report = solver->solve(bare, b, x, 0.0);
+  EXPECT_TRUE(report.converged);
+  bare.multiply(x, y);
+  EXPECT_LE((view(b) - view(y)).norm(), 1e-8 * view(b).norm());
+}
+
+/// Blocks that come at run time are in the product only; they are few.
+TEST(Multigrid, ServesAMatrixWithTies) {
+  const Cube cube(6);
+  BlockMatrix tied(cube.matrix().sparsity(), cube.matrix().isa(), Threads(1));
+  std::memcpy(tied.values(), cube.matrix().values(),
+              static_cast<std::size_t>(9 * tied.sparsity().blocks()) * sizeof(double));
+  const std::int32_t last = tied.rows() - 1;
+  const Mat3 tie = 1e5 * Mat3::Identity();
+  for (const auto& [i, j, sign] : {std::tuple(60, 60, 1.0), std::tuple(last, last, 1.0),
+                                   std::tuple(60, last, -1.0), std::tuple(last, 60, -1.0)}) {
+    tied.add(i, j, sign * tie);
+  }
+  ASSERT_EQ(tied.extra().size(), 2U);
+  const std::vector<double> b = test::Random(3).numbers(static_cast<std::size_t>(3 * tied.rows()));
+  std::vector<double> x(b.size(), 0.0);
+  std::vector<double> y(b.size(), 0.0);
+  const SolveReport report =
+      test::gradient_case("", Preconditioning::multigrid).make(1e-8)->solve(tied, b, x, 0.0);
+  EXPECT_TRUE(report.converged);
+  tied.multiply(x, y);
+  EXPECT_LE((view(b) - view(y)).norm(), 1e-8 * view(b).norm());
+}
+
+}  // namespace
+}  // namespace tissu

@@ -26,7 +26,6 @@ constexpr int kBefore = 2;  ///< steps from rest, after which the cube moves
 constexpr int kSteps = 3;
 constexpr int kMoreSteps = 10;  ///< of a solver that keeps what it made for several
 
-
 struct Solver {
   const char* name;
   ConjugateGradient::Settings settings;

@@ -79,7 +79,7 @@ template <class T>
 void Chebyshev<T>::smooth_from_zero(const Threads& threads, const T* b, T* x) {
   std::copy_n(b, r_.size(), r_.data());
   std::fill_n(x, r_.size(), T(0));
-  iterate(threads, x);
+  iterate(threads, x, kSteps);
 }
 
 template <class T>
@@ -90,11 +90,11 @@ void Chebyshev<T>::smooth(const Threads& threads, const T* b, T* x) {
       r_[i] = b[i] - r_[i];
     }
   });
-  iterate(threads, x);
+  iterate(threads, x, kSteps - 1);
 }
 
 template <class T>
-void Chebyshev<T>::iterate(const Threads& threads, T* x) {
+void Chebyshev<T>::iterate(const Threads& threads, T* x, int residuals) {
   const double upper = kAbove * largest_;
   const double centre = 0.5 * (upper + upper / kSmoothed);
   const double half = 0.5 * (upper - upper / kSmoothed);
@@ -111,13 +111,19 @@ void Chebyshev<T>::iterate(const Threads& threads, T* x) {
         x[i] += d_[i];
       }
     });
-    threads.for_pieces(rows(), [&](std::int32_t begin, std::int32_t end) {
-      A_.multiply_rows(begin, end, d_.data(), q_.data());
-      for (auto i = 3 * static_cast<std::size_t>(begin); i < 3 * static_cast<std::size_t>(end); ++i) {
-        r_[i] -= q_[i];
-      }
-    });
+    if (step < residuals) subtract_product(threads);
   }
+}
+
+/// r -= A d
+template <class T>
+void Chebyshev<T>::subtract_product(const Threads& threads) {
+  threads.for_pieces(rows(), [&](std::int32_t begin, std::int32_t end) {
+    A_.multiply_rows(begin, end, d_.data(), q_.data());
+    for (auto i = 3 * static_cast<std::size_t>(begin); i < 3 * static_cast<std::size_t>(end); ++i) {
+      r_[i] -= q_[i];
+    }
+  });
 }
 
 template <class T>
@@ -127,7 +133,7 @@ std::size_t Chebyshev<T>::bytes() const {
 
 template <class T>
 double Chebyshev<T>::cycle_bytes() const {
-  const auto products = static_cast<double>(2 * kSteps + 1);
+  const auto products = static_cast<double>(2 * kSteps);
   const auto vectors = static_cast<double>((15 * kSteps + 6) * 3 * sizeof(T));
   return products * static_cast<double>(A_.bytes()) + vectors * A_.rows();
 }

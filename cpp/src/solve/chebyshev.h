@@ -15,8 +15,9 @@ class Chebyshev {
  public:
   /// Takes over the values, which live in the pattern of A.
   void make(const LevelMatrix& A, Isa isa, const Threads& threads);
-  /// x from zero, or from what it is; afterwards `residual()` = b - A x.
+  /// x from zero; afterwards `residual()` = b - A x.
   void smooth_from_zero(const Threads& threads, const T* b, T* x);
+  /// x from what it is.
   void smooth(const Threads& threads, const T* b, T* x);
   [[nodiscard]] const T* residual() const { return r_.data(); }
   [[nodiscard]] const T* inverse() const { return inverse_.data(); }
@@ -29,7 +30,9 @@ class Chebyshev {
 
  private:
   void find_largest(const Threads& threads);
-  void iterate(const Threads& threads, T* x);
+  /// x from r_ = b - A x, which is kept up for so many of the steps.
+  void iterate(const Threads& threads, T* x, int residuals);
+  void subtract_product(const Threads& threads);
 
   BlockRows<T> A_;
   std::vector<T> inverse_;  ///< D^-1, [row][9]

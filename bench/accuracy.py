@@ -34,7 +34,8 @@ tissu bench accuracy --list              # what cases there are
 ```
 
 `results/accuracy/accuracy.html` is one page with the diagrams, the tables and the answers, and
-needs no other file; `accuracy.csv` holds the same runs, a PNG each diagram.
+needs no other file; `accuracy.csv` holds the same runs (`accuracy.parquet` too, where
+`pip install tissu[parquet]` was said), a PNG each diagram.
 
 **Error**: distance from the reference, the mean over its places (a deflection curve, points, a
 whole field), as a share of the largest displacement; never from a beam formula. **Time**: wall time

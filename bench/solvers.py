@@ -77,8 +77,8 @@ What bounds them: products read the matrix once, {matrix:.0f} bytes for each unk
 single precision, and run at the bandwidth of the memory once it leaves the caches; triangles
 read as much and wait for each other; a factor of a three-dimensional mesh takes work that grows as
 n^2 and memory with n^(4/3). Inertia halves the iterations of this soft cube at 10 ms; with it and
-without, their number grows with the number of cells along the cube, but for a multigrid's: one of its
-iterations multiplies with the matrix four times more and pays for that from some ten thousand
+without, their number grows with the number of cells along the cube, but for a multigrid's: one of
+its iterations multiplies with the matrix four times more and pays for that from some ten thousand
 unknowns on. Its first system includes finding the aggregates, as a cut does; later ones do not.
 
 Printed by `python bench/solvers.py --write`.

@@ -171,7 +171,7 @@ def shares(row: Row) -> str:
 
 
 def best_rate(rows: Rows, body: str) -> tuple[str, Row, str]:
-    """Steps a second of the fastest solver on one thread and on two, in words; the faster row; how."""
+    """Steps a second of the fastest solver, in words; the faster of its rows; on what."""
     everything = {
         solver: on_threads(rows, f"target/{body}, {solver}")
         for solver in SOLVERS
@@ -244,8 +244,8 @@ def growth(rows: Rows) -> Target:
         f"The cost is {(large['elements'] / small['elements']) ** (found - EXPONENT):.1f} times "
         f"what the target allows at {large['elements']:,.0f} elements. Iterations grow from "
         f"{small['CG iterations']:.0f} to {large['CG iterations']:.0f} a step, "
-        f"n^{iterations:.2f}; an iteration costs n^{solve:.2f}, as the matrix leaves the caches; the rest "
-        f"of a step n^{rest:.2f}."
+        f"n^{iterations:.2f}; an iteration costs n^{solve:.2f}, as the matrix leaves the caches; "
+        f"the rest of a step n^{rest:.2f}."
     )
     return Target(
         f"cost of a step no faster than n^{EXPONENT} from 10,000 to 1,000,000 elements",

@@ -3,6 +3,7 @@
 import csv
 import io
 import json
+from importlib.util import find_spec
 from pathlib import Path
 
 import numpy as np
@@ -15,7 +16,7 @@ from tissu.accuracy.change import changed
 from tissu.accuracy.front import sentence
 from tissu.accuracy.measure import cubic
 from tissu.accuracy.page import page
-from tissu.accuracy.table import to_csv
+from tissu.accuracy.table import to_csv, to_parquet
 from tissu.cli.app import app
 from tissu.cli.bench import CASES
 from tissu.errors import ParameterError, SceneError
@@ -201,6 +202,20 @@ def test_the_page_and_the_table_hold_every_run(folder):
     assert sum(int(row["on_front"]) for row in rows) == len(front(found.runs))
 
 
+def test_parquet_holds_what_the_csv_holds(folder, tmp_path):
+    parquet = pytest.importorskip("pyarrow.parquet")
+    found = study(read_case(folder / "bar.yaml"), "small")
+    (tmp_path / "a.parquet").write_bytes(to_parquet([found]))
+    table = parquet.read_table(tmp_path / "a.parquet")
+    rows = list(csv.DictReader(io.StringIO(to_csv([found]))))
+    assert table.column_names == list(rows[0])
+    for row, other in zip(table.to_pylist(), rows, strict=True):
+        written = {name: int(v) if isinstance(v, bool) else v for name, v in row.items()}
+        assert {name: "" if v is None else str(v) for name, v in written.items()} == other
+    assert str(table.schema.field("seconds").type) == "double"
+    assert str(table.schema.field("steps").type) == "int64"
+
+
 def test_the_command_writes_all(folder, tmp_path):
     out = tmp_path / "out"
     done = CliRunner().invoke(app, ["bench", "accuracy", "--cases", str(folder), "-o", str(out)])
@@ -211,6 +226,7 @@ def test_the_command_writes_all(folder, tmp_path):
         "accuracy.csv",
         "accuracy.json",
         "bar.png",
+        *(["accuracy.parquet"] if find_spec("pyarrow") else []),
     }
 
 

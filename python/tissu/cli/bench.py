@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import time
 from dataclasses import dataclass
+from importlib.util import find_spec
 from pathlib import Path
 
 import typer
@@ -14,7 +15,7 @@ from tissu.accuracy.case import Preset
 from tissu.accuracy.figure import draw
 from tissu.accuracy.front import sentence
 from tissu.accuracy.page import page
-from tissu.accuracy.table import to_csv
+from tissu.accuracy.table import to_csv, to_parquet
 from tissu.cli.info import machine_line
 from tissu.errors import ParameterError
 from tissu.output import prepare_folder
@@ -51,6 +52,8 @@ def list_cases(folder: Path | None) -> None:
 def bench_accuracy(job: Job) -> None:
     """Runs the cases; writes accuracy.csv, accuracy.html and a PNG for each case.
 
+    With pyarrow on the machine, accuracy.parquet too.
+
     Raises:
         ParameterError: no such case, or a reference is missing.
     """
@@ -72,7 +75,8 @@ def bench_accuracy(job: Job) -> None:
         studies.append(one)
         _write(studies, folder)
     seconds = time.perf_counter() - begin
-    names = ", ".join(["accuracy.html", "accuracy.csv", *(f"{s.case.name}.png" for s in studies)])
+    tables = ["accuracy.csv", *(["accuracy.parquet"] if find_spec("pyarrow") is not None else [])]
+    names = ", ".join(["accuracy.html", *tables, *(f"{s.case.name}.png" for s in studies)])
     typer.echo(f"{seconds:.0f} s; written: {folder}/{names}")
 
 
@@ -112,6 +116,9 @@ def _write(studies: list[Study], folder: Path) -> None:
     for name, text in texts.items():
         with whole_file(folder / name) as target:
             target.write_text(text, encoding="utf-8")
+    if find_spec("pyarrow") is not None:
+        with whole_file(folder / "accuracy.parquet") as target:
+            target.write_bytes(to_parquet(studies))
     last = studies[-1]
     figure = draw(last)
     if figure is not None:

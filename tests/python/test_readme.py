@@ -34,3 +34,10 @@ def test_links_of_the_documents_lead_somewhere():
     for page in [ROOT / "README.md", *(ROOT / "docs").glob("*.md")]:
         for target in re.findall(r"\]\(([^)#:]+)\)", page.read_text(encoding="utf-8")):
             assert (page.parent / target).exists(), f"{page.name}: {target}"
+
+
+def test_the_page_of_models_is_current():
+    made = runpy.run_path(str(ROOT / "bench" / "model_abilities.py"), run_name="docs")
+    page = (ROOT / "docs" / "models.md").read_text(encoding="utf-8")
+    for name in made["models"]():
+        assert made["words"](name) in page

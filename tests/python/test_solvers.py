@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import tissu as ts
-from tissu.compile.solver import DIRECT_STATIC, PLAIN_STEP, choice_for, solver_of
+from tissu.compile.solver import DIRECT_STATIC, MANY_STEP, PLAIN_STEP, choice_for, solver_of
 from tissu.errors import SceneError
 
 KINDS = [
@@ -109,7 +109,11 @@ step: {type: implicit_euler, dt: 10 ms, solver: %s}
         (PLAIN_STEP, False, True, "block_jacobi"),
         (DIRECT_STATIC, True, False, "cholesky"),
         (DIRECT_STATIC, True, True, "incomplete_cholesky"),
-        (DIRECT_STATIC + 1, True, False, "incomplete_cholesky"),
+        (DIRECT_STATIC + 1, True, False, "multigrid"),
+        (DIRECT_STATIC + 1, True, True, "incomplete_cholesky"),
+        (MANY_STEP, False, False, "incomplete_cholesky"),
+        (MANY_STEP + 1, False, False, "multigrid"),
+        (MANY_STEP + 1, False, True, "incomplete_cholesky"),
     ],
 )
 def test_auto_chooses_by_size_step_and_editing(unknowns, static, editing, chosen):

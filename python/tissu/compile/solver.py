@@ -18,6 +18,8 @@ DIRECT_STATIC = 10_000
 """up to it, the factor of a static system takes some tenths of a second, however ill-conditioned"""
 PLAIN_STEP = 3_000
 """up to it, block-Jacobi solves a step with inertia before incomplete Cholesky is prepared"""
+MANY_STEP = 50_000
+"""beyond it, the iterations that a multigrid saves in a step with inertia pay for its cycles"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,12 +47,17 @@ def choice_for(auto: Auto, *, unknowns: int, static: bool, editing: bool) -> Cho
     if not static and unknowns <= PLAIN_STEP:
         why = f"conjugate_gradient with block_jacobi, since up to {PLAIN_STEP} unknowns with "
         return Choice(solver, f"{why}inertia its few iterations need nothing prepared ({size})")
+    kind = "without inertia" if static else "with inertia"
+    least = DIRECT_STATIC if static else MANY_STEP
+    if not editing and unknowns > least:
+        why = f"conjugate_gradient with multigrid, since beyond {least} unknowns {kind} only its "
+        why += f"iterations do not grow with the mesh ({size})"
+        return Choice(solver.replace(preconditioner="multigrid"), why)
     why = "conjugate_gradient with incomplete_cholesky, since it takes several times fewer "
     if static and unknowns <= DIRECT_STATIC:
         why = "conjugate_gradient with incomplete_cholesky, since editing would order a factor "
         why += f"anew after each cut ({size})"
     else:
-        kind = "without inertia" if static else "with inertia"
         why += f"iterations than block_jacobi {kind} ({size})"
     return Choice(solver.replace(preconditioner="incomplete_cholesky"), why)
 

@@ -105,9 +105,10 @@ _HOMES = {
     "tissu.advice": ("Advice", "advise"),
     "tissu.picture": ("draw", "draw_overlay"),
 }
+_MODULES = ("formula", "sampling")
 _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
 
-__all__ = sorted([*_HOME_OF, "formula", "__version__"])
+__all__ = sorted([*_HOME_OF, *_MODULES, "__version__"])
 
 
 def __getattr__(name: str) -> Any:
@@ -116,8 +117,8 @@ def __getattr__(name: str) -> Any:
         from tissu import _core
 
         return _core.build_info()["version"]
-    if name == "formula":
-        return importlib.import_module("tissu.formula")
+    if name in _MODULES:
+        return importlib.import_module(f"tissu.{name}")
     home = _HOME_OF.get(name)
     if home is None:
         raise AttributeError(f"module 'tissu' has no attribute '{name}'")

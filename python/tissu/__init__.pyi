@@ -7,6 +7,7 @@ from tissu.comparison import compare as compare
 from tissu.errors import CheckpointError as CheckpointError
 from tissu.errors import Diverged as Diverged
 from tissu import formula as formula
+from tissu import sampling as sampling
 from tissu.errors import LawError as LawError
 from tissu.errors import MeshError as MeshError
 from tissu.errors import ParameterError as ParameterError

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import tissu as ts
+from closed_surfaces import icosphere
 
 
 def _strip(cells: tuple[int, int, int] = (16, 2, 0), **body: Any) -> ts.Body:
@@ -40,6 +41,36 @@ def test_a_strip_bends_by_its_load_and_its_moment() -> None:
     assert rise == pytest.approx(load / (2 * stiffness), rel=5e-3)
     slope = turned.rotations("strip")[end][:, 2, 0].mean()
     assert slope == pytest.approx(load / stiffness, rel=5e-3)
+
+
+@pytest.mark.parametrize(
+    "solver", [ts.Cholesky(), ts.ConjugateGradient(preconditioner="multigrid")]
+)
+def test_a_hollow_sphere_swells_under_pressure(solver: ts.Cholesky | ts.ConjugateGradient) -> None:
+    """p R^2 (1 - nu) / (2 E t): the membrane solution of a closed sphere, held at one node."""
+    points, triangles = icosphere(3, radius=0.05)
+    mesh = ts.Mesh(points=points, cells=(ts.CellBlock("triangle", triangles),))
+    wall = ts.Body(
+        mesh=mesh,
+        law=ts.Hooke(young=1e5, poisson=0.4),
+        thickness=1e-3,
+        density=1000.0,
+        model="shell",
+    )
+    scene = ts.Scene(
+        bodies={"bladder": wall},
+        fixed=[ts.Fixed("bladder", on=ts.Nodes([0]))],
+        loads=[ts.Pressure("bladder", pressure=-0.1, on=ts.Box((-1, -1, -1), (1, 1, 1)))],
+        step=ts.Static(solver=solver, newton=ts.Newton(iterations=20, tolerance=1e-8)),
+    )
+    simulation = scene.compile()
+    assert simulation.step().converged
+    moved = simulation.displacements("bladder")
+    centre = moved.mean(axis=0)  # the held node stays where it is
+    swollen = np.linalg.norm(points + moved - centre, axis=1) - np.linalg.norm(points, axis=1)
+    wanted = 0.1 * 0.05**2 * (1 - 0.4) / (2 * 1e5 * 1e-3)
+    # flat triangles of 1/7 of the radius: 6.4 % off with 42 nodes, 0.6 % with 162, less with 642
+    assert swollen.mean() == pytest.approx(wanted, rel=3e-3)
 
 
 def test_a_strip_swings_and_comes_to_rest() -> None:

@@ -1,6 +1,7 @@
 #include "aggregates.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace tissu {
 namespace {
@@ -17,7 +18,7 @@ class Gathering {
     size_.resize(rows);
     result_.of.assign(rows, kFree);
     for (std::int32_t i = 0; i < A.rows(); ++i) {
-      size_[static_cast<std::size_t>(i)] = A.diagonal(i).squaredNorm();
+      size_[static_cast<std::size_t>(i)] = free_diagonal(i).squaredNorm();
       if (places.is_rotation(i) || A.mask(i) == kAll) of(i) = -1;
     }
   }
@@ -34,12 +35,29 @@ class Gathering {
       const std::int32_t point = places_.point[static_cast<std::size_t>(i)];
       if (point != i && A_.mask(i) != kAll) of(i) = of(point);
     }
+    count_points();
     return std::move(result_);
   }
 
  private:
   static constexpr std::int32_t kFree = -2;
+  void count_points() {
+    result_.points.assign(static_cast<std::size_t>(result_.count), 0);
+    for (std::int32_t i = 0; i < A_.rows(); ++i) {
+      if (of(i) >= 0 && !places_.is_rotation(i)) ++result_.points[static_cast<std::size_t>(of(i))];
+    }
+  }
   std::int32_t& of(std::int32_t row) { return result_.of[static_cast<std::size_t>(row)]; }
+  /// Without the axes that are given, whose ones have no unit in common with it.
+  [[nodiscard]] Mat3 free_diagonal(std::int32_t i) const {
+    Mat3 D = A_.diagonal(i);
+    for (int k = 0; k < 3; ++k) {
+      if (((A_.mask(i) >> k) & 1U) == 0) continue;
+      D.row(k).setZero();
+      D.col(k).setZero();
+    }
+    return D;
+  }
   [[nodiscard]] double strength(std::int32_t i, std::int64_t b) const {
     const auto j = static_cast<std::size_t>(A_.column_of(b));
     const double limit = kStrong * kStrong;
@@ -120,15 +138,13 @@ void place_aggregates(const Aggregates& aggregates, const RowPlaces& fine, RowPl
   const auto count = static_cast<std::size_t>(aggregates.count);
   coarse.positions.assign(6 * count, 0.0);
   coarse.point.resize(2 * count);
-  std::vector<int> points(count, 0);
   for (std::size_t i = 0; i < aggregates.of.size(); ++i) {
     const std::int32_t a = aggregates.of[i];
     if (a < 0 || fine.is_rotation(static_cast<std::int32_t>(i))) continue;
-    ++points[static_cast<std::size_t>(a)];
     block(Reals(coarse.positions), 2 * a) += block(ConstReals(fine.positions), static_cast<std::int32_t>(i));
   }
   for (std::int32_t a = 0; a < aggregates.count; ++a) {
-    block(Reals(coarse.positions), 2 * a) /= points[static_cast<std::size_t>(a)];
+    block(Reals(coarse.positions), 2 * a) /= aggregates.points[static_cast<std::size_t>(a)];
     block(Reals(coarse.positions), 2 * a + 1) = block(ConstReals(coarse.positions), 2 * a);
     coarse.point[static_cast<std::size_t>(2 * a)] = 2 * a;
     coarse.point[static_cast<std::size_t>(2 * a + 1)] = 2 * a;

@@ -38,7 +38,8 @@ struct LevelMatrix {
 
 struct Aggregates {
   std::int32_t count = 0;
-  std::vector<std::int32_t> of;  ///< of each row; -1 for one that is given, or that no other binds
+  std::vector<std::int32_t> of;      ///< of each row; -1 for one that is given, or that no other binds
+  std::vector<std::int32_t> points;  ///< rows of each that are points
 };
 
 /// Neighbourhoods of strongly coupled points, so that each lies in one (Vanek, Mandel and Brezina, Algebraic

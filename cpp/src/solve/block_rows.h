@@ -19,6 +19,9 @@ struct RowPattern {
 
   [[nodiscard]] std::int32_t rows() const { return static_cast<std::int32_t>(begin.size()) - 1; }
   [[nodiscard]] std::int64_t blocks() const { return begin.back(); }
+  [[nodiscard]] std::int64_t length(std::int32_t i) const {
+    return begin[static_cast<std::size_t>(i) + 1] - begin[static_cast<std::size_t>(i)];
+  }
   [[nodiscard]] std::size_t bytes() const {
     return begin.size() * sizeof(std::int64_t) + column.size() * sizeof(std::int32_t);
   }

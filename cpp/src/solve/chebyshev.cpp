@@ -1,5 +1,6 @@
 #include "chebyshev.h"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
@@ -8,10 +9,11 @@
 namespace tissu {
 namespace {
 
-constexpr int kSteps = 2;           ///< of the polynomial
-constexpr int kPower = 12;          ///< iterations that find the largest eigenvalue
-constexpr double kAbove = 1.1;      ///< they come out below it
-constexpr double kSmoothed = 10.0;  ///< ratio of the eigenvalues between which it smooths
+constexpr int kSteps = 2;     ///< of the polynomial
+constexpr int kLanczos = 12;  ///< products that find the largest eigenvalue
+constexpr double kAbove = 1.05;
+constexpr double kExhausted = 1e-10;  ///< of a residual, squared: there is nothing more to find
+constexpr double kSmoothed = 10.0;    ///< ratio of the eigenvalues between which it smooths
 
 /// out = D^-1 r for rows [begin, end).
 template <class T>
@@ -50,29 +52,57 @@ void Chebyshev<T>::make(const LevelMatrix& A, Isa isa, const Threads& threads) {
   find_largest(threads);
 }
 
-/// |D^-1 A d| / |d| in the norm of D, after some iterations d := D^-1 A d.
+template <class T>
+double Chebyshev<T>::product_with(const Threads& threads, const std::vector<T>& a, const std::vector<T>& b) {
+  return threads.sum(rows(), partial_, [&](std::int32_t begin, std::int32_t end) {
+    double sum = 0.0;
+    for (auto i = 3 * static_cast<std::size_t>(begin); i < 3 * static_cast<std::size_t>(end); ++i) {
+      sum += static_cast<double>(a[i]) * static_cast<double>(b[i]);
+    }
+    return sum;
+  });
+}
+
+/// Iterations of the conjugate gradient from a residual without a pattern: their coefficients are the
+/// tridiagonal matrix of Lanczos' method (Golub and Van Loan, Matrix Computations, 4th edition, 11.3).
 template <class T>
 void Chebyshev<T>::find_largest(const Threads& threads) {
-  for (std::size_t i = 0; i < d_.size(); ++i) d_[i] = static_cast<T>(scattered(i));
-  largest_ = 0.0;
-  double before = 0.0;
-  for (int k = 0; k <= kPower; ++k) {
-    const double square = threads.sum(rows(), partial_, [&](std::int32_t begin, std::int32_t end) {
-      A_.multiply_rows(begin, end, d_.data(), q_.data());
-      multiply_diagonal(inverse_.data(), begin, end, q_.data(), r_.data());
-      double sum = 0.0;
-      for (auto i = 3 * static_cast<std::size_t>(begin); i < 3 * static_cast<std::size_t>(end); ++i) {
-        sum += static_cast<double>(q_[i]) * static_cast<double>(r_[i]);
-      }
-      return sum;
+  using Tridiagonal = Eigen::Matrix<double, kLanczos, kLanczos>;
+  Tridiagonal matrix = Tridiagonal::Zero();  // zeros behind what is found when the iterations end early
+  for (std::size_t i = 0; i < r_.size(); ++i) r_[i] = static_cast<T>(scattered(i));
+  std::ranges::fill(d_, T(0));
+  const auto precondition = [&] {
+    threads.for_pieces(rows(), [&](std::int32_t begin, std::int32_t end) {
+      multiply_diagonal(inverse_.data(), begin, end, r_.data(), q_.data());
     });
-    if (!(square > 0.0) || !std::isfinite(square)) break;
-    if (k > 0) largest_ = std::max(largest_, std::sqrt(square / before));
-    const double size = 1.0 / std::sqrt(square);
-    for (std::size_t i = 0; i < d_.size(); ++i) d_[i] = static_cast<T>(size * static_cast<double>(r_[i]));
-    before = 1.0;
+    return product_with(threads, r_, q_);
+  };
+  double rz = precondition();
+  const double first = rz;
+  double alpha = 0.0;
+  double beta = 0.0;
+  int size = 0;
+  while (size < kLanczos && rz > kExhausted * first && std::isfinite(rz)) {
+    for (std::size_t i = 0; i < d_.size(); ++i) d_[i] = q_[i] + static_cast<T>(beta) * d_[i];
+    A_.multiply(threads, d_.data(), q_.data());
+    const double curvature = product_with(threads, d_, q_);
+    if (!(curvature > 0.0)) break;
+    const double last = alpha;
+    alpha = rz / curvature;
+    matrix(size, size) = 1.0 / alpha + (size == 0 ? 0.0 : beta / last);
+    if (size > 0) matrix(size, size - 1) = matrix(size - 1, size) = std::sqrt(beta) / last;
+    ++size;
+    for (std::size_t i = 0; i < r_.size(); ++i) r_[i] -= static_cast<T>(alpha) * q_[i];
+    const double next = precondition();
+    beta = next / rz;
+    rz = next;
   }
-  if (!(largest_ > 0.0)) largest_ = 1.0;
+  largest_ = 1.0;
+  if (size == 0 || !std::isfinite(beta)) return;
+  const Eigen::SelfAdjointEigenSolver<Tridiagonal> eigen(matrix);
+  const double off =
+      std::sqrt(std::max(beta, 0.0)) / alpha * std::abs(eigen.eigenvectors()(size - 1, kLanczos - 1));
+  largest_ = eigen.eigenvalues()[kLanczos - 1] + off;
 }
 
 template <class T>

@@ -132,7 +132,10 @@ End Iteration<T>::run(const LinearOperator& A, std::span<T> r, std::span<T> d, d
     if (residual_ <= target) return End::reached;
     if (iterations_ >= most) return End::exhausted;
     if (!(residual_ < kLost * first)) return End::lost;
-    if (!(rz > 0.0)) return End::curvature;
+    if (!(rz > 0.0)) {  // no preconditioner: that of an older matrix may serve the older one only
+      made_ = false;
+      return version_ == A.version() ? End::curvature : End::renewal;
+    }
     if (iterations_ >= left) return End::renewal;
     turn(threads, beta);
     rz_ = rz;

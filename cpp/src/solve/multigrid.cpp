@@ -8,7 +8,7 @@ namespace {
 constexpr std::int32_t kDirect = 80;  ///< rows of a level that gets a factor
 constexpr double kCoarser = 0.7;      ///< rows that a next level has at most, of those of its finer one
 constexpr double kOverrelaxed = 4.0 / 3.0;
-constexpr double kPairBytes = 300;  ///< what a product of a block with a motion costs, in bytes read
+constexpr double kPairBytes = 400;  ///< what a product of a block with a motion costs, in bytes read
 constexpr double kFirstShift = 1e-10;
 
 }  // namespace
@@ -16,7 +16,9 @@ constexpr double kFirstShift = 1e-10;
 template <class T>
 void Multigrid<T>::make(const LinearOperator& A, double scale) {
   const BlockMatrix& matrix = *A.matrix();
-  if (id_ != A.id() || given_ != A.given()) levels_.clear();
+  const bool bound = !levels_.empty() && (direct_ || levels_.size() > 1);
+  if (!complete_ || !bound || id_ != A.id() || given_ != A.given()) levels_.clear();
+  complete_ = false;
   id_ = A.id();
   given_ = A.given();
   isa_ = matrix.isa();
@@ -45,6 +47,7 @@ void Multigrid<T>::make(const LinearOperator& A, double scale) {
   }
   if (direct_) factor(level);
   set_price(A);
+  complete_ = true;
 }
 
 /// The first level; its rows are points at one place until others are known.
@@ -125,10 +128,10 @@ void Multigrid<T>::set_price(const LinearOperator& A) {
   for (const auto& level : levels_) {
     const double smoothing = level->smoother.rows() > 0 ? level->smoother.cycle_bytes() : 0.0;
     cycle += smoothing;
-    made += 3.0 * smoothing;
+    made += 3.0 * smoothing;  // its largest eigenvalue takes three times the products of a cycle
     if (!level->pattern) continue;
     cycle += static_cast<double>(level->P.bytes() + level->R.bytes());
-    made += 2.0 * kPairBytes * static_cast<double>(2 * level->pattern->product.blocks() * 4);
+    made += kPairBytes * static_cast<double>(level->pattern->pairs);
   }
   const double iteration = static_cast<double>(A.bytes()) + kVectorBytes * A.rows() + cycle;
   price_ = made / iteration;

@@ -11,12 +11,14 @@
 
 namespace tissu {
 
-/// One V-cycle of a multigrid made from the matrix alone, by smoothed aggregation. Every level consists of
-/// rigid frames: aggregates of rows, each with a translation and a rotation about its centre, so that each
-/// is a matrix of 3x3 blocks as the first. Iterations do not grow with the number of rows.
+/// One V-cycle of a multigrid made from the matrix and the places of its rows, by smoothed aggregation. Every
+/// level consists of rigid frames: aggregates of rows, each with a translation and a rotation about its
+/// centre, so that each is a matrix of 3x3 blocks as the first. Iterations on a mesh that is refined do not
+/// grow.
 ///
-/// Who belongs to which aggregate is decided once for a pattern and for what is given; values follow the
-/// matrix. Without places of the rows only translations are carried to the coarser levels.
+/// Who belongs to which aggregate is decided once for a pattern and for what is given, by the first matrix
+/// that binds rows to each other; values follow the matrix. Without places of the rows only translations are
+/// carried to the coarser levels.
 template <class T>
 class Multigrid final : public Preconditioner<T> {
  public:
@@ -56,7 +58,8 @@ class Multigrid final : public Preconditioner<T> {
   Isa isa_{};
   Threads threads_;
   std::vector<std::unique_ptr<Level>> levels_;
-  bool direct_ = false;  ///< the coarsest level is solved by its factor
+  bool complete_ = false;  ///< the latest making came to its end
+  bool direct_ = false;    ///< the coarsest level is solved by its factor
   Eigen::LLT<Eigen::MatrixXd> factor_;
   Eigen::MatrixXd dense_;
   Eigen::VectorXd vector_;

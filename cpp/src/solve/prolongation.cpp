@@ -8,7 +8,7 @@ namespace {
 
 using Motion = Eigen::Matrix<double, 3, 6>;  ///< of a row, by a translation and a rotation
 
-constexpr double kNoMotion = 1e-9;  ///< of the largest stiffness of an aggregate's rotations
+constexpr double kNoMotion = 1e-9;  ///< of the largest stiffness of an aggregate's translations or rotations
 
 /// Rows made by `row(i, columns)`, which gives columns in any order and more than once.
 template <class Row>
@@ -67,16 +67,16 @@ Motion rigid_motion(const LevelMatrix& A, const RowPlaces& fine, const RowPlaces
 }
 
 /// Gives motions that cost nothing, as the rotation of a lone point, a stiffness: nothing drives them.
-void hold_idle(Eigen::Ref<Mat3> turning, double other) {
-  const double largest = turning.diagonal().maxCoeff();
+void hold_idle(Eigen::Ref<Mat3> stiffness, double other) {
+  const double largest = stiffness.diagonal().maxCoeff();
   if (!(largest > 0.0)) {
-    turning = Mat3::Identity() * (other > 0.0 ? other : 1.0);
+    stiffness = Mat3::Identity() * (other > 0.0 ? other : 1.0);
     return;
   }
-  const Eigen::SelfAdjointEigenSolver<Mat3> eigen(turning);
+  const Eigen::SelfAdjointEigenSolver<Mat3> eigen(stiffness);
   for (int k = 0; k < 3; ++k) {
     if (eigen.eigenvalues()[k] > kNoMotion * largest) continue;
-    turning += largest * eigen.eigenvectors().col(k) * eigen.eigenvectors().col(k).transpose();
+    stiffness += largest * eigen.eigenvectors().col(k) * eigen.eigenvectors().col(k).transpose();
   }
 }
 
@@ -125,6 +125,10 @@ CoarsePattern::CoarsePattern(const LevelMatrix& A, const Aggregates& aggregates)
       for (const std::int32_t a : prolongation.row(A.column_of(b))) add(a);
     }
   });
+  for (std::int32_t i = 0; i < rows; ++i) {
+    for (std::int64_t b = A.first(i); b < A.last(i); ++b) pairs += prolongation.length(A.column_of(b));
+    pairs += 2 * prolongation.length(i) * product.length(i);
+  }
   restriction = transposed(prolongation, count, place);
   matrix = pattern_of(count, count, [&](std::int32_t a, auto&& add) {
     add(a);
@@ -247,8 +251,9 @@ void fill_coarse_matrix(const LevelMatrix& A, const CoarsePattern& pattern, cons
       }
       const auto row = pattern.matrix.row(a);
       const auto own = std::ranges::lower_bound(row, a) - row.begin();
-      const Eigen::Map<const Mat3> moving(upper + 18 * own);
+      Eigen::Map<Mat3> moving(upper + 18 * own);
       Eigen::Map<Mat3> turning(lower + 18 * own + 9);
+      hold_idle(moving, 1.0);
       hold_idle(turning, moving.diagonal().maxCoeff());
     }
   });

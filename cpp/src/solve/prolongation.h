@@ -14,6 +14,7 @@ struct CoarsePattern {
   RowPattern restriction;           ///< of P^T, the same for both rows of an aggregate; columns are fine rows
   std::vector<std::int64_t> place;  ///< of a block of the restriction, in the prolongation
   RowPattern matrix;                ///< of P^T A P, by aggregates
+  std::int64_t pairs = 0;           ///< products of a block with a motion that P^T A P takes
 
   CoarsePattern(const LevelMatrix& A, const Aggregates& aggregates);
   [[nodiscard]] std::size_t bytes() const;

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Eigenvalues>
 #include <cstring>
+#include <limits>
 #include <set>
 
 #include "../assembly/dense.h"
@@ -133,6 +135,36 @@ TEST(Aggregates, HoldEachFreeRowOnceAndHangTogether) {
   EXPECT_GE(found.count, 20);
 }
 
+/// The ones of axes that are given have no unit: a sheet of nodes that slide is bound as any other.
+TEST(Aggregates, DoNotDependOnUnits) {
+  const Mesh mesh = box_mesh(Vec3::Zero(), Vec3::Ones(), {7, 7, 7}, Split::six);
+  std::vector<std::vector<std::int32_t>> found;
+  for (const double young : {1e4, 1e-5}) {
+    WorldDescription description;
+    description.bodies = {test::body_of(mesh, {.young = young})};
+    description.fixed = {test::fixed(test::nodes_where(mesh, [](const Vec3&) { return true; }), 4),
+                         test::fixed(test::nodes_at(mesh, 0, 0.0))};
+    const World world(description);
+    ConjugateGradient chosen({.preconditioning = Preconditioning::multigrid});
+    Profile profile;
+    System system(world, &chosen, profile);
+    system.assemble(world.rest_state(), 0.0, {-1.0, 0.0});
+    const BlockMatrix& A = system.matrix();
+    const Aggregates aggregates =
+        aggregate({&A.sparsity().row_begin, &A.sparsity().column, A.values(), 1.0, A.given()}, *A.places());
+    EXPECT_GE(aggregates.count, 15);
+    found.push_back(aggregates.of);
+    std::vector<double> b = test::Random(3).numbers(static_cast<std::size_t>(3 * world.blocks()));
+    world.fixed().clear(b);
+    std::vector<double> x(b.size(), 0.0);
+    const auto solver = test::gradient_case("", Preconditioning::multigrid).make(1e-8);
+    const SolveReport report = solver->solve(A, b, x, 0.0);
+    EXPECT_TRUE(report.converged);
+    EXPECT_LE(report.iterations, 25);
+  }
+  EXPECT_EQ(found[0], found[1]);
+}
+
 /// 1e6 times as stiff: blocks between the parts are 1e-3 of the mean of their diagonals.
 TEST(Aggregates, LeaveAStiffPartAmongItself) {
   const Mesh mesh = box_mesh(Vec3::Zero(), Vec3(8, 4, 4), {8, 4, 4}, Split::six);
@@ -248,12 +280,108 @@ TEST(Multigrid, IterationsDoNotGrow) {
   EXPECT_GE(Cube(20).solve(Preconditioning::block_jacobi, x).iterations, 150);
 }
 
+/// The first matrix, of inertia alone, binds no rows; the second does, and makes the levels.
+TEST(Multigrid, MakesItsLevelsWhenThereIsSomethingToBind) {
+  const Mesh mesh = box_mesh(Vec3::Zero(), Vec3::Ones(), {8, 8, 8}, Split::six);
+  WorldDescription description;
+  description.bodies = {test::body_of(mesh, {.young = 1e4})};
+  description.fixed = {test::fixed(test::nodes_at(mesh, 2, 0.0))};
+  const World world(description);
+  ConjugateGradient chosen({.preconditioning = Preconditioning::multigrid});
+  Profile profile;
+  System system(world, &chosen, profile);
+  Multigrid<double> M;
+  system.assemble(world.rest_state(), 1e9, {-1.0, 0.0});
+  M.make(system.matrix(), 1.0);
+  EXPECT_EQ(M.level_rows().size(), 1U);
+  system.assemble(world.rest_state(), 0.0, {-1.0, 0.0});
+  M.make(system.matrix(), 1.0);
+  EXPECT_GE(M.level_rows().size(), 2U);
+}
+
+/// Made of one matrix, then of another: what is kept between is not seen in the answer.
+TEST(Multigrid, FollowsTheMatrix) {
+  const Mesh mesh = box_mesh(Vec3::Zero(), Vec3(3, 1, 1), {15, 5, 5}, Split::six);
+  WorldDescription description;
+  description.bodies = {test::body_of(mesh, {.young = 1e4})};
+  description.fixed = {test::fixed(test::nodes_at(mesh, 0, 0.0))};
+  const World world(description);
+  ConjugateGradient chosen({.preconditioning = Preconditioning::multigrid});
+  Profile profile;
+  System system(world, &chosen, profile);
+  State state = world.rest_state();
+  system.assemble(state, 0.0, {-1.0, 0.0});
+  Multigrid<double> kept;
+  kept.make(system.matrix(), 1.0);
+  const std::vector<double> r = test::Random(8).numbers(static_cast<std::size_t>(3 * world.blocks()));
+  std::vector<double> first(r.size());
+  kept.apply(r, first);
+  // Four times the matrix, to the bit: the same aggregates, and a quarter of the answer.
+  system.assemble(state, 0.0, {-4.0, 0.0});
+  Multigrid<double> fresh;
+  kept.make(system.matrix(), 1.0);
+  fresh.make(system.matrix(), 1.0);
+  std::vector<double> a(r.size());
+  std::vector<double> b(r.size());
+  kept.apply(r, a);
+  fresh.apply(r, b);
+  EXPECT_EQ(std::memcmp(a.data(), b.data(), a.size() * sizeof(double)), 0);
+  EXPECT_LE((view(first) - 4.0 * view(a)).norm(), 1e-9 * view(first).norm());
+}
+
+/// Lanczos' estimate, against the eigenvalues of the dense matrix: a polynomial that grows beyond it would
+/// make the preconditioner indefinite.
+TEST(Multigrid, KnowsTheLargestEigenvalue) {
+  for (const double moved : {0.0, 0.09}) {
+    Mesh mesh = box_mesh(Vec3::Zero(), Vec3::Ones(), {7, 7, 7}, Split::six);
+    block(Reals(mesh.positions), 4 * 64 + 4 * 8 + 4)[0] += moved;  // one sliver among good cells
+    WorldDescription description;
+    description.bodies = {test::body_of(mesh)};
+    description.fixed = {test::fixed(test::nodes_at(mesh, 2, 0.0))};
+    const World world(description);
+    Profile profile;
+    System system(world, nullptr, profile);
+    system.assemble(world.rest_state(), 0.0, {-1.0, 0.0});
+    const BlockMatrix& A = system.matrix();
+    Chebyshev<double> smoother;
+    smoother.make({&A.sparsity().row_begin, &A.sparsity().column, A.values(), 1.0, A.given()}, A.isa(),
+                  Threads(1));
+    const Eigen::MatrixXd full = dense(A);
+    Eigen::MatrixXd D = Eigen::MatrixXd::Zero(full.rows(), full.cols());
+    for (std::int32_t i = 0; i < A.rows(); ++i) D.block<3, 3>(3 * i, 3 * i) = A.diagonal_block(i);
+    const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> exact(full, D, Eigen::EigenvaluesOnly);
+    const double largest = exact.eigenvalues().maxCoeff();
+    // The smoother's polynomial is at most 1 up to 1.155 times what is found.
+    EXPECT_GE(smoother.largest(), 0.95 * largest);
+    EXPECT_LE(smoother.largest(), 1.15 * largest);
+  }
+}
+
 TEST(Multigrid, SolvesWithInertiaAlone) {
   const Cube cube(6, true, 1e6);
   std::vector<double> x;
   const SolveReport report = cube.solve(Preconditioning::multigrid, x);
   EXPECT_TRUE(report.converged);
   EXPECT_LE(report.iterations, 20);
+}
+
+/// A matrix that is not a number: the solve says that it failed, and the next one is right.
+TEST(Multigrid, RecoversFromAMatrixThatIsNotFinite) {
+  const Cube cube(6);
+  BlockMatrix matrix(cube.matrix().sparsity(), cube.matrix().isa(), Threads(1));
+  const std::vector<double> b = test::Random(3).numbers(static_cast<std::size_t>(3 * matrix.rows()));
+  std::vector<double> x(b.size(), 0.0);
+  for (const Precision precision : {Precision::full, Precision::single}) {
+    const auto solver = test::gradient_case("", Preconditioning::multigrid, precision).make(1e-8);
+    for (std::int64_t k = 0; k < 9 * matrix.sparsity().blocks(); ++k) {
+      matrix.values()[k] = std::numeric_limits<double>::quiet_NaN();
+    }
+    EXPECT_FALSE(solver->solve(matrix, b, x, 0.0).converged);
+    std::memcpy(matrix.values(), cube.matrix().values(),
+                static_cast<std::size_t>(9 * matrix.sparsity().blocks()) * sizeof(double));
+    std::ranges::fill(x, 0.0);
+    EXPECT_TRUE(solver->solve(matrix, b, x, 0.0).converged);
+  }
 }
 
 TEST(Multigrid, GivesTheSameBitsOnAnyNumberOfThreads) {

@@ -3,6 +3,7 @@
 #include <atomic>
 #include <cstdlib>
 
+#include "../../../cpp/src/solve/multigrid.h"
 #include "../world/sample_worlds.h"
 #include "tissu/model/models.h"
 
@@ -170,6 +171,38 @@ TEST(AllocationOfModels, ADefiniteMatrixTakesNone) {
     counting = false;
     EXPECT_EQ(allocations, 0) << info.name;
   }
+#else
+  GTEST_SKIP() << "allocations are counted with the GNU C library and without sanitizers only";
+#endif
+}
+
+/// Levels and their patterns stay; the values are those of another matrix.
+TEST(AllocationOfSolvers, AMultigridMadeAnewTakesNone) {
+#ifdef TISSU_COUNTS_ALLOCATIONS
+  const Mesh mesh = box_mesh(Vec3::Zero(), Vec3(3, 1, 1), {18, 6, 6}, Split::six);
+  WorldDescription description;
+  description.threads = 2;
+  description.bodies = {test::body_of(mesh)};
+  description.fixed = {test::fixed(test::nodes_at(mesh, 0, 0.0))};
+  const World world(description);
+  ConjugateGradient chosen(with(Preconditioning::multigrid));
+  Profile profile;
+  System system(world, &chosen, profile);
+  State state = world.rest_state();
+  system.assemble(state, 1.0, {-1.0, 0.0});
+  Multigrid<double> full;
+  Multigrid<float> single;
+  full.make(system.matrix(), 1.0);
+  single.make(system.matrix(), 1.0);
+  ASSERT_GE(full.level_rows().size(), 2U);
+  for (std::size_t i = 0; i < state.positions.size(); i += 3) state.positions[i] *= 1.1;
+  system.assemble(state, 2.0, {-1.0, 0.0});
+  allocations = 0;
+  counting = true;
+  full.make(system.matrix(), 1.0);
+  single.make(system.matrix(), 1.0);
+  counting = false;
+  EXPECT_EQ(allocations, 0);
 #else
   GTEST_SKIP() << "allocations are counted with the GNU C library and without sanitizers only";
 #endif

@@ -50,11 +50,11 @@ Every step of an implicit method solves A x = b; a static one as well. `solver:`
 - … `stale_cholesky`: the factor of an earlier matrix (CHOLMOD), made anew when the iterations
   beyond those of its first solve have cost as much as a factor;
 - … `multigrid`: a cycle through coarser and coarser levels, made from the matrix and the places of
-  its nodes by smoothed aggregation (Vanek, Mandel and Brezina 1996). Every level consists of rigid frames: an aggregate
-  of nodes that hang together strongly moves by a translation and a rotation about its centre, so
-  that bending passes through the levels and each is a matrix of 3x3 blocks as the first. Levels
-  are smoothed by a Chebyshev polynomial, which threads share; aggregates are found once, the rest
-  is made anew when that pays. Iterations do not grow as a mesh is refined;
+  its nodes by smoothed aggregation (Vanek, Mandel and Brezina 1996). Every level consists of rigid
+  frames: an aggregate of nodes that hang together strongly moves by a translation and a rotation
+  about its centre, so that bending passes through the levels and each is a matrix of 3x3 blocks as
+  the first. Levels are smoothed by a Chebyshev polynomial, which threads share; aggregates are
+  found once, the rest is made anew when that pays. Iterations do not grow as a mesh is refined;
 - … `precision: single`: iterations in single precision, half the bytes; residuals in double
   correct them to the tolerance, and where they do not fall the solve goes on in double;
 - … `matrix: free`: no matrix at all, the products of the forces themselves;

@@ -23,6 +23,11 @@ extern "C" void openblas_set_num_threads(int) __attribute__((weak));
 
 namespace tissu {
 
+/// A pivot is what is left of the diagonal A_cc = sum_k L_ck^2; round-off alone leaves no digit of it.
+inline bool is_lost(double pivot, double diagonal) {
+  return !(pivot > 64.0 * std::numeric_limits<double>::epsilon() * diagonal);
+}
+
 struct FactorState {
   LowerTriangle lower;
   std::uint64_t id = 0;
@@ -95,7 +100,28 @@ struct SparseFactor::Library : FactorState {
     if (common.status == CHOLMOD_OUT_OF_MEMORY || common.status == CHOLMOD_TOO_LARGE) {
       throw Error("the Cholesky factor does not fit into memory; use the solver conjugate_gradient.");
     }
-    return common.status == CHOLMOD_OK && factor->minor == factor->n;
+    return common.status == CHOLMOD_OK && factor->minor == factor->n && !is_singular();
+  }
+  /// The number on the diagonal of the factor's column.
+  [[nodiscard]] double pivot(std::size_t column, std::size_t& supernode) const {
+    const auto* x = static_cast<const double*>(factor->x);
+    if (factor->is_super == 0) return x[static_cast<const int*>(factor->p)[column]];
+    const auto* first = static_cast<const int*>(factor->super);
+    while (static_cast<std::size_t>(first[supernode + 1]) <= column) ++supernode;
+    const auto* rows = static_cast<const int*>(factor->pi);
+    const auto within = static_cast<std::ptrdiff_t>(column) - first[supernode];
+    const std::ptrdiff_t height = rows[supernode + 1] - rows[supernode];
+    return x[static_cast<const int*>(factor->px)[supernode] + within * (height + 1)];
+  }
+  [[nodiscard]] bool is_singular() const {
+    const auto* order = static_cast<const int*>(factor->Perm);
+    std::size_t supernode = 0;
+    for (std::size_t c = 0; c < factor->n; ++c) {
+      const double left = pivot(c, supernode);
+      const auto from = static_cast<std::size_t>(lower.column_begin[static_cast<std::size_t>(order[c])]);
+      if (is_lost(left * left, lower.values[from])) return true;  // the diagonal begins its column
+    }
+    return false;
   }
   void solve(ConstReals b, Reals x) {
     cholmod_dense right{};
@@ -150,9 +176,7 @@ struct SparseFactor::Library : FactorState {
     }
     return true;
   }
-  /// A pivot is what is left of A_cc = sum_k L_ck^2; round-off alone leaves no digit of it.
   bool is_singular() {
-    constexpr double kLost = 64.0 * std::numeric_limits<double>::epsilon();
     const auto& L = llt.matrixL().nestedExpression();
     diagonal.assign(static_cast<std::size_t>(L.cols()), 0.0);
     for (Eigen::Index c = 0; c < L.outerSize(); ++c) {
@@ -161,7 +185,7 @@ struct SparseFactor::Library : FactorState {
     }
     for (Eigen::Index c = 0; c < L.outerSize(); ++c) {
       const Eigen::SparseMatrix<double>::InnerIterator pivot(L, c);  // the first entry of its column
-      if (!(pivot.value() * pivot.value() > kLost * diagonal[static_cast<std::size_t>(c)])) return true;
+      if (is_lost(pivot.value() * pivot.value(), diagonal[static_cast<std::size_t>(c)])) return true;
     }
     return false;
   }

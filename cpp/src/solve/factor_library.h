@@ -23,8 +23,8 @@ extern "C" void openblas_set_num_threads(int) __attribute__((weak));
 
 namespace tissu {
 
-/// A pivot is what is left of the diagonal A_cc = sum_k L_ck^2; round-off alone leaves no digit of it. What is
-/// not a number is not lost: the step that finds it says so.
+/// A pivot is what is left of the diagonal A_cc = sum_k L_ck^2; round-off alone leaves no digit of it. What
+/// is not a number is not lost: the step that finds it says so.
 inline bool is_lost(double pivot, double diagonal) {
   return pivot <= 64.0 * std::numeric_limits<double>::epsilon() * diagonal;
 }

@@ -65,7 +65,7 @@ bool Multigrid<T>::coarsen(const LevelMatrix& A, Level& level) const {
   level.aggregates = aggregate(A, level.places);
   const std::int32_t rows = 2 * level.aggregates.count;
   if (rows == 0 || rows > kCoarser * A.rows()) return false;
-  level.pattern.emplace(A, level.aggregates);
+  level.pattern = std::make_unique<CoarsePattern>(A, level.aggregates);
   level.prolongation = twice_columns(level.pattern->prolongation);
   level.restriction = twice_rows(level.pattern->restriction);
   level.next_pattern = twice(level.pattern->matrix);

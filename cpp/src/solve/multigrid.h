@@ -2,7 +2,6 @@
 
 #include <Eigen/Cholesky>
 #include <memory>
-#include <optional>
 #include <vector>
 
 #include "chebyshev.h"
@@ -35,8 +34,8 @@ class Multigrid final : public Preconditioner<T> {
     RowPlaces places;
     Chebyshev<T> smoother;
     Aggregates aggregates;
-    std::optional<CoarsePattern> pattern;  ///< to the next level; nothing on the coarsest
-    RowPattern prolongation;               ///< of 3x3 blocks
+    std::unique_ptr<CoarsePattern> pattern;  ///< to the next level; nothing on the coarsest
+    RowPattern prolongation;                 ///< of 3x3 blocks
     RowPattern restriction;
     RowPattern next_pattern;
     BlockRows<T> P;

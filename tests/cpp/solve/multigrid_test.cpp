@@ -5,6 +5,7 @@
 #include <Eigen/Eigenvalues>
 #include <cstring>
 #include <limits>
+#include <optional>
 #include <set>
 
 #include "../assembly/dense.h"

@@ -97,7 +97,9 @@ void System::assemble_blocks(const State& state, double mass, StiffnessScale sca
     model.add_stiffness(state, scale, *matrix_);
   }
   matrix_->constrain(world_.fixed().rows(), world_.fixed().masks());
-  if (solver_ != nullptr && solver_->needs_places()) place_rows(state);
+  if (solver_ == nullptr || !solver_->needs_places()) return;
+  place_rows(state);
+  matrix_->set_places(&places_);
 }
 
 void System::place_rows(const State& state) {
@@ -111,7 +113,6 @@ void System::place_rows(const State& state) {
   for (const Frame& frame : world_.frames()) {
     block(Reals(places_.positions), frame.rotation) = block(ConstReals(state.positions), frame.block);
   }
-  matrix_->set_places(&places_);
 }
 
 double System::round_off(const State& state) const { return system_matrix().round_off(state.positions); }

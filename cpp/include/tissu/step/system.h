@@ -48,7 +48,7 @@ class System {
     std::size_t product;
     std::size_t stiffness;
   };
-  /// Tells the matrix where its rows are, for a solver that asks.
+  /// Where the rows are, for a solver that asks.
   void place_rows(const State& state);
   void assemble_blocks(const State& state, double mass, StiffnessScale scale);
 

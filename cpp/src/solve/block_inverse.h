@@ -22,4 +22,14 @@ inline Mat3 positive_inverse(const Mat3& D) {
   return is_definite(D) ? Mat3(D.inverse()) : diagonal_inverse(D);
 }
 
+/// z = B r for rows [begin, end), a block for each row, column by column.
+template <class T>
+void multiply_blocks(const T* blocks, std::int32_t begin, std::int32_t end, const T* r, T* z) {
+  for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
+    const T* m = blocks + 9 * i;
+    const T* in = r + 3 * i;
+    for (std::size_t k = 0; k < 3; ++k) z[3 * i + k] = m[k] * in[0] + m[3 + k] * in[1] + m[6 + k] * in[2];
+  }
+}
+
 }  // namespace tissu

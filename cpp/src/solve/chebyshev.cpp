@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "block_inverse.h"
+#include "dot.h"
 
 namespace tissu {
 namespace {
@@ -14,16 +15,6 @@ constexpr int kLanczos = 12;  ///< products that find the largest eigenvalue
 constexpr double kAbove = 1.05;
 constexpr double kExhausted = 1e-10;  ///< of a residual, squared: there is nothing more to find
 constexpr double kSmoothed = 10.0;    ///< ratio of the eigenvalues between which it smooths
-
-/// out = D^-1 r for rows [begin, end).
-template <class T>
-void multiply_diagonal(const T* inverse, std::int32_t begin, std::int32_t end, const T* r, T* out) {
-  for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
-    const T* m = inverse + 9 * i;
-    const T* in = r + 3 * i;
-    for (std::size_t k = 0; k < 3; ++k) out[3 * i + k] = m[k] * in[0] + m[3 + k] * in[1] + m[6 + k] * in[2];
-  }
-}
 
 /// Numbers between -1 and 1 without a pattern, the same every time.
 double scattered(std::size_t i) {
@@ -52,17 +43,6 @@ void Chebyshev<T>::make(const LevelMatrix& A, Isa isa, const Threads& threads) {
   find_largest(threads);
 }
 
-template <class T>
-double Chebyshev<T>::product_with(const Threads& threads, const std::vector<T>& a, const std::vector<T>& b) {
-  return threads.sum(rows(), partial_, [&](std::int32_t begin, std::int32_t end) {
-    double sum = 0.0;
-    for (auto i = 3 * static_cast<std::size_t>(begin); i < 3 * static_cast<std::size_t>(end); ++i) {
-      sum += static_cast<double>(a[i]) * static_cast<double>(b[i]);
-    }
-    return sum;
-  });
-}
-
 /// Iterations of the conjugate gradient from a residual without a pattern: their coefficients are the
 /// tridiagonal matrix of Lanczos' method (Golub and Van Loan, Matrix Computations, 4th edition, 11.3).
 template <class T>
@@ -73,9 +53,9 @@ void Chebyshev<T>::find_largest(const Threads& threads) {
   std::ranges::fill(d_, T(0));
   const auto precondition = [&] {
     threads.for_pieces(rows(), [&](std::int32_t begin, std::int32_t end) {
-      multiply_diagonal(inverse_.data(), begin, end, r_.data(), q_.data());
+      multiply_blocks(inverse_.data(), begin, end, r_.data(), q_.data());
     });
-    return product_with(threads, r_, q_);
+    return dot<T>(threads, r_, q_, partial_);
   };
   double rz = precondition();
   const double first = rz;
@@ -85,7 +65,7 @@ void Chebyshev<T>::find_largest(const Threads& threads) {
   while (size < kLanczos && rz > kExhausted * first && std::isfinite(rz)) {
     for (std::size_t i = 0; i < d_.size(); ++i) d_[i] = q_[i] + static_cast<T>(beta) * d_[i];
     A_.multiply(threads, d_.data(), q_.data());
-    const double curvature = product_with(threads, d_, q_);
+    const double curvature = dot<T>(threads, d_, q_, partial_);
     if (!(curvature > 0.0)) break;
     const double last = alpha;
     alpha = rz / curvature;
@@ -135,7 +115,7 @@ void Chebyshev<T>::iterate(const Threads& threads, T* x, int residuals) {
     const T share = static_cast<T>(step == 0 ? 1.0 / centre : 2.0 * next / half);
     if (step > 0) rho = next;
     threads.for_pieces(rows(), [&](std::int32_t begin, std::int32_t end) {
-      multiply_diagonal(inverse_.data(), begin, end, r_.data(), q_.data());
+      multiply_blocks(inverse_.data(), begin, end, r_.data(), q_.data());
       for (auto i = 3 * static_cast<std::size_t>(begin); i < 3 * static_cast<std::size_t>(end); ++i) {
         d_[i] = step == 0 ? share * q_[i] : own * d_[i] + share * q_[i];
         x[i] += d_[i];

@@ -30,7 +30,6 @@ class Chebyshev {
 
  private:
   void find_largest(const Threads& threads);
-  double product_with(const Threads& threads, const std::vector<T>& a, const std::vector<T>& b);
   /// x from r_ = b - A x, which is kept up for so many of the steps.
   void iterate(const Threads& threads, T* x, int residuals);
   void subtract_product(const Threads& threads);

@@ -55,12 +55,7 @@ void BlockJacobi<T>::make(const LinearOperator& A, double scale) {
 
 template <class T>
 void BlockJacobi<T>::apply_rows(std::int32_t begin, std::int32_t end, const T* r, T* z) {
-  for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
-    const T* m = inverse_.data() + 9 * i;
-    const T* in = r + 3 * i;
-    T* out = z + 3 * i;
-    for (int k = 0; k < 3; ++k) out[k] = m[k] * in[0] + m[3 + k] * in[1] + m[6 + k] * in[2];
-  }
+  multiply_blocks(inverse_.data(), begin, end, r, z);
 }
 
 template class Jacobi<double>;

@@ -148,11 +148,7 @@ void IncompleteCholesky<T>::scale_rows() {
 template <class T>
 void IncompleteCholesky<T>::apply(std::span<const T> r, std::span<T> z) {
   threads_.for_pieces(static_cast<std::int32_t>(r.size() / 3), [&](std::int32_t begin, std::int32_t end) {
-    for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
-      const T* m = inverse_.data() + 9 * i;
-      const T* in = r.data() + 3 * i;
-      for (std::size_t k = 0; k < 3; ++k) z[3 * i + k] = m[k] * in[0] + m[3 + k] * in[1] + m[6 + k] * in[2];
-    }
+    multiply_blocks(inverse_.data(), begin, end, r.data(), z.data());
   });
   triangle_.forward.for_rows(threads_, [&](const std::int32_t* rows, std::int32_t count) {
     sweep_(rows, count, triangle_.lower_begin.data(), triangle_.lower_column.data(), lower_.data(), z.data());

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "dot.h"
 #include "preconditioner.h"
 #include "renewal.h"
 #include "single_matrix.h"
@@ -20,19 +21,6 @@ enum class End {
   curvature,  ///< p . A p <= 0 or r . M^-1 r <= 0: not positive definite, as far as this precision can tell
   lost,       ///< the residual grew without bound, as with a singular matrix
 };
-
-/// Sums over pieces of rows, of products taken in double.
-template <class T>
-double dot(const Threads& threads, std::span<const T> a, std::span<const T> b, std::vector<double>& partial) {
-  return threads.sum(
-      static_cast<std::int32_t>(a.size() / 3), partial, [&](std::int32_t begin, std::int32_t end) {
-        double sum = 0.0;
-        for (auto i = 3 * static_cast<std::size_t>(begin); i < 3 * static_cast<std::size_t>(end); ++i) {
-          sum += static_cast<double>(a[i]) * static_cast<double>(b[i]);
-        }
-        return sum;
-      });
-}
 
 template <class T>
 class Iteration {

@@ -22,14 +22,17 @@ namespace {
 using test::dense;
 using test::view;
 
-/// The matrix of a cube of tetrahedra.
-class Cube {
+/// A world, its matrix, and where the rows of that are.
+class Assembled {
  public:
-  explicit Cube(int cells, bool held = true, double mass = 0.0, int threads = 1)
-      : world_(describe(cells, held, threads)),
+  explicit Assembled(WorldDescription description, double mass = 0.0)
+      : world_(std::move(description)),
         chosen_({.preconditioning = Preconditioning::multigrid}),
         system_(world_, &chosen_, profile_) {
-    system_.assemble(world_.rest_state(), mass, {-1.0, 0.0});
+    assemble(mass);
+  }
+  void assemble(double mass, double stiffness = 1.0) {
+    system_.assemble(world_.rest_state(), mass, {-stiffness, 0.0});
   }
   [[nodiscard]] const BlockMatrix& matrix() const { return system_.matrix(); }
   [[nodiscard]] const World& world() const { return world_; }
@@ -38,27 +41,39 @@ class Cube {
     return {&matrix().sparsity().row_begin, &matrix().sparsity().column, matrix().values(), 1.0,
             matrix().given()};
   }
-  [[nodiscard]] SolveReport solve(Preconditioning kind, std::vector<double>& x,
-                                  Precision precision = Precision::full, double tolerance = 1e-8) const {
+  /// Numbers without a pattern where nothing is given.
+  [[nodiscard]] std::vector<double> right_side() const {
     std::vector<double> b = test::Random(3).numbers(static_cast<std::size_t>(3 * world_.blocks()));
     world_.fixed().clear(b);
-    x.assign(b.size(), 0.0);
-    return test::gradient_case("", kind, precision).make(tolerance)->solve(matrix(), b, x, 0.0);
+    return b;
+  }
+  [[nodiscard]] SolveReport solve(Preconditioning kind, std::vector<double>& x,
+                                  Precision precision = Precision::full, double tolerance = 1e-8) const {
+    x.assign(static_cast<std::size_t>(3 * world_.blocks()), 0.0);
+    return test::gradient_case("", kind, precision).make(tolerance)->solve(matrix(), right_side(), x, 0.0);
   }
 
  private:
-  static WorldDescription describe(int cells, bool held, int threads) {
-    const Mesh mesh = box_mesh(Vec3::Zero(), Vec3::Ones(), {cells, cells, cells}, Split::six);
-    WorldDescription description;
-    description.threads = threads;
-    description.bodies = {test::body_of(mesh, {.young = 1e4})};
-    if (held) description.fixed = {test::fixed(test::nodes_at(mesh, 2, 0.0))};
-    return description;
-  }
   World world_;
   ConjugateGradient chosen_;
   Profile profile_;
   System system_;
+};
+
+/// Tetrahedra, held at the floor or not at all.
+WorldDescription cube_of(int cells, bool held = true, int threads = 1) {
+  const Mesh mesh = box_mesh(Vec3::Zero(), Vec3::Ones(), {cells, cells, cells}, Split::six);
+  WorldDescription description;
+  description.threads = threads;
+  description.bodies = {test::body_of(mesh, {.young = 1e4})};
+  if (held) description.fixed = {test::fixed(test::nodes_at(mesh, 2, 0.0))};
+  return description;
+}
+
+class Cube : public Assembled {
+ public:
+  explicit Cube(int cells, bool held = true, double mass = 0.0, int threads = 1)
+      : Assembled(cube_of(cells, held, threads), mass) {}
 };
 
 /// The motion of rows that a translation and a rotation about the origin make.
@@ -145,21 +160,12 @@ TEST(Aggregates, DoNotDependOnUnits) {
     description.bodies = {test::body_of(mesh, {.young = young})};
     description.fixed = {test::fixed(test::nodes_where(mesh, [](const Vec3&) { return true; }), 4),
                          test::fixed(test::nodes_at(mesh, 0, 0.0))};
-    const World world(description);
-    ConjugateGradient chosen({.preconditioning = Preconditioning::multigrid});
-    Profile profile;
-    System system(world, &chosen, profile);
-    system.assemble(world.rest_state(), 0.0, {-1.0, 0.0});
-    const BlockMatrix& A = system.matrix();
-    const Aggregates aggregates =
-        aggregate({&A.sparsity().row_begin, &A.sparsity().column, A.values(), 1.0, A.given()}, *A.places());
+    const Assembled body(description);
+    const Aggregates aggregates = aggregate(body.level(), body.places());
     EXPECT_GE(aggregates.count, 15);
     found.push_back(aggregates.of);
-    std::vector<double> b = test::Random(3).numbers(static_cast<std::size_t>(3 * world.blocks()));
-    world.fixed().clear(b);
-    std::vector<double> x(b.size(), 0.0);
-    const auto solver = test::gradient_case("", Preconditioning::multigrid).make(1e-8);
-    const SolveReport report = solver->solve(A, b, x, 0.0);
+    std::vector<double> x;
+    const SolveReport report = body.solve(Preconditioning::multigrid, x);
     EXPECT_TRUE(report.converged);
     EXPECT_LE(report.iterations, 25);
   }
@@ -183,14 +189,8 @@ TEST(Aggregates, LeaveAStiffPartAmongItself) {
     elastic.parameters["young"][e] = 1e9;
     for (std::size_t k = 0; k < 4; ++k) stiff[static_cast<std::size_t>(elastic.cells[4 * e + k])] = true;
   }
-  const World world(description);
-  ConjugateGradient chosen({.preconditioning = Preconditioning::multigrid});
-  Profile profile;
-  System system(world, &chosen, profile);
-  system.assemble(world.rest_state(), 0.0, {-1.0, 0.0});
-  const BlockMatrix& A = system.matrix();
-  const Aggregates found =
-      aggregate({&A.sparsity().row_begin, &A.sparsity().column, A.values(), 1.0, A.given()}, *A.places());
+  const Assembled body(description);
+  const Aggregates found = aggregate(body.level(), body.places());
   std::vector<std::set<bool>> kinds(static_cast<std::size_t>(found.count));
   for (std::size_t i = 0; i < stiff.size(); ++i) {
     ASSERT_GE(found.of[i], 0);
@@ -283,46 +283,28 @@ TEST(Multigrid, IterationsDoNotGrow) {
 
 /// The first matrix, of inertia alone, binds no rows; the second does, and makes the levels.
 TEST(Multigrid, MakesItsLevelsWhenThereIsSomethingToBind) {
-  const Mesh mesh = box_mesh(Vec3::Zero(), Vec3::Ones(), {8, 8, 8}, Split::six);
-  WorldDescription description;
-  description.bodies = {test::body_of(mesh, {.young = 1e4})};
-  description.fixed = {test::fixed(test::nodes_at(mesh, 2, 0.0))};
-  const World world(description);
-  ConjugateGradient chosen({.preconditioning = Preconditioning::multigrid});
-  Profile profile;
-  System system(world, &chosen, profile);
+  Cube cube(8, true, 1e9);
   Multigrid<double> M;
-  system.assemble(world.rest_state(), 1e9, {-1.0, 0.0});
-  M.make(system.matrix(), 1.0);
+  M.make(cube.matrix(), 1.0);
   EXPECT_EQ(M.level_rows().size(), 1U);
-  system.assemble(world.rest_state(), 0.0, {-1.0, 0.0});
-  M.make(system.matrix(), 1.0);
+  cube.assemble(0.0);
+  M.make(cube.matrix(), 1.0);
   EXPECT_GE(M.level_rows().size(), 2U);
 }
 
 /// Made of one matrix, then of another: what is kept between is not seen in the answer.
 TEST(Multigrid, FollowsTheMatrix) {
-  const Mesh mesh = box_mesh(Vec3::Zero(), Vec3(3, 1, 1), {15, 5, 5}, Split::six);
-  WorldDescription description;
-  description.bodies = {test::body_of(mesh, {.young = 1e4})};
-  description.fixed = {test::fixed(test::nodes_at(mesh, 0, 0.0))};
-  const World world(description);
-  ConjugateGradient chosen({.preconditioning = Preconditioning::multigrid});
-  Profile profile;
-  System system(world, &chosen, profile);
-  State state = world.rest_state();
-  system.assemble(state, 0.0, {-1.0, 0.0});
+  Cube cube(7);
+  const std::vector<double> r = cube.right_side();
   Multigrid<double> kept;
-  kept.make(system.matrix(), 1.0);
-  std::vector<double> r = test::Random(8).numbers(static_cast<std::size_t>(3 * world.blocks()));
-  world.fixed().clear(r);
+  kept.make(cube.matrix(), 1.0);
   std::vector<double> first(r.size());
   kept.apply(r, first);
   // Four times the matrix, to the bit: the same aggregates, and a quarter of the answer.
-  system.assemble(state, 0.0, {-4.0, 0.0});
+  cube.assemble(0.0, 4.0);
   Multigrid<double> fresh;
-  kept.make(system.matrix(), 1.0);
-  fresh.make(system.matrix(), 1.0);
+  kept.make(cube.matrix(), 1.0);
+  fresh.make(cube.matrix(), 1.0);
   std::vector<double> a(r.size());
   std::vector<double> b(r.size());
   kept.apply(r, a);
@@ -341,14 +323,10 @@ TEST(Multigrid, KnowsTheLargestEigenvalue) {
     WorldDescription description;
     description.bodies = {test::body_of(mesh)};
     description.fixed = {test::fixed(test::nodes_at(mesh, 2, 0.0))};
-    const World world(description);
-    Profile profile;
-    System system(world, nullptr, profile);
-    system.assemble(world.rest_state(), 0.0, {-1.0, 0.0});
-    const BlockMatrix& A = system.matrix();
+    const Assembled body(description);
+    const BlockMatrix& A = body.matrix();
     Chebyshev<double> smoother;
-    smoother.make({&A.sparsity().row_begin, &A.sparsity().column, A.values(), 1.0, A.given()}, A.isa(),
-                  Threads(1));
+    smoother.make(body.level(), A.isa(), Threads(1));
     const Eigen::MatrixXd full = dense(A);
     Eigen::MatrixXd D = Eigen::MatrixXd::Zero(full.rows(), full.cols());
     for (std::int32_t i = 0; i < A.rows(); ++i) D.block<3, 3>(3 * i, 3 * i) = A.diagonal_block(i);

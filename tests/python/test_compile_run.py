@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from tissu.errors import ParameterError
 from tissu.scene import (
     BarMesh,
     Body,
@@ -119,3 +120,10 @@ def test_repr_is_one_line_that_says_what_it_is():
     )
     still = repr(bar(step=Static()).compile())
     assert still.endswith("t = 0 s after 0 steps; bar: 20 nodes, 24 cells; static)")
+
+
+@pytest.mark.parametrize("asked", ["displacements", "rotations", "reactions", "cell_fields"])
+def test_a_body_that_is_not_there_is_named_with_those_that_are(asked):
+    made = bar().compile()
+    with pytest.raises(ParameterError, match="found body 'liver'; accepted: bar"):
+        getattr(made, asked)("liver")

@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+import copy
+import dataclasses
+import pickle
+
 import numpy as np
 import pytest
 
@@ -108,3 +112,14 @@ def assert_same_cells(
     points: np.ndarray, cells: np.ndarray, other_points: np.ndarray, other_cells: np.ndarray
 ) -> None:
     np.testing.assert_array_equal(canonical(points, cells), canonical(other_points, other_cells))
+
+
+def test_a_mesh_is_pickled_and_copied_whole():
+    mesh = bar_mesh(size=(3, 1, 1), cells=(3, 1, 1))
+    mesh = dataclasses.replace(mesh, regions={"left": [0, 2]}, notes=("made by hand",))
+    for again in (pickle.loads(pickle.dumps(mesh)), copy.deepcopy(mesh)):
+        assert np.array_equal(again.points, mesh.points)
+        assert [block.type for block in again.cells] == [block.type for block in mesh.cells]
+        assert np.array_equal(again.cells[0].nodes, mesh.cells[0].nodes)
+        assert list(again.regions["left"]) == [0, 2]
+        assert again.notes == mesh.notes

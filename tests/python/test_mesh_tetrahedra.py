@@ -29,3 +29,9 @@ def test_volume_surface_and_conformity_are_kept(seed):
     assert len(cut.surface().triangles) == 2 * 2 * (3 * 2 + 3 * 2 + 2 * 2)
     assert cut.quality().closed
     assert set(cut.regions["left"]) == {*range(6), *range(18, 24)}
+
+
+def test_a_mesh_without_volume_cells_is_refused():
+    sheet = ts.bar_mesh(size=(1, 1, 0), cells=(2, 2, 0), cell="quad")
+    with pytest.raises(ts.MeshError, match="found quad where volume cells are cut"):
+        ts.into_tetrahedra(sheet)

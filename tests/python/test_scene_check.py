@@ -8,6 +8,7 @@ from tissu.scene import (
     Fixed,
     ImplicitEuler,
     NodalLoad,
+    Output,
     Rayleigh,
     Scene,
     Static,
@@ -60,3 +61,10 @@ def test_problems_come_first():
     made = Scene(bodies={"bar": BODY}, step=Static())
     assert str(made.check()).startswith("Problems:\n  - bodies.bar: body 'bar' can move freely")
     assert "inertia" in made.check().absent
+
+
+def test_results_asked_for_between_steps_are_noted():
+    made = Scene(bodies={"bar": BODY}, step=ImplicitEuler(0.01), output=Output(every="1 ms"))
+    text = "output.every: 0.001 s is shorter than the step of 0.01 s: each step is written"
+    assert text in made.check().notes
+    assert text not in made.replace(output=Output(every="10 ms")).check().notes

@@ -214,3 +214,17 @@ def test_unknown_body_in_python():
     assert found == [
         "Scene: fixed[0].body: no body is named 'livr'; did you mean 'liver'? Bodies: liver"
     ]
+
+
+def test_a_word_that_is_not_on_the_list_gets_the_nearest():
+    with pytest.raises(SceneError, match=r"found 'hexa'; accepted: .*; did you mean 'hexahedron'"):
+        Scene.from_yaml_text(
+            """
+bodies:
+  bar:
+    mesh: {type: bar, size: [2, 1, 1], cells: [2, 1, 1], cell: hexa}
+    law: {type: stvk, young: 1 kPa, poisson: 0.3}
+    density: 1000
+step: {type: static}
+"""
+        ).compile()

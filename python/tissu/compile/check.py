@@ -71,10 +71,20 @@ def check_of(prepared: Prepared) -> Check:
         notes=[
             *prepared.findings.notes,
             *([] if choice is None else [f"step.solver: auto is {choice.why}"]),
+            *_outputs_between_steps(scene),
         ],
         effects=effects_of(scene, prepared.counts()),
         absent=absent_of(scene),
     )
+
+
+def _outputs_between_steps(scene: Scene) -> list[str]:
+    """A note when results are asked for more often than there are steps."""
+    dt = getattr(scene.step, "dt", None)
+    if scene.output is None or not isinstance(dt, float) or scene.output.every >= dt * (1.0 - 1e-6):
+        return []
+    every = scene.output.every
+    return [f"output.every: {every:g} s is shorter than the step of {dt:g} s: each step is written"]
 
 
 def _sentences(prepared: Prepared) -> list[str]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from functools import partial
 from types import MappingProxyType
 from typing import TYPE_CHECKING
 
@@ -69,6 +70,13 @@ class Mesh:
             given = getattr(self, name).items()
             regions = {str(region): _region(region, cells, count) for region, cells in given}
             object.__setattr__(self, name, MappingProxyType(regions))
+
+    def __reduce__(self) -> tuple[object, ...]:
+        """Pickled and copied by what it is made of: a view of a mapping cannot be."""
+        given = {part.name: getattr(self, part.name) for part in dataclasses.fields(self)}
+        for name in ("regions", "border_regions"):
+            given[name] = dict(given[name])
+        return partial(Mesh, **given), ()
 
     @property
     def volume_blocks(self) -> tuple[CellBlock, ...]:

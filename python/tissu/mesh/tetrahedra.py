@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from tissu import _core
+from tissu.errors import MeshError
 from tissu.mesh.cell import CellBlock, Ints, cell_table, linear_type
 
 if TYPE_CHECKING:
@@ -21,7 +22,13 @@ def into_tetrahedra(mesh: Mesh) -> Mesh:
     through its own lowest number, so two cells cut the face between them the same way. A pyramid
     becomes two; tetrahedra stay as they are. Cells are cut by their corners: nodes in the middles
     of edges go. Regions follow; faces and lines are left out.
+
+    Raises:
+        MeshError: there is no volume cell to cut.
     """
+    if not mesh.volume_blocks:
+        found = ", ".join(block.type for block in mesh.cells if len(block)) or "no cells"
+        raise MeshError(f"found {found} where volume cells are cut into tetrahedra")
     blocks: list[CellBlock] = []
     parents: list[Ints] = []
     first = 0

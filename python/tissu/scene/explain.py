@@ -12,7 +12,7 @@ from typing import Any
 from pydantic import ValidationError
 from pydantic_core import ErrorDetails, InitErrorDetails, PydanticCustomError
 
-from tissu.scene.problem import Problem
+from tissu.scene.problem import Problem, nearest_word
 from tissu.units import written
 
 _EXPLAINED = "tissu"  # mark of an error whose text is already a plain sentence
@@ -62,7 +62,7 @@ def _sentence(details: ErrorDetails, found: object) -> str:
     if kind in _BOUNDS:
         return f"found {shown}; {_BOUNDS[kind].format(**context)} is accepted"
     if kind == "literal_error":
-        return f"found {shown}; accepted: {context['expected']}"
+        return f"found {shown}; accepted: {context['expected']}{_meant(found, context['expected'])}"
     if kind == "too_short":
         return f"found {shown}; at least {context['min_length']} entry is accepted"
     if kind == "dict_type":
@@ -70,6 +70,13 @@ def _sentence(details: ErrorDetails, found: object) -> str:
     if text.startswith("Input should be "):
         return f"found {shown}; accepted: {text.removeprefix('Input should be ')}"
     return f"found {shown}; {text}"
+
+
+def _meant(found: object, expected: str) -> str:
+    """The nearest of the accepted words, as pydantic lists them; nothing when none is near."""
+    words = [part for part in expected.split("'") if part.isidentifier() and part != "or"]
+    close = nearest_word(found, words) if isinstance(found, str) else None
+    return "" if close is None else f"; did you mean '{close}'?"
 
 
 def meaning(cls: type, name: str) -> str:

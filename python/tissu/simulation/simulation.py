@@ -228,15 +228,21 @@ class Simulation:
         ).write(Path(path))
 
     def displacements(self, body: str) -> Floats:
-        """Displacements (n, 3) of the nodes of a body from rest [m]."""
+        """Displacements (n, 3) of the nodes of a body from rest [m].
+
+        Raises:
+            ParameterError: no body of that name.
+        """
+        self._require_body(body)
         return self.positions[body] - {**self._meshes, **self._tissues}[body].points
 
     def rotations(self, body: str) -> Floats:
         """Rotation matrices (n, 3, 3) of the nodes of a body from rest.
 
         Raises:
-            ParameterError: its nodes are no frames.
+            ParameterError: no body of that name, or its nodes are no frames.
         """
+        self._require_body(body)
         found = self._core.rotations(body)
         if not len(found):
             text = f"found body '{body}', whose nodes have no rotation; those of frames have one"
@@ -248,7 +254,11 @@ class Simulation:
 
         M dv/dt - f, with the change of velocity of the latest step; in equilibrium minus the sum of
         the elastic and external forces.
+
+        Raises:
+            ParameterError: no body of that name.
         """
+        self._require_body(body)
         first, count = self._core.body_range(body)
         return self._core.reactions()[first : first + count]
 
@@ -263,7 +273,11 @@ class Simulation:
             von_mises: of the Cauchy stress (e,) [Pa], absent where the model of some of its cells
             has none; energy_density: per rest volume (e,) [J/m^3];
             volume_ratio: det F (e,).
+
+        Raises:
+            ParameterError: no body of that name.
         """
+        self._require_body(body)
         self._core.settle()
         fields = self._core.cell_fields(body)
         order = np.argsort(self._core.remaining_cells(body), kind="stable")
@@ -331,6 +345,10 @@ class Simulation:
         """
         self._core.remove_cells(body=body, cells=removed_cells(self._meshes, body, cells))
         self._follow_cells(body)
+
+    def _require_body(self, name: str) -> None:
+        if name not in self._positions:
+            raise ParameterError(f"found body '{name}'; accepted: {', '.join(self._positions)}")
 
     def _follow_cells(self, body: str) -> None:
         remaining = np.sort(self._core.remaining_cells(body))

@@ -2,7 +2,8 @@
 
     python bench/accuracy.py --write [--preset full] [--meshes FOLDER] [CASE …]
 
-Without --write the page is printed. Cases that need meshes which are not there are left out.
+The page is written after each case; sections of cases that are not asked for stay as they are.
+Without --write it is printed. Cases that need meshes which are not there are left out.
 """
 
 from __future__ import annotations
@@ -63,6 +64,7 @@ cubic between them), `affine` (u = G X) and `place` (where one place goes). The 
 in `bench/cases`; `make_references.py` there makes the references that are our own.
 
 """
+TAIL = "Written by `python bench/accuracy.py --write`;"
 
 
 def table(one: Study, labels: set[str]) -> str:
@@ -103,13 +105,26 @@ def section(one: Study) -> str:
         case.about,
         f"**{sentence(one)}**",
         f"![Error against time](pictures/accuracy-{case.name}.png)",
-        f"The front, of {len(one.runs)} runs:",
+        f"The front, of {len(one.runs)} runs ({one.preset} preset):",
         table(one, best),
         printed(one),
         "\n".join(f"- {note}" for note in case.notes),
         "\n".join(failed),
     ]
     return "\n\n".join(part for part in parts if part) + "\n"
+
+
+def kept() -> dict[str, str]:
+    """The sections of the page as it is, by the names of their cases."""
+    if not PAGE.exists():
+        return {}
+    whole = PAGE.read_text(encoding="utf-8").partition(TAIL)[0]
+    found = {}
+    for text in whole.split("\n## ")[1:]:
+        _, picture, rest = text.partition("(pictures/accuracy-")
+        if picture:
+            found[rest.partition(".png)")[0]] = f"## {text.rstrip()}\n"
+    return found
 
 
 def main() -> None:
@@ -121,24 +136,25 @@ def main() -> None:
     parser.add_argument("--write", action="store_true")
     asked = parser.parse_args()
     begin = time.perf_counter()
-    parts = []
+    every = [case.name for case in read_cases(ROOT / "bench" / "cases", [])]
+    parts = kept() if asked.write else {}
+    text = ""
     for case in read_cases(ROOT / "bench" / "cases", asked.names):
         if missing(case, asked.meshes):
             continue
         one = study(case, asked.preset, meshes=asked.meshes)
         print(case.name, sentence(one), f"{time.perf_counter() - begin:.0f} s", file=sys.stderr)
-        parts.append(section(one))
+        parts[case.name] = section(one)
+        ordered = [parts[name] for name in every if name in parts]
+        text = HEAD + "\n".join([*ordered, f"{TAIL} {machine_line()}\n"])
+        if not asked.write:
+            continue
         figure = draw(one)
-        if figure is not None and asked.write:
+        if figure is not None:
             picture = ROOT / "docs" / "pictures" / f"accuracy-{case.name}.png"
             figure.savefig(picture, dpi=80, format="png")
-    seconds = time.perf_counter() - begin
-    how = f"--write --preset {asked.preset}"
-    tail = f"Written by `python bench/accuracy.py {how}` in {seconds:.0f} s; {machine_line()}\n"
-    text = HEAD + "\n".join([*parts, tail])
-    if asked.write:
         PAGE.write_text(text, encoding="utf-8")
-    else:
+    if not asked.write:
         print(text)
 
 

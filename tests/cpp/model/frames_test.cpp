@@ -144,14 +144,6 @@ TEST_P(FramesTest, MomentaAreKept) {
   }
 }
 
-TEST_P(FramesTest, ThreadsDoNotChangeABit) {
-  const State state = sample_.disturbed(0.1);
-  const std::vector<double> one = force(state);
-  std::vector<double> three(one.size(), 0.0);
-  sample_.model(3).add_force(state, three);
-  EXPECT_EQ(one, three);
-}
-
 /// Volumes, masses and inertias of the cell: the mass is that of the cell, and the inertia of a rigid turn
 /// about the origin is that of the points, but for what the frames' own levers leave out.
 TEST_P(FramesTest, MassIsThatOfTheVolume) {

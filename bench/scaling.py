@@ -193,12 +193,12 @@ the matrix of a step, inertia and held nodes included; bytes are those of what a
 
 ## Whole steps
 
-Implicit Euler, 10 ms, linearised once, conjugate gradient to 1e-6: from the third step from
-rest three steps (four with a multigrid, which keeps what it made for several), again and again,
-with a solver that forgets what it knew before and makes everything anew. Shares are of the time
-of a step; "solve of triad" is what the iterations must move (`bench/solve/traffic.h`) as a share of the
-triad from the level that holds it. Bytes are those of model, matrix and solver, "resident" what the
-whole process grew by.
+Implicit Euler, 10 ms, linearised once, conjugate gradient to 1e-6: from the third step from rest
+three steps (four with a multigrid, which keeps what it made for several), again and again, with a
+solver that forgets what it knew before and makes everything anew. Shares are of the time of a
+step; "solve of triad" is what the iterations must move (`bench/solve/traffic.h`) as a share of
+the triad from the level that holds it. Bytes are those of model, matrix and solver, "resident"
+what the whole process grew by.
 
 {best_table(rows)}
 

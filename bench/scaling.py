@@ -200,6 +200,9 @@ step; "solve of triad" is what the iterations must move (`bench/solve/traffic.h`
 the triad from the level that holds it. Bytes are those of model, matrix and solver, "resident"
 what the whole process grew by.
 
+A multigrid's window of four steps keeps clear of harder ones: from the 8th step on (105,456
+elements) the swing takes ten Newton iterations a step with any solver.
+
 {best_table(rows)}
 
 {steps}

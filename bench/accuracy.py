@@ -16,7 +16,7 @@ from pathlib import Path
 from tissu.accuracy import Study, front, read_cases, study
 from tissu.accuracy.figure import draw
 from tissu.accuracy.front import sentence
-from tissu.accuracy.table import COLUMNS, cells
+from tissu.accuracy.table import COLUMNS, cells, curves, printed
 from tissu.cli.bench import missing
 from tissu.cli.info import machine_line
 
@@ -42,6 +42,8 @@ needs no other file; `accuracy.csv` holds the same runs (`accuracy.parquet` too,
 whole field), as a share of the largest displacement; never from a beam formula. **Time**: wall time
 from the scene to the result, with everything that is made on the way; runs under 0.2 s are taken
 three times, and the fastest counts. **Front**: runs that no other beats in both.
+**To reach** an error, a curve of runs takes the time between its runs at which a power law through
+them comes to it. **As in the paper**: measured against what the paper measured against.
 
 ## A case of your own
 
@@ -67,38 +69,28 @@ in `bench/cases`; `make_references.py` there makes the references that are our o
 TAIL = "Written by `python bench/accuracy.py --write`;"
 
 
-def table(one: Study, labels: set[str]) -> str:
-    """Markdown of some runs."""
-    head = ["run", *COLUMNS]
-    lines = ["| " + " | ".join(head) + " |", "|---" + "|---:" * len(COLUMNS) + "|"]
-    for run, row in zip(one.runs, cells(one), strict=True):
-        if run.label in labels:
-            lines.append("| " + " | ".join([row[0].removesuffix(" *"), *row[1:]]) + " |")
-    return "\n".join(lines)
-
-
-def printed(one: Study) -> str:
-    """The paper's numbers beside ours."""
-    if not one.case.printed:
+def markdown(head: list[str], rows: list[list[str]]) -> str:
+    """A table; nothing where there are no rows."""
+    if not rows:
         return ""
-    ours = {run.label: run for run in one.runs}
-    lines = ["", "| printed | error [mm] | ms/step | our run | error [mm] | ms/step |"]
-    lines.append("|---|---:|---:|---|---:|---:|")
-    for entry in one.case.printed:
-        run = ours.get(entry.run or "")
-        theirs = ["-" if entry.error is None else f"{1e3 * entry.error:.3g}"]
-        theirs.append("-" if entry.ms is None else f"{entry.ms:g}")
-        mine = ["-", "-", "-"]
-        if run is not None and run.mean is not None and run.ms_per_step is not None:
-            mine = [run.label, f"{1e3 * run.mean:.3g}", f"{run.ms_per_step:.3g}"]
-        lines.append(f"| {entry.where}: {entry.what} | {' | '.join([*theirs, *mine])} |")
-    return "\n".join(lines) + "\n"
+    lines = [head, ["---", *["---:"] * (len(head) - 1)], *rows]
+    return "\n".join("| " + " | ".join(line) + " |" for line in lines)
+
+
+def best(one: Study) -> str:
+    """The runs of the front, as a table."""
+    wanted = {id(run) for run in front(one.runs)}
+    rows = [
+        [row[0].removesuffix(" *"), *row[1:]]
+        for run, row in zip(one.runs, cells(one), strict=True)
+        if id(run) in wanted
+    ]
+    return markdown(["run", *COLUMNS], rows)
 
 
 def section(one: Study) -> str:
     """A case of the page."""
     case = one.case
-    best = {run.label for run in front(one.runs)}
     failed = [f"- {r.label}: {r.outcome}: {r.why}" for r in one.runs if not r.counts]
     parts = [
         f"## {case.title}",
@@ -106,8 +98,9 @@ def section(one: Study) -> str:
         f"**{sentence(one)}**",
         f"![Error against time](pictures/accuracy-{case.name}.png)",
         f"The front, of {len(one.runs)} runs ({one.preset} preset):",
-        table(one, best),
-        printed(one),
+        best(one),
+        markdown(*curves(one)),
+        markdown(*printed(one)),
         "\n".join(f"- {note}" for note in case.notes),
         "\n".join(failed),
     ]

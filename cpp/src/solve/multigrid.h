@@ -40,7 +40,6 @@ class Multigrid final : public Preconditioner<T> {
     RowPattern next_pattern;
     BlockRows<T> P;
     BlockRows<T> R;
-    AlignedVector<double> product;
     AlignedVector<double> next_values;
     std::vector<T> right;   ///< of the next level
     std::vector<T> answer;  ///< of the next level
@@ -57,8 +56,9 @@ class Multigrid final : public Preconditioner<T> {
   Isa isa_{};
   Threads threads_;
   std::vector<std::unique_ptr<Level>> levels_;
-  bool complete_ = false;  ///< the latest making came to its end
-  bool direct_ = false;    ///< the coarsest level is solved by its factor
+  AlignedVector<T> product_;  ///< scratch of all levels
+  bool complete_ = false;     ///< the latest making came to its end
+  bool direct_ = false;       ///< the coarsest level is solved by its factor
   Eigen::LLT<Eigen::MatrixXd> factor_;
   Eigen::MatrixXd dense_;
   Eigen::VectorXd vector_;

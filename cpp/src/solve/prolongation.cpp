@@ -99,8 +99,9 @@ void for_same_columns(const RowPattern& from, std::int32_t row, const RowPattern
   }
 }
 
-Eigen::Map<Motion> motion_at(AlignedVector<double>& values, std::int64_t b) {
-  return Eigen::Map<Motion>(values.data() + 18 * b);
+template <class T>
+Eigen::Map<Eigen::Matrix<T, 3, 6>> motion_at(AlignedVector<T>& values, std::int64_t b) {
+  return Eigen::Map<Eigen::Matrix<T, 3, 6>>(values.data() + 18 * b);
 }
 
 template <class T>
@@ -213,19 +214,20 @@ void fill_restriction(const CoarsePattern& pattern, const BlockRows<T>& P, const
 
 template <class T>
 void fill_coarse_matrix(const LevelMatrix& A, const CoarsePattern& pattern, const BlockRows<T>& P,
-                        const Threads& threads, AlignedVector<double>& product,
-                        AlignedVector<double>& values) {
-  product.resize(static_cast<std::size_t>(18 * pattern.product.blocks()));
+                        const Threads& threads, AlignedVector<T>& product, AlignedVector<double>& values) {
+  const auto size = static_cast<std::size_t>(18 * pattern.product.blocks());
+  if (product.size() < size) product.resize(size);
   threads.for_pieces(A.rows(), [&](std::int32_t begin, std::int32_t end) {
     std::fill(product.begin() + 18 * begin_of(pattern.product, begin),
-              product.begin() + 18 * begin_of(pattern.product, end), 0.0);
+              product.begin() + 18 * begin_of(pattern.product, end), T(0));
     for (std::int32_t i = begin; i < end; ++i) {
       for (std::int64_t s = A.first(i); s < A.last(i); ++s) {
         const Mat3 block = A.scale * A.block(s);
-        for_same_columns(
-            pattern.prolongation, A.column_of(s), pattern.product, i, [&](std::int64_t b, std::int64_t to) {
-              motion_at(product, to).noalias() += block.lazyProduct(motion_at(P, b).template cast<double>());
-            });
+        for_same_columns(pattern.prolongation, A.column_of(s), pattern.product, i,
+                         [&](std::int64_t b, std::int64_t to) {
+                           const Motion part = block.lazyProduct(motion_at(P, b).template cast<double>());
+                           motion_at(product, to) += part.template cast<T>();
+                         });
       }
     }
   });
@@ -242,7 +244,7 @@ void fill_coarse_matrix(const LevelMatrix& A, const CoarsePattern& pattern, cons
         const Motion moved = motion_at(P, pattern.place[static_cast<std::size_t>(r)]).template cast<double>();
         const std::int32_t i = pattern.restriction.column[static_cast<std::size_t>(r)];
         for_same_columns(pattern.product, i, pattern.matrix, a, [&](std::int64_t b, std::int64_t to) {
-          const Eigen::Map<Motion> force = motion_at(product, b);
+          const Motion force = motion_at(product, b).template cast<double>();
           Eigen::Map<Motion>(upper + 18 * (to - first)).noalias() +=
               moved.leftCols<3>().transpose().lazyProduct(force);
           Eigen::Map<Motion>(lower + 18 * (to - first)).noalias() +=
@@ -272,6 +274,6 @@ template void fill_restriction(const CoarsePattern&, const BlockRows<float>&, co
 template void fill_coarse_matrix(const LevelMatrix&, const CoarsePattern&, const BlockRows<double>&,
                                  const Threads&, AlignedVector<double>&, AlignedVector<double>&);
 template void fill_coarse_matrix(const LevelMatrix&, const CoarsePattern&, const BlockRows<float>&,
-                                 const Threads&, AlignedVector<double>&, AlignedVector<double>&);
+                                 const Threads&, AlignedVector<float>&, AlignedVector<double>&);
 
 }  // namespace tissu

@@ -38,10 +38,10 @@ template <class T>
 void fill_restriction(const CoarsePattern& pattern, const BlockRows<T>& P, const Threads& threads,
                       BlockRows<T>& R);
 
-/// P^T A P, block by block; `product` is scratch for A P. Motions that no row takes part in get a diagonal.
+/// P^T A P, block by block; `product` is scratch for A P, which grows to what it needs. Motions that no row
+/// takes part in get a diagonal.
 template <class T>
 void fill_coarse_matrix(const LevelMatrix& A, const CoarsePattern& pattern, const BlockRows<T>& P,
-                        const Threads& threads, AlignedVector<double>& product,
-                        AlignedVector<double>& values);
+                        const Threads& threads, AlignedVector<T>& product, AlignedVector<double>& values);
 
 }  // namespace tissu

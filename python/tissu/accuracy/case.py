@@ -65,6 +65,8 @@ class Case(_Strict):
     """what the case is and where its reference comes from"""
     reference: Annotated[Reference, Field(discriminator="type")]
     """what displacements are measured against"""
+    paper: Annotated[Reference, Field(discriminator="type")] | None = None
+    """what the printed numbers were measured against, where that is something else"""
     choices: list[Choices] = Field(min_length=1)
     """the runs"""
     printed: list[Printed] = []
@@ -130,6 +132,8 @@ def read_case(scene: str | os.PathLike[str]) -> Case:
         raise ParameterError(f"{file}: {where}: {first['msg']}") from None
     case._scene = path
     case.reference.at(path.parent)
+    if case.paper is not None:
+        case.paper.at(path.parent)
     return case
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+from textwrap import wrap
 from typing import TYPE_CHECKING
 
 from tissu.accuracy.front import front
@@ -38,7 +39,7 @@ def draw(study: Study) -> Figure | None:
     logarithmic(axes)
     axes.set_xlabel("time from the scene to the result [ms]")
     axes.set_ylabel("mean error, of the largest displacement [%]")
-    axes.set_title(study.case.title, fontsize=10)
+    axes.set_title("\n".join(wrap(study.case.title, 72)), fontsize=10)
     axes.grid(visible=True, which="major", linewidth=0.3)
     figure.legend(loc="outside right upper", fontsize=7, frameon=False)
     return figure

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from math import log
 
 from tissu import pareto
 from tissu.accuracy.study import Run, Study
@@ -18,6 +19,31 @@ def cheapest(runs: Sequence[Run], error: float) -> Run | None:
     """The fastest run whose mean error is at most this share of the reference; None: none is."""
     good = [run for run in runs if run.counts and run.share is not None and run.share <= error]
     return min(good, key=_cost) if good else None
+
+
+def reached(runs: Sequence[Run], error: float) -> float | None:
+    """Time in which a curve of runs comes to an error [s]; None: it does not.
+
+    Between the first run that is good enough and the last before it, fastest first, the error is
+    taken for a power of the time.
+
+    Args:
+        runs: of one curve.
+        error: share of the reference's largest displacement.
+    """
+    known = sorted((run for run in runs if run.counts), key=_cost)
+    before: Run | None = None
+    for run in known:
+        seconds, share = _cost(run)
+        if share > error:
+            before = run
+            continue
+        if before is None or share <= 0.0:
+            return seconds
+        start, worse = _cost(before)
+        part = log(worse / error) / log(worse / share)
+        return float(start * (seconds / start) ** part)
+    return None
 
 
 def sentence(study: Study) -> str:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 from numpy.typing import NDArray
-from pydantic import BaseModel, ConfigDict, PrivateAttr
+from pydantic import BaseModel, ConfigDict, Field, PrivateAttr
 
 from tissu.errors import ParameterError
 
@@ -42,6 +42,8 @@ class _Reference(BaseModel):
     model_config = ConfigDict(frozen=True, extra="forbid", use_attribute_docstrings=True)
     body: str
     """the body that is measured"""
+    axes: str = Field(default="xyz", pattern="^x?y?z?$", min_length=1)
+    """components of the displacement that are compared: "y" is a deflection"""
     _folder: Path = PrivateAttr(default=Path())
 
     def at(self, folder: Path) -> None:
@@ -49,7 +51,7 @@ class _Reference(BaseModel):
         self._folder = folder
 
     def wanted(self, points: Floats) -> tuple[NDArray[np.intp], Floats, Floats]:
-        """Numbers of the compared nodes, their displacements in the reference, and its size."""
+        """Numbers of the compared nodes, what the reference says of them, and all that it says."""
         raise NotImplementedError
 
     def deviation(self, simulation: Simulation) -> Deviation:
@@ -61,11 +63,13 @@ class _Reference(BaseModel):
         if self.body not in simulation.bodies:
             raise ParameterError(f"the reference is of a body '{self.body}', which there is not")
         points = np.asarray(simulation.meshes[self.body].points)
-        nodes, wanted, size = self.wanted(points)
+        nodes, wanted, known = self.wanted(points)
         if not len(nodes):
             raise ParameterError("no node is where the reference knows a displacement")
-        off = np.linalg.norm(self.found(simulation, nodes) - wanted, axis=1)
-        return Deviation(float(off.mean()), float(off.max()), float(size.max()), len(off))
+        compared = ["xyz".index(axis) for axis in self.axes]
+        off = np.linalg.norm((self.found(simulation, nodes) - wanted)[:, compared], axis=1)
+        sizes = np.linalg.norm(known[:, compared], axis=1)
+        return Deviation(float(off.mean()), float(off.max()), float(sizes.max()), len(off))
 
     def found(self, simulation: Simulation, nodes: NDArray[np.intp]) -> Floats:
         """(k, 3) displacements of the compared places."""
@@ -108,7 +112,7 @@ class CurveReference(_Reference):
             near = np.abs(along[nodes][:, None] - data[self.stations]).min(axis=1)
             nodes = nodes[near < _SAME * extent]
         values = cubic(data[self.stations], data[self.displacements], along[nodes])
-        return nodes, values, np.linalg.norm(data[self.displacements], axis=1)
+        return nodes, values, data[self.displacements]
 
 
 class PointsReference(_Reference):
@@ -126,7 +130,7 @@ class PointsReference(_Reference):
         """Nodes that stand where the reference has a point."""
         data = self.arrays(self.file)
         places = data[self.points]
-        step = _SAME * float(np.ptp(places, axis=0).max())
+        step = _SAME * float(np.ptp(points, axis=0).max())
         known = {
             tuple(key): i for i, key in enumerate(np.rint(places / step / 64).astype(np.int64))
         }
@@ -134,7 +138,7 @@ class PointsReference(_Reference):
         pairs = [(n, known[tuple(key)]) for n, key in enumerate(keys) if tuple(key) in known]
         nodes = np.array([n for n, _ in pairs], dtype=np.intp)
         values = data[self.displacements]
-        return nodes, values[[i for _, i in pairs]], np.linalg.norm(values, axis=1)
+        return nodes, values[[i for _, i in pairs]], values
 
 
 class AffineReference(_Reference):
@@ -149,7 +153,7 @@ class AffineReference(_Reference):
     def wanted(self, points: Floats) -> tuple[NDArray[np.intp], Floats, Floats]:
         """Every node."""
         values = (points - np.array(self.origin)) @ np.array(self.gradient).T
-        return np.arange(len(points)), values, np.linalg.norm(values, axis=1)
+        return np.arange(len(points)), values, values
 
 
 class PlaceReference(_Reference):
@@ -164,7 +168,7 @@ class PlaceReference(_Reference):
     def wanted(self, points: Floats) -> tuple[NDArray[np.intp], Floats, Floats]:
         """One displacement."""
         value = np.array([self.position]) - np.array([self.rest])
-        return self._nearest(points)[:1], value, np.linalg.norm(value, axis=1)
+        return self._nearest(points)[:1], value, value
 
     def found(self, simulation: Simulation, nodes: NDArray[np.intp]) -> Floats:
         """Where those nodes went, in the mean, less the place at rest."""

@@ -8,7 +8,7 @@ from html import escape
 from tissu.accuracy.figure import as_svg, draw
 from tissu.accuracy.front import front, sentence
 from tissu.accuracy.study import Study
-from tissu.accuracy.table import COLUMNS, cells
+from tissu.accuracy.table import COLUMNS, cells, curves, printed
 
 _STYLE = """
 body { font: 15px/1.5 system-ui, sans-serif; max-width: 72rem; margin: 2rem auto; padding: 0 1rem;
@@ -68,34 +68,20 @@ def _section(study: Study) -> str:
         f"<p class='answer'>{escape(sentence(study))}</p>",
         as_svg(figure) if figure is not None else "",
         f"<div class='wide'><table><tr>{head}</tr>{''.join(rows)}</table></div>",
-        _printed(study),
+        _table("What each choice takes", *curves(study)),
+        _table("Beside the paper", *printed(study)),
     ]
     if case.notes:
         parts.append("<ul>" + "".join(f"<li>{escape(note)}</li>" for note in case.notes) + "</ul>")
     return "\n".join(parts)
 
 
-def _printed(study: Study) -> str:
-    """Numbers of papers beside ours."""
-    if not study.case.printed:
+def _table(title: str, head: list[str], rows: list[list[str]]) -> str:
+    """A table under a title; nothing where there are no rows."""
+    if not rows:
         return ""
-    ours = {run.label: run for run in study.runs}
-    rows = []
-    for entry in study.case.printed:
-        run = ours.get(entry.run or "")
-        values = [
-            _mm(entry.error),
-            "-" if entry.ms is None else f"{entry.ms:g}",
-            run.label if run else "-",
-            _mm(run.mean) if run else "-",
-            "-" if run is None or run.ms_per_step is None else f"{run.ms_per_step:.3g}",
-        ]
-        cells_ = [f"{entry.where}: {entry.what}", *values]
-        rows.append("<tr>" + "".join(f"<td>{escape(cell)}</td>" for cell in cells_) + "</tr>")
-    names = ("printed", "error [mm]", "ms/step", "our run", "error, mean [mm]", "ms/step")
-    head = "".join(f"<th>{name}</th>" for name in names)
-    return f"<h3>Beside the paper</h3><table><tr>{head}</tr>{''.join(rows)}</table>"
-
-
-def _mm(value: float | None) -> str:
-    return "-" if value is None else f"{1e3 * value:.3g}"
+    names = "".join(f"<th>{escape(name)}</th>" for name in head)
+    text = "".join(
+        "<tr>" + "".join(f"<td>{escape(cell)}</td>" for cell in row) + "</tr>" for row in rows
+    )
+    return f"<h3>{title}</h3><div class='wide'><table><tr>{names}</tr>{text}</table></div>"

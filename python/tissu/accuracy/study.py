@@ -33,6 +33,7 @@ class Run:
         mean: deviation from the reference, mean over its places [m].
         largest: over them [m].
         share: the mean over the reference's largest displacement.
+        as_paper: mean deviation from what the paper measured against [m], where the case names it.
         ms_per_step: median wall time of a step.
         seconds: wall time from the scene to the result.
         steps: how many were taken.
@@ -50,6 +51,7 @@ class Run:
     mean: float | None = None
     largest: float | None = None
     share: float | None = None
+    as_paper: float | None = None
     ms_per_step: float | None = None
     seconds: float | None = None
     steps: int = 0
@@ -140,6 +142,7 @@ def _run(
         mean=deviation.mean,
         largest=deviation.largest,
         share=deviation.mean / deviation.size if deviation.size > 0.0 else None,
+        as_paper=None if case.paper is None else case.paper.deviation(simulation).mean,
         ms_per_step=profile.p50_ms,
         seconds=best.seconds,
         steps=best.steps,

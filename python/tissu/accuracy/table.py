@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterable, Iterator
 from dataclasses import asdict, fields
 from typing import Any
 
-from tissu.accuracy.front import front
+from tissu.accuracy.front import front, reached
 from tissu.accuracy.study import Run, Study
 
 _NAMES = ["case", *(field.name for field in fields(Run)), "on_front"]
@@ -80,3 +80,40 @@ def cells(study: Study) -> list[list[str]]:
         why = f" ({run.outcome}: {run.why})" if run.why else ""
         rows.append([run.label + mark + why, *(show(run) for show in COLUMNS.values())])
     return rows
+
+
+def curves(study: Study) -> tuple[list[str], list[list[str]]]:
+    """Head and rows: how long each curve takes to each goal, and how many times that of the best.
+
+    Curves that reach none are left out, and so is all where there is but one.
+    """
+    found: dict[str, list[Run]] = {}
+    for run in study.runs:
+        found.setdefault(run.curve, []).append(run)
+    head, rows = ["to reach"], {name: [name] for name in found}
+    for goal in study.case.goals:
+        head += [f"{100.0 * goal:g} % [ms]", "times the best"]
+        times = {name: reached(runs, goal) for name, runs in found.items()}
+        best = min((time for time in times.values() if time is not None), default=None)
+        for name, time in times.items():
+            rows[name] += [_number(time, 1e3), _number(time, 1.0 / best) if best else "-"]
+    some = [row for row in rows.values() if set(row[1:]) != {"-"}]
+    return head, some if len(some) > 1 else []
+
+
+def printed(study: Study) -> tuple[list[str], list[list[str]]]:
+    """Head and rows: numbers of papers, and ours beside them."""
+    ours = {run.label: run for run in study.runs}
+    same = study.case.paper is not None
+    head = ["printed", "error [mm]", "ms/step", "our run", "to the reference [mm]", "ms/step"]
+    if same:
+        head.insert(4, "as in the paper [mm]")
+    rows = []
+    for entry in study.case.printed:
+        run = ours.get(entry.run or "")
+        row = [f"{entry.where}: {entry.what}", _number(entry.error, 1e3)]
+        row += ["-" if entry.ms is None else f"{entry.ms:g}", run.label if run else "-"]
+        row += [_number(run.as_paper if run else None, 1e3)] if same else []
+        row += [_number(run.mean if run else None, 1e3), _number(run.ms_per_step if run else None)]
+        rows.append(row)
+    return head, rows

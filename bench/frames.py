@@ -12,7 +12,7 @@ import numpy as np
 import tissu as ts
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
-from frames_text import COUPLING, HEAD, SOFT_TEXT, SPEED, STEEL_TEXT, TENSION
+from frames_text import COUPLING, HEAD, NEAR, SOFT_TEXT, SPEED, STEEL_TEXT, TENSION
 
 PAGE = Path(__file__).resolve().parents[1] / "docs" / "frames.md"
 STEEL_TIP, BEAM = 0.150174, 0.147185  # m: converged (CalculiX); rho g L^4 / (8 E I)
@@ -22,6 +22,11 @@ LENGTHS = ((6, 4), (12, 4), (24, 4), (48, 4))  # figure 7
 SOFT = ((10, 1), (20, 2), (32, 3))  # figure 8
 POINTS_CPU_GPU = ((360, 34.84, 14.85), (2600, 251.77, 17.11), (12700, 1228.8, 32.29),
                   (34610, 3468.54, 66.1))  # fmt: skip
+# Table 2: frames, points, neighbours, its CPU [ms] where the row can be read for sure.
+NEIGHBOURS = ((72, 400, 4, 32.65), (72, 400, 6, None), (72, 400, 8, None), (72, 400, 10, 69.56),
+              (144, 500, 4, 39.18), (144, 864, 4, 43.42), (144, 1470, 4, 114.3),
+              (144, 2340, 4, 160.53),
+              (288, 750, 4, 54.49), (500, 750, 4, 56.64), (792, 750, 4, 58.5))  # fmt: skip
 
 
 def table(head: str, rows: list[str]) -> str:
@@ -167,38 +172,60 @@ def cylinder(across: int, along: int) -> ts.Simulation:
     return simulation
 
 
-def speed(threads: int) -> str:
-    """Tables 2 and 3: a step of implicit Euler with 60 iterations."""
+def step_ms(simulation: ts.Simulation) -> float:
+    """Median of fifteen steps, after three [ms]."""
+    for _ in range(3):
+        simulation.step()
+    seconds = []
+    for _ in range(15):
+        start = time.perf_counter()
+        simulation.step()
+        seconds.append(time.perf_counter() - start)
+    return 1e3 * float(np.median(seconds))
+
+
+def neighbours() -> str:
+    """Table 2: a step with 60 iterations against frames, points and neighbours, one thread."""
     rows = []
-    for wanted, cpu, gpu in POINTS_CPU_GPU:
-        simulation = cloud(wanted, threads)
-        points = len(simulation.points("beam"))
-        for _ in range(3):
-            simulation.step()
-        simulation.clear_profile()
-        seconds = []
-        for _ in range(15):
-            start = time.perf_counter()
-            simulation.step()
-            seconds.append(time.perf_counter() - start)
-        ms = 1e3 * float(np.median(seconds))
-        frames = simulation.tissues["beam"].node_count
-        published = f"{wanted} | {cpu:.0f} | {gpu:.1f}"
-        rows.append(f"| {published} | {points} | {frames} | {ms:.2f} | {cpu / ms:.0f} |")
-    head = "| points, paper | its CPU [ms] | its GPU [ms] | points | frames | ours [ms] "
+    for frames, points, near, cpu in NEIGHBOURS:
+        simulation = cloud(points, 1, frames, shape="shepard", neighbours=near, sampling="poisson")
+        ms = step_ms(simulation)
+        found = simulation.tissues["beam"].node_count
+        theirs, times = ("", "") if cpu is None else (f"{cpu:g}", f"{cpu / ms:.0f}")
+        rows.append(
+            f"| {frames} | {points} | {near} | {theirs} | {found} "
+            f"| {len(simulation.points('beam'))} | {ms:.2f} | {times} |"
+        )
+    head = "| frames, paper | points | neighbours | its CPU [ms] | frames | points | ours [ms] "
     return table(f"{head}| times its CPU |", rows)
 
 
-def cloud(points: int, threads: int) -> ts.Simulation:
-    """A beam of frames without a mesh, a sixteenth as many as points, four neighbours each."""
+def speed(threads: int) -> str:
+    """Table 3: a step of implicit Euler with 60 iterations."""
+    rows = []
+    for wanted, cpu, gpu in POINTS_CPU_GPU:
+        simulation = cloud(wanted, threads, max(24, wanted // 16))
+        points, frames = len(simulation.points("beam")), simulation.tissues["beam"].node_count
+        ms = step_ms(simulation)
+        same = ms * min(1.0, wanted / points)
+        published = f"{wanted} | {cpu:.0f} | {gpu:.1f}"
+        times = f"{ms:.2f} | {same:.2f} | {cpu / same:.0f} | {gpu / same:.1f}"
+        rows.append(f"| {published} | {points} | {frames} | {times} |")
+    head = "| points, paper | its CPU [ms] | its GPU [ms] | points | frames | ours [ms] "
+    return table(f"{head}| at the paper's points | times its CPU | times its GPU |", rows)
+
+
+def cloud(points: int, threads: int, frames: int, **tissue: Any) -> ts.Simulation:
+    """A beam of frames without a mesh; four neighbours each where nothing else is said."""
     bar = ts.BarMesh(size=(4, 1, 1), cells=(4, 1, 1), cell="hexahedron")
-    tissue = ts.Tissue(
-        inside=bar, frames=max(24, points // 16), points=points, sampling="grid", shape="linear",
-        law=ts.StVK(young=4e4, poisson=0.3), density=1000.0, tangent="material",
+    given = {"sampling": "grid", "shape": "linear", **tissue}
+    beam = ts.Tissue(
+        inside=bar, frames=frames, points=points, tangent="material", density=1000.0,
+        law=ts.StVK(young=4e4, poisson=0.3), **given,
     )  # fmt: skip
     solver = ts.ConjugateGradient(tolerance=1e-14, iterations=60)
     return ts.Scene(
-        tissue={"beam": tissue},
+        tissue={"beam": beam},
         fixed=[ts.Fixed("beam", on=ts.Plane((0, 0, 0), (1, 0, 0)))],
         gravity=(0, -9.81, 0),
         step=ts.ImplicitEuler(dt=0.01, solver=solver),
@@ -218,6 +245,8 @@ def main() -> None:
         tension(),
         SPEED,
         speed(2),
+        NEAR,
+        neighbours(),
         COUPLING,
     ]
     page = "\n".join(parts)

@@ -36,6 +36,19 @@ RICHEST: dict[str, dict[str, Any]] = {
             "solver": {"type": "conjugate_gradient", "tolerance": 1e-10, "iterations": 2000},
         }
     },
+    "sofa_beam": {
+        "step": {
+            "type": "implicit_midpoint",
+            "dt": 1e-3,
+            "newton": NEWTON,
+            "solver": {
+                "type": "conjugate_gradient",
+                "tolerance": 1e-10,
+                "iterations": 2000,
+                "preconditioner": "incomplete_cholesky",
+            },
+        }
+    },
     "cantilever": {**QUADRATIC, "bodies.bar.mesh.cells": [40, 8, 8], "step.newton": NEWTON},
     "torsion": {"bodies.bar.mesh.cell": "hexahedron20"},
     "cube_steps": {"step": {"type": "rk4", "dt": 0.25e-3}},

@@ -3,22 +3,16 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <utility>
 
 #include "tissu/base/error.h"
+#include "tissu/base/number_text.h"
 
 namespace tissu {
 namespace {
 
 constexpr double kTooFar = 1e3;  ///< sizes of the scene
-
-std::string text(double value) {
-  char buffer[32];
-  (void)std::snprintf(buffer, sizeof buffer, "%.4g", value);
-  return buffer;
-}
 
 /// A cell to blame for a divergence.
 struct Culprit {
@@ -69,7 +63,7 @@ Culprit worst_cell(const World& world, const State& state) {
     for (std::size_t e = 0; e < fields.volume_ratio.size(); ++e) {
       if (fields.volume_ratio[e] >= smallest) continue;
       smallest = fields.volume_ratio[e];
-      worst = {body.name, number_of(model, first, e), "its volume ratio was " + text(smallest)};
+      worst = {body.name, number_of(model, first, e), "its volume ratio was " + number_text(smallest)};
     }
   });
   return worst;
@@ -89,7 +83,7 @@ Simulation::Simulation(std::shared_ptr<const World> world, std::unique_ptr<Integ
 
 StepReport Simulation::step(double h) {
   if (!(h > 0.0) || !std::isfinite(h)) {
-    throw ParameterError("the step is " + text(h) + " s; it must be positive and finite.");
+    throw ParameterError("the step is " + number_text(h) + " s; it must be positive and finite.");
   }
   const auto start = std::chrono::steady_clock::now();
   last_good_ = state_;
@@ -166,7 +160,7 @@ void Simulation::roll_back(double h) {
     if (!sane) culprit = cell_of_node(*world_, node);
   }
   if (culprit.element < 0) culprit = worst_cell(*world_, state_);
-  std::string message = "the step from t = " + text(state_.time) + " s with dt = " + text(h) +
+  std::string message = "the step from t = " + number_text(state_.time) + " s with dt = " + number_text(h) +
                         " s gave values that are not finite or fly out of the scene";
   if (culprit.element >= 0) {
     message += "; look at cell " + std::to_string(culprit.element) + " of body \"" + culprit.body +

@@ -42,7 +42,7 @@ void Multigrid<T>::make(const LinearOperator& A, double scale) {
     fill_prolongation(level, fine.aggregates, fine.places, coarse.places, fine.smoother.inverse(),
                       kOverrelaxed / fine.smoother.largest(), *fine.pattern, threads_, fine.P);
     fill_restriction(*fine.pattern, fine.P, threads_, fine.R);
-    fill_coarse_matrix(level, *fine.pattern, fine.P, threads_, product_, fine.next_values);
+    fill_coarse_matrix(level, *fine.pattern, fine.P, threads_, scratch_, fine.next_values);
     level = {&fine.next_pattern.begin, &fine.next_pattern.column, fine.next_values.data(), 1.0, nullptr};
   }
   if (direct_) factor(level);
@@ -139,8 +139,7 @@ void Multigrid<T>::set_price(const LinearOperator& A) {
 
 template <class T>
 std::size_t Multigrid<T>::bytes() const {
-  std::size_t sum =
-      static_cast<std::size_t>(2 * dense_.size()) * sizeof(double) + product_.size() * sizeof(T);
+  std::size_t sum = static_cast<std::size_t>(2 * dense_.size()) * sizeof(double) + scratch_.bytes();
   for (const auto& level : levels_) {
     sum += level->smoother.bytes() + level->P.bytes() + level->R.bytes();
     sum += (level->next_values.size() + level->places.positions.size()) * sizeof(double);

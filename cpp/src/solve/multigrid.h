@@ -56,9 +56,9 @@ class Multigrid final : public Preconditioner<T> {
   Isa isa_{};
   Threads threads_;
   std::vector<std::unique_ptr<Level>> levels_;
-  AlignedVector<T> product_;  ///< scratch of all levels
-  bool complete_ = false;     ///< the latest making came to its end
-  bool direct_ = false;       ///< the coarsest level is solved by its factor
+  CoarseScratch scratch_;
+  bool complete_ = false;  ///< the latest making came to its end
+  bool direct_ = false;    ///< the coarsest level is solved by its factor
   Eigen::LLT<Eigen::MatrixXd> factor_;
   Eigen::MatrixXd dense_;
   Eigen::VectorXd vector_;

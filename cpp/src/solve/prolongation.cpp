@@ -8,6 +8,8 @@ namespace {
 
 using Motion = Eigen::Matrix<double, 3, 6>;  ///< of a row, by a translation and a rotation
 
+constexpr std::int32_t kParts = 16;       ///< in which the rows of A P are made, one after the other
+constexpr std::int32_t kLeastRows = 256;  ///< of a part
 constexpr double kNoMotion = 1e-9;  ///< of the largest stiffness of an aggregate's translations or rotations
 
 /// Rows made by `row(i, columns)`, which gives columns in any order and more than once.
@@ -99,14 +101,31 @@ void for_same_columns(const RowPattern& from, std::int32_t row, const RowPattern
   }
 }
 
-template <class T>
-Eigen::Map<Eigen::Matrix<T, 3, 6>> motion_at(AlignedVector<T>& values, std::int64_t b) {
-  return Eigen::Map<Eigen::Matrix<T, 3, 6>>(values.data() + 18 * b);
+Eigen::Map<Motion> motion_at(AlignedVector<double>& values, std::int64_t b) {
+  return Eigen::Map<Motion>(values.data() + 18 * b);
 }
 
 template <class T>
 Eigen::Map<const Eigen::Matrix<T, 3, 6>> motion_at(const BlockRows<T>& P, std::int64_t b) {
   return Eigen::Map<const Eigen::Matrix<T, 3, 6>>(P.block(2 * b));
+}
+
+/// Rows [begin, end) of A P, whose first block in `product` is that numbered `first`.
+template <class T>
+void fill_product(const LevelMatrix& A, const CoarsePattern& pattern, const BlockRows<T>& P,
+                  std::int32_t begin, std::int32_t end, std::int64_t first, AlignedVector<double>& product) {
+  std::fill(product.begin() + 18 * (begin_of(pattern.product, begin) - first),
+            product.begin() + 18 * (begin_of(pattern.product, end) - first), 0.0);
+  for (std::int32_t i = begin; i < end; ++i) {
+    for (std::int64_t s = A.first(i); s < A.last(i); ++s) {
+      const Mat3 block = A.scale * A.block(s);
+      for_same_columns(pattern.prolongation, A.column_of(s), pattern.product, i,
+                       [&](std::int64_t b, std::int64_t to) {
+                         motion_at(product, to - first).noalias() +=
+                             block.lazyProduct(motion_at(P, b).template cast<double>());
+                       });
+    }
+  }
 }
 
 }  // namespace
@@ -214,47 +233,55 @@ void fill_restriction(const CoarsePattern& pattern, const BlockRows<T>& P, const
 
 template <class T>
 void fill_coarse_matrix(const LevelMatrix& A, const CoarsePattern& pattern, const BlockRows<T>& P,
-                        const Threads& threads, AlignedVector<T>& product, AlignedVector<double>& values) {
-  const auto size = static_cast<std::size_t>(18 * pattern.product.blocks());
-  if (product.size() < size) product.resize(size);
-  threads.for_pieces(A.rows(), [&](std::int32_t begin, std::int32_t end) {
-    std::fill(product.begin() + 18 * begin_of(pattern.product, begin),
-              product.begin() + 18 * begin_of(pattern.product, end), T(0));
-    for (std::int32_t i = begin; i < end; ++i) {
-      for (std::int64_t s = A.first(i); s < A.last(i); ++s) {
-        const Mat3 block = A.scale * A.block(s);
-        for_same_columns(pattern.prolongation, A.column_of(s), pattern.product, i,
-                         [&](std::int64_t b, std::int64_t to) {
-                           const Motion part = block.lazyProduct(motion_at(P, b).template cast<double>());
-                           motion_at(product, to) += part.template cast<T>();
-                         });
-      }
+                        const Threads& threads, CoarseScratch& scratch, AlignedVector<double>& values) {
+  const RowPattern& matrix = pattern.matrix;
+  // The rows of an aggregate's translation lie before those of its rotation.
+  const auto lower_of = [&](std::int32_t a) { return 18 * matrix.length(a); };
+  values.resize(static_cast<std::size_t>(36 * matrix.blocks() + 1));
+  scratch.next.resize(std::max(scratch.next.size(), static_cast<std::size_t>(matrix.rows())));
+  threads.for_pieces(matrix.rows(), [&](std::int32_t begin, std::int32_t end) {
+    std::fill(values.begin() + 36 * begin_of(matrix, begin), values.begin() + 36 * begin_of(matrix, end),
+              0.0);
+    for (std::int32_t a = begin; a < end; ++a) {
+      scratch.next[static_cast<std::size_t>(a)] = begin_of(pattern.restriction, a);
     }
   });
-  // The rows of an aggregate's translation lie before those of its rotation.
-  values.resize(static_cast<std::size_t>(36 * pattern.matrix.blocks() + 1));
-  threads.for_pieces(pattern.matrix.rows(), [&](std::int32_t begin, std::int32_t end) {
-    for (std::int32_t a = begin; a < end; ++a) {
-      const std::int64_t first = begin_of(pattern.matrix, a);
-      const std::int64_t count = end_of(pattern.matrix, a) - first;
-      double* upper = values.data() + 36 * first;
-      double* lower = upper + 18 * count;
-      std::fill(upper, lower + 18 * count, 0.0);
-      for (std::int64_t r = begin_of(pattern.restriction, a); r < end_of(pattern.restriction, a); ++r) {
-        const Motion moved = motion_at(P, pattern.place[static_cast<std::size_t>(r)]).template cast<double>();
-        const std::int32_t i = pattern.restriction.column[static_cast<std::size_t>(r)];
-        for_same_columns(pattern.product, i, pattern.matrix, a, [&](std::int64_t b, std::int64_t to) {
-          const Motion force = motion_at(product, b).template cast<double>();
-          Eigen::Map<Motion>(upper + 18 * (to - first)).noalias() +=
-              moved.leftCols<3>().transpose().lazyProduct(force);
-          Eigen::Map<Motion>(lower + 18 * (to - first)).noalias() +=
-              moved.rightCols<3>().transpose().lazyProduct(force);
-        });
+  const std::int32_t most = std::max(kLeastRows, A.rows() / kParts + 1);
+  for (std::int32_t from = 0; from < A.rows(); from += most) {
+    const std::int32_t to = std::min(A.rows(), from + most);
+    const std::int64_t first = begin_of(pattern.product, from);
+    const auto size = static_cast<std::size_t>(18 * (begin_of(pattern.product, to) - first));
+    if (scratch.product.size() < size) scratch.product.resize(size);
+    threads.for_pieces(to - from, [&](std::int32_t begin, std::int32_t end) {
+      fill_product(A, pattern, P, from + begin, from + end, first, scratch.product);
+    });
+    threads.for_pieces(matrix.rows(), [&](std::int32_t begin, std::int32_t end) {
+      for (std::int32_t a = begin; a < end; ++a) {
+        double* upper = values.data() + 36 * begin_of(matrix, a);
+        double* lower = upper + lower_of(a);
+        std::int64_t& r = scratch.next[static_cast<std::size_t>(a)];
+        for (; r < end_of(pattern.restriction, a); ++r) {
+          const std::int32_t i = pattern.restriction.column[static_cast<std::size_t>(r)];
+          if (i >= to) break;
+          const Motion moved =
+              motion_at(P, pattern.place[static_cast<std::size_t>(r)]).template cast<double>();
+          for_same_columns(pattern.product, i, matrix, a, [&](std::int64_t b, std::int64_t c) {
+            const Eigen::Map<Motion> force = motion_at(scratch.product, b - first);
+            const std::int64_t at = 18 * (c - begin_of(matrix, a));
+            Eigen::Map<Motion>(upper + at).noalias() += moved.leftCols<3>().transpose().lazyProduct(force);
+            Eigen::Map<Motion>(lower + at).noalias() += moved.rightCols<3>().transpose().lazyProduct(force);
+          });
+        }
       }
-      const auto row = pattern.matrix.row(a);
+    });
+  }
+  threads.for_pieces(matrix.rows(), [&](std::int32_t begin, std::int32_t end) {
+    for (std::int32_t a = begin; a < end; ++a) {
+      const auto row = matrix.row(a);
       const auto own = std::ranges::lower_bound(row, a) - row.begin();
+      double* upper = values.data() + 36 * begin_of(matrix, a);
       Eigen::Map<Mat3> moving(upper + 18 * own);
-      Eigen::Map<Mat3> turning(lower + 18 * own + 9);
+      Eigen::Map<Mat3> turning(upper + lower_of(a) + 18 * own + 9);
       hold_idle(moving, 1.0);
       hold_idle(turning, moving.diagonal().maxCoeff());
     }
@@ -272,8 +299,8 @@ template void fill_restriction(const CoarsePattern&, const BlockRows<double>&, c
 template void fill_restriction(const CoarsePattern&, const BlockRows<float>&, const Threads&,
                                BlockRows<float>&);
 template void fill_coarse_matrix(const LevelMatrix&, const CoarsePattern&, const BlockRows<double>&,
-                                 const Threads&, AlignedVector<double>&, AlignedVector<double>&);
+                                 const Threads&, CoarseScratch&, AlignedVector<double>&);
 template void fill_coarse_matrix(const LevelMatrix&, const CoarsePattern&, const BlockRows<float>&,
-                                 const Threads&, AlignedVector<float>&, AlignedVector<double>&);
+                                 const Threads&, CoarseScratch&, AlignedVector<double>&);
 
 }  // namespace tissu

@@ -38,10 +38,19 @@ template <class T>
 void fill_restriction(const CoarsePattern& pattern, const BlockRows<T>& P, const Threads& threads,
                       BlockRows<T>& R);
 
-/// P^T A P, block by block; `product` is scratch for A P, which grows to what it needs. Motions that no row
-/// takes part in get a diagonal.
+/// What `fill_coarse_matrix` works with: A P of some rows at a time, and how far each aggregate has come.
+struct CoarseScratch {
+  AlignedVector<double> product;
+  std::vector<std::int64_t> next;
+
+  [[nodiscard]] std::size_t bytes() const {
+    return product.size() * sizeof(double) + next.size() * sizeof(std::int64_t);
+  }
+};
+
+/// P^T A P, block by block. Motions that no row takes part in get a diagonal.
 template <class T>
 void fill_coarse_matrix(const LevelMatrix& A, const CoarsePattern& pattern, const BlockRows<T>& P,
-                        const Threads& threads, AlignedVector<T>& product, AlignedVector<double>& values);
+                        const Threads& threads, CoarseScratch& scratch, AlignedVector<double>& values);
 
 }  // namespace tissu

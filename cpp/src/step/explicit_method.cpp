@@ -1,18 +1,12 @@
 #include "tissu/step/explicit_method.h"
 
 #include <cmath>
-#include <cstdio>
 
 #include "tissu/base/error.h"
+#include "tissu/base/number_text.h"
 
 namespace tissu {
 namespace {
-
-std::string text(double value) {
-  char buffer[32];
-  (void)std::snprintf(buffer, sizeof buffer, "%.4g", value);
-  return buffer;
-}
 
 /// Steps that differ by no more than this share are the same.
 constexpr double kSame = 1e-9;
@@ -31,9 +25,10 @@ StepReport ExplicitMethod::step(State& state, double h) {
   const double limit = stable_step(state);
   if (h > limit * (1.0 + kSame)) {
     const Amplification method = amplification();
-    std::string message = "the step is " + text(h) + " s at t = " + text(state.time) + " s; " +
-                          std::string(name()) + " is stable up to " + text(limit) + " s here (2 / omega is " +
-                          text(2.0 / largest_frequency(world(), state)) + " s)";
+    std::string message = "the step is " + number_text(h) + " s at t = " + number_text(state.time) + " s; " +
+                          std::string(name()) + " is stable up to " + number_text(limit) +
+                          " s here (2 / omega is " + number_text(2.0 / largest_frequency(world(), state)) +
+                          " s)";
     if (method.growth > 0.0)
       message += ", counting as stable what takes a hundred seconds to grow by a factor e";
     throw ParameterError(message + "; take dt: auto, a smaller dt, or an implicit method.");

@@ -2,22 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <string>
 
 #include "tissu/base/error.h"
+#include "tissu/base/number_text.h"
 #include "tissu/step/frequency.h"
 
 namespace tissu {
 namespace {
 
-constexpr double kHopeless = 1e6;  ///< times the first residual: the iteration does not contract
-std::string text(double value) {
-  char buffer[32];
-  (void)std::snprintf(buffer, sizeof buffer, "%.4g", value);
-  return buffer;
-}
-
+constexpr double kHopeless = 1e6;    ///< times the first residual: the iteration does not contract
 constexpr double kLeast = 1.0 / 64;  ///< share of a change that is taken
 
 }  // namespace
@@ -91,10 +85,10 @@ void Bdf2FixedPoint::refuse(double h) const {
   const double damping = fastest.largest_damping;
   // A first step, of backward Euler, contracts while h^2 omega^2 + h c < 1.
   const double limit = 2.0 / (damping + std::sqrt(damping * damping + 4.0 * omega * omega));
-  throw Error("the fixed-point iteration of the step from t = " + text(start_.time) +
-              " s with dt = " + text(h) + " s does not contract: h^2 omega^2 is " +
-              text(h * h * omega * omega) + " and h c is " + text(h * damping) +
-              ", where without damping 9/4 is the limit; take dt below " + text(limit) +
+  throw Error("the fixed-point iteration of the step from t = " + number_text(start_.time) +
+              " s with dt = " + number_text(h) + " s does not contract: h^2 omega^2 is " +
+              number_text(h * h * omega * omega) + " and h c is " + number_text(h * damping) +
+              ", where without damping 9/4 is the limit; take dt below " + number_text(limit) +
               " s, Anderson's acceleration, or bdf2.");
 }
 

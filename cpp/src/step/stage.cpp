@@ -7,6 +7,7 @@
 
 #include "tissu/base/error.h"
 #include "tissu/base/norm.h"
+#include "tissu/base/number_text.h"
 
 namespace tissu {
 namespace {
@@ -150,7 +151,7 @@ SolveReport StageSolver::solve_linear(const State& state, double floor, bool def
   if (solved.positive_definite) return solved;
   ++report.indefinite;
   if (newton_.indefinite == Indefinite::refuse) {
-    throw Error("the matrix of the step to t = " + std::to_string(state.time) +
+    throw Error("the matrix of the step to t = " + number_text(state.time) +
                 " s is not positive definite, as under strong compression; take a smaller dt, or say "
                 "indefinite: project instead of refuse.");
   }

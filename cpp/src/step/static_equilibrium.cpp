@@ -5,6 +5,7 @@
 
 #include "tissu/base/error.h"
 #include "tissu/base/norm.h"
+#include "tissu/base/number_text.h"
 
 namespace tissu {
 namespace {
@@ -50,7 +51,10 @@ StepReport StaticEquilibrium::step(State& state, double h) {
   }
   report.converged = done >= 1.0;
   if (!report.converged) {
-    report.message = "no equilibrium was found beyond " + std::to_string(100.0 * done) + " % of the load";
+    report.message =
+        "no equilibrium was found beyond " + number_text(100.0 * done) +
+        " % of the load; give Newton's method more iterations, or let a damped body come to rest " +
+        "in steps of time (implicit_euler, rayleigh)";
     state = before_;
   }
   state.load_factor = 1.0;

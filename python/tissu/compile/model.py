@@ -9,7 +9,8 @@ import numpy as np
 
 from tissu import _core
 from tissu.counted import counted
-from tissu.scene.model import WITH_ROTATIONS, Condensed
+from tissu.mesh.cell import dimension
+from tissu.scene.model import WITH_ROTATIONS, Condensed, Frames
 from tissu.scene.problem import Problem, one_of_words
 
 if TYPE_CHECKING:
@@ -152,6 +153,17 @@ def note_condensed(_mesh: Mesh, body: Body, scene: Scene, path: Path, findings: 
         findings.note(
             f"{path[0]}.{path[1]}: inner nodes of a condensed region follow the others at once, "
             "as in slow motion; their mass stands on the nodes that are kept"
+        )
+
+
+def note_static_frames(mesh: Mesh, body: Body, scene: Scene, path: Path, findings: Findings) -> None:
+    """Note that volumes of frames bend far only in steps of time (docs/frames.md)."""
+    frames = any(isinstance(model, Frames) for model in body.models().values())
+    volumes = any(dimension(str(block.type)) == 3 for block in mesh.body_blocks)
+    if frames and volumes and getattr(getattr(scene, "step", None), "type", "") == "static":
+        findings.note(
+            f"{path[0]}.{path[1]}: volumes of frames find no equilibrium at once when they bend "
+            "far; step a damped body in time until it rests (implicit_euler, rayleigh)"
         )
 
 

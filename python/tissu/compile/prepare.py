@@ -10,7 +10,7 @@ import numpy as np
 from tissu.compile.balance import check_supports
 from tissu.compile.material import cell_groups, density_of
 from tissu.compile.meshes import known_mesh
-from tissu.compile.model import check_kept, check_rotations, note_condensed
+from tissu.compile.model import check_kept, check_rotations, note_condensed, note_static_frames
 from tissu.compile.prepared import Held, Ints, LoadedNodes, Prepared, PreparedBody
 from tissu.compile.quadrature import check_quadrature
 from tissu.compile.select import selected_faces, selected_nodes
@@ -68,8 +68,8 @@ def _prepare_body(prepared: Prepared, name: str) -> None:
             return
         prepared.meshes[name] = known
         _hold_plane(prepared, name, known.mesh)
-        checks = (note_bending, note_held_plane, note_condensed, check_quadrature, check_viscosity)
-        for check in checks:
+        notes = (note_bending, note_held_plane, note_condensed, note_static_frames)
+        for check in (*notes, check_quadrature, check_viscosity):
             with contextlib.suppress(Unknown):  # each says what it can
                 check(known.mesh, body, prepared.scene, path, findings)
         groups = cell_groups(known.mesh, body, path, findings)

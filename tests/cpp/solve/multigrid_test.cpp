@@ -224,22 +224,28 @@ TEST(Prolongation, DoesNotMoveWhatIsGiven) {
   }
 }
 
+/// A P is made in one part and in four, on one thread and on three.
 TEST(Prolongation, MakesGalerkinsMatrix) {
-  const Cube cube(5);
-  const Coarse coarse(cube);
-  const auto size = static_cast<Eigen::Index>(3 * coarse.places.point.size());
-  const Eigen::MatrixXd P = Coarse::full(coarse.P, coarse.columns, size);
-  const Eigen::MatrixXd R = Coarse::full(coarse.R, coarse.rows, 3 * cube.matrix().rows());
-  EXPECT_EQ((R - P.transpose()).cwiseAbs().maxCoeff(), 0.0);
-  AlignedVector<double> product;
-  AlignedVector<double> values;
-  fill_coarse_matrix(coarse.level, *coarse.pattern, coarse.P, Threads(1), product, values);
-  const RowPattern where = twice(coarse.pattern->matrix);
-  BlockRows<double> made;
-  made.refer(where.begin, where.column, Isa::baseline);
-  std::copy_n(values.data(), 9 * where.blocks(), made.block(0));
-  const Eigen::MatrixXd wanted = P.transpose() * dense(cube.matrix()) * P;
-  EXPECT_LE(test::relative_difference(Coarse::full(made, where, size), wanted), 1e-13);
+  for (const int cells : {5, 9}) {
+    const Cube cube(cells);
+    const Coarse coarse(cube);
+    const auto size = static_cast<Eigen::Index>(3 * coarse.places.point.size());
+    const Eigen::MatrixXd P = Coarse::full(coarse.P, coarse.columns, size);
+    const Eigen::MatrixXd R = Coarse::full(coarse.R, coarse.rows, 3 * cube.matrix().rows());
+    EXPECT_EQ((R - P.transpose()).cwiseAbs().maxCoeff(), 0.0);
+    CoarseScratch scratch;
+    AlignedVector<double> values;
+    fill_coarse_matrix(coarse.level, *coarse.pattern, coarse.P, Threads(1), scratch, values);
+    const RowPattern where = twice(coarse.pattern->matrix);
+    BlockRows<double> made;
+    made.refer(where.begin, where.column, Isa::baseline);
+    std::copy_n(values.data(), 9 * where.blocks(), made.block(0));
+    const Eigen::MatrixXd wanted = P.transpose() * dense(cube.matrix()) * P;
+    EXPECT_LE(test::relative_difference(Coarse::full(made, where, size), wanted), 1e-13);
+    AlignedVector<double> again;
+    fill_coarse_matrix(coarse.level, *coarse.pattern, coarse.P, Threads(3), scratch, again);
+    EXPECT_EQ(again, values);
+  }
 }
 
 /// CG asks for no more than a symmetric and positive definite preconditioner.

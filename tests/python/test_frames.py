@@ -189,9 +189,8 @@ def test_a_static_step_of_volumes_of_frames_is_noted() -> None:
     assert "implicit_euler" in note
     moving = scene.replace(step=ts.ImplicitEuler(dt=0.01))
     meshed = scene.replace(bodies={"bar": body.replace(model="fem")})
-    line = ts.Mesh(
-        points=np.linspace((0, 0, 0), (4, 0, 0), 5), cells=[("line", [[i, i + 1] for i in range(4)])]
-    )
+    cells = [("line", [[i, i + 1] for i in range(4)])]
+    line = ts.Mesh(points=np.linspace((0, 0, 0), (4, 0, 0), 5), cells=cells)
     rod = ts.Body(mesh=line, law=STEEL, density=7800.0, section="1 cm^2", model="frames")
     thin = scene.replace(bodies={"bar": rod})
     for other in (moving, meshed, thin):

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from tissu.errors import MeshError
-from tissu.mesh import bar_mesh, read_mesh, write_mesh
+from tissu.mesh import CellBlock, Mesh, bar_mesh, read_mesh, write_mesh
 
 VOLUMES = [".vtu", ".vtk", ".msh", ".mesh", ".inp", ".xdmf", ".bdf", ".su2", ".mdpa", ".dat"]
 SURFACES = [".obj", ".off", ".stl", ".ply", ".wkt"]
@@ -114,3 +114,17 @@ def test_damaged_binary_files_are_refused_in_words(tmp_path: Path, ending: str) 
             assert "Unicode" not in str(error)
             damaged += "no text where text is expected; is it damaged?" in str(error)
     assert damaged > 0
+
+
+def test_cells_may_be_given_as_meshio_takes_them() -> None:
+    points = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]
+    block = CellBlock("tetra", [[0, 1, 2, 3]])
+    for cells in ([("tetra", [[0, 1, 2, 3]])], {"tetra": [[0, 1, 2, 3]]}, (block,)):
+        mesh = Mesh(points=points, cells=cells)
+        assert [(b.type, b.nodes.tolist()) for b in mesh.cells] == [("tetra", [[0, 1, 2, 3]])]
+
+
+@pytest.mark.parametrize("cells", [[3], ["tetra"], [("tetra",)], [(4, [[0, 1, 2, 3]])], "tetra"])
+def test_what_are_no_cells_is_said(cells: object) -> None:
+    with pytest.raises(MeshError, match="among the cells; blocks of cells are accepted"):
+        Mesh(points=[[0, 0, 0]], cells=cells)

@@ -156,7 +156,9 @@ def note_condensed(_mesh: Mesh, body: Body, scene: Scene, path: Path, findings: 
         )
 
 
-def note_static_frames(mesh: Mesh, body: Body, scene: Scene, path: Path, findings: Findings) -> None:
+def note_static_frames(
+    mesh: Mesh, body: Body, scene: Scene, path: Path, findings: Findings
+) -> None:
     """Note that volumes of frames bend far only in steps of time (docs/frames.md)."""
     frames = any(isinstance(model, Frames) for model in body.models().values())
     volumes = any(dimension(str(block.type)) == 3 for block in mesh.body_blocks)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import reprlib
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import partial
@@ -32,7 +33,8 @@ class Mesh:
 
     Attributes:
         points: rest positions (n, 3) float64 [m], read-only.
-        cells: every block there is, faces and lines too.
+        cells: every block there is, faces and lines too; pairs of a type and its nodes, or a
+            mapping from one to the other as in meshio, become blocks.
         thin: which cells below three dimensions are simulated: 2 for surfaces, 1 for lines; the
             others only mark borders.
         regions: name -> numbers int32 of cells, increasing; a cell may be in several.
@@ -43,7 +45,8 @@ class Mesh:
         notes: what the reader did, in words.
 
     Raises:
-        MeshError: a position that is not finite, or a number of no node or cell.
+        MeshError: a position that is not finite, cells that are none, or a number of no node or
+            cell.
     """
 
     points: Floats
@@ -62,7 +65,8 @@ class Mesh:
             raise MeshError(f"found points of shape {points.shape}; an array (n, 3) is accepted")
         points.flags.writeable = False
         object.__setattr__(self, "points", points)
-        object.__setattr__(self, "cells", tuple(self.cells))
+        blocks = self.cells.items() if isinstance(self.cells, Mapping) else self.cells
+        object.__setattr__(self, "cells", tuple(_block(block) for block in blocks))
         self._require_finite()
         self._require_nodes()
         of_borders = sum(len(block) for block in self.border_blocks)
@@ -213,6 +217,18 @@ class Mesh:
                     f"{block.type} {cell} has the nodes {block.nodes[cell].tolist()}; "
                     f"numbers from 0 to {self.node_count - 1} are accepted"
                 )
+
+
+def _block(given: object) -> CellBlock:
+    """A block, or a pair of a type and its nodes that makes one."""
+    if isinstance(given, CellBlock):
+        return given
+    if isinstance(given, tuple | list) and len(given) == 2 and isinstance(given[0], str):
+        return CellBlock(*given)
+    raise MeshError(
+        f"found {reprlib.repr(given)} among the cells; blocks of cells are accepted: "
+        'CellBlock("tetra", nodes), or a pair ("tetra", nodes)'
+    )
 
 
 def _region(name: str, cells: Ints, count: int) -> Ints:

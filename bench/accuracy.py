@@ -13,7 +13,7 @@ import sys
 import time
 from pathlib import Path
 
-from tissu.accuracy import Study, front, read_cases, study
+from tissu.accuracy import Run, Study, front, read_cases, study
 from tissu.accuracy.figure import draw
 from tissu.accuracy.front import sentence
 from tissu.accuracy.table import COLUMNS, cells, curves, printed
@@ -88,10 +88,17 @@ def best(one: Study) -> str:
     return markdown(["run", *COLUMNS], rows)
 
 
+def near(run: Run) -> str:
+    """How near a run came that did not meet its tolerances."""
+    if run.share is None or run.seconds is None:
+        return ""
+    return f" ({100.0 * run.share:.3g} %, {1e3 * run.seconds:.3g} ms)"
+
+
 def section(one: Study) -> str:
     """A case of the page."""
     case = one.case
-    failed = [f"- {r.label}: {r.outcome}: {r.why}" for r in one.runs if not r.counts]
+    failed = [f"- {r.label}: {r.outcome}: {r.why}{near(r)}" for r in one.runs if not r.counts]
     parts = [
         f"## {case.title}",
         case.about,

@@ -1,10 +1,13 @@
-"""Prints docs/solvers.md: what every linear solver costs from 1e3 to 1e6 unknowns: --write.
+"""Prints docs/solvers.md: what every linear solver costs from 1e3 to 1e6 unknowns.
 
---small stops at 1e4 unknowns.
+    python bench/solvers.py [--small] [--write]
+
+Without --write the page is printed.
 """
 
 from __future__ import annotations
 
+import argparse
 import sys
 from dataclasses import dataclass
 from pathlib import Path
@@ -12,6 +15,7 @@ from pathlib import Path
 import numpy as np
 
 import tissu as ts
+from tissu.cli.info import machine_line
 
 ROOT = Path(__file__).resolve().parents[1]
 PAGE = ROOT / "docs" / "solvers.md"
@@ -81,7 +85,7 @@ without, their number grows with the number of cells along the cube, but for a m
 its iterations multiplies with the matrix four times more and pays for that from some ten thousand
 unknowns on. Its first system includes finding the aggregates, as a cut does; later ones do not.
 
-Printed by `python bench/solvers.py --write`.
+Printed by `python bench/solvers.py --write`; {machine}
 """
 
 
@@ -211,14 +215,18 @@ def page(sizes: tuple[int, ...]) -> tuple[str, dict[str, list[list[Row]]]]:
         "\n\n## Static, Hooke's law\n\nThe first system, with all that is made for it.\n\n"
         + table(still),
         "\n\n![Seconds against unknowns](pictures/solvers.png)\n",
-        TAIL.format(matrix=matrix),
+        TAIL.format(matrix=matrix, machine=machine_line()),
     ]
     return "".join(parts), {"10 ms, with inertia": inertia, "static": still}
 
 
 if __name__ == "__main__":
-    text, studies = page(SIZES[:2] if "--small" in sys.argv else SIZES)
-    if "--write" in sys.argv:
+    parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
+    parser.add_argument("--small", action="store_true", help="up to 1e4 unknowns")
+    parser.add_argument("--write", action="store_true", help="to docs/solvers.md and its picture")
+    asked = parser.parse_args()
+    text, studies = page(SIZES[:2] if asked.small else SIZES)
+    if asked.write:
         PAGE.write_text(text, encoding="utf-8")
         picture(studies)
     else:

@@ -3,6 +3,7 @@
 import csv
 import io
 import json
+from dataclasses import replace
 from importlib.util import find_spec
 from pathlib import Path
 
@@ -13,6 +14,7 @@ from typer.testing import CliRunner
 import tissu as ts
 from tissu.accuracy import Run, cheapest, front, read_case, read_cases, study
 from tissu.accuracy.change import changed
+from tissu.accuracy.figure import draw
 from tissu.accuracy.front import reached, sentence
 from tissu.accuracy.measure import cubic
 from tissu.accuracy.page import page
@@ -261,6 +263,16 @@ def test_the_page_and_the_table_hold_every_run(folder):
     assert [row["label"] for row in rows] == [run.label for run in found.runs]
     assert json.loads(rows[2]["changes"]) == {"bodies.bar.law.young": "1.1 MPa"}
     assert sum(int(row["on_front"]) for row in rows) == len(front(found.runs))
+
+
+def test_the_diagram_tells_what_missed_its_tolerance(folder):
+    found = study(read_case(folder / "bar.yaml"), "small")
+    labels = [text.get_text() for text in draw(found).legends[0].get_texts()]
+    assert labels == ["hexahedron", "tetra", "young", "front"]
+    *others, last = found.runs
+    missed = replace(found, runs=(*others, replace(last, outcome="not converged")))
+    labels = [text.get_text() for text in draw(missed).legends[0].get_texts()]
+    assert labels == ["hexahedron", "tetra", "young", "tolerance not met", "front"]
 
 
 def test_parquet_holds_what_the_csv_holds(folder, tmp_path):

@@ -30,6 +30,11 @@ def draw(study: Study) -> Figure | None:
         x, y = [point[0] for point in points], [point[1] for point in points]
         mark = _MARKS[number % len(_MARKS)]
         axes.plot(x, y, mark + "-", color=f"C{number % 10}", label=name, markersize=5, linewidth=1)
+    short = [run for run in study.runs if not run.counts and run.share and run.seconds]
+    if short:
+        x = [1e3 * (run.seconds or 0.0) for run in short]
+        y = [100.0 * (run.share or 0.0) for run in short]
+        axes.plot(x, y, "x", color="gray", label="tolerance not met", markersize=5)
     best = [run for run in front(study.runs) if run.share and run.seconds]
     x = [1e3 * (run.seconds or 0.0) for run in best]
     y = [100.0 * (run.share or 0.0) for run in best]

@@ -13,6 +13,8 @@ import sys
 import time
 from pathlib import Path
 
+from kernels import table
+
 from tissu.accuracy import Run, Study, front, read_cases, study
 from tissu.accuracy.figure import draw
 from tissu.accuracy.front import sentence
@@ -69,12 +71,9 @@ in `bench/cases`; `make_references.py` there makes the references that are our o
 TAIL = "Written by `python bench/accuracy.py --write`;"
 
 
-def markdown(head: list[str], rows: list[list[str]]) -> str:
+def rows_of(head: list[str], rows: list[list[str]]) -> str:
     """A table; nothing where there are no rows."""
-    if not rows:
-        return ""
-    lines = [head, ["---", *["---:"] * (len(head) - 1)], *rows]
-    return "\n".join("| " + " | ".join(line) + " |" for line in lines)
+    return table(head, rows) if rows else ""
 
 
 def best(one: Study) -> str:
@@ -85,7 +84,7 @@ def best(one: Study) -> str:
         for run, row in zip(one.runs, cells(one), strict=True)
         if id(run) in wanted
     ]
-    return markdown(["run", *COLUMNS], rows)
+    return rows_of(["run", *COLUMNS], rows)
 
 
 def near(run: Run) -> str:
@@ -106,8 +105,8 @@ def section(one: Study) -> str:
         f"![Error against time](pictures/accuracy-{case.name}.png)",
         f"The front, of {len(one.runs)} runs ({one.preset} preset):",
         best(one),
-        markdown(*curves(one)),
-        markdown(*printed(one)),
+        rows_of(*curves(one)),
+        rows_of(*printed(one)),
         "\n".join(f"- {note}" for note in case.notes),
         "\n".join(failed),
     ]

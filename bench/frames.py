@@ -2,12 +2,11 @@
 
     python bench/frames.py [--write] [--speed]
 
-With --speed only tables 2 and 3 are measured; the others stay as the page has them.
+With --speed what has no times, figures 8 and 13 and table 1, stays as the page has it.
 """
 
 from __future__ import annotations
 
-import re
 import sys
 import time
 from pathlib import Path
@@ -22,7 +21,6 @@ sys.path.insert(0, str(Path(__file__).resolve().parent))
 from frames_text import COUPLING, HEAD, NEAR, SOFT_TEXT, SPEED, STEEL_TEXT, TENSION
 
 PAGE = Path(__file__).resolve().parents[1] / "docs" / "frames.md"
-FIRST_OF_TIMES = re.compile(r"\n## Tables? [23]")
 STEEL_TIP, BEAM = 0.150174, 0.147185  # m: converged (CalculiX); rho g L^4 / (8 E I)
 NEWTON = ts.Newton(iterations=60, tolerance=1e-8)
 SECTIONS = ((25, 2), (25, 3), (25, 4), (25, 6))  # cells along, cells across: figure 6
@@ -243,25 +241,18 @@ def cloud(points: int, threads: int, frames: int, **tissue: Any) -> ts.Simulatio
     ).compile()
 
 
-def times() -> str:
-    """Tables 3 and 2."""
-    return "\n".join([SPEED, speed(2), NEAR, neighbours(), f"Tables 2 and 3: {machine_line()}\n"])
-
-
-def kept() -> tuple[str, str]:
-    """What the page holds before and after the times."""
+def untimed() -> str:
+    """Figures 8 and 13, and table 1: no times in them."""
+    if "--speed" not in sys.argv:
+        return "\n".join([SOFT_TEXT, soft(), TENSION, tension()])
     page = PAGE.read_text(encoding="utf-8")
-    return FIRST_OF_TIMES.split(page)[0], COUPLING
+    return page[page.index("\n## Figures 8") : page.index("\n## Table 3")]
 
 
 def main() -> None:
     """Prints the page, or writes it."""
-    if "--speed" in sys.argv:
-        before, after = kept()
-    else:
-        parts = [HEAD, STEEL_TEXT, steel(), SOFT_TEXT, soft(), TENSION, tension()]
-        before, after = "\n".join(parts), COUPLING
-    page = "\n".join([before, times(), after])
+    timed = [SPEED, speed(2), NEAR, neighbours(), f"Times on this page: {machine_line()}\n"]
+    page = "\n".join([HEAD, STEEL_TEXT, steel(), untimed(), *timed, COUPLING])
     if "--write" in sys.argv:
         PAGE.write_text(page, encoding="utf-8")
     else:

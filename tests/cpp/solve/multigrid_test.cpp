@@ -248,6 +248,33 @@ TEST(Prolongation, MakesGalerkinsMatrix) {
   }
 }
 
+/// Two points on a line: nothing resists their turning about it, and the next level is not singular for that.
+TEST(Prolongation, HoldsTurnsAboutALine) {
+  const std::vector<std::int64_t> begin{0, 1, 2};
+  const std::vector<std::int32_t> column{0, 1};
+  std::vector<double> values(18, 0.0);
+  for (const std::size_t k : {0U, 4U, 8U, 9U, 13U, 17U}) values[k] = 1.0;
+  const LevelMatrix A{&begin, &column, values.data(), 1.0, nullptr};
+  const Aggregates aggregates{1, {0, 0}, {2}};
+  RowPlaces fine;
+  fine.positions = {0, 0, 0, 1, 0, 0};
+  fine.point = {0, 1};
+  RowPlaces centre;
+  place_aggregates(aggregates, fine, centre);
+  const CoarsePattern pattern(A, aggregates);
+  const RowPattern columns = twice_columns(pattern.prolongation);
+  BlockRows<double> P;
+  P.refer(columns.begin, columns.column, Isa::baseline);
+  fill_prolongation(A, aggregates, fine, centre, values.data(), 0.0, pattern, Threads(1), P);
+  CoarseScratch scratch;
+  AlignedVector<double> coarse;
+  fill_coarse_matrix(A, pattern, P, Threads(1), scratch, coarse);
+  // sum over both of [r]x^T [r]x with r = (-+ 1/2, 0, 0) is diag(0, 1/2, 1/2): the zero is held by 1/2
+  const Mat3 turning = Eigen::Map<const Mat3>(coarse.data() + 27);
+  EXPECT_LE((turning - 0.5 * Mat3::Identity()).norm(), 1e-14);
+  EXPECT_LE((Eigen::Map<const Mat3>(coarse.data()) - 2.0 * Mat3::Identity()).norm(), 1e-14);
+}
+
 /// CG asks for no more than a symmetric and positive definite preconditioner.
 TEST(Multigrid, IsSymmetricAndPositive) {
   const Cube cube(9);

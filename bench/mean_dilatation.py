@@ -46,7 +46,7 @@ TAIL = """
   inf-sup constant of the tetrahedra's patches is 0.05 to 0.08 on 3 to 6 cells a side and a few
   pressures (at most 7) are felt by no displacement, of wedges 0.26 to 0.35 and of pyramids 0.25 to
   0.39 with none; a regular grid of hexahedra has 3 n - 2 such pressures (7 to 16), the well-known
-  chessboard (`tests/cpp/model/cell_pressure_test.cpp`). Displacements do not suffer;
+  chessboard (`tests/cpp/model/dilatation/cell_pressure_test.cpp`). Displacements do not suffer;
   stress of a single cell may.
 - **Size of patches.** Measured on this bar with neo-Hooke and nu = 0.4999, grids of 8 x 2 x 2 and
   16 x 4 x 4, three ways of cutting into tetrahedra, sag over the converged one: nearly cell by cell

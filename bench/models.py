@@ -157,7 +157,7 @@ Linear tetrahedra of St-Venant–Kirchhoff as continuum element (`fem`, 7 consta
 lengths of edges (`mass-link`, 27) and as a polynomial in displacements (`mass-tensor`, 280 and 6).
 All three give the same forces and tangents, to 1e-12 (the mass-tensor where displacements are no
 larger than a cell or so, its round-off grows with their cube):
-`tests/cpp/model/tetra_models_test.cpp`.
+`tests/cpp/model/edges/tetra_models_test.cpp`.
 Printed by `bench/models.py`; run it for your machine.
 {machine(reports[0])}
 

@@ -11,6 +11,27 @@ History to_history(const Doubles& times, const Doubles& factors) {
   return {to_vector(times), to_vector(factors)};
 }
 
+/// What a scene says of a body's model, of whichever model it is.
+struct ModelUse {
+  std::string name;
+  std::string rotation;
+  std::string tangent;
+  std::string section;
+  double drilling = 1.0;
+  bool equal_masses = false;
+  std::vector<std::int32_t> kept = {};
+};
+
+ModelOptions to_options(const ModelUse& use) {
+  ModelOptions options = options_named(use.name);
+  if (auto* own = std::get_if<CorotationalOptions>(&options)) *own = {use.rotation, use.tangent};
+  if (auto* own = std::get_if<MassSpringOptions>(&options)) *own = {use.equal_masses};
+  if (auto* own = std::get_if<CondensedOptions>(&options)) own->kept = use.kept;
+  if (auto* own = std::get_if<FramesOptions>(&options)) *own = {use.tangent, use.section};
+  if (auto* own = std::get_if<ShellOptions>(&options)) *own = {use.drilling};
+  return options;
+}
+
 using Parameters = std::map<std::string, Doubles>;
 
 LawParameters to_parameters(const Parameters& parameters) {
@@ -54,7 +75,7 @@ void add_elastic(WorldDescription& world, const std::string& body, const std::st
   block.density = to_vector(density);
   block.cross_section = to_vector(cross_section);
   block.plane = plane;
-  block.model = model;
+  block.model = to_options(model);
   world.body(body).elastic.push_back(std::move(block));
 }
 
@@ -75,13 +96,13 @@ void add_points(WorldDescription& world, const std::string& body,
   ElasticBlock block;
   block.element = "points";
   block.cells = to_vector(frames);
-  block.points = std::move(points);
   block.law = law;
   block.loaded = loaded;
   block.parameters = to_parameters(parameters);
   if (!fibres.empty()) block.reinforcements.push_back({"fibre", to_parameters(fibres)});
   block.density = {density};
-  block.model = model;
+  FramesOptions options{model.tangent, model.section, std::move(points)};
+  block.model = std::move(options);
   BodyDescription& made = world.body(body);
   for (const auto& [other, node] : shared) made.shared.push_back({other, node});
   made.elastic.push_back(std::move(block));
@@ -185,7 +206,7 @@ void bind_world(py::module_& m) {
            arg("cell_numbers"), arg("law"), arg("parameters"), arg("density"), arg("quadrature") = "full",
            arg("reinforcements") = std::vector<std::pair<std::string, Parameters>>{},
            arg("loaded") = py::none(), arg("cross_section") = std::vector<double>{1.0},
-           arg("plane") = Plane::stress, arg("model") = ModelUse{})
+           arg("plane") = Plane::stress, arg("model") = ModelUse{"fem", "polar", "approximate", "whole"})
       .def("add_points", &add_points, py::kw_only(), arg("body"), arg("shared"), arg("frames"),
            arg("weights"), arg("gradients"), arg("positions"), arg("volumes"), arg("law"), arg("parameters"),
            arg("fibres"), arg("loaded").none(true), arg("density"), arg("model"))

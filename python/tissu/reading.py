@@ -8,6 +8,7 @@ program runs, only what the field gives is left: `Read[float, float | str]` is `
 
 from __future__ import annotations
 
+import reprlib
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Annotated, Any, Generic, TypeVar, overload
 
@@ -26,6 +27,14 @@ Series = Sequence[Number] | np.ndarray[Any, Any]
 def listed(value: object) -> object:
     """A numpy array as nested lists; anything else unchanged."""
     return value.tolist() if isinstance(value, np.ndarray) else value
+
+
+def written(value: object) -> str:
+    """A value in a message, much shortened; what Python calls None is null, as in YAML."""
+    if isinstance(value, (list, tuple)):
+        few = [written(item) for item in value[:6]] + ["..."] * (len(value) > 6)
+        return f"[{', '.join(few)}]"
+    return "null" if value is None else reprlib.repr(value)
 
 
 Out = TypeVar("Out")

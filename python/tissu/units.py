@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import math
 import re
-import reprlib
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache
@@ -20,8 +19,7 @@ from pydantic import AfterValidator, BeforeValidator
 
 from tissu.errors import ParameterError
 from tissu.reading import Number as Number
-from tissu.reading import Read, listed
-from tissu.reading import VectorLike as VectorLike
+from tissu.reading import Read, VectorLike, listed, written
 
 if TYPE_CHECKING:
     import pint
@@ -218,14 +216,6 @@ def unit_of(metadata: Iterable[object]) -> str:
     readers = (getattr(item, "func", None) for item in metadata)
     found = next((reader for reader in readers if isinstance(reader, Dimension)), NUMBER)
     return found.unit.replace("*", " ")
-
-
-def written(value: object) -> str:
-    """A value in a message, much shortened; what Python calls None is null, as in YAML."""
-    if isinstance(value, (list, tuple)):
-        few = [written(item) for item in value[:6]] + ["..."] * (len(value) > 6)
-        return f"[{', '.join(few)}]"
-    return "null" if value is None else reprlib.repr(value)
 
 
 @dataclass(frozen=True, slots=True)

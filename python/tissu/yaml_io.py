@@ -83,12 +83,8 @@ def parse_scene(text: str, cls: type[S], *, base: Path | None = None, name: str 
     data, source, problems = _load(text, name)
     if not isinstance(data, dict):
         found = "nothing" if data is None else repr(data)[:40]
-        raise SceneError(
-            [
-                f"{name}:1: found {found}; a mapping with the keys "
-                f"{', '.join(cls.model_fields)} is accepted"
-            ]
-        )
+        text = f"a mapping with the keys {', '.join(cls.model_fields)} is accepted"
+        raise SceneError([f"{name}:1: found {found}; {text}"])
     laws: list[type[UserLaw]] = []
     refused: list[Problem] = []
     if data.get("laws"):

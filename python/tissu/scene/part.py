@@ -19,11 +19,11 @@ from pydantic import (
 from typing_extensions import Self, dataclass_transform
 
 from tissu.errors import ParameterError, SceneError
+from tissu.reading import written
 from tissu.scene.explain import explained, failure, meaning
 from tissu.scene.field import field
 from tissu.scene.problem import Problem, nearest, nearest_word, one_of_words
 from tissu.scene.unknown import Unknown, Unread, below, nested, rules_of, told
-from tissu.units import written
 
 KEEP_PROBLEMS = "keep_problems"
 """Key of the validation context: a part with problems is kept for what is known of it."""

@@ -11,7 +11,7 @@ from pydantic import BeforeValidator, Field
 
 from tissu import units
 from tissu.errors import ParameterError
-from tissu.reading import Maybe, Read, VectorLike
+from tissu.reading import Maybe, Read, VectorLike, listed
 from tissu.scene.field import field
 from tissu.scene.part import Part, one_of
 from tissu.scene.problem import Problem, nearest, one_of_words
@@ -136,7 +136,7 @@ class Nodes(Selection):
     """Nodes by their numbers in the mesh, from 0."""
 
     type: Literal["nodes"] = "nodes"
-    ids: Annotated[_Numbers, BeforeValidator(units.listed)] = field(kw_only=False)
+    ids: Annotated[_Numbers, BeforeValidator(listed)] = field(kw_only=False)
     """numbers of the nodes, from 0"""
 
     def nodes(self, mesh: Mesh) -> Ints:

@@ -17,6 +17,17 @@ ROOT = Path(__file__).resolve().parent.parent
 # another ("model/fem"), or one pair of files ("model/models"); a name stands for itself alone:
 # "model" is the face of the models. Folders kernels and generated belong to the room they are in.
 MODEL = {"base", "mesh", "element", "law", "field", "assembly", "state", "force", "cell", "model"}
+# What a model alone asks for: plain structs that the block of cells holds one of.
+OPTIONS = {
+    "model/fem/fem_options",
+    "model/corotational/corotational_options",
+    "model/edges/edge_options",
+    "model/condensed/condensed_options",
+    "model/dilatation/mean_dilatation_options",
+    "model/frames/frames_options",
+    "model/frames/frame_points",
+    "model/shell/shell_options",
+}
 CPP: dict[str, set[str]] = {
     "base": set(),
     "element": {"base"},
@@ -28,12 +39,15 @@ CPP: dict[str, set[str]] = {
     "solve": {"base", "assembly"},
     "force": {"base", "mesh", "element", "law", "assembly", "state"},
     "cell": {"base", "mesh", "element", "law"},
-    "model": MODEL,
+    **{options: {"base"} for options in OPTIONS},
+    "model/frames/frames_options": {"model/frames/frame_points"},
+    "model/options": {"base"} | OPTIONS,
+    "model": MODEL | {"model/options"},
     "model/fem": MODEL,
     "model/corotational": MODEL,
     "model/edges": MODEL | {"model/fem"},  # the definite tangent of mass-tensor
     "model/dilatation": MODEL,
-    "model/frames": MODEL,
+    "model/frames": MODEL | {"model/frames/frame_points"},
     "model/shell": MODEL,
     "model/condensed": MODEL | {"model/fem", "solve"},
     "viscosity": MODEL | {"model/edges"},  # dampers beside springs

@@ -119,7 +119,7 @@ void step_corotational(benchmark::State& run) {
   Beam beam = beam_of(run);
   beam.cells = {64, 12, 11};
   beam.law = "hooke";
-  beam.model.name = "corotational";
+  beam.model = CorotationalOptions{};
   const auto world = std::make_shared<const World>(describe(beam));
   Simulation simulation(world, std::make_unique<ImplicitEuler>(),
                         std::make_unique<ConjugateGradient>(ConjugateGradient::Settings{1e-300, 20}));

@@ -16,7 +16,7 @@ constexpr const char* kWork[] = {"force", "product", "assembly"};
 
 struct Row {
   std::string element;
-  ModelUse model;
+  CorotationalOptions model;
   Work work;
 };
 
@@ -59,11 +59,7 @@ void add_corotational_rows(int count) {
     for (const char* rotation : {"frame", "polar"}) {
       for (const char* tangent : {"approximate", "exact"}) {
         for (const Work work : {Work::force, Work::product, Work::assembly}) {
-          ModelUse model;
-          model.name = "corotational";
-          model.rotation = rotation;
-          model.tangent = tangent;
-          const Row row{element, model, work};
+          const Row row{element, {.rotation = rotation, .tangent = tangent}, work};
           const std::string title = std::string("corotational/") + element + "/" + rotation + "/" + tangent +
                                     "/" + kWork[static_cast<int>(work)];
           benchmark::RegisterBenchmark(title.c_str(), [row, count](benchmark::State& run) {

@@ -35,8 +35,8 @@ void definite(benchmark::State& run, const Row& row, StiffnessScale scale, int c
   if (!row.addition.empty()) block.reinforcements = {{row.addition, typical(row.addition)}};
   block.cells = mesh.cells;
   block.density = {1000.0};
-  block.model.name = row.model;
-  block.model.tangent = "exact";
+  block.model = options_named(row.model);
+  if (auto* corotational = std::get_if<CorotationalOptions>(&block.model)) corotational->tangent = "exact";
   const auto model = make_model(std::move(block), mesh.positions, choose_isa(), Threads(1));
   SparsityBuilder builder(mesh.node_count());
   model->couple(builder);

@@ -49,7 +49,7 @@ struct Made {
   [[nodiscard]] std::unique_ptr<BodyModel> make(const std::string& name) const {
     ElasticBlock block;
     block.body = "bench";
-    block.model.name = name;
+    block.model = options_named(name);
     block.cells = mesh.cells;
     block.parameters = {{"young", {kYoung}}, {"poisson", {kPoisson}}};
     block.density = {1000.0};

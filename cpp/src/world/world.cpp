@@ -84,7 +84,8 @@ std::vector<std::int32_t> frames_at_blocks(const std::vector<Frame>& frames, std
 
 /// A model works on its body's cells as one: their affine cells are not set apart.
 bool keeps_cells_together(const ElasticBlock& block) {
-  return block.model.name == "condensed" || block.model.name == "frames";
+  return std::holds_alternative<CondensedOptions>(block.model) ||
+         std::holds_alternative<FramesOptions>(block.model);
 }
 
 /// The body's blocks with node numbers of the world, affine cells apart from others.
@@ -96,9 +97,11 @@ std::vector<ElasticBlock> blocks_of(const BodyDescription& body, const Body& mad
   for (ElasticBlock elastic : body.elastic) {
     elastic.body = body.name;
     elastic.cells = with_shared(std::move(elastic.cells), made, shared);
-    elastic.model.kept = shifted(std::move(elastic.model.kept), made.first_node, made.node_count,
-                                 "the model of body \"" + body.name + "\"");
-    if (gravity) elastic.model.gravity = *gravity;
+    if (auto* condensed = std::get_if<CondensedOptions>(&elastic.model)) {
+      condensed->kept = shifted(std::move(condensed->kept), made.first_node, made.node_count,
+                                "the model of body \"" + body.name + "\"");
+      if (gravity) condensed->gravity = *gravity;
+    }
     const ElementInfo* element = find_element(elastic.element);
     const auto cells =
         element == nullptr ? 0 : static_cast<std::int32_t>(elastic.cells.size()) / element->nodes;

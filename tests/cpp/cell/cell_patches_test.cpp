@@ -91,7 +91,7 @@ TEST_P(CellPatches, HangTogetherByFaces) {
 TEST_P(CellPatches, RemovedCellsLeaveTheOthersWhereTheyAre) {
   ElasticBlock block = test::corotational_block(box_, GetParam());
   block.law = "stvk";
-  block.model.name = "mean-dilatation";
+  block.model = MeanDilatationOptions{};
   const MeanDilatation whole(block, box_.positions, choose_isa(), Threads(1));
   EXPECT_EQ(whole.patches(), of_cell_);
   std::vector<std::int32_t> removed;

@@ -65,7 +65,7 @@ void Bar::add_body(std::string_view model, std::string_view law) {
   BodyDescription other = body();
   other.name = "other";
   other.elastic.front().law = law;
-  other.elastic.front().model.name = model;
+  other.elastic.front().model = options_named(model);
   world.bodies.push_back(std::move(other));
 }
 

@@ -19,8 +19,10 @@ class EveryModel : public testing::TestWithParam<std::string> {
     const bool any = info_.laws.empty();
     ElasticBlock block =
         test::elastic_block(mesh_.blocks[0], {any ? "stvk" : std::string(info_.laws.front()), 3.0, 0.3, 2.0});
-    block.model.name = GetParam();
-    for (std::int32_t i = 0; i < mesh_.node_count(); i += 2) block.model.kept.push_back(i);
+    block.model = options_named(GetParam());
+    if (auto* condensed = std::get_if<CondensedOptions>(&block.model)) {
+      for (std::int32_t i = 0; i < mesh_.node_count(); i += 2) condensed->kept.push_back(i);
+    }
     return block;
   }
   std::unique_ptr<BodyModel> made() const {
@@ -146,9 +148,18 @@ TEST_P(EveryModel, RefusesWhatItDoesNotTake) {
   wrong = block();
   wrong.density = {-1.0};
   EXPECT_NE(message(wrong).find("density of -1"), std::string::npos);
-  wrong = block();
-  wrong.model.name = "plasticine";
-  EXPECT_NE(message(wrong).find("there are fem, corotational"), std::string::npos);
+}
+
+TEST(ModelOptionsTest, NameEveryModelAndNoOther) {
+  EXPECT_EQ(all_models().size(), std::variant_size_v<ModelOptions>);
+  for (const ModelInfo& info : all_models()) EXPECT_EQ(model_name(options_named(info.name)), info.name);
+  try {
+    (void)options_named("plasticine");
+    ADD_FAILURE() << "nothing was refused";
+  } catch (const ParameterError& error) {
+    const std::string said = error.what();
+    EXPECT_NE(said.find("no model \"plasticine\"; there are fem, corotational"), std::string::npos) << said;
+  }
 }
 
 /// Those whose nodes have no rotation; the others are in frames_test.cpp and shell_test.cpp.

@@ -41,13 +41,13 @@ class GoesOn : public testing::TestWithParam<SnapshotCase> {
     const Mesh mesh = test::distorted_box({4, 3, 2}, Split::six, 0.05);
     WorldDescription world;
     world.bodies = {test::body_of(mesh, {.law = c.law, .young = 300.0})};
-    world.bodies[0].elastic[0].model.name = c.model;
+    world.bodies[0].elastic[0].model = options_named(c.model);
     world.gravity = Vec3(0.0, 0.0, -2.0);
     world.fixed = {test::fixed(test::nodes_where(mesh, [](const Vec3& x) { return x.x() < 0.4; }))};
     world.loads = {{"hand", "body", {7, 9}, {0, 1, 0, 0, 0, 1}, {{0.0, 0.1}, {0.0, 1.0}}}};
     world.editable = true;
     if (c.model == "condensed") {  // all nodes but three
-      auto& kept = world.bodies[0].elastic[0].model.kept;
+      auto& kept = std::get<CondensedOptions>(world.bodies[0].elastic[0].model).kept;
       for (std::int32_t i = 0; i < mesh.node_count(); ++i) {
         if (i != 26 && i != 27 && i != 28) kept.push_back(i);
       }

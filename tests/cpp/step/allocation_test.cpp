@@ -74,7 +74,7 @@ class Allocation : public testing::TestWithParam<AllocationCase> {
     const Mesh mesh = box_mesh(Vec3::Zero(), Vec3(2, 1, 1), {8, 5, 5}, GetParam().split);
     WorldDescription world;
     world.bodies = {test::body_of(mesh, {.law = GetParam().law, .young = 100.0})};
-    for (ElasticBlock& block : world.bodies[0].elastic) block.model.name = GetParam().model;
+    for (ElasticBlock& block : world.bodies[0].elastic) block.model = options_named(GetParam().model);
     world.bodies[0].rayleigh = {0.1, 0.001};
     if (GetParam().viscous) {
       world.bodies[0].viscosity = {0.1, 0.2, 0.3, {{0.5, 0.1}, {0.2, 1.0}}};
@@ -143,9 +143,11 @@ TEST(AllocationOfModels, ADefiniteMatrixTakesNone) {
     if (info.name == "frames" || info.name == "shell") continue;  // of nodes that have a rotation
     ElasticBlock block = test::elastic_block(
         mesh.blocks[0], {info.laws.empty() ? "stvk" : std::string(info.laws.front()), 100.0});
-    block.model.name = info.name;
-    block.model.tangent = "exact";
-    for (std::int32_t i = 0; i < mesh.node_count(); ++i) block.model.kept.push_back(i);
+    block.model = options_named(info.name);
+    if (auto* corotational = std::get_if<CorotationalOptions>(&block.model)) corotational->tangent = "exact";
+    if (auto* condensed = std::get_if<CondensedOptions>(&block.model)) {
+      for (std::int32_t i = 0; i < mesh.node_count(); ++i) condensed->kept.push_back(i);
+    }
     if (info.name == "fem") {
       block.reinforcements = {{"fibre",
                                {{"k1", {9.0}},

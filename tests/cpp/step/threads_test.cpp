@@ -38,7 +38,7 @@ class SameBits : public testing::TestWithParam<ThreadsCase> {
     const Mesh mesh = box_mesh(Vec3::Zero(), Vec3(2, 1, 1), {split == Split::none ? n : 9, n, n}, split);
     WorldDescription world;
     world.bodies = {test::body_of(mesh, {.young = 100.0})};
-    for (ElasticBlock& block : world.bodies[0].elastic) block.model.name = GetParam().model;
+    for (ElasticBlock& block : world.bodies[0].elastic) block.model = options_named(GetParam().model);
     world.bodies[0].frames = std::string_view(GetParam().model) == "frames";
     world.bodies[0].rayleigh = {0.1, 0.001};
     if (GetParam().viscous) {

@@ -26,8 +26,10 @@ TISSU_PRODUCT(avx512)
 
 template <class T>
 MultiplyRows<T> multiply_rows_of(Isa isa) {
-#ifdef TISSU_X86_KERNELS
+#ifdef TISSU_HAS_AVX512
   if (isa == Isa::avx512) return &avx512::multiply_rows;
+#endif
+#ifdef TISSU_HAS_AVX2
   if (isa == Isa::avx2) return &avx2::multiply_rows;
 #endif
   (void)isa;

@@ -55,7 +55,8 @@ void Elastic::choose_kernels(Isa isa) {
                            "\" needs cells with a volume, and " + block_.element + " has none.");
     }
   }
-  if (block_.fused && block_.reinforcements.empty() && !block_.loaded) {
+  if (options_or_defaults<FemOptions>(block_.model).fused && block_.reinforcements.empty() &&
+      !block_.loaded) {
     kernels_ = find_fused_kernels(isa, block_.element, block_.law, block_.quadrature);
   }
   if (kernels_ == nullptr) kernels_ = find_shape_kernels(isa, reference_.nodes, reference_.dimension);

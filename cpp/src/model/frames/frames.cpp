@@ -190,7 +190,7 @@ void Frames::add_product(const State& state, StiffnessScale scale, ConstReals p,
 void Frames::add_stiffness(const State& state, StiffnessScale scale, BlockMatrix& matrix) const {
   if (scale.position == 0.0) return;
   gather(state);
-  const bool material = block_.model.tangent == "material";
+  const bool material = options_.tangent == "material";
   const bool turning = !material && !scale.definite;
   double* values = matrix.values();
   for_coloured([&](std::int32_t begin, std::int32_t end) {

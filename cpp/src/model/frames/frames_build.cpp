@@ -44,14 +44,15 @@ void check(const ElasticBlock& block, const FramePoints& points) {
 }
 
 FramePoints points_for(const ElasticBlock& block, ConstReals rest_positions) {
-  if (!block.points) return points_of_cells(block, rest_positions);
-  FramePoints points = *block.points;
+  const auto given = options_or_defaults<FramesOptions>(block.model).points;
+  if (!given) return points_of_cells(block, rest_positions);
+  FramePoints points = *given;
   points.frames = block.cells;
   return points;
 }
 
 int nodes_of(const ElasticBlock& block) {
-  if (block.points) return block.points->neighbours;
+  if (const auto given = options_or_defaults<FramesOptions>(block.model).points) return given->neighbours;
   const ReferenceCell cell = reference_cell(block.element, block.quadrature);
   if (!cell.points.empty() && block.cells.size() % static_cast<std::size_t>(cell.nodes) == 0 &&
       !block.cells.empty())
@@ -67,13 +68,14 @@ const FrameKernels* find_frame_kernels(Isa isa) { return TISSU_KERNELS_OF(isa, f
 
 Frames::Frames(ElasticBlock block, ConstReals rest_positions, Isa isa, Threads threads)
     : block_(std::move(block)),
+      options_(options_or_defaults<FramesOptions>(block_.model)),
       threads_(threads),
       kernels_(find_frame_kernels(isa)),
       nodes_per_cell_(nodes_of(block_)) {
   points_ = points_for(block_, rest_positions);
   check(block_, points_);
-  const auto cells = block_.points ? points_.volumes.size()
-                                   : block_.cells.size() / static_cast<std::size_t>(nodes_per_cell_);
+  const auto cells = options_.points ? points_.volumes.size()
+                                     : block_.cells.size() / static_cast<std::size_t>(nodes_per_cell_);
   volumes_.assign(cells, 0.0);
   for (std::size_t s = 0; s < points_.volumes.size(); ++s)
     volumes_[points_.cells.empty() ? s : static_cast<std::size_t>(points_.cells[s])] += points_.volumes[s];
@@ -97,7 +99,7 @@ Frames::Frames(ElasticBlock block, ConstReals rest_positions, Isa isa, Threads t
 
 void Frames::lay_frames() {
   const bool known = block_.frames.size() == block_.cells.size();
-  if (!block_.points && (!known || std::ranges::min(block_.frames) < 0)) {
+  if (!options_.points && (!known || std::ranges::min(block_.frames) < 0)) {
     throw ParameterError("body \"" + block_.body +
                          "\" has frames as its model, but nodes without rotations; let its nodes be frames.");
   }
@@ -122,7 +124,7 @@ Mat3 Frames::along(std::size_t point) const {
   const Vec3 axis = tissu::block(ConstReals(points_.axes), static_cast<std::int32_t>(point));
   const Mat3 across = points_.dimension == 2 ? Mat3(axis * axis.transpose())
                                              : Mat3(Mat3::Identity() - axis * axis.transpose());
-  const double share = block_.model.section == "middle" ? 1.0 : kLinked;
+  const double share = options_.section == "middle" ? 1.0 : kLinked;
   return share * (Mat3::Identity() - across) + across;
 }
 

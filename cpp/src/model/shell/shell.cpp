@@ -80,6 +80,7 @@ void Shell::lay_unknowns() {
 }
 
 void Shell::lay_elements(ConstReals rest_positions) {
+  const double drilling = options_or_defaults<ShellOptions>(block_.model).drilling;
   elements_.reserve(order_.element.size());
   for (const std::int32_t cell : order_.element) {
     const std::int32_t* nodes = block_.cells.data() + kNodes * static_cast<std::size_t>(cell);
@@ -87,7 +88,7 @@ void Shell::lay_elements(ConstReals rest_positions) {
     elements_.emplace_back(
         std::array{corner(0), corner(1), corner(2)},
         ShellSection{of_cell(block_.cross_section, cell), of_cell(block_.parameters.at("young"), cell),
-                     of_cell(block_.parameters.at("poisson"), cell), block_.model.drilling});
+                     of_cell(block_.parameters.at("poisson"), cell), drilling});
   }
   energies_.assign(elements_.size(), 0.0);
 }

@@ -35,7 +35,7 @@ class CondensedTest : public testing::TestWithParam<Split> {
   WorldDescription world(const std::vector<std::int32_t>& kept) const {
     WorldDescription world;
     world.bodies = {test::body_of(mesh_, {"hooke", 3.0, 0.3, 2.0})};
-    if (!kept.empty()) world.bodies[0].elastic[0].model = {.name = "condensed", .kept = kept};
+    if (!kept.empty()) world.bodies[0].elastic[0].model = CondensedOptions{.kept = kept};
     world.fixed = {test::fixed(left_)};
     world.gravity = Vec3(0.3 * kGravity, 0.0, -kGravity);
     world.consistent_weight = true;
@@ -123,9 +123,10 @@ TEST_P(CondensedTest, MeetsAnotherRegionAndStaysWhenThatIsCut) {
     }
     ElasticBlock first = part_of(all, low);
     if (condensed) {
-      first.model = {.name = "condensed", .kept = left_};
+      std::vector<std::int32_t> kept = left_;
       const auto middle = test::nodes_at(mesh_, 0, 2.0);
-      first.model.kept.insert(first.model.kept.end(), middle.begin(), middle.end());
+      kept.insert(kept.end(), middle.begin(), middle.end());
+      first.model = CondensedOptions{.kept = kept};
     }
     description.bodies[0].elastic = {first, part_of(all, high)};
     description.editable = true;
@@ -159,7 +160,7 @@ TEST_P(CondensedTest, RefusesWhatItCannotEliminate) {
   EXPECT_NE(message(world(right_)).find("is held or led; keep it"), std::string::npos);
   EXPECT_NE(message(world(left_)).find("carries pull; keep it"), std::string::npos);
   WorldDescription none = world(left_);
-  none.bodies[0].elastic[0].model.kept.clear();
+  none.bodies[0].elastic[0].model = CondensedOptions{};
   EXPECT_NE(message(none).find("keeps no node"), std::string::npos);
   WorldDescription loose = world({left_[0]});
   loose.fixed = {test::fixed({left_[0]})};

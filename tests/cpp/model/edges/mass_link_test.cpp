@@ -158,7 +158,7 @@ TEST_F(MassLinkTest, NeoHookeInsideOutIsRefusedByTheStep) {
     world.bodies[0].name = "body";
     world.bodies[0].positions = X_;
     world.bodies[0].elastic = {block("neo_hooke")};
-    world.bodies[0].elastic[0].model.name = model;
+    world.bodies[0].elastic[0].model = options_named(model);
     Simulation simulation = test::simulate(std::move(world), test::implicit_euler());
     const std::vector<double> before = simulation.state().positions;
     tissu::block(Reals(simulation.state().positions), 3) *= -1.0;

@@ -223,7 +223,7 @@ TEST(MassSpring, EqualMassesHaveTheSameTotal) {
     return nodal;
   };
   const std::vector<double> by_volume = masses();
-  block.model.equal_masses = true;
+  block.model = MassSpringOptions{.equal_masses = true};
   const std::vector<double> equal = masses();
   const double total = std::accumulate(by_volume.begin(), by_volume.end(), 0.0);
   EXPECT_NEAR(std::accumulate(equal.begin(), equal.end(), 0.0), total, 1e-13);
@@ -247,7 +247,7 @@ TEST(MassSpring, AllNodesInOnePoint) {
 TEST(MassSpring, RefusesOtherCellsAndLaws) {
   const Mesh mesh = box_mesh(Vec3::Zero(), Vec3::Ones(), {1, 1, 1}, Split::none);
   ElasticBlock block = test::elastic_block(mesh.blocks[0], {});
-  block.model.name = "mass-spring";
+  block.model = MassSpringOptions{};
   const auto message = [&] {
     try {
       (void)make_model(block, mesh.positions, choose_isa(), Threads(1));

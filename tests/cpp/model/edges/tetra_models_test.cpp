@@ -206,7 +206,7 @@ TEST_P(TetraModels, StepsAsTheContinuumElementDoes) {
   const auto world = [&](const char* model) {
     WorldDescription description;
     description.bodies = {test::body_of(mesh_, {.law = GetParam().law, .young = 300.0})};
-    description.bodies[0].elastic[0].model.name = model;
+    description.bodies[0].elastic[0].model = options_named(model);
     description.bodies[0].rayleigh = {0.1, 0.001};
     description.gravity = Vec3(0.0, 0.0, -2.0);
     description.fixed = {test::fixed(test::nodes_where(mesh_, [](const Vec3& x) { return x.x() < 0.6; }))};

@@ -199,7 +199,7 @@ TEST_P(ShapeTest, RestAndRigidMotionsHaveNoForce) {
 
 TEST_P(ShapeTest, FusedKernelsSayTheSame) {
   ElasticBlock other = sample_.block;
-  other.fused = false;
+  other.model = FemOptions{.fused = false};
   const Elastic by_shape(other, sample_.positions, choose_isa(), Threads(1));
   std::vector<double> f(state_.positions.size(), 0.0);
   by_shape.add_force(state_, f);

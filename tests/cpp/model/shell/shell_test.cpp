@@ -38,7 +38,7 @@ class ShellTest : public testing::Test {
     block.body = "wall";
     block.element = "triangle";
     block.law = "hooke";
-    block.model.name = "shell";
+    block.model = ShellOptions{};
     block.parameters = {{"young", {}}, {"poisson", {0.3}}};
     block.density = {2.0};
     block.cross_section.clear();
@@ -236,7 +236,7 @@ TEST_F(ShellTest, RefusesWhatItDoesNotTake) {
   expect([](ElasticBlock& b) { b.density = {-1.0}; }, "density of -1");
   expect([](ElasticBlock& b) { b.cross_section = {0.0}; }, "thickness");
   expect([](ElasticBlock& b) { b.parameters["young"] = {-3.0}; }, "young");
-  expect([](ElasticBlock& b) { b.model.drilling = 0.0; }, "drilling");
+  expect([](ElasticBlock& b) { b.model = ShellOptions{.drilling = 0.0}; }, "drilling");
   expect([](ElasticBlock& b) { b.cells[1] = b.cells[0], b.frames[1] = b.frames[0]; }, "no volume");
 }
 

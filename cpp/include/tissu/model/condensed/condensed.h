@@ -18,8 +18,8 @@ namespace tissu {
 class Condensed final : public BodyModel {
  public:
   static ModelInfo info();
-  /// `block.model.kept` holds the nodes that are kept; the others must belong to no other block, be held by
-  /// nothing and carry no load.
+  /// `CondensedOptions::kept` holds the nodes that are kept; the others must belong to no other block, be
+  /// held by nothing and carry no load.
   Condensed(ElasticBlock block, ConstReals rest_positions, Isa isa, Threads threads);
 
   [[nodiscard]] std::string_view effect() const override { return "condensed elasticity"; }

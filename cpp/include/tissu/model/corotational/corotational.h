@@ -41,7 +41,7 @@ class Corotational final : public CellModel {
   [[nodiscard]] std::size_t reals_per_cell() const override;
 
  private:
-  void choose_kernels(Isa isa, bool one_jacobian);
+  void choose_kernels(Isa isa, bool one_jacobian, bool exact_tangent);
   void lay_centres(ConstReals rest_positions);
   [[nodiscard]] Loops<CorotationalKernels, CorotationalView> loops(const CorotationalKernels& kernels) const;
 

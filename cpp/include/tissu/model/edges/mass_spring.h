@@ -21,8 +21,8 @@ namespace tissu {
 class MassSpring final : public CellModel {
  public:
   static ModelInfo info();
-  /// `block.model.equal_masses`: the block's mass in equal parts on its nodes, whatever volume they have
-  /// around them.
+  /// `MassSpringOptions::equal_masses`: the block's mass in equal parts on its nodes, whatever volume they
+  /// have around them.
   MassSpring(ElasticBlock block, ConstReals rest_positions, Isa isa, Threads threads);
 
   [[nodiscard]] std::string_view effect() const override { return "springs"; }

@@ -81,6 +81,7 @@ class Frames final : public BodyModel {
   [[nodiscard]] double density(std::size_t point) const;
 
   ElasticBlock block_;
+  FramesOptions options_;
   Threads threads_;
   const FrameKernels* kernels_;
   FramePoints points_;

@@ -52,7 +52,6 @@ CPP: dict[str, set[str]] = {
     "model/condensed": MODEL | {"model/fem", "solve"},
     "viscosity": MODEL | {"model/edges"},  # dampers beside springs
     "edit": MODEL | {"world"},
-    "io": {"base", "mesh"},
 }
 CPP["model/models"] = MODEL | {room for room in CPP if room.startswith("model/")}
 CPP["world"] = MODEL | {"model/models", "viscosity"}
@@ -66,45 +65,35 @@ PYTHON: dict[str, set[str]] = {
     "_core": set(),
     "counted": set(),
     "pareto": set(),
-    "units": {"errors"},
+    "reading": set(),
+    "units": {"errors", "reading"},
     "codegen": {"errors"},
     "formula": {"errors", "codegen"},
     "mesh": {"errors", "counted", "units", "_core"},
     "sampling": {"errors", "counted", "mesh"},
-    "yaml_io": {"errors", "units", "mesh", "scene", "user_law"},
-    "selection": {"errors", "units", "mesh"},
-    "scene": {"errors", "counted", "units", "mesh", "yaml_io", "selection", "compile"},
+    "scene": {"errors", "counted", "reading", "units", "mesh", "_core"},
     "user_law": {"errors", "units", "codegen", "scene", "_core"},
-    "effects": {"errors", "mesh", "scene"},
+    "yaml_io": {"errors", "mesh", "scene", "user_law"},
+    "effects": {"scene"},
     "checkpoint": {"errors", "counted", "_core"},
-    "simulation": {"errors", "counted", "units", "mesh", "effects", "checkpoint", "_core"},
+    "picture": {"errors", "mesh"},
+    "simulation": {"errors", "counted", "units", "mesh", "checkpoint", "_core"},
     "compile": {
         "errors",
         "counted",
-        "units",
         "mesh",
         "sampling",
-        "selection",
         "scene",
         "effects",
         "checkpoint",
         "simulation",
         "_core",
     },
-    "comparison": {"errors", "counted", "mesh", "scene", "simulation", "picture"},
-    "accuracy": {"errors", "pareto", "scene", "yaml_io", "simulation", "picture"},
-    "advice": {
-        "errors",
-        "counted",
-        "pareto",
-        "units",
-        "mesh",
-        "scene",
-        "simulation",
-        "picture",
-    },
-    "picture": {"errors", "mesh"},
-    "output": {"errors", "counted", "mesh", "simulation", "picture", "_core"},
+    "front": {"errors", "scene", "yaml_io", "compile"},
+    "comparison": {"errors", "counted", "mesh", "scene", "picture"},
+    "accuracy": {"errors", "pareto", "front", "yaml_io", "picture"},
+    "advice": {"errors", "counted", "pareto", "units", "mesh", "scene", "picture"},
+    "output": {"errors", "counted", "mesh", "_core"},
 }
 PYTHON["cli"] = set(PYTHON)
 PYTHON["__init__"] = set(PYTHON)
@@ -207,6 +196,38 @@ def check_python() -> Iterator[str]:
                     yield f"{shown}:{node.lineno}: {module} imports {other}; allowed: {allowed}"
 
 
+def absent_rooms(table: dict[str, set[str]], present: set[str], name: str) -> Iterator[str]:
+    """One sentence for each room of a table that does not exist."""
+    for room in sorted({*table, *set().union(*table.values())} - present):
+        yield f"the table {name} names '{room}', which is not there; take it out"
+
+
+def cycles(table: dict[str, set[str]], name: str) -> Iterator[str]:
+    """One sentence when the arrows of a table lead round in a circle."""
+    left = {room: others & set(table) - {room} for room, others in table.items()}
+    while True:
+        lowest = {room for room, others in left.items() if not others & set(left)}
+        if not lowest:
+            break
+        left = {room: others for room, others in left.items() if room not in lowest}
+    if left:
+        way = [min(left)]
+        while way[-1] not in way[:-1]:
+            way.append(min(left[way[-1]] & set(left)))
+        circle = " -> ".join(way[way.index(way[-1]) :])
+        yield f"the table {name} has a circle: {circle}; an arrow points one way only"
+
+
+def check_tables() -> Iterator[str]:
+    """One sentence for each fault of the tables themselves."""
+    there = {p.relative_to(top).with_suffix("").as_posix() for top in TOPS for p in top.rglob("*")}
+    yield from absent_rooms(CPP, there, "CPP")
+    modules = {path.name.split(".")[0] for path in (ROOT / "python/tissu").iterdir()}
+    yield from absent_rooms(PYTHON, modules, "PYTHON")
+    yield from cycles(CPP, "CPP")
+    yield from cycles(PYTHON, "PYTHON")
+
+
 def check_names() -> Iterator[str]:
     """One sentence for each file or folder whose name says nothing."""
     for folder in NAMED_FOLDERS:
@@ -217,7 +238,7 @@ def check_names() -> Iterator[str]:
 
 def main() -> int:
     """Prints every problem; 1 when there is one."""
-    problems = list(dict.fromkeys([*check_cpp(), *check_python(), *check_names()]))
+    problems = list(dict.fromkeys([*check_tables(), *check_cpp(), *check_python(), *check_names()]))
     print("\n".join(problems) or "arrows: all allowed")
     return 1 if problems else 0
 

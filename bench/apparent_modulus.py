@@ -27,7 +27,7 @@ LEANING = "cut into six"
 
 HEAD = """# The apparent modulus of springs
 
-The experiment of Chendeb 2007, section 2.3.4, with the model `mass-spring`: four meshes of a cube
+The experiment of Chendeb 2007, section 2.3.4, with the model `mass_spring`: four meshes of a cube
 of 50 mm, E = 0.02 MPa, compressed by a plane by 12 mm; the modulus is stress over strain, (force
 / 25 cm^2) / (12 mm / 50 mm). Equilibrium by Newton's method in twelve steps, without gravity.
 

@@ -3,9 +3,7 @@
 import pytest
 
 import tissu as ts
-from tissu.errors import SceneError
-from tissu.mesh import bar_mesh, read_mesh, write_mesh
-from tissu.scene import (
+from tissu import (
     BarMesh,
     Body,
     Box,
@@ -32,6 +30,10 @@ from tissu.scene import (
     SurfaceNodes,
     Traction,
 )
+from tissu.errors import SceneError
+from tissu.mesh import bar_mesh, read_mesh, write_mesh
+from tissu.scene.step import STEPS
+from typical_laws import typical_laws
 
 TEXT = """\
 name: organ
@@ -139,15 +141,10 @@ def test_plain_data_is_what_yaml_says():
 
 
 def other_laws():
-    """A scene for each law that `everything` lacks."""
+    """A scene for each law of the library, and one with fibres and units."""
     fibres = ts.Fibres(k1=2e3, k2=0.8, direction=(1, 2, 2))
-    laws = [
-        ts.NeoHooke(young=1e3, poisson=0.3, fibres=fibres),
-        ts.StableNeoHooke(young=1e3, poisson=0.3),
-        ts.MooneyRivlin(c1="1 kPa", c2=100.0, kappa="50 kPa"),
-        ts.Yeoh(c1=1e3, c2=10.0, c3=1.0, kappa=5e4),
-        ts.ArrudaBoyce(mu=1e3, lambda_m=1.6, kappa=5e4),
-    ]
+    mixed = ts.MooneyRivlin(c1="1 kPa", c2=100.0, kappa="50 kPa", fibres=fibres)
+    laws = [mixed, *typical_laws().values()]
     mesh = ts.BarMesh(size=(1, 1, 1), cells=(1, 1, 1))
     step = ts.ImplicitEuler(0.01)
     bodies = [ts.Body(mesh=mesh, law=law, density=1e3) for law in laws]
@@ -205,14 +202,26 @@ def methods():
         ts.Newmark(0.01, beta=0.3, gamma=0.6),
         ts.BDF2FixedPoint(1e-3, iterations=9, anderson=2),
     ]
+    known = {type(step) for step in each}
+    each += [
+        cls(**({"dt": 0.01} if "dt" in cls.model_fields else {})) for cls in set(STEPS) - known
+    ]
     return [ts.Scene(bodies={"bar": body}, step=step) for step in each]
 
 
 def test_a_model_may_be_named_by_a_word():
     text = models()[3].to_yaml()
-    written = "model:\n      type: mass-link"
+    written = "model:\n      type: mass_link"
     assert written in text
-    assert ts.Scene.from_yaml_text(text.replace(written, "model: mass-link")) == models()[3]
+    for word in ("mass_link", "mass-link", "{type: mass-link}"):
+        assert ts.Scene.from_yaml_text(text.replace(written, f"model: {word}")) == models()[3]
+
+
+def test_types_may_be_spelt_with_hyphens():
+    text = other_laws()[0].to_yaml()
+    assert "type: implicit_euler" in text
+    hyphens = text.replace("type: implicit_euler", "type: implicit-euler")
+    assert ts.Scene.from_yaml_text(hyphens) == other_laws()[0]
 
 
 def test_every_law_model_and_method_comes_back():
@@ -283,7 +292,7 @@ def test_problems_have_file_line_and_path(tmp_path):
         f"{file}:4: bodies.organ.mesh: {tmp_path / 'organ.vtu'} does not exist; "
         "the path of a mesh file is accepted",
         f"{file}:5: bodies.organ.law.yung: unknown key; did you mean 'young'? "
-        "Accepted: fibres, young, poisson, type",
+        "Accepted: fibres, type, young, poisson",
         f"{file}:10: fixed[0].body: no body is named 'orgn'; did you mean 'organ'? Bodies: organ",
         f"{file}:13: step.dt: found '-10 ms'; more than 0 is accepted",
     ]

@@ -1,7 +1,6 @@
 #include "bind.h"
 #include "specs.h"
 #include "tissu/edit/remove_cells.h"
-#include "tissu/model/frames/frames.h"
 #include "tissu/simulation/simulation.h"
 #include "tissu/step/frequency.h"
 
@@ -74,9 +73,7 @@ py::array_t<double> rotations(const Simulation& simulation, const std::string& n
 py::array_t<double> points(const Simulation& simulation, const std::string& name) {
   std::vector<double> all;
   for (const BodyModel* model : simulation.world().body(name).models) {
-    const auto* frames = dynamic_cast<const Frames*>(model);
-    if (frames == nullptr) continue;
-    const std::vector<double> some = frames->points(simulation.state());
+    const std::vector<double> some = model->points(simulation.state());
     all.insert(all.end(), some.begin(), some.end());
   }
   return py::array_t<double>({static_cast<py::ssize_t>(all.size() / 3), py::ssize_t{3}}, all.data());

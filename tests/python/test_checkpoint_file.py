@@ -172,7 +172,7 @@ def rewritten(file, **header):
 
 def test_other_versions_are_refused_and_other_kernels_told(file):
     rewritten(file, tissu="7.5.1")
-    assert "format 1 of tissu 7.5.1; format 1 of tissu" in refusal(file)
+    assert "format 2 of tissu 7.5.1; format 2 of tissu" in refusal(file)
     rewritten(file, tissu=ts.__version__, format=9)
     assert "it has format 9" in refusal(file)
     rewritten(file, format=1, build={**checkpoints.build(), "instruction_set": "mmx"})

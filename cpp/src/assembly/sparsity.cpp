@@ -1,6 +1,7 @@
 #include "tissu/assembly/sparsity.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "tissu/base/error.h"
@@ -9,7 +10,7 @@ namespace tissu {
 
 std::int32_t Sparsity::slot(std::int32_t row, std::int32_t col) const {
   const auto begin = column.begin() + row_begin[static_cast<std::size_t>(row)];
-  const auto end = column.begin() + row_begin[static_cast<std::size_t>(row) + 1];
+  const auto end = column.begin() + row_end()[row];
   const auto found = std::lower_bound(begin, end, col);
   return found != end && *found == col ? static_cast<std::int32_t>(found - column.begin()) : -1;
 }
@@ -18,7 +19,7 @@ void SparsityBuilder::add_cells(std::span<const std::int32_t> nodes, int size) {
   cells_.push_back({{nodes.begin(), nodes.end()}, size});
 }
 
-Sparsity SparsityBuilder::build() const {
+Sparsity SparsityBuilder::build(double room) const {
   // For each row, the cells that touch it, as offsets into one list of nodes.
   std::vector<std::int64_t> first(static_cast<std::size_t>(rows_) + 1, 0);
   for (const Cells& cells : cells_) {
@@ -50,6 +51,11 @@ Sparsity SparsityBuilder::build() const {
     std::ranges::sort(row);
     row.erase(std::ranges::unique(row).begin(), row.end());
     result.column.insert(result.column.end(), row.begin(), row.end());
+    if (room > 0.0) {
+      result.open_end.push_back(static_cast<std::int64_t>(result.column.size()));
+      const double spare = std::ceil(room * static_cast<double>(row.size()));
+      result.column.insert(result.column.end(), static_cast<std::size_t>(spare), r);
+    }
     result.row_begin[i + 1] = static_cast<std::int64_t>(result.column.size());
   }
   if (result.blocks() > std::numeric_limits<std::int32_t>::max()) {

@@ -78,7 +78,7 @@ void Pressure::couple(SparsityBuilder& builder) const {
   for (const Ruled& some : faces_) builder.add_cells(some.nodes, some.rule.nodes);
 }
 
-void Pressure::add_force(const State& state, Reals f) const {
+void Pressure::add_force(const State& state, Scratch& /*scratch*/, Reals f) const {
   const double p = pressure_at(state);
   for (const Ruled& some : faces_) {
     for_points(some.nodes, some.rule, state.positions,
@@ -112,19 +112,21 @@ void Pressure::for_blocks(const State& state, double scale, Function&& f) const 
   }
 }
 
-void Pressure::add_stiffness(const State& state, StiffnessScale scale, BlockMatrix& matrix) const {
+void Pressure::add_stiffness(const State& state, Scratch& /*scratch*/, StiffnessScale scale,
+                             BlockMatrix& matrix) const {
   if (scale.definite) return;
   for_blocks(state, scale.position,
              [&](std::int32_t a, std::int32_t b, const Mat3& B) { matrix.add(a, b, B); });
 }
 
-void Pressure::add_product(const State& state, StiffnessScale scale, ConstReals p, Reals out) const {
+void Pressure::add_product(const State& state, Scratch& /*scratch*/, StiffnessScale scale, ConstReals p,
+                           Reals out) const {
   for_blocks(state, scale.position,
              [&](std::int32_t a, std::int32_t b, const Mat3& B) { block(out, a) += B * block(p, b); });
 }
 
 /// A third of the flux of x.
-double Pressure::energy(const State& state) const {
+double Pressure::energy(const State& state, Scratch& /*scratch*/) const {
   const ConstReals x(state.positions);
   double flux = 0.0;
   for (const Ruled& some : faces_) {

@@ -36,7 +36,7 @@ class ScaledMatrix {
     divide(scaled_);
     std::ranges::fill(out, 0.0);
     for (const auto& model : world_.forces()) {
-      if (model->has_stiffness()) model->add_product(state_, scale_, scaled_, out);
+      if (model->has_stiffness()) model->add_product(state_, scratch_, scale_, scaled_, out);
     }
     divide(out);
   }
@@ -58,6 +58,7 @@ class ScaledMatrix {
   std::vector<double> root_;
   std::vector<Mat3> turning_;
   std::vector<double> scaled_;
+  Scratch scratch_;
 };
 
 /// A start that no mode is orthogonal to: numbers without a pattern, the same on every machine.

@@ -190,7 +190,7 @@ double StageSolver::potential(State& state, ConstReals v) {
   for (std::size_t i = 0; i < v.size(); ++i) work_[i] = v[i] - stage_.base.velocities[i];
   world.mass().add_product(stage_.base, 0.5, work_, momentum_);
   double sum = std::inner_product(work_.begin(), work_.end(), momentum_.begin(), 0.0);
-  for (const auto& model : world.forces()) sum += stage_.push / stage_.move * model->energy(state);
+  for (const auto& model : world.forces()) sum += stage_.push / stage_.move * model->energy(state, scratch_);
   return sum;
 }
 

@@ -15,8 +15,8 @@ from tissu.checkpoint.physics import differences
 from tissu.checkpoint.whole import write_whole
 from tissu.errors import CheckpointError
 
-FORMAT = 1
-_COLUMNS = {"positions": 3, "velocities": 3, "velocities_before": 3, "rotations": 4, "links": 11}
+FORMAT = 2
+_COLUMNS = {"positions": 3, "velocities": 3, "velocities_before": 3, "rotations": 4}
 
 
 @dataclass(frozen=True, slots=True)

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 
 #include "../world/sample_worlds.h"
+#include "room.h"
 #include "tissu/element/generated/all.h"
 #include "tissu/force/load.h"
 #include "tissu/mesh/quality.h"
@@ -50,7 +51,7 @@ class FaceLoadTest : public testing::TestWithParam<std::string> {
 // for pyramids, whose shape functions are rational.
 TEST_P(FaceLoadTest, EnclosesTheVolume) {
   const double tolerance = GetParam().starts_with("pyramid") ? 2e-3 : GetParam() == "tetra10" ? 1e-5 : 1e-12;
-  EXPECT_NEAR(Pressure("p", faces_, 1.0, {}).energy(state_), volumes(mesh_)[0], tolerance);
+  EXPECT_NEAR(Pressure("p", faces_, 1.0, {}).energy(state_, test::scratch()), volumes(mesh_)[0], tolerance);
 }
 
 TEST_P(FaceLoadTest, BalancesOnAClosedSurface) {
@@ -69,7 +70,8 @@ TEST_P(FaceLoadTest, BalancesOnAClosedSurface) {
 TEST_P(FaceLoadTest, IsTheGradientOfItsEnergy) {
   const Pressure pressure("p", faces_, 2.0, {});
   const std::vector<double> p = random_.numbers(state_.positions.size());
-  const double slope = derivative([&](double t) { return pressure.energy(moved(state_, p, t)); }, 1e-2);
+  const double slope =
+      derivative([&](double t) { return pressure.energy(moved(state_, p, t), test::scratch()); }, 1e-2);
   EXPECT_NEAR(force_of(pressure, state_).dot(test::view(p)), -slope, 1e-11);
 }
 

@@ -215,7 +215,9 @@ INSTANTIATE_TEST_SUITE_P(All, SolverTest, testing::ValuesIn(test::solver_cases()
                          [](const auto& info) { return info.param.name; });
 
 TEST(ConjugateGradient, StopsAtItsIterations) {
-  const Sparsity pattern = SparsityBuilder(4).build();
+  SparsityBuilder builder(4);
+  builder.add_cells(std::vector<std::int32_t>{0, 1, 1, 2, 2, 3}, 2);
+  const Sparsity pattern = builder.build();
   BlockMatrix matrix(pattern, Isa::baseline, Threads(1));
   matrix.clear();
   test::Random random(72);

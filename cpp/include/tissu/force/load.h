@@ -26,9 +26,9 @@ class NodalLoad final : public ForceModel {
   [[nodiscard]] ForceKind kind() const override { return ForceKind::external; }
   [[nodiscard]] bool has_constant_stiffness() const override { return true; }
   [[nodiscard]] bool has_stiffness() const override { return false; }
-  void add_force(const State& state, Reals f) const override;
+  void add_force(const State& state, Scratch& scratch, Reals f) const override;
   /// -sum f . x [J]
-  [[nodiscard]] double energy(const State& state) const override;
+  [[nodiscard]] double energy(const State& state, Scratch& scratch) const override;
 
  private:
   std::string name_;
@@ -58,12 +58,14 @@ class Pressure final : public ForceModel {
   [[nodiscard]] std::string_view effect() const override { return name_; }
   [[nodiscard]] ForceKind kind() const override { return ForceKind::external; }
   void couple(SparsityBuilder& builder) const override;
-  void add_force(const State& state, Reals f) const override;
-  void add_stiffness(const State& state, StiffnessScale scale, BlockMatrix& matrix) const override;
-  void add_product(const State& state, StiffnessScale scale, ConstReals p, Reals out) const override;
+  void add_force(const State& state, Scratch& scratch, Reals f) const override;
+  void add_stiffness(const State& state, Scratch& scratch, StiffnessScale scale,
+                     BlockMatrix& matrix) const override;
+  void add_product(const State& state, Scratch& scratch, StiffnessScale scale, ConstReals p,
+                   Reals out) const override;
   /// p times the volume between the faces and the origin [J]; of an open surface it depends on the origin,
   /// and only its change where the rim is held means something.
-  [[nodiscard]] double energy(const State& state) const override;
+  [[nodiscard]] double energy(const State& state, Scratch& scratch) const override;
 
  private:
   [[nodiscard]] double pressure_at(const State& state) const;

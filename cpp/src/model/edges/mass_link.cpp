@@ -108,17 +108,23 @@ Loops<MassLinkKernels, MassLinkView> MassLink::loops() const {
   return {*kernels_, {order_.places.data(), slots_.data(), constants_.data()}, order_};
 }
 
-void MassLink::add_force(const State& state, Reals f) const { force_by(loops(), state.positions, f); }
+void MassLink::add_force(const State& state, Scratch& /*scratch*/, Reals f) const {
+  force_by(loops(), state.positions, f);
+}
 
-void MassLink::add_stiffness(const State& state, StiffnessScale scale, BlockMatrix& matrix) const {
+void MassLink::add_stiffness(const State& state, Scratch& /*scratch*/, StiffnessScale scale,
+                             BlockMatrix& matrix) const {
   stiffness_by(loops(), state.positions, scale, matrix);
 }
 
-void MassLink::add_product(const State& state, StiffnessScale scale, ConstReals p, Reals out) const {
+void MassLink::add_product(const State& state, Scratch& /*scratch*/, StiffnessScale scale, ConstReals p,
+                           Reals out) const {
   product_by(loops(), state.positions, scale.position, p, out);
 }
 
-double MassLink::energy(const State& state) const { return energy_by(loops(), state.positions); }
+double MassLink::energy(const State& state, Scratch& scratch) const {
+  return energy_by(loops(), state.positions, scratch);
+}
 
 CellFields MassLink::fields(const State& state) const {
   CellFields fields = fields_by(loops(), state.positions);

@@ -146,7 +146,7 @@ void MassTensor::add_masses(std::vector<double>& nodal) const {
 
 void MassTensor::add_weights(std::vector<double>& nodal) const { add_masses(nodal); }
 
-void MassTensor::add_force(const State& state, Reals f) const {
+void MassTensor::add_force(const State& state, Scratch& /*scratch*/, Reals f) const {
   for (const Part& part : parts_) force_by(loops(part), state.positions, f);
 }
 
@@ -159,22 +159,24 @@ const BodyModel& MassTensor::elements(const Sparsity& pattern) const {
   return *elements_;
 }
 
-void MassTensor::add_stiffness(const State& state, StiffnessScale scale, BlockMatrix& matrix) const {
+void MassTensor::add_stiffness(const State& state, Scratch& scratch, StiffnessScale scale,
+                               BlockMatrix& matrix) const {
   if (scale.definite && !linear_) {
-    elements(matrix.sparsity()).add_stiffness(state, scale, matrix);
+    elements(matrix.sparsity()).add_stiffness(state, scratch, scale, matrix);
     return;
   }
   for (const Part& part : parts_) stiffness_by(loops(part), state.positions, scale, matrix);
 }
 
-void MassTensor::add_product(const State& state, StiffnessScale scale, ConstReals p, Reals out) const {
+void MassTensor::add_product(const State& state, Scratch& /*scratch*/, StiffnessScale scale, ConstReals p,
+                             Reals out) const {
   for (const Part& part : parts_) product_by(loops(part), state.positions, scale.position, p, out);
 }
 
-double MassTensor::energy(const State& state) const {
+double MassTensor::energy(const State& state, Scratch& scratch) const {
   double sum = 0.0;
   for (const Part& part : parts_) {
-    for (const double e : energies_by(loops(part), state.positions)) sum += e;
+    for (const double e : energies_by(loops(part), state.positions, scratch)) sum += e;
   }
   return sum;
 }

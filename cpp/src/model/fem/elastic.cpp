@@ -16,17 +16,23 @@ Loops<ElasticKernels, ElasticView> Elastic::loops() const {
   return {*kernels_, view, order_};
 }
 
-void Elastic::add_force(const State& state, Reals f) const { force_by(loops(), state.positions, f); }
+void Elastic::add_force(const State& state, Scratch& /*scratch*/, Reals f) const {
+  force_by(loops(), state.positions, f);
+}
 
-void Elastic::add_stiffness(const State& state, StiffnessScale scale, BlockMatrix& matrix) const {
+void Elastic::add_stiffness(const State& state, Scratch& /*scratch*/, StiffnessScale scale,
+                            BlockMatrix& matrix) const {
   stiffness_by(loops(), state.positions, scale, matrix);
 }
 
-void Elastic::add_product(const State& state, StiffnessScale scale, ConstReals p, Reals out) const {
+void Elastic::add_product(const State& state, Scratch& /*scratch*/, StiffnessScale scale, ConstReals p,
+                          Reals out) const {
   product_by(loops(), state.positions, scale.position, p, out);
 }
 
-double Elastic::energy(const State& state) const { return energy_by(loops(), state.positions); }
+double Elastic::energy(const State& state, Scratch& scratch) const {
+  return energy_by(loops(), state.positions, scratch);
+}
 
 CellFields Elastic::fields(const State& state) const { return fields_by(loops(), state.positions); }
 

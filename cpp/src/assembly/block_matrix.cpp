@@ -85,7 +85,9 @@ double BlockMatrix::round_off(ConstReals x) const {
     for (std::size_t k = 0; k < couplings()->rows().size(); ++k) {
       const std::int32_t i = couplings()->rows()[k];
       const Vec3 coupled = couplings()->diagonal(static_cast<std::int32_t>(k)).diagonal();
-      sum += coupled.cwiseProduct(block(x, i)).squaredNorm();
+      const Vec3 own = diagonal_block(i).diagonal();
+      sum += (own + coupled).cwiseProduct(block(x, i)).squaredNorm() -
+             own.cwiseProduct(block(x, i)).squaredNorm();
     }
   }
   return std::numeric_limits<double>::epsilon() * std::sqrt(sum);
@@ -100,7 +102,8 @@ void BlockMatrix::constrain(const std::vector<std::int32_t>& rows, const std::ve
   set_given(&masks);
   for (const std::int32_t r : rows) {
     const unsigned mask = masks[static_cast<std::size_t>(r)];
-    for (auto s = sparsity_->begin_of(r); s < sparsity_->end_of(r); ++s) {
+    const std::int64_t end = sparsity_->end_of(r);
+    for (auto s = sparsity_->begin_of(r); s < end; ++s) {
       const std::int32_t c = sparsity_->column[static_cast<std::size_t>(s)];
       clear_masked(values_.data() + 9 * s, mask, 0);
       clear_masked(values_.data() + 9 * static_cast<std::int64_t>(sparsity_->slot(c, r)), 0, mask);

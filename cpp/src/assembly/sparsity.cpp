@@ -7,10 +7,16 @@
 #include "tissu/base/error.h"
 
 namespace tissu {
+namespace {
+
+/// In the room behind a row: above every column, so that a row and its room ascend.
+constexpr std::int32_t kNoColumn = std::numeric_limits<std::int32_t>::max();
+
+}  // namespace
 
 std::int32_t Sparsity::slot(std::int32_t row, std::int32_t col) const {
   const auto begin = column.begin() + row_begin[static_cast<std::size_t>(row)];
-  const auto end = column.begin() + row_end()[row];
+  const auto end = column.begin() + row_begin[static_cast<std::size_t>(row) + 1];
   const auto found = std::lower_bound(begin, end, col);
   return found != end && *found == col ? static_cast<std::int32_t>(found - column.begin()) : -1;
 }
@@ -54,7 +60,7 @@ Sparsity SparsityBuilder::build(double room) const {
     if (room > 0.0) {
       result.open_end.push_back(static_cast<std::int64_t>(result.column.size()));
       const double spare = std::ceil(room * static_cast<double>(row.size()));
-      result.column.insert(result.column.end(), static_cast<std::size_t>(spare), r);
+      result.column.insert(result.column.end(), static_cast<std::size_t>(spare), kNoColumn);
     }
     result.row_begin[i + 1] = static_cast<std::int64_t>(result.column.size());
   }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 #include "tissu/base/array.h"
 #include "tissu/base/parallel.h"
@@ -13,6 +14,7 @@
 #include "tissu/cell/rest_shape.h"
 #include "tissu/element/reference_cell.h"
 #include "tissu/model/body_model.h"
+#include "tissu/model/law_constants.h"
 
 namespace tissu {
 
@@ -66,6 +68,10 @@ class CellModel : public BodyModel {
       for (std::size_t c = 0; c < count; ++c)
         constants_[(i / kLanes * count + c) * kLanes + i % kLanes] = constants[c];
     }
+  }
+  void take_constants(LawConstants laid) {
+    constants_ = std::move(laid.values);
+    constants_stride_ = laid.stride;
   }
   /// dN_a/dxi, [point][node][m]: what ElasticView::gradients reads.
   [[nodiscard]] std::vector<double> reference_gradients() const;

@@ -89,10 +89,7 @@ Corotational::Corotational(ElasticBlock block, ConstReals rest_positions, Isa is
   choose_kernels(isa, one_jacobian, options.tangent == "exact");
   lay_cells(rest_positions, {.frames = false, .triangular = one_jacobian});
   if (!one_jacobian && rotation_ != Rotation::small) lay_centres(rest_positions);
-  const LawUse law = laws_of(block_).front();
-  lay_constants(2, uniform(law.parameters), [&](std::size_t lane, std::span<double> lambda_and_mu) {
-    cell_constants(block_, law, order_.element[lane], lambda_and_mu);
-  });
+  take_constants(lay_law_constants(block_, order_.element, 3));
 }
 
 void Corotational::choose_kernels(Isa isa, bool one_jacobian, bool exact_tangent) {

@@ -56,7 +56,6 @@ class MeanDilatation final : public CellModel {
                  Threads threads);
   void lay(ConstReals rest_positions);
   void choose_kernels();
-  void lay_law_constants();
   [[nodiscard]] Loops<MeanDilatationKernels, MeanDilatationView> loops() const;
   void add_patches(const Chunk& chunk, const PatchParts& parts, StiffnessScale scale, double* blocks) const;
 

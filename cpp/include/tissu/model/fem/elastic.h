@@ -31,7 +31,6 @@ class Elastic final : public CellModel {
 
  private:
   void choose_kernels(Isa isa);
-  void lay_law_constants();
   [[nodiscard]] Loops<ElasticKernels, ElasticView> loops() const;
 
   const ElasticKernels* kernels_ = nullptr;

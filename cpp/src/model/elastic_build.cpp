@@ -35,13 +35,14 @@ ModelInfo Elastic::info() {
 }
 
 Elastic::Elastic(ElasticBlock block, ConstReals rest_positions, Isa isa, Threads threads)
-    : CellModel(std::move(block), threads) {
+    : CellModel(std::move(block), threads), isa_(isa) {
   choose_kernels(isa);
   check_laws(block_, static_cast<std::size_t>(cell_count()));
   const bool blind = std::ranges::all_of(
       laws_of(block_), [&](const LawUse& use) { return law_info(block_, use).frame_invariant; });
   lay_cells(rest_positions, {.frames = !blind, .triangular = kernels_->triangular});
   lay_law_constants();
+  if (reference_.dimension < 3) X_.assign(rest_positions.begin(), rest_positions.end());
 }
 
 void Elastic::choose_kernels(Isa isa) {
@@ -78,7 +79,7 @@ void Elastic::lay_law_constants() {
       const LawInfo& info = law_info(block_, use);
       const std::span<double> of_law = constants.first(info.constants.size());
       cell_constants(block_, use, order_.element[lane], of_law);
-      if (reference_.dimension < 3 && block_.plane == Plane::stress)
+      if (reference_.dimension < 3 && block_.plane != Plane::strain)
         release_across(info, reference_.dimension, of_law);
       constants = constants.subspan(of_law.size());
     }

@@ -9,6 +9,7 @@
 
 #include "tissu/force/force_model.h"
 #include "tissu/model/elastic_block.h"
+#include "tissu/model/point_fields.h"
 
 namespace tissu {
 
@@ -16,7 +17,7 @@ namespace tissu {
 struct CellFields {
   std::vector<double> von_mises;       ///< of the Cauchy stress [Pa]
   std::vector<double> energy_density;  ///< per rest volume [J/m3]
-  std::vector<double> volume_ratio;    ///< det F
+  std::vector<double> volume_ratio;    ///< det F, of sheets and lines too: they thin
 };
 
 class BodyModel : public ForceModel {
@@ -44,6 +45,8 @@ class BodyModel : public ForceModel {
   /// Puts those nodes where they are.
   virtual void settle(State& /*state*/) const {}
   [[nodiscard]] virtual CellFields fields(const State& state) const = 0;
+  /// F, P and W at its integration points; of models without a stress no points.
+  [[nodiscard]] virtual PointFields point_fields(const PointQuery& query) const;
   /// What it holds of its cells, node and matrix places included.
   [[nodiscard]] virtual std::size_t bytes() const = 0;
   /// Numbers kept of each cell's rest shape and law; those that all cells share are kept once.

@@ -1,0 +1,24 @@
+#pragma once
+
+/// The forces of a world in a state, and the matrices that its equation of motion is linearised with:
+///   M dv/dt = f(x, v),   K = -df/dx,   D = -df/dv.
+/// Rows are all there are, those of held nodes too. Made for those that look; a step makes its own.
+
+#include <memory>
+#include <vector>
+
+#include "tissu/assembly/block_matrix.h"
+#include "tissu/world/world.h"
+
+namespace tissu {
+
+/// Of the body and its surroundings together [N], moments in rotation blocks [N m].
+std::vector<double> total_force(const World& world, const State& state);
+/// K [N/m]. Where a model has another tangent than its force's derivative, it is that tangent.
+std::unique_ptr<BlockMatrix> stiffness_matrix(const World& world, const State& state);
+/// D [N s/m]
+std::unique_ptr<BlockMatrix> damping_matrix(const World& world, const State& state);
+/// M, lumped [kg]; inertia in rotation blocks [kg m2].
+std::unique_ptr<BlockMatrix> mass_matrix(const World& world, const State& state);
+
+}  // namespace tissu

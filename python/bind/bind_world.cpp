@@ -94,10 +94,10 @@ void add_viscosity(WorldDescription& world, const std::string& body, double shea
   world.body(body).viscosity = std::move(viscosity);
 }
 
-std::vector<FaceCells> to_faces(const std::vector<std::pair<std::string, Ints>>& faces) {
+std::vector<FaceCells> to_faces(const std::vector<std::pair<std::string, Ints>>& faces, double thickness) {
   std::vector<FaceCells> result;
   result.reserve(faces.size());
-  for (const auto& [type, nodes] : faces) result.push_back({type, to_vector(nodes)});
+  for (const auto& [type, nodes] : faces) result.push_back({type, to_vector(nodes), thickness});
   return result;
 }
 
@@ -143,7 +143,10 @@ void bind_world(py::module_& m) {
       .def_property_readonly("instruction_set",
                              [](const World& world) { return std::string(name(world.isa())); });
 
-  py::enum_<Plane>(m, "Plane").value("stress", Plane::stress).value("strain", Plane::strain);
+  py::enum_<Plane>(m, "Plane")
+      .value("free", Plane::free)
+      .value("stress", Plane::stress)
+      .value("strain", Plane::strain);
   py::class_<ModelUse>(m, "ModelUse")
       .def(py::init([](const std::string& name, const std::string& rotation, const std::string& tangent,
                        const std::string& section, double drilling, bool equal_masses, const Ints& kept) {
@@ -185,7 +188,7 @@ void bind_world(py::module_& m) {
            arg("cell_numbers"), arg("law"), arg("parameters"), arg("density"), arg("quadrature") = "full",
            arg("reinforcements") = std::vector<std::pair<std::string, Parameters>>{},
            arg("loaded") = py::none(), arg("cross_section") = std::vector<double>{1.0},
-           arg("plane") = Plane::stress, arg("model") = ModelUse{})
+           arg("plane") = Plane::free, arg("model") = ModelUse{})
       .def("add_points", &add_points, py::kw_only(), arg("body"), arg("shared"), arg("frames"),
            arg("weights"), arg("gradients"), arg("positions"), arg("volumes"), arg("law"), arg("parameters"),
            arg("fibres"), arg("loaded").none(true), arg("density"), arg("model"))
@@ -217,12 +220,12 @@ void bind_world(py::module_& m) {
           "add_pressure",
           [](WorldDescription& world, const std::string& name, const std::string& body,
              const std::vector<std::pair<std::string, Ints>>& faces, double pressure, const Doubles& times,
-             const Doubles& factors) {
-            world.pressures.push_back(
-                {name, world.body(body).name, to_faces(faces), pressure, to_history(times, factors)});
+             const Doubles& factors, double thickness) {
+            world.pressures.push_back({name, world.body(body).name, to_faces(faces, thickness), pressure,
+                                       to_history(times, factors)});
           },
           py::kw_only(), arg("name"), arg("body"), arg("faces"), arg("pressure"), arg("times"),
-          arg("factors"))
+          arg("factors"), arg("thickness") = 0.0)
       .def(
           "fix",
           [](WorldDescription& world, const std::string& body, const Ints& nodes, int axes, bool rotations) {

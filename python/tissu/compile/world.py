@@ -20,7 +20,7 @@ from tissu.compile.step import integrator_of
 from tissu.compile.thin import cross_section_of
 from tissu.effects import load_name
 from tissu.errors import SceneError
-from tissu.mesh.whole_faces import nodal_areas
+from tissu.mesh.whole_faces import nodal_areas, nodal_normals
 from tissu.scene.load import Moment, NodalLoad, Pressure
 from tissu.scene.problem import Problem
 from tissu.scene.step import Static
@@ -136,7 +136,7 @@ def _add_body(builder: WorldBuilder, prepared: Prepared, name: str) -> None:
             reinforcements=[("fibre", group.fibres)] if group.fibres else [],
             loaded=None if group.made is None else group.made.build().loaded,
             cross_section=np.array([cross_section_of(body, group.cell_type)]),
-            plane=Plane.strain if body.plane == "strain" and group.surface else Plane.stress,
+            plane=getattr(Plane, body.plane) if body.plane and group.surface else Plane.free,
             model=use_of(group.model, kept_nodes(prepared, name, group)),
         )
     if body.viscosity is not None:
@@ -209,10 +209,15 @@ def _add_load(builder: WorldBuilder, loaded: LoadedNodes, prepared: Prepared) ->
         "factors": np.array([1.0] if load.factors is None else load.factors),
     }
     name = f"{load_name(load.type)} on {load.body} (loads[{loaded.path[1]}])"
-    if isinstance(load, Pressure):
-        faces = [(block.type, block.nodes) for block in loaded.faces]
+    thickness = _rim_thickness(prepared, load.body)
+    if isinstance(load, Pressure) and load.follows:
         builder.add_pressure(
-            name=name, body=load.body, faces=faces, pressure=load.pressure, **series
+            name=name,
+            body=load.body,
+            faces=[(block.type, block.nodes) for block in loaded.faces],
+            pressure=load.pressure,
+            thickness=thickness,
+            **series,
         )
         return
     nodes = loaded.nodes
@@ -220,9 +225,14 @@ def _add_load(builder: WorldBuilder, loaded: LoadedNodes, prepared: Prepared) ->
         total = load.force if isinstance(load, NodalLoad) else load.moment
         forces = np.tile(np.array(total) / len(nodes), (len(nodes), 1))
     else:
-        shares = nodal_areas(prepared.bodies[load.body].mesh, loaded.faces)
+        mesh = prepared.bodies[load.body].mesh
+        shares = nodal_areas(mesh, loaded.faces, thickness=thickness)
         nodes = np.flatnonzero(shares).astype(np.int32)
-        forces = shares[nodes, None] * np.array(load.traction)
+        if isinstance(load, Pressure):
+            normals = nodal_normals(mesh, loaded.faces, thickness=thickness)
+            forces = -load.pressure * normals[nodes]
+        else:
+            forces = shares[nodes, None] * np.array(load.traction)
     builder.add_load(
         name=name,
         body=load.body,
@@ -231,3 +241,11 @@ def _add_load(builder: WorldBuilder, loaded: LoadedNodes, prepared: Prepared) ->
         moments=isinstance(load, Moment),
         **series,
     )
+
+
+def _rim_thickness(prepared: Prepared, name: str) -> float:
+    """Thickness [m] of the edges of a flat body; 0 of others, whose surface is made of faces."""
+    body = prepared.scene.bodies.get(name)
+    if body is None or body.plane is None or body.thickness is None:
+        return 0.0
+    return body.thickness

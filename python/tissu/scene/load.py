@@ -82,7 +82,10 @@ class Moment(_Load):
 
 
 class Traction(_Load):
-    """A force per rest area that keeps its direction, on faces whose nodes are all selected."""
+    """A force per rest area that keeps its direction, on faces whose nodes are all selected.
+
+    Of a flat body (`plane`): on edges of its rim.
+    """
 
     type: Literal["traction"] = "traction"
     traction: units.TractionVector
@@ -102,11 +105,18 @@ class Traction(_Load):
 
 
 class Pressure(_Load):
-    """A pressure that follows the surface, on faces whose nodes are all selected."""
+    """A pressure that follows the surface, on faces whose nodes are all selected.
+
+    Of a flat body (`plane`): on edges of its rim, per length along it and thickness at rest.
+    """
 
     type: Literal["pressure"] = "pressure"
     pressure: units.Pressure
     """pressure [Pa], positive inwards"""
+    follows: bool = True
+    """whether it stays normal to the surface as it moves; false: a dead pressure, along the normal
+    and over the area at rest
+    """
 
     if TYPE_CHECKING:
 
@@ -116,6 +126,7 @@ class Pressure(_Load):
             *,
             on: Selection,
             pressure: units.Number,
+            follows: bool = ...,
             times: Series | None = ...,
             factors: Series | None = ...,
         ) -> None: ...

@@ -39,6 +39,7 @@ PYTHON: dict[str, set[str]] = {
     "_core": set(),
     "counted": set(),
     "pareto": set(),
+    "field_names": set(),
     "units": {"errors"},
     "codegen": {"errors"},
     "formula": {"errors", "codegen"},
@@ -46,11 +47,29 @@ PYTHON: dict[str, set[str]] = {
     "sampling": {"errors", "counted", "mesh"},
     "yaml_io": {"errors", "units", "mesh", "scene", "user_law"},
     "selection": {"errors", "units", "mesh"},
-    "scene": {"errors", "counted", "units", "mesh", "yaml_io", "selection", "compile"},
+    "scene": {
+        "errors",
+        "counted",
+        "field_names",
+        "units",
+        "mesh",
+        "yaml_io",
+        "selection",
+        "compile",
+    },
     "user_law": {"errors", "units", "codegen", "scene", "_core"},
     "effects": {"errors", "mesh", "scene"},
     "checkpoint": {"errors", "counted", "_core"},
-    "simulation": {"errors", "counted", "units", "mesh", "effects", "checkpoint", "_core"},
+    "simulation": {
+        "errors",
+        "counted",
+        "field_names",
+        "units",
+        "mesh",
+        "effects",
+        "checkpoint",
+        "_core",
+    },
     "compile": {
         "errors",
         "counted",
@@ -77,7 +96,7 @@ PYTHON: dict[str, set[str]] = {
         "picture",
     },
     "picture": {"errors", "mesh"},
-    "output": {"errors", "counted", "mesh", "simulation", "picture", "_core"},
+    "output": {"errors", "counted", "field_names", "mesh", "simulation", "picture", "_core"},
 }
 PYTHON["cli"] = set(PYTHON)
 PYTHON["__init__"] = set(PYTHON)

@@ -13,6 +13,7 @@ from tissu.errors import MeshError as MeshError
 from tissu.errors import ParameterError as ParameterError
 from tissu.errors import SceneError as SceneError
 from tissu.errors import TissuError as TissuError
+from tissu.field_names import FIELD_NAMES as FIELD_NAMES
 from tissu.mesh import CellBlock as CellBlock
 from tissu.mesh import Mesh as Mesh
 from tissu.mesh import QualityReport as QualityReport
@@ -81,6 +82,7 @@ from tissu.scene import SurfaceNodes as SurfaceNodes
 from tissu.scene import Tissue as Tissue
 from tissu.scene import Traction as Traction
 from tissu.scene import UserLaw as UserLaw
+from tissu.simulation import IntegrationPoints as IntegrationPoints
 from tissu.simulation import Plan as Plan
 from tissu.simulation import Profile as Profile
 from tissu.simulation import Simulation as Simulation

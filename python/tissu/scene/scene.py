@@ -13,6 +13,7 @@ from typing_extensions import Self
 
 from tissu import units
 from tissu.errors import SceneError
+from tissu.field_names import FIELD_NAMES, WRITTEN_BESIDE
 from tissu.scene.body import Body
 from tissu.scene.load import Load, OneLoad
 from tissu.scene.part import Part, problems_in
@@ -43,10 +44,38 @@ class Output(Part):
 
     every: Annotated[units.Time, Field(gt=0.0)]
     """simulated time between two written results [s]"""
+    fields: tuple[str, ...] | None = None
+    """fields of `Simulation.field` at cells, such as cauchy_stress; `regions`: which cells are in
+    each; `reactions`: forces, and moments, that supports give to the nodes; absent: von_mises, and
+    energy_density by the name strain_energy_density
+    """
+    node_fields: tuple[str, ...] = ()
+    """fields of `Simulation.field` at nodes"""
 
     if TYPE_CHECKING:
 
-        def __init__(self, *, every: units.Number) -> None: ...
+        def __init__(
+            self,
+            *,
+            every: units.Number,
+            fields: Sequence[str] | None = ...,
+            node_fields: Sequence[str] = ...,
+        ) -> None: ...
+
+    @rule("fields")
+    def _fields_are_known(self) -> Iterator[Problem]:
+        yield from _unknown_fields("fields", self.fields or (), (*FIELD_NAMES, *WRITTEN_BESIDE))
+
+    @rule("node_fields")
+    def _node_fields_are_known(self) -> Iterator[Problem]:
+        yield from _unknown_fields("node_fields", self.node_fields, FIELD_NAMES)
+
+
+def _unknown_fields(place: str, given: Sequence[str], known: Sequence[str]) -> Iterator[Problem]:
+    for number, name in enumerate(given):
+        if name not in known:
+            text = f"no field is named '{name}'{nearest(name, known)} Fields: {one_of_words(known)}"
+            yield Problem((place, number), text)
 
 
 def _by_name(bodies: object) -> object:

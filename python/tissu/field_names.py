@@ -1,4 +1,4 @@
-"""The fields that can be asked of a simulation, by name, with their unit and shape."""
+"""The names of the fields of a simulation, and the places where they are taken."""
 
 from __future__ import annotations
 

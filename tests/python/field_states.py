@@ -1,4 +1,4 @@
-"""Homogeneous states for the tests of fields, and what energy alone says of the stress in them."""
+"""Homogeneous states for the tests of fields, and the stress that follows from their energy."""
 
 import numpy as np
 

@@ -191,3 +191,54 @@ def test_the_stiffness_of_a_pressed_rim_is_the_slope_of_its_forces():
     found = simulation.stiffness() @ along.ravel()
     np.testing.assert_allclose(found, -slope, atol=1e-9 * np.abs(slope).max())
     assert np.abs(slope).max() > 1
+
+
+def quarter_ring(inner, outer, cells):
+    """Quadrangles of nine nodes between two radii, from the x axis to the y axis."""
+    radii = np.linspace(inner, outer, 2 * cells + 1)
+    angles = np.linspace(0, np.pi / 2, 4 * cells + 1)
+    r, a = (grid.ravel() for grid in np.meshgrid(radii, angles))
+    points = np.stack([r * np.cos(a), r * np.sin(a), np.zeros_like(r)], axis=1)
+    row = 2 * cells + 1
+    corner = [2 * i + 2 * j * row for j in range(2 * cells) for i in range(cells)]
+    around = [0, 2, 2 * row + 2, 2 * row, 1, row + 2, 2 * row + 1, row, row + 1]
+    nodes = np.array(corner)[:, None] + np.array(around)
+    return ts.Mesh(points=points, cells={"quad9": nodes}), r, a
+
+
+def test_a_pipe_under_pressure_meets_lame():
+    """Plane strain: sigma_r, sigma_t = p a^2 / (b^2 - a^2) (1 -+ b^2 / r^2), sigma_z = nu (sum).
+
+    Lamé 1852. Stress at nodes converges with the square of the cell size: the ratio goes to 4.
+    """
+    a, b, p = 0.1, 0.2, 1.0
+    errors = []
+    for cells in (4, 8):
+        mesh, r, angle = quarter_ring(a, b, cells)
+        body = ts.Body(
+            mesh=mesh,
+            law=ts.Hooke(young=1e6, poisson=NU),
+            density=1e3,
+            thickness=THICKNESS,
+            plane="strain",
+        )
+        simulation = ts.Scene(
+            bodies={"b": body},
+            fixed=[
+                ts.Fixed("b", on=ts.Plane((0, 0, 0), (1, 0, 0)), axes="x"),
+                ts.Fixed("b", on=ts.Plane((0, 0, 0), (0, 1, 0)), axes="y"),
+            ],
+            loads=[ts.Pressure("b", on=ts.Sphere((0, 0, 0), a * 1.001), pressure=p)],
+            step=ts.Static(solver=ts.Cholesky()),
+        ).compile()
+        assert simulation.step().converged
+        sigma = simulation.field("first_piola_kirchhoff_stress", "nodes")
+        out = np.stack([np.cos(angle), np.sin(angle), 0 * angle], axis=1)
+        along = np.stack([-np.sin(angle), np.cos(angle), 0 * angle], axis=1)
+        factor = p * a**2 / (b**2 - a**2)
+        radial = np.einsum("ni,nij,nj->n", out, sigma, out) - factor * (1 - b**2 / r**2)
+        hoop = np.einsum("ni,nij,nj->n", along, sigma, along) - factor * (1 + b**2 / r**2)
+        across = sigma[:, 2, 2] - NU * 2 * factor
+        errors.append(max(np.abs(radial).max(), np.abs(hoop).max(), np.abs(across).max()))
+    assert errors[1] < 0.013 * p
+    assert errors[1] < errors[0] / 3.4

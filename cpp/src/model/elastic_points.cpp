@@ -37,7 +37,7 @@ struct Thin {
     }
     return F;
   }
-  /// F stretched across; `free` is the stretched F that the law was asked with.
+  /// F stretched across; `free` is the stretched F that the law saw.
   [[nodiscard]] Mat3 stretched(Mat3 F, const Mat3& free) const {
     for (int j = m; j < 3; ++j) {
       if (small_strain) {

@@ -1,4 +1,4 @@
-"""What may be asked of a simulation's state: fields, forces, matrices, reactions."""
+"""The state of a simulation as arrays: fields, forces, matrices, reactions."""
 
 from __future__ import annotations
 
@@ -21,8 +21,11 @@ Floats = NDArray[np.float64]
 Ints = NDArray[np.int32]
 
 
+_OF_EVERY_MODEL = ("energy_density", "volume_ratio")  # at cells; of springs too
+
+
 class Inspected:
-    """A simulation as one that is looked at: nothing here changes it, and a step pays for none."""
+    """The part of a simulation that reads its state; a step pays for none of it."""
 
     _core: core.Simulation
     _world: core.World
@@ -33,7 +36,7 @@ class Inspected:
     def field(self, name: FieldName, at: Place = "cells", body: str | None = None) -> Floats:
         """Strain, stress or energy of a body at the present state.
 
-        Computed when it is asked for; a step pays nothing for it. F of sheets and lines is that of
+        Computed on request; a step pays nothing for it. F of sheets and lines is that of
         a volume: across it has the stretch that leaves no stress there, in plane strain 1. Where a
         law has no such stretch (StVK, far in tension) values are nan. Stresses are the law's,
         without viscosity. Of mean dilatation F is the cell's own and the stress the one in balance;
@@ -57,7 +60,8 @@ class Inspected:
 
         Raises:
             ParameterError: no such field, place or body; a body with a model that has no stress;
-                nodes of a tissue, whose points are no cells.
+                nodes of a tissue, which has no cells. Springs have energy_density and
+                volume_ratio at cells.
         """
         return self.fields([name], at, body)[name]
 
@@ -76,6 +80,9 @@ class Inspected:
         ):
             if given not in words:
                 raise ParameterError(f"found the {what} '{given}'; accepted: {', '.join(words)}")
+        if at == "cells" and set(names) <= set(_OF_EVERY_MODEL):
+            known = self.cell_fields(body)
+            return {name: known[name] for name in names}
         fields = self._fields(body)
         if at == "points":
             return {name: fields.at_points(name) for name in names}

@@ -58,6 +58,7 @@ class Frames final : public BodyModel {
   static constexpr std::int32_t kPiece = 4;  ///< groups whose tensors are held at a time
 
   void lay_frames();
+  [[nodiscard]] FramePoints stressed_points() const;
   void lay_coefficients(ConstReals rest_positions);
   /// What of the way from frame to point follows the frame's rotation.
   [[nodiscard]] Mat3 along(std::size_t point) const;

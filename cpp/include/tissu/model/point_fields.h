@@ -1,7 +1,7 @@
 #pragma once
 
 /// What a body's material is in at its integration points: F, P and W, from which every strain and stress
-/// follows. Computed when it is asked for; a step neither computes nor keeps it.
+/// follows. Computed on request; a step neither computes nor keeps it.
 
 #include <vector>
 

@@ -2,7 +2,7 @@
 
 /// The forces of a world in a state, and the matrices that its equation of motion is linearised with:
 ///   M dv/dt = f(x, v),   K = -df/dx,   D = -df/dv.
-/// Rows are all there are, those of held nodes too. Made for those that look; a step makes its own.
+/// Rows are all there are, those of held nodes too. Made on request; a step makes its own.
 
 #include <memory>
 #include <vector>

@@ -147,10 +147,12 @@ TEST_P(PointFieldsTest, AreThoseOfAVolume) {
   EXPECT_NEAR(fields.von_mises[0], von_mises(cauchy_stress(whole, stvk_stress(whole))), 1e-8);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, PointFieldsTest, testing::ValuesIn(cases()), [](const auto& info) {
+std::string name_of(const testing::TestParamInfo<Case>& info) {
   constexpr std::array kNames = {"free", "stress", "strain"};
   return info.param.element + "_" + kNames[static_cast<std::size_t>(info.param.plane)];
-});
+}
+
+INSTANTIATE_TEST_SUITE_P(All, PointFieldsTest, testing::ValuesIn(cases()), name_of);
 
 }  // namespace
 }  // namespace tissu

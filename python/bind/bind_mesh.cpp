@@ -173,9 +173,8 @@ void bind_mesh(py::module_& m) {
   m.def("box_mesh", &box_mesh, py::kw_only(), "origin"_a, "size"_a, "cells"_a, "split"_a);
   m.def("boundary_surface", &boundary_surface, py::kw_only(), "positions"_a, "blocks"_a);
   m.def("boundary_faces", &boundary_faces, py::kw_only(), "positions"_a, "blocks"_a);
-  m.def("face_areas", &face_areas, py::kw_only(), "type"_a, "positions"_a, "faces"_a, "thickness"_a = 0.0);
-  m.def("face_normals", &face_normals, py::kw_only(), "type"_a, "positions"_a, "faces"_a,
-        "thickness"_a = 0.0);
+  m.def("face_areas", &face_areas, py::kw_only(), "type"_a, "positions"_a, "faces"_a, "thickness"_a);
+  m.def("face_normals", &face_normals, py::kw_only(), "type"_a, "positions"_a, "faces"_a, "thickness"_a);
   m.def("turn_reversed_cells", &turn_reversed_cells, py::kw_only(), "positions"_a, "blocks"_a);
   const auto measure = [&m](const char* name, auto function) {
     m.def(

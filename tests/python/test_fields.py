@@ -118,9 +118,9 @@ def test_a_turned_body_has_turned_stress_and_the_same_invariants(law):
 
 MODELS = {
     "corotational": (["tetra", "hexahedron", "wedge", "pyramid"], "hooke"),
-    "mass-link": (["tetra"], "stvk"),
-    "mass-tensor": (["tetra"], "stvk"),
-    "mean-dilatation": (["tetra", "hexahedron", "wedge", "pyramid"], "neo_hooke"),
+    "mass_link": (["tetra"], "stvk"),
+    "mass_tensor": (["tetra"], "stvk"),
+    "mean_dilatation": (["tetra", "hexahedron", "wedge", "pyramid"], "neo_hooke"),
     "frames": (["tetra", "hexahedron", "wedge"], "neo_hooke"),
 }
 OF_MODELS = [(model, cell, law) for model, (cells, law) in MODELS.items() for cell in cells]
@@ -302,8 +302,8 @@ def test_what_is_unknown_is_refused_in_a_sentence(asked, words):
 
 
 def test_springs_have_no_stress_and_say_what_they_have():
-    simulation = simulation_of(body_of("tetra", LAWS["hooke"], model="mass-spring"))
-    words = "the model mass-spring of body 'b', .* energy_density and volume_ratio at cells"
+    simulation = simulation_of(body_of("tetra", LAWS["hooke"], model="mass_spring"))
+    words = "the model mass_spring of body 'b', .* energy_density and volume_ratio at cells"
     with pytest.raises(ts.ParameterError, match=words):
         simulation.field("von_mises")
     put(simulation, STATES["stretch"])

@@ -44,10 +44,10 @@ def test_forces_are_minus_the_slope_of_the_energy(cell, law):
     [
         ("tetra", {}),
         ("hexahedron20", {}),
-        ("hexahedron", {"model": "mean-dilatation"}),
+        ("hexahedron", {"model": "mean_dilatation"}),
         ("hexahedron", {"model": ts.Corotational(tangent="exact")}),
-        ("tetra", {"model": "mass-tensor"}),
-        ("tetra", {"model": "mass-spring"}),
+        ("tetra", {"model": "mass_tensor"}),
+        ("tetra", {"model": "mass_spring"}),
         ("quad", {"plane": "strain"}),
         ("triangle6", {}),
         ("line", {}),
@@ -56,7 +56,7 @@ def test_forces_are_minus_the_slope_of_the_energy(cell, law):
 def test_stiffness_is_minus_the_slope_of_the_forces(cell, fields):
     law = (
         "hooke"
-        if fields.get("model") in ("mass-spring", ts.Corotational(tangent="exact"))
+        if fields.get("model") in ("mass_spring", ts.Corotational(tangent="exact"))
         else "stvk"
     )
     simulation = simulation_of(body_of(cell, LAWS[law], **fields))

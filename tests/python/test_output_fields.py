@@ -77,7 +77,7 @@ def test_without_a_choice_the_file_has_what_it_had(tmp_path):
 
 
 def test_springs_write_what_they_have(tmp_path):
-    body = body_of("tetra", LAWS["hooke"], model="mass-spring")
+    body = body_of("tetra", LAWS["hooke"], model="mass_spring")
     made = scene(body, fields=["cauchy_stress", "energy_density"], node_fields=["von_mises"])
     found = written(made.compile(), tmp_path)
     assert set(found.cell_data) == {"energy_density"}

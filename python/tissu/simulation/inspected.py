@@ -30,7 +30,7 @@ class Inspected:
     _core: core.Simulation
     _world: core.World
     _meshes: dict[str, Mesh]
-    _tissues: dict[str, Mesh]
+    _tissue: dict[str, Mesh]
     _positions: Mapping[str, Floats]
 
     def field(self, name: FieldName, at: Place = "cells", body: str | None = None) -> Floats:
@@ -88,7 +88,7 @@ class Inspected:
             return {name: fields.at_points(name) for name in names}
         if at == "cells":
             return {name: fields.at_cells(name) for name in names}
-        if body in self._tissues:
+        if body in self._tissue:
             raise ParameterError(
                 f"found nodes of tissue '{body}', which has points and no cells; points and cells "
                 "are accepted"

@@ -43,11 +43,12 @@ CPP: dict[str, set[str]] = {
     "model/frames/frames_options": {"model/frames/frame_points"},
     "model/options": {"base"} | OPTIONS,
     "model": MODEL | {"model/options"},
-    "model/fem": MODEL,
-    "model/corotational": MODEL,
-    "model/edges": MODEL | {"model/fem"},  # the definite tangent of mass-tensor
-    "model/dilatation": MODEL,
-    "model/frames": MODEL | {"model/frames/frame_points"},
+    "model/points": MODEL | {"model/frames/frame_points"},
+    "model/fem": MODEL | {"model/points"},
+    "model/corotational": MODEL | {"model/points"},
+    "model/edges": MODEL | {"model/points", "model/fem"},  # the definite tangent of mass-tensor
+    "model/dilatation": MODEL | {"model/points"},
+    "model/frames": MODEL | {"model/points", "model/frames/frame_points"},
     "model/shell": MODEL,
     "model/condensed": MODEL | {"model/fem", "solve"},
     "viscosity": MODEL | {"model/edges"},  # dampers beside springs
@@ -65,19 +66,20 @@ PYTHON: dict[str, set[str]] = {
     "_core": set(),
     "counted": set(),
     "pareto": set(),
+    "field_names": set(),
     "reading": set(),
     "units": {"errors", "reading"},
     "codegen": {"errors"},
     "formula": {"errors", "codegen"},
     "mesh": {"errors", "counted", "units", "_core"},
     "sampling": {"errors", "counted", "mesh"},
-    "scene": {"errors", "counted", "reading", "units", "mesh", "_core"},
+    "scene": {"errors", "counted", "field_names", "reading", "units", "mesh", "_core"},
     "user_law": {"errors", "units", "codegen", "scene", "_core"},
     "yaml_io": {"errors", "mesh", "scene", "user_law"},
     "effects": {"scene"},
     "checkpoint": {"errors", "counted", "_core"},
     "picture": {"errors", "mesh"},
-    "simulation": {"errors", "counted", "units", "mesh", "checkpoint", "_core"},
+    "simulation": {"errors", "counted", "field_names", "units", "mesh", "checkpoint", "_core"},
     "compile": {
         "errors",
         "counted",
@@ -93,7 +95,7 @@ PYTHON: dict[str, set[str]] = {
     "comparison": {"errors", "counted", "mesh", "scene", "picture"},
     "accuracy": {"errors", "pareto", "front", "yaml_io", "picture"},
     "advice": {"errors", "counted", "pareto", "units", "mesh", "scene", "picture"},
-    "output": {"errors", "counted", "mesh", "_core"},
+    "output": {"errors", "counted", "field_names", "mesh", "_core"},
 }
 PYTHON["cli"] = set(PYTHON)
 PYTHON["__init__"] = set(PYTHON)

@@ -81,8 +81,10 @@ py::array_t<double> points(const Simulation& simulation, const std::string& name
 
 }  // namespace
 
-/// Of bind_snapshot.cpp.
+/// Of bind_snapshot.cpp, bind_point_fields.cpp and bind_matrices.cpp.
 void bind_snapshot(py::class_<Simulation>& simulation);
+void bind_point_fields(py::class_<Simulation>& simulation);
+void bind_matrices(py::class_<Simulation>& simulation);
 
 void bind_simulation(py::module_& m) {
   using py::arg;
@@ -162,6 +164,8 @@ void bind_simulation(py::module_& m) {
           },
           arg("body"));
   bind_snapshot(simulation);
+  bind_point_fields(simulation);
+  bind_matrices(simulation);
 }
 
 }  // namespace tissu::bind

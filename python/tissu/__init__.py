@@ -49,7 +49,11 @@ _HOMES = {
         "law",
         "read_law",
     ),
+    "tissu.field_names": (
+        "FIELD_NAMES",
+    ),
     "tissu.simulation": (
+        "IntegrationPoints",
         "Plan",
         "Profile",
         "Simulation",

@@ -62,7 +62,7 @@ Culprit worst_cell(const World& world, const State& state) {
   for_blocks(world, [&](const Body& body, const BodyModel& model, std::int32_t first) {
     const CellFields fields = model.fields(state);
     for (std::size_t e = 0; e < fields.volume_ratio.size(); ++e) {
-      if (fields.volume_ratio[e] >= smallest) continue;
+      if (!(fields.volume_ratio[e] < smallest)) continue;  // not a number either
       smallest = fields.volume_ratio[e];
       worst = {body.name, number_of(model, first, e), "its volume ratio was " + number_text(smallest)};
     }

@@ -9,7 +9,7 @@ KelvinVoigt::KelvinVoigt(const ElasticBlock& block, Lame viscosity, ConstReals r
     : ViscousCells(block, rest_positions, threads),
       kernels_(find_shape_kernels(isa, reference_.nodes, reference_.dimension)),
       law_(find_viscous_law(isa, reference_.dimension)) {
-  if (block_.plane == Plane::stress) viscosity.lambda = free_lambda(viscosity, reference_.dimension);
+  if (block_.plane != Plane::strain) viscosity.lambda = free_lambda(viscosity, reference_.dimension);
   constants_.assign(kLanes, viscosity.lambda);
   constants_.insert(constants_.end(), kLanes, viscosity.mu);
 }

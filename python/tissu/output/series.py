@@ -13,13 +13,13 @@ from numpy.typing import NDArray
 
 from tissu.counted import counted
 from tissu.output.folder import file_name, whole_file
+from tissu.output.vtu_fields import cell_data, node_data
 
 if TYPE_CHECKING:
     from tissu.mesh import Mesh
     from tissu.simulation import Simulation
 
 FRAMES = "frames"
-_CELL_FIELDS = {"von_mises": "von_mises", "energy_density": "strain_energy_density"}
 Floats = NDArray[np.float64]
 
 
@@ -27,9 +27,9 @@ class Series:
     """Writes the bodies of a simulation at the times `write` is called.
 
     The points are where the nodes are at that time; point fields: displacement [m] and velocity
-    [m/s]; cell fields: strain_energy_density [J/m^3], and von_mises [Pa] of models that know
-    it. Of connective tissue its integration points. After each call all files are complete and
-    the index lists all of them.
+    [m/s]; cell fields: strain_energy_density [J/m^3], and von_mises [Pa] of models that know it,
+    or those that the scene's `output` names. Of connective tissue its integration points. After
+    each call all files are complete and the index lists all of them.
 
     Attributes:
         index: the PVD file.
@@ -132,11 +132,10 @@ def write_vtu(path: Path, mesh: Mesh, simulation: Simulation, body: str) -> dict
         point_data={
             "displacement": np.array(simulation.displacements(body)),
             "velocity": np.array(simulation.velocities[body]),
+            **node_data(simulation, body, fields),
         },
         cell_data={
-            written: by_block(fields[name])
-            for name, written in _CELL_FIELDS.items()
-            if name in fields
+            name: by_block(values) for name, values in cell_data(simulation, body, fields).items()
         },
     )
     with whole_file(path) as partial:
@@ -158,7 +157,9 @@ def write_points(path: Path, simulation: Simulation, tissue: str) -> None:
         now,
         [("vertex", np.arange(len(now))[:, None])],
         point_data={"displacement": now - simulation.points(tissue, rest=True)},
-        cell_data={new: [fields[name]] for name, new in _CELL_FIELDS.items() if name in fields},
+        cell_data={
+            name: [values] for name, values in cell_data(simulation, tissue, fields).items()
+        },
     )
     with whole_file(path) as partial:
         meshio.write(partial, result, file_format="vtu")

@@ -11,6 +11,7 @@ from pydantic import AfterValidator, BeforeValidator, Field, PrivateAttr, Valida
 from typing_extensions import Self
 
 from tissu import units
+from tissu.field_names import FIELD_NAMES, WRITTEN_BESIDE
 from tissu.reading import Maybe, MaybeVector, Read
 from tissu.scene.body import Body, PathLike
 from tissu.scene.field import field
@@ -41,6 +42,28 @@ class Output(Part):
 
     every: units.Time = field(gt=0.0)
     """simulated time between two written results [s]"""
+    fields: Read[tuple[str, ...] | None, Sequence[str] | None] = field(default=None)
+    """fields of `Simulation.field` at cells, such as cauchy_stress; `regions`: which cells are in
+    each; `reactions`: forces, and moments, that supports give to the nodes; absent: von_mises, and
+    energy_density by the name strain_energy_density
+    """
+    node_fields: Read[tuple[str, ...], Sequence[str]] = field(default=())
+    """fields of `Simulation.field` at nodes"""
+
+    @rule("fields")
+    def _fields_are_known(self) -> Iterator[Problem]:
+        yield from _unknown_fields("fields", self.fields or (), (*FIELD_NAMES, *WRITTEN_BESIDE))
+
+    @rule("node_fields")
+    def _node_fields_are_known(self) -> Iterator[Problem]:
+        yield from _unknown_fields("node_fields", self.node_fields, FIELD_NAMES)
+
+
+def _unknown_fields(place: str, given: Sequence[str], known: Sequence[str]) -> Iterator[Problem]:
+    for number, name in enumerate(given):
+        if name not in known:
+            text = f"no field is named '{name}'{nearest(name, known)} Fields: {one_of_words(known)}"
+            yield Problem((place, number), text)
 
 
 def _by_name(bodies: object) -> object:

@@ -37,21 +37,27 @@ class NodalLoad final : public ForceModel {
   History history_;
 };
 
-/// Faces of one kind: node numbers face after face, in VTK order, anticlockwise seen from outside.
+/// Faces of one kind: node numbers face after face, in VTK order, anticlockwise seen from outside. Those of a
+/// flat body are its edges, along which it lies on the left seen from +z.
 struct FaceCells {
-  std::string element = "triangle";  ///< or triangle6, quad, quad8, quad9
+  std::string element = "triangle";  ///< or triangle6, quad, quad8, quad9; line and line3 for edges
   std::vector<std::int32_t> nodes;
+  double thickness = 0.0;  ///< of the flat body along z, at rest [m]; faces have none
 };
 
 /// Adds each node's share of the area of the faces [m2], sum_g w_g |x,1 x x,2| N_a: what a traction that is
 /// the same everywhere gives to the nodes.
 void add_areas(const FaceCells& faces, ConstReals positions, std::vector<double>& nodal);
+/// The same with the outward normal, sum_g w_g N_a x,1 x x,2 [m2], three for each node: what a pressure of -1
+/// Pa gives to the nodes.
+void add_normals(const FaceCells& faces, ConstReals positions, std::vector<double>& nodal);
 
 /// Pressure that stays normal to the faces it acts on: f_a = -p sum_g w_g N_a (x,1 x x,2), with the rule that
-/// is exact for it. Its stiffness is skew on an open surface; the symmetric part is used, which is exact for
-/// a pressure on a closed surface or one whose rim is held. A definite matrix goes without it: the
-/// eigenvalues of a face sum to zero, so half of what it says would be gone, and on a closed surface the
-/// faces' parts cancel each other, their halves would not.
+/// is exact for it. Of the edge of a flat body x,2 is its thickness at rest along z. Its stiffness is skew on
+/// an open surface; the symmetric part is used, which is exact for a pressure on a closed surface or one
+/// whose rim is held. A definite matrix goes without it: the eigenvalues of a face sum to zero, so half of
+/// what it says would be gone, and on a closed surface the faces' parts cancel each other, their halves would
+/// not.
 class Pressure final : public ForceModel {
  public:
   Pressure(std::string name, std::vector<FaceCells> faces, double pressure, History history);
@@ -73,7 +79,7 @@ class Pressure final : public ForceModel {
   void for_blocks(const State& state, double scale, Function&& f) const;
 
   struct Ruled {
-    std::vector<std::int32_t> nodes;
+    FaceCells faces;
     ReferenceCell rule;
   };
 

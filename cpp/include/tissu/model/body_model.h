@@ -10,6 +10,7 @@
 #include "tissu/base/array.h"
 #include "tissu/force/force_model.h"
 #include "tissu/model/elastic_block.h"
+#include "tissu/model/point_fields.h"
 
 namespace tissu {
 
@@ -17,7 +18,7 @@ namespace tissu {
 struct CellFields {
   std::vector<double> von_mises;       ///< of the Cauchy stress [Pa]
   std::vector<double> energy_density;  ///< per rest volume [J/m3]
-  std::vector<double> volume_ratio;    ///< det F
+  std::vector<double> volume_ratio;    ///< det F, of sheets and lines too: they thin
 };
 
 /// Springs with whose direction dampers may stand beside them: Kelvin–Voigt of a model that is made of
@@ -68,6 +69,8 @@ class BodyModel : public ForceModel {
   [[nodiscard]] virtual std::vector<double> points(const State& /*state*/) const { return {}; }
   /// Its springs, beside which its viscosity stands; null: it stands in the cells.
   [[nodiscard]] virtual const DampedSprings* springs() const { return nullptr; }
+  /// F, P and W at its integration points; of models without a stress no points.
+  [[nodiscard]] virtual PointFields point_fields(const PointQuery& query) const;
   /// What it holds of its cells, node and matrix places included.
   [[nodiscard]] virtual std::size_t bytes() const = 0;
   /// Numbers kept of each cell's rest shape and law; those that all cells share are kept once.

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "tissu/model/edges/tetra_edges.h"
+#include "tissu/model/points/elastic_points.h"
 
 namespace tissu {
 namespace {
@@ -131,6 +132,8 @@ CellFields MassLink::fields(const State& state) const {
   for (std::size_t e = 0; e < shape_.volumes.size(); ++e) fields.volume_ratio[e] /= shape_.volumes[e];
   return fields;
 }
+
+PointFields MassLink::point_fields(const PointQuery& query) const { return elastic_points(block_, query); }
 
 std::size_t MassLink::bytes() const {
   return CellModel::bytes() + (shape_.rest.size() + constants_.size()) * sizeof(double);

@@ -89,8 +89,15 @@ Frames::Frames(ElasticBlock block, ConstReals rest_positions, Isa isa, Threads t
   lay_frames();
   order_ = order_points(listened_, points_.neighbours, static_cast<std::int32_t>(blocks_.size()));
   lay_coefficients(rest_positions);
-  material_ = PointMaterial(block_, points_, order_.point, isa);
+  material_ = PointMaterial(block_, stressed_points(), order_.point, isa);
   lay_holds();
+}
+
+/// As the material sees them: in plane strain a sheet is a volume, which does not thin.
+FramePoints Frames::stressed_points() const {
+  FramePoints points = points_;
+  if (block_.plane == Plane::strain) points.dimension = 3;
+  return points;
 }
 
 void Frames::lay_frames() {

@@ -19,7 +19,7 @@ void check(const ElasticBlock& block) {
   if (block.quadrature != "full") {
     throw ParameterError(asks + "with the quadrature \"" + block.quadrature + "\"; this model takes full.");
   }
-  if (block.plane != Plane::stress) {
+  if (block.plane == Plane::strain) {
     throw ParameterError(asks + "under plane strain; a shell is free to thin: take plane stress.");
   }
   if (block.frames.size() != block.cells.size()) {

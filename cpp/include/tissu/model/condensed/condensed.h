@@ -42,6 +42,9 @@ class Condensed final : public BodyModel {
   [[nodiscard]] CellFields fields(const State& state) const override {
     return region_->elastic().fields(state);
   }
+  [[nodiscard]] PointFields point_fields(const PointQuery& query) const override {
+    return region_->elastic().point_fields(query);
+  }
   [[nodiscard]] std::size_t bytes() const override;
   [[nodiscard]] std::size_t reals_per_cell() const override;
   [[nodiscard]] std::span<const std::int32_t> eliminated() const override { return region_->inner(); }

@@ -39,6 +39,7 @@ class Corotational final : public CellModel {
   [[nodiscard]] double energy(const State& state, Scratch& scratch) const override;
 
   [[nodiscard]] CellFields fields(const State& state) const override;
+  [[nodiscard]] PointFields point_fields(const PointQuery& query) const override;
   [[nodiscard]] std::size_t bytes() const override;
   [[nodiscard]] std::size_t reals_per_cell() const override;
 

@@ -42,6 +42,7 @@ class MeanDilatation final : public CellModel {
 
   /// Von Mises of the stress that is in balance; det F of the cell itself, not of its patch.
   [[nodiscard]] CellFields fields(const State& state) const override;
+  [[nodiscard]] PointFields point_fields(const PointQuery& query) const override;
   [[nodiscard]] std::size_t bytes() const override;
   [[nodiscard]] std::size_t reals_per_cell() const override;
   /// The other cells stay in their patches.

@@ -43,6 +43,7 @@ class MassTensor final : public CellModel {
   [[nodiscard]] double energy(const State& state, Scratch& scratch) const override;
 
   [[nodiscard]] CellFields fields(const State& state) const override;
+  [[nodiscard]] PointFields point_fields(const PointQuery& query) const override;
   [[nodiscard]] std::size_t bytes() const override;
   /// Of a tetrahedron alone, as published; `bytes` has what a mesh holds.
   [[nodiscard]] std::size_t reals_per_cell() const override;

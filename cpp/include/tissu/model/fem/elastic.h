@@ -26,6 +26,7 @@ class Elastic final : public CellModel {
   [[nodiscard]] double energy(const State& state, Scratch& scratch) const override;
 
   [[nodiscard]] CellFields fields(const State& state) const override;
+  [[nodiscard]] PointFields point_fields(const PointQuery& query) const override;
   [[nodiscard]] std::size_t bytes() const override;
   [[nodiscard]] std::size_t reals_per_cell() const override;
 
@@ -36,6 +37,8 @@ class Elastic final : public CellModel {
   const ElasticKernels* kernels_ = nullptr;
   std::vector<const LawKernels*> laws_;
   std::vector<double> gradients_;  ///< [point][node][m]
+  Isa isa_;
+  std::vector<double> X_;  ///< of sheets and lines: positions at rest of the whole world, for their fields
 };
 
 }  // namespace tissu

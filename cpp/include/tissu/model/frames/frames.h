@@ -12,8 +12,8 @@
 #include "tissu/model/body_model.h"
 #include "tissu/model/frames/frame_kernels.h"
 #include "tissu/model/frames/frame_order.h"
-#include "tissu/model/frames/point_material.h"
 #include "tissu/model/model_info.h"
+#include "tissu/model/points/point_material.h"
 
 namespace tissu {
 
@@ -48,6 +48,7 @@ class Frames final : public BodyModel {
   void add_inertias(std::vector<Mat3>& of_frames) const override;
   void add_moments(std::vector<Vec3>& of_frames) const override;
   [[nodiscard]] CellFields fields(const State& state) const override;
+  [[nodiscard]] PointFields point_fields(const PointQuery& query) const override;
   [[nodiscard]] std::size_t bytes() const override;
   [[nodiscard]] std::size_t reals_per_cell() const override;
 
@@ -60,6 +61,7 @@ class Frames final : public BodyModel {
   static constexpr std::int32_t kPiece = 4;  ///< groups whose tensors are held at a time
 
   void lay_frames();
+  [[nodiscard]] FramePoints stressed_points() const;
   void lay_coefficients(ConstReals rest_positions);
   /// What of the way from frame to point follows the frame's rotation.
   [[nodiscard]] Mat3 along(std::size_t point) const;

@@ -39,17 +39,18 @@ PYTHON: dict[str, set[str]] = {
     "_core": set(),
     "counted": set(),
     "pareto": set(),
+    "files": {"errors"},
     "units": {"errors"},
     "codegen": {"errors"},
     "formula": {"errors", "codegen"},
-    "mesh": {"errors", "counted", "units", "_core"},
+    "mesh": {"errors", "counted", "files", "units", "_core"},
     "sampling": {"errors", "counted", "mesh"},
-    "yaml_io": {"errors", "units", "mesh", "scene", "user_law"},
+    "yaml_io": {"errors", "files", "units", "mesh", "scene", "user_law"},
     "selection": {"errors", "units", "mesh"},
     "scene": {"errors", "counted", "units", "mesh", "yaml_io", "selection", "compile"},
-    "user_law": {"errors", "units", "codegen", "scene", "_core"},
+    "user_law": {"errors", "files", "units", "codegen", "scene", "_core"},
     "effects": {"errors", "mesh", "scene"},
-    "checkpoint": {"errors", "counted", "_core"},
+    "checkpoint": {"errors", "counted", "files", "_core"},
     "simulation": {"errors", "counted", "units", "mesh", "effects", "checkpoint", "_core"},
     "compile": {
         "errors",
@@ -76,8 +77,8 @@ PYTHON: dict[str, set[str]] = {
         "simulation",
         "picture",
     },
-    "picture": {"errors", "mesh"},
-    "output": {"errors", "counted", "mesh", "simulation", "picture", "_core"},
+    "picture": {"errors", "files", "mesh"},
+    "output": {"errors", "counted", "files", "mesh", "simulation", "picture", "_core"},
 }
 PYTHON["cli"] = set(PYTHON)
 PYTHON["__init__"] = set(PYTHON)

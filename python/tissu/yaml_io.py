@@ -15,6 +15,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from tissu.errors import SceneError
+from tissu.files import distinct_names, require_file_place, whole_file
 from tissu.scene.body import Body, MeshFile
 from tissu.scene.part import KEEP_PROBLEMS, Part
 from tissu.scene.problem import Path as FieldPath
@@ -160,21 +161,25 @@ def write_scene(scene: Scene, path: Path) -> None:
     Raises:
         SceneError: the file or a mesh cannot be written.
     """
+    require_file_place(path, "scene", error=_scene_error)
     bodies: dict[str, Body] = {}
-    try:
-        for name, body in scene.bodies.items():
-            if isinstance(body.mesh, Part) or body.mesh.source is not None:
-                bodies[name] = body
-                continue
-            from tissu.mesh import write_mesh
+    files = distinct_names(scene.bodies)
+    for name, body in scene.bodies.items():
+        if isinstance(body.mesh, Part) or body.mesh.source is not None:
+            bodies[name] = body
+            continue
+        from tissu.mesh import write_mesh
 
-            file = path.with_name(f"{path.stem}-{re.sub(r'[^A-Za-z0-9_.-]', '_', name)}.vtu")
-            write_mesh(body.mesh, file)
-            bodies[name] = body.replace(mesh=MeshFile(file))
-        text = scene_text(scene.replace(bodies=bodies), folder=path.parent)
-        path.write_text(text, encoding="utf-8")
-    except OSError as error:
-        raise SceneError([f"{path}: the scene cannot be written: {error.strerror}"]) from None
+        file = path.with_name(f"{path.stem}-{files[name]}.vtu")
+        write_mesh(body.mesh, file)
+        bodies[name] = body.replace(mesh=MeshFile(file))
+    text = scene_text(scene.replace(bodies=bodies), folder=path.parent)
+    with whole_file(path, error=_scene_error) as partial:
+        partial.write_text(text, encoding="utf-8")
+
+
+def _scene_error(text: str) -> SceneError:
+    return SceneError([text])
 
 
 def _load(text: str, name: str) -> tuple[Any, Source, list[Problem]]:

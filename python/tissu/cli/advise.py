@@ -22,7 +22,7 @@ def advise_scene(
     """
     from tissu.advice import advise
     from tissu.advice.figure import draw
-    from tissu.output.folder import whole_file
+    from tissu.files import whole_file
     from tissu.scene import Scene
 
     asked = [name.strip() for name in models.split(",") if name.strip()]

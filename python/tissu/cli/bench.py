@@ -18,8 +18,8 @@ from tissu.accuracy.page import page
 from tissu.accuracy.table import to_csv, to_parquet
 from tissu.cli.info import machine_line
 from tissu.errors import ParameterError
+from tissu.files import whole_file
 from tissu.output import prepare_folder
-from tissu.output.folder import whole_file
 
 CASES = Path(__file__).resolve().parents[1] / "accuracy" / "cases"
 

@@ -18,7 +18,7 @@ def compare_scene(file: Path, models: str, reference: str, out: Path) -> None:
     """
     from tissu.comparison import compare
     from tissu.comparison.figure import draw
-    from tissu.output.folder import whole_file
+    from tissu.files import require_folder_place, whole_file
     from tissu.scene import Scene
 
     asked = [name.strip() for name in models.split(",") if name.strip()]
@@ -26,6 +26,7 @@ def compare_scene(file: Path, models: str, reference: str, out: Path) -> None:
     against = (
         Scene.from_yaml(reference) if Path(reference).suffix in (".yaml", ".yml") else reference
     )
+    require_folder_place(out, "output folder")
     found = compare(scene, models=asked, reference=against)
     folder = prepare_folder(out)
     for name, text in (("compare.csv", found.to_csv()), ("compare.md", found.to_markdown())):

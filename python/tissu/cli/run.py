@@ -90,8 +90,8 @@ def run_scene(job: Job, *, debug: bool = False) -> int:
     clock, tally = Clock(), StepTally()
     with clock.stage("compile"):
         scene = load(job)
-        folder = prepare_folder(job.out)
         checkpoints = checkpoints_option(job.checkpoint, job.checkpoint_every)
+        folder = prepare_folder(job.out)
         simulation = scene.compile(checkpoint=job.resume)
     with interruption() as interrupted:
         series = Series(simulation, folder)

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from pydantic import BaseModel
 
-from tissu.output.folder import whole_file
+from tissu.files import whole_file
 
 if TYPE_CHECKING:
     from tissu.mesh import Mesh

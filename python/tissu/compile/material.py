@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from tissu.compile.direction import scaled
 from tissu.compile.locking import note_locking
 from tissu.compile.model import check_model, law_of_model
 from tissu.compile.prepared import Findings, Floats, Group, Ints
@@ -151,7 +152,7 @@ def fibres_of(laws: list[Law], owner: Ints) -> dict[str, Floats]:
         fibres = laws[number].fibres
         if fibres is None:
             return {}
-        rows.append([fibres.k1, fibres.k2, *fibres.direction])
+        rows.append([fibres.k1, fibres.k2, *scaled(fibres.direction)])
     names = ("k1", "k2", "direction_x", "direction_y", "direction_z")
     values = dict(zip(names, np.array(rows, dtype=float).T, strict=True))
     if len(used) == 1:

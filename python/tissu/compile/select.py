@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from tissu.compile.direction import unit_vector
 from tissu.compile.prepared import Floats, Ints
 from tissu.errors import ParameterError
 from tissu.mesh.cell import CellBlock
@@ -96,9 +97,10 @@ def _inside(
 ) -> np.ndarray[tuple[int], np.dtype[np.bool_]]:
     slack = _SLACK * size
     if isinstance(on, Sphere):
-        return np.asarray(np.linalg.norm(points - on.center, axis=1) <= on.radius + slack)
+        x, y, z = (points - on.center).T
+        return np.asarray(np.hypot(np.hypot(x, y), z) <= on.radius + slack)
     if isinstance(on, Plane):
-        normal = np.asarray(on.normal) / np.linalg.norm(on.normal)
+        normal = unit_vector(on.normal)
         tolerance = 1e-6 * size if on.tolerance is None else on.tolerance + slack
         return np.asarray(np.abs((points - on.point) @ normal) <= tolerance)
     low = np.array([-np.inf if x is None else x for x in on.min])

@@ -10,6 +10,7 @@ import numpy as np
 
 from tissu.checkpoint import read_checkpoint
 from tissu.compile.check import check_of
+from tissu.compile.direction import scaled
 from tissu.compile.material import fibres_of, parameters_of
 from tissu.compile.model import kept_nodes, use_of
 from tissu.compile.prepare import prepare
@@ -198,7 +199,7 @@ def _add_support(builder: WorldBuilder, held: Held, frames: bool) -> None:
         displacements=displacements,
         angles=np.zeros(count) if rotation is None else np.array(rotation.angles),
         center=np.zeros(3) if rotation is None else np.array(rotation.center),
-        axis=np.array([0.0, 0.0, 1.0]) if rotation is None else np.array(rotation.axis),
+        axis=np.array([0.0, 0.0, 1.0]) if rotation is None else scaled(rotation.axis),
     )
 
 

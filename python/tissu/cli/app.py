@@ -23,6 +23,19 @@ app.add_typer(bench_app, name="bench")
 
 SceneFile = Annotated[Path, typer.Argument(metavar="SCENE", help="A scene (YAML).")]
 Debug = Annotated[bool, typer.Option("--debug", help="Show tracebacks.")]
+TrustLaws = Annotated[
+    bool,
+    typer.Option(
+        "--trust-laws",
+        help="Run the scene's files of laws. They are programs: read them first.",
+    ),
+]
+AcceptUnconverged = Annotated[
+    bool,
+    typer.Option(
+        "--accept-unconverged", help="End with status 0 also where steps did not converge."
+    ),
+]
 Lengths = tuple[str, str, str]
 
 
@@ -55,6 +68,8 @@ def run(
         str | None,
         typer.Option(metavar="TIME", help="And whenever this simulated time has passed: '1 s'."),
     ] = None,
+    trust_laws: TrustLaws = False,
+    accept_unconverged: AcceptUnconverged = False,
     quiet: Annotated[bool, typer.Option("--quiet", "-q", help="Print errors only.")] = False,
     debug: Debug = False,
 ) -> None:
@@ -63,19 +78,19 @@ def run(
 
     with reported(debug=debug):
         folder = out or Path("results") / scene.stem
-        again = (resume, checkpoint, checkpoint_every)
+        again = (resume, checkpoint, checkpoint_every, trust_laws, accept_unconverged)
         job = Job(scene, folder, duration, threads, quiet, *again)
         raise typer.Exit(run_scene(job, debug=debug))
 
 
 @app.command()
-def check(scene: SceneFile, debug: Debug = False) -> None:
+def check(scene: SceneFile, trust_laws: TrustLaws = False, debug: Debug = False) -> None:
     """Say which effects a scene switches on and why, or what is wrong with it."""
     with reported(debug=debug):
         from tissu.errors import SceneError
         from tissu.scene import Scene
 
-        found = Scene.from_yaml(scene).check()
+        found = Scene.from_yaml(scene, trust_laws=trust_laws).check()
         if found.problems:
             raise SceneError(found.problems)
         typer.echo(str(found))
@@ -117,13 +132,15 @@ def compare_command(
         Path | None,
         typer.Option("--out", "-o", help="Folder; default: results/SCENE-compare."),
     ] = None,
+    trust_laws: TrustLaws = False,
     debug: Debug = False,
 ) -> None:
     """Run a scene with each of several models; write a table and a figure."""
     with reported(debug=debug):
         from tissu.cli.compare import compare_scene
 
-        compare_scene(scene, models, reference, out or Path("results") / f"{scene.stem}-compare")
+        folder = out or Path("results") / f"{scene.stem}-compare"
+        compare_scene(scene, models, reference, folder, trust_laws=trust_laws)
 
 
 @bench_app.callback()
@@ -152,6 +169,7 @@ def bench_accuracy_command(
     out: Annotated[Path, typer.Option("--out", "-o", help="Folder of the results.")] = Path(
         "results/accuracy"
     ),
+    trust_laws: TrustLaws = False,
     debug: Debug = False,
 ) -> None:
     """Run cases with every element, law, model, method and solver; write tables and diagrams."""
@@ -161,7 +179,7 @@ def bench_accuracy_command(
         if listed:
             list_cases(folder)
             return
-        bench_accuracy(Job(cases or [], preset, folder, meshes, out))
+        bench_accuracy(Job(cases or [], preset, folder, meshes, out, trust_laws))
 
 
 @app.command("advise")
@@ -192,6 +210,7 @@ def advise_command(
         Path | None,
         typer.Option("--out", "-o", help="Folder; default: results/SCENE-advice."),
     ] = None,
+    trust_laws: TrustLaws = False,
     debug: Debug = False,
 ) -> None:
     """Find the cheapest setting that meets an error and a rate; write its scene and a table."""
@@ -199,7 +218,8 @@ def advise_command(
         from tissu.cli.advise import advise_scene
 
         folder = out or Path("results") / f"{scene.stem}-advice"
-        advise_scene(scene, error=error, rate=rate, budget=budget, models=models, out=folder)
+        goal = {"error": error, "budget": budget, "models": models}
+        advise_scene(scene, **goal, rate=rate, out=folder, trust_laws=trust_laws)
 
 
 @mesh_app.command("info")

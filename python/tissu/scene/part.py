@@ -18,6 +18,7 @@ from pydantic import (
 from typing_extensions import Self
 
 from tissu.errors import ParameterError, SceneError
+from tissu.scene.bounds import count_problem
 from tissu.scene.explain import explained, failure, meaning
 from tissu.scene.problem import Problem, nearest, nearest_word, one_of_words
 from tissu.scene.unknown import Unknown, Unread, below, nested, rules_of, told
@@ -87,9 +88,13 @@ class Part(BaseModel):
         if isinstance(value, Unread):
             return value
         try:
-            return handler(value)
+            read = handler(value)
         except ValidationError as error:
             return Unread(tuple(explained(error, value)))
+        except OverflowError:
+            return Unread((Problem((), f"found {written(value)}, which is too large"),))
+        large = count_problem(read)
+        return Unread((Problem((), large),)) if large else read
 
     @model_validator(mode="wrap")
     @classmethod

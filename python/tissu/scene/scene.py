@@ -14,13 +14,14 @@ from typing_extensions import Self
 from tissu import units
 from tissu.errors import SceneError
 from tissu.scene.body import Body
+from tissu.scene.bounds import name_problem, step_problems
 from tissu.scene.load import Load, OneLoad
 from tissu.scene.part import Part, problems_in
 from tissu.scene.problem import Problem, Source, nearest, one_of_words
 from tissu.scene.step import OneStep, Step
 from tissu.scene.support import Fixed, Prescribed
 from tissu.scene.tissue import Tissue, tissues_of
-from tissu.scene.unknown import Unknown, rule
+from tissu.scene.unknown import Unknown, below, rule
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -80,7 +81,7 @@ class Scene(Part):
     """how time is stepped, such as {type: implicit_euler, dt: 10 ms}"""
     duration: Annotated[units.Time, Field(gt=0.0)] | None = None
     """simulated time of a run [s]"""
-    threads: Annotated[int, Field(ge=1)] = 1
+    threads: Annotated[int, Field(ge=1, le=1024)] = 1
     """number of threads"""
     editing: bool = False
     """whether cells may be removed while it runs"""
@@ -137,6 +138,24 @@ class Scene(Part):
                         text += f"Bodies: {one_of_words(self.bodies)}"
                         yield Problem(("tissue", name, "between", end), text)
 
+    @rule("duration")
+    def _ends(self) -> Iterator[Problem]:
+        """A number of steps that a run can take."""
+        dt = getattr(self.step, "dt", None)
+        if isinstance(dt, float) and self.duration is not None:
+            yield from below("step", step_problems(self.duration, dt))
+
+    @rule()
+    def _has_names_to_write(self) -> Iterator[Problem]:
+        """Names that can stand in files and messages."""
+        named = [(("name",), getattr(self, "name", ""))]
+        for group in ("bodies", "tissue"):
+            named += [((group,), name) for name in getattr(self, group, {})]
+        for path, name in named:
+            text = name_problem(name)
+            if text:
+                yield Problem(path, text)
+
     def _refusal(self) -> list[str]:
         from tissu.compile import problems_of
 
@@ -163,8 +182,12 @@ class Scene(Part):
         return other
 
     @classmethod
-    def from_yaml(cls, path: str | os.PathLike[str]) -> Scene:
+    def from_yaml(cls, path: str | os.PathLike[str], *, trust_laws: bool = False) -> Scene:
         """Read a scene; paths of meshes are relative to the file.
+
+        Args:
+            path: the file.
+            trust_laws: run the files of `laws`, which are programs: only of scenes that you trust.
 
         Raises:
             SceneError: the file cannot be read or has wrong fields; with them everything that
@@ -172,11 +195,18 @@ class Scene(Part):
         """
         from tissu.yaml_io import read_scene
 
-        return accepted(read_scene(Path(path)))
+        return accepted(read_scene(Path(path), trust_laws=trust_laws))
 
     @classmethod
-    def from_yaml_text(cls, text: str, *, base: str | os.PathLike[str] | None = None) -> Scene:
+    def from_yaml_text(
+        cls, text: str, *, base: str | os.PathLike[str] | None = None, trust_laws: bool = False
+    ) -> Scene:
         """Read a scene from a text; paths of meshes are relative to the folder `base`.
+
+        Args:
+            text: the scene in YAML.
+            base: the folder; absent: the present one.
+            trust_laws: run the files of `laws` in that folder, which are programs.
 
         Raises:
             SceneError: the text has wrong fields; with them everything that compile() would
@@ -184,7 +214,8 @@ class Scene(Part):
         """
         from tissu.yaml_io import parse_scene
 
-        return accepted(parse_scene(text, base=None if base is None else Path(base)))
+        folder = None if base is None else Path(base)
+        return accepted(parse_scene(text, base=folder, trust_laws=trust_laws))
 
     def to_yaml(self) -> str:
         """The scene as YAML text that reads back as an equal scene.
@@ -212,7 +243,14 @@ class Scene(Part):
         return scene_data(self)
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Write the scene to a YAML file, and meshes made in memory beside it as .vtu files."""
+        """Write the scene to a YAML file, and beside it meshes made in memory as .vtu files.
+
+        Files of laws that lie elsewhere than below the file's folder are copied there: a scene reads
+        none from outside.
+
+        Raises:
+            SceneError: a file cannot be written.
+        """
         from tissu.yaml_io import write_scene
 
         write_scene(self, Path(path))

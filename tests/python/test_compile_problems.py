@@ -57,7 +57,8 @@ def two_bars(gap=1.0):
 def test_a_good_scene_has_none():
     made = scene(fixed=[Fixed("bar", on=END)])
     assert problems(made) == []
-    assert made.check().notes == []
+    (note,) = made.check().notes
+    assert "bodies.bar: is 2 m long" in note
 
 
 def test_all_bodies_at_once(tmp_path):

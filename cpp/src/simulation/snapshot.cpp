@@ -1,6 +1,7 @@
 #include "tissu/simulation/snapshot.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <string>
 
@@ -15,6 +16,27 @@ void check_count(const char* what, std::size_t found, std::size_t accepted) {
   if (found == accepted) return;
   throw ParameterError("the snapshot has " + std::to_string(found) + " " + what + " where the world has " +
                        std::to_string(accepted) + "; restore it in the world that it was taken from.");
+}
+
+/// Refuses links of points that the world has not: their numbers are indices from then on.
+void check_links(const World& world, const std::vector<double>& numbers) {
+  constexpr std::size_t kNumbers = 11;
+  const auto is_index = [](double value, double first, std::size_t end) {
+    return value >= first && value < static_cast<double>(end) && value == std::floor(value);
+  };
+  const auto blocks = static_cast<std::size_t>(world.blocks());
+  for (std::size_t i = 0; i + kNumbers <= numbers.size(); i += kNumbers) {
+    bool good = numbers[i + 10] > 0.0;
+    for (std::size_t point = i; point < i + 10; point += 5) {
+      const bool turns = numbers[point + 1] >= 0.0;
+      good = good && is_index(numbers[point + 1], -1.0, world.frames().size()) &&
+             is_index(numbers[point], 0.0, turns ? blocks - 1 : blocks);
+    }
+    if (!good) {
+      throw ParameterError("the snapshot has a link of points that the world has not, or without stiffness; "
+                           "restore it in the world that it was taken from.");
+    }
+  }
 }
 
 std::vector<std::int32_t> ascending(std::vector<std::int32_t> numbers) {
@@ -96,6 +118,7 @@ void Simulation::restore(const Snapshot& snapshot) {
   if (world.links() == nullptr) {
     check_count("numbers of links", snapshot.links.size(), 0);
   } else {
+    check_links(world, snapshot.links);
     world.links()->restore(snapshot.links);
   }
   if (left != nullptr) replace_world(std::move(left));

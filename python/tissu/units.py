@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import numpy as np
 from pydantic import AfterValidator, BeforeValidator
 
+from tissu.arrays import refuse_masked
 from tissu.errors import ParameterError
 from tissu.unit_table import UnknownUnitError, read_unit, words_of
 
@@ -207,7 +208,12 @@ def written(value: object) -> str:
 
 
 def listed(value: object) -> object:
-    """A numpy array as nested lists; anything else unchanged."""
+    """A numpy array as nested lists; anything else unchanged.
+
+    Raises:
+        ParameterError: some of its entries are masked.
+    """
+    refuse_masked(value, "values")
     return value.tolist() if isinstance(value, np.ndarray) else value
 
 

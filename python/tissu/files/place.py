@@ -14,6 +14,7 @@ from pathlib import Path
 
 from tissu.errors import TissuError
 
+_LONGEST = 500  # characters of a path in a message
 _KINDS = {
     stat.S_IFDIR: "a folder",
     stat.S_IFCHR: "a device",
@@ -38,6 +39,13 @@ def kind_of_place(path: str | os.PathLike[str]) -> str:
     return "a file" if stat.S_ISREG(mode) else _KINDS.get(stat.S_IFMT(mode), "a special file")
 
 
+def shown_path(path: str | os.PathLike[str]) -> str:
+    """A path in a message: cut when it is long, and without what no terminal can show."""
+    text = os.fsdecode(os.fspath(path)).encode("utf-8", "backslashreplace").decode()
+    text = text.replace("\0", "\\0")
+    return text if len(text) <= _LONGEST else f"{text[:_LONGEST]}..."
+
+
 def reason_of(error: OSError | ValueError) -> str:
     """Why the system refused, in a few words."""
     return str(getattr(error, "strerror", None) or error)
@@ -56,7 +64,7 @@ def require_file_place(
     Raises:
         TissuError: it is neither new nor a regular file, or it cannot be looked at.
     """
-    named = f"{what} {os.fspath(path)!s}".strip()
+    named = f"{what} {shown_path(path)}".strip()
     try:
         kind = kind_of_place(path)
     except (OSError, ValueError) as refused:
@@ -88,11 +96,11 @@ def require_folder_place(
             kind = "a link"
     except (OSError, ValueError) as refused:
         raise TissuError(
-            f"{what} {path}: cannot be written ({reason_of(refused)}); name another with --out"
+            f"{what} {shown_path(path)}: cannot be written ({reason_of(refused)}); name another with --out"
         ) from None
     if kind not in ("nothing", "a folder"):
         article = "it is a file" if kind == "a file" else f"found {kind}"
         raise TissuError(
-            f"{what} {path}: {article}, a folder is accepted; name another with --out"
+            f"{what} {shown_path(path)}: {article}, a folder is accepted; name another with --out"
         )
     return Path(path)

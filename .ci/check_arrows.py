@@ -92,7 +92,9 @@ PYTHON: dict[str, set[str]] = {
     "picture": {"errors", "files", "mesh"},
     "output": {"errors", "counted", "files", "mesh", "simulation", "picture", "_core"},
 }
+PYTHON["examples"] = {"errors", "files", "scene"}
 PYTHON["cli"] = set(PYTHON)
+PYTHON["__main__"] = {"cli"}
 PYTHON["__init__"] = set(PYTHON)
 
 REFUSED = {"util", "utils", "common", "misc", "helper", "helpers", "manager", "managers"}

@@ -1,5 +1,3 @@
-#include "interruption.h"
-
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -7,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "interruption.h"
 #include "tissu/base/interruption.h"
 
 #if defined(__linux__)
@@ -20,8 +19,8 @@ namespace {
 constexpr int kMostSignals = 65;
 
 std::atomic<bool> asked = false;
-std::vector<int> named;                                ///< by `interrupt_on`; read under the lock
-std::array<struct sigaction, kMostSignals> before{};   ///< the interpreter's
+std::vector<int> named;                               ///< by `interrupt_on`; read under the lock
+std::array<struct sigaction, kMostSignals> before{};  ///< the interpreter's
 
 /// Python's own handlers run in the main thread alone.
 bool in_main_thread() {

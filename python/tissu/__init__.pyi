@@ -6,6 +6,7 @@ from tissu.comparison import Comparison as Comparison
 from tissu.comparison import compare as compare
 from tissu.errors import CheckpointError as CheckpointError
 from tissu.errors import Diverged as Diverged
+from tissu import examples as examples
 from tissu import formula as formula
 from tissu import sampling as sampling
 from tissu.errors import LawError as LawError

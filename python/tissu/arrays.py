@@ -31,7 +31,9 @@ def real_array(
     try:
         array = np.asarray(values)
     except (ValueError, TypeError):  # ragged rows
-        raise error(f"found {what} in rows of different lengths; {accepted}, in equal rows") from None
+        raise error(
+            f"found {what} in rows of different lengths; {accepted}, in equal rows"
+        ) from None
     if array.dtype.kind == "c":
         raise error(f"found complex {what}; {accepted}: take the real part")
     if array.size and array.dtype.kind not in "biuf":

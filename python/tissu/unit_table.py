@@ -3,7 +3,7 @@
     unit   = factor { ("*" | "/") factor }
     factor = ( name | "1" | "(" unit ")" ) [ "^" whole number | whole number ]
 
-A name is one of the table, or one that takes SI prefixes with a prefix in front: "kPa", "micrometer".
+A name is one of the table, or one that takes SI prefixes with one in front: "kPa", "micrometer".
 """
 
 from __future__ import annotations

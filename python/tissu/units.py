@@ -40,7 +40,7 @@ class Dimension:
         name: what it is called in messages ("a pressure").
         unit: SI unit that a plain number has; empty for a pure number.
         example: a text that is accepted.
-        units: factor to SI of the units that are looked up first; the others are read by the grammar.
+        units: factor to SI of those looked up first; the others are read by the grammar.
     """
 
     name: str
@@ -110,7 +110,9 @@ class Dimension:
             ) from None
         if found.powers != self._powers:
             kinds = (other for other in DIMENSIONS if other._powers == found.powers)
-            kind = next((_a(other.name) for other in kinds), f"of dimension {words_of(found.powers)}")
+            kind = next(
+                (_a(other.name) for other in kinds), f"of dimension {words_of(found.powers)}"
+            )
             raise ParameterError(f"found '{text}', which is {kind}; {self.accepted}")
         return float(found.factor)
 

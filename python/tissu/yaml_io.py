@@ -23,6 +23,7 @@ if TYPE_CHECKING:
 
     from tissu.scene.law import UserLaw
 
+
 def read_scene(path: Path, *, to_run: bool = False, trust_laws: bool = False) -> Scene:
     """Read a scene file; paths of meshes are relative to its folder.
 
@@ -38,9 +39,7 @@ def read_scene(path: Path, *, to_run: bool = False, trust_laws: bool = False) ->
         SceneError: the file cannot be read, or is not YAML.
     """
     text = scene_file_text(path)
-    return parse_scene(
-        text, base=path.parent, name=str(path), to_run=to_run, trust_laws=trust_laws
-    )
+    return parse_scene(text, base=path.parent, name=str(path), to_run=to_run, trust_laws=trust_laws)
 
 
 def parse_scene(
@@ -174,7 +173,7 @@ def scene_text(
 
 
 def write_scene(scene: Scene, path: Path) -> None:
-    """Write the scene, each mesh made in memory beside it as .vtu, and files of laws from elsewhere.
+    """Write the scene, each mesh made in memory beside it as .vtu, and laws from elsewhere.
 
     Raises:
         SceneError: the file or a mesh cannot be written.
@@ -217,7 +216,9 @@ def laws_beside(scene: Scene, folder: Path) -> dict[Path, Path]:
         try:
             content = file.read_bytes()
             if copied.exists() and copied.read_bytes() != content:
-                text = f"{copied}: found another file in the place of the law {file}; move one of them"
+                text = (
+                    f"{copied}: found another file in the place of the law {file}; move one of them"
+                )
                 raise SceneError([text])
         except OSError as error:
             raise SceneError([f"{file}: cannot be copied to {folder} ({error.strerror})"]) from None

@@ -1,8 +1,8 @@
 """The text of a scene as data with the line of every field; in bounded time, whatever the text is.
 
-The words are those of YAML 1.2's core: `on`, `yes`, `off` are texts, 010 is ten, and 1e-6 is a number
-(YAML 1.1 says otherwise). Tags of other types, aliases that blow up, deep nesting and characters that
-no text has are refused with their line.
+The words are those of YAML 1.2's core: `on`, `yes`, `off` are texts, 010 is ten, and 1e-6 is a
+number (YAML 1.1 says otherwise). Tags of other types, aliases that blow up, deep nesting and
+characters that no text has are refused with their line.
 """
 
 from __future__ import annotations
@@ -86,7 +86,10 @@ def load(text: str, name: str) -> tuple[Any, Source, list[Problem]]:
     except yaml.MarkedYAMLError as error:
         mark = error.problem_mark or error.context_mark
         line = mark.line + 1 if mark is not None else 1
-        said = " ".join((error.problem or error.context or "").split())
+        said = error.problem or error.context or ""
+        if said.startswith("but ") and error.context:
+            said = f"{error.context}, {said}"
+        said = " ".join(said.split())
         raise SceneError([f"{name}:{line}: not valid YAML: {said}"]) from None
     except (yaml.YAMLError, ValueError, TypeError) as error:
         said = " ".join(str(error).split())

@@ -63,4 +63,9 @@ def test_axes_and_fibres_of_any_length_give_the_same_bits(length):
     found = turned(length)
     assert np.isfinite(found).all()
     assert found.tobytes() == turned(1.0).tobytes()
-    assert np.abs(found - ts.bar_mesh(size=(0.2, 0.1, 0.1), cells=(2, 1, 1), cell="hexahedron").points).max() > 0.01
+    assert (
+        np.abs(
+            found - ts.bar_mesh(size=(0.2, 0.1, 0.1), cells=(2, 1, 1), cell="hexahedron").points
+        ).max()
+        > 0.01
+    )

@@ -1,4 +1,4 @@
-"""The cache of compiled laws: what is loaded as code is what this user's tissu made, to the byte."""
+"""The cache of compiled laws: what is loaded is what this user's tissu made, to the byte."""
 
 import os
 import stat

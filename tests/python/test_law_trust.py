@@ -1,4 +1,4 @@
-"""Files of laws are programs: they run where they are trusted, from the scene's folder, and no more."""
+"""Files of laws are programs: they run where they are trusted, from the scene's folder."""
 
 import json
 import subprocess

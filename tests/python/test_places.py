@@ -57,7 +57,9 @@ def test_devices_are_refused_by_name_alone():
 
     for device in ("/dev/null", "/dev/full", "/dev/zero"):
         before = os.lstat(device)
-        with pytest.raises(TissuError, match=rf"{device}: cannot be written: found a device; a new place or a reg"):
+        with pytest.raises(
+            TissuError, match=rf"{device}: cannot be written: found a device; a new place or a reg"
+        ):
             require_file_place(device)
         with pytest.raises(TissuError, match="found a device, a folder is accepted"):
             require_folder_place(device, "output folder")
@@ -206,7 +208,8 @@ def test_a_name_planted_beside_a_file_is_not_opened(tmp_path):
 
 
 @pytest.mark.parametrize(
-    "names", [("a/b", "a:b"), ("b", "b "), ("a/b", "a_b", "a:b"), ("x" * 300, "x" * 301), ("…", "??")]
+    "names",
+    [("a/b", "a:b"), ("b", "b "), ("a/b", "a_b", "a:b"), ("x" * 300, "x" * 301), ("…", "??")],
 )
 def test_two_bodies_never_share_a_file(tmp_path, names):
     one = make()

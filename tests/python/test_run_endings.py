@@ -193,7 +193,7 @@ except KeyboardInterrupt:
 
 
 def test_a_full_or_closed_output_is_a_sentence(scene, tmp_path):
-    """`full` stands for every stdout that takes nothing: a pipe whose reader has left, a full disk."""
+    """The device `full` stands for a full disk; a pipe without a reader, for `head`."""
     file = scene()
     with open("/dev/full", "w") as full:
         for words in (["run", file, "-o", tmp_path / "a"], ["check", file], ["info"]):

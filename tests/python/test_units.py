@@ -141,7 +141,17 @@ def test_every_unit_of_the_grammar_agrees_with_pint():
     names = [p + symbol for symbol, *_ in _PREFIXED for p in ("", *_PREFIXES)]
     names += [name for row in _PREFIXED for name in row[1].split()]
     names += [name for words, *_ in _PLAIN for name in words.split()]
-    names += ["deg", "degree", "revolution", "turn", "rpm", "kg/(m*s^2)", "N*s/m^4", "mm2", "lbf/in^2"]
+    names += [
+        "deg",
+        "degree",
+        "revolution",
+        "turn",
+        "rpm",
+        "kg/(m*s^2)",
+        "N*s/m^4",
+        "mm2",
+        "lbf/in^2",
+    ]
     for name in names:
         if name in AMBIGUOUS:
             with pytest.raises(ValueError):

@@ -33,8 +33,9 @@ void check_links(const World& world, const std::vector<double>& numbers) {
              is_index(numbers[point], 0.0, turns ? blocks - 1 : blocks);
     }
     if (!good) {
-      throw ParameterError("the snapshot has a link of points that the world has not, or without stiffness; "
-                           "restore it in the world that it was taken from.");
+      throw ParameterError(
+          "the snapshot has a link of points that the world has not, or without stiffness; "
+          "restore it in the world that it was taken from.");
     }
   }
 }

@@ -82,6 +82,6 @@ def _require_body(path: Path, number: str, body: object, arrays: Mapping[str, An
 
 def _wrong(path: Path, name: str, accepted: str) -> CheckpointError:
     return CheckpointError(
-        f"checkpoint {path}: its entry '{name}' is not {accepted}, so tissu did not write it; go on "
-        "from another one, or start anew"
+        f"checkpoint {path}: its entry '{name}' is not {accepted}, so tissu did not write it; "
+        "go on from another one, or start anew"
     )

@@ -22,8 +22,8 @@ def write_whole(path: Path, data: bytes) -> None:
     What processes that were killed have left beside it is taken away first.
 
     Raises:
-        CheckpointError: the place is neither new nor a regular file, or it cannot be written; a file
-            that was there before still is.
+        CheckpointError: the place is neither new nor a regular file, or it cannot be written; a
+            file that was there before still is.
     """
     require_file_place(path, "checkpoint", error=CheckpointError)
     place = Path(os.path.realpath(path))

@@ -12,7 +12,7 @@ from tissu.cli.outcome import reported
 app = typer.Typer(
     help="Deforming soft tissue: a scene file goes in, a deforming organ comes out.",
     no_args_is_help=True,
-    add_completion=False,
+    add_completion=True,
     pretty_exceptions_enable=False,
     context_settings={"help_option_names": ["-h", "--help"]},
 )
@@ -220,6 +220,25 @@ def advise_command(
         folder = out or Path("results") / f"{scene.stem}-advice"
         goal = {"error": error, "budget": budget, "models": models}
         advise_scene(scene, **goal, rate=rate, out=folder, trust_laws=trust_laws)
+
+
+@app.command("example")
+def example_command(
+    name: Annotated[
+        str | None, typer.Argument(metavar="[NAME]", help="An example; absent: their names.")
+    ] = None,
+    out: Annotated[Path, typer.Option("--out", "-o", help="Folder of the copies.")] = Path(),
+    debug: Debug = False,
+) -> None:
+    """Copy an example's scene and meshes here, or print the names of all examples."""
+    with reported(debug=debug):
+        from tissu import examples
+
+        if name is None:
+            typer.echo("\n".join(examples.names()))
+            return
+        for path in examples.copy(name, out):
+            typer.echo(f"written: {path}")
 
 
 @mesh_app.command("info")

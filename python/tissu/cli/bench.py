@@ -72,9 +72,7 @@ def bench_accuracy(job: Job) -> None:
         if why:
             raise ParameterError(f"case {case.name} {why}")
         typer.echo(f"{case.name}: {case.title}")
-        one = study(
-            case, preset, meshes=job.meshes, trust_laws=job.trust_laws, told=_told
-        )
+        one = study(case, preset, meshes=job.meshes, trust_laws=job.trust_laws, told=_told)
         typer.echo(f"  {sentence(one)}\n")
         studies.append(one)
         _write(studies, folder)

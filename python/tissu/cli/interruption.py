@@ -33,7 +33,7 @@ class Interruption:
 
     @property
     def code(self) -> int:
-        """Exit code by the shell's convention: 130 after Ctrl-C, 143 after SIGTERM, 129 after SIGHUP."""
+        """Exit code, as shells have it: 130 after Ctrl-C, 143 after SIGTERM, 129 after SIGHUP."""
         return 128 + self.number
 
 

@@ -75,7 +75,7 @@ def ended(code: int) -> int:
 
 
 def _close(stream: object) -> None:
-    """Sends what is left in a stream's buffer nowhere, so that the interpreter does not try again."""
+    """Drops what is left in a stream's buffer, so that the interpreter does not try again."""
     with contextlib.suppress(OSError, ValueError, AttributeError):
         nowhere = os.open(os.devnull, os.O_WRONLY)
         os.dup2(nowhere, stream.fileno())  # type: ignore[attr-defined]

@@ -69,8 +69,8 @@ class Ending:
     """How a run ended.
 
     Attributes:
-        status: "finished", "unconverged": some steps did not converge, "interrupted", "diverged", or
-            "stopped": a step was refused, or results could not be written.
+        status: "finished", "unconverged": some steps did not converge, "interrupted", "diverged",
+            or "stopped": a step was refused, or results could not be written.
         code: exit code of the command.
         message: why it is not finished, or what is wrong with its steps.
         error: what stopped it.

@@ -93,8 +93,8 @@ def _held_loads(prepared: Prepared) -> Iterator[str]:
         text = _held_share(loaded, (mask & _needed(loaded)) == _needed(loaded))
         if text:
             yield (
-                f"{field_path(loaded.path)}: {text}, so the supports take that part of the load and "
-                "no node moves by it; select other nodes, or hold fewer"
+                f"{field_path(loaded.path)}: {text}, so the supports take that part of the load "
+                "and no node moves by it; select other nodes, or hold fewer"
             )
 
 

@@ -1,8 +1,8 @@
 """Which places may be written to: new ones, regular files, and folders for what goes in folders.
 
-A device, a pipe, a socket, a folder in the place of a file, and a link to nothing are refused before
-anything is opened: to replace /dev/null by a file breaks the machine, and to open a pipe waits for
-a reader that may never come.
+A device, a pipe, a socket, a folder in the place of a file, and a link to nothing are refused
+before anything is opened: to replace /dev/null by a file breaks the machine, and to open a pipe
+waits for a reader that may never come.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ _KINDS = {
 
 
 def kind_of_place(path: str | os.PathLike[str]) -> str:
-    """What lies at a path, links followed: "nothing", "a file", "a folder", "a device", …
+    """What lies at a path, links followed, in words: nothing, a file, a folder, a device.
 
     Raises:
         OSError: it cannot be looked at: a folder above it is closed, or the name is too long.
@@ -68,7 +68,9 @@ def require_file_place(
     try:
         kind = kind_of_place(path)
     except (OSError, ValueError) as refused:
-        raise error(f"{named}: cannot be written ({reason_of(refused)}); name another place") from None
+        raise error(
+            f"{named}: cannot be written ({reason_of(refused)}); name another place"
+        ) from None
     if kind not in ("nothing", "a file"):
         raise error(
             f"{named}: cannot be written: found {kind}; a new place or a regular file is accepted"
@@ -76,9 +78,7 @@ def require_file_place(
     return Path(path)
 
 
-def require_folder_place(
-    path: str | os.PathLike[str], what: str, *, within: bool = False
-) -> Path:
+def require_folder_place(path: str | os.PathLike[str], what: str, *, within: bool = False) -> Path:
     """The path, when a folder may be made there or is there already.
 
     Args:
@@ -96,7 +96,8 @@ def require_folder_place(
             kind = "a link"
     except (OSError, ValueError) as refused:
         raise TissuError(
-            f"{what} {shown_path(path)}: cannot be written ({reason_of(refused)}); name another with --out"
+            f"{what} {shown_path(path)}: cannot be written ({reason_of(refused)}); "
+            "name another with --out"
         ) from None
     if kind not in ("nothing", "a folder"):
         article = "it is a file" if kind == "a file" else f"found {kind}"

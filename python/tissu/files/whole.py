@@ -18,8 +18,8 @@ from tissu.files.place import reason_of, require_file_place
 def whole_file(path: Path, *, error: Callable[[str], TissuError] = TissuError) -> Iterator[Path]:
     """A place to write to; what is written there gets its own name when it is complete.
 
-    The place has the file's own name in a folder of its own, which only this user may enter: nothing
-    that lies beside the file is opened. Files that a format writes beside it move with it.
+    The place has the file's own name in a folder of its own, which only this user may enter:
+    nothing that lies beside the file is opened. Files that a format writes beside it move with it.
 
     Raises:
         TissuError: the place is neither new nor a regular file, or it cannot be written, as on a

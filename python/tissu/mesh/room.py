@@ -30,6 +30,6 @@ def require_room(cells: tuple[int, int, int]) -> None:
     needed, there = _COPIES * (24 * nodes + _CELLS_OF_SIX * boxes), memory_bytes()
     if needed > there:
         raise ParameterError(
-            f"found {boxes:.3g} grid cells, which take about {needed / 1e9:.3g} GB; this machine has "
-            f"{there / 1e9:.3g} GB: take fewer cells"
+            f"found {boxes:.3g} grid cells, which take about {needed / 1e9:.3g} GB; this machine "
+            f"has {there / 1e9:.3g} GB: take fewer cells"
         )

@@ -46,5 +46,7 @@ def inner_folder(folder: Path, name: str) -> Path:
             "there with it; run the scene again with a folder that stays"
         ) from None
     except OSError as refused:
-        raise TissuError(f"output folder {inner}: cannot be written ({reason_of(refused)})") from None
+        raise TissuError(
+            f"output folder {inner}: cannot be written ({reason_of(refused)})"
+        ) from None
     return inner

@@ -69,8 +69,8 @@ def summarise(
     Args:
         simulation: at the end of its run.
         tally: the steps of the run.
-        status: "finished", "unconverged": some steps did not converge, "interrupted", "diverged", or
-            "stopped": a step was refused, or results could not be written.
+        status: "finished", "unconverged": some steps did not converge, "interrupted", "diverged",
+            or "stopped": a step was refused, or results could not be written.
         wall_seconds: wall time by stage of the run: compile, steps, output, picture.
         files: what was written, by kind, relative to the folder of the summary.
         why: what is wrong, where it is not finished or some steps did not converge.

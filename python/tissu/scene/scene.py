@@ -88,7 +88,8 @@ class Scene(Part):
     output: Output | None = None
     """what is written while it runs"""
     laws: tuple[LawFile, ...] = ()
-    """Python files with laws of one's own, for the bodies of a YAML scene; the files are run"""
+    """Python files with laws of one's own, in the scene's folder or below; they are programs and
+    run only with `--trust-laws`, or `trust_laws=True`"""
     _source: Source | None = PrivateAttr(default=None)
 
     if TYPE_CHECKING:
@@ -245,8 +246,8 @@ class Scene(Part):
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write the scene to a YAML file, and beside it meshes made in memory as .vtu files.
 
-        Files of laws that lie elsewhere than below the file's folder are copied there: a scene reads
-        none from outside.
+        Files of laws that lie elsewhere than below the file's folder are copied there: a scene
+        reads none from outside.
 
         Raises:
             SceneError: a file cannot be written.

@@ -7,7 +7,6 @@ from typing import Protocol
 
 from tissu.errors import ParameterError
 
-
 MOST_STEPS = 1_000_000_000
 
 

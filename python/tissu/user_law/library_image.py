@@ -7,8 +7,8 @@ import tempfile
 from pathlib import Path
 
 _KEPT: list[int] = []
-"""Descriptors of what was loaded. They stay open: the loader knows a library by its name, and the name
-of one that is closed would be given to the next."""
+"""Descriptors of what was loaded. They stay open: the loader knows a library by its name, and
+the name of one that is closed would be given to the next."""
 
 
 def library_image(name: str, data: bytes) -> str:
@@ -27,6 +27,8 @@ def library_image(name: str, data: bytes) -> str:
         with os.fdopen(os.dup(descriptor), "wb") as file:
             file.write(data)
         return f"/proc/self/fd/{descriptor}"
-    place = Path(tempfile.mkdtemp(prefix="tissu-law-")) / f"{name}.so"  # a folder of this user alone
+    place = (
+        Path(tempfile.mkdtemp(prefix="tissu-law-")) / f"{name}.so"
+    )  # a folder of this user alone
     place.write_bytes(data)
     return str(place)

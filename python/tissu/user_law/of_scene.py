@@ -1,4 +1,4 @@
-"""The laws of the files that a YAML scene names: programs, which run only where they are trusted."""
+"""The laws of the files that a scene names: programs, which run only where they are trusted."""
 
 from __future__ import annotations
 
@@ -61,11 +61,15 @@ def _inside(file: str, base: Path) -> Path:
         raise LawError(f"{file}: the file cannot be read: {reason_of(error)}") from None
     if not place.is_relative_to(folder):
         raise LawError(
-            f"{file}: the file is {place}, outside the scene's folder {folder}; laws of a scene are "
-            "read from its folder or below: copy the file there."
+            f"{file}: the file is {place}, outside the scene's folder {folder}; laws of a scene "
+            "are read from its folder or below: copy the file there."
         )
     if kind == "nothing":
-        raise LawError(f"{path}: no such file; a Python file with the formula of a law is accepted.")
+        raise LawError(
+            f"{path}: no such file; a Python file with the formula of a law is accepted."
+        )
     if kind != "a file":
-        raise LawError(f"{path}: found {kind}; a Python file with the formula of a law is accepted.")
+        raise LawError(
+            f"{path}: found {kind}; a Python file with the formula of a law is accepted."
+        )
     return path

@@ -1,4 +1,4 @@
-"""Folders and files that only this user can have written: what is loaded as code comes from there."""
+"""Folders and files that only this user can have written: code is loaded from there alone."""
 
 from __future__ import annotations
 

@@ -67,7 +67,8 @@ scene ([laws](laws.md)).
 
 Units are names of a table with `*`, `/`, `^` and brackets ("N s/m^4", "kgf/cm^2", "16 cmH2O");
 no text is evaluated. The words are those of YAML 1.2: 010 is ten. A scene has at most 16 MiB,
-40 levels of nesting, 1,000,000,000 steps and names of 200 characters; what is beyond is refused with its line.
+40 levels of nesting, 1,000,000,000 steps and names of 200 characters; what is beyond is refused
+with its line.
 
 `tissu run` prints on stderr, once, what `tissu check` notes. It ends with the status
 

@@ -47,14 +47,14 @@ OPTIONS = {
     "run": ("--out", "--duration", "--threads", "--resume", "--checkpoint", "--checkpoint-every",
             "--quiet", "--trust-laws", "--accept-unconverged"),
     "check": ("--trust-laws",),
-    "info": ("--constants",),
+    "info": (),
     "example": ("--out",),
     "mesh info": ("--unit", "--scale"),
     "mesh bar": ("--size", "--cells", "--output", "--cell", "--split", "--origin", "--segments"),
     "mesh convert": ("--output", "--unit", "--scale"),
     "": ("--version", "--help", "--nothing"),
 }  # fmt: skip
-ALONE = ("--quiet", "--trust-laws", "--accept-unconverged", "--constants", "--version", "--help")
+ALONE = ("--quiet", "--trust-laws", "--accept-unconverged", "--version", "--help")
 PLACES = ("--out", "--resume", "--checkpoint", "--output")
 THREE = ("--size", "--cells", "--origin")
 

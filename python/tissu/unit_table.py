@@ -123,9 +123,9 @@ def _table() -> dict[str, Unit]:
                 unit = Unit(one.factor * Fraction(10) ** exponent, powers)
                 units |= {prefix + name: unit, f"{prefix}{name}s": unit}
     plain = [(names, Fraction(factor), powers) for names, factor, powers in _PLAIN]
-    for names, factor, powers in (*plain, *_ANGLES):
-        for name in names.split():
-            units[name] = Unit(factor, powers)
+    for words, size, powers in (*plain, *_ANGLES):
+        for name in words.split():
+            units[name] = Unit(size, powers)
             if len(name) > 3:
                 units.setdefault(f"{name}s", units[name])
     for name in _AMBIGUOUS:

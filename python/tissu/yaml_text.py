@@ -168,7 +168,7 @@ def _loader() -> type[yaml.SafeLoader]:
         def compose_node(self, parent: Any, index: Any) -> Any:
             self._depth += 1
             if self._depth > _DEEPEST:
-                mark = self.peek_event().start_mark
+                mark = self.peek_event().start_mark  # type: ignore[no-untyped-call]
                 text = f"found more than {_DEEPEST} levels of nesting; a scene has fewer"
                 raise yaml.composer.ComposerError(None, None, text, mark)
             node = super().compose_node(parent, index)
@@ -178,7 +178,8 @@ def _loader() -> type[yaml.SafeLoader]:
     Loader.yaml_implicit_resolvers = {}
     add_words(Loader)
     kept = {f"{_TAG}{kind}": Loader.yaml_constructors[f"{_TAG}{kind}"] for kind in ("seq", "map")}
-    Loader.yaml_constructors = {**kept, None: Loader.yaml_constructors[None]}
+    refuse: dict[str | None, Any] = {None: Loader.yaml_constructors[None]}
+    Loader.yaml_constructors = refuse | kept
     for kind in ("bool", "float", "int", "null", "str"):
         Loader.add_constructor(f"{_TAG}{kind}", _scalar(kind))
     return Loader

@@ -6,6 +6,7 @@ import copy
 import json
 import math
 import random
+import re
 from pathlib import Path
 
 import yaml
@@ -62,7 +63,7 @@ STEPS = [
     {"type": "rk4", "dt": "auto"},
     {"type": "symplectic_euler", "dt": 1e-4},
 ]
-CELLS = ["tetra", "tetra10", "hexahedron", "hexahedron20", "wedge", "pyramid", "quad", "line"]
+CELLS = ["tetra", "tetra10", "hexahedron", "hexahedron20", "wedge", "pyramid"]
 ODD = [
     *(None, True, "", " ", "x", "x" * 500, "µ", "\u202e", "a/b", "..", "/dev/null", "a\tb"),
     *(0, -1, 1, 3, 10**20, -(10**30), 0.5, -0.0, 1e-320, 1e-160, 1e160, 1e308, math.nan, math.inf),
@@ -70,6 +71,9 @@ ODD = [
     *([], {}, [1, 2], [1, 2, 3], [None] * 3, [[0, 0, 0]], {"type": "x"}, {"a": {"b": []}}),
     *("static", "surface", "tetra", "fem", "condensed", "frames", "cholesky", "multigrid"),
 ]
+
+
+NUMBER = re.compile(r"(-?\d+(?:\.\d+)?(?:e-?\d+)?)( .*)?$")
 
 
 def places(data: object, path: tuple[object, ...] = ()) -> list[tuple[object, ...]]:
@@ -114,7 +118,11 @@ def change(data: object, dice: random.Random) -> None:
     for key in way:
         holder = holder[key]
     kind = dice.random()
-    if kind < 0.6:
+    number = NUMBER.match(str(holder[last])) if isinstance(holder[last], float | str) else None
+    if number and dice.random() < 0.7:
+        value = float(number[1]) * dice.choice((-1, 0, 1e-30, 1e-9, 0.01, 0.5, 2, 100, 1e9, 1e30))
+        holder[last] = f"{value:.3g}{number[2] or ''}" if isinstance(holder[last], str) else value
+    elif kind < 0.6:
         holder[last] = copy.deepcopy(dice.choice(ODD))
     elif kind < 0.75:
         del holder[last]

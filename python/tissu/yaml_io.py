@@ -70,12 +70,24 @@ def parse_scene(
                 f"{', '.join(Scene.model_fields)} is accepted"
             ]
         )
-    files = data.get("laws")
-    if not files:
-        return _to_run(_validated(data, base, source, problems), to_run)
+    if data.get("laws"):
+        return _with_laws(data, base, source, problems, to_run=to_run, trusted=trust_laws)
+    return _to_run(_validated(data, base, source, problems), to_run)
+
+
+def _with_laws(
+    data: dict[str, Any],
+    base: Path | None,
+    source: Source,
+    problems: list[Problem],
+    *,
+    to_run: bool,
+    trusted: bool,
+) -> Scene:
+    """The scene of a text that names files of laws."""
     from tissu.user_law.of_scene import laws_of_scene, untrusted
 
-    refused = [] if trust_laws else untrusted(files)
+    refused = [] if trusted else untrusted(data["laws"])
     scene = _validated(data, base, source, [*problems, *refused], laws_refused=True)
     scene = _to_run(scene, to_run)
     if refused:
@@ -83,7 +95,7 @@ def parse_scene(
     others = scene._refusal()
     if others:
         raise SceneError(others)
-    laws, refused = laws_of_scene(files, base)
+    laws, refused = laws_of_scene(data["laws"], base)
     problems = [*problems, *refused]
     return _validated(data, base, source, problems, laws=laws, laws_refused=bool(refused))
 

@@ -177,9 +177,8 @@ def _loader() -> type[yaml.SafeLoader]:
 
     Loader.yaml_implicit_resolvers = {}
     add_words(Loader)
-    kept = {f"{_TAG}{kind}": Loader.yaml_constructors[f"{_TAG}{kind}"] for kind in ("seq", "map")}
-    refuse: dict[str | None, Any] = {None: Loader.yaml_constructors[None]}
-    Loader.yaml_constructors = refuse | kept
+    tags = (f"{_TAG}seq", f"{_TAG}map", None)  # None: what every other tag comes to
+    Loader.yaml_constructors = {tag: Loader.yaml_constructors[tag] for tag in tags}
     for kind in ("bool", "float", "int", "null", "str"):
         Loader.add_constructor(f"{_TAG}{kind}", _scalar(kind))
     return Loader

@@ -18,6 +18,8 @@ if TYPE_CHECKING:
     from tissu.scene import Scene
     from tissu.simulation import Simulation
 
+    Reader = Callable[[dict[str, Any]], Scene]
+
 _SHORT = 0.2
 """s: a run that takes less is repeated, and the fastest counts"""
 _REPEATS = 3
@@ -120,11 +122,7 @@ def study(
 
 
 def _run(
-    case: Case,
-    label: str,
-    curve: str,
-    changes: dict[str, Any],
-    read: Callable[[dict[str, Any]], Scene],
+    case: Case, label: str, curve: str, changes: dict[str, Any], read: Reader
 ) -> tuple[Run, Deviation | None]:
     try:
         scene = read(changes)

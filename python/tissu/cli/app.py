@@ -7,6 +7,7 @@ from typing import Annotated
 
 import typer
 
+from tissu.cli.mesh_commands import Debug, mesh_app
 from tissu.cli.outcome import reported
 
 app = typer.Typer(
@@ -16,13 +17,11 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     context_settings={"help_option_names": ["-h", "--help"]},
 )
-mesh_app = typer.Typer(help="Look at meshes and make them.", no_args_is_help=True)
 app.add_typer(mesh_app, name="mesh")
 bench_app = typer.Typer(help="Measure what accuracy costs.", no_args_is_help=True)
 app.add_typer(bench_app, name="bench")
 
 SceneFile = Annotated[Path, typer.Argument(metavar="SCENE", help="A scene (YAML).")]
-Debug = Annotated[bool, typer.Option("--debug", help="Show tracebacks.")]
 TrustLaws = Annotated[
     bool,
     typer.Option(
@@ -36,7 +35,6 @@ AcceptUnconverged = Annotated[
         "--accept-unconverged", help="End with status 0 also where steps did not converge."
     ),
 ]
-Lengths = tuple[str, str, str]
 
 
 @app.command()
@@ -77,10 +75,11 @@ def run(
     from tissu.cli.run import Job, run_scene
 
     with reported(debug=debug):
+        more = (resume, checkpoint, checkpoint_every, trust_laws, accept_unconverged)
         folder = out or Path("results") / scene.stem
-        again = (resume, checkpoint, checkpoint_every, trust_laws, accept_unconverged)
-        job = Job(scene, folder, duration, threads, quiet, *again)
-        raise typer.Exit(run_scene(job, debug=debug))
+        raise typer.Exit(
+            run_scene(Job(scene, folder, duration, threads, quiet, *more), debug=debug)
+        )
 
 
 @app.command()
@@ -239,70 +238,6 @@ def example_command(
             return
         for path in examples.copy(name, out):
             typer.echo(f"written: {path}")
-
-
-@mesh_app.command("info")
-def mesh_info(
-    file: Annotated[Path, typer.Argument(metavar="FILE", help="A mesh of any known format.")],
-    unit: Annotated[str, typer.Option(help="Unit of length of the file.")] = "m",
-    scale: Annotated[float, typer.Option(help="Factor on all lengths.")] = 1.0,
-    debug: Debug = False,
-) -> None:
-    """Counts, size, quality and faults of a mesh."""
-    with reported(debug=debug):
-        from tissu.mesh import read_mesh
-
-        typer.echo(str(read_mesh(file, unit=unit, scale=scale).quality()))
-
-
-@mesh_app.command("bar")
-def mesh_bar(
-    size: Annotated[
-        Lengths, typer.Option(metavar="X Y Z", help="Lengths in m, or with a unit: 10cm 5cm 5cm.")
-    ],
-    cells: Annotated[tuple[int, int, int], typer.Option(metavar="X Y Z", help="Grid cells.")],
-    output: Annotated[Path, typer.Option("--output", "-o", metavar="FILE", help="The mesh.")],
-    cell: Annotated[
-        str | None,
-        typer.Option(help="tetra (the default), hexahedron, wedge, pyramid, hexahedron20, ..."),
-    ] = None,
-    split: Annotated[
-        str | None, typer.Option(help="six (the default), five or six_mirrored; of tetra.")
-    ] = None,
-    origin: Annotated[
-        Lengths, typer.Option(metavar="X Y Z", help="Smallest corner in m, or with a unit.")
-    ] = ("0", "0", "0"),
-    segments: Annotated[
-        str | None,
-        typer.Option(
-            help="Equal pieces along x instead of --cell, each with its cells and a label that "
-            "names its region: 'wedge6:stvk, pyramid5:stvk, hex8:stvk, tet4:hooke'."
-        ),
-    ] = None,
-    debug: Debug = False,
-) -> None:
-    """Make a bar of like cells, or of segments of different ones whose faces match."""
-    with reported(debug=debug):
-        from tissu.cli.mesh import Bar, lengths, made_bar, written
-
-        bar = Bar(lengths("--size", size), cells, lengths("--origin", origin))
-        written(made_bar(bar, cell=cell, split=split, segments=segments), output)
-
-
-@mesh_app.command("convert")
-def mesh_convert(
-    file: Annotated[Path, typer.Argument(metavar="FILE", help="A mesh of any known format.")],
-    output: Annotated[Path, typer.Option("--output", "-o", metavar="FILE", help="The mesh.")],
-    unit: Annotated[str, typer.Option(help="Unit of length of the file.")] = "m",
-    scale: Annotated[float, typer.Option(help="Factor on all lengths.")] = 1.0,
-    debug: Debug = False,
-) -> None:
-    """Write a mesh in another format, in metres and without the nodes that no cell uses."""
-    with reported(debug=debug):
-        from tissu.cli.mesh import written
-        from tissu.mesh import read_mesh
-
-        written(read_mesh(file, unit=unit, scale=scale).without_unused_nodes(), output)
 
 
 def version(wanted: bool) -> None:

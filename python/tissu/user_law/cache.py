@@ -93,15 +93,19 @@ def library_for(
             log = work / f"{stem}.log"
             log.write_text(said.replace(str(work), str(folder)), encoding="utf-8")
             log.replace(folder / log.name)
-            raise LawError(
-                f"{name}: {compiler.command[0]} does not compile the made code; its messages are "
-                f"in {folder / log.name}, and g++ 11 or newer is needed."
-            )
+            raise _not_compiled(name, compiler, folder / log.name)
         return _keep(folder, source, made)
     except OSError as error:
         raise _unwritable(folder, error) from None
     finally:
         shutil.rmtree(work, ignore_errors=True)
+
+
+def _not_compiled(name: str, compiler: Compiler, log: Path) -> LawError:
+    return LawError(
+        f"{name}: {compiler.command[0]} does not compile the made code; its messages are in {log}, "
+        "and g++ 11 or newer is needed."
+    )
 
 
 def _keep(folder: Path, source: str, made: Path) -> bytes:

@@ -46,7 +46,7 @@ def shown_path(path: str | os.PathLike[str]) -> str:
     return text if len(text) <= _LONGEST else f"{text[:_LONGEST]}..."
 
 
-def reason_of(error: OSError | ValueError) -> str:
+def reason_of(error: Exception) -> str:
     """Why the system refused, in a few words."""
     return str(getattr(error, "strerror", None) or error)
 

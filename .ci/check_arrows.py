@@ -67,19 +67,32 @@ PYTHON: dict[str, set[str]] = {
     "counted": set(),
     "pareto": set(),
     "field_names": set(),
-    "reading": set(),
-    "units": {"errors", "reading"},
+    "files": {"errors"},
+    "arrays": {"errors"},
+    "unit_table": set(),
+    "reading": {"arrays"},
+    "units": {"arrays", "errors", "reading", "unit_table"},
     "codegen": {"errors"},
     "formula": {"errors", "codegen"},
-    "mesh": {"errors", "counted", "units", "_core"},
+    "mesh": {"arrays", "errors", "counted", "files", "units", "_core"},
     "sampling": {"errors", "counted", "mesh"},
     "scene": {"errors", "counted", "field_names", "reading", "units", "mesh", "_core"},
-    "user_law": {"errors", "units", "codegen", "scene", "_core"},
-    "yaml_io": {"errors", "mesh", "scene", "user_law"},
+    "user_law": {"errors", "files", "units", "codegen", "scene", "_core"},
+    "yaml_text": {"errors", "files", "scene"},
+    "yaml_io": {"errors", "files", "mesh", "scene", "user_law", "yaml_text"},
     "effects": {"scene"},
-    "checkpoint": {"errors", "counted", "_core"},
-    "picture": {"errors", "mesh"},
-    "simulation": {"errors", "counted", "field_names", "units", "mesh", "checkpoint", "_core"},
+    "checkpoint": {"errors", "counted", "files", "_core"},
+    "picture": {"errors", "files", "mesh"},
+    "simulation": {
+        "arrays",
+        "errors",
+        "counted",
+        "field_names",
+        "units",
+        "mesh",
+        "checkpoint",
+        "_core",
+    },
     "compile": {
         "errors",
         "counted",
@@ -95,9 +108,11 @@ PYTHON: dict[str, set[str]] = {
     "comparison": {"errors", "counted", "mesh", "scene", "picture"},
     "accuracy": {"errors", "pareto", "front", "yaml_io", "picture"},
     "advice": {"errors", "counted", "pareto", "units", "mesh", "scene", "picture"},
-    "output": {"errors", "counted", "field_names", "mesh", "_core"},
+    "output": {"errors", "counted", "field_names", "files", "mesh", "_core"},
 }
+PYTHON["examples"] = {"errors", "files", "front"}
 PYTHON["cli"] = set(PYTHON)
+PYTHON["__main__"] = {"cli"}
 PYTHON["__init__"] = set(PYTHON)
 
 REFUSED = {"util", "utils", "common", "misc", "helper", "helpers", "manager", "managers"}

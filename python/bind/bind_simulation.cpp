@@ -1,4 +1,5 @@
 #include "bind.h"
+#include "interruption.h"
 #include "specs.h"
 #include "tissu/edit/remove_cells.h"
 #include "tissu/simulation/simulation.h"
@@ -96,7 +97,7 @@ void bind_simulation(py::module_& m) {
                                                  solver == nullptr ? nullptr : solver->make());
            }),
            py::kw_only(), arg("world"), arg("integrator"), arg("solver").none(true))
-      .def("step", &Simulation::step, arg("dt"), py::call_guard<py::gil_scoped_release>())
+      .def("step", &step_interruptibly, arg("dt"))
       .def_property(
           "time", [](const Simulation& s) { return s.state().time; },
           [](Simulation& s, double time) {

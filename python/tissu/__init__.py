@@ -130,7 +130,7 @@ _HOMES = {
         "Cholesky",
     ),
 }
-_MODULES = ("formula", "sampling")
+_MODULES = ("examples", "formula", "sampling")
 _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
 
 __all__ = sorted([*_HOME_OF, *_MODULES, "__version__"])

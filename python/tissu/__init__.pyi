@@ -3,6 +3,7 @@
 Made from the list in tissu/codegen/names.py by `make codegen`; never edited.
 """
 
+from tissu import examples as examples
 from tissu import formula as formula
 from tissu import sampling as sampling
 from tissu.errors import TissuError as TissuError

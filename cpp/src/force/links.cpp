@@ -88,12 +88,17 @@ void Links::check_memory(const State& state) const {
   for (std::size_t i = 0; i < numbers.size(); i += kNumbers) {
     for (const std::size_t p : {i, i + 5}) {
       const auto frames = static_cast<double>(state.rotations.size());
-      if (is_number(numbers[p], 0.0, state.blocks()) && is_number(numbers[p + 1], -1.0, frames)) continue;
+      const std::int32_t blocks = state.blocks() - (numbers[p + 1] >= 0.0 ? 1 : 0);  // a frame has two
+      if (is_number(numbers[p], 0.0, blocks) && is_number(numbers[p + 1], -1.0, frames)) continue;
       throw ParameterError("link " + std::to_string(i / kNumbers) + " holds block " +
                            number_text(numbers[p]) + " and frame " + number_text(numbers[p + 1]) +
                            "; the world has " + std::to_string(state.blocks()) + " blocks and " +
                            std::to_string(state.rotations.size()) + " frames.");
     }
+    const double stiffness = numbers[i + 10];
+    if (stiffness > 0.0 && std::isfinite(stiffness)) continue;
+    throw ParameterError("link " + std::to_string(i / kNumbers) + " has a stiffness of " +
+                         number_text(stiffness) + " N/m; it must be positive and finite.");
   }
 }
 

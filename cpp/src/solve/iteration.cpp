@@ -5,6 +5,7 @@
 #include <type_traits>
 
 #include "make_preconditioner.h"
+#include "tissu/base/interruption.h"
 
 namespace tissu {
 namespace {
@@ -156,6 +157,7 @@ End Iteration<T>::run(const LinearOperator& A, std::span<T> r, std::span<T> d, d
       return version_ == A.version() ? End::curvature : End::renewal;
     }
     if (iterations_ >= left) return End::renewal;
+    stop_if_asked();
     turn(threads, beta);
     rz_ = rz;
     multiply(A);

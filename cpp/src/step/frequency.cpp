@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "tissu/base/interruption.h"
 #include "tissu/base/norm.h"
 
 namespace tissu {
@@ -126,6 +127,7 @@ double Lanczos::largest(double tolerance) {
   start();
   double largest = 0.0;
   for (int step = 0; step < kMostSteps; ++step) {
+    stop_if_asked();
     matrix_.apply(now_, next_);
     const double on = std::inner_product(now_.begin(), now_.end(), next_.begin(), 0.0);
     diagonal_.push_back(on);

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "tissu/base/error.h"
+#include "tissu/base/interruption.h"
 #include "tissu/base/norm.h"
 #include "tissu/base/number_text.h"
 
@@ -209,6 +210,7 @@ std::string_view StageSolver::iterate(State& state, std::vector<double>& v, Sear
     if (report.newton_iterations >= most) return "Newton's iteration stopped before its tolerance";
     assemble(state, search == Search::energy);
     if (now <= system_->round_off(state) / stage_.move) break;
+    stop_if_asked();
     std::ranges::fill(change_, 0.0);
     solve_linear(state, 0.0, search == Search::energy, report);
     ++report.newton_iterations;

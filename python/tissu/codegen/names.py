@@ -47,7 +47,7 @@ NAMES: dict[str, tuple[str, ...]] = {
     "picture": ("draw", "draw_overlay"),
 }
 """Room -> its public names, beside those of the parts of a scene."""
-MODULES = ("formula", "sampling")
+MODULES = ("examples", "formula", "sampling")
 """Public modules."""
 HEADINGS: dict[str, tuple[str, ...]] = {
     "The scene": ("scene",),

@@ -12,7 +12,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tissu.counted import counted
-from tissu.output.folder import file_name, whole_file
+from tissu.files import distinct_names, file_name, require_folder_place, whole_file
+from tissu.files.whole import clear_unfinished
+from tissu.output.folder import inner_folder
 from tissu.output.vtu_fields import cell_data, node_data
 
 if TYPE_CHECKING:
@@ -50,6 +52,8 @@ class Series:
         self._simulation = simulation
         self._folder = Path(folder)
         self._entries: list[str] = []
+        require_folder_place(self._folder / FRAMES, "output folder", within=True)
+        self._names = distinct_names([*simulation.meshes, *simulation.tissue])
         self.index = self._folder / f"{file_name(simulation.scene.name)}.pvd"
         self.count = 0
         self.last_time = -1.0
@@ -57,6 +61,8 @@ class Series:
         if simulation.resumed_from is not None:
             self._continue(len(simulation.meshes) + len(simulation.tissue))
         _clear(self.index, kept=self._entries)
+        for folder in (self._folder, self._folder / FRAMES):
+            clear_unfinished(folder)
 
     def write(self) -> None:
         """Writes the present state of every body.
@@ -65,9 +71,9 @@ class Series:
             TissuError: a file cannot be written.
         """
         simulation = self._simulation
-        (self._folder / FRAMES).mkdir(exist_ok=True)
+        inner_folder(self._folder, FRAMES)
         for part, body in enumerate([*simulation.meshes, *simulation.tissue]):
-            name = f"{FRAMES}/{file_name(body)}_{self.count:05d}.vtu"
+            name = f"{FRAMES}/{self._names[body]}_{self.count:05d}.vtu"
             if body in simulation.tissue:
                 write_points(self._folder / name, simulation, body)
             else:

@@ -12,6 +12,7 @@ from pydantic import BeforeValidator, Field
 from tissu import units
 from tissu.errors import ParameterError
 from tissu.reading import Maybe, Read, VectorLike, listed
+from tissu.scene.direction import unit_vector
 from tissu.scene.field import field
 from tissu.scene.part import Part, one_of
 from tissu.scene.problem import Problem, nearest, one_of_words
@@ -102,8 +103,8 @@ class Sphere(_Place):
     """radius [m]"""
 
     def _inside(self, points: Floats, size: float) -> Bools:
-        far = np.linalg.norm(points - self.center, axis=1)
-        return np.asarray(far <= self.radius + _SLACK * size)
+        x, y, z = (points - self.center).T
+        return np.asarray(np.hypot(np.hypot(x, y), z) <= self.radius + _SLACK * size)
 
 
 class Plane(_Place):
@@ -124,7 +125,7 @@ class Plane(_Place):
             yield Problem((), text)
 
     def _inside(self, points: Floats, size: float) -> Bools:
-        normal = np.asarray(self.normal) / np.linalg.norm(self.normal)
+        normal = unit_vector(self.normal)
         tolerance = 1e-6 * size if self.tolerance is None else self.tolerance + _SLACK * size
         return np.asarray(np.abs((points - self.point) @ normal) <= tolerance)
 

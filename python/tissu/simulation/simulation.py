@@ -6,14 +6,14 @@ import os
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NoReturn, SupportsIndex
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from tissu import _core, units
 from tissu.counted import counted
-from tissu.errors import ParameterError
+from tissu.errors import CheckpointError, ParameterError, TissuError
 from tissu.simulation.inspected import Inspected
 from tissu.simulation.plan import Plan
 from tissu.simulation.profile import Profile, profile_of
@@ -84,6 +84,17 @@ class Simulation(Inspected):
         how = step.type + ("" if dt is None else f" dt {dt}" if dt == "auto" else f" dt {dt:g} s")
         when = f"t = {self.time:.6g} s after {steps}"
         return f"Simulation('{self.scene.name}', {when}; {bodies}; {how})"
+
+    def __reduce_ex__(self, protocol: SupportsIndex) -> NoReturn:
+        """Refused: a copy would step the same state. `copy.copy`, `deepcopy` and `pickle` ask here.
+
+        Raises:
+            TissuError: always.
+        """
+        raise TissuError(
+            "a simulation cannot be copied or pickled; compile its scene again, from a file of "
+            "save_checkpoint to go on where it stands"
+        )
 
     @property
     def meshes(self) -> Mapping[str, Mesh]:
@@ -316,7 +327,10 @@ class Simulation(Inspected):
 
     def _go_on_from(self, checkpoint: Checkpoint) -> None:
         checkpoint.require(self._physics())
-        self._core.restore(dict(checkpoint.snapshot))
+        try:
+            self._core.restore(dict(checkpoint.snapshot))
+        except TissuError as error:  # of a file that was made up: of another scene is told above
+            raise CheckpointError(f"checkpoint {checkpoint.file}: {error}") from None
         self._steps = checkpoint.steps
         for body in self._rest:
             self._follow_cells(body)

@@ -139,6 +139,27 @@ TEST_P(GoesOn, AgainFromTheMiddle) {
   EXPECT_TRUE(same_bits(simulation.state().positions, end));
 }
 
+TEST_P(GoesOn, FromNothingThatWasMadeUp) {
+  Simulation simulation = edited();
+  const Snapshot good = simulation.snapshot();
+  for (const std::size_t place : {0U, 1U, 5U, 6U, 10U}) {  // blocks, frames, stiffness
+    if (good.links.empty()) break;
+    for (const double odd : {1e6, -3.0, 0.5, 1e300}) {
+      if (place == 10U && odd > 0.0) continue;
+      Snapshot made_up = good;
+      made_up.links[place] = odd;
+      EXPECT_THROW(begin().restore(made_up), ParameterError) << place << " " << odd;
+    }
+  }
+  const std::string& name = GetParam().name;
+  if (!name.starts_with("bdf2") && !name.starts_with("newmark") && !name.starts_with("fixed_point")) return;
+  for (const std::size_t size : {std::size_t{1}, good.integrator.size() - 1, good.integrator.size() + 1}) {
+    Snapshot made_up = good;
+    made_up.integrator.resize(size, 1.0);
+    EXPECT_THROW(begin().restore(made_up), ParameterError) << size;
+  }
+}
+
 std::vector<SnapshotCase> cases() {
   const auto euler = [] { return test::implicit_euler(); };
   std::vector<SnapshotCase> result = {{"euler_cg", euler},

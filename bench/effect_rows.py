@@ -68,8 +68,8 @@ ASKED = {
     "loads": r"\bSystem::external_force\b",
     "fixed or led nodes": r"\bFixedDofs::|\bBlockMatrix::constrain\b|\bStageSolver::lead\b",
     "rigid frames": r"\bkeep_angular_momentum\b",
-    "what remembers": r"^remember\(",
-    "what begins a step": r"^begin_step\(",
+    "what remembers": r"\btissu::remember\(",
+    "what begins a step": r"\btissu::begin_step\(",
 }
 
 # What the bare scene does ask for.
@@ -78,7 +78,7 @@ PRESENT = {
     "inertia": r"\bMass::",
     "linear solver": r"\b(ConjugateGradient|Iteration<|BlockJacobi<|attainable)",
     "matrix": r"\b(BlockMatrix::|multiply_rows\b)",
-    "method": r"\b(ImplicitEuler|StageSolver|System|World)::|\bmove\(",
+    "method": r"\b(ImplicitEuler|StageSolver|System|State|World)::|\bmove\(",
     "loop and roll back": r"\bSimulation::|^tissu_effects_steps$",
     "profile": r"\bProfile::",
     "words of a report": r"^operator (new|delete)",

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "../assembly/dense.h"
+#include "../base/eigenvalues.h"
 #include "../world/sample_worlds.h"
 #include "tissu/law/law.h"
 #include "tissu/step/system.h"
@@ -39,7 +40,7 @@ double dense_frequency(const World& world, const State& state) {
       if (system.matrix().is_given(i, axis)) K(3 * i + axis, 3 * i + axis) = 0.0;
     }
   }
-  return std::sqrt(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(K).eigenvalues().maxCoeff());
+  return std::sqrt(test::eigenvalues(K).maxCoeff());
 }
 
 class OfABox : public testing::TestWithParam<bool> {};

@@ -24,6 +24,7 @@ _HOMES = {
         "ParameterError",
         "LawError",
         "SceneError",
+        "BusyError",
         "CheckpointError",
         "Diverged",
     ),

@@ -4,6 +4,7 @@ from tissu.advice import Advice as Advice
 from tissu.advice import advise as advise
 from tissu.comparison import Comparison as Comparison
 from tissu.comparison import compare as compare
+from tissu.errors import BusyError as BusyError
 from tissu.errors import CheckpointError as CheckpointError
 from tissu.errors import Diverged as Diverged
 from tissu import formula as formula

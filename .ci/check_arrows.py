@@ -43,7 +43,7 @@ PYTHON: dict[str, set[str]] = {
     "codegen": {"errors"},
     "formula": {"errors", "codegen"},
     "mesh": {"errors", "counted", "units", "_core"},
-    "sampling": {"errors", "counted", "mesh"},
+    "sampling": {"errors", "counted", "mesh", "_core"},
     "yaml_io": {"errors", "units", "mesh", "scene", "user_law"},
     "selection": {"errors", "units", "mesh"},
     "scene": {"errors", "counted", "units", "mesh", "yaml_io", "selection", "compile"},

@@ -29,6 +29,7 @@ CPP: dict[str, set[str]] = {
     "step": {"base", "assembly", "solve", "force", "model", "state", "world"},
     "edit": {"base", "mesh", "element", "law", "force", "model", "assembly", "state", "world"},
     "io": {"base", "mesh"},
+    "picture": {"base"},
 }
 CPP["simulation"] = set(CPP)  # sees everything
 
@@ -76,7 +77,7 @@ PYTHON: dict[str, set[str]] = {
         "simulation",
         "picture",
     },
-    "picture": {"errors", "mesh"},
+    "picture": {"errors", "mesh", "_core"},
     "output": {"errors", "counted", "mesh", "simulation", "picture", "_core"},
 }
 PYTHON["cli"] = set(PYTHON)

@@ -53,6 +53,7 @@ PYBIND11_MODULE(_core, m) {
   bind_mesh(m);
   tissu::bind::bind_field(m);
   bind::bind_sampling(m);
+  bind::bind_picture(m);
   bind::bind_law(m);  // before what takes one
   bind::bind_model(m);
   bind::bind_world(m);

@@ -55,6 +55,9 @@ def run(
         str | None,
         typer.Option(metavar="TIME", help="And whenever this simulated time has passed: '1 s'."),
     ] = None,
+    picture: Annotated[
+        bool, typer.Option("--picture/--no-picture", help="Whether a picture is drawn at the end.")
+    ] = True,
     quiet: Annotated[bool, typer.Option("--quiet", "-q", help="Print errors only.")] = False,
     debug: Debug = False,
 ) -> None:
@@ -64,7 +67,7 @@ def run(
     with reported(debug=debug):
         folder = out or Path("results") / scene.stem
         again = (resume, checkpoint, checkpoint_every)
-        job = Job(scene, folder, duration, threads, quiet, *again)
+        job = Job(scene, folder, duration, threads, quiet, *again, picture=picture)
         raise typer.Exit(run_scene(job, debug=debug))
 
 

@@ -39,6 +39,7 @@ class Job:
     resume: Path | None = None
     checkpoint: Path | None = None
     checkpoint_every: str | None = None
+    picture: bool = True
 
 
 @dataclass(slots=True)
@@ -97,7 +98,8 @@ def run_scene(job: Job, *, debug: bool = False) -> int:
         series = Series(simulation, folder)
         files = Files(series, checkpoints, Timetable(span(scene)[1]), clock)
         ending = advance(simulation, files, tally, interrupted, quiet=job.quiet)
-        picture = conclude(simulation, series, tally, clock, ending)
+        picture = drawn(simulation, series, clock) if job.picture else None
+        conclude(simulation, series, tally, clock, ending, picture)
     if not job.quiet:
         report(simulation, series, tally, clock, picture)
     if ending.error is not None and debug:
@@ -198,29 +200,41 @@ def span(scene: Scene) -> tuple[float, float]:
     return duration, scene.output.every if scene.output is not None else duration / 50
 
 
-def conclude(
-    simulation: Simulation, series: Series, tally: StepTally, clock: Clock, ending: Ending
-) -> Path:
-    """Writes the picture and the summary; returns where the picture is."""
-    from tissu.picture import draw
-
+def drawn(simulation: Simulation, series: Series, clock: Clock) -> Path:
+    """Draws the picture; returns where it is."""
     picture = series.index.with_suffix(".png")
     with clock.stage("picture"):
+        from tissu.picture import draw
+
         draw(simulation, picture)
+    return picture
+
+
+def conclude(
+    simulation: Simulation,
+    series: Series,
+    tally: StepTally,
+    clock: Clock,
+    ending: Ending,
+    picture: Path | None,
+) -> None:
+    """Writes the summary."""
+    files = {"series": series.index.name}
+    if picture is not None:
+        files["picture"] = picture.name
     summary = summarise(
         simulation,
         tally=tally,
         status=ending.status,
         wall_seconds=clock.seconds,
-        files={"series": series.index.name, "picture": picture.name},
+        files=files,
         notes=[note for note in (ending.message, series.inverted) if note],
     )
     write_summary(series.index.with_name("summary.json"), summary)
-    return picture
 
 
 def report(
-    simulation: Simulation, series: Series, tally: StepTally, clock: Clock, picture: Path
+    simulation: Simulation, series: Series, tally: StepTally, clock: Clock, picture: Path | None
 ) -> None:
     """Prints what the steps cost and where the results are."""
     print(simulation.profile())
@@ -239,7 +253,8 @@ def report(
         print(series.inverted)
     print(f"result:  {series.index} ({counted(series.count, 'time')})")
     print(f"summary: {series.index.with_name('summary.json')}")
-    print(f"picture: {picture}")
+    if picture is not None:
+        print(f"picture: {picture}")
 
 
 def resumed_words(resumed: Resumed) -> str:

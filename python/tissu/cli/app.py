@@ -72,6 +72,16 @@ def run(
 
 
 @app.command()
+def schema() -> None:
+    """Print the JSON schema of scene files, with which editors complete and check them."""
+    import json
+
+    from tissu.scene.schema import scene_schema
+
+    typer.echo(json.dumps(scene_schema(), indent=2))
+
+
+@app.command()
 def check(scene: SceneFile, debug: Debug = False) -> None:
     """Say which effects a scene switches on and why, or what is wrong with it."""
     with reported(debug=debug):

@@ -66,7 +66,15 @@ def _asks(body: Body, field: str) -> bool:
 
 
 def mesh_of(source: object) -> Mesh:
-    """The mesh of a source, read or made; in the file's own unit when that is unknown."""
+    """The mesh of a source, read or made, with its regions; in the file's own unit when unknown."""
+    mesh = _bare_mesh_of(source)
+    for name, where in getattr(source, "regions", {}).items():
+        if isinstance(source, (MeshFile, BarMesh)):
+            mesh = mesh.with_region(name, where)
+    return mesh
+
+
+def _bare_mesh_of(source: object) -> Mesh:
     if isinstance(source, MeshFile):
         unit, scale = getattr(source, "unit", "m"), getattr(source, "scale", 1.0)
         return read_mesh(source.file, unit=unit, scale=scale)

@@ -37,6 +37,28 @@ def selected_nodes(on: Selection, mesh: Mesh) -> Ints:
     return np.unique(mesh.surface().triangles).astype(np.int32)
 
 
+def selected_cells(on: Selection, mesh: Mesh) -> Ints:
+    """Numbers (k,) of the cells that a selection means, across the simulated blocks.
+
+    Raises:
+        ParameterError: a region that the mesh lacks, or node numbers beyond the mesh.
+    """
+    if isinstance(on, Region):
+        return region_cells(on.name, mesh)
+    chosen = np.zeros(mesh.node_count, dtype=bool)
+    by_centre = isinstance(on, (Box, Sphere, Plane))
+    if not by_centre:
+        chosen[selected_nodes(on, mesh)] = True
+    found = [np.zeros(0, dtype=bool)]
+    for block in mesh.body_blocks:
+        if by_centre:
+            assert isinstance(on, (Box, Sphere, Plane))
+            found.append(_inside(on, mesh.points[block.nodes].mean(axis=1), diagonal(mesh)))
+        else:
+            found.append(np.asarray(chosen[block.nodes].all(axis=1)))
+    return np.flatnonzero(np.concatenate(found)).astype(np.int32)
+
+
 def selected_faces(nodes: Ints, mesh: Mesh) -> tuple[CellBlock, ...]:
     """Whole faces of the surface, outward, whose nodes are all among `nodes`."""
     chosen = np.zeros(mesh.node_count, dtype=bool)

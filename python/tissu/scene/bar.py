@@ -10,10 +10,13 @@ from pydantic import BeforeValidator, Field
 from tissu import units
 from tissu.scene.part import Part
 from tissu.scene.problem import Problem
+from tissu.scene.selection import NamedSelections
 from tissu.scene.unknown import rule
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Mapping, Sequence
+
+    from tissu.scene.selection import Selection
 
 _Count = Annotated[int, Field(ge=0)]
 _LENGTHS = {
@@ -63,6 +66,8 @@ class BarMesh(Part):
     """how a box is cut into tetrahedra; of `tetra` and `tetra10` only"""
     origin: units.Position = (0.0, 0.0, 0.0)
     """smallest corner [m]"""
+    regions: NamedSelections = Field(default_factory=dict)
+    """regions by name, of the cells whose centres lie in a shape: {tumour: {type: sphere, ...}}"""
 
     if TYPE_CHECKING:
 
@@ -75,6 +80,7 @@ class BarMesh(Part):
             segments: str | None = ...,
             split: Literal["six", "five", "six_mirrored"] = ...,
             origin: units.VectorLike = ...,
+            regions: Mapping[str, Selection] = ...,
         ) -> None: ...
 
     @rule("cell", "split")

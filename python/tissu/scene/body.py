@@ -15,12 +15,14 @@ from tissu.scene.law import Law, LawOrMap
 from tissu.scene.model import FEM, WITH_ROTATIONS, Model, ModelOrMap
 from tissu.scene.part import Part, chosen
 from tissu.scene.problem import Problem
+from tissu.scene.selection import NamedSelections
 from tissu.scene.start import Start
 from tissu.scene.unknown import rule
 from tissu.scene.viscosity import OneViscosity, Viscosity
 
 if TYPE_CHECKING:
     from tissu.mesh import Mesh
+    from tissu.scene.selection import Selection
 
 
 def _from_base(file: Path, info: ValidationInfo) -> Path:
@@ -43,11 +45,18 @@ class MeshFile(Part):
     """unit of length the file is written in"""
     scale: Annotated[units.Pure, Field(gt=0.0)] = 1.0
     """factor on all lengths, after the unit"""
+    regions: NamedSelections = Field(default_factory=dict)
+    """regions by name, of the cells whose centres lie in a shape: {tumour: {type: sphere, ...}}"""
 
     if TYPE_CHECKING:
 
         def __init__(
-            self, file: str | os.PathLike[str], *, unit: str = ..., scale: units.Number = ...
+            self,
+            file: str | os.PathLike[str],
+            *,
+            unit: str = ...,
+            scale: units.Number = ...,
+            regions: Mapping[str, Selection] = ...,
         ) -> None: ...
 
 

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from typing import TYPE_CHECKING, Annotated, ClassVar, Literal
+from collections.abc import Iterator, Mapping
+from typing import TYPE_CHECKING, Annotated, ClassVar, Literal, cast
 
 from pydantic import BeforeValidator, Field
 
@@ -15,6 +15,11 @@ from tissu.scene.unknown import rule
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from tissu.mesh import Mesh
+
 _Nodes = Annotated[tuple[Annotated[int, Field(ge=0)], ...], BeforeValidator(units.listed)]
 
 
@@ -23,7 +28,32 @@ def _named(value: object) -> object:
     return str(value) if isinstance(value, int) and not isinstance(value, bool) else value
 
 
-class Box(Part):
+def named_texts(value: object) -> object:
+    """Selections by text: YAML reads the name 7 as a number."""
+    if not isinstance(value, Mapping):
+        return value
+    return {str(name) if isinstance(name, int) else name: on for name, on in value.items()}
+
+
+class _Selection(Part):
+    """What selections share."""
+
+    def cells(self, mesh: Mesh) -> NDArray[np.int32]:
+        """Numbers (k,) of the mesh's cells that it means: by their centres, or by all their nodes.
+
+        Of a box, a sphere or a plane the cells whose centres, the means of their nodes, lie in it;
+        of a region its cells; of nodes and of the surface those of which every node is selected.
+        Cells are numbered across `mesh.body_blocks`.
+
+        Raises:
+            ParameterError: a region that the mesh lacks, or node numbers beyond the mesh.
+        """
+        from tissu.compile.select import selected_cells
+
+        return selected_cells(cast("Selection", self), mesh)
+
+
+class Box(_Selection):
     """Nodes in a box along the axes, faces included; null (None) on an axis means unbounded."""
 
     positional: ClassVar[tuple[str, ...]] = ("min", "max")
@@ -49,7 +79,7 @@ class Box(Part):
                 yield Problem((), f"{found}; exchange them")
 
 
-class Sphere(Part):
+class Sphere(_Selection):
     """Nodes no farther than `radius` from `center`."""
 
     positional: ClassVar[tuple[str, ...]] = ("center", "radius")
@@ -64,7 +94,7 @@ class Sphere(Part):
         def __init__(self, center: units.VectorLike, radius: units.Number) -> None: ...
 
 
-class Plane(Part):
+class Plane(_Selection):
     """Nodes within `tolerance` of the plane through `point` across `normal`."""
 
     positional: ClassVar[tuple[str, ...]] = ("point", "normal", "tolerance")
@@ -92,7 +122,7 @@ class Plane(Part):
             yield Problem((), text)
 
 
-class Nodes(Part):
+class Nodes(_Selection):
     """Nodes by their numbers in the mesh, from 0."""
 
     positional: ClassVar[tuple[str, ...]] = ("ids",)
@@ -105,13 +135,13 @@ class Nodes(Part):
         def __init__(self, ids: Sequence[int] | units.VectorLike) -> None: ...
 
 
-class SurfaceNodes(Part):
+class SurfaceNodes(_Selection):
     """All nodes of the body's boundary surface."""
 
     type: Literal["surface"] = "surface"
 
 
-class Region(Part):
+class Region(_Selection):
     """Nodes of the cells of a region that the mesh names."""
 
     positional: ClassVar[tuple[str, ...]] = ("name",)
@@ -126,3 +156,6 @@ class Region(Part):
 
 Selection = Box | Sphere | Plane | Nodes | SurfaceNodes | Region
 On = Annotated[Selection, one_of(Box, Sphere, Plane, Nodes, SurfaceNodes, Region)]
+
+NamedSelections = Annotated[dict[str, On], BeforeValidator(named_texts)]
+"""selections by the names of the regions that they make"""

@@ -23,7 +23,7 @@ sanitize: ## C++ tests under address, undefined-behaviour and thread sanitizers 
 format: ## rewrite C++ and Python sources in the project's format
 	@.ci/format
 
-codegen: ## write the C++ that is made from formulae again
+codegen: ## write again what is made from formulae and from the list of public names
 	@.ci/codegen
 
 clean: ## remove what was built (the virtual environment stays)

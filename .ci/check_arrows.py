@@ -1,6 +1,7 @@
 """Checks C++ includes and Python imports against the table of allowed edges between rooms.
 
-A room is a folder under cpp/include/tissu and cpp/src, and a module or sub-package of python/tissu.
+A room is a folder under cpp/include/tissu and cpp/src, or one inside that, and a module or
+sub-package of python/tissu.
 """
 
 import ast
@@ -12,7 +13,10 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 
 # Room -> the rooms whose headers it may include. Its own are always allowed; what is not listed is
-# not a room. The order is that of the data: an arrow points only upwards.
+# not a room. The order is that of the data: an arrow points only upwards. A room may be inside
+# another ("model/fem"), or one pair of files ("model/models"); a name stands for itself alone:
+# "model" is the face of the models. Folders kernels and generated belong to the room they are in.
+MODEL = {"base", "mesh", "element", "law", "field", "assembly", "state", "force", "cell", "model"}
 CPP: dict[str, set[str]] = {
     "base": set(),
     "element": {"base"},
@@ -23,14 +27,22 @@ CPP: dict[str, set[str]] = {
     "assembly": {"base", "mesh", "state"},
     "solve": {"base", "assembly"},
     "force": {"base", "mesh", "element", "law", "assembly", "state"},
-    "model": {"base", "mesh", "element", "law", "field", "assembly", "state", "solve", "force"},
-    "viscosity": {"base", "mesh", "element", "law", "assembly", "state", "force", "model"},
-    "world": {"base", "mesh", "element", "law", "force", "model", "viscosity", "assembly", "state"},
-    "step": {"base", "assembly", "solve", "force", "model", "state", "world"},
-    "edit": {"base", "mesh", "element", "law", "force", "model", "assembly", "state", "world"},
-    "io": {"base", "mesh"},
+    "cell": {"base", "mesh", "element", "law"},
+    "model": MODEL,
+    "model/fem": MODEL,
+    "model/corotational": MODEL,
+    "model/edges": MODEL | {"model/fem"},  # the definite tangent of mass-tensor
+    "model/dilatation": MODEL,
+    "model/frames": MODEL,
+    "model/shell": MODEL,
+    "model/condensed": MODEL | {"model/fem", "solve"},
+    "viscosity": MODEL | {"model/edges"},  # dampers beside springs
+    "edit": MODEL | {"world"},
     "picture": {"base"},
 }
+CPP["model/models"] = MODEL | {room for room in CPP if room.startswith("model/")}
+CPP["world"] = MODEL | {"model/models", "viscosity"}
+CPP["step"] = {"base", "assembly", "solve", "force", "model", "state", "world"}
 CPP["simulation"] = set(CPP)  # sees everything
 
 # Module of python/tissu -> the modules it may import, at the top or inside a function. Imports for
@@ -40,45 +52,35 @@ PYTHON: dict[str, set[str]] = {
     "_core": set(),
     "counted": set(),
     "pareto": set(),
-    "units": {"errors"},
+    "reading": set(),
+    "units": {"errors", "reading"},
     "codegen": {"errors"},
     "formula": {"errors", "codegen"},
     "mesh": {"errors", "counted", "units", "_core"},
     "sampling": {"errors", "counted", "mesh", "_core"},
-    "yaml_io": {"errors", "units", "mesh", "scene", "user_law"},
-    "selection": {"errors", "units", "mesh"},
-    "scene": {"errors", "counted", "units", "mesh", "yaml_io", "selection", "compile"},
+    "scene": {"errors", "counted", "reading", "units", "mesh", "_core"},
     "user_law": {"errors", "units", "codegen", "scene", "_core"},
-    "effects": {"errors", "mesh", "scene"},
+    "yaml_io": {"errors", "mesh", "scene", "user_law"},
+    "effects": {"scene"},
     "checkpoint": {"errors", "counted", "_core"},
-    "simulation": {"errors", "counted", "units", "mesh", "effects", "checkpoint", "_core"},
+    "picture": {"errors", "mesh", "_core"},
+    "simulation": {"errors", "counted", "units", "mesh", "checkpoint", "_core"},
     "compile": {
         "errors",
         "counted",
-        "units",
         "mesh",
         "sampling",
-        "selection",
         "scene",
         "effects",
         "checkpoint",
         "simulation",
         "_core",
     },
-    "comparison": {"errors", "counted", "mesh", "scene", "simulation", "picture"},
-    "accuracy": {"errors", "pareto", "scene", "yaml_io", "simulation", "picture"},
-    "advice": {
-        "errors",
-        "counted",
-        "pareto",
-        "units",
-        "mesh",
-        "scene",
-        "simulation",
-        "picture",
-    },
-    "picture": {"errors", "mesh", "_core"},
-    "output": {"errors", "counted", "mesh", "simulation", "picture", "_core"},
+    "front": {"errors", "scene", "yaml_io", "compile"},
+    "comparison": {"errors", "counted", "mesh", "scene", "picture"},
+    "accuracy": {"errors", "pareto", "front", "yaml_io", "picture"},
+    "advice": {"errors", "counted", "pareto", "units", "mesh", "scene", "picture"},
+    "output": {"errors", "counted", "mesh", "_core"},
 }
 PYTHON["cli"] = set(PYTHON)
 PYTHON["__init__"] = set(PYTHON)
@@ -86,28 +88,41 @@ PYTHON["__init__"] = set(PYTHON)
 REFUSED = {"util", "utils", "common", "misc", "helper", "helpers", "manager", "managers"}
 NAMED_FOLDERS = ("cpp", "python", "tests", "bench", "examples", "third_party")
 
+TOPS = (ROOT / "cpp/include/tissu", ROOT / "cpp/src")
 INCLUDE = re.compile(r'^\s*#\s*include\s+["<]([^">]+)[">]', re.MULTILINE)
+
+
+def room_of(path: Path) -> str:
+    """The room of a file below the folder of all rooms; its own folder where that is no room."""
+    name, folder = path.with_suffix("").as_posix(), path.parent.as_posix()
+    inner = folder.removesuffix("/kernels").removesuffix("/generated")
+    return max((room for room in CPP if room in (name, inner)), key=len, default=folder)
 
 
 def cpp_files() -> Iterator[tuple[str, Path]]:
     """Every C++ file of a room with the room's name."""
-    for top in (ROOT / "cpp/include/tissu", ROOT / "cpp/src"):
+    for top in TOPS:
         for path in sorted(top.rglob("*")):
             if path.suffix in {".h", ".cpp"}:
-                parts = path.relative_to(top).parts
-                yield (parts[0] if len(parts) > 1 else ""), path
+                yield room_of(path.relative_to(top)), path
+
+
+def included_path(path: Path, included: str) -> Path | None:
+    """The file of a room that an include points to; None for outside libraries."""
+    if included.startswith("tissu/"):
+        return Path(included).relative_to("tissu")
+    for candidate in (path.parent / included, ROOT / "cpp/src" / included):
+        found = candidate.resolve()
+        for top in TOPS:
+            if found.exists() and found.is_relative_to(top):
+                return found.relative_to(top)
+    return None
 
 
 def included_room(path: Path, included: str) -> str | None:
     """The room an include points into; None for outside libraries."""
-    if included.startswith("tissu/"):
-        return included.split("/")[1]
-    target = (path.parent / included).resolve()
-    for top in (ROOT / "cpp/include/tissu", ROOT / "cpp/src"):
-        if target.is_relative_to(top) and target.exists():
-            return target.relative_to(top).parts[0]
-    first = included.split("/")[0]
-    return first if "/" in included and (ROOT / "cpp/src" / included).exists() else None
+    found = included_path(path, included)
+    return None if found is None else room_of(found)
 
 
 def check_cpp() -> Iterator[str]:
@@ -168,6 +183,38 @@ def check_python() -> Iterator[str]:
                     yield f"{shown}:{node.lineno}: {module} imports {other}; allowed: {allowed}"
 
 
+def absent_rooms(table: dict[str, set[str]], present: set[str], name: str) -> Iterator[str]:
+    """One sentence for each room of a table that does not exist."""
+    for room in sorted({*table, *set().union(*table.values())} - present):
+        yield f"the table {name} names '{room}', which is not there; take it out"
+
+
+def cycles(table: dict[str, set[str]], name: str) -> Iterator[str]:
+    """One sentence when the arrows of a table lead round in a circle."""
+    left = {room: others & set(table) - {room} for room, others in table.items()}
+    while True:
+        lowest = {room for room, others in left.items() if not others & set(left)}
+        if not lowest:
+            break
+        left = {room: others for room, others in left.items() if room not in lowest}
+    if left:
+        way = [min(left)]
+        while way[-1] not in way[:-1]:
+            way.append(min(left[way[-1]] & set(left)))
+        circle = " -> ".join(way[way.index(way[-1]) :])
+        yield f"the table {name} has a circle: {circle}; an arrow points one way only"
+
+
+def check_tables() -> Iterator[str]:
+    """One sentence for each fault of the tables themselves."""
+    there = {p.relative_to(top).with_suffix("").as_posix() for top in TOPS for p in top.rglob("*")}
+    yield from absent_rooms(CPP, there, "CPP")
+    modules = {path.name.split(".")[0] for path in (ROOT / "python/tissu").iterdir()}
+    yield from absent_rooms(PYTHON, modules, "PYTHON")
+    yield from cycles(CPP, "CPP")
+    yield from cycles(PYTHON, "PYTHON")
+
+
 def check_names() -> Iterator[str]:
     """One sentence for each file or folder whose name says nothing."""
     for folder in NAMED_FOLDERS:
@@ -178,7 +225,7 @@ def check_names() -> Iterator[str]:
 
 def main() -> int:
     """Prints every problem; 1 when there is one."""
-    problems = list(dict.fromkeys([*check_cpp(), *check_python(), *check_names()]))
+    problems = list(dict.fromkeys([*check_tables(), *check_cpp(), *check_python(), *check_names()]))
     print("\n".join(problems) or "arrows: all allowed")
     return 1 if problems else 0
 

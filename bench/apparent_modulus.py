@@ -27,7 +27,7 @@ LEANING = "cut into six"
 
 HEAD = """# The apparent modulus of springs
 
-The experiment of Chendeb 2007, section 2.3.4, with the model `mass-spring`: four meshes of a cube
+The experiment of Chendeb 2007, section 2.3.4, with the model `mass_spring`: four meshes of a cube
 of 50 mm, E = 0.02 MPa, compressed by a plane by 12 mm; the modulus is stress over strain, (force
 / 25 cm^2) / (12 mm / 50 mm). Equilibrium by Newton's method in twelve steps, without gravity.
 
@@ -58,7 +58,7 @@ and the largest): Young's modulus, and the strain across beside that along.
 REASON = """
 Poisson's ratio is no parameter. Where springs lie in all directions alike, the rule makes Lamé's
 constants lambda = mu = 2 E / 5: Young's modulus E and Poisson's ratio 1/4, as
-`tests/cpp/model/mass_spring_test.cpp` derives by hand; the irregular mesh comes near. Meshes with
+`tests/cpp/model/edges/mass_spring_test.cpp` derives by hand; the irregular mesh comes near. Meshes with
 directions of their own depart: cubes cut into five have most springs along their axes, so they
 are stiffer along these, and thicken less. The paper says that its cubes did not get thicker at
 all; ours do. At 12 mm (24 %) springs that turn away from the load add the rest.

@@ -196,7 +196,7 @@ def neighbours() -> str:
     for frames, points, near, cpu in NEIGHBOURS:
         simulation = cloud(points, 1, frames, shape="shepard", neighbours=near, sampling="poisson")
         ms = step_ms(simulation)
-        found = simulation.tissues["beam"].node_count
+        found = simulation.tissue["beam"].node_count
         theirs, times = ("", "") if cpu is None else (f"{cpu:g}", f"{cpu / ms:.0f}")
         rows.append(
             f"| {frames} | {points} | {near} | {theirs} | {found} "
@@ -211,7 +211,7 @@ def speed(threads: int) -> str:
     rows = []
     for wanted, cpu, gpu in POINTS_CPU_GPU:
         simulation = cloud(wanted, threads, max(24, wanted // 16))
-        points, frames = len(simulation.points("beam")), simulation.tissues["beam"].node_count
+        points, frames = len(simulation.points("beam")), simulation.tissue["beam"].node_count
         ms = step_ms(simulation)
         same = ms * min(1.0, wanted / points)
         published = f"{wanted} | {cpu:.0f} | {gpu:.1f}"

@@ -18,7 +18,7 @@ HEAD = """# Locking, and mean dilatation
 
 Where a material hardly changes its volume, cells of first order lock: a bending cell would have to
 change the volume at its points, and does not bend. `tissu check` notes it from Poisson's ratio 0.45
-on. The model `mean-dilatation` gives each *patch* of cells one volume ratio:
+on. The model `mean_dilatation` gives each *patch* of cells one volume ratio:
 
     E = sum_g w_g W((theta / J_g)^(1/3) F_g),   theta = sum_g w_g J_g / sum_g w_g  of the patch
 
@@ -30,7 +30,7 @@ patch reaches from one region or material to another. The price is a matrix that
 of a patch, and about three passes over the cells in place of one.
 
 ```yaml
-model: mean-dilatation
+model: mean_dilatation
 ```
 
 A bar of 40 x 10 x 10 cm, held at one end, under its own weight: neo-Hooke, E = 300 kPa,
@@ -46,7 +46,7 @@ TAIL = """
   inf-sup constant of the tetrahedra's patches is 0.05 to 0.08 on 3 to 6 cells a side and a few
   pressures (at most 7) are felt by no displacement, of wedges 0.26 to 0.35 and of pyramids 0.25 to
   0.39 with none; a regular grid of hexahedra has 3 n - 2 such pressures (7 to 16), the well-known
-  chessboard (`tests/cpp/model/cell_pressure_test.cpp`). Displacements do not suffer;
+  chessboard (`tests/cpp/model/dilatation/cell_pressure_test.cpp`). Displacements do not suffer;
   stress of a single cell may.
 - **Size of patches.** Measured on this bar with neo-Hooke and nu = 0.4999, grids of 8 x 2 x 2 and
   16 x 4 x 4, three ways of cutting into tetrahedra, sag over the converged one: nearly cell by cell
@@ -107,14 +107,14 @@ def page() -> str:
     lines += ["Hexahedra of 20 nodes at 2 x 2 x 2 points, which do not lock:", ""]
     lines += ["| grid | sag [mm] |", "|---|---|", *rows]
     lines += [f"| limit (Aitken) | {1e3 * limit:.1f} |", ""]
-    lines += ["Cells of first order, sag over that limit, `fem` -> `mean-dilatation`:", ""]
+    lines += ["Cells of first order, sag over that limit, `fem` -> `mean_dilatation`:", ""]
     lines += ["| grid | " + " | ".join(CELLS) + " |", "|---" * (1 + len(CELLS)) + "|"]
     for grid in GRIDS:
         pairs = [[sag(c, grid, m, 0.4999) / limit for m in MODELS] for c in CELLS]
         cells = [f"{fem:.2f} -> {mean:.2f}" for fem, mean in pairs]
         lines.append(f"| {'x'.join(map(str, grid))} | " + " | ".join(cells) + " |")
     lines += ["", "## Where it begins", ""]
-    lines += ["Sag of `fem` over that of `mean-dilatation` on the same 12 x 3 x 3 grid:", ""]
+    lines += ["Sag of `fem` over that of `mean_dilatation` on the same 12 x 3 x 3 grid:", ""]
     lines += ["| nu | " + " | ".join(CELLS) + " |", "|---" * (1 + len(CELLS)) + "|"]
     for nu in RATIOS:
         ratios = [

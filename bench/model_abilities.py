@@ -23,16 +23,17 @@ CAN = {"yes": "yes", "partly": "partly", "no": "no"}
 HEAD = """# Models
 
 What computes the forces of a body's cells is chosen by `model:` of a body, and nothing else of the
-scene changes: a law that a model does not take is replaced by the nearest it takes, with the same
-Young's modulus and Poisson's ratio, and `tissu check` says so. `tissu compare SCENE --models
-mass-spring,mass-link,mass-tensor,corotational,fem` runs a scene with each.
+scene changes. A law that a model does not take is an error that names those it takes, unless the
+body says `law_for_model: nearest`: then the nearest of them is computed, with the same Young's
+modulus and Poisson's ratio, and `tissu check` says so. `tissu compare SCENE --models
+mass_spring,mass_link,mass_tensor,corotational,fem` runs a scene with each, and the nearest laws.
 
 ```yaml
 bodies:
   liver:
     mesh: liver.vtu
     law: {type: stvk, young: 4 kPa, poisson: 0.45}
-    model: mass-link               # or {type: corotational, tangent: exact}, or a map from regions
+    model: mass_link               # or {type: corotational, tangent: exact}, or a map from regions
     density: 1050
 ```
 

@@ -23,9 +23,9 @@ STEPS = 12  # of half a turn
 HEAD = """# The bar of 8 m with every model
 
 Printed by `python bench/model_bars.py --write`; the scenes are those of Faure 2014, E = 100 MPa,
-static, direct solver, one thread. `fem`, `mass-link` and `mass-tensor` are St-Venant–Kirchhoff and
+static, direct solver, one thread. `fem`, `mass_link` and `mass_tensor` are St-Venant–Kirchhoff and
 agree to Newton's tolerance; `corotational` and `condensed` are Hooke's law, in turning axes and in
-fixed ones; `mass-spring` has its own ratio of contraction. Times hold the making of the scene.
+fixed ones; `mass_spring` has its own ratio of contraction. Times hold the making of the scene.
 
 """
 

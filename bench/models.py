@@ -154,10 +154,10 @@ def page(reports: list[Any]) -> str:
     return f"""# What a tetrahedron costs in three forms
 
 Linear tetrahedra of St-Venant–Kirchhoff as continuum element (`fem`, 7 constants), in squared
-lengths of edges (`mass-link`, 27) and as a polynomial in displacements (`mass-tensor`, 280 and 6).
+lengths of edges (`mass_link`, 27) and as a polynomial in displacements (`mass_tensor`, 280 and 6).
 All three give the same forces and tangents, to 1e-12 (the mass-tensor where displacements are no
 larger than a cell or so, its round-off grows with their cube):
-`tests/cpp/model/tetra_models_test.cpp`.
+`tests/cpp/model/edges/tetra_models_test.cpp`.
 Printed by `bench/models.py`; run it for your machine.
 {machine(reports[0])}
 

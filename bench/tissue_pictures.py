@@ -93,7 +93,7 @@ def main() -> None:
         reports = list(simulation.run())
         missed = sum(not report.converged for report in reports)
         print(simulation, f"{missed} of {len(reports)} steps did not converge")
-        for tissue in simulation.tissues:
+        for tissue in simulation.tissue:
             print(tissue, len(simulation.points(tissue)), "points")
         draw(simulation, PICTURES / f"tissue-{name}.png")
 

@@ -35,7 +35,7 @@ body has none, none is there.
 | `type` | force | turning of the whole body | where |
 |---|---|---|---|
 | `kelvin_voigt` | S = 2 eta dE/dt + zeta tr(dE/dt) I at every point | free | \
-any cell; `mass-spring`: a damper beside each spring |
+any cell; `mass_spring`: a damper beside each spring |
 | `centroid` | f = -c V (v - mean v) of each cell (Chendeb 2007, 3.6.2) | braked | any cell |
 | `rayleigh` | f = -mass M v + stiffness K v | \
 braked by the share of the mass; by that of the stiffness under stress | any cell |

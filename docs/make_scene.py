@@ -1,45 +1,24 @@
-"""Writes docs/scene.md from the classes of tissu.scene: python docs/make_scene.py [--check]."""
+"""Writes docs/scene.md from the classes of a scene: python docs/make_scene.py [--check]."""
 
 from __future__ import annotations
 
 import sys
 from pathlib import Path
 
-import tissu.scene as scene
+import tissu
+from tissu.codegen.names import HEADINGS, part_names
+from tissu.scene.law import Law
 
 PAGE = Path(__file__).with_name("scene.md")
-_LAWS = (
-    *("Hooke", "StVK", "NeoHooke", "StableNeoHooke", "MooneyRivlin", "Yeoh", "ArrudaBoyce"),
-    *("Fibres", "Rayleigh", "KelvinVoigt", "Centroid", "Prony", "PronyBranch"),
-)
-_STEPS = (
-    *("ExplicitEuler", "SymplecticEuler", "RK2", "RK4"),
-    *("ImplicitEuler", "ImplicitMidpoint", "BDF2", "Newmark", "BDF2FixedPoint", "Static", "Newton"),
-)
-_MODELS = (
-    *("FEM", "Corotational", "MassSpring", "MassLink", "MassTensor"),
-    *("Condensed", "MeanDilatation", "Frames", "Shell"),
-)
-ORDER = (
-    ("The scene", ("Scene", "Output")),
-    ("Bodies and meshes", ("Body", "Start", "MeshFile", "BarMesh")),
-    ("Connective tissue", ("Tissue",)),
-    ("Laws and viscosity", _LAWS),
-    ("Models", _MODELS),
-    ("Selections: which nodes", ("Box", "Sphere", "Plane", "Nodes", "SurfaceNodes", "Region")),
-    ("Supports and motion", ("Fixed", "Prescribed", "Rotation")),
-    ("Loads", ("NodalLoad", "Moment", "Traction", "Pressure")),
-    ("Steps", _STEPS),
-    ("Linear solvers", ("Auto", "ConjugateGradient", "Cholesky")),
-)
 HEAD = """# Scene files
 
 A scene is the same thing in YAML and in Python: the class named in each heading, or a mapping with
-its fields. A class that stands where several are possible is chosen by `type` in YAML. Numbers are
-SI; a text with a unit is converted ("4 kPa", "10 ms", "1.05 g/cm^3"), and one of the wrong
-dimension is an error. Unknown keys are errors that name the nearest known one. `tissu check FILE`
-lists every problem at once, with its line: wrong fields, fields that contradict each other, faults
-of meshes, selections that select nothing. Without problems it says what the scene switches on.
+its fields. A class that stands where several are possible is chosen by `type` in YAML, where a
+hyphen may stand for an underscore. Numbers are SI; a text with a unit is converted ("4 kPa",
+"10 ms", "1.05 g/cm^3"), and one of the wrong dimension is an error. Unknown keys are errors that
+name the nearest known one. `tissu check FILE` lists every problem at once, with its line: wrong
+fields, fields that contradict each other, faults of meshes, selections that select nothing. Without
+problems it says what the scene switches on.
 
 ```yaml
 {example}```
@@ -92,17 +71,22 @@ and as the first line of a scene file, for editors with a YAML language server,
 # yaml-language-server: $schema=scene.schema.json
 ```
 
-This page is printed from the classes by `python docs/make_scene.py`.
+This page is printed from the classes by `make codegen`.
 """
+
+
+def words(part: type) -> str:
+    """What the class says of itself: of a law all, its source and limits too, of others a line."""
+    text = (part.__doc__ or "").strip()
+    return " ".join(text.split()) if issubclass(part, Law) else text.splitlines()[0]
 
 
 def table(name: str) -> str:
     """The fields of one class."""
-    part = getattr(scene, name)
+    part = getattr(tissu, name)
     kind = part.model_fields.get("type")
     title = f"### {name}" + (f" (`type: {kind.default}`)" if kind is not None else "")
-    first = (part.__doc__ or "").strip().splitlines()[0]
-    lines = [title, "", first]
+    lines = [title, "", words(part)]
     if set(part.model_fields) - {"type"}:
         lines += ["", "| field | default | |", "|---|---|---|"]
     for field, info in part.model_fields.items():
@@ -124,7 +108,9 @@ def page() -> str:
     """The whole page."""
     example = (PAGE.parent.parent / "examples" / "organ.yaml").read_text(encoding="utf-8")
     parts = [HEAD.format(example=example)]
-    for title, names in ORDER:
+    for title, modules in HEADINGS.items():
+        names = ["Scene"] * (modules == ("scene",))
+        names += [name for module in modules for name in part_names(module) if name != "UserLaw"]
         parts.append(f"## {title}\n\n" + "\n\n".join(table(name) for name in names) + "\n")
     return "\n".join(parts)
 

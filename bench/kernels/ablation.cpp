@@ -11,8 +11,8 @@
 #include "tissu/base/array.h"
 #include "tissu/base/isa.h"
 #include "tissu/base/vec.h"
+#include "tissu/cell/element_order.h"
 #include "tissu/law/law.h"
-#include "tissu/model/element_order.h"
 
 namespace tissu::bench {
 namespace {

@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "tissu/model/elastic_kernels.h"
+#include "tissu/cell/elastic_kernels.h"
 
 namespace tissu::bench {
 

@@ -1,5 +1,5 @@
+#include "cell/kernels/packed.h"
 #include "loops.h"
-#include "packed.h"
 #include "tissu/law/generated/stvk.h"
 
 namespace tissu::TISSU_KERNELS {

@@ -6,7 +6,7 @@
 #include "kernel_rows.h"
 #include "machine.h"
 #include "meshes.h"
-#include "tissu/model/corotational.h"
+#include "tissu/model/corotational/corotational.h"
 
 namespace tissu::bench {
 namespace {

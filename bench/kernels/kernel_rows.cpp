@@ -9,7 +9,7 @@
 #include "meshes.h"
 #include "operations.h"
 #include "tissu/law/law_info.h"
-#include "tissu/model/elastic.h"
+#include "tissu/model/fem/elastic.h"
 
 namespace tissu::bench {
 namespace {

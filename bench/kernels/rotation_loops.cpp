@@ -1,5 +1,5 @@
+#include "cell/kernels/rotation.h"
 #include "loops.h"
-#include "rotation.h"
 
 namespace tissu::TISSU_KERNELS {
 namespace {

@@ -14,7 +14,7 @@
 #include "../kernels/meshes.h"
 #include "tissu/assembly/block_matrix.h"
 #include "tissu/base/build.h"
-#include "tissu/model/mass_tensor.h"
+#include "tissu/model/edges/mass_tensor.h"
 #include "tissu/model/models.h"
 
 namespace tissu::bench {

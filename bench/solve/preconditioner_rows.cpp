@@ -6,11 +6,11 @@
 #include <type_traits>
 #include <vector>
 
-#include "../../cpp/src/solve/make_preconditioner.h"
-#include "../../cpp/src/solve/single_matrix.h"
 #include "../kernels/machine.h"
 #include "../kernels/time_row.h"
 #include "../scale/cube.h"
+#include "solve/make_preconditioner.h"
+#include "solve/single_matrix.h"
 #include "solve_rows.h"
 #include "traffic.h"
 

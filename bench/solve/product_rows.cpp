@@ -3,10 +3,10 @@
 #include <string>
 #include <vector>
 
-#include "../../cpp/src/solve/single_matrix.h"
 #include "../kernels/machine.h"
 #include "../kernels/time_row.h"
 #include "../scale/cube.h"
+#include "solve/single_matrix.h"
 #include "solve_rows.h"
 #include "traffic.h"
 

@@ -48,8 +48,8 @@ py::list functions() {
 void bind_field(py::module_& m) {
   using py::arg;
   m.def("shape_functions", &functions);
-  m.def("shape_weights", &weights, py::kw_only(), arg("name"), arg("neighbours") = 0, arg("frames"),
-        arg("points"), arg("body") = "");
+  m.def("shape_weights", &weights, py::kw_only(), arg("name"), arg("neighbours"), arg("frames"),
+        arg("points"), arg("body"));
   m.def("mean_gradients", &gradients, py::kw_only(), arg("cell_type"), arg("positions"), arg("cells"));
 }
 

@@ -1,8 +1,8 @@
 #include "bind.h"
 #include "tissu/base/build.h"
 #include "tissu/law/law_info.h"
-#include "tissu/model/law_kernels.h"
-#include "tissu/model/loaded_law.h"
+#include "tissu/law/law_kernels.h"
+#include "tissu/law/loaded_law.h"
 
 namespace tissu::bind {
 namespace {

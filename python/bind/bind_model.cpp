@@ -1,8 +1,25 @@
+#include <algorithm>
+
 #include "bind.h"
+#include "tissu/cell/elastic_block.h"
 #include "tissu/model/models.h"
 
 namespace tissu::bind {
 namespace {
+
+/// A model's name as scenes spell it: mass_spring.
+std::string spelled(std::string_view name) {
+  std::string result(name);
+  std::ranges::replace(result, '-', '_');
+  return result;
+}
+
+/// A model without options.
+ModelUse use(const char* name) {
+  ModelUse model;
+  model.name = name;
+  return model;
+}
 
 std::vector<std::string> words(const std::vector<std::string_view>& names) {
   return {names.begin(), names.end()};
@@ -23,7 +40,7 @@ py::list models() {
     abilities["strain"] = to_tuple(model.strain);
     abilities["inversion"] = to_tuple(model.inversion);
     abilities["topology"] = to_tuple(model.topology);
-    result.append(py::make_tuple(std::string(model.name), std::string(model.form), words(model.laws),
+    result.append(py::make_tuple(spelled(model.name), std::string(model.form), words(model.laws),
                                  words(model.elements), abilities));
   }
   return result;
@@ -31,6 +48,57 @@ py::list models() {
 
 }  // namespace
 
-void bind_model(py::module_& m) { m.def("models", &models); }
+/// Each model by the name of its class in a scene, with its own options; the defaults are there.
+void bind_model(py::module_& m) {
+  using py::arg;
+  m.def("models", &models);
+  py::class_<ModelUse>(m, "Model");
+  m.def("FEM", [] { return use("fem"); });
+  m.def(
+      "Corotational",
+      [](const std::string& rotation, const std::string& tangent) {
+        ModelUse model = use("corotational");
+        model.rotation = rotation;
+        model.tangent = tangent;
+        return model;
+      },
+      py::kw_only(), arg("rotation"), arg("tangent"));
+  m.def(
+      "MassSpring",
+      [](bool equal_masses) {
+        ModelUse model = use("mass-spring");
+        model.equal_masses = equal_masses;
+        return model;
+      },
+      py::kw_only(), arg("equal_masses"));
+  m.def("MassLink", [] { return use("mass-link"); });
+  m.def("MassTensor", [] { return use("mass-tensor"); });
+  m.def("MeanDilatation", [] { return use("mean-dilatation"); });
+  m.def(
+      "Condensed",
+      [](const Array<std::int32_t>& kept) {
+        ModelUse model = use("condensed");
+        model.kept = to_vector(kept);
+        return model;
+      },
+      py::kw_only(), arg("kept"));
+  m.def(
+      "Frames",
+      [](const std::string& tangent, const std::string& section) {
+        ModelUse model = use("frames");
+        model.tangent = tangent;
+        model.section = section;
+        return model;
+      },
+      py::kw_only(), arg("tangent"), arg("section"));
+  m.def(
+      "Shell",
+      [](double drilling) {
+        ModelUse model = use("shell");
+        model.drilling = drilling;
+        return model;
+      },
+      py::kw_only(), arg("drilling"));
+}
 
 }  // namespace tissu::bind

@@ -1,7 +1,7 @@
 #include "bind.h"
 #include "specs.h"
 #include "tissu/edit/remove_cells.h"
-#include "tissu/model/frames.h"
+#include "tissu/model/frames/frames.h"
 #include "tissu/simulation/simulation.h"
 #include "tissu/step/frequency.h"
 

@@ -9,9 +9,6 @@
 namespace tissu::bind {
 namespace {
 
-struct ConjugateGradientSpec : SolverSpec {};
-struct CholeskySpec : SolverSpec {};
-
 template <class Value>
 using Names = std::span<const std::pair<std::string_view, Value>>;
 
@@ -36,24 +33,25 @@ Value named(Names<Value> names, const std::string& name) {
 
 }  // namespace
 
+/// Each solver by the name of its class in a scene; the defaults are there.
 void bind_solver(py::module_& m) {
   using py::arg;
   py::class_<SolverSpec>(m, "LinearSolver");
-  py::class_<ConjugateGradientSpec, SolverSpec>(m, "ConjugateGradient")
-      .def(py::init([](double tolerance, int iterations, const std::string& preconditioner,
-                       const std::string& precision, const std::string& matrix) {
-             const ConjugateGradient::Settings settings{
-                 tolerance, iterations, named<Preconditioning>(kPreconditioners, preconditioner),
-                 named<Precision>(kPrecisions, precision), named<Product>(kMatrices, matrix)};
-             return ConjugateGradientSpec{{[=]() -> std::unique_ptr<LinearSolver> {
-               return std::make_unique<ConjugateGradient>(settings);
-             }}};
-           }),
-           py::kw_only(), arg("tolerance") = 1e-6, arg("iterations") = 1000,
-           arg("preconditioner") = "block_jacobi", arg("precision") = "double", arg("matrix") = "assembled");
-  py::class_<CholeskySpec, SolverSpec>(m, "Cholesky").def(py::init([] {
-    return CholeskySpec{{[]() -> std::unique_ptr<LinearSolver> { return std::make_unique<Cholesky>(); }}};
-  }));
+  m.def(
+      "ConjugateGradient",
+      [](double tolerance, int iterations, const std::string& preconditioner, const std::string& precision,
+         const std::string& matrix) {
+        const ConjugateGradient::Settings settings{
+            tolerance, iterations, named<Preconditioning>(kPreconditioners, preconditioner),
+            named<Precision>(kPrecisions, precision), named<Product>(kMatrices, matrix)};
+        return SolverSpec{
+            [=]() -> std::unique_ptr<LinearSolver> { return std::make_unique<ConjugateGradient>(settings); }};
+      },
+      py::kw_only(), arg("tolerance"), arg("iterations"), arg("preconditioner"), arg("precision"),
+      arg("matrix"));
+  m.def("Cholesky", [] {
+    return SolverSpec{[]() -> std::unique_ptr<LinearSolver> { return std::make_unique<Cholesky>(); }};
+  });
 }
 
 }  // namespace tissu::bind

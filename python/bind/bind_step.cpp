@@ -14,34 +14,29 @@ namespace {
 
 using py::arg;
 
-/// One Python class for each method.
-template <class Method>
-struct Spec : IntegratorSpec {};
-
-Indefinite to_indefinite(const std::string& word) {
-  if (word == "project") return Indefinite::project;
-  if (word == "regularise") return Indefinite::regularise;
-  if (word == "refuse") return Indefinite::refuse;
-  throw ParameterError("indefinite is \"" + word + "\"; project, regularise or refuse is accepted.");
+/// How to make a method with these settings.
+template <class Method, class... Settings>
+IntegratorSpec spec(Settings... settings) {
+  return {[=]() -> std::unique_ptr<Integrator> { return std::make_unique<Method>(settings...); }};
 }
 
-template <class Method>
-void bind_explicit(py::module_& m, const char* name) {
-  py::class_<Spec<Method>, IntegratorSpec>(m, name).def(py::init([] {
-    return Spec<Method>{{[]() -> std::unique_ptr<Integrator> { return std::make_unique<Method>(); }}};
-  }));
+NewtonSettings to_newton(int iterations, double tolerance, const std::string& indefinite) {
+  for (const auto& [word, value] : {std::pair{"project", Indefinite::project},
+                                    {"regularise", Indefinite::regularise},
+                                    {"refuse", Indefinite::refuse}}) {
+    if (indefinite == word) return {iterations, tolerance, value};
+  }
+  throw ParameterError("indefinite is \"" + indefinite + "\"; project, regularise or refuse is accepted.");
 }
 
 template <class Method>
 void bind_implicit(py::module_& m, const char* name) {
-  py::class_<Spec<Method>, IntegratorSpec>(m, name).def(
-      py::init([](int iterations, double tolerance, const std::string& indefinite) {
-        const NewtonSettings newton{iterations, tolerance, to_indefinite(indefinite)};
-        return Spec<Method>{
-            {[=]() -> std::unique_ptr<Integrator> { return std::make_unique<Method>(newton); }}};
-      }),
-      py::kw_only(), arg("newton_iterations") = 1, arg("newton_tolerance") = 1e-6,
-      arg("indefinite") = "project");
+  m.def(
+      name,
+      [](int iterations, double tolerance, const std::string& indefinite) {
+        return spec<Method>(to_newton(iterations, tolerance, indefinite));
+      },
+      py::kw_only(), arg("newton_iterations"), arg("newton_tolerance"), arg("indefinite"));
 }
 
 void bind_report(py::module_& m) {
@@ -57,50 +52,41 @@ void bind_report(py::module_& m) {
 }
 
 void bind_others(py::module_& m) {
-  py::class_<Spec<RungeKutta>, IntegratorSpec>(m, "RungeKutta")
-      .def(py::init([](int order) {
-             return Spec<RungeKutta>{
-                 {[=]() -> std::unique_ptr<Integrator> { return std::make_unique<RungeKutta>(order); }}};
-           }),
-           py::kw_only(), arg("order"));
-  py::class_<Spec<Newmark>, IntegratorSpec>(m, "Newmark")
-      .def(py::init([](double beta, double gamma, int iterations, double tolerance,
-                       const std::string& indefinite) {
-             const Newmark::Settings settings{
-                 beta, gamma, NewtonSettings{iterations, tolerance, to_indefinite(indefinite)}};
-             return Spec<Newmark>{
-                 {[=]() -> std::unique_ptr<Integrator> { return std::make_unique<Newmark>(settings); }}};
-           }),
-           py::kw_only(), arg("beta") = 0.25, arg("gamma") = 0.5, arg("newton_iterations") = 1,
-           arg("newton_tolerance") = 1e-6, arg("indefinite") = "project");
-  py::class_<Spec<Bdf2FixedPoint>, IntegratorSpec>(m, "Bdf2FixedPoint")
-      .def(py::init([](int iterations, double tolerance, int anderson) {
-             const Bdf2FixedPoint::Settings settings{iterations, tolerance, anderson};
-             return Spec<Bdf2FixedPoint>{{[=]() -> std::unique_ptr<Integrator> {
-               return std::make_unique<Bdf2FixedPoint>(settings);
-             }}};
-           }),
-           py::kw_only(), arg("iterations") = 50, arg("tolerance") = 1e-6, arg("anderson") = 0);
-  py::class_<Spec<StaticEquilibrium>, IntegratorSpec>(m, "Static")
-      .def(py::init([](int iterations, double tolerance, int load_steps) {
-             const StaticEquilibrium::Settings settings{NewtonSettings{iterations, tolerance}, load_steps};
-             return Spec<StaticEquilibrium>{{[=]() -> std::unique_ptr<Integrator> {
-               return std::make_unique<StaticEquilibrium>(settings);
-             }}};
-           }),
-           py::kw_only(), arg("newton_iterations"), arg("newton_tolerance"), arg("load_steps"));
+  m.def(
+      "Newmark",
+      [](double beta, double gamma, int iterations, double tolerance, const std::string& indefinite) {
+        return spec<Newmark>(Newmark::Settings{beta, gamma, to_newton(iterations, tolerance, indefinite)});
+      },
+      py::kw_only(), arg("beta"), arg("gamma"), arg("newton_iterations"), arg("newton_tolerance"),
+      arg("indefinite"));
+  m.def(
+      "BDF2FixedPoint",
+      [](int iterations, double tolerance, int anderson) {
+        return spec<Bdf2FixedPoint>(Bdf2FixedPoint::Settings{iterations, tolerance, anderson});
+      },
+      py::kw_only(), arg("iterations"), arg("tolerance"), arg("anderson"));
+  m.def(
+      "Static",
+      [](int load_steps, int iterations, double tolerance) {
+        return spec<StaticEquilibrium>(
+            StaticEquilibrium::Settings{NewtonSettings{iterations, tolerance}, load_steps});
+      },
+      py::kw_only(), arg("load_steps"), arg("newton_iterations"), arg("newton_tolerance"));
 }
 
 }  // namespace
 
+/// Each method by the name of its class in a scene; the defaults are there.
 void bind_step(py::module_& m) {
   bind_report(m);
   py::class_<IntegratorSpec>(m, "Integrator");
-  bind_explicit<ExplicitEuler>(m, "ExplicitEuler");
-  bind_explicit<SymplecticEuler>(m, "SymplecticEuler");
+  m.def("ExplicitEuler", &spec<ExplicitEuler>);
+  m.def("SymplecticEuler", &spec<SymplecticEuler>);
+  m.def("RK2", [] { return spec<RungeKutta>(2); });
+  m.def("RK4", [] { return spec<RungeKutta>(4); });
   bind_implicit<ImplicitEuler>(m, "ImplicitEuler");
   bind_implicit<ImplicitMidpoint>(m, "ImplicitMidpoint");
-  bind_implicit<Bdf2>(m, "Bdf2");
+  bind_implicit<Bdf2>(m, "BDF2");
   bind_others(m);
 }
 

@@ -87,9 +87,9 @@ void add_points(WorldDescription& world, const std::string& body,
   made.elastic.push_back(std::move(block));
 }
 
-void add_viscosity(WorldDescription& world, const std::string& body, double shear, double bulk,
-                   double centroid, const std::vector<std::pair<double, double>>& branches) {
-  Viscosity viscosity{shear, bulk, centroid, {}};
+void add_prony(WorldDescription& world, const std::string& body,
+               const std::vector<std::pair<double, double>>& branches) {
+  Viscosity viscosity;
   for (const auto& [weight, time] : branches) viscosity.prony.push_back({weight, time});
   world.body(body).viscosity = std::move(viscosity);
 }
@@ -144,33 +144,15 @@ void bind_world(py::module_& m) {
                              [](const World& world) { return std::string(name(world.isa())); });
 
   py::enum_<Plane>(m, "Plane").value("stress", Plane::stress).value("strain", Plane::strain);
-  py::class_<ModelUse>(m, "ModelUse")
-      .def(py::init([](const std::string& name, const std::string& rotation, const std::string& tangent,
-                       const std::string& section, double drilling, bool equal_masses, const Ints& kept) {
-             ModelUse model;
-             model.name = name;
-             model.rotation = rotation;
-             model.tangent = tangent;
-             model.section = section;
-             model.drilling = drilling;
-             model.equal_masses = equal_masses;
-             model.kept = to_vector(kept);
-             return model;
-           }),
-           py::kw_only(), arg("name") = "fem", arg("rotation") = "polar", arg("tangent") = "approximate",
-           arg("section") = "whole", arg("drilling") = 1.0, arg("equal_masses") = false,
-           arg("kept") = std::vector<std::int32_t>{});
   py::class_<WorldDescription>(m, "WorldBuilder")
-      .def(py::init([](int threads, bool editable, bool links, bool consistent_weight) {
+      .def(py::init([](int threads, bool editable, bool consistent_weight) {
              WorldDescription world;
              world.threads = threads;
              world.editable = editable;
              world.consistent_weight = consistent_weight;
-             world.links = links;
              return world;
            }),
-           py::kw_only(), arg("threads") = 1, arg("editable") = false, arg("links") = false,
-           arg("consistent_weight") = false)
+           py::kw_only(), arg("threads"), arg("editable"), arg("consistent_weight"))
       .def(
           "add_body",
           [](WorldDescription& world, const std::string& name, const Doubles& positions, bool frames) {
@@ -180,12 +162,10 @@ void bind_world(py::module_& m) {
             world.bodies.back().frames = frames;
             return first;
           },
-          py::kw_only(), arg("name"), arg("positions"), arg("frames") = false)
+          py::kw_only(), arg("name"), arg("positions"), arg("frames"))
       .def("add_elastic", &add_elastic, py::kw_only(), arg("body"), arg("cell_type"), arg("cells"),
-           arg("cell_numbers"), arg("law"), arg("parameters"), arg("density"), arg("quadrature") = "full",
-           arg("reinforcements") = std::vector<std::pair<std::string, Parameters>>{},
-           arg("loaded") = py::none(), arg("cross_section") = std::vector<double>{1.0},
-           arg("plane") = Plane::stress, arg("model") = ModelUse{})
+           arg("cell_numbers"), arg("law"), arg("parameters"), arg("density"), arg("quadrature"),
+           arg("reinforcements"), arg("loaded").none(true), arg("cross_section"), arg("plane"), arg("model"))
       .def("add_points", &add_points, py::kw_only(), arg("body"), arg("shared"), arg("frames"),
            arg("weights"), arg("gradients"), arg("positions"), arg("volumes"), arg("law"), arg("parameters"),
            arg("fibres"), arg("loaded").none(true), arg("density"), arg("model"))
@@ -195,8 +175,24 @@ void bind_world(py::module_& m) {
             world.body(body).rayleigh = RayleighDamping{mass, stiffness};
           },
           py::kw_only(), arg("body"), arg("mass"), arg("stiffness"))
-      .def("add_viscosity", &add_viscosity, py::kw_only(), arg("body"), arg("shear") = 0.0, arg("bulk") = 0.0,
-           arg("centroid") = 0.0, arg("branches") = std::vector<std::pair<double, double>>{})
+      .def(
+          "add_kelvin_voigt",
+          [](WorldDescription& world, const std::string& body, double shear, double bulk) {
+            Viscosity viscosity;
+            viscosity.shear = shear;
+            viscosity.bulk = bulk;
+            world.body(body).viscosity = std::move(viscosity);
+          },
+          py::kw_only(), arg("body"), arg("shear"), arg("bulk"))
+      .def(
+          "add_centroid",
+          [](WorldDescription& world, const std::string& body, double coefficient) {
+            Viscosity viscosity;
+            viscosity.centroid = coefficient;
+            world.body(body).viscosity = std::move(viscosity);
+          },
+          py::kw_only(), arg("body"), arg("coefficient"))
+      .def("add_prony", &add_prony, py::kw_only(), arg("body"), arg("branches"))
       .def(
           "add_gravity",
           [](WorldDescription& world, const Doubles& acceleration) {
@@ -212,7 +208,7 @@ void bind_world(py::module_& m) {
                                    moments});
           },
           py::kw_only(), arg("name"), arg("body"), arg("nodes"), arg("forces"), arg("times"), arg("factors"),
-          arg("moments") = false)
+          arg("moments"))
       .def(
           "add_pressure",
           [](WorldDescription& world, const std::string& name, const std::string& body,
@@ -228,7 +224,7 @@ void bind_world(py::module_& m) {
           [](WorldDescription& world, const std::string& body, const Ints& nodes, int axes, bool rotations) {
             add_fixed(world, body, nodes, axes, rotations, {});
           },
-          py::kw_only(), arg("body"), arg("nodes"), arg("axes") = 7, arg("rotations") = false)
+          py::kw_only(), arg("body"), arg("nodes"), arg("axes"), arg("rotations"))
       .def(
           "prescribe",
           [](WorldDescription& world, const std::string& body, const Ints& nodes, int axes,
@@ -238,7 +234,7 @@ void bind_world(py::module_& m) {
                       to_motion(times, displacements, angles, center, axis));
           },
           py::kw_only(), arg("body"), arg("nodes"), arg("axes"), arg("times"), arg("displacements"),
-          arg("angles"), arg("center"), arg("axis"), arg("rotations") = false)
+          arg("angles"), arg("center"), arg("axis"), arg("rotations"))
       .def(
           "build", [](const WorldDescription& world) { return std::make_shared<World>(world); },
           py::call_guard<py::gil_scoped_release>());

@@ -42,7 +42,7 @@ def box_mesh(
 ) -> tuple[Floats, list[tuple[str, Ints]]]: ...
 def shape_functions() -> list[tuple[str, int, str, str]]: ...
 def shape_weights(
-    *, name: str, neighbours: int = 0, frames: Floats, points: Floats, body: str = ""
+    *, name: str, neighbours: int, frames: Floats, points: Floats, body: str
 ) -> tuple[Ints, Floats, Floats]: ...
 def mean_gradients(*, cell_type: str, positions: Floats, cells: Ints) -> Floats: ...
 def boundary_surface(*, positions: Floats, blocks: Blocks) -> tuple[Ints, Ints, Ints, Ints]: ...
@@ -96,29 +96,27 @@ class Plane:
     stress: ClassVar[Plane]
     strain: ClassVar[Plane]
 
-class ModelUse:
-    def __init__(
-        self,
-        *,
-        name: str = "fem",
-        rotation: str = "polar",
-        tangent: str = "approximate",
-        section: str = "whole",
-        drilling: float = 1.0,
-        equal_masses: bool = False,
-        kept: Ints = ...,
-    ) -> None: ...
+class Model: ...
+
+def FEM() -> Model: ...
+def Corotational(*, rotation: str, tangent: str) -> Model: ...
+def MassSpring(*, equal_masses: bool) -> Model: ...
+def MassLink() -> Model: ...
+def MassTensor() -> Model: ...
+def MeanDilatation() -> Model: ...
+def Condensed(*, kept: Ints) -> Model: ...
+def Frames(*, tangent: str, section: str) -> Model: ...
+def Shell(*, drilling: float) -> Model: ...
 
 class WorldBuilder:
     def __init__(
         self,
         *,
-        threads: int = 1,
-        editable: bool = False,
-        links: bool = False,
-        consistent_weight: bool = False,
+        threads: int,
+        editable: bool,
+        consistent_weight: bool,
     ) -> None: ...
-    def add_body(self, *, name: str, positions: Floats, frames: bool = False) -> int: ...
+    def add_body(self, *, name: str, positions: Floats, frames: bool) -> int: ...
     def add_elastic(
         self,
         *,
@@ -129,12 +127,12 @@ class WorldBuilder:
         law: str,
         parameters: Mapping[str, Floats],
         density: Floats,
-        quadrature: str = "full",
-        reinforcements: Sequence[tuple[str, Mapping[str, Floats]]] = ...,
-        loaded: LoadedLaw | None = None,
-        cross_section: Floats = ...,
-        plane: Plane = ...,
-        model: ModelUse = ...,
+        quadrature: str,
+        reinforcements: Sequence[tuple[str, Mapping[str, Floats]]],
+        loaded: LoadedLaw | None,
+        cross_section: Floats,
+        plane: Plane,
+        model: Model,
     ) -> None: ...
     def add_points(
         self,
@@ -151,18 +149,12 @@ class WorldBuilder:
         fibres: Mapping[str, Floats],
         loaded: LoadedLaw | None,
         density: float,
-        model: ModelUse,
+        model: Model,
     ) -> None: ...
     def add_rayleigh(self, *, body: str, mass: float, stiffness: float) -> None: ...
-    def add_viscosity(
-        self,
-        *,
-        body: str,
-        shear: float = 0.0,
-        bulk: float = 0.0,
-        centroid: float = 0.0,
-        branches: Sequence[tuple[float, float]] = (),
-    ) -> None: ...
+    def add_kelvin_voigt(self, *, body: str, shear: float, bulk: float) -> None: ...
+    def add_centroid(self, *, body: str, coefficient: float) -> None: ...
+    def add_prony(self, *, body: str, branches: Sequence[tuple[float, float]]) -> None: ...
     def add_gravity(self, *, acceleration: Floats) -> None: ...
     def add_load(
         self,
@@ -173,7 +165,7 @@ class WorldBuilder:
         forces: Floats,
         times: Floats,
         factors: Floats,
-        moments: bool = False,
+        moments: bool,
     ) -> None: ...
     def add_pressure(
         self,
@@ -185,9 +177,7 @@ class WorldBuilder:
         times: Floats,
         factors: Floats,
     ) -> None: ...
-    def fix(
-        self, *, body: str, nodes: Ints, axes: int = 7, rotations: bool = False
-    ) -> None: ...
+    def fix(self, *, body: str, nodes: Ints, axes: int, rotations: bool) -> None: ...
     def prescribe(
         self,
         *,
@@ -199,84 +189,44 @@ class WorldBuilder:
         angles: Floats,
         center: Floats,
         axis: Floats,
-        rotations: bool = False,
+        rotations: bool,
     ) -> None: ...
     def build(self) -> World: ...
 
 class Integrator: ...
 
-class ExplicitEuler(Integrator):
-    def __init__(self) -> None: ...
-
-class SymplecticEuler(Integrator):
-    def __init__(self) -> None: ...
-
-class RungeKutta(Integrator):
-    def __init__(self, *, order: int) -> None: ...
-
-class ImplicitEuler(Integrator):
-    def __init__(
-        self,
-        *,
-        newton_iterations: int = 1,
-        newton_tolerance: float = 1e-6,
-        indefinite: str = "project",
-    ) -> None: ...
-
-class ImplicitMidpoint(Integrator):
-    def __init__(
-        self,
-        *,
-        newton_iterations: int = 1,
-        newton_tolerance: float = 1e-6,
-        indefinite: str = "project",
-    ) -> None: ...
-
-class Bdf2(Integrator):
-    def __init__(
-        self,
-        *,
-        newton_iterations: int = 1,
-        newton_tolerance: float = 1e-6,
-        indefinite: str = "project",
-    ) -> None: ...
-
-class Newmark(Integrator):
-    def __init__(
-        self,
-        *,
-        beta: float = 0.25,
-        gamma: float = 0.5,
-        newton_iterations: int = 1,
-        newton_tolerance: float = 1e-6,
-        indefinite: str = "project",
-    ) -> None: ...
-
-class Bdf2FixedPoint(Integrator):
-    def __init__(
-        self, *, iterations: int = 50, tolerance: float = 1e-6, anderson: int = 0
-    ) -> None: ...
-
-class Static(Integrator):
-    def __init__(
-        self, *, newton_iterations: int, newton_tolerance: float, load_steps: int
-    ) -> None: ...
+def ExplicitEuler() -> Integrator: ...
+def SymplecticEuler() -> Integrator: ...
+def RK2() -> Integrator: ...
+def RK4() -> Integrator: ...
+def ImplicitEuler(
+    *, newton_iterations: int, newton_tolerance: float, indefinite: str
+) -> Integrator: ...
+def ImplicitMidpoint(
+    *, newton_iterations: int, newton_tolerance: float, indefinite: str
+) -> Integrator: ...
+def BDF2(
+    *, newton_iterations: int, newton_tolerance: float, indefinite: str
+) -> Integrator: ...
+def Newmark(
+    *,
+    beta: float,
+    gamma: float,
+    newton_iterations: int,
+    newton_tolerance: float,
+    indefinite: str,
+) -> Integrator: ...
+def BDF2FixedPoint(*, iterations: int, tolerance: float, anderson: int) -> Integrator: ...
+def Static(
+    *, load_steps: int, newton_iterations: int, newton_tolerance: float
+) -> Integrator: ...
 
 class LinearSolver: ...
 
-class ConjugateGradient(LinearSolver):
-    def __init__(
-        self,
-        *,
-        tolerance: float = 1e-6,
-        iterations: int = 1000,
-        preconditioner: str = "block_jacobi",
-        precision: str = "double",
-        matrix: str = "assembled",
-    ) -> None: ...
-
-class Cholesky(LinearSolver):
-    def __init__(self) -> None: ...
+def ConjugateGradient(
+    *, tolerance: float, iterations: int, preconditioner: str, precision: str, matrix: str
+) -> LinearSolver: ...
+def Cholesky() -> LinearSolver: ...
 
 class StepReport:
     @property

@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 import re
 import reprlib
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache
 from typing import TYPE_CHECKING, Annotated, Any
@@ -19,14 +19,12 @@ import numpy as np
 from pydantic import AfterValidator, BeforeValidator
 
 from tissu.errors import ParameterError
+from tissu.reading import Number as Number
+from tissu.reading import Read, listed
+from tissu.reading import VectorLike as VectorLike
 
 if TYPE_CHECKING:
     import pint
-
-    Number = float | str
-    """What a quantity may be written as in Python: a number in SI, or a text with its unit."""
-    VectorLike = Sequence[float | str] | np.ndarray[Any, Any]
-    """What a vector may be written as: three numbers in SI or texts with units."""
 
 _NUMBER = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*?)\s*", re.DOTALL)
 _APART = re.compile(r"(?<=\w) +(?=[^\W\d])")
@@ -207,17 +205,27 @@ DIMENSIONS = (
 )
 
 
+def dimension_of(unit: str) -> Dimension:
+    """The dimension of a unit that a formula declares; "1" is a pure number."""
+    if unit == "1":
+        return NUMBER
+    known = (dimension for dimension in DIMENSIONS if dimension.unit == _normal(unit))
+    return next(known, Dimension("quantity", unit, f"1 {unit}", {_normal(unit): 1.0}))
+
+
+def unit_of(metadata: Iterable[object]) -> str:
+    """SI unit of a field with this metadata, as it is written: "Pa s"; empty for a pure number."""
+    readers = (getattr(item, "func", None) for item in metadata)
+    found = next((reader for reader in readers if isinstance(reader, Dimension)), NUMBER)
+    return found.unit.replace("*", " ")
+
+
 def written(value: object) -> str:
     """A value in a message, much shortened; what Python calls None is null, as in YAML."""
     if isinstance(value, (list, tuple)):
         few = [written(item) for item in value[:6]] + ["..."] * (len(value) > 6)
         return f"[{', '.join(few)}]"
     return "null" if value is None else reprlib.repr(value)
-
-
-def listed(value: object) -> object:
-    """A numpy array as nested lists; anything else unchanged."""
-    return value.tolist() if isinstance(value, np.ndarray) else value
 
 
 @dataclass(frozen=True, slots=True)
@@ -274,19 +282,22 @@ def within(low: float, high: float, *, hint: str) -> AfterValidator:
     return AfterValidator(_Within(low, high, hint))
 
 
-_Three = tuple[float, float, float]
-_OpenThree = tuple[float | None, float | None, float | None]
-Length = Annotated[float, BeforeValidator(LENGTH)]
-Area = Annotated[float, BeforeValidator(AREA)]
-Time = Annotated[float, BeforeValidator(TIME)]
-Mass = Annotated[float, BeforeValidator(MASS)]
-Pressure = Annotated[float, BeforeValidator(PRESSURE)]
-Density = Annotated[float, BeforeValidator(DENSITY)]
-Rate = Annotated[float, BeforeValidator(RATE)]
-Viscosity = Annotated[float, BeforeValidator(VISCOSITY)]
-DampingPerVolume = Annotated[float, BeforeValidator(DAMPING_PER_VOLUME)]
-Angle = Annotated[float, BeforeValidator(ANGLE)]
-Pure = Annotated[float, BeforeValidator(NUMBER)]
+_Quantity = Read[float, Number]
+_Three = Read[tuple[float, float, float], VectorLike]
+_OpenThree = Read[
+    tuple[float | None, float | None, float | None], Sequence[float | str | None] | None
+]
+Length = Annotated[_Quantity, BeforeValidator(LENGTH)]
+Area = Annotated[_Quantity, BeforeValidator(AREA)]
+Time = Annotated[_Quantity, BeforeValidator(TIME)]
+Mass = Annotated[_Quantity, BeforeValidator(MASS)]
+Pressure = Annotated[_Quantity, BeforeValidator(PRESSURE)]
+Density = Annotated[_Quantity, BeforeValidator(DENSITY)]
+Rate = Annotated[_Quantity, BeforeValidator(RATE)]
+Viscosity = Annotated[_Quantity, BeforeValidator(VISCOSITY)]
+DampingPerVolume = Annotated[_Quantity, BeforeValidator(DAMPING_PER_VOLUME)]
+Angle = Annotated[_Quantity, BeforeValidator(ANGLE)]
+Pure = Annotated[_Quantity, BeforeValidator(NUMBER)]
 Direction = Annotated[_Three, BeforeValidator(Triple(NUMBER))]
 Position = Annotated[_Three, BeforeValidator(Triple(LENGTH))]
 OpenPosition = Annotated[_OpenThree, BeforeValidator(Triple(LENGTH, open=True))]
@@ -296,7 +307,3 @@ Spin = Annotated[_Three, BeforeValidator(Triple(SPIN))]
 Force = Annotated[_Three, BeforeValidator(Triple(FORCE))]
 Moment = Annotated[_Three, BeforeValidator(Triple(MOMENT))]
 TractionVector = Annotated[_Three, BeforeValidator(Triple(PRESSURE))]
-Times = Annotated[tuple[Time, ...], BeforeValidator(listed)]
-Angles = Annotated[tuple[Angle, ...], BeforeValidator(listed)]
-Factors = Annotated[tuple[Pure, ...], BeforeValidator(listed)]
-Displacements = Annotated[tuple[Position, ...], BeforeValidator(listed)]

@@ -12,14 +12,14 @@ import re
 from collections.abc import Mapping
 from functools import lru_cache
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from tissu.errors import SceneError
 from tissu.scene.body import Body, MeshFile
 from tissu.scene.part import KEEP_PROBLEMS, Part
 from tissu.scene.problem import Path as FieldPath
 from tissu.scene.problem import Problem, Source
-from tissu.scene.scene import Scene
+from tissu.scene.scene import SceneData
 from tissu.scene.unknown import Unknown
 
 if TYPE_CHECKING:
@@ -39,11 +39,15 @@ _WORDS = {
 }
 
 
-def read_scene(path: Path, *, to_run: bool = False) -> Scene:
+S = TypeVar("S", bound=SceneData)
+
+
+def read_scene(path: Path, cls: type[S], *, to_run: bool = False) -> S:
     """Read a scene file; paths of meshes are relative to its folder.
 
     Args:
         path: the file.
+        cls: the class of the scene.
         to_run: whether a duration that is absent but needed is a problem.
 
     Returns:
@@ -58,7 +62,7 @@ def read_scene(path: Path, *, to_run: bool = False) -> Scene:
         raise SceneError([f"{path}: the scene file cannot be read: {error.strerror}"]) from None
     except UnicodeDecodeError:
         raise SceneError([f"{path}: not a text in UTF-8; a YAML scene is accepted"]) from None
-    scene = parse_scene(text, base=path.parent, name=str(path))
+    scene = parse_scene(text, cls, base=path.parent, name=str(path))
     if to_run:
         with contextlib.suppress(Unknown):
             if scene.duration is None and scene.step.type != "static":
@@ -67,7 +71,7 @@ def read_scene(path: Path, *, to_run: bool = False) -> Scene:
     return scene
 
 
-def parse_scene(text: str, *, base: Path | None = None, name: str = "text") -> Scene:
+def parse_scene(text: str, cls: type[S], *, base: Path | None = None, name: str = "text") -> S:
     """Read a scene from YAML text.
 
     Returns:
@@ -82,7 +86,7 @@ def parse_scene(text: str, *, base: Path | None = None, name: str = "text") -> S
         raise SceneError(
             [
                 f"{name}:1: found {found}; a mapping with the keys "
-                f"{', '.join(Scene.model_fields)} is accepted"
+                f"{', '.join(cls.model_fields)} is accepted"
             ]
         )
     laws: list[type[UserLaw]] = []
@@ -93,7 +97,7 @@ def parse_scene(text: str, *, base: Path | None = None, name: str = "text") -> S
         laws, refused = laws_of_scene(data["laws"], base)
     problems += refused
     context = {"base": base, "laws": laws, "laws_refused": bool(refused), KEEP_PROBLEMS: True}
-    scene = Scene.model_validate(data, context=context)
+    scene = cls.model_validate(data, context=context)
     scene._source = source
     scene._problems += tuple(problems)
     return scene
@@ -114,7 +118,7 @@ def scene_mapping(path: Path) -> dict[str, Any]:
     return data
 
 
-def scene_data(scene: Scene, *, folder: Path | None = None) -> dict[str, Any]:
+def scene_data(scene: SceneData, *, folder: Path | None = None) -> dict[str, Any]:
     """The scene as mappings, lists and numbers; with `folder`, paths of meshes relative to it.
 
     Raises:
@@ -142,7 +146,7 @@ def scene_data(scene: Scene, *, folder: Path | None = None) -> dict[str, Any]:
     return data
 
 
-def scene_text(scene: Scene, *, folder: Path | None = None) -> str:
+def scene_text(scene: SceneData, *, folder: Path | None = None) -> str:
     """The scene as YAML; with `folder`, paths of meshes are written relative to it.
 
     Raises:
@@ -154,7 +158,7 @@ def scene_text(scene: Scene, *, folder: Path | None = None) -> str:
     return str(yaml.dump(data, Dumper=_dumper(), sort_keys=False, width=100, allow_unicode=True))
 
 
-def write_scene(scene: Scene, path: Path) -> None:
+def write_scene(scene: SceneData, path: Path) -> None:
     """Write the scene, and each mesh made in memory beside it as .vtu.
 
     Raises:

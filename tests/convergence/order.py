@@ -56,8 +56,8 @@ class Integrals:
 
 def cube(mesh, law, parameters, quadrature="full", setting="solid"):
     """A builder with the mesh as body "cube", of one law and 1 kg/m3, held in line or plane."""
-    builder = _core.WorldBuilder()
-    builder.add_body(name="cube", positions=mesh.points)
+    builder = _core.WorldBuilder(threads=1, editable=False, consistent_weight=False)
+    builder.add_body(name="cube", positions=mesh.points, frames=False)
     first = 0
     for block in mesh.cells:
         builder.add_elastic(
@@ -69,14 +69,17 @@ def cube(mesh, law, parameters, quadrature="full", setting="solid"):
             parameters={name: np.array([value]) for name, value in parameters.items()},
             density=np.array([1.0]),
             quadrature=quadrature,
+            reinforcements=[],
+            loaded=None,
             cross_section=np.array([CROSS_SECTION[setting]]),
             plane=_core.Plane.strain if setting == "plane strain" else _core.Plane.stress,
+            model=_core.FEM(),
         )
         first += len(block)
     across = 7 - _along(setting)
     if across:
         every = np.arange(mesh.node_count, dtype=np.int32)
-        builder.fix(body="cube", nodes=every, axes=across)
+        builder.fix(body="cube", nodes=every, axes=across, rotations=False)
     return builder
 
 
@@ -93,6 +96,7 @@ def lead(builder, nodes, displacements, setting="solid"):
             body="cube",
             nodes=np.array([node], dtype=np.int32),
             axes=_along(setting),
+            rotations=False,
             times=np.array([0.0, 1.0]),
             displacements=np.stack([np.zeros(3), displacements[node]]),
             **still,
@@ -127,6 +131,7 @@ def errors(mesh, cell, law, name="smooth", quadrature="full", setting="solid"):
         forces=CROSS_SECTION[setting] * integrals.loads(body_force, mesh.node_count),
         times=np.array([0.0]),
         factors=np.array([1.0]),
+        moments=False,
     )
     boundary = on_faces(mesh, manufactured.SETTINGS[setting])
     lead(builder, boundary, u(mesh.points), setting)

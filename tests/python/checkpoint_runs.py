@@ -5,23 +5,18 @@ other twenty steps and writes where it ends.
 """
 
 import sys
-import typing
 from pathlib import Path
 
 import tissu as ts
 from tissu.scene import solver as solvers
 from tissu.scene import step as steps
+from tissu.scene.part import type_name
 
 HALF = 20
 
 
-def classes(union):
-    """The classes of a union of parts, by the `type` that YAML calls them."""
-    return {cls.model_fields["type"].default: cls for cls in typing.get_args(union)}
-
-
-STEPS = classes(steps.Step)
-SOLVERS = classes(solvers.Solver)
+STEPS = {type_name(cls): cls for cls in steps.STEPS}
+SOLVERS = {type_name(cls): cls for cls in solvers.SOLVERS}
 
 
 def scene(step, solver, threads=1):

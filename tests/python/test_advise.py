@@ -160,7 +160,7 @@ def test_the_model_asked_for_is_tried_and_refusals_are_told():
     advice = ts.advise(static(), "2%", 5, budget=3, models=["corotational", "mass-link"])
     assert any(row.model == "corotational" and row.error for row in advice.rows)
     refused = [row for row in advice.rows if row.outcome == "refused"]
-    assert {row.model for row in refused} == {"mass-link"}
+    assert {row.model for row in refused} == {"mass_link"}
     assert all("it takes tetra" in row.why for row in refused)
 
 

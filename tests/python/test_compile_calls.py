@@ -6,12 +6,7 @@ import numpy as np
 import pytest
 
 import tissu._core
-from tissu import _core
-from tissu.compile import world
-from tissu.compile.prepare import prepare
-from tissu.compile.world import build_world
-from tissu.mesh import bar_mesh
-from tissu.scene import (
+from tissu import (
     BarMesh,
     Body,
     Box,
@@ -34,7 +29,11 @@ from tissu.scene import (
     Static,
     StVK,
     Traction,
+    _core,
 )
+from tissu.compile.prepare import prepare
+from tissu.compile.world import build_world
+from tissu.mesh import bar_mesh
 
 BAR = BarMesh(size=(2, 1, 1), cells=(2, 1, 1))
 BODY = Body(mesh=BAR, law=StVK(young=3e3, poisson=0.45), mass=3.0)
@@ -127,16 +126,20 @@ def test_gravity_viscosity_fixed(calls):
 
 
 @pytest.mark.parametrize(
-    ("viscosity", "fields"),
+    ("viscosity", "call", "fields"),
     [
-        (KelvinVoigt(eta=3.0, zeta=4.0), {"shear": 3.0, "bulk": 4.0}),
-        (Centroid(coefficient=5.0), {"centroid": 5.0}),
-        (Prony(branches=[PronyBranch(weight=0.5, time=2.0)]), {"branches": [(0.5, 2.0)]}),
+        (KelvinVoigt(eta=3.0, zeta=4.0), "add_kelvin_voigt", {"shear": 3.0, "bulk": 4.0}),
+        (Centroid(coefficient=5.0), "add_centroid", {"coefficient": 5.0}),
+        (
+            Prony(branches=[PronyBranch(weight=0.5, time=2.0)]),
+            "add_prony",
+            {"branches": [(0.5, 2.0)]},
+        ),
     ],
 )
-def test_viscosities(calls, viscosity, fields):
+def test_viscosities(calls, viscosity, call, fields):
     recorded = calls(bodies={"bar": BODY.replace(viscosity=viscosity)})
-    assert only(recorded, "add_viscosity") == {"body": "bar", **fields}
+    assert only(recorded, call) == {"body": "bar", **fields}
     assert not [name for name, _ in recorded if name == "add_rayleigh"]
 
 
@@ -181,13 +184,14 @@ def test_integrators_and_solvers(monkeypatch):
         monkeypatch.setattr(
             _core, name, lambda name=name, **fields: made.update({name: fields}), raising=False
         )
-    world.integrator_of(ImplicitEuler(0.01))
-    assert made == {"ImplicitEuler": {"newton_iterations": 1, "indefinite": "project"}}
-    world.integrator_of(ImplicitEuler(0.01, newton=Newton(iterations=7, tolerance=1e-9)))
-    world.integrator_of(Static(load_steps=3))
+    ImplicitEuler(0.01).integrator()
+    once = {"newton_iterations": 1, "newton_tolerance": 1e-6, "indefinite": "project"}
+    assert made == {"ImplicitEuler": once}
+    ImplicitEuler(0.01, newton=Newton(iterations=7, tolerance=1e-9)).integrator()
+    Static(load_steps=3).integrator()
     gradient = ConjugateGradient(iterations=5, preconditioner="stale_cholesky", precision="single")
-    world.solver_of(gradient)
-    world.solver_of(Cholesky())
+    gradient.linear_solver()
+    Cholesky().linear_solver()
     assert made == {
         "ImplicitEuler": {
             "newton_iterations": 7,

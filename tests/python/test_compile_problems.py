@@ -5,9 +5,7 @@ import dataclasses
 import numpy as np
 import pytest
 
-from tissu.errors import SceneError
-from tissu.mesh import CellBlock, bar_mesh, write_mesh
-from tissu.scene import (
+from tissu import (
     BarMesh,
     Body,
     Box,
@@ -25,6 +23,8 @@ from tissu.scene import (
     StVK,
     SurfaceNodes,
 )
+from tissu.errors import SceneError
+from tissu.mesh import CellBlock, bar_mesh, write_mesh
 
 BAR = BarMesh(size=(2, 1, 1), cells=(2, 1, 1))
 SOFT = StVK(young=3e3, poisson=0.4)

@@ -3,8 +3,7 @@
 import numpy as np
 import pytest
 
-from tissu.errors import ParameterError
-from tissu.scene import (
+from tissu import (
     BarMesh,
     Body,
     Box,
@@ -20,6 +19,7 @@ from tissu.scene import (
     StVK,
     Traction,
 )
+from tissu.errors import ParameterError
 
 BODY = Body(
     mesh=BarMesh(size=(0.4, 0.1, 0.1), cells=(4, 1, 1)),

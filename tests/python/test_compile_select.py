@@ -5,10 +5,7 @@ import dataclasses
 import numpy as np
 import pytest
 
-from tissu.compile.select import selected_faces, selected_nodes
-from tissu.errors import ParameterError
-from tissu.mesh import bar_mesh, into_quadratic
-from tissu.scene import (
+from tissu import (
     Body,
     Box,
     Cholesky,
@@ -23,6 +20,9 @@ from tissu.scene import (
     SurfaceNodes,
     Traction,
 )
+from tissu.compile.select import selected_faces
+from tissu.errors import ParameterError
+from tissu.mesh import bar_mesh, into_quadratic
 
 
 @pytest.fixture(params=["tetra", "hexahedron"])
@@ -47,7 +47,7 @@ def mesh(request):
     ],
 )
 def test_nodes(mesh, on, count):
-    nodes = selected_nodes(on, mesh)
+    nodes = on.nodes(mesh)
     assert len(nodes) == count
     assert nodes.dtype == np.int32
     assert (np.diff(nodes) > 0).all()
@@ -56,29 +56,29 @@ def test_nodes(mesh, on, count):
 def test_region(mesh):
     last = np.arange(mesh.cell_count // 2, mesh.cell_count)
     mesh = dataclasses.replace(mesh, regions={"tip": last})
-    nodes = selected_nodes(Region("tip"), mesh)
+    nodes = Region("tip").nodes(mesh)
     assert set(mesh.points[nodes, 0]) == {1.0, 2.0}
     with pytest.raises(ParameterError, match="no region 'tp'; did you mean 'tip'"):
-        selected_nodes(Region("tp"), mesh)
+        Region("tp").nodes(mesh)
 
 
 def test_region_of_a_mesh_without_regions(mesh):
     with pytest.raises(ParameterError, match="names no regions"):
-        selected_nodes(Region("tip"), dataclasses.replace(mesh, regions={}))
+        Region("tip").nodes(dataclasses.replace(mesh, regions={}))
 
 
 def test_node_numbers_beyond_the_mesh(mesh):
     with pytest.raises(ParameterError, match="found node 12; the mesh has the nodes 0 to 11"):
-        selected_nodes(Nodes([0, 12]), mesh)
+        Nodes([0, 12]).nodes(mesh)
 
 
 def test_interior_node_is_not_on_the_surface():
     mesh = bar_mesh(size=(1, 1, 1), cells=(2, 2, 2))
-    assert len(selected_nodes(SurfaceNodes(), mesh)) == 26
+    assert len(SurfaceNodes().nodes(mesh)) == 26
 
 
 def test_faces_need_all_their_nodes(mesh):
-    end = selected_nodes(Box((2, None, None), None), mesh)
+    end = Box((2, None, None), None).nodes(mesh)
     (block,) = selected_faces(end, mesh)
     whole = {"tetra": ("triangle", (2, 3)), "hexahedron": ("quad", (1, 4))}
     assert (block.type, block.nodes.shape) == whole[mesh.volume_blocks[0].type]

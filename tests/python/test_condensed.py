@@ -85,7 +85,11 @@ def test_cells_of_the_condensed_region_itself_may_go_too():
 
 
 def test_another_law_is_computed_as_hookes_and_said_so():
-    check = scene("condensed", law=ts.StVK(young="10 kPa", poisson=0.4)).check()
+    other = scene("condensed", law=ts.StVK(young="10 kPa", poisson=0.4))
+    (problem,) = other.check().problems
+    assert "it takes hooke; take one of them, the model fem, or law_for_model: nearest" in problem
+    near = other.bodies["bar"].replace(law_for_model="nearest")
+    check = other.replace(bodies={"bar": near}).check()
     assert check.ok
     told = [note for note in check.notes if "condensed computes hooke in place of stvk" in note]
     assert len(told) == 1

@@ -112,7 +112,7 @@ def test_locking_is_reported_with_what_cures_it():
     (note,) = notes(poisson=0.45)
     assert "Poisson's ratio 0.45" in note
     assert "(tetra)" in note
-    assert "model: mean-dilatation" in note
+    assert "model: mean_dilatation" in note
     assert notes(poisson=0.44) == []
     for cell in FIRST_ORDER[2:]:
         assert cell in notes(cell=cell)[0]

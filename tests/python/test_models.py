@@ -116,10 +116,11 @@ def same_mesh(poisson):
     return data, ts.Mesh(points=data["nodes"], cells=(cells,))
 
 
-def bar(model, mesh, law, **changes):
+def bar(model, mesh, law, law_for_model="exact", **changes):
     """The bar of 8 m, E = 1e8 Pa, held at x = 0."""
+    body = ts.Body(mesh=mesh, law=law, density=1e3, model=model, law_for_model=law_for_model)
     fields = {
-        "bodies": {"bar": ts.Body(mesh=mesh, law=law, density=1000.0, model=model)},
+        "bodies": {"bar": body},
         "fixed": [ts.Fixed("bar", on=ts.Box((None, None, None), (1e-9, None, None)))],
         "gravity": (0.0, -9.81, 0.0),
         "step": ts.Static(solver=ts.Cholesky(), newton=NEWTON),
@@ -220,7 +221,9 @@ def test_half_a_turn_of_corotational_cells():
 @pytest.mark.parametrize("model", ["mass-spring", "mass-link", "mass-tensor"])
 def test_models_of_tetrahedra_refuse_other_cells(model):
     mesh = ts.BarMesh(size=(1, 1, 1), cells=(1, 1, 1), cell="wedge")
-    with pytest.raises(ts.SceneError, match=f"found {model} for 2 wedge cells; it takes tetra"):
+    with pytest.raises(
+        ts.SceneError, match=f"found {model.replace('-', '_')} for 2 wedge cells; it takes tetra"
+    ):
         bar(model, mesh, ts.StVK(young=1e8, poisson=0.3)).compile()
 
 
@@ -234,12 +237,46 @@ def test_models_of_tetrahedra_refuse_other_cells(model):
         ("mass-spring", ts.NeoHooke, "stvk"),
     ],
 )
-def test_a_model_takes_the_nearest_law_and_says_so(model, law, used):
+def test_a_model_takes_the_nearest_law_where_it_is_asked_for(model, law, used):
+    """Bit for bit what the body of that law does; `check` says so."""
     _, mesh = same_mesh(0.3)
-    check = bar(model, mesh, law(young=1e8, poisson=0.3)).check()
+    name = law(young=1, poisson=0).type
+    other = {"stvk": ts.StVK, "neo_hooke": ts.NeoHooke, "hooke": ts.Hooke}[used]
+    near = bar(model, mesh, law(young=1e8, poisson=0.3), "nearest")
+    check = near.check()
     assert check.ok, check.problems
-    told = f"the model {model} computes {used} in place of {law(young=1, poisson=0).type}"
+    told = f"the model {model.replace('-', '_')} computes {used} in place of {name}"
     assert sum(told in note for note in check.notes) == 1
+    step = ts.ImplicitEuler("10 ms")
+    ran = [near, bar(model, mesh, other(young=1e8, poisson=0.3))]
+    found = [one_step(scene.replace(step=step)) for scene in ran]
+    assert np.array_equal(*found)
+
+
+def one_step(scene):
+    simulation = scene.compile()
+    simulation.step()
+    return simulation.positions["bar"].copy()
+
+
+@pytest.mark.parametrize(
+    ("model", "law", "takes", "near"),
+    [
+        ("mass-link", ts.Hooke(young=1e8, poisson=0.3), "stvk, neo_hooke", "stvk"),
+        ("corotational", ts.StVK(young=1e8, poisson=0.3), "hooke", "hooke"),
+        ("mass-tensor", ts.MooneyRivlin(c1=1e6, c2=1e6, kappa=1e8), "hooke, stvk", None),
+    ],
+)
+def test_a_law_that_a_model_does_not_take_is_refused(model, law, takes, near):
+    _, mesh = same_mesh(0.3)
+    (problem,) = bar(model, mesh, law).check().problems
+    found = f"found {model.replace('-', '_')} for the law {law.type}; it takes {takes}; "
+    assert problem.startswith(f"bodies.bar.model: {found}")
+    assert ("law_for_model: nearest" in problem) == (near is not None)
+    assert near is None or f"which computes {near} with the same young and poisson" in problem
+    if near is None:  # no law of it has the parameters of this one
+        (still,) = bar(model, mesh, law, "nearest").check().problems
+        assert still.startswith(f"bodies.bar.model: {found}")
 
 
 def test_regions_have_their_own_models():

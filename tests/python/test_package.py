@@ -2,7 +2,6 @@
 
 import ast
 import os
-import re
 import subprocess
 import sys
 from pathlib import Path
@@ -11,6 +10,7 @@ import pytest
 
 import tissu
 from tissu import _core
+from tissu.codegen import names
 
 STUB = Path(tissu.__file__).with_name("_core.pyi")
 
@@ -20,10 +20,33 @@ def test_every_exported_name_is_there():
         assert getattr(tissu, name) is not None
 
 
-def test_the_stub_of_the_package_names_what_it_exports():
-    stub = Path(tissu.__file__).with_name("__init__.pyi").read_text()
-    named = set(re.findall(r"import (\w+) as", stub)) | {"__version__"}
-    assert named == set(tissu.__all__)
+def test_the_packages_and_their_stub_are_what_the_list_gives():
+    """Byte for byte, as the C++ that is made."""
+    root = Path(tissu.__file__).parent
+    for path, text in names.made_files(root).items():
+        assert path.read_text(encoding="utf-8") == text, f"{path}: run make codegen"
+
+
+def test_every_part_of_a_scene_is_below_a_heading():
+    """A module of tissu.scene with public names, but below no heading, fails here."""
+    root = Path(tissu.__file__).parent
+    listed = set(names.scene_names(root))
+    for path in (root / "scene").rglob("*.py"):
+        module = ".".join(path.relative_to(root / "scene").with_suffix("").parts)
+        if "__init__" not in module and names.part_names(module, root):
+            assert module in listed
+
+
+def test_the_binding_has_no_defaults():
+    """Each stands once, in the part of the scene."""
+    docs = [vars(owner)[name].__doc__ or "" for owner in owners() for name in vars(owner)]
+    signatures = [doc.split("\n")[0] for doc in docs if ") ->" in doc]
+    assert len(signatures) > 60
+    assert [text for text in signatures if " = " in text] == []
+
+
+def owners() -> list[object]:
+    return [_core, *(value for value in vars(_core).values() if isinstance(value, type))]
 
 
 def test_an_unknown_name_is_an_attribute_error():

@@ -14,9 +14,9 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 
+from tissu import BarMesh, Body, Box, Fixed, ImplicitEuler, Scene, Static, StVK
 from tissu.errors import SceneError
 from tissu.mesh import bar_mesh, write_mesh
-from tissu.scene import BarMesh, Body, Box, Fixed, ImplicitEuler, Scene, Static, StVK
 
 TEXT = """\
 bodies:

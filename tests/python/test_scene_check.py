@@ -1,7 +1,6 @@
 """check(): in plain words what a scene switches on and why, and what is absent."""
 
-from tissu.effects import absent_of, effects_of
-from tissu.scene import (
+from tissu import (
     BarMesh,
     Body,
     Box,
@@ -14,6 +13,7 @@ from tissu.scene import (
     Static,
     StVK,
 )
+from tissu.effects import absent_of, effects_of
 
 BODY = Body(
     mesh=BarMesh(size=(2, 1, 1), cells=(2, 1, 1)), law=StVK(young=3e3, poisson=0.45), density=1e3

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
+from tissu import BarMesh, Body, ImplicitEuler, Scene, StVK
 from tissu.compile import check_scene
 from tissu.errors import SceneError
-from tissu.scene import BarMesh, Body, ImplicitEuler, Scene, StVK
 
 TEXT = """
 bodies:

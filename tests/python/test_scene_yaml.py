@@ -3,9 +3,7 @@
 import pytest
 
 import tissu as ts
-from tissu.errors import SceneError
-from tissu.mesh import bar_mesh, read_mesh, write_mesh
-from tissu.scene import (
+from tissu import (
     BarMesh,
     Body,
     Box,
@@ -32,6 +30,8 @@ from tissu.scene import (
     SurfaceNodes,
     Traction,
 )
+from tissu.errors import SceneError
+from tissu.mesh import bar_mesh, read_mesh, write_mesh
 
 TEXT = """\
 name: organ
@@ -210,9 +210,17 @@ def methods():
 
 def test_a_model_may_be_named_by_a_word():
     text = models()[3].to_yaml()
-    written = "model:\n      type: mass-link"
+    written = "model:\n      type: mass_link"
     assert written in text
-    assert ts.Scene.from_yaml_text(text.replace(written, "model: mass-link")) == models()[3]
+    for word in ("mass_link", "mass-link", "{type: mass-link}"):
+        assert ts.Scene.from_yaml_text(text.replace(written, f"model: {word}")) == models()[3]
+
+
+def test_types_may_be_spelt_with_hyphens():
+    text = other_laws()[0].to_yaml()
+    assert "type: implicit_euler" in text
+    hyphens = text.replace("type: implicit_euler", "type: implicit-euler")
+    assert ts.Scene.from_yaml_text(hyphens) == other_laws()[0]
 
 
 def test_every_law_model_and_method_comes_back():
@@ -283,7 +291,7 @@ def test_problems_have_file_line_and_path(tmp_path):
         f"{file}:4: bodies.organ.mesh: {tmp_path / 'organ.vtu'} does not exist; "
         "the path of a mesh file is accepted",
         f"{file}:5: bodies.organ.law.yung: unknown key; did you mean 'young'? "
-        "Accepted: fibres, young, poisson, type",
+        "Accepted: fibres, type, young, poisson",
         f"{file}:10: fixed[0].body: no body is named 'orgn'; did you mean 'organ'? Bodies: organ",
         f"{file}:13: step.dt: found '-10 ms'; more than 0 is accepted",
     ]

@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from tissu.scene import Scene
+from tissu import Scene
 
 FILE = Path(__file__).parents[2] / "examples" / "slice.yaml"
 

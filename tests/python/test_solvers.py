@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import tissu as ts
-from tissu.compile.solver import DIRECT_STATIC, MANY_STEP, PLAIN_STEP, choice_for, solver_of
+from tissu.compile.solver import DIRECT_STATIC, MANY_STEP, PLAIN_STEP, choice_for
 from tissu.errors import SceneError
 
 KINDS = [
@@ -135,4 +135,4 @@ def test_auto_says_why_in_the_plan():
     static = scene(ts.Auto(), step=ts.Static(solver=ts.Auto()))
     assert "without inertia" in str(static.compile().plan())
     with pytest.raises(TypeError, match="choice_for"):
-        solver_of(ts.Auto())
+        ts.Auto().linear_solver()

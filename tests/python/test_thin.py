@@ -3,8 +3,7 @@
 import numpy as np
 import pytest
 
-from tissu.mesh import CellBlock, Mesh, bar_mesh
-from tissu.scene import (
+from tissu import (
     BarMesh,
     Body,
     Box,
@@ -21,6 +20,7 @@ from tissu.scene import (
     Static,
     StVK,
 )
+from tissu.mesh import CellBlock, Mesh, bar_mesh
 
 E, NU, RHO = 1e4, 0.3, 1000.0
 LAW = StVK(young=E, poisson=NU)

@@ -5,12 +5,7 @@ import numpy as np
 import pytest
 
 import tissu as ts
-from tissu.compile import check_scene
-from tissu.errors import SceneError
-from tissu.mesh import CellBlock, Mesh, bar_mesh
-from tissu.output.series import write_vtu
-from tissu.picture import draw
-from tissu.scene import (
+from tissu import (
     BarMesh,
     Body,
     Box,
@@ -24,6 +19,11 @@ from tissu.scene import (
     Static,
     StVK,
 )
+from tissu.compile import check_scene
+from tissu.errors import SceneError
+from tissu.mesh import CellBlock, Mesh, bar_mesh
+from tissu.output.series import write_vtu
+from tissu.picture import draw
 
 LAW = StVK(young=1e4, poisson=0.3)
 PLATE = BarMesh(size=(0.2, 0.1, 0), cells=(2, 1, 0), cell="quad")

@@ -51,7 +51,7 @@ def test_tissue_alone_is_the_block_that_it_fills() -> None:
     )
     simulation = scene.compile()
     assert simulation.step().converged
-    at_end = np.isclose(simulation.tissues["block"].points[:, 0], 0.2)
+    at_end = np.isclose(simulation.tissue["block"].points[:, 0], 0.2)
     pull = simulation.reactions("block")[at_end, 0].sum()
     # Plane strain at the root for a length of about its width: nu^2 of a third of the block.
     assert 1.0 < pull / (6e3 * 0.01 * 0.01) < 1.05

@@ -4,9 +4,7 @@ import numpy as np
 import pytest
 
 import tissu as ts
-from tissu.compile import check_scene
-from tissu.errors import SceneError
-from tissu.scene import (
+from tissu import (
     BarMesh,
     Body,
     Box,
@@ -23,6 +21,8 @@ from tissu.scene import (
     Static,
     StVK,
 )
+from tissu.compile import check_scene
+from tissu.errors import SceneError
 
 LAW = StVK(young=1e4, poisson=0.0)
 BAR = Body(mesh=BarMesh(size=(1, 1, 1), cells=(2, 2, 2)), law=LAW, density=1e3)

@@ -4,8 +4,8 @@
 #include <string>
 
 #include "tissu/base/error.h"
-#include "tissu/law/hooke.h"
-#include "tissu/law/stvk.h"
+#include "tissu/law/generated/hooke.h"
+#include "tissu/law/generated/stvk.h"
 
 namespace tissu {
 

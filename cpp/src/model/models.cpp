@@ -6,15 +6,15 @@
 #include <utility>
 
 #include "tissu/base/error.h"
-#include "tissu/model/condensed.h"
-#include "tissu/model/corotational.h"
-#include "tissu/model/elastic.h"
-#include "tissu/model/frames.h"
-#include "tissu/model/mass_link.h"
-#include "tissu/model/mass_spring.h"
-#include "tissu/model/mass_tensor.h"
-#include "tissu/model/mean_dilatation.h"
-#include "tissu/model/shell.h"
+#include "tissu/model/condensed/condensed.h"
+#include "tissu/model/corotational/corotational.h"
+#include "tissu/model/dilatation/mean_dilatation.h"
+#include "tissu/model/edges/mass_link.h"
+#include "tissu/model/edges/mass_spring.h"
+#include "tissu/model/edges/mass_tensor.h"
+#include "tissu/model/fem/elastic.h"
+#include "tissu/model/frames/frames.h"
+#include "tissu/model/shell/shell.h"
 
 namespace tissu {
 namespace {

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "../assembly/kernels/product_list.h"
+#include "assembly/kernels/product_list.h"
 #include "tissu/base/array.h"
 #include "tissu/base/parallel.h"
 

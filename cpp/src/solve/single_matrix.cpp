@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "../assembly/kernels/product_list.h"
+#include "assembly/kernels/product_list.h"
 
 namespace tissu {
 

@@ -1,5 +1,7 @@
 #include "tissu/viscosity/kelvin_voigt.h"
 
+#include "tissu/viscosity/viscous_law.h"
+
 namespace tissu {
 
 KelvinVoigt::KelvinVoigt(const ElasticBlock& block, Lame viscosity, ConstReals rest_positions, Isa isa,

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from tissu.errors import ParameterError
-from tissu.scene import Scene
+from tissu.front import Scene
 from tissu.yaml_io import scene_mapping
 
 

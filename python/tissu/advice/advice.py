@@ -14,7 +14,7 @@ from tissu.advice.rows import Row, front
 from tissu.counted import counted
 
 if TYPE_CHECKING:
-    from tissu.scene import Scene
+    from tissu.front import Scene
 
 _NONE = "-"
 _NOT_WRITTEN = ("scene", "error_excess", "rate_excess")

@@ -22,12 +22,13 @@ from tissu.advice.rows import largest_move, row_of
 from tissu.advice.setting import Setting
 from tissu.errors import ParameterError
 from tissu.scene.model import MODELS
+from tissu.scene.part import spelled, type_name
 from tissu.scene.problem import nearest, one_of_words
 from tissu.scene.step import Static
 
 if TYPE_CHECKING:
     from tissu import units
-    from tissu.scene import Scene
+    from tissu.front import Scene
 
 _SHARE_OF_REFERENCE = 0.4  # of the budget, for the reference and its order
 _STILL = 1e-9  # of the extent: no node that moves less is said to move
@@ -68,6 +69,7 @@ def advise(
     begin = time.perf_counter()
     dynamic = not isinstance(scene.step, Static)
     asked, seconds = goal(error, rate, dynamic=dynamic), budget_seconds(budget)
+    models = [spelled(model) for model in models]
     _check_models(models)
     if scene.duration is None and dynamic:
         raise ParameterError(
@@ -135,7 +137,7 @@ def _check_motion(own: Tried, watched: Watch, asked: Goal) -> None:
 
 
 def _check_models(models: Sequence[str]) -> None:
-    names = [str(cls.model_fields["type"].default) for cls in MODELS]
+    names = [type_name(cls) for cls in MODELS]
     for model in models:
         if model not in names:
             raise ParameterError(

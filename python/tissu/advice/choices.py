@@ -13,9 +13,8 @@ from tissu.scene.solver import Auto, Cholesky, ConjugateGradient
 from tissu.scene.step import (
     BDF2,
     BDF2FixedPoint,
+    Implicit,
     ImplicitEuler,
-    ImplicitMidpoint,
-    Newmark,
     Newton,
     Static,
     SymplecticEuler,
@@ -31,13 +30,12 @@ PARTS = ("step", "scale", "order", "newton", "solver", "tolerance", "model")
 _TOLERANCES = (1e-3, 1e-4, 1e-6)
 _KEEPS_LAW = {  # models that may stand in for one another, and the laws that they compute
     "fem": None,
-    "mean-dilatation": None,
-    "mass-tensor": ("stvk",),
-    "mass-link": ("stvk", "neo_hooke"),
+    "mean_dilatation": None,
+    "mass_tensor": ("stvk",),
+    "mass_link": ("stvk", "neo_hooke"),
     "corotational": ("hooke",),
 }
 _OF_BOTH_ORDERS = ("", "fem", "condensed")  # models that take cells of second order
-_IMPLICIT = (ImplicitEuler, ImplicitMidpoint, BDF2, Newmark)
 
 
 @dataclass(frozen=True, slots=True)
@@ -154,7 +152,7 @@ def _newtons(setting: Setting) -> Iterator[Setting]:
     if isinstance(step, Static):
         yield replace(setting, step=step.replace(newton=step.newton.replace(tolerance=1e-3)))
         yield replace(setting, step=step.replace(newton=step.newton.replace(tolerance=1e-6)))
-    elif isinstance(step, _IMPLICIT):
+    elif isinstance(step, Implicit):
         for newton in (None, loose, Newton()):
             yield replace(setting, step=step.replace(newton=newton))
 

@@ -15,7 +15,7 @@ from tissu.errors import SceneError
 from tissu.scene.step import Static
 
 if TYPE_CHECKING:
-    from tissu.scene import Scene
+    from tissu.front import Scene
 
 _POWER = 1.3  # a step's time grows with this power of the unknowns, roughly
 _STATIC_POWER = 2.0  # that of a static one, whose systems are factorised or ill-conditioned

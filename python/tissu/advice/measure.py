@@ -14,8 +14,8 @@ from tissu.advice.places import Places, places
 from tissu.errors import TissuError
 
 if TYPE_CHECKING:
+    from tissu.front import Scene
     from tissu.mesh import Mesh
-    from tissu.scene import Scene
     from tissu.simulation import Simulation
 
 Floats = NDArray[np.float64]

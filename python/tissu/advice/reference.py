@@ -17,9 +17,8 @@ from tissu.scene.solver import Auto
 from tissu.scene.step import (
     BDF2,
     BDF2FixedPoint,
+    Implicit,
     ImplicitEuler,
-    ImplicitMidpoint,
-    Newmark,
     Newton,
     Static,
     SymplecticEuler,
@@ -32,7 +31,7 @@ _DIVISORS = {4: 0.2, 2: 0.4, 1: 0.7}
 """Of the scene's time step -> share of the time for the reference that its first run may take."""
 
 _MORE = 0.3  # of that time beside, for cells of the scene's own order
-_SAME_AS_FEM = ("mass-tensor", "mass-link", "mean-dilatation")  # in the limit of small cells
+_SAME_AS_FEM = ("mass_tensor", "mass_link", "mean_dilatation")  # in the limit of small cells
 _TOLERANCE = 1e-6
 
 
@@ -150,7 +149,7 @@ def rich_step(step: Step, divisor: int) -> Step:
         return BDF2(dt=step.dt / divisor, solver=solver)
     if isinstance(step, ImplicitEuler):
         return BDF2(dt=step.dt / divisor, newton=step.newton, solver=solver)
-    if isinstance(step, (BDF2, ImplicitMidpoint, Newmark)):
+    if isinstance(step, Implicit):
         return step.replace(dt=step.dt / divisor, solver=solver)
     return step.replace(dt="auto")
 

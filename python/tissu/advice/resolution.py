@@ -15,7 +15,10 @@ from tissu.scene.bar import BarMesh
 from tissu.scene.selection import Nodes
 
 if TYPE_CHECKING:
-    from tissu.scene import Body, Scene
+    from tissu.front import Scene
+    from tissu.scene import Body
+    from tissu.scene.load import Load
+    from tissu.scene.support import Support
 
 SCALES = tuple(Fraction(n, 12) for n in (3, 4, 6, 8, 9, 12, 18, 24, 36, 48))
 """Numbers of cells along each edge of a body, over those of the scene, that are tried."""
@@ -100,7 +103,8 @@ class Resolutions:
         return self._made[key]
 
     def _plan(self, name: str, body: Body) -> None:
-        supports = (*self._scene.fixed, *self._scene.prescribed, *self._scene.loads)
+        scene = self._scene
+        supports: list[Support | Load] = [*scene.fixed, *scene.prescribed, *scene.loads]
         if any(isinstance(s.on, Nodes) and s.body == name for s in supports):
             self.fixed[name] = "nodes of it are selected by their numbers"
         elif body.start is not None and body.start.shape == "random":

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from tissu.advice.goal import Goal
     from tissu.advice.laboratory import Tried
     from tissu.advice.reference import Reference
-    from tissu.scene import Scene
+    from tissu.front import Scene
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,11 +7,12 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 from tissu.scene.solver import Auto, ConjugateGradient
-from tissu.scene.step import RK2, RK4, ExplicitEuler, SymplecticEuler
+from tissu.scene.step import Explicit
 
 if TYPE_CHECKING:
     from tissu.advice.resolution import Resolutions
-    from tissu.scene import Body, Scene
+    from tissu.front import Scene
+    from tissu.scene import Body
     from tissu.scene.step import Step
 
 
@@ -37,7 +38,8 @@ class Setting:
         if bodies is None:
             return None
         if self.model:
-            bodies = {name: body.replace(model=self.model) for name, body in bodies.items()}
+            changes = {"model": self.model, "law_for_model": "nearest"}
+            bodies = {name: body.replace(**changes) for name, body in bodies.items()}
         return scene.replace(bodies=bodies, step=self.step)
 
     def key(self) -> tuple[Fraction, int, str, str]:
@@ -47,7 +49,7 @@ class Setting:
 
 def is_explicit(setting: Setting) -> bool:
     """Whether the method solves no system."""
-    return isinstance(setting.step, (ExplicitEuler, SymplecticEuler, RK2, RK4))
+    return isinstance(setting.step, Explicit)
 
 
 def scene_words(scene: Scene) -> tuple[str, str, str, str]:

@@ -16,7 +16,7 @@ from tissu.counted import counted
 
 if TYPE_CHECKING:
     from tissu.mesh import Mesh
-    from tissu.scene import Scene
+    from tissu.scene.scene import SceneData
 
 # Names, how long and how fast it runs and what is written: the same motion with any of them. The
 # files of laws too: the laws themselves stand in the bodies.
@@ -25,7 +25,7 @@ _LONG = 64  # numbers of an array that is told by its digest
 _SHOWN = 3  # differences
 
 
-def physics_of(scene: Scene, meshes: Mapping[str, Mesh]) -> dict[str, Any]:
+def physics_of(scene: SceneData, meshes: Mapping[str, Mesh]) -> dict[str, Any]:
     """Everything that the motion of a scene depends on, with each mesh by its digest.
 
     Args:

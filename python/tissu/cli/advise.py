@@ -22,8 +22,8 @@ def advise_scene(
     """
     from tissu.advice import advise
     from tissu.advice.figure import draw
+    from tissu.front import Scene
     from tissu.output.folder import whole_file
-    from tissu.scene import Scene
 
     asked = [name.strip() for name in models.split(",") if name.strip()]
     scene = Scene.from_yaml(file)

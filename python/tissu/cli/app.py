@@ -86,7 +86,7 @@ def check(scene: SceneFile, debug: Debug = False) -> None:
     """Say which effects a scene switches on and why, or what is wrong with it."""
     with reported(debug=debug):
         from tissu.errors import SceneError
-        from tissu.scene import Scene
+        from tissu.front import Scene
 
         found = Scene.from_yaml(scene).check()
         if found.problems:
@@ -117,7 +117,7 @@ def info(
 def compare_command(
     scene: SceneFile,
     models: Annotated[
-        str, typer.Option(help="Names with commas: mass-spring,mass-link,fem; default: all.")
+        str, typer.Option(help="Names with commas: mass_spring,mass_link,fem; default: all.")
     ] = "",
     reference: Annotated[
         str,

@@ -18,8 +18,8 @@ def compare_scene(file: Path, models: str, reference: str, out: Path) -> None:
     """
     from tissu.comparison import compare
     from tissu.comparison.figure import draw
+    from tissu.front import Scene
     from tissu.output.folder import whole_file
-    from tissu.scene import Scene
 
     asked = [name.strip() for name in models.split(",") if name.strip()]
     scene = Scene.from_yaml(file)

@@ -94,12 +94,12 @@ def _measured(
     points: Any, mesh: Mesh, law: str, typical: dict[str, float], *, own: bool
 ) -> Storage:
     """A world of one body, and what its elastic blocks say of themselves."""
-    from tissu._core import WorldBuilder
+    from tissu import _core
 
     (block,) = mesh.cells
     count = len(block) if own else 1
-    builder = WorldBuilder()
-    builder.add_body(name="body", positions=points)
+    builder = _core.WorldBuilder(threads=1, editable=False, consistent_weight=False)
+    builder.add_body(name="body", positions=points, frames=False)
     builder.add_elastic(
         body="body",
         cell_type=block.type,
@@ -108,6 +108,12 @@ def _measured(
         law=law,
         parameters={name: np.full(count, value) for name, value in typical.items()},
         density=np.array([1000.0]),
+        quadrature="full",
+        reinforcements=[],
+        loaded=None,
+        cross_section=np.array([1.0]),
+        plane=_core.Plane.stress,
+        model=_core.FEM(),
     )
     found = builder.build().elastic_blocks
     return Storage(

@@ -21,7 +21,7 @@ from tissu.output import Series, StepTally, prepare_folder, summarise, write_sum
 
 if TYPE_CHECKING:
     from tissu.checkpoint import Resumed
-    from tissu.scene import Scene
+    from tissu.front import Scene
     from tissu.simulation import Simulation
 
 T = TypeVar("T")
@@ -116,11 +116,11 @@ def load(job: Job) -> Scene:
         ParameterError: an option is not accepted.
         SceneError: problems of the scene; all of them.
     """
-    from tissu.scene.scene import accepted
+    from tissu.front import Scene, accepted
     from tissu.yaml_io import read_scene
 
     duration = None if job.duration is None else positive_time(job.duration, "--duration")
-    scene = accepted(read_scene(job.scene, to_run=duration is None))
+    scene = accepted(read_scene(job.scene, Scene, to_run=duration is None))
     asked = {"duration": duration, "threads": job.threads}
     changes = {name: value for name, value in asked.items() if value is not None}
     return scene.replace(**changes) if changes else scene

@@ -11,12 +11,14 @@ from tissu.codegen import cpp, listing
 from tissu.codegen.checks import check_law
 from tissu.codegen.definition import LAWS, Law, read_laws
 from tissu.codegen.elements import element_texts
+from tissu.codegen.scene_laws import scene_laws
 from tissu.errors import LawError
 
 ROOT = Path(__file__).resolve().parents[3]
 HEADERS = "cpp/include/tissu/law/generated"
 ELEMENTS = "cpp/include/tissu/element/generated"
 TABLE = "cpp/src/law/generated/laws.cpp"
+SCENE = "python/tissu/scene/generated/laws.py"
 
 
 def made_files(laws: Sequence[Law], root: Path) -> dict[Path, str]:
@@ -25,6 +27,7 @@ def made_files(laws: Sequence[Law], root: Path) -> dict[Path, str]:
     files[root / HEADERS / "all.h"] = listing.type_list(laws)
     files[root / TABLE] = listing.table(laws)
     made = {path: cpp.formatted(text, path) for path, text in files.items()}
+    made[root / SCENE] = scene_laws(laws)
     return made | {root / path: text for path, text in element_texts().items()}
 
 

@@ -106,6 +106,9 @@ class Parameter:
         below: excluded upper bound, if any.
         at_least: included lower bound, if any.
         typical: a value of soft tissue, used by the tests.
+        default: in a scene; None: it must be given.
+        example: how a scene may write it.
+        hint: what to take instead of a value beyond its bounds.
     """
 
     name: str
@@ -115,6 +118,9 @@ class Parameter:
     above: float | None = None
     below: float | None = None
     at_least: float | None = None
+    default: float | None = None
+    example: str = ""
+    hint: str = ""
 
     def accepted(self) -> str:
         """The range in words."""
@@ -149,7 +155,12 @@ def symbols_of(names: Iterable[Parameter | str]) -> Any:
 
 
 YOUNG = Parameter(
-    name="young", unit="Pa", meaning="Young's modulus at small strain", typical=3000.0, above=0.0
+    name="young",
+    unit="Pa",
+    meaning="Young's modulus at small strain",
+    typical=3000.0,
+    above=0.0,
+    example="4 kPa",
 )
 POISSON = Parameter(
     name="poisson",
@@ -158,6 +169,7 @@ POISSON = Parameter(
     typical=0.4,
     above=-1.0,
     below=0.5,
+    hint="take 0.45 to 0.49 for tissue that hardly changes volume",
 )
 KAPPA = Parameter(name="kappa", unit="Pa", meaning="bulk modulus", typical=20000.0, above=0.0)
 

@@ -14,15 +14,16 @@ from tissu.scene.model import FEM
 from tissu.scene.step import Newton
 
 if TYPE_CHECKING:
+    from tissu.front import Scene
     from tissu.mesh import Mesh
-    from tissu.scene import Scene
 
 _SAME = 1e-9  # of the extent: two points nearer than this are the same
 
 
 def with_model(scene: Scene, model: object) -> Scene:
-    """The scene with one model for all its bodies."""
-    bodies = {name: body.replace(model=model) for name, body in scene.bodies.items()}
+    """The scene with one model for all its bodies, which computes the nearest law it takes."""
+    changes = {"model": model, "law_for_model": "nearest"}
+    bodies = {name: body.replace(**changes) for name, body in scene.bodies.items()}
     return scene.replace(bodies=bodies)
 
 

@@ -11,15 +11,16 @@ from tissu.comparison.trace import Trace, trace
 from tissu.counted import counted
 from tissu.errors import ParameterError, SceneError
 from tissu.scene.model import MODELS
+from tissu.scene.part import spelled, type_name
 from tissu.scene.problem import nearest, one_of_words
 
 if TYPE_CHECKING:
-    from tissu.scene import Scene
+    from tissu.front import Scene
 
 
 def model_names() -> list[str]:
     """The names of the models."""
-    return [str(cls.model_fields["type"].default) for cls in MODELS]
+    return [type_name(cls) for cls in MODELS]
 
 
 def compare(
@@ -42,7 +43,8 @@ def compare(
         ParameterError: an unknown model, or a reference that does not fit.
         SceneError: the scene itself does not compile.
     """
-    asked = list(models) or model_names()
+    asked = [spelled(m) if isinstance(m, str) else m for m in models] or model_names()
+    reference = spelled(reference) if isinstance(reference, str) else reference
     for model in [*asked, *([reference] if isinstance(reference, str) else [])]:
         _check_name(model, also=("finest",) if model is reference else ())
     traces: dict[str, Trace | SceneError] = {}

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from tissu.errors import TissuError
 
 if TYPE_CHECKING:
-    from tissu.scene import Scene
+    from tissu.front import Scene
     from tissu.simulation import Simulation
 
 Floats = NDArray[np.float64]

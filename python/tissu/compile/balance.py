@@ -11,7 +11,7 @@ from tissu.compile.prepared import Held, Ints, Prepared
 from tissu.counted import are, counted
 from tissu.mesh.mesh import first_five
 from tissu.scene.problem import field_path
-from tissu.scene.support import Fixed, Prescribed, axes_mask
+from tissu.scene.support import Fixed, Prescribed
 from tissu.scene.unknown import Unknown
 
 if TYPE_CHECKING:
@@ -25,7 +25,7 @@ def check_supports(prepared: Prepared) -> None:
     _check_conflicts(prepared)
     with contextlib.suppress(Unknown):
         doubtful = _doubtful(prepared)
-        tied = {*prepared.tissues, *_tied(prepared)}
+        tied = {*prepared.tissue, *_tied(prepared)}
         for name, known in prepared.meshes.items():
             if name not in doubtful and name not in tied:
                 _check_held(prepared, name, known.mesh)
@@ -86,7 +86,7 @@ def held_axes(held: list[Held], body: str, nodes: int) -> Ints:
     mask = np.zeros(nodes, dtype=np.int32)
     for item in held:
         if item.support.body == body:
-            mask[item.nodes] |= axes_mask(item.support.axes)
+            mask[item.nodes] |= item.support.axes_mask
     return mask
 
 

@@ -7,11 +7,12 @@ from typing import TYPE_CHECKING
 
 from tissu.compile.prepare import prepare
 from tissu.compile.solver import choice_of
-from tissu.effects import Effect, absent_of, effects_of
+from tissu.effects import absent_of, effects_of
 
 if TYPE_CHECKING:
     from tissu.compile.prepared import Prepared
-    from tissu.scene.scene import Scene
+    from tissu.scene.effect import Effect
+    from tissu.scene.scene import SceneData
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,12 +52,12 @@ class Check:
         )
 
 
-def check_scene(scene: Scene) -> Check:
+def check_scene(scene: SceneData) -> Check:
     """Everything that compile() would refuse, and what the scene switches on; raises nothing."""
     return check_of(prepare(scene))
 
 
-def problems_of(scene: Scene) -> list[str]:
+def problems_of(scene: SceneData) -> list[str]:
     """All that is wrong with a scene, whose fields may have problems of their own."""
     return _sentences(prepare(scene))
 
@@ -78,7 +79,7 @@ def check_of(prepared: Prepared) -> Check:
     )
 
 
-def _outputs_between_steps(scene: Scene) -> list[str]:
+def _outputs_between_steps(scene: SceneData) -> list[str]:
     """A note when results are asked for more often than there are steps."""
     dt = getattr(scene.step, "dt", None)
     if scene.output is None or not isinstance(dt, float) or scene.output.every >= dt * (1.0 - 1e-6):

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from tissu.scene.law import ArrudaBoyce, MooneyRivlin, Yeoh
 from tissu.scene.model import MassSpring, MeanDilatation
 
 if TYPE_CHECKING:
@@ -21,32 +20,17 @@ pyramids by 9 to 15 % less; at 0.4 by 17 to 24 and by 5 to 9 %, at 0.49 by 60 to
 _MUCH, _LESS = ("tetra", "wedge"), ("hexahedron", "pyramid")
 
 
-def poisson_of(law: Law) -> float:
-    """Poisson's ratio at rest; 0 for a law whose moduli nothing is known of."""
-    mu = 0.0
-    if isinstance(law, MooneyRivlin):
-        mu = 2.0 * (law.c1 + law.c2)
-    elif isinstance(law, Yeoh):
-        mu = 2.0 * law.c1
-    elif isinstance(law, ArrudaBoyce):
-        series = (1, 3 / 5, 99 / 175, 513 / 875, 42039 / 67375)
-        mu = law.mu * sum(c / law.lambda_m ** (2 * i) for i, c in enumerate(series))
-    else:
-        return float(getattr(law, "poisson", 0.0))
-    return float((3.0 * law.kappa - 2.0 * mu) / (2.0 * (3.0 * law.kappa + mu)))
-
-
 def note_locking(
     used: list[tuple[str, Law, Model]], quadrature: str, path: Path, findings: Findings
 ) -> None:
     """Note cells that lock, and what cures them; `used` are cell types with law and model."""
     locking = [
-        (cell, poisson_of(law))
+        (cell, law.poisson_at_rest())
         for cell, law, model in used
         if cell in (*_MUCH, *_LESS)
         and not isinstance(model, MassSpring | MeanDilatation)
         and not (quadrature == "reduced" and cell == "hexahedron")
-        and poisson_of(law) >= _LOCKING
+        and law.poisson_at_rest() >= _LOCKING
     ]
     if not locking:
         return
@@ -54,6 +38,6 @@ def note_locking(
     worst = max(poisson for _, poisson in locking)
     findings.note(
         f"{path[0]}.{path[1]}: with Poisson's ratio {worst:.4g} first-order elements lock "
-        f"({cells}): displacements are too small, most in bending; `model: mean-dilatation` cures "
+        f"({cells}): displacements are too small, most in bending; `model: mean_dilatation` cures "
         "it, and quadratic cells do not lock"
     )

@@ -9,11 +9,11 @@ import numpy as np
 from tissu.compile.locking import note_locking
 from tissu.compile.model import check_model, law_of_model
 from tissu.compile.prepared import Findings, Floats, Group, Ints
-from tissu.compile.select import region_cells
 from tissu.compile.thin import check_law, material_volume
 from tissu.counted import are, counted
 from tissu.errors import ParameterError
 from tissu.mesh.mesh import first_five
+from tissu.scene.selection import region_cells
 
 if TYPE_CHECKING:
     from tissu.mesh import Mesh
@@ -41,7 +41,7 @@ def cell_groups(mesh: Mesh, body: Body, path: Path, findings: Findings) -> list[
     for block in mesh.body_blocks:
         cells = np.arange(first, first + len(block.nodes), dtype=np.int32)
         for law, model, count in _pairs(owner[cells], carrier[cells]):
-            check_model(models[model], laws[law], str(block.type), count, path, findings)
+            check_model(models[model], laws[law], str(block.type), count, body, path, findings)
             used.append((str(block.type), laws[law], models[model]))
         for some in _alike(laws, owner[cells], carrier[cells]):
             law, model = laws[owner[cells[some[0]]]], models[carrier[cells[some[0]]]]
@@ -51,7 +51,7 @@ def cell_groups(mesh: Mesh, body: Body, path: Path, findings: Findings) -> list[
                     cell_type=str(block.type),
                     nodes=np.asarray(block.nodes)[some],
                     cells=cells[some],
-                    law=law_of_model(model, law),
+                    law=law_of_model(model, law, body) or law.type,
                     parameters=parameters_of(laws, of_cells),
                     fibres=fibres_of(laws, of_cells),
                     made=type(law).made,
@@ -147,7 +147,7 @@ def _is_rest(region: str, mesh: Mesh) -> bool:
 def parameters_of(laws: list[Law], owner: Ints) -> dict[str, Floats]:
     """Parameters of cells: one value when all cells share their law, else one for each cell."""
     used, of_cell = np.unique(owner, return_inverse=True)
-    names = [n for n in type(laws[used[0]]).model_fields if n not in ("type", "fibres")]
+    names = laws[used[0]].parameter_names()
     values = {name: np.array([getattr(laws[n], name) for n in used], dtype=float) for name in names}
     if len(used) == 1:
         return values

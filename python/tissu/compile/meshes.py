@@ -10,10 +10,8 @@ from tissu.compile.prepared import Findings, KnownMesh
 from tissu.compile.thin import check_sizes, check_thin
 from tissu.counted import are, counted
 from tissu.errors import TissuError
-from tissu.mesh import bar_mesh, mixed_bar_mesh, read_mesh
 from tissu.mesh.cell import handled_types, thin_types
 from tissu.mesh.mesh import first_five
-from tissu.mesh.segment import parse_segments
 from tissu.mesh.thin import with_thin
 from tissu.scene.bar import BarMesh
 from tissu.scene.body import MeshFile
@@ -66,34 +64,13 @@ def _asks(body: Body, field: str) -> bool:
 
 
 def mesh_of(source: object) -> Mesh:
-    """The mesh of a source, read or made, with its regions; in the file's own unit when unknown."""
-    mesh = _bare_mesh_of(source)
+    """The mesh of a source, read or made, with the regions that the source names."""
+    if not isinstance(source, (MeshFile, BarMesh)):
+        return cast("Mesh", source)
+    mesh = source.mesh()
     for name, where in getattr(source, "regions", {}).items():
-        if isinstance(source, (MeshFile, BarMesh)):
-            mesh = mesh.with_region(name, where)
+        mesh = mesh.with_region(name, where)
     return mesh
-
-
-def _bare_mesh_of(source: object) -> Mesh:
-    if isinstance(source, MeshFile):
-        unit, scale = getattr(source, "unit", "m"), getattr(source, "scale", 1.0)
-        return read_mesh(source.file, unit=unit, scale=scale)
-    if isinstance(source, BarMesh) and source.segments is not None:
-        return mixed_bar_mesh(
-            size=source.size,
-            cells=source.cells,
-            segments=parse_segments(source.segments),
-            origin=source.origin,
-        )
-    if isinstance(source, BarMesh):
-        return bar_mesh(
-            size=source.size,
-            cells=source.cells,
-            cell=source.cell,
-            split=source.split,
-            origin=source.origin,
-        )
-    return cast("Mesh", source)
 
 
 def _useless(mesh: Mesh) -> str | None:

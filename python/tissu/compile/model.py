@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 from functools import cache
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from tissu import _core
 from tissu.counted import counted
 from tissu.mesh.cell import dimension
-from tissu.scene.model import WITH_ROTATIONS, Condensed, Frames
+from tissu.scene.generated.laws import LAWS
+from tissu.scene.model import Condensed, Frames
+from tissu.scene.part import type_name
 from tissu.scene.problem import Problem, one_of_words
 
 if TYPE_CHECKING:
@@ -20,16 +22,7 @@ if TYPE_CHECKING:
     from tissu.scene.law import Law
     from tissu.scene.model import Model
     from tissu.scene.problem import Path
-    from tissu.scene.scene import Scene
-
-# The law that stands in for one that a model does not take: the same Young's modulus and Poisson's
-# ratio, so that both agree at small strain.
-_STANDS_IN = {
-    "hooke": ("stvk",),
-    "stvk": ("hooke",),
-    "neo_hooke": ("stvk", "hooke"),
-    "stable_neo_hooke": ("neo_hooke", "stvk", "hooke"),
-}
+    from tissu.scene.scene import SceneData
 
 
 class ModelInfo(NamedTuple):
@@ -47,25 +40,26 @@ def models() -> dict[str, ModelInfo]:
     return {row[0]: ModelInfo(*row[1:]) for row in _core.models()}
 
 
-def law_of_model(model: Model, law: Law) -> str:
-    """Name of the law that the model computes for a law of a scene; the law's own where it can."""
+def law_of_model(model: Model, law: Law, body: Body) -> str | None:
+    """Name of the law that the model computes for a law of the body; None where it has none."""
     taken = models()[model.type].laws
     if not taken or law.type in taken:
         return law.type
-    return next((name for name in _STANDS_IN.get(law.type, ()) if name in taken), law.type)
+    return _nearest(law, taken) if body.law_for_model == "nearest" else None
 
 
-def use_of(model: Model, kept: Ints) -> Any:
-    """The core's words for a model; `kept` are the nodes that a condensed region keeps."""
-    return _core.ModelUse(
-        name=model.type,
-        rotation=getattr(model, "rotation", "polar"),
-        tangent=getattr(model, "tangent", "approximate"),
-        section=getattr(model, "section", "whole"),
-        drilling=float(getattr(model, "drilling", 1.0)),
-        equal_masses=getattr(model, "masses", "volume") == "equal",
-        kept=kept,
-    )
+def _nearest(law: Law, taken: list[str]) -> str | None:
+    """The nearest in the list of laws, which goes from small to large strain, of those taken.
+
+    It has the same parameters, Young's modulus and Poisson's ratio, so that both agree at small
+    strain; None where there is none.
+    """
+    if type(law) not in LAWS or law.parameter_names() != ["young", "poisson"]:
+        return None
+    own = LAWS.index(type(law))
+    near = sorted(range(len(LAWS)), key=lambda place: (abs(place - own), place))
+    names = [type_name(LAWS[place]) for place in near]
+    return next((name for name in names if name in taken), None)
 
 
 def kept_nodes(prepared: Prepared, name: str, group: Group) -> Ints:
@@ -88,7 +82,7 @@ def kept_nodes(prepared: Prepared, name: str, group: Group) -> Ints:
 
 
 def check_model(
-    model: Model, law: Law, cell_type: str, count: int, path: Path, findings: Findings
+    model: Model, law: Law, cell_type: str, count: int, body: Body, path: Path, findings: Findings
 ) -> None:
     """Report cells and laws that a model cannot carry; note a law that stands in for another."""
     info = models()[model.type]
@@ -101,11 +95,16 @@ def check_model(
         return
     if law.fibres is not None:
         _tell_once(place, f"found {model.type} for a law with fibres; only fem has them", findings)
-    used = law_of_model(model, law)
-    if used not in info.laws:
-        taken = one_of_words(info.laws)
-        text = f"found {model.type} for the law {law.type}; it takes {taken}, and laws with young "
-        _tell_once(place, f"{text}and poisson in their place; or take the model fem", findings)
+    used = law_of_model(model, law, body)
+    if used is None:
+        text = f"found {model.type} for the law {law.type}; it takes {one_of_words(info.laws)}; "
+        near = _nearest(law, info.laws)
+        if near is not None and body.law_for_model != "nearest":
+            text += "take one of them, the model fem, or law_for_model: nearest, which computes "
+            text += f"{near} with the same young and poisson: equal at small strain only"
+        else:
+            text += "take one of them, or the model fem"
+        _tell_once(place, text, findings)
     elif used != law.type:
         text = f"{path[0]}.{path[1]}: the model {model.type} computes {used} in place of {law.type}"
         note = f"{text}, with the same young and poisson: equal at small strain only"
@@ -127,7 +126,7 @@ def check_kept(prepared: Prepared) -> None:
 def check_rotations(prepared: Prepared) -> None:
     """Report bodies of which only some cells give their nodes a rotation, and what asks for one."""
     for name, body in getattr(prepared.scene, "bodies", {}).items():
-        kinds = {isinstance(model, WITH_ROTATIONS) for model in body.models().values()}
+        kinds = {model.with_rotations for model in body.models().values()}
         if len(kinds) == 2:
             names = one_of_words(sorted({model.type for model in body.models().values()}))
             text = f"found {names} in one body; frames and other models share no node: give each "
@@ -146,7 +145,9 @@ def check_rotations(prepared: Prepared) -> None:
             _tell_once(("loads", number), text, prepared.findings)
 
 
-def note_condensed(_mesh: Mesh, body: Body, scene: Scene, path: Path, findings: Findings) -> None:
+def note_condensed(
+    _mesh: Mesh, body: Body, scene: SceneData, path: Path, findings: Findings
+) -> None:
     """Note that a condensed region has no inertia inside, where time is stepped."""
     condensed = any(isinstance(model, Condensed) for model in body.models().values())
     if condensed and getattr(getattr(scene, "step", None), "type", "static") != "static":
@@ -157,7 +158,7 @@ def note_condensed(_mesh: Mesh, body: Body, scene: Scene, path: Path, findings: 
 
 
 def note_static_frames(
-    mesh: Mesh, body: Body, scene: Scene, path: Path, findings: Findings
+    mesh: Mesh, body: Body, scene: SceneData, path: Path, findings: Findings
 ) -> None:
     """Note that volumes of frames bend far only in steps of time (docs/frames.md)."""
     frames = any(isinstance(model, Frames) for model in body.models().values())

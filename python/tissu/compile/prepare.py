@@ -13,7 +13,7 @@ from tissu.compile.meshes import known_mesh
 from tissu.compile.model import check_kept, check_rotations, note_condensed, note_static_frames
 from tissu.compile.prepared import Held, Ints, LoadedNodes, Prepared, PreparedBody
 from tissu.compile.quadrature import check_quadrature
-from tissu.compile.select import selected_faces, selected_nodes
+from tissu.compile.select import selected_faces
 from tissu.compile.thin import note_bending, note_held_plane
 from tissu.compile.tissue import prepare_tissue
 from tissu.compile.viscosity import check_viscosity
@@ -28,14 +28,12 @@ if TYPE_CHECKING:
     from tissu.mesh import CellBlock, Mesh
     from tissu.scene.load import Load
     from tissu.scene.problem import Path
-    from tissu.scene.scene import Scene
+    from tissu.scene.scene import SceneData
     from tissu.scene.selection import Selection
-    from tissu.scene.support import Prescribed
-
-_WITHOUT_POSITIONS = ("nodes", "surface", "region")  # selections that need no lengths
+    from tissu.scene.support import Support
 
 
-def prepare(scene: Scene) -> Prepared:
+def prepare(scene: SceneData) -> Prepared:
     """Resolve a scene as far as its problems allow; never raises for a problem of the scene.
 
     The scene's own fields may have problems: what they leave unknown is passed over.
@@ -87,7 +85,7 @@ def _hold_plane(prepared: Prepared, name: str, mesh: Mesh) -> None:
     prepared.held.append(Held(held, ("bodies", name, "plane"), every))
 
 
-def _prepare_support(prepared: Prepared, path: Path, support: Fixed | Prescribed) -> None:
+def _prepare_support(prepared: Prepared, path: Path, support: Support) -> None:
     with contextlib.suppress(Unknown):
         nodes = _nodes(prepared, path, support.body, support.on)
         if nodes is not None:
@@ -99,12 +97,12 @@ def _nodes(prepared: Prepared, path: Path, body: str, on: Selection) -> Ints | N
     known = prepared.meshes.get(body)
     if known is None:
         return None  # no such body, or none that can be read: told already
-    if not (known.positions or on.type in _WITHOUT_POSITIONS):
+    if not (known.positions or not on.by_place):
         return None
     if on.type == "surface" and not known.surface:
         return None
     try:
-        nodes = selected_nodes(on, known.mesh)
+        nodes = on.nodes(known.mesh)
     except ParameterError as error:
         prepared.findings.problem((*path, "on"), str(error))
         return None
@@ -121,7 +119,7 @@ def _prepare_load(prepared: Prepared, path: Path, load: Load) -> None:
         return
     faces: tuple[CellBlock, ...] = ()
     known = prepared.meshes[load.body]
-    if load.type not in ("nodal", "moment") and known.surface:
+    if load.on_surface and known.surface:
         faces = selected_faces(nodes, known.mesh)
         if not faces:
             text = f"{_words(load.on)} selects {counted(len(nodes), 'node')} of body '{load.body}'"

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,11 +14,10 @@ from tissu.scene.model import FEM, Model
 from tissu.scene.problem import Path, Problem
 
 if TYPE_CHECKING:
-    from tissu.compile.tissue import PreparedTissue
     from tissu.mesh import CellBlock, Mesh
     from tissu.scene.load import Load
-    from tissu.scene.scene import Scene
-    from tissu.scene.support import Fixed, Prescribed
+    from tissu.scene.scene import SceneData
+    from tissu.scene.support import Support
     from tissu.user_law.made import MadeLaw
 
 Ints = NDArray[np.int32]
@@ -95,11 +94,46 @@ class PreparedBody:
     density: float
 
 
+class Weights(NamedTuple):
+    """How points listen to frames.
+
+    Attributes:
+        frames: numbers (p, k).
+        weights: (p, k).
+        gradients: (p, k, 3) at rest [1/m].
+    """
+
+    frames: Ints
+    weights: Floats
+    gradients: Floats
+
+
+@dataclass(frozen=True, slots=True)
+class PreparedTissue:
+    """A tissue as the world takes it.
+
+    Attributes:
+        mesh: its own frames, as points that no cell joins.
+        points: its integration points (p, 3) [m] and
+        volumes: their volumes (p,) [m^3].
+        shared: nodes of bodies that it holds, by name and number.
+        weights: how the points listen to its frames and, by numbers after those, to these nodes.
+        density: [kg/m^3].
+    """
+
+    mesh: Mesh
+    points: Floats
+    volumes: Floats
+    shared: list[tuple[str, int]]
+    weights: Weights
+    density: float
+
+
 @dataclass(frozen=True, slots=True)
 class Held:
     """A support with the nodes it holds or moves."""
 
-    support: Fixed | Prescribed
+    support: Support
     path: Path
     nodes: Ints
 
@@ -123,17 +157,17 @@ class Prepared:
         bodies: those without any problem.
     """
 
-    scene: Scene
+    scene: SceneData
     findings: Findings = field(default_factory=Findings)
     meshes: dict[str, KnownMesh] = field(default_factory=dict)
     bodies: dict[str, PreparedBody] = field(default_factory=dict)
-    tissues: dict[str, PreparedTissue] = field(default_factory=dict)
+    tissue: dict[str, PreparedTissue] = field(default_factory=dict)
     held: list[Held] = field(default_factory=list)
     loaded: list[LoadedNodes] = field(default_factory=list)
 
     def has_rotations(self, name: str) -> bool:
         """Whether the nodes of a body or tissue are frames."""
-        return name in self.tissues or bool(self.scene.bodies[name].has_rotations)
+        return name in self.tissue or bool(self.scene.bodies[name].has_rotations)
 
     def counts(self) -> dict[str, str]:
         """What each support and load selects: "fixed[0]" -> "42 nodes"."""
@@ -146,7 +180,7 @@ class Prepared:
             faces = sum(len(block) for block in loaded.faces)
             text = (
                 counted(faces, "face")
-                if loaded.load.type not in ("nodal", "moment")
+                if loaded.load.on_surface
                 else counted(len(loaded.nodes), "node")
             )
             counts[f"{loaded.path[0]}[{loaded.path[1]}]"] = text

@@ -14,10 +14,12 @@ if TYPE_CHECKING:
     from tissu.mesh import Mesh
     from tissu.scene.body import Body
     from tissu.scene.problem import Path
-    from tissu.scene.scene import Scene
+    from tissu.scene.scene import SceneData
 
 
-def check_quadrature(mesh: Mesh, body: Body, scene: Scene, path: Path, findings: Findings) -> None:
+def check_quadrature(
+    mesh: Mesh, body: Body, scene: SceneData, path: Path, findings: Findings
+) -> None:
     """Refuses a rule with modes without energy in a dynamic run, and notes it in a static one."""
     if body.quadrature != "reduced":
         return

@@ -9,12 +9,12 @@ forces go back the same way (bosman2014, figure 10, for bodies of any resolution
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from tissu import _core
-from tissu.compile.prepared import Floats, Ints
+from tissu.compile.prepared import Floats, Ints, Weights
 from tissu.errors import ParameterError
 
 if TYPE_CHECKING:
@@ -22,20 +22,6 @@ if TYPE_CHECKING:
     from tissu.mesh import Mesh
 
 _MOST = 64  # nodes and frames that a point may listen to
-
-
-class Weights(NamedTuple):
-    """How points listen to frames.
-
-    Attributes:
-        frames: numbers (p, k).
-        weights: (p, k).
-        gradients: (p, k, 3) at rest [1/m].
-    """
-
-    frames: Ints
-    weights: Floats
-    gradients: Floats
 
 
 def carried(

@@ -1,9 +1,9 @@
-"""A scene's linear solver as the core's, and which one `auto` stands for."""
+"""Which linear solver `auto` stands for."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from tissu.counted import counted
 from tissu.scene.solver import Auto, Cholesky, ConjugateGradient
@@ -72,36 +72,15 @@ def choice_of(prepared: Prepared) -> Choice | None:
         body.mesh.node_count * (2 if prepared.has_rotations(name) else 1)
         for name, body in prepared.bodies.items()
     )
-    nodes += sum(2 * tissue.mesh.node_count for tissue in prepared.tissues.values())
+    nodes += sum(2 * tissue.mesh.node_count for tissue in prepared.tissue.values())
     static = isinstance(scene.step, Static)
     return choice_for(auto, unknowns=3 * nodes, static=static, editing=scene.editing)
 
 
-def chosen_solver(prepared: Prepared) -> ConjugateGradient | Cholesky | None:
+def chosen_solver(prepared: Prepared) -> Solver | None:
     """The scene's solver, chosen where it is `auto`; None for steps that solve no system."""
     choice = choice_of(prepared)
     if choice is not None:
         return choice.solver
-    solver: ConjugateGradient | Cholesky | None = getattr(prepared.scene.step, "solver", None)
+    solver: Solver | None = getattr(prepared.scene.step, "solver", None)
     return solver
-
-
-def solver_of(solver: Solver) -> Any:
-    """The core's linear solver.
-
-    Raises:
-        TypeError: `auto`, which `choice_for` has to replace first.
-    """
-    from tissu import _core
-
-    if isinstance(solver, ConjugateGradient):
-        return _core.ConjugateGradient(
-            tolerance=solver.tolerance,
-            iterations=solver.iterations,
-            preconditioner=solver.preconditioner,
-            precision=solver.precision,
-            matrix=solver.matrix,
-        )
-    if isinstance(solver, Auto):
-        raise TypeError("`auto` stands for a solver that choice_for chooses")
-    return _core.Cholesky()

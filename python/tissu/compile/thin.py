@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from tissu.scene.body import Body
     from tissu.scene.law import Law
     from tissu.scene.problem import Path
-    from tissu.scene.scene import Scene
+    from tissu.scene.scene import SceneData
 
 _FLAT = 1e-12  # share of the m-th power of a cell's diagonal below which it has no size
 
@@ -67,7 +67,7 @@ def check_thin(mesh: Mesh, body: Body, path: Path, findings: Findings) -> bool:
     return len(findings.problems) == before
 
 
-def note_bending(mesh: Mesh, body: Body, scene: Scene, path: Path, findings: Findings) -> None:
+def note_bending(mesh: Mesh, body: Body, scene: SceneData, path: Path, findings: Findings) -> None:
     """Note that a static step may fail where only sheets and lines hold nodes."""
     static = getattr(getattr(scene, "step", None), "type", None) == "static"
     if static and mesh.thin_blocks and not body.has_rotations and body.plane is None:
@@ -77,7 +77,9 @@ def note_bending(mesh: Mesh, body: Body, scene: Scene, path: Path, findings: Fin
         )
 
 
-def note_held_plane(_mesh: Mesh, body: Body, scene: Scene, path: Path, findings: Findings) -> None:
+def note_held_plane(
+    _mesh: Mesh, body: Body, scene: SceneData, path: Path, findings: Findings
+) -> None:
     """Note what pulls a flat body along z, where it is held."""
     if body.plane is None:
         return

@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from tissu import _core, sampling
-from tissu.compile.prepared import Floats, Ints, KnownMesh, Prepared
-from tissu.compile.riding import Weights, carried
-from tissu.compile.select import selected_nodes
+from tissu.compile.prepared import Floats, Ints, KnownMesh, Prepared, PreparedTissue, Weights
+from tissu.compile.riding import carried
 from tissu.errors import ParameterError, TissuError
 from tissu.mesh import CellBlock, Mesh
 from tissu.sampling.poisson import poisson_search
@@ -26,27 +24,6 @@ _NEAR_ENOUGH = 0.1
 """of the number of points that is asked for"""
 
 
-@dataclass(frozen=True, slots=True)
-class PreparedTissue:
-    """A tissue as the world takes it.
-
-    Attributes:
-        mesh: its own frames, as points that no cell joins.
-        points: its integration points (p, 3) [m] and
-        volumes: their volumes (p,) [m^3].
-        shared: nodes of bodies that it holds, by name and number.
-        weights: how the points listen to its frames and, by numbers after those, to these nodes.
-        density: [kg/m^3].
-    """
-
-    mesh: Mesh
-    points: Floats
-    volumes: Floats
-    shared: list[tuple[str, int]]
-    weights: Weights
-    density: float
-
-
 def prepare_tissue(prepared: Prepared, name: str) -> None:
     """Sample a tissue and tie it; problems are told, and leave it out."""
     tissue, path = prepared.scene.tissue[name], ("tissue", name)
@@ -59,7 +36,7 @@ def prepare_tissue(prepared: Prepared, name: str) -> None:
         return
     if made is not None:
         prepared.meshes[name] = KnownMesh(made.mesh)
-        prepared.tissues[name] = made
+        prepared.tissue[name] = made
 
 
 def _made(prepared: Prepared, name: str, tissue: Tissue) -> PreparedTissue | None:
@@ -117,7 +94,7 @@ def _between(
     held: list[Ints] = []
     for end, mesh in enumerate(meshes):
         if tissue.on is not None:
-            nodes = selected_nodes(tissue.on[end], mesh)
+            nodes = tissue.on[end].nodes(mesh)
             nodes = np.intersect1d(nodes, mesh.surface().nodes).astype(np.int32)
         else:
             nodes = mesh.surface().nodes
@@ -144,7 +121,7 @@ def _enclosing(prepared: Prepared, tissue: Tissue) -> tuple[Region, list[tuple[s
         mesh = prepared.bodies[name].mesh
         nodes = mesh.surface().nodes
         if tissue.on is not None:
-            nodes = np.intersect1d(nodes, selected_nodes(tissue.on[end], mesh))
+            nodes = np.intersect1d(nodes, tissue.on[end].nodes(mesh))
         nodes = nodes[region.inside(mesh.points[nodes])].astype(np.int32)
         if not len(nodes):
             raise ParameterError(

@@ -16,10 +16,12 @@ if TYPE_CHECKING:
     from tissu.mesh import Mesh
     from tissu.scene.body import Body
     from tissu.scene.problem import Path
-    from tissu.scene.scene import Scene
+    from tissu.scene.scene import SceneData
 
 
-def check_viscosity(mesh: Mesh, body: Body, scene: Scene, path: Path, findings: Findings) -> None:
+def check_viscosity(
+    mesh: Mesh, body: Body, scene: SceneData, path: Path, findings: Findings
+) -> None:
     """Refuses a viscosity of cells in a condensed region; Prony in a static step, and on sheets."""
     viscosity, place = body.viscosity, (*path, "viscosity")
     if viscosity is None or viscosity.type == "rayleigh":
@@ -33,7 +35,7 @@ def check_viscosity(mesh: Mesh, body: Body, scene: Scene, path: Path, findings: 
             findings.problem(place, problem)
 
 
-def _of_prony(viscosity: Prony, mesh: Mesh, body: Body, scene: Scene) -> Iterator[str]:
+def _of_prony(viscosity: Prony, mesh: Mesh, body: Body, scene: SceneData) -> Iterator[str]:
     thin = sum(len(block) for block in mesh.body_blocks if dimension(str(block.type)) < 3)
     if thin:
         text = f"found prony for {counted(thin, 'cell')} of sheets or lines; rayleigh, "

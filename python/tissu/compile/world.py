@@ -11,26 +11,21 @@ import numpy as np
 from tissu.checkpoint import read_checkpoint
 from tissu.compile.check import check_of
 from tissu.compile.material import fibres_of, parameters_of
-from tissu.compile.model import kept_nodes, use_of
+from tissu.compile.model import kept_nodes
 from tissu.compile.prepare import prepare
-from tissu.compile.prepared import Held, LoadedNodes, Prepared
-from tissu.compile.solver import chosen_solver, solver_of
+from tissu.compile.prepared import Prepared
+from tissu.compile.solver import chosen_solver
 from tissu.compile.start import begin
-from tissu.compile.step import integrator_of
 from tissu.compile.thin import cross_section_of
-from tissu.effects import load_name
 from tissu.errors import SceneError
-from tissu.mesh.whole_faces import nodal_areas
-from tissu.scene.load import Moment, NodalLoad, Pressure
+from tissu.scene.load import Where
+from tissu.scene.model import Frames
 from tissu.scene.problem import Problem
 from tissu.scene.step import Static
-from tissu.scene.support import Fixed, axes_mask, holds_rotations
-from tissu.scene.viscosity import Centroid, KelvinVoigt, Rayleigh
 
 if TYPE_CHECKING:
     from tissu._core import WorldBuilder
-    from tissu.scene.scene import Scene
-    from tissu.scene.viscosity import Viscosity
+    from tissu.front import Scene
     from tissu.simulation import Simulation
 
 
@@ -53,9 +48,9 @@ def compile_scene(scene: Scene, checkpoint: Path | None = None) -> Simulation:
         scene=scene,
         world=build_world(prepared),
         meshes={name: body.mesh for name, body in prepared.bodies.items()},
-        tissues={name: tissue.mesh for name, tissue in prepared.tissues.items()},
-        integrator=integrator_of(scene.step),
-        solver=None if solver is None else solver_of(solver),
+        tissue={name: tissue.mesh for name, tissue in prepared.tissue.items()},
+        integrator=scene.step.integrator(),
+        solver=None if solver is None else solver.linear_solver(),
         check=check,
         checkpoint=saved,
     )
@@ -93,14 +88,17 @@ def build_world(prepared: Prepared) -> Any:
     )
     for name in prepared.bodies:
         _add_body(builder, prepared, name)
-    for name in prepared.tissues:
+    for name in prepared.tissue:
         _add_tissue(builder, prepared, name)
     if scene.gravity is not None:
         builder.add_gravity(acceleration=np.array(scene.gravity))
     for held in prepared.held:
-        _add_support(builder, held, prepared.has_rotations(held.support.body))
+        support, frames = held.support, prepared.has_rotations(held.support.body)
+        support.add_to(builder, held.nodes, frames=frames)
     for loaded in prepared.loaded:
-        _add_load(builder, loaded, prepared)
+        load = loaded.load
+        where = Where(prepared.meshes[load.body].mesh, loaded.nodes, loaded.faces)
+        load.add_to(builder, where, number=int(loaded.path[1]))
     return builder.build()
 
 
@@ -137,16 +135,14 @@ def _add_body(builder: WorldBuilder, prepared: Prepared, name: str) -> None:
             loaded=None if group.made is None else group.made.build().loaded,
             cross_section=np.array([cross_section_of(body, group.cell_type)]),
             plane=Plane.strain if body.plane == "strain" and group.surface else Plane.stress,
-            model=use_of(group.model, kept_nodes(prepared, name, group)),
+            model=group.model.in_core(kept_nodes(prepared, name, group)),
         )
     if body.viscosity is not None:
-        _add_viscosity(builder, name, body.viscosity)
+        body.viscosity.add_to(builder, name)
 
 
 def _add_tissue(builder: WorldBuilder, prepared: Prepared, name: str) -> None:
-    from tissu._core import ModelUse
-
-    tissue, ready = prepared.scene.tissue[name], prepared.tissues[name]
+    tissue, ready = prepared.scene.tissue[name], prepared.tissue[name]
     law, made = tissue.law, type(tissue.law).made
     builder.add_body(name=name, positions=np.array(ready.mesh.points), frames=True)
     builder.add_points(
@@ -162,72 +158,5 @@ def _add_tissue(builder: WorldBuilder, prepared: Prepared, name: str) -> None:
         fibres=fibres_of([law], np.zeros(1, dtype=np.int32)),
         loaded=None if made is None else made.build().loaded,
         density=ready.density,
-        model=ModelUse(name="frames", tangent=tissue.tangent),
-    )
-
-
-def _add_viscosity(builder: WorldBuilder, name: str, viscosity: Viscosity) -> None:
-    if isinstance(viscosity, Rayleigh):
-        builder.add_rayleigh(body=name, mass=viscosity.mass, stiffness=viscosity.stiffness)
-    elif isinstance(viscosity, KelvinVoigt):
-        builder.add_viscosity(body=name, shear=viscosity.eta, bulk=viscosity.zeta)
-    elif isinstance(viscosity, Centroid):
-        builder.add_viscosity(body=name, centroid=viscosity.coefficient)
-    else:
-        branches = [(branch.weight, branch.time) for branch in viscosity.branches]
-        builder.add_viscosity(body=name, branches=branches)
-
-
-def _add_support(builder: WorldBuilder, held: Held, frames: bool) -> None:
-    support = held.support
-    rotations = frames and holds_rotations(support)
-    axes = axes_mask(support.axes)
-    if isinstance(support, Fixed):
-        builder.fix(body=support.body, nodes=held.nodes, axes=axes, rotations=rotations)
-        return
-    count, rotation = len(support.times), support.rotation
-    displacements = (
-        np.zeros((count, 3)) if support.displacements is None else np.array(support.displacements)
-    )
-    builder.prescribe(
-        body=support.body,
-        nodes=held.nodes,
-        axes=axes,
-        rotations=rotations,
-        times=np.array(support.times),
-        displacements=displacements,
-        angles=np.zeros(count) if rotation is None else np.array(rotation.angles),
-        center=np.zeros(3) if rotation is None else np.array(rotation.center),
-        axis=np.array([0.0, 0.0, 1.0]) if rotation is None else np.array(rotation.axis),
-    )
-
-
-def _add_load(builder: WorldBuilder, loaded: LoadedNodes, prepared: Prepared) -> None:
-    load = loaded.load
-    series = {
-        "times": np.array([0.0] if load.times is None else load.times),
-        "factors": np.array([1.0] if load.factors is None else load.factors),
-    }
-    name = f"{load_name(load.type)} on {load.body} (loads[{loaded.path[1]}])"
-    if isinstance(load, Pressure):
-        faces = [(block.type, block.nodes) for block in loaded.faces]
-        builder.add_pressure(
-            name=name, body=load.body, faces=faces, pressure=load.pressure, **series
-        )
-        return
-    nodes = loaded.nodes
-    if isinstance(load, NodalLoad | Moment):
-        total = load.force if isinstance(load, NodalLoad) else load.moment
-        forces = np.tile(np.array(total) / len(nodes), (len(nodes), 1))
-    else:
-        shares = nodal_areas(prepared.bodies[load.body].mesh, loaded.faces)
-        nodes = np.flatnonzero(shares).astype(np.int32)
-        forces = shares[nodes, None] * np.array(load.traction)
-    builder.add_load(
-        name=name,
-        body=load.body,
-        nodes=nodes.astype(np.int32),
-        forces=forces,
-        moments=isinstance(load, Moment),
-        **series,
+        model=Frames(tangent=tissue.tangent).in_core(np.empty(0, dtype=np.int32)),
     )

@@ -55,7 +55,7 @@ class Series:
         self.last_time = -1.0
         self.inverted = ""
         if simulation.resumed_from is not None:
-            self._continue(len(simulation.meshes) + len(simulation.tissues))
+            self._continue(len(simulation.meshes) + len(simulation.tissue))
         _clear(self.index, kept=self._entries)
 
     def write(self) -> None:
@@ -66,9 +66,9 @@ class Series:
         """
         simulation = self._simulation
         (self._folder / FRAMES).mkdir(exist_ok=True)
-        for part, body in enumerate([*simulation.meshes, *simulation.tissues]):
+        for part, body in enumerate([*simulation.meshes, *simulation.tissue]):
             name = f"{FRAMES}/{file_name(body)}_{self.count:05d}.vtu"
-            if body in simulation.tissues:
+            if body in simulation.tissue:
                 write_points(self._folder / name, simulation, body)
             else:
                 mesh = simulation.meshes[body]

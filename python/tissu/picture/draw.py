@@ -161,7 +161,7 @@ def shape_of(simulation: Simulation, field: Field) -> Shape:
             if field != "displacement":
                 at_ends = np.repeat(every[of_lines][:, None], 2, axis=1)
             parts.append(_rods(now - shift, now, ends, at_ends, radius))
-    for name in simulation.tissues:
+    for name in simulation.tissue:
         parts.append(_tissue(simulation, name, field))
     return _joined(parts)
 

@@ -1,107 +1,148 @@
-"""Scenes: what is simulated, as frozen and validated parts."""
+"""The parts of a scene, as frozen and validated data.
 
-from tissu.scene.bar import BarMesh
-from tissu.scene.body import Body, MeshFile
-from tissu.scene.law import (
-    ArrudaBoyce,
-    Fibres,
+Made from the list in tissu/codegen/names.py by `make codegen`; never edited.
+"""
+
+from tissu.scene.scene import (
+    Output,
+)
+from tissu.scene.body import (
+    Body,
+    MeshFile,
+)
+from tissu.scene.start import (
+    Start,
+)
+from tissu.scene.bar import (
+    BarMesh,
+)
+from tissu.scene.tissue import (
+    Tissue,
+)
+from tissu.scene.generated.laws import (
     Hooke,
-    MooneyRivlin,
+    StVK,
     NeoHooke,
     StableNeoHooke,
-    StVK,
-    UserLaw,
+    MooneyRivlin,
     Yeoh,
+    ArrudaBoyce,
 )
-from tissu.scene.load import Moment, NodalLoad, Pressure, Traction
+from tissu.scene.law import (
+    Fibres,
+    UserLaw,
+)
+from tissu.scene.viscosity import (
+    Rayleigh,
+    KelvinVoigt,
+    Centroid,
+    Prony,
+    PronyBranch,
+)
 from tissu.scene.model import (
     FEM,
-    Condensed,
     Corotational,
-    Frames,
-    MassLink,
     MassSpring,
+    MassLink,
     MassTensor,
+    Condensed,
     MeanDilatation,
+    Frames,
     Shell,
 )
-from tissu.scene.scene import Output, Scene
-from tissu.scene.selection import Box, Nodes, Plane, Region, Sphere, SurfaceNodes
-from tissu.scene.solver import Auto, Cholesky, ConjugateGradient
-from tissu.scene.start import Start
+from tissu.scene.selection import (
+    Box,
+    Sphere,
+    Plane,
+    Nodes,
+    SurfaceNodes,
+    Region,
+)
+from tissu.scene.support import (
+    Fixed,
+    Prescribed,
+    Rotation,
+)
+from tissu.scene.load import (
+    NodalLoad,
+    Moment,
+    Traction,
+    Pressure,
+)
 from tissu.scene.step import (
-    BDF2,
+    ExplicitEuler,
+    SymplecticEuler,
     RK2,
     RK4,
-    BDF2FixedPoint,
-    ExplicitEuler,
     ImplicitEuler,
     ImplicitMidpoint,
+    BDF2,
     Newmark,
-    Newton,
+    BDF2FixedPoint,
     Static,
-    SymplecticEuler,
+    Newton,
 )
-from tissu.scene.support import Fixed, Prescribed, Rotation
-from tissu.scene.tissue import Tissue
-from tissu.scene.viscosity import Centroid, KelvinVoigt, Prony, PronyBranch, Rayleigh
+from tissu.scene.solver import (
+    Auto,
+    ConjugateGradient,
+    Cholesky,
+)
 
 __all__ = [
-    "BDF2",
-    "FEM",
-    "RK2",
-    "RK4",
-    "ArrudaBoyce",
-    "Auto",
-    "BDF2FixedPoint",
-    "BarMesh",
-    "Body",
-    "Box",
-    "Centroid",
-    "Cholesky",
-    "Condensed",
-    "ConjugateGradient",
-    "Corotational",
-    "ExplicitEuler",
-    "Fibres",
-    "Fixed",
-    "Frames",
-    "Hooke",
-    "ImplicitEuler",
-    "ImplicitMidpoint",
-    "KelvinVoigt",
-    "MassLink",
-    "MassSpring",
-    "MassTensor",
-    "MeanDilatation",
-    "MeshFile",
-    "Moment",
-    "MooneyRivlin",
-    "NeoHooke",
-    "Newmark",
-    "Newton",
-    "NodalLoad",
-    "Nodes",
     "Output",
-    "Plane",
-    "Prescribed",
-    "Pressure",
+    "Body",
+    "MeshFile",
+    "Start",
+    "BarMesh",
+    "Tissue",
+    "Hooke",
+    "StVK",
+    "NeoHooke",
+    "StableNeoHooke",
+    "MooneyRivlin",
+    "Yeoh",
+    "ArrudaBoyce",
+    "Fibres",
+    "UserLaw",
+    "Rayleigh",
+    "KelvinVoigt",
+    "Centroid",
     "Prony",
     "PronyBranch",
-    "Rayleigh",
-    "Region",
-    "Rotation",
-    "Scene",
+    "FEM",
+    "Corotational",
+    "MassSpring",
+    "MassLink",
+    "MassTensor",
+    "Condensed",
+    "MeanDilatation",
+    "Frames",
     "Shell",
+    "Box",
     "Sphere",
-    "StVK",
-    "StableNeoHooke",
-    "Start",
-    "Static",
+    "Plane",
+    "Nodes",
     "SurfaceNodes",
-    "SymplecticEuler",
-    "Tissue",
+    "Region",
+    "Fixed",
+    "Prescribed",
+    "Rotation",
+    "NodalLoad",
+    "Moment",
     "Traction",
-    "UserLaw",
-    "Yeoh",
+    "Pressure",
+    "ExplicitEuler",
+    "SymplecticEuler",
+    "RK2",
+    "RK4",
+    "ImplicitEuler",
+    "ImplicitMidpoint",
+    "BDF2",
+    "Newmark",
+    "BDF2FixedPoint",
+    "Static",
+    "Newton",
+    "Auto",
+    "ConjugateGradient",
+    "Cholesky",
 ]

@@ -2,23 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Annotated, Literal
 
 from pydantic import BeforeValidator, Field
 
 from tissu import units
+from tissu.reading import Read
+from tissu.scene.field import field
 from tissu.scene.part import Part
 from tissu.scene.problem import Problem
 from tissu.scene.selection import NamedSelections
 from tissu.scene.unknown import rule
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from tissu.mesh import Mesh
 
-    from tissu.scene.selection import Selection
+__all__ = ["BarMesh"]
 
 _Count = Annotated[int, Field(ge=0)]
+_Counts = Read[tuple[_Count, _Count, _Count], Sequence[int]]
 _LENGTHS = {
     1: "a positive length along x, 0 along y and z",
     2: "positive lengths along x and y and 0 along z",
@@ -55,7 +58,7 @@ class BarMesh(Part):
     type: Literal["bar"] = "bar"
     size: units.Position
     """lengths along x, y, z [m]; z is 0 for triangles and quads, y and z for lines"""
-    cells: Annotated[tuple[_Count, _Count, _Count], BeforeValidator(units.listed)]
+    cells: Annotated[_Counts, BeforeValidator(units.listed)]
     """numbers of boxes along x, y, z; 0 where the length is 0"""
     cell: BarCell = "tetra"
     """cell type"""
@@ -64,24 +67,10 @@ class BarMesh(Part):
     `cell`; they are the regions "1 wedge stvk", "2 hexahedron stvk", "3 tetra hooke" """
     split: Literal["six", "five", "six_mirrored"] = "six"
     """how a box is cut into tetrahedra; of `tetra` and `tetra10` only"""
-    origin: units.Position = (0.0, 0.0, 0.0)
+    origin: units.Position = field(default=(0.0, 0.0, 0.0))
     """smallest corner [m]"""
-    regions: NamedSelections = Field(default_factory=dict)
+    regions: NamedSelections = field(default_factory=dict)
     """regions by name, of the cells whose centres lie in a shape: {tumour: {type: sphere, ...}}"""
-
-    if TYPE_CHECKING:
-
-        def __init__(
-            self,
-            *,
-            size: units.VectorLike,
-            cells: Sequence[int],
-            cell: BarCell = ...,
-            segments: str | None = ...,
-            split: Literal["six", "five", "six_mirrored"] = ...,
-            origin: units.VectorLike = ...,
-            regions: Mapping[str, Selection] = ...,
-        ) -> None: ...
 
     @rule("cell", "split")
     def _splits_tetrahedra(self) -> Iterator[Problem]:
@@ -109,6 +98,21 @@ class BarMesh(Part):
         if not _fills(self.cells, dimension):
             found = f"found {self.cells} for cells of type {self.cell}"
             yield Problem(("cells",), f"{found}; {_COUNTS[dimension]} are accepted")
+
+    def mesh(self) -> Mesh:
+        """The mesh.
+
+        Raises:
+            TissuError: cells or segments that do not fit together.
+        """
+        from tissu.mesh import bar_mesh, mixed_bar_mesh
+        from tissu.mesh.segment import parse_segments
+
+        size, cells, origin = self.size, self.cells, self.origin
+        if self.segments is not None:
+            segments = parse_segments(self.segments)
+            return mixed_bar_mesh(size=size, cells=cells, segments=segments, origin=origin)
+        return bar_mesh(size=size, cells=cells, cell=self.cell, split=self.split, origin=origin)
 
 
 def bar_dimension(cell: str) -> int:

@@ -5,24 +5,31 @@ from __future__ import annotations
 import os
 from collections.abc import Iterator, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal, TypeAlias
 
-from pydantic import AfterValidator, Field, PlainValidator, ValidationInfo
+from pydantic import AfterValidator, PlainValidator, ValidationInfo
 
 from tissu import units
+from tissu.reading import Maybe, Read
 from tissu.scene.bar import BarMesh
-from tissu.scene.law import Law, LawOrMap
-from tissu.scene.model import FEM, WITH_ROTATIONS, Model, ModelOrMap
+from tissu.scene.effect import Effect
+from tissu.scene.field import field
+from tissu.scene.law import Law
+from tissu.scene.laws import LawOrMap
+from tissu.scene.model import FEM, Model, ModelOrMap
 from tissu.scene.part import Part, chosen
 from tissu.scene.problem import Problem
 from tissu.scene.selection import NamedSelections
 from tissu.scene.start import Start
 from tissu.scene.unknown import rule
-from tissu.scene.viscosity import OneViscosity, Viscosity
+from tissu.scene.viscosity import OneViscosity
 
 if TYPE_CHECKING:
     from tissu.mesh import Mesh
-    from tissu.scene.selection import Selection
+
+__all__ = ["Body", "MeshFile"]
+
+PathLike = str | os.PathLike[str]
 
 
 def _from_base(file: Path, info: ValidationInfo) -> Path:
@@ -38,26 +45,31 @@ def _length_unit(unit: str) -> str:
 class MeshFile(Part):
     """A mesh in a file; in YAML its path is relative to the YAML file."""
 
-    positional: ClassVar[tuple[str, ...]] = ("file",)
-    file: Annotated[Path, AfterValidator(_from_base)]
+    file: Annotated[Read[Path, PathLike], AfterValidator(_from_base)] = field(kw_only=False)
     """path of the mesh file"""
     unit: Annotated[str, AfterValidator(_length_unit)] = "m"
     """unit of length the file is written in"""
-    scale: Annotated[units.Pure, Field(gt=0.0)] = 1.0
+    scale: units.Pure = field(default=1.0, gt=0.0)
     """factor on all lengths, after the unit"""
-    regions: NamedSelections = Field(default_factory=dict)
+    regions: NamedSelections = field(default_factory=dict)
     """regions by name, of the cells whose centres lie in a shape: {tumour: {type: sphere, ...}}"""
 
-    if TYPE_CHECKING:
+    def mesh(self) -> Mesh:
+        """The mesh; in the file's own unit where that is unknown.
 
-        def __init__(
-            self,
-            file: str | os.PathLike[str],
-            *,
-            unit: str = ...,
-            scale: units.Number = ...,
-            regions: Mapping[str, Selection] = ...,
-        ) -> None: ...
+        Raises:
+            TissuError: the file cannot be read.
+        """
+        from tissu.mesh import read_mesh
+
+        unit, scale = getattr(self, "unit", "m"), getattr(self, "scale", 1.0)
+        return read_mesh(self.file, unit=unit, scale=scale)
+
+
+if TYPE_CHECKING:
+    MeshLike: TypeAlias = MeshFile | BarMesh | Mesh | PathLike
+else:
+    MeshLike = Any
 
 
 def _is_mesh(value: object) -> bool:
@@ -79,26 +91,30 @@ def mesh_source(value: Any, info: ValidationInfo) -> Any:
 class Body(Part):
     """Something soft: a mesh with a law, a density or a total mass, and maybe viscosity."""
 
-    mesh: Annotated[Any, PlainValidator(mesh_source)]
+    mesh: Annotated[Read[Any, MeshLike], PlainValidator(mesh_source)]
     """a mesh file, a bar, or (in Python) a Mesh"""
     law: LawOrMap
     """the material's law, or a map from the mesh's regions to laws"""
-    model: ModelOrMap = FEM()
-    """what computes the cells' forces, by name: fem, corotational, mass-spring, mass-link,
-    mass-tensor, condensed, mean-dilatation, frames, shell; or a map from the mesh's regions to
+    model: ModelOrMap = field(default=FEM())
+    """what computes the cells' forces, by name: fem, corotational, mass_spring, mass_link,
+    mass_tensor, condensed, mean_dilatation, frames, shell; or a map from the mesh's regions to
     models
     """
-    density: Annotated[units.Density, Field(gt=0.0)] | None = None
+    law_for_model: Literal["exact", "nearest"] = "exact"
+    """what is computed where a model does not take the law: `exact` refuses it; `nearest` is the
+    nearest law that the model takes, with the same young and poisson, equal at small strain only
+    """
+    density: Maybe[units.Density] = field(default=None, gt=0.0)
     """density [kg/m^3]; this or `mass`"""
-    mass: Annotated[units.Mass, Field(gt=0.0)] | None = None
+    mass: Maybe[units.Mass] = field(default=None, gt=0.0)
     """total mass [kg]; this or `density`"""
     quadrature: Literal["reduced", "full", "over"] = "full"
     """points at which cells are integrated; `reduced` leaves some cells modes without energy"""
     viscosity: OneViscosity | None = None
     """rayleigh, kelvin_voigt, centroid or prony; absent: none"""
-    thickness: Annotated[units.Length, Field(gt=0.0)] | None = None
+    thickness: Maybe[units.Length] = field(default=None, gt=0.0)
     """thickness [m] of sheets: the triangles and quads of the mesh; absent: they only mark faces"""
-    section: Annotated[units.Area, Field(gt=0.0)] | None = None
+    section: Maybe[units.Area] = field(default=None, gt=0.0)
     """section [m^2] of fibres and cables: the lines of the mesh; absent: they only mark edges"""
     plane: Literal["strain", "stress"] | None = None
     """the body is flat, of one z, and stays so: without strain across, as in a slice of something
@@ -107,24 +123,6 @@ class Body(Part):
 
     start: Start | None = None
     """state at time zero; absent: at rest"""
-
-    if TYPE_CHECKING:
-
-        def __init__(
-            self,
-            *,
-            mesh: MeshFile | BarMesh | Mesh | str | os.PathLike[str],
-            law: Law | Mapping[str, Law],
-            model: Model | str | Mapping[str, Model | str] = ...,
-            density: units.Number | None = ...,
-            mass: units.Number | None = ...,
-            quadrature: Literal["reduced", "full", "over"] = ...,
-            viscosity: Viscosity | None = ...,
-            thickness: units.Number | None = ...,
-            section: units.Number | None = ...,
-            plane: Literal["strain", "stress"] | None = ...,
-            start: Start | None = ...,
-        ) -> None: ...
 
     @rule("density", "mass")
     def _one_of_density_and_mass(self) -> Iterator[Problem]:
@@ -143,16 +141,46 @@ class Body(Part):
     @property
     def has_rotations(self) -> bool:
         """Whether its nodes are frames: they can turn, be held against it, and carry moments."""
-        return all(isinstance(model, WITH_ROTATIONS) for model in self.models().values())
+        return all(model.with_rotations for model in self.models().values())
 
     def laws(self) -> dict[str | None, Law]:
         """Laws by region; the key None stands for the whole body."""
-        if not isinstance(self.law, dict):
-            return {None: self.law}
-        return {region: law for region, law in self.law.items()}
+        law = self.law
+        if not isinstance(law, dict):
+            return {None: law}
+        return {region: one for region, one in law.items()}
 
     def models(self) -> dict[str | None, Model]:
         """Models by region; the key None stands for the whole body."""
-        if not isinstance(self.model, dict):
-            return {None: self.model}
-        return {region: model for region, model in self.model.items()}
+        model = self.model
+        if not isinstance(model, dict):
+            return {None: model}
+        return {region: one for region, one in model.items()}
+
+    def effects(self, name: str) -> Iterator[Effect]:
+        """What a body of this name switches on."""
+        for region, law in self.laws().items():
+            where, path = _place(name, region, "law")
+            yield Effect(f"elasticity of {where}", f"{path} is {law.words()}")
+        for region, model in self.models().items():
+            if not isinstance(model, FEM):
+                where, path = _place(name, region, "model")
+                yield Effect(f"model of {where}", f"{path} is {model.words()}")
+        if self.thickness is not None:
+            plane = "" if self.plane is None else f", plane is {self.plane}"
+            why = f"bodies.{name}.thickness is {self.thickness:g} m{plane}"
+            yield Effect(f"sheets of {name}", why)
+        if self.section is not None:
+            why = f"bodies.{name}.section is {self.section:g} m^2"
+            yield Effect(f"lines of {name}", why)
+        if self.start is not None:
+            yield Effect(f"start of {name}", f"bodies.{name}.start is {self.start.words()}")
+        if self.viscosity is not None:
+            why = f"bodies.{name}.viscosity is {self.viscosity.words()}"
+            yield Effect(f"viscosity of {name}", why)
+
+
+def _place(name: str, region: str | None, key: str) -> tuple[str, str]:
+    """A body or a region of it in words, and the path of what a field says of it."""
+    path = f"bodies.{name}.{key}"
+    return (name, path) if region is None else (f"{name}, region {region}", f"{path}.{region}")

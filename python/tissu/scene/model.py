@@ -4,24 +4,77 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from functools import lru_cache
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
 
-from pydantic import Field, PlainValidator, TypeAdapter, ValidationInfo
+from pydantic import PlainValidator, TypeAdapter, ValidationInfo
 
 from tissu import units
 from tissu.errors import ParameterError
+from tissu.reading import Read
+from tissu.scene.field import field
 from tissu.scene.part import Part, chosen, keeps_problems
 from tissu.scene.problem import Problem
+from tissu.scene.selection import Ints
 from tissu.scene.unknown import Unread
 
+if TYPE_CHECKING:
+    from tissu import _core
 
-class FEM(Part):
+__all__ = [
+    "FEM",
+    "Corotational",
+    "MassSpring",
+    "MassLink",
+    "MassTensor",
+    "Condensed",
+    "MeanDilatation",
+    "Frames",
+    "Shell",
+]
+
+
+class Model(Part):
+    """What all models share.
+
+    Attributes:
+        with_rotations: whether its nodes have a rotation beside their place.
+    """
+
+    with_rotations: ClassVar[bool] = False
+    if TYPE_CHECKING:
+        type: str
+
+    def words(self) -> str:
+        """Its type and options, as `check` says them."""
+        fields = self._own_fields()
+        words = ", ".join(f"{name} {value}" for name, value in fields.items())
+        return self.type + (f" with {words}" if fields else "")
+
+    def in_core(self, kept: Ints) -> _core.Model:
+        """The core's model of the same name, with the options that are its own.
+
+        Args:
+            kept: nodes (k,) of a condensed region that stay unknown; others do not read them.
+        """
+        from tissu import _core
+
+        made: _core.Model = getattr(_core, type(self).__name__)(**self._options(kept))
+        return made
+
+    def _options(self, kept: Ints) -> dict[str, Any]:
+        return self._own_fields()
+
+    def _own_fields(self) -> dict[str, Any]:
+        return {name: getattr(self, name) for name in type(self).model_fields if name != "type"}
+
+
+class FEM(Model):
     """Continuum elements: any law, any element; what is computed where no model is named."""
 
     type: Literal["fem"] = "fem"
 
 
-class Corotational(Part):
+class Corotational(Model):
     """Hooke's law in axes that turn with each cell: any rotation, small strain (3-D cells)."""
 
     type: Literal["corotational"] = "corotational"
@@ -30,61 +83,51 @@ class Corotational(Part):
     tangent: Literal["approximate", "exact"] = "approximate"
     """R K R^T, never indefinite, or the true derivative of the force"""
 
-    if TYPE_CHECKING:
 
-        def __init__(
-            self,
-            *,
-            rotation: Literal["polar", "frame", "small"] = ...,
-            tangent: Literal["approximate", "exact"] = ...,
-        ) -> None: ...
-
-
-class MassSpring(Part):
+class MassSpring(Model):
     """Springs on the edges of tetrahedra (Van Gelder's rule); Poisson's ratio is not used."""
 
-    type: Literal["mass-spring"] = "mass-spring"
+    type: Literal["mass_spring"] = "mass_spring"
     masses: Literal["volume", "equal"] = "volume"
     """the mass of a node: of the volume around it, or the same for all"""
 
-    if TYPE_CHECKING:
+    def _options(self, kept: Ints) -> dict[str, Any]:
+        return {"equal_masses": self.masses == "equal"}
 
-        def __init__(self, *, masses: Literal["volume", "equal"] = ...) -> None: ...
 
-
-class MassLink(Part):
+class MassLink(Model):
     """Extended mass-link (HEML): the continuum tetrahedron, in squared edge lengths."""
 
-    type: Literal["mass-link"] = "mass-link"
+    type: Literal["mass_link"] = "mass_link"
 
 
-class MassTensor(Part):
+class MassTensor(Model):
     """Mass-tensor: the expanded polynomial on nodes, edges, faces and tetrahedra."""
 
-    type: Literal["mass-tensor"] = "mass-tensor"
+    type: Literal["mass_tensor"] = "mass_tensor"
 
 
-class MeanDilatation(Part):
+class MeanDilatation(Model):
     """Continuum cells of first order that share their change of volume: they do not lock."""
 
-    type: Literal["mean-dilatation"] = "mean-dilatation"
+    type: Literal["mean_dilatation"] = "mean_dilatation"
 
 
-class Condensed(Part):
+class Condensed(Model):
     """Hooke's law with inner nodes eliminated once: small displacements, few unknowns."""
 
     type: Literal["condensed"] = "condensed"
     keep: Literal["touched", "surface"] = "touched"
     """what stays unknown: nodes held, led, loaded or shared with others, or the surface too"""
 
-    if TYPE_CHECKING:
+    def _options(self, kept: Ints) -> dict[str, Any]:
+        return {"kept": kept}
 
-        def __init__(self, *, keep: Literal["touched", "surface"] = ...) -> None: ...
 
-
-class Frames(Part):
+class Frames(Model):
     """Nodes that are frames of six degrees of freedom; any law on volumes, sheets and lines."""
 
+    with_rotations: ClassVar[bool] = True
     type: Literal["frames"] = "frames"
     tangent: Literal["full", "material"] = "full"
     """the derivative of the force, or its part dE : C : dE, never indefinite (as published)"""
@@ -93,48 +136,22 @@ class Frames(Part):
     middle only, as published
     """
 
-    if TYPE_CHECKING:
 
-        def __init__(
-            self,
-            *,
-            tangent: Literal["full", "material"] = ...,
-            section: Literal["whole", "middle"] = ...,
-        ) -> None: ...
-
-
-class Shell(Part):
+class Shell(Model):
     """Triangles that bend, six degrees of freedom at each node; Hooke's law, any rotation."""
 
+    with_rotations: ClassVar[bool] = True
     type: Literal["shell"] = "shell"
-    drilling: Annotated[units.Pure, Field(gt=0.0)] = 1.0
+    drilling: units.Pure = field(default=1.0, gt=0.0)
     """share of the higher-order stiffness of rotations about the normal: 1 is the optimal triangle
     in its plane; 0.01 lets coarse cells of hollow organs bend, a strip one cell wide too easily
     """
 
-    if TYPE_CHECKING:
 
-        def __init__(self, *, drilling: units.Number = ...) -> None: ...
-
-
-MODELS: tuple[type[Part], ...] = (
+MODELS: tuple[type[Model], ...] = (
     *(FEM, Corotational, MassSpring, MassLink, MassTensor),
     *(Condensed, MeanDilatation, Frames, Shell),
 )
-Model = (
-    FEM
-    | Corotational
-    | MassSpring
-    | MassLink
-    | MassTensor
-    | Condensed
-    | MeanDilatation
-    | Frames
-    | Shell
-)
-
-WITH_ROTATIONS: tuple[type[Part], ...] = (Frames, Shell)
-"""models whose nodes have a rotation beside their place"""
 
 
 def _one_model(value: Any, info: ValidationInfo) -> Any:
@@ -165,4 +182,5 @@ def _model_or_map(value: Any, info: ValidationInfo) -> Any:
     return _region_models().validate_python(models, context=info.context)
 
 
-ModelOrMap = Annotated[Model | dict[str, Model], PlainValidator(_model_or_map)]
+_Models = Read[Model | dict[str, Model], Model | str | Mapping[str, Model | str]]
+ModelOrMap = Annotated[_Models, PlainValidator(_model_or_map)]

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, Any
 
 from pydantic import (
     BaseModel,
     ConfigDict,
+    Field,
     PlainValidator,
     PrivateAttr,
     ValidationError,
@@ -15,10 +16,11 @@ from pydantic import (
     field_validator,
     model_validator,
 )
-from typing_extensions import Self
+from typing_extensions import Self, dataclass_transform
 
 from tissu.errors import ParameterError, SceneError
 from tissu.scene.explain import explained, failure, meaning
+from tissu.scene.field import field
 from tissu.scene.problem import Problem, nearest, nearest_word, one_of_words
 from tissu.scene.unknown import Unknown, Unread, below, nested, rules_of, told
 from tissu.units import written
@@ -27,12 +29,9 @@ KEEP_PROBLEMS = "keep_problems"
 """Key of the validation context: a part with problems is kept for what is known of it."""
 
 
+@dataclass_transform(kw_only_default=True, field_specifiers=(field, Field, PrivateAttr))
 class Part(BaseModel):
-    """A frozen, validated part of a scene.
-
-    Attributes:
-        positional: names of the fields that may be given without a keyword, in order.
-    """
+    """A frozen, validated part of a scene."""
 
     model_config = ConfigDict(
         frozen=True,
@@ -42,7 +41,6 @@ class Part(BaseModel):
         defer_build=True,
         use_attribute_docstrings=True,
     )
-    positional: ClassVar[tuple[str, ...]] = ()
     _problems: tuple[Problem, ...] = PrivateAttr(default=())
 
     def __init__(self, *values: Any, **fields: Any) -> None:
@@ -51,7 +49,7 @@ class Part(BaseModel):
         Raises:
             SceneError: one or more fields are not accepted; all of them are listed.
         """
-        names = type(self).positional
+        names = [n for n, info in type(self).model_fields.items() if info.kw_only is False]
         if len(values) > len(names):
             raise TypeError(
                 f"{type(self).__name__} takes {len(names)} positional fields, {len(values)} given"
@@ -162,8 +160,8 @@ def _sorted_out(cls: type[Part], value: object) -> tuple[dict[str, Any], list[Pr
         meant = nearest_word(key, known)
         if meant is not None:
             fields.setdefault(meant, Unread())
-    for name, field in known.items():
-        if field.is_required() and name not in fields:
+    for name, info in known.items():
+        if info.is_required() and name not in fields:
             problems.append(Problem((name,), f"is missing{meaning(cls, name)}"))
             fields[name] = Unread()
     return fields, problems
@@ -183,6 +181,16 @@ def one_of(*classes: type[Part]) -> PlainValidator:
     return PlainValidator(choose)
 
 
+def type_name(cls: type[Part]) -> str:
+    """The type by which a class is chosen."""
+    return str(cls.model_fields["type"].default)
+
+
+def spelled(word: object) -> str:
+    """A type as scenes spell it: mass_spring, which may be written mass-spring."""
+    return str(word).replace("-", "_")
+
+
 def chosen(value: Any, classes: Sequence[type[Part]], info: ValidationInfo) -> Any:
     """The part that `value` is, or that its `type` names.
 
@@ -191,7 +199,7 @@ def chosen(value: Any, classes: Sequence[type[Part]], info: ValidationInfo) -> A
     """
     if isinstance(value, tuple(classes)):
         return value
-    known = {str(cls.model_fields["type"].default): cls for cls in classes}
+    known = {type_name(cls): cls for cls in classes}
     accepted = f"accepted types: {one_of_words(known)}"
     if not isinstance(value, Mapping):
         raise ParameterError(
@@ -199,9 +207,10 @@ def chosen(value: Any, classes: Sequence[type[Part]], info: ValidationInfo) -> A
         )
     if "type" not in value:
         raise ParameterError(f"`type` is missing; {accepted}")
-    cls = known.get(str(value["type"]))
+    word = spelled(value["type"])
+    cls = known.get(word)
     if cls is None:
         raise ParameterError(
             f"unknown type {value['type']!r}{nearest(value['type'], known)} {accepted.capitalize()}"
         )
-    return cls.model_validate(value, context=info.context)
+    return cls.model_validate({**value, "type": word}, context=info.context)

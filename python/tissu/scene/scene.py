@@ -1,10 +1,9 @@
-"""The scene: everything a simulation is made from, and nothing that changes."""
+"""The fields of a scene: everything a simulation is made from, and nothing that changes."""
 
 from __future__ import annotations
 
 import contextlib
-import os
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -12,22 +11,21 @@ from pydantic import AfterValidator, BeforeValidator, Field, PrivateAttr, Valida
 from typing_extensions import Self
 
 from tissu import units
-from tissu.errors import SceneError
-from tissu.scene.body import Body
+from tissu.reading import Maybe, MaybeVector, Read
+from tissu.scene.body import Body, PathLike
+from tissu.scene.field import field
 from tissu.scene.load import Load, OneLoad
-from tissu.scene.part import Part, problems_in
+from tissu.scene.part import Part
 from tissu.scene.problem import Problem, Source, nearest, one_of_words
-from tissu.scene.step import OneStep, Step
+from tissu.scene.step import OneStep
 from tissu.scene.support import Fixed, Prescribed
 from tissu.scene.tissue import Tissue, tissues_of
 from tissu.scene.unknown import Unknown, rule
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from tissu.compile import Check
-    from tissu.simulation import Simulation
     from tissu.user_law.made import MadeLaw
+
+__all__ = ["Output"]
 
 
 def _from_base(file: Path, info: ValidationInfo) -> Path:
@@ -41,12 +39,8 @@ LawFile = Annotated[Path, AfterValidator(_from_base)]
 class Output(Part):
     """What is written while the scene runs."""
 
-    every: Annotated[units.Time, Field(gt=0.0)]
+    every: units.Time = field(gt=0.0)
     """simulated time between two written results [s]"""
-
-    if TYPE_CHECKING:
-
-        def __init__(self, *, every: units.Number) -> None: ...
 
 
 def _by_name(bodies: object) -> object:
@@ -56,7 +50,11 @@ def _by_name(bodies: object) -> object:
     return {str(n) if isinstance(n, int) else n: body for n, body in bodies.items()}
 
 
-class Scene(Part):
+_Bodies = Read[dict[str, Body], Mapping[str, Body]]
+_Tissue = Read[dict[str, Tissue], Mapping[str, Tissue]]
+
+
+class SceneData(Part):
     """Bodies, what holds and moves them, and how time is stepped; frozen and validated.
 
     An effect that is absent (no viscosity, no gravity, no loads) is absent from the simulation too.
@@ -64,21 +62,21 @@ class Scene(Part):
 
     name: str = "scene"
     """name of the scene, used for the files that are written"""
-    bodies: Annotated[dict[str, Body], BeforeValidator(_by_name)] = Field(default_factory=dict)
+    bodies: Annotated[_Bodies, BeforeValidator(_by_name)] = field(default_factory=dict)
     """bodies by name"""
-    tissue: Annotated[dict[str, Tissue], BeforeValidator(_by_name)] = Field(default_factory=dict)
+    tissue: Annotated[_Tissue, BeforeValidator(_by_name)] = field(default_factory=dict)
     """connective tissue by name: made of frames, inside a surface or between two bodies"""
-    gravity: units.Acceleration | None = None
+    gravity: MaybeVector[units.Acceleration] = field(default=None)
     """acceleration of gravity [m/s^2]; absent: none"""
-    fixed: tuple[Fixed, ...] = ()
+    fixed: Read[tuple[Fixed, ...], Sequence[Fixed]] = field(default=())
     """nodes held in place"""
-    prescribed: tuple[Prescribed, ...] = ()
+    prescribed: Read[tuple[Prescribed, ...], Sequence[Prescribed]] = field(default=())
     """nodes moved along a given path"""
-    loads: tuple[OneLoad, ...] = ()
+    loads: Read[tuple[OneLoad, ...], Sequence[Load]] = field(default=())
     """forces, tractions and pressures"""
     step: OneStep
     """how time is stepped, such as {type: implicit_euler, dt: 10 ms}"""
-    duration: Annotated[units.Time, Field(gt=0.0)] | None = None
+    duration: Maybe[units.Time] = field(default=None, gt=0.0)
     """simulated time of a run [s]"""
     threads: Annotated[int, Field(ge=1)] = 1
     """number of threads"""
@@ -86,29 +84,9 @@ class Scene(Part):
     """whether cells may be removed while it runs"""
     output: Output | None = None
     """what is written while it runs"""
-    laws: tuple[LawFile, ...] = ()
+    laws: Read[tuple[LawFile, ...], Sequence[PathLike]] = field(default=())
     """Python files with laws of one's own, for the bodies of a YAML scene; the files are run"""
     _source: Source | None = PrivateAttr(default=None)
-
-    if TYPE_CHECKING:
-
-        def __init__(
-            self,
-            *,
-            name: str = ...,
-            bodies: Mapping[str, Body] = ...,
-            tissue: Mapping[str, Tissue] = ...,
-            gravity: units.VectorLike | None = ...,
-            fixed: Sequence[Fixed] = ...,
-            prescribed: Sequence[Prescribed] = ...,
-            loads: Sequence[Load] = ...,
-            step: Step,
-            duration: units.Number | None = ...,
-            threads: int = ...,
-            editing: bool = ...,
-            output: Output | None = ...,
-            laws: Sequence[str | os.PathLike[str]] = ...,
-        ) -> None: ...
 
     @rule()
     def _names_bodies(self) -> Iterator[Problem]:
@@ -137,14 +115,9 @@ class Scene(Part):
                         text += f"Bodies: {one_of_words(self.bodies)}"
                         yield Problem(("tissue", name, "between", end), text)
 
-    def _refusal(self) -> list[str]:
-        from tissu.compile import problems_of
-
-        return problems_of(self)
-
     def __eq__(self, other: object) -> bool:
         """Whether all fields are equal; where the scenes and laws were written does not count."""
-        if not isinstance(other, Scene):
+        if not isinstance(other, SceneData):
             return NotImplemented
         apart = {"laws": ()}
         return self.__dict__ | apart == other.__dict__ | apart
@@ -162,90 +135,7 @@ class Scene(Part):
         other._source = self._source
         return other
 
-    @classmethod
-    def from_yaml(cls, path: str | os.PathLike[str]) -> Scene:
-        """Read a scene; paths of meshes are relative to the file.
-
-        Raises:
-            SceneError: the file cannot be read or has wrong fields; with them everything that
-                compile() would refuse, each problem with its line.
-        """
-        from tissu.yaml_io import read_scene
-
-        return accepted(read_scene(Path(path)))
-
-    @classmethod
-    def from_yaml_text(cls, text: str, *, base: str | os.PathLike[str] | None = None) -> Scene:
-        """Read a scene from a text; paths of meshes are relative to the folder `base`.
-
-        Raises:
-            SceneError: the text has wrong fields; with them everything that compile() would
-                refuse, each problem with its line.
-        """
-        from tissu.yaml_io import parse_scene
-
-        return accepted(parse_scene(text, base=None if base is None else Path(base)))
-
-    def to_yaml(self) -> str:
-        """The scene as YAML text that reads back as an equal scene.
-
-        Raises:
-            SceneError: a mesh was made in memory; `save` writes it to a file.
-        """
-        from tissu.yaml_io import scene_text
-
-        return scene_text(self)
-
     def own_laws(self) -> list[MadeLaw]:
         """The laws of one's own that the bodies are made of, each once, in their order."""
         laws = [type(law).made for body in self.bodies.values() for law in body.laws().values()]
         return list(dict.fromkeys(made for made in laws if made is not None))
-
-    def to_dict(self) -> dict[str, Any]:
-        """What to_yaml() writes, as mappings, lists and numbers in SI.
-
-        Raises:
-            SceneError: a mesh was made in memory; `save` writes it to a file.
-        """
-        from tissu.yaml_io import scene_data
-
-        return scene_data(self)
-
-    def save(self, path: str | os.PathLike[str]) -> None:
-        """Write the scene to a YAML file, and meshes made in memory beside it as .vtu files."""
-        from tissu.yaml_io import write_scene
-
-        write_scene(self, Path(path))
-
-    def compile(self, *, checkpoint: str | os.PathLike[str] | None = None) -> Simulation:
-        """Turn the scene into a simulation.
-
-        Args:
-            checkpoint: a file of `Simulation.save_checkpoint`, from which it goes on with the same
-                bits; absent: it begins at rest. Name, duration, threads and output of the scene
-                may be others than those of the scene that was saved.
-
-        Raises:
-            SceneError: problems of the scene or its meshes; all of them.
-            CheckpointError: the file is absent, damaged, or of another scene or version.
-        """
-        from tissu.compile import compile_scene
-
-        return compile_scene(self, None if checkpoint is None else Path(checkpoint))
-
-    def check(self) -> Check:
-        """Everything that compile() would refuse, and in plain words what the scene switches on."""
-        from tissu.compile import check_scene
-
-        return check_scene(self)
-
-
-def accepted(scene: Scene) -> Scene:
-    """The scene, when its fields have no problem.
-
-    Raises:
-        SceneError: they have; with them everything that compile() would refuse.
-    """
-    if next(problems_in(scene), None) is not None:
-        raise SceneError(scene._refusal())
-    return scene

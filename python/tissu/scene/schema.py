@@ -15,17 +15,31 @@ from pydantic.fields import FieldInfo
 
 from tissu.scene.bar import BarMesh
 from tissu.scene.body import Body, MeshFile
-from tissu.scene.law import LAWS
-from tissu.scene.model import FEM, MODELS
-from tissu.scene.part import Part
-from tissu.scene.scene import Scene
-from tissu.scene.selection import Region
+from tissu.scene.generated.laws import LAWS
+from tissu.scene.law import Law
+from tissu.scene.load import LOADS, Load
+from tissu.scene.model import MODELS, Model
+from tissu.scene.part import Part, type_name
+from tissu.scene.scene import SceneData
+from tissu.scene.selection import SELECTIONS, Region, Selection
+from tissu.scene.solver import SOLVERS, Solver
+from tissu.scene.step import STEPS, Step
 from tissu.scene.tissue import Tissue
+from tissu.scene.viscosity import VISCOSITIES, Viscosity
 
 Schema = dict[str, Any]
 
 _NUMBER = [{"type": "number"}, {"type": "string"}]  # a text carries a unit, such as "4 kPa"
 _MESH = MeshFile | BarMesh | Path
+_FAMILIES: dict[Any, tuple[type[Part], ...]] = {
+    Law: LAWS,
+    Load: LOADS,
+    Model: MODELS,
+    Selection: SELECTIONS,
+    Solver: SOLVERS,
+    Step: STEPS,
+    Viscosity: VISCOSITIES,
+}
 _READ_AS: dict[tuple[type[Part], str], Any] = {  # fields that read more than they keep
     (Body, "mesh"): _MESH,
     (Tissue, "inside"): _MESH | None,
@@ -37,8 +51,8 @@ _DIALECT = "https://json-schema.org/draft/2020-12/schema"
 def scene_schema() -> Schema:
     """The schema of a scene file as mappings and lists, of JSON Schema 2020-12."""
     found: dict[str, Schema] = {}
-    _define(Scene, found)
-    whole = found.pop("Scene")
+    _define(SceneData, found)
+    whole = found.pop("SceneData")
     return {
         "$schema": _DIALECT,
         "title": "tissu scene",
@@ -68,7 +82,8 @@ def _define(part: type[Part], found: dict[str, Schema]) -> Schema:
 
 def _field(part: type[Part], key: str, field: FieldInfo, found: dict[str, Schema]) -> Schema:
     kind = _READ_AS.get((part, key), field.annotation)
-    schema = dict(_any_of([*_kinds(kind, found), *_words(kind)]))
+    kinds = [{"enum": _spellings(part)}] if key == "type" else [*_kinds(kind, found), *_words(kind)]
+    schema = dict(_any_of(kinds))
     if field.description:
         schema["description"] = " ".join(field.description.split())
     if not field.is_required() and isinstance(field.default, (str, int, float, bool)):
@@ -77,18 +92,24 @@ def _field(part: type[Part], key: str, field: FieldInfo, found: dict[str, Schema
 
 
 def _words(kind: Any) -> Iterator[Schema]:
-    """What may stand in place of a mapping: the word auto, names of models, laws of one's own."""
-    members = get_args(kind)
-    types_of = {str(m.model_fields["type"].default) for m in members if _is_typed(m)}
-    if "symplectic_euler" in types_of:
+    """What may stand in place of a mapping: the word auto, names alone, laws of one's own."""
+    families = set(get_args(kind)) | {kind}
+    if Step in families:
         yield {"const": "auto"}
         yield _named("auto", "stable explicit steps")
-    if FEM in members:
-        yield {"enum": [str(model.model_fields["type"].default) for model in MODELS]}
-    if set(LAWS) <= set(members):
-        known = {"enum": [str(law.model_fields["type"].default) for law in LAWS]}
+    for family in (Model, Solver):
+        if family in families:
+            yield {"enum": [word for part in _FAMILIES[family] for word in _spellings(part)]}
+    if Law in families:
+        known = {"enum": [word for law in LAWS for word in _spellings(law)]}
         own = {"type": "string", "not": known}
         yield {"type": "object", "required": ["type"], "properties": {"type": own}}
+
+
+def _spellings(part: type[Part]) -> list[str]:
+    """The type of a part, with underscores and, as is accepted too, with hyphens."""
+    word = type_name(part)
+    return list(dict.fromkeys([word, word.replace("_", "-")]))
 
 
 def _named(word: str, meaning: str) -> Schema:
@@ -98,10 +119,6 @@ def _named(word: str, meaning: str) -> Schema:
         "required": ["type"],
         "properties": {"type": {"const": word}},
     }
-
-
-def _is_typed(kind: Any) -> bool:
-    return isinstance(kind, type) and issubclass(kind, Part) and "type" in kind.model_fields
 
 
 def _kinds(kind: Any, found: dict[str, Schema]) -> Iterator[Schema]:
@@ -119,10 +136,11 @@ def _kinds(kind: Any, found: dict[str, Schema]) -> Iterator[Schema]:
     elif origin in (dict, Mapping):
         of = _any_of([*_kinds(members[1], found), *_words(members[1])])
         yield {"type": "object", "additionalProperties": of}
+    elif kind in _FAMILIES:
+        for part in _FAMILIES[kind]:
+            yield _define(part, found)
     elif isinstance(kind, type) and issubclass(kind, Part):
-        # A law of one's own is of a class that the scene makes: `_words` has it.
-        if kind in LAWS or kind.__name__ != "UserLaw":
-            yield _define(kind, found)
+        yield _define(kind, found)
     else:
         yield from _PLAIN[kind]
 

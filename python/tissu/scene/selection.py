@@ -2,74 +2,99 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from typing import TYPE_CHECKING, Annotated, ClassVar, Literal, cast
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING, Annotated, ClassVar, Literal
 
+import numpy as np
+from numpy.typing import NDArray
 from pydantic import BeforeValidator, Field
 
 from tissu import units
+from tissu.errors import ParameterError
+from tissu.reading import Maybe, Read, VectorLike
+from tissu.scene.field import field
 from tissu.scene.part import Part, one_of
-from tissu.scene.problem import Problem
+from tissu.scene.problem import Problem, nearest, one_of_words
 from tissu.scene.unknown import rule
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    import numpy as np
-    from numpy.typing import NDArray
-
     from tissu.mesh import Mesh
 
-_Nodes = Annotated[tuple[Annotated[int, Field(ge=0)], ...], BeforeValidator(units.listed)]
+__all__ = ["Box", "Sphere", "Plane", "Nodes", "SurfaceNodes", "Region"]
+
+Ints = NDArray[np.int32]
+Floats = NDArray[np.float64]
+Bools = NDArray[np.bool_]
+
+_SLACK = 1e-9
+"""share of the body's diagonal that counts as on the border, for round-off in coordinates"""
 
 
-def _named(value: object) -> object:
-    """A region that the mesh numbers, such as 7, by its name "7"."""
-    return str(value) if isinstance(value, int) and not isinstance(value, bool) else value
+class Selection(Part):
+    """What all selections share.
 
+    Attributes:
+        by_place: whether nodes are selected by their positions, so that the unit of lengths counts.
+    """
 
-def named_texts(value: object) -> object:
-    """Selections by text: YAML reads the name 7 as a number."""
-    if not isinstance(value, Mapping):
-        return value
-    return {str(name) if isinstance(name, int) else name: on for name, on in value.items()}
+    by_place: ClassVar[bool] = False
+    if TYPE_CHECKING:
+        type: str
 
-
-class _Selection(Part):
-    """What selections share."""
-
-    def cells(self, mesh: Mesh) -> NDArray[np.int32]:
-        """Numbers (k,) of the mesh's cells that it means: by their centres, or by all their nodes.
-
-        Of a box, a sphere or a plane the cells whose centres, the means of their nodes, lie in it;
-        of a region its cells; of nodes and of the surface those of which every node is selected.
-        Cells are numbered across `mesh.body_blocks`.
+    def nodes(self, mesh: Mesh) -> Ints:
+        """Numbers (k,) of the selected nodes, increasing.
 
         Raises:
             ParameterError: a region that the mesh lacks, or node numbers beyond the mesh.
         """
-        from tissu.compile.select import selected_cells
+        raise NotImplementedError
 
-        return selected_cells(cast("Selection", self), mesh)
+    def cells(self, mesh: Mesh) -> Ints:
+        """Numbers (k,) of the cells of which every node is selected, across `mesh.body_blocks`.
+
+        Of a box, a sphere or a plane the cells whose centres, the means of their nodes, lie in it;
+        of a region its cells.
+
+        Raises:
+            ParameterError: a region that the mesh lacks, or node numbers beyond the mesh.
+        """
+        chosen = np.zeros(mesh.node_count, dtype=bool)
+        chosen[self.nodes(mesh)] = True
+        return _where(mesh, lambda nodes: np.asarray(chosen[nodes].all(axis=1)))
+
+    def words(self, count: str | None) -> str:
+        """What it selects, as `check` says it; `count` where it is known ("42 nodes")."""
+        return f"{count} ({self.type})" if count else f"the nodes of a selection ({self.type})"
 
 
-class Box(_Selection):
+class _Place(Selection):
+    """Nodes by their rest positions."""
+
+    by_place: ClassVar[bool] = True
+
+    def nodes(self, mesh: Mesh) -> Ints:
+        """Numbers (k,) of the nodes in the place, increasing."""
+        inside = self._inside(mesh.points, diagonal(mesh))
+        return np.flatnonzero(inside).astype(np.int32)
+
+    def cells(self, mesh: Mesh) -> Ints:
+        """Numbers (k,) of the cells whose centres lie in the place."""
+        size = diagonal(mesh)
+        return _where(mesh, lambda nodes: self._inside(mesh.points[nodes].mean(axis=1), size))
+
+    def _inside(self, points: Floats, size: float) -> Bools:
+        """Whether points (n, 3) of a body with this diagonal [m] are in the place."""
+        raise NotImplementedError
+
+
+class Box(_Place):
     """Nodes in a box along the axes, faces included; null (None) on an axis means unbounded."""
 
-    positional: ClassVar[tuple[str, ...]] = ("min", "max")
     type: Literal["box"] = "box"
-    min: units.OpenPosition = (None, None, None)
+    min: units.OpenPosition = field(default=(None, None, None), kw_only=False)
     """smallest corner [m]"""
-    max: units.OpenPosition = (None, None, None)
+    max: units.OpenPosition = field(default=(None, None, None), kw_only=False)
     """largest corner [m]"""
-
-    if TYPE_CHECKING:
-
-        def __init__(
-            self,
-            min: Sequence[float | str | None] | None = ...,
-            max: Sequence[float | str | None] | None = ...,
-        ) -> None: ...
 
     @rule("min", "max")
     def _ordered(self) -> Iterator[Problem]:
@@ -78,42 +103,37 @@ class Box(_Selection):
                 found = f"found min {low:g} m above max {high:g} m on axis {axis}"
                 yield Problem((), f"{found}; exchange them")
 
+    def _inside(self, points: Floats, size: float) -> Bools:
+        slack = _SLACK * size
+        low = np.array([-np.inf if x is None else x for x in self.min])
+        high = np.array([np.inf if x is None else x for x in self.max])
+        return np.asarray(((points >= low - slack) & (points <= high + slack)).all(axis=1))
 
-class Sphere(_Selection):
+
+class Sphere(_Place):
     """Nodes no farther than `radius` from `center`."""
 
-    positional: ClassVar[tuple[str, ...]] = ("center", "radius")
     type: Literal["sphere"] = "sphere"
-    center: units.Position
+    center: units.Position = field(kw_only=False)
     """center [m]"""
-    radius: Annotated[units.Length, Field(gt=0.0)]
+    radius: units.Length = field(gt=0.0, kw_only=False)
     """radius [m]"""
 
-    if TYPE_CHECKING:
+    def _inside(self, points: Floats, size: float) -> Bools:
+        far = np.linalg.norm(points - self.center, axis=1)
+        return np.asarray(far <= self.radius + _SLACK * size)
 
-        def __init__(self, center: units.VectorLike, radius: units.Number) -> None: ...
 
-
-class Plane(_Selection):
+class Plane(_Place):
     """Nodes within `tolerance` of the plane through `point` across `normal`."""
 
-    positional: ClassVar[tuple[str, ...]] = ("point", "normal", "tolerance")
     type: Literal["plane"] = "plane"
-    point: units.Position
+    point: units.Position = field(kw_only=False)
     """a point of the plane [m]"""
-    normal: units.Direction
+    normal: units.Direction = field(kw_only=False)
     """normal of the plane, of any length but zero"""
-    tolerance: Annotated[units.Length, Field(ge=0.0)] | None = None
+    tolerance: Maybe[units.Length] = field(default=None, ge=0.0, kw_only=False)
     """largest distance [m]; when absent, a millionth of the body's diagonal"""
-
-    if TYPE_CHECKING:
-
-        def __init__(
-            self,
-            point: units.VectorLike,
-            normal: units.VectorLike,
-            tolerance: units.Number | None = ...,
-        ) -> None: ...
 
     @rule("normal")
     def _has_normal(self) -> Iterator[Problem]:
@@ -121,41 +141,120 @@ class Plane(_Selection):
             text = "found the normal (0, 0, 0); a direction is accepted, such as [0, 0, 1]"
             yield Problem((), text)
 
+    def _inside(self, points: Floats, size: float) -> Bools:
+        normal = np.asarray(self.normal) / np.linalg.norm(self.normal)
+        tolerance = 1e-6 * size if self.tolerance is None else self.tolerance + _SLACK * size
+        return np.asarray(np.abs((points - self.point) @ normal) <= tolerance)
 
-class Nodes(_Selection):
+
+_Numbers = Read[tuple[Annotated[int, Field(ge=0)], ...], Sequence[int] | VectorLike]
+
+
+class Nodes(Selection):
     """Nodes by their numbers in the mesh, from 0."""
 
-    positional: ClassVar[tuple[str, ...]] = ("ids",)
     type: Literal["nodes"] = "nodes"
-    ids: _Nodes
+    ids: Annotated[_Numbers, BeforeValidator(units.listed)] = field(kw_only=False)
     """numbers of the nodes, from 0"""
 
-    if TYPE_CHECKING:
+    def nodes(self, mesh: Mesh) -> Ints:
+        """The numbers (k,), each once, increasing.
 
-        def __init__(self, ids: Sequence[int] | units.VectorLike) -> None: ...
+        Raises:
+            ParameterError: a number beyond the mesh.
+        """
+        ids = np.unique(np.asarray(self.ids, dtype=np.int64))
+        beyond = ids[ids >= mesh.node_count]
+        if beyond.size:
+            raise ParameterError(
+                f"found node {beyond[0]}; the mesh has the nodes 0 to {mesh.node_count - 1}"
+            )
+        return ids.astype(np.int32)
 
 
-class SurfaceNodes(_Selection):
+class SurfaceNodes(Selection):
     """All nodes of the body's boundary surface."""
 
     type: Literal["surface"] = "surface"
 
+    def nodes(self, mesh: Mesh) -> Ints:
+        """Numbers (k,) of the surface's nodes, increasing."""
+        return np.unique(mesh.surface().triangles).astype(np.int32)
 
-class Region(_Selection):
+
+def _named(value: object) -> object:
+    """A region that the mesh numbers, such as 7, by its name "7"."""
+    return str(value) if isinstance(value, int) and not isinstance(value, bool) else value
+
+
+class Region(Selection):
     """Nodes of the cells of a region that the mesh names."""
 
-    positional: ClassVar[tuple[str, ...]] = ("name",)
     type: Literal["region"] = "region"
-    name: Annotated[str, BeforeValidator(_named)]
+    name: Annotated[str, BeforeValidator(_named)] = field(kw_only=False)
     """name of a region of the mesh"""
 
-    if TYPE_CHECKING:
+    def nodes(self, mesh: Mesh) -> Ints:
+        """Numbers (k,) of the nodes of the region's cells, increasing.
 
-        def __init__(self, name: str) -> None: ...
+        Raises:
+            ParameterError: the mesh has no region of this name.
+        """
+        cells = region_cells(self.name, mesh)
+        nodes, first = [], 0
+        for block in mesh.body_blocks:
+            inside = cells[(cells >= first) & (cells < first + len(block.nodes))] - first
+            nodes.append(np.asarray(block.nodes)[inside].ravel())
+            first += len(block.nodes)
+        return np.unique(np.concatenate(nodes)).astype(np.int32)
+
+    def cells(self, mesh: Mesh) -> Ints:
+        """Numbers (k,) of the region's cells, increasing.
+
+        Raises:
+            ParameterError: the mesh has no region of this name.
+        """
+        return region_cells(self.name, mesh)
 
 
-Selection = Box | Sphere | Plane | Nodes | SurfaceNodes | Region
-On = Annotated[Selection, one_of(Box, Sphere, Plane, Nodes, SurfaceNodes, Region)]
+def _where(mesh: Mesh, chosen: Callable[[Ints], Bools]) -> Ints:
+    """Numbers of the cells whose nodes (e, k) are chosen, across the simulated blocks."""
+    found = [np.zeros(0, dtype=bool), *(chosen(block.nodes) for block in mesh.body_blocks)]
+    return np.flatnonzero(np.concatenate(found)).astype(np.int32)
 
-NamedSelections = Annotated[dict[str, On], BeforeValidator(named_texts)]
+
+def region_cells(name: str, mesh: Mesh) -> Ints:
+    """Numbers of the cells of a region, across the volume blocks.
+
+    Raises:
+        ParameterError: the mesh has no region of this name.
+    """
+    if name in mesh.regions:
+        return np.asarray(mesh.regions[name])
+    if not mesh.regions:
+        raise ParameterError(f"found region '{name}', but the mesh names no regions")
+    raise ParameterError(
+        f"the mesh has no region '{name}'{nearest(name, mesh.regions)} "
+        f"Regions: {one_of_words(mesh.regions)}"
+    )
+
+
+def diagonal(mesh: Mesh) -> float:
+    """Length of the diagonal of the mesh's bounds [m]."""
+    return float(np.linalg.norm(mesh.bounds[1] - mesh.bounds[0]))
+
+
+SELECTIONS: tuple[type[Selection], ...] = (Box, Sphere, Plane, Nodes, SurfaceNodes, Region)
+On = Annotated[Selection, one_of(*SELECTIONS)]
+
+
+def _by_text(value: object) -> object:
+    """Selections by text: YAML reads the name 7 as a number."""
+    if not isinstance(value, Mapping):
+        return value
+    return {str(name) if isinstance(name, int) else name: on for name, on in value.items()}
+
+
+_Named = Read[dict[str, On], Mapping[str, Selection]]
+NamedSelections = Annotated[_Named, BeforeValidator(_by_text)]
 """selections by the names of the regions that they make"""

@@ -8,9 +8,15 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 from pydantic import BeforeValidator, Field
 
 from tissu import units
+from tissu.scene.field import field
 from tissu.scene.part import Part, one_of
 from tissu.scene.problem import Problem
 from tissu.scene.unknown import rule
+
+if TYPE_CHECKING:
+    from tissu import _core
+
+__all__ = ["Auto", "ConjugateGradient", "Cholesky"]
 
 _Tolerance = Annotated[units.Pure, Field(gt=0.0, lt=1.0)]
 _Count = Annotated[int, Field(ge=1)]
@@ -21,23 +27,42 @@ Precision = Literal["double", "single"]
 Matrix = Literal["assembled", "free"]
 
 
-class Auto(Part):
+class Solver(Part):
+    """What all solvers share."""
+
+    if TYPE_CHECKING:
+        type: str
+
+    def linear_solver(self) -> _core.LinearSolver:
+        """The core's solver of the same name, with the fields that are its own."""
+        from tissu import _core
+
+        fields = {name: getattr(self, name) for name in type(self).model_fields if name != "type"}
+        made: _core.LinearSolver = getattr(_core, type(self).__name__)(**fields)
+        return made
+
+
+class Auto(Solver):
     """The solver chosen by size, kind of step and editing; `plan()` says which, and why."""
 
     type: Literal["auto"] = "auto"
-    tolerance: _Tolerance = 1e-6
+    tolerance: _Tolerance = field(default=1e-6)
     """residual relative to the right-hand side at which iterations stop"""
 
-    if TYPE_CHECKING:
+    def linear_solver(self) -> _core.LinearSolver:
+        """None: compiling chooses the solver that it stands for.
 
-        def __init__(self, *, tolerance: units.Number = ...) -> None: ...
+        Raises:
+            TypeError: always.
+        """
+        raise TypeError("`auto` stands for a solver that choice_for chooses")
 
 
-class ConjugateGradient(Part):
+class ConjugateGradient(Solver):
     """Preconditioned conjugate gradient."""
 
     type: Literal["conjugate_gradient"] = "conjugate_gradient"
-    tolerance: _Tolerance = 1e-6
+    tolerance: _Tolerance = field(default=1e-6)
     """residual relative to the right-hand side at which it stops"""
     iterations: _Count = 1000
     """largest number of iterations in a solve"""
@@ -60,23 +85,14 @@ class ConjugateGradient(Part):
             text = "found single with matrix free; the products of forces are double: "
             yield Problem(("precision",), text + "double is accepted")
 
-    if TYPE_CHECKING:
 
-        def __init__(
-            self,
-            *,
-            tolerance: units.Number = ...,
-            iterations: int = ...,
-            preconditioner: Preconditioner = ...,
-            precision: Precision = ...,
-            matrix: Matrix = ...,
-        ) -> None: ...
-
-
-class Cholesky(Part):
+class Cholesky(Solver):
     """Sparse Cholesky factorisation (CHOLMOD), its symbolic part kept while the mesh is."""
 
     type: Literal["cholesky"] = "cholesky"
+
+
+SOLVERS: tuple[type[Solver], ...] = (ConjugateGradient, Cholesky, Auto)
 
 
 def _by_type(value: Any) -> Any:
@@ -84,5 +100,4 @@ def _by_type(value: Any) -> Any:
     return {"type": value} if isinstance(value, str) else value
 
 
-Solver = ConjugateGradient | Cholesky | Auto
-OneSolver = Annotated[Solver, one_of(ConjugateGradient, Cholesky, Auto), BeforeValidator(_by_type)]
+OneSolver = Annotated[Solver, one_of(*SOLVERS), BeforeValidator(_by_type)]

@@ -1,22 +1,41 @@
-"""How a scene is stepped through time: integrator and Newton's method."""
+"""How a scene is stepped through time: a class for each method, and Newton's method."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from pydantic import BeforeValidator, Field
 
 from tissu import units
 from tissu.errors import ParameterError
+from tissu.reading import Number, Read
+from tissu.scene.effect import Effect
+from tissu.scene.field import field
 from tissu.scene.part import Part, one_of
 from tissu.scene.problem import Problem
-from tissu.scene.solver import ConjugateGradient, OneSolver, Solver
+from tissu.scene.solver import ConjugateGradient, OneSolver
 from tissu.scene.unknown import rule
+
+if TYPE_CHECKING:
+    from tissu import _core
+
+__all__ = [
+    "ExplicitEuler",
+    "SymplecticEuler",
+    "RK2",
+    "RK4",
+    "ImplicitEuler",
+    "ImplicitMidpoint",
+    "BDF2",
+    "Newmark",
+    "BDF2FixedPoint",
+    "Static",
+    "Newton",
+]  # fmt: skip
 
 _Tolerance = Annotated[units.Pure, Field(gt=0.0, lt=1.0)]
 _Count = Annotated[int, Field(ge=1)]
-_Step = Annotated[units.Time, Field(gt=0.0)]
 
 Indefinite = Literal["project", "regularise", "refuse"]
 
@@ -34,7 +53,7 @@ def _stable_or_given(value: Any) -> Any:
     return seconds
 
 
-_StableStep = Annotated[float | Literal["auto"], BeforeValidator(_stable_or_given)]
+_StableStep = Annotated[Read[float | Literal["auto"], Number], BeforeValidator(_stable_or_given)]
 
 
 class Newton(Part):
@@ -42,115 +61,111 @@ class Newton(Part):
 
     iterations: _Count = 10
     """largest number of iterations in a step; of Static, for each part of the load tried"""
-    tolerance: _Tolerance = 1e-6
+    tolerance: _Tolerance = field(default=1e-6)
     """residual relative to the first at which the step is solved"""
 
+
+class Step(Part):
+    """What all methods share."""
+
     if TYPE_CHECKING:
+        type: str
 
-        def __init__(self, *, iterations: int = ..., tolerance: units.Number = ...) -> None: ...
+    def integrator(self) -> _core.Integrator:
+        """The core's integrator of the same name, with the fields that are its own."""
+        from tissu import _core
+
+        made: _core.Integrator = getattr(_core, type(self).__name__)(**self.settings())
+        return made
+
+    def settings(self) -> dict[str, Any]:
+        """The fields that the integrator takes; without Newton's method it iterates once."""
+        names = (name for name in type(self).model_fields if name not in ("type", "dt", "solver"))
+        found = {name: getattr(self, name) for name in names}
+        if "newton" in found:
+            newton = found.pop("newton") or Newton(iterations=1)
+            found["newton_iterations"] = newton.iterations
+            found["newton_tolerance"] = newton.tolerance
+        return found
+
+    def effect(self) -> Effect:
+        """What the step switches on."""
+        dt = getattr(self, "dt", None)
+        shown = dt if isinstance(dt, str) else f"{dt:g} s"
+        return Effect("inertia", f"step is {self.type} with dt {shown}")
 
 
-class _Explicit(Part):
+class Explicit(Step):
     """A method that solves no system; its steps may not exceed the stable one."""
 
-    positional: ClassVar[tuple[str, ...]] = ("dt",)
-    dt: _StableStep = "auto"
+    dt: _StableStep = field(default="auto", kw_only=False)
     """time step [s], such as '0.1 ms', or auto: nine tenths of the largest stable one"""
 
-    if TYPE_CHECKING:
 
-        def __init__(self, dt: units.Number = ...) -> None: ...
-
-
-class ExplicitEuler(_Explicit):
+class ExplicitEuler(Explicit):
     """Forward Euler: first order; makes every vibration grow that is not damped enough."""
 
     type: Literal["explicit_euler"] = "explicit_euler"
 
 
-class SymplecticEuler(_Explicit):
+class SymplecticEuler(Explicit):
     """Symplectic Euler: first order, one force a step, no drift of the energy."""
 
     type: Literal["symplectic_euler"] = "symplectic_euler"
 
 
-class RK2(_Explicit):
+class RK2(Explicit):
     """Runge-Kutta of second order, the explicit midpoint rule: two forces a step."""
 
     type: Literal["rk2"] = "rk2"
 
 
-class RK4(_Explicit):
+class RK4(Explicit):
     """The classical Runge-Kutta method: fourth order, four forces a step."""
 
     type: Literal["rk4"] = "rk4"
 
 
-class _Implicit(Part):
+class Implicit(Step):
     """A method that solves a system in each step."""
 
-    positional: ClassVar[tuple[str, ...]] = ("dt",)
-    dt: _Step
+    dt: units.Time = field(gt=0.0, kw_only=False)
     """time step [s], such as '10 ms'"""
     newton: Newton | None = None
     """Newton's method; absent: linearised once, iterated only where that made things worse"""
     indefinite: Indefinite = "project"
     """what to do where the matrix of a step is not positive definite: project each cell's share on
     the positive semi-definite ones, regularise with a growing share of the mass, or refuse"""
-    solver: OneSolver = Field(default_factory=ConjugateGradient)
+    solver: OneSolver = field(default_factory=ConjugateGradient)
     """linear solver"""
 
-    if TYPE_CHECKING:
 
-        def __init__(
-            self,
-            dt: units.Number,
-            *,
-            newton: Newton | None = ...,
-            indefinite: Indefinite = ...,
-            solver: Solver = ...,
-        ) -> None: ...
-
-
-class ImplicitEuler(_Implicit):
+class ImplicitEuler(Implicit):
     """Implicit Euler: first order, damps vibrations; linearised once unless `newton` is given."""
 
     type: Literal["implicit_euler"] = "implicit_euler"
 
 
-class ImplicitMidpoint(_Implicit):
+class ImplicitMidpoint(Implicit):
     """Implicit midpoint rule: second order, keeps momenta, no damping."""
 
     type: Literal["implicit_midpoint"] = "implicit_midpoint"
 
 
-class BDF2(_Implicit):
+class BDF2(Implicit):
     """Backward differentiation of second order: damps fast vibrations, slow ones hardly."""
 
     type: Literal["bdf2"] = "bdf2"
 
 
-class Newmark(_Implicit):
+class Newmark(Implicit):
     """Newmark's method; second order and without damping for gamma = 1/2."""
 
     type: Literal["newmark"] = "newmark"
-    beta: Annotated[units.Pure, Field(gt=0.0, le=0.5)] = 0.25
+    beta: units.Pure = field(default=0.25, gt=0.0, le=0.5)
     """weight of the acceleration at the end in the position; at least gamma / 2"""
-    gamma: Annotated[units.Pure, Field(ge=0.5, le=1.0)] = 0.5
+    gamma: units.Pure = field(default=0.5, ge=0.5, le=1.0)
     """weight of the acceleration at the end in the velocity; above 1/2 it damps"""
-
-    if TYPE_CHECKING:
-
-        def __init__(
-            self,
-            dt: units.Number,
-            *,
-            beta: units.Number = ...,
-            gamma: units.Number = ...,
-            newton: Newton | None = ...,
-            indefinite: Indefinite = ...,
-            solver: Solver = ...,
-        ) -> None: ...
 
     @rule("beta", "gamma")
     def _is_stable(self) -> Iterator[Problem]:
@@ -161,54 +176,37 @@ class Newmark(_Implicit):
             yield Problem(("beta",), f"{text}is accepted: others are unstable for large steps")
 
 
-class BDF2FixedPoint(Part):
+class BDF2FixedPoint(Step):
     """BDF2 by fixed-point iteration, without any matrix: for h omega below 3/2."""
 
-    positional: ClassVar[tuple[str, ...]] = ("dt",)
     type: Literal["bdf2_fixed_point"] = "bdf2_fixed_point"
-    dt: _Step
+    dt: units.Time = field(gt=0.0, kw_only=False)
     """time step [s], such as '0.1 ms'"""
     iterations: _Count = 50
     """largest number of iterations in a step"""
-    tolerance: _Tolerance = 1e-6
+    tolerance: _Tolerance = field(default=1e-6)
     """residual relative to the first at which the step is solved"""
     anderson: Annotated[int, Field(ge=0, le=8)] = 0
     """earlier differences that Anderson's acceleration uses; 0: plain iteration"""
 
-    if TYPE_CHECKING:
 
-        def __init__(
-            self,
-            dt: units.Number,
-            *,
-            iterations: int = ...,
-            tolerance: units.Number = ...,
-            anderson: int = ...,
-        ) -> None: ...
-
-
-class Static(Part):
+class Static(Step):
     """Equilibrium without inertia, the load applied in equal steps."""
 
     type: Literal["static"] = "static"
     load_steps: _Count = 1
     """number of equal steps in which the load is applied"""
-    newton: Newton = Field(default_factory=Newton)
+    newton: Newton = field(default_factory=Newton)
     """Newton's method"""
-    solver: OneSolver = Field(default_factory=ConjugateGradient)
+    solver: OneSolver = field(default_factory=ConjugateGradient)
     """linear solver"""
 
-    if TYPE_CHECKING:
-
-        def __init__(
-            self, *, load_steps: int = ..., newton: Newton = ..., solver: Solver = ...
-        ) -> None: ...
+    def effect(self) -> Effect:
+        """What the step switches on."""
+        return Effect("equilibrium", f"step is static, in {self.load_steps} load steps")
 
 
-Explicit = ExplicitEuler | SymplecticEuler | RK2 | RK4
-Implicit = ImplicitEuler | ImplicitMidpoint | BDF2 | Newmark
-Step = Explicit | Implicit | BDF2FixedPoint | Static
-STEPS: tuple[type[Part], ...] = (
+STEPS: tuple[type[Step], ...] = (
     *(ExplicitEuler, SymplecticEuler, RK2, RK4),
     *(ImplicitEuler, ImplicitMidpoint, BDF2, Newmark),
     *(BDF2FixedPoint, Static),

@@ -3,21 +3,27 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Iterator
-from typing import TYPE_CHECKING, Annotated, ClassVar, Literal
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING, Annotated, Literal
 
+import numpy as np
 from pydantic import AfterValidator, BeforeValidator
 
 from tissu import units
 from tissu.counted import counted
 from tissu.errors import ParameterError
+from tissu.reading import Many, MaybeVectors
+from tissu.scene.effect import Effect
+from tissu.scene.field import field
 from tissu.scene.part import Part
 from tissu.scene.problem import Problem
-from tissu.scene.selection import On, Selection
+from tissu.scene.selection import Ints, On
 from tissu.scene.unknown import rule
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from tissu._core import WorldBuilder
+
+__all__ = ["Fixed", "Prescribed", "Rotation"]
 
 
 def _axes(value: object) -> object:
@@ -57,43 +63,57 @@ def same_length(name: str, values: Sequence[object], times: Sequence[float]) -> 
 
 
 Axes = Annotated[str, BeforeValidator(_axes)]
-IncreasingTimes = Annotated[units.Times, AfterValidator(increasing)]
+IncreasingTimes = Annotated[Many[units.Time], AfterValidator(increasing)]
 
 
-def axes_mask(axes: str) -> int:
-    """Bit mask of axis letters: x = 1, y = 2, z = 4."""
-    return sum(1 << "xyz".index(letter) for letter in axes)
+class Support(Part):
+    """What supports share: the nodes of a body that they give a motion."""
 
-
-def holds_rotations(support: Fixed | Prescribed) -> bool:
-    """Whether it gives the rotation of nodes that are frames."""
-    given = getattr(support, "rotations", None)
-    return given == "held" or (given is None and len(getattr(support, "axes", "")) == 3)
-
-
-class Fixed(Part):
-    """Nodes that stay where they are at rest, on some or all axes."""
-
-    positional: ClassVar[tuple[str, ...]] = ("body",)
-    body: str
+    body: str = field(kw_only=False)
     """name of a body of the scene"""
     on: On
     """which nodes: a box, sphere, plane, nodes, surface or region"""
+
+    if TYPE_CHECKING:
+        axes: Axes
+        rotations: Literal["held", "free"] | None
+
+    @property
+    def axes_mask(self) -> int:
+        """Bit mask of the axes: x = 1, y = 2, z = 4."""
+        return sum(1 << "xyz".index(letter) for letter in self.axes)
+
+    @property
+    def holds_rotations(self) -> bool:
+        """Whether it gives the rotation of nodes that are frames."""
+        return self.rotations == "held" or (self.rotations is None and len(self.axes) == 3)
+
+    def effect(self, path: str, count: str | None) -> Effect:
+        """What it switches on; `count` where it is known ("42 nodes")."""
+        raise NotImplementedError
+
+    def add_to(self, builder: WorldBuilder, nodes: Ints, *, frames: bool) -> None:
+        """Give the nodes of its body their motion in the world; `frames`: they have a rotation."""
+        raise NotImplementedError
+
+
+class Fixed(Support):
+    """Nodes that stay where they are at rest, on some or all axes."""
+
     axes: Axes = "xyz"
     """axes held: letters out of xyz"""
     rotations: Literal["held", "free"] | None = None
     """of nodes that are frames: whether their rotation is held too; absent: where all axes are"""
 
-    if TYPE_CHECKING:
+    def effect(self, path: str, count: str | None) -> Effect:
+        """What it switches on; `count` where it is known ("42 nodes")."""
+        why = f"{path} holds {self.on.words(count)} on {self.axes}"
+        return Effect(f"fixed nodes of {self.body}", why)
 
-        def __init__(
-            self,
-            body: str,
-            *,
-            on: Selection,
-            axes: str = ...,
-            rotations: Literal["held", "free"] | None = ...,
-        ) -> None: ...
+    def add_to(self, builder: WorldBuilder, nodes: Ints, *, frames: bool) -> None:
+        """Hold the nodes of its body in the world; `frames`: they have a rotation."""
+        rotations = frames and self.holds_rotations
+        builder.fix(body=self.body, nodes=nodes, axes=self.axes_mask, rotations=rotations)
 
 
 class Rotation(Part):
@@ -101,20 +121,10 @@ class Rotation(Part):
 
     axis: units.Direction
     """direction of the axis, of any length but zero"""
-    center: units.Position = (0.0, 0.0, 0.0)
+    center: units.Position = field(default=(0.0, 0.0, 0.0))
     """a point of the axis [m]"""
-    angles: units.Angles
+    angles: Many[units.Angle]
     """angle at each time [rad]"""
-
-    if TYPE_CHECKING:
-
-        def __init__(
-            self,
-            *,
-            axis: units.VectorLike,
-            center: units.VectorLike = ...,
-            angles: Sequence[units.Number] | units.VectorLike,
-        ) -> None: ...
 
     @rule("axis")
     def _has_axis(self) -> Iterator[Problem]:
@@ -123,38 +133,19 @@ class Rotation(Part):
             yield Problem((), text)
 
 
-class Prescribed(Part):
+class Prescribed(Support):
     """Nodes moved along a path: a rotation, then a displacement, both linear between the times."""
 
-    positional: ClassVar[tuple[str, ...]] = ("body",)
-    body: str
-    """name of a body of the scene"""
-    on: On
-    """which nodes: a box, sphere, plane, nodes, surface or region"""
     axes: Axes = "xyz"
     """axes moved: letters out of xyz"""
     rotations: Literal["held", "free"] | None = None
     """of nodes that are frames: whether their rotation is given too; absent: where all axes are"""
     times: IncreasingTimes
     """strictly increasing times [s]"""
-    displacements: units.Displacements | None = None
+    displacements: MaybeVectors[Many[units.Position]] = field(default=None)
     """displacement from rest at each time [m]; absent: none"""
     rotation: Rotation | None = None
     """rotation from rest; absent: none"""
-
-    if TYPE_CHECKING:
-
-        def __init__(
-            self,
-            body: str,
-            *,
-            on: Selection,
-            axes: str = ...,
-            rotations: Literal["held", "free"] | None = ...,
-            times: Sequence[units.Number] | units.VectorLike,
-            displacements: Sequence[units.VectorLike] | None = ...,
-            rotation: Rotation | None = ...,
-        ) -> None: ...
 
     @rule("displacements", "rotation")
     def _moves(self) -> Iterator[Problem]:
@@ -171,3 +162,24 @@ class Prescribed(Part):
     def _turned_at_each_time(self) -> Iterator[Problem]:
         if self.rotation is not None:
             yield from same_length("rotation angle", self.rotation.angles, self.times)
+
+    def effect(self, path: str, count: str | None) -> Effect:
+        """What it switches on; `count` where it is known ("42 nodes")."""
+        end = f"until {self.times[-1]:g} s"
+        why = f"{path} moves {self.on.words(count)} on {self.axes} {end}"
+        return Effect(f"prescribed motion of {self.body}", why)
+
+    def add_to(self, builder: WorldBuilder, nodes: Ints, *, frames: bool) -> None:
+        """Lead the nodes of its body in the world; `frames`: they have a rotation."""
+        turn, moves, still = self.rotation, self.displacements, np.zeros(len(self.times))
+        builder.prescribe(
+            body=self.body,
+            nodes=nodes,
+            axes=self.axes_mask,
+            rotations=frames and self.holds_rotations,
+            times=np.array(self.times),
+            displacements=np.zeros((len(self.times), 3)) if moves is None else np.array(moves),
+            angles=still if turn is None else np.array(turn.angles),
+            center=np.zeros(3) if turn is None else np.array(turn.center),
+            axis=np.array([0.0, 0.0, 1.0] if turn is None else turn.axis),
+        )

@@ -3,22 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from typing import Annotated, Any, Literal
 
 from pydantic import Field, PlainValidator, ValidationInfo
 
 from tissu import units
-from tissu.scene.body import MeshFile, mesh_source
-from tissu.scene.law import Law, OneLaw
+from tissu.reading import Maybe, Read
+from tissu.scene.body import MeshLike, mesh_source
+from tissu.scene.effect import Effect
+from tissu.scene.field import field
+from tissu.scene.laws import OneLaw
 from tissu.scene.part import Part
 from tissu.scene.problem import Problem
-from tissu.scene.selection import On, Selection
+from tissu.scene.selection import On
 from tissu.scene.unknown import rule
 
-if TYPE_CHECKING:
-    import os
-
-    from tissu.mesh import Mesh
+__all__ = ["Tissue"]
 
 ShapeName = Literal[
     "shepard", "wendland", "cubic_spline", "linear", "trilinear", "moving_least_squares"
@@ -40,11 +40,11 @@ class Tissue(Part):
 
     between: tuple[str, str] | None = None
     """names of two bodies that it ties together; this, `inside` or both"""
-    inside: Annotated[Any, PlainValidator(_inside)] = None
+    inside: Annotated[Read[Any, MeshLike | None], PlainValidator(_inside)] = field(default=None)
     """a mesh whose closed surface it fills: a file, a bar or (in Python) a Mesh; beside `between`
     it holds the nodes of the two bodies that lie inside
     """
-    reach: Annotated[units.Length, Field(gt=0.0)] | None = None
+    reach: Maybe[units.Length] = field(default=None, gt=0.0)
     """longest way from one of the two bodies to the other through it [m]; not beside `inside`"""
     on: tuple[On, On] | None = None
     """which nodes of the two bodies it may hold; absent: all within reach"""
@@ -62,33 +62,12 @@ class Tissue(Part):
     """frames that a point listens to; absent: as many as the shape function wants"""
     law: OneLaw
     """the material's law"""
-    density: Annotated[units.Density, Field(gt=0.0)] | None = None
+    density: Maybe[units.Density] = field(default=None, gt=0.0)
     """density [kg/m^3]; this or `mass`"""
-    mass: Annotated[units.Mass, Field(gt=0.0)] | None = None
+    mass: Maybe[units.Mass] = field(default=None, gt=0.0)
     """total mass [kg]; this or `density`"""
     tangent: Literal["full", "material"] = "full"
     """the derivative of the force, or its part that is never indefinite, as published"""
-
-    if TYPE_CHECKING:
-
-        def __init__(
-            self,
-            *,
-            between: tuple[str, str] | None = ...,
-            inside: MeshFile | Mesh | str | os.PathLike[str] | None = ...,
-            reach: units.Number | None = ...,
-            on: tuple[Selection, Selection] | None = ...,
-            frames: int,
-            points: int,
-            sampling: Literal["poisson", "grid"] = ...,
-            seed: int = ...,
-            shape: ShapeName = ...,
-            neighbours: int | None = ...,
-            law: Law,
-            density: units.Number | None = ...,
-            mass: units.Number | None = ...,
-            tangent: Literal["full", "material"] = ...,
-        ) -> None: ...
 
     @rule("between", "inside", "reach", "on")
     def _has_a_place(self) -> Iterator[Problem]:
@@ -109,6 +88,14 @@ class Tissue(Part):
             found = "neither" if self.density is None else "both"
             text = f"found {found} of density and mass; exactly one of them is accepted"
             yield Problem((), text)
+
+    def effects(self, name: str) -> Iterator[Effect]:
+        """What tissue of this name switches on."""
+        ends = self.between
+        place = "inside a surface" if ends is None else "between " + " and ".join(ends)
+        size = f"of about {self.frames} frames and {self.points} points"
+        yield Effect(f"connective tissue {name}", f"tissue.{name} is {place}, {size}")
+        yield Effect(f"elasticity of {name}", f"tissue.{name}.law is {self.law.words()}")
 
 
 def tissues_of(scene: Any) -> Mapping[str, Tissue]:

@@ -8,26 +8,43 @@ from typing import TYPE_CHECKING, Annotated, Literal
 from pydantic import Field
 
 from tissu import units
+from tissu.reading import Read
+from tissu.scene.effect import numbers_in_words
+from tissu.scene.field import field
 from tissu.scene.part import Part, one_of
 from tissu.scene.problem import Problem
 from tissu.scene.unknown import rule
 
-_NotNegative = Field(ge=0.0)
-_Positive = Field(gt=0.0)
+if TYPE_CHECKING:
+    from tissu._core import WorldBuilder
+
+__all__ = ["Rayleigh", "KelvinVoigt", "Centroid", "Prony", "PronyBranch"]
 
 
-class Rayleigh(Part):
+class Viscosity(Part):
+    """What all viscosities share."""
+
+    if TYPE_CHECKING:
+        type: str
+
+    def words(self) -> str:
+        """Its type and numbers, as `check` says them."""
+        names = (name for name in type(self).model_fields if name != "type")
+        return f"{self.type}, {numbers_in_words(self, *names)}"
+
+    def add_to(self, builder: WorldBuilder, body: str) -> None:
+        """Give it to a body of the world."""
+        raise NotImplementedError
+
+
+class Rayleigh(Viscosity):
     """Viscosity proportional to mass and stiffness: C = mass M + stiffness K."""
 
     type: Literal["rayleigh"] = "rayleigh"
-    mass: Annotated[units.Rate, _NotNegative] = 0.0
+    mass: units.Rate = field(default=0.0, ge=0.0)
     """share of the mass matrix [1/s]"""
-    stiffness: Annotated[units.Time, _NotNegative] = 0.0
+    stiffness: units.Time = field(default=0.0, ge=0.0)
     """share of the stiffness matrix [s]"""
-
-    if TYPE_CHECKING:
-
-        def __init__(self, *, mass: units.Number = ..., stiffness: units.Number = ...) -> None: ...
 
     @rule("mass", "stiffness")
     def _some(self) -> Iterator[Problem]:
@@ -35,65 +52,74 @@ class Rayleigh(Part):
             text = "found no mass and no stiffness; leave viscosity out to have none"
             yield Problem((), text)
 
+    def add_to(self, builder: WorldBuilder, body: str) -> None:
+        """Give it to a body of the world."""
+        builder.add_rayleigh(body=body, mass=self.mass, stiffness=self.stiffness)
 
-class KelvinVoigt(Part):
+
+class KelvinVoigt(Viscosity):
     """A damper beside the law at every point: S = 2 eta dE/dt + zeta tr(dE/dt) I; turning is free.
 
-    With the model mass-spring it is a damper beside each spring.
+    With the model mass_spring it is a damper beside each spring.
     """
 
     type: Literal["kelvin_voigt"] = "kelvin_voigt"
-    eta: Annotated[units.Viscosity, _NotNegative] = 0.0
+    eta: units.Viscosity = field(default=0.0, ge=0.0)
     """shear viscosity [Pa s], such as '40 Pa s'"""
-    zeta: Annotated[units.Viscosity, _NotNegative] = 0.0
+    zeta: units.Viscosity = field(default=0.0, ge=0.0)
     """second viscosity, against change of volume [Pa s]"""
-
-    if TYPE_CHECKING:
-
-        def __init__(self, *, eta: units.Number = ..., zeta: units.Number = ...) -> None: ...
 
     @rule("eta", "zeta")
     def _some(self) -> Iterator[Problem]:
         if not (self.eta or self.zeta):
             yield Problem((), "found no eta and no zeta; leave viscosity out to have none")
 
+    def add_to(self, builder: WorldBuilder, body: str) -> None:
+        """Give it to a body of the world."""
+        builder.add_kelvin_voigt(body=body, shear=self.eta, bulk=self.zeta)
 
-class Centroid(Part):
+
+class Centroid(Viscosity):
     """Each node of a cell damped against the cell's centroid (Chendeb 2007); turning is braked."""
 
     type: Literal["centroid"] = "centroid"
-    coefficient: Annotated[units.DampingPerVolume, _Positive]
+    coefficient: units.DampingPerVolume = field(gt=0.0)
     """c in f = -c V (v - mean v) of a cell of volume V at rest [N s/m^4]"""
 
-    if TYPE_CHECKING:
-
-        def __init__(self, *, coefficient: units.Number) -> None: ...
+    def add_to(self, builder: WorldBuilder, body: str) -> None:
+        """Give it to a body of the world."""
+        builder.add_centroid(body=body, coefficient=self.coefficient)
 
 
 class PronyBranch(Part):
     """A spring and a damper in a row, beside the law."""
 
-    weight: Annotated[units.Pure, _Positive]
+    weight: units.Pure = field(gt=0.0)
     """stiffness of the spring, beside the law's own at small strain"""
-    time: Annotated[units.Time, _Positive]
+    time: units.Time = field(gt=0.0)
     """time after which its stress has fallen to 1/e [s]"""
 
-    if TYPE_CHECKING:
 
-        def __init__(self, *, weight: units.Number, time: units.Number) -> None: ...
+_Branches = Read[tuple[PronyBranch, ...], Sequence[PronyBranch]]
 
 
-class Prony(Part):
+class Prony(Viscosity):
     """Stress that relaxes: the law at long times, 1 + sum of the weights as stiff at once."""
 
     type: Literal["prony"] = "prony"
-    branches: Annotated[tuple[PronyBranch, ...], Field(min_length=1, max_length=16)]
+    branches: Annotated[_Branches, Field(min_length=1, max_length=16)]
     """at least one {weight, time}; 3-D cells only"""
 
-    if TYPE_CHECKING:
+    def words(self) -> str:
+        """Its type and branches, as `check` says them."""
+        branches = (f"weight {b.weight:g} time {b.time:g} s" for b in self.branches)
+        return f"prony, {', '.join(branches)}"
 
-        def __init__(self, *, branches: Sequence[PronyBranch]) -> None: ...
+    def add_to(self, builder: WorldBuilder, body: str) -> None:
+        """Give it to a body of the world."""
+        branches = [(branch.weight, branch.time) for branch in self.branches]
+        builder.add_prony(body=body, branches=branches)
 
 
-Viscosity = Rayleigh | KelvinVoigt | Centroid | Prony
-OneViscosity = Annotated[Viscosity, one_of(Rayleigh, KelvinVoigt, Centroid, Prony)]
+VISCOSITIES: tuple[type[Viscosity], ...] = (Rayleigh, KelvinVoigt, Centroid, Prony)
+OneViscosity = Annotated[Viscosity, one_of(*VISCOSITIES)]

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from tissu.counted import counted
 
 if TYPE_CHECKING:
-    from tissu.effects import Effect
+    from tissu.scene.effect import Effect
 
 
 @dataclass(frozen=True, slots=True)

@@ -24,8 +24,8 @@ from tissu.simulation.schedule import stable_steps, steps_of, steps_until
 if TYPE_CHECKING:
     from tissu.checkpoint import Checkpoint, Resumed
     from tissu.compile import Check
+    from tissu.front import Scene
     from tissu.mesh import Mesh
-    from tissu.scene import Scene
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int32]
@@ -52,7 +52,7 @@ class Simulation:
         scene: Scene,
         world: _core.World,
         meshes: Mapping[str, Mesh],
-        tissues: Mapping[str, Mesh] | None = None,
+        tissue: Mapping[str, Mesh] | None = None,
         integrator: _core.Integrator,
         solver: _core.LinearSolver | None,
         check: Check,
@@ -68,9 +68,9 @@ class Simulation:
         self._steps = 0
         self._simulated = 0.0
         self._physics_known: dict[str, Any] | None = None
-        self._tissues = dict(tissues or {})
-        self._rest_points = {name: self._core.points(name) for name in [*meshes, *self._tissues]}
-        ranges = {name: self._core.body_range(name) for name in [*meshes, *self._tissues]}
+        self._tissue = dict(tissue or {})
+        self._rest_points = {name: self._core.points(name) for name in [*meshes, *self._tissue]}
+        ranges = {name: self._core.body_range(name) for name in [*meshes, *self._tissue]}
         self._positions = MappingProxyType(_views(self._core.positions, ranges))
         self._velocities = MappingProxyType(_views(self._core.velocities, ranges))
         self.resumed_from: Resumed | None = None
@@ -96,9 +96,9 @@ class Simulation:
         return MappingProxyType(self._meshes)
 
     @property
-    def tissues(self) -> Mapping[str, Mesh]:
+    def tissue(self) -> Mapping[str, Mesh]:
         """Connective tissue -> its own frames at rest, as nodes that no cell joins."""
-        return MappingProxyType(self._tissues)
+        return MappingProxyType(self._tissue)
 
     def points(self, name: str, *, rest: bool = False) -> Floats:
         """Integration points (p, 3) of a body or tissue of frames, now or at rest [m].
@@ -239,7 +239,7 @@ class Simulation:
             ParameterError: no body of that name.
         """
         self._require_body(body)
-        return self.positions[body] - {**self._meshes, **self._tissues}[body].points
+        return self.positions[body] - {**self._meshes, **self._tissue}[body].points
 
     def rotations(self, body: str) -> Floats:
         """Rotation matrices (n, 3, 3) of the nodes of a body from rest.

@@ -69,17 +69,17 @@ def include_folders() -> list[Path]:
         LawError: in neither.
     """
     installed, checkout = _PACKAGE / "include", _PACKAGE.parents[1] / "cpp"
-    if (installed / "kernels" / "point.h").exists():
+    if (installed / "law/kernels/point.h").exists():
         return [installed]
-    if (checkout / "src/model/kernels/point.h").exists():
-        return [checkout / "include", checkout / "src/model"]
+    if (checkout / "src/law/kernels/point.h").exists():
+        return [checkout / "include", checkout / "src"]
     raise LawError(f"the headers of tissu are missing in {installed}; install tissu again.")
 
 
 def header_files() -> list[Path]:
     """The headers that made code may read, in a fixed order."""
-    folders = [f / "tissu" / room for f in include_folders() for room in ("base", "law", "model")]
-    folders += [f / "kernels" for f in include_folders()]
+    folders = [f / "tissu" / room for f in include_folders() for room in ("base", "law")]
+    folders += [f / "law/kernels" for f in include_folders()]
     return sorted(path for folder in folders for path in folder.glob("*.h"))
 
 

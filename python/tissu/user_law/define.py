@@ -14,7 +14,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from tissu.errors import LawError
-from tissu.scene.law import UserLaw, built_in_names
+from tissu.scene.law import UserLaw
+from tissu.scene.laws import built_in_names
 from tissu.user_law.made import MadeLaw
 from tissu.user_law.scene_class import scene_class
 

@@ -22,7 +22,7 @@ def scene_class(made: MadeLaw, text: str) -> type[UserLaw]:
     """
     fields: dict[str, Any] = {"type": (Literal[made.name], made.name)}
     for p in made.law.parameters:
-        dimension = units.PRESSURE if p.unit == "Pa" else units.NUMBER
+        dimension = units.dimension_of(p.unit)
         unit = "" if p.unit == "1" else f" [{p.unit}]"
         field = Field(
             gt=p.above, ge=p.at_least, lt=p.below, description=f"{p.meaning}{unit}".strip()

@@ -1,6 +1,6 @@
 """The C++ of a shared library with one law. In: a Law. Out: text that hands over a LawLibrary.
 
-The layout is that of cpp/include/tissu/model/law_library.h.
+The layout is that of cpp/include/tissu/law/law_library.h.
 """
 
 from __future__ import annotations
@@ -19,9 +19,9 @@ _HEAD = """#include <cmath>
 #include <limits>
 #include <string_view>
 
-#include "kernels/point.h"
-#include "tissu/model/law_library.h"
+#include "law/kernels/point.h"
 #include "tissu/law/functions.h"
+#include "tissu/law/law_library.h"
 #include "tissu/law/tensor.h"
 
 #define TISSU_TEXT(word) #word

@@ -7,7 +7,7 @@
 #include "../../../bench/baseline/textbook.h"
 #include "../force/verbs.h"
 #include "../world/sample_worlds.h"
-#include "tissu/model/elastic.h"
+#include "tissu/model/fem/elastic.h"
 
 namespace tissu {
 namespace {

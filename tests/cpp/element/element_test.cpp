@@ -5,8 +5,8 @@
 
 #include "../base/differences.h"
 #include "../base/random.h"
-#include "tissu/element/hexahedron.h"
-#include "tissu/element/tetra.h"
+#include "tissu/element/generated/hexahedron.h"
+#include "tissu/element/generated/tetra.h"
 
 namespace tissu {
 namespace {

@@ -4,9 +4,9 @@
 
 #include <cmath>
 
-#include "tissu/element/hexahedron.h"
+#include "tissu/element/generated/hexahedron.h"
+#include "tissu/element/generated/tetra.h"
 #include "tissu/element/reference_cell.h"
-#include "tissu/element/tetra.h"
 
 namespace tissu {
 namespace {

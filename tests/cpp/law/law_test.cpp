@@ -9,8 +9,8 @@
 #include "../base/differences.h"
 #include "../base/random.h"
 #include "tissu/base/error.h"
-#include "tissu/law/hooke.h"
-#include "tissu/law/stvk.h"
+#include "tissu/law/generated/hooke.h"
+#include "tissu/law/generated/stvk.h"
 
 namespace tissu {
 namespace {

@@ -8,9 +8,9 @@
 #include <algorithm>
 #include <map>
 
+#include "../cell/reference_nodes.h"
 #include "../force/verbs.h"
 #include "../world/sample_worlds.h"
-#include "reference_nodes.h"
 
 namespace tissu::test {
 

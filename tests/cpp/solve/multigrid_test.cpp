@@ -1,4 +1,4 @@
-#include "../../../cpp/src/solve/multigrid.h"
+#include "solve/multigrid.h"
 
 #include <gtest/gtest.h>
 

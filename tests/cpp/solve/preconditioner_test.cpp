@@ -4,10 +4,10 @@
 #include <cstring>
 #include <map>
 
-#include "../../../cpp/src/solve/renewal.h"
 #include "../assembly/dense.h"
 #include "../base/differences.h"
 #include "../world/sample_worlds.h"
+#include "solve/renewal.h"
 #include "solver_cases.h"
 #include "tissu/step/system.h"
 

@@ -3,8 +3,8 @@
 #include <atomic>
 #include <cstdlib>
 
-#include "../../../cpp/src/solve/multigrid.h"
 #include "../world/sample_worlds.h"
+#include "solve/multigrid.h"
 #include "tissu/model/models.h"
 
 /// A steady step takes no memory. Counted in malloc and its kin, below operator new and below Eigen.

@@ -2,7 +2,7 @@
 
 #include <numeric>
 
-#include "tissu/model/elastic.h"
+#include "tissu/model/fem/elastic.h"
 #include "viscous_sample.h"
 
 namespace tissu {

@@ -4,7 +4,7 @@
 
 #include "../force/verbs.h"
 #include "../world/sample_worlds.h"
-#include "tissu/model/elastic.h"
+#include "tissu/model/fem/elastic.h"
 
 namespace tissu {
 namespace {

@@ -6,8 +6,8 @@
 
 #include <Eigen/Geometry>
 
+#include "../cell/reference_nodes.h"
 #include "../force/verbs.h"
-#include "../model/reference_nodes.h"
 #include "../world/sample_worlds.h"
 
 namespace tissu::test {

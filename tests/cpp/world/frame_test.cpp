@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "../base/differences.h"
-#include "../world/sample_worlds.h"
+#include "sample_worlds.h"
 
 /// Rigid frames in the state, the matrix and the integrator that mesh nodes use.
 namespace tissu {

@@ -4,7 +4,7 @@
 
 #include "../assembly/dense.h"
 #include "../base/differences.h"
-#include "../world/sample_worlds.h"
+#include "sample_worlds.h"
 #include "tissu/step/system.h"
 
 /// Stiffness between any two nodes, chosen while the simulation runs: the shape that contact will have.

@@ -6,7 +6,7 @@
 #include <map>
 #include <numeric>
 
-#include "../world/sample_worlds.h"
+#include "sample_worlds.h"
 
 /// What a description becomes, and what is refused before the first step.
 namespace tissu {

@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
+#include "tissu/cell/elastic_block.h"
 #include "tissu/force/force_model.h"
-#include "tissu/model/elastic_block.h"
 
 namespace tissu {
 

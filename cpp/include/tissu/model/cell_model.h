@@ -7,10 +7,11 @@
 
 #include "tissu/base/array.h"
 #include "tissu/base/parallel.h"
+#include "tissu/cell/elastic_kernels.h"
+#include "tissu/cell/element_order.h"
+#include "tissu/cell/rest_shape.h"
 #include "tissu/element/reference_cell.h"
 #include "tissu/model/body_model.h"
-#include "tissu/model/element_order.h"
-#include "tissu/model/rest_shape.h"
 
 namespace tissu {
 

@@ -16,7 +16,7 @@
 #include <array>
 #include <vector>
 
-#include "tissu/model/prony_kernels.h"
+#include "tissu/viscosity/prony_kernels.h"
 #include "tissu/viscosity/viscosity.h"
 #include "tissu/viscosity/viscous_cells.h"
 

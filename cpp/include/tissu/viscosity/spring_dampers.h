@@ -6,7 +6,7 @@
 /// constants. Turning is free; df/dv is exact, and the change of n with x is left out of df/dx.
 
 #include "tissu/law/law.h"
-#include "tissu/model/mass_spring.h"
+#include "tissu/model/edges/mass_spring.h"
 
 namespace tissu {
 

@@ -5,9 +5,9 @@
 
 #include <vector>
 
+#include "tissu/cell/elastic_kernels.h"
 #include "tissu/law/law.h"
 #include "tissu/model/cell_model.h"
-#include "tissu/model/elastic_kernels.h"
 
 namespace tissu {
 

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <cstring>
 
-#include "four.h"
+#include "assembly/kernels/four.h"
 #include "sweep_list.h"
 
 namespace tissu::TISSU_KERNELS {

@@ -10,8 +10,8 @@ PARAMETERS = (
     Parameter(
         name="c1", unit="Pa", meaning="half the shear modulus at rest", typical=500.0, above=0.0
     ),
-    Parameter(name="c2", unit="Pa", meaning="weight of (Ibar1 - 3)^2", typical=120.0),
-    Parameter(name="c3", unit="Pa", meaning="weight of (Ibar1 - 3)^3", typical=30.0),
+    Parameter(name="c2", unit="Pa", meaning="weight of (Ibar1 - 3)^2", typical=120.0, default=0.0),
+    Parameter(name="c3", unit="Pa", meaning="weight of (Ibar1 - 3)^3", typical=30.0, default=0.0),
     KAPPA,
 )
 c1, c2, c3, kappa = symbols_of(PARAMETERS)

@@ -1,0 +1,103 @@
+#pragma once
+
+/// What a block of like cells is made of, as plain data.
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tissu/base/vec.h"
+#include "tissu/cell/frame_points.h"
+#include "tissu/law/law_info.h"
+#include "tissu/law/loaded_law.h"
+
+namespace tissu {
+
+/// Parameters of a law by name, in SI units: one number, or one for each cell.
+using LawParameters = std::map<std::string, std::vector<double>>;
+
+/// They are the same for all cells.
+bool uniform(const LawParameters& parameters);
+
+/// A law with its parameters.
+struct LawUse {
+  std::string law;
+  LawParameters parameters;
+  std::shared_ptr<const LoadedLaw> loaded = nullptr;  ///< null: the library's law of this name
+};
+
+/// What holds across a surface: no stress, as in a sheet, or no strain, as in a slice of a long body. Along a
+/// line nothing holds it sideways under `stress`, and it cannot thin under `strain`.
+enum class Plane : std::uint8_t { stress, strain };
+
+/// Which of the models of `models.h` carries a block, and what only some of them ask for.
+struct ModelUse {
+  std::string name = "fem";
+  std::string rotation = "polar";  ///< of corotational: small, frame or polar
+  std::string tangent =
+      "approximate";              ///< of corotational: approximate or exact; of frames: full or material
+  std::string section = "whole";  ///< of frames in sheets and lines: whole or middle
+  bool equal_masses = false;      ///< of mass-spring: the same mass at every node
+  std::vector<std::int32_t> kept = {};  ///< of condensed: the nodes of the body that are not eliminated
+  double drilling = 1.0;                ///< of shell: ShellSection::drilling
+  Vec3 gravity = Vec3::Zero();          ///< of condensed: pulls at those that are [m/s2]; the world gives it
+};
+
+/// What an elastic block is made of. `density` holds one number, or one for each cell.
+struct ElasticBlock {
+  std::string body;
+  std::string element = "tetra";
+  std::string law = "stvk";
+  std::string quadrature = "full";
+  std::vector<std::int32_t> cells;         ///< cell after cell, node numbers of the world, VTK order
+  std::vector<std::int32_t> cell_numbers;  ///< of each cell in its body; empty: 0, 1, 2, …
+  std::vector<std::int32_t> frames;  ///< of each entry of `cells`, where nodes have rotations; else empty
+  std::int32_t first_rotation = 0;   ///< block of the rotation of frame 0; frame k's is first_rotation + k
+  LawParameters parameters;          ///< of the law
+  std::shared_ptr<const LoadedLaw> loaded = nullptr;  ///< the law itself; null: the library's of this name
+  std::vector<LawUse> reinforcements;                 ///< laws whose energies are added: fibres
+  std::vector<double> density;                        ///< [kg/m3]
+  /// Of surfaces the thickness [m], of lines the area [m2]; one, or one for each cell. Volumes have none.
+  std::vector<double> cross_section = {1.0};
+  Plane plane = Plane::stress;
+  ModelUse model;
+  /// Of frames without cells: their points; `cells` holds the frames of each. Null: the cells' own.
+  std::shared_ptr<const FramePoints> points = nullptr;
+  bool fused = true;  ///< kernels made for this element and law where there are such; else those of its shape
+};
+
+/// The value of a cell, where there is one for all or one for each.
+inline double of_cell(const std::vector<double>& values, std::int32_t cell) {
+  return values.size() == 1 ? values.front() : values[static_cast<std::size_t>(cell)];
+}
+
+/// The law and what is added to it.
+std::vector<LawUse> laws_of(const ElasticBlock& block);
+/// Refuses laws that are not known.
+const LawInfo& law_info(const ElasticBlock& block, const LawUse& use);
+/// Refuses parameters that a law lacks or does not have, and lists that are neither one number nor one for
+/// each cell.
+void check_laws(const ElasticBlock& block, std::size_t cells);
+/// The constants of a law that a cell has, as its kernels read them; refuses parameters out of range.
+void cell_constants(const ElasticBlock& block, const LawUse& use, std::int32_t cell,
+                    std::span<double> constants);
+/// Refuses a list that is neither one number nor one for each cell.
+void check_size(const ElasticBlock& block, const std::vector<double>& values, std::string_view what,
+                std::size_t cells);
+/// "3, 5, 9, 12, 14, …"
+std::string first_five(const std::vector<std::int32_t>& numbers);
+
+/// Some of a block's cells, `which` in ascending order, with what belongs to them.
+ElasticBlock part_of(const ElasticBlock& block, const std::vector<std::size_t>& which);
+
+/// A block's affine cells and its others apart, when it has both: one J serves an affine cell. `first_cell`
+/// is the number in its body of a block whose cells have none. What is not known is left to the model to
+/// refuse.
+std::vector<ElasticBlock> split_affine(ElasticBlock block, std::int32_t first_cell,
+                                       ConstReals rest_positions);
+
+}  // namespace tissu

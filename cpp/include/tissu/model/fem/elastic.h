@@ -1,0 +1,40 @@
+#pragma once
+
+/// Continuum elements: the elasticity of one block of like cells, an element, a quadrature and a law.
+
+#include <vector>
+
+#include "tissu/cell/elastic_kernels.h"
+#include "tissu/model/cell_model.h"
+#include "tissu/model/model_info.h"
+
+namespace tissu {
+
+class Elastic final : public CellModel {
+ public:
+  static ModelInfo info();
+  /// Refuses unknown names, parameters out of range and cells that are inverted or have no volume.
+  Elastic(ElasticBlock block, ConstReals rest_positions, Isa isa, Threads threads);
+
+  [[nodiscard]] std::string_view effect() const override { return "elasticity"; }
+  [[nodiscard]] bool has_constant_stiffness() const override;
+  void add_force(const State& state, Reals f) const override;
+  void add_stiffness(const State& state, StiffnessScale scale, BlockMatrix& matrix) const override;
+  void add_product(const State& state, StiffnessScale scale, ConstReals p, Reals out) const override;
+  [[nodiscard]] double energy(const State& state) const override;
+
+  [[nodiscard]] CellFields fields(const State& state) const override;
+  [[nodiscard]] std::size_t bytes() const override;
+  [[nodiscard]] std::size_t reals_per_cell() const override;
+
+ private:
+  void choose_kernels(Isa isa);
+  void lay_law_constants();
+  [[nodiscard]] Loops<ElasticKernels, ElasticView> loops() const;
+
+  const ElasticKernels* kernels_ = nullptr;
+  std::vector<const LawKernels*> laws_;
+  std::vector<double> gradients_;  ///< [point][node][m]
+};
+
+}  // namespace tissu

@@ -1,0 +1,45 @@
+#include "tissu/model/fem/elastic.h"
+
+#include <algorithm>
+
+namespace tissu {
+bool Elastic::has_constant_stiffness() const {
+  return std::ranges::all_of(laws_, [](const LawKernels* law) { return law->linear; });
+}
+
+Loops<ElasticKernels, ElasticView> Elastic::loops() const {
+  ElasticView view = cell_view();
+  view.frames = shape_.frames.empty() ? nullptr : shape_.frames.data();
+  view.gradients = gradients_.data();
+  view.laws = laws_.data();
+  view.law_count = static_cast<int>(laws_.size());
+  return {*kernels_, view, order_};
+}
+
+void Elastic::add_force(const State& state, Reals f) const { force_by(loops(), state.positions, f); }
+
+void Elastic::add_stiffness(const State& state, StiffnessScale scale, BlockMatrix& matrix) const {
+  stiffness_by(loops(), state.positions, scale, matrix);
+}
+
+void Elastic::add_product(const State& state, StiffnessScale scale, ConstReals p, Reals out) const {
+  product_by(loops(), state.positions, scale.position, p, out);
+}
+
+double Elastic::energy(const State& state) const { return energy_by(loops(), state.positions); }
+
+CellFields Elastic::fields(const State& state) const { return fields_by(loops(), state.positions); }
+
+std::size_t Elastic::bytes() const {
+  return CellModel::bytes() +
+         (shape_.rest.size() + shape_.frames.size() + constants_.size()) * sizeof(double);
+}
+
+std::size_t Elastic::reals_per_cell() const {
+  const std::size_t frame = shape_.frames.empty() ? 0 : 9;
+  std::size_t own = 0;  // of the law, where cells differ
+  if (constants_stride_ != 0) own = static_cast<std::size_t>(constants_stride_) / kLanes;
+  return static_cast<std::size_t>(shape_.rest_points) * (shape_.reals + frame) + own;
+}
+
+}  // namespace tissu

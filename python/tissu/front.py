@@ -1,0 +1,117 @@
+"""The scene as users have it: its fields, and the verbs that read, check, write and compile it."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, TypeVar
+
+from typing_extensions import Self
+
+from tissu.errors import SceneError
+from tissu.scene.part import problems_in
+from tissu.scene.scene import SceneData
+
+if TYPE_CHECKING:
+    from tissu.compile import Check
+    from tissu.simulation import Simulation
+
+__all__ = ["Scene"]
+
+
+class Scene(SceneData):
+    """Bodies, what holds and moves them, and how time is stepped; frozen and validated.
+
+    An effect that is absent (no viscosity, no gravity, no loads) is absent from the simulation too.
+    """
+
+    def _refusal(self) -> list[str]:
+        from tissu.compile import problems_of
+
+        return problems_of(self)
+
+    @classmethod
+    def from_yaml(cls, path: str | os.PathLike[str]) -> Self:
+        """Read a scene; paths of meshes are relative to the file.
+
+        Raises:
+            SceneError: the file cannot be read or has wrong fields; with them everything that
+                compile() would refuse, each problem with its line.
+        """
+        from tissu.yaml_io import read_scene
+
+        return accepted(read_scene(Path(path), cls))
+
+    @classmethod
+    def from_yaml_text(cls, text: str, *, base: str | os.PathLike[str] | None = None) -> Self:
+        """Read a scene from a text; paths of meshes are relative to the folder `base`.
+
+        Raises:
+            SceneError: the text has wrong fields; with them everything that compile() would
+                refuse, each problem with its line.
+        """
+        from tissu.yaml_io import parse_scene
+
+        return accepted(parse_scene(text, cls, base=None if base is None else Path(base)))
+
+    def to_yaml(self) -> str:
+        """The scene as YAML text that reads back as an equal scene.
+
+        Raises:
+            SceneError: a mesh was made in memory; `save` writes it to a file.
+        """
+        from tissu.yaml_io import scene_text
+
+        return scene_text(self)
+
+    def to_dict(self) -> dict[str, Any]:
+        """What to_yaml() writes, as mappings, lists and numbers in SI.
+
+        Raises:
+            SceneError: a mesh was made in memory; `save` writes it to a file.
+        """
+        from tissu.yaml_io import scene_data
+
+        return scene_data(self)
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write the scene to a YAML file, and meshes made in memory beside it as .vtu files."""
+        from tissu.yaml_io import write_scene
+
+        write_scene(self, Path(path))
+
+    def compile(self, *, checkpoint: str | os.PathLike[str] | None = None) -> Simulation:
+        """Turn the scene into a simulation.
+
+        Args:
+            checkpoint: a file of `Simulation.save_checkpoint`, from which it goes on with the same
+                bits; absent: it begins at rest. Name, duration, threads and output of the scene
+                may be others than those of the scene that was saved.
+
+        Raises:
+            SceneError: problems of the scene or its meshes; all of them.
+            CheckpointError: the file is absent, damaged, or of another scene or version.
+        """
+        from tissu.compile import compile_scene
+
+        return compile_scene(self, None if checkpoint is None else Path(checkpoint))
+
+    def check(self) -> Check:
+        """Everything that compile() would refuse, and in plain words what the scene switches on."""
+        from tissu.compile import check_scene
+
+        return check_scene(self)
+
+
+S = TypeVar("S", bound=Scene)
+
+
+def accepted(scene: S) -> S:
+    """The scene, when its fields have no problem.
+
+    Raises:
+        SceneError: they have; with them everything that compile() would refuse.
+    """
+    if next(problems_in(scene), None) is not None:
+        raise SceneError(scene._refusal())
+    return scene

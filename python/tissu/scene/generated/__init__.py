@@ -1,0 +1,1 @@
+"""Made by `make codegen` from python/tissu/codegen; never edited."""

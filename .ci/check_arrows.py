@@ -53,6 +53,7 @@ CPP: dict[str, set[str]] = {
     "model/condensed": MODEL | {"model/fem", "solve"},
     "viscosity": MODEL | {"model/edges"},  # dampers beside springs
     "edit": MODEL | {"world"},
+    "picture": {"base"},
 }
 CPP["model/models"] = MODEL | {room for room in CPP if room.startswith("model/")}
 CPP["world"] = MODEL | {"model/models", "viscosity"}
@@ -75,14 +76,14 @@ PYTHON: dict[str, set[str]] = {
     "codegen": {"errors"},
     "formula": {"errors", "codegen"},
     "mesh": {"arrays", "errors", "counted", "files", "units", "_core"},
-    "sampling": {"errors", "counted", "mesh"},
+    "sampling": {"errors", "counted", "mesh", "_core"},
     "scene": {"errors", "counted", "field_names", "reading", "units", "mesh", "_core"},
     "user_law": {"errors", "files", "units", "codegen", "scene", "_core"},
     "yaml_text": {"errors", "files", "scene"},
     "yaml_io": {"errors", "files", "mesh", "scene", "user_law", "yaml_text"},
     "effects": {"scene"},
     "checkpoint": {"errors", "counted", "files", "_core"},
-    "picture": {"errors", "files", "mesh"},
+    "picture": {"errors", "files", "mesh", "_core"},
     "simulation": {
         "arrays",
         "errors",

@@ -62,6 +62,37 @@ with its line.
 `status` and `why` of `summary.json` say the same. Files are written to new places and in place of
 regular files; a device, a pipe or a link to nothing is refused before anything is opened.
 
+A region is named in the file of a mesh, or made from a shape: it has the cells whose centres (the
+means of their nodes) lie in the shape. In a map of laws or models the key `rest` means all cells
+that no other key has.
+
+```yaml
+mesh:
+  file: liver.vtu
+  regions: {{tumour: {{type: sphere, center: [6 cm, 4 cm, 3 cm], radius: 1 cm}}}}
+law:
+  tumour: {{type: stvk, young: 30 kPa, poisson: 0.45}}
+  rest: {{type: stvk, young: 5 kPa, poisson: 0.45}}
+```
+
+In Python `mesh.with_region("tumour", ts.Sphere((0.06, 0.04, 0.03), 0.01))` is a mesh with one more
+region; numbers of cells are taken in place of a shape.
+
+`ts.Scene.from_yaml(path)` reads a scene file. `scene.to_yaml()` and `scene.save(path)` write one
+that reads back equal. `scene.replace(duration=2.0)` is the same scene with some fields changed,
+checked again; every part has `replace`. `tissu schema` prints the JSON schema of scene files, with
+which an editor completes keys and marks wrong ones:
+
+```
+tissu schema > scene.schema.json
+```
+
+and as the first line of a scene file, for editors with a YAML language server,
+
+```yaml
+# yaml-language-server: $schema=scene.schema.json
+```
+
 This page is printed from the classes by `make codegen`.
 """
 

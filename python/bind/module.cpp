@@ -53,6 +53,8 @@ PYBIND11_MODULE(_core, m) {
   m.def("build_info", [] { return bind::to_dict(tissu::build_info()); });
   bind_mesh(m);
   tissu::bind::bind_field(m);
+  bind::bind_sampling(m);
+  bind::bind_picture(m);
   bind::bind_law(m);  // before what takes one
   bind::bind_model(m);
   bind::bind_world(m);

@@ -26,6 +26,7 @@ _HOMES = {
         "ParameterError",
         "LawError",
         "SceneError",
+        "BusyError",
         "CheckpointError",
         "Diverged",
     ),

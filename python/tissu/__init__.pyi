@@ -11,6 +11,7 @@ from tissu.errors import MeshError as MeshError
 from tissu.errors import ParameterError as ParameterError
 from tissu.errors import LawError as LawError
 from tissu.errors import SceneError as SceneError
+from tissu.errors import BusyError as BusyError
 from tissu.errors import CheckpointError as CheckpointError
 from tissu.errors import Diverged as Diverged
 from tissu.front import Scene as Scene

@@ -66,6 +66,9 @@ def run(
         str | None,
         typer.Option(metavar="TIME", help="And whenever this simulated time has passed: '1 s'."),
     ] = None,
+    picture: Annotated[
+        bool, typer.Option("--picture/--no-picture", help="Whether a picture is drawn at the end.")
+    ] = True,
     trust_laws: TrustLaws = False,
     accept_unconverged: AcceptUnconverged = False,
     quiet: Annotated[bool, typer.Option("--quiet", "-q", help="Print errors only.")] = False,
@@ -77,9 +80,18 @@ def run(
     with reported(debug=debug):
         more = (resume, checkpoint, checkpoint_every, trust_laws, accept_unconverged)
         folder = out or Path("results") / scene.stem
-        raise typer.Exit(
-            run_scene(Job(scene, folder, duration, threads, quiet, *more), debug=debug)
-        )
+        job = Job(scene, folder, duration, threads, quiet, *more, picture=picture)
+        raise typer.Exit(run_scene(job, debug=debug))
+
+
+@app.command()
+def schema() -> None:
+    """Print the JSON schema of scene files, with which editors complete and check them."""
+    import json
+
+    from tissu.scene.schema import scene_schema
+
+    typer.echo(json.dumps(scene_schema(), indent=2))
 
 
 @app.command()

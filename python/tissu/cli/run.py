@@ -41,6 +41,7 @@ class Job:
     checkpoint_every: str | None = None
     trust_laws: bool = False
     accept_unconverged: bool = False
+    picture: bool = True
 
 
 @dataclass(slots=True)
@@ -104,8 +105,11 @@ def run_scene(job: Job, *, debug: bool = False) -> int:
         files = Files(series, checkpoints, Timetable(span(scene)[1]), clock)
         ending = advance(simulation, files, tally, interrupted, quiet=job.quiet)
         ending = judged(ending, tally, accepted=job.accept_unconverged)
-        picture = None if files.lost else conclude(simulation, series, tally, clock, ending)
-    if not job.quiet and picture is not None:
+        picture = None
+        if not files.lost:
+            picture = drawn(simulation, series, clock) if job.picture else None
+            conclude(simulation, series, tally, clock, ending, picture)
+    if not job.quiet and not files.lost:
         with contextlib.suppress(BrokenPipeError):  # who reads it has left; the run ends as it did
             report(simulation, series, tally, clock, picture)
     if ending.error is not None and debug:
@@ -245,30 +249,42 @@ def span(scene: Scene) -> tuple[float, float]:
     return duration, scene.output.every if scene.output is not None else duration / 50
 
 
-def conclude(
-    simulation: Simulation, series: Series, tally: StepTally, clock: Clock, ending: Ending
-) -> Path:
-    """Writes the picture and the summary; returns where the picture is."""
-    from tissu.picture import draw
-
+def drawn(simulation: Simulation, series: Series, clock: Clock) -> Path:
+    """Draws the picture; returns where it is."""
     picture = series.index.with_suffix(".png")
     with clock.stage("picture"):
+        from tissu.picture import draw
+
         draw(simulation, picture)
+    return picture
+
+
+def conclude(
+    simulation: Simulation,
+    series: Series,
+    tally: StepTally,
+    clock: Clock,
+    ending: Ending,
+    picture: Path | None,
+) -> None:
+    """Writes the summary."""
+    files = {"series": series.index.name}
+    if picture is not None:
+        files["picture"] = picture.name
     summary = summarise(
         simulation,
         tally=tally,
         status=ending.status,
         wall_seconds=clock.seconds,
-        files={"series": series.index.name, "picture": picture.name},
+        files=files,
         why=ending.message,
         notes=[*worth_knowing(simulation), *filter(None, (ending.message, series.inverted))],
     )
     write_summary(series.index.with_name("summary.json"), summary)
-    return picture
 
 
 def report(
-    simulation: Simulation, series: Series, tally: StepTally, clock: Clock, picture: Path
+    simulation: Simulation, series: Series, tally: StepTally, clock: Clock, picture: Path | None
 ) -> None:
     """Prints what the steps cost and where the results are."""
     print(simulation.profile())
@@ -287,7 +303,8 @@ def report(
         print(series.inverted)
     print(f"result:  {series.index} ({counted(series.count, 'time')})")
     print(f"summary: {series.index.with_name('summary.json')}")
-    print(f"picture: {picture}")
+    if picture is not None:
+        print(f"picture: {picture}")
 
 
 def resumed_words(resumed: Resumed) -> str:

@@ -22,6 +22,7 @@ NAMES: dict[str, tuple[str, ...]] = {
         "ParameterError",
         "LawError",
         "SceneError",
+        "BusyError",
         "CheckpointError",
         "Diverged",
     ),

@@ -109,6 +109,8 @@ def _owner_of_cells(mesh: Mesh, given: object, path: Path, findings: Findings) -
         return owner
     known = True
     for number, region in enumerate(given):
+        if _is_rest(region, mesh):
+            continue
         try:
             cells = region_cells(region, mesh)
         except ParameterError as error:
@@ -119,6 +121,10 @@ def _owner_of_cells(mesh: Mesh, given: object, path: Path, findings: Findings) -
         owner[cells] = number
     if not known:
         return None
+    for number, region in enumerate(given):
+        if _is_rest(region, mesh):
+            owner[count == 0] = number
+            count[count == 0] = 1
     for wrong, words in (
         (count == 0, f"in no region of the {what}"),
         (count > 1, f"in several regions of the {what}"),
@@ -132,6 +138,11 @@ def _owner_of_cells(mesh: Mesh, given: object, path: Path, findings: Findings) -
                 f"each cell needs one {what}",
             )
     return owner if bool((count == 1).all()) else None
+
+
+def _is_rest(region: str, mesh: Mesh) -> bool:
+    """Whether it means the cells that no other region of the map has."""
+    return region == "rest" and region not in mesh.regions
 
 
 def parameters_of(laws: list[Law], owner: Ints) -> dict[str, Floats]:

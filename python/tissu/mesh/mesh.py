@@ -21,7 +21,10 @@ from tissu.mesh import thin as thins
 from tissu.mesh.cell import CellBlock, Floats, Ints, dimension, handled_types, thin_types
 
 if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+
     from tissu.mesh.quality import QualityReport
+    from tissu.mesh.regions import Selects
     from tissu.mesh.surface import Surface
 
 
@@ -172,6 +175,24 @@ class Mesh:
         from tissu.mesh.quality import report
 
         return report(self)
+
+    def with_region(self, name: str, where: Selects | ArrayLike) -> Mesh:
+        """The same mesh with one more region, or with another one of this name.
+
+        Other regions keep their cells, also those that the new one has. A map of laws gives what
+        no region of it has by the key `rest`.
+
+        Args:
+            name: of the region.
+            where: a selection such as `Sphere(center, radius)`, which means the cells whose centres
+                lie in it, or numbers (k,) of cells, or one bool for each cell (e,).
+
+        Raises:
+            MeshError: no cell is meant, or a number of no cell.
+        """
+        from tissu.mesh.regions import with_region
+
+        return with_region(self, name, where)
 
     def without_unused_nodes(self) -> Mesh:
         """The same mesh without the nodes that no simulated cell uses.

@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 from tissu import _core, units
 from tissu.counted import counted
 from tissu.errors import CheckpointError, ParameterError, TissuError
+from tissu.simulation.entry import Entry, one_thread_at_a_time
 from tissu.simulation.inspected import Inspected
 from tissu.simulation.plan import Plan
 from tissu.simulation.profile import Profile, profile_of
@@ -33,8 +34,11 @@ _SHARE_OF_STABLE = 0.9
 """of the stable step, for the step auto: room for what the body stiffens in between"""
 
 
+@one_thread_at_a_time
 class Simulation(Inspected):
     """A compiled scene that can be stepped; made by `Scene.compile()`.
+
+    One thread at a time may call it: while one is in a method, another one gets a `BusyError`.
 
     Attributes:
         scene: what it was compiled from.
@@ -55,6 +59,7 @@ class Simulation(Inspected):
         checkpoint: Checkpoint | None = None,
     ) -> None:
         self.scene = scene
+        self._entry = Entry(scene.name)
         self._check = check
         self._world = world
         self._core = _core.Simulation(world=world, integrator=integrator, solver=solver)
@@ -82,7 +87,7 @@ class Simulation(Inspected):
         step = self.scene.step
         dt = getattr(step, "dt", None)
         how = step.type + ("" if dt is None else f" dt {dt}" if dt == "auto" else f" dt {dt:g} s")
-        when = f"t = {self.time:.6g} s after {steps}"
+        when = f"t = {self._core.time:.6g} s after {steps}"
         return f"Simulation('{self.scene.name}', {when}; {bodies}; {how})"
 
     def __reduce_ex__(self, protocol: SupportsIndex) -> NoReturn:

@@ -43,15 +43,17 @@ CPP: dict[str, set[str]] = {
     "model/frames/frames_options": {"model/frames/frame_points"},
     "model/options": {"base"} | OPTIONS,
     "model": MODEL | {"model/options"},
-    "model/fem": MODEL,
-    "model/corotational": MODEL,
-    "model/edges": MODEL | {"model/fem"},  # the definite tangent of mass-tensor
-    "model/dilatation": MODEL,
-    "model/frames": MODEL | {"model/frames/frame_points"},
+    "model/points": MODEL | {"model/frames/frame_points"},
+    "model/fem": MODEL | {"model/points"},
+    "model/corotational": MODEL | {"model/points"},
+    "model/edges": MODEL | {"model/points", "model/fem"},  # the definite tangent of mass-tensor
+    "model/dilatation": MODEL | {"model/points"},
+    "model/frames": MODEL | {"model/points", "model/frames/frame_points"},
     "model/shell": MODEL,
     "model/condensed": MODEL | {"model/fem", "solve"},
     "viscosity": MODEL | {"model/edges"},  # dampers beside springs
     "edit": MODEL | {"world"},
+    "picture": {"base"},
 }
 CPP["model/models"] = MODEL | {room for room in CPP if room.startswith("model/")}
 CPP["world"] = MODEL | {"model/models", "viscosity"}
@@ -65,19 +67,33 @@ PYTHON: dict[str, set[str]] = {
     "_core": set(),
     "counted": set(),
     "pareto": set(),
-    "reading": set(),
-    "units": {"errors", "reading"},
+    "field_names": set(),
+    "files": {"errors"},
+    "arrays": {"errors"},
+    "unit_table": set(),
+    "reading": {"arrays"},
+    "units": {"arrays", "errors", "reading", "unit_table"},
     "codegen": {"errors"},
     "formula": {"errors", "codegen"},
-    "mesh": {"errors", "counted", "units", "_core"},
-    "sampling": {"errors", "counted", "mesh"},
-    "scene": {"errors", "counted", "reading", "units", "mesh", "_core"},
-    "user_law": {"errors", "units", "codegen", "scene", "_core"},
-    "yaml_io": {"errors", "mesh", "scene", "user_law"},
+    "mesh": {"arrays", "errors", "counted", "files", "units", "_core"},
+    "sampling": {"errors", "counted", "mesh", "_core"},
+    "scene": {"errors", "counted", "field_names", "reading", "units", "mesh", "_core"},
+    "user_law": {"errors", "files", "units", "codegen", "scene", "_core"},
+    "yaml_text": {"errors", "files", "scene"},
+    "yaml_io": {"errors", "files", "mesh", "scene", "user_law", "yaml_text"},
     "effects": {"scene"},
-    "checkpoint": {"errors", "counted", "_core"},
-    "picture": {"errors", "mesh"},
-    "simulation": {"errors", "counted", "units", "mesh", "checkpoint", "_core"},
+    "checkpoint": {"errors", "counted", "files", "_core"},
+    "picture": {"errors", "files", "mesh", "_core"},
+    "simulation": {
+        "arrays",
+        "errors",
+        "counted",
+        "field_names",
+        "units",
+        "mesh",
+        "checkpoint",
+        "_core",
+    },
     "compile": {
         "errors",
         "counted",
@@ -93,9 +109,11 @@ PYTHON: dict[str, set[str]] = {
     "comparison": {"errors", "counted", "mesh", "scene", "picture"},
     "accuracy": {"errors", "pareto", "front", "yaml_io", "picture"},
     "advice": {"errors", "counted", "pareto", "units", "mesh", "scene", "picture"},
-    "output": {"errors", "counted", "mesh", "_core"},
+    "output": {"errors", "counted", "field_names", "files", "mesh", "_core"},
 }
+PYTHON["examples"] = {"errors", "files", "front"}
 PYTHON["cli"] = set(PYTHON)
+PYTHON["__main__"] = {"cli"}
 PYTHON["__init__"] = set(PYTHON)
 
 REFUSED = {"util", "utils", "common", "misc", "helper", "helpers", "manager", "managers"}

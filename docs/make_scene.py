@@ -40,6 +40,59 @@ With `model: frames` or `shell` the nodes turn as well, and sheets bend ([frames
 [shells](shells.md)). A held node does not turn where all its axes are held, unless
 `rotations: free` says so.
 
+Files of `laws` are programs. They run only with `--trust-laws` (`trust_laws=True` in Python), only
+from the scene's folder or below it, links followed, and only when nothing else is wrong with the
+scene ([laws](laws.md)).
+
+Units are names of a table with `*`, `/`, `^` and brackets ("N s/m^4", "kgf/cm^2", "16 cmH2O");
+no text is evaluated. The words are those of YAML 1.2: 010 is ten. A scene has at most 16 MiB,
+40 levels of nesting, 1,000,000,000 steps and names of 200 characters; what is beyond is refused
+with its line.
+
+`tissu run` prints on stderr, once, what `tissu check` notes. It ends with the status
+
+| | |
+|---|---|
+| 0 | finished |
+| 1 | a step gave values that are not finite, or was refused |
+| 2 | something of the input is wrong, or results could not be written |
+| 3 | some steps did not converge; 0 with `--accept-unconverged` |
+| 129, 130, 143 | stopped by SIGHUP, Ctrl-C, SIGTERM, with all files complete |
+
+`status` and `why` of `summary.json` say the same. Files are written to new places and in place of
+regular files; a device, a pipe or a link to nothing is refused before anything is opened.
+
+A region is named in the file of a mesh, or made from a shape: it has the cells whose centres (the
+means of their nodes) lie in the shape. In a map of laws or models the key `rest` means all cells
+that no other key has.
+
+```yaml
+mesh:
+  file: liver.vtu
+  regions: {{tumour: {{type: sphere, center: [6 cm, 4 cm, 3 cm], radius: 1 cm}}}}
+law:
+  tumour: {{type: stvk, young: 30 kPa, poisson: 0.45}}
+  rest: {{type: stvk, young: 5 kPa, poisson: 0.45}}
+```
+
+In Python `mesh.with_region("tumour", ts.Sphere((0.06, 0.04, 0.03), 0.01))` is a mesh with one more
+region; numbers of cells are taken in place of a shape.
+
+`ts.Scene.from_yaml(path)` reads a scene file. `scene.to_yaml()` and `scene.save(path)` write one
+that reads back equal. `scene.replace(duration=2.0)` is the same scene with some fields changed,
+checked again; every part has `replace`. `tissu schema` prints the JSON schema of scene files, with
+which an editor completes keys and marks wrong ones:
+
+```
+tissu schema > scene.schema.json
+```
+
+and as the first line of a scene file, for editors with a YAML language server,
+
+```yaml
+# yaml-language-server: $schema=scene.schema.json
+```
+
 This page is printed from the classes by `make codegen`.
 """
 

@@ -40,10 +40,11 @@ void corotational(benchmark::State& run, const Row& row, int count) {
   State state;
   state.positions = deformed(mesh);
   std::vector<double> out(state.positions.size(), 0.0);
+  Scratch scratch;
   for (auto _ : run) {
-    if (row.work == Work::force) model.add_force(state, out);
-    if (row.work == Work::product) model.add_product(state, {1.0, 0.0}, mesh.positions, out);
-    if (row.work == Work::assembly) model.add_stiffness(state, {-1.0, 0.0}, matrix);
+    if (row.work == Work::force) model.add_force(state, scratch, out);
+    if (row.work == Work::product) model.add_product(state, scratch, {1.0, 0.0}, mesh.positions, out);
+    if (row.work == Work::assembly) model.add_stiffness(state, scratch, {-1.0, 0.0}, matrix);
     benchmark::ClobberMemory();
   }
   const double elements = mesh.cell_count();

@@ -47,8 +47,9 @@ void definite(benchmark::State& run, const Row& row, StiffnessScale scale, int c
   State state;
   state.positions = deformed(mesh);
   for (std::size_t i = 2; i < state.positions.size(); i += 3) state.positions[i] *= 0.6;
+  Scratch scratch;
   for (auto _ : run) {
-    model->add_stiffness(state, scale, matrix);
+    model->add_stiffness(state, scratch, scale, matrix);
     benchmark::ClobberMemory();
   }
   const double elements = mesh.cell_count();

@@ -52,6 +52,8 @@ void bind_simulation(py::module_& m);
 void bind_solver(py::module_& m);
 void bind_step(py::module_& m);
 void bind_field(py::module_& m);
+void bind_sampling(py::module_& m);
+void bind_picture(py::module_& m);
 
 }  // namespace tissu::bind
 

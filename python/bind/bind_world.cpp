@@ -95,10 +95,10 @@ void add_prony(WorldDescription& world, const std::string& body,
   world.body(body).viscosity = std::move(viscosity);
 }
 
-std::vector<FaceCells> to_faces(const std::vector<std::pair<std::string, Ints>>& faces) {
+std::vector<FaceCells> to_faces(const std::vector<std::pair<std::string, Ints>>& faces, double thickness) {
   std::vector<FaceCells> result;
   result.reserve(faces.size());
-  for (const auto& [type, nodes] : faces) result.push_back({type, to_vector(nodes)});
+  for (const auto& [type, nodes] : faces) result.push_back({type, to_vector(nodes), thickness});
   return result;
 }
 
@@ -144,7 +144,10 @@ void bind_world(py::module_& m) {
       .def_property_readonly("instruction_set",
                              [](const World& world) { return std::string(name(world.isa())); });
 
-  py::enum_<Plane>(m, "Plane").value("stress", Plane::stress).value("strain", Plane::strain);
+  py::enum_<Plane>(m, "Plane")
+      .value("free", Plane::free)
+      .value("stress", Plane::stress)
+      .value("strain", Plane::strain);
   py::class_<WorldDescription>(m, "WorldBuilder")
       .def(py::init([](int threads, bool editable, bool consistent_weight) {
              WorldDescription world;
@@ -214,12 +217,12 @@ void bind_world(py::module_& m) {
           "add_pressure",
           [](WorldDescription& world, const std::string& name, const std::string& body,
              const std::vector<std::pair<std::string, Ints>>& faces, double pressure, const Doubles& times,
-             const Doubles& factors) {
-            world.pressures.push_back(
-                {name, world.body(body).name, to_faces(faces), pressure, to_history(times, factors)});
+             const Doubles& factors, double thickness) {
+            world.pressures.push_back({name, world.body(body).name, to_faces(faces, thickness), pressure,
+                                       to_history(times, factors)});
           },
           py::kw_only(), arg("name"), arg("body"), arg("faces"), arg("pressure"), arg("times"),
-          arg("factors"))
+          arg("factors"), arg("thickness"))
       .def(
           "fix",
           [](WorldDescription& world, const std::string& body, const Ints& nodes, int axes, bool rotations) {

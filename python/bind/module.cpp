@@ -1,6 +1,7 @@
 /// The extension module tissu._core: every room of the core in one place, and its errors as Python's.
 
 #include "bind.h"
+#include "interruption.h"
 #include "tissu/base/build.h"
 #include "tissu/base/isa.h"
 #include "tissu/base/parallel.h"
@@ -52,10 +53,13 @@ PYBIND11_MODULE(_core, m) {
   m.def("build_info", [] { return bind::to_dict(tissu::build_info()); });
   bind_mesh(m);
   tissu::bind::bind_field(m);
+  bind::bind_sampling(m);
+  bind::bind_picture(m);
   bind::bind_law(m);  // before what takes one
   bind::bind_model(m);
   bind::bind_world(m);
   bind::bind_solver(m);
   bind::bind_step(m);
   bind::bind_simulation(m);
+  bind::bind_interruption(m);
 }

@@ -38,6 +38,10 @@ class CheckpointError(TissuError):
     """A checkpoint cannot be written, or gone on from: absent, damaged, of another scene."""
 
 
+class BusyError(TissuError):
+    """A thread entered a simulation while another one was in it."""
+
+
 class Diverged(TissuError):  # noqa: N818 - the field's word for it
     """A step gave a value that is not finite; the simulation stands at its last good step.
 

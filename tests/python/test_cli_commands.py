@@ -63,6 +63,16 @@ def test_run_writes_series_summary_and_picture(scene, tmp_path):
     assert "\x1b" not in ended.stdout  # no bar, no colour: not a terminal
 
 
+def test_without_a_picture_none_is_drawn_and_none_is_named(scene, tmp_path):
+    out = tmp_path / "out"
+    ended = tissu_command("run", scene, "--out", out, "--no-picture")
+    assert ended.returncode == 0, ended.stderr
+    assert sorted(p.name for p in out.iterdir()) == ["bar.pvd", "frames", "summary.json"]
+    assert summary(out)["files"] == {"series": "bar.pvd"}
+    assert set(summary(out)["wall_seconds"]) == {"compile", "steps", "output"}
+    assert ".png" not in ended.stdout
+
+
 def test_options_change_the_scene_and_results_have_a_place_of_their_own(scene, tmp_path):
     ended = tissu_command("run", scene, "--duration", "30 ms", "--threads", 2, "-q", cwd=tmp_path)
     assert (ended.returncode, ended.stdout, ended.stderr) == (0, "", "")

@@ -194,11 +194,11 @@ def test_load_series(load):
 def test_a_field_that_is_missing_or_misspelt_is_one_problem():
     assert problems(lambda: MeshFile()) == ["MeshFile: file: is missing: path of the mesh file"]
     assert problems(lambda: MeshFile(fil="a.vtu")) == [
-        "MeshFile: fil: unknown key; did you mean 'file'? Accepted: file, unit, scale"
+        "MeshFile: fil: unknown key; did you mean 'file'? Accepted: file, unit, scale, regions"
     ]
     near = problems(lambda: MeshFile(files="b.vtu", file="a.vtu"))
     assert near == [
-        "MeshFile: files: unknown key; did you mean 'file'? Accepted: file, unit, scale"
+        "MeshFile: files: unknown key; did you mean 'file'? Accepted: file, unit, scale, regions"
     ]
 
 

@@ -358,5 +358,5 @@ def test_mesh_read_from_a_file_is_named(tmp_path):
 
 
 def test_scene_cannot_be_written_there(tmp_path):
-    with pytest.raises(SceneError, match="the scene cannot be written: No such file"):
+    with pytest.raises(SceneError, match=r"cannot be written \(No such file"):
         organ("organ.vtu").save(tmp_path / "none" / "organ.yaml")

@@ -156,3 +156,22 @@ def test_example_writes_its_points(tmp_path: Any) -> None:
     assert found.points == pytest.approx(simulation.points("fascia"))
     assert -0.05 < found.point_data["displacement"][:, 2].mean() < -1e-4
     assert series.index.read_text().count("<DataSet") == 6
+
+
+def test_no_sampling_of_a_tissue_is_made_twice(monkeypatch: pytest.MonkeyPatch) -> None:
+    """What the search for the frames' distance found is taken over; it was three quarters of it."""
+    from tissu.sampling import poisson
+
+    asked: list[tuple[float, int]] = []
+    sampled = poisson.poisson_points
+
+    def counted(region: object, distance: float, *, seed: int = 0) -> object:
+        asked.append((distance, seed))
+        return sampled(region, distance, seed=seed)
+
+    example = Path(__file__).resolve().parents[2] / "examples" / "tissue.yaml"
+    for module in (poisson, ts.sampling):
+        monkeypatch.setattr(module, "poisson_points", counted)
+    simulation = ts.Scene.from_yaml(example).compile()
+    assert len(asked) == len(set(asked))
+    assert simulation.tissues["fascia"].node_count == pytest.approx(22, abs=2)

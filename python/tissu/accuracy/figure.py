@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from tissu.accuracy.front import front
 from tissu.picture.chart import chart, logarithmic
+from tissu.picture.series_colours import series_colours
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -26,10 +27,11 @@ def draw(study: Study) -> Figure | None:
     if not curves:
         return None
     figure, axes = chart(9.5, 5.2)
+    colours = series_colours(len(curves))
     for number, (name, points) in enumerate(curves.items()):
         x, y = [point[0] for point in points], [point[1] for point in points]
         mark = _MARKS[number % len(_MARKS)]
-        axes.plot(x, y, mark + "-", color=f"C{number % 10}", label=name, markersize=5, linewidth=1)
+        axes.plot(x, y, mark + "-", color=colours[number], label=name, markersize=5, linewidth=1)
     short = [run for run in study.runs if not run.counts and run.share and run.seconds]
     if short:
         x = [1e3 * (run.seconds or 0.0) for run in short]

@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from tissu.picture.chart import chart, logarithmic
+from tissu.picture.series_colours import series_colours
 
 if TYPE_CHECKING:
     from tissu.comparison.table import Comparison
@@ -17,14 +18,14 @@ def draw(comparison: Comparison, path: Path) -> bool:
     if not rows:
         return False
     figure, axes = chart(7.5, 5.0)
-    for number, row in enumerate(rows):
+    for row, colour in zip(rows, series_colours(len(rows)), strict=True):
         assert row.mean_error is not None and row.ms_per_step is not None
         mean = 1e3 * row.mean_error
-        axes.plot(row.ms_per_step, mean, "o", markersize=8, color=f"C{number}", label=row.model)
+        axes.plot(row.ms_per_step, mean, "o", markersize=8, color=colour, label=row.model)
         if row.largest_error:
             ends = [mean, 1e3 * row.largest_error]
-            axes.plot([row.ms_per_step] * 2, ends, "-", color=f"C{number}", linewidth=1.0)
-            axes.plot(row.ms_per_step, ends[1], "_", color=f"C{number}", markersize=12)
+            axes.plot([row.ms_per_step] * 2, ends, "-", color=colour, linewidth=1.0)
+            axes.plot(row.ms_per_step, ends[1], "_", color=colour, markersize=12)
     logarithmic(axes)
     axes.set_xlabel("time per step [ms]")
     axes.set_ylabel("distance from the reference [mm]: mean (dot), largest (bar)")

@@ -13,6 +13,7 @@ from tissu.compile.thin import check_law, material_volume
 from tissu.counted import are, counted
 from tissu.errors import ParameterError
 from tissu.mesh.mesh import first_five
+from tissu.scene.direction import scaled
 from tissu.scene.selection import region_cells
 
 if TYPE_CHECKING:
@@ -108,6 +109,8 @@ def _owner_of_cells(mesh: Mesh, given: object, path: Path, findings: Findings) -
         return owner
     known = True
     for number, region in enumerate(given):
+        if _is_rest(region, mesh):
+            continue
         try:
             cells = region_cells(region, mesh)
         except ParameterError as error:
@@ -118,6 +121,10 @@ def _owner_of_cells(mesh: Mesh, given: object, path: Path, findings: Findings) -
         owner[cells] = number
     if not known:
         return None
+    for number, region in enumerate(given):
+        if _is_rest(region, mesh):
+            owner[count == 0] = number
+            count[count == 0] = 1
     for wrong, words in (
         (count == 0, f"in no region of the {what}"),
         (count > 1, f"in several regions of the {what}"),
@@ -131,6 +138,11 @@ def _owner_of_cells(mesh: Mesh, given: object, path: Path, findings: Findings) -
                 f"each cell needs one {what}",
             )
     return owner if bool((count == 1).all()) else None
+
+
+def _is_rest(region: str, mesh: Mesh) -> bool:
+    """Whether it means the cells that no other region of the map has."""
+    return region == "rest" and region not in mesh.regions
 
 
 def parameters_of(laws: list[Law], owner: Ints) -> dict[str, Floats]:
@@ -151,7 +163,7 @@ def fibres_of(laws: list[Law], owner: Ints) -> dict[str, Floats]:
         fibres = laws[number].fibres
         if fibres is None:
             return {}
-        rows.append([fibres.k1, fibres.k2, *fibres.direction])
+        rows.append([fibres.k1, fibres.k2, *scaled(fibres.direction)])
     names = ("k1", "k2", "direction_x", "direction_y", "direction_z")
     values = dict(zip(names, np.array(rows, dtype=float).T, strict=True))
     if len(used) == 1:

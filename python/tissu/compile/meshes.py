@@ -64,8 +64,13 @@ def _asks(body: Body, field: str) -> bool:
 
 
 def mesh_of(source: object) -> Mesh:
-    """The mesh of a source, read or made."""
-    return source.mesh() if isinstance(source, (MeshFile, BarMesh)) else cast("Mesh", source)
+    """The mesh of a source, read or made, with the regions that the source names."""
+    if not isinstance(source, (MeshFile, BarMesh)):
+        return cast("Mesh", source)
+    mesh = source.mesh()
+    for name, where in getattr(source, "regions", {}).items():
+        mesh = mesh.with_region(name, where)
+    return mesh
 
 
 def _useless(mesh: Mesh) -> str | None:

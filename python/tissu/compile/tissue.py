@@ -11,6 +11,7 @@ from tissu.compile.prepared import Floats, Ints, KnownMesh, Prepared, PreparedTi
 from tissu.compile.riding import carried
 from tissu.errors import ParameterError, TissuError
 from tissu.mesh import CellBlock, Mesh
+from tissu.sampling.poisson import poisson_search
 from tissu.scene.unknown import Unknown
 
 if TYPE_CHECKING:
@@ -141,9 +142,8 @@ def _surface_of(mesh: Mesh) -> sampling.Surface:
 def _sampled(region: Region, tissue: Tissue) -> tuple[Floats, Floats]:
     """Frames and points inside the region, about as many as asked."""
     if tissue.sampling == "poisson":
-        frames = sampling.poisson_count(region, tissue.frames, seed=tissue.seed)
         # n points in a volume are n^(-1/3) apart; the border takes its share, so twice.
-        distance = sampling.poisson_distance(region, tissue.frames, seed=tissue.seed)
+        frames, distance = poisson_search(region, tissue.frames, seed=tissue.seed)
         points = frames
         for _ in range(3):
             distance *= (len(points) / tissue.points) ** (1.0 / 3.0)

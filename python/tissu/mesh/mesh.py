@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from tissu import _core
+from tissu.arrays import real_array
 from tissu.counted import counted
 from tissu.errors import MeshError
 from tissu.mesh import surface as surfaces
@@ -20,7 +21,10 @@ from tissu.mesh import thin as thins
 from tissu.mesh.cell import CellBlock, Floats, Ints, dimension, handled_types, thin_types
 
 if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+
     from tissu.mesh.quality import QualityReport
+    from tissu.mesh.regions import Selects
     from tissu.mesh.surface import Surface
 
 
@@ -60,7 +64,8 @@ class Mesh:
     notes: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
-        points = np.array(self.points, dtype=np.float64, order="C")
+        given_points = real_array(self.points, "points", error=MeshError)
+        points = np.array(given_points, dtype=np.float64, order="C")
         if points.ndim != 2 or points.shape[1] != 3:
             raise MeshError(f"found points of shape {points.shape}; an array (n, 3) is accepted")
         points.flags.writeable = False
@@ -171,6 +176,24 @@ class Mesh:
 
         return report(self)
 
+    def with_region(self, name: str, where: Selects | ArrayLike) -> Mesh:
+        """The same mesh with one more region, or with another one of this name.
+
+        Other regions keep their cells, also those that the new one has. A map of laws gives what
+        no region of it has by the key `rest`.
+
+        Args:
+            name: of the region.
+            where: a selection such as `Sphere(center, radius)`, which means the cells whose centres
+                lie in it, or numbers (k,) of cells, or one bool for each cell (e,).
+
+        Raises:
+            MeshError: no cell is meant, or a number of no cell.
+        """
+        from tissu.mesh.regions import with_region
+
+        return with_region(self, name, where)
+
     def without_unused_nodes(self) -> Mesh:
         """The same mesh without the nodes that no simulated cell uses.
 
@@ -233,7 +256,8 @@ def _block(given: object) -> CellBlock:
 
 def _region(name: str, cells: Ints, count: int) -> Ints:
     """The numbers of a region's cells, of `count` there are, increasing and read-only."""
-    numbers = np.unique(np.asarray(cells, dtype=np.int32)).astype(np.int32)
+    given = real_array(cells, f"cells of region '{name}'", error=MeshError)
+    numbers = np.unique(np.asarray(given, dtype=np.int32)).astype(np.int32)
     if len(numbers) and not 0 <= numbers[0] <= numbers[-1] < count:
         raise MeshError(
             f"region '{name}' has cells from {numbers[0]} to {numbers[-1]}; "

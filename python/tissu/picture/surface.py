@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -20,6 +21,7 @@ Array = NDArray[np.float64]
 
 CLAY = (0.80, 0.47, 0.40)  # colour of a surface without values
 FINER = 2  # pixels rendered for each one shown, in each direction
+PORTION = 16384  # pixels that are shaded at once: what is between stays in the cache
 STEP = 6.0  # a jump in nearness [pixels] that is drawn as an edge
 
 
@@ -84,20 +86,31 @@ def render_layer(
     width, height = camera.size
     seen = rasterise(camera.project(at), cells, camera.size)
     turned = at @ camera.axes.T
-    normals = corner_normals(turned, cells)[seen.triangle]
-    normal = np.einsum("pc,pck->pk", seen.weights, normals)
+    normals = corner_normals(turned, cells)
     a, b, c = (turned[cells[:, k], :2] for k in range(3))
     towards = (b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0]
-    base = np.broadcast_to(np.array(colour), (len(seen.pixel), 3))
-    if values is not None:
-        base = _mapped(np.asarray(values, dtype=np.float64), cells, at, seen, colormap, limits)
+    paint = _paint(values, cells, at, colour, colormap, limits)
     picture = np.zeros((height * width, 3))
-    picture[seen.pixel] = shade(base, normal, towards[seen.triangle])
+    for start in range(0, len(seen.pixel), PORTION):
+        some = seen.part(slice(start, start + PORTION))
+        normal = (some.weights[:, None] @ normals[some.triangle])[:, 0]
+        picture[some.pixel] = shade(paint(some), normal, towards[some.triangle])
     nearness = np.full(height * width, -np.inf)
     nearness[seen.pixel] = seen.nearness
     near = nearness.reshape(height, width)
-    shown = picture.reshape(height, width, 3) * (1 - 0.45 * edges(near))[..., None]
+    shown = picture.reshape(height, width, 3)
+    window = _window(seen, width)
+    shown[window] *= (1 - 0.45 * edges(near[window]))[..., None]
     return Layer(shown, np.isfinite(near), near)
+
+
+def _window(seen: Seen, width: int) -> tuple[slice, slice]:
+    """The rows and columns in which something is seen, and one more on each side."""
+    if not len(seen.pixel):
+        return slice(0), slice(0)
+    row, column = seen.pixel // width, seen.pixel % width
+    low, left = max(int(row[0]) - 1, 0), max(int(column.min()) - 1, 0)
+    return slice(low, int(row[-1]) + 2), slice(left, int(column.max()) + 2)
 
 
 def edges(nearness: Array) -> Array:
@@ -130,27 +143,32 @@ def _checked(points: ArrayLike, triangles: ArrayLike) -> tuple[Array, NDArray[np
     return at, cells
 
 
-def _mapped(
-    values: Array,
+def _paint(
+    values: ArrayLike | None,
     cells: NDArray[np.int64],
     points: Array,
-    seen: Seen,
+    colour: tuple[float, float, float],
     colormap: str | Colormap,
     limits: tuple[float, float] | None,
-) -> Array:
-    """Colours (p,3) of the seen pixels."""
+) -> Callable[[Seen], Array]:
+    """What gives the colours (p,3) of seen pixels."""
     from matplotlib import colormaps
 
-    if values.shape == (len(points),):
-        at_pixel = (values[cells[seen.triangle]] * seen.weights).sum(axis=1)
-    elif values.shape == (len(cells),):
-        at_pixel = values[seen.triangle]
-    else:
+    if values is None:
+        return lambda seen: np.broadcast_to(np.array(colour), (len(seen.pixel), 3))
+    every = np.asarray(values, dtype=np.float64)
+    if every.shape not in ((len(points),), (len(cells),)):
         raise ParameterError(
             f"values of a surface: one for each of {len(points)} points or {len(cells)} triangles; "
-            f"found the shape {values.shape}"
+            f"found the shape {every.shape}"
         )
-    low, high = limits or (float(values.min()), float(values.max()))
+    at_corners = every[cells] if every.shape == (len(points),) else every[:, None].repeat(3, axis=1)
+    low, high = limits or (float(every.min()), float(every.max()))
     chosen = colormaps[colormap] if isinstance(colormap, str) else colormap
-    share = (at_pixel - low) / (high - low) if high > low else np.zeros_like(at_pixel)
-    return np.asarray(chosen(share)[:, :3], dtype=np.float64)
+
+    def mapped(seen: Seen) -> Array:
+        at_pixel = (at_corners[seen.triangle] * seen.weights).sum(axis=1)
+        share = (at_pixel - low) / (high - low) if high > low else np.zeros_like(at_pixel)
+        return np.asarray(chosen(share)[:, :3], dtype=np.float64)
+
+    return mapped

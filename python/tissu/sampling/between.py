@@ -104,9 +104,6 @@ class Between:
         low, high = self._box
         answer = ((places >= low) & (places <= high)).all(axis=1)
         numbers = np.flatnonzero(answer)
-        solid = self.a.inside(places[numbers]) | self.b.inside(places[numbers])
-        answer[numbers[solid]] = False
-        numbers = numbers[~solid]
         on_a, d_a = self.tree_a.nearest(places[numbers], self.reach)
         near = np.isfinite(d_a)
         answer[numbers[~near]] = False
@@ -117,6 +114,8 @@ class Between:
         seen = seen[held]
         held[held] = np.einsum("ij,ij->i", on_a[held] - seen, on_b[held] - seen) <= 0.0
         answer[numbers] = held
+        numbers = numbers[held]  # few are left to be asked for the bodies, which takes longer
+        answer[numbers] = ~(self.a.inside(places[numbers]) | self.b.inside(places[numbers]))
         return np.asarray(answer)
 
     @property

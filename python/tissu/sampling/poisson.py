@@ -101,11 +101,20 @@ def poisson_count(region: Region, count: int, *, seed: int = 0) -> Floats:
     Raises:
         ParameterError: a count below 1, or the region as `poisson_points`.
     """
-    return poisson_points(region, poisson_distance(region, count, seed=seed), seed=seed)
+    return poisson_search(region, count, seed=seed)[0]
 
 
 def poisson_distance(region: Region, count: int, *, seed: int = 0) -> float:
     """The distance [m] at which `poisson_points` with this seed gives about `count` points.
+
+    Raises:
+        ParameterError: a count below 1, or the region as `poisson_points`.
+    """
+    return poisson_search(region, count, seed=seed)[1]
+
+
+def poisson_search(region: Region, count: int, *, seed: int = 0) -> tuple[Floats, float]:
+    """What `poisson_count` and `poisson_distance` give, for one search.
 
     Raises:
         ParameterError: a count below 1, or the region as `poisson_points`.
@@ -119,14 +128,16 @@ def poisson_distance(region: Region, count: int, *, seed: int = 0) -> float:
     longest = float(np.ptp(region.bounds, axis=0).max())
     low, high = 0.0, longest  # too many points at low, too few at high
     distance = min(float((_DENSITY * region.volume / wanted) ** (1 / 3)), longest)
-    best = (float("inf"), distance)
+    tried: list[tuple[int, float, Floats]] = []
     for _ in range(12):
-        found = len(poisson_points(region, distance, seed=seed))
-        best = min(best, (float(abs(found - wanted)), distance))
-        if best[0] <= 0.03 * wanted:
+        points = poisson_points(region, distance, seed=seed)
+        found = len(points)
+        tried.append((abs(found - wanted), distance, points))
+        if tried[-1][0] <= 0.03 * wanted:
             break
         low, high = (distance, high) if found > wanted else (low, distance)
         distance *= float((found / wanted) ** (1 / 3))
         if not low < distance < high:
             distance = (low + high) / 2
-    return best[1]
+    _, distance, points = min(tried, key=lambda one: one[:2])
+    return points, distance

@@ -12,6 +12,7 @@ from tissu.reading import Read, listed
 from tissu.scene.field import field
 from tissu.scene.part import Part
 from tissu.scene.problem import Problem
+from tissu.scene.selection import NamedSelections
 from tissu.scene.unknown import rule
 
 if TYPE_CHECKING:
@@ -68,6 +69,8 @@ class BarMesh(Part):
     """how a box is cut into tetrahedra; of `tetra` and `tetra10` only"""
     origin: units.Position = field(default=(0.0, 0.0, 0.0))
     """smallest corner [m]"""
+    regions: NamedSelections = field(default_factory=dict)
+    """regions by name, of the cells whose centres lie in a shape: {tumour: {type: sphere, ...}}"""
 
     @rule("cell", "split")
     def _splits_tetrahedra(self) -> Iterator[Problem]:

@@ -19,6 +19,7 @@ from tissu.scene.laws import LawOrMap
 from tissu.scene.model import FEM, Model, ModelOrMap
 from tissu.scene.part import Part, chosen
 from tissu.scene.problem import Problem
+from tissu.scene.selection import NamedSelections
 from tissu.scene.start import Start
 from tissu.scene.unknown import rule
 from tissu.scene.viscosity import OneViscosity
@@ -50,6 +51,8 @@ class MeshFile(Part):
     """unit of length the file is written in"""
     scale: units.Pure = field(default=1.0, gt=0.0)
     """factor on all lengths, after the unit"""
+    regions: NamedSelections = field(default_factory=dict)
+    """regions by name, of the cells whose centres lie in a shape: {tumour: {type: sphere, ...}}"""
 
     def mesh(self) -> Mesh:
         """The mesh; in the file's own unit where that is unknown.

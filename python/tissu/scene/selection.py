@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Annotated, ClassVar, Literal
 
 import numpy as np
@@ -12,6 +12,7 @@ from pydantic import BeforeValidator, Field
 from tissu import units
 from tissu.errors import ParameterError
 from tissu.reading import Maybe, Read, VectorLike, listed
+from tissu.scene.direction import unit_vector
 from tissu.scene.field import field
 from tissu.scene.part import Part, one_of
 from tissu.scene.problem import Problem, nearest, one_of_words
@@ -49,6 +50,19 @@ class Selection(Part):
         """
         raise NotImplementedError
 
+    def cells(self, mesh: Mesh) -> Ints:
+        """Numbers (k,) of the cells of which every node is selected, across `mesh.body_blocks`.
+
+        Of a box, a sphere or a plane the cells whose centres, the means of their nodes, lie in it;
+        of a region its cells.
+
+        Raises:
+            ParameterError: a region that the mesh lacks, or node numbers beyond the mesh.
+        """
+        chosen = np.zeros(mesh.node_count, dtype=bool)
+        chosen[self.nodes(mesh)] = True
+        return _where(mesh, lambda nodes: np.asarray(chosen[nodes].all(axis=1)))
+
     def words(self, count: str | None) -> str:
         """What it selects, as `check` says it; `count` where it is known ("42 nodes")."""
         return f"{count} ({self.type})" if count else f"the nodes of a selection ({self.type})"
@@ -63,6 +77,11 @@ class _Place(Selection):
         """Numbers (k,) of the nodes in the place, increasing."""
         inside = self._inside(mesh.points, diagonal(mesh))
         return np.flatnonzero(inside).astype(np.int32)
+
+    def cells(self, mesh: Mesh) -> Ints:
+        """Numbers (k,) of the cells whose centres lie in the place."""
+        size = diagonal(mesh)
+        return _where(mesh, lambda nodes: self._inside(mesh.points[nodes].mean(axis=1), size))
 
     def _inside(self, points: Floats, size: float) -> Bools:
         """Whether points (n, 3) of a body with this diagonal [m] are in the place."""
@@ -102,8 +121,8 @@ class Sphere(_Place):
     """radius [m]"""
 
     def _inside(self, points: Floats, size: float) -> Bools:
-        far = np.linalg.norm(points - self.center, axis=1)
-        return np.asarray(far <= self.radius + _SLACK * size)
+        x, y, z = (points - self.center).T
+        return np.asarray(np.hypot(np.hypot(x, y), z) <= self.radius + _SLACK * size)
 
 
 class Plane(_Place):
@@ -124,7 +143,7 @@ class Plane(_Place):
             yield Problem((), text)
 
     def _inside(self, points: Floats, size: float) -> Bools:
-        normal = np.asarray(self.normal) / np.linalg.norm(self.normal)
+        normal = unit_vector(self.normal)
         tolerance = 1e-6 * size if self.tolerance is None else self.tolerance + _SLACK * size
         return np.asarray(np.abs((points - self.point) @ normal) <= tolerance)
 
@@ -190,6 +209,20 @@ class Region(Selection):
             first += len(block.nodes)
         return np.unique(np.concatenate(nodes)).astype(np.int32)
 
+    def cells(self, mesh: Mesh) -> Ints:
+        """Numbers (k,) of the region's cells, increasing.
+
+        Raises:
+            ParameterError: the mesh has no region of this name.
+        """
+        return region_cells(self.name, mesh)
+
+
+def _where(mesh: Mesh, chosen: Callable[[Ints], Bools]) -> Ints:
+    """Numbers of the cells whose nodes (e, k) are chosen, across the simulated blocks."""
+    found = [np.zeros(0, dtype=bool), *(chosen(block.nodes) for block in mesh.body_blocks)]
+    return np.flatnonzero(np.concatenate(found)).astype(np.int32)
+
 
 def region_cells(name: str, mesh: Mesh) -> Ints:
     """Numbers of the cells of a region, across the volume blocks.
@@ -214,3 +247,15 @@ def diagonal(mesh: Mesh) -> float:
 
 SELECTIONS: tuple[type[Selection], ...] = (Box, Sphere, Plane, Nodes, SurfaceNodes, Region)
 On = Annotated[Selection, one_of(*SELECTIONS)]
+
+
+def _by_text(value: object) -> object:
+    """Selections by text: YAML reads the name 7 as a number."""
+    if not isinstance(value, Mapping):
+        return value
+    return {str(name) if isinstance(name, int) else name: on for name, on in value.items()}
+
+
+_Named = Read[dict[str, On], Mapping[str, Selection]]
+NamedSelections = Annotated[_Named, BeforeValidator(_by_text)]
+"""selections by the names of the regions that they make"""

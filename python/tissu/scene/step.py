@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from pydantic import BeforeValidator, Field
@@ -214,9 +214,11 @@ STEPS: tuple[type[Step], ...] = (
 
 
 def _auto(value: Any) -> Any:
-    """The word auto: symplectic Euler with its stable step."""
+    """The word auto, alone or as the type: symplectic Euler with its stable step."""
     if isinstance(value, str) and value.strip().lower() == "auto":
         return SymplecticEuler()
+    if isinstance(value, Mapping) and value.get("type") == "auto":
+        return {**value, "type": "symplectic_euler"}
     return value
 
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "tissu/edit/remove_cells.h"
+#include "tissu/force/links.h"
 #include "tissu/mesh/box.h"
 #include "tissu/mesh/topology.h"
 
@@ -148,7 +149,8 @@ void add_frame(Bar& bar) {
 void add_link(Bar& bar) {
   bar.world.links = true;
   bar.once = [](Simulation& simulation) {
-    simulation.world().links()->add({0}, {simulation.world().body("bar").node_count - 1}, 1.0);
+    LinkTable(simulation.memory(Links::kMemory))
+        .add({0}, {simulation.world().body("bar").node_count - 1}, 1.0);
   };
 }
 

@@ -4,6 +4,7 @@
 
 #include <numeric>
 
+#include "../force/room.h"
 #include "projection_sample.h"
 
 /// What every model of the list must do, so that a new one is in these tests by being in the list.
@@ -66,8 +67,8 @@ TEST_P(EveryModel, ForceIsMinusTheGradientOfItsEnergy) {
   test::Random random(4);
   for (int trial = 0; trial < 5; ++trial) {
     const std::vector<double> p = random.numbers(state.positions.size(), 1.0);
-    const double slope =
-        test::derivative([&](double t) { return model->energy(test::moved(state, p, t)); }, 1e-3);
+    const double slope = test::derivative(
+        [&](double t) { return model->energy(test::moved(state, p, t), test::scratch()); }, 1e-3);
     EXPECT_NEAR(f.dot(test::view(p)), -slope, 1e-8 * f.norm() * test::view(p).norm());
   }
 }
@@ -117,7 +118,7 @@ TEST_P(EveryModel, RestsAtRestAndPullsNothingAlong) {
   state.positions = mesh_.positions;
   const double scale = test::force_of(*model, near_rest()).norm();
   EXPECT_LT(test::force_of(*model, state).norm(), 1e-13 * scale);
-  EXPECT_NEAR(model->energy(state), 0.0, 1e-15);
+  EXPECT_NEAR(model->energy(state, test::scratch()), 0.0, 1e-15);
   for (std::size_t i = 0; i < state.positions.size(); i += 3) state.positions[i] += 7.0;
   EXPECT_LT(test::force_of(*model, state).norm(), 1e-12 * scale);
   const Eigen::VectorXd f = test::force_of(*model, near_rest());

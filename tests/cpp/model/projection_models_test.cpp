@@ -206,14 +206,14 @@ TEST(Projection, ChangesNothingWhereTheTangentIsNeverIndefinite) {
 TEST(Projection, OfAPronySeries) {
   const std::vector<double> positions = rest_of("hexahedron");
   ElasticBlock block = block_of({"fem", "hexahedron", "stvk"});
-  Prony prony(block, {{0.8, 5.0}}, 0, positions, choose_isa(), Threads(1));
+  Prony prony(block, {{0.8, 5.0}}, positions, choose_isa(), Threads(1));
   const auto laid = [&](const std::string& name) {
     State state = test::put(positions, name);
-    state.memory.assign(prony.memory_size(), 0.0);
+    state.memory.assign(1, std::vector<double>(prony.memory_size(), 0.0));
     State before = test::put(positions, "drawn");
     before.memory = state.memory;
     before.time = 1.0;
-    prony.advance(before);
+    prony.remember(before);
     state.memory = before.memory;
     state.memory_time = 1.0;
     state.time = 1.1;

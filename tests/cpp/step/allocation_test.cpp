@@ -3,6 +3,7 @@
 #include <atomic>
 #include <cstdlib>
 
+#include "../force/room.h"
 #include "../world/sample_worlds.h"
 #include "solve/multigrid.h"
 #include "tissu/model/models.h"
@@ -59,6 +60,7 @@ struct AllocationCase {
   bool viscous = false;  ///< every viscosity there is
   ConjugateGradient::Settings solver = {};
   const char* model = "fem";
+  int links = 0;
 };
 
 constexpr ConjugateGradient::Settings with(Preconditioning kind, Precision precision = Precision::full,
@@ -83,6 +85,7 @@ class Allocation : public testing::TestWithParam<AllocationCase> {
     world.fixed = {test::fixed(test::nodes_at(mesh, 0, 0.0))};
     world.loads = {{"hand", "body", {3}, {0.1, 0.0, 0.0}, {{0.0, 1.0}, {0.0, 1.0}}}};
     world.threads = GetParam().threads;
+    world.links = GetParam().links > 0;
     return world;
   }
 };
@@ -91,6 +94,9 @@ TEST_P(Allocation, ASteadyStepTakesNone) {
 #ifdef TISSU_COUNTS_ALLOCATIONS
   Simulation simulation = test::simulate(world(), test::implicit_euler(GetParam().newton, 1e-6),
                                          std::make_unique<ConjugateGradient>(GetParam().solver));
+  for (std::int32_t i = 0; i < GetParam().links; ++i) {
+    test::links(simulation).add({20 + i}, {150 - 2 * i}, 1.0 + 0.1 * i);
+  }
   simulation.step(0.01);
   simulation.step(0.01);
   allocations = 0;
@@ -130,6 +136,15 @@ INSTANTIATE_TEST_SUITE_P(
                        with(Preconditioning::incomplete_cholesky, Precision::single)},
         AllocationCase{"matrix_free", "stvk", Split::six, 1, 1, false,
                        with(Preconditioning::block_jacobi, Precision::full, Product::free)},
+        AllocationCase{"linked", "stvk", Split::six, 1, 2, false, {}, "fem", 30},
+        AllocationCase{"linked_incomplete_cholesky", "stvk", Split::six, 1, 2, false,
+                       with(Preconditioning::incomplete_cholesky), "fem", 30},
+        AllocationCase{"linked_multigrid", "stvk", Split::six, 1, 1, false, with(Preconditioning::multigrid),
+                       "fem", 30},
+        AllocationCase{"linked_single_precision", "stvk", Split::six, 1, 1, false,
+                       with(Preconditioning::block_jacobi, Precision::single), "fem", 30},
+        AllocationCase{"linked_matrix_free", "stvk", Split::six, 1, 1, false,
+                       with(Preconditioning::block_jacobi, Precision::full, Product::free), "fem", 30},
         AllocationCase{"mean_dilatation_tetra", "stvk", Split::six, 12, 2, false, {}, "mean-dilatation"},
         AllocationCase{
             "mean_dilatation_hexahedron", "neo_hooke", Split::none, 1, 1, false, {}, "mean-dilatation"}),
@@ -166,10 +181,10 @@ TEST(AllocationOfModels, ADefiniteMatrixTakesNone) {
     State state;
     state.positions = mesh.positions;
     for (std::size_t i = 0; i < state.positions.size(); i += 3) state.positions[i] *= 0.3;
-    model->add_stiffness(state, {-1.0, 0.0, true}, matrix);
+    model->add_stiffness(state, test::scratch(), {-1.0, 0.0, true}, matrix);
     allocations = 0;
     counting = true;
-    model->add_stiffness(state, {-1.0, 0.0, true}, matrix);
+    model->add_stiffness(state, test::scratch(), {-1.0, 0.0, true}, matrix);
     counting = false;
     EXPECT_EQ(allocations, 0) << info.name;
   }

@@ -8,6 +8,7 @@
 
 #include "../base/random.h"
 #include "tissu/base/error.h"
+#include "tissu/force/links.h"
 #include "tissu/mesh/box.h"
 #include "tissu/simulation/simulation.h"
 #include "tissu/solve/cholesky.h"
@@ -55,5 +56,11 @@ Simulation simulate(WorldDescription description, std::unique_ptr<Integrator> in
 
 /// Every instruction set that this machine and this build both have.
 std::vector<Isa> available_isas();
+
+/// The links of a simulation, or of a state of a world.
+inline LinkTable links(Simulation& simulation) { return LinkTable(simulation.memory(Links::kMemory)); }
+inline LinkTable links(const World& world, State& state) {
+  return LinkTable(memory_of(world, state, Links::kMemory));
+}
 
 }  // namespace tissu::test

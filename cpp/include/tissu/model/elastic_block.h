@@ -30,9 +30,10 @@ struct LawUse {
   std::shared_ptr<const LoadedLaw> loaded = nullptr;  ///< null: the library's law of this name
 };
 
-/// What holds across a surface: no stress, as in a sheet, or no strain, as in a slice of a long body. Along a
-/// line nothing holds it sideways under `stress`, and it cannot thin under `strain`.
-enum class Plane : std::uint8_t { stress, strain };
+/// What holds across a surface: no stress, as in a sheet that is free in space or in a flat body, or no
+/// strain, as in a slice of a long body. A flat body stays in its plane, so that its cells have a right side.
+/// Along a line nothing holds it sideways, but it cannot thin under `strain`.
+enum class Plane : std::uint8_t { free, stress, strain };
 
 /// What an elastic block is made of, whatever its model. `density` holds one number, or one for each cell.
 struct ElasticBlock {
@@ -50,7 +51,7 @@ struct ElasticBlock {
   std::vector<double> density;                        ///< [kg/m3]
   /// Of surfaces the thickness [m], of lines the area [m2]; one, or one for each cell. Volumes have none.
   std::vector<double> cross_section = {1.0};
-  Plane plane = Plane::stress;
+  Plane plane = Plane::free;
   ModelOptions model;  ///< which model carries it, and what that one alone asks for
 };
 

@@ -54,12 +54,13 @@ void CondensedRegion::assemble(Isa isa) {
   elastic_.couple(builder);
   pattern_ = builder.build();
   elastic_.bind(pattern_);
+  Scratch scratch;
   State rest;
   rest.positions = rest_;
   for (auto* matrix : {&K_, &Kii_}) {
     *matrix = std::make_unique<BlockMatrix>(pattern_, isa, Threads(1));
     (*matrix)->clear();
-    elastic_.add_stiffness(rest, {-1.0, 0.0}, **matrix);
+    elastic_.add_stiffness(rest, scratch, {-1.0, 0.0}, **matrix);
   }
   given_.assign(rest_.size() / 3, FixedDofs::kAllAxes);
   for (const std::int32_t node : inner_) given_[static_cast<std::size_t>(node)] = 0;

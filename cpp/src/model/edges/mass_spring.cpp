@@ -111,13 +111,17 @@ Loops<SpringKernels, SpringView> MassSpring::loops(const double* damping) const 
           springs_};
 }
 
-void MassSpring::add_force(const State& state, Reals f) const { force_by(loops(), state.positions, f); }
+void MassSpring::add_force(const State& state, Scratch& /*scratch*/, Reals f) const {
+  force_by(loops(), state.positions, f);
+}
 
-void MassSpring::add_stiffness(const State& state, StiffnessScale scale, BlockMatrix& matrix) const {
+void MassSpring::add_stiffness(const State& state, Scratch& /*scratch*/, StiffnessScale scale,
+                               BlockMatrix& matrix) const {
   stiffness_by(loops(), state.positions, scale, matrix);
 }
 
-void MassSpring::add_product(const State& state, StiffnessScale scale, ConstReals p, Reals out) const {
+void MassSpring::add_product(const State& state, Scratch& /*scratch*/, StiffnessScale scale, ConstReals p,
+                             Reals out) const {
   product_by(loops(), state.positions, scale.position, p, out);
 }
 
@@ -135,7 +139,9 @@ void MassSpring::add_damping(const double* damping, ConstReals x, double scale, 
   for_chunks(springs_, [&](const Chunk& chunk) { kernels_->damping(v, chunk, x.data(), scale, values); });
 }
 
-double MassSpring::energy(const State& state) const { return energy_by(loops(), state.positions); }
+double MassSpring::energy(const State& state, Scratch& scratch) const {
+  return energy_by(loops(), state.positions, scratch);
+}
 
 void MassSpring::add_masses(std::vector<double>& nodal) const {
   const bool equal_masses = options_or_defaults<MassSpringOptions>(block_.model).equal_masses;

@@ -21,14 +21,15 @@ ModelInfo Elastic::info() {
 }
 
 Elastic::Elastic(ElasticBlock block, ConstReals rest_positions, Isa isa, Threads threads)
-    : CellModel(std::move(block), threads) {
+    : CellModel(std::move(block), threads), isa_(isa) {
   choose_kernels(isa);
   check_laws(block_, static_cast<std::size_t>(cell_count()));
   const bool blind = std::ranges::all_of(
       laws_of(block_), [&](const LawUse& use) { return law_info(block_, use).frame_invariant; });
   lay_cells(rest_positions, {.frames = !blind, .triangular = kernels_->triangular});
-  const bool thins = reference_.dimension < 3 && block_.plane == Plane::stress;
+  const bool thins = reference_.dimension < 3 && block_.plane != Plane::strain;
   take_constants(lay_law_constants(block_, order_.element, thins ? reference_.dimension : 3));
+  if (reference_.dimension < 3) X_.assign(rest_positions.begin(), rest_positions.end());
 }
 
 void Elastic::choose_kernels(Isa isa) {

@@ -89,12 +89,15 @@ Frames::Frames(ElasticBlock block, ConstReals rest_positions, Isa isa, Threads t
   lay_frames();
   order_ = order_points(listened_, points_.neighbours, static_cast<std::int32_t>(blocks_.size()));
   lay_coefficients(rest_positions);
-  material_ = PointMaterial(block_, points_, order_.point, isa);
+  material_ = PointMaterial(block_, stressed_points(), order_.point, isa);
   lay_holds();
-  q_.resize(12 * blocks_.size());
-  dq_.resize(6 * blocks_.size());
-  shares_.resize(static_cast<std::size_t>(order_.groups() * points_.neighbours) * 6 * kLanes);
-  energies_.resize(order_.point.size());
+}
+
+/// As the material sees them: in plane strain a sheet is a volume, which does not thin.
+FramePoints Frames::stressed_points() const {
+  FramePoints points = points_;
+  if (block_.plane == Plane::strain) points.dimension = 3;
+  return points;
 }
 
 void Frames::lay_frames() {
@@ -279,8 +282,7 @@ std::vector<double> Frames::points(const State& state) const {
 }
 
 std::size_t Frames::bytes() const {
-  return (coefficients_.size() + lane_volumes_.size() + shares_.size() + q_.size() + dq_.size()) *
-             sizeof(double) +
+  return (coefficients_.size() + lane_volumes_.size() + scratch_size()) * sizeof(double) +
          (lanes_.size() + slots_.size() + order_.share.size()) * sizeof(std::int32_t) + material_.bytes();
 }
 

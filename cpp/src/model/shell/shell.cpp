@@ -19,7 +19,7 @@ void check(const ElasticBlock& block) {
   if (block.quadrature != "full") {
     throw ParameterError(asks + "with the quadrature \"" + block.quadrature + "\"; this model takes full.");
   }
-  if (block.plane != Plane::stress) {
+  if (block.plane == Plane::strain) {
     throw ParameterError(asks + "under plane strain; a shell is free to thin: take plane stress.");
   }
   if (block.frames.size() != block.cells.size()) {
@@ -90,7 +90,6 @@ void Shell::lay_elements(ConstReals rest_positions) {
         ShellSection{of_cell(block_.cross_section, cell), of_cell(block_.parameters.at("young"), cell),
                      of_cell(block_.parameters.at("poisson"), cell), drilling});
   }
-  energies_.assign(elements_.size(), 0.0);
 }
 
 template <class Function>
@@ -127,13 +126,14 @@ void Shell::bind(const Sparsity& pattern) {
   lay_slots(order_, unknowns_, static_cast<int>(kUnknowns), pattern, slots_);
 }
 
-void Shell::add_force(const State& state, Reals f) const {
+void Shell::add_force(const State& state, Scratch& /*scratch*/, Reals f) const {
   for_cells([&](std::size_t, std::size_t cell, const ShellElement& element) {
     scatter(element.force(pose(state, cell)), cell, f);
   });
 }
 
-void Shell::add_stiffness(const State& state, StiffnessScale scale, BlockMatrix& matrix) const {
+void Shell::add_stiffness(const State& state, Scratch& /*scratch*/, StiffnessScale scale,
+                          BlockMatrix& matrix) const {
   if (scale.position == 0.0) return;
   double* values = matrix.values();
   for_cells([&](std::size_t lane, std::size_t cell, const ShellElement& element) {
@@ -150,7 +150,8 @@ void Shell::add_stiffness(const State& state, StiffnessScale scale, BlockMatrix&
   });
 }
 
-void Shell::add_product(const State& state, StiffnessScale scale, ConstReals p, Reals out) const {
+void Shell::add_product(const State& state, Scratch& /*scratch*/, StiffnessScale scale, ConstReals p,
+                        Reals out) const {
   if (scale.position == 0.0) return;
   for_cells([&](std::size_t, std::size_t cell, const ShellElement& element) {
     Vec18 of_cell;
@@ -161,11 +162,13 @@ void Shell::add_product(const State& state, StiffnessScale scale, ConstReals p, 
   });
 }
 
-double Shell::energy(const State& state) const {
+double Shell::energy(const State& state, Scratch& scratch) const {
+  const Reals energies = scratch.reals(elements_.size());
+  std::ranges::fill(energies, 0.0);  // of lanes that pad
   for_cells([&](std::size_t lane, std::size_t cell, const ShellElement& element) {
-    energies_[lane] = element.energy(pose(state, cell));
+    energies[lane] = element.energy(pose(state, cell));
   });
-  return std::accumulate(energies_.begin(), energies_.end(), 0.0);
+  return std::accumulate(energies.begin(), energies.end(), 0.0);
 }
 
 void Shell::add_inertias(std::vector<Mat3>& of_frames) const {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "../../force/room.h"
 #include "../../force/verbs.h"
 #include "../../world/sample_worlds.h"
 #include "tissu/edit/remove_cells.h"
@@ -78,7 +79,7 @@ TEST_P(CondensedTest, KeepsMassAndWeight) {
   EXPECT_NEAR(condensed.mass().total(), whole.mass().total(), 1e-12 * whole.mass().total());
   std::vector<double> force(condensed.rest_positions().size(), 0.0);
   const State rest = condensed.rest_state();
-  for (const auto& model : condensed.forces()) model->add_force(rest, force);
+  for (const auto& model : condensed.forces()) model->add_force(rest, test::scratch(), force);
   double down = 0.0;
   for (std::size_t i = 2; i < force.size(); i += 3) down += force[i];
   const double weight = 2.0 * 16.0 * kGravity;
@@ -94,8 +95,9 @@ TEST_P(CondensedTest, ForceIsTheGradientOfTheEnergyAndProductTheMatrix) {
   for (double& x : state.positions) x += random.number(0.1);
   const std::vector<double> p = random.numbers(state.positions.size(), 1.0);
   // The energy is quadratic: central differences have no error but round-off, 1e-16 W / h with h = 1e-3.
-  const double slope =
-      (model.energy(test::moved(state, p, 1e-3)) - model.energy(test::moved(state, p, -1e-3))) / 2e-3;
+  const double slope = (model.energy(test::moved(state, p, 1e-3), test::scratch()) -
+                        model.energy(test::moved(state, p, -1e-3), test::scratch())) /
+                       2e-3;
   const Eigen::VectorXd direction = test::view(p);
   const double work = test::force_of(model, state).dot(direction);
   EXPECT_NEAR(work, -slope, 1e-9 * std::abs(slope));

@@ -1,4 +1,4 @@
-#include "tissu/model/frames/point_material.h"
+#include "tissu/model/points/point_material.h"
 
 #include <algorithm>
 #include <array>

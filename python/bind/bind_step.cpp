@@ -1,6 +1,7 @@
 #include "bind.h"
 #include "specs.h"
 #include "tissu/step/bdf2.h"
+#include "tissu/step/energy_momentum.h"
 #include "tissu/step/explicit_euler.h"
 #include "tissu/step/fixed_point.h"
 #include "tissu/step/implicit_euler.h"
@@ -82,13 +83,22 @@ void bind_others(py::module_& m) {
            }),
            py::kw_only(), arg("iterations") = 50, arg("tolerance") = 1e-6, arg("anderson") = 0);
   py::class_<Spec<StaticEquilibrium>, IntegratorSpec>(m, "Static")
-      .def(py::init([](int iterations, double tolerance, int load_steps) {
-             const StaticEquilibrium::Settings settings{NewtonSettings{iterations, tolerance}, load_steps};
+      .def(py::init([](int iterations, double tolerance, int load_steps, int total, bool arc_length) {
+             const StaticEquilibrium::Settings settings{NewtonSettings{iterations, tolerance}, load_steps,
+                                                        total, arc_length};
              return Spec<StaticEquilibrium>{{[=]() -> std::unique_ptr<Integrator> {
                return std::make_unique<StaticEquilibrium>(settings);
              }}};
            }),
-           py::kw_only(), arg("newton_iterations"), arg("newton_tolerance"), arg("load_steps"));
+           py::kw_only(), arg("newton_iterations"), arg("newton_tolerance"), arg("load_steps"),
+           arg("total_iterations") = 0, arg("arc_length") = false);
+  py::class_<Spec<EnergyMomentum>, IntegratorSpec>(m, "EnergyMomentum")
+      .def(py::init([](int iterations, double tolerance) {
+             const NewtonSettings newton{iterations, tolerance};
+             return Spec<EnergyMomentum>{
+                 {[=]() -> std::unique_ptr<Integrator> { return std::make_unique<EnergyMomentum>(newton); }}};
+           }),
+           py::kw_only(), arg("newton_iterations") = 20, arg("newton_tolerance") = 1e-9);
 }
 
 }  // namespace

@@ -62,6 +62,7 @@ _HOMES = {
         "ImplicitEuler",
         "BDF2",
         "BDF2FixedPoint",
+        "EnergyMomentum",
         "ExplicitEuler",
         "ImplicitMidpoint",
         "Newmark",

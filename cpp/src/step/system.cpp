@@ -56,6 +56,7 @@ double System::external_force(const State& state, Reals f) {
     const Timed timed(profile_, rows_[i].force);
     world_.forces()[i]->add_force(state, f);
   }
+  world_.fixed().clear(f);
   return norm(f);
 }
 

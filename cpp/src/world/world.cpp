@@ -342,6 +342,7 @@ State World::rest_state() const {
     block(Reals(state.velocities), frames()[k].block) = rest_speeds_[k];
     block(Reals(state.velocities), frames()[k].block + 1) = rest_spins_[k];
   }
+  fixed_.clear(state.velocities);
   return state;
 }
 

@@ -13,6 +13,7 @@ from tissu.advice.laboratory import Laboratory, Tried
 from tissu.advice.measure import Floats
 from tissu.advice.richardson import Estimate, estimate
 from tissu.advice.setting import Setting, is_explicit
+from tissu.scene.energy_momentum import EnergyMomentum
 from tissu.scene.solver import Auto
 from tissu.scene.step import (
     BDF2,
@@ -150,7 +151,7 @@ def rich_step(step: Step, divisor: int) -> Step:
         return BDF2(dt=step.dt / divisor, solver=solver)
     if isinstance(step, ImplicitEuler):
         return BDF2(dt=step.dt / divisor, newton=step.newton, solver=solver)
-    if isinstance(step, (BDF2, ImplicitMidpoint, Newmark)):
+    if isinstance(step, (BDF2, EnergyMomentum, ImplicitMidpoint, Newmark)):
         return step.replace(dt=step.dt / divisor, solver=solver)
     return step.replace(dt="auto")
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from tissu.scene.energy_momentum import EnergyMomentum
 from tissu.scene.step import (
     BDF2,
     RK2,
@@ -30,6 +31,12 @@ def integrator_of(step: Step) -> Any:
             newton_iterations=step.newton.iterations,
             newton_tolerance=step.newton.tolerance,
             load_steps=step.load_steps,
+            total_iterations=step.total_iterations or 0,
+            arc_length=step.arc_length,
+        )
+    if isinstance(step, EnergyMomentum):
+        return _core.EnergyMomentum(
+            newton_iterations=step.iterations, newton_tolerance=step.tolerance
         )
     if isinstance(step, BDF2FixedPoint):
         return _core.Bdf2FixedPoint(

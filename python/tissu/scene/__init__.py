@@ -2,6 +2,7 @@
 
 from tissu.scene.bar import BarMesh
 from tissu.scene.body import Body, MeshFile
+from tissu.scene.energy_momentum import EnergyMomentum
 from tissu.scene.law import (
     ArrudaBoyce,
     Fibres,
@@ -62,6 +63,7 @@ __all__ = [
     "Condensed",
     "ConjugateGradient",
     "Corotational",
+    "EnergyMomentum",
     "ExplicitEuler",
     "Fibres",
     "Fixed",

@@ -9,6 +9,7 @@ from pydantic import BeforeValidator, Field
 
 from tissu import units
 from tissu.errors import ParameterError
+from tissu.scene.energy_momentum import EnergyMomentum
 from tissu.scene.part import Part, one_of
 from tissu.scene.problem import Problem
 from tissu.scene.solver import ConjugateGradient, OneSolver, Solver
@@ -43,7 +44,7 @@ class Newton(Part):
     iterations: _Count = 10
     """largest number of iterations in a step; of Static, for each part of the load tried"""
     tolerance: _Tolerance = 1e-6
-    """residual relative to the first at which the step is solved"""
+    """residual relative to the load that acts at which the step is solved"""
 
     if TYPE_CHECKING:
 
@@ -171,7 +172,7 @@ class BDF2FixedPoint(Part):
     iterations: _Count = 50
     """largest number of iterations in a step"""
     tolerance: _Tolerance = 1e-6
-    """residual relative to the first at which the step is solved"""
+    """residual relative to the impulse of the forces at the guess at which the step is solved"""
     anderson: Annotated[int, Field(ge=0, le=8)] = 0
     """earlier differences that Anderson's acceleration uses; 0: plain iteration"""
 
@@ -188,30 +189,41 @@ class BDF2FixedPoint(Part):
 
 
 class Static(Part):
-    """Equilibrium without inertia, the load applied in equal steps."""
+    """Equilibrium without inertia, by continuation: parts of the load that shrink and grow."""
 
     type: Literal["static"] = "static"
     load_steps: _Count = 1
-    """number of equal steps in which the load is applied"""
-    newton: Newton = Field(default_factory=Newton)
-    """Newton's method"""
+    """parts, at least, in which each step is taken; led nodes turn by at most 30 degrees in one"""
+    newton: Newton = Field(default_factory=lambda: Newton(iterations=25))
+    """Newton's method, for each part that is tried"""
+    total_iterations: _Count | None = None
+    """largest number of Newton iterations in a step; absent: iterations (load_steps + 19)"""
+    arc_length: bool = False
+    """follow the path by its arc length from the start, as through limit points of the load; false:
+    only where no part of the load is small enough"""
     solver: OneSolver = Field(default_factory=ConjugateGradient)
     """linear solver"""
 
     if TYPE_CHECKING:
 
         def __init__(
-            self, *, load_steps: int = ..., newton: Newton = ..., solver: Solver = ...
+            self,
+            *,
+            load_steps: int = ...,
+            newton: Newton = ...,
+            total_iterations: int | None = ...,
+            arc_length: bool = ...,
+            solver: Solver = ...,
         ) -> None: ...
 
 
 Explicit = ExplicitEuler | SymplecticEuler | RK2 | RK4
 Implicit = ImplicitEuler | ImplicitMidpoint | BDF2 | Newmark
-Step = Explicit | Implicit | BDF2FixedPoint | Static
+Step = Explicit | Implicit | EnergyMomentum | BDF2FixedPoint | Static
 STEPS: tuple[type[Part], ...] = (
     *(ExplicitEuler, SymplecticEuler, RK2, RK4),
     *(ImplicitEuler, ImplicitMidpoint, BDF2, Newmark),
-    *(BDF2FixedPoint, Static),
+    *(EnergyMomentum, BDF2FixedPoint, Static),
 )
 
 

@@ -26,6 +26,8 @@ class NodalLoad final : public ForceModel {
   [[nodiscard]] ForceKind kind() const override { return ForceKind::external; }
   [[nodiscard]] bool has_constant_stiffness() const override { return true; }
   [[nodiscard]] bool has_stiffness() const override { return false; }
+  /// It is the same at all times.
+  [[nodiscard]] bool is_constant() const { return history_.times.empty(); }
   void add_force(const State& state, Reals f) const override;
   /// -sum f . x [J]
   [[nodiscard]] double energy(const State& state) const override;

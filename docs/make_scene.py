@@ -14,7 +14,8 @@ _LAWS = (
 )
 _STEPS = (
     *("ExplicitEuler", "SymplecticEuler", "RK2", "RK4"),
-    *("ImplicitEuler", "ImplicitMidpoint", "BDF2", "Newmark", "BDF2FixedPoint", "Static", "Newton"),
+    *("ImplicitEuler", "ImplicitMidpoint", "BDF2", "Newmark", "EnergyMomentum"),
+    *("BDF2FixedPoint", "Static", "Newton"),
 )
 _MODELS = (
     *("FEM", "Corotational", "MassSpring", "MassLink", "MassTensor"),

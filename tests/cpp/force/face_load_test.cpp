@@ -157,13 +157,13 @@ class EdgeLoadTest : public testing::TestWithParam<bool> {
 
 TEST_P(EdgeLoadTest, EnclosesAreaTimesThickness) {
   const double area = 4.0 + (GetParam() ? 4.0 * 2.0 / 3.0 * 0.3 * 2.0 : 0.0);
-  EXPECT_NEAR(Pressure("p", {edges_}, 3.0, {}).energy(state_), 3.0 * 0.2 * area, 1e-13);
+  EXPECT_NEAR(Pressure("p", {edges_}, 3.0, {}).energy(state_, test::scratch()), 3.0 * 0.2 * area, 1e-13);
 }
 
 TEST_P(EdgeLoadTest, ForceIsTheSlopeOfItsEnergyAndProductThatOfTheForce) {
   Pressure pressure("p", {edges_}, 3.0, {});
   std::vector<double> p = random_.numbers(state_.positions.size());
-  const double slope = derivative([&](double t) { return pressure.energy(moved(state_, p, t)); }, 1e-2);
+  const double slope = derivative([&](double t) { return pressure.energy(moved(state_, p, t), test::scratch()); }, 1e-2);
   EXPECT_NEAR(force_of(pressure, state_).dot(test::view(p)), -slope, 1e-11);
   const Sparsity pattern = test::bind_alone(pressure, static_cast<std::int32_t>(state_.positions.size() / 3));
   const Eigen::VectorXd change =

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "../../base/random.h"
+#include "../../force/room.h"
 #include "../../cell/reference_nodes.h"
 #include "../../force/verbs.h"
 #include "tissu/model/fem/elastic.h"
@@ -98,7 +99,7 @@ TEST_P(PointFieldsTest, DoTheWorkOfTheForce) {
   }
   const PointFields now = points(state);
   std::vector<double> f(along.size(), 0.0);
-  elastic.add_force(state, f);
+  elastic.add_force(state, test::scratch(), f);
   double expected = 0.0;
   for (std::size_t i = 0; i < f.size(); ++i) expected -= f[i] * along[i];
   const double h = 1e-5;
@@ -118,7 +119,7 @@ TEST_P(PointFieldsTest, DoTheWorkOfTheForce) {
     energy += now.volumes[i] * now.W[i];
   }
   EXPECT_NEAR(work, expected, 1e-7 * std::abs(expected) + 1e-7);  // h^2
-  EXPECT_NEAR(energy, elastic.energy(state), kRoundOff * (1.0 + energy));
+  EXPECT_NEAR(energy, elastic.energy(state, test::scratch()), kRoundOff * (1.0 + energy));
 }
 
 /// A homogeneous state of a flat body or of a sheet or line in space: that of a volume.

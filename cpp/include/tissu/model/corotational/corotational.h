@@ -1,7 +1,7 @@
 #pragma once
 
 /// Corotational linear elasticity: Hooke's law in axes that turn with each cell. Equations:
-/// src/model/kernels/corotational.h.
+/// src/model/corotational/kernels/corotational.h.
 ///
 /// One rotation for a cell, of F at its centre, not one for each quadrature point: a hexahedron needs one in
 /// place of eight, K is the one of linear elasticity, and a crushed cell has one rest shape to go back to.

@@ -2,7 +2,7 @@
 
 /// Mean dilatation: each patch of cells has one volume ratio, so that cells of first order do not lock where
 /// the material hardly changes its volume (F-bar written as an energy). Equations:
-/// src/model/kernels/dilated_point.h and mean_dilatation.h.
+/// src/model/dilatation/kernels: dilated_point.h and mean_dilatation.h.
 ///
 ///   E = sum_g w_g W((theta / J_g)^(1/3) F_g),   theta = sum_g w_g J_g / sum_g w_g of the patch
 ///

@@ -1,6 +1,6 @@
 # Everything a newcomer types. The work is done by the scripts in .ci/, each of which runs by hand too.
 .DEFAULT_GOAL := help
-.PHONY: help demo test lint bench sanitize format codegen clean
+.PHONY: help demo test lint bench fuzz sanitize format codegen clean
 
 help: ## this list
 	@sed -n 's/^\([a-z]*\):.*## \(.*\)/  make \1\t\2/p' Makefile | expand -t 16
@@ -16,6 +16,9 @@ lint: ## formatting, types, clang-tidy, allowed edges between rooms
 
 bench: ## build tissu-bench and run it
 	@.ci/bench
+
+fuzz: ## an hour of odd scenes, meshes and command lines (FUZZ_SECONDS=3600)
+	@.ci/fuzz
 
 sanitize: ## C++ tests under address, undefined-behaviour and thread sanitizers (long)
 	@.ci/sanitize

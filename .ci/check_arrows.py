@@ -17,6 +17,17 @@ ROOT = Path(__file__).resolve().parent.parent
 # another ("model/fem"), or one pair of files ("model/models"); a name stands for itself alone:
 # "model" is the face of the models. Folders kernels and generated belong to the room they are in.
 MODEL = {"base", "mesh", "element", "law", "field", "assembly", "state", "force", "cell", "model"}
+# What a model alone asks for: plain structs that the block of cells holds one of.
+OPTIONS = {
+    "model/fem/fem_options",
+    "model/corotational/corotational_options",
+    "model/edges/edge_options",
+    "model/condensed/condensed_options",
+    "model/dilatation/mean_dilatation_options",
+    "model/frames/frames_options",
+    "model/frames/frame_points",
+    "model/shell/shell_options",
+}
 CPP: dict[str, set[str]] = {
     "base": set(),
     "element": {"base"},
@@ -28,12 +39,16 @@ CPP: dict[str, set[str]] = {
     "solve": {"base", "assembly"},
     "force": {"base", "mesh", "element", "law", "assembly", "state"},
     "cell": {"base", "mesh", "element", "law"},
-    "model": MODEL,
-    "model/fem": MODEL,
-    "model/corotational": MODEL,
-    "model/edges": MODEL | {"model/fem"},  # the definite tangent of mass-tensor
-    "model/dilatation": MODEL,
-    "model/frames": MODEL,
+    **{options: {"base"} for options in OPTIONS},
+    "model/frames/frames_options": {"model/frames/frame_points"},
+    "model/options": {"base"} | OPTIONS,
+    "model": MODEL | {"model/options"},
+    "model/points": MODEL | {"model/frames/frame_points"},
+    "model/fem": MODEL | {"model/points"},
+    "model/corotational": MODEL | {"model/points"},
+    "model/edges": MODEL | {"model/points", "model/fem"},  # the definite tangent of mass-tensor
+    "model/dilatation": MODEL | {"model/points"},
+    "model/frames": MODEL | {"model/points", "model/frames/frame_points"},
     "model/shell": MODEL,
     "model/condensed": MODEL | {"model/fem", "solve"},
     "viscosity": MODEL | {"model/edges"},  # dampers beside springs
@@ -52,19 +67,33 @@ PYTHON: dict[str, set[str]] = {
     "_core": set(),
     "counted": set(),
     "pareto": set(),
-    "reading": set(),
-    "units": {"errors", "reading"},
+    "field_names": set(),
+    "files": {"errors"},
+    "arrays": {"errors"},
+    "unit_table": set(),
+    "reading": {"arrays"},
+    "units": {"arrays", "errors", "reading", "unit_table"},
     "codegen": {"errors"},
     "formula": {"errors", "codegen"},
-    "mesh": {"errors", "counted", "units", "_core"},
+    "mesh": {"arrays", "errors", "counted", "files", "units", "_core"},
     "sampling": {"errors", "counted", "mesh", "_core"},
-    "scene": {"errors", "counted", "reading", "units", "mesh", "_core"},
-    "user_law": {"errors", "units", "codegen", "scene", "_core"},
-    "yaml_io": {"errors", "mesh", "scene", "user_law"},
+    "scene": {"errors", "counted", "field_names", "reading", "units", "mesh", "_core"},
+    "user_law": {"errors", "files", "units", "codegen", "scene", "_core"},
+    "yaml_text": {"errors", "files", "scene"},
+    "yaml_io": {"errors", "files", "mesh", "scene", "user_law", "yaml_text"},
     "effects": {"scene"},
-    "checkpoint": {"errors", "counted", "_core"},
-    "picture": {"errors", "mesh", "_core"},
-    "simulation": {"errors", "counted", "units", "mesh", "checkpoint", "_core"},
+    "checkpoint": {"errors", "counted", "files", "_core"},
+    "picture": {"errors", "files", "mesh", "_core"},
+    "simulation": {
+        "arrays",
+        "errors",
+        "counted",
+        "field_names",
+        "units",
+        "mesh",
+        "checkpoint",
+        "_core",
+    },
     "compile": {
         "errors",
         "counted",
@@ -80,9 +109,11 @@ PYTHON: dict[str, set[str]] = {
     "comparison": {"errors", "counted", "mesh", "scene", "picture"},
     "accuracy": {"errors", "pareto", "front", "yaml_io", "picture"},
     "advice": {"errors", "counted", "pareto", "units", "mesh", "scene", "picture"},
-    "output": {"errors", "counted", "mesh", "_core"},
+    "output": {"errors", "counted", "field_names", "files", "mesh", "_core"},
 }
+PYTHON["examples"] = {"errors", "files", "front"}
 PYTHON["cli"] = set(PYTHON)
+PYTHON["__main__"] = {"cli"}
 PYTHON["__init__"] = set(PYTHON)
 
 REFUSED = {"util", "utils", "common", "misc", "helper", "helpers", "manager", "managers"}

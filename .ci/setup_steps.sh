@@ -137,7 +137,7 @@ step_build() {
   local key
   key=$(sources | checksum)
   if is_done build "$key" && [ -f "$build/CMakeCache.txt" ] && [ -x "$venv/bin/tissu" ]; then return; fi
-  say "compiling and installing tissu (a minute or two the first time)"
+  say "compiling and installing tissu (minutes the first time)"
   "$python" -m pip install --quiet --disable-pip-version-check --no-build-isolation --no-deps --force-reinstall \
     --config-settings=build-dir="$build" \
     --config-settings=cmake.define.TISSU_WERROR="${TISSU_WERROR:-OFF}" . >>"$log" 2>&1 9>&- ||

@@ -7,6 +7,7 @@ last passed: build/tidy holds a stamp for each.
 import hashlib
 import json
 import os
+import shlex
 import subprocess
 import sys
 from concurrent.futures import ThreadPoolExecutor
@@ -31,12 +32,25 @@ def shared_key() -> bytes:
     return total.digest()
 
 
+def without_precompiled(command: str) -> str:
+    """The command without the header that GCC precompiled, which clang cannot read."""
+    words = shlex.split(command)
+    kept: list[str] = []
+    for word in words:
+        if word.endswith("cmake_pch.hxx") and kept[-1] == "-include":
+            kept.pop()
+        elif word not in ("-Winvalid-pch", "-fpch-preprocess"):
+            kept.append(word)
+    return shlex.join(kept)
+
+
 def commands() -> list[dict[str, str]]:
     """How each source is compiled; of a kernel compiled several times, the first (baseline) way."""
     own = tuple(str(ROOT / folder) + os.sep for folder in FOLDERS)
     first: dict[str, dict[str, str]] = {}
     for entry in json.loads((BUILD / "compile_commands.json").read_text()):
         if entry["file"].startswith(own):
+            entry["command"] = without_precompiled(entry["command"])
             first.setdefault(entry["file"], entry)
     return list(first.values())
 

@@ -13,7 +13,7 @@ struct Beam {
   Vec3 size = {16.0, 4.0, 4.0};
   std::string element = "tetra";
   std::string law = "stvk";
-  ModelUse model;
+  ModelOptions model;
   double young = 2e3;
   double poisson = 0.3;
   double mass = 50.0;

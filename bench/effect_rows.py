@@ -48,7 +48,7 @@ ROWS = (
     Row("mean dilatation", "mean-dilatation", r"\bMeanDilatation\b"),
     Row("condensed region", "condensed", r"\bCondensed"),
     Row("rigid frame", "frame", r"\bspatial_inertia\b"),
-    Row("run-time spring", "link", r"\bLinks\b"),
+    Row("run-time spring", "link", r"\b(Links|Couplings)\b"),
     Row("editing allowed, nothing removed", "editable", None),
     Row("a cell removed in each step", "editing", r"\b(remove_cells|edited_model|replace_world)\b"),
     Row("Newton's iteration", "newton", r"\bStageSolver::(iterate|advance|potential)\b"),
@@ -68,7 +68,8 @@ ASKED = {
     "loads": r"\bSystem::external_force\b",
     "fixed or led nodes": r"\bFixedDofs::|\bBlockMatrix::constrain\b|\bStageSolver::lead\b",
     "rigid frames": r"\bkeep_angular_momentum\b",
-    "what remembers": r"\bWorld::remember\b",
+    "what remembers": r"\btissu::remember\(",
+    "what begins a step": r"\btissu::begin_step\(",
 }
 
 # What the bare scene does ask for.
@@ -77,7 +78,7 @@ PRESENT = {
     "inertia": r"\bMass::",
     "linear solver": r"\b(ConjugateGradient|Iteration<|BlockJacobi<|attainable)",
     "matrix": r"\b(BlockMatrix::|multiply_rows\b)",
-    "method": r"\b(ImplicitEuler|StageSolver|System|World)::|\bmove\(",
+    "method": r"\b(ImplicitEuler|StageSolver|System|State|World)::|\bmove\(",
     "loop and roll back": r"\bSimulation::|^tissu_effects_steps$",
     "profile": r"\bProfile::",
     "words of a report": r"^operator (new|delete)",

@@ -53,44 +53,48 @@ void count_elements(benchmark::State& run, const World& world) {
 }
 
 void force(benchmark::State& run) {
+  Scratch scratch;
   Beam beam = beam_of(run);
   const Bent bent(beam);
   const BodyModel& elastic = *bent.world.bodies().front().models.front();
   std::vector<double> f(bent.state.positions.size(), 0.0);
   for (auto _ : run) {
-    elastic.add_force(bent.state, f);
+    elastic.add_force(bent.state, scratch, f);
     benchmark::ClobberMemory();
   }
   count_elements(run, bent.world);
 }
 
 void product_of_elements(benchmark::State& run) {
+  Scratch scratch;
   const Bent bent(beam_of(run));
   const BodyModel& elastic = *bent.world.bodies().front().models.front();
   std::vector<double> out(bent.state.positions.size(), 0.0);
   for (auto _ : run) {
-    elastic.add_product(bent.state, {1.0, 0.0}, bent.state.positions, out);
+    elastic.add_product(bent.state, scratch, {1.0, 0.0}, bent.state.positions, out);
     benchmark::ClobberMemory();
   }
   count_elements(run, bent.world);
 }
 
 void assembly(benchmark::State& run) {
+  Scratch scratch;
   const Bent bent(beam_of(run));
   const BodyModel& elastic = *bent.world.bodies().front().models.front();
   BlockMatrix matrix(bent.world.sparsity(), bent.world.isa(), bent.world.threads());
   for (auto _ : run) {
     matrix.clear();
-    elastic.add_stiffness(bent.state, {-1.0, 0.0}, matrix);
+    elastic.add_stiffness(bent.state, scratch, {-1.0, 0.0}, matrix);
     benchmark::ClobberMemory();
   }
   count_elements(run, bent.world);
 }
 
 void product(benchmark::State& run) {
+  Scratch scratch;
   const Bent bent(beam_of(run));
   BlockMatrix matrix(bent.world.sparsity(), bent.world.isa(), bent.world.threads());
-  bent.world.bodies().front().models.front()->add_stiffness(bent.state, {-1.0, 0.0}, matrix);
+  bent.world.bodies().front().models.front()->add_stiffness(bent.state, scratch, {-1.0, 0.0}, matrix);
   std::vector<double> out(bent.state.positions.size(), 0.0);
   for (auto _ : run) {
     matrix.multiply(bent.state.positions, out);
@@ -119,7 +123,7 @@ void step_corotational(benchmark::State& run) {
   Beam beam = beam_of(run);
   beam.cells = {64, 12, 11};
   beam.law = "hooke";
-  beam.model.name = "corotational";
+  beam.model = CorotationalOptions{};
   const auto world = std::make_shared<const World>(describe(beam));
   Simulation simulation(world, std::make_unique<ImplicitEuler>(),
                         std::make_unique<ConjugateGradient>(ConjugateGradient::Settings{1e-300, 20}));

@@ -71,6 +71,28 @@ and as the first line of a scene file, for editors with a YAML language server,
 # yaml-language-server: $schema=scene.schema.json
 ```
 
+Files of `laws` are programs. They run only with `--trust-laws` (`trust_laws=True` in Python), only
+from the scene's folder or below it, links followed, and only when nothing else is wrong with the
+scene ([laws](laws.md)).
+
+Units are names of a table with `*`, `/`, `^` and brackets ("N s/m^4", "kgf/cm^2", "16 cmH2O");
+no text is evaluated. The words are those of YAML 1.2: 010 is ten. A scene has at most 16 MiB,
+40 levels of nesting, 1,000,000,000 steps and names of 200 characters; what is beyond is refused
+with its line.
+
+`tissu run` prints on stderr, once, what `tissu check` notes. It ends with the status
+
+| | |
+|---|---|
+| 0 | finished |
+| 1 | a step gave values that are not finite, or was refused |
+| 2 | something of the input is wrong, or results could not be written |
+| 3 | some steps did not converge; 0 with `--accept-unconverged` |
+| 129, 130, 143 | stopped by SIGHUP, Ctrl-C, SIGTERM, with all files complete |
+
+`status` and `why` of `summary.json` say the same. Files are written to new places and in place of
+regular files; a device, a pipe or a link to nothing is refused before anything is opened.
+
 This page is printed from the classes by `make codegen`.
 """
 

@@ -1,5 +1,20 @@
 # Flags of the project's own targets. Nothing here reaches a project that links tissu::tissu.
 include(CheckCXXCompilerFlag)
+include(CheckCXXSourceRuns)
+
+# ---- a compiler cache, where there is one and the builder named none
+option(TISSU_CCACHE "Compile through ccache where it is installed" ON)
+if(TISSU_CCACHE AND TISSU_TOP_LEVEL AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+  find_program(TISSU_CCACHE_PROGRAM ccache)
+  mark_as_advanced(TISSU_CCACHE_PROGRAM)
+  if(TISSU_CCACHE_PROGRAM)
+    # What ccache has to be lenient about before it stores what a precompiled header goes into.
+    set(CMAKE_CXX_COMPILER_LAUNCHER
+        ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros,include_file_mtime,include_file_ctime
+        ${TISSU_CCACHE_PROGRAM})
+    message(STATUS "tissu: compiler cache: ${TISSU_CCACHE_PROGRAM}")
+  endif()
+endif()
 
 set(TISSU_ARCH_FLAG "")
 if(TISSU_NATIVE)
@@ -22,7 +37,7 @@ function(tissu_own_target target)
                          VISIBILITY_INLINES_HIDDEN ON)
   # BEFORE: a flag given to one source file (a wider instruction set, say) comes later and wins.
   target_compile_options(${target} BEFORE PRIVATE ${TISSU_ARCH_FLAG} -Wall -Wextra -Wconversion)
-  target_compile_definitions(${target} PRIVATE TISSU_VERSION="${PROJECT_VERSION}")
+  target_compile_definitions(${target} PRIVATE TISSU_VERSION="${PROJECT_VERSION}" ${TISSU_KERNEL_DEFINITIONS})
   if(TISSU_WERROR)
     target_compile_options(${target} PRIVATE -Werror)
     if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
@@ -38,8 +53,16 @@ function(tissu_own_target target)
   endif()
 endfunction()
 
+# tissu_precompile(TARGET HEADERS...): reads the headers once for all sources of the target. For outside headers, which
+# do not change; every source still includes what it needs, as clang-tidy, which does without, checks.
+function(tissu_precompile target)
+  target_precompile_headers(${target} PRIVATE ${ARGN})
+  if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
+    target_compile_options(${target} PRIVATE -fpch-preprocess)  # or ccache cannot see what the header holds
+  endif()
+endfunction()
+
 # ---- sources that are compiled once for each instruction set, in a namespace of its name (TISSU_KERNELS)
-set(TISSU_ISAS baseline)
 set(TISSU_KERNEL_FLAGS -O3)
 if(TISSU_SANITIZE)
   set(TISSU_KERNEL_FLAGS -O1)  # -O3 with checks takes very long to compile
@@ -48,15 +71,51 @@ list(APPEND TISSU_KERNEL_FLAGS -fno-math-errno -fno-trapping-math -ffp-contract=
 # GCC takes the undefined upper halves of its own AVX-512 casts for a mistake.
 set(TISSU_QUIET -Wno-maybe-uninitialized -Wno-uninitialized)
 set(TISSU_FLAGS_baseline ${TISSU_QUIET} -Wno-psabi)
-if(TISSU_X86_KERNELS AND CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64)$")
-  list(APPEND TISSU_ISAS avx2 avx512)
-  set(TISSU_FLAGS_avx2 -mavx2 -mfma)
-  set(TISSU_FLAGS_avx512 ${TISSU_QUIET} -mavx512f -mavx512vl -mavx512dq -mfma)
+set(TISSU_FLAGS_avx2 -mavx2 -mfma)
+set(TISSU_FLAGS_avx512 ${TISSU_QUIET} -mavx512f -mavx512vl -mavx512dq -mfma)
+
+# tissu_best_isa(VARIABLE): the widest set that runs on this machine, by the question that choose_isa() asks.
+function(tissu_best_isa variable)
+  set(best baseline)
+  check_cxx_source_runs("int main() { return !(__builtin_cpu_supports(\"avx2\") && __builtin_cpu_supports(\"fma\")); }"
+                        TISSU_RUNS_AVX2)
+  check_cxx_source_runs(
+    "int main() { return !(__builtin_cpu_supports(\"avx512f\") && __builtin_cpu_supports(\"avx512vl\")); }"
+    TISSU_RUNS_AVX512)
+  if(TISSU_RUNS_AVX512)
+    set(best avx512)
+  elseif(TISSU_RUNS_AVX2)
+    set(best avx2)
+  endif()
+  set(${variable} ${best} PARENT_SCOPE)
+endfunction()
+
+# TISSU_KERNEL_ISAS: the sets that TISSU_ISAS asks for; the baseline is always among them.
+if(NOT CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64)$")
+  set(TISSU_KERNEL_ISAS baseline)
+elseif(TISSU_ISAS STREQUAL "all")
+  set(TISSU_KERNEL_ISAS baseline avx2 avx512)
+elseif(TISSU_ISAS STREQUAL "native")
+  tissu_best_isa(best)
+  set(TISSU_KERNEL_ISAS baseline ${best})
+else()
+  set(TISSU_KERNEL_ISAS baseline ${TISSU_ISAS})
 endif()
+list(REMOVE_DUPLICATES TISSU_KERNEL_ISAS)
+set(TISSU_KERNEL_DEFINITIONS "")
+foreach(isa IN LISTS TISSU_KERNEL_ISAS)
+  if(NOT DEFINED TISSU_FLAGS_${isa})
+    message(FATAL_ERROR "tissu: TISSU_ISAS is \"${TISSU_ISAS}\"; all, native, or a list of baseline, avx2 and avx512 "
+                        "is accepted.")
+  endif()
+  string(TOUPPER ${isa} upper)
+  list(APPEND TISSU_KERNEL_DEFINITIONS TISSU_HAS_${upper})
+endforeach()
+message(STATUS "tissu: kernels for ${TISSU_KERNEL_ISAS}")
 
 # tissu_for_each_isa(TARGET NAME SOURCES...): adds the sources to TARGET once for each set, as tissu_NAME_<set>.
 function(tissu_for_each_isa target name)
-  foreach(isa IN LISTS TISSU_ISAS)
+  foreach(isa IN LISTS TISSU_KERNEL_ISAS)
     add_library(tissu_${name}_${isa} OBJECT ${ARGN})
     tissu_own_target(tissu_${name}_${isa})
     target_compile_definitions(tissu_${name}_${isa} PRIVATE TISSU_KERNELS=${isa})

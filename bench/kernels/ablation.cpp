@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "base/kernel_sets.h"
 #include "loops.h"
 #include "meshes.h"
 #include "tissu/base/array.h"
@@ -19,13 +20,7 @@ namespace {
 
 constexpr std::size_t kLanes = 8;
 
-AblationKernels kernels() {
-#if defined(__x86_64__)
-  if (choose_isa() == Isa::avx512) return avx512::ablation_loops();
-  if (choose_isa() == Isa::avx2) return avx2::ablation_loops();
-#endif
-  return baseline::ablation_loops();
-}
+AblationKernels kernels() { return TISSU_KERNELS_OF(choose_isa(), ablation_loops()); }
 
 struct Data {
   explicit Data(int count)

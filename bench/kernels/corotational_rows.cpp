@@ -16,7 +16,7 @@ constexpr const char* kWork[] = {"force", "product", "assembly"};
 
 struct Row {
   std::string element;
-  ModelUse model;
+  CorotationalOptions model;
   Work work;
 };
 
@@ -40,10 +40,11 @@ void corotational(benchmark::State& run, const Row& row, int count) {
   State state;
   state.positions = deformed(mesh);
   std::vector<double> out(state.positions.size(), 0.0);
+  Scratch scratch;
   for (auto _ : run) {
-    if (row.work == Work::force) model.add_force(state, out);
-    if (row.work == Work::product) model.add_product(state, {1.0, 0.0}, mesh.positions, out);
-    if (row.work == Work::assembly) model.add_stiffness(state, {-1.0, 0.0}, matrix);
+    if (row.work == Work::force) model.add_force(state, scratch, out);
+    if (row.work == Work::product) model.add_product(state, scratch, {1.0, 0.0}, mesh.positions, out);
+    if (row.work == Work::assembly) model.add_stiffness(state, scratch, {-1.0, 0.0}, matrix);
     benchmark::ClobberMemory();
   }
   const double elements = mesh.cell_count();
@@ -59,11 +60,7 @@ void add_corotational_rows(int count) {
     for (const char* rotation : {"frame", "polar"}) {
       for (const char* tangent : {"approximate", "exact"}) {
         for (const Work work : {Work::force, Work::product, Work::assembly}) {
-          ModelUse model;
-          model.name = "corotational";
-          model.rotation = rotation;
-          model.tangent = tangent;
-          const Row row{element, model, work};
+          const Row row{element, {.rotation = rotation, .tangent = tangent}, work};
           const std::string title = std::string("corotational/") + element + "/" + rotation + "/" + tangent +
                                     "/" + kWork[static_cast<int>(work)];
           benchmark::RegisterBenchmark(title.c_str(), [row, count](benchmark::State& run) {

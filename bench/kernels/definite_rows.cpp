@@ -35,8 +35,8 @@ void definite(benchmark::State& run, const Row& row, StiffnessScale scale, int c
   if (!row.addition.empty()) block.reinforcements = {{row.addition, typical(row.addition)}};
   block.cells = mesh.cells;
   block.density = {1000.0};
-  block.model.name = row.model;
-  block.model.tangent = "exact";
+  block.model = options_named(row.model);
+  if (auto* corotational = std::get_if<CorotationalOptions>(&block.model)) corotational->tangent = "exact";
   const auto model = make_model(std::move(block), mesh.positions, choose_isa(), Threads(1));
   SparsityBuilder builder(mesh.node_count());
   model->couple(builder);
@@ -47,8 +47,9 @@ void definite(benchmark::State& run, const Row& row, StiffnessScale scale, int c
   State state;
   state.positions = deformed(mesh);
   for (std::size_t i = 2; i < state.positions.size(); i += 3) state.positions[i] *= 0.6;
+  Scratch scratch;
   for (auto _ : run) {
-    model->add_stiffness(state, scale, matrix);
+    model->add_stiffness(state, scratch, scale, matrix);
     benchmark::ClobberMemory();
   }
   const double elements = mesh.cell_count();

@@ -94,24 +94,25 @@ void count(benchmark::State& run, const Row& row, const Block& block) {
 }
 
 void kernel(benchmark::State& run, const Row& row) {
+  Scratch scratch;
   Block& block = block_of(row);
   switch (row.job) {
     case Job::force:
       for (auto _ : run) {
-        block.elastic.add_force(block.state, block.out);
+        block.elastic.add_force(block.state, scratch, block.out);
         benchmark::ClobberMemory();
       }
       break;
     case Job::product:
       for (auto _ : run) {
-        block.elastic.add_product(block.state, {1.0, 0.0}, block.mesh.positions, block.out);
+        block.elastic.add_product(block.state, scratch, {1.0, 0.0}, block.mesh.positions, block.out);
         benchmark::ClobberMemory();
       }
       break;
     case Job::assembly: {
       BlockMatrix& matrix = block.bound_matrix();
       for (auto _ : run) {
-        block.elastic.add_stiffness(block.state, {-1.0, 0.0}, matrix);
+        block.elastic.add_stiffness(block.state, scratch, {-1.0, 0.0}, matrix);
         benchmark::ClobberMemory();
       }
       break;

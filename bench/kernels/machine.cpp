@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/kernel_sets.h"
 #include "loops.h"
 #include "tissu/base/array.h"
 #include "tissu/base/parallel.h"
@@ -122,14 +123,7 @@ void triad_row(benchmark::State& run, int threads) {
 
 }  // namespace
 
-MachineKernels machine_kernels(Isa isa) {
-#if defined(__x86_64__)
-  if (isa == Isa::avx512) return avx512::machine_loops();
-  if (isa == Isa::avx2) return avx2::machine_loops();
-#endif
-  (void)isa;
-  return baseline::machine_loops();
-}
+MachineKernels machine_kernels(Isa isa) { return TISSU_KERNELS_OF(isa, machine_loops()); }
 
 double Limits::bandwidth(double bytes) const {
   if (bytes <= kTriadBytes * kTriadL2 * threads) return l2;

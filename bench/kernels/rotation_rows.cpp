@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "base/kernel_sets.h"
 #include "loops.h"
 #include "machine.h"
 #include "tissu/base/array.h"
@@ -18,13 +19,7 @@ namespace {
 
 constexpr std::size_t kLanes = 8;
 
-RotationKernels kernels() {
-#if defined(__x86_64__)
-  if (choose_isa() == Isa::avx512) return avx512::rotation_loops();
-  if (choose_isa() == Isa::avx2) return avx2::rotation_loops();
-#endif
-  return baseline::rotation_loops();
-}
+RotationKernels kernels() { return TISSU_KERNELS_OF(choose_isa(), rotation_loops()); }
 
 /// Turned any way and deformed by some ten percent; every eighth is flat where that is asked for.
 AlignedVector<double> gradients(std::size_t groups, bool flat) {

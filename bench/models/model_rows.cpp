@@ -49,7 +49,7 @@ struct Made {
   [[nodiscard]] std::unique_ptr<BodyModel> make(const std::string& name) const {
     ElasticBlock block;
     block.body = "bench";
-    block.model.name = name;
+    block.model = options_named(name);
     block.cells = mesh.cells;
     block.parameters = {{"young", {kYoung}}, {"poisson", {kPoisson}}};
     block.density = {1000.0};
@@ -79,11 +79,13 @@ Made& made_of(const std::string& name, int count, int threads) {
 
 void model_row(benchmark::State& run, const std::string& name, const std::string& job, int count,
                int threads) {
+  Scratch scratch;
   Made& made = made_of(name, count, threads);
   for (auto _ : run) {
-    if (job == "force") made.model->add_force(made.state, made.out);
-    if (job == "product") made.model->add_product(made.state, {1.0, 0.0}, made.mesh.positions, made.out);
-    if (job == "assembly") made.model->add_stiffness(made.state, {-1.0, 0.0}, *made.matrix);
+    if (job == "force") made.model->add_force(made.state, scratch, made.out);
+    if (job == "product")
+      made.model->add_product(made.state, scratch, {1.0, 0.0}, made.mesh.positions, made.out);
+    if (job == "assembly") made.model->add_stiffness(made.state, scratch, {-1.0, 0.0}, *made.matrix);
     benchmark::ClobberMemory();
   }
   const double cells = made.mesh.cell_count();

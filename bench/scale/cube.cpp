@@ -34,10 +34,12 @@ Cube::Cube(int tetrahedra, int threads)
 }
 
 void Cube::assemble() {
+  Scratch scratch;
   matrix_.clear();
   world_->mass().add_to(matrix_, state_, 1.0);
   for (const auto& force : world_->forces()) {
-    if (force->has_stiffness()) force->add_stiffness(state_, {-kStepSeconds * kStepSeconds, 0.0}, matrix_);
+    if (force->has_stiffness())
+      force->add_stiffness(state_, scratch, {-kStepSeconds * kStepSeconds, 0.0}, matrix_);
   }
   matrix_.constrain(world_->fixed().rows(), world_->fixed().masks());
 }

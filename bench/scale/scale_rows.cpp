@@ -60,18 +60,20 @@ void count(benchmark::State& run, const Cube& cube, double bytes) {
 }
 
 void force(benchmark::State& run, Cube& cube) {
+  Scratch scratch;
   std::vector<double> f(cube.state().positions.size(), 0.0);
   for (auto _ : run) {
-    cube.model().add_force(cube.state(), f);
+    cube.model().add_force(cube.state(), scratch, f);
     benchmark::ClobberMemory();
   }
   count(run, cube, static_cast<double>(cube.model().bytes()));
 }
 
 void tangent_product(benchmark::State& run, Cube& cube) {
+  Scratch scratch;
   std::vector<double> out(cube.state().positions.size(), 0.0);
   for (auto _ : run) {
-    cube.model().add_product(cube.state(), {1.0, 0.0}, cube.state().positions, out);
+    cube.model().add_product(cube.state(), scratch, {1.0, 0.0}, cube.state().positions, out);
     benchmark::ClobberMemory();
   }
   count(run, cube, static_cast<double>(cube.model().bytes()));

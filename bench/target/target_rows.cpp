@@ -42,7 +42,7 @@ WorldDescription corotational(int threads) {
   Beam beam;
   beam.cells = {64, 12, 11};
   beam.law = "hooke";
-  beam.model.name = "corotational";
+  beam.model = CorotationalOptions{};
   beam.threads = threads;
   return describe(beam);
 }

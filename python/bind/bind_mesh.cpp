@@ -108,11 +108,21 @@ py::list boundary_faces(const Reals& positions, const Blocks& blocks) {
 }
 
 /// Each node's share of the area of the faces [m2].
-py::array_t<double> face_areas(const std::string& type, const Reals& positions, const Ints& faces) {
+py::array_t<double> face_areas(const std::string& type, const Reals& positions, const Ints& faces,
+                               double thickness) {
   std::vector<double> areas(static_cast<std::size_t>(positions.shape(0)), 0.0);
-  const tissu::FaceCells some{type, {faces.data(), faces.data() + faces.size()}};
+  const tissu::FaceCells some{type, {faces.data(), faces.data() + faces.size()}, thickness};
   tissu::add_areas(some, {positions.data(), static_cast<std::size_t>(positions.size())}, areas);
   return to_array<double>(areas);
+}
+
+/// Each node's share of the outward normal of the faces (n, 3) [m2].
+py::array_t<double> face_normals(const std::string& type, const Reals& positions, const Ints& faces,
+                                 double thickness) {
+  std::vector<double> normals(static_cast<std::size_t>(positions.size()), 0.0);
+  const tissu::FaceCells some{type, {faces.data(), faces.data() + faces.size()}, thickness};
+  tissu::add_normals(some, {positions.data(), static_cast<std::size_t>(positions.size())}, normals);
+  return to_array<double>(normals, 3);
 }
 
 py::tuple turn_reversed_cells(const Reals& positions, const Blocks& blocks) {
@@ -163,7 +173,8 @@ void bind_mesh(py::module_& m) {
   m.def("box_mesh", &box_mesh, py::kw_only(), "origin"_a, "size"_a, "cells"_a, "split"_a);
   m.def("boundary_surface", &boundary_surface, py::kw_only(), "positions"_a, "blocks"_a);
   m.def("boundary_faces", &boundary_faces, py::kw_only(), "positions"_a, "blocks"_a);
-  m.def("face_areas", &face_areas, py::kw_only(), "type"_a, "positions"_a, "faces"_a);
+  m.def("face_areas", &face_areas, py::kw_only(), "type"_a, "positions"_a, "faces"_a, "thickness"_a);
+  m.def("face_normals", &face_normals, py::kw_only(), "type"_a, "positions"_a, "faces"_a, "thickness"_a);
   m.def("turn_reversed_cells", &turn_reversed_cells, py::kw_only(), "positions"_a, "blocks"_a);
   const auto measure = [&m](const char* name, auto function) {
     m.def(

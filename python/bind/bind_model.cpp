@@ -1,7 +1,7 @@
 #include <algorithm>
 
 #include "bind.h"
-#include "tissu/cell/elastic_block.h"
+#include "specs.h"
 #include "tissu/model/models.h"
 
 namespace tissu::bind {
@@ -12,13 +12,6 @@ std::string spelled(std::string_view name) {
   std::string result(name);
   std::ranges::replace(result, '-', '_');
   return result;
-}
-
-/// A model without options.
-ModelUse use(const char* name) {
-  ModelUse model;
-  model.name = name;
-  return model;
 }
 
 std::vector<std::string> words(const std::vector<std::string_view>& names) {
@@ -52,53 +45,33 @@ py::list models() {
 void bind_model(py::module_& m) {
   using py::arg;
   m.def("models", &models);
-  py::class_<ModelUse>(m, "Model");
-  m.def("FEM", [] { return use("fem"); });
+  py::class_<ModelSpec>(m, "Model");
+  m.def("FEM", [] { return ModelSpec{FemOptions{}}; });
   m.def(
       "Corotational",
       [](const std::string& rotation, const std::string& tangent) {
-        ModelUse model = use("corotational");
-        model.rotation = rotation;
-        model.tangent = tangent;
-        return model;
+        return ModelSpec{CorotationalOptions{rotation, tangent}};
       },
       py::kw_only(), arg("rotation"), arg("tangent"));
   m.def(
-      "MassSpring",
-      [](bool equal_masses) {
-        ModelUse model = use("mass-spring");
-        model.equal_masses = equal_masses;
-        return model;
-      },
+      "MassSpring", [](bool equal_masses) { return ModelSpec{MassSpringOptions{equal_masses}}; },
       py::kw_only(), arg("equal_masses"));
-  m.def("MassLink", [] { return use("mass-link"); });
-  m.def("MassTensor", [] { return use("mass-tensor"); });
-  m.def("MeanDilatation", [] { return use("mean-dilatation"); });
+  m.def("MassLink", [] { return ModelSpec{MassLinkOptions{}}; });
+  m.def("MassTensor", [] { return ModelSpec{MassTensorOptions{}}; });
+  m.def("MeanDilatation", [] { return ModelSpec{MeanDilatationOptions{}}; });
   m.def(
       "Condensed",
-      [](const Array<std::int32_t>& kept) {
-        ModelUse model = use("condensed");
-        model.kept = to_vector(kept);
-        return model;
-      },
+      [](const Array<std::int32_t>& kept) { return ModelSpec{CondensedOptions{to_vector(kept)}}; },
       py::kw_only(), arg("kept"));
   m.def(
       "Frames",
       [](const std::string& tangent, const std::string& section) {
-        ModelUse model = use("frames");
-        model.tangent = tangent;
-        model.section = section;
-        return model;
+        return ModelSpec{FramesOptions{tangent, section}};
       },
       py::kw_only(), arg("tangent"), arg("section"));
   m.def(
-      "Shell",
-      [](double drilling) {
-        ModelUse model = use("shell");
-        model.drilling = drilling;
-        return model;
-      },
-      py::kw_only(), arg("drilling"));
+      "Shell", [](double drilling) { return ModelSpec{ShellOptions{drilling}}; }, py::kw_only(),
+      arg("drilling"));
 }
 
 }  // namespace tissu::bind

@@ -1,7 +1,7 @@
 #include "bind.h"
+#include "interruption.h"
 #include "specs.h"
 #include "tissu/edit/remove_cells.h"
-#include "tissu/model/frames/frames.h"
 #include "tissu/simulation/simulation.h"
 #include "tissu/step/frequency.h"
 
@@ -74,9 +74,7 @@ py::array_t<double> rotations(const Simulation& simulation, const std::string& n
 py::array_t<double> points(const Simulation& simulation, const std::string& name) {
   std::vector<double> all;
   for (const BodyModel* model : simulation.world().body(name).models) {
-    const auto* frames = dynamic_cast<const Frames*>(model);
-    if (frames == nullptr) continue;
-    const std::vector<double> some = frames->points(simulation.state());
+    const std::vector<double> some = model->points(simulation.state());
     all.insert(all.end(), some.begin(), some.end());
   }
   return py::array_t<double>({static_cast<py::ssize_t>(all.size() / 3), py::ssize_t{3}}, all.data());
@@ -84,8 +82,10 @@ py::array_t<double> points(const Simulation& simulation, const std::string& name
 
 }  // namespace
 
-/// Of bind_snapshot.cpp.
+/// Of bind_snapshot.cpp, bind_point_fields.cpp and bind_matrices.cpp.
 void bind_snapshot(py::class_<Simulation>& simulation);
+void bind_point_fields(py::class_<Simulation>& simulation);
+void bind_matrices(py::class_<Simulation>& simulation);
 
 void bind_simulation(py::module_& m) {
   using py::arg;
@@ -97,7 +97,7 @@ void bind_simulation(py::module_& m) {
                                                  solver == nullptr ? nullptr : solver->make());
            }),
            py::kw_only(), arg("world"), arg("integrator"), arg("solver").none(true))
-      .def("step", &Simulation::step, arg("dt"), py::call_guard<py::gil_scoped_release>())
+      .def("step", &step_interruptibly, arg("dt"))
       .def_property(
           "time", [](const Simulation& s) { return s.state().time; },
           [](Simulation& s, double time) {
@@ -165,6 +165,8 @@ void bind_simulation(py::module_& m) {
           },
           arg("body"));
   bind_snapshot(simulation);
+  bind_point_fields(simulation);
+  bind_matrices(simulation);
 }
 
 }  // namespace tissu::bind

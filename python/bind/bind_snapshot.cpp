@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <string>
 
 #include "bind.h"
 #include "tissu/simulation/simulation.h"
@@ -34,6 +35,36 @@ std::vector<Quaternion> rotations_of(const std::vector<double>& numbers) {
   return result;
 }
 
+/// What models remember, list after list.
+std::vector<double> joined(const Memory& memory) {
+  std::vector<double> all;
+  for (const std::vector<double>& one : memory) all.insert(all.end(), one.begin(), one.end());
+  return all;
+}
+
+std::vector<std::int32_t> sizes_of(const Memory& memory) {
+  std::vector<std::int32_t> sizes;
+  for (const std::vector<double>& one : memory) sizes.push_back(static_cast<std::int32_t>(one.size()));
+  return sizes;
+}
+
+/// The same lists again; refuses sizes that are not those of the numbers.
+Memory split(const std::vector<double>& numbers, const std::vector<std::int32_t>& sizes) {
+  Memory memory;
+  std::size_t next = 0;
+  for (const std::int32_t size : sizes) {
+    const std::size_t end = next + static_cast<std::size_t>(std::max(size, 0));
+    if (size < 0 || end > numbers.size()) break;
+    memory.emplace_back(numbers.begin() + static_cast<std::ptrdiff_t>(next),
+                        numbers.begin() + static_cast<std::ptrdiff_t>(end));
+    next = end;
+  }
+  if (memory.size() == sizes.size() && next == numbers.size()) return memory;
+  throw ParameterError(
+      "the snapshot remembers " + std::to_string(numbers.size()) +
+      " numbers, which is not what its lists add up to; restore a snapshot as it was taken.");
+}
+
 py::dict to_dict(const Snapshot& snapshot) {
   py::dict result;
   const State& state = snapshot.state;
@@ -46,9 +77,9 @@ py::dict to_dict(const Snapshot& snapshot) {
   result["velocities"] = to_array(state.velocities);
   result["velocities_before"] = to_array(snapshot.velocities_before);
   result["rotations"] = to_array(numbers_of(state.rotations));
-  result["memory"] = to_array(state.memory);
+  result["memory"] = to_array(joined(state.memory));
+  result["memory_sizes"] = to_array(sizes_of(state.memory));
   result["integrator"] = to_array(snapshot.integrator);
-  result["links"] = to_array(snapshot.links);
   for (std::size_t i = 0; i < snapshot.bodies.size(); ++i) {
     const Snapshot::BodyCells& body = snapshot.bodies[i];
     const std::string number = std::to_string(i);
@@ -82,9 +113,8 @@ Snapshot from_dict(const py::dict& from) {
   state.velocities = doubles(from, "velocities");
   snapshot.velocities_before = doubles(from, "velocities_before");
   state.rotations = rotations_of(doubles(from, "rotations"));
-  state.memory = doubles(from, "memory");
+  state.memory = split(doubles(from, "memory"), to_vector(value<Array<std::int32_t>>(from, "memory_sizes")));
   snapshot.integrator = doubles(from, "integrator");
-  snapshot.links = doubles(from, "links");
   for (std::size_t i = 0; from.contains(("body_" + std::to_string(i)).c_str()); ++i) {
     const std::string number = std::to_string(i);
     snapshot.bodies.push_back({value<std::string>(from, "body_" + number),

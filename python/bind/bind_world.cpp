@@ -1,4 +1,5 @@
 #include "bind.h"
+#include "specs.h"
 #include "tissu/world/world.h"
 
 namespace tissu::bind {
@@ -37,7 +38,7 @@ void add_elastic(WorldDescription& world, const std::string& body, const std::st
                  const Parameters& parameters, const Doubles& density, const std::string& quadrature,
                  const std::vector<std::pair<std::string, Parameters>>& reinforcements,
                  const std::shared_ptr<LoadedLaw>& loaded, const Doubles& cross_section, Plane plane,
-                 const ModelUse& model) {
+                 const ModelSpec& model) {
   ElasticBlock block;
   block.element = cell_type;
   block.law = law;
@@ -54,7 +55,7 @@ void add_elastic(WorldDescription& world, const std::string& body, const std::st
   block.density = to_vector(density);
   block.cross_section = to_vector(cross_section);
   block.plane = plane;
-  block.model = model;
+  block.model = model.options;
   world.body(body).elastic.push_back(std::move(block));
 }
 
@@ -64,7 +65,7 @@ void add_points(WorldDescription& world, const std::string& body,
                 const Doubles& weights, const Doubles& gradients, const Doubles& positions,
                 const Doubles& volumes, const std::string& law, const Parameters& parameters,
                 const Parameters& fibres, const std::shared_ptr<LoadedLaw>& loaded, double density,
-                const ModelUse& model) {
+                const ModelSpec& model) {
   if (frames.ndim() != 2) throw ParameterError("frames must have the shape (p, k).");
   auto points = std::make_shared<FramePoints>();
   points->neighbours = static_cast<int>(frames.shape(1));
@@ -75,13 +76,13 @@ void add_points(WorldDescription& world, const std::string& body,
   ElasticBlock block;
   block.element = "points";
   block.cells = to_vector(frames);
-  block.points = std::move(points);
   block.law = law;
   block.loaded = loaded;
   block.parameters = to_parameters(parameters);
   if (!fibres.empty()) block.reinforcements.push_back({"fibre", to_parameters(fibres)});
   block.density = {density};
-  block.model = model;
+  block.model = model.options;
+  std::get<FramesOptions>(block.model).points = std::move(points);
   BodyDescription& made = world.body(body);
   for (const auto& [other, node] : shared) made.shared.push_back({other, node});
   made.elastic.push_back(std::move(block));
@@ -94,10 +95,10 @@ void add_prony(WorldDescription& world, const std::string& body,
   world.body(body).viscosity = std::move(viscosity);
 }
 
-std::vector<FaceCells> to_faces(const std::vector<std::pair<std::string, Ints>>& faces) {
+std::vector<FaceCells> to_faces(const std::vector<std::pair<std::string, Ints>>& faces, double thickness) {
   std::vector<FaceCells> result;
   result.reserve(faces.size());
-  for (const auto& [type, nodes] : faces) result.push_back({type, to_vector(nodes)});
+  for (const auto& [type, nodes] : faces) result.push_back({type, to_vector(nodes), thickness});
   return result;
 }
 
@@ -143,7 +144,10 @@ void bind_world(py::module_& m) {
       .def_property_readonly("instruction_set",
                              [](const World& world) { return std::string(name(world.isa())); });
 
-  py::enum_<Plane>(m, "Plane").value("stress", Plane::stress).value("strain", Plane::strain);
+  py::enum_<Plane>(m, "Plane")
+      .value("free", Plane::free)
+      .value("stress", Plane::stress)
+      .value("strain", Plane::strain);
   py::class_<WorldDescription>(m, "WorldBuilder")
       .def(py::init([](int threads, bool editable, bool consistent_weight) {
              WorldDescription world;
@@ -213,12 +217,12 @@ void bind_world(py::module_& m) {
           "add_pressure",
           [](WorldDescription& world, const std::string& name, const std::string& body,
              const std::vector<std::pair<std::string, Ints>>& faces, double pressure, const Doubles& times,
-             const Doubles& factors) {
-            world.pressures.push_back(
-                {name, world.body(body).name, to_faces(faces), pressure, to_history(times, factors)});
+             const Doubles& factors, double thickness) {
+            world.pressures.push_back({name, world.body(body).name, to_faces(faces, thickness), pressure,
+                                       to_history(times, factors)});
           },
           py::kw_only(), arg("name"), arg("body"), arg("faces"), arg("pressure"), arg("times"),
-          arg("factors"))
+          arg("factors"), arg("thickness"))
       .def(
           "fix",
           [](WorldDescription& world, const std::string& body, const Ints& nodes, int axes, bool rotations) {

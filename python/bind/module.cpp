@@ -1,6 +1,7 @@
 /// The extension module tissu._core: every room of the core in one place, and its errors as Python's.
 
 #include "bind.h"
+#include "interruption.h"
 #include "tissu/base/build.h"
 #include "tissu/base/isa.h"
 #include "tissu/base/parallel.h"
@@ -60,4 +61,5 @@ PYBIND11_MODULE(_core, m) {
   bind::bind_solver(m);
   bind::bind_step(m);
   bind::bind_simulation(m);
+  bind::bind_interruption(m);
 }

@@ -50,7 +50,11 @@ _HOMES = {
         "law",
         "read_law",
     ),
+    "tissu.field_names": (
+        "FIELD_NAMES",
+    ),
     "tissu.simulation": (
+        "IntegrationPoints",
         "Plan",
         "Profile",
         "Simulation",
@@ -127,7 +131,7 @@ _HOMES = {
         "Cholesky",
     ),
 }
-_MODULES = ("formula", "sampling")
+_MODULES = ("examples", "formula", "sampling")
 _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
 
 __all__ = sorted([*_HOME_OF, *_MODULES, "__version__"])

@@ -3,6 +3,7 @@
 Made from the list in tissu/codegen/names.py by `make codegen`; never edited.
 """
 
+from tissu import examples as examples
 from tissu import formula as formula
 from tissu import sampling as sampling
 from tissu.errors import TissuError as TissuError
@@ -27,6 +28,8 @@ from tissu.mesh import mixed_bar_mesh as mixed_bar_mesh
 from tissu.mesh import refined as refined
 from tissu.user_law import law as law
 from tissu.user_law import read_law as read_law
+from tissu.field_names import FIELD_NAMES as FIELD_NAMES
+from tissu.simulation import IntegrationPoints as IntegrationPoints
 from tissu.simulation import Plan as Plan
 from tissu.simulation import Profile as Profile
 from tissu.simulation import Simulation as Simulation

@@ -31,8 +31,12 @@ class Scene(SceneData):
         return problems_of(self)
 
     @classmethod
-    def from_yaml(cls, path: str | os.PathLike[str]) -> Self:
+    def from_yaml(cls, path: str | os.PathLike[str], *, trust_laws: bool = False) -> Self:
         """Read a scene; paths of meshes are relative to the file.
+
+        Args:
+            path: the file.
+            trust_laws: run the files of `laws`, which are programs: only of scenes that you trust.
 
         Raises:
             SceneError: the file cannot be read or has wrong fields; with them everything that
@@ -40,11 +44,18 @@ class Scene(SceneData):
         """
         from tissu.yaml_io import read_scene
 
-        return accepted(read_scene(Path(path), cls))
+        return accepted(read_scene(Path(path), cls, trust_laws=trust_laws))
 
     @classmethod
-    def from_yaml_text(cls, text: str, *, base: str | os.PathLike[str] | None = None) -> Self:
+    def from_yaml_text(
+        cls, text: str, *, base: str | os.PathLike[str] | None = None, trust_laws: bool = False
+    ) -> Self:
         """Read a scene from a text; paths of meshes are relative to the folder `base`.
+
+        Args:
+            text: the scene in YAML.
+            base: the folder; absent: the present one.
+            trust_laws: run the files of `laws`, which are programs: only of scenes that you trust.
 
         Raises:
             SceneError: the text has wrong fields; with them everything that compile() would
@@ -52,7 +63,8 @@ class Scene(SceneData):
         """
         from tissu.yaml_io import parse_scene
 
-        return accepted(parse_scene(text, cls, base=None if base is None else Path(base)))
+        folder = None if base is None else Path(base)
+        return accepted(parse_scene(text, cls, base=folder, trust_laws=trust_laws))
 
     def to_yaml(self) -> str:
         """The scene as YAML text that reads back as an equal scene.
@@ -75,7 +87,14 @@ class Scene(SceneData):
         return scene_data(self)
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Write the scene to a YAML file, and meshes made in memory beside it as .vtu files."""
+        """Write the scene to a YAML file, and beside it meshes made in memory as .vtu files.
+
+        Files of laws that lie elsewhere than below the file's folder are copied there: a scene
+        reads none from outside.
+
+        Raises:
+            SceneError: a file cannot be written.
+        """
         from tissu.yaml_io import write_scene
 
         write_scene(self, Path(path))

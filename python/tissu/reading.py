@@ -8,12 +8,16 @@ program runs, only what the field gives is left: `Read[float, float | str]` is `
 
 from __future__ import annotations
 
+import math
+import reprlib
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Annotated, Any, Generic, TypeVar, overload
 
 import numpy as np
 from pydantic import BeforeValidator
 from typing_extensions import Self
+
+from tissu.arrays import refuse_masked
 
 Number = float | str
 """What a quantity may be written as in Python: a number in SI, or a text with its unit."""
@@ -23,9 +27,27 @@ Series = Sequence[Number] | np.ndarray[Any, Any]
 """What a list of quantities may be written as."""
 
 
+_LONG_INTEGER = 200  # bits, above which a whole number is not written out
+
+
 def listed(value: object) -> object:
-    """A numpy array as nested lists; anything else unchanged."""
+    """A numpy array as nested lists; anything else unchanged.
+
+    Raises:
+        ParameterError: some of its entries are masked.
+    """
+    refuse_masked(value, "values")
     return value.tolist() if isinstance(value, np.ndarray) else value
+
+
+def written(value: object) -> str:
+    """A value in a message, much shortened; what Python calls None is null, as in YAML."""
+    if isinstance(value, (list, tuple)):
+        few = [written(item) for item in value[:6]] + ["..."] * (len(value) > 6)
+        return f"[{', '.join(few)}]"
+    if type(value) is int and value.bit_length() > _LONG_INTEGER:
+        return f"a whole number of about {int(value.bit_length() * math.log10(2)) + 1} digits"
+    return "null" if value is None else reprlib.repr(value)
 
 
 Out = TypeVar("Out")

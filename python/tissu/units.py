@@ -1,32 +1,27 @@
 """Physical quantities: a plain number is SI, a text carries its unit ("4 kPa", "1.05 g/cm^3").
 
-Common units are read from a table; pint is imported only for the others, so a scene written in
-plain numbers or common units never pays for it. The annotated types at the end are the field types
-of the scene.
+Units are those of a table and a small grammar (`tissu.unit_table`); no text is evaluated. The
+annotated types at the end are the field types of the scene.
 """
 
 from __future__ import annotations
 
 import math
 import re
-import reprlib
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
-from functools import lru_cache
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated
 
 import numpy as np
 from pydantic import AfterValidator, BeforeValidator
 
 from tissu.errors import ParameterError
 from tissu.reading import Number as Number
-from tissu.reading import Read, listed
-from tissu.reading import VectorLike as VectorLike
+from tissu.reading import Read, VectorLike, listed, written
+from tissu.unit_table import UnknownUnitError, read_unit, words_of
 
-if TYPE_CHECKING:
-    import pint
-
-_NUMBER = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*?)\s*", re.DOTALL)
+_NUMBER = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*)", re.DOTALL)
+_LONGEST = 200  # characters of a quantity
 _APART = re.compile(r"(?<=\w) +(?=[^\W\d])")
 
 
@@ -38,7 +33,7 @@ class Dimension:
         name: what it is called in messages ("a pressure").
         unit: SI unit that a plain number has; empty for a pure number.
         example: a text that is accepted.
-        units: factor to SI of each unit that is read without pint.
+        units: factor to SI of those looked up first; the others are read by the grammar.
     """
 
     name: str
@@ -54,7 +49,7 @@ class Dimension:
         """
         number = self._read(value)
         if not math.isfinite(number):
-            raise ParameterError(f"found {value!r}, which is not finite; {self.accepted}")
+            raise ParameterError(f"found {written(value)}, which is not finite; {self.accepted}")
         return number
 
     @property
@@ -67,52 +62,61 @@ class Dimension:
 
     def _read(self, value: object) -> float:
         if isinstance(value, (int, float, np.integer, np.floating)) and not isinstance(value, bool):
-            return float(value)
+            try:
+                return float(value)
+            except OverflowError:  # a whole number with hundreds of digits
+                return math.inf
         if isinstance(value, str):
             return self._read_text(value)
         if hasattr(value, "dimensionality") and hasattr(value, "to"):  # a pint quantity
             return self._read_text(f"{value:~}")
-        found = "nothing" if value is None else f"{value!r}"
+        found = "nothing" if value is None else written(value)
         raise ParameterError(f"found {found}; {self.accepted}")
 
     def _read_text(self, text: str) -> float:
-        if text.strip().lower().lstrip("+-.") in {"nan", "inf", "infinity"}:
+        text = text.strip()
+        if text.lower().lstrip("+-.") in {"nan", "inf", "infinity"}:
             return math.nan
-        match = _NUMBER.fullmatch(text)
+        match = _NUMBER.fullmatch(text) if len(text) <= _LONGEST else None
         if match is None:
             raise ParameterError(
-                f"found '{text}', which does not begin with a number; {self.accepted}"
+                f"found {_quoted(text)}, which does not begin with a number; {self.accepted}"
+                if len(text) <= _LONGEST
+                else f"found a text of {len(text)} characters; {self.accepted}"
             )
         number, unit = float(match[1]), _normal(match[2])
         if not unit:
             return number
         factor = self.units.get(unit)
-        if factor is None:
-            factor = self._ask_elsewhere(text, unit)
-        return number * factor
+        return number * (self._factor(text, unit) if factor is None else factor)
 
-    def _ask_elsewhere(self, text: str, unit: str) -> float:
-        """Factor of a unit this table lacks: another table's (an error), or pint's."""
+    def _factor(self, text: str, unit: str) -> float:
+        """Factor of a unit that the short table lacks, by the grammar."""
         for other in DIMENSIONS:
             if other is not self and unit in other.units:
                 raise ParameterError(f"found '{text}', which is {_a(other.name)}; {self.accepted}")
         try:
-            quantity = _registry().parse_expression(unit)
-            wanted = _registry().parse_units(self.unit or "dimensionless")
-            if not hasattr(quantity, "dimensionality"):
-                raise ParameterError(
-                    f"found '{text}', which has no unit after its number; {self.accepted}"
-                )
-            if quantity.dimensionality == wanted.dimensionality:
-                return float(quantity.to(wanted).magnitude)
-            kind = _kind(quantity)
-        except ParameterError:
-            raise
-        except Exception:  # pint's own errors have no common base below Exception
+            found = read_unit(unit)
+        except UnknownUnitError:
             raise ParameterError(
-                f"found '{text}', whose unit '{unit}' is not known; {self.accepted}"
+                f"found {_quoted(text)}, whose unit {_quoted(unit)} is not known; {self.accepted}"
             ) from None
-        raise ParameterError(f"found '{text}', which is {kind}; {self.accepted}")
+        if found.powers != self._powers:
+            kinds = (other for other in DIMENSIONS if other._powers == found.powers)
+            kind = next(
+                (_a(other.name) for other in kinds), f"of dimension {words_of(found.powers)}"
+            )
+            raise ParameterError(f"found '{text}', which is {kind}; {self.accepted}")
+        return float(found.factor)
+
+    @property
+    def _powers(self) -> tuple[int, int, int, int]:
+        return read_unit(_normal(self.unit) or "1").powers
+
+
+def _quoted(text: str) -> str:
+    """A text in a message, cut when it is long."""
+    return f"'{text}'" if len(text) <= 60 else f"'{text[:57]}...'"
 
 
 def _normal(unit: str) -> str:
@@ -133,23 +137,6 @@ def _normal(unit: str) -> str:
 
 def _a(noun: str) -> str:
     return f"{'an' if noun[0] in 'aeiou' else 'a'} {noun}"
-
-
-@lru_cache(maxsize=1)
-def _registry() -> pint.UnitRegistry[Any]:
-    import pint
-
-    return pint.UnitRegistry()
-
-
-def _kind(quantity: Any) -> str:
-    for other in DIMENSIONS:
-        if (
-            other.unit
-            and quantity.dimensionality == _registry().parse_units(other.unit).dimensionality
-        ):
-            return _a(other.name)
-    return f"of dimension {quantity.dimensionality}"
 
 
 LENGTH = Dimension("length", "m", "5 mm", {"m": 1.0, "dm": 0.1, "cm": 1e-2, "mm": 1e-3, "um": 1e-6})
@@ -218,14 +205,6 @@ def unit_of(metadata: Iterable[object]) -> str:
     readers = (getattr(item, "func", None) for item in metadata)
     found = next((reader for reader in readers if isinstance(reader, Dimension)), NUMBER)
     return found.unit.replace("*", " ")
-
-
-def written(value: object) -> str:
-    """A value in a message, much shortened; what Python calls None is null, as in YAML."""
-    if isinstance(value, (list, tuple)):
-        few = [written(item) for item in value[:6]] + ["..."] * (len(value) > 6)
-        return f"[{', '.join(few)}]"
-    return "null" if value is None else reprlib.repr(value)
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,54 +1,40 @@
-"""Scenes as YAML: read with the line of every field, written so that they read back equal.
-
-The words are those of YAML 1.2's core: `on`, `yes`, `off` are texts, and 1e-6 is a number (YAML 1.1
-says otherwise).
-"""
+"""Scenes as YAML: read with the line of every field, written so that they read back equal."""
 
 from __future__ import annotations
 
 import contextlib
 import os
-import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from functools import lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from tissu.errors import SceneError
+from tissu.files import distinct_names, require_file_place, whole_file
 from tissu.scene.body import Body, MeshFile
 from tissu.scene.part import KEEP_PROBLEMS, Part
-from tissu.scene.problem import Path as FieldPath
 from tissu.scene.problem import Problem, Source
 from tissu.scene.scene import SceneData
 from tissu.scene.unknown import Unknown
+from tissu.yaml_text import add_words, load, scene_file_text
 
 if TYPE_CHECKING:
     import yaml
 
     from tissu.scene.law import UserLaw
 
-_WORDS = {
-    "tag:yaml.org,2002:bool": (r"true|True|TRUE|false|False|FALSE", "tTfF"),
-    "tag:yaml.org,2002:float": (
-        r"[-+]?(?:\d+\.\d*|\.\d+|\d+)(?:[eE][-+]?\d+)?|[-+]?\.(?:inf|Inf|INF)|\.(?:nan|NaN|NAN)",
-        "-+.0123456789",
-    ),
-    "tag:yaml.org,2002:int": (r"[-+]?\d+", "-+0123456789"),
-    "tag:yaml.org,2002:null": (r"~|null|Null|NULL|", "~nN\0"),
-    "tag:yaml.org,2002:merge": (r"<<", "<"),
-}
-
 
 S = TypeVar("S", bound=SceneData)
 
 
-def read_scene(path: Path, cls: type[S], *, to_run: bool = False) -> S:
+def read_scene(path: Path, cls: type[S], *, to_run: bool = False, trust_laws: bool = False) -> S:
     """Read a scene file; paths of meshes are relative to its folder.
 
     Args:
         path: the file.
         cls: the class of the scene.
         to_run: whether a duration that is absent but needed is a problem.
+        trust_laws: whether the files of `laws`, which are programs, may run.
 
     Returns:
         The scene with what could be read of it, and with the problems of its fields.
@@ -56,50 +42,92 @@ def read_scene(path: Path, cls: type[S], *, to_run: bool = False) -> S:
     Raises:
         SceneError: the file cannot be read, or is not YAML.
     """
-    try:
-        text = path.read_text(encoding="utf-8")
-    except OSError as error:
-        raise SceneError([f"{path}: the scene file cannot be read: {error.strerror}"]) from None
-    except UnicodeDecodeError:
-        raise SceneError([f"{path}: not a text in UTF-8; a YAML scene is accepted"]) from None
-    scene = parse_scene(text, cls, base=path.parent, name=str(path))
-    if to_run:
-        with contextlib.suppress(Unknown):
-            if scene.duration is None and scene.step.type != "static":
-                missing = Problem(("duration",), "is missing; give it here or by --duration")
-                scene._problems += (missing,)
-    return scene
+    text = scene_file_text(path)
+    return parse_scene(
+        text, cls, base=path.parent, name=str(path), to_run=to_run, trust_laws=trust_laws
+    )
 
 
-def parse_scene(text: str, cls: type[S], *, base: Path | None = None, name: str = "text") -> S:
+def parse_scene(
+    text: str,
+    cls: type[S],
+    *,
+    base: Path | None = None,
+    name: str = "text",
+    to_run: bool = False,
+    trust_laws: bool = False,
+) -> S:
     """Read a scene from YAML text.
+
+    The files of `laws` run only where they are trusted, and only when nothing else is wrong with
+    the scene.
 
     Returns:
         The scene with what could be read of it, and with the problems of its fields.
 
     Raises:
-        SceneError: not YAML, or no mapping.
+        SceneError: not YAML, or no mapping; or laws are trusted and something else is wrong.
     """
-    data, source, problems = _load(text, name)
+    data, source, problems = load(text, name)
     if not isinstance(data, dict):
         found = "nothing" if data is None else repr(data)[:40]
-        raise SceneError(
-            [
-                f"{name}:1: found {found}; a mapping with the keys "
-                f"{', '.join(cls.model_fields)} is accepted"
-            ]
-        )
-    laws: list[type[UserLaw]] = []
-    refused: list[Problem] = []
+        accepted = f"a mapping with the keys {', '.join(cls.model_fields)} is accepted"
+        raise SceneError([f"{name}:1: found {found}; {accepted}"])
     if data.get("laws"):
-        from tissu.user_law.of_scene import laws_of_scene
+        return _with_laws(cls, data, base, source, problems, to_run=to_run, trusted=trust_laws)
+    return _to_run(_validated(cls, data, base, source, problems), to_run)
 
-        laws, refused = laws_of_scene(data["laws"], base)
-    problems += refused
-    context = {"base": base, "laws": laws, "laws_refused": bool(refused), KEEP_PROBLEMS: True}
+
+def _with_laws(
+    cls: type[S],
+    data: dict[str, Any],
+    base: Path | None,
+    source: Source,
+    problems: list[Problem],
+    *,
+    to_run: bool,
+    trusted: bool,
+) -> S:
+    """The scene of a text that names files of laws."""
+    from tissu.user_law.of_scene import laws_of_scene, untrusted
+
+    refused = [] if trusted else untrusted(data["laws"])
+    scene = _validated(cls, data, base, source, [*problems, *refused], laws_refused=True)
+    scene = _to_run(scene, to_run)
+    if refused:
+        return scene
+    others = scene._refusal()
+    if others:
+        raise SceneError(others)
+    laws, refused = laws_of_scene(data["laws"], base)
+    problems = [*problems, *refused]
+    return _validated(cls, data, base, source, problems, laws=laws, laws_refused=bool(refused))
+
+
+def _validated(
+    cls: type[S],
+    data: dict[str, Any],
+    base: Path | None,
+    source: Source,
+    problems: list[Problem],
+    *,
+    laws: Sequence[type[UserLaw]] = (),
+    laws_refused: bool = False,
+) -> S:
+    """The scene of what a text says; `laws_refused`: laws that are not known may be of a file."""
+    context = {"base": base, "laws": laws, "laws_refused": laws_refused, KEEP_PROBLEMS: True}
     scene = cls.model_validate(data, context=context)
     scene._source = source
     scene._problems += tuple(problems)
+    return scene
+
+
+def _to_run(scene: S, wanted: bool) -> S:
+    """The scene, with a problem where it is to run and has no duration that it needs."""
+    with contextlib.suppress(Unknown):
+        if wanted and scene.duration is None and scene.step.type != "static":
+            missing = Problem(("duration",), "is missing; give it here or by --duration")
+            scene._problems += (missing,)
     return scene
 
 
@@ -109,17 +137,18 @@ def scene_mapping(path: Path) -> dict[str, Any]:
     Raises:
         SceneError: the file cannot be read, or is not YAML.
     """
-    try:
-        data, _, _ = _load(path.read_text(encoding="utf-8"), str(path))
-    except OSError as error:
-        raise SceneError([f"{path}: the scene file cannot be read: {error.strerror}"]) from None
+    data, _, _ = load(scene_file_text(path), str(path))
     if not isinstance(data, dict):
         raise SceneError([f"{path}: a mapping with the keys of a scene is accepted"])
     return data
 
 
-def scene_data(scene: SceneData, *, folder: Path | None = None) -> dict[str, Any]:
+def scene_data(
+    scene: SceneData, *, folder: Path | None = None, moved: Mapping[Path, Path] | None = None
+) -> dict[str, Any]:
     """The scene as mappings, lists and numbers; with `folder`, paths of meshes relative to it.
+
+    moved: the places of files of laws that were copied.
 
     Raises:
         SceneError: a mesh or a law that came from no file.
@@ -138,7 +167,7 @@ def scene_data(scene: SceneData, *, folder: Path | None = None) -> dict[str, Any
     ]
     if problems:
         raise SceneError(problems)
-    files = dict.fromkeys([*scene.laws, *(law.file for law in scene.own_laws())])
+    files = dict.fromkeys((moved or {}).get(file, file) for file in law_files(scene))
     data: dict[str, Any] = _plain(scene, folder)
     if files:
         rest = {key: value for key, value in data.items() if key != "laws"}
@@ -146,7 +175,9 @@ def scene_data(scene: SceneData, *, folder: Path | None = None) -> dict[str, Any
     return data
 
 
-def scene_text(scene: SceneData, *, folder: Path | None = None) -> str:
+def scene_text(
+    scene: SceneData, *, folder: Path | None = None, moved: Mapping[Path, Path] | None = None
+) -> str:
     """The scene as YAML; with `folder`, paths of meshes are written relative to it.
 
     Raises:
@@ -154,86 +185,68 @@ def scene_text(scene: SceneData, *, folder: Path | None = None) -> str:
     """
     import yaml
 
-    data = scene_data(scene, folder=folder)
+    data = scene_data(scene, folder=folder, moved=moved)
     return str(yaml.dump(data, Dumper=_dumper(), sort_keys=False, width=100, allow_unicode=True))
 
 
 def write_scene(scene: SceneData, path: Path) -> None:
-    """Write the scene, and each mesh made in memory beside it as .vtu.
+    """Write the scene, each mesh made in memory beside it as .vtu, and laws from elsewhere.
 
     Raises:
         SceneError: the file or a mesh cannot be written.
     """
+    require_file_place(path, "scene", error=_scene_error)
     bodies: dict[str, Body] = {}
-    try:
-        for name, body in scene.bodies.items():
-            if isinstance(body.mesh, Part) or body.mesh.source is not None:
-                bodies[name] = body
-                continue
-            from tissu.mesh import write_mesh
+    files = distinct_names(scene.bodies)
+    for name, body in scene.bodies.items():
+        if isinstance(body.mesh, Part) or body.mesh.source is not None:
+            bodies[name] = body
+            continue
+        from tissu.mesh import write_mesh
 
-            file = path.with_name(f"{path.stem}-{re.sub(r'[^A-Za-z0-9_.-]', '_', name)}.vtu")
-            write_mesh(body.mesh, file)
-            bodies[name] = body.replace(mesh=MeshFile(file))
-        text = scene_text(scene.replace(bodies=bodies), folder=path.parent)
-        path.write_text(text, encoding="utf-8")
-    except OSError as error:
-        raise SceneError([f"{path}: the scene cannot be written: {error.strerror}"]) from None
-
-
-def _load(text: str, name: str) -> tuple[Any, Source, list[Problem]]:
-    """Data, lines of all fields, and keys that are written twice."""
-    import yaml
-
-    loader = _loader()(text)
-    try:
-        node = loader.get_single_node()
-        if node is None:
-            return None, Source(name), []
-        lines: dict[FieldPath, int] = {}
-        problems: list[Problem] = []
-        _walk(node, (), lines, problems, ())
-        return loader.construct_document(node), Source(name, lines), problems
-    except yaml.MarkedYAMLError as error:
-        mark = error.problem_mark or error.context_mark
-        line = mark.line + 1 if mark is not None else 1
-        raise SceneError(
-            [f"{name}:{line}: not valid YAML: {error.problem or error.context}"]
-        ) from None
-    except (yaml.YAMLError, ValueError, TypeError) as error:
-        raise SceneError([f"{name}:1: not valid YAML: {error}"]) from None
-    finally:
-        loader.dispose()
+        file = path.with_name(f"{path.stem}-{files[name]}.vtu")
+        write_mesh(body.mesh, file)
+        bodies[name] = body.replace(mesh=MeshFile(file))
+    moved = laws_beside(scene, path.parent)
+    text = scene_text(scene.replace(bodies=bodies), folder=path.parent, moved=moved)
+    with whole_file(path, error=_scene_error) as partial:
+        partial.write_text(text, encoding="utf-8")
 
 
-def _walk(
-    node: yaml.Node,
-    path: FieldPath,
-    lines: dict[FieldPath, int],
-    problems: list[Problem],
-    above: tuple[int, ...],
-) -> None:
-    """Note the line of each field below a node, and keys given twice."""
-    import yaml
+def law_files(scene: SceneData) -> list[Path]:
+    """The files of the laws of a scene, those that it names and those of its bodies, each once."""
+    own = (law.file for law in scene.own_laws() if law.file is not None)
+    return list(dict.fromkeys([*scene.laws, *own]))
 
-    if id(node) in above:
-        raise yaml.constructor.ConstructorError(
-            None, None, "an alias that contains itself", node.start_mark
-        )
-    above = (*above, id(node))
-    lines.setdefault(path, node.start_mark.line + 1)
-    if isinstance(node, yaml.SequenceNode):
-        for number, item in enumerate(node.value):
-            _walk(item, (*path, number), lines, problems, above)
-    elif isinstance(node, yaml.MappingNode):
-        for key, value in node.value:
-            inner = (*path, str(key.value))
-            if inner in lines:
-                problems.append(
-                    Problem(inner, f"written twice, first in line {lines[inner]}; keep one of them")
+
+def laws_beside(scene: SceneData, folder: Path) -> dict[Path, Path]:
+    """Copies files of laws from elsewhere into a folder: a scene's laws are in its folder or below.
+
+    Raises:
+        SceneError: one cannot be read or written, or another file has its name there.
+    """
+    moved: dict[Path, Path] = {}
+    for file in law_files(scene):
+        if file.resolve().is_relative_to(folder.resolve()):
+            continue
+        copied = folder / file.name
+        try:
+            content = file.read_bytes()
+            if copied.exists() and copied.read_bytes() != content:
+                text = (
+                    f"{copied}: found another file in the place of the law {file}; move one of them"
                 )
-            lines[inner] = key.start_mark.line + 1
-            _walk(value, inner, lines, problems, above)
+                raise SceneError([text])
+        except OSError as error:
+            raise SceneError([f"{file}: cannot be copied to {folder} ({error.strerror})"]) from None
+        with whole_file(copied, error=_scene_error) as partial:
+            partial.write_bytes(content)
+        moved[file] = copied
+    return moved
+
+
+def _scene_error(text: str) -> SceneError:
+    return SceneError([text])
 
 
 def _plain(value: Any, folder: Path | None) -> Any:
@@ -267,18 +280,6 @@ def _seen_from(folder: Path, file: Path) -> Path:
 
 
 @lru_cache(maxsize=1)
-def _loader() -> type[yaml.SafeLoader]:
-    import yaml
-
-    class Loader(yaml.SafeLoader):
-        """SafeLoader with the words of YAML 1.2."""
-
-    Loader.yaml_implicit_resolvers = {}
-    _add_words(Loader)
-    return Loader
-
-
-@lru_cache(maxsize=1)
 def _dumper() -> type[yaml.SafeDumper]:
     import yaml
 
@@ -293,13 +294,6 @@ def _dumper() -> type[yaml.SafeDumper]:
         return dumper.represent_sequence("tag:yaml.org,2002:seq", data, flow_style=flat)
 
     Dumper.yaml_implicit_resolvers = {}
-    _add_words(Dumper)
+    add_words(Dumper)
     Dumper.add_representer(list, sequence)
     return Dumper
-
-
-def _add_words(cls: Any) -> None:
-    for tag, (pattern, first) in reversed(_WORDS.items()):
-        cls.add_implicit_resolver(
-            tag, re.compile(f"^(?:{pattern})$"), ["" if c == "\0" else c for c in first]
-        )

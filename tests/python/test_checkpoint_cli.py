@@ -144,7 +144,7 @@ def test_threads_and_repeated_runs_write_the_same_files(scene, tmp_path):
             "option --checkpoint-every: found '1",
         ),
         (["--checkpoint", "c", "--checkpoint-every", "0 s"], "more than 0 s is accepted"),
-        (["--checkpoint", "."], "cannot be written (it is a folder)"),
+        (["--checkpoint", "."], "found a folder; a new place or a regular file is accepted"),
         (["--checkpoint", "bar.yaml/c"], "cannot be written"),
         (["--resume", "absent"], "checkpoint absent: there is no such file"),
         (["--resume", "bar.yaml"], "checkpoint bar.yaml: its checksum does not match"),

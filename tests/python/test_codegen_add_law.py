@@ -1,8 +1,10 @@
 """A law is added as CONTRIBUTING.md says; wrong ones are refused, with the reason."""
 
+import importlib.util
 import re
 import shutil
 import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -13,6 +15,7 @@ from tissu.codegen import __main__ as codegen
 from tissu.codegen.checks import check_law
 from tissu.codegen.cpp import LawError, formatter
 from tissu.codegen.definition import LAWS, read_law
+from tissu.errors import SceneError
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -92,6 +95,22 @@ def test_a_new_law_joins_every_list(made: Path) -> None:
     assert names is not None
     assert names[1].replace("\n", " ").split(",")[-2:] == [" Gent", " Fibre"]
     assert '"jm", "1"' in table
+
+
+def test_a_new_law_is_a_class_of_scenes_with_the_units_of_its_formula(
+    made: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    spec = importlib.util.spec_from_file_location("laws_with_gent", made / codegen.SCENE)
+    assert spec is not None and spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    monkeypatch.setitem(sys.modules, spec.name, module)
+    spec.loader.exec_module(module)
+    gent = module.Gent(mu="1 kPa", jm=30, kappa=2e4)
+    assert gent.words() == "gent with mu 1000 Pa, jm 30, kappa 20000 Pa"
+    assert gent.small_strain() == (2e4 - 2000 / 3, 1000)
+    with pytest.raises(SceneError, match="jm: found '30 Pa', which is a pressure"):
+        module.Gent(mu=1000, jm="30 Pa", kappa=2e4)
+    assert "Gent" in module.__all__
 
 
 def test_a_new_law_compiles_and_its_derivatives_are_right(made: Path, tmp_path: Path) -> None:

@@ -8,10 +8,14 @@ import pytest
 
 pytest.importorskip("sympy")
 
+import sympy as sp
+
 from tissu.codegen import __main__ as codegen
-from tissu.codegen import cpp, kernels
+from tissu.codegen import cpp, definition, kernels
 from tissu.codegen.checks import Point, check_law, random_rotation
 from tissu.codegen.definition import Law, read_laws
+from tissu.scene.generated.laws import LAWS as SCENE_LAWS
+from tissu.scene.part import type_name
 
 ROOT = Path(__file__).resolve().parents[2]
 LAWS = {law.name: law for law in read_laws()}
@@ -42,17 +46,24 @@ def test_generated_files_are_current(capsys: pytest.CaptureFixture[str]) -> None
 
 
 def test_the_laws_of_the_library() -> None:
-    assert list(LAWS) == [
-        "hooke",
-        "stvk",
-        "neo_hooke",
-        "stable_neo_hooke",
-        "mooney_rivlin",
-        "yeoh",
-        "arruda_boyce",
-        "fibre",
-    ]
-    assert [name for name, law in LAWS.items() if law.addition] == ["fibre"]
+    """A file is a law: those of ORDER first, additions last; scenes have a class for the others."""
+    bases = [name for name, law in LAWS.items() if not law.addition]
+    assert list(LAWS) == [*bases, *(name for name, law in LAWS.items() if law.addition)]
+    assert tuple(bases[: len(definition.ORDER)]) == definition.ORDER
+    assert set(LAWS) == {path.stem for path in definition.LAWS.glob("[a-z]*.py")}
+    assert [type_name(cls) for cls in SCENE_LAWS] == bases
+
+
+@pytest.mark.parametrize("name", [name for name in NAMES if not LAWS[name].addition])
+def test_the_class_of_a_scene_knows_lames_constants_at_rest(name: str) -> None:
+    """As the formula's SMALL_STRAIN gives them; to 1e-12, the round-off of another order."""
+    law, cls = LAWS[name], next(cls for cls in SCENE_LAWS if type_name(cls) == name)
+    values = {p.name: p.typical for p in law.parameters}
+    constants = law.constant_values(values)
+    known = {sp.Symbol(n, real=True): v for n, v in constants.items()}
+    assert law.small_strain is not None
+    wanted = [float(sp.sympify(e).subs(known)) for e in law.small_strain]
+    assert cls(**values).small_strain() == pytest.approx(wanted, rel=1e-12)
 
 
 @pytest.mark.parametrize("name", NAMES)

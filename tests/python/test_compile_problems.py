@@ -36,6 +36,11 @@ def scene(mesh=BAR, law=SOFT, **changes):
     return Scene(**{"bodies": {"bar": body}, "step": ImplicitEuler(0.01), **changes})
 
 
+def notes(made):
+    """The notes, but for that on the size: these bars are in metres."""
+    return [note for note in made.check().notes if "more than any organ" not in note]
+
+
 def problems(made):
     found = made.check().problems
     if found:
@@ -57,7 +62,7 @@ def two_bars(gap=1.0):
 def test_a_good_scene_has_none():
     made = scene(fixed=[Fixed("bar", on=END)])
     assert problems(made) == []
-    assert made.check().notes == []
+    assert notes(made) == []
 
 
 def test_all_bodies_at_once(tmp_path):
@@ -196,16 +201,17 @@ def test_open_sides_of_a_box_are_told_as_open():
 
 
 def test_a_body_that_nothing_holds_falls():
-    notes = scene(gravity=(0, 0, -9.81)).check().notes
-    assert notes == [
+    found = notes(scene(gravity=(0, 0, -9.81)))
+    assert found == [
         "bodies.bar: nothing holds the body, so it falls; hold nodes with `fixed`, "
         "or leave gravity out"
     ]
-    assert scene(gravity=(0, 0, -9.81)).compile().plan().notes == tuple(notes)
+    planned = scene(gravity=(0, 0, -9.81)).compile().plan().notes
+    assert planned == tuple(scene(gravity=(0, 0, -9.81)).check().notes)
     held = scene(gravity=(0, 0, -9.81), fixed=[Fixed("bar", on=END, axes="z")])
-    assert held.check().notes == []
-    assert scene().check().notes == []
-    assert scene(gravity=(0, 0, 0)).check().notes == []
+    assert notes(held) == []
+    assert notes(scene()) == []
+    assert notes(scene(gravity=(0, 0, 0))) == []
 
 
 def test_notes():

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import tissu as ts
+from typical_laws import typical_laws
 
 CELLS = [
     "tetra",
@@ -16,7 +17,7 @@ CELLS = [
     "pyramid",
     "pyramid13",
 ]
-LAWS = {
+LAWS = typical_laws() | {
     "hooke": ts.Hooke(young=3e4, poisson=0.3),
     "stvk": ts.StVK(young=3e4, poisson=0.3),
     "neo_hooke": ts.NeoHooke(young=3e4, poisson=0.3),

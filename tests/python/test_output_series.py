@@ -10,8 +10,8 @@ import pytest
 
 import tissu
 from tissu.errors import TissuError
+from tissu.files import file_name, whole_file
 from tissu.output import Series, StepTally, prepare_folder, summarise, write_summary
-from tissu.output.folder import file_name, whole_file
 
 
 def make(cell="tetra", name="two bars"):

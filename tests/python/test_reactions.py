@@ -17,7 +17,7 @@ def body(**changes):
 @pytest.mark.parametrize("model", ["fem", "condensed"])
 def test_supports_carry_weight_and_loads(model):
     scene = ts.Scene(
-        bodies={"bar": body(model=model)},
+        bodies={"bar": body(model=model, law_for_model="nearest")},
         gravity=(0, 0, -9.81),
         fixed=[ts.Fixed("bar", on=HELD)],
         loads=[ts.NodalLoad("bar", on=ts.Nodes([8]), force=(3, 0, 1))],

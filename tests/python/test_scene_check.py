@@ -1,9 +1,11 @@
 """check(): in plain words what a scene switches on and why, and what is absent."""
 
 from tissu import (
+    ArrudaBoyce,
     BarMesh,
     Body,
     Box,
+    Fibres,
     Fixed,
     ImplicitEuler,
     NodalLoad,
@@ -55,6 +57,14 @@ def test_each_effect_says_which_field_asks_for_it():
     ]
     assert "Switched on:\n  - elasticity of bar" in str(check)
     assert "Problems" not in str(check)
+
+
+def test_a_law_is_said_with_the_units_that_its_formula_declares():
+    fibres = Fibres(k1="2 kPa", k2=0.8, direction=(1, 0, 0))
+    law = ArrudaBoyce(mu="1 kPa", lambda_m=1.6, kappa=5e4, fibres=fibres)
+    (effect,) = (e for e in BODY.replace(law=law).effects("bar") if "elasticity" in e.name)
+    words = "arruda_boyce with mu 1000 Pa, lambda_m 1.6, kappa 50000 Pa, fibres k1 2000 Pa, k2 0.8"
+    assert effect.why == f"bodies.bar.law is {words}"
 
 
 def test_problems_come_first():

@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 
 import tissu as ts
-from tissu.scene.step import STEPS
+from tissu.scene.step import STEPS, Explicit, Implicit
 
-EXPLICIT = (ts.ExplicitEuler, ts.SymplecticEuler, ts.RK2, ts.RK4)
-IMPLICIT = (ts.ImplicitEuler, ts.ImplicitMidpoint, ts.BDF2, ts.Newmark)
+EXPLICIT = tuple(cls for cls in STEPS if issubclass(cls, Explicit))
+IMPLICIT = tuple(cls for cls in STEPS if issubclass(cls, Implicit))
 STEP = {"dt": "5 ms"}
 
 

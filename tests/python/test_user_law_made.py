@@ -80,7 +80,7 @@ def test_a_law_is_compiled_once(cache, monkeypatch):
     first = define()
     before = libraries(cache)
     assert len(before) == 1
-    assert sorted(path.suffix for path in cache.iterdir()) == [".cpp", ".so"]
+    assert sorted(path.suffix for path in cache.iterdir()) == [".cpp", ".json", ".so"]
 
     def refuse(*_):
         raise AssertionError("it compiles again")
@@ -137,7 +137,7 @@ def test_a_library_that_was_cut_off_is_made_again(cache):
 def test_two_processes_make_one_law_at_once(cache):
     said = processes(2)
     assert said[0] == said[1] != ""
-    assert sorted(path.suffix for path in cache.iterdir()) == [".cpp", ".so"]
+    assert sorted(path.suffix for path in cache.iterdir()) == [".cpp", ".json", ".so"]
 
 
 def test_no_compiler_says_what_to_install(cache, monkeypatch, tmp_path):
@@ -184,7 +184,8 @@ def test_headers_of_made_code_are_there():
 
 def test_a_scene_file_names_files_with_laws(scene_file, tmp_path):
     out = tmp_path / "out"
-    command = [sys.executable, "-m", "tissu.cli", "run", str(scene_file), "--out", str(out)]
+    command = [sys.executable, "-m", "tissu.cli", "run", str(scene_file)]
+    command += ["--out", str(out), "--trust-laws"]
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
     (file,) = out.rglob("summary.json")
@@ -206,21 +207,22 @@ def test_the_summary_of_a_law_in_memory_makes_it_again():
 
 
 def test_a_scene_with_laws_is_written_and_read(scene_file, tmp_path):
-    scene = ts.Scene.from_yaml(scene_file)
+    scene = ts.Scene.from_yaml(scene_file, trust_laws=True)
     copy = tmp_path / "elsewhere"
     copy.mkdir()
     scene.save(copy / "bar.yaml")
-    assert "../soft.py" in (copy / "bar.yaml").read_text()
-    assert ts.Scene.from_yaml(copy / "bar.yaml") == scene
+    assert "laws: [soft.py]" in (copy / "bar.yaml").read_text()
+    assert (copy / "soft.py").read_text() == (tmp_path / "soft.py").read_text()
+    assert ts.Scene.from_yaml(copy / "bar.yaml", trust_laws=True) == scene
     soft = ts.read_law(tmp_path / "soft.py")
     body = scene.bodies["bar"].replace(law=soft(mu=3e3, kappa=2e4))
     in_python = scene.replace(laws=(), bodies={"bar": body})
     in_python.save(copy / "other.yaml")
-    assert ts.Scene.from_yaml(copy / "other.yaml") == in_python != scene
+    assert ts.Scene.from_yaml(copy / "other.yaml", trust_laws=True) == in_python != scene
 
 
 def test_a_scene_with_a_law_in_memory_is_not_written(scene_file):
-    scene = ts.Scene.from_yaml(scene_file)
+    scene = ts.Scene.from_yaml(scene_file, trust_laws=True)
     body = scene.bodies["bar"].replace(law=define()(mu=3e3, kappa=2e4))
     with pytest.raises(ts.SceneError, match="the law soft_tissue was made in memory"):
         scene.replace(bodies={"bar": body}).to_yaml()
@@ -243,7 +245,7 @@ def test_problems_with_laws_of_a_scene_file_have_lines(case, scene_file):
     assert good in SCENE
     scene_file.write_text(SCENE.replace(good, bad), encoding="utf-8")
     with pytest.raises(ts.SceneError, match=reason):
-        ts.Scene.from_yaml(scene_file)
+        ts.Scene.from_yaml(scene_file, trust_laws=True)
 
 
 FILES = {

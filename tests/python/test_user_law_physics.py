@@ -134,6 +134,11 @@ def test_regions_may_have_different_laws_of_ones_own(repeated, gent, threads):
     assert energy({"left": soft, "right": locking}) != pytest.approx(wanted, rel=1e-3)
 
 
+def test_check_says_the_units_that_the_formula_declares(gent):
+    words = "gent with mu 10000 Pa, jm 30, kappa 100000 Pa"
+    assert gent(mu="10 kPa", jm=30, kappa=1e5).words() == words
+
+
 def test_cells_are_removed_from_a_body_of_ones_own_law(gent):
     body = ts.Body(
         mesh=ts.bar_mesh(size=(3, 1, 1), cells=(3, 1, 1), cell="hexahedron"),

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
 
 #include "kernels/product_list.h"
+#include "tissu/base/error.h"
 
 namespace tissu {
 namespace {
@@ -34,33 +36,21 @@ void BlockMatrix::clear() {
     std::fill(values_.begin() + std::min<std::int64_t>(size, std::int64_t{64} * begin),
               values_.begin() + std::min<std::int64_t>(size, std::int64_t{64} * end), 0.0);
   });
-  extra_.clear();
+  set_couplings(nullptr);
   set_given(nullptr);
   count_change();
-}
-
-bool BlockMatrix::add_to_extra(std::int32_t row, std::int32_t column, const Mat3& block) {
-  for (ExtraBlock& e : extra_) {
-    if (e.row == row && e.column == column) {
-      for (std::size_t i = 0; i < 9; ++i) e.values[i] += block.data()[i];
-      return true;
-    }
-  }
-  return false;
 }
 
 void BlockMatrix::add(std::int32_t row, std::int32_t column, const Mat3& block) {
   count_change();
   const std::int32_t slot = sparsity_->slot(row, column);
-  if (slot >= 0) {
-    double* to = values_.data() + 9 * static_cast<std::ptrdiff_t>(slot);
-    for (int i = 0; i < 9; ++i) to[i] += block.data()[i];
-    return;
+  if (slot < 0) {
+    throw Error(
+        "the block (" + std::to_string(row) + ", " + std::to_string(column) +
+        ") is not in the pattern of the matrix; a model that couples rows at run time adds couplings.");
   }
-  if (add_to_extra(row, column, block)) return;
-  ExtraBlock e{row, column, {}};
-  std::copy_n(block.data(), 9, e.values.begin());
-  extra_.push_back(e);
+  double* to = values_.data() + 9 * static_cast<std::ptrdiff_t>(slot);
+  for (int i = 0; i < 9; ++i) to[i] += block.data()[i];
 }
 
 void BlockMatrix::add_diagonal(std::int32_t row, double value) {
@@ -73,24 +63,32 @@ void BlockMatrix::add_diagonal(std::int32_t row, double value) {
 
 void BlockMatrix::multiply(ConstReals p, Reals out) const {
   threads_.for_pieces(rows(), [&](std::int32_t begin, std::int32_t end) {
-    multiply_rows_(sparsity_->row_begin.data(), sparsity_->column.data(), values_.data(), begin, end,
-                   p.data(), out.data());
+    multiply_rows_(sparsity_->row_begin.data(), sparsity_->row_end(), sparsity_->column.data(),
+                   values_.data(), begin, end, p.data(), out.data());
   });
-  for (const ExtraBlock& e : extra_) {
-    block(out, e.row) += Eigen::Map<const Mat3>(e.values.data()) * block(p, e.column);
-  }
+  if (couplings() != nullptr) couplings()->add_product(threads_, 1.0, p.data(), out.data());
 }
 
 void BlockMatrix::diagonal_blocks(Reals blocks) const {
   for (std::int32_t i = 0; i < rows(); ++i) {
     std::copy_n(values_.data() + 9 * diagonal_slot(i), 9, blocks.data() + 9 * static_cast<std::ptrdiff_t>(i));
   }
+  if (couplings() != nullptr) couplings()->add_diagonal(blocks);
 }
 
 double BlockMatrix::round_off(ConstReals x) const {
   double sum = 0.0;
   for (std::int32_t i = 0; i < rows(); ++i) {
     sum += diagonal_block(i).diagonal().cwiseProduct(block(x, i)).squaredNorm();
+  }
+  if (couplings() != nullptr) {
+    for (std::size_t k = 0; k < couplings()->rows().size(); ++k) {
+      const std::int32_t i = couplings()->rows()[k];
+      const Vec3 coupled = couplings()->diagonal(static_cast<std::int32_t>(k)).diagonal();
+      const Vec3 own = diagonal_block(i).diagonal();
+      sum += (own + coupled).cwiseProduct(block(x, i)).squaredNorm() -
+             own.cwiseProduct(block(x, i)).squaredNorm();
+    }
   }
   return std::numeric_limits<double>::epsilon() * std::sqrt(sum);
 }
@@ -104,8 +102,8 @@ void BlockMatrix::constrain(const std::vector<std::int32_t>& rows, const std::ve
   set_given(&masks);
   for (const std::int32_t r : rows) {
     const unsigned mask = masks[static_cast<std::size_t>(r)];
-    for (auto s = sparsity_->row_begin[static_cast<std::size_t>(r)];
-         s < sparsity_->row_begin[static_cast<std::size_t>(r) + 1]; ++s) {
+    const std::int64_t end = sparsity_->end_of(r);
+    for (auto s = sparsity_->begin_of(r); s < end; ++s) {
       const std::int32_t c = sparsity_->column[static_cast<std::size_t>(s)];
       clear_masked(values_.data() + 9 * s, mask, 0);
       clear_masked(values_.data() + 9 * static_cast<std::int64_t>(sparsity_->slot(c, r)), 0, mask);
@@ -115,15 +113,12 @@ void BlockMatrix::constrain(const std::vector<std::int32_t>& rows, const std::ve
       if (((mask >> i) & 1U) != 0) diagonal[4 * i] = 1.0;
     }
   }
-  for (ExtraBlock& e : extra_) {
-    clear_masked(e.values.data(), masks[static_cast<std::size_t>(e.row)],
-                 masks[static_cast<std::size_t>(e.column)]);
-  }
 }
 
 std::size_t BlockMatrix::bytes() const {
   return values_.size() * sizeof(double) + sparsity_->column.size() * sizeof(std::int32_t) +
-         sparsity_->row_begin.size() * sizeof(std::int64_t) + diagonal_.size() * sizeof(std::int64_t);
+         (sparsity_->row_begin.size() + sparsity_->open_end.size()) * sizeof(std::int64_t) +
+         diagonal_.size() * sizeof(std::int64_t);
 }
 
 }  // namespace tissu

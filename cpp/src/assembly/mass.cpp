@@ -47,8 +47,12 @@ void Mass::divide_rows(std::int32_t begin, std::int32_t end, Reals f) const {
 }
 
 void Mass::add_to(BlockMatrix& matrix, const State& state, double scale) const {
+  double* values = matrix.values();
   for (std::size_t i = 0; i < nodal_.size(); ++i) {
-    if (nodal_[i] != 0.0) matrix.add_diagonal(static_cast<std::int32_t>(i), scale * nodal_[i]);
+    if (nodal_[i] == 0.0) continue;
+    const double m = scale * nodal_[i];
+    double* to = values + 9 * matrix.diagonal_slot(static_cast<std::int32_t>(i));
+    for (int k = 0; k < 3; ++k) to[4 * k] += m;
   }
   for (std::size_t k = 0; k < frames_.size(); ++k) {
     const std::int32_t r = frames_[k].rotation;

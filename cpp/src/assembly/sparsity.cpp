@@ -1,11 +1,18 @@
 #include "tissu/assembly/sparsity.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "tissu/base/error.h"
 
 namespace tissu {
+namespace {
+
+/// In the room behind a row: above every column, so that a row and its room ascend.
+constexpr std::int32_t kNoColumn = std::numeric_limits<std::int32_t>::max();
+
+}  // namespace
 
 std::int32_t Sparsity::slot(std::int32_t row, std::int32_t col) const {
   const auto begin = column.begin() + row_begin[static_cast<std::size_t>(row)];
@@ -18,7 +25,7 @@ void SparsityBuilder::add_cells(std::span<const std::int32_t> nodes, int size) {
   cells_.push_back({{nodes.begin(), nodes.end()}, size});
 }
 
-Sparsity SparsityBuilder::build() const {
+Sparsity SparsityBuilder::build(double room) const {
   // For each row, the cells that touch it, as offsets into one list of nodes.
   std::vector<std::int64_t> first(static_cast<std::size_t>(rows_) + 1, 0);
   for (const Cells& cells : cells_) {
@@ -50,6 +57,11 @@ Sparsity SparsityBuilder::build() const {
     std::ranges::sort(row);
     row.erase(std::ranges::unique(row).begin(), row.end());
     result.column.insert(result.column.end(), row.begin(), row.end());
+    if (room > 0.0) {
+      result.open_end.push_back(static_cast<std::int64_t>(result.column.size()));
+      const double spare = std::ceil(room * static_cast<double>(row.size()));
+      result.column.insert(result.column.end(), static_cast<std::size_t>(spare), kNoColumn);
+    }
     result.row_begin[i + 1] = static_cast<std::int64_t>(result.column.size());
   }
   if (result.blocks() > std::numeric_limits<std::int32_t>::max()) {

@@ -25,8 +25,10 @@ BuildInfo build_info() {
 }
 
 std::string_view kernel_flags(Isa isa) {
-#ifdef TISSU_X86_KERNELS
+#ifdef TISSU_HAS_AVX512
   if (isa == Isa::avx512) return TISSU_FLAGS_AVX512;
+#endif
+#ifdef TISSU_HAS_AVX2
   if (isa == Isa::avx2) return TISSU_FLAGS_AVX2;
 #endif
   (void)isa;

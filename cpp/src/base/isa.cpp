@@ -14,8 +14,10 @@ constexpr std::array kAll = {Isa::avx512, Isa::avx2, Isa::baseline};
 }  // namespace
 
 bool runs_here(Isa isa) {
-#ifdef TISSU_X86_KERNELS
+#ifdef TISSU_HAS_AVX512
   if (isa == Isa::avx512) return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl");
+#endif
+#ifdef TISSU_HAS_AVX2
   if (isa == Isa::avx2) return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
 #endif
   return isa == Isa::baseline;

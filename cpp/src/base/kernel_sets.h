@@ -41,10 +41,18 @@ const Kernels* find_kernels(KernelList<Kernels> list, const Property& has) {
   }                                \
   }
 
-/// What NAME is in the namespace of the set `isa`.
-#ifdef TISSU_X86_KERNELS
-#define TISSU_KERNELS_OF(isa, name) \
-  ((isa) == Isa::avx512 ? avx512::name : (isa) == Isa::avx2 ? avx2::name : baseline::name)
+#ifdef TISSU_HAS_AVX2
+#define TISSU_UNLESS_AVX2(isa, name, other) ((isa) == Isa::avx2 ? avx2::name : other)
 #else
-#define TISSU_KERNELS_OF(isa, name) ((void)(isa), baseline::name)
+#define TISSU_UNLESS_AVX2(isa, name, other) other
 #endif
+#ifdef TISSU_HAS_AVX512
+#define TISSU_UNLESS_AVX512(isa, name, other) ((isa) == Isa::avx512 ? avx512::name : other)
+#else
+#define TISSU_UNLESS_AVX512(isa, name, other) other
+#endif
+
+/// What `name` is in the namespace of the set `isa`, one of those that were compiled: name() calls it, &name
+/// is not meant.
+#define TISSU_KERNELS_OF(isa, name) \
+  TISSU_UNLESS_AVX512(isa, name, TISSU_UNLESS_AVX2(isa, name, (static_cast<void>(isa), baseline::name)))

@@ -157,11 +157,12 @@ void pack_nodes(std::span<const std::int32_t> cells, int size, ElementOrder& ord
 }  // namespace
 
 ElementOrder order_elements(std::span<const std::int32_t> cells, int size, ConstReals positions,
-                            std::span<const std::int32_t> together) {
+                            std::span<const std::int32_t> together, double fill) {
   std::vector<std::int32_t> curve = along_curve(cells, size, positions);
   if (!together.empty()) bring_together(together, curve);
   ElementOrder order;
-  const auto step = static_cast<std::size_t>(ElementOrder::chunk_size(size));
+  const auto groups = static_cast<std::int32_t>(fill * ElementOrder::chunk_size(size) / ElementOrder::kLanes);
+  const auto step = static_cast<std::size_t>(std::max(groups, 1) * ElementOrder::kLanes);
   for (std::size_t begin = 0, end = 0; begin < curve.size(); begin = end) {
     end = std::min(curve.size(), begin + step);
     if (!together.empty()) end = end_between(together, curve, begin, end);

@@ -92,9 +92,7 @@ std::shared_ptr<const World> remove_cells(const World& world, const State& state
   }
   std::erase_if(edited.elastic, [](const ElasticBlock& block) { return block.cells.empty(); });
   hold_debris(description, edited, state, world.body(body).first_node);
-  auto edited_world = std::make_shared<const World>(std::move(description), &world);
-  if (world.links() != nullptr) edited_world->links()->take_over(*world.links());
-  return edited_world;
+  return std::make_shared<const World>(std::move(description), &world);
 }
 
 std::vector<std::int32_t> remaining_cells(const World& world, std::string_view body) {

@@ -12,7 +12,7 @@ FrameWeight::FrameWeight(const std::vector<Frame>& frames, const std::vector<Vec
   }
 }
 
-void FrameWeight::add_force(const State& state, Reals f) const {
+void FrameWeight::add_force(const State& state, Scratch& /*scratch*/, Reals f) const {
   const Vec3 g = state.load_factor * acceleration_;
   for (const Moment& moment : moments_) {
     block(f, moment.rotation) += (state.rotations[moment.frame] * moment.c).cross(g);
@@ -25,19 +25,21 @@ Mat3 FrameWeight::turning(const State& state, const Moment& moment) const {
   return 0.5 * (r * g.transpose() + g * r.transpose()) - r.dot(g) * Mat3::Identity();
 }
 
-void FrameWeight::add_stiffness(const State& state, StiffnessScale scale, BlockMatrix& matrix) const {
+void FrameWeight::add_stiffness(const State& state, Scratch& /*scratch*/, StiffnessScale scale,
+                                BlockMatrix& matrix) const {
   if (scale.position == 0.0 || scale.definite) return;
   for (const Moment& moment : moments_)
     matrix.add(moment.rotation, moment.rotation, scale.position * turning(state, moment));
 }
 
-void FrameWeight::add_product(const State& state, StiffnessScale scale, ConstReals p, Reals out) const {
+void FrameWeight::add_product(const State& state, Scratch& /*scratch*/, StiffnessScale scale, ConstReals p,
+                              Reals out) const {
   if (scale.position == 0.0) return;
   for (const Moment& moment : moments_)
     block(out, moment.rotation) += scale.position * (turning(state, moment) * block(p, moment.rotation));
 }
 
-double FrameWeight::energy(const State& state) const {
+double FrameWeight::energy(const State& state, Scratch& /*scratch*/) const {
   double sum = 0.0;
   for (const Moment& moment : moments_) sum -= acceleration_.dot(state.rotations[moment.frame] * moment.c);
   return sum;

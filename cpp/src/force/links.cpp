@@ -1,9 +1,11 @@
 #include "tissu/force/links.h"
 
 #include <array>
+#include <cmath>
 #include <string>
 
 #include "tissu/base/error.h"
+#include "tissu/base/number_text.h"
 
 namespace tissu {
 namespace {
@@ -20,19 +22,11 @@ Vec3 position(const State& state, const LinkPoint& point) {
   return block(ConstReals(state.positions), point.block) + arm(state, point);
 }
 
-/// dp/dq of a point, block after block: I for the translation, -[arm]x for the rotation.
-struct Jacobian {
-  std::array<std::int32_t, 2> block;
-  std::array<Mat3, 2> J;
-  std::size_t count;
-};
-
-Jacobian jacobian(const State& state, const LinkPoint& point) {
-  Jacobian result{
-      {point.block, point.block + 1}, {Mat3::Identity(), Mat3::Zero()}, point.frame < 0 ? 1U : 2U};
-  const Vec3 r = arm(state, point);
-  result.J[1] << 0.0, r.z(), -r.y(), -r.z(), 0.0, r.x(), r.y(), -r.x(), 0.0;
-  return result;
+/// dp/dq p: what a motion p of the unknowns does to the point.
+Vec3 motion(const State& state, const LinkPoint& point, ConstReals p) {
+  Vec3 moved = block(p, point.block);
+  if (point.frame >= 0) moved += block(p, point.block + 1).cross(arm(state, point));
+  return moved;
 }
 
 void add_point_force(const State& state, const LinkPoint& point, const Vec3& force, Reals f) {
@@ -40,103 +34,106 @@ void add_point_force(const State& state, const LinkPoint& point, const Vec3& for
   if (point.frame >= 0) block(f, point.block + 1) += arm(state, point).cross(force);
 }
 
-/// Calls f(row, column, block of J^T J) for the difference p_b - p_a.
-template <class Function>
-void for_blocks(const State& state, const LinkPoint& a, const LinkPoint& b, Function&& f) {
-  const std::array<Jacobian, 2> ends = {jacobian(state, a), jacobian(state, b)};
-  for (std::size_t m = 0; m < 2; ++m) {
-    for (std::size_t n = 0; n < 2; ++n) {
-      const double sign = m == n ? 1.0 : -1.0;
-      for (std::size_t i = 0; i < ends[m].count; ++i) {
-        for (std::size_t j = 0; j < ends[n].count; ++j) {
-          f(ends[m].block[i], ends[n].block[j], Mat3(sign * ends[m].J[i].transpose() * ends[n].J[j]));
-        }
-      }
-    }
-  }
+LinkPoint point_at(const double* from) {
+  return {static_cast<std::int32_t>(from[0]), static_cast<std::int32_t>(from[1]),
+          Vec3(from[2], from[3], from[4])};
+}
+
+std::int32_t vertex_of(const State& state, const LinkPoint& point, Couplings& couplings) {
+  if (point.frame < 0) return point.block;
+  return couplings.carry(
+      std::array{CarriedPart{point.block, 1.0}, CarriedPart{point.block + 1, 1.0, arm(state, point), true}});
+}
+
+bool is_number(double value, double from, double to) {
+  return value == std::floor(value) && value >= from && value < to;
 }
 
 }  // namespace
 
-std::vector<double> Links::numbers() const {
-  std::vector<double> result;
-  for (const Link& link : links_) {
-    for (const LinkPoint& point : {link.a, link.b}) {
-      result.insert(result.end(), {static_cast<double>(point.block), static_cast<double>(point.frame),
-                                   point.place.x(), point.place.y(), point.place.z()});
-    }
-    result.push_back(link.stiffness);
+std::int32_t LinkTable::add(const LinkPoint& a, const LinkPoint& b, double stiffness) {
+  if (!(stiffness > 0.0)) {
+    throw ParameterError("a link's stiffness is " + std::to_string(stiffness) + " N/m; it must be positive.");
   }
-  return result;
+  for (const LinkPoint& point : {a, b}) {
+    numbers_.insert(numbers_.end(), {static_cast<double>(point.block), static_cast<double>(point.frame),
+                                     point.place.x(), point.place.y(), point.place.z()});
+  }
+  numbers_.push_back(stiffness);
+  return static_cast<std::int32_t>(size()) - 1;
 }
 
-void Links::restore(ConstReals numbers) {
+std::size_t LinkTable::size() const { return numbers_.size() / kNumbers; }
+
+template <class Function>
+void Links::for_links(const State& state, Function&& f) const {
+  const std::vector<double>& numbers = state.memory[place_];
+  for (std::size_t i = 0; i < numbers.size(); i += kNumbers) {
+    f(Link{point_at(&numbers[i]), point_at(&numbers[i + 5]), numbers[i + 10]});
+  }
+}
+
+void Links::claim_memory(MemoryPlaces& places) { place_ = places.claim(std::string(kMemory), 0); }
+
+void Links::carry_memory(const ForceModel& before, const Memory& then, Memory& now) const {
+  if (const auto* links = dynamic_cast<const Links*>(&before)) now[place_] = then[links->place_];
+}
+
+void Links::check_memory(const State& state) const {
+  const std::vector<double>& numbers = state.memory[place_];
   if (numbers.size() % kNumbers != 0) {
     throw ParameterError("found " + std::to_string(numbers.size()) + " numbers of links; a multiple of " +
                          std::to_string(kNumbers) + " is accepted.");
   }
-  links_.clear();
-  const auto point = [](const double* from) -> LinkPoint {
-    return {static_cast<std::int32_t>(from[0]), static_cast<std::int32_t>(from[1]),
-            Vec3(from[2], from[3], from[4])};
-  };
   for (std::size_t i = 0; i < numbers.size(); i += kNumbers) {
-    links_.push_back({point(&numbers[i]), point(&numbers[i + 5]), numbers[i + 10]});
-  }
-}
-
-std::int32_t Links::add(const LinkPoint& a, const LinkPoint& b, double stiffness) {
-  if (!(stiffness > 0.0)) {
-    throw ParameterError("a link's stiffness is " + std::to_string(stiffness) + " N/m; it must be positive.");
-  }
-  links_.push_back({a, b, stiffness});
-  return static_cast<std::int32_t>(links_.size()) - 1;
-}
-
-std::vector<std::pair<std::int32_t, std::int32_t>> Links::coupled() const {
-  std::vector<std::pair<std::int32_t, std::int32_t>> pairs;
-  for (const Link& link : links_) {
-    for (const LinkPoint& point : {link.a, link.b}) {
-      if (point.frame >= 0) pairs.emplace_back(point.block, point.block + 1);
+    for (const std::size_t p : {i, i + 5}) {
+      const auto frames = static_cast<double>(state.rotations.size());
+      const std::int32_t blocks = state.blocks() - (numbers[p + 1] >= 0.0 ? 1 : 0);  // a frame has two
+      if (is_number(numbers[p], 0.0, blocks) && is_number(numbers[p + 1], -1.0, frames)) continue;
+      throw ParameterError("link " + std::to_string(i / kNumbers) + " holds block " +
+                           number_text(numbers[p]) + " and frame " + number_text(numbers[p + 1]) +
+                           "; the world has " + std::to_string(state.blocks()) + " blocks and " +
+                           std::to_string(state.rotations.size()) + " frames.");
     }
-    for (std::int32_t i = 0; i < (link.a.frame < 0 ? 1 : 2); ++i) {
-      for (std::int32_t j = 0; j < (link.b.frame < 0 ? 1 : 2); ++j) {
-        pairs.emplace_back(link.a.block + i, link.b.block + j);
-      }
-    }
+    const double stiffness = numbers[i + 10];
+    if (stiffness > 0.0 && std::isfinite(stiffness)) continue;
+    throw ParameterError("link " + std::to_string(i / kNumbers) + " has a stiffness of " +
+                         number_text(stiffness) + " N/m; it must be positive and finite.");
   }
-  return pairs;
 }
 
-void Links::add_force(const State& state, Reals f) const {
-  for (const Link& link : links_) {
+void Links::add_force(const State& state, Scratch& /*scratch*/, Reals f) const {
+  for_links(state, [&](const Link& link) {
     const Vec3 force = link.stiffness * (position(state, link.b) - position(state, link.a));
     add_point_force(state, link.a, force, f);
     add_point_force(state, link.b, -force, f);
-  }
+  });
 }
 
-void Links::add_stiffness(const State& state, StiffnessScale scale, BlockMatrix& matrix) const {
-  for (const Link& link : links_) {
-    for_blocks(state, link.a, link.b, [&](std::int32_t row, std::int32_t column, const Mat3& JtJ) {
-      matrix.add(row, column, -scale.position * link.stiffness * JtJ);
-    });
-  }
+void Links::add_product(const State& state, Scratch& /*scratch*/, StiffnessScale scale, ConstReals p,
+                        Reals out) const {
+  for_links(state, [&](const Link& link) {
+    const Vec3 force =
+        scale.position * link.stiffness * (motion(state, link.b, p) - motion(state, link.a, p));
+    add_point_force(state, link.a, force, out);
+    add_point_force(state, link.b, -force, out);
+  });
 }
 
-void Links::add_product(const State& state, StiffnessScale scale, ConstReals p, Reals out) const {
-  for (const Link& link : links_) {
-    for_blocks(state, link.a, link.b, [&](std::int32_t row, std::int32_t column, const Mat3& JtJ) {
-      block(out, row) -= scale.position * link.stiffness * (JtJ * block(p, column));
-    });
-  }
+void Links::add_couplings(const State& state, StiffnessScale scale, Couplings& couplings) const {
+  if (scale.position == 0.0) return;
+  for_links(state, [&](const Link& link) {
+    const std::int32_t a = vertex_of(state, link.a, couplings);
+    const std::int32_t b = vertex_of(state, link.b, couplings);
+    couplings.add({{a, b, 0, 0}, {-1.0, 1.0, 0.0, 0.0}, -scale.position * link.stiffness * Mat3::Identity()});
+  });
 }
 
-double Links::energy(const State& state) const {
+double Links::energy(const State& state, Scratch& /*scratch*/) const {
   double sum = 0.0;
-  for (const Link& link : links_) {
+  for_links(state, [&](const Link& link) {
     sum += 0.5 * link.stiffness * (position(state, link.b) - position(state, link.a)).squaredNorm();
-  }
+  });
   return sum;
 }
 

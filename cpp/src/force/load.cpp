@@ -14,14 +14,14 @@ NodalLoad::NodalLoad(std::string name, std::vector<std::int32_t> nodes, std::vec
       forces_(std::move(forces)),
       history_(std::move(history)) {}
 
-void NodalLoad::add_force(const State& state, Reals f) const {
+void NodalLoad::add_force(const State& state, Scratch& /*scratch*/, Reals f) const {
   const double factor = state.load_factor * history_.at(state.time);
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     block(f, nodes_[i]) += factor * block(ConstReals(forces_), static_cast<std::int32_t>(i));
   }
 }
 
-double NodalLoad::energy(const State& state) const {
+double NodalLoad::energy(const State& state, Scratch& /*scratch*/) const {
   double sum = 0.0;
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     sum -= block(ConstReals(forces_), static_cast<std::int32_t>(i))

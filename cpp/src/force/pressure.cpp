@@ -14,23 +14,27 @@ namespace {
 using Nodes = std::span<const std::int32_t>;
 
 /// The rule that integrates N_a (x,1 x x,2) exactly: of degree p + 2 (p - 1) on triangles, p + 2 p - 1 along
-/// each side of a quadrangle.
-ReferenceCell exact_rule(const std::string& element) {
+/// each side of a quadrangle, p + p - 1 along an edge.
+ReferenceCell exact_rule(const FaceCells& faces) {
+  const std::string& element = faces.element;
   const ElementInfo* info = find_element(element);
-  if (info == nullptr || info->dimension != 2) {
-    throw ParameterError("faces of type \"" + element +
-                         "\" carry no load; triangle, triangle6, quad, quad8 and quad9 do.");
+  const bool edge = info != nullptr && info->dimension == 1 && faces.thickness > 0.0;
+  if (info == nullptr || (info->dimension != 2 && !edge)) {
+    throw ParameterError(
+        "faces of type \"" + element +
+        "\" carry no load; triangle, triangle6, quad, quad8 and quad9 do, and line and line3 "
+        "that are edges of a flat body and have its thickness.");
   }
   const bool triangle = element.starts_with("triangle");
-  const int degree = 3 * info->order - (triangle ? 2 : 1);
+  const int degree = edge ? 2 * info->order - 1 : 3 * info->order - (triangle ? 2 : 1);
   const auto* enough =
       std::ranges::find_if(info->rules, [&](const RuleInfo& rule) { return rule.degree >= degree; });
   return reference_cell(element, enough == info->rules.end() ? info->rules.back().name : enough->name);
 }
 
 /// x,1 and x,2 at a point.
-std::array<Vec3, 2> tangents(const ReferenceCell::Point& point, Nodes face, ConstReals x) {
-  std::array<Vec3, 2> t = {Vec3::Zero(), Vec3::Zero()};
+std::array<Vec3, 2> tangents(const ReferenceCell::Point& point, Nodes face, double thickness, ConstReals x) {
+  std::array<Vec3, 2> t = {Vec3::Zero(), thickness * Vec3::UnitZ()};
   for (std::size_t a = 0; a < face.size(); ++a) {
     for (std::size_t k = 0; k < 2; ++k) t[k] += point.gradients[a][k] * block(x, face[a]);
   }
@@ -39,11 +43,13 @@ std::array<Vec3, 2> tangents(const ReferenceCell::Point& point, Nodes face, Cons
 
 /// Calls f(nodes of the face, point, x,1 and x,2) for each point of each face.
 template <class Function>
-void for_points(Nodes faces, const ReferenceCell& rule, ConstReals x, Function&& f) {
+void for_points(const FaceCells& faces, const ReferenceCell& rule, ConstReals x, Function&& f) {
   const auto count = static_cast<std::size_t>(rule.nodes);
-  for (std::size_t first = 0; first + count <= faces.size(); first += count) {
-    const Nodes face = faces.subspan(first, count);
-    for (const ReferenceCell::Point& point : rule.points) f(face, point, tangents(point, face, x));
+  for (std::size_t first = 0; first + count <= faces.nodes.size(); first += count) {
+    const Nodes face = Nodes(faces.nodes).subspan(first, count);
+    for (const ReferenceCell::Point& point : rule.points) {
+      f(face, point, tangents(point, face, faces.thickness, x));
+    }
   }
 }
 
@@ -57,7 +63,7 @@ Mat3 cross_matrix(const Vec3& a) {
 }  // namespace
 
 void add_areas(const FaceCells& faces, ConstReals positions, std::vector<double>& nodal) {
-  for_points(faces.nodes, exact_rule(faces.element), positions,
+  for_points(faces, exact_rule(faces), positions,
              [&](Nodes face, const ReferenceCell::Point& point, const auto& t) {
                const double area = point.weight * t[0].cross(t[1]).norm();
                for (std::size_t a = 0; a < face.size(); ++a)
@@ -65,9 +71,21 @@ void add_areas(const FaceCells& faces, ConstReals positions, std::vector<double>
              });
 }
 
+void add_normals(const FaceCells& faces, ConstReals positions, std::vector<double>& nodal) {
+  for_points(faces, exact_rule(faces), positions,
+             [&](Nodes face, const ReferenceCell::Point& point, const auto& t) {
+               const Vec3 normal = point.weight * t[0].cross(t[1]);
+               for (std::size_t a = 0; a < face.size(); ++a)
+                 block(Reals(nodal), face[a]) += point.values[a] * normal;
+             });
+}
+
 Pressure::Pressure(std::string name, std::vector<FaceCells> faces, double pressure, History history)
     : name_(std::move(name)), pressure_(pressure), history_(std::move(history)) {
-  for (FaceCells& some : faces) faces_.push_back({std::move(some.nodes), exact_rule(some.element)});
+  for (FaceCells& some : faces) {
+    ReferenceCell rule = exact_rule(some);
+    faces_.push_back({std::move(some), std::move(rule)});
+  }
 }
 
 double Pressure::pressure_at(const State& state) const {
@@ -75,13 +93,13 @@ double Pressure::pressure_at(const State& state) const {
 }
 
 void Pressure::couple(SparsityBuilder& builder) const {
-  for (const Ruled& some : faces_) builder.add_cells(some.nodes, some.rule.nodes);
+  for (const Ruled& some : faces_) builder.add_cells(some.faces.nodes, some.rule.nodes);
 }
 
-void Pressure::add_force(const State& state, Reals f) const {
+void Pressure::add_force(const State& state, Scratch& /*scratch*/, Reals f) const {
   const double p = pressure_at(state);
   for (const Ruled& some : faces_) {
-    for_points(some.nodes, some.rule, state.positions,
+    for_points(some.faces, some.rule, state.positions,
                [&](Nodes face, const ReferenceCell::Point& point, const auto& t) {
                  const Vec3 push = -p * point.weight * t[0].cross(t[1]);
                  for (std::size_t a = 0; a < face.size(); ++a) block(f, face[a]) += point.values[a] * push;
@@ -95,7 +113,7 @@ template <class Function>
 void Pressure::for_blocks(const State& state, double scale, Function&& f) const {
   const double p = scale * pressure_at(state);
   for (const Ruled& some : faces_) {
-    for_points(some.nodes, some.rule, state.positions,
+    for_points(some.faces, some.rule, state.positions,
                [&](Nodes face, const ReferenceCell::Point& point, const auto& t) {
                  const std::array<Mat3, 2> skew = {cross_matrix(t[0]), cross_matrix(t[1])};
                  const auto D = [&](std::size_t b) {
@@ -112,29 +130,32 @@ void Pressure::for_blocks(const State& state, double scale, Function&& f) const 
   }
 }
 
-void Pressure::add_stiffness(const State& state, StiffnessScale scale, BlockMatrix& matrix) const {
+void Pressure::add_stiffness(const State& state, Scratch& /*scratch*/, StiffnessScale scale,
+                             BlockMatrix& matrix) const {
   if (scale.definite) return;
   for_blocks(state, scale.position,
              [&](std::int32_t a, std::int32_t b, const Mat3& B) { matrix.add(a, b, B); });
 }
 
-void Pressure::add_product(const State& state, StiffnessScale scale, ConstReals p, Reals out) const {
+void Pressure::add_product(const State& state, Scratch& /*scratch*/, StiffnessScale scale, ConstReals p,
+                           Reals out) const {
   for_blocks(state, scale.position,
              [&](std::int32_t a, std::int32_t b, const Mat3& B) { block(out, a) += B * block(p, b); });
 }
 
-/// A third of the flux of x.
-double Pressure::energy(const State& state) const {
+/// A third of the flux of x; of a flat body half of it.
+double Pressure::energy(const State& state, Scratch& /*scratch*/) const {
   const ConstReals x(state.positions);
-  double flux = 0.0;
+  double volume = 0.0;
   for (const Ruled& some : faces_) {
-    for_points(some.nodes, some.rule, x, [&](Nodes face, const ReferenceCell::Point& point, const auto& t) {
+    const double share = 1.0 / (some.rule.dimension + 1.0);
+    for_points(some.faces, some.rule, x, [&](Nodes face, const ReferenceCell::Point& point, const auto& t) {
       Vec3 place = Vec3::Zero();
       for (std::size_t a = 0; a < face.size(); ++a) place += point.values[a] * block(x, face[a]);
-      flux += point.weight * place.dot(t[0].cross(t[1]));
+      volume += share * point.weight * place.dot(t[0].cross(t[1]));
     });
   }
-  return pressure_ * history_.at(state.time) * flux / 3.0;
+  return pressure_ * history_.at(state.time) * volume;
 }
 
 }  // namespace tissu

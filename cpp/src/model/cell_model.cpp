@@ -194,7 +194,7 @@ ElasticView CellModel::cell_view() const {
 }
 
 CellFields CellModel::cell_fields(const std::vector<double>& stresses, const std::vector<double>& ratios,
-                                  const std::vector<double>& energies) const {
+                                  ConstReals energies) const {
   CellFields fields;
   const auto cells = static_cast<std::size_t>(cell_count());
   fields.von_mises.resize(cells);

@@ -24,7 +24,8 @@ std::unique_ptr<BodyModel> edited_model(const std::vector<const BodyModel*>& bef
   for (const BodyModel* model : before) {
     const std::vector<std::int32_t> numbers = numbers_of(*model, first);
     first += model->cell_count();
-    if (model->block().model.name != left.model.name || model->block().element != left.element) continue;
+    if (model->block().model.index() != left.model.index() || model->block().element != left.element)
+      continue;
     if (left.cell_numbers.empty() || !std::ranges::includes(numbers, left.cell_numbers)) continue;
     std::vector<std::int32_t> removed;
     std::size_t next = 0;

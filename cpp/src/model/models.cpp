@@ -34,7 +34,7 @@ Entry entry() {
   return {Model::info(), &make<Model>};
 }
 
-/// A model is added here, and in tests/cpp/model/models_test.cpp.
+/// A model is added here and in options.h, and in tests/cpp/model/models_test.cpp.
 const std::vector<Entry>& entries() {
   static const std::vector<Entry> all = {entry<Elastic>(),        entry<Corotational>(), entry<MassSpring>(),
                                          entry<MassLink>(),       entry<MassTensor>(),   entry<Condensed>(),
@@ -88,14 +88,12 @@ const ModelInfo* find_model(std::string_view name) {
 std::unique_ptr<BodyModel> make_model(ElasticBlock block, ConstReals rest_positions, Isa isa,
                                       Threads threads) {
   for (const Entry& entry : entries()) {
-    if (entry.info.name != block.model.name) continue;
+    if (entry.info.name != model_name(block.model)) continue;
     check_taken(block, entry.info);
     return entry.make(std::move(block), rest_positions, isa, threads);
   }
-  std::vector<std::string_view> names;
-  for (const Entry& entry : entries()) names.push_back(entry.info.name);
-  throw ParameterError("body \"" + block.body + "\" asks for the model \"" + block.model.name +
-                       "\"; there are " + listed(names) + ".");
+  throw ParameterError("body \"" + block.body + "\" asks for the model " +
+                       std::string(model_name(block.model)) + ", which cannot be made.");
 }
 
 }  // namespace tissu

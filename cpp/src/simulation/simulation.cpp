@@ -8,6 +8,7 @@
 
 #include "tissu/base/error.h"
 #include "tissu/base/number_text.h"
+#include "tissu/world/run_time.h"
 
 namespace tissu {
 namespace {
@@ -61,7 +62,7 @@ Culprit worst_cell(const World& world, const State& state) {
   for_blocks(world, [&](const Body& body, const BodyModel& model, std::int32_t first) {
     const CellFields fields = model.fields(state);
     for (std::size_t e = 0; e < fields.volume_ratio.size(); ++e) {
-      if (fields.volume_ratio[e] >= smallest) continue;
+      if (!(fields.volume_ratio[e] < smallest)) continue;  // not a number either
       smallest = fields.volume_ratio[e];
       worst = {body.name, number_of(model, first, e), "its volume ratio was " + number_text(smallest)};
     }
@@ -89,13 +90,14 @@ StepReport Simulation::step(double h) {
   last_good_ = state_;
   StepReport report;
   try {
+    begin_step(*world_, state_, scratch_, h);
     report = integrator_->step(state_, h);
   } catch (...) {
     state_ = last_good_;
     throw;
   }
   if (!std::isfinite(report.residual) || !is_sane()) roll_back(h);
-  world_->remember(state_);
+  remember(*world_, state_);
   settled_ = false;
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   profile_.add_step(seconds);
@@ -105,7 +107,8 @@ StepReport Simulation::step(double h) {
 
 std::vector<double> Simulation::reactions() const {
   std::vector<double> result(state_.positions.size(), 0.0);
-  for (const auto& model : world_->forces()) model->add_force(state_, result);
+  Scratch scratch;
+  for (const auto& model : world_->forces()) model->add_force(state_, scratch, result);
   for (double& value : result) value = -value;
   const double h = state_.time - last_good_.time;
   if (h > 0.0) {
@@ -175,8 +178,10 @@ void Simulation::roll_back(double h) {
 Energy Simulation::energy() const {
   Energy energy;
   energy.kinetic = world_->mass().kinetic_energy(state_);
+  Scratch scratch;
   for (const auto& model : world_->forces()) {
-    (model->kind() == ForceKind::elastic ? energy.elastic : energy.potential) += model->energy(state_);
+    (model->kind() == ForceKind::elastic ? energy.elastic : energy.potential) +=
+        model->energy(state_, scratch);
   }
   return energy;
 }
@@ -188,7 +193,7 @@ void Simulation::replace_world(std::shared_ptr<const World> world) {
   const std::vector<double> memory = integrator_->memory();
   integrator_->prepare(*world, solver_.get(), profile_);
   integrator_->restore(memory);
-  world->carry_memory(*world_, state_);
+  carry_memory(*world_, *world, state_);
   world_ = std::move(world);
 }
 

@@ -71,7 +71,6 @@ Snapshot Simulation::snapshot() {
   result.time_before = last_good_.time;
   result.velocities_before = last_good_.velocities;
   result.integrator = integrator_->memory();
-  if (world_->links() != nullptr) result.links = world_->links()->numbers();
   if (world_->description() == nullptr) return result;
   for (const Body& body : world_->bodies()) {
     LooseNodes loose = loose_nodes(*world_, body.name);
@@ -91,13 +90,7 @@ void Simulation::restore(const Snapshot& snapshot) {
               world_->description() == nullptr ? 0 : world_->bodies().size());
   std::shared_ptr<const World> left = edited(*world_, snapshot.bodies);
   const World& world = left == nullptr ? *world_ : *left;
-  check_count("numbers that materials remember", snapshot.state.memory.size(),
-              world.rest_state().memory.size());
-  if (world.links() == nullptr) {
-    check_count("numbers of links", snapshot.links.size(), 0);
-  } else {
-    world.links()->restore(snapshot.links);
-  }
+  check_memory(world, snapshot.state);
   if (left != nullptr) replace_world(std::move(left));
   state_ = snapshot.state;
   last_good_ = snapshot.state;

@@ -132,6 +132,12 @@ Mat3 LevelMatrix::diagonal(std::int32_t row) const {
   return scale * block(found - columns);
 }
 
+Mat3 LevelMatrix::coupled_diagonal(std::int32_t row) const {
+  const Mat3 own = diagonal(row);
+  const std::int32_t place = couplings == nullptr ? -1 : couplings->place(row);
+  return place < 0 ? own : Mat3(own + coupling_scale * couplings->diagonal(place));
+}
+
 Aggregates aggregate(const LevelMatrix& A, const RowPlaces& places) { return Gathering(A, places).run(); }
 
 void place_aggregates(const Aggregates& aggregates, const RowPlaces& fine, RowPlaces& coarse) {

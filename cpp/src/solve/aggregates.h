@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "tissu/assembly/couplings.h"
 #include "tissu/assembly/row_places.h"
 #include "tissu/base/vec.h"
 
@@ -18,11 +19,14 @@ struct LevelMatrix {
   const double* values;                    ///< [block][9], column by column
   double scale;                            ///< each of its values counts times this
   const std::vector<std::uint8_t>* given;  ///< axes of each row that are those of the identity; null: none
+  const std::int64_t* end = nullptr;       ///< of each row; null: where the next one begins
+  const Couplings* couplings = nullptr;    ///< beside it; null: none
+  double coupling_scale = 1.0;             ///< they count times this
 
   [[nodiscard]] std::int32_t rows() const { return static_cast<std::int32_t>(begin->size()) - 1; }
   [[nodiscard]] std::int64_t first(std::int32_t row) const { return (*begin)[static_cast<std::size_t>(row)]; }
   [[nodiscard]] std::int64_t last(std::int32_t row) const {
-    return (*begin)[static_cast<std::size_t>(row) + 1];
+    return end == nullptr ? (*begin)[static_cast<std::size_t>(row) + 1] : end[row];
   }
   [[nodiscard]] std::int32_t column_of(std::int64_t b) const {
     return (*column)[static_cast<std::size_t>(b)];
@@ -34,6 +38,8 @@ struct LevelMatrix {
     return given == nullptr ? 0U : (*given)[static_cast<std::size_t>(row)];
   }
   [[nodiscard]] Mat3 diagonal(std::int32_t row) const;
+  /// The same with the couplings.
+  [[nodiscard]] Mat3 coupled_diagonal(std::int32_t row) const;
 };
 
 struct Aggregates {

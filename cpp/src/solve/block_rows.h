@@ -36,9 +36,11 @@ struct RowPattern {
 template <class T>
 class BlockRows {
  public:
-  /// Both outlive this.
-  void refer(const std::vector<std::int64_t>& begin, const std::vector<std::int32_t>& column, Isa isa) {
+  /// They outlive this. `end`: of each row; null: where the next one begins.
+  void refer(const std::vector<std::int64_t>& begin, const std::vector<std::int32_t>& column, Isa isa,
+             const std::int64_t* end = nullptr) {
     begin_ = begin.data();
+    end_ = end == nullptr ? begin_ + 1 : end;
     column_ = column.data();
     rows_ = static_cast<std::int32_t>(begin.size()) - 1;
     values_.resize(static_cast<std::size_t>(9 * begin.back() + 1));  // one more can be read
@@ -50,7 +52,7 @@ class BlockRows {
   [[nodiscard]] std::int64_t blocks() const { return begin_[rows_]; }
   /// Rows [begin, end) of out = B p.
   void multiply_rows(std::int32_t begin, std::int32_t end, const T* p, T* out) const {
-    multiply_(begin_, column_, values_.data(), begin, end, p, out);
+    multiply_(begin_, end_, column_, values_.data(), begin, end, p, out);
   }
   void multiply(const Threads& threads, const T* p, T* out) const {
     threads.for_pieces(rows_,
@@ -60,6 +62,7 @@ class BlockRows {
 
  private:
   const std::int64_t* begin_ = nullptr;
+  const std::int64_t* end_ = nullptr;
   const std::int32_t* column_ = nullptr;
   std::int32_t rows_ = 0;
   AlignedVector<T> values_;

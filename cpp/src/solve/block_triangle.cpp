@@ -37,11 +37,8 @@ RowGroups grouped(std::int32_t rows, bool reversed, int threads, const std::vect
 }  // namespace
 
 void BlockTriangle::update(const BlockMatrix& matrix) {
-  found_.clear();
-  for (const ExtraBlock& e : matrix.extra()) found_.emplace_back(e.row, e.column);
-  if (matrix_ == matrix.id() && found_ == extra_) return;
+  if (matrix_ == matrix.id()) return;
   matrix_ = matrix.id();
-  extra_ = found_;
   gather(matrix);
   transpose();
   count_pairs();
@@ -55,25 +52,10 @@ void BlockTriangle::gather(const BlockMatrix& matrix) {
   lower_begin.assign(1, 0);
   lower_column.clear();
   source_.clear();
-  std::vector<std::pair<std::int32_t, std::int64_t>> row;  // column and source
-  std::vector<std::vector<std::pair<std::int32_t, std::int64_t>>> outside(extra_.empty() ? 0
-                                                                                         : at(matrix.rows()));
-  for (std::size_t e = 0; e < extra_.size(); ++e) {
-    const auto [r, c] = extra_[e];
-    if (c < r) outside[at(r)].emplace_back(c, -1 - static_cast<std::int64_t>(e));
-  }
   for (std::int32_t r = 0; r < matrix.rows(); ++r) {
-    row.clear();
-    for (auto s = pattern.row_begin[at(r)]; pattern.column[at(s)] < r; ++s) {
-      row.emplace_back(pattern.column[at(s)], s);
-    }
-    if (!outside.empty() && !outside[at(r)].empty()) {
-      row.insert(row.end(), outside[at(r)].begin(), outside[at(r)].end());
-      std::ranges::sort(row);
-    }
-    for (const auto& [column, source] : row) {
-      lower_column.push_back(column);
-      source_.push_back(source);
+    for (auto s = pattern.begin_of(r); pattern.column[at(s)] < r; ++s) {  // the diagonal is always there
+      lower_column.push_back(pattern.column[at(s)]);
+      source_.push_back(s);
     }
     lower_begin.push_back(static_cast<std::int64_t>(lower_column.size()));
   }

@@ -4,7 +4,6 @@
 /// triangular solves may run.
 
 #include <cstdint>
-#include <utility>
 #include <vector>
 
 #include "tissu/assembly/block_matrix.h"
@@ -44,13 +43,11 @@ class BlockTriangle {
   RowGroups forward;
   RowGroups backward;
 
-  /// Takes over the pattern with the blocks outside it; nothing is done when it is there already.
+  /// Takes over the pattern; nothing is done when it is there already.
   void update(const BlockMatrix& matrix);
   /// The values of block number `b`, of which every row has the ones that `lower_begin` says.
   [[nodiscard]] const double* values(const BlockMatrix& matrix, std::int64_t b) const {
-    const std::int64_t place = source_[static_cast<std::size_t>(b)];
-    return place >= 0 ? matrix.values() + 9 * place
-                      : matrix.extra()[static_cast<std::size_t>(-1 - place)].values.data();
+    return matrix.values() + 9 * source_[static_cast<std::size_t>(b)];
   }
   [[nodiscard]] std::int64_t blocks() const { return lower_begin.empty() ? 0 : lower_begin.back(); }
   /// Pairs of blocks (i, k), (j, k) with a block (i, j): what an incomplete factor multiplies.
@@ -62,9 +59,7 @@ class BlockTriangle {
   void transpose();
   void count_pairs();
 
-  std::vector<std::int64_t> source_;  ///< slot of each block, or -1 - number of an extra block
-  std::vector<std::pair<std::int32_t, std::int32_t>> extra_;
-  std::vector<std::pair<std::int32_t, std::int32_t>> found_;  ///< scratch
+  std::vector<std::int64_t> source_;  ///< slot of each block
   std::uint64_t matrix_ = 0;
   std::int64_t pairs_ = 0;
 };

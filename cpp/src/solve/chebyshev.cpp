@@ -26,7 +26,9 @@ double scattered(std::size_t i) {
 
 template <class T>
 void Chebyshev<T>::make(const LevelMatrix& A, Isa isa, const Threads& threads) {
-  A_.refer(*A.begin, *A.column, isa);
+  A_.refer(*A.begin, *A.column, isa, A.end);
+  couplings_ = A.couplings;
+  coupling_scale_ = A.coupling_scale;
   const auto size = 3 * static_cast<std::size_t>(A.rows());
   inverse_.resize(3 * size);
   for (auto* vector : {&r_, &d_, &q_}) vector->assign(size, T(0));
@@ -35,12 +37,23 @@ void Chebyshev<T>::make(const LevelMatrix& A, Isa isa, const Threads& threads) {
       for (std::int64_t k = 9 * A.first(i); k < 9 * A.last(i); ++k) {
         A_.block(0)[k] = static_cast<T>(A.scale * A.values[k]);
       }
-      const Mat3 inverse = positive_inverse(A.diagonal(i));
+      const Mat3 inverse = positive_inverse(A.couplings == nullptr ? A.diagonal(i) : A.coupled_diagonal(i));
       Eigen::Map<Eigen::Matrix<T, 3, 3>>(inverse_.data() + 9 * static_cast<std::ptrdiff_t>(i)) =
           (0.5 * (inverse + inverse.transpose())).template cast<T>();
     }
   });
   find_largest(threads);
+}
+
+template <class T>
+void Chebyshev<T>::gather(const Threads& threads, const T* p) const {
+  if (couplings_ != nullptr) couplings_->gather(threads, p);
+}
+
+template <class T>
+void Chebyshev<T>::multiply_rows(std::int32_t begin, std::int32_t end, const T* p, T* out) const {
+  A_.multiply_rows(begin, end, p, out);
+  if (couplings_ != nullptr) couplings_->scatter(begin, end, coupling_scale_, out);
 }
 
 /// Iterations of the conjugate gradient from a residual without a pattern: their coefficients are the
@@ -65,6 +78,7 @@ void Chebyshev<T>::find_largest(const Threads& threads) {
   while (size < kLanczos && rz > kExhausted * first && std::isfinite(rz)) {
     for (std::size_t i = 0; i < d_.size(); ++i) d_[i] = q_[i] + static_cast<T>(beta) * d_[i];
     A_.multiply(threads, d_.data(), q_.data());
+    if (couplings_ != nullptr) couplings_->add_product(threads, coupling_scale_, d_.data(), q_.data());
     const double curvature = dot<T>(threads, d_, q_, partial_);
     if (!(curvature > 0.0)) break;
     const double last = alpha;
@@ -94,8 +108,9 @@ void Chebyshev<T>::smooth_from_zero(const Threads& threads, const T* b, T* x) {
 
 template <class T>
 void Chebyshev<T>::smooth(const Threads& threads, const T* b, T* x) {
+  gather(threads, x);
   threads.for_pieces(rows(), [&](std::int32_t begin, std::int32_t end) {
-    A_.multiply_rows(begin, end, x, r_.data());
+    multiply_rows(begin, end, x, r_.data());
     for (auto i = 3 * static_cast<std::size_t>(begin); i < 3 * static_cast<std::size_t>(end); ++i) {
       r_[i] = b[i] - r_[i];
     }
@@ -128,8 +143,9 @@ void Chebyshev<T>::iterate(const Threads& threads, T* x, int residuals) {
 /// r -= A d
 template <class T>
 void Chebyshev<T>::subtract_product(const Threads& threads) {
+  gather(threads, d_.data());
   threads.for_pieces(rows(), [&](std::int32_t begin, std::int32_t end) {
-    A_.multiply_rows(begin, end, d_.data(), q_.data());
+    multiply_rows(begin, end, d_.data(), q_.data());
     for (auto i = 3 * static_cast<std::size_t>(begin); i < 3 * static_cast<std::size_t>(end); ++i) {
       r_[i] -= q_[i];
     }

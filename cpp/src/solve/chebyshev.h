@@ -13,7 +13,7 @@ namespace tissu {
 template <class T>
 class Chebyshev {
  public:
-  /// Takes over the values, which live in the pattern of A.
+  /// Takes over the values, which live in the pattern of A; the couplings outlive it.
   void make(const LevelMatrix& A, Isa isa, const Threads& threads);
   /// x from zero; afterwards `residual()` = b - A x.
   void smooth_from_zero(const Threads& threads, const T* b, T* x);
@@ -30,11 +30,16 @@ class Chebyshev {
 
  private:
   void find_largest(const Threads& threads);
+  /// Rows [begin, end) of A p, where couplings were gathered.
+  void multiply_rows(std::int32_t begin, std::int32_t end, const T* p, T* out) const;
+  void gather(const Threads& threads, const T* p) const;
   /// x from r_ = b - A x, which is kept up for so many of the steps.
   void iterate(const Threads& threads, T* x, int residuals);
   void subtract_product(const Threads& threads);
 
   BlockRows<T> A_;
+  const Couplings* couplings_ = nullptr;
+  double coupling_scale_ = 1.0;
   std::vector<T> inverse_;  ///< D^-1, [row][9]
   std::vector<T> r_;
   std::vector<T> d_;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "coupled_solve.h"
 #include "sparse_factor.h"
 #include "tissu/base/error.h"
 #include "tissu/base/norm.h"
@@ -25,26 +26,19 @@ std::string_view Cholesky::name() const {
   return SparseFactor::library() == "CHOLMOD" ? "Cholesky (CHOLMOD)" : "Cholesky (Eigen)";
 }
 
-void Cholesky::forget() { factor_->forget(); }
-
-std::size_t Cholesky::bytes() const {
-  return factor_->bytes() + (residual_.size() + correction_.size()) * sizeof(double);
+void Cholesky::forget() {
+  factor_->forget();
+  if (coupled_ != nullptr) coupled_->forget();
 }
 
-SolveReport Cholesky::solve(const LinearOperator& A, ConstReals b, Reals x, double floor) {
-  if (A.matrix() == nullptr) throw ParameterError("Cholesky needs an assembled matrix.");
-  const BlockMatrix& matrix = *A.matrix();
-  SolveReport report;
-  if (!factor_->is_of(matrix)) {
-    const auto begin = std::chrono::steady_clock::now();
-    factor_->make(matrix);
-    report.preparations = 1;
-    report.preparation_seconds =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  }
-  residual_.resize(b.size());
-  correction_.resize(b.size());
-  factor_->solve(b, x);
+std::size_t Cholesky::bytes() const {
+  return factor_->bytes() + (coupled_ == nullptr ? 0 : coupled_->bytes()) +
+         (residual_.size() + correction_.size()) * sizeof(double);
+}
+
+template <class Solve>
+void Cholesky::refine(const BlockMatrix& matrix, ConstReals b, Reals x, double floor, bool definite,
+                      SolveReport& report, Solve&& solve) {
   const double reference = std::max(norm(b), floor);
   double size = 0.0;
   const auto find_residual = [&] {
@@ -53,9 +47,9 @@ SolveReport Cholesky::solve(const LinearOperator& A, ConstReals b, Reals x, doub
     size = norm(residual_);
   };
   find_residual();
-  for (int i = 0; i < kMostRefinements && factor_->is_definite() && size > kRefined * reference; ++i) {
+  for (int i = 0; i < kMostRefinements && definite && size > kRefined * reference; ++i) {
     const double before = size;
-    factor_->solve(residual_, correction_);
+    solve(ConstReals(residual_), Reals(correction_));
     for (std::size_t k = 0; k < b.size(); ++k) x[k] += correction_[k];
     find_residual();
     if (!(size < 0.5 * before)) {
@@ -66,10 +60,35 @@ SolveReport Cholesky::solve(const LinearOperator& A, ConstReals b, Reals x, doub
       break;
     }
   }
-  report.iterations = 1;
-  report.positive_definite = factor_->is_definite();
+  report.positive_definite = definite;
   report.residual = reference > 0.0 ? size / reference : 0.0;
   report.converged = report.positive_definite && report.residual <= kWorst;
+}
+
+SolveReport Cholesky::solve(const LinearOperator& A, ConstReals b, Reals x, double floor) {
+  if (A.matrix() == nullptr) throw ParameterError("Cholesky needs an assembled matrix.");
+  const BlockMatrix& matrix = *A.matrix();
+  SolveReport report;
+  residual_.resize(b.size());
+  correction_.resize(b.size());
+  report.iterations = 1;
+  if (A.couplings() != nullptr) {
+    if (coupled_ == nullptr) coupled_ = std::make_unique<CoupledSolve>();
+    coupled_->solve(matrix, *factor_, b, x, report);
+    refine(matrix, b, x, floor, coupled_->is_definite(), report,
+           [&](ConstReals r, Reals change) { coupled_->again(*factor_, r, change); });
+    return report;
+  }
+  if (!factor_->is_of(matrix)) {
+    const auto begin = std::chrono::steady_clock::now();
+    factor_->make(matrix);
+    report.preparations = 1;
+    report.preparation_seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  }
+  factor_->solve(b, x);
+  refine(matrix, b, x, floor, factor_->is_definite(), report,
+         [&](ConstReals r, Reals change) { factor_->solve(r, change); });
   return report;
 }
 

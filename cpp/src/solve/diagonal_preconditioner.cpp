@@ -21,6 +21,12 @@ void for_diagonal(const LinearOperator& A, double scale, std::vector<double>& bl
       f(i, Mat3(scale * D));
     }
   });
+  if (matrix == nullptr || A.couplings() == nullptr) return;  // blocks have them already
+  const std::vector<std::int32_t>& coupled = A.couplings()->rows();
+  for (std::size_t k = 0; k < coupled.size(); ++k) {
+    const Mat3& C = A.couplings()->diagonal(static_cast<std::int32_t>(k));
+    f(coupled[k], Mat3(scale * (matrix->diagonal_block(coupled[k]) + C)));
+  }
 }
 
 }  // namespace

@@ -124,12 +124,12 @@ struct SparseFactor::Library : FactorState {
     }
     return false;
   }
-  void solve(ConstReals b, Reals x) {
+  void solve(int columns, ConstReals b, Reals x) {
     cholmod_dense right{};
-    right.nrow = b.size();
-    right.ncol = 1;
+    right.nrow = b.size() / static_cast<std::size_t>(columns);
+    right.ncol = static_cast<std::size_t>(columns);
     right.nzmax = b.size();
-    right.d = b.size();
+    right.d = right.nrow;
     right.x = const_cast<double*>(
         b.data());  // NOLINT(cppcoreguidelines-pro-type-const-cast): CHOLMOD only reads it
     right.xtype = CHOLMOD_REAL;
@@ -190,9 +190,12 @@ struct SparseFactor::Library : FactorState {
     }
     return false;
   }
-  void solve(ConstReals b, Reals x) {
-    Eigen::Map<Eigen::VectorXd>(x.data(), static_cast<Eigen::Index>(x.size())) =
-        llt.solve(Eigen::Map<const Eigen::VectorXd>(b.data(), static_cast<Eigen::Index>(b.size())));
+  void solve(int columns, ConstReals b, Reals x) {
+    const auto rows = static_cast<Eigen::Index>(b.size()) / columns;
+    for (Eigen::Index c = 0; c < columns; ++c) {
+      Eigen::Map<Eigen::VectorXd>(x.data() + c * rows, rows) =
+          llt.solve(Eigen::Map<const Eigen::VectorXd>(b.data() + c * rows, rows));
+    }
   }
   [[nodiscard]] std::size_t bytes() const { return static_cast<std::size_t>(12.0 * numbers); }
 };

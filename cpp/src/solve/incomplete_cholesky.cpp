@@ -1,6 +1,7 @@
 #include "incomplete_cholesky.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "block_inverse.h"
 
@@ -37,6 +38,7 @@ void IncompleteCholesky<T>::make(const LinearOperator& A, double scale) {
   upper_.resize(size);
   inverse_.resize(9 * static_cast<std::size_t>(matrix.rows()));
   failed_.resize(static_cast<std::size_t>(matrix.rows()));
+  gather_couplings(matrix);
 
   int tries = 1;
   while (!factor(matrix, scale)) {
@@ -58,24 +60,58 @@ void IncompleteCholesky<T>::make(const LinearOperator& A, double scale) {
 }
 
 template <class T>
+void IncompleteCholesky<T>::gather_couplings(const BlockMatrix& A) {
+  shares_.clear();
+  if (A.couplings() == nullptr) return;
+  A.couplings()->for_blocks([&](std::int32_t row, std::int32_t column, const Mat3& value) {
+    if (column >= row) return;
+    const auto begin = triangle_.lower_column.begin();
+    const auto first = begin + triangle_.lower_begin[static_cast<std::size_t>(row)];
+    const auto last = begin + triangle_.lower_begin[static_cast<std::size_t>(row) + 1];
+    const auto found = std::lower_bound(first, last, column);
+    if (found != last && *found == column) shares_.push_back({found - begin, shares_.size(), value});
+  });
+  std::ranges::sort(shares_, {}, [](const Share& share) { return std::pair(share.block, share.order); });
+}
+
+template <class T>
+Mat3 IncompleteCholesky<T>::coupled(std::int64_t b) const {
+  Mat3 sum = Mat3::Zero();
+  for (auto share = std::ranges::lower_bound(shares_, b, {}, &Share::block);
+       share != shares_.end() && share->block == b; ++share) {
+    sum += share->value;
+  }
+  return sum;
+}
+
+template <class T>
+Mat3 IncompleteCholesky<T>::diagonal(const BlockMatrix& A, std::int32_t i) const {
+  const std::int32_t place = A.couplings() == nullptr ? -1 : A.couplings()->place(i);
+  return place < 0 ? A.diagonal_block(i) : Mat3(A.diagonal_block(i) + A.couplings()->diagonal(place));
+}
+
+template <class T>
 bool IncompleteCholesky<T>::factor(const BlockMatrix& A, double scale) {
   std::ranges::fill(failed_, char{0});
   triangle_.forward.for_rows(threads_, [&](const std::int32_t* rows, std::int32_t count) {
     for (std::int32_t i = 0; i < count; ++i) {
-      failed_[static_cast<std::size_t>(rows[i])] = factor_row(A, scale, rows[i]) ? 0 : 1;
+      const bool made = A.couplings() == nullptr ? factor_row<false>(A, scale, rows[i])
+                                                 : factor_row<true>(A, scale, rows[i]);
+      failed_[static_cast<std::size_t>(rows[i])] = made ? 0 : 1;
     }
   });
   return std::ranges::none_of(failed_, [](char failed) { return failed != 0; });
 }
 
 template <class T>
+template <bool kCoupled>
 bool IncompleteCholesky<T>::factor_row(const BlockMatrix& A, double scale, std::int32_t i) {
   using Block = Eigen::Matrix<T, 3, 3>;
   const auto& column = triangle_.lower_column;
   const auto at = [](std::int64_t n) { return static_cast<std::size_t>(n); };
   const std::int64_t first = triangle_.lower_begin[at(i)];
   const std::int64_t last = triangle_.lower_begin[at(i) + 1];
-  Mat3 from = scale * A.diagonal_block(i);
+  Mat3 from = scale * (kCoupled ? diagonal(A, i) : A.diagonal_block(i));
   for (int k = 0; k < 3; ++k) {
     if (!A.is_given(i, k)) from(k, k) += shift_ * std::abs(from(k, k));
   }
@@ -83,6 +119,7 @@ bool IncompleteCholesky<T>::factor_row(const BlockMatrix& A, double scale, std::
   for (std::int64_t b = first; b < last; ++b) {
     const std::int32_t j = column[at(b)];
     Mat3 S = scale * Eigen::Map<const Mat3>(triangle_.values(A, b));
+    if constexpr (kCoupled) S += scale * coupled(b);
     std::int64_t mine = first;
     std::int64_t other = triangle_.lower_begin[at(j)];
     const std::int64_t end = triangle_.lower_begin[at(j) + 1];
@@ -114,7 +151,7 @@ void IncompleteCholesky<T>::drop_blocks(const BlockMatrix& A, double scale) {
   std::ranges::fill(lower_, T(0));
   for (std::int32_t i = 0; i < A.rows(); ++i) {
     Eigen::Map<Eigen::Matrix<T, 3, 3>>(inverse_.data() + 9 * static_cast<std::ptrdiff_t>(i)) =
-        positive_inverse(scale * A.diagonal_block(i)).template cast<T>();
+        positive_inverse(scale * diagonal(A, i)).template cast<T>();
   }
 }
 

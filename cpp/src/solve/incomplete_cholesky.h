@@ -11,6 +11,9 @@ namespace tissu {
 ///
 ///   S_ij = A_ij - sum_k S_ik D_k^-1 S_jk^T,   D_i = A_ii - sum_k S_ik D_k^-1 S_ik^T
 ///
+/// Of couplings beside the matrix it takes those blocks that the pattern has room for; the others are
+/// dropped.
+///
 /// Where a D_i comes out that is not positive definite, all starts again with a share of the diagonal added
 /// to A (Manteuffel, An incomplete factorization technique for positive definite linear systems, Math. Comp.
 /// 34, 1980), tenfold each time.
@@ -25,11 +28,24 @@ class IncompleteCholesky final : public Preconditioner<T> {
 
  private:
   bool factor(const BlockMatrix& A, double scale);
+  template <bool kCoupled>
   bool factor_row(const BlockMatrix& A, double scale, std::int32_t i);
+  void gather_couplings(const BlockMatrix& A);
+  [[nodiscard]] Mat3 diagonal(const BlockMatrix& A, std::int32_t i) const;
+  /// What couplings add to a block below the diagonal.
+  [[nodiscard]] Mat3 coupled(std::int64_t b) const;
   void drop_blocks(const BlockMatrix& A, double scale);
   void scale_rows();
 
+  /// A coupling's share of a block of the triangle; those of a block stand in the order of the list.
+  struct Share {
+    std::int64_t block;
+    std::size_t order;
+    Mat3 value;
+  };
+
   BlockTriangle triangle_;
+  std::vector<Share> shares_;
   Threads threads_;
   SweepRows<T> sweep_ = nullptr;
   double shift_ = 0.0;

@@ -5,6 +5,7 @@
 #include <type_traits>
 
 #include "make_preconditioner.h"
+#include "tissu/base/interruption.h"
 
 namespace tissu {
 namespace {
@@ -27,7 +28,7 @@ bool Iteration<T>::prepare(const LinearOperator& A, bool forced) {
   if constexpr (std::is_same_v<T, float>) matrix_.update(*A.matrix());
   const bool serves = made_ && id_ == A.id() && given_ == A.given();
   if (serves && version_ == A.version()) return false;
-  if (serves && !forced && !renewal_.due()) return false;
+  if (serves && !forced && !renewal_.due(expected(A))) return false;
   made_ = false;
   M_->make(A, scale());
   renewal_.made(M_->price());
@@ -37,7 +38,26 @@ bool Iteration<T>::prepare(const LinearOperator& A, bool forced) {
   id_ = A.id();
   version_ = A.version();
   given_ = A.given();
+  known_.clear();
+  if (A.couplings() != nullptr) A.couplings()->keys(known_);
   return true;
+}
+
+/// A coupling of three axes puts three eigenvalues outside those that the preconditioner gathers, and each
+/// takes the conjugate gradient one iteration more.
+template <class T>
+double Iteration<T>::expected(const LinearOperator& A) {
+  if ((A.couplings() == nullptr && known_.empty()) || !M_->takes_couplings()) return 0.0;
+  keys_.clear();
+  if (A.couplings() != nullptr) A.couplings()->keys(keys_);
+  std::size_t common = 0;
+  for (std::size_t i = 0, k = 0; i < keys_.size() && k < known_.size();) {
+    common += keys_[i] == known_[k] ? 1 : 0;
+    const bool next = keys_[i] <= known_[k];
+    k += known_[k] <= keys_[i] ? 1 : 0;
+    i += next ? 1 : 0;
+  }
+  return 3.0 * static_cast<double>(keys_.size() + known_.size() - 2 * common);
 }
 
 template <class T>
@@ -137,6 +157,7 @@ End Iteration<T>::run(const LinearOperator& A, std::span<T> r, std::span<T> d, d
       return version_ == A.version() ? End::curvature : End::renewal;
     }
     if (iterations_ >= left) return End::renewal;
+    stop_if_asked();
     turn(threads, beta);
     rz_ = rz;
     multiply(A);

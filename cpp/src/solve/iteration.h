@@ -49,6 +49,8 @@ class Iteration {
 
  private:
   void multiply(const LinearOperator& A);
+  /// Iterations that couplings cost which the preconditioner does not know, or knows in vain.
+  double expected(const LinearOperator& A);
   /// p = z + beta p
   void turn(const Threads& threads, double beta);
   /// d += alpha p, r -= alpha q, z = M^-1 r; r . z, and |r|^2 into `square`.
@@ -61,6 +63,8 @@ class Iteration {
   std::uint64_t id_ = 0;
   std::uint64_t version_ = 0;
   const std::vector<std::uint8_t>* given_ = nullptr;
+  std::vector<Couplings::Key> known_;  ///< couplings for which it was made
+  std::vector<Couplings::Key> keys_;
   int spent_ = 0;  ///< iterations of this solve
   int iterations_ = 0;
   double residual_ = 0.0;

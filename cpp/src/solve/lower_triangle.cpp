@@ -5,9 +5,15 @@
 
 namespace tissu {
 
-bool LowerTriangle::update_pattern(const BlockMatrix& matrix) {
+bool LowerTriangle::update_pattern(const BlockMatrix& matrix, const Couplings* couplings) {
   std::vector<std::pair<std::int32_t, std::int32_t>> extra;
-  for (const ExtraBlock& e : matrix.extra()) extra.emplace_back(e.row, e.column);
+  if (couplings != nullptr) {
+    couplings->for_blocks([&](std::int32_t r, std::int32_t c, const Mat3&) {
+      if (c > r && matrix.sparsity().slot(r, c) < 0) extra.emplace_back(r, c);
+    });
+    std::ranges::sort(extra);
+    extra.erase(std::ranges::unique(extra).begin(), extra.end());
+  }
   if (matrix_ == matrix.id() && extra == extra_) return false;
   matrix_ = matrix.id();
   sparsity_ = &matrix.sparsity();
@@ -15,16 +21,12 @@ bool LowerTriangle::update_pattern(const BlockMatrix& matrix) {
 
   sources_.clear();
   for (std::int32_t r = 0; r < matrix.rows(); ++r) {
-    for (auto s = sparsity_->row_begin[static_cast<std::size_t>(r)];
-         s < sparsity_->row_begin[static_cast<std::size_t>(r) + 1]; ++s) {
+    for (auto s = sparsity_->begin_of(r); s < sparsity_->end_of(r); ++s) {
       const std::int32_t c = sparsity_->column[static_cast<std::size_t>(s)];
       if (c >= r) sources_.push_back({r, c, s});
     }
   }
-  for (std::size_t e = 0; e < extra_.size(); ++e) {
-    const auto [r, c] = extra_[e];
-    if (c > r) sources_.push_back({r, c, -1 - static_cast<std::int64_t>(e)});
-  }
+  for (const auto& [r, c] : extra_) sources_.push_back({r, c, -1});
   std::ranges::sort(sources_, {}, [](const Source& s) { return std::pair(s.row, s.column); });
 
   // Row 3 r + k of the upper triangle is column 3 r + k of the lower one.
@@ -46,12 +48,9 @@ bool LowerTriangle::update_pattern(const BlockMatrix& matrix) {
   return true;
 }
 
-void LowerTriangle::update_values(const BlockMatrix& matrix, double shift) {
+void LowerTriangle::update_values(const BlockMatrix& matrix, const Couplings* couplings, double shift) {
   const auto entry = [&](const Source& source, int k, int m) {
-    const double* block = source.place >= 0
-                              ? matrix.values() + 9 * source.place
-                              : matrix.extra()[static_cast<std::size_t>(-1 - source.place)].values.data();
-    return block[3 * m + k];
+    return source.place < 0 ? 0.0 : (matrix.values() + 9 * source.place)[3 * m + k];
   };
   std::size_t to = 0;
   std::size_t first = 0;
@@ -67,6 +66,22 @@ void LowerTriangle::update_values(const BlockMatrix& matrix, double shift) {
     }
     first = last;
   }
+  if (couplings != nullptr) add(*couplings);
+}
+
+void LowerTriangle::add(const Couplings& couplings) {
+  couplings.for_blocks([&](std::int32_t r, std::int32_t c, const Mat3& block) {
+    if (c < r) return;
+    for (int k = 0; k < 3; ++k) {
+      const auto column = static_cast<std::size_t>(3 * r + k);
+      const auto first = row.begin() + column_begin[column];
+      const auto last = row.begin() + column_begin[column + 1];
+      for (int m = c == r ? k : 0; m < 3; ++m) {
+        const auto found = std::lower_bound(first, last, 3 * c + m);
+        values[static_cast<std::size_t>(found - row.begin())] += block(k, m);
+      }
+    }
+  });
 }
 
 }  // namespace tissu

@@ -15,14 +15,16 @@ class LowerTriangle {
   std::vector<int> row;
   std::vector<double> values;
 
-  /// Takes over the pattern; returns false when it is the one that is there already.
-  bool update_pattern(const BlockMatrix& matrix);
+  /// Takes over the pattern, with that of the couplings if there are any; returns false when it is the one
+  /// that is there already.
+  bool update_pattern(const BlockMatrix& matrix, const Couplings* couplings);
   /// Takes over the values, and adds `shift` times the diagonal's size to the diagonal,
   /// save where a value is given.
-  void update_values(const BlockMatrix& matrix, double shift);
+  void update_values(const BlockMatrix& matrix, const Couplings* couplings, double shift);
 
  private:
-  /// One block on or right of the diagonal, in the order of rows: a slot, or -1 - number of an extra block.
+  void add(const Couplings& couplings);
+  /// One block on or right of the diagonal, in the order of rows: a slot, or -1 where the matrix has none.
   struct Source {
     std::int32_t row;
     std::int32_t column;

@@ -23,9 +23,11 @@ void Multigrid<T>::make(const LinearOperator& A, double scale) {
   given_ = A.given();
   isa_ = matrix.isa();
   threads_ = matrix.threads();
-  LevelMatrix level{&matrix.sparsity().row_begin, &matrix.sparsity().column, matrix.values(), scale, given_};
+  LevelMatrix level{&matrix.sparsity().row_begin, &matrix.sparsity().column, matrix.values(), scale, given_,
+                    matrix.sparsity().row_end()};
   const bool fresh = levels_.empty();
   if (fresh) start(level);
+  take_couplings(A, level);
   if (A.places() != nullptr) levels_.front()->places = *A.places();
   for (std::size_t n = 0;; ++n) {
     Level& fine = *levels_[n];
@@ -44,10 +46,23 @@ void Multigrid<T>::make(const LinearOperator& A, double scale) {
     fill_restriction(*fine.pattern, fine.P, threads_, fine.R);
     fill_coarse_matrix(level, *fine.pattern, fine.P, threads_, scratch_, fine.next_values);
     level = {&fine.next_pattern.begin, &fine.next_pattern.column, fine.next_values.data(), 1.0, nullptr};
+    if (A.couplings() == nullptr) continue;
+    coarsen_couplings(fine.couplings, fine.aggregates, fine.places, coarse.places, carried_,
+                      coarse.couplings);
+    level.couplings = &coarse.couplings;
+    level.coupling_scale = scale;
   }
   if (direct_) factor(level);
   set_price(A);
   complete_ = true;
+}
+
+template <class T>
+void Multigrid<T>::take_couplings(const LinearOperator& A, LevelMatrix& level) {
+  if (A.couplings() == nullptr) return;
+  levels_.front()->couplings = *A.couplings();
+  level.couplings = &levels_.front()->couplings;
+  level.coupling_scale = level.scale;
 }
 
 /// The first level; its rows are points at one place until others are known.
@@ -83,6 +98,11 @@ void Multigrid<T>::factor(const LevelMatrix& A) {
     for (std::int64_t b = A.first(i); b < A.last(i); ++b) {
       dense_.block<3, 3>(3 * i, 3 * A.column_of(b)) = A.scale * A.block(b);
     }
+  }
+  if (A.couplings != nullptr) {
+    A.couplings->for_blocks([&](std::int32_t row, std::int32_t column, const Mat3& value) {
+      dense_.block<3, 3>(3 * row, 3 * column) += A.coupling_scale * value;
+    });
   }
   vector_.resize(size);
   const double size_of_diagonal = std::max(dense_.diagonal().cwiseAbs().maxCoeff(), 1e-300);

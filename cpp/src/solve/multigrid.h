@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "chebyshev.h"
+#include "coarse_couplings.h"
 #include "preconditioner.h"
 #include "prolongation.h"
 
@@ -32,6 +33,7 @@ class Multigrid final : public Preconditioner<T> {
  private:
   struct Level {
     RowPlaces places;
+    Couplings couplings;  ///< as they were when it was made
     Chebyshev<T> smoother;
     Aggregates aggregates;
     std::unique_ptr<CoarsePattern> pattern;  ///< to the next level; nothing on the coarsest
@@ -45,6 +47,8 @@ class Multigrid final : public Preconditioner<T> {
     std::vector<T> answer;  ///< of the next level
     std::vector<T> change;
   };
+  /// Without them when there are none.
+  void take_couplings(const LinearOperator& A, LevelMatrix& level);
   void start(const LevelMatrix& A);
   bool coarsen(const LevelMatrix& A, Level& level) const;
   void factor(const LevelMatrix& A);
@@ -57,6 +61,7 @@ class Multigrid final : public Preconditioner<T> {
   Threads threads_;
   std::vector<std::unique_ptr<Level>> levels_;
   CoarseScratch scratch_;
+  std::vector<CarriedPart> carried_;
   bool complete_ = false;  ///< the latest making came to its end
   bool direct_ = false;    ///< the coarsest level is solved by its factor
   Eigen::LLT<Eigen::MatrixXd> factor_;

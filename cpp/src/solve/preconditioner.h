@@ -23,6 +23,8 @@ class Preconditioner {
   virtual void make(const LinearOperator& A, double scale) = 0;
   /// The price of the latest making, counted in iterations.
   [[nodiscard]] virtual double price() const = 0;
+  /// What is coupled beside the matrix has a part in it.
+  [[nodiscard]] virtual bool takes_couplings() const { return true; }
   /// Rows of z = M^-1 r depend on the same rows of r only, and `apply_rows` gives them.
   [[nodiscard]] virtual bool is_local() const { return false; }
   virtual void apply_rows(std::int32_t /*begin*/, std::int32_t /*end*/, const T* /*r*/, T* /*z*/) {}

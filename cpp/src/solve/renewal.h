@@ -19,7 +19,8 @@ class Renewal {
     best_ = best_ < 0 ? iterations : std::min(best_, iterations);
     excess_ += iterations - best_;
   }
-  [[nodiscard]] bool due() const { return excess_ >= price_; }
+  /// `expected`: iterations that the next solve will take beyond its best one, as far as is known beforehand.
+  [[nodiscard]] bool due(double expected = 0.0) const { return excess_ + expected >= price_; }
   /// Iterations that a solve may take before a new one pays, the first ones that it has to take counted.
   [[nodiscard]] double left() const { return best_ < 0 ? kUnlimited : best_ + (price_ - excess_); }
 

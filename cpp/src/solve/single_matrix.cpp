@@ -19,6 +19,12 @@ void SingleMatrix::update(const BlockMatrix& matrix) {
       largest = std::max(largest, std::abs(matrix.values()[9 * matrix.diagonal_slot(i) + 4 * k]));
     }
   }
+  if (matrix.couplings() != nullptr) {
+    for (const std::int32_t i : matrix.couplings()->rows()) {
+      const Mat3 D = matrix.diagonal_block(i) + matrix.couplings()->diagonal(matrix.couplings()->place(i));
+      largest = std::max(largest, D.diagonal().cwiseAbs().maxCoeff());
+    }
+  }
   scale_ = largest > 0.0 && std::isfinite(largest) ? 1.0 / largest : 1.0;
   const auto blocks = matrix.sparsity().blocks();
   values_.resize(static_cast<std::size_t>(9 * blocks + 1));  // one more can be read
@@ -36,16 +42,11 @@ void SingleMatrix::update(const BlockMatrix& matrix) {
 void SingleMatrix::multiply(std::span<const float> p, std::span<float> out) const {
   const Sparsity& pattern = matrix_->sparsity();
   matrix_->threads().for_pieces(matrix_->rows(), [&](std::int32_t begin, std::int32_t end) {
-    multiply_rows_(pattern.row_begin.data(), pattern.column.data(), values_.data(), begin, end, p.data(),
-                   out.data());
+    multiply_rows_(pattern.row_begin.data(), pattern.row_end(), pattern.column.data(), values_.data(), begin,
+                   end, p.data(), out.data());
   });
-  for (const ExtraBlock& e : matrix_->extra()) {
-    for (std::size_t k = 0; k < 9; ++k) {
-      const auto row = static_cast<std::size_t>(3 * e.row) + k % 3;
-      const auto column = static_cast<std::size_t>(3 * e.column) + k / 3;
-      out[row] += static_cast<float>(scale_ * e.values[k]) * p[column];
-    }
-  }
+  const Couplings* couplings = matrix_->couplings();
+  if (couplings != nullptr) couplings->add_product(matrix_->threads(), scale_, p.data(), out.data());
 }
 
 }  // namespace tissu

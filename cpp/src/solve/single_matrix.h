@@ -21,8 +21,9 @@ class SingleMatrix {
   std::uint64_t version_ = 0;
   double scale_ = 1.0;
   AlignedVector<float> values_;
-  void (*multiply_rows_)(const std::int64_t* row_begin, const std::int32_t* column, const float* values,
-                         std::int32_t begin, std::int32_t end, const float* p, float* out) = nullptr;
+  void (*multiply_rows_)(const std::int64_t* row_begin, const std::int64_t* row_end,
+                         const std::int32_t* column, const float* values, std::int32_t begin,
+                         std::int32_t end, const float* p, float* out) = nullptr;
 };
 
 }  // namespace tissu

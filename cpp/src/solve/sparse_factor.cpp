@@ -15,28 +15,44 @@ SparseFactor::~SparseFactor() = default;
 std::string_view SparseFactor::library() { return Library::kName; }
 double SparseFactor::operations_per_byte() { return Library::kOperationsPerByte; }
 
-void SparseFactor::make(const BlockMatrix& matrix) {
+void SparseFactor::make(const BlockMatrix& matrix, bool coupled) {
+  const Couplings* couplings = coupled ? matrix.couplings() : nullptr;
   Library& l = *library_;
   l.ready = false;
-  if (l.lower.update_pattern(matrix)) l.analyse();
+  if (l.lower.update_pattern(matrix, couplings)) l.analyse();
   double shift = 0.0;
-  l.lower.update_values(matrix, shift);
+  l.lower.update_values(matrix, couplings, shift);
   while (!l.factorise()) {
     shift = shift == 0.0 ? kFirstShift : 10.0 * shift;
     if (shift > kLastShift) throw Error("the matrix of the step is not finite or has a zero diagonal.");
-    l.lower.update_values(matrix, shift);
+    l.lower.update_values(matrix, couplings, shift);
   }
   l.definite = shift == 0.0;
   l.ready = true;
   l.id = matrix.id();
-  l.version = matrix.version();
+  l.version = coupled ? matrix.version() : matrix.values_version();
 }
 
-bool SparseFactor::is_of(const BlockMatrix& matrix) const {
-  return library_->ready && library_->id == matrix.id() && library_->version == matrix.version();
+bool SparseFactor::attempt(const BlockMatrix& matrix) {
+  Library& l = *library_;
+  l.ready = false;
+  if (l.lower.update_pattern(matrix, nullptr)) l.analyse();
+  l.lower.update_values(matrix, nullptr, 0.0);
+  l.definite = l.factorise();
+  if (!l.definite) return false;
+  l.ready = true;
+  l.id = matrix.id();
+  l.version = matrix.values_version();
+  return true;
+}
+
+bool SparseFactor::is_of(const BlockMatrix& matrix, bool coupled) const {
+  const std::uint64_t version = coupled ? matrix.version() : matrix.values_version();
+  return library_->ready && library_->id == matrix.id() && library_->version == version;
 }
 bool SparseFactor::is_definite() const { return library_->definite; }
-void SparseFactor::solve(ConstReals b, Reals x) { library_->solve(b, x); }
+void SparseFactor::solve(ConstReals b, Reals x) { library_->solve(1, b, x); }
+void SparseFactor::solve_all(int columns, ConstReals b, Reals x) { library_->solve(columns, b, x); }
 void SparseFactor::forget() { library_->ready = false; }
 double SparseFactor::operations() const { return library_->operations; }
 double SparseFactor::number_bytes() const { return sizeof(double) * library_->numbers; }

@@ -20,13 +20,18 @@ class SparseFactor {
 
   /// Factors the matrix, with its symbolic part kept while the pattern is. A matrix that is not positive
   /// definite gets a growing share of its diagonal added until it is. Throws Error when none is large enough.
-  void make(const BlockMatrix& matrix);
+  /// `coupled`: of the matrix and its couplings; else of the matrix alone.
+  void make(const BlockMatrix& matrix, bool coupled = false);
+  /// Factors the matrix alone as it is; false, and nothing is kept, where it is not positive definite.
+  bool attempt(const BlockMatrix& matrix);
   /// It belongs to the values that the matrix has now.
-  [[nodiscard]] bool is_of(const BlockMatrix& matrix) const;
+  [[nodiscard]] bool is_of(const BlockMatrix& matrix, bool coupled = false) const;
   /// The matrix was positive definite as it was.
   [[nodiscard]] bool is_definite() const;
   /// x = A^-1 b, with the matrix that the factor was made of.
   void solve(ConstReals b, Reals x);
+  /// The same for several b and x, one after the other.
+  void solve_all(int columns, ConstReals b, Reals x);
   void forget();
 
   /// Operations of a making, a multiplication with its addition counted as one.

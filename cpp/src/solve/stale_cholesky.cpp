@@ -6,12 +6,17 @@ namespace tissu {
 
 template <class T>
 void StaleCholesky<T>::make(const LinearOperator& A, double scale) {
-  factor_.make(*A.matrix());
+  const BlockMatrix& matrix = *A.matrix();
+  if (A.couplings() == nullptr) {
+    factor_.make(matrix);
+  } else if (!factor_.is_of(matrix) && !factor_.attempt(matrix)) {
+    factor_.make(matrix, true);  // the couplings hold it
+  }
   inverse_scale_ = 1.0 / scale;
-  const double matrix = static_cast<double>(A.bytes());
-  const double iteration = matrix + 2.0 * factor_.number_bytes() + kVectorBytes * A.rows();
-  const double made = factor_.operations() / SparseFactor::operations_per_byte() + 2.0 * matrix +
-                      2.0 * factor_.number_bytes();
+  const double read = static_cast<double>(A.bytes());
+  const double iteration = read + 2.0 * factor_.number_bytes() + kVectorBytes * A.rows();
+  const double made =
+      factor_.operations() / SparseFactor::operations_per_byte() + 2.0 * read + 2.0 * factor_.number_bytes();
   price_ = made / iteration;
 }
 

@@ -7,12 +7,14 @@
 
 namespace tissu {
 
-/// The factor of an earlier matrix. Its price is that of its operations and bytes, as the factor counts them.
+/// The factor of an earlier matrix, without couplings where it is positive definite without them. Its price
+/// is that of its operations and bytes, as the factor counts them.
 template <class T>
 class StaleCholesky final : public Preconditioner<T> {
  public:
   void make(const LinearOperator& A, double scale) override;
   [[nodiscard]] double price() const override { return price_; }
+  [[nodiscard]] bool takes_couplings() const override { return false; }
   void apply(std::span<const T> r, std::span<T> z) override;
   [[nodiscard]] std::size_t bytes() const override { return factor_.bytes() + 16 * right_.size(); }
 

@@ -59,6 +59,7 @@ void Bdf2History::restore(ConstReals memory) {
   end_.forget();
   if (memory.empty()) return;
   const std::size_t size = way_.size();
+  require_memory(memory.size(), 2 + 4 * size + 4 * before_.rotations.size());
   ConstReals left = end_.take_from(memory, size);
   step_ = left.front();
   std::ranges::copy(left.subspan(1, size), before_.positions.begin());

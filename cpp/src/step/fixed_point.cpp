@@ -5,6 +5,7 @@
 #include <string>
 
 #include "tissu/base/error.h"
+#include "tissu/base/interruption.h"
 #include "tissu/base/number_text.h"
 #include "tissu/step/frequency.h"
 
@@ -67,6 +68,7 @@ void Bdf2FixedPoint::iterate(State& state, double reference, StepReport& report)
     report.converged = report.residual <= settings_.tolerance;
     if (report.converged || report.solver_iterations == settings_.iterations) break;
     if (!(report.residual < kHopeless)) break;
+    stop_if_asked();
     std::ranges::copy(solver_.right(), change_.begin());
     solver_.world().mass().divide(solver_.stage().base, change_);
     anderson_.advance(v_, change_, mixing, weight_);

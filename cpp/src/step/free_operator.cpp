@@ -15,9 +15,20 @@ void FreeOperator::set(const State& state, double mass, StiffnessScale scale) {
   mass_ = mass;
   scale_ = scale;
   count_change();
+  if (world_.run_time().coupling.empty()) return;
+  couplings_.clear();
+  for (const ForceModel* model : world_.run_time().coupling) model->add_couplings(state_, scale_, couplings_);
+  couplings_.close(rows(), &world_.fixed().masks());
+  set_couplings(couplings_.empty() ? nullptr : &couplings_);
 }
 
 void FreeOperator::multiply(ConstReals p, Reals out) const {
+  multiply_models(p, out);
+  if (couplings() != nullptr) couplings_.add_product(threads_, 1.0, p.data(), out.data());
+}
+
+/// The same without couplings, which leave given degrees of freedom out themselves.
+void FreeOperator::multiply_models(ConstReals p, Reals out) const {
   const FixedDofs& fixed = world_.fixed();
   ConstReals x = p;
   if (!fixed.empty()) {
@@ -28,7 +39,8 @@ void FreeOperator::multiply(ConstReals p, Reals out) const {
   std::ranges::fill(out, 0.0);
   if (mass_ != 0.0) world_.mass().add_product(state_, mass_, x, out);
   for (const auto& model : world_.forces()) {
-    if (model->has_stiffness()) model->add_product(state_, scale_, x, out);
+    if (!model->has_stiffness() || model->run_time().couples) continue;
+    model->add_product(state_, scratch_, scale_, x, out);
   }
   for (const std::int32_t row : fixed.rows()) {
     for (int axis = 0; axis < 3; ++axis) {
@@ -43,12 +55,9 @@ int FreeOperator::colours() const {
   return colours_;
 }
 
-/// The smallest colour that no coupled row before has, row after row.
+/// The smallest colour that no row of the pattern before has, row after row.
 void FreeOperator::color() const {
-  Pairs linked;
-  if (world_.links() != nullptr) linked = world_.links()->coupled();
-  if (!color_.empty() && linked == linked_) return;
-  linked_ = linked;
+  if (!color_.empty()) return;
   const Sparsity& pattern = world_.sparsity();
   color_.assign(static_cast<std::size_t>(rows()), -1);
   colours_ = 0;
@@ -58,13 +67,8 @@ void FreeOperator::color() const {
       const std::int32_t c = color_[static_cast<std::size_t>(other)];
       if (c >= 0) taken[static_cast<std::size_t>(c)] = r;
     };
-    for (auto s = pattern.row_begin[static_cast<std::size_t>(r)];
-         s < pattern.row_begin[static_cast<std::size_t>(r) + 1]; ++s) {
+    for (auto s = pattern.begin_of(r); s < pattern.end_of(r); ++s) {
       see(pattern.column[static_cast<std::size_t>(s)]);
-    }
-    for (const auto& [a, b] : linked_) {
-      if (a == r) see(b);
-      if (b == r) see(a);
     }
     std::int32_t c = 0;
     while (c < colours_ && taken[static_cast<std::size_t>(c)] == r) ++c;
@@ -88,15 +92,16 @@ void FreeOperator::diagonal_blocks(Reals blocks) const {
       for (std::size_t r = 0; r < color_.size(); ++r) {
         if (color_[r] == c) unit_[3 * r + axis] = 1.0;
       }
-      multiply(unit_, column_);
+      multiply_models(unit_, column_);
       for (std::size_t r = 0; r < color_.size(); ++r) {
         if (color_[r] != c) continue;
         std::copy_n(column_.begin() + static_cast<std::ptrdiff_t>(3 * r), 3,
                     blocks.begin() + static_cast<std::ptrdiff_t>(9 * r + 3 * axis));
-        diagonal_[3 * r + axis] = column_[3 * r + axis];
       }
     }
   }
+  if (couplings() != nullptr) couplings_.add_diagonal(blocks);
+  for (std::size_t i = 0; i < size; ++i) diagonal_[i] = blocks[9 * (i / 3) + 4 * (i % 3)];
 }
 
 double FreeOperator::round_off(ConstReals x) const {

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "tissu/base/interruption.h"
 #include "tissu/base/norm.h"
 
 namespace tissu {
@@ -36,7 +37,7 @@ class ScaledMatrix {
     divide(scaled_);
     std::ranges::fill(out, 0.0);
     for (const auto& model : world_.forces()) {
-      if (model->has_stiffness()) model->add_product(state_, scale_, scaled_, out);
+      if (model->has_stiffness()) model->add_product(state_, scratch_, scale_, scaled_, out);
     }
     divide(out);
   }
@@ -58,6 +59,7 @@ class ScaledMatrix {
   std::vector<double> root_;
   std::vector<Mat3> turning_;
   std::vector<double> scaled_;
+  Scratch scratch_;
 };
 
 /// A start that no mode is orthogonal to: numbers without a pattern, the same on every machine.
@@ -125,6 +127,7 @@ double Lanczos::largest(double tolerance) {
   start();
   double largest = 0.0;
   for (int step = 0; step < kMostSteps; ++step) {
+    stop_if_asked();
     matrix_.apply(now_, next_);
     const double on = std::inner_product(now_.begin(), now_.end(), next_.begin(), 0.0);
     diagonal_.push_back(on);

@@ -67,6 +67,7 @@ std::vector<double> Newmark::memory() const {
 void Newmark::restore(ConstReals memory) {
   end_.forget();
   if (memory.empty()) return;
+  require_memory(memory.size(), 1 + 3 * a_.size());
   const ConstReals a = end_.take_from(memory, a_.size());
   a_.assign(a.begin(), a.end());
 }

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "tissu/base/error.h"
+#include "tissu/base/interruption.h"
 #include "tissu/base/norm.h"
 #include "tissu/base/number_text.h"
 
@@ -190,7 +191,7 @@ double StageSolver::potential(State& state, ConstReals v) {
   for (std::size_t i = 0; i < v.size(); ++i) work_[i] = v[i] - stage_.base.velocities[i];
   world.mass().add_product(stage_.base, 0.5, work_, momentum_);
   double sum = std::inner_product(work_.begin(), work_.end(), momentum_.begin(), 0.0);
-  for (const auto& model : world.forces()) sum += stage_.push / stage_.move * model->energy(state);
+  for (const auto& model : world.forces()) sum += stage_.push / stage_.move * model->energy(state, scratch_);
   return sum;
 }
 
@@ -209,6 +210,7 @@ std::string_view StageSolver::iterate(State& state, std::vector<double>& v, Sear
     if (report.newton_iterations >= most) return "Newton's iteration stopped before its tolerance";
     assemble(state, search == Search::energy);
     if (now <= system_->round_off(state) / stage_.move) break;
+    stop_if_asked();
     std::ranges::fill(change_, 0.0);
     solve_linear(state, 0.0, search == Search::energy, report);
     ++report.newton_iterations;

@@ -1,6 +1,17 @@
 #include "tissu/step/state_mark.h"
 
+#include <string>
+
+#include "tissu/base/error.h"
+
 namespace tissu {
+
+void require_memory(std::size_t found, std::size_t accepted) {
+  if (found == accepted) return;
+  throw ParameterError("the snapshot has " + std::to_string(found) + " numbers of the integrator where " +
+                       std::to_string(accepted) +
+                       " are accepted; restore it in the world that it was taken from.");
+}
 
 void StateMark::set(const State& state) {
   time_ = state.time;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "tissu/base/error.h"
+#include "tissu/base/interruption.h"
 #include "tissu/base/norm.h"
 #include "tissu/base/number_text.h"
 
@@ -96,6 +97,7 @@ bool StaticEquilibrium::iterate(State& state, double share, LineSearch search, S
     if (!(report.residual < kHopeless)) return false;
     if (!led && report.residual <= settings_.newton.tolerance) return true;
     if (i == settings_.newton.iterations) return false;
+    stop_if_asked();
     system_->assemble(state, 0.0, {-1.0, 0.0});
     if (!led && now <= system_->round_off(state)) return true;
     fixed.clear(right_);

@@ -10,13 +10,21 @@
 namespace tissu {
 namespace {
 
+bool has_constant_matrix(const std::unique_ptr<ForceModel>& model) {
+  return model->has_constant_stiffness() || model->run_time().couples;
+}
 bool is_external(const std::unique_ptr<ForceModel>& model) { return model->kind() == ForceKind::external; }
 
 }  // namespace
 
 System::System(const World& world, LinearSolver* solver, Profile& profile)
-    : world_(world), solver_(solver), profile_(profile), mass_row_(profile.row("inertia", "matrix")) {
+    : world_(world),
+      solver_(solver),
+      profile_(profile),
+      mass_row_(profile.row("inertia", "matrix")),
+      is_constant_(world.frames().empty() && std::ranges::all_of(world.forces(), has_constant_matrix)) {
   for (const auto& model : world.forces()) {
+    scratch_.reserve(model->scratch_size());
     Rows rows{};
     rows.force = profile.row(model->effect(), "force");
     if (model->has_stiffness()) {
@@ -44,7 +52,7 @@ void System::force(const State& state, Reals f) {
   std::ranges::fill(f, 0.0);
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     const Timed timed(profile_, rows_[i].force);
-    world_.forces()[i]->add_force(state, f);
+    world_.forces()[i]->add_force(state, scratch_, f);
   }
 }
 
@@ -54,7 +62,7 @@ double System::external_force(const State& state, Reals f) {
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     if (!is_external(world_.forces()[i])) continue;
     const Timed timed(profile_, rows_[i].force);
-    world_.forces()[i]->add_force(state, f);
+    world_.forces()[i]->add_force(state, scratch_, f);
   }
   return norm(f);
 }
@@ -64,13 +72,17 @@ void System::add_product(const State& state, StiffnessScale scale, ConstReals p,
     const ForceModel& model = *world_.forces()[i];
     if (!model.has_stiffness()) continue;
     const Timed timed(profile_, rows_[i].product);
-    model.add_product(state, scale, p, out);
+    model.add_product(state, scratch_, scale, p, out);
   }
 }
 
 void System::assemble(const State& state, double mass, StiffnessScale scale) {
   const bool same = assembled_ && mass_scale_ == mass && scale_.position == scale.position &&
                     scale_.velocity == scale.velocity && scale_.definite == scale.definite;
+  if (same && is_constant_ && matrix_) {
+    if (!world_.run_time().coupling.empty()) couple(state, scale);
+    return;
+  }
   if (same && world_.is_linear()) return;
   if (solver_ != nullptr && !solver_->needs_matrix()) {
     if (!free_) free_.emplace(world_);
@@ -94,12 +106,25 @@ void System::assemble_blocks(const State& state, double mass, StiffnessScale sca
     const ForceModel& model = *world_.forces()[i];
     if (!model.has_stiffness()) continue;
     const Timed timed(profile_, rows_[i].stiffness);
-    model.add_stiffness(state, scale, *matrix_);
+    model.add_stiffness(state, scratch_, scale, *matrix_);
   }
   matrix_->constrain(world_.fixed().rows(), world_.fixed().masks());
+  if (!world_.run_time().coupling.empty()) couple(state, scale);
   if (solver_ == nullptr || !solver_->needs_places()) return;
   place_rows(state);
   matrix_->set_places(&places_);
+}
+
+void System::couple(const State& state, StiffnessScale scale) {
+  couplings_.clear();
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    const ForceModel& model = *world_.forces()[i];
+    if (!model.run_time().couples) continue;
+    const Timed timed(profile_, rows_[i].stiffness);
+    model.add_couplings(state, scale, couplings_);
+  }
+  couplings_.close(world_.blocks(), &world_.fixed().masks());
+  matrix_->set_couplings(couplings_.empty() ? nullptr : &couplings_);
 }
 
 void System::place_rows(const State& state) {

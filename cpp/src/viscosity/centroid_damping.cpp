@@ -50,8 +50,8 @@ void CentroidDamping::couple(SparsityBuilder& builder) const {
 template <class Function>
 void CentroidDamping::for_entries(std::int32_t begin, std::int32_t end, Function&& f) const {
   for (std::int32_t row = begin; row < end; ++row) {
-    const auto first = static_cast<std::size_t>(own_.row_begin[static_cast<std::size_t>(row)]);
-    const auto last = static_cast<std::size_t>(own_.row_begin[static_cast<std::size_t>(row) + 1]);
+    const auto first = static_cast<std::size_t>(own_.begin_of(row));
+    const auto last = static_cast<std::size_t>(own_.end_of(row));
     for (std::size_t entry = first; entry < last; ++entry) {
       f(first_node_ + row, first_node_ + own_.column[entry], entry);
     }
@@ -67,12 +67,12 @@ void CentroidDamping::bind(const Sparsity& pattern) {
   });
 }
 
-void CentroidDamping::add_force(const State& state, Reals f) const {
-  add_product(state, {0.0, 1.0}, state.velocities, f);
+void CentroidDamping::add_force(const State& state, Scratch& scratch, Reals f) const {
+  add_product(state, scratch, {0.0, 1.0}, state.velocities, f);
 }
 
-void CentroidDamping::add_product(const State& /*state*/, StiffnessScale scale, ConstReals p,
-                                  Reals out) const {
+void CentroidDamping::add_product(const State& /*state*/, Scratch& /*scratch*/, StiffnessScale scale,
+                                  ConstReals p, Reals out) const {
   if (scale.velocity == 0.0) return;
   threads_.for_pieces(own_.rows(), [&](std::int32_t begin, std::int32_t end) {
     for_entries(begin, end, [&](std::int32_t row, std::int32_t column, std::size_t entry) {
@@ -84,7 +84,8 @@ void CentroidDamping::add_product(const State& /*state*/, StiffnessScale scale, 
   });
 }
 
-void CentroidDamping::add_stiffness(const State& /*state*/, StiffnessScale scale, BlockMatrix& matrix) const {
+void CentroidDamping::add_stiffness(const State& /*state*/, Scratch& /*scratch*/, StiffnessScale scale,
+                                    BlockMatrix& matrix) const {
   if (scale.velocity == 0.0) return;
   double* values = matrix.values();
   threads_.for_pieces(own_.rows(), [&](std::int32_t begin, std::int32_t end) {

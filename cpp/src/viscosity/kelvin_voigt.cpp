@@ -9,7 +9,7 @@ KelvinVoigt::KelvinVoigt(const ElasticBlock& block, Lame viscosity, ConstReals r
     : ViscousCells(block, rest_positions, threads),
       kernels_(find_shape_kernels(isa, reference_.nodes, reference_.dimension)),
       law_(find_viscous_law(isa, reference_.dimension)) {
-  if (block_.plane == Plane::stress) viscosity.lambda = free_lambda(viscosity, reference_.dimension);
+  if (block_.plane != Plane::strain) viscosity.lambda = free_lambda(viscosity, reference_.dimension);
   constants_.assign(kLanes, viscosity.lambda);
   constants_.insert(constants_.end(), kLanes, viscosity.mu);
 }
@@ -21,15 +21,17 @@ Loops<ElasticKernels, ElasticView> KelvinVoigt::loops() const {
   return {*kernels_, v, order_};
 }
 
-void KelvinVoigt::add_force(const State& state, Reals f) const {
+void KelvinVoigt::add_force(const State& state, Scratch& /*scratch*/, Reals f) const {
   product_by(loops(), state.positions, 1.0, state.velocities, f);
 }
 
-void KelvinVoigt::add_product(const State& state, StiffnessScale scale, ConstReals p, Reals out) const {
+void KelvinVoigt::add_product(const State& state, Scratch& /*scratch*/, StiffnessScale scale, ConstReals p,
+                              Reals out) const {
   product_by(loops(), state.positions, scale.velocity, p, out);
 }
 
-void KelvinVoigt::add_stiffness(const State& state, StiffnessScale scale, BlockMatrix& matrix) const {
+void KelvinVoigt::add_stiffness(const State& state, Scratch& /*scratch*/, StiffnessScale scale,
+                                BlockMatrix& matrix) const {
   stiffness_by(loops(), state.positions, {.position = scale.velocity}, matrix);
 }
 

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <optional>
+#include <string>
 #include <unordered_map>
 
 #include "tissu/base/error.h"
@@ -33,11 +34,10 @@ Lame small_strain(const ElasticBlock& block, std::int32_t cell) {
 
 }  // namespace
 
-Prony::Prony(const ElasticBlock& block, const std::vector<PronyBranch>& branches, std::size_t first,
-             ConstReals rest_positions, Isa isa, Threads threads)
+Prony::Prony(const ElasticBlock& block, const std::vector<PronyBranch>& branches, ConstReals rest_positions,
+             Isa isa, Threads threads)
     : ViscousCells(block, rest_positions, threads),
-      kernels_(find_prony_kernels(isa, reference_.dimension == 3 ? reference_.nodes : 0)),
-      first_(first) {
+      kernels_(find_prony_kernels(isa, reference_.dimension == 3 ? reference_.nodes : 0)) {
   if (kernels_ == nullptr) {
     throw ParameterError("body \"" + block_.body + "\" asks for a Prony series on cells of type " +
                          block_.element + "; only cells with a volume take it, so take another viscosity.");
@@ -67,7 +67,7 @@ Prony::Course Prony::course(const State& state) const {
 PronyView Prony::prony_view(const State& state, const Course& course) const {
   PronyView result{};
   static_cast<ElasticView&>(result) = view();
-  result.memory = state.memory.data() + first_;
+  result.memory = state.memory[place_].data();
   result.branches = static_cast<int>(shares_.size());
   result.shares = shares_.data();
   result.decay = course.decay.data();
@@ -75,25 +75,27 @@ PronyView Prony::prony_view(const State& state, const Course& course) const {
   return result;
 }
 
-void Prony::add_force(const State& state, Reals f) const {
+void Prony::add_force(const State& state, Scratch& /*scratch*/, Reals f) const {
   const Course now = course(state);
   force_by(Loops{kernels_->forces, prony_view(state, now), order_}, state.positions, f);
 }
 
-void Prony::add_product(const State& state, StiffnessScale scale, ConstReals p, Reals out) const {
+void Prony::add_product(const State& state, Scratch& /*scratch*/, StiffnessScale scale, ConstReals p,
+                        Reals out) const {
   const Course now = course(state);
   product_by(Loops{kernels_->forces, prony_view(state, now), order_}, state.positions, scale.position, p,
              out);
 }
 
-void Prony::add_stiffness(const State& state, StiffnessScale scale, BlockMatrix& matrix) const {
+void Prony::add_stiffness(const State& state, Scratch& /*scratch*/, StiffnessScale scale,
+                          BlockMatrix& matrix) const {
   const Course now = course(state);
   stiffness_by(Loops{kernels_->forces, prony_view(state, now), order_}, state.positions, scale, matrix);
 }
 
-double Prony::energy(const State& state) const {
+double Prony::energy(const State& state, Scratch& scratch) const {
   const Course now = course(state);
-  return energy_by(Loops{*kernels_, prony_view(state, now), order_}, state.positions);
+  return energy_by(Loops{*kernels_, prony_view(state, now), order_}, state.positions, scratch);
 }
 
 std::size_t Prony::reals_of_cell() const {
@@ -102,26 +104,42 @@ std::size_t Prony::reals_of_cell() const {
 
 std::size_t Prony::memory_size() const { return order_.element.size() * reals_of_cell(); }
 
-void Prony::advance(State& state) const {
+void Prony::claim_memory(MemoryPlaces& places) {
+  place_ = places.claim("Prony series of " + block_.body, memory_size());
+}
+
+void Prony::check_memory(const State& state) const {
+  const std::size_t found = state.memory[place_].size();
+  if (found == memory_size()) return;
+  throw ParameterError("the state remembers " + std::to_string(found) +
+                       " numbers of the Prony series of body \"" + block_.body + "\" where the world has " +
+                       std::to_string(memory_size()) + "; restore it in the world that it was taken from.");
+}
+
+void Prony::remember(State& state) const {
   const Course now = course(state);
   const PronyView v = prony_view(state, now);
-  double* memory = state.memory.data() + first_;
+  double* memory = state.memory[place_].data();
   for_chunks(order_,
              [&](const Chunk& chunk) { kernels_->advance(v, chunk, state.positions.data(), memory); });
 }
 
-void Prony::take_over(const Prony& before, ConstReals memory_before, Reals memory) const {
+void Prony::carry_memory(const ForceModel& model, const Memory& then, Memory& now) const {
+  const auto* before = dynamic_cast<const Prony*>(&model);
+  if (before == nullptr || before->block_.body != block_.body) return;
   std::unordered_map<std::int32_t, std::size_t> lane_of;
-  before.for_lanes(
-      [&](std::size_t lane, std::size_t cell) { lane_of[before.block_.cell_numbers[cell]] = lane; });
+  before->for_lanes(
+      [&](std::size_t lane, std::size_t cell) { lane_of[before->block_.cell_numbers[cell]] = lane; });
+  const std::vector<double>& kept = then[before->place_];
+  std::vector<double>& memory = now[place_];
   const std::size_t reals = reals_of_cell();
   for (std::size_t to = 0; to < order_.element.size(); ++to) {  // lanes that pad as well
     const auto found = lane_of.find(block_.cell_numbers[static_cast<std::size_t>(order_.element[to])]);
     if (found == lane_of.end()) continue;
     const std::size_t from = found->second;
     for (std::size_t k = 0; k < reals; ++k) {
-      memory[first_ + (to / kLanes * reals + k) * kLanes + to % kLanes] =
-          memory_before[before.first_ + (from / kLanes * reals + k) * kLanes + from % kLanes];
+      memory[(to / kLanes * reals + k) * kLanes + to % kLanes] =
+          kept[(from / kLanes * reals + k) * kLanes + from % kLanes];
     }
   }
 }

@@ -68,8 +68,8 @@ void refuse_touched(const Body& body, const BodyModel& model, const WorldDescrip
     const auto eliminated = model.eliminated();
     if (!std::ranges::binary_search(eliminated, node)) return;
     throw ParameterError("node " + std::to_string(node - body.first_node) + " of body \"" + body.name +
-                         "\" is eliminated by the model " + model.block().model.name + ", and " + why +
-                         "; keep it.");
+                         "\" is eliminated by the model " + std::string(model_name(model.block().model)) +
+                         ", and " + why + "; keep it.");
   };
   for (const BodyModel* other : body.models) {
     if (other == &model) continue;

@@ -13,13 +13,20 @@ from tissu.front import Scene
 from tissu.yaml_io import scene_mapping
 
 
-def changed(file: Path, changes: Mapping[str, Any], meshes: Path | None = None) -> Scene:
+def changed(
+    file: Path,
+    changes: Mapping[str, Any],
+    meshes: Path | None = None,
+    *,
+    trust_laws: bool = False,
+) -> Scene:
     """The scene of a file with other values at some paths (`bodies.bar.mesh.cells`).
 
     Args:
         file: the scene.
         changes: values by path; null takes the field away.
         meshes: where mesh files are looked for that are not beside the scene.
+        trust_laws: whether the files of its laws, which are programs, may run.
 
     Raises:
         ParameterError: a path leads nowhere.
@@ -37,7 +44,7 @@ def changed(file: Path, changes: Mapping[str, Any], meshes: Path | None = None) 
                 and not (file.parent / mesh["file"]).exists()
             ):
                 mesh["file"] = str(meshes / mesh["file"])
-    return Scene.from_yaml_text(json.dumps(data), base=file.parent)
+    return Scene.from_yaml_text(json.dumps(data), base=file.parent, trust_laws=trust_laws)
 
 
 def _set(data: Any, path: list[str], value: Any, whole: str) -> None:

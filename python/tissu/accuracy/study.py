@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -14,7 +15,10 @@ from tissu.errors import SceneError, TissuError
 
 if TYPE_CHECKING:
     from tissu.accuracy.case import Case, Preset
+    from tissu.front import Scene
     from tissu.simulation import Simulation
+
+    Reader = Callable[[dict[str, Any]], Scene]
 
 _SHORT = 0.2
 """s: a run that takes less is repeated, and the fastest counts"""
@@ -89,6 +93,7 @@ def study(
     preset: Preset = "small",
     *,
     meshes: Path | None = None,
+    trust_laws: bool = False,
     told: Callable[[Run], None] | None = None,
 ) -> Study:
     """Run every variant of a case.
@@ -97,16 +102,18 @@ def study(
         case: see `read_case`.
         preset: "small" for minutes, "full" for all.
         meshes: folder of mesh files that do not come with tissu.
+        trust_laws: whether the files of the scene's laws, which are programs, may run.
         told: called after each run.
 
     Raises:
         ParameterError: the reference is missing, or a change names no field.
     """
     runs, size = [], 0.0
+    read = partial(changed, case.scene, meshes=meshes, trust_laws=trust_laws)
     for label, curve, changes in list(case.variants(preset))[:1]:
-        _run(case, label, curve, changes, meshes)  # what is loaded once is not in the first time
+        _run(case, label, curve, changes, read)  # what is loaded once is not in the first time
     for label, curve, changes in case.variants(preset):
-        run, deviation = _run(case, label, curve, changes, meshes)
+        run, deviation = _run(case, label, curve, changes, read)
         size = max(size, deviation.size if deviation else 0.0)
         runs.append(run)
         if told is not None:
@@ -115,10 +122,10 @@ def study(
 
 
 def _run(
-    case: Case, label: str, curve: str, changes: dict[str, Any], meshes: Path | None
+    case: Case, label: str, curve: str, changes: dict[str, Any], read: Reader
 ) -> tuple[Run, Deviation | None]:
     try:
-        scene = changed(case.scene, changes, meshes)
+        scene = read(changes)
         best = _Measured(*_timed(scene))
         for _ in range(_REPEATS - 1):
             if best.seconds > _SHORT or best.stopped:

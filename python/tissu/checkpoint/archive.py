@@ -11,7 +11,10 @@ from __future__ import annotations
 import hashlib
 import io
 import json
+import math
+import struct
 import zipfile
+import zlib
 from collections.abc import Mapping
 from typing import Any
 
@@ -22,6 +25,11 @@ Array = NDArray[Any]
 
 _HEADER = "header.json"
 _DIGEST = hashlib.sha256().digest_size * 2
+_UNREADABLE = (
+    *(zipfile.BadZipFile, KeyError, ValueError, TypeError, IndexError, OverflowError, EOFError),
+    *(NotImplementedError, RuntimeError, RecursionError, MemoryError, struct.error, zlib.error),
+)
+"""What zipfile, json and NumPy raise on bytes that are none of theirs."""
 _NO_DATE = (1980, 1, 1, 0, 0, 0)
 
 
@@ -52,16 +60,39 @@ def unpack(data: bytes) -> tuple[dict[str, Any], dict[str, Array]]:
     """
     if len(data) <= _DIGEST or _digest(data[:-_DIGEST]) != data[-_DIGEST:]:
         raise DamagedError
-    with zipfile.ZipFile(io.BytesIO(data)) as archive:
-        header = json.loads(archive.read(_HEADER))
-        arrays = {
-            name.removesuffix(".npy"): np.lib.format.read_array(
-                io.BytesIO(archive.read(name)), allow_pickle=False
-            )
-            for name in archive.namelist()
-            if name != _HEADER
-        }
+    # Anybody can compute a digest: what follows is believed no more than another file.
+    try:
+        with zipfile.ZipFile(io.BytesIO(data)) as archive:
+            members = archive.infolist()
+            if any(member.compress_type != zipfile.ZIP_STORED for member in members):
+                raise DamagedError
+            if sum(member.file_size for member in members) > len(data):
+                raise DamagedError
+            header = json.loads(archive.read(_HEADER))
+            names = [member.filename for member in members if member.filename != _HEADER]
+            arrays = {name.removesuffix(".npy"): _array(archive.read(name)) for name in names}
+    except _UNREADABLE:
+        raise DamagedError from None
+    if not isinstance(header, dict):
+        raise DamagedError
     return header, arrays
+
+
+def _array(data: bytes) -> Array:
+    """The array of a member, whose header asks for no more numbers than follow it.
+
+    Raises:
+        DamagedError: it does, or they are no numbers.
+    """
+    stream = io.BytesIO(data)
+    version = np.lib.format.read_magic(stream)
+    if version != (1, 0):
+        raise DamagedError
+    shape, _, dtype = np.lib.format.read_array_header_1_0(stream)
+    if dtype.kind not in "fi" or math.prod(shape) * dtype.itemsize != len(data) - stream.tell():
+        raise DamagedError
+    stream.seek(0)
+    return np.asarray(np.lib.format.read_array(stream, allow_pickle=False))
 
 
 def _digest(data: bytes) -> bytes:

@@ -11,12 +11,14 @@ import numpy as np
 
 from tissu import _core
 from tissu.checkpoint.archive import DamagedError, pack, unpack
+from tissu.checkpoint.contents import require_contents
 from tissu.checkpoint.physics import differences
 from tissu.checkpoint.whole import write_whole
 from tissu.errors import CheckpointError
+from tissu.files.place import kind_of_place, reason_of, shown_path
 
-FORMAT = 1
-_COLUMNS = {"positions": 3, "velocities": 3, "velocities_before": 3, "rotations": 4, "links": 11}
+FORMAT = 2
+_COLUMNS = {"positions": 3, "velocities": 3, "velocities_before": 3, "rotations": 4}
 
 
 @dataclass(frozen=True, slots=True)
@@ -119,6 +121,7 @@ def read_checkpoint(path: Path) -> Checkpoint:
             f"{header.get('tissu')}; format {FORMAT} of tissu {version} is accepted: go on with "
             "the tissu that wrote it"
         )
+    require_contents(path, header, arrays)
     return Checkpoint(
         scene=header["scene"],
         physics=header["physics"],
@@ -137,6 +140,9 @@ def build() -> dict[str, Any]:
 
 def _contents(path: Path) -> tuple[dict[str, Any], dict[str, Any]]:
     try:
+        kind = kind_of_place(path)
+        if kind not in ("a file", "nothing"):
+            raise CheckpointError(f"checkpoint {path}: found {kind}; a regular file is accepted")
         return unpack(path.read_bytes())
     except DamagedError:
         raise CheckpointError(
@@ -148,9 +154,9 @@ def _contents(path: Path) -> tuple[dict[str, Any], dict[str, Any]]:
             f"checkpoint {path}: there is no such file; name one that save_checkpoint or "
             "tissu run --checkpoint wrote"
         ) from None
-    except OSError as error:
-        why = error.strerror or str(error)
-        raise CheckpointError(f"checkpoint {path}: cannot be read ({why})") from None
+    except (OSError, ValueError) as error:
+        why = reason_of(error)
+        raise CheckpointError(f"checkpoint {shown_path(path)}: cannot be read ({why})") from None
 
 
 def _told(value: object) -> str:

@@ -8,6 +8,11 @@ import re
 from pathlib import Path
 
 from tissu.errors import CheckpointError
+from tissu.files import require_file_place
+from tissu.files.whole import runs
+
+# A file that this process makes: what lies at its name already, a link above all, is not opened.
+_NEW = os.O_WRONLY | os.O_CREAT | os.O_EXCL
 
 
 def write_whole(path: Path, data: bytes) -> None:
@@ -17,14 +22,17 @@ def write_whole(path: Path, data: bytes) -> None:
     What processes that were killed have left beside it is taken away first.
 
     Raises:
-        CheckpointError: it cannot be written; the file before is still there.
+        CheckpointError: the place is neither new nor a regular file, or it cannot be written; a
+            file that was there before still is.
     """
+    require_file_place(path, "checkpoint", error=CheckpointError)
     place = Path(os.path.realpath(path))
     partial = _partial(place, os.getpid())
     try:
         _clear(place)
+        partial.unlink(missing_ok=True)
         try:
-            with open(partial, "wb") as file:
+            with os.fdopen(os.open(partial, _NEW, 0o666), "wb") as file:
                 file.write(data)
                 file.flush()
                 os.fsync(file.fileno())
@@ -40,13 +48,12 @@ def prepare_place(path: Path) -> None:
     """Makes the folder of a checkpoint and tries it, before a run rather than in its midst.
 
     Raises:
-        CheckpointError: nothing can be written there.
+        CheckpointError: it is neither new nor a regular file, or nothing can be written there.
     """
+    require_file_place(path, "checkpoint", error=CheckpointError)
     place = Path(os.path.realpath(path))
     probe = place.with_name(f".{place.name}.{os.getpid()}.probe")
     try:
-        if place.is_dir():
-            raise IsADirectoryError(0, "it is a folder")
         place.parent.mkdir(parents=True, exist_ok=True)
         probe.touch()
         probe.unlink()
@@ -63,18 +70,8 @@ def _clear(place: Path) -> None:
     pattern = re.compile(re.escape(f".{place.name}.") + r"(\d+)\.partial")
     for name in os.listdir(place.parent):
         match = pattern.fullmatch(name)
-        if match is not None and not _runs(int(match[1])):
+        if match is not None and not runs(int(match[1])):
             (place.parent / name).unlink(missing_ok=True)
-
-
-def _runs(process: int) -> bool:
-    try:
-        os.kill(process, 0)
-    except ProcessLookupError:
-        return False
-    except (PermissionError, OverflowError):
-        return True
-    return True
 
 
 def _flush_folder(folder: Path) -> None:

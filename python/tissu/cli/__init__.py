@@ -6,18 +6,37 @@ import signal
 import sys
 
 from tissu.cli.interruption import leave
+from tissu.cli.outcome import BAD_INPUT, INTERRUPTED, complain, ended, prepare_streams
 
 
 def main() -> None:
     """Entry point of the command `tissu`."""
-    signal.signal(signal.SIGTERM, leave)
+    for number in (signal.SIGTERM, signal.SIGHUP):
+        if signal.getsignal(number) is not signal.SIG_IGN:  # as under nohup
+            signal.signal(number, leave)
+    prepare_streams()
+    sys.exit(ended(_run()))
+
+
+def _run() -> int:
+    """Runs the command; its exit code."""
     try:
         from tissu.cli.app import app
 
         app(prog_name="tissu")
+    except SystemExit as asked:
+        return asked.code if isinstance(asked.code, int) else BAD_INPUT if asked.code else 0
     except KeyboardInterrupt:  # before a run has begun: there is nothing to complete
-        print("tissu: interrupted, nothing was written", file=sys.stderr)
-        sys.exit(130)
+        complain("interrupted, nothing was written")
+        return INTERRUPTED
+    except BrokenPipeError:
+        return 0
+    except OSError as error:  # stdout is full: what a command writes elsewhere, it tells itself
+        if error.filename is not None:
+            raise
+        complain(f"the output cannot be written: {error.strerror or error}")
+        return BAD_INPUT
+    return 0
 
 
 __all__ = ["main"]

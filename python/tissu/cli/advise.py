@@ -11,7 +11,14 @@ from tissu.output import prepare_folder
 
 
 def advise_scene(
-    file: Path, *, error: str, rate: float, budget: str, models: str, out: Path
+    file: Path,
+    *,
+    error: str,
+    rate: float,
+    budget: str,
+    models: str,
+    out: Path,
+    trust_laws: bool = False,
 ) -> None:
     """Tries the settings and writes scene.yaml, table.csv, advice.md and advice.png.
 
@@ -22,11 +29,11 @@ def advise_scene(
     """
     from tissu.advice import advise
     from tissu.advice.figure import draw
+    from tissu.files import whole_file
     from tissu.front import Scene
-    from tissu.output.folder import whole_file
 
     asked = [name.strip() for name in models.split(",") if name.strip()]
-    scene = Scene.from_yaml(file)
+    scene = Scene.from_yaml(file, trust_laws=trust_laws)
     folder = prepare_folder(out)
     told = _tell if sys.stderr.isatty() else None
     found = advise(scene, error, rate, budget=budget, models=asked, told=told)

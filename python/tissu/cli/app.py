@@ -7,23 +7,34 @@ from typing import Annotated
 
 import typer
 
+from tissu.cli.mesh_commands import Debug, mesh_app
 from tissu.cli.outcome import reported
 
 app = typer.Typer(
     help="Deforming soft tissue: a scene file goes in, a deforming organ comes out.",
     no_args_is_help=True,
-    add_completion=False,
+    add_completion=True,
     pretty_exceptions_enable=False,
     context_settings={"help_option_names": ["-h", "--help"]},
 )
-mesh_app = typer.Typer(help="Look at meshes and make them.", no_args_is_help=True)
 app.add_typer(mesh_app, name="mesh")
 bench_app = typer.Typer(help="Measure what accuracy costs.", no_args_is_help=True)
 app.add_typer(bench_app, name="bench")
 
 SceneFile = Annotated[Path, typer.Argument(metavar="SCENE", help="A scene (YAML).")]
-Debug = Annotated[bool, typer.Option("--debug", help="Show tracebacks.")]
-Lengths = tuple[str, str, str]
+TrustLaws = Annotated[
+    bool,
+    typer.Option(
+        "--trust-laws",
+        help="Run the scene's files of laws. They are programs: read them first.",
+    ),
+]
+AcceptUnconverged = Annotated[
+    bool,
+    typer.Option(
+        "--accept-unconverged", help="End with status 0 also where steps did not converge."
+    ),
+]
 
 
 @app.command()
@@ -55,6 +66,8 @@ def run(
         str | None,
         typer.Option(metavar="TIME", help="And whenever this simulated time has passed: '1 s'."),
     ] = None,
+    trust_laws: TrustLaws = False,
+    accept_unconverged: AcceptUnconverged = False,
     picture: Annotated[
         bool, typer.Option("--picture/--no-picture", help="Whether a picture is drawn at the end.")
     ] = True,
@@ -65,10 +78,11 @@ def run(
     from tissu.cli.run import Job, run_scene
 
     with reported(debug=debug):
+        more = (resume, checkpoint, checkpoint_every, trust_laws, accept_unconverged, picture)
         folder = out or Path("results") / scene.stem
-        again = (resume, checkpoint, checkpoint_every)
-        job = Job(scene, folder, duration, threads, quiet, *again, picture=picture)
-        raise typer.Exit(run_scene(job, debug=debug))
+        raise typer.Exit(
+            run_scene(Job(scene, folder, duration, threads, quiet, *more), debug=debug)
+        )
 
 
 @app.command()
@@ -82,13 +96,13 @@ def schema() -> None:
 
 
 @app.command()
-def check(scene: SceneFile, debug: Debug = False) -> None:
+def check(scene: SceneFile, trust_laws: TrustLaws = False, debug: Debug = False) -> None:
     """Say which effects a scene switches on and why, or what is wrong with it."""
     with reported(debug=debug):
         from tissu.errors import SceneError
         from tissu.front import Scene
 
-        found = Scene.from_yaml(scene).check()
+        found = Scene.from_yaml(scene, trust_laws=trust_laws).check()
         if found.problems:
             raise SceneError(found.problems)
         typer.echo(str(found))
@@ -130,13 +144,15 @@ def compare_command(
         Path | None,
         typer.Option("--out", "-o", help="Folder; default: results/SCENE-compare."),
     ] = None,
+    trust_laws: TrustLaws = False,
     debug: Debug = False,
 ) -> None:
     """Run a scene with each of several models; write a table and a figure."""
     with reported(debug=debug):
         from tissu.cli.compare import compare_scene
 
-        compare_scene(scene, models, reference, out or Path("results") / f"{scene.stem}-compare")
+        folder = out or Path("results") / f"{scene.stem}-compare"
+        compare_scene(scene, models, reference, folder, trust_laws=trust_laws)
 
 
 @bench_app.callback()
@@ -165,6 +181,7 @@ def bench_accuracy_command(
     out: Annotated[Path, typer.Option("--out", "-o", help="Folder of the results.")] = Path(
         "results/accuracy"
     ),
+    trust_laws: TrustLaws = False,
     debug: Debug = False,
 ) -> None:
     """Run cases with every element, law, model, method and solver; write tables and diagrams."""
@@ -174,7 +191,7 @@ def bench_accuracy_command(
         if listed:
             list_cases(folder)
             return
-        bench_accuracy(Job(cases or [], preset, folder, meshes, out))
+        bench_accuracy(Job(cases or [], preset, folder, meshes, out, trust_laws))
 
 
 @app.command("advise")
@@ -205,6 +222,7 @@ def advise_command(
         Path | None,
         typer.Option("--out", "-o", help="Folder; default: results/SCENE-advice."),
     ] = None,
+    trust_laws: TrustLaws = False,
     debug: Debug = False,
 ) -> None:
     """Find the cheapest setting that meets an error and a rate; write its scene and a table."""
@@ -212,71 +230,27 @@ def advise_command(
         from tissu.cli.advise import advise_scene
 
         folder = out or Path("results") / f"{scene.stem}-advice"
-        advise_scene(scene, error=error, rate=rate, budget=budget, models=models, out=folder)
+        goal = {"error": error, "budget": budget, "models": models}
+        advise_scene(scene, **goal, rate=rate, out=folder, trust_laws=trust_laws)
 
 
-@mesh_app.command("info")
-def mesh_info(
-    file: Annotated[Path, typer.Argument(metavar="FILE", help="A mesh of any known format.")],
-    unit: Annotated[str, typer.Option(help="Unit of length of the file.")] = "m",
-    scale: Annotated[float, typer.Option(help="Factor on all lengths.")] = 1.0,
+@app.command("example")
+def example_command(
+    name: Annotated[
+        str | None, typer.Argument(metavar="[NAME]", help="An example; absent: their names.")
+    ] = None,
+    out: Annotated[Path, typer.Option("--out", "-o", help="Folder of the copies.")] = Path(),
     debug: Debug = False,
 ) -> None:
-    """Counts, size, quality and faults of a mesh."""
+    """Copy an example's scene and meshes here, or print the names of all examples."""
     with reported(debug=debug):
-        from tissu.mesh import read_mesh
+        from tissu import examples
 
-        typer.echo(str(read_mesh(file, unit=unit, scale=scale).quality()))
-
-
-@mesh_app.command("bar")
-def mesh_bar(
-    size: Annotated[
-        Lengths, typer.Option(metavar="X Y Z", help="Lengths in m, or with a unit: 10cm 5cm 5cm.")
-    ],
-    cells: Annotated[tuple[int, int, int], typer.Option(metavar="X Y Z", help="Grid cells.")],
-    output: Annotated[Path, typer.Option("--output", "-o", metavar="FILE", help="The mesh.")],
-    cell: Annotated[
-        str | None,
-        typer.Option(help="tetra (the default), hexahedron, wedge, pyramid, hexahedron20, ..."),
-    ] = None,
-    split: Annotated[
-        str | None, typer.Option(help="six (the default), five or six_mirrored; of tetra.")
-    ] = None,
-    origin: Annotated[
-        Lengths, typer.Option(metavar="X Y Z", help="Smallest corner in m, or with a unit.")
-    ] = ("0", "0", "0"),
-    segments: Annotated[
-        str | None,
-        typer.Option(
-            help="Equal pieces along x instead of --cell, each with its cells and a label that "
-            "names its region: 'wedge6:stvk, pyramid5:stvk, hex8:stvk, tet4:hooke'."
-        ),
-    ] = None,
-    debug: Debug = False,
-) -> None:
-    """Make a bar of like cells, or of segments of different ones whose faces match."""
-    with reported(debug=debug):
-        from tissu.cli.mesh import Bar, lengths, made_bar, written
-
-        bar = Bar(lengths("--size", size), cells, lengths("--origin", origin))
-        written(made_bar(bar, cell=cell, split=split, segments=segments), output)
-
-
-@mesh_app.command("convert")
-def mesh_convert(
-    file: Annotated[Path, typer.Argument(metavar="FILE", help="A mesh of any known format.")],
-    output: Annotated[Path, typer.Option("--output", "-o", metavar="FILE", help="The mesh.")],
-    unit: Annotated[str, typer.Option(help="Unit of length of the file.")] = "m",
-    scale: Annotated[float, typer.Option(help="Factor on all lengths.")] = 1.0,
-    debug: Debug = False,
-) -> None:
-    """Write a mesh in another format, in metres and without the nodes that no cell uses."""
-    with reported(debug=debug):
-        from tissu.cli.mesh import written
-        from tissu.mesh import read_mesh
-
-        written(read_mesh(file, unit=unit, scale=scale).without_unused_nodes(), output)
+        if name is None:
+            typer.echo("\n".join(examples.names()))
+            return
+        for path in examples.copy(name, out):
+            typer.echo(f"written: {path}")
 
 
 def version(wanted: bool) -> None:

@@ -18,8 +18,8 @@ from tissu.accuracy.page import page
 from tissu.accuracy.table import to_csv, to_parquet
 from tissu.cli.info import machine_line
 from tissu.errors import ParameterError
+from tissu.files import whole_file
 from tissu.output import prepare_folder
-from tissu.output.folder import whole_file
 
 CASES = Path(__file__).resolve().parents[1] / "accuracy" / "cases"
 
@@ -34,6 +34,7 @@ class Job:
         cases: folder of cases; None: those that come with tissu.
         meshes: folder of mesh files that do not.
         out: folder of the results.
+        trust_laws: whether the files of laws of one's own cases may run.
     """
 
     names: list[str]
@@ -41,6 +42,7 @@ class Job:
     cases: Path | None
     meshes: Path | None
     out: Path
+    trust_laws: bool = False
 
 
 def list_cases(folder: Path | None) -> None:
@@ -70,7 +72,7 @@ def bench_accuracy(job: Job) -> None:
         if why:
             raise ParameterError(f"case {case.name} {why}")
         typer.echo(f"{case.name}: {case.title}")
-        one = study(case, preset, meshes=job.meshes, told=_told)
+        one = study(case, preset, meshes=job.meshes, trust_laws=job.trust_laws, told=_told)
         typer.echo(f"  {sentence(one)}\n")
         studies.append(one)
         _write(studies, folder)

@@ -9,7 +9,9 @@ import typer
 from tissu.output import prepare_folder
 
 
-def compare_scene(file: Path, models: str, reference: str, out: Path) -> None:
+def compare_scene(
+    file: Path, models: str, reference: str, out: Path, *, trust_laws: bool = False
+) -> None:
     """Runs the comparison and writes compare.csv, compare.md and compare.png.
 
     Raises:
@@ -18,14 +20,15 @@ def compare_scene(file: Path, models: str, reference: str, out: Path) -> None:
     """
     from tissu.comparison import compare
     from tissu.comparison.figure import draw
+    from tissu.files import require_folder_place, whole_file
     from tissu.front import Scene
-    from tissu.output.folder import whole_file
 
     asked = [name.strip() for name in models.split(",") if name.strip()]
-    scene = Scene.from_yaml(file)
-    against = (
-        Scene.from_yaml(reference) if Path(reference).suffix in (".yaml", ".yml") else reference
-    )
+    scene = Scene.from_yaml(file, trust_laws=trust_laws)
+    against: Scene | str = reference
+    if Path(reference).suffix in (".yaml", ".yml"):
+        against = Scene.from_yaml(reference, trust_laws=trust_laws)
+    require_folder_place(out, "output folder")
     found = compare(scene, models=asked, reference=against)
     folder = prepare_folder(out)
     for name, text in (("compare.csv", found.to_csv()), ("compare.md", found.to_markdown())):

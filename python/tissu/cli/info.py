@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from importlib import metadata
 from typing import Any
 
-PYTHON_LIBRARIES = ("numpy", "pydantic", "meshio", "matplotlib", "typer", "rich", "pint", "PyYAML")
+PYTHON_LIBRARIES = ("numpy", "pydantic", "meshio", "matplotlib", "typer", "rich", "PyYAML")
 
 
 def info_text() -> str:

@@ -1,4 +1,7 @@
-"""Ctrl-C (SIGINT) and SIGTERM: a run that is asked to stop completes its step and files first."""
+"""Ctrl-C (SIGINT), SIGTERM and SIGHUP: a run that is asked to stop completes its files first.
+
+It stops between two iterations of the step that it is in, and stands at the end of the one before.
+"""
 
 from __future__ import annotations
 
@@ -10,7 +13,11 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from types import FrameType
 
-_WORDS = {signal.SIGINT: "interrupted", signal.SIGTERM: "terminated"}
+_WORDS = {
+    signal.SIGINT: "interrupted",
+    signal.SIGTERM: "terminated",
+    signal.SIGHUP: "left by its terminal",
+}
 
 
 @dataclass(slots=True)
@@ -26,7 +33,7 @@ class Interruption:
 
     @property
     def code(self) -> int:
-        """Exit code by the shell's convention: 130 after Ctrl-C, 143 after SIGTERM."""
+        """Exit code, as shells have it: 130 after Ctrl-C, 143 after SIGTERM, 129 after SIGHUP."""
         return 128 + self.number
 
 
@@ -42,16 +49,25 @@ def interruption() -> Iterator[Interruption]:
         noted.number = number
         signal.signal(signal.SIGINT, signal.default_int_handler)
         signal.signal(signal.SIGTERM, signal.SIG_DFL)
+        # The terminal is gone: a second SIGHUP, of its session, is not another wish.
 
-    before = {number: signal.signal(number, note) for number in _WORDS}
+    from tissu import _core
+
+    # Who ignores a signal, as nohup does, goes on ignoring it.
+    heard = [number for number in _WORDS if signal.getsignal(number) is not signal.SIG_IGN]
+    before = {number: signal.signal(number, note) for number in heard}
+    _core.interrupt_on(heard)
     try:
         yield noted
     finally:
+        _core.interrupt_on([])
         for number, handler in before.items():
             signal.signal(number, handler)
 
 
 def leave(number: int, frame: FrameType | None) -> None:
-    """Handler of SIGTERM outside a run: there is nothing to complete."""
-    print("tissu: terminated, nothing was written", file=sys.stderr)
+    """Handler of SIGTERM and SIGHUP outside a run: there is nothing to complete."""
+    with contextlib.suppress(OSError):
+        word = _WORDS.get(signal.Signals(number), "terminated")
+        print(f"tissu: {word}, nothing was written", file=sys.stderr)
     raise SystemExit(128 + number)

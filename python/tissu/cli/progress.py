@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import sys
 import time
 from types import TracebackType
@@ -26,7 +27,7 @@ class RunProgress:
         self._progress: Progress | None = None
         self._begin = time.perf_counter()
         self._steps = 0
-        if not quiet and sys.stdout.isatty():
+        if not quiet and sys.stdout is not None and sys.stdout.isatty():
             self._progress = _columns()
             self._task = self._progress.add_task("run", total=duration, words="")
 
@@ -43,7 +44,8 @@ class RunProgress:
         trace: TracebackType | None,
     ) -> None:
         if self._progress is not None:
-            self._progress.stop()
+            with contextlib.suppress(OSError):  # of a terminal that is gone
+                self._progress.stop()
 
     def advance(self, simulated: float) -> None:
         """One more step, after which `simulated` seconds of the run are done."""
@@ -52,7 +54,8 @@ class RunProgress:
             elapsed = max(time.perf_counter() - self._begin, 1e-9)
             rate = (simulated - self._start) / elapsed
             words = progress_words(simulated, self._duration, self._steps / elapsed, rate)
-            self._progress.update(self._task, completed=simulated, words=words)
+            with contextlib.suppress(OSError):
+                self._progress.update(self._task, completed=simulated, words=words)
 
 
 def progress_words(simulated: float, duration: float, steps: float, rate: float) -> str:

@@ -12,11 +12,11 @@ from typing import TYPE_CHECKING, TypeVar
 
 from tissu.cli.checkpoints import Checkpoints, checkpoints_option, positive_time
 from tissu.cli.interruption import Interruption, interruption
-from tissu.cli.outcome import DIVERGED, FINISHED, complain
+from tissu.cli.outcome import BAD_INPUT, DIVERGED, FINISHED, UNCONVERGED, complain
 from tissu.cli.progress import RunProgress
 from tissu.cli.timetable import Timetable
 from tissu.counted import counted
-from tissu.errors import Diverged, TissuError
+from tissu.errors import CheckpointError, Diverged, TissuError
 from tissu.output import Series, StepTally, prepare_folder, summarise, write_summary
 
 if TYPE_CHECKING:
@@ -39,6 +39,8 @@ class Job:
     resume: Path | None = None
     checkpoint: Path | None = None
     checkpoint_every: str | None = None
+    trust_laws: bool = False
+    accept_unconverged: bool = False
     picture: bool = True
 
 
@@ -68,9 +70,10 @@ class Ending:
     """How a run ended.
 
     Attributes:
-        status: "finished", "interrupted", "diverged", or "stopped": a step was refused.
+        status: "finished", "unconverged": some steps did not converge, "interrupted", "diverged",
+            or "stopped": a step was refused, or results could not be written.
         code: exit code of the command.
-        message: why it is not finished.
+        message: why it is not finished, or what is wrong with its steps.
         error: what stopped it.
     """
 
@@ -91,22 +94,35 @@ def run_scene(job: Job, *, debug: bool = False) -> int:
     clock, tally = Clock(), StepTally()
     with clock.stage("compile"):
         scene = load(job)
-        folder = prepare_folder(job.out)
         checkpoints = checkpoints_option(job.checkpoint, job.checkpoint_every)
+        folder = prepare_folder(job.out)
         simulation = scene.compile(checkpoint=job.resume)
+    if not job.quiet:
+        for note in worth_knowing(simulation):
+            complain(f"note: {note}")
     with interruption() as interrupted:
         series = Series(simulation, folder)
         files = Files(series, checkpoints, Timetable(span(scene)[1]), clock)
         ending = advance(simulation, files, tally, interrupted, quiet=job.quiet)
-        picture = drawn(simulation, series, clock) if job.picture else None
-        conclude(simulation, series, tally, clock, ending, picture)
-    if not job.quiet:
-        report(simulation, series, tally, clock, picture)
+        ending = judged(ending, tally, accepted=job.accept_unconverged)
+        picture = None
+        if files.lost is None:
+            picture = drawn(simulation, series, clock) if job.picture else None
+            conclude(simulation, series, tally, clock, ending, picture)
+    if not job.quiet and files.lost is None:
+        with contextlib.suppress(BrokenPipeError):  # who reads it has left; the run ends as it did
+            report(simulation, series, tally, clock, picture)
     if ending.error is not None and debug:
         raise ending.error
     if ending.message:
         complain(ending.message)
     return ending.code
+
+
+def worth_knowing(simulation: Simulation) -> list[str]:
+    """What `tissu check` notes of the scene; which solver `auto` chose is no doubt about it."""
+    chosen = "step.solver: auto is "
+    return [note for note in simulation.plan().notes if not note.startswith(chosen)]
 
 
 def load(job: Job) -> Scene:
@@ -120,7 +136,8 @@ def load(job: Job) -> Scene:
     from tissu.yaml_io import read_scene
 
     duration = None if job.duration is None else positive_time(job.duration, "--duration")
-    scene = accepted(read_scene(job.scene, Scene, to_run=duration is None))
+    to_run = duration is None
+    scene = accepted(read_scene(job.scene, Scene, to_run=to_run, trust_laws=job.trust_laws))
     asked = {"duration": duration, "threads": job.threads}
     changes = {name: value for name, value in asked.items() if value is not None}
     return scene.replace(**changes) if changes else scene
@@ -134,6 +151,7 @@ class Files:
     checkpoints: Checkpoints
     times: Timetable
     clock: Clock
+    lost: TissuError | None = None
 
     def begin(self, simulation: Simulation) -> None:
         """Writes what a series begins with."""
@@ -143,19 +161,34 @@ class Files:
             self._write(simulation)
 
     def write_due(self, simulation: Simulation) -> None:
-        """Writes what is due after a step."""
-        if self.times.is_due(simulation.time):
-            self._write(simulation)
-            self.times.wait(simulation.time)
-        with self.clock.stage("output"):
-            self.checkpoints.write_due(simulation)
+        """Writes what is due after a step.
 
-    def end(self, simulation: Simulation, ending: Ending) -> None:
-        """Writes the last results, and the checkpoint of a run that can go on."""
-        self._write(simulation)
-        if ending.error is None:
+        Raises:
+            TissuError: it cannot be written; `lost` keeps why.
+        """
+        try:
+            if self.times.is_due(simulation.time):
+                self._write(simulation)
+                self.times.wait(simulation.time)
+            with self.clock.stage("output"):
+                self.checkpoints.write_due(simulation)
+        except TissuError as error:
+            self.lost = error
+            raise
+
+    def end(self, simulation: Simulation, ending: Ending) -> Ending:
+        """Writes the last results, and the checkpoint of a run that can go on; how it ends then."""
+        try:
+            if self.lost is None:
+                self._write(simulation)
+        except TissuError as error:
+            self.lost = error
+            ending = Ending("stopped", BAD_INPUT, str(error), error)
+        good = ending.error is None or ending.error is self.lost
+        if good and not isinstance(self.lost, CheckpointError):
             with self.clock.stage("output"):
                 self.checkpoints.write(simulation)
+        return ending
 
     def _write(self, simulation: Simulation) -> None:
         if simulation.time > self.series.last_time:
@@ -183,15 +216,31 @@ def advance(
                 progress.advance(simulation.time)
                 files.write_due(simulation)
                 if interrupted.number:
-                    when = f"{interrupted.word} at t = {simulation.time:.4g} s"
-                    text = f"{when}; all files are complete"
-                    ending = Ending("interrupted", interrupted.code, text)
                     break
+        except KeyboardInterrupt:  # between two iterations: the state is that of the step before
+            if not interrupted.number:
+                raise
         except TissuError as error:
             status = "diverged" if isinstance(error, Diverged) else "stopped"
-            ending = Ending(status, DIVERGED, str(error), error)
-    files.end(simulation, ending)
-    return ending
+            code = DIVERGED if files.lost is None else BAD_INPUT
+            ending = Ending(status, code, str(error), error)
+    if interrupted.number and ending.error is None:
+        when = f"{interrupted.word} at t = {simulation.time:.4g} s"
+        ending = Ending("interrupted", interrupted.code, f"{when}; all files are complete")
+    return files.end(simulation, ending)
+
+
+def judged(ending: Ending, tally: StepTally, *, accepted: bool) -> Ending:
+    """The ending of a run that took all its steps, some of which did not converge."""
+    if ending.status != "finished" or not tally.unconverged:
+        return ending
+    share = f"{tally.unconverged} of {counted(tally.steps, 'step')} did not converge"
+    text = f"{share}, the first: {tally.first_unconverged}"
+    if accepted:
+        return Ending("finished", FINISHED, f"{text}; accepted with --accept-unconverged")
+    text += "; the results are written and are not a solution: give the solver more iterations or "
+    text += "smaller steps, or accept them with --accept-unconverged"
+    return Ending("unconverged", UNCONVERGED, text)
 
 
 def span(scene: Scene) -> tuple[float, float]:
@@ -228,7 +277,8 @@ def conclude(
         status=ending.status,
         wall_seconds=clock.seconds,
         files=files,
-        notes=[note for note in (ending.message, series.inverted) if note],
+        why=ending.message,
+        notes=[*worth_knowing(simulation), *filter(None, (ending.message, series.inverted))],
     )
     write_summary(series.index.with_name("summary.json"), summary)
 

@@ -41,13 +41,14 @@ NAMES: dict[str, tuple[str, ...]] = {
         "refined",
     ),
     "user_law": ("law", "read_law"),
-    "simulation": ("Plan", "Profile", "Simulation", "StepReport"),
+    "field_names": ("FIELD_NAMES",),
+    "simulation": ("IntegrationPoints", "Plan", "Profile", "Simulation", "StepReport"),
     "comparison": ("Comparison", "compare"),
     "advice": ("Advice", "advise"),
     "picture": ("draw", "draw_overlay"),
 }
 """Room -> its public names, beside those of the parts of a scene."""
-MODULES = ("formula", "sampling")
+MODULES = ("examples", "formula", "sampling")
 """Public modules."""
 HEADINGS: dict[str, tuple[str, ...]] = {
     "The scene": ("scene",),

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from tissu.compile.doubts import doubts
 from tissu.compile.prepare import prepare
 from tissu.compile.solver import choice_of
 from tissu.effects import absent_of, effects_of
@@ -71,6 +72,7 @@ def check_of(prepared: Prepared) -> Check:
         problems=problems,
         notes=[
             *prepared.findings.notes,
+            *doubts(prepared),
             *([] if choice is None else [f"step.solver: auto is {choice.why}"]),
             *_outputs_between_steps(scene),
         ],

@@ -13,6 +13,7 @@ from tissu.compile.thin import check_law, material_volume
 from tissu.counted import are, counted
 from tissu.errors import ParameterError
 from tissu.mesh.mesh import first_five
+from tissu.scene.direction import scaled
 from tissu.scene.selection import region_cells
 
 if TYPE_CHECKING:
@@ -162,7 +163,7 @@ def fibres_of(laws: list[Law], owner: Ints) -> dict[str, Floats]:
         fibres = laws[number].fibres
         if fibres is None:
             return {}
-        rows.append([fibres.k1, fibres.k2, *fibres.direction])
+        rows.append([fibres.k1, fibres.k2, *scaled(fibres.direction)])
     names = ("k1", "k2", "direction_x", "direction_y", "direction_z")
     values = dict(zip(names, np.array(rows, dtype=float).T, strict=True))
     if len(used) == 1:

@@ -120,10 +120,11 @@ def _prepare_load(prepared: Prepared, path: Path, load: Load) -> None:
     faces: tuple[CellBlock, ...] = ()
     known = prepared.meshes[load.body]
     if load.on_surface and known.surface:
-        faces = selected_faces(nodes, known.mesh)
+        flat = getattr(prepared.scene.bodies.get(load.body), "plane", None) is not None
+        faces = selected_faces(nodes, known.mesh, flat=flat)
         if not faces:
             text = f"{_words(load.on)} selects {counted(len(nodes), 'node')} of body '{load.body}'"
-            text += ", but no face of its surface with all its nodes"
+            text += f", but no {'edge' if flat else 'face'} of its surface with all its nodes"
             prepared.findings.problem((*path, "on"), text)
             return
     prepared.loaded.append(LoadedNodes(load, path, nodes, faces))

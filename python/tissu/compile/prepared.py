@@ -178,8 +178,9 @@ class Prepared:
         }
         for loaded in self.loaded:
             faces = sum(len(block) for block in loaded.faces)
+            edges = any(dimension(block.type) == 1 for block in loaded.faces)
             text = (
-                counted(faces, "face")
+                counted(faces, "edge" if edges else "face")
                 if loaded.load.on_surface
                 else counted(len(loaded.nodes), "node")
             )

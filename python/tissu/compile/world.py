@@ -97,7 +97,8 @@ def build_world(prepared: Prepared) -> Any:
         support.add_to(builder, held.nodes, frames=frames)
     for loaded in prepared.loaded:
         load = loaded.load
-        where = Where(prepared.meshes[load.body].mesh, loaded.nodes, loaded.faces)
+        mesh, thickness = prepared.meshes[load.body].mesh, _rim_thickness(prepared, load.body)
+        where = Where(mesh, loaded.nodes, loaded.faces, thickness)
         load.add_to(builder, where, number=int(loaded.path[1]))
     return builder.build()
 
@@ -134,7 +135,7 @@ def _add_body(builder: WorldBuilder, prepared: Prepared, name: str) -> None:
             reinforcements=[("fibre", group.fibres)] if group.fibres else [],
             loaded=None if group.made is None else group.made.build().loaded,
             cross_section=np.array([cross_section_of(body, group.cell_type)]),
-            plane=Plane.strain if body.plane == "strain" and group.surface else Plane.stress,
+            plane=getattr(Plane, body.plane) if body.plane and group.surface else Plane.free,
             model=group.model.in_core(kept_nodes(prepared, name, group)),
         )
     if body.viscosity is not None:
@@ -160,3 +161,11 @@ def _add_tissue(builder: WorldBuilder, prepared: Prepared, name: str) -> None:
         density=ready.density,
         model=Frames(tangent=tissue.tangent).in_core(np.empty(0, dtype=np.int32)),
     )
+
+
+def _rim_thickness(prepared: Prepared, name: str) -> float:
+    """Thickness [m] of the edges of a flat body; 0 of others, whose surface is made of faces."""
+    body = prepared.scene.bodies.get(name)
+    if body is None or body.plane is None or body.thickness is None:
+        return 0.0
+    return body.thickness

@@ -24,6 +24,7 @@ from tissu.mesh.cut import into_pyramids, into_wedges
 from tissu.mesh.flat_bar import flat_bar_mesh
 from tissu.mesh.mesh import Mesh
 from tissu.mesh.quadratic import into_quadratic
+from tissu.mesh.room import require_room
 
 Split = Literal["six", "five", "six_mirrored"]
 
@@ -132,4 +133,5 @@ def counts(cells: Sequence[int]) -> tuple[int, int, int]:
         raise ParameterError(f"found cells {cells!r}; three whole numbers are accepted") from None
     if min(x, y, z) < 1 or max(x, y, z) > np.iinfo(np.int32).max:
         raise ParameterError(f"found cells {(x, y, z)}; three numbers from 1 on are accepted")
+    require_room((x, y, z))
     return x, y, z

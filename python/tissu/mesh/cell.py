@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tissu import _core
+from tissu.arrays import real_array
 from tissu.errors import MeshError
 
 Floats = NDArray[np.float64]
@@ -106,7 +107,7 @@ class CellBlock:
 
     def __post_init__(self) -> None:
         dimension(self.type)
-        given = np.asarray(self.nodes)
+        given = real_array(self.nodes, "node numbers", error=MeshError)
         with np.errstate(invalid="ignore"):
             whole = given.size == 0 or bool(np.all(given == np.floor(given)))
         if not whole or (given.size and np.abs(given).max() > np.iinfo(np.int32).max):

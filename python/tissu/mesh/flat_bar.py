@@ -9,6 +9,7 @@ import numpy as np
 from tissu.errors import ParameterError
 from tissu.mesh.cell import CellBlock, Floats, thin_types
 from tissu.mesh.mesh import Mesh
+from tissu.mesh.room import require_room
 
 # Nodes of the cells of one grid cell, by their places in it in halves of its edges.
 _CELLS: dict[str, tuple[tuple[tuple[int, int], ...], ...]] = {
@@ -56,6 +57,7 @@ def flat_bar_mesh(
                 f"and {3 - dimension} of 0 behind are accepted"
             )
     nx, ny = counts[:2]
+    require_room((nx, ny, 0))
     points, width = _lattice(lengths, nx, ny, origin), 2 * nx + 1
     rows, columns = np.mgrid[: max(ny, 1), :nx].reshape(2, -1)
     first = 2 * rows * width + 2 * columns

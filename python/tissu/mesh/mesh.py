@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from tissu import _core
+from tissu.arrays import real_array
 from tissu.counted import counted
 from tissu.errors import MeshError
 from tissu.mesh import surface as surfaces
@@ -63,7 +64,8 @@ class Mesh:
     notes: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
-        points = np.array(self.points, dtype=np.float64, order="C")
+        given_points = real_array(self.points, "points", error=MeshError)
+        points = np.array(given_points, dtype=np.float64, order="C")
         if points.ndim != 2 or points.shape[1] != 3:
             raise MeshError(f"found points of shape {points.shape}; an array (n, 3) is accepted")
         points.flags.writeable = False
@@ -254,7 +256,8 @@ def _block(given: object) -> CellBlock:
 
 def _region(name: str, cells: Ints, count: int) -> Ints:
     """The numbers of a region's cells, of `count` there are, increasing and read-only."""
-    numbers = np.unique(np.asarray(cells, dtype=np.int32)).astype(np.int32)
+    given = real_array(cells, f"cells of region '{name}'", error=MeshError)
+    numbers = np.unique(np.asarray(given, dtype=np.int32)).astype(np.int32)
     if len(numbers) and not 0 <= numbers[0] <= numbers[-1] < count:
         raise MeshError(
             f"region '{name}' has cells from {numbers[0]} to {numbers[-1]}; "

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from tissu import _core
 from tissu.counted import are, counted
 from tissu.errors import MeshError, ParameterError
+from tissu.files.place import kind_of_place, reason_of, shown_path
 from tissu.mesh.cell import CellBlock, Floats, Ints, dimension
 from tissu.mesh.format import reader, sniffed
 from tissu.mesh.mesh import Mesh, first_five
@@ -64,10 +65,15 @@ def _factor(unit: str, scale: float) -> float:
 
 
 def _existing(path: Path) -> Path:
-    if path.is_dir():
-        raise MeshError(f"{path} is a folder; the path of a mesh file is accepted")
-    if not path.exists():
+    try:
+        kind = kind_of_place(path)
+    except (OSError, ValueError) as error:
+        why = reason_of(error)
+        raise MeshError(f"{shown_path(path)} cannot be read: {why}; name another file") from None
+    if kind == "nothing":
         raise MeshError(f"{path} does not exist; the path of a mesh file is accepted")
+    if kind != "a file":
+        raise MeshError(f"{path} is {kind}; the path of a mesh file is accepted")
     if path.stat().st_size == 0:
         raise MeshError(f"{path} is empty; a mesh file is accepted")
     return path

@@ -17,7 +17,9 @@ from tissu.mesh.cell import cell_table, dimension
 from tissu.mesh.raw import RawMesh, tagged_regions
 from tissu.mesh.truncated import finite
 
-_MARK = "region:"  # cell data of this name say which cells are in a region; write_mesh makes them
+REGION_MARK = (
+    "region:"  # cell data of this name say which cells are in a region; write_mesh makes them
+)
 
 # Cell data that number the regions, and whether 0 means none.
 _TAGS = {
@@ -142,8 +144,8 @@ def _regions(mesh: Any) -> dict[str, list[NDArray[np.bool_]]]:
             if name not in _TAGS or any(block.ndim != 1 for block in values):
                 continue
             values = [np.nan_to_num(block).astype(np.int64) for block in values]
-        if name.startswith(_MARK):
-            found[name.removeprefix(_MARK)] = [block != 0 for block in values]
+        if name.startswith(REGION_MARK):
+            found[name.removeprefix(REGION_MARK)] = [block != 0 for block in values]
         elif name in _TAGS:
             found |= _tagged(mesh, name, values)
     sizes = [len(block.data) for block in mesh.cells]
@@ -207,5 +209,5 @@ def region_marks(
                 column[inside - first] = 1
                 first += len(block)
             columns.append(column)
-        marks[_MARK + name] = columns
+        marks[REGION_MARK + name] = columns
     return marks

@@ -40,9 +40,24 @@ def _keys(kind: str, nodes: Ints) -> list[tuple[int, ...]]:
     return [tuple(row) for row in np.sort(nodes[:, : _CORNERS[kind]], axis=1).tolist()]
 
 
-def nodal_areas(mesh: Mesh, faces: tuple[CellBlock, ...]) -> Floats:
-    """Each node's share (n,) of the area of the faces [m2], the integral of N_a."""
+def nodal_areas(mesh: Mesh, faces: tuple[CellBlock, ...], *, thickness: float = 0.0) -> Floats:
+    """Each node's share (n,) of the area of the faces [m2], the integral of N_a.
+
+    Edges of a flat body have its thickness [m].
+    """
     shares = np.zeros(mesh.node_count)
     for block in faces:
-        shares += _core.face_areas(type=block.type, positions=mesh.points, faces=block.nodes)
+        shares += _core.face_areas(
+            type=block.type, positions=mesh.points, faces=block.nodes, thickness=thickness
+        )
+    return shares
+
+
+def nodal_normals(mesh: Mesh, faces: tuple[CellBlock, ...], *, thickness: float = 0.0) -> Floats:
+    """Each node's share (n, 3) of the outward normal of the faces [m2], the integral of N_a n."""
+    shares = np.zeros((mesh.node_count, 3))
+    for block in faces:
+        shares += _core.face_normals(
+            type=block.type, positions=mesh.points, faces=block.nodes, thickness=thickness
+        )
     return shares

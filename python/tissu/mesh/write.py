@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from tissu.errors import MeshError
+from tissu.files import require_file_place, whole_file
 from tissu.mesh.cell import dimension, handled_types
 from tissu.mesh.mesh import Mesh
 from tissu.mesh.through_meshio import endings, formats, library, quiet, region_marks
@@ -29,28 +30,36 @@ def write_mesh(mesh: Mesh, path: str | os.PathLike[str]) -> None:
         MeshError: no such format, a format that cannot hold this mesh, or a file that cannot be
             written.
     """
-    meshio = library()
-    file = Path(path)
-    names = formats(file)
-    if not names:
-        raise MeshError(
-            f"{file}: no format has the ending '{file.suffix}'; accepted: {' '.join(endings())}"
-        )
-    name = names[0]
+    file = require_file_place(path, error=MeshError)
+    name = _format(file)
     if name in _SURFACE_ONLY and any(dimension(block.type) == 3 for block in mesh.cells):
         raise MeshError(
             f"{file}: {file.suffix} holds surfaces only; write mesh.surface_mesh(), or the whole "
             "mesh as .vtu"
         )
     cells = [(block.type, block.nodes) for block in mesh.cells]
-    content = meshio.Mesh(mesh.points, cells, **_regions(mesh, name, file))
-    with quiet():
+    content = library().Mesh(mesh.points, cells, **_regions(mesh, name, file))
+    with quiet(), whole_file(file, error=MeshError) as partial:
         try:
-            meshio.write(file, content, file_format="gmsh22" if name == "gmsh" else name)
-        except OSError as error:
-            raise MeshError(f"{file} cannot be written: {error.strerror or error}") from None
+            library().write(partial, content, file_format="gmsh22" if name == "gmsh" else name)
+        except OSError:
+            raise
         except (Exception, SystemExit) as error:  # meshio's writers raise anything
             raise MeshError(f"{file} cannot be written as {name}: {error}") from None
+
+
+def _format(file: Path) -> str:
+    """The name of the format that the ending asks for.
+
+    Raises:
+        MeshError: there is none.
+    """
+    names = formats(file)
+    if not names:
+        raise MeshError(
+            f"{file}: no format has the ending '{file.suffix}'; accepted: {' '.join(endings())}"
+        )
+    return names[0]
 
 
 def _regions(mesh: Mesh, name: str, file: Path) -> dict[str, Any]:

@@ -1,59 +1,52 @@
-"""The folder of results, refused before the run when not writable, and files that are whole."""
+"""The folder of results, refused before the run when it cannot be written."""
 
 from __future__ import annotations
 
-import contextlib
-import os
-import re
 import tempfile
-from collections.abc import Iterator
 from os import PathLike
 from pathlib import Path
 
 from tissu.errors import TissuError
+from tissu.files import require_folder_place
+from tissu.files.place import reason_of
 
 
 def prepare_folder(path: str | PathLike[str]) -> Path:
     """Makes the folder and tries it.
 
     Raises:
-        TissuError: it cannot be made or written.
+        TissuError: something else lies there, or it cannot be made or written.
     """
-    folder = Path(path)
+    folder = require_folder_place(path, "output folder")
     try:
         folder.mkdir(parents=True, exist_ok=True)
         with tempfile.TemporaryFile(dir=folder):
             pass
-    except FileExistsError:
+    except (OSError, ValueError) as refused:
         raise TissuError(
-            f"output folder {folder}: it is a file, a folder is accepted; name another with --out"
-        ) from None
-    except OSError as error:
-        why = error.strerror or str(error)
-        raise TissuError(
-            f"output folder {folder}: cannot be written ({why}); name another with --out"
+            f"output folder {folder}: cannot be written ({reason_of(refused)}); "
+            "name another with --out"
         ) from None
     return folder
 
 
-@contextlib.contextmanager
-def whole_file(path: Path) -> Iterator[Path]:
-    """A temporary name to write to; the file gets its own name when complete, or is never there.
+def inner_folder(folder: Path, name: str) -> Path:
+    """Makes a folder within a folder of results, which must still be there.
 
     Raises:
-        TissuError: it cannot be written, a full disk for one.
+        TissuError: the folder of results was taken away, something else lies there, or it cannot
+            be made.
     """
-    partial = path.with_name(f".{path.name}.{os.getpid()}")
+    inner = require_folder_place(folder / name, "output folder", within=True)
     try:
-        yield partial
-        partial.replace(path)
-    except OSError as error:
-        raise TissuError(f"{path}: cannot be written ({error.strerror or error})") from None
-    finally:
-        with contextlib.suppress(OSError):
-            partial.unlink(missing_ok=True)
-
-
-def file_name(name: str) -> str:
-    """A name of a scene or body as part of a file name."""
-    return re.sub(r"[^\w.-]+", "_", name).strip("._") or "scene"
+        inner.mkdir(exist_ok=True)
+    except FileNotFoundError:
+        raise TissuError(
+            f"output folder {folder}: it was taken away while the scene ran, and what was written "
+            "there with it; run the scene again with a folder that stays"
+        ) from None
+    except OSError as refused:
+        raise TissuError(
+            f"output folder {inner}: cannot be written ({reason_of(refused)})"
+        ) from None
+    return inner

@@ -12,14 +12,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tissu.counted import counted
-from tissu.output.folder import file_name, whole_file
+from tissu.files import distinct_names, file_name, require_folder_place, whole_file
+from tissu.files.whole import clear_unfinished
+from tissu.output.folder import inner_folder
+from tissu.output.vtu_fields import cell_data, node_data
 
 if TYPE_CHECKING:
     from tissu.mesh import Mesh
     from tissu.simulation import Simulation
 
 FRAMES = "frames"
-_CELL_FIELDS = {"von_mises": "von_mises", "energy_density": "strain_energy_density"}
 Floats = NDArray[np.float64]
 
 
@@ -27,9 +29,9 @@ class Series:
     """Writes the bodies of a simulation at the times `write` is called.
 
     The points are where the nodes are at that time; point fields: displacement [m] and velocity
-    [m/s]; cell fields: strain_energy_density [J/m^3], and von_mises [Pa] of models that know
-    it. Of connective tissue its integration points. After each call all files are complete and
-    the index lists all of them.
+    [m/s]; cell fields: strain_energy_density [J/m^3], and von_mises [Pa] of models that know it,
+    or those that the scene's `output` names. Of connective tissue its integration points. After
+    each call all files are complete and the index lists all of them.
 
     Attributes:
         index: the PVD file.
@@ -50,6 +52,8 @@ class Series:
         self._simulation = simulation
         self._folder = Path(folder)
         self._entries: list[str] = []
+        require_folder_place(self._folder / FRAMES, "output folder", within=True)
+        self._names = distinct_names([*simulation.meshes, *simulation.tissue])
         self.index = self._folder / f"{file_name(simulation.scene.name)}.pvd"
         self.count = 0
         self.last_time = -1.0
@@ -57,6 +61,8 @@ class Series:
         if simulation.resumed_from is not None:
             self._continue(len(simulation.meshes) + len(simulation.tissue))
         _clear(self.index, kept=self._entries)
+        for folder in (self._folder, self._folder / FRAMES):
+            clear_unfinished(folder)
 
     def write(self) -> None:
         """Writes the present state of every body.
@@ -65,9 +71,9 @@ class Series:
             TissuError: a file cannot be written.
         """
         simulation = self._simulation
-        (self._folder / FRAMES).mkdir(exist_ok=True)
+        inner_folder(self._folder, FRAMES)
         for part, body in enumerate([*simulation.meshes, *simulation.tissue]):
-            name = f"{FRAMES}/{file_name(body)}_{self.count:05d}.vtu"
+            name = f"{FRAMES}/{self._names[body]}_{self.count:05d}.vtu"
             if body in simulation.tissue:
                 write_points(self._folder / name, simulation, body)
             else:
@@ -132,11 +138,10 @@ def write_vtu(path: Path, mesh: Mesh, simulation: Simulation, body: str) -> dict
         point_data={
             "displacement": np.array(simulation.displacements(body)),
             "velocity": np.array(simulation.velocities[body]),
+            **node_data(simulation, body, fields),
         },
         cell_data={
-            written: by_block(fields[name])
-            for name, written in _CELL_FIELDS.items()
-            if name in fields
+            name: by_block(values) for name, values in cell_data(simulation, body, fields).items()
         },
     )
     with whole_file(path) as partial:
@@ -158,7 +163,9 @@ def write_points(path: Path, simulation: Simulation, tissue: str) -> None:
         now,
         [("vertex", np.arange(len(now))[:, None])],
         point_data={"displacement": now - simulation.points(tissue, rest=True)},
-        cell_data={new: [fields[name]] for name, new in _CELL_FIELDS.items() if name in fields},
+        cell_data={
+            name: [values] for name, values in cell_data(simulation, tissue, fields).items()
+        },
     )
     with whole_file(path) as partial:
         meshio.write(partial, result, file_format="vtu")

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from pydantic import BaseModel
 
-from tissu.output.folder import whole_file
+from tissu.files import whole_file
 
 if TYPE_CHECKING:
     from tissu.mesh import Mesh
@@ -61,6 +61,7 @@ def summarise(
     status: str,
     wall_seconds: Mapping[str, float],
     files: Mapping[str, str],
+    why: str = "",
     notes: Sequence[str] = (),
 ) -> dict[str, Any]:
     """The summary as data; numbers in SI.
@@ -68,9 +69,11 @@ def summarise(
     Args:
         simulation: at the end of its run.
         tally: the steps of the run.
-        status: "finished", "interrupted", "diverged", or "stopped": a step was refused.
+        status: "finished", "unconverged": some steps did not converge, "interrupted", "diverged",
+            or "stopped": a step was refused, or results could not be written.
         wall_seconds: wall time by stage of the run: compile, steps, output, picture.
         files: what was written, by kind, relative to the folder of the summary.
+        why: what is wrong, where it is not finished or some steps did not converge.
         notes: sentences worth knowing.
     """
     from tissu import _core
@@ -80,6 +83,7 @@ def summarise(
     return {
         "tissu": build.pop("version", ""),
         "status": status,
+        "why": why,
         "build": {**build, "python": platform.python_version(), "numpy": np.__version__},
         "machine": {"processor": platform.machine(), "system": platform.system()},
         "threads": simulation.scene.threads,

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import contextlib
 import logging
-import os
 from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -13,6 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tissu.errors import TissuError
+from tissu.files import require_file_place, whole_file
+from tissu.files.place import reason_of
 from tissu.picture.camera import Camera
 
 if TYPE_CHECKING:
@@ -129,16 +130,13 @@ def save(figure: Figure, path: Path) -> None:
     Raises:
         TissuError: the file cannot be written.
     """
-    partial = path.with_name(f".{path.name}.{os.getpid()}")
+    require_file_place(path, "picture")
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
-        figure.savefig(partial, format="png", dpi=DPI, facecolor=PAPER)
-        partial.replace(path)
     except OSError as error:
-        raise TissuError(f"picture {path}: cannot be written ({error.strerror or error})") from None
-    finally:
-        with contextlib.suppress(OSError):
-            partial.unlink(missing_ok=True)
+        raise TissuError(f"picture {path}: cannot be written ({reason_of(error)})") from None
+    with whole_file(path) as partial:
+        figure.savefig(partial, format="png", dpi=DPI, facecolor=PAPER)
 
 
 def round_below(value: float) -> float:

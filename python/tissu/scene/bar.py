@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 from pydantic import BeforeValidator, Field
 
 from tissu import units
-from tissu.reading import Read
+from tissu.reading import Read, listed
 from tissu.scene.field import field
 from tissu.scene.part import Part
 from tissu.scene.problem import Problem
@@ -58,7 +58,7 @@ class BarMesh(Part):
     type: Literal["bar"] = "bar"
     size: units.Position
     """lengths along x, y, z [m]; z is 0 for triangles and quads, y and z for lines"""
-    cells: Annotated[_Counts, BeforeValidator(units.listed)]
+    cells: Annotated[_Counts, BeforeValidator(listed)]
     """numbers of boxes along x, y, z; 0 where the length is 0"""
     cell: BarCell = "tetra"
     """cell type"""

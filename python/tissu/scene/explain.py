@@ -12,8 +12,8 @@ from typing import Any
 from pydantic import ValidationError
 from pydantic_core import ErrorDetails, InitErrorDetails, PydanticCustomError
 
+from tissu.reading import written
 from tissu.scene.problem import Problem, nearest_word
-from tissu.units import written
 
 _EXPLAINED = "tissu"  # mark of an error whose text is already a plain sentence
 

@@ -30,12 +30,14 @@ class Where(NamedTuple):
     Attributes:
         mesh: of the body.
         nodes: the selected ones (k,).
-        faces: of a load on the surface, whole and outward.
+        faces: of a load on the surface, whole and outward; of a flat body the edges of its rim.
+        thickness: of those edges [m]; 0 of faces.
     """
 
     mesh: Mesh
     nodes: Ints
     faces: tuple[CellBlock, ...]
+    thickness: float = 0.0
 
 
 class Load(Part):
@@ -123,7 +125,10 @@ class Moment(Load):
 
 
 class Traction(Load):
-    """A force per rest area that keeps its direction, on faces whose nodes are all selected."""
+    """A force per rest area that keeps its direction, on faces whose nodes are all selected.
+
+    Of a flat body (`plane`): on edges of its rim.
+    """
 
     called: ClassVar[str] = "traction"
     on_surface: ClassVar[bool] = True
@@ -135,25 +140,45 @@ class Traction(Load):
         """Put it on its body in the world."""
         from tissu.mesh.whole_faces import nodal_areas
 
-        shares = nodal_areas(where.mesh, where.faces)
+        shares = nodal_areas(where.mesh, where.faces, thickness=where.thickness)
         nodes = np.flatnonzero(shares).astype(np.int32)
         forces = shares[nodes, None] * np.array(self.traction)
         builder.add_load(nodes=nodes, forces=forces, moments=False, **self._shared(number))
 
 
 class Pressure(Load):
-    """A pressure that follows the surface, on faces whose nodes are all selected."""
+    """A pressure that follows the surface, on faces whose nodes are all selected.
+
+    Of a flat body (`plane`): on edges of its rim, per length along it and thickness at rest.
+    """
 
     called: ClassVar[str] = "pressure"
     on_surface: ClassVar[bool] = True
     type: Literal["pressure"] = "pressure"
     pressure: units.Pressure
     """pressure [Pa], positive inwards"""
+    follows: bool = True
+    """whether it stays normal to the surface as it moves; false: a dead pressure, along the normal
+    and over the area at rest
+    """
 
     def add_to(self, builder: WorldBuilder, where: Where, *, number: int) -> None:
         """Put it on its body in the world."""
-        blocks = [(block.type, block.nodes) for block in where.faces]
-        builder.add_pressure(faces=blocks, pressure=self.pressure, **self._shared(number))
+        from tissu.mesh.whole_faces import nodal_normals
+
+        if self.follows:
+            blocks = [(block.type, block.nodes) for block in where.faces]
+            builder.add_pressure(
+                faces=blocks,
+                pressure=self.pressure,
+                thickness=where.thickness,
+                **self._shared(number),
+            )
+            return
+        normals = nodal_normals(where.mesh, where.faces, thickness=where.thickness)
+        nodes = np.flatnonzero(normals.any(axis=1)).astype(np.int32)
+        forces = -self.pressure * normals[nodes]
+        builder.add_load(nodes=nodes, forces=forces, moments=False, **self._shared(number))
 
 
 def _equal_shares(total: tuple[float, float, float], count: int) -> Floats:

@@ -19,11 +19,12 @@ from pydantic import (
 from typing_extensions import Self, dataclass_transform
 
 from tissu.errors import ParameterError, SceneError
+from tissu.reading import written
+from tissu.scene.bounds import count_problem
 from tissu.scene.explain import explained, failure, meaning
 from tissu.scene.field import field
 from tissu.scene.problem import Problem, nearest, nearest_word, one_of_words
 from tissu.scene.unknown import Unknown, Unread, below, nested, rules_of, told
-from tissu.units import written
 
 KEEP_PROBLEMS = "keep_problems"
 """Key of the validation context: a part with problems is kept for what is known of it."""
@@ -85,9 +86,13 @@ class Part(BaseModel):
         if isinstance(value, Unread):
             return value
         try:
-            return handler(value)
+            read = handler(value)
         except ValidationError as error:
             return Unread(tuple(explained(error, value)))
+        except OverflowError:
+            return Unread((Problem((), f"found {written(value)}, which is too large"),))
+        large = count_problem(read)
+        return Unread((Problem((), large),)) if large else read
 
     @model_validator(mode="wrap")
     @classmethod

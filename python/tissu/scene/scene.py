@@ -11,16 +11,18 @@ from pydantic import AfterValidator, BeforeValidator, Field, PrivateAttr, Valida
 from typing_extensions import Self
 
 from tissu import units
+from tissu.field_names import FIELD_NAMES, WRITTEN_BESIDE
 from tissu.reading import Maybe, MaybeVector, Read
 from tissu.scene.body import Body, PathLike
+from tissu.scene.bounds import name_problem, step_problems
 from tissu.scene.field import field
 from tissu.scene.load import Load, OneLoad
-from tissu.scene.part import Part
+from tissu.scene.part import Part, problems_in
 from tissu.scene.problem import Problem, Source, nearest, one_of_words
 from tissu.scene.step import OneStep
 from tissu.scene.support import Fixed, Prescribed
 from tissu.scene.tissue import Tissue, tissues_of
-from tissu.scene.unknown import Unknown, rule
+from tissu.scene.unknown import Unknown, below, rule
 
 if TYPE_CHECKING:
     from tissu.user_law.made import MadeLaw
@@ -41,6 +43,28 @@ class Output(Part):
 
     every: units.Time = field(gt=0.0)
     """simulated time between two written results [s]"""
+    fields: Read[tuple[str, ...] | None, Sequence[str] | None] = field(default=None)
+    """fields of `Simulation.field` at cells, such as cauchy_stress; `regions`: which cells are in
+    each; `reactions`: forces, and moments, that supports give to the nodes; absent: von_mises, and
+    energy_density by the name strain_energy_density
+    """
+    node_fields: Read[tuple[str, ...], Sequence[str]] = field(default=())
+    """fields of `Simulation.field` at nodes"""
+
+    @rule("fields")
+    def _fields_are_known(self) -> Iterator[Problem]:
+        yield from _unknown_fields("fields", self.fields or (), (*FIELD_NAMES, *WRITTEN_BESIDE))
+
+    @rule("node_fields")
+    def _node_fields_are_known(self) -> Iterator[Problem]:
+        yield from _unknown_fields("node_fields", self.node_fields, FIELD_NAMES)
+
+
+def _unknown_fields(place: str, given: Sequence[str], known: Sequence[str]) -> Iterator[Problem]:
+    for number, name in enumerate(given):
+        if name not in known:
+            text = f"no field is named '{name}'{nearest(name, known)} Fields: {one_of_words(known)}"
+            yield Problem((place, number), text)
 
 
 def _by_name(bodies: object) -> object:
@@ -78,14 +102,15 @@ class SceneData(Part):
     """how time is stepped, such as {type: implicit_euler, dt: 10 ms}"""
     duration: Maybe[units.Time] = field(default=None, gt=0.0)
     """simulated time of a run [s]"""
-    threads: Annotated[int, Field(ge=1)] = 1
+    threads: Annotated[int, Field(ge=1, le=1024)] = 1
     """number of threads"""
     editing: bool = False
     """whether cells may be removed while it runs"""
     output: Output | None = None
     """what is written while it runs"""
     laws: Read[tuple[LawFile, ...], Sequence[PathLike]] = field(default=())
-    """Python files with laws of one's own, for the bodies of a YAML scene; the files are run"""
+    """Python files with laws of one's own, in the scene's folder or below; they are programs and
+    run only with `--trust-laws`, or `trust_laws=True`"""
     _source: Source | None = PrivateAttr(default=None)
 
     @rule()
@@ -114,6 +139,28 @@ class SceneData(Part):
                         text = f"no body is named '{body}'{nearest(body, self.bodies)} "
                         text += f"Bodies: {one_of_words(self.bodies)}"
                         yield Problem(("tissue", name, "between", end), text)
+
+    @rule("duration")
+    def _ends(self) -> Iterator[Problem]:
+        """A number of steps that a run can take."""
+        dt = getattr(self.step, "dt", None)
+        if isinstance(dt, float) and self.duration is not None:
+            yield from below("step", step_problems(self.duration, dt))
+
+    @rule()
+    def _has_names_to_write(self) -> Iterator[Problem]:
+        """Names that can stand in files and messages."""
+        named = [(("name",), getattr(self, "name", ""))]
+        for group in ("bodies", "tissue"):
+            named += [((group,), name) for name in getattr(self, group, {})]
+        for path, name in named:
+            text = name_problem(name)
+            if text:
+                yield Problem(path, text)
+
+    def _refusal(self) -> list[str]:
+        """Everything that is wrong with it, as far as its fields say."""
+        return [str(problem) for problem in problems_in(self)]
 
     def __eq__(self, other: object) -> bool:
         """Whether all fields are equal; where the scenes and laws were written does not count."""

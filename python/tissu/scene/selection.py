@@ -11,7 +11,8 @@ from pydantic import BeforeValidator, Field
 
 from tissu import units
 from tissu.errors import ParameterError
-from tissu.reading import Maybe, Read, VectorLike
+from tissu.reading import Maybe, Read, VectorLike, listed
+from tissu.scene.direction import unit_vector
 from tissu.scene.field import field
 from tissu.scene.part import Part, one_of
 from tissu.scene.problem import Problem, nearest, one_of_words
@@ -120,8 +121,8 @@ class Sphere(_Place):
     """radius [m]"""
 
     def _inside(self, points: Floats, size: float) -> Bools:
-        far = np.linalg.norm(points - self.center, axis=1)
-        return np.asarray(far <= self.radius + _SLACK * size)
+        x, y, z = (points - self.center).T
+        return np.asarray(np.hypot(np.hypot(x, y), z) <= self.radius + _SLACK * size)
 
 
 class Plane(_Place):
@@ -142,7 +143,7 @@ class Plane(_Place):
             yield Problem((), text)
 
     def _inside(self, points: Floats, size: float) -> Bools:
-        normal = np.asarray(self.normal) / np.linalg.norm(self.normal)
+        normal = unit_vector(self.normal)
         tolerance = 1e-6 * size if self.tolerance is None else self.tolerance + _SLACK * size
         return np.asarray(np.abs((points - self.point) @ normal) <= tolerance)
 
@@ -154,7 +155,7 @@ class Nodes(Selection):
     """Nodes by their numbers in the mesh, from 0."""
 
     type: Literal["nodes"] = "nodes"
-    ids: Annotated[_Numbers, BeforeValidator(units.listed)] = field(kw_only=False)
+    ids: Annotated[_Numbers, BeforeValidator(listed)] = field(kw_only=False)
     """numbers of the nodes, from 0"""
 
     def nodes(self, mesh: Mesh) -> Ints:

@@ -13,6 +13,7 @@ from tissu import units
 from tissu.counted import counted
 from tissu.errors import ParameterError
 from tissu.reading import Many, MaybeVectors
+from tissu.scene.direction import scaled
 from tissu.scene.effect import Effect
 from tissu.scene.field import field
 from tissu.scene.part import Part
@@ -181,5 +182,5 @@ class Prescribed(Support):
             displacements=np.zeros((len(self.times), 3)) if moves is None else np.array(moves),
             angles=still if turn is None else np.array(turn.angles),
             center=np.zeros(3) if turn is None else np.array(turn.center),
-            axis=np.array([0.0, 0.0, 1.0] if turn is None else turn.axis),
+            axis=scaled((0.0, 0.0, 1.0) if turn is None else turn.axis),
         )

@@ -63,8 +63,14 @@ class Entered(Protocol):
 
 
 def one_thread_at_a_time(cls: type[T]) -> type[T]:
-    """The class, with every public method and property behind the door `_entry` of its object."""
-    for name, member in list(vars(cls).items()):
+    """The class, with every public method and property behind the door `_entry` of its object.
+
+    Inherited ones too.
+    """
+    members: dict[str, Any] = {}
+    for base in reversed(cls.__mro__):
+        members.update(vars(base))
+    for name, member in members.items():
         if name.startswith("_"):
             continue
         if isinstance(member, property):

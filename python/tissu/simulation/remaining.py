@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from tissu.arrays import real_array
 from tissu.errors import ParameterError
 
 if TYPE_CHECKING:
@@ -22,7 +23,7 @@ def removed_cells(meshes: Mapping[str, Mesh], body: str, cells: ArrayLike) -> ND
     Raises:
         ParameterError: they are no whole numbers, there is no such body, or no cell would be left.
     """
-    given = np.atleast_1d(np.asarray(cells))
+    given = np.atleast_1d(real_array(cells, "cells"))
     if given.size and not np.issubdtype(given.dtype, np.integer):
         raise ParameterError(f"found cells of type {given.dtype}; whole numbers are accepted")
     if body not in meshes:

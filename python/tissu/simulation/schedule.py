@@ -5,6 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Protocol
 
+from tissu.errors import ParameterError
+
+MOST_STEPS = 1_000_000_000
+
 
 class Stepped(Protocol):
     """What is stepped."""
@@ -20,6 +24,11 @@ class Stepped(Protocol):
 
 def steps_of(span: float, dt: float, *, taken: int = 0) -> Iterator[float]:
     """The steps [s] that make up a span of time [s], without the first ones that were taken."""
+    if not span <= dt * MOST_STEPS:
+        raise ParameterError(
+            f"found steps of {dt:g} s for {span:g} s, which is more than {MOST_STEPS:.0e} steps; "
+            "take larger steps, or a shorter run"
+        )
     # A remainder of more than a millionth of a step is a step of its own.
     whole = int(span / dt * (1.0 + 1e-12) + 1e-6)
     for _ in range(taken, whole):

@@ -6,15 +6,16 @@ import os
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NoReturn, SupportsIndex
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from tissu import _core, units
 from tissu.counted import counted
-from tissu.errors import ParameterError
+from tissu.errors import CheckpointError, ParameterError, TissuError
 from tissu.simulation.entry import Entry, one_thread_at_a_time
+from tissu.simulation.inspected import Inspected
 from tissu.simulation.plan import Plan
 from tissu.simulation.profile import Profile, profile_of
 from tissu.simulation.remaining import keep_cells, removed_cells
@@ -28,14 +29,13 @@ if TYPE_CHECKING:
     from tissu.mesh import Mesh
 
 Floats = NDArray[np.float64]
-Ints = NDArray[np.int32]
 
 _SHARE_OF_STABLE = 0.9
 """of the stable step, for the step auto: room for what the body stiffens in between"""
 
 
 @one_thread_at_a_time
-class Simulation:
+class Simulation(Inspected):
     """A compiled scene that can be stepped; made by `Scene.compile()`.
 
     One thread at a time may call it: while one is in a method, another one gets a `BusyError`.
@@ -89,6 +89,17 @@ class Simulation:
         how = step.type + ("" if dt is None else f" dt {dt}" if dt == "auto" else f" dt {dt:g} s")
         when = f"t = {self._core.time:.6g} s after {steps}"
         return f"Simulation('{self.scene.name}', {when}; {bodies}; {how})"
+
+    def __reduce_ex__(self, protocol: SupportsIndex) -> NoReturn:
+        """Refused: a copy would step the same state. `copy.copy`, `deepcopy` and `pickle` ask here.
+
+        Raises:
+            TissuError: always.
+        """
+        raise TissuError(
+            "a simulation cannot be copied or pickled; compile its scene again, from a file of "
+            "save_checkpoint to go on where it stands"
+        )
 
     @property
     def meshes(self) -> Mapping[str, Mesh]:
@@ -254,46 +265,9 @@ class Simulation:
             raise ParameterError(text)
         return found
 
-    def reactions(self, body: str) -> Floats:
-        """Forces (n, 3) that supports and led nodes give to a body [N]; zero where nothing is held.
-
-        M dv/dt - f, with the change of velocity of the latest step; in equilibrium minus the sum of
-        the elastic and external forces.
-
-        Raises:
-            ParameterError: no body of that name.
-        """
-        self._require_body(body)
-        first, count = self._core.body_range(body)
-        return self._core.reactions()[first : first + count]
-
     def energy(self) -> dict[str, float]:
         """Kinetic, elastic and potential energy, and their total [J]."""
         return self._core.energy()
-
-    def cell_fields(self, body: str) -> dict[str, Floats]:
-        """Mean values over each cell of a body, in the order of its mesh's volume cells.
-
-        Returns:
-            von_mises: of the Cauchy stress (e,) [Pa], absent where the model of some of its cells
-            has none; energy_density: per rest volume (e,) [J/m^3];
-            volume_ratio: det F (e,).
-
-        Raises:
-            ParameterError: no body of that name.
-        """
-        self._require_body(body)
-        self._core.settle()
-        fields = self._core.cell_fields(body)
-        order = np.argsort(self._core.remaining_cells(body), kind="stable")
-        return {name: values[order] for name, values in fields.items()}
-
-    def inverted_cells(self, body: str) -> Ints:
-        """Numbers (k,) of the cells of a body that are inside out: their mean det F is not above 0.
-
-        Looked for only when asked: a step does not pay for it.
-        """
-        return np.flatnonzero(self.cell_fields(body)["volume_ratio"] <= 0.0).astype(np.int32)
 
     def largest_frequency(self) -> float:
         """The largest eigenfrequency omega of the free nodes at the present state [rad/s].
@@ -351,10 +325,6 @@ class Simulation:
         self._core.remove_cells(body=body, cells=removed_cells(self._meshes, body, cells))
         self._follow_cells(body)
 
-    def _require_body(self, name: str) -> None:
-        if name not in self._positions:
-            raise ParameterError(f"found body '{name}'; accepted: {', '.join(self._positions)}")
-
     def _follow_cells(self, body: str) -> None:
         remaining = np.sort(self._core.remaining_cells(body))
         if len(remaining) < self._meshes[body].cell_count:
@@ -362,7 +332,10 @@ class Simulation:
 
     def _go_on_from(self, checkpoint: Checkpoint) -> None:
         checkpoint.require(self._physics())
-        self._core.restore(dict(checkpoint.snapshot))
+        try:
+            self._core.restore(dict(checkpoint.snapshot))
+        except TissuError as error:  # of a file that was made up: of another scene is told above
+            raise CheckpointError(f"checkpoint {checkpoint.file}: {error}") from None
         self._steps = checkpoint.steps
         for body in self._rest:
             self._follow_cells(body)

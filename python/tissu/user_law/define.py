@@ -17,6 +17,7 @@ from tissu.errors import LawError
 from tissu.scene.law import UserLaw
 from tissu.scene.laws import built_in_names
 from tissu.user_law.made import MadeLaw
+from tissu.user_law.running import as_law_errors
 from tissu.user_law.scene_class import scene_class
 
 if TYPE_CHECKING:
@@ -98,6 +99,8 @@ def law(
 def read_law(path: str | os.PathLike[str]) -> type[UserLaw]:
     """A law of one's own from a Python file of the form of tissu/codegen/laws; the file is run.
 
+    Read files of others before: they can do whatever a program can.
+
     The file's name is the law's. PARAMETERS, CONSTANTS, ENERGY, a docstring and, where there are
     some, REQUIREMENTS and FRAME_INVARIANT are read; SMALL_STRAIN may be left out.
 
@@ -105,25 +108,26 @@ def read_law(path: str | os.PathLike[str]) -> type[UserLaw]:
         LawError: the file cannot be read or run, or its law is refused; see `law`.
     """
     _need_sympy()
-    from tissu.codegen import definition
-
     file = Path(path)
     if not file.is_file():
         raise LawError(
             f"{file}: no such file; a Python file with the formula of a law is accepted."
         )
     _check_name(file.stem)
-    try:
-        found = definition.read_law(file, limit=False)
-    except LawError:
-        raise
-    except Exception as error:  # the file is a program: anything may go wrong in it
-        raise LawError(f"{file}: {type(error).__name__}: {error}") from error
+    with as_law_errors(file):
+        made, text = _law_of_file(file)
+        return _class_of(made, text=text, given=True, file=file)
+
+
+def _law_of_file(file: Path) -> tuple[Law, str]:
+    """Runs the file: its law in the generator's words, and its documentation."""
+    from tissu.codegen import definition
+    from tissu.user_law.formula import in_words
+
+    found = definition.read_law(file, limit=False)
     if found.addition:
         raise LawError(f"{file}: ADDITION = True; a law that stands alone is accepted.")
     _check_parameters(found.name, found.parameters)
-    from tissu.user_law.formula import in_words
-
     energy = in_words(found.energy, law=found.name, place="the energy")
     stored = {
         name: in_words(expression, law=found.name, place=f"the constant {name}")
@@ -132,7 +136,7 @@ def read_law(path: str | os.PathLike[str]) -> type[UserLaw]:
     made = replace(
         found, class_name="Material", text="", formula=str(energy), energy=energy, constants=stored
     )
-    return _class_of(made, text=found.text, given=True, file=file)
+    return made, found.text
 
 
 def law_from_record(record: Mapping[str, Any]) -> type[UserLaw]:

@@ -13,6 +13,7 @@ import numpy as np
 from tissu.errors import LawError, ParameterError, TissuError
 from tissu.user_law.cache import library_for
 from tissu.user_law.compiler import find_compiler, flags_for
+from tissu.user_law.library_image import library_image
 
 if TYPE_CHECKING:
     from tissu._core import LoadedLaw
@@ -82,15 +83,17 @@ class MadeLaw:
         from tissu._core import LoadedLaw
 
         compiler, flags = find_compiler(), flags_for(instruction_set)
-        path = library_for(self.name, self.source, compiler, flags)
+        data = library_for(self.name, self.source, compiler, flags)
         try:
-            loaded = LoadedLaw(path=str(path))
-        except TissuError:  # a file that was cut off, or comes from another machine
-            path = library_for(self.name, self.source, compiler, flags, again=True)
+            loaded = LoadedLaw(path=library_image(self.name, data))
+        except TissuError:  # made on another machine, whose user has the same folder
+            data = library_for(self.name, self.source, compiler, flags, again=True)
             try:
-                loaded = LoadedLaw(path=str(path))
-            except TissuError as error:
+                loaded = LoadedLaw(path=library_image(self.name, data))
+            except (TissuError, OSError) as error:
                 raise LawError(f"{self.name}: {error}") from None
+        except OSError as error:
+            raise LawError(f"{self.name}: the library cannot be loaded: {error}") from None
         return Build(loaded, compiler.version, " ".join(flags))
 
     def check(self, parameters: Mapping[str, float]) -> None:

@@ -1,6 +1,6 @@
 #pragma once
 
-/// A block matrix as a dense one.
+/// A block matrix as a dense one, its couplings included.
 
 #include "tissu/assembly/block_matrix.h"
 
@@ -10,14 +10,15 @@ inline Eigen::MatrixXd dense(const BlockMatrix& matrix) {
   const Sparsity& pattern = matrix.sparsity();
   Eigen::MatrixXd result = Eigen::MatrixXd::Zero(3 * matrix.rows(), 3 * matrix.rows());
   for (std::int32_t row = 0; row < matrix.rows(); ++row) {
-    for (auto s = pattern.row_begin[static_cast<std::size_t>(row)];
-         s < pattern.row_begin[static_cast<std::size_t>(row) + 1]; ++s) {
+    for (auto s = pattern.begin_of(row); s < pattern.end_of(row); ++s) {
       result.block<3, 3>(3 * row, 3 * pattern.column[static_cast<std::size_t>(s)]) =
           Eigen::Map<const Mat3>(matrix.values() + 9 * s);
     }
   }
-  for (const ExtraBlock& extra : matrix.extra()) {
-    result.block<3, 3>(3 * extra.row, 3 * extra.column) += Eigen::Map<const Mat3>(extra.values.data());
+  if (matrix.couplings() != nullptr) {
+    matrix.couplings()->for_blocks([&](std::int32_t row, std::int32_t column, const Mat3& value) {
+      result.block<3, 3>(3 * row, 3 * column) += value;
+    });
   }
   return result;
 }

@@ -41,6 +41,28 @@ TEST(Sparsity, MayBeEmpty) {
   EXPECT_EQ(pattern.blocks(), 0);
 }
 
+/// Rows of an open pattern have the same columns, and room behind them.
+TEST(Sparsity, LeavesRoomWhereItIsAskedFor) {
+  const Mesh mesh = box_mesh(Vec3::Zero(), Vec3::Ones(), {3, 3, 3}, Split::six);
+  SparsityBuilder builder(mesh.node_count());
+  builder.add_cells(mesh.blocks[0].nodes, 4);
+  const Sparsity closed = builder.build();
+  const Sparsity open = builder.build(0.25);
+  EXPECT_TRUE(closed.open_end.empty());
+  EXPECT_EQ(closed.row_end(), closed.row_begin.data() + 1);
+  for (std::int32_t row = 0; row < closed.rows(); ++row) {
+    const std::int64_t length = closed.end_of(row) - closed.begin_of(row);
+    ASSERT_EQ(open.end_of(row) - open.begin_of(row), length);
+    const std::int64_t room = open.row_begin[static_cast<std::size_t>(row) + 1] - open.end_of(row);
+    EXPECT_EQ(room, (length + 3) / 4);
+    for (std::int32_t column = 0; column < closed.rows(); ++column) {
+      const std::int32_t slot = closed.slot(row, column);
+      const auto expected = slot < 0 ? -1 : slot - closed.begin_of(row) + open.begin_of(row);
+      EXPECT_EQ(open.slot(row, column), expected);
+    }
+  }
+}
+
 /// An inner node of a grid of hexahedra has 27 neighbours, a corner 8; of the diagonal split 15 and 5 to 8.
 TEST(Sparsity, OfGrids) {
   for (const Split split : {Split::none, Split::six}) {

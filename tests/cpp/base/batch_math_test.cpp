@@ -8,6 +8,7 @@
 #include <limits>
 #include <vector>
 
+#include "base/kernel_sets.h"
 #include "batch_math_lanes.h"
 #include "random.h"
 #include "tissu/base/isa.h"
@@ -25,13 +26,7 @@ using Reference = long double (*)(long double);
 
 class BatchMathTest : public testing::TestWithParam<Isa> {
  protected:
-  static BatchMath math() {
-#ifdef TISSU_X86_KERNELS
-    if (GetParam() == Isa::avx512) return avx512::batch_math();
-    if (GetParam() == Isa::avx2) return avx2::batch_math();
-#endif
-    return baseline::batch_math();
-  }
+  static BatchMath math() { return TISSU_KERNELS_OF(GetParam(), batch_math()); }
 
   static std::vector<double> of(BatchMath::Function f, std::vector<double> x) {
     x.resize((x.size() + 7) / 8 * 8, 1.0);

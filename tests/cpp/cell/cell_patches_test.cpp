@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 
+#include "../force/room.h"
 #include "../model/corotational/corotational_sample.h"
 #include "tissu/mesh/topology.h"
 #include "tissu/model/dilatation/mean_dilatation.h"
@@ -91,7 +92,7 @@ TEST_P(CellPatches, HangTogetherByFaces) {
 TEST_P(CellPatches, RemovedCellsLeaveTheOthersWhereTheyAre) {
   ElasticBlock block = test::corotational_block(box_, GetParam());
   block.law = "stvk";
-  block.model.name = "mean-dilatation";
+  block.model = MeanDilatationOptions{};
   const MeanDilatation whole(block, box_.positions, choose_isa(), Threads(1));
   EXPECT_EQ(whole.patches(), of_cell_);
   std::vector<std::int32_t> removed;
@@ -112,8 +113,8 @@ TEST_P(CellPatches, RemovedCellsLeaveTheOthersWhereTheyAre) {
   test::Random random(3);
   for (double& x : state.positions) x += random.number(0.05);
   const std::vector<double> p = random.numbers(state.positions.size());
-  const double slope =
-      test::derivative([&](double t) { return left->energy(test::moved(state, p, t)); }, 1e-3);
+  const double slope = test::derivative(
+      [&](double t) { return left->energy(test::moved(state, p, t), test::scratch()); }, 1e-3);
   const Eigen::VectorXd f = test::force_of(*left, state);
   EXPECT_NEAR(-f.dot(test::view(p)), slope, 1e-8 * f.norm() * test::view(p).norm());
 }

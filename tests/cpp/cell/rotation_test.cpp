@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "../base/random.h"
+#include "base/kernel_sets.h"
 #include "rotation_lanes.h"
 #include "tissu/base/isa.h"
 
@@ -42,13 +43,7 @@ constexpr double kProper = 1e-13;
 
 class RotationTest : public testing::TestWithParam<Isa> {
  protected:
-  static Rotations rotations() {
-#ifdef TISSU_X86_KERNELS
-    if (GetParam() == Isa::avx512) return avx512::rotations();
-    if (GetParam() == Isa::avx2) return avx2::rotations();
-#endif
-    return baseline::rotations();
-  }
+  static Rotations rotations() { return TISSU_KERNELS_OF(GetParam(), rotations()); }
   static std::vector<Mat3> of(Rotations::Function f, const std::vector<Mat3>& F) {
     const std::size_t count = (F.size() + 7) / 8 * 8;
     std::vector<double> in(9 * count, 0.5);

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "../model/projection_sample.h"
+#include "base/kernel_sets.h"
 #include "projection_lanes.h"
 
 namespace tissu {
@@ -18,13 +19,7 @@ constexpr std::size_t kSizes[] = {3, 6, 9, 24};
 
 class Semidefinite : public testing::TestWithParam<Isa> {
  protected:
-  static test::Projections projections() {
-#ifdef TISSU_X86_KERNELS
-    if (GetParam() == Isa::avx512) return avx512::projections();
-    if (GetParam() == Isa::avx2) return avx2::projections();
-#endif
-    return baseline::projections();
-  }
+  static test::Projections projections() { return TISSU_KERNELS_OF(GetParam(), projections()); }
   static std::vector<Mat3> columns(const std::vector<double>& values, std::size_t count) {
     std::vector<Mat3> result(count);
     for (std::size_t i = 0; i < count; ++i) {

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "tissu/edit/remove_cells.h"
+#include "tissu/force/links.h"
 #include "tissu/mesh/box.h"
 #include "tissu/mesh/topology.h"
 
@@ -65,7 +66,7 @@ void Bar::add_body(std::string_view model, std::string_view law) {
   BodyDescription other = body();
   other.name = "other";
   other.elastic.front().law = law;
-  other.elastic.front().model.name = model;
+  other.elastic.front().model = options_named(model);
   world.bodies.push_back(std::move(other));
 }
 
@@ -148,7 +149,8 @@ void add_frame(Bar& bar) {
 void add_link(Bar& bar) {
   bar.world.links = true;
   bar.once = [](Simulation& simulation) {
-    simulation.world().links()->add({0}, {simulation.world().body("bar").node_count - 1}, 1.0);
+    LinkTable(simulation.memory(Links::kMemory))
+        .add({0}, {simulation.world().body("bar").node_count - 1}, 1.0);
   };
 }
 

@@ -72,7 +72,7 @@ void add_condensed(Bar& bar) {
   const std::vector<std::int32_t> other_end = bar.end(kSize.x());
   kept.insert(kept.end(), other_end.begin(), other_end.end());
   std::ranges::sort(kept);
-  bar.world.bodies.back().elastic.front().model.kept = std::move(kept);
+  bar.world.bodies.back().elastic.front().model = CondensedOptions{.kept = std::move(kept)};
 }
 
 struct Recipe {

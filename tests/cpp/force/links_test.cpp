@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "../world/sample_worlds.h"
+#include "room.h"
 #include "verbs.h"
 
 namespace tissu {
@@ -26,6 +27,9 @@ class LinksTest : public testing::Test {
     }
     state_.velocities.assign(18, 0.0);
     state_.rotations = {random_.rotation(), random_.rotation()};
+    MemoryPlaces places;
+    links_.claim_memory(places);
+    state_.memory = places.at_rest();
   }
   Vec3 position(const LinkPoint& p) const {
     const Vec3 origin = block(ConstReals(state_.positions), p.block);
@@ -37,45 +41,45 @@ class LinksTest : public testing::Test {
     move(state_, frames_, p, t, to);
     return to;
   }
+  LinkTable table() { return LinkTable(state_.memory[0]); }
   Eigen::MatrixXd stiffness(const Links& links) const {
     return test::stiffness_of(links, state_, {1.0, 0.0}, SparsityBuilder(6).build());
   }
   static LinkPoint on_frame(std::int32_t frame, const Vec3& place) { return {2 + 2 * frame, frame, place}; }
 
   test::Random random_{41};
+  Links links_;
   std::vector<Frame> frames_;
   State state_;
 };
 
 TEST_F(LinksTest, PullsNodesTogether) {
-  Links links;
-  EXPECT_EQ(links.add({0}, {1}, 5.0), 0);
-  EXPECT_EQ(links.size(), 1U);
+  EXPECT_EQ(table().add({0}, {1}, 5.0), 0);
+  EXPECT_EQ(table().size(), 1U);
   const Vec3 expected = 5.0 * (position({1}) - position({0}));
-  const Eigen::VectorXd f = force_of(links, state_);
+  const Eigen::VectorXd f = force_of(links_, state_);
   EXPECT_LT((f.segment<3>(0) - expected).norm(), 1e-15);
   EXPECT_LT((f.segment<3>(3) + expected).norm(), 1e-15);
   EXPECT_EQ(f.tail(12).norm(), 0.0);
-  EXPECT_NEAR(links.energy(state_), 0.5 * expected.squaredNorm() / 5.0, 1e-14);
+  EXPECT_NEAR(links_.energy(state_, test::scratch()), 0.5 * expected.squaredNorm() / 5.0, 1e-14);
 }
 
 // Rotations are not polynomials: the differences err by h^4 / 30 of the fifth derivative (of size 30 here),
 // 1e-12 at h = 1e-3, and by round-off, 1e-16 x energy (20) / h.
 TEST_F(LinksTest, ForceIsMinusGradientOfEnergy) {
-  Links links;
-  links.add(on_frame(0, {0.3, -0.2, 0.5}), on_frame(1, {0.1, 0.4, -0.6}), 3.0);
-  links.add({0}, on_frame(1, {-0.5, 0.2, 0.1}), 2.0);
-  links.add(on_frame(0, {0.2, 0.2, 0.2}), {1}, 4.0);
+  table().add(on_frame(0, {0.3, -0.2, 0.5}), on_frame(1, {0.1, 0.4, -0.6}), 3.0);
+  table().add({0}, on_frame(1, {-0.5, 0.2, 0.1}), 2.0);
+  table().add(on_frame(0, {0.2, 0.2, 0.2}), {1}, 4.0);
   for (int i = 0; i < 5; ++i) {
     const std::vector<double> p = random_.numbers(18);
-    const double slope = derivative([&](double t) { return links.energy(moved_by(p, t)); }, 1e-3);
-    EXPECT_NEAR(force_of(links, state_).dot(view(p)), -slope, 1e-10);
+    const double slope =
+        derivative([&](double t) { return links_.energy(moved_by(p, t), test::scratch()); }, 1e-3);
+    EXPECT_NEAR(force_of(links_, state_).dot(view(p)), -slope, 1e-10);
   }
 }
 
 /// -k J^T J is the whole derivative where the link has no length.
 TEST_F(LinksTest, ProductIsDerivativeAtZeroElongation) {
-  Links links;
   const Vec3 meeting(0.1, 0.2, 0.3);
   const auto place = [&](std::int32_t frame) {
     const Vec3 origin = block(ConstReals(state_.positions), 2 + 2 * frame);
@@ -83,33 +87,32 @@ TEST_F(LinksTest, ProductIsDerivativeAtZeroElongation) {
                     state_.rotations[static_cast<std::size_t>(frame)].conjugate() * (meeting - origin));
   };
   block(Reals(state_.positions), 1) = meeting;
-  links.add(place(0), place(1), 3.0);
-  links.add({1}, place(0), 2.0);
-  links.add(place(1), {1}, 4.0);
-  EXPECT_LT(links.energy(state_), 1e-30);
+  table().add(place(0), place(1), 3.0);
+  table().add({1}, place(0), 2.0);
+  table().add(place(1), {1}, 4.0);
+  EXPECT_LT(links_.energy(state_, test::scratch()), 1e-30);
   for (int i = 0; i < 5; ++i) {
     const std::vector<double> p = random_.numbers(18);
-    const Eigen::VectorXd slope = derivative([&](double t) { return force_of(links, moved_by(p, t)); }, 1e-3);
-    EXPECT_LT((product_of(links, state_, {1.0, 0.0}, p) - slope).cwiseAbs().maxCoeff(), 1e-9);
+    const Eigen::VectorXd slope =
+        derivative([&](double t) { return force_of(links_, moved_by(p, t)); }, 1e-3);
+    EXPECT_LT((product_of(links_, state_, {1.0, 0.0}, p) - slope).cwiseAbs().maxCoeff(), 1e-9);
   }
 }
 
 TEST_F(LinksTest, ProductIsDerivativeBetweenNodesAtAnyLength) {
-  Links links;
-  links.add({0}, {1}, 5.0);
+  table().add({0}, {1}, 5.0);
   const std::vector<double> p = random_.numbers(18);
-  const Eigen::VectorXd slope = derivative([&](double t) { return force_of(links, moved_by(p, t)); }, 0.1);
-  EXPECT_LT((product_of(links, state_, {1.0, 0.0}, p) - slope).cwiseAbs().maxCoeff(), 1e-13);
+  const Eigen::VectorXd slope = derivative([&](double t) { return force_of(links_, moved_by(p, t)); }, 0.1);
+  EXPECT_LT((product_of(links_, state_, {1.0, 0.0}, p) - slope).cwiseAbs().maxCoeff(), 1e-13);
 }
 
 TEST_F(LinksTest, MatrixIsProductSymmetricAndSemiDefinite) {
-  Links links;
-  links.add(on_frame(0, {0.3, -0.2, 0.5}), on_frame(1, {0.1, 0.4, -0.6}), 3.0);
-  links.add({0}, on_frame(1, {-0.5, 0.2, 0.1}), 2.0);
-  links.add({0}, {1}, 2.0);
-  const Eigen::MatrixXd K = stiffness(links);
+  table().add(on_frame(0, {0.3, -0.2, 0.5}), on_frame(1, {0.1, 0.4, -0.6}), 3.0);
+  table().add({0}, on_frame(1, {-0.5, 0.2, 0.1}), 2.0);
+  table().add({0}, {1}, 2.0);
+  const Eigen::MatrixXd K = stiffness(links_);
   const std::vector<double> p = random_.numbers(18);
-  EXPECT_LT((K * view(p) - product_of(links, state_, {1.0, 0.0}, p)).norm(), 1e-13);
+  EXPECT_LT((K * view(p) - product_of(links_, state_, {1.0, 0.0}, p)).norm(), 1e-13);
   EXPECT_LT((K - K.transpose()).norm(), 1e-14);
   for (int i = 0; i < 20; ++i) {
     const std::vector<double> q = random_.numbers(18);
@@ -119,10 +122,9 @@ TEST_F(LinksTest, MatrixIsProductSymmetricAndSemiDefinite) {
 
 /// A link inside the body feels no rigid motion of both ends together: no force on the sum, no moment.
 TEST_F(LinksTest, ForcesBalance) {
-  Links links;
-  links.add(on_frame(0, {0.3, -0.2, 0.5}), on_frame(1, {0.1, 0.4, -0.6}), 3.0);
-  links.add({0}, on_frame(1, {-0.5, 0.2, 0.1}), 2.0);
-  const Eigen::VectorXd f = force_of(links, state_);
+  table().add(on_frame(0, {0.3, -0.2, 0.5}), on_frame(1, {0.1, 0.4, -0.6}), 3.0);
+  table().add({0}, on_frame(1, {-0.5, 0.2, 0.1}), 2.0);
+  const Eigen::VectorXd f = force_of(links_, state_);
   Vec3 sum = Vec3::Zero();
   Vec3 moment = f.segment<3>(9) + f.segment<3>(15);
   for (const std::int32_t i : {0, 1, 2, 4}) {
@@ -135,18 +137,16 @@ TEST_F(LinksTest, ForcesBalance) {
 }
 
 TEST_F(LinksTest, MayBeCleared) {
-  Links links;
-  links.add({0}, {1}, 5.0);
-  links.clear();
-  EXPECT_EQ(links.size(), 0U);
-  EXPECT_EQ(force_of(links, state_).norm(), 0.0);
+  table().add({0}, {1}, 5.0);
+  table().clear();
+  EXPECT_EQ(table().size(), 0U);
+  EXPECT_EQ(force_of(links_, state_).norm(), 0.0);
 }
 
 TEST_F(LinksTest, RefusesStiffnessThatIsNotPositive) {
-  Links links;
-  EXPECT_THROW(links.add({0}, {1}, 0.0), ParameterError);
-  EXPECT_THROW(links.add({0}, {1}, -1.0), ParameterError);
-  EXPECT_THROW(links.add({0}, {1}, std::numeric_limits<double>::quiet_NaN()), ParameterError);
+  EXPECT_THROW(table().add({0}, {1}, 0.0), ParameterError);
+  EXPECT_THROW(table().add({0}, {1}, -1.0), ParameterError);
+  EXPECT_THROW(table().add({0}, {1}, std::numeric_limits<double>::quiet_NaN()), ParameterError);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 
 #include "../world/sample_worlds.h"
+#include "room.h"
 #include "tissu/force/gravity.h"
 #include "tissu/mesh/topology.h"
 #include "verbs.h"
@@ -81,7 +82,8 @@ TEST_F(LoadTest, GravityIsMassTimesAcceleration) {
     EXPECT_LT((f.segment<3>(3 * i) - masses[static_cast<std::size_t>(i)] * g).norm(), 1e-15);
   }
   const std::vector<double> p = any();
-  const double slope = derivative([&](double t) { return gravity.energy(moved(state(), p, t)); }, 0.1);
+  const double slope =
+      derivative([&](double t) { return gravity.energy(moved(state(), p, t), test::scratch()); }, 0.1);
   EXPECT_NEAR(f.dot(view(p)), -slope, 1e-11);  // energy of size 100, h of 0.1: 1e-13; two digits more
   EXPECT_EQ(gravity.kind(), ForceKind::external);
   EXPECT_FALSE(gravity.has_stiffness());
@@ -98,7 +100,8 @@ TEST_F(LoadTest, NodalLoadFollowsItsHistoryAndTheLoadFactor) {
   EXPECT_NEAR(f.norm(), 0.25 * std::sqrt(91.0), 1e-15);
   now.load_factor = 1.0;
   const std::vector<double> p = any();
-  const double slope = derivative([&](double t) { return load.energy(moved(now, p, t)); }, 0.1);
+  const double slope =
+      derivative([&](double t) { return load.energy(moved(now, p, t), test::scratch()); }, 0.1);
   EXPECT_NEAR(force_of(load, now).dot(view(p)), -slope, 1e-12);
   EXPECT_EQ(load.effect(), "hand");
 }
@@ -154,12 +157,14 @@ TEST_F(LoadTest, PressureOnAClosedSurfaceHasAnEnergy) {
   State now = state();
   now.time = 0.5;
   const std::vector<double> p = any();
-  const double slope = derivative([&](double t) { return pressure.energy(moved(now, p, t)); }, 1e-2);
+  const double slope =
+      derivative([&](double t) { return pressure.energy(moved(now, p, t), test::scratch()); }, 1e-2);
   EXPECT_NEAR(force_of(pressure, now).dot(view(p)), -slope, 1e-11);
   const Mesh box = box_mesh(Vec3(1, 2, 3), Vec3(2, 3, 4), {2, 2, 2}, Split::six);
   State rest;
   rest.positions = box.positions;
-  EXPECT_NEAR(Pressure("p", faces(boundary_surface(box).triangles), 2.0, {}).energy(rest), 48.0, 1e-12);
+  EXPECT_NEAR(Pressure("p", faces(boundary_surface(box).triangles), 2.0, {}).energy(rest, test::scratch()),
+              48.0, 1e-12);
 }
 
 TEST_F(LoadTest, PressureProductIsDerivativeOnAClosedSurface) {

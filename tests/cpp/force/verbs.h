@@ -4,20 +4,21 @@
 
 #include "../assembly/dense.h"
 #include "../base/differences.h"
+#include "room.h"
 #include "tissu/force/force_model.h"
 
 namespace tissu::test {
 
 inline Eigen::VectorXd force_of(const ForceModel& model, const State& state) {
   std::vector<double> f(state.positions.size(), 0.0);
-  model.add_force(state, f);
+  model.add_force(state, test::scratch(), f);
   return view(f);
 }
 
 inline Eigen::VectorXd product_of(const ForceModel& model, const State& state, StiffnessScale scale,
                                   ConstReals p) {
   std::vector<double> out(p.size(), 0.0);
-  model.add_product(state, scale, p, out);
+  model.add_product(state, test::scratch(), scale, p, out);
   return view(out);
 }
 
@@ -26,7 +27,11 @@ inline Eigen::MatrixXd stiffness_of(const ForceModel& model, const State& state,
                                     const Sparsity& pattern, Isa isa = Isa::baseline) {
   BlockMatrix matrix(pattern, isa, Threads(1));
   matrix.clear();
-  model.add_stiffness(state, scale, matrix);
+  model.add_stiffness(state, test::scratch(), scale, matrix);
+  Couplings couplings;
+  model.add_couplings(state, scale, couplings);
+  couplings.close(pattern.rows(), nullptr);
+  matrix.set_couplings(couplings.empty() ? nullptr : &couplings);
   return dense(matrix);
 }
 

@@ -1,5 +1,6 @@
 #include "tissu/law/loaded_law.h"
 
+#include "../force/room.h"
 #include "../model/fem/elastic_sample.h"
 
 /// A law from a shared library: the same numbers as the law of the library that it repeats, and what is
@@ -60,7 +61,8 @@ TEST_P(LoadedLawTest, ComputesWhatTheLawItRepeatsComputes) {
   EXPECT_LT(
       test::relative_difference(test::stiffness_of(own_law, state, {1.0, 0.0}, pattern, Isa::baseline), K),
       1e-14);
-  EXPECT_NEAR(own_law.energy(state), of_library.energy(state), 1e-14 * of_library.energy(state));
+  EXPECT_NEAR(own_law.energy(state, test::scratch()), of_library.energy(state, test::scratch()),
+              1e-14 * of_library.energy(state, test::scratch()));
   EXPECT_FALSE(own_law.has_constant_stiffness());
 }
 

@@ -4,6 +4,7 @@
 
 #include <numeric>
 
+#include "../force/room.h"
 #include "projection_sample.h"
 
 /// What every model of the list must do, so that a new one is in these tests by being in the list.
@@ -19,8 +20,10 @@ class EveryModel : public testing::TestWithParam<std::string> {
     const bool any = info_.laws.empty();
     ElasticBlock block =
         test::elastic_block(mesh_.blocks[0], {any ? "stvk" : std::string(info_.laws.front()), 3.0, 0.3, 2.0});
-    block.model.name = GetParam();
-    for (std::int32_t i = 0; i < mesh_.node_count(); i += 2) block.model.kept.push_back(i);
+    block.model = options_named(GetParam());
+    if (auto* condensed = std::get_if<CondensedOptions>(&block.model)) {
+      for (std::int32_t i = 0; i < mesh_.node_count(); i += 2) condensed->kept.push_back(i);
+    }
     return block;
   }
   std::unique_ptr<BodyModel> made() const {
@@ -64,8 +67,8 @@ TEST_P(EveryModel, ForceIsMinusTheGradientOfItsEnergy) {
   test::Random random(4);
   for (int trial = 0; trial < 5; ++trial) {
     const std::vector<double> p = random.numbers(state.positions.size(), 1.0);
-    const double slope =
-        test::derivative([&](double t) { return model->energy(test::moved(state, p, t)); }, 1e-3);
+    const double slope = test::derivative(
+        [&](double t) { return model->energy(test::moved(state, p, t), test::scratch()); }, 1e-3);
     EXPECT_NEAR(f.dot(test::view(p)), -slope, 1e-8 * f.norm() * test::view(p).norm());
   }
 }
@@ -115,7 +118,7 @@ TEST_P(EveryModel, RestsAtRestAndPullsNothingAlong) {
   state.positions = mesh_.positions;
   const double scale = test::force_of(*model, near_rest()).norm();
   EXPECT_LT(test::force_of(*model, state).norm(), 1e-13 * scale);
-  EXPECT_NEAR(model->energy(state), 0.0, 1e-15);
+  EXPECT_NEAR(model->energy(state, test::scratch()), 0.0, 1e-15);
   for (std::size_t i = 0; i < state.positions.size(); i += 3) state.positions[i] += 7.0;
   EXPECT_LT(test::force_of(*model, state).norm(), 1e-12 * scale);
   const Eigen::VectorXd f = test::force_of(*model, near_rest());
@@ -146,9 +149,18 @@ TEST_P(EveryModel, RefusesWhatItDoesNotTake) {
   wrong = block();
   wrong.density = {-1.0};
   EXPECT_NE(message(wrong).find("density of -1"), std::string::npos);
-  wrong = block();
-  wrong.model.name = "plasticine";
-  EXPECT_NE(message(wrong).find("there are fem, corotational"), std::string::npos);
+}
+
+TEST(ModelOptionsTest, NameEveryModelAndNoOther) {
+  EXPECT_EQ(all_models().size(), std::variant_size_v<ModelOptions>);
+  for (const ModelInfo& info : all_models()) EXPECT_EQ(model_name(options_named(info.name)), info.name);
+  try {
+    (void)options_named("plasticine");
+    ADD_FAILURE() << "nothing was refused";
+  } catch (const ParameterError& error) {
+    const std::string said = error.what();
+    EXPECT_NE(said.find("no model \"plasticine\"; there are fem, corotational"), std::string::npos) << said;
+  }
 }
 
 /// Those whose nodes have no rotation; the others are in frames_test.cpp and shell_test.cpp.

@@ -42,9 +42,9 @@ ElasticBlock block_of(const Case& c) {
   block.law = c.law;
   block.parameters = {{"young", {3.0}}, {"poisson", {0.4}}};
   block.density = {2.0};
-  block.model.name = c.model;
-  block.model.rotation = c.rotation;
-  block.model.tangent = "exact";
+  block.model = options_named(c.model);
+  if (auto* corotational = std::get_if<CorotationalOptions>(&block.model))
+    *corotational = {.rotation = c.rotation, .tangent = "exact"};
   const auto nodes = static_cast<std::int32_t>(rest_of(c.element).size() / 3);
   for (std::int32_t a = 0; a < nodes; ++a) block.cells.push_back(a);
   return block;
@@ -171,7 +171,7 @@ TEST(Projection, OfMassTensorIsThatOfContinuumElements) {
   block.parameters["young"].assign(static_cast<std::size_t>(mesh.cell_count()), 2.0);
   block.parameters["young"][5] = 7.0;
   const auto continuum = make_model(block, mesh.positions, choose_isa(), Threads(1));
-  block.model.name = "mass-tensor";
+  block.model = MassTensorOptions{};
   const auto tensor = make_model(block, mesh.positions, choose_isa(), Threads(1));
   const std::size_t before = tensor->bytes();
   for (const std::string& name : test::states()) {
@@ -192,7 +192,7 @@ TEST(Projection, OfMassTensorIsThatOfContinuumElements) {
 TEST(Projection, ChangesNothingWhereTheTangentIsNeverIndefinite) {
   const std::vector<double> positions = rest_of("hexahedron");
   ElasticBlock block = block_of({"corotational", "hexahedron", "hooke"});
-  block.model.tangent = "approximate";
+  block.model = CorotationalOptions{};
   const auto corotational = make_model(block, positions, choose_isa(), Threads(1));
   for (const std::string& name : test::states()) {
     const State state = test::put(positions, name);
@@ -206,14 +206,14 @@ TEST(Projection, ChangesNothingWhereTheTangentIsNeverIndefinite) {
 TEST(Projection, OfAPronySeries) {
   const std::vector<double> positions = rest_of("hexahedron");
   ElasticBlock block = block_of({"fem", "hexahedron", "stvk"});
-  Prony prony(block, {{0.8, 5.0}}, 0, positions, choose_isa(), Threads(1));
+  Prony prony(block, {{0.8, 5.0}}, positions, choose_isa(), Threads(1));
   const auto laid = [&](const std::string& name) {
     State state = test::put(positions, name);
-    state.memory.assign(prony.memory_size(), 0.0);
+    state.memory.assign(1, std::vector<double>(prony.memory_size(), 0.0));
     State before = test::put(positions, "drawn");
     before.memory = state.memory;
     before.time = 1.0;
-    prony.advance(before);
+    prony.remember(before);
     state.memory = before.memory;
     state.memory_time = 1.0;
     state.time = 1.1;

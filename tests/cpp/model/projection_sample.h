@@ -4,10 +4,9 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
-#include <algorithm>
 #include <map>
 
+#include "../base/eigenvalues.h"
 #include "../cell/reference_nodes.h"
 #include "../force/verbs.h"
 #include "../world/sample_worlds.h"
@@ -18,91 +17,29 @@ constexpr StiffnessScale kExact = {-1.0, 0.0, false};
 constexpr StiffnessScale kDefinite = {-1.0, 0.0, true};
 
 /// x = F X of all nodes, by name. `stretched` is so little strained that every law's tangent is definite.
-inline std::map<std::string, Mat3> deformations() {
-  Random random(31);
-  const Mat3 U = random.rotation().toRotationMatrix();
-  const Mat3 V = random.rotation().toRotationMatrix();
-  const auto of = [&](double a, double b, double c) { return Mat3(U * Vec3(a, b, c).asDiagonal() * V); };
-  return {{"rest", Mat3::Identity()},
-          {"stretched", of(1.02, 1.02, 1.02)},
-          {"compressed", of(0.6, 0.5, 0.45)},
-          {"drawn", of(1.5, 0.8, 0.7)},
-          {"sheared", of(1.3, 1.0, 0.75)},
-          {"halved", of(0.5, 0.5, 0.5)},
-          {"inverted", of(1.1, 0.9, -0.4)},
-          {"mirrored", of(0.7, 0.7, -0.7)},
-          {"flat", of(1.2, 0.7, 0.0)},
-          {"line", of(1.2, 0.0, 0.0)},
-          {"point", Mat3::Zero()}};
-}
+std::map<std::string, Mat3> deformations();
 
 /// A state of nodes that are at `positions` at rest; `random`: every node by itself, to half a unit.
-inline State put(const std::vector<double>& positions, const std::string& name) {
-  State state;
-  state.positions = positions;
-  state.velocities.assign(positions.size(), 0.0);
-  if (name == "random") {
-    Random random(8);
-    for (double& x : state.positions) x += random.number(0.5);
-    return state;
-  }
-  const Mat3 F = deformations().at(name);
-  for (std::int32_t i = 0; i < state.blocks(); ++i) {
-    block(Reals(state.positions), i) = F * block(ConstReals(positions), i);
-  }
-  return state;
-}
+State put(const std::vector<double>& positions, const std::string& name);
 
-inline std::vector<std::string> states() {
-  std::vector<std::string> names = {"random"};
-  for (const auto& [name, F] : deformations()) names.push_back(name);
-  return names;
-}
-
-/// Negative eigenvalues give way to zero.
-inline Eigen::MatrixXd clamped(const Eigen::MatrixXd& A) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> of(A);
-  return of.eigenvectors() * of.eigenvalues().cwiseMax(0.0).asDiagonal() * of.eigenvectors().transpose();
-}
+std::vector<std::string> states();
 
 /// The least eigenvalue over the largest; zero of a matrix of zeros.
-inline double least_share(const Eigen::MatrixXd& A) {
-  const Eigen::VectorXd values =
-      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(A, Eigen::EigenvaluesOnly).eigenvalues();
-  const double largest = values.cwiseAbs().maxCoeff();
-  return largest == 0.0 ? 0.0 : values[0] / largest;
-}
+double least_share(const Eigen::MatrixXd& A);
 
 /// Symmetric, and no eigenvalue below round-off, which is that of `exact`: where all of it is negative,
 /// nothing but its round-off is left.
-inline void expect_definite(const Eigen::MatrixXd& A, const Eigen::MatrixXd& exact) {
-  const double scale = std::max(A.cwiseAbs().maxCoeff(), exact.cwiseAbs().maxCoeff());
-  EXPECT_LE((A - A.transpose()).cwiseAbs().maxCoeff(), 1e-13 * scale);
-  EXPECT_GE(least_share(A) * A.cwiseAbs().maxCoeff(), -1e-12 * scale);
-}
-inline void expect_definite(const Eigen::MatrixXd& A) { expect_definite(A, A); }
+void expect_definite(const Eigen::MatrixXd& A, const Eigen::MatrixXd& exact);
+void expect_definite(const Eigen::MatrixXd& A);
 
 /// To a share of the largest entry of `scale`.
-inline void expect_near(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B, double share,
-                        const Eigen::MatrixXd& scale) {
-  EXPECT_LE((A - B).cwiseAbs().maxCoeff(), share * scale.cwiseAbs().maxCoeff());
-}
-inline void expect_near(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B, double share) {
-  expect_near(A, B, share, B);
-}
+void expect_near(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B, double share,
+                 const Eigen::MatrixXd& scale);
+void expect_near(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B, double share);
 
 /// R A R^T with the same rotation for every node.
-inline Eigen::MatrixXd turned(const Eigen::MatrixXd& A, const Mat3& R) {
-  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(A.rows(), A.rows());
-  for (Eigen::Index i = 0; i < A.rows(); i += 3) all.block<3, 3>(i, i) = R;
-  return all * A * all.transpose();
-}
+Eigen::MatrixXd turned(const Eigen::MatrixXd& A, const Mat3& R);
 
-inline State turned(State state, const Mat3& R) {
-  for (std::int32_t i = 0; i < state.blocks(); ++i) {
-    block(Reals(state.positions), i) = R * block(ConstReals(state.positions), i);
-  }
-  return state;
-}
+State turned(State state, const Mat3& R);
 
 }  // namespace tissu::test

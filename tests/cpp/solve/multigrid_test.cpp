@@ -424,19 +424,16 @@ TEST(Multigrid, ServesWithoutPlaces) {
   EXPECT_LE((view(b) - view(y)).norm(), 1e-8 * view(b).norm());
 }
 
-/// Blocks that come at run time are in the product only; they are few.
+/// A stiff tie between two far nodes.
 TEST(Multigrid, ServesAMatrixWithTies) {
   const Cube cube(6);
   BlockMatrix tied(cube.matrix().sparsity(), cube.matrix().isa(), Threads(1));
   std::memcpy(tied.values(), cube.matrix().values(),
               static_cast<std::size_t>(9 * tied.sparsity().blocks()) * sizeof(double));
-  const std::int32_t last = tied.rows() - 1;
-  const Mat3 tie = 1e5 * Mat3::Identity();
-  for (const auto& [i, j, sign] : {std::tuple(60, 60, 1.0), std::tuple(last, last, 1.0),
-                                   std::tuple(60, last, -1.0), std::tuple(last, 60, -1.0)}) {
-    tied.add(i, j, sign * tie);
-  }
-  ASSERT_EQ(tied.extra().size(), 2U);
+  Couplings ties;
+  ties.add({{60, tied.rows() - 1, 0, 0}, {-1.0, 1.0, 0.0, 0.0}, 1e5 * Mat3::Identity()});
+  ties.close(tied.rows(), nullptr);
+  tied.set_couplings(&ties);
   const std::vector<double> b = test::Random(3).numbers(static_cast<std::size_t>(3 * tied.rows()));
   std::vector<double> x(b.size(), 0.0);
   std::vector<double> y(b.size(), 0.0);

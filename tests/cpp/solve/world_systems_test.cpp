@@ -38,11 +38,12 @@ WorldDescription bar(Split split, bool linked, int threads = 1, std::array<int, 
   return world;
 }
 
-void link(const World& world) {
-  if (world.links() == nullptr) return;
+void link(const World& world, State& state) {
+  if (world.memory().count() == 0) return;
   const std::int32_t frame = world.frames()[0].block;
-  world.links()->add({3, -1, Vec3::Zero()}, {world.blocks() / 2, -1, Vec3::Zero()}, 70.0);
-  world.links()->add({frame, 0, Vec3(0.1, 0.2, 0.3)}, {world.blocks() / 2 + 1, -1, Vec3::Zero()}, 300.0);
+  test::links(world, state).add({3, -1, Vec3::Zero()}, {world.blocks() / 2, -1, Vec3::Zero()}, 70.0);
+  test::links(world, state)
+      .add({frame, 0, Vec3(0.1, 0.2, 0.3)}, {world.blocks() / 2 + 1, -1, Vec3::Zero()}, 300.0);
 }
 
 State deformed(const World& world) {
@@ -72,8 +73,8 @@ class WorldSystems : public testing::TestWithParam<std::tuple<test::SolverCase, 
 TEST_P(WorldSystems, AreSolved) {
   const auto& [solver_case, kind] = GetParam();
   const World world(bar(kind.split, kind.linked));
-  link(world);
-  const State state = deformed(world);
+  State state = deformed(world);
+  link(world, state);
   Profile profile;
   System assembled(world, nullptr, profile);
   assembled.assemble(state, kind.mass, kind.scale);
@@ -117,7 +118,7 @@ class FreeProduct : public testing::TestWithParam<bool> {};
 
 TEST_P(FreeProduct, EqualsTheMatrix) {
   const World world(bar(Split::six, GetParam()));
-  const State state = deformed(world);
+  State state = deformed(world);
   Profile profile;
   System assembled(world, nullptr, profile);
   FreeOperator free(world);
@@ -140,7 +141,7 @@ TEST_P(FreeProduct, EqualsTheMatrix) {
               1e-13 * view(blocks).cwiseAbs().maxCoeff());
     EXPECT_NEAR(free.round_off(p), matrix.round_off(p), 1e-12 * matrix.round_off(p));
     EXPECT_LE(free.diagonal_cost(), 3.0 * 16);  // colours: no more than a node has neighbours
-    link(world);
+    link(world, state);
   }
 }
 

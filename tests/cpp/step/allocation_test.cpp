@@ -3,6 +3,7 @@
 #include <atomic>
 #include <cstdlib>
 
+#include "../force/room.h"
 #include "../world/sample_worlds.h"
 #include "solve/multigrid.h"
 #include "tissu/model/models.h"
@@ -59,6 +60,7 @@ struct AllocationCase {
   bool viscous = false;  ///< every viscosity there is
   ConjugateGradient::Settings solver = {};
   const char* model = "fem";
+  int links = 0;
 };
 
 constexpr ConjugateGradient::Settings with(Preconditioning kind, Precision precision = Precision::full,
@@ -74,7 +76,7 @@ class Allocation : public testing::TestWithParam<AllocationCase> {
     const Mesh mesh = box_mesh(Vec3::Zero(), Vec3(2, 1, 1), {8, 5, 5}, GetParam().split);
     WorldDescription world;
     world.bodies = {test::body_of(mesh, {.law = GetParam().law, .young = 100.0})};
-    for (ElasticBlock& block : world.bodies[0].elastic) block.model.name = GetParam().model;
+    for (ElasticBlock& block : world.bodies[0].elastic) block.model = options_named(GetParam().model);
     world.bodies[0].rayleigh = {0.1, 0.001};
     if (GetParam().viscous) {
       world.bodies[0].viscosity = {0.1, 0.2, 0.3, {{0.5, 0.1}, {0.2, 1.0}}};
@@ -83,6 +85,7 @@ class Allocation : public testing::TestWithParam<AllocationCase> {
     world.fixed = {test::fixed(test::nodes_at(mesh, 0, 0.0))};
     world.loads = {{"hand", "body", {3}, {0.1, 0.0, 0.0}, {{0.0, 1.0}, {0.0, 1.0}}}};
     world.threads = GetParam().threads;
+    world.links = GetParam().links > 0;
     return world;
   }
 };
@@ -91,6 +94,9 @@ TEST_P(Allocation, ASteadyStepTakesNone) {
 #ifdef TISSU_COUNTS_ALLOCATIONS
   Simulation simulation = test::simulate(world(), test::implicit_euler(GetParam().newton, 1e-6),
                                          std::make_unique<ConjugateGradient>(GetParam().solver));
+  for (std::int32_t i = 0; i < GetParam().links; ++i) {
+    test::links(simulation).add({20 + i}, {150 - 2 * i}, 1.0 + 0.1 * i);
+  }
   simulation.step(0.01);
   simulation.step(0.01);
   allocations = 0;
@@ -130,6 +136,15 @@ INSTANTIATE_TEST_SUITE_P(
                        with(Preconditioning::incomplete_cholesky, Precision::single)},
         AllocationCase{"matrix_free", "stvk", Split::six, 1, 1, false,
                        with(Preconditioning::block_jacobi, Precision::full, Product::free)},
+        AllocationCase{"linked", "stvk", Split::six, 1, 2, false, {}, "fem", 30},
+        AllocationCase{"linked_incomplete_cholesky", "stvk", Split::six, 1, 2, false,
+                       with(Preconditioning::incomplete_cholesky), "fem", 30},
+        AllocationCase{"linked_multigrid", "stvk", Split::six, 1, 1, false, with(Preconditioning::multigrid),
+                       "fem", 30},
+        AllocationCase{"linked_single_precision", "stvk", Split::six, 1, 1, false,
+                       with(Preconditioning::block_jacobi, Precision::single), "fem", 30},
+        AllocationCase{"linked_matrix_free", "stvk", Split::six, 1, 1, false,
+                       with(Preconditioning::block_jacobi, Precision::full, Product::free), "fem", 30},
         AllocationCase{"mean_dilatation_tetra", "stvk", Split::six, 12, 2, false, {}, "mean-dilatation"},
         AllocationCase{
             "mean_dilatation_hexahedron", "neo_hooke", Split::none, 1, 1, false, {}, "mean-dilatation"}),
@@ -143,9 +158,11 @@ TEST(AllocationOfModels, ADefiniteMatrixTakesNone) {
     if (info.name == "frames" || info.name == "shell") continue;  // of nodes that have a rotation
     ElasticBlock block = test::elastic_block(
         mesh.blocks[0], {info.laws.empty() ? "stvk" : std::string(info.laws.front()), 100.0});
-    block.model.name = info.name;
-    block.model.tangent = "exact";
-    for (std::int32_t i = 0; i < mesh.node_count(); ++i) block.model.kept.push_back(i);
+    block.model = options_named(info.name);
+    if (auto* corotational = std::get_if<CorotationalOptions>(&block.model)) corotational->tangent = "exact";
+    if (auto* condensed = std::get_if<CondensedOptions>(&block.model)) {
+      for (std::int32_t i = 0; i < mesh.node_count(); ++i) condensed->kept.push_back(i);
+    }
     if (info.name == "fem") {
       block.reinforcements = {{"fibre",
                                {{"k1", {9.0}},
@@ -164,10 +181,10 @@ TEST(AllocationOfModels, ADefiniteMatrixTakesNone) {
     State state;
     state.positions = mesh.positions;
     for (std::size_t i = 0; i < state.positions.size(); i += 3) state.positions[i] *= 0.3;
-    model->add_stiffness(state, {-1.0, 0.0, true}, matrix);
+    model->add_stiffness(state, test::scratch(), {-1.0, 0.0, true}, matrix);
     allocations = 0;
     counting = true;
-    model->add_stiffness(state, {-1.0, 0.0, true}, matrix);
+    model->add_stiffness(state, test::scratch(), {-1.0, 0.0, true}, matrix);
     counting = false;
     EXPECT_EQ(allocations, 0) << info.name;
   }

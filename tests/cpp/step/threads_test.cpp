@@ -38,7 +38,7 @@ class SameBits : public testing::TestWithParam<ThreadsCase> {
     const Mesh mesh = box_mesh(Vec3::Zero(), Vec3(2, 1, 1), {split == Split::none ? n : 9, n, n}, split);
     WorldDescription world;
     world.bodies = {test::body_of(mesh, {.young = 100.0})};
-    for (ElasticBlock& block : world.bodies[0].elastic) block.model.name = GetParam().model;
+    for (ElasticBlock& block : world.bodies[0].elastic) block.model = options_named(GetParam().model);
     world.bodies[0].frames = std::string_view(GetParam().model) == "frames";
     world.bodies[0].rayleigh = {0.1, 0.001};
     if (GetParam().viscous) {
@@ -70,7 +70,7 @@ TEST_P(SameBits, OnOneToFourThreads) {
     const State several = after_some_steps(threads);
     EXPECT_TRUE(same_bits(one.positions, several.positions)) << threads << " threads";
     EXPECT_TRUE(same_bits(one.velocities, several.velocities)) << threads << " threads";
-    EXPECT_TRUE(same_bits(one.memory, several.memory)) << threads << " threads";
+    EXPECT_TRUE(one.memory == several.memory) << threads << " threads";
     ASSERT_EQ(one.rotations.size(), several.rotations.size());
     for (std::size_t i = 0; i < one.rotations.size(); ++i) {
       EXPECT_EQ(one.rotations[i].coeffs(), several.rotations[i].coeffs())

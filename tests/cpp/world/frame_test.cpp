@@ -109,8 +109,8 @@ class TiedFrame : public FrameTest {
     frame.position = mesh_.node(node_) - place_;  // tied where it is, swings out of the level
     world_.frames = {frame};
   }
-  std::int32_t tie(const Simulation& simulation) const {
-    return simulation.world().links()->add({mesh_.node_count(), 0, place_}, {node_}, kStiffness);
+  std::int32_t tie(Simulation& simulation) const {
+    return test::links(simulation).add({mesh_.node_count(), 0, place_}, {node_}, kStiffness);
   }
   double gap(const State& state) const {
     const Vec3 origin = block(ConstReals(state.positions), mesh_.node_count());

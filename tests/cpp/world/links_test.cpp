@@ -38,25 +38,26 @@ TEST_P(RunTimeLinks, PullFarNodesTogether) {
   for (int i = 0; i < 5; ++i) simulation.step(0.01);
   const double before = distance(simulation.state(), near_, far_);
   // 3 E I / L^3 = 4.6 N/m against bending: the pull bends the bar without turning its cells inside out.
-  simulation.world().links()->add({near_}, {far_}, 5.0);
+  test::links(simulation).add({near_}, {far_}, 5.0);
   for (int i = 0; i < 50; ++i) EXPECT_TRUE(simulation.step(0.01).converged);
   EXPECT_LT(distance(simulation.state(), near_, far_), 0.95 * before);
-  simulation.world().links()->clear();
+  test::links(simulation).clear();
   for (int i = 0; i < 300; ++i) EXPECT_TRUE(simulation.step(0.01).converged);
   EXPECT_NEAR(distance(simulation.state(), near_, far_), before, 0.02 * before);  // let go, it goes back
 }
 
-TEST_P(RunTimeLinks, BringExtraBlocksThatGoAgain) {
+TEST_P(RunTimeLinks, BringCouplingsThatGoAgain) {
   const World world(world_);
   Profile profile;
   System system(world, nullptr, profile);
-  const State state = world.rest_state();
+  State state = world.rest_state();
   system.assemble(state, 1.0, {-1e-4, -1e-2});
-  EXPECT_TRUE(system.matrix().extra().empty());
+  EXPECT_EQ(system.matrix().couplings(), nullptr);
   const Eigen::MatrixXd before = test::dense(system.matrix());
-  world.links()->add({near_}, {far_}, 50.0);
+  test::links(world, state).add({near_}, {far_}, 50.0);
   system.assemble(state, 1.0, {-1e-4, -1e-2});
-  EXPECT_EQ(system.matrix().extra().size(), 2U);
+  ASSERT_NE(system.matrix().couplings(), nullptr);
+  EXPECT_EQ(system.matrix().couplings()->size(), 1U);
   Eigen::MatrixXd expected = before;
   for (int axis = 0; axis < 3; ++axis) {
     const int a = 3 * near_ + axis;
@@ -67,9 +68,9 @@ TEST_P(RunTimeLinks, BringExtraBlocksThatGoAgain) {
     expected(b, a) -= 50e-4;
   }
   EXPECT_LT((test::dense(system.matrix()) - expected).cwiseAbs().maxCoeff(), 1e-15);
-  world.links()->clear();
+  test::links(world, state).clear();
   system.assemble(state, 1.0, {-1e-4, -1e-2});
-  EXPECT_TRUE(system.matrix().extra().empty());
+  EXPECT_EQ(system.matrix().couplings(), nullptr);
   EXPECT_EQ(test::dense(system.matrix()), before);
 }
 
@@ -77,7 +78,7 @@ TEST_P(RunTimeLinks, HoldALinearWorldToo) {
   world_.bodies[0].elastic[0].law = "hooke";
   Simulation simulation = run(world_);
   for (int i = 0; i < 3; ++i) simulation.step(0.01);
-  simulation.world().links()->add({near_}, {far_}, 50.0);
+  test::links(simulation).add({near_}, {far_}, 50.0);
   for (int i = 0; i < 50; ++i) EXPECT_TRUE(simulation.step(0.01).converged);
   EXPECT_LT(distance(simulation.state(), near_, far_), 1.6);  // 2.06 m at rest
 }
@@ -85,7 +86,7 @@ TEST_P(RunTimeLinks, HoldALinearWorldToo) {
 /// Linked to a fixed node: its rows stay those of the identity.
 TEST_P(RunTimeLinks, LeaveFixedNodesWhereTheyAre) {
   Simulation simulation = run(world_);
-  simulation.world().links()->add({0}, {far_}, 50.0);
+  test::links(simulation).add({0}, {far_}, 50.0);
   for (int i = 0; i < 20; ++i) simulation.step(0.01);
   EXPECT_EQ(block(ConstReals(simulation.state().positions), 0), mesh_.node(0));
 }
@@ -95,16 +96,45 @@ TEST_P(RunTimeLinks, SolversAgree) {
   Simulation other = run(world_, !GetParam());
   for (int i = 0; i < 20; ++i) {
     for (Simulation* simulation : {&one, &other}) {
-      if (i == 3) simulation->world().links()->add({near_}, {far_}, 50.0);
-      if (i == 6) simulation->world().links()->add({5}, {far_ - 1}, 20.0);
-      if (i == 12) simulation->world().links()->clear();
-      if (i == 12) simulation->world().links()->add({1}, {far_}, 10.0);
+      if (i == 3) test::links(*simulation).add({near_}, {far_}, 50.0);
+      if (i == 6) test::links(*simulation).add({5}, {far_ - 1}, 20.0);
+      if (i == 12) test::links(*simulation).clear();
+      if (i == 12) test::links(*simulation).add({1}, {far_}, 10.0);
       simulation->step(0.01);
     }
     const double difference =
         (test::view(one.state().positions) - test::view(other.state().positions)).norm();
     ASSERT_LT(difference, 1e-10) << "step " << i;  // the iteration's 1e-13 times the condition of the matrix
   }
+}
+
+/// The links are the state's: two simulations of one world have their own, and a state put back brings them
+/// back.
+TEST_P(RunTimeLinks, StandInTheState) {
+  const auto world = std::make_shared<const World>(world_);
+  Simulation linked(world, test::implicit_euler(), std::make_unique<Cholesky>());
+  Simulation free(world, test::implicit_euler(), std::make_unique<Cholesky>());
+  test::links(linked).add({near_}, {far_}, 50.0);
+  EXPECT_EQ(test::links(linked).size(), 1U);
+  EXPECT_EQ(test::links(free).size(), 0U);
+  for (int i = 0; i < 3; ++i) linked.step(0.01);
+  const State kept = linked.state();
+  for (int i = 0; i < 3; ++i) linked.step(0.01);
+  const std::vector<double> first = linked.state().positions;
+  test::links(linked).clear();
+  linked.step(0.01);
+  linked.state() = kept;
+  EXPECT_EQ(test::links(linked).size(), 1U);
+  for (int i = 0; i < 3; ++i) linked.step(0.01);
+  EXPECT_EQ(linked.state().positions, first);
+  for (int i = 0; i < 6; ++i) free.step(0.01);
+  EXPECT_NE(free.state().positions, first);
+}
+
+TEST_P(RunTimeLinks, AreRefusedWhereNobodyAskedForThem) {
+  world_.links = false;
+  Simulation simulation = run(world_);
+  EXPECT_THROW((void)simulation.memory(Links::kMemory), ParameterError);
 }
 
 INSTANTIATE_TEST_SUITE_P(Solvers, RunTimeLinks, testing::Bool(),

@@ -117,7 +117,10 @@ TEST_F(WorldTest, IsLinearWhenEveryPartIs) {
 TEST_F(WorldTest, HoldsOnlyWhatIsAskedFor) {
   const World world(description_);
   EXPECT_EQ(world.forces().size(), 1U);
-  EXPECT_EQ(world.links(), nullptr);
+  EXPECT_EQ(world.memory().count(), 0U);
+  EXPECT_TRUE(world.run_time().beginning.empty());
+  EXPECT_TRUE(world.run_time().coupling.empty());
+  EXPECT_TRUE(world.run_time().remembering.empty());
   EXPECT_EQ(world.description(), nullptr);
   EXPECT_TRUE(world.fixed().empty());
 }

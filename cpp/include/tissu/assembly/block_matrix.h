@@ -1,25 +1,18 @@
 #pragma once
 
-/// The system matrix: 3x3 blocks in compressed rows, and beside them the few blocks between nodes that are
-/// coupled only at run time (contact, ties made on the way), so that those never change the pattern.
+/// The system matrix: 3x3 blocks in compressed rows. What is coupled only at run time (contact, links) stands
+/// beside it (couplings.h), so that it never changes the pattern.
 
-#include <array>
 #include <cstdint>
 #include <vector>
 
+#include "tissu/assembly/couplings.h"
 #include "tissu/assembly/linear_operator.h"
 #include "tissu/assembly/sparsity.h"
 #include "tissu/base/array.h"
 #include "tissu/base/isa.h"
 
 namespace tissu {
-
-/// A block outside the pattern.
-struct ExtraBlock {
-  std::int32_t row;
-  std::int32_t column;
-  std::array<double, 9> values;  ///< column by column
-};
 
 class BlockMatrix final : public LinearOperator {
  public:
@@ -33,22 +26,22 @@ class BlockMatrix final : public LinearOperator {
     return values_.data();
   }
   [[nodiscard]] const double* values() const { return values_.data(); }
-  [[nodiscard]] const std::vector<ExtraBlock>& extra() const { return extra_; }
   [[nodiscard]] std::int64_t diagonal_slot(std::int32_t row) const {
     return diagonal_[static_cast<std::size_t>(row)];
   }
-  /// All values zero, extra blocks gone, a new version.
+  /// All values zero, couplings gone, a new version.
   void clear();
-  /// Adds a block anywhere; one that is not in the pattern becomes an extra block.
+  /// Adds to a block; refuses one that is not in the pattern.
   void add(std::int32_t row, std::int32_t column, const Mat3& block);
   /// Adds to the diagonal of one diagonal block.
   void add_diagonal(std::int32_t row, double value);
-  /// out = A p
+  /// out = (A + C) p, C the couplings
   void multiply(ConstReals p, Reals out) const override;
   void diagonal_blocks(Reals blocks) const override;
   [[nodiscard]] double diagonal_cost() const override { return 0.0; }
   [[nodiscard]] double round_off(ConstReals x) const override;
   [[nodiscard]] const BlockMatrix* matrix() const override { return this; }
+  /// On the diagonal of A, without the couplings.
   [[nodiscard]] Mat3 diagonal_block(std::int32_t row) const;
   /// Makes rows and columns of the degrees of freedom in `masks` (bits x=1 y=2 z=4 for each row) those of the
   /// identity; `rows` are the rows with a mask. Both must outlive the next `clear`.
@@ -59,15 +52,14 @@ class BlockMatrix final : public LinearOperator {
   [[nodiscard]] std::size_t bytes() const override;
 
  private:
-  [[nodiscard]] bool add_to_extra(std::int32_t row, std::int32_t column, const Mat3& block);
   const Sparsity* sparsity_;
   Isa isa_;
   Threads threads_;
   AlignedVector<double> values_;
   std::vector<std::int64_t> diagonal_;
-  std::vector<ExtraBlock> extra_;
-  void (*multiply_rows_)(const std::int64_t* row_begin, const std::int32_t* column, const double* values,
-                         std::int32_t begin, std::int32_t end, const double* p, double* out);
+  void (*multiply_rows_)(const std::int64_t* row_begin, const std::int64_t* row_end,
+                         const std::int32_t* column, const double* values, std::int32_t begin,
+                         std::int32_t end, const double* p, double* out);
 };
 
 }  // namespace tissu

@@ -11,6 +11,7 @@
 namespace tissu {
 
 class BlockMatrix;
+class Couplings;
 struct RowPlaces;
 
 class LinearOperator {
@@ -38,8 +39,17 @@ class LinearOperator {
 
   /// No two operators have the same, and one keeps its own as long as it lives: so does its pattern.
   [[nodiscard]] std::uint64_t id() const { return id_; }
-  /// Grows with every change of the values.
+  /// Grows with every change of the values, …
   [[nodiscard]] std::uint64_t version() const { return version_; }
+  /// … and this one with every change that is not of the couplings alone.
+  [[nodiscard]] std::uint64_t values_version() const { return values_version_; }
+  /// What is coupled beside it and counts as a part of it; null: nothing.
+  [[nodiscard]] const Couplings* couplings() const { return couplings_; }
+  /// Couplings, closed for these rows, that outlive it; null: none. They count as changed.
+  void set_couplings(const Couplings* couplings) {
+    if (couplings_ != nullptr || couplings != nullptr) ++version_;
+    couplings_ = couplings;
+  }
   /// For each row the axes (bits x=1 y=2 z=4) that were made those of the identity; null when there are none.
   [[nodiscard]] const std::vector<std::uint8_t>* given() const { return given_; }
   /// Where the rows are; null where nobody said.
@@ -51,15 +61,20 @@ class LinearOperator {
   }
 
  protected:
-  void count_change() { ++version_; }
+  void count_change() {
+    ++version_;
+    ++values_version_;
+  }
   void set_given(const std::vector<std::uint8_t>* masks) { given_ = masks; }
 
  private:
   static std::uint64_t next_id();
   std::uint64_t id_ = next_id();
   std::uint64_t version_ = 0;
+  std::uint64_t values_version_ = 0;
   const std::vector<std::uint8_t>* given_ = nullptr;
   const RowPlaces* places_ = nullptr;
+  const Couplings* couplings_ = nullptr;
 };
 
 }  // namespace tissu

@@ -38,8 +38,10 @@ struct ElementOrder {
 };
 
 /// `cells` holds cell after cell of `size` node numbers. `together`, a number for each cell where it is not
-/// empty: cells of one number, no more than a chunk has, stand in one chunk.
+/// empty: cells of one number, no more than a chunk has, stand in one chunk. `fill`: the share of a chunk
+/// that is laid full, whole groups of lanes; less than 1 leaves room for cells that an edit puts beside those
+/// that it cuts.
 ElementOrder order_elements(std::span<const std::int32_t> cells, int size, ConstReals positions,
-                            std::span<const std::int32_t> together = {});
+                            std::span<const std::int32_t> together = {}, double fill = 1.0);
 
 }  // namespace tissu

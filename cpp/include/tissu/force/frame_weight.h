@@ -15,11 +15,13 @@ class FrameWeight final : public ForceModel {
 
   [[nodiscard]] std::string_view effect() const override { return "gravity"; }
   [[nodiscard]] ForceKind kind() const override { return ForceKind::external; }
-  void add_force(const State& state, Reals f) const override;
+  void add_force(const State& state, Scratch& scratch, Reals f) const override;
   /// The symmetric part, 1/2 (r g^T + g r^T) - (r . g) I with r = R c; none of it in a definite matrix.
-  void add_stiffness(const State& state, StiffnessScale scale, BlockMatrix& matrix) const override;
-  void add_product(const State& state, StiffnessScale scale, ConstReals p, Reals out) const override;
-  [[nodiscard]] double energy(const State& state) const override;
+  void add_stiffness(const State& state, Scratch& scratch, StiffnessScale scale,
+                     BlockMatrix& matrix) const override;
+  void add_product(const State& state, Scratch& scratch, StiffnessScale scale, ConstReals p,
+                   Reals out) const override;
+  [[nodiscard]] double energy(const State& state, Scratch& scratch) const override;
 
  private:
   struct Moment {

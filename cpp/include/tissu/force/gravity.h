@@ -14,9 +14,9 @@ class Gravity final : public ForceModel {
   [[nodiscard]] ForceKind kind() const override { return ForceKind::external; }
   [[nodiscard]] bool has_constant_stiffness() const override { return true; }
   [[nodiscard]] bool has_stiffness() const override { return false; }
-  void add_force(const State& state, Reals f) const override;
+  void add_force(const State& state, Scratch& scratch, Reals f) const override;
   /// -sum m g . x, zero for a body at the origin [J]
-  [[nodiscard]] double energy(const State& state) const override;
+  [[nodiscard]] double energy(const State& state, Scratch& scratch) const override;
   [[nodiscard]] const Vec3& acceleration() const { return acceleration_; }
 
  private:

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <utility>
+#include <string_view>
 #include <vector>
 
 #include "tissu/force/force_model.h"
@@ -14,40 +14,56 @@ struct LinkPoint {
   Vec3 place = Vec3::Zero();  ///< in the frame's axes [m]
 };
 
-/// Springs of no rest length between any two points, chosen before the first step or between two steps.
+struct Link {
+  LinkPoint a;
+  LinkPoint b;
+  double stiffness;  ///< [N/m]
+};
+
+/// The links of a state, which stand in its memory: eleven numbers each, block, frame and place of either
+/// point and the stiffness. They are chosen before the first step or between two steps:
+///
+///     LinkTable(simulation.memory(Links::kMemory)).add({3}, {7}, 50.0);
+class LinkTable {
+ public:
+  explicit LinkTable(std::vector<double>& numbers) : numbers_(numbers) {}
+  /// Adds a link and returns its number; refuses a stiffness that is not positive.
+  std::int32_t add(const LinkPoint& a, const LinkPoint& b, double stiffness);
+  void clear() { numbers_.clear(); }
+  [[nodiscard]] std::size_t size() const;
+
+ private:
+  std::vector<double>& numbers_;
+};
+
+/// Springs of no rest length between any two points, as many as the state remembers.
 ///
 /// f_a = k (p_b - p_a). The stiffness is -k J^T J with J = dp/dq, which leaves out the turning of a frame's
-/// lever arm under load; it is always semi-definite. Nodes that were not coupled before get extra blocks in
-/// the matrix.
+/// lever arm under load; it is always semi-definite. The matrix gets it as couplings.
 class Links final : public ForceModel {
  public:
-  /// Adds a link and returns its number.
-  std::int32_t add(const LinkPoint& a, const LinkPoint& b, double stiffness);
-  void clear() { links_.clear(); }
-  /// Takes over the links of another world of the same unknowns.
-  void take_over(const Links& other) { links_ = other.links_; }
-  [[nodiscard]] std::size_t size() const { return links_.size(); }
-  /// Eleven numbers for each link: block, frame and place of either point, and the stiffness.
-  [[nodiscard]] std::vector<double> numbers() const;
-  /// The links that `numbers` told.
-  void restore(ConstReals numbers);
-  /// The pairs of rows that they couple now.
-  [[nodiscard]] std::vector<std::pair<std::int32_t, std::int32_t>> coupled() const;
+  static constexpr std::string_view kMemory = "links";  ///< name of their place in the memory
 
   [[nodiscard]] std::string_view effect() const override { return "links"; }
   [[nodiscard]] ForceKind kind() const override { return ForceKind::elastic; }
-  void add_force(const State& state, Reals f) const override;
-  void add_stiffness(const State& state, StiffnessScale scale, BlockMatrix& matrix) const override;
-  void add_product(const State& state, StiffnessScale scale, ConstReals p, Reals out) const override;
-  [[nodiscard]] double energy(const State& state) const override;
+  void add_force(const State& state, Scratch& scratch, Reals f) const override;
+  void add_product(const State& state, Scratch& scratch, StiffnessScale scale, ConstReals p,
+                   Reals out) const override;
+  [[nodiscard]] double energy(const State& state, Scratch& scratch) const override;
+
+  [[nodiscard]] RunTime run_time() const override { return {.couples = true}; }
+  void claim_memory(MemoryPlaces& places) override;
+  void add_couplings(const State& state, StiffnessScale scale, Couplings& couplings) const override;
+  void carry_memory(const ForceModel& before, const Memory& then, Memory& now) const override;
+  /// Refuses links of nodes or frames that there are not.
+  void check_memory(const State& state) const override;
 
  private:
-  struct Link {
-    LinkPoint a;
-    LinkPoint b;
-    double stiffness;  ///< [N/m]
-  };
-  std::vector<Link> links_;
+  /// Calls f(link) for each of the state.
+  template <class Function>
+  void for_links(const State& state, Function&& f) const;
+
+  std::size_t place_ = 0;  ///< in State::memory
 };
 
 }  // namespace tissu

@@ -26,9 +26,9 @@ class NodalLoad final : public ForceModel {
   [[nodiscard]] ForceKind kind() const override { return ForceKind::external; }
   [[nodiscard]] bool has_constant_stiffness() const override { return true; }
   [[nodiscard]] bool has_stiffness() const override { return false; }
-  void add_force(const State& state, Reals f) const override;
+  void add_force(const State& state, Scratch& scratch, Reals f) const override;
   /// -sum f . x [J]
-  [[nodiscard]] double energy(const State& state) const override;
+  [[nodiscard]] double energy(const State& state, Scratch& scratch) const override;
 
  private:
   std::string name_;
@@ -37,33 +37,41 @@ class NodalLoad final : public ForceModel {
   History history_;
 };
 
-/// Faces of one kind: node numbers face after face, in VTK order, anticlockwise seen from outside.
+/// Faces of one kind: node numbers face after face, in VTK order, anticlockwise seen from outside. Those of a
+/// flat body are its edges, along which it lies on the left seen from +z.
 struct FaceCells {
-  std::string element = "triangle";  ///< or triangle6, quad, quad8, quad9
+  std::string element = "triangle";  ///< or triangle6, quad, quad8, quad9; line and line3 for edges
   std::vector<std::int32_t> nodes;
+  double thickness = 0.0;  ///< of the flat body along z, at rest [m]; faces have none
 };
 
 /// Adds each node's share of the area of the faces [m2], sum_g w_g |x,1 x x,2| N_a: what a traction that is
 /// the same everywhere gives to the nodes.
 void add_areas(const FaceCells& faces, ConstReals positions, std::vector<double>& nodal);
+/// The same with the outward normal, sum_g w_g N_a x,1 x x,2 [m2], three for each node: what a pressure of -1
+/// Pa gives to the nodes.
+void add_normals(const FaceCells& faces, ConstReals positions, std::vector<double>& nodal);
 
 /// Pressure that stays normal to the faces it acts on: f_a = -p sum_g w_g N_a (x,1 x x,2), with the rule that
-/// is exact for it. Its stiffness is skew on an open surface; the symmetric part is used, which is exact for
-/// a pressure on a closed surface or one whose rim is held. A definite matrix goes without it: the
-/// eigenvalues of a face sum to zero, so half of what it says would be gone, and on a closed surface the
-/// faces' parts cancel each other, their halves would not.
+/// is exact for it. Of the edge of a flat body x,2 is its thickness at rest along z. Its stiffness is skew on
+/// an open surface; the symmetric part is used, which is exact for a pressure on a closed surface or one
+/// whose rim is held. A definite matrix goes without it: the eigenvalues of a face sum to zero, so half of
+/// what it says would be gone, and on a closed surface the faces' parts cancel each other, their halves would
+/// not.
 class Pressure final : public ForceModel {
  public:
   Pressure(std::string name, std::vector<FaceCells> faces, double pressure, History history);
   [[nodiscard]] std::string_view effect() const override { return name_; }
   [[nodiscard]] ForceKind kind() const override { return ForceKind::external; }
   void couple(SparsityBuilder& builder) const override;
-  void add_force(const State& state, Reals f) const override;
-  void add_stiffness(const State& state, StiffnessScale scale, BlockMatrix& matrix) const override;
-  void add_product(const State& state, StiffnessScale scale, ConstReals p, Reals out) const override;
+  void add_force(const State& state, Scratch& scratch, Reals f) const override;
+  void add_stiffness(const State& state, Scratch& scratch, StiffnessScale scale,
+                     BlockMatrix& matrix) const override;
+  void add_product(const State& state, Scratch& scratch, StiffnessScale scale, ConstReals p,
+                   Reals out) const override;
   /// p times the volume between the faces and the origin [J]; of an open surface it depends on the origin,
   /// and only its change where the rim is held means something.
-  [[nodiscard]] double energy(const State& state) const override;
+  [[nodiscard]] double energy(const State& state, Scratch& scratch) const override;
 
  private:
   [[nodiscard]] double pressure_at(const State& state) const;
@@ -71,7 +79,7 @@ class Pressure final : public ForceModel {
   void for_blocks(const State& state, double scale, Function&& f) const;
 
   struct Ruled {
-    std::vector<std::int32_t> nodes;
+    FaceCells faces;
     ReferenceCell rule;
   };
 

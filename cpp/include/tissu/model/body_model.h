@@ -7,8 +7,10 @@
 #include <span>
 #include <vector>
 
-#include "tissu/cell/elastic_block.h"
+#include "tissu/base/array.h"
 #include "tissu/force/force_model.h"
+#include "tissu/model/elastic_block.h"
+#include "tissu/model/point_fields.h"
 
 namespace tissu {
 
@@ -16,7 +18,26 @@ namespace tissu {
 struct CellFields {
   std::vector<double> von_mises;       ///< of the Cauchy stress [Pa]
   std::vector<double> energy_density;  ///< per rest volume [J/m3]
-  std::vector<double> volume_ratio;    ///< det F
+  std::vector<double> volume_ratio;    ///< det F, of sheets and lines too: they thin
+};
+
+/// Springs with whose direction dampers may stand beside them: Kelvin–Voigt of a model that is made of
+/// springs.
+class DampedSprings {
+ public:
+  DampedSprings() = default;
+  DampedSprings(const DampedSprings&) = delete;
+  DampedSprings& operator=(const DampedSprings&) = delete;
+  /// sum_e V_e / l0^2 of each lane [m], [group][8]
+  [[nodiscard]] virtual const AlignedVector<double>& shares() const = 0;
+  /// out += scale times the force of dampers [N s/m] of each lane at the velocities p, …
+  virtual void add_damping(const double* damping, ConstReals x, double scale, ConstReals p,
+                           Reals out) const = 0;
+  /// … and its matrix.
+  virtual void add_damping(const double* damping, ConstReals x, double scale, BlockMatrix& matrix) const = 0;
+
+ protected:
+  ~DampedSprings() = default;
 };
 
 class BodyModel : public ForceModel {
@@ -44,6 +65,12 @@ class BodyModel : public ForceModel {
   /// Puts those nodes where they are.
   virtual void settle(State& /*state*/) const {}
   [[nodiscard]] virtual CellFields fields(const State& state) const = 0;
+  /// Where its integration points are [m], three numbers each, where they are not those of cells.
+  [[nodiscard]] virtual std::vector<double> points(const State& /*state*/) const { return {}; }
+  /// Its springs, beside which its viscosity stands; null: it stands in the cells.
+  [[nodiscard]] virtual const DampedSprings* springs() const { return nullptr; }
+  /// F, P and W at its integration points; of models without a stress no points.
+  [[nodiscard]] virtual PointFields point_fields(const PointQuery& query) const;
   /// What it holds of its cells, node and matrix places included.
   [[nodiscard]] virtual std::size_t bytes() const = 0;
   /// Numbers kept of each cell's rest shape and law; those that all cells share are kept once.

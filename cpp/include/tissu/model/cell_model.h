@@ -3,7 +3,9 @@
 /// What all models on cells share: cells in groups of eight lanes, their rest shape, masses, places in the
 /// matrix, and the loops over the chunks.
 
+#include <algorithm>
 #include <numeric>
+#include <utility>
 
 #include "tissu/base/array.h"
 #include "tissu/base/parallel.h"
@@ -12,6 +14,7 @@
 #include "tissu/cell/rest_shape.h"
 #include "tissu/element/reference_cell.h"
 #include "tissu/model/body_model.h"
+#include "tissu/model/law_constants.h"
 
 namespace tissu {
 
@@ -66,6 +69,10 @@ class CellModel : public BodyModel {
         constants_[(i / kLanes * count + c) * kLanes + i % kLanes] = constants[c];
     }
   }
+  void take_constants(LawConstants laid) {
+    constants_ = std::move(laid.values);
+    constants_stride_ = laid.stride;
+  }
   /// dN_a/dxi, [point][node][m]: what ElasticView::gradients reads.
   [[nodiscard]] std::vector<double> reference_gradients() const;
   /// The cells as kernels read them, without gradients, frames and laws.
@@ -97,18 +104,19 @@ class CellModel : public BodyModel {
     for_chunks(loops.order,
                [&](const Chunk& chunk) { loop(loops.view, chunk, x.data(), scale.position, blocks); });
   }
-  /// Of each lane [J]; valid until the next call.
+  /// Of each lane [J]; valid until the scratch is used again.
   template <class L>
-  [[nodiscard]] const std::vector<double>& energies_by(const L& loops, ConstReals x) const {
-    energies_.assign(loops.order.element.size(), 0.0);
+  [[nodiscard]] ConstReals energies_by(const L& loops, ConstReals x, Scratch& scratch) const {
+    const Reals energies = scratch.reals(loops.order.element.size());
+    std::ranges::fill(energies, 0.0);
     for_chunks(loops.order, [&](const Chunk& chunk) {
-      loops.kernels.energy(loops.view, chunk, x.data(), energies_.data());
+      loops.kernels.energy(loops.view, chunk, x.data(), energies.data());
     });
-    return energies_;
+    return energies;
   }
   template <class L>
-  [[nodiscard]] double energy_by(const L& loops, ConstReals x) const {
-    const std::vector<double>& energies = energies_by(loops, x);
+  [[nodiscard]] double energy_by(const L& loops, ConstReals x, Scratch& scratch) const {
+    const ConstReals energies = energies_by(loops, x, scratch);
     return std::accumulate(energies.begin(), energies.end(), 0.0);
   }
   /// `volume_ratio` holds what the kernels write beside their stresses.
@@ -119,7 +127,8 @@ class CellModel : public BodyModel {
     for_chunks(loops.order, [&](const Chunk& chunk) {
       loops.kernels.stress(loops.view, chunk, x.data(), stresses.data(), ratios.data());
     });
-    return cell_fields(stresses, ratios, energies_by(loops, x));
+    Scratch scratch;
+    return cell_fields(stresses, ratios, energies_by(loops, x, scratch));
   }
 
   /// Calls f(chunk) for every chunk; those that run at the same time share no node.
@@ -151,8 +160,7 @@ class CellModel : public BodyModel {
 
  private:
   [[nodiscard]] CellFields cell_fields(const std::vector<double>& stresses, const std::vector<double>& ratios,
-                                       const std::vector<double>& energies) const;
-  mutable std::vector<double> energies_;  ///< of each lane, from the first time that they are asked for
+                                       ConstReals energies) const;
   template <class Function>
   void for_nodes(Function&& f) const;
 };

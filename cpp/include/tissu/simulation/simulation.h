@@ -4,12 +4,14 @@
 
 #include <memory>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "tissu/base/profile.h"
 #include "tissu/simulation/snapshot.h"
 #include "tissu/solve/linear_solver.h"
 #include "tissu/step/integrator.h"
+#include "tissu/world/run_time.h"
 #include "tissu/world/world.h"
 
 namespace tissu {
@@ -37,6 +39,10 @@ class Simulation {
   [[nodiscard]] const World& world() const { return *world_; }
   [[nodiscard]] const State& state() const { return state_; }
   [[nodiscard]] State& state() { return state_; }
+  /// What the state remembers under a name, to be changed between two steps; refuses unknown names.
+  [[nodiscard]] std::vector<double>& memory(std::string_view name) {
+    return memory_of(*world_, state_, name);
+  }
   [[nodiscard]] Energy energy() const;
   [[nodiscard]] Profile& profile() { return profile_; }
   [[nodiscard]] const Integrator& integrator() const { return *integrator_; }
@@ -70,6 +76,7 @@ class Simulation {
   Profile profile_;
   State state_;
   State last_good_;
+  Scratch scratch_;
   bool settled_ = true;
 };
 

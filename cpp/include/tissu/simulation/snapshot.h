@@ -24,7 +24,6 @@ struct Snapshot {
   double time_before = 0.0;               ///< the latest step began [s]
   std::vector<double> velocities_before;  ///< and had these velocities: reactions are computed from them
   std::vector<double> integrator;         ///< Integrator::memory()
-  std::vector<double> links;              ///< Links::numbers()
   std::vector<BodyCells> bodies;
 };
 

@@ -1,11 +1,12 @@
 #pragma once
 
-/// What a step changes: positions, velocities, rotations of frames, what viscosity remembers, time.
+/// What a step changes: positions, velocities, rotations of frames, what models remember, time.
 
 #include <cstdint>
 #include <vector>
 
 #include "tissu/base/vec.h"
+#include "tissu/state/memory.h"
 
 namespace tissu {
 
@@ -24,8 +25,8 @@ struct State {
   std::vector<double>
       velocities;  ///< [m/s]; a frame's rotation block holds its angular velocity in space [rad/s]
   std::vector<Quaternion> rotations;  ///< one unit quaternion for each frame
-  std::vector<double> memory;  ///< internal variables of materials that remember; empty when there are none
-  double memory_time = 0.0;    ///< when the memory was written [s]
+  Memory memory;                      ///< what models remember; empty when none does
+  double memory_time = 0.0;           ///< when the memory was written [s]
 
   [[nodiscard]] std::int32_t blocks() const { return static_cast<std::int32_t>(positions.size() / 3); }
 };

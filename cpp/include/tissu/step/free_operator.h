@@ -1,6 +1,5 @@
 #pragma once
 
-#include <utility>
 #include <vector>
 
 #include "tissu/assembly/linear_operator.h"
@@ -12,7 +11,8 @@ namespace tissu {
 /// from the models' own products, given degrees of freedom as the identity. It keeps a copy of the state.
 ///
 /// The diagonal blocks are exact: rows get colours so that two of one colour are not coupled, and the product
-/// with ones in one axis of all rows of a colour gives their columns of the diagonal.
+/// with ones in one axis of all rows of a colour gives their columns of the diagonal. Couplings of the
+/// running world stand beside it as beside an assembled matrix.
 class FreeOperator final : public LinearOperator {
  public:
   explicit FreeOperator(const World& world);
@@ -29,22 +29,24 @@ class FreeOperator final : public LinearOperator {
   [[nodiscard]] std::size_t bytes() const override;
 
  private:
-  using Pairs = std::vector<std::pair<std::int32_t, std::int32_t>>;
   [[nodiscard]] int colours() const;
   void color() const;
+  void multiply_models(ConstReals p, Reals out) const;
 
   const World& world_;
   Threads threads_;
   State state_;
   double mass_ = 0.0;
   StiffnessScale scale_;
+  Couplings couplings_;
+  // Work of the one step that it belongs to.
   mutable std::vector<double> free_;  ///< p without the given numbers; where there are any
   mutable std::vector<double> unit_;
   mutable std::vector<double> column_;
   mutable std::vector<double> diagonal_;  ///< three numbers for each row
   mutable std::vector<std::int32_t> color_;
-  mutable Pairs linked_;  ///< rows coupled at run time, for which `color_` holds
   mutable int colours_ = 0;
+  mutable Scratch scratch_;
 };
 
 }  // namespace tissu

@@ -78,6 +78,7 @@ class StageSolver {
   std::vector<double> right_;
   std::vector<double> work_;
   std::vector<double> momentum_;
+  Scratch scratch_;          ///< of energies
   double reference_ = 0.0;   ///< push |external force|
   double start_ = 0.0;       ///< residual that the first solve found
   bool is_falling_ = false;  ///< the last of Newton's iterations at least halved the least residual

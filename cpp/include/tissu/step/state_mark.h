@@ -4,6 +4,9 @@
 
 namespace tissu {
 
+/// Refuses what an integrator kept in another world: its numbers are copied by their places.
+void require_memory(std::size_t found, std::size_t accepted);
+
 /// Tells whether a state is the one that a step left behind: methods that keep something from step to step
 /// begin anew when somebody has moved the bodies in between.
 class StateMark {

@@ -28,8 +28,8 @@ class System {
   /// out += (scale.position df/dx + scale.velocity df/dv) p
   void add_product(const State& state, StiffnessScale scale, ConstReals p, Reals out);
   /// A = mass M + scale.position df/dx + scale.velocity df/dv, given degrees of freedom as the identity.
-  /// Nothing is done when a linear world is asked for the matrix it has. For a solver that needs no matrix,
-  /// A is a product only, at a copy of the state.
+  /// Nothing is done when a linear world is asked for the matrix it has; couplings are always made anew. For
+  /// a solver that needs no matrix, A is a product only, at a copy of the state.
   void assemble(const State& state, double mass, StiffnessScale scale);
   /// Solves A x = b from the first guess x.
   SolveReport solve(ConstReals b, Reals x, double floor);
@@ -48,6 +48,8 @@ class System {
     std::size_t product;
     std::size_t stiffness;
   };
+  /// What is coupled now, beside the matrix.
+  void couple(const State& state, StiffnessScale scale);
   /// Where the rows are, for a solver that asks.
   void place_rows(const State& state);
   void assemble_blocks(const State& state, double mass, StiffnessScale scale);
@@ -57,12 +59,15 @@ class System {
   Profile& profile_;
   std::optional<BlockMatrix> matrix_;  ///< one of the two, made when it is first asked for
   std::optional<FreeOperator> free_;
+  Couplings couplings_;
+  Scratch scratch_;
   RowPlaces places_;  ///< empty unless the solver asks for them
   std::vector<Rows> rows_;
   std::size_t mass_row_;
   std::size_t preparation_row_ = 0;
   std::size_t solve_row_ = 0;
   bool assembled_ = false;
+  bool is_constant_;  ///< the matrix itself is the same for every state, whatever is coupled beside it
   double mass_scale_ = 0.0;
   StiffnessScale scale_;
 };

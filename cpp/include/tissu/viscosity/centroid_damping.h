@@ -25,9 +25,11 @@ class CentroidDamping final : public ForceModel {
   [[nodiscard]] bool has_constant_stiffness() const override { return true; }
   void couple(SparsityBuilder& builder) const override;
   void bind(const Sparsity& pattern) override;
-  void add_force(const State& state, Reals f) const override;
-  void add_stiffness(const State& state, StiffnessScale scale, BlockMatrix& matrix) const override;
-  void add_product(const State& state, StiffnessScale scale, ConstReals p, Reals out) const override;
+  void add_force(const State& state, Scratch& scratch, Reals f) const override;
+  void add_stiffness(const State& state, Scratch& scratch, StiffnessScale scale,
+                     BlockMatrix& matrix) const override;
+  void add_product(const State& state, Scratch& scratch, StiffnessScale scale, ConstReals p,
+                   Reals out) const override;
 
  private:
   struct Cells {

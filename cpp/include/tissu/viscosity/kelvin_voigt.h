@@ -20,9 +20,11 @@ class KelvinVoigt final : public ViscousCells {
   /// On the cells of `block`; `viscosity` holds zeta and eta in the places of lambda and mu.
   KelvinVoigt(const ElasticBlock& block, Lame viscosity, ConstReals rest_positions, Isa isa, Threads threads);
   [[nodiscard]] std::string_view effect() const override { return "Kelvin–Voigt viscosity"; }
-  void add_force(const State& state, Reals f) const override;
-  void add_stiffness(const State& state, StiffnessScale scale, BlockMatrix& matrix) const override;
-  void add_product(const State& state, StiffnessScale scale, ConstReals p, Reals out) const override;
+  void add_force(const State& state, Scratch& scratch, Reals f) const override;
+  void add_stiffness(const State& state, Scratch& scratch, StiffnessScale scale,
+                     BlockMatrix& matrix) const override;
+  void add_product(const State& state, Scratch& scratch, StiffnessScale scale, ConstReals p,
+                   Reals out) const override;
 
  private:
   /// Their product and stiffness are those of df/dv.

@@ -10,8 +10,8 @@
 /// law alone answers at long times, (1 + sum g_k) times its small-strain stiffness at once. Fibres added to
 /// the law have no branches.
 ///
-/// q_k and E0 of every point stand in State::memory; h is the time since that was written. At a given memory
-/// the force has a potential, so the tangent is symmetric, its geometric part included.
+/// q_k and E0 of every point stand in a place of State::memory; h is the time since that was written. At a
+/// given memory the force has a potential, so the tangent is symmetric, its geometric part included.
 
 #include <array>
 #include <vector>
@@ -24,22 +24,26 @@ namespace tissu {
 
 class Prony final : public ViscousCells {
  public:
-  /// On the cells of `block`; its numbers in State::memory begin at `first`. Refuses sheets and lines, and
-  /// laws without Lamé's moduli at rest.
-  Prony(const ElasticBlock& block, const std::vector<PronyBranch>& branches, std::size_t first,
-        ConstReals rest_positions, Isa isa, Threads threads);
+  /// On the cells of `block`. Refuses sheets and lines, and laws without Lamé's moduli at rest.
+  Prony(const ElasticBlock& block, const std::vector<PronyBranch>& branches, ConstReals rest_positions,
+        Isa isa, Threads threads);
   [[nodiscard]] std::string_view effect() const override { return "Prony viscosity"; }
-  void add_force(const State& state, Reals f) const override;
-  void add_stiffness(const State& state, StiffnessScale scale, BlockMatrix& matrix) const override;
-  void add_product(const State& state, StiffnessScale scale, ConstReals p, Reals out) const override;
+  void add_force(const State& state, Scratch& scratch, Reals f) const override;
+  void add_stiffness(const State& state, Scratch& scratch, StiffnessScale scale,
+                     BlockMatrix& matrix) const override;
+  void add_product(const State& state, Scratch& scratch, StiffnessScale scale, ConstReals p,
+                   Reals out) const override;
   /// In the branches' springs.
-  [[nodiscard]] double energy(const State& state) const override;
+  [[nodiscard]] double energy(const State& state, Scratch& scratch) const override;
 
+  [[nodiscard]] RunTime run_time() const override { return {.remembers = true}; }
+  void claim_memory(MemoryPlaces& places) override;
+  /// Writes q_k and E at state.time.
+  void remember(State& state) const override;
+  /// Takes the memory of the cells that it shares, by their numbers, with a model of the same body.
+  void carry_memory(const ForceModel& before, const Memory& then, Memory& now) const override;
+  void check_memory(const State& state) const override;
   [[nodiscard]] std::size_t memory_size() const;
-  /// Writes q_k and E at state.time; state.memory_time is left to the world.
-  void advance(State& state) const;
-  /// Takes the memory of the cells that it shares, by their numbers, with a model of the same branches.
-  void take_over(const Prony& before, ConstReals memory_before, Reals memory) const;
 
  private:
   /// How far the branches get in some time.
@@ -52,7 +56,7 @@ class Prony final : public ViscousCells {
   [[nodiscard]] std::size_t reals_of_cell() const;
 
   const PronyKernels* kernels_;
-  std::size_t first_;
+  std::size_t place_ = 0;  ///< in State::memory
   std::vector<double> shares_;
   std::vector<double> times_;
 };

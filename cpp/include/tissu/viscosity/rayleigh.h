@@ -13,7 +13,8 @@ namespace tissu {
 /// position and velocity parts differ by a factor. The change of df_e/dx itself with x is left out of df/dx.
 class Rayleigh final : public ForceModel {
  public:
-  /// `masses` is zero outside the body.
+  /// `masses` is zero outside the body. Refuses models that couple rows at run time: they are not of its
+  /// cells.
   Rayleigh(std::vector<std::unique_ptr<ForceModel>> elastic, std::vector<double> masses, double alpha,
            double beta);
   [[nodiscard]] std::string_view effect() const override { return "elasticity with Rayleigh damping"; }
@@ -21,10 +22,21 @@ class Rayleigh final : public ForceModel {
   [[nodiscard]] bool has_constant_stiffness() const override;
   void couple(SparsityBuilder& builder) const override;
   void bind(const Sparsity& pattern) override;
-  void add_force(const State& state, Reals f) const override;
-  void add_stiffness(const State& state, StiffnessScale scale, BlockMatrix& matrix) const override;
-  void add_product(const State& state, StiffnessScale scale, ConstReals p, Reals out) const override;
-  [[nodiscard]] double energy(const State& state) const override;
+  void add_force(const State& state, Scratch& scratch, Reals f) const override;
+  void add_stiffness(const State& state, Scratch& scratch, StiffnessScale scale,
+                     BlockMatrix& matrix) const override;
+  void add_product(const State& state, Scratch& scratch, StiffnessScale scale, ConstReals p,
+                   Reals out) const override;
+  [[nodiscard]] double energy(const State& state, Scratch& scratch) const override;
+
+  // Those of the models that it damps.
+  [[nodiscard]] std::size_t scratch_size() const override;
+  [[nodiscard]] RunTime run_time() const override;
+  void claim_memory(MemoryPlaces& places) override;
+  void begin_step(State& state, Scratch& scratch, double h) const override;
+  void remember(State& state) const override;
+  void carry_memory(const ForceModel& before, const Memory& then, Memory& now) const override;
+  void check_memory(const State& state) const override;
 
  private:
   std::vector<std::unique_ptr<ForceModel>> elastic_;

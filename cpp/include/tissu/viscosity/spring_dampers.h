@@ -6,22 +6,24 @@
 /// constants. Turning is free; df/dv is exact, and the change of n with x is left out of df/dx.
 
 #include "tissu/law/law.h"
-#include "tissu/model/edges/mass_spring.h"
+#include "tissu/model/body_model.h"
 
 namespace tissu {
 
 class SpringDampers final : public ForceModel {
  public:
   /// `springs` outlives it; `viscosity` holds zeta and eta in the places of lambda and mu.
-  SpringDampers(const MassSpring& springs, Lame viscosity);
+  SpringDampers(const DampedSprings& springs, Lame viscosity);
   [[nodiscard]] std::string_view effect() const override { return "Kelvin–Voigt viscosity"; }
   [[nodiscard]] ForceKind kind() const override { return ForceKind::elastic; }
-  void add_force(const State& state, Reals f) const override;
-  void add_stiffness(const State& state, StiffnessScale scale, BlockMatrix& matrix) const override;
-  void add_product(const State& state, StiffnessScale scale, ConstReals p, Reals out) const override;
+  void add_force(const State& state, Scratch& scratch, Reals f) const override;
+  void add_stiffness(const State& state, Scratch& scratch, StiffnessScale scale,
+                     BlockMatrix& matrix) const override;
+  void add_product(const State& state, Scratch& scratch, StiffnessScale scale, ConstReals p,
+                   Reals out) const override;
 
  private:
-  const MassSpring& springs_;
+  const DampedSprings& springs_;
   AlignedVector<double> damping_;  ///< c, [group][8]
 };
 

@@ -9,8 +9,8 @@
 
 #include "tissu/assembly/fixed_dofs.h"
 #include "tissu/base/isa.h"
-#include "tissu/cell/elastic_block.h"
 #include "tissu/force/load.h"
+#include "tissu/model/elastic_block.h"
 #include "tissu/viscosity/viscosity.h"
 
 namespace tissu {

@@ -21,15 +21,15 @@ template <class T>
 }
 
 template <class T>
-[[gnu::always_inline]] inline void multiply(const std::int64_t* row_begin, const std::int32_t* column,
-                                            const T* values, std::int32_t begin, std::int32_t end, const T* p,
-                                            T* out) {
+[[gnu::always_inline]] inline void multiply(const std::int64_t* row_begin, const std::int64_t* row_end,
+                                            const std::int32_t* column, const T* values, std::int32_t begin,
+                                            std::int32_t end, const T* p, T* out) {
   using V = Four<T>;
   for (std::int32_t r = begin; r < end; ++r) {
     V even[3] = {V{}, V{}, V{}};
     V odd[3] = {V{}, V{}, V{}};
     std::int64_t s = row_begin[r];
-    const std::int64_t last = row_begin[r + 1];
+    const std::int64_t last = row_end[r];
     for (; s + 1 < last; s += 2) {
       add_block<T>(values + 9 * s, p + 3 * static_cast<std::ptrdiff_t>(column[s]), even);
       add_block<T>(values + 9 * s + 9, p + 3 * static_cast<std::ptrdiff_t>(column[s + 1]), odd);
@@ -45,14 +45,14 @@ template <class T>
 
 }  // namespace
 
-void multiply_rows(const std::int64_t* row_begin, const std::int32_t* column, const double* values,
-                   std::int32_t begin, std::int32_t end, const double* p, double* out) {
-  multiply(row_begin, column, values, begin, end, p, out);
+void multiply_rows(const std::int64_t* row_begin, const std::int64_t* row_end, const std::int32_t* column,
+                   const double* values, std::int32_t begin, std::int32_t end, const double* p, double* out) {
+  multiply(row_begin, row_end, column, values, begin, end, p, out);
 }
 
-void multiply_rows(const std::int64_t* row_begin, const std::int32_t* column, const float* values,
-                   std::int32_t begin, std::int32_t end, const float* p, float* out) {
-  multiply(row_begin, column, values, begin, end, p, out);
+void multiply_rows(const std::int64_t* row_begin, const std::int64_t* row_end, const std::int32_t* column,
+                   const float* values, std::int32_t begin, std::int32_t end, const float* p, float* out) {
+  multiply(row_begin, row_end, column, values, begin, end, p, out);
 }
 
 }  // namespace tissu::TISSU_KERNELS

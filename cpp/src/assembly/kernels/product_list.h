@@ -9,15 +9,17 @@
 namespace tissu {
 
 template <class T>
-using MultiplyRows = void (*)(const std::int64_t* row_begin, const std::int32_t* column, const T* values,
-                              std::int32_t begin, std::int32_t end, const T* p, T* out);
+using MultiplyRows = void (*)(const std::int64_t* row_begin, const std::int64_t* row_end,
+                              const std::int32_t* column, const T* values, std::int32_t begin,
+                              std::int32_t end, const T* p, T* out);
 
-#define TISSU_PRODUCT(isa)                                                                            \
-  namespace isa {                                                                                     \
-  void multiply_rows(const std::int64_t* row_begin, const std::int32_t* column, const double* values, \
-                     std::int32_t begin, std::int32_t end, const double* p, double* out);             \
-  void multiply_rows(const std::int64_t* row_begin, const std::int32_t* column, const float* values,  \
-                     std::int32_t begin, std::int32_t end, const float* p, float* out);               \
+#define TISSU_PRODUCT(isa)                                                                                   \
+  namespace isa {                                                                                            \
+  void multiply_rows(const std::int64_t* row_begin, const std::int64_t* row_end, const std::int32_t* column, \
+                     const double* values, std::int32_t begin, std::int32_t end, const double* p,            \
+                     double* out);                                                                           \
+  void multiply_rows(const std::int64_t* row_begin, const std::int64_t* row_end, const std::int32_t* column, \
+                     const float* values, std::int32_t begin, std::int32_t end, const float* p, float* out); \
   }
 TISSU_PRODUCT(baseline)
 TISSU_PRODUCT(avx2)
@@ -26,8 +28,10 @@ TISSU_PRODUCT(avx512)
 
 template <class T>
 MultiplyRows<T> multiply_rows_of(Isa isa) {
-#ifdef TISSU_X86_KERNELS
+#ifdef TISSU_HAS_AVX512
   if (isa == Isa::avx512) return &avx512::multiply_rows;
+#endif
+#ifdef TISSU_HAS_AVX2
   if (isa == Isa::avx2) return &avx2::multiply_rows;
 #endif
   (void)isa;

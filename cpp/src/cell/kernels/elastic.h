@@ -4,6 +4,7 @@
 /// the force back to the nodes.  f_a = -sum_g w_g P grad_a,  K_ab = sum_g w_g grad_a . dP/dF . grad_b.
 
 #include "definite_tangent.h"
+#include "for_batches.h"
 #include "fused_point.h"
 #include "scatter_pairs.h"
 
@@ -25,25 +26,23 @@ struct Elastic : FusedPoint<Element, Rule, LawOf> {
     PackedNodes sums;
     positions.load(chunk, x);
     sums.clear(chunk);
-    for (std::int32_t group = chunk.begin; group < chunk.end; ++group) {
-      for (int lane = 0; lane < kLanes; lane += kWidth) {
-        const Lanes lanes(view, group, lane);
-        Batch position[kNodes][3];
-        Batch result[kNodes][3];
-        lanes.gather_all(positions, position);
-        Base::clear(result);
-        for (int g = 0; g < Rule::kPoints; ++g) {
-          const Inverse Jinv = lanes.inverse_jacobian(g);
-          const Tensor F = Base::gradient(g, position, Jinv);
-          Base::spread(g,
-                       Base::scaled(lanes.law, -lanes.weight(g),
-                                    [&](const MaterialLaw& law) { return law.stress(F); }),
-                       Jinv, result);
-        }
-        Base::close(result);
-        lanes.scatter_all(sums, result);
-      }
-    }
+    for_batches<Lanes>(
+        view, chunk, [&](const Lanes& lanes, std::int32_t, int) __attribute__((always_inline)) {
+          Batch position[kNodes][3];
+          Batch result[kNodes][3];
+          lanes.gather_all(positions, position);
+          Base::clear(result);
+          for (int g = 0; g < Rule::kPoints; ++g) {
+            const Inverse Jinv = lanes.inverse_jacobian(g);
+            const Tensor F = Base::gradient(g, position, Jinv);
+            Base::spread(g,
+                         Base::scaled(lanes.law, -lanes.weight(g),
+                                      [&](const MaterialLaw& law) { return law.stress(F); }),
+                         Jinv, result);
+          }
+          Base::close(result);
+          lanes.scatter_all(sums, result);
+        });
     sums.add_to(chunk, f);
   }
 
@@ -55,28 +54,26 @@ struct Elastic : FusedPoint<Element, Rule, LawOf> {
     positions.load(chunk, x);
     changes.load(chunk, p);
     sums.clear(chunk);
-    for (std::int32_t group = chunk.begin; group < chunk.end; ++group) {
-      for (int lane = 0; lane < kLanes; lane += kWidth) {
-        const Lanes lanes(view, group, lane);
-        Batch position[kNodes][3];
-        Batch change[kNodes][3];
-        Batch result[kNodes][3];
-        lanes.gather_all(positions, position);
-        lanes.gather_all(changes, change);
-        Base::clear(result);
-        for (int g = 0; g < Rule::kPoints; ++g) {
-          const Inverse Jinv = lanes.inverse_jacobian(g);
-          const Tensor F = Base::gradient(g, position, Jinv);
-          const Tensor dF = Base::gradient(g, change, Jinv);
-          Base::spread(g,
-                       Base::scaled(lanes.law, lanes.weight(g) * Batch(-scale),
-                                    [&](const MaterialLaw& law) { return law.stress_change(F, dF); }),
-                       Jinv, result);
-        }
-        Base::close(result);
-        lanes.scatter_all(sums, result);
-      }
-    }
+    for_batches<Lanes>(
+        view, chunk, [&](const Lanes& lanes, std::int32_t, int) __attribute__((always_inline)) {
+          Batch position[kNodes][3];
+          Batch change[kNodes][3];
+          Batch result[kNodes][3];
+          lanes.gather_all(positions, position);
+          lanes.gather_all(changes, change);
+          Base::clear(result);
+          for (int g = 0; g < Rule::kPoints; ++g) {
+            const Inverse Jinv = lanes.inverse_jacobian(g);
+            const Tensor F = Base::gradient(g, position, Jinv);
+            const Tensor dF = Base::gradient(g, change, Jinv);
+            Base::spread(g,
+                         Base::scaled(lanes.law, lanes.weight(g) * Batch(-scale),
+                                      [&](const MaterialLaw& law) { return law.stress_change(F, dF); }),
+                         Jinv, result);
+          }
+          Base::close(result);
+          lanes.scatter_all(sums, result);
+        });
     sums.add_to(chunk, out);
   }
 
@@ -144,41 +141,38 @@ struct Elastic : FusedPoint<Element, Rule, LawOf> {
                         double* blocks) {
     PackedNodes positions;
     positions.load(chunk, x);
-    for (std::int32_t group = chunk.begin; group < chunk.end; ++group) {
-      for (int lane = 0; lane < kLanes; lane += kWidth) {
-        const Lanes lanes(view, group, lane);
-        Batch position[kNodes][3];
-        Batch K[kPairs][9];
-        lanes.gather_all(positions, position);
-        for (auto& block : K) {
-          for (Batch& entry : block) entry = Batch(0.0);
-        }
-        for (int g = 0; g < Rule::kPoints; ++g) point_stiffness<kDefinite>(lanes, g, position, scale, K);
-        int pair = 0;
-        for (int b = kFirst; b < kNodes; ++b) {
-          for (int a = kFirst; a <= b; ++a, ++pair) scatter_pair<kNodes>(lanes.slots, a, b, K[pair], blocks);
-        }
-        if constexpr (Element::kAffine) scatter_first_node<kNodes>(lanes.slots, K, blocks);
-      }
-    }
+    for_batches<Lanes>(
+        view, chunk, [&](const Lanes& lanes, std::int32_t, int) __attribute__((always_inline)) {
+          Batch position[kNodes][3];
+          Batch K[kPairs][9];
+          lanes.gather_all(positions, position);
+          for (auto& block : K) {
+            for (Batch& entry : block) entry = Batch(0.0);
+          }
+          for (int g = 0; g < Rule::kPoints; ++g) point_stiffness<kDefinite>(lanes, g, position, scale, K);
+          int pair = 0;
+          for (int b = kFirst; b < kNodes; ++b) {
+            for (int a = kFirst; a <= b; ++a, ++pair)
+              scatter_pair<kNodes>(lanes.slots, a, b, K[pair], blocks);
+          }
+          if constexpr (Element::kAffine) scatter_first_node<kNodes>(lanes.slots, K, blocks);
+        });
   }
 
   static void energy(const ElasticView& view, const Chunk& chunk, const double* x, double* energies) {
     PackedNodes positions;
     positions.load(chunk, x);
-    for (std::int32_t group = chunk.begin; group < chunk.end; ++group) {
-      for (int lane = 0; lane < kLanes; lane += kWidth) {
-        const Lanes lanes(view, group, lane);
-        Batch position[kNodes][3];
-        lanes.gather_all(positions, position);
-        Batch sum(0.0);
-        for (int g = 0; g < Rule::kPoints; ++g) {
-          sum += lanes.weight(g) * lanes.law.energy(Base::gradient(g, position, lanes.inverse_jacobian(g)));
-        }
-        double* to = energies + static_cast<std::ptrdiff_t>(group) * kLanes + lane;
-        (Batch::load(to) + sum).store(to);
-      }
-    }
+    for_batches<Lanes>(
+        view, chunk, [&](const Lanes& lanes, std::int32_t group, int lane) __attribute__((always_inline)) {
+          Batch position[kNodes][3];
+          lanes.gather_all(positions, position);
+          Batch sum(0.0);
+          for (int g = 0; g < Rule::kPoints; ++g) {
+            sum += lanes.weight(g) * lanes.law.energy(Base::gradient(g, position, lanes.inverse_jacobian(g)));
+          }
+          double* to = energies + static_cast<std::ptrdiff_t>(group) * kLanes + lane;
+          (Batch::load(to) + sum).store(to);
+        });
   }
 
   /// sigma = P F^T / det F, weighted with the rest volume.
@@ -188,32 +182,30 @@ struct Elastic : FusedPoint<Element, Rule, LawOf> {
     constexpr int column[6] = {0, 1, 2, 2, 2, 1};
     PackedNodes positions;
     positions.load(chunk, x);
-    for (std::int32_t group = chunk.begin; group < chunk.end; ++group) {
-      for (int lane = 0; lane < kLanes; lane += kWidth) {
-        const Lanes lanes(view, group, lane);
-        Batch position[kNodes][3];
-        lanes.gather_all(positions, position);
-        Batch volume(0.0);
-        Batch ratio(0.0);
-        Batch sum[6];
-        for (Batch& s : sum) s = Batch(0.0);
-        for (int g = 0; g < Rule::kPoints; ++g) {
-          const Tensor F = Base::gradient(g, position, lanes.inverse_jacobian(g));
-          const Batch J = determinant(F);
-          const Tensor tau = tissu::product_transposed(lanes.law.stress(F), F);
-          const Batch w = lanes.weight(g);
-          volume += w;
-          ratio += w * J;
+    for_batches<Lanes>(
+        view, chunk, [&](const Lanes& lanes, std::int32_t group, int lane) __attribute__((always_inline)) {
+          Batch position[kNodes][3];
+          lanes.gather_all(positions, position);
+          Batch volume(0.0);
+          Batch ratio(0.0);
+          Batch sum[6];
+          for (Batch& s : sum) s = Batch(0.0);
+          for (int g = 0; g < Rule::kPoints; ++g) {
+            const Tensor F = Base::gradient(g, position, lanes.inverse_jacobian(g));
+            const Batch J = determinant(F);
+            const Tensor tau = tissu::product_transposed(lanes.law.stress(F), F);
+            const Batch w = lanes.weight(g);
+            volume += w;
+            ratio += w * J;
+            TISSU_UNROLL
+            for (int s = 0; s < 6; ++s)
+              sum[s] += w / J * (tau(row[s], column[s]) + tau(column[s], row[s])) * Batch(0.5);
+          }
+          double* to = stresses + static_cast<std::ptrdiff_t>(group) * 6 * kLanes + lane;
           TISSU_UNROLL
-          for (int s = 0; s < 6; ++s)
-            sum[s] += w / J * (tau(row[s], column[s]) + tau(column[s], row[s])) * Batch(0.5);
-        }
-        double* to = stresses + static_cast<std::ptrdiff_t>(group) * 6 * kLanes + lane;
-        TISSU_UNROLL
-        for (int s = 0; s < 6; ++s) (sum[s] / volume).store(to + s * kLanes);
-        (ratio / volume).store(ratios + static_cast<std::ptrdiff_t>(group) * kLanes + lane);
-      }
-    }
+          for (int s = 0; s < 6; ++s) (sum[s] / volume).store(to + s * kLanes);
+          (ratio / volume).store(ratios + static_cast<std::ptrdiff_t>(group) * kLanes + lane);
+        });
   }
 
   /// A law that is linear has a tangent without negative eigenvalues; the others here are isotropic.

@@ -57,7 +57,7 @@ void Condensed::multiply(double scale, Value&& p, Reals f) const {
   }
 }
 
-void Condensed::add_force(const State& state, Reals f) const {
+void Condensed::add_force(const State& state, Scratch& /*scratch*/, Reals f) const {
   const std::vector<std::int32_t>& kept = region_->kept();
   multiply(
       -1.0,
@@ -72,7 +72,8 @@ void Condensed::add_force(const State& state, Reals f) const {
   }
 }
 
-void Condensed::add_stiffness(const State& /*state*/, StiffnessScale scale, BlockMatrix& matrix) const {
+void Condensed::add_stiffness(const State& /*state*/, Scratch& /*scratch*/, StiffnessScale scale,
+                              BlockMatrix& matrix) const {
   const std::vector<std::int32_t>& kept = region_->kept();
   if (scale.position == 0.0) return;
   double* values = matrix.values();
@@ -86,12 +87,13 @@ void Condensed::add_stiffness(const State& /*state*/, StiffnessScale scale, Bloc
   }
 }
 
-void Condensed::add_product(const State& /*state*/, StiffnessScale scale, ConstReals p, Reals out) const {
+void Condensed::add_product(const State& /*state*/, Scratch& /*scratch*/, StiffnessScale scale, ConstReals p,
+                            Reals out) const {
   if (scale.position == 0.0) return;
   multiply(-scale.position, [&](std::int32_t node) { return Vec3(tissu::block(p, node)); }, out);
 }
 
-double Condensed::energy(const State& state) const {
+double Condensed::energy(const State& state, Scratch& /*scratch*/) const {
   const std::vector<std::int32_t>& kept = region_->kept();
   Eigen::VectorXd u(static_cast<Eigen::Index>(3 * kept.size()));
   for (std::size_t k = 0; k < kept.size(); ++k) {

@@ -12,7 +12,7 @@ namespace tissu {
 namespace {
 
 ElasticBlock checked(ElasticBlock block) {
-  if (block.model.kept.empty()) {
+  if (options_or_defaults<CondensedOptions>(block.model).kept.empty()) {
     throw ParameterError("body \"" + block.body +
                          "\" asks for the model condensed and keeps no node; keep its surface, or the nodes "
                          "that are held, loaded or shared with other cells.");
@@ -36,7 +36,7 @@ void CondensedRegion::sort_nodes() {
   std::vector<std::int32_t> nodes = whole.cells;
   std::ranges::sort(nodes);
   nodes.erase(std::ranges::unique(nodes).begin(), nodes.end());
-  std::vector<std::int32_t> kept = whole.model.kept;
+  std::vector<std::int32_t> kept = std::get<CondensedOptions>(whole.model).kept;
   std::ranges::sort(kept);
   std::ranges::set_intersection(nodes, kept, std::back_inserter(kept_));
   std::ranges::set_difference(nodes, kept, std::back_inserter(inner_));
@@ -54,12 +54,13 @@ void CondensedRegion::assemble(Isa isa) {
   elastic_.couple(builder);
   pattern_ = builder.build();
   elastic_.bind(pattern_);
+  Scratch scratch;
   State rest;
   rest.positions = rest_;
   for (auto* matrix : {&K_, &Kii_}) {
     *matrix = std::make_unique<BlockMatrix>(pattern_, isa, Threads(1));
     (*matrix)->clear();
-    elastic_.add_stiffness(rest, {-1.0, 0.0}, **matrix);
+    elastic_.add_stiffness(rest, scratch, {-1.0, 0.0}, **matrix);
   }
   given_.assign(rest_.size() / 3, FixedDofs::kAllAxes);
   for (const std::int32_t node : inner_) given_[static_cast<std::size_t>(node)] = 0;
@@ -122,7 +123,7 @@ void CondensedRegion::share_masses() {
   for (const std::int32_t k : kept_) kept += own[static_cast<std::size_t>(k)];
   for (const std::int32_t k : kept_) masses_.push_back(own[static_cast<std::size_t>(k)] * total / kept);
 
-  const Vec3 g = elastic_.block().model.gravity;
+  const Vec3 g = std::get<CondensedOptions>(elastic_.block().model).gravity;
   weight_.assign(rest_.size(), 0.0);
   for (const std::int32_t i : inner_) block(Reals(weight_), i) = pulled[static_cast<std::size_t>(i)] * g;
   std::vector<double> b = weight_;

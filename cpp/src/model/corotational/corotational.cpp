@@ -6,19 +6,23 @@ Loops<CorotationalKernels, CorotationalView> Corotational::loops(const Corotatio
   return {kernels, {cell_view(), centres_.empty() ? nullptr : centres_.data(), rotation_}, order_};
 }
 
-void Corotational::add_force(const State& state, Reals f) const {
+void Corotational::add_force(const State& state, Scratch& /*scratch*/, Reals f) const {
   force_by(loops(*forces_), state.positions, f);
 }
 
-void Corotational::add_stiffness(const State& state, StiffnessScale scale, BlockMatrix& matrix) const {
+void Corotational::add_stiffness(const State& state, Scratch& /*scratch*/, StiffnessScale scale,
+                                 BlockMatrix& matrix) const {
   stiffness_by(loops(*tangents_), state.positions, scale, matrix);
 }
 
-void Corotational::add_product(const State& state, StiffnessScale scale, ConstReals p, Reals out) const {
+void Corotational::add_product(const State& state, Scratch& /*scratch*/, StiffnessScale scale, ConstReals p,
+                               Reals out) const {
   product_by(loops(*tangents_), state.positions, scale.position, p, out);
 }
 
-double Corotational::energy(const State& state) const { return energy_by(loops(*forces_), state.positions); }
+double Corotational::energy(const State& state, Scratch& scratch) const {
+  return energy_by(loops(*forces_), state.positions, scratch);
+}
 
 CellFields Corotational::fields(const State& state) const {
   return fields_by(loops(*forces_), state.positions);

@@ -13,13 +13,13 @@ namespace {
 
 constexpr std::array<std::string_view, 3> kRotations = {"small", "frame", "polar"};  // as in Rotation
 
-/// The words of ModelUse, and a quadrature that K is exact with on affine cells.
+/// The words of CorotationalOptions, and a quadrature that K is exact with on affine cells.
 void check_words(const ElasticBlock& block) {
   const auto refuse = [&](std::string_view what, const std::string& found, std::string_view taken) {
     throw ParameterError("body \"" + block.body + "\" asks for the model corotational with the " +
                          std::string(what) + " \"" + found + "\"; there are " + std::string(taken) + ".");
   };
-  const ModelUse& model = block.model;
+  const auto model = options_or_defaults<CorotationalOptions>(block.model);
   if (std::ranges::find(kRotations, model.rotation) == kRotations.end()) {
     refuse("rotation", model.rotation, "small, frame and polar");
   }
@@ -81,22 +81,19 @@ Corotational::Corotational(ElasticBlock block, ConstReals rest_positions, Isa is
     : CellModel(std::move(block), threads) {
   check_words(block_);
   check_laws(block_, static_cast<std::size_t>(cell_count()));
-  rotation_ =
-      static_cast<Rotation>(std::ranges::find(kRotations, block_.model.rotation) - kRotations.begin());
+  const auto options = options_or_defaults<CorotationalOptions>(block_.model);
+  rotation_ = static_cast<Rotation>(std::ranges::find(kRotations, options.rotation) - kRotations.begin());
   const bool affine = std::ranges::all_of(affine_cells(reference_, block_.cells, rest_positions),
                                           [](char a) { return a != 0; });
   const bool one_jacobian = affine && rotation_ != Rotation::small;
-  choose_kernels(isa, one_jacobian);
+  choose_kernels(isa, one_jacobian, options.tangent == "exact");
   lay_cells(rest_positions, {.frames = false, .triangular = one_jacobian});
   if (!one_jacobian && rotation_ != Rotation::small) lay_centres(rest_positions);
-  const LawUse law = laws_of(block_).front();
-  lay_constants(2, uniform(law.parameters), [&](std::size_t lane, std::span<double> lambda_and_mu) {
-    cell_constants(block_, law, order_.element[lane], lambda_and_mu);
-  });
+  take_constants(lay_law_constants(block_, order_.element, 3));
 }
 
-void Corotational::choose_kernels(Isa isa, bool one_jacobian) {
-  const bool exact = block_.model.tangent == "exact" && rotation_ != Rotation::small;
+void Corotational::choose_kernels(Isa isa, bool one_jacobian, bool exact_tangent) {
+  const bool exact = exact_tangent && rotation_ != Rotation::small;
   tangents_ = find_corotational_kernels(isa, block_.element, one_jacobian, exact);
   forces_ =
       find_corotational_kernels(isa, block_.element, one_jacobian, exact || rotation_ == Rotation::polar);

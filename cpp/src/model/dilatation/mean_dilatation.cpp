@@ -60,13 +60,17 @@ void MeanDilatation::bind(const Sparsity& pattern) {
   });
 }
 
-void MeanDilatation::add_force(const State& state, Reals f) const { force_by(loops(), state.positions, f); }
+void MeanDilatation::add_force(const State& state, Scratch& /*scratch*/, Reals f) const {
+  force_by(loops(), state.positions, f);
+}
 
-void MeanDilatation::add_product(const State& state, StiffnessScale scale, ConstReals p, Reals out) const {
+void MeanDilatation::add_product(const State& state, Scratch& /*scratch*/, StiffnessScale scale, ConstReals p,
+                                 Reals out) const {
   product_by(loops(), state.positions, scale.position, p, out);
 }
 
-void MeanDilatation::add_stiffness(const State& state, StiffnessScale scale, BlockMatrix& matrix) const {
+void MeanDilatation::add_stiffness(const State& state, Scratch& /*scratch*/, StiffnessScale scale,
+                                   BlockMatrix& matrix) const {
   if (scale.position == 0.0) return;
   const auto cells = loops();
   double* values = matrix.values();
@@ -99,7 +103,9 @@ void MeanDilatation::add_patches(const Chunk& chunk, const PatchParts& parts, St
   }
 }
 
-double MeanDilatation::energy(const State& state) const { return energy_by(loops(), state.positions); }
+double MeanDilatation::energy(const State& state, Scratch& scratch) const {
+  return energy_by(loops(), state.positions, scratch);
+}
 
 CellFields MeanDilatation::fields(const State& state) const { return fields_by(loops(), state.positions); }
 

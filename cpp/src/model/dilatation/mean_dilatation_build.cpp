@@ -67,7 +67,7 @@ MeanDilatation::MeanDilatation(ElasticBlock block, std::vector<std::int32_t> of_
 void MeanDilatation::lay(ConstReals rest_positions) {
   lay_cells(rest_positions, {}, of_cell_);
   table_ = patch_table(of_cell_, block_.cells, reference_.nodes, order_, shape_.volumes);
-  lay_law_constants();
+  take_constants(lay_law_constants(block_, order_.element, 3));
 }
 
 std::unique_ptr<BodyModel> MeanDilatation::without(const ElasticBlock& left,
@@ -90,23 +90,6 @@ void MeanDilatation::choose_kernels() {
     laws_.push_back(use.loaded ? use.loaded->kernels(3) : find_law_kernels(isa_, use.law, 3));
   }
   gradients_ = reference_gradients();
-}
-
-void MeanDilatation::lay_law_constants() {
-  const std::vector<LawUse> uses = laws_of(block_);
-  bool same = true;
-  std::size_t count = 0;
-  for (const LawUse& use : uses) {
-    count += law_info(block_, use).constants.size();
-    same = same && uniform(use.parameters);
-  }
-  lay_constants(count, same, [&](std::size_t lane, std::span<double> constants) {
-    for (const LawUse& use : uses) {
-      const std::span<double> of_law = constants.first(law_info(block_, use).constants.size());
-      cell_constants(block_, use, order_.element[lane], of_law);
-      constants = constants.subspan(of_law.size());
-    }
-  });
 }
 
 }  // namespace tissu

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "tissu/model/edges/tetra_edges.h"
+#include "tissu/model/points/elastic_points.h"
 
 namespace tissu {
 namespace {
@@ -108,23 +109,31 @@ Loops<MassLinkKernels, MassLinkView> MassLink::loops() const {
   return {*kernels_, {order_.places.data(), slots_.data(), constants_.data()}, order_};
 }
 
-void MassLink::add_force(const State& state, Reals f) const { force_by(loops(), state.positions, f); }
+void MassLink::add_force(const State& state, Scratch& /*scratch*/, Reals f) const {
+  force_by(loops(), state.positions, f);
+}
 
-void MassLink::add_stiffness(const State& state, StiffnessScale scale, BlockMatrix& matrix) const {
+void MassLink::add_stiffness(const State& state, Scratch& /*scratch*/, StiffnessScale scale,
+                             BlockMatrix& matrix) const {
   stiffness_by(loops(), state.positions, scale, matrix);
 }
 
-void MassLink::add_product(const State& state, StiffnessScale scale, ConstReals p, Reals out) const {
+void MassLink::add_product(const State& state, Scratch& /*scratch*/, StiffnessScale scale, ConstReals p,
+                           Reals out) const {
   product_by(loops(), state.positions, scale.position, p, out);
 }
 
-double MassLink::energy(const State& state) const { return energy_by(loops(), state.positions); }
+double MassLink::energy(const State& state, Scratch& scratch) const {
+  return energy_by(loops(), state.positions, scratch);
+}
 
 CellFields MassLink::fields(const State& state) const {
   CellFields fields = fields_by(loops(), state.positions);
   for (std::size_t e = 0; e < shape_.volumes.size(); ++e) fields.volume_ratio[e] /= shape_.volumes[e];
   return fields;
 }
+
+PointFields MassLink::point_fields(const PointQuery& query) const { return elastic_points(block_, query); }
 
 std::size_t MassLink::bytes() const {
   return CellModel::bytes() + (shape_.rest.size() + constants_.size()) * sizeof(double);

@@ -111,13 +111,17 @@ Loops<SpringKernels, SpringView> MassSpring::loops(const double* damping) const 
           springs_};
 }
 
-void MassSpring::add_force(const State& state, Reals f) const { force_by(loops(), state.positions, f); }
+void MassSpring::add_force(const State& state, Scratch& /*scratch*/, Reals f) const {
+  force_by(loops(), state.positions, f);
+}
 
-void MassSpring::add_stiffness(const State& state, StiffnessScale scale, BlockMatrix& matrix) const {
+void MassSpring::add_stiffness(const State& state, Scratch& /*scratch*/, StiffnessScale scale,
+                               BlockMatrix& matrix) const {
   stiffness_by(loops(), state.positions, scale, matrix);
 }
 
-void MassSpring::add_product(const State& state, StiffnessScale scale, ConstReals p, Reals out) const {
+void MassSpring::add_product(const State& state, Scratch& /*scratch*/, StiffnessScale scale, ConstReals p,
+                             Reals out) const {
   product_by(loops(), state.positions, scale.position, p, out);
 }
 
@@ -135,9 +139,12 @@ void MassSpring::add_damping(const double* damping, ConstReals x, double scale, 
   for_chunks(springs_, [&](const Chunk& chunk) { kernels_->damping(v, chunk, x.data(), scale, values); });
 }
 
-double MassSpring::energy(const State& state) const { return energy_by(loops(), state.positions); }
+double MassSpring::energy(const State& state, Scratch& scratch) const {
+  return energy_by(loops(), state.positions, scratch);
+}
 
 void MassSpring::add_masses(std::vector<double>& nodal) const {
+  const bool equal_masses = options_or_defaults<MassSpringOptions>(block_.model).equal_masses;
   std::vector<char> used(nodal.size(), 0);
   double total = 0.0;
   double count = 0.0;
@@ -145,12 +152,12 @@ void MassSpring::add_masses(std::vector<double>& nodal) const {
     const auto node = static_cast<std::size_t>(block_.cells[i]);
     const std::size_t e = i / kNodes;
     const double share = of_cell(block_.density, static_cast<std::int32_t>(e)) * shape_.volumes[e] / kNodes;
-    if (!block_.model.equal_masses) nodal[node] += share;
+    if (!equal_masses) nodal[node] += share;
     total += share;
     count += used[node] == 0 ? 1.0 : 0.0;
     used[node] = 1;
   }
-  if (!block_.model.equal_masses) return;
+  if (!equal_masses) return;
   for (std::size_t node = 0; node < nodal.size(); ++node) {
     if (used[node] != 0) nodal[node] += total / count;
   }

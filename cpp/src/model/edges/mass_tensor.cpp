@@ -3,12 +3,10 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <utility>
 
-#include "tissu/law/generated/hooke.h"
-#include "tissu/law/generated/stvk.h"
 #include "tissu/model/fem/elastic.h"
+#include "tissu/model/points/elastic_points.h"
 
 namespace tissu {
 namespace {
@@ -18,19 +16,6 @@ Mat3 edges_of(const std::int32_t* nodes, ConstReals X) {
   Mat3 J;
   for (int a = 1; a < 4; ++a) J.col(a - 1) = block(X, nodes[a]) - block(X, nodes[0]);
   return J;
-}
-
-/// What a law says of one F: energy density, and Cauchy's stress as its von Mises value.
-template <class Law>
-void point_fields(const Law& law, const Mat3& F, double& energy, double& von_mises) {
-  Tensor2<double> at;
-  for (int k = 0; k < 9; ++k) at(k / 3, k % 3) = F(k / 3, k % 3);
-  energy = law.energy(at);
-  const Tensor2<double> tau = product_transposed(law.stress(at), at);
-  Mat3 sigma;
-  for (int k = 0; k < 9; ++k) sigma(k / 3, k % 3) = 0.5 * (tau(k / 3, k % 3) + tau(k % 3, k / 3));
-  sigma /= F.determinant();
-  von_mises = std::sqrt(1.5) * (sigma - sigma.trace() / 3.0 * Mat3::Identity()).norm();
 }
 
 }  // namespace
@@ -146,7 +131,7 @@ void MassTensor::add_masses(std::vector<double>& nodal) const {
 
 void MassTensor::add_weights(std::vector<double>& nodal) const { add_masses(nodal); }
 
-void MassTensor::add_force(const State& state, Reals f) const {
+void MassTensor::add_force(const State& state, Scratch& /*scratch*/, Reals f) const {
   for (const Part& part : parts_) force_by(loops(part), state.positions, f);
 }
 
@@ -159,45 +144,34 @@ const BodyModel& MassTensor::elements(const Sparsity& pattern) const {
   return *elements_;
 }
 
-void MassTensor::add_stiffness(const State& state, StiffnessScale scale, BlockMatrix& matrix) const {
+void MassTensor::add_stiffness(const State& state, Scratch& scratch, StiffnessScale scale,
+                               BlockMatrix& matrix) const {
   if (scale.definite && !linear_) {
-    elements(matrix.sparsity()).add_stiffness(state, scale, matrix);
+    elements(matrix.sparsity()).add_stiffness(state, scratch, scale, matrix);
     return;
   }
   for (const Part& part : parts_) stiffness_by(loops(part), state.positions, scale, matrix);
 }
 
-void MassTensor::add_product(const State& state, StiffnessScale scale, ConstReals p, Reals out) const {
+void MassTensor::add_product(const State& state, Scratch& /*scratch*/, StiffnessScale scale, ConstReals p,
+                             Reals out) const {
   for (const Part& part : parts_) product_by(loops(part), state.positions, scale.position, p, out);
 }
 
-double MassTensor::energy(const State& state) const {
+double MassTensor::energy(const State& state, Scratch& scratch) const {
   double sum = 0.0;
   for (const Part& part : parts_) {
-    for (const double e : energies_by(loops(part), state.positions)) sum += e;
+    for (const double e : energies_by(loops(part), state.positions, scratch)) sum += e;
   }
   return sum;
 }
 
-/// Per cell, which the constants cannot tell: F from the positions.
+/// F from the positions: the constants do not hold it.
 CellFields MassTensor::fields(const State& state) const {
-  const auto cells = static_cast<std::size_t>(cell_count());
-  CellFields fields;
-  fields.von_mises.resize(cells);
-  fields.energy_density.resize(cells);
-  fields.volume_ratio.resize(cells);
-  for (std::size_t e = 0; e < cells; ++e) {
-    const std::int32_t* nodes = &block_.cells[4 * e];
-    const Mat3 F = edges_of(nodes, state.positions) * edges_of(nodes, X_).inverse();
-    const Lame c = lame_of(static_cast<std::int32_t>(e));
-    const auto fill = [&](const auto& law) {
-      point_fields(law, F, fields.energy_density[e], fields.von_mises[e]);
-    };
-    linear_ ? fill(Hooke<double>{c.lambda, c.mu}) : fill(StVK<double>{c.lambda, c.mu});
-    fields.volume_ratio[e] = F.determinant();
-  }
-  return fields;
+  return cell_means(elastic_points(block_, {X_, state, isa_}));
 }
+
+PointFields MassTensor::point_fields(const PointQuery& query) const { return elastic_points(block_, query); }
 
 std::size_t MassTensor::bytes() const {
   std::size_t sum = (X_.size() + 2 * lame_.size()) * sizeof(double);

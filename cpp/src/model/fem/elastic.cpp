@@ -1,6 +1,9 @@
 #include "tissu/model/fem/elastic.h"
 
 #include <algorithm>
+#include <utility>
+
+#include "tissu/model/points/elastic_points.h"
 
 namespace tissu {
 bool Elastic::has_constant_stiffness() const {
@@ -16,19 +19,35 @@ Loops<ElasticKernels, ElasticView> Elastic::loops() const {
   return {*kernels_, view, order_};
 }
 
-void Elastic::add_force(const State& state, Reals f) const { force_by(loops(), state.positions, f); }
+void Elastic::add_force(const State& state, Scratch& /*scratch*/, Reals f) const {
+  force_by(loops(), state.positions, f);
+}
 
-void Elastic::add_stiffness(const State& state, StiffnessScale scale, BlockMatrix& matrix) const {
+void Elastic::add_stiffness(const State& state, Scratch& /*scratch*/, StiffnessScale scale,
+                            BlockMatrix& matrix) const {
   stiffness_by(loops(), state.positions, scale, matrix);
 }
 
-void Elastic::add_product(const State& state, StiffnessScale scale, ConstReals p, Reals out) const {
+void Elastic::add_product(const State& state, Scratch& /*scratch*/, StiffnessScale scale, ConstReals p,
+                          Reals out) const {
   product_by(loops(), state.positions, scale.position, p, out);
 }
 
-double Elastic::energy(const State& state) const { return energy_by(loops(), state.positions); }
+double Elastic::energy(const State& state, Scratch& scratch) const {
+  return energy_by(loops(), state.positions, scratch);
+}
 
-CellFields Elastic::fields(const State& state) const { return fields_by(loops(), state.positions); }
+/// What the kernels of sheets and lines do not compute, how they thin, the points do.
+CellFields Elastic::fields(const State& state) const {
+  CellFields fields = fields_by(loops(), state.positions);
+  if (reference_.dimension == 3) return fields;
+  CellFields thinned = cell_means(point_fields({X_, state, isa_}));
+  fields.von_mises = std::move(thinned.von_mises);
+  fields.volume_ratio = std::move(thinned.volume_ratio);
+  return fields;
+}
+
+PointFields Elastic::point_fields(const PointQuery& query) const { return elastic_points(block_, query); }
 
 std::size_t Elastic::bytes() const {
   return CellModel::bytes() +

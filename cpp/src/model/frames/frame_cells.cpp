@@ -73,7 +73,7 @@ struct Section {
 
 Section section_of(const ElasticBlock& block, int dimension, const Place& place, double cross_section) {
   if (dimension == 3) return {{Vec3::Zero()}};
-  const bool middle = block.model.section == "middle";
+  const bool middle = options_or_defaults<FramesOptions>(block.model).section == "middle";
   if (dimension == 2) {
     const double d = cross_section / std::sqrt(12.0);
     if (middle) return {{Vec3::Zero()}, d * d};

@@ -112,9 +112,19 @@ FrameView Frames::view() const {
           .shared = order_.shared.data()};
 }
 
-void Frames::gather(const State& state) const {
+std::size_t Frames::shares_size() const {
+  return static_cast<std::size_t>(order_.groups()) * static_cast<std::size_t>(points_.neighbours) * 6 *
+         kLanes;
+}
+
+Frames::Room Frames::room(Scratch& scratch) const {
+  double* const begin = scratch.reals(motion_size() + shares_size()).data();
+  return {begin, begin + 12 * blocks_.size(), begin + motion_size()};
+}
+
+void Frames::gather(const State& state, double* motions) const {
   for (std::size_t i = 0; i < blocks_.size(); ++i) {
-    double* q = q_.data() + 12 * i;
+    double* q = motions + 12 * i;
     Eigen::Map<Vec3> origin(q);
     origin = tissu::block(ConstReals(state.positions), blocks_[i]);
     Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> rotation(q + 3);
@@ -123,14 +133,14 @@ void Frames::gather(const State& state) const {
   }
 }
 
-void Frames::add_shares(double scale, Reals to) const {
+void Frames::add_shares(const double* shares, double scale, Reals to) const {
   const auto share_stride = 6 * kLanes;
   threads_.for_pieces(static_cast<std::int32_t>(blocks_.size()), [&](std::int32_t begin, std::int32_t end) {
     for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
       std::array<double, 6> sum{};
       for (auto s = order_.share_begin[i]; s < order_.share_begin[i + 1]; ++s) {
         const auto place = static_cast<std::size_t>(order_.share[static_cast<std::size_t>(s)]);
-        const double* from = shares_.data() + place / kLanes * share_stride + place % kLanes;
+        const double* from = shares + place / kLanes * share_stride + place % kLanes;
         for (std::size_t c = 0; c < 6; ++c) sum[c] += from[c * kLanes];
       }
       tissu::block(to, blocks_[i]) += scale * Vec3(sum[0], sum[1], sum[2]);
@@ -139,29 +149,32 @@ void Frames::add_shares(double scale, Reals to) const {
   });
 }
 
-void Frames::add_force(const State& state, Reals f) const {
-  gather(state);
+void Frames::add_force(const State& state, Scratch& scratch, Reals f) const {
+  const Room work = room(scratch);
+  gather(state, work.q);
   const auto stride = static_cast<std::size_t>(points_.neighbours) * 6 * kLanes;
   for_pieces([&](std::int32_t begin, std::int32_t end) {
     std::array<double, kPiece * kNine> F;
     std::array<double, kPiece * kNine> P;
-    kernels_->gradient(view(), begin, end, q_.data(), F.data());
+    kernels_->gradient(view(), begin, end, work.q, F.data());
     for (std::int32_t g = begin; g < end; ++g) {
       const std::size_t at = static_cast<std::size_t>(g - begin) * kNine;
       material_.stress(g, F.data() + at, P.data() + at);
     }
-    kernels_->force(view(), begin, end, q_.data(), P.data(),
-                    shares_.data() + static_cast<std::size_t>(begin) * stride);
+    kernels_->force(view(), begin, end, work.q, P.data(),
+                    work.shares + static_cast<std::size_t>(begin) * stride);
   });
-  add_shares(1.0, f);
+  add_shares(work.shares, 1.0, f);
 }
 
-void Frames::add_product(const State& state, StiffnessScale scale, ConstReals p, Reals out) const {
+void Frames::add_product(const State& state, Scratch& scratch, StiffnessScale scale, ConstReals p,
+                         Reals out) const {
   if (scale.position == 0.0) return;
-  gather(state);
+  const Room work = room(scratch);
+  gather(state, work.q);
   for (std::size_t i = 0; i < blocks_.size(); ++i) {
-    Eigen::Map<Vec3>(dq_.data() + 6 * i) = tissu::block(p, blocks_[i]);
-    Eigen::Map<Vec3> turn(dq_.data() + 6 * i + 3);
+    Eigen::Map<Vec3>(work.dq + 6 * i) = tissu::block(p, blocks_[i]);
+    Eigen::Map<Vec3> turn(work.dq + 6 * i + 3);
     if (rotations_[i] < 0) {
       turn.setZero();
     } else {
@@ -174,30 +187,32 @@ void Frames::add_product(const State& state, StiffnessScale scale, ConstReals p,
     std::array<double, kPiece * kNine> P;
     std::array<double, kPiece * kNine> dF;
     std::array<double, kPiece * kNine> dP;
-    kernels_->gradient(view(), begin, end, q_.data(), F.data());
-    kernels_->gradient_change(view(), begin, end, q_.data(), dq_.data(), dF.data());
+    kernels_->gradient(view(), begin, end, work.q, F.data());
+    kernels_->gradient_change(view(), begin, end, work.q, work.dq, dF.data());
     for (std::int32_t g = begin; g < end; ++g) {
       const std::size_t at = static_cast<std::size_t>(g - begin) * kNine;
       material_.stress(g, F.data() + at, P.data() + at);
       material_.stress_change(g, F.data() + at, dF.data() + at, dP.data() + at);
     }
-    kernels_->force_change(view(), begin, end, q_.data(), dq_.data(), P.data(), dP.data(),
-                           shares_.data() + static_cast<std::size_t>(begin) * stride);
+    kernels_->force_change(view(), begin, end, work.q, work.dq, P.data(), dP.data(),
+                           work.shares + static_cast<std::size_t>(begin) * stride);
   });
-  add_shares(scale.position, out);
+  add_shares(work.shares, scale.position, out);
 }
 
-void Frames::add_stiffness(const State& state, StiffnessScale scale, BlockMatrix& matrix) const {
+void Frames::add_stiffness(const State& state, Scratch& scratch, StiffnessScale scale,
+                           BlockMatrix& matrix) const {
   if (scale.position == 0.0) return;
-  gather(state);
-  const bool material = block_.model.tangent == "material";
+  const Room work = room(scratch);
+  gather(state, work.q);
+  const bool material = options_.tangent == "material";
   const bool turning = !material && !scale.definite;
   double* values = matrix.values();
   for_coloured([&](std::int32_t begin, std::int32_t end) {
     std::array<double, kPiece * kNine> F;
     std::array<double, kPiece * kNine> P;
     std::array<double, kPiece * kTangent> A;
-    kernels_->gradient(view(), begin, end, q_.data(), F.data());
+    kernels_->gradient(view(), begin, end, work.q, F.data());
     for (std::int32_t g = begin; g < end; ++g) {
       const auto i = static_cast<std::size_t>(g - begin);
       material_.tangent(g, F.data() + i * kNine, A.data() + i * kTangent);
@@ -205,7 +220,7 @@ void Frames::add_stiffness(const State& state, StiffnessScale scale, BlockMatrix
       if (material) keep_material(F.data() + i * kNine, P.data() + i * kNine, A.data() + i * kTangent);
       if (scale.definite) make_definite(A.data() + i * kTangent);
     }
-    kernels_->stiffness(view(), begin, end, q_.data(), A.data(), turning ? P.data() : nullptr, scale.position,
+    kernels_->stiffness(view(), begin, end, work.q, A.data(), turning ? P.data() : nullptr, scale.position,
                         values);
   });
   for (std::size_t i = 0; i < blocks_.size(); ++i) {
@@ -213,22 +228,31 @@ void Frames::add_stiffness(const State& state, StiffnessScale scale, BlockMatrix
   }
 }
 
-double Frames::energy(const State& state) const {
-  gather(state);
-  std::ranges::fill(energies_, 0.0);
+void Frames::energies(double* q, double* of_lanes) const {
   for_pieces([&](std::int32_t begin, std::int32_t end) {
     std::array<double, kPiece * kNine> F;
-    kernels_->gradient(view(), begin, end, q_.data(), F.data());
+    kernels_->gradient(view(), begin, end, q, F.data());
     for (std::int32_t g = begin; g < end; ++g) {
       material_.energy(g, F.data() + static_cast<std::size_t>(g - begin) * kNine,
-                       energies_.data() + static_cast<std::size_t>(g) * kLanes);
+                       of_lanes + static_cast<std::size_t>(g) * kLanes);
     }
   });
-  return std::inner_product(energies_.begin(), energies_.end(), lane_volumes_.begin(), 0.0);
+}
+
+double Frames::energy(const State& state, Scratch& scratch) const {
+  const Reals work = scratch.reals(motion_size() + lane_volumes_.size());
+  const Reals of_lanes = work.subspan(motion_size());
+  std::ranges::fill(of_lanes, 0.0);
+  gather(state, work.data());
+  energies(work.data(), of_lanes.data());
+  return std::inner_product(of_lanes.begin(), of_lanes.end(), lane_volumes_.begin(), 0.0);
 }
 
 CellFields Frames::fields(const State& state) const {
-  (void)energy(state);
+  AlignedVector<double> q(motion_size());
+  std::vector<double> of_lanes(lane_volumes_.size(), 0.0);
+  gather(state, q.data());
+  energies(q.data(), of_lanes.data());
   CellFields fields;
   for (auto* values : {&fields.von_mises, &fields.energy_density, &fields.volume_ratio})
     values->assign(volumes_.size(), 0.0);
@@ -236,7 +260,7 @@ CellFields Frames::fields(const State& state) const {
   std::array<double, kNine> P;
   std::array<double, kNine> whole;
   for (std::int32_t g = 0; g < order_.groups(); ++g) {
-    kernels_->gradient(view(), g, g + 1, q_.data(), F.data());
+    kernels_->gradient(view(), g, g + 1, q.data(), F.data());
     material_.stress(g, F.data(), P.data());
     material_.stretch(g, F.data(), whole.data());
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
@@ -249,7 +273,7 @@ CellFields Frames::fields(const State& state) const {
       const Mat3 sigma = tensor_of(P.data(), lane) * tensor_of(F.data(), lane).transpose() / J;
       const Mat3 deviator = sigma - sigma.trace() / 3.0 * Mat3::Identity();
       fields.von_mises[cell] += share * std::sqrt(1.5) * deviator.norm();
-      fields.energy_density[cell] += share * energies_[i];
+      fields.energy_density[cell] += share * of_lanes[i];
       fields.volume_ratio[cell] += share * J;
     }
   }

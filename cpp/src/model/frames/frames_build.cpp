@@ -44,14 +44,15 @@ void check(const ElasticBlock& block, const FramePoints& points) {
 }
 
 FramePoints points_for(const ElasticBlock& block, ConstReals rest_positions) {
-  if (!block.points) return points_of_cells(block, rest_positions);
-  FramePoints points = *block.points;
+  const auto given = options_or_defaults<FramesOptions>(block.model).points;
+  if (!given) return points_of_cells(block, rest_positions);
+  FramePoints points = *given;
   points.frames = block.cells;
   return points;
 }
 
 int nodes_of(const ElasticBlock& block) {
-  if (block.points) return block.points->neighbours;
+  if (const auto given = options_or_defaults<FramesOptions>(block.model).points) return given->neighbours;
   const ReferenceCell cell = reference_cell(block.element, block.quadrature);
   if (!cell.points.empty() && block.cells.size() % static_cast<std::size_t>(cell.nodes) == 0 &&
       !block.cells.empty())
@@ -67,13 +68,14 @@ const FrameKernels* find_frame_kernels(Isa isa) { return TISSU_KERNELS_OF(isa, f
 
 Frames::Frames(ElasticBlock block, ConstReals rest_positions, Isa isa, Threads threads)
     : block_(std::move(block)),
+      options_(options_or_defaults<FramesOptions>(block_.model)),
       threads_(threads),
       kernels_(find_frame_kernels(isa)),
       nodes_per_cell_(nodes_of(block_)) {
   points_ = points_for(block_, rest_positions);
   check(block_, points_);
-  const auto cells = block_.points ? points_.volumes.size()
-                                   : block_.cells.size() / static_cast<std::size_t>(nodes_per_cell_);
+  const auto cells = options_.points ? points_.volumes.size()
+                                     : block_.cells.size() / static_cast<std::size_t>(nodes_per_cell_);
   volumes_.assign(cells, 0.0);
   for (std::size_t s = 0; s < points_.volumes.size(); ++s)
     volumes_[points_.cells.empty() ? s : static_cast<std::size_t>(points_.cells[s])] += points_.volumes[s];
@@ -87,17 +89,20 @@ Frames::Frames(ElasticBlock block, ConstReals rest_positions, Isa isa, Threads t
   lay_frames();
   order_ = order_points(listened_, points_.neighbours, static_cast<std::int32_t>(blocks_.size()));
   lay_coefficients(rest_positions);
-  material_ = PointMaterial(block_, points_, order_.point, isa);
+  material_ = PointMaterial(block_, stressed_points(), order_.point, isa);
   lay_holds();
-  q_.resize(12 * blocks_.size());
-  dq_.resize(6 * blocks_.size());
-  shares_.resize(static_cast<std::size_t>(order_.groups() * points_.neighbours) * 6 * kLanes);
-  energies_.resize(order_.point.size());
+}
+
+/// As the material sees them: in plane strain a sheet is a volume, which does not thin.
+FramePoints Frames::stressed_points() const {
+  FramePoints points = points_;
+  if (block_.plane == Plane::strain) points.dimension = 3;
+  return points;
 }
 
 void Frames::lay_frames() {
   const bool known = block_.frames.size() == block_.cells.size();
-  if (!block_.points && (!known || std::ranges::min(block_.frames) < 0)) {
+  if (!options_.points && (!known || std::ranges::min(block_.frames) < 0)) {
     throw ParameterError("body \"" + block_.body +
                          "\" has frames as its model, but nodes without rotations; let its nodes be frames.");
   }
@@ -122,7 +127,7 @@ Mat3 Frames::along(std::size_t point) const {
   const Vec3 axis = tissu::block(ConstReals(points_.axes), static_cast<std::int32_t>(point));
   const Mat3 across = points_.dimension == 2 ? Mat3(axis * axis.transpose())
                                              : Mat3(Mat3::Identity() - axis * axis.transpose());
-  const double share = block_.model.section == "middle" ? 1.0 : kLinked;
+  const double share = options_.section == "middle" ? 1.0 : kLinked;
   return share * (Mat3::Identity() - across) + across;
 }
 
@@ -277,8 +282,7 @@ std::vector<double> Frames::points(const State& state) const {
 }
 
 std::size_t Frames::bytes() const {
-  return (coefficients_.size() + lane_volumes_.size() + shares_.size() + q_.size() + dq_.size()) *
-             sizeof(double) +
+  return (coefficients_.size() + lane_volumes_.size() + scratch_size()) * sizeof(double) +
          (lanes_.size() + slots_.size() + order_.share.size()) * sizeof(std::int32_t) + material_.bytes();
 }
 

@@ -19,7 +19,7 @@ void check(const ElasticBlock& block) {
   if (block.quadrature != "full") {
     throw ParameterError(asks + "with the quadrature \"" + block.quadrature + "\"; this model takes full.");
   }
-  if (block.plane != Plane::stress) {
+  if (block.plane == Plane::strain) {
     throw ParameterError(asks + "under plane strain; a shell is free to thin: take plane stress.");
   }
   if (block.frames.size() != block.cells.size()) {
@@ -80,6 +80,7 @@ void Shell::lay_unknowns() {
 }
 
 void Shell::lay_elements(ConstReals rest_positions) {
+  const double drilling = options_or_defaults<ShellOptions>(block_.model).drilling;
   elements_.reserve(order_.element.size());
   for (const std::int32_t cell : order_.element) {
     const std::int32_t* nodes = block_.cells.data() + kNodes * static_cast<std::size_t>(cell);
@@ -87,9 +88,8 @@ void Shell::lay_elements(ConstReals rest_positions) {
     elements_.emplace_back(
         std::array{corner(0), corner(1), corner(2)},
         ShellSection{of_cell(block_.cross_section, cell), of_cell(block_.parameters.at("young"), cell),
-                     of_cell(block_.parameters.at("poisson"), cell), block_.model.drilling});
+                     of_cell(block_.parameters.at("poisson"), cell), drilling});
   }
-  energies_.assign(elements_.size(), 0.0);
 }
 
 template <class Function>
@@ -126,13 +126,14 @@ void Shell::bind(const Sparsity& pattern) {
   lay_slots(order_, unknowns_, static_cast<int>(kUnknowns), pattern, slots_);
 }
 
-void Shell::add_force(const State& state, Reals f) const {
+void Shell::add_force(const State& state, Scratch& /*scratch*/, Reals f) const {
   for_cells([&](std::size_t, std::size_t cell, const ShellElement& element) {
     scatter(element.force(pose(state, cell)), cell, f);
   });
 }
 
-void Shell::add_stiffness(const State& state, StiffnessScale scale, BlockMatrix& matrix) const {
+void Shell::add_stiffness(const State& state, Scratch& /*scratch*/, StiffnessScale scale,
+                          BlockMatrix& matrix) const {
   if (scale.position == 0.0) return;
   double* values = matrix.values();
   for_cells([&](std::size_t lane, std::size_t cell, const ShellElement& element) {
@@ -149,7 +150,8 @@ void Shell::add_stiffness(const State& state, StiffnessScale scale, BlockMatrix&
   });
 }
 
-void Shell::add_product(const State& state, StiffnessScale scale, ConstReals p, Reals out) const {
+void Shell::add_product(const State& state, Scratch& /*scratch*/, StiffnessScale scale, ConstReals p,
+                        Reals out) const {
   if (scale.position == 0.0) return;
   for_cells([&](std::size_t, std::size_t cell, const ShellElement& element) {
     Vec18 of_cell;
@@ -160,11 +162,13 @@ void Shell::add_product(const State& state, StiffnessScale scale, ConstReals p, 
   });
 }
 
-double Shell::energy(const State& state) const {
+double Shell::energy(const State& state, Scratch& scratch) const {
+  const Reals energies = scratch.reals(elements_.size());
+  std::ranges::fill(energies, 0.0);  // of lanes that pad
   for_cells([&](std::size_t lane, std::size_t cell, const ShellElement& element) {
-    energies_[lane] = element.energy(pose(state, cell));
+    energies[lane] = element.energy(pose(state, cell));
   });
-  return std::accumulate(energies_.begin(), energies_.end(), 0.0);
+  return std::accumulate(energies.begin(), energies.end(), 0.0);
 }
 
 void Shell::add_inertias(std::vector<Mat3>& of_frames) const {

@@ -28,8 +28,10 @@ TISSU_SWEEP(avx512)
 
 template <class T>
 SweepRows<T> sweep_rows_of(Isa isa) {
-#ifdef TISSU_X86_KERNELS
+#ifdef TISSU_HAS_AVX512
   if (isa == Isa::avx512) return &avx512::sweep_rows;
+#endif
+#ifdef TISSU_HAS_AVX2
   if (isa == Isa::avx2) return &avx2::sweep_rows;
 #endif
   (void)isa;

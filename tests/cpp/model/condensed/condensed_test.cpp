@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "../../force/room.h"
 #include "../../force/verbs.h"
 #include "../../world/sample_worlds.h"
 #include "tissu/edit/remove_cells.h"
@@ -35,7 +36,7 @@ class CondensedTest : public testing::TestWithParam<Split> {
   WorldDescription world(const std::vector<std::int32_t>& kept) const {
     WorldDescription world;
     world.bodies = {test::body_of(mesh_, {"hooke", 3.0, 0.3, 2.0})};
-    if (!kept.empty()) world.bodies[0].elastic[0].model = {.name = "condensed", .kept = kept};
+    if (!kept.empty()) world.bodies[0].elastic[0].model = CondensedOptions{.kept = kept};
     world.fixed = {test::fixed(left_)};
     world.gravity = Vec3(0.3 * kGravity, 0.0, -kGravity);
     world.consistent_weight = true;
@@ -78,7 +79,7 @@ TEST_P(CondensedTest, KeepsMassAndWeight) {
   EXPECT_NEAR(condensed.mass().total(), whole.mass().total(), 1e-12 * whole.mass().total());
   std::vector<double> force(condensed.rest_positions().size(), 0.0);
   const State rest = condensed.rest_state();
-  for (const auto& model : condensed.forces()) model->add_force(rest, force);
+  for (const auto& model : condensed.forces()) model->add_force(rest, test::scratch(), force);
   double down = 0.0;
   for (std::size_t i = 2; i < force.size(); i += 3) down += force[i];
   const double weight = 2.0 * 16.0 * kGravity;
@@ -94,8 +95,9 @@ TEST_P(CondensedTest, ForceIsTheGradientOfTheEnergyAndProductTheMatrix) {
   for (double& x : state.positions) x += random.number(0.1);
   const std::vector<double> p = random.numbers(state.positions.size(), 1.0);
   // The energy is quadratic: central differences have no error but round-off, 1e-16 W / h with h = 1e-3.
-  const double slope =
-      (model.energy(test::moved(state, p, 1e-3)) - model.energy(test::moved(state, p, -1e-3))) / 2e-3;
+  const double slope = (model.energy(test::moved(state, p, 1e-3), test::scratch()) -
+                        model.energy(test::moved(state, p, -1e-3), test::scratch())) /
+                       2e-3;
   const Eigen::VectorXd direction = test::view(p);
   const double work = test::force_of(model, state).dot(direction);
   EXPECT_NEAR(work, -slope, 1e-9 * std::abs(slope));
@@ -123,9 +125,10 @@ TEST_P(CondensedTest, MeetsAnotherRegionAndStaysWhenThatIsCut) {
     }
     ElasticBlock first = part_of(all, low);
     if (condensed) {
-      first.model = {.name = "condensed", .kept = left_};
+      std::vector<std::int32_t> kept = left_;
       const auto middle = test::nodes_at(mesh_, 0, 2.0);
-      first.model.kept.insert(first.model.kept.end(), middle.begin(), middle.end());
+      kept.insert(kept.end(), middle.begin(), middle.end());
+      first.model = CondensedOptions{.kept = kept};
     }
     description.bodies[0].elastic = {first, part_of(all, high)};
     description.editable = true;
@@ -159,7 +162,7 @@ TEST_P(CondensedTest, RefusesWhatItCannotEliminate) {
   EXPECT_NE(message(world(right_)).find("is held or led; keep it"), std::string::npos);
   EXPECT_NE(message(world(left_)).find("carries pull; keep it"), std::string::npos);
   WorldDescription none = world(left_);
-  none.bodies[0].elastic[0].model.kept.clear();
+  none.bodies[0].elastic[0].model = CondensedOptions{};
   EXPECT_NE(message(none).find("keeps no node"), std::string::npos);
   WorldDescription loose = world({left_[0]});
   loose.fixed = {test::fixed({left_[0]})};

@@ -37,7 +37,7 @@ class CorotationalRecovery : public testing::TestWithParam<RecoveryCase> {
     body.positions = box.positions;
     body.elastic = {test::corotational_block(box, GetParam().element)};
     body.elastic.front().parameters["young"] = {100.0};
-    body.elastic.front().model.rotation = GetParam().rotation;
+    body.elastic.front().model = CorotationalOptions{.rotation = GetParam().rotation};
     body.rayleigh = RayleighDamping{0.5, 0.01};
     WorldDescription world;
     world.bodies = {body};
@@ -137,7 +137,7 @@ class CorotationalRefusal : public testing::Test {
 
 TEST_F(CorotationalRefusal, TakesTheMeshItself) {
   const auto model = make_model(block_, box_.positions, Isa::baseline, Threads(1));
-  EXPECT_EQ(model->block().model.name, "corotational");
+  EXPECT_EQ(model_name(model->block().model), "corotational");
   EXPECT_EQ(model->reals_per_cell(), 7U);  // J^-1 as a triangle and the volume, one for all points
   EXPECT_GT(model->bytes(), 0U);
 }
@@ -153,12 +153,11 @@ TEST_F(CorotationalRefusal, Elements) {
 }
 
 TEST_F(CorotationalRefusal, RotationsTangentsAndQuadratures) {
-  block_.model.rotation = "svd";
+  block_.model = CorotationalOptions{.rotation = "svd"};
   expect_refused({"rotation", "svd", "small, frame and polar"});
-  block_.model.rotation = "polar";
-  block_.model.tangent = "secant";
+  block_.model = CorotationalOptions{.tangent = "secant"};
   expect_refused({"tangent", "secant", "approximate and exact"});
-  block_.model.tangent = "exact";
+  block_.model = CorotationalOptions{.tangent = "exact"};
   block_.quadrature = "reduced";
   expect_refused({"quadrature", "reduced", "full"});
 }

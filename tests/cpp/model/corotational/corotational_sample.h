@@ -104,7 +104,7 @@ inline ElasticBlock corotational_block(const CellBox& box, const std::string& el
   block.cells = box.cells;
   block.parameters = {{"young", {3.0}}, {"poisson", {0.3}}};
   block.density = {2.0};
-  block.model.name = "corotational";
+  block.model = CorotationalOptions{};
   return block;
 }
 
@@ -119,8 +119,7 @@ class CorotationalTest : public testing::TestWithParam<CorotationalCase> {
   bool conserves() const { return has("small") || has("polar") || has("exact"); }
   ElasticBlock block() const {
     ElasticBlock made = corotational_block(box_, GetParam().element);
-    made.model.rotation = GetParam().rotation;
-    made.model.tangent = GetParam().tangent;
+    made.model = CorotationalOptions{.rotation = GetParam().rotation, .tangent = GetParam().tangent};
     return made;
   }
   std::size_t cells() const {

@@ -76,7 +76,7 @@ class DilatationTest : public testing::TestWithParam<DilatationCase> {
     block.parameters = varied(block.law, 5, vary);
     if (block.law == "neo_hooke") block.reinforcements = {{"fibre", varied("fibre", 6, vary)}};
     block.density = {2.0};
-    block.model.name = "mean-dilatation";
+    block.model = MeanDilatationOptions{};
     return block;
   }
   MeanDilatation made(ElasticBlock block) const {

@@ -55,7 +55,7 @@ class TetraModelsTest : public testing::TestWithParam<ModelCase> {
 
   ElasticBlock block(const char* model) const {
     ElasticBlock block = elastic_block(mesh_.blocks[0], {.law = GetParam().law});
-    block.model.name = model;
+    block.model = options_named(model);
     Random random(12);
     for (auto* values : {&block.parameters["young"], &block.parameters["poisson"], &block.density}) {
       values->clear();

@@ -71,7 +71,7 @@ class Projection : public testing::TestWithParam<Case> {
     }
     block.density = {1000.0};
     if (volume()) block.cross_section = {1.0};
-    block.fused = fused;
+    block.model = FemOptions{.fused = fused};
     for (std::int32_t a = 0; a < reference_.nodes; ++a) block.cells.push_back(a);
     return block;
   }

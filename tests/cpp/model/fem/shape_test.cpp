@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "../../cell/reference_nodes.h"
+#include "../../force/room.h"
 #include "../../world/sample_worlds.h"
 #include "tissu/assembly/block_matrix.h"
 #include "tissu/law/generated/all.h"
@@ -110,7 +111,7 @@ class ShapeTest : public testing::TestWithParam<Case> {
   }
   [[nodiscard]] std::vector<double> force(const State& state) const {
     std::vector<double> f(state.positions.size(), 0.0);
-    elastic_.add_force(state, f);
+    elastic_.add_force(state, test::scratch(), f);
     return f;
   }
   static double size(const std::vector<double>& values) {
@@ -130,9 +131,9 @@ TEST_P(ShapeTest, ForceIsMinusTheGradientOfTheEnergy) {
   for (std::size_t i = 0; i < f.size(); ++i) {
     State moved = state_;
     moved.positions[i] += h;
-    const double up = elastic_.energy(moved);
+    const double up = elastic_.energy(moved, test::scratch());
     moved.positions[i] -= 2 * h;
-    EXPECT_NEAR(f[i], -(up - elastic_.energy(moved)) / (2 * h), 2e-6 * size(f)) << i;
+    EXPECT_NEAR(f[i], -(up - elastic_.energy(moved, test::scratch())) / (2 * h), 2e-6 * size(f)) << i;
   }
 }
 
@@ -141,7 +142,7 @@ TEST_P(ShapeTest, ProductIsTheDerivativeOfTheForceAndTheMatrixSaysTheSame) {
   std::vector<double> p(state_.positions.size());
   for (double& v : p) v = random.number();
   std::vector<double> product(p.size(), 0.0);
-  elastic_.add_product(state_, {1.0, 0.0}, p, product);
+  elastic_.add_product(state_, test::scratch(), {1.0, 0.0}, p, product);
 
   constexpr double h = 1e-6;
   State up = state_;
@@ -161,7 +162,7 @@ TEST_P(ShapeTest, ProductIsTheDerivativeOfTheForceAndTheMatrixSaysTheSame) {
   const Sparsity sparsity = builder.build();
   elastic_.bind(sparsity);
   BlockMatrix matrix(sparsity, choose_isa(), Threads(1));
-  elastic_.add_stiffness(state_, {1.0, 0.0}, matrix);
+  elastic_.add_stiffness(state_, test::scratch(), {1.0, 0.0}, matrix);
   std::vector<double> out(p.size(), 0.0);
   matrix.multiply(p, out);
   for (std::size_t i = 0; i < p.size(); ++i) EXPECT_NEAR(out[i], product[i], 1e-12 * size(product)) << i;
@@ -199,13 +200,14 @@ TEST_P(ShapeTest, RestAndRigidMotionsHaveNoForce) {
 
 TEST_P(ShapeTest, FusedKernelsSayTheSame) {
   ElasticBlock other = sample_.block;
-  other.fused = false;
+  other.model = FemOptions{.fused = false};
   const Elastic by_shape(other, sample_.positions, choose_isa(), Threads(1));
   std::vector<double> f(state_.positions.size(), 0.0);
-  by_shape.add_force(state_, f);
+  by_shape.add_force(state_, test::scratch(), f);
   const std::vector<double> expected = force(state_);
   for (std::size_t i = 0; i < f.size(); ++i) EXPECT_NEAR(f[i], expected[i], 1e-12 * size(expected));
-  EXPECT_NEAR(by_shape.energy(state_), elastic_.energy(state_), 1e-12 * elastic_.energy(state_));
+  EXPECT_NEAR(by_shape.energy(state_, test::scratch()), elastic_.energy(state_, test::scratch()),
+              1e-12 * elastic_.energy(state_, test::scratch()));
   const CellFields a = by_shape.fields(state_);
   const CellFields b = elastic_.fields(state_);
   EXPECT_NEAR(a.von_mises[0], b.von_mises[0], 1e-11 * b.von_mises[0]);

@@ -32,9 +32,7 @@ class FramesSample {
       block_.parameters[std::string(p.name)] = {p.typical};
     block_.density = {1000.0};
     block_.cross_section = {0.2};
-    block_.model.name = "frames";
-    block_.model.section = c.section;
-    block_.model.tangent = std::move(tangent);
+    block_.model = FramesOptions{.tangent = std::move(tangent), .section = c.section};
     for (Vec3 x : reference_nodes(c.element)) {
       x += random.vector(0.04);
       rest_.insert(rest_.end(), x.begin(), x.end());

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "../../base/differences.h"
+#include "../../force/room.h"
 #include "frames_sample.h"
 #include "tissu/base/error.h"
 #include "tissu/law/generated/all.h"
@@ -38,7 +39,7 @@ class FramesTest : public testing::TestWithParam<FramesCase> {
   [[nodiscard]] bool blind() const { return find_law(GetParam().law)->frame_invariant; }
   std::vector<double> force(const State& state) const {
     std::vector<double> f(state.positions.size(), 0.0);
-    model_.add_force(state, f);
+    model_.add_force(state, test::scratch(), f);
     return f;
   }
   /// The state with everything moved by t times d.
@@ -52,7 +53,7 @@ class FramesTest : public testing::TestWithParam<FramesCase> {
     test::Random random(9);
     const std::vector<double> d = random.numbers(state.positions.size());
     std::vector<double> out(d.size(), 0.0);
-    model_.add_product(state, {1.0, 0.0}, d, out);
+    model_.add_product(state, test::scratch(), {1.0, 0.0}, d, out);
     return view(out).norm();
   }
   FramesSample sample_{GetParam()};
@@ -62,7 +63,7 @@ class FramesTest : public testing::TestWithParam<FramesCase> {
 TEST_P(FramesTest, RestIsFreeOfForceAndEnergy) {
   const State rest = sample_.rest_state();
   const double round_off = 1e-12 * size(rest);
-  EXPECT_NEAR(model_.energy(rest), 0.0, round_off);
+  EXPECT_NEAR(model_.energy(rest, test::scratch()), 0.0, round_off);
   EXPECT_LE(view(force(rest)).cwiseAbs().maxCoeff(), round_off);
 }
 
@@ -72,7 +73,7 @@ TEST_P(FramesTest, RigidMotionsHaveNoEnergy) {
   const State rest = sample_.rest_state();
   for (int i = 0; i < 5; ++i) {
     const State state = sample_.carried(rest, random.rotation(), random.vector(10.0));
-    EXPECT_NEAR(model_.energy(state), 0.0, 1e-11 * size(rest));
+    EXPECT_NEAR(model_.energy(state, test::scratch()), 0.0, 1e-11 * size(rest));
     EXPECT_LE(view(force(state)).cwiseAbs().maxCoeff(), 1e-11 * size(rest));
   }
 }
@@ -83,7 +84,8 @@ TEST_P(FramesTest, ForceIsTheGradientOfTheEnergy) {
   test::Random random(7);
   for (int i = 0; i < 8; ++i) {
     const std::vector<double> d = random.numbers(f.size());
-    const double slope = test::derivative([&](double t) { return model_.energy(moved(state, d, t)); }, 1e-3);
+    const double slope =
+        test::derivative([&](double t) { return model_.energy(moved(state, d, t), test::scratch()); }, 1e-3);
     // Fourth-order differences of steps 1e-3: 1e-12 of the sixth derivative, and round-off over the step.
     EXPECT_NEAR(-view(f).dot(view(d)), slope, 1e-8 * size(state));
   }
@@ -96,7 +98,7 @@ TEST_P(FramesTest, ProductIsTheSecondDerivativeOfTheEnergy) {
   for (int i = 0; i < 8; ++i) {
     const std::vector<double> d = random.numbers(state.positions.size());
     std::vector<double> Kd(d.size(), 0.0);
-    model_.add_product(state, {1.0, 0.0}, d, Kd);
+    model_.add_product(state, test::scratch(), {1.0, 0.0}, d, Kd);
     const double second =
         test::derivative([&](double t) { return view(force(moved(state, d, t))).dot(view(d)); }, 1e-3);
     EXPECT_NEAR(view(Kd).dot(view(d)), second, 1e-7 * size(state));
@@ -111,7 +113,7 @@ TEST_P(FramesTest, MatrixIsTheProductAndSymmetric) {
   model_.bind(pattern);
   BlockMatrix matrix(pattern, choose_isa(), Threads(1));
   matrix.clear();
-  model_.add_stiffness(state, {1.0, 0.0}, matrix);
+  model_.add_stiffness(state, test::scratch(), {1.0, 0.0}, matrix);
   test::Random random(4);
   const std::vector<double> p = random.numbers(state.positions.size());
   const std::vector<double> q = random.numbers(state.positions.size());
@@ -120,7 +122,7 @@ TEST_P(FramesTest, MatrixIsTheProductAndSymmetric) {
   std::vector<double> Kp(p.size(), 0.0);
   matrix.multiply(p, Ap);
   matrix.multiply(q, Aq);
-  model_.add_product(state, {1.0, 0.0}, p, Kp);
+  model_.add_product(state, test::scratch(), {1.0, 0.0}, p, Kp);
   const double round_off = 1e-12 * size(state);
   const double held = 3e-6 * size(state);  // of rotations, in the matrix only: 1e-7 of their stiffness
   EXPECT_LE((view(Ap) - view(Kp)).cwiseAbs().maxCoeff(), held);
@@ -205,7 +207,8 @@ TEST(Frames, SheetsAndLinesAreFreeToThin) {
     }
     double volume = 0.0;
     for (const double v : model.volumes()) volume += v;
-    EXPECT_NEAR(model.energy(state), 0.5 * E * e * e * volume, 1e-4 * 0.5 * E * e * e * volume);
+    EXPECT_NEAR(model.energy(state, test::scratch()), 0.5 * E * e * e * volume,
+                1e-4 * 0.5 * E * e * e * volume);
     EXPECT_NEAR(model.fields(state).volume_ratio[0], 1.0 + (1.0 - 2.0 * nu) * e, 1e-9);
   }
 }
@@ -223,7 +226,7 @@ TEST(Frames, MaterialTangentIsDefiniteUnderCompression) {
   for (const bool definite : {false, true}) {
     BlockMatrix matrix(pattern, choose_isa(), Threads(1));
     matrix.clear();
-    model.add_stiffness(state, {-1.0, 0.0, definite}, matrix);
+    model.add_stiffness(state, test::scratch(), {-1.0, 0.0, definite}, matrix);
     for (int i = 0; i < 50; ++i) {
       const std::vector<double> p = random.numbers(state.positions.size());
       std::vector<double> Ap(p.size());

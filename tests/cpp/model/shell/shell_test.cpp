@@ -5,6 +5,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "../../force/room.h"
 #include "../../force/verbs.h"
 #include "../projection_sample.h"
 #include "shell_mesh.h"
@@ -38,7 +39,7 @@ class ShellTest : public testing::Test {
     block.body = "wall";
     block.element = "triangle";
     block.law = "hooke";
-    block.model.name = "shell";
+    block.model = ShellOptions{};
     block.parameters = {{"young", {}}, {"poisson", {0.3}}};
     block.density = {2.0};
     block.cross_section.clear();
@@ -141,7 +142,7 @@ TEST_F(ShellTest, RestsAtRestHoweverItIsTurned) {
     state.rotations[static_cast<std::size_t>(i)] = R;
   }
   EXPECT_LT(test::force_of(*model, state).norm(), 1e-13 * scale);
-  EXPECT_LT(model->energy(state), 1e-26);
+  EXPECT_LT(model->energy(state, test::scratch()), 1e-26);
 }
 
 // Differences of fourth order, h = 1e-3 of an edge of 1/4: 1e-8 of the force.
@@ -151,7 +152,8 @@ TEST_F(ShellTest, ForceIsMinusTheGradientOfItsEnergy) {
   const Eigen::VectorXd f = test::force_of(*model, state);
   for (unsigned seed = 20; seed < 25; ++seed) {
     const std::vector<double> p = any_change(seed, 1.0);
-    const double slope = test::derivative([&](double t) { return model->energy(moved(state, p, t)); }, 1e-3);
+    const double slope =
+        test::derivative([&](double t) { return model->energy(moved(state, p, t), test::scratch()); }, 1e-3);
     EXPECT_NEAR(f.dot(test::view(p)), -slope, 1e-8 * f.norm() * test::view(p).norm());
   }
 }
@@ -200,7 +202,7 @@ TEST_F(ShellTest, KnowsEnergyAndStressOfItsCells) {
     EXPECT_GT(fields.von_mises[i], 0.0);
     EXPECT_GT(fields.volume_ratio[i], 0.0);
   }
-  EXPECT_NEAR(energy, model->energy(state), 1e-13 * energy);
+  EXPECT_NEAR(energy, model->energy(state, test::scratch()), 1e-13 * energy);
   EXPECT_NEAR(model->fields(at_rest()).volume_ratio[3], 1.0, 1e-14);
 }
 
@@ -236,7 +238,7 @@ TEST_F(ShellTest, RefusesWhatItDoesNotTake) {
   expect([](ElasticBlock& b) { b.density = {-1.0}; }, "density of -1");
   expect([](ElasticBlock& b) { b.cross_section = {0.0}; }, "thickness");
   expect([](ElasticBlock& b) { b.parameters["young"] = {-3.0}; }, "young");
-  expect([](ElasticBlock& b) { b.model.drilling = 0.0; }, "drilling");
+  expect([](ElasticBlock& b) { b.model = ShellOptions{.drilling = 0.0}; }, "drilling");
   expect([](ElasticBlock& b) { b.cells[1] = b.cells[0], b.frames[1] = b.frames[0]; }, "no volume");
 }
 
@@ -254,7 +256,7 @@ TEST_F(LargeShellTest, GivesTheSameBitsForAnyNumberOfThreads) {
   const auto values = [&](const BodyModel& model) {
     BlockMatrix matrix(pattern, Isa::baseline, Threads(1));
     matrix.clear();
-    model.add_stiffness(state, {-1.0, 0.0, false}, matrix);
+    model.add_stiffness(state, test::scratch(), {-1.0, 0.0, false}, matrix);
     return std::vector<double>(matrix.values(), matrix.values() + 9 * pattern.blocks());
   };
   for (const int threads : {2, 3, 4}) {
@@ -263,7 +265,7 @@ TEST_F(LargeShellTest, GivesTheSameBitsForAnyNumberOfThreads) {
     EXPECT_EQ(test::force_of(*other, state), test::force_of(*one, state));
     EXPECT_EQ(test::product_of(*other, state, {-1.0, 0.0}, p), test::product_of(*one, state, {-1.0, 0.0}, p));
     EXPECT_EQ(values(*other), values(*one));
-    EXPECT_EQ(other->energy(state), one->energy(state));
+    EXPECT_EQ(other->energy(state, test::scratch()), one->energy(state, test::scratch()));
   }
 }
 

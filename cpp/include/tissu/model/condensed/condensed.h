@@ -18,18 +18,20 @@ namespace tissu {
 class Condensed final : public BodyModel {
  public:
   static ModelInfo info();
-  /// `block.model.kept` holds the nodes that are kept; the others must belong to no other block, be held by
-  /// nothing and carry no load.
+  /// `CondensedOptions::kept` holds the nodes that are kept; the others must belong to no other block, be
+  /// held by nothing and carry no load.
   Condensed(ElasticBlock block, ConstReals rest_positions, Isa isa, Threads threads);
 
   [[nodiscard]] std::string_view effect() const override { return "condensed elasticity"; }
   [[nodiscard]] bool has_constant_stiffness() const override { return true; }
   void couple(SparsityBuilder& builder) const override;
   void bind(const Sparsity& pattern) override;
-  void add_force(const State& state, Reals f) const override;
-  void add_stiffness(const State& state, StiffnessScale scale, BlockMatrix& matrix) const override;
-  void add_product(const State& state, StiffnessScale scale, ConstReals p, Reals out) const override;
-  [[nodiscard]] double energy(const State& state) const override;
+  void add_force(const State& state, Scratch& scratch, Reals f) const override;
+  void add_stiffness(const State& state, Scratch& scratch, StiffnessScale scale,
+                     BlockMatrix& matrix) const override;
+  void add_product(const State& state, Scratch& scratch, StiffnessScale scale, ConstReals p,
+                   Reals out) const override;
+  [[nodiscard]] double energy(const State& state, Scratch& scratch) const override;
 
   [[nodiscard]] const ElasticBlock& block() const override { return block_; }
   [[nodiscard]] std::int32_t cell_count() const override { return region_->elastic().cell_count(); }
@@ -39,6 +41,9 @@ class Condensed final : public BodyModel {
   void add_weights(std::vector<double>& nodal) const override { add_masses(nodal); }
   [[nodiscard]] CellFields fields(const State& state) const override {
     return region_->elastic().fields(state);
+  }
+  [[nodiscard]] PointFields point_fields(const PointQuery& query) const override {
+    return region_->elastic().point_fields(query);
   }
   [[nodiscard]] std::size_t bytes() const override;
   [[nodiscard]] std::size_t reals_per_cell() const override;

@@ -52,7 +52,8 @@ class CondensedRegion {
   std::unique_ptr<BlockMatrix> K_;    ///< of the region, inner rows included
   std::unique_ptr<BlockMatrix> Kii_;  ///< the same with kept nodes as given
   std::vector<std::uint8_t> given_;
-  mutable std::mutex looking_;  ///< the factor's scratch is shared by all who look at inner nodes
+  // A cache: the factor of Kii_, made once, and the room that a solve with it works in; one caller at a time.
+  mutable std::mutex looking_;
   mutable Cholesky factor_;
 };
 

@@ -31,17 +31,20 @@ class Corotational final : public CellModel {
 
   [[nodiscard]] std::string_view effect() const override { return "elasticity"; }
   [[nodiscard]] bool has_constant_stiffness() const override { return rotation_ == Rotation::small; }
-  void add_force(const State& state, Reals f) const override;
-  void add_stiffness(const State& state, StiffnessScale scale, BlockMatrix& matrix) const override;
-  void add_product(const State& state, StiffnessScale scale, ConstReals p, Reals out) const override;
-  [[nodiscard]] double energy(const State& state) const override;
+  void add_force(const State& state, Scratch& scratch, Reals f) const override;
+  void add_stiffness(const State& state, Scratch& scratch, StiffnessScale scale,
+                     BlockMatrix& matrix) const override;
+  void add_product(const State& state, Scratch& scratch, StiffnessScale scale, ConstReals p,
+                   Reals out) const override;
+  [[nodiscard]] double energy(const State& state, Scratch& scratch) const override;
 
   [[nodiscard]] CellFields fields(const State& state) const override;
+  [[nodiscard]] PointFields point_fields(const PointQuery& query) const override;
   [[nodiscard]] std::size_t bytes() const override;
   [[nodiscard]] std::size_t reals_per_cell() const override;
 
  private:
-  void choose_kernels(Isa isa, bool one_jacobian);
+  void choose_kernels(Isa isa, bool one_jacobian, bool exact_tangent);
   void lay_centres(ConstReals rest_positions);
   [[nodiscard]] Loops<CorotationalKernels, CorotationalView> loops(const CorotationalKernels& kernels) const;
 

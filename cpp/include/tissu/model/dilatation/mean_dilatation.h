@@ -32,14 +32,17 @@ class MeanDilatation final : public CellModel {
   [[nodiscard]] std::string_view effect() const override { return "elasticity"; }
   void couple(SparsityBuilder& builder) const override;
   void bind(const Sparsity& pattern) override;
-  void add_force(const State& state, Reals f) const override;
+  void add_force(const State& state, Scratch& scratch, Reals f) const override;
   /// `scale.definite` makes the matrix of each patch positive semi-definite.
-  void add_stiffness(const State& state, StiffnessScale scale, BlockMatrix& matrix) const override;
-  void add_product(const State& state, StiffnessScale scale, ConstReals p, Reals out) const override;
-  [[nodiscard]] double energy(const State& state) const override;
+  void add_stiffness(const State& state, Scratch& scratch, StiffnessScale scale,
+                     BlockMatrix& matrix) const override;
+  void add_product(const State& state, Scratch& scratch, StiffnessScale scale, ConstReals p,
+                   Reals out) const override;
+  [[nodiscard]] double energy(const State& state, Scratch& scratch) const override;
 
   /// Von Mises of the stress that is in balance; det F of the cell itself, not of its patch.
   [[nodiscard]] CellFields fields(const State& state) const override;
+  [[nodiscard]] PointFields point_fields(const PointQuery& query) const override;
   [[nodiscard]] std::size_t bytes() const override;
   [[nodiscard]] std::size_t reals_per_cell() const override;
   /// The other cells stay in their patches.
@@ -54,7 +57,6 @@ class MeanDilatation final : public CellModel {
                  Threads threads);
   void lay(ConstReals rest_positions);
   void choose_kernels();
-  void lay_law_constants();
   [[nodiscard]] Loops<MeanDilatationKernels, MeanDilatationView> loops() const;
   void add_patches(const Chunk& chunk, const PatchParts& parts, StiffnessScale scale, double* blocks) const;
 

@@ -28,12 +28,15 @@ class MassLink final : public CellModel {
   MassLink(ElasticBlock block, ConstReals rest_positions, Isa isa, Threads threads);
 
   [[nodiscard]] std::string_view effect() const override { return "elasticity"; }
-  void add_force(const State& state, Reals f) const override;
-  void add_stiffness(const State& state, StiffnessScale scale, BlockMatrix& matrix) const override;
-  void add_product(const State& state, StiffnessScale scale, ConstReals p, Reals out) const override;
-  [[nodiscard]] double energy(const State& state) const override;
+  void add_force(const State& state, Scratch& scratch, Reals f) const override;
+  void add_stiffness(const State& state, Scratch& scratch, StiffnessScale scale,
+                     BlockMatrix& matrix) const override;
+  void add_product(const State& state, Scratch& scratch, StiffnessScale scale, ConstReals p,
+                   Reals out) const override;
+  [[nodiscard]] double energy(const State& state, Scratch& scratch) const override;
 
   [[nodiscard]] CellFields fields(const State& state) const override;
+  [[nodiscard]] PointFields point_fields(const PointQuery& query) const override;
   [[nodiscard]] std::size_t bytes() const override;
   [[nodiscard]] std::size_t reals_per_cell() const override;
 

@@ -18,19 +18,21 @@
 
 namespace tissu {
 
-class MassSpring final : public CellModel {
+class MassSpring final : public CellModel, public DampedSprings {
  public:
   static ModelInfo info();
-  /// `block.model.equal_masses`: the block's mass in equal parts on its nodes, whatever volume they have
-  /// around them.
+  /// `MassSpringOptions::equal_masses`: the block's mass in equal parts on its nodes, whatever volume they
+  /// have around them.
   MassSpring(ElasticBlock block, ConstReals rest_positions, Isa isa, Threads threads);
 
   [[nodiscard]] std::string_view effect() const override { return "springs"; }
   void bind(const Sparsity& pattern) override;
-  void add_force(const State& state, Reals f) const override;
-  void add_stiffness(const State& state, StiffnessScale scale, BlockMatrix& matrix) const override;
-  void add_product(const State& state, StiffnessScale scale, ConstReals p, Reals out) const override;
-  [[nodiscard]] double energy(const State& state) const override;
+  void add_force(const State& state, Scratch& scratch, Reals f) const override;
+  void add_stiffness(const State& state, Scratch& scratch, StiffnessScale scale,
+                     BlockMatrix& matrix) const override;
+  void add_product(const State& state, Scratch& scratch, StiffnessScale scale, ConstReals p,
+                   Reals out) const override;
+  [[nodiscard]] double energy(const State& state, Scratch& scratch) const override;
 
   void add_masses(std::vector<double>& nodal) const override;
   void add_weights(std::vector<double>& nodal) const override { add_masses(nodal); }
@@ -41,11 +43,10 @@ class MassSpring final : public CellModel {
 
   [[nodiscard]] std::int32_t spring_count() const;
 
-  // For dampers beside the springs:
-  /// sum_e V_e / l0^2 of each lane [m], [group][8]
-  [[nodiscard]] const AlignedVector<double>& shares() const { return shares_; }
-  void add_damping(const double* damping, ConstReals x, double scale, ConstReals p, Reals out) const;
-  void add_damping(const double* damping, ConstReals x, double scale, BlockMatrix& matrix) const;
+  [[nodiscard]] const DampedSprings* springs() const override { return this; }
+  [[nodiscard]] const AlignedVector<double>& shares() const override { return shares_; }
+  void add_damping(const double* damping, ConstReals x, double scale, ConstReals p, Reals out) const override;
+  void add_damping(const double* damping, ConstReals x, double scale, BlockMatrix& matrix) const override;
 
  private:
   void lay_springs(ConstReals rest_positions);

@@ -35,12 +35,15 @@ class MassTensor final : public CellModel {
   void bind(const Sparsity& pattern) override;
   void add_masses(std::vector<double>& nodal) const override;
   void add_weights(std::vector<double>& nodal) const override;
-  void add_force(const State& state, Reals f) const override;
-  void add_stiffness(const State& state, StiffnessScale scale, BlockMatrix& matrix) const override;
-  void add_product(const State& state, StiffnessScale scale, ConstReals p, Reals out) const override;
-  [[nodiscard]] double energy(const State& state) const override;
+  void add_force(const State& state, Scratch& scratch, Reals f) const override;
+  void add_stiffness(const State& state, Scratch& scratch, StiffnessScale scale,
+                     BlockMatrix& matrix) const override;
+  void add_product(const State& state, Scratch& scratch, StiffnessScale scale, ConstReals p,
+                   Reals out) const override;
+  [[nodiscard]] double energy(const State& state, Scratch& scratch) const override;
 
   [[nodiscard]] CellFields fields(const State& state) const override;
+  [[nodiscard]] PointFields point_fields(const PointQuery& query) const override;
   [[nodiscard]] std::size_t bytes() const override;
   /// Of a tetrahedron alone, as published; `bytes` has what a mesh holds.
   [[nodiscard]] std::size_t reals_per_cell() const override;
@@ -71,8 +74,10 @@ class MassTensor final : public CellModel {
   std::vector<double> X_;   ///< positions at rest of the whole world
   std::vector<Lame> lame_;  ///< of all cells, or of each
   std::vector<Part> parts_;
+  // A cache: made by the first call that asks for a definite matrix, under the lock, and only read after
+  // that.
   mutable std::mutex making_elements_;
-  mutable std::unique_ptr<BodyModel> elements_;  ///< of StVK, once a definite matrix has been asked for
+  mutable std::unique_ptr<BodyModel> elements_;  ///< of StVK
 };
 
 }  // namespace tissu

@@ -18,23 +18,27 @@ class Elastic final : public CellModel {
 
   [[nodiscard]] std::string_view effect() const override { return "elasticity"; }
   [[nodiscard]] bool has_constant_stiffness() const override;
-  void add_force(const State& state, Reals f) const override;
-  void add_stiffness(const State& state, StiffnessScale scale, BlockMatrix& matrix) const override;
-  void add_product(const State& state, StiffnessScale scale, ConstReals p, Reals out) const override;
-  [[nodiscard]] double energy(const State& state) const override;
+  void add_force(const State& state, Scratch& scratch, Reals f) const override;
+  void add_stiffness(const State& state, Scratch& scratch, StiffnessScale scale,
+                     BlockMatrix& matrix) const override;
+  void add_product(const State& state, Scratch& scratch, StiffnessScale scale, ConstReals p,
+                   Reals out) const override;
+  [[nodiscard]] double energy(const State& state, Scratch& scratch) const override;
 
   [[nodiscard]] CellFields fields(const State& state) const override;
+  [[nodiscard]] PointFields point_fields(const PointQuery& query) const override;
   [[nodiscard]] std::size_t bytes() const override;
   [[nodiscard]] std::size_t reals_per_cell() const override;
 
  private:
   void choose_kernels(Isa isa);
-  void lay_law_constants();
   [[nodiscard]] Loops<ElasticKernels, ElasticView> loops() const;
 
   const ElasticKernels* kernels_ = nullptr;
   std::vector<const LawKernels*> laws_;
   std::vector<double> gradients_;  ///< [point][node][m]
+  Isa isa_;
+  std::vector<double> X_;  ///< of sheets and lines: positions at rest of the whole world, for their fields
 };
 
 }  // namespace tissu

@@ -6,8 +6,8 @@
 /// moments of area are those of a round section; or one each on the middle, which feels no bending (sheet)
 /// and no twist (line) but by the turning of neighbours against each other.
 
-#include "tissu/cell/elastic_block.h"
-#include "tissu/cell/frame_points.h"
+#include "tissu/model/elastic_block.h"
+#include "tissu/model/frames/frame_points.h"
 
 namespace tissu {
 

@@ -12,8 +12,8 @@
 #include "tissu/model/body_model.h"
 #include "tissu/model/frames/frame_kernels.h"
 #include "tissu/model/frames/frame_order.h"
-#include "tissu/model/frames/point_material.h"
 #include "tissu/model/model_info.h"
+#include "tissu/model/points/point_material.h"
 
 namespace tissu {
 
@@ -26,10 +26,13 @@ class Frames final : public BodyModel {
   [[nodiscard]] std::string_view effect() const override { return "frames"; }
   void couple(SparsityBuilder& builder) const override;
   void bind(const Sparsity& pattern) override;
-  void add_force(const State& state, Reals f) const override;
-  void add_stiffness(const State& state, StiffnessScale scale, BlockMatrix& matrix) const override;
-  void add_product(const State& state, StiffnessScale scale, ConstReals p, Reals out) const override;
-  [[nodiscard]] double energy(const State& state) const override;
+  [[nodiscard]] std::size_t scratch_size() const override { return motion_size() + shares_size(); }
+  void add_force(const State& state, Scratch& scratch, Reals f) const override;
+  void add_stiffness(const State& state, Scratch& scratch, StiffnessScale scale,
+                     BlockMatrix& matrix) const override;
+  void add_product(const State& state, Scratch& scratch, StiffnessScale scale, ConstReals p,
+                   Reals out) const override;
+  [[nodiscard]] double energy(const State& state, Scratch& scratch) const override;
 
   [[nodiscard]] const ElasticBlock& block() const override { return block_; }
   [[nodiscard]] std::int32_t cell_count() const override {
@@ -45,11 +48,12 @@ class Frames final : public BodyModel {
   void add_inertias(std::vector<Mat3>& of_frames) const override;
   void add_moments(std::vector<Vec3>& of_frames) const override;
   [[nodiscard]] CellFields fields(const State& state) const override;
+  [[nodiscard]] PointFields point_fields(const PointQuery& query) const override;
   [[nodiscard]] std::size_t bytes() const override;
   [[nodiscard]] std::size_t reals_per_cell() const override;
 
   /// Where the points are now [m], three each, in the order of the block's points or of its cells' points.
-  [[nodiscard]] std::vector<double> points(const State& state) const;
+  [[nodiscard]] std::vector<double> points(const State& state) const override;
   [[nodiscard]] const FramePoints& sample() const { return points_; }
 
  private:
@@ -57,12 +61,24 @@ class Frames final : public BodyModel {
   static constexpr std::int32_t kPiece = 4;  ///< groups whose tensors are held at a time
 
   void lay_frames();
+  [[nodiscard]] FramePoints stressed_points() const;
   void lay_coefficients(ConstReals rest_positions);
   /// What of the way from frame to point follows the frame's rotation.
   [[nodiscard]] Mat3 along(std::size_t point) const;
   void lay_holds();
   [[nodiscard]] FrameView view() const;
-  void gather(const State& state) const;
+  /// What it works with, in the caller's room.
+  struct Room {
+    double* q;       ///< [frame][12]
+    double* dq;      ///< [frame][6]
+    double* shares;  ///< [group][k][6][8]
+  };
+  [[nodiscard]] Room room(Scratch& scratch) const;
+  [[nodiscard]] std::size_t motion_size() const { return (18 * blocks_.size() + 7) / 8 * 8; }
+  [[nodiscard]] std::size_t shares_size() const;
+  void gather(const State& state, double* q) const;
+  /// Of each lane [J]
+  void energies(double* q, double* of_lanes) const;
   /// Calls f(begin, end) for pieces of groups; those that run at the same time share no frame.
   template <class Function>
   void for_coloured(Function&& f) const;
@@ -70,7 +86,7 @@ class Frames final : public BodyModel {
   template <class Function>
   void for_pieces(Function&& f) const;
   /// to += scale times the shares of each frame
-  void add_shares(double scale, Reals to) const;
+  void add_shares(const double* shares, double scale, Reals to) const;
   /// Calls f(entry [point][k], mass of the point, share of it) for every point and frame.
   template <class Function>
   void for_neighbours(Function&& f) const;
@@ -81,6 +97,7 @@ class Frames final : public BodyModel {
   [[nodiscard]] double density(std::size_t point) const;
 
   ElasticBlock block_;
+  FramesOptions options_;
   Threads threads_;
   const FrameKernels* kernels_;
   FramePoints points_;
@@ -101,11 +118,6 @@ class Frames final : public BodyModel {
   /// x that depend on x alone: the matrix, and only it, holds them, so that a factor exists and each step of
   /// Newton's leaves them where they are.
   std::vector<double> holds_;
-  // Scratch.
-  mutable AlignedVector<double> q_;       ///< [frame][12]
-  mutable AlignedVector<double> dq_;      ///< [frame][6]
-  mutable AlignedVector<double> shares_;  ///< [group][k][6][8]
-  mutable std::vector<double> energies_;  ///< [group][8]
 };
 
 }  // namespace tissu

@@ -21,15 +21,18 @@ class Shell final : public CellModel {
   [[nodiscard]] std::string_view effect() const override { return "shell"; }
   void couple(SparsityBuilder& builder) const override;
   void bind(const Sparsity& pattern) override;
-  void add_force(const State& state, Reals f) const override;
+  void add_force(const State& state, Scratch& scratch, Reals f) const override;
   /// `scale.definite`: the part that the elements' K makes, without that of the stress.
-  void add_stiffness(const State& state, StiffnessScale scale, BlockMatrix& matrix) const override;
-  void add_product(const State& state, StiffnessScale scale, ConstReals p, Reals out) const override;
-  [[nodiscard]] double energy(const State& state) const override;
+  void add_stiffness(const State& state, Scratch& scratch, StiffnessScale scale,
+                     BlockMatrix& matrix) const override;
+  void add_product(const State& state, Scratch& scratch, StiffnessScale scale, ConstReals p,
+                   Reals out) const override;
+  [[nodiscard]] double energy(const State& state, Scratch& scratch) const override;
 
   void add_inertias(std::vector<Mat3>& of_frames) const override;
   /// Von Mises' stress is that of the face where it is larger.
   [[nodiscard]] CellFields fields(const State& state) const override;
+  [[nodiscard]] PointFields point_fields(const PointQuery& query) const override;
   [[nodiscard]] std::size_t bytes() const override;
   [[nodiscard]] std::size_t reals_per_cell() const override;
 
@@ -43,9 +46,8 @@ class Shell final : public CellModel {
   template <class Function>
   void for_cells(Function&& f) const;
 
-  std::vector<std::int32_t> unknowns_;    ///< six blocks for each cell: of a node, of its rotation, …
-  std::vector<ShellElement> elements_;    ///< of each lane
-  mutable std::vector<double> energies_;  ///< of each lane
+  std::vector<std::int32_t> unknowns_;  ///< six blocks for each cell: of a node, of its rotation, …
+  std::vector<ShellElement> elements_;  ///< of each lane
 };
 
 }  // namespace tissu

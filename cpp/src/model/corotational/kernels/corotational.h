@@ -51,14 +51,6 @@ struct Corotational : CorotatedCell<Element, Rule, LawOf> {
     }
   }
 
-  /// Calls f(group, lane) for each batch of a chunk.
-  template <class Function>
-  TISSU_INLINE static void for_batches(const Chunk& chunk, Function&& f) {
-    for (std::int32_t group = chunk.begin; group < chunk.end; ++group) {
-      for (int lane = 0; lane < kLanes; lane += kWidth) f(group, lane);
-    }
-  }
-
   /// A cell of one point with `polar`: P = 2 mu (F - R) + lambda (tr(R^T F) - 3) R, whatever kExact.
   static void polar_force(const CorotationalView& view, const Chunk& chunk, const double* x, double* f) {
     PackedNodes positions;

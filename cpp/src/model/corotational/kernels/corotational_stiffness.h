@@ -185,7 +185,7 @@ struct CorotationalStiffness : Corotational<Element, Rule, LawOf, kExact> {
                         double* blocks) {
     PackedNodes positions;
     positions.load(chunk, x);
-    Kernel::for_batches(chunk, [&](std::int32_t group, int lane) {
+    for_batches(chunk, [&](std::int32_t group, int lane) {
       const Cell cell(view, positions, group, lane);
       Batch K[kPairs][9];
       all_blocks_of(view, cell, kDefinite ? -1.0 : scale, K);

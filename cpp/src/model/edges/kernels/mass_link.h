@@ -6,6 +6,7 @@
 ///   f_p = -sum_e s_ep t_e d_e,   df_p/dx_q = -sum_e s_ep s_eq t_e I - sum_ef s_ep s_fq H_ef d_e (x) d_f
 /// with d_e the vector along edge e, s_ep = -1 at its first node, 1 at its second and 0 elsewhere.
 
+#include "cell/kernels/for_batches.h"
 #include "cell/kernels/packed.h"
 #include "cell/kernels/scatter_pairs.h"
 #include "cell/kernels/semidefinite.h"
@@ -54,20 +55,12 @@ struct MassLink {
     }
   };
 
-  /// f(lanes, group, lane) for every batch of a chunk.
-  template <class Function>
-  TISSU_INLINE static void for_batches(const MassLinkView& view, const Chunk& chunk, Function&& f) {
-    for (std::int32_t group = chunk.begin; group < chunk.end; ++group) {
-      for (int lane = 0; lane < kLanes; lane += kWidth) f(Lanes(view, group, lane), group, lane);
-    }
-  }
-
   static void force(const MassLinkView& view, const Chunk& chunk, const double* x, double* f) {
     PackedNodes positions;
     PackedNodes sums;
     positions.load(chunk, x);
     sums.clear(chunk);
-    for_batches(
+    for_batches<Lanes>(
         view, chunk, [&](const Lanes& lanes, std::int32_t, int) __attribute__((always_inline)) {
           const LinkEdges at = lanes.edges(positions);
           Batch t[6];
@@ -91,7 +84,7 @@ struct MassLink {
     positions.load(chunk, x);
     changes.load(chunk, p);
     sums.clear(chunk);
-    for_batches(
+    for_batches<Lanes>(
         view, chunk, [&](const Lanes& lanes, std::int32_t, int) __attribute__((always_inline)) {
           const LinkEdges at = lanes.edges(positions);
           Batch change[6][3];
@@ -182,7 +175,7 @@ struct MassLink {
                         double* blocks) {
     PackedNodes positions;
     positions.load(chunk, x);
-    for_batches(
+    for_batches<Lanes>(
         view, chunk, [&](const Lanes& lanes, std::int32_t, int) __attribute__((always_inline)) {
           const LinkEdges at = lanes.edges(positions);
           Batch t[6];
@@ -212,7 +205,7 @@ struct MassLink {
   static void energy(const MassLinkView& view, const Chunk& chunk, const double* x, double* energies) {
     PackedNodes positions;
     positions.load(chunk, x);
-    for_batches(
+    for_batches<Lanes>(
         view, chunk, [&](const Lanes& lanes, std::int32_t group, int lane) __attribute__((always_inline)) {
           double* to = energies + static_cast<std::ptrdiff_t>(group) * kLanes + lane;
           (Batch::load(to) + lanes.law.energy(lanes.edges(positions))).store(to);
@@ -226,7 +219,7 @@ struct MassLink {
     constexpr int column[6] = {0, 1, 2, 2, 2, 1};
     PackedNodes positions;
     positions.load(chunk, x);
-    for_batches(
+    for_batches<Lanes>(
         view, chunk, [&](const Lanes& lanes, std::int32_t group, int lane) __attribute__((always_inline)) {
           const LinkEdges at = lanes.edges(positions);
           Batch t[6];

@@ -2,6 +2,7 @@
 
 /// The loops of the mass-tensor model: displacements from positions, terms of tensor_terms.h, f = -dW/du.
 
+#include "cell/kernels/for_batches.h"
 #include "cell/kernels/packed.h"
 #include "cell/kernels/scatter_pairs.h"
 #include "tensor_terms.h"
@@ -20,13 +21,6 @@ struct MassTensor : TensorTerms<Pattern> {
   using typename Terms::Pairs;
   using typename Terms::Vectors;
 
-  /// f(lanes, group, lane) for every batch of a chunk.
-  template <class Function>
-  TISSU_INLINE static void for_batches(const MassTensorView& view, const Chunk& chunk, Function&& f) {
-    for (std::int32_t group = chunk.begin; group < chunk.end; ++group) {
-      for (int lane = 0; lane < kLanes; lane += kWidth) f(Lanes(view, group, lane), group, lane);
-    }
-  }
   /// u = x - X, less that of one node of the body: the energy does not see a translation, its terms do.
   static void load_displacements(const MassTensorView& view, const Chunk& chunk, const double* x,
                                  PackedNodes& u) {
@@ -45,7 +39,7 @@ struct MassTensor : TensorTerms<Pattern> {
     PackedNodes sums;
     load_displacements(view, chunk, x, displacements);
     sums.clear(chunk);
-    for_batches(
+    for_batches<Lanes>(
         view, chunk, [&](const Lanes& lanes, std::int32_t, int) __attribute__((always_inline)) {
           Vectors u;
           Vectors r;
@@ -75,7 +69,7 @@ struct MassTensor : TensorTerms<Pattern> {
     load_displacements(view, chunk, x, displacements);
     changes.load(chunk, p);
     sums.clear(chunk);
-    for_batches(
+    for_batches<Lanes>(
         view, chunk, [&](const Lanes& lanes, std::int32_t, int) __attribute__((always_inline)) {
           Vectors u;
           Vectors du;
@@ -111,7 +105,7 @@ struct MassTensor : TensorTerms<Pattern> {
                         double* blocks) {
     PackedNodes displacements;
     load_displacements(view, chunk, x, displacements);
-    for_batches(
+    for_batches<Lanes>(
         view, chunk, [&](const Lanes& lanes, std::int32_t, int) __attribute__((always_inline)) {
           Vectors u;
           Pairs q;
@@ -138,7 +132,7 @@ struct MassTensor : TensorTerms<Pattern> {
   static void energy(const MassTensorView& view, const Chunk& chunk, const double* x, double* energies) {
     PackedNodes displacements;
     load_displacements(view, chunk, x, displacements);
-    for_batches(
+    for_batches<Lanes>(
         view, chunk, [&](const Lanes& lanes, std::int32_t group, int lane) __attribute__((always_inline)) {
           Vectors u;
           Vectors Bu;

@@ -1,3 +1,4 @@
+#include "cell/kernels/for_batches.h"
 #include "cell/kernels/packed.h"
 #include "edge_lists.h"
 #include "tissu/model/edges/spring_kernels.h"
@@ -45,13 +46,12 @@ TISSU_INLINE void add_pair(PackedNodes& sums, const Ends& ends, const Batch (&t)
 /// Calls f(offset of the lanes in arrays [group][8], ends) for all lanes of a chunk.
 template <class Function>
 TISSU_INLINE void for_lanes(const SpringView& view, const Chunk& chunk, Function&& f) {
-  for (std::int32_t group = chunk.begin; group < chunk.end; ++group) {
-    const std::ptrdiff_t first = static_cast<std::ptrdiff_t>(group) * kLanes;
-    for (int lane = 0; lane < kLanes; lane += kWidth) {
-      const std::uint16_t* places = view.places + 2 * first + lane;
-      f(first + lane, Ends{places, places + kLanes});
-    }
-  }
+  for_batches(
+      chunk, [&](std::int32_t group, int lane) __attribute__((always_inline)) {
+        const std::ptrdiff_t first = static_cast<std::ptrdiff_t>(group) * kLanes;
+        const std::uint16_t* places = view.places + 2 * first + lane;
+        f(first + lane, Ends{places, places + kLanes});
+      });
 }
 
 /// How a pair of nodes answers: B p = along d (d . p) + across p.

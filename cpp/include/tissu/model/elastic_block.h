@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "tissu/base/vec.h"
-#include "tissu/cell/frame_points.h"
 #include "tissu/law/law_info.h"
 #include "tissu/law/loaded_law.h"
+#include "tissu/model/options.h"
 
 namespace tissu {
 
@@ -30,24 +30,12 @@ struct LawUse {
   std::shared_ptr<const LoadedLaw> loaded = nullptr;  ///< null: the library's law of this name
 };
 
-/// What holds across a surface: no stress, as in a sheet, or no strain, as in a slice of a long body. Along a
-/// line nothing holds it sideways under `stress`, and it cannot thin under `strain`.
-enum class Plane : std::uint8_t { stress, strain };
+/// What holds across a surface: no stress, as in a sheet that is free in space or in a flat body, or no
+/// strain, as in a slice of a long body. A flat body stays in its plane, so that its cells have a right side.
+/// Along a line nothing holds it sideways, but it cannot thin under `strain`.
+enum class Plane : std::uint8_t { free, stress, strain };
 
-/// Which of the models of `models.h` carries a block, and what only some of them ask for.
-struct ModelUse {
-  std::string name = "fem";
-  std::string rotation = "polar";  ///< of corotational: small, frame or polar
-  std::string tangent =
-      "approximate";              ///< of corotational: approximate or exact; of frames: full or material
-  std::string section = "whole";  ///< of frames in sheets and lines: whole or middle
-  bool equal_masses = false;      ///< of mass-spring: the same mass at every node
-  std::vector<std::int32_t> kept = {};  ///< of condensed: the nodes of the body that are not eliminated
-  double drilling = 1.0;                ///< of shell: ShellSection::drilling
-  Vec3 gravity = Vec3::Zero();          ///< of condensed: pulls at those that are [m/s2]; the world gives it
-};
-
-/// What an elastic block is made of. `density` holds one number, or one for each cell.
+/// What an elastic block is made of, whatever its model. `density` holds one number, or one for each cell.
 struct ElasticBlock {
   std::string body;
   std::string element = "tetra";
@@ -63,11 +51,8 @@ struct ElasticBlock {
   std::vector<double> density;                        ///< [kg/m3]
   /// Of surfaces the thickness [m], of lines the area [m2]; one, or one for each cell. Volumes have none.
   std::vector<double> cross_section = {1.0};
-  Plane plane = Plane::stress;
-  ModelUse model;
-  /// Of frames without cells: their points; `cells` holds the frames of each. Null: the cells' own.
-  std::shared_ptr<const FramePoints> points = nullptr;
-  bool fused = true;  ///< kernels made for this element and law where there are such; else those of its shape
+  Plane plane = Plane::free;
+  ModelOptions model;  ///< which model carries it, and what that one alone asks for
 };
 
 /// The value of a cell, where there is one for all or one for each.

@@ -1,4 +1,4 @@
-#include "tissu/cell/elastic_block.h"
+#include "tissu/model/elastic_block.h"
 
 #include <cstddef>
 #include <numeric>

@@ -1,10 +1,12 @@
-#include "tissu/model/frames/point_material.h"
+#include "tissu/model/points/point_material.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "tissu/base/error.h"
+#include "tissu/model/law_constants.h"
 
 namespace tissu {
 namespace {
@@ -54,12 +56,8 @@ struct PointMaterial::Thin {
 PointMaterial::PointMaterial(const ElasticBlock& block, const FramePoints& points,
                              std::span<const std::int32_t> lanes, Isa isa)
     : dimension_(points.dimension) {
-  const std::vector<LawUse> uses = laws_of(block);
-  std::size_t count = 0;
-  bool same = true;
-  for (const LawUse& use : uses) {
-    count += law_info(block, use).constants.size();
-    same = same && uniform(use.parameters);
+  for (const LawUse& use : laws_of(block)) {
+    (void)law_info(block, use);
     laws_.push_back(use.loaded ? use.loaded->kernels(3) : find_law_kernels(isa, use.law, 3));
     if (laws_.back() == nullptr) {
       throw ParameterError("body \"" + block.body + "\": the law \"" + use.law +
@@ -67,20 +65,13 @@ PointMaterial::PointMaterial(const ElasticBlock& block, const FramePoints& point
     }
   }
   const std::size_t groups = lanes.size() / kLanes;
-  stride_ = same ? 0 : static_cast<std::ptrdiff_t>(count * kLanes);
-  constants_.resize((same ? std::size_t{1} : groups) * count * kLanes);
-  std::vector<double> values(count);
-  for (std::size_t i = 0; i < constants_.size() / count; ++i) {
-    std::span<double> left = values;
-    const auto point = static_cast<std::size_t>(lanes[i]);
-    for (const LawUse& use : uses) {
-      const std::size_t own = law_info(block, use).constants.size();
-      cell_constants(block, use, points.cells.empty() ? lanes[i] : points.cells[point], left.first(own));
-      left = left.subspan(own);
-    }
-    for (std::size_t c = 0; c < count; ++c)
-      constants_[(i / kLanes * count + c) * kLanes + i % kLanes] = values[c];
+  std::vector<std::int32_t> cells(lanes.begin(), lanes.end());
+  if (!points.cells.empty()) {
+    for (std::int32_t& cell : cells) cell = points.cells[static_cast<std::size_t>(cell)];
   }
+  LawConstants laid = lay_law_constants(block, cells, 3);
+  constants_ = std::move(laid.values);
+  stride_ = laid.stride;
   if (dimension_ == 3) return;
   axes_.resize(groups * 3 * kLanes);
   for (std::size_t i = 0; i < lanes.size(); ++i) {

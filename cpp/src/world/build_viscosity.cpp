@@ -1,13 +1,14 @@
-/// The viscosities of a world, and what they remember.
+/// The viscosities of a world.
 
 #include <algorithm>
 #include <numeric>
 
+#include "builder.h"
 #include "tissu/base/error.h"
 #include "tissu/viscosity/centroid_damping.h"
 #include "tissu/viscosity/kelvin_voigt.h"
+#include "tissu/viscosity/prony.h"
 #include "tissu/viscosity/spring_dampers.h"
-#include "tissu/world/world.h"
 
 namespace tissu {
 namespace {
@@ -33,51 +34,33 @@ void refuse_eliminated(const Body& body) {
 
 }  // namespace
 
-void World::add_viscosity(const BodyDescription& body, const Body& made) {
+void WorldBuilder::add_viscosity(const BodyDescription& body, const Body& made) {
   const Viscosity& viscosity = body.viscosity;
+  const ConstReals positions = world_.rest_positions();
+  auto& forces = world_.forces_;
   check_viscosity(body.name, viscosity);
   if (viscosity.any()) refuse_eliminated(made);
   if (viscosity.shear > 0.0 || viscosity.bulk > 0.0) {
     const Lame coefficients{viscosity.bulk, viscosity.shear};
     for (const BodyModel* model : made.models) {
-      if (const auto* springs = dynamic_cast<const MassSpring*>(model)) {
-        forces_.push_back(std::make_unique<SpringDampers>(*springs, coefficients));
+      if (model->springs() != nullptr) {
+        forces.push_back(std::make_unique<SpringDampers>(*model->springs(), coefficients));
       } else {
-        forces_.push_back(
-            std::make_unique<KelvinVoigt>(model->block(), coefficients, rest_positions_, isa_, threads_));
+        forces.push_back(std::make_unique<KelvinVoigt>(model->block(), coefficients, positions, world_.isa_,
+                                                       world_.threads_));
       }
     }
   }
   if (viscosity.centroid > 0.0) {
-    forces_.push_back(std::make_unique<CentroidDamping>(made.models, viscosity.centroid, threads_));
+    forces.push_back(std::make_unique<CentroidDamping>(made.models, viscosity.centroid, world_.threads_));
   }
   if (viscosity.prony.empty()) return;
   std::int32_t first_cell = 0;
   for (const BodyModel* model : made.models) {
-    auto prony = std::make_unique<Prony>(numbered(*model, first_cell), viscosity.prony, memory_size_,
-                                         rest_positions_, isa_, threads_);
+    forces.push_back(std::make_unique<Prony>(numbered(*model, first_cell), viscosity.prony, positions,
+                                             world_.isa_, world_.threads_));
     first_cell += model->cell_count();
-    memory_size_ += prony->memory_size();
-    prony_.push_back(prony.get());
-    forces_.push_back(std::move(prony));
   }
-}
-
-void World::remember(State& state) const {
-  if (prony_.empty()) return;
-  for (const Prony* prony : prony_) prony->advance(state);
-  state.memory_time = state.time;
-}
-
-void World::carry_memory(const World& before, State& state) const {
-  if (prony_.empty()) return;
-  std::vector<double> memory(memory_size_, 0.0);
-  for (const Prony* now : prony_) {
-    for (const Prony* then : before.prony_) {
-      if (then->block().body == now->block().body) now->take_over(*then, state.memory, memory);
-    }
-  }
-  state.memory = std::move(memory);
 }
 
 }  // namespace tissu

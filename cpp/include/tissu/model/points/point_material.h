@@ -10,9 +10,9 @@
 
 #include "tissu/base/array.h"
 #include "tissu/base/isa.h"
-#include "tissu/cell/elastic_block.h"
-#include "tissu/cell/frame_points.h"
 #include "tissu/law/law_kernels.h"
+#include "tissu/model/elastic_block.h"
+#include "tissu/model/frames/frame_points.h"
 
 namespace tissu {
 

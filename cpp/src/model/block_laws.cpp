@@ -2,7 +2,7 @@
 #include <vector>
 
 #include "tissu/base/error.h"
-#include "tissu/cell/elastic_block.h"
+#include "tissu/model/elastic_block.h"
 
 namespace tissu {
 namespace {

@@ -1,0 +1,61 @@
+/// F of a sheet or line of frames is whole but for how it thins; P is the law's there, not P S of
+/// point_material.h, so that it is that of a volume.
+
+#include <array>
+#include <numeric>
+
+#include "tissu/model/frames/frames.h"
+#include "tissu/model/points/listed_material.h"
+
+namespace tissu {
+namespace {
+
+/// The places in the result of the points in the model's own order: cell after cell.
+std::vector<std::size_t> places_of(const FramePoints& points, std::size_t cells, std::size_t per_cell) {
+  std::vector<std::size_t> places(points.volumes.size());
+  if (points.cells.empty()) {
+    std::iota(places.begin(), places.end(), 0U);
+    return places;
+  }
+  std::vector<std::size_t> filled(cells, 0);
+  for (std::size_t s = 0; s < places.size(); ++s) {
+    const auto cell = static_cast<std::size_t>(points.cells[s]);
+    places[s] = cell * per_cell + filled[cell]++;
+  }
+  return places;
+}
+
+}  // namespace
+
+PointFields Frames::point_fields(const PointQuery& query) const {
+  AlignedVector<double> q(motion_size());
+  gather(query.state, q.data());
+  PointFields points;
+  const std::size_t per_cell = points_.volumes.size() / volumes_.size();
+  points.points_per_cell = static_cast<int>(per_cell);
+  points.through_thickness = points_.dimension < 3 && options_.section == "whole";
+  points.resize(points_.volumes.size());
+  const std::vector<std::size_t> places = places_of(points_, volumes_.size(), per_cell);
+  std::vector<std::int32_t> cells(places.size());
+  for (std::size_t s = 0; s < places.size(); ++s) {
+    cells[places[s]] = static_cast<std::int32_t>(places[s] / per_cell);
+    points.volumes[places[s]] = points_.volumes[s];
+    for (std::size_t c = 0; c < 3; ++c) points.positions[3 * places[s] + c] = points_.positions[3 * s + c];
+  }
+  std::array<double, PointMaterial::kNine> F;
+  std::array<double, PointMaterial::kNine> whole;
+  for (std::int32_t g = 0; g < order_.groups(); ++g) {
+    kernels_->gradient(view(), g, g + 1, q.data(), F.data());
+    material_.stretch(g, F.data(), whole.data());
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      const std::size_t i = static_cast<std::size_t>(g) * kLanes + lane;
+      if (order_.real[i] == 0) continue;
+      double* to = points.F.data() + 9 * places[static_cast<std::size_t>(order_.point[i])];
+      for (std::size_t k = 0; k < 9; ++k) to[k] = whole[k * kLanes + lane];
+    }
+  }
+  ListedMaterial(block_, cells, query.isa).stress_and_energy(points);
+  return points;
+}
+
+}  // namespace tissu

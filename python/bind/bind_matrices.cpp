@@ -1,0 +1,57 @@
+#include "bind.h"
+#include "tissu/simulation/matrices.h"
+#include "tissu/simulation/simulation.h"
+
+namespace tissu::bind {
+namespace {
+
+/// Rows, columns and values (b, 3, 3), row by row, of the blocks that are not all zero.
+py::tuple to_blocks(const AssembledMatrix& made) {
+  const BlockMatrix& matrix = *made.blocks;
+  std::vector<std::int32_t> rows;
+  std::vector<std::int32_t> columns;
+  std::vector<double> values;
+  const auto add = [&](std::int32_t row, std::int32_t column, const double* by_column) {
+    rows.push_back(row);
+    columns.push_back(column);
+    for (int i = 0; i < 3; ++i) {
+      for (int j = 0; j < 3; ++j) values.push_back(by_column[3 * j + i]);
+    }
+  };
+  const Sparsity& sparsity = matrix.sparsity();
+  for (std::int32_t row = 0; row < sparsity.rows(); ++row) {
+    for (auto slot = sparsity.begin_of(row); slot < sparsity.end_of(row); ++slot)
+      add(row, sparsity.column[static_cast<std::size_t>(slot)], matrix.values() + 9 * slot);
+  }
+  made.couplings.for_blocks(
+      [&](std::int32_t row, std::int32_t column, const Mat3& block) { add(row, column, block.data()); });
+  const auto count = static_cast<py::ssize_t>(rows.size());
+  return py::make_tuple(py::array_t<std::int32_t>(count, rows.data()),
+                        py::array_t<std::int32_t>(count, columns.data()),
+                        py::array_t<double>({count, py::ssize_t{3}, py::ssize_t{3}}, values.data()));
+}
+
+py::array_t<double> forces(const Simulation& simulation) {
+  const std::vector<double> f = total_force(simulation.world(), simulation.state());
+  return py::array_t<double>({static_cast<py::ssize_t>(f.size() / 3), py::ssize_t{3}}, f.data());
+}
+
+/// The first block of the rotations of a body's nodes, in the order of the nodes; -1 where they have none.
+std::int32_t first_rotation(const Simulation& simulation, const std::string& name) {
+  const Body& body = simulation.world().body(name);
+  if (body.first_frame < 0) return -1;
+  return simulation.world().frames()[static_cast<std::size_t>(body.first_frame)].rotation;
+}
+
+}  // namespace
+
+void bind_matrices(py::class_<Simulation>& simulation) {
+  using py::arg;
+  simulation.def("forces", &forces)
+      .def("first_rotation", &first_rotation, arg("body"))
+      .def("stiffness", [](const Simulation& s) { return to_blocks(stiffness_matrix(s.world(), s.state())); })
+      .def("damping", [](const Simulation& s) { return to_blocks(damping_matrix(s.world(), s.state())); })
+      .def("mass_matrix", [](const Simulation& s) { return to_blocks(mass_matrix(s.world(), s.state())); });
+}
+
+}  // namespace tissu::bind

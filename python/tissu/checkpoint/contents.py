@@ -1,0 +1,87 @@
+"""What a checkpoint must hold: each entry with its type, numbers that are finite.
+
+A digest says that a file is whole, not that tissu wrote it. Lengths that depend on the scene are
+compared by the core, which refuses others.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from tissu.errors import CheckpointError
+
+_HEADER: dict[str, type] = {
+    "scene": str,
+    "steps": int,
+    "physics": dict,
+    "snapshot": dict,
+    "build": dict,
+}
+_TIMES = ("time", "time_before", "load_factor", "memory_time")
+_NUMBERS = (
+    "positions",
+    "velocities",
+    "velocities_before",
+    "rotations",
+    "memory",
+    "links",
+)
+_MOST_STEPS = 2**53  # whole numbers that a double holds
+
+
+def require_contents(path: Path, header: Mapping[str, Any], arrays: Mapping[str, Any]) -> None:
+    """Refuses a checkpoint that lacks an entry or has one of another type.
+
+    Raises:
+        CheckpointError: which one.
+    """
+    for name, kind in _HEADER.items():
+        if type(header.get(name)) is not kind:
+            raise _wrong(path, name, f"a {kind.__name__}")
+    snapshot = header["snapshot"]
+    if not 0 <= header["steps"] <= _MOST_STEPS:
+        raise _wrong(path, "steps", "a number of steps")
+    for name in _TIMES:
+        value = snapshot.get(name)
+        if type(value) not in (int, float) or not math.isfinite(value):
+            raise _wrong(path, name, "a finite number")
+    if not isinstance(snapshot.get("settled"), bool):
+        raise _wrong(path, "settled", "true or false")
+    for name in _NUMBERS:
+        _require_finite(path, name, arrays)
+    integrator = arrays.get("integrator")  # a stable step may be infinite
+    if not isinstance(integrator, np.ndarray) or integrator.dtype != np.float64:
+        raise _wrong(path, "integrator", "an array of float64")
+    for key, body in snapshot.items():
+        if key.startswith("body_"):
+            _require_body(path, key.removeprefix("body_"), body, arrays)
+
+
+def _require_finite(path: Path, name: str, arrays: Mapping[str, Any]) -> None:
+    values = arrays.get(name)
+    if not isinstance(values, np.ndarray) or values.dtype != np.float64:
+        raise _wrong(path, name, "an array of float64")
+    if not np.isfinite(values).all():
+        raise _wrong(path, name, "finite numbers")
+
+
+def _require_body(path: Path, number: str, body: object, arrays: Mapping[str, Any]) -> None:
+    if not isinstance(body, str):
+        raise _wrong(path, f"body_{number}", "the name of a body")
+    for name in (f"cells_{number}", f"loose_nodes_{number}"):
+        values = arrays.get(name)
+        if not isinstance(values, np.ndarray) or values.dtype != np.int32:
+            raise _wrong(path, name, "an array of int32")
+    _require_finite(path, f"places_{number}", arrays)
+
+
+def _wrong(path: Path, name: str, accepted: str) -> CheckpointError:
+    return CheckpointError(
+        f"checkpoint {path}: its entry '{name}' is not {accepted}, so tissu did not write it; "
+        "go on from another one, or start anew"
+    )

@@ -1,0 +1,168 @@
+"""Notes on scenes that can be computed, but may not be what was meant."""
+
+from __future__ import annotations
+
+import contextlib
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from tissu.compile.balance import held_axes
+from tissu.counted import are, counted
+from tissu.scene.law import UserLaw
+from tissu.scene.load import Pressure
+from tissu.scene.model import Condensed
+from tissu.scene.problem import field_path
+from tissu.scene.support import Prescribed
+from tissu.scene.unknown import Unknown
+
+if TYPE_CHECKING:
+    from tissu.compile.prepared import Ints, LoadedNodes, Prepared
+    from tissu.scene.body import Body
+    from tissu.scene.law import Law
+
+_LONGEST = 1.0
+"""m: a body above it is larger than any organ, and a mesh in millimetres is read as metres."""
+_SOFTEST, _STIFFEST = 50.0, 3e10
+"""Pa: Young's moduli of tissue, from below that of brain and fat (some 100 Pa; Budday et al., Fifty
+shades of brain, Arch. Comput. Methods Eng. 27, 2020) to cortical bone (up to 25 GPa; Rho et al.,
+Mechanical properties and the hierarchical structure of bone, Med. Eng. Phys. 20, 1998)."""
+_ALL_AXES = 7
+_LINEAR_MODELS = ("fem", "mean_dilatation")
+
+
+def doubts(prepared: Prepared) -> list[str]:
+    """What is computed as it stands, one sentence each."""
+    found: list[str] = []
+    checks = (_sizes, _moduli, _held_loads, _following_pressure, _turning)
+    for check in checks:
+        with contextlib.suppress(Unknown):
+            for text in check(prepared):
+                found.append(text)
+    return found
+
+
+def _sizes(prepared: Prepared) -> Iterator[str]:
+    for name, known in prepared.meshes.items():
+        low, high = known.mesh.bounds
+        size = float((high - low).max())
+        if known.positions and size > _LONGEST:
+            yield (
+                f"bodies.{name}: is {size:.4g} m long, more than any organ; where the mesh is "
+                "written in another unit, say so: mesh: {file: ..., unit: mm}"
+            )
+
+
+def _moduli(prepared: Prepared) -> Iterator[str]:
+    for name, body in prepared.scene.bodies.items():
+        for region, law in body.laws().items():
+            young = young_of(law)
+            if young is None or _SOFTEST <= young <= _STIFFEST:
+                continue
+            place = f"bodies.{name}.law" + ("" if region is None else f".{region}")
+            yield (
+                f"{place}: Young's modulus at rest is {young:.4g} Pa, outside what tissue has "
+                f"({_SOFTEST:g} Pa to {_STIFFEST:g} Pa, bone); look at its unit"
+            )
+
+
+def young_of(law: Law) -> float | None:
+    """Young's modulus at rest [Pa]; None for a law whose moduli nothing is known of."""
+    limit: tuple[float, float] | None
+    if isinstance(law, UserLaw):
+        made = type(law).made
+        if made is None:
+            return None
+        values = np.array([getattr(law, name) for name in made.parameters], dtype=float)
+        limit = made.build().loaded.small_strain(parameters=values)
+    else:
+        limit = law.small_strain()
+    if limit is None:
+        return None
+    lam, mu = limit
+    return float(mu * (3.0 * lam + 2.0 * mu) / (lam + mu))
+
+
+def _held_loads(prepared: Prepared) -> Iterator[str]:
+    for loaded in prepared.loaded:
+        body, mesh = loaded.load.body, prepared.meshes.get(loaded.load.body)
+        if mesh is None or loaded.load.type == "moment":
+            continue
+        mask = held_axes(prepared.held, body, mesh.mesh.node_count)
+        text = _held_share(loaded, (mask & _needed(loaded)) == _needed(loaded))
+        if text:
+            yield (
+                f"{field_path(loaded.path)}: {text}, so the supports take that part of the load "
+                "and no node moves by it; select other nodes, or hold fewer"
+            )
+
+
+def _needed(loaded: LoadedNodes) -> int:
+    """Axes that a node must be held on to take all of its load."""
+    vector = getattr(loaded.load, "force", getattr(loaded.load, "traction", None))
+    if vector is None:
+        return _ALL_AXES
+    return sum(1 << axis for axis, value in enumerate(vector) if value != 0.0) or _ALL_AXES
+
+
+def _held_share(loaded: LoadedNodes, held: np.ndarray[tuple[int], np.dtype[np.bool_]]) -> str:
+    """Which loaded faces, or nodes, are held altogether; empty: none."""
+    if loaded.faces:
+        total = sum(len(block) for block in loaded.faces)
+        count = sum(int(held[block.nodes].all(axis=1).sum()) for block in loaded.faces)
+        return f"{count} of {counted(total, 'loaded face')} {are(count)} held" if count else ""
+    count = int(held[loaded.nodes].sum())
+    total = len(loaded.nodes)
+    return f"{count} of {counted(total, 'loaded node')} {are(count)} held" if count else ""
+
+
+def _following_pressure(prepared: Prepared) -> Iterator[str]:
+    for loaded in prepared.loaded:
+        if not isinstance(loaded.load, Pressure) or not loaded.load.follows:
+            continue
+        linear = _linear_part(prepared.scene.bodies[loaded.load.body])
+        if linear:
+            yield (
+                f"{field_path(loaded.path)}: the pressure follows the surface as it turns, while "
+                f"{linear} knows small displacements only; where it turns far, take another law"
+            )
+
+
+def _turning(prepared: Prepared) -> Iterator[str]:
+    for name, body in prepared.scene.bodies.items():
+        linear = _linear_part(body)
+        why = _why_it_turns(prepared, name, body) if linear else ""
+        if why:
+            yield (
+                f"bodies.{name}: {linear} takes a turn of the body for strain, and {why}; take the "
+                "model corotational, or another law"
+            )
+
+
+def _linear_part(body: Body) -> str:
+    """What of a body knows no large rotation; empty: nothing."""
+    models, laws = body.models(), body.laws()
+    if any(isinstance(model, Condensed) for model in models.values()):
+        return "a condensed region"
+    plain = all(model.type in _LINEAR_MODELS for model in models.values())
+    return "hooke" if plain and any(law.type == "hooke" for law in laws.values()) else ""
+
+
+def _why_it_turns(prepared: Prepared, name: str, body: Body) -> str:
+    if body.start is not None and body.start.spin is not None and any(body.start.spin):
+        return "it starts with a spin"
+    own = [held for held in prepared.held if held.support.body == name]
+    for held in own:
+        if isinstance(held.support, Prescribed) and held.support.rotation is not None:
+            return f"{field_path(held.path)} turns it"
+    condensed = [isinstance(model, Condensed) for model in body.models().values()]
+    if any(condensed) and not all(condensed) and not _is_clamped(prepared, name):
+        return "the rest of it may turn, since fewer than three nodes are held"
+    return ""
+
+
+def _is_clamped(prepared: Prepared, name: str) -> bool:
+    mesh = prepared.meshes[name].mesh
+    mask: Ints = held_axes(prepared.held, name, mesh.node_count)
+    return int((mask == _ALL_AXES).sum()) >= 3

@@ -1,0 +1,15 @@
+#pragma once
+
+/// The eigenvalues of symmetric matrices of any size: Eigen's solver, compiled once for all tests.
+
+#include "tissu/base/vec.h"
+
+namespace tissu::test {
+
+/// Ascending. Only the lower triangle is read.
+Eigen::VectorXd eigenvalues(const Eigen::MatrixXd& symmetric);
+
+/// The nearest positive semi-definite matrix: negative eigenvalues give way to zero.
+Eigen::MatrixXd clamped(const Eigen::MatrixXd& symmetric);
+
+}  // namespace tissu::test

@@ -51,6 +51,12 @@ def test_as_many_as_nodes_are_asked_for() -> None:
         )
 
 
+@pytest.mark.parametrize("wrong", [3, [3], [[3]], [[[0, 0]]], [[["1 s", 0, 0]]], "a"])
+def test_what_is_no_displacement_is_refused_in_a_sentence(wrong: object) -> None:
+    with pytest.raises(ts.SceneError, match=r"node_displacements.*accepted"):
+        ts.Prescribed("cube", on=ts.SurfaceNodes(), times=[0], node_displacements=wrong)  # type: ignore[arg-type]
+
+
 def test_it_is_read_from_yaml_and_written() -> None:
     text = """
 bodies:

@@ -69,9 +69,17 @@ _POSITION = units.Triple(units.LENGTH)
 def _rows(value: object) -> object:
     """Displacements [m] of each node at each time."""
     value = listed(value)
-    if not isinstance(value, (list, tuple)):
+    return None if value is None else tuple(_row(row) for row in _list(value, "time"))
+
+
+def _row(value: object) -> tuple[tuple[float | None, ...], ...]:
+    return tuple(_POSITION(place) for place in _list(listed(value), "node"))
+
+
+def _list(value: object, of: str) -> Sequence[object]:
+    if isinstance(value, (list, tuple)):
         return value
-    return tuple(tuple(_POSITION(place) for place in listed(row)) for row in value)
+    raise ParameterError(f"found {value!r}; a list with an entry for each {of} is accepted")
 
 
 Axes = Annotated[str, BeforeValidator(_axes)]
@@ -175,7 +183,8 @@ class Prescribed(Support):
 
     @rule("displacements", "rotation", "node_displacements")
     def _moves(self) -> Iterator[Problem]:
-        if self.displacements is self.rotation is self.node_displacements is None:
+        moves = (self.displacements, self.rotation, self.node_displacements)
+        if all(move is None for move in moves):
             text = "found neither displacements nor rotation; at least one is needed"
             yield Problem((), text)
 

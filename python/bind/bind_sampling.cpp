@@ -16,7 +16,8 @@ py::tuple nearest(const TriangleTree& tree, const Array<double>& points, double 
     const py::gil_scoped_release released;
     std::int32_t last = -1;  // neighbours in the list are often neighbours in space
     for (py::ssize_t i = 0; i < count; ++i) {
-      const TriangleTree::Nearest found = tree.nearest(block(from, static_cast<std::int32_t>(i)), reach, last);
+      const TriangleTree::Nearest found =
+          tree.nearest(block(from, static_cast<std::int32_t>(i)), reach, last);
       block(to, static_cast<std::int32_t>(i)) = found.place;
       away[i] = std::sqrt(found.square);
       last = found.leaf;

@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 
 import tissu as ts
-from tissu.compile.select import selected_nodes
 
 OBLIQUE = np.array([1.0, -2.0, 0.5])
 
@@ -13,8 +12,8 @@ OBLIQUE = np.array([1.0, -2.0, 0.5])
 def test_a_plane_is_that_of_its_unit_normal(length):
     mesh = ts.bar_mesh(size=(1, 1, 1), cells=(4, 4, 4))
     unit = OBLIQUE / np.linalg.norm(OBLIQUE)
-    wanted = selected_nodes(ts.Plane((0.5, 0.5, 0.5), unit, 0.1), mesh)
-    found = selected_nodes(ts.Plane((0.5, 0.5, 0.5), OBLIQUE * (length / 2.0), 0.1), mesh)
+    wanted = ts.Plane((0.5, 0.5, 0.5), unit, 0.1).nodes(mesh)
+    found = ts.Plane((0.5, 0.5, 0.5), OBLIQUE * (length / 2.0), 0.1).nodes(mesh)
     # By hand: |(x - 0.5) - 2 (y - 0.5) + 0.5 (z - 0.5)| <= 0.1 sqrt(5.25)
     distance = np.abs((mesh.points - 0.5) @ OBLIQUE) / np.sqrt(5.25)
     assert found.tolist() == np.flatnonzero(distance <= 0.1).tolist() == wanted.tolist()
@@ -22,14 +21,14 @@ def test_a_plane_is_that_of_its_unit_normal(length):
 
 def test_the_smallest_number_is_a_direction_too():
     mesh = ts.bar_mesh(size=(1, 1, 1), cells=(2, 2, 2))
-    found = selected_nodes(ts.Plane((0, 0, 0), (0, 5e-324, 0)), mesh)
+    found = ts.Plane((0, 0, 0), (0, 5e-324, 0)).nodes(mesh)
     assert found.tolist() == np.flatnonzero(mesh.points[:, 1] == 0.0).tolist()
 
 
 def test_a_sphere_as_large_as_numbers_go_holds_all():
     mesh = ts.bar_mesh(size=(1, 1, 1), cells=(2, 2, 2))
-    assert len(selected_nodes(ts.Sphere((1e200, 0, 0), 2e200), mesh)) == mesh.node_count
-    assert len(selected_nodes(ts.Sphere((1e200, 0, 0), 0.5e200), mesh)) == 0
+    assert len(ts.Sphere((1e200, 0, 0), 2e200).nodes(mesh)) == mesh.node_count
+    assert len(ts.Sphere((1e200, 0, 0), 0.5e200).nodes(mesh)) == 0
 
 
 def turned(length):

@@ -13,7 +13,7 @@ import pytest
 
 import tissu as ts
 
-PUBLIC = sorted(name for name in vars(ts.Simulation) if not name.startswith("_"))
+PUBLIC = sorted(name for name in dir(ts.Simulation) if not name.startswith("_"))
 
 
 def _scene(cells: int, name: str = "bar", **changes: Any) -> ts.Scene:

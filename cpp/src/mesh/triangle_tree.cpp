@@ -79,7 +79,8 @@ TriangleTree::TriangleTree(std::span<const double> corners)
   for (std::size_t t = 0; t < corners_.size(); ++t) corners_[t] = given[static_cast<std::size_t>(number_[t])];
 }
 
-/// Fills a box with `count` triangles from `first` on: halves of them along the longest side of their centres.
+/// Fills a box with `count` triangles from `first` on: halves of them along the longest side of their
+/// centres.
 void TriangleTree::split(std::int32_t box, std::int32_t first, std::int32_t count,
                          const std::vector<Vec3>& centres) {
   const auto begin = number_.begin() + first;

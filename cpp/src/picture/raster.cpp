@@ -121,10 +121,9 @@ Seen rasterise(std::span<const double> corners, std::span<const std::int64_t> tr
   for (std::size_t pixel = 0; pixel < pixels; ++pixel) {
     if (buffer.owner[pixel] < 0) continue;
     const auto at = static_cast<std::int64_t>(pixel);
-    const Triangle triangle =
-        triangle_of(corners, triangles, static_cast<std::size_t>(buffer.owner[pixel]));
-    const Vec3 weights = triangle.weights(static_cast<double>(at % width) + 0.5,
-                                          static_cast<double>(at / width) + 0.5);
+    const Triangle triangle = triangle_of(corners, triangles, static_cast<std::size_t>(buffer.owner[pixel]));
+    const Vec3 weights =
+        triangle.weights(static_cast<double>(at % width) + 0.5, static_cast<double>(at / width) + 0.5);
     seen.pixel.push_back(at);
     seen.triangle.push_back(buffer.owner[pixel]);
     seen.weights.insert(seen.weights.end(), weights.data(), weights.data() + 3);

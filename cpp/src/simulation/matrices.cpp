@@ -4,8 +4,7 @@ namespace tissu {
 namespace {
 
 AssembledMatrix empty(const World& world) {
-  AssembledMatrix matrix{
-      std::make_unique<BlockMatrix>(world.sparsity(), world.isa(), world.threads()), {}};
+  AssembledMatrix matrix{std::make_unique<BlockMatrix>(world.sparsity(), world.isa(), world.threads()), {}};
   matrix.blocks->clear();
   return matrix;
 }
@@ -37,7 +36,9 @@ AssembledMatrix stiffness_matrix(const World& world, const State& state) {
   return assembled(world, state, {-1.0, 0.0});
 }
 
-AssembledMatrix damping_matrix(const World& world, const State& state) { return assembled(world, state, {0.0, -1.0}); }
+AssembledMatrix damping_matrix(const World& world, const State& state) {
+  return assembled(world, state, {0.0, -1.0});
+}
 
 AssembledMatrix mass_matrix(const World& world, const State& state) {
   AssembledMatrix matrix = empty(world);

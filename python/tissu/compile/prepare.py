@@ -89,6 +89,10 @@ def _prepare_support(prepared: Prepared, path: Path, support: Support) -> None:
     with contextlib.suppress(Unknown):
         nodes = _nodes(prepared, path, support.body, support.on)
         if nodes is not None:
+            misfit = support.misfit(nodes)
+            if misfit is not None:
+                prepared.findings.problem((*path, "node_displacements"), misfit)
+                return
             prepared.held.append(Held(support, path, nodes))
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING, Annotated, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import numpy as np
 from pydantic import AfterValidator, BeforeValidator
@@ -12,13 +12,13 @@ from pydantic import AfterValidator, BeforeValidator
 from tissu import units
 from tissu.counted import counted
 from tissu.errors import ParameterError
-from tissu.reading import Many, MaybeVectors
+from tissu.reading import Many, MaybeVectors, Read, VectorLike, listed
 from tissu.scene.direction import scaled
 from tissu.scene.effect import Effect
 from tissu.scene.field import field
 from tissu.scene.part import Part
 from tissu.scene.problem import Problem
-from tissu.scene.selection import Ints, On
+from tissu.scene.selection import Floats, Ints, On
 from tissu.scene.unknown import rule
 
 if TYPE_CHECKING:
@@ -63,8 +63,34 @@ def same_length(name: str, values: Sequence[object], times: Sequence[float]) -> 
         yield Problem((), f"{found}; one for each time is accepted")
 
 
+_POSITION = units.Triple(units.LENGTH)
+
+
+def _rows(value: object) -> object:
+    """Displacements [m] of each node at each time."""
+    value = listed(value)
+    return None if value is None else tuple(_row(row) for row in _list(value, "time"))
+
+
+def _row(value: object) -> tuple[tuple[float | None, ...], ...]:
+    return tuple(_POSITION(place) for place in _list(listed(value), "node"))
+
+
+def _list(value: object, of: str) -> Sequence[object]:
+    if isinstance(value, (list, tuple)):
+        return value
+    raise ParameterError(f"found {value!r}; a list with an entry for each {of} is accepted")
+
+
 Axes = Annotated[str, BeforeValidator(_axes)]
 IncreasingTimes = Annotated[Many[units.Time], AfterValidator(increasing)]
+
+
+_Rows = tuple[tuple[tuple[float, float, float], ...], ...]
+_OfNodes = Annotated[
+    Read[_Rows | None, Sequence[Sequence[VectorLike]] | np.ndarray[Any, Any] | None],
+    BeforeValidator(_rows),
+]
 
 
 class Support(Part):
@@ -92,6 +118,10 @@ class Support(Part):
     def effect(self, path: str, count: str | None) -> Effect:
         """What it switches on; `count` where it is known ("42 nodes")."""
         raise NotImplementedError
+
+    def misfit(self, nodes: Ints) -> str | None:
+        """What of it does not fit the selected nodes; None: nothing."""
+        return None
 
     def add_to(self, builder: WorldBuilder, nodes: Ints, *, frames: bool) -> None:
         """Give the nodes of its body their motion in the world; `frames`: they have a rotation."""
@@ -145,12 +175,16 @@ class Prescribed(Support):
     """strictly increasing times [s]"""
     displacements: MaybeVectors[Many[units.Position]] = field(default=None)
     """displacement from rest at each time [m]; absent: none"""
+    node_displacements: _OfNodes = field(default=None)
+    """displacement from rest at each time of each node [m], beside those of all; nodes as `ids` of
+    `on` names them, else by increasing number"""
     rotation: Rotation | None = None
     """rotation from rest; absent: none"""
 
-    @rule("displacements", "rotation")
+    @rule("displacements", "rotation", "node_displacements")
     def _moves(self) -> Iterator[Problem]:
-        if self.displacements is None and self.rotation is None:
+        moves = (self.displacements, self.rotation, self.node_displacements)
+        if all(move is None for move in moves):
             text = "found neither displacements nor rotation; at least one is needed"
             yield Problem((), text)
 
@@ -158,6 +192,14 @@ class Prescribed(Support):
     def _displaced_at_each_time(self) -> Iterator[Problem]:
         if self.displacements is not None:
             yield from same_length("displacement", self.displacements, self.times)
+
+    @rule("node_displacements", "times")
+    def _every_node_at_each_time(self) -> Iterator[Problem]:
+        rows = self.node_displacements
+        if rows is not None:
+            yield from same_length("list of node displacement", rows, self.times)
+            if len({len(row) for row in rows}) > 1:
+                yield Problem((), "found lists of several lengths; one for each node is accepted")
 
     @rule("rotation", "times")
     def _turned_at_each_time(self) -> Iterator[Problem]:
@@ -170,16 +212,44 @@ class Prescribed(Support):
         why = f"{path} moves {self.on.words(count)} on {self.axes} {end}"
         return Effect(f"prescribed motion of {self.body}", why)
 
+    def misfit(self, nodes: Ints) -> str | None:
+        """What of it does not fit the selected nodes; None: nothing."""
+        if self.node_displacements is None:
+            return None
+        given = len(self.node_displacements[0])
+        named = getattr(self.on, "ids", nodes)
+        if given == len(named) == len(nodes):
+            return None
+        if len(named) != len(nodes):
+            return "found a node twice among `ids`; each once is accepted"
+        found = f"found node displacements of {counted(given, 'node')} for {len(nodes)} selected"
+        return f"{found}; one for each of them is accepted"
+
     def add_to(self, builder: WorldBuilder, nodes: Ints, *, frames: bool) -> None:
         """Lead the nodes of its body in the world; `frames`: they have a rotation."""
-        turn, moves, still = self.rotation, self.displacements, np.zeros(len(self.times))
+        moves = self.displacements
+        shared = np.zeros((len(self.times), 3)) if moves is None else np.array(moves)
+        if self.node_displacements is not None:
+            own = np.array(self.node_displacements)
+            nodes = np.asarray(getattr(self.on, "ids", nodes), dtype=np.int32)
+            parts = [(nodes[k : k + 1], shared + own[:, k]) for k in range(len(nodes))]
+        else:
+            parts = [(nodes, shared)]
+        for some, displacements in parts:
+            self._lead(builder, some, displacements, frames=frames)
+
+    def _lead(
+        self, builder: WorldBuilder, nodes: Ints, displacements: Floats, *, frames: bool
+    ) -> None:
+        """Lead nodes that have one displacement (t, 3) [m]."""
+        turn, still = self.rotation, np.zeros(len(self.times))
         builder.prescribe(
             body=self.body,
             nodes=nodes,
             axes=self.axes_mask,
             rotations=frames and self.holds_rotations,
             times=np.array(self.times),
-            displacements=np.zeros((len(self.times), 3)) if moves is None else np.array(moves),
+            displacements=displacements,
             angles=still if turn is None else np.array(turn.angles),
             center=np.zeros(3) if turn is None else np.array(turn.center),
             axis=scaled((0.0, 0.0, 1.0) if turn is None else turn.axis),

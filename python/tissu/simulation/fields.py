@@ -65,8 +65,9 @@ class BodyFields:
         """
         without = next((block["model"] for block in blocks if "F" not in block), None)
         if without is not None:
+            model = without.replace("-", "_")  # as scenes spell it
             raise ParameterError(
-                f"found the model {without} of body '{body}', which has neither strain nor stress "
+                f"found the model {model} of body '{body}', which has neither strain nor stress "
                 "at points; energy_density and volume_ratio at cells are accepted"
             )
         self._blocks = blocks

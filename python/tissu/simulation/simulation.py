@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 from tissu import _core, units
 from tissu.counted import counted
 from tissu.errors import CheckpointError, ParameterError, TissuError
+from tissu.simulation.by_body import ByBody
 from tissu.simulation.entry import Entry, one_thread_at_a_time
 from tissu.simulation.inspected import Inspected
 from tissu.simulation.plan import Plan
@@ -71,8 +72,8 @@ class Simulation(Inspected):
         self._tissue = dict(tissue or {})
         self._rest_points = {name: self._core.points(name) for name in [*meshes, *self._tissue]}
         ranges = {name: self._core.body_range(name) for name in [*meshes, *self._tissue]}
-        self._positions = MappingProxyType(_views(self._core.positions, ranges))
-        self._velocities = MappingProxyType(_views(self._core.velocities, ranges))
+        self._positions = ByBody(_views(self._core.positions, ranges))
+        self._velocities = ByBody(_views(self._core.velocities, ranges))
         self.resumed_from: Resumed | None = None
         if checkpoint is not None:
             self._go_on_from(checkpoint)

@@ -163,7 +163,8 @@ TEST_P(EdgeLoadTest, EnclosesAreaTimesThickness) {
 TEST_P(EdgeLoadTest, ForceIsTheSlopeOfItsEnergyAndProductThatOfTheForce) {
   Pressure pressure("p", {edges_}, 3.0, {});
   std::vector<double> p = random_.numbers(state_.positions.size());
-  const double slope = derivative([&](double t) { return pressure.energy(moved(state_, p, t), test::scratch()); }, 1e-2);
+  const double slope =
+      derivative([&](double t) { return pressure.energy(moved(state_, p, t), test::scratch()); }, 1e-2);
   EXPECT_NEAR(force_of(pressure, state_).dot(test::view(p)), -slope, 1e-11);
   const Sparsity pattern = test::bind_alone(pressure, static_cast<std::int32_t>(state_.positions.size() / 3));
   const Eigen::VectorXd change =

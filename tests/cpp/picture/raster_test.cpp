@@ -42,8 +42,8 @@ TEST(RasterTest, WeightsAndNearnessAreThoseOfThePlane) {
 
 TEST(RasterTest, TheNearerTriangleIsSeenWhateverTheOrder) {
   const std::vector<double> corners = {0, 0, 1, 9, 0, 1, 0, 9, 1, 0, 0, 2, 9, 0, 2, 0, 9, 2};
-  for (const std::vector<std::int64_t>& order : {std::vector<std::int64_t>{0, 1, 2, 3, 4, 5},
-                                                 std::vector<std::int64_t>{3, 4, 5, 0, 1, 2}}) {
+  for (const std::vector<std::int64_t>& order :
+       {std::vector<std::int64_t>{0, 1, 2, 3, 4, 5}, std::vector<std::int64_t>{3, 4, 5, 0, 1, 2}}) {
     const Seen seen = rasterise(corners, order, 9, 9);
     for (const double near : seen.nearness) EXPECT_EQ(near, 2.0);
   }

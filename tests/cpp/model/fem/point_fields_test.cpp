@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "../../base/random.h"
-#include "../../force/room.h"
 #include "../../cell/reference_nodes.h"
+#include "../../force/room.h"
 #include "../../force/verbs.h"
 #include "tissu/model/fem/elastic.h"
 #include "tissu/model/points/elastic_points.h"

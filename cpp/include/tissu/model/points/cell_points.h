@@ -4,8 +4,8 @@
 
 #include <span>
 
-#include "tissu/model/elastic_block.h"
 #include "tissu/element/reference_cell.h"
+#include "tissu/model/elastic_block.h"
 #include "tissu/model/point_fields.h"
 
 namespace tissu {

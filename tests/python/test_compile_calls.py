@@ -198,7 +198,13 @@ def test_integrators_and_solvers(monkeypatch):
             "newton_tolerance": 1e-9,
             "indefinite": "project",
         },
-        "Static": {"newton_iterations": 10, "newton_tolerance": 1e-6, "load_steps": 3},
+        "Static": {
+            "newton_iterations": 25,
+            "newton_tolerance": 1e-6,
+            "load_steps": 3,
+            "total_iterations": 0,
+            "arc_length": False,
+        },
         "ConjugateGradient": {
             "tolerance": 1e-6,
             "iterations": 5,

@@ -61,9 +61,16 @@ void Mass::add_to(BlockMatrix& matrix, const State& state, double scale) const {
 }
 
 double Mass::kinetic_energy(const State& state) const {
-  std::vector<double> momentum(state.velocities.size(), 0.0);
-  add_product(state, 1.0, state.velocities, momentum);
-  return 0.5 * std::inner_product(momentum.begin(), momentum.end(), state.velocities.begin(), 0.0);
+  const ConstReals v = state.velocities;
+  double sum = 0.0;
+  for (std::size_t i = 0; i < nodal_.size(); ++i) {
+    for (std::size_t k = 3 * i; k < 3 * i + 3; ++k) sum += nodal_[i] * v[k] * v[k];
+  }
+  for (std::size_t k = 0; k < frames_.size(); ++k) {
+    const Vec3 spin = block(v, frames_[k].rotation);
+    sum += spin.dot(spatial_inertia(frames_[k], state.rotations[k]) * spin);
+  }
+  return 0.5 * sum;
 }
 
 }  // namespace tissu

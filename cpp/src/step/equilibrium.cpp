@@ -155,10 +155,10 @@ Equilibrium::End Equilibrium::find(const LoadPath& path, double before, double s
   Progress progress{now};
   while (true) {
     if (!std::isfinite(now)) return stop(End::ran_away);
+    stop_if_asked();
     if (is_reached(share, state, now, correction_, report)) return End::reached;
     if (report.residual > kHopeless || progress.idle > kPatience) return stop(End::ran_away);
     if (report.newton_iterations - first >= most) return stop(End::most);
-    stop_if_asked();
     if (!solve(state, search, report)) return stop(End::ran_away);
     if (search == Search::energy) {
       if (!(dot(right_, change_) > 0.0)) {

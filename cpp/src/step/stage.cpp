@@ -229,7 +229,7 @@ std::string_view StageSolver::iterate(State& state, std::vector<double>& v, Sear
   double lowest = now;
   is_falling_ = false;
   while (true) {
-    report.residual = acting_ > 0.0 ? now / acting_ : 0.0;
+    report.residual = acting_ > 0.0 || !std::isfinite(now) ? now / acting_ : 0.0;
     if (!(now <= kHopeless * std::max(acting_, first))) return "Newton's iteration ran away";
     if (now <= newton_.tolerance * acting_) break;
     if (report.newton_iterations >= most) return "Newton's iteration stopped before its tolerance";

@@ -50,6 +50,7 @@ TEST_F(Watched, NoLinks) {
 TEST_F(Watched, NoNodesThatAreLed) {
   Motion motion;
   motion.times = {0.0, 1.0};
+  motion.angles = {0.0, 0.0};
   motion.displacements = {Vec3::Zero(), Vec3(0.1, 0.0, 0.0)};
   description_.fixed[0].motion = motion;
   EXPECT_FALSE(is_watched());

@@ -123,6 +123,7 @@ _HOMES = {
         "ImplicitMidpoint",
         "BDF2",
         "Newmark",
+        "EnergyMomentum",
         "BDF2FixedPoint",
         "Static",
         "Newton",

@@ -103,6 +103,7 @@ void WorldBuilder::set_rest() {
     block(Reals(rest.velocities), frames[k].block) = speeds_[k];
     block(Reals(rest.velocities), frames[k].rotation) = spins_[k];
   }
+  world_.fixed_.clear(rest.velocities);
 }
 
 const Body& World::body(std::string_view name) const {

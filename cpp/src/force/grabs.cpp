@@ -194,7 +194,8 @@ void Grabs::add_couplings(const State& state, StiffnessScale scale, Couplings& c
 double Grabs::energy(const State& state, Scratch& /*scratch*/) const {
   double sum = 0.0;
   for_grabs(state.memory[place_], [&](const Grab& grab) {
-    sum += 0.5 * grab.stiffness() * (grab.target() - grab.position(state)).squaredNorm();
+    const double k = state.load_factor * grab.stiffness();
+    sum += 0.5 * k * (grab.target() - grab.position(state)).squaredNorm();
   });
   return sum;
 }

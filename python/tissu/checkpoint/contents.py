@@ -29,7 +29,6 @@ _NUMBERS = (
     "velocities_before",
     "rotations",
     "memory",
-    "links",
 )
 _MOST_STEPS = 2**53  # whole numbers that a double holds
 
@@ -54,6 +53,9 @@ def require_contents(path: Path, header: Mapping[str, Any], arrays: Mapping[str,
         raise _wrong(path, "settled", "true or false")
     for name in _NUMBERS:
         _require_finite(path, name, arrays)
+    sizes = arrays.get("memory_sizes")
+    if not isinstance(sizes, np.ndarray) or sizes.dtype != np.int32:
+        raise _wrong(path, "memory_sizes", "an array of int32")
     integrator = arrays.get("integrator")  # a stable step may be infinite
     if not isinstance(integrator, np.ndarray) or integrator.dtype != np.float64:
         raise _wrong(path, "integrator", "an array of float64")

@@ -28,8 +28,8 @@ class Row:
 
 ROWS = (
     Row("gravity", "gravity", r"\bGravity\b"),
-    Row("nodal load", "nodal-load", r"\b(NodalLoad|History)\b"),
-    Row("traction", "traction", r"\b(NodalLoad|History)\b"),
+    Row("nodal load", "nodal-load", r"\b(NodalLoad|LoadChange|History)\b"),
+    Row("traction", "traction", r"\b(NodalLoad|LoadChange|History)\b"),
     Row("pressure", "pressure", r"\bPressure\b"),
     Row("fixed nodes", "fixed", r"\bMotion\b"),
     Row("prescribed motion", "prescribed", r"\b(Motion|interpolate|locate)\b"),

@@ -70,6 +70,7 @@ ASKED = {
     "fixed or led nodes": r"\bFixedDofs::|\bBlockMatrix::constrain\b|\bStageSolver::lead\b",
     "rigid frames": r"\bkeep_angular_momentum\b",
     "what remembers": r"\btissu::remember\(",
+    "whether to stop": r"\bstop_if_asked\(",
     "what begins a step": r"\btissu::begin_step\(",
 }
 

@@ -9,6 +9,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT / "tests" / "hard"))
 
+from hard_text import CHAPTERS  # noqa: E402
 from outcome import CASES, Outcome, case, methods, names, outcome, with_method  # noqa: E402
 
 PAGE = ROOT / "docs" / "hard-cases.md"
@@ -71,9 +72,7 @@ def page() -> str:
         "\n".join(table),
         "\n".join(said),
     ]
-    return (
-        HEAD + "\n\n".join(parts) + "\n\nThis page is printed by `python bench/hard.py --write`.\n"
-    )
+    return HEAD + "\n\n".join([*parts, CHAPTERS + "\n" + TAIL])
 
 
 def _first_comment(name: str) -> str:

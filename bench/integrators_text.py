@@ -13,7 +13,7 @@ error falls with the step, what each does to the energy, and when to take it.
 |---|---|
 | something that always goes, at a step you choose | `implicit_euler` |
 | the same with vibrations that last | `bdf2` |
-| no loss of energy at all, at a step you choose | `implicit_midpoint` or `newmark` |
+| no loss of energy, at a step you choose | `implicit_midpoint`, `newmark` or `energy_momentum` |
 | small steps, and no system to solve | `auto` (`symplectic_euler`) |
 | many right digits, small steps | `rk4` |
 | where it comes to rest, and nothing in between | `static` |
@@ -107,6 +107,11 @@ measure vibrations.
 **`implicit_midpoint`**: second order; keeps the energy of a linear body exactly and momenta of any.
 Take it for vibrations over long times. Nothing damps what the step does not resolve: give the body
 a viscosity, or start it smoothly.
+
+**`energy_momentum`**: the midpoint rule with a discrete gradient (Gonzalez 1996); second order;
+keeps energy and momenta of any law to Newton's tolerance, at two solves an iteration. Take it in
+large strains, where the midpoint rule or Newmark's method report that the energy grows
+([hard-cases.md](hard-cases.md)).
 
 **`newmark`**: with beta = 1/4, gamma = 1/2 as accurate as the midpoint rule, equal to it for a
 linear body; gamma above 1/2 damps and falls to first order. Take it to compare with other programs

@@ -28,6 +28,12 @@ RICHEST: dict[str, dict[str, Any]] = {
             "newton": NEWTON,
         },
     },
+    "strip": {"bodies.strip.mesh.cells": [80, 1, 1], "step.newton": NEWTON},
+    "soft_cube": {"bodies.cube.mesh.cell": "hexahedron20", "bodies.cube.mesh.cells": [4, 4, 4]},
+    "cook": {
+        "bodies.membrane.mesh.file": "cook_32.vtu",
+        "bodies.membrane.model": "mean-dilatation",
+    },
     "floppy": {
         "step": {
             "type": "implicit_midpoint",
@@ -62,7 +68,7 @@ RICHEST: dict[str, dict[str, Any]] = {
     },
 }
 """what is changed in the scene"""
-EDGE = ("soft_bar",)
+EDGE = ("soft_bar", "strip")
 """cases that are compared along the edge of a box, where meshes of every section have nodes"""
 
 
@@ -75,6 +81,16 @@ def sag_of_a_beam() -> None:
     arrays["euler_bernoulli"] = np.zeros((len(x), 3))
     arrays["euler_bernoulli"][:, 1] = -weight / (2 * young * height**2) * down
     np.savez_compressed(HERE / "bar.npz", **arrays)
+
+
+def circle() -> None:
+    """The strip rolled into a full circle, into rolled.npz: curvature 2 pi / L, its length kept."""
+    points = np.asarray(changed(HERE / "rolled.yaml", {}).compile().meshes["strip"].points)
+    radius = 10.0 / (2.0 * np.pi)
+    moved = np.zeros_like(points)
+    moved[:, 0] = radius * np.sin(points[:, 0] / radius) - points[:, 0]
+    moved[:, 2] = radius * (1.0 - np.cos(points[:, 0] / radius))
+    np.savez_compressed(HERE / "rolled.npz", points=points, displacements=moved)
 
 
 def main(names: list[str]) -> None:
@@ -95,6 +111,8 @@ def main(names: list[str]) -> None:
         print(name, len(points), "points", flush=True)
     if not names or "bar" in names:
         sag_of_a_beam()
+    if not names or "rolled" in names:
+        circle()
 
 
 if __name__ == "__main__":

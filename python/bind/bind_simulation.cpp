@@ -2,6 +2,7 @@
 #include "interruption.h"
 #include "specs.h"
 #include "tissu/edit/remove_cells.h"
+#include "tissu/simulation/inverted_cells.h"
 #include "tissu/simulation/simulation.h"
 #include "tissu/step/frequency.h"
 
@@ -125,6 +126,14 @@ void bind_simulation(py::module_& m) {
       .def("body_range", &body_range, arg("body"))
       .def("energy", [](const Simulation& s) { return to_dict(s.energy()); })
       .def("cell_fields", &cell_fields, arg("body"))
+      .def(
+          "inverted_cells",
+          [](const Simulation& s, const std::string& name) {
+            const std::vector<std::int32_t> cells =
+                inverted_cells(s.world(), s.state(), s.world().body(name));
+            return py::array_t<std::int32_t>(static_cast<py::ssize_t>(cells.size()), cells.data());
+          },
+          arg("body"))
       .def("profile_rows", &profile_rows)
       .def("profile_solves",
            [](Simulation& s) {

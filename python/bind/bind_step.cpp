@@ -1,6 +1,7 @@
 #include "bind.h"
 #include "specs.h"
 #include "tissu/step/bdf2.h"
+#include "tissu/step/energy_momentum.h"
 #include "tissu/step/explicit_euler.h"
 #include "tissu/step/fixed_point.h"
 #include "tissu/step/implicit_euler.h"
@@ -67,11 +68,18 @@ void bind_others(py::module_& m) {
       py::kw_only(), arg("iterations"), arg("tolerance"), arg("anderson"));
   m.def(
       "Static",
-      [](int load_steps, int iterations, double tolerance) {
-        return spec<StaticEquilibrium>(
-            StaticEquilibrium::Settings{NewtonSettings{iterations, tolerance}, load_steps});
+      [](int load_steps, int iterations, double tolerance, int total, bool arc_length) {
+        return spec<StaticEquilibrium>(StaticEquilibrium::Settings{NewtonSettings{iterations, tolerance},
+                                                                   load_steps, total, arc_length});
       },
-      py::kw_only(), arg("load_steps"), arg("newton_iterations"), arg("newton_tolerance"));
+      py::kw_only(), arg("load_steps"), arg("newton_iterations"), arg("newton_tolerance"),
+      arg("total_iterations"), arg("arc_length"));
+  m.def(
+      "EnergyMomentum",
+      [](int iterations, double tolerance) {
+        return spec<EnergyMomentum>(NewtonSettings{iterations, tolerance});
+      },
+      py::kw_only(), arg("iterations"), arg("tolerance"));
 }
 
 }  // namespace

@@ -123,6 +123,7 @@ _HOMES = {
         "ImplicitMidpoint",
         "BDF2",
         "Newmark",
+        "EnergyMomentum",
         "BDF2FixedPoint",
         "Static",
         "Newton",
@@ -143,6 +144,8 @@ def __getattr__(name: str) -> Any:
         from tissu import _core
 
         return _core.build_info()["version"]
+    if name == "_core":
+        return _load_core()
     if name in _MODULES:
         return importlib.import_module(f"tissu.{name}")
     home = _HOME_OF.get(name)
@@ -151,6 +154,26 @@ def __getattr__(name: str) -> Any:
     value = getattr(importlib.import_module(home), name)
     globals()[name] = value
     return value
+
+
+def _load_core() -> Any:
+    """The compiled core.
+
+    Raises:
+        ImportError: a library that it needs is missing, or it was made for another Python.
+    """
+    try:
+        return importlib.import_module("tissu._core")
+    except ModuleNotFoundError:
+        raise ImportError(
+            "the compiled core of tissu is missing for this Python; install tissu with it: "
+            "python -m pip install tissu"
+        ) from None
+    except ImportError as error:
+        raise ImportError(
+            f"the compiled core of tissu cannot be loaded: {error}; install the library that it "
+            "names (Debian: sudo apt install libcholmod3 for libcholmod), or build tissu again"
+        ) from error
 
 
 def __dir__() -> list[str]:

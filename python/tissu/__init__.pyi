@@ -90,6 +90,7 @@ from tissu.scene import ImplicitEuler as ImplicitEuler
 from tissu.scene import ImplicitMidpoint as ImplicitMidpoint
 from tissu.scene import BDF2 as BDF2
 from tissu.scene import Newmark as Newmark
+from tissu.scene import EnergyMomentum as EnergyMomentum
 from tissu.scene import BDF2FixedPoint as BDF2FixedPoint
 from tissu.scene import Static as Static
 from tissu.scene import Newton as Newton

@@ -105,7 +105,13 @@ def lead(builder, nodes, displacements, setting="solid"):
 
 def rested(builder):
     """The simulation in static equilibrium after one second, by Newton and the direct solver."""
-    static = _core.Static(newton_iterations=20, newton_tolerance=NEWTON, load_steps=1)
+    static = _core.Static(
+        newton_iterations=20,
+        newton_tolerance=NEWTON,
+        load_steps=1,
+        total_iterations=0,
+        arc_length=False,
+    )
     world = builder.build()
     simulation = _core.Simulation(world=world, integrator=static, solver=_core.Cholesky())
     report = simulation.step(1.0)

@@ -86,7 +86,8 @@ def with_method(scene: ts.Scene, method: str) -> ts.Scene:
         # h^2 omega^2 + h c < 1 contracts: half the stable step of symplectic Euler.
         stable = scene.replace(step=ts.SymplecticEuler()).compile().stable_step
         return scene.replace(step=cls(dt=min(own.dt, 0.45 * stable)))
-    kept = {name: getattr(own, name) for name in ("newton", "solver") if hasattr(own, name)}
+    shared = [name for name in ("newton", "solver") if name in cls.model_fields]
+    kept = {name: getattr(own, name) for name in shared if hasattr(own, name)}
     return scene.replace(step=cls(dt=own.dt, **kept))
 
 

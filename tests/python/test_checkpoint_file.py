@@ -162,7 +162,7 @@ def test_a_mesh_from_a_file_is_known_by_its_cells(file, tmp_path):
 
 def test_absent_files_and_folders(tmp_path):
     assert "there is no such file" in refusal(tmp_path / "absent")
-    assert "cannot be read" in refusal(tmp_path)
+    assert "found a folder; a regular file is accepted" in refusal(tmp_path)
 
 
 def rewritten(file, **header):

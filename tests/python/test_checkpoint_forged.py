@@ -85,24 +85,14 @@ def test_what_an_integrator_keeps_has_its_length(tmp_path, step):
         assert "numbers of the integrator" in said
 
 
-def test_links_join_points_that_there_are(tmp_path):
+def test_a_memory_that_the_world_does_not_have(tmp_path):
     header, arrays = contents(tmp_path)
-    good = [0.0, -1, 0, 0, 0, 1.0, -1, 0, 0, 0, 5.0]
-    for place, value in (
-        (0, 10**6),
-        (0, -1),
-        (0, 0.5),
-        (1, 0),
-        (5, 1e300),
-        (6, 7),
-        (10, -1),
-        (10, 0),
-    ):
-        link = list(good)
-        link[place] = value
-        links = np.array([link], dtype=float)
-        assert "link" in refusal(tmp_path, pack(header, {**arrays, "links": links}))
-    refusal(tmp_path, pack(header, {**arrays, "links": np.ones((1, 7))}))
+    for memory, sizes in (([1.0] * 11, [11]), ([], [0]), ([1.0], []), ([], [-1]), ([1.0], [2])):
+        odd = {
+            "memory": np.array(memory, dtype=float),
+            "memory_sizes": np.array(sizes, dtype=np.int32),
+        }
+        assert "remember" in refusal(tmp_path, pack(header, {**arrays, **odd}))
 
 
 def signed(data):

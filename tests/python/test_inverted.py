@@ -30,3 +30,43 @@ def test_a_mirrored_cell_is(simulation, tmp_path):
     series = Series(simulation, tmp_path)
     series.write()
     assert "at t = 0 s 1 cell of body 'cube' is inside out (0)" in series.inverted
+
+
+def cube(law=None):
+    return ts.Scene(
+        bodies={
+            "cube": ts.Body(
+                mesh=ts.bar_mesh(size=(1, 1, 1), cells=(2, 2, 2), cell="hexahedron"),
+                law=law or ts.StVK(young=1e3, poisson=0.3),
+                density=1e3,
+            )
+        },
+        fixed=[ts.Fixed("cube", on=ts.Plane((0, 0, 0), (1, 0, 0)))],
+        step=ts.Static(solver=ts.Cholesky()),
+    ).compile()
+
+
+def test_an_equilibrium_inside_out_is_told():
+    """Mirrored in the plane that is held StVK has no energy at all: in equilibrium, and no body."""
+    simulation = cube()
+    simulation.positions["cube"][:, 0] *= -1.0
+    report = simulation.step()
+    assert report.converged
+    assert '8 cells of body "cube" are inside out (0, 1, 2, 3, 4, ...)' in report.message
+    assert "inside out" in str(report)
+
+
+def test_an_equilibrium_that_is_none_of_these_says_nothing():
+    report = cube().step()
+    assert report.converged
+    assert report.message == ""
+
+
+def test_one_corner_inside_out_is_enough():
+    """A corner pushed far into its cell: det F is negative there, and positive in the mean."""
+    simulation = cube()
+    corner = np.flatnonzero((simulation.meshes["cube"].points == 1.0).all(axis=1))[0]
+    simulation.positions["cube"][corner] -= 0.42
+    cell = np.flatnonzero((simulation.meshes["cube"].cells[0].nodes == corner).any(axis=1))
+    assert (simulation.cell_fields("cube")["volume_ratio"] > 0.0).all()
+    np.testing.assert_array_equal(simulation.inverted_cells("cube"), cell)

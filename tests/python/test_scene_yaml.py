@@ -198,6 +198,7 @@ def methods():
         ts.RK4("1 ms"),
         ts.ImplicitEuler(0.01, solver=ts.Auto(tolerance=1e-8), indefinite="refuse"),
         ts.ImplicitMidpoint(0.01, solver=solver),
+        ts.EnergyMomentum(0.01, iterations=7, tolerance=1e-8),
         ts.BDF2(0.01, newton=Newton(iterations=3)),
         ts.Newmark(0.01, beta=0.3, gamma=0.6),
         ts.BDF2FixedPoint(1e-3, iterations=9, anderson=2),

@@ -24,11 +24,14 @@ double interpolate(std::span<const double> times, std::span<const double> values
 
 Vec3 Motion::position(const Vec3& rest, double time) const {
   if (times.empty()) return rest;
+  return center + Eigen::AngleAxisd(angle(time), axis) * (rest - center) + displacement(time);
+}
+
+Vec3 Motion::displacement(double time) const {
+  if (times.empty()) return Vec3::Zero();
   const auto [i, share] = locate(times, time);
-  Vec3 displacement = displacements[i];
-  if (share != 0.0) displacement += share * (displacements[i + 1] - displacements[i]);
-  const double angle = interpolate(times, angles, time, 0.0);
-  return center + Eigen::AngleAxisd(angle, axis) * (rest - center) + displacement;
+  if (share == 0.0) return displacements[i];
+  return displacements[i] + share * (displacements[i + 1] - displacements[i]);
 }
 
 double Motion::angle(double time) const { return interpolate(times, angles, time, 0.0); }

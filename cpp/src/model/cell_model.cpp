@@ -65,7 +65,7 @@ CellModel::CellModel(ElasticBlock block, Threads threads)
 }
 
 void CellModel::lay_cells(ConstReals rest_positions, RestForm form, std::span<const std::int32_t> together) {
-  order_ = order_elements(block_.cells, reference_.nodes, rest_positions, together);
+  order_ = order_elements(block_.cells, reference_.nodes, rest_positions, together, block_.fill);
   shape_ = rest_shape({reference_, block_.cells, block_.cross_section, rest_positions}, order_, form);
   if (shape_.bad.empty()) return;
   if (!block_.cell_numbers.empty()) {

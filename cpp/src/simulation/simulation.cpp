@@ -8,6 +8,7 @@
 
 #include "tissu/base/error.h"
 #include "tissu/base/number_text.h"
+#include "tissu/simulation/inverted_cells.h"
 #include "tissu/world/run_time.h"
 
 namespace tissu {
@@ -78,8 +79,10 @@ Simulation::Simulation(std::shared_ptr<const World> world, std::unique_ptr<Integ
       integrator_(std::move(integrator)),
       solver_(std::move(solver)),
       state_(world_->rest_state()),
-      last_good_(state_) {
+      last_good_(state_),
+      held_(state_.velocities) {
   integrator_->prepare(*world_, solver_.get(), profile_);
+  if (integrator_->is_undamped() && EnergyWatch::can_watch(*world_)) watch_.emplace();
 }
 
 StepReport Simulation::step(double h) {
@@ -87,7 +90,9 @@ StepReport Simulation::step(double h) {
     throw ParameterError("the step is " + number_text(h) + " s; it must be positive and finite.");
   }
   const auto start = std::chrono::steady_clock::now();
+  hold();
   last_good_ = state_;
+  if (watch_) watch_->begin(*world_, state_);
   StepReport report;
   try {
     begin_step(*world_, state_, scratch_, h);
@@ -97,12 +102,30 @@ StepReport Simulation::step(double h) {
     throw;
   }
   if (!std::isfinite(report.residual) || !is_sane()) roll_back(h);
+  if (watch_) watch_energy(report);
   remember(*world_, state_);
+  world_->fixed().copy(state_.velocities, held_);
   settled_ = false;
+  if (report.converged && integrator_->is_static()) report.message = say_inverted(*world_, state_);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   profile_.add_step(seconds);
   report.milliseconds = 1e3 * seconds;
   return report;
+}
+
+void Simulation::watch_energy(StepReport& report) {
+  watch_->end(*world_, state_);
+  if (watch_->growth() <= EnergyWatch::kReported) return;
+  if (watch_->growth() <= EnergyWatch::kRefused) {
+    report.converged = false;
+    report.message = watch_->say();
+    return;
+  }
+  const Culprit culprit = worst_cell(*world_, state_);
+  const std::string message = "in the step from t = " + number_text(last_good_.time) + " s " + watch_->say() +
+                              ". The simulation stands at its last good step.";
+  state_ = last_good_;
+  throw Diverged(message, culprit.body, culprit.element, state_.time);
 }
 
 std::vector<double> Simulation::reactions() const {
@@ -176,14 +199,8 @@ void Simulation::roll_back(double h) {
 }
 
 Energy Simulation::energy() const {
-  Energy energy;
-  energy.kinetic = world_->mass().kinetic_energy(state_);
   Scratch scratch;
-  for (const auto& model : world_->forces()) {
-    (model->kind() == ForceKind::elastic ? energy.elastic : energy.potential) +=
-        model->energy(state_, scratch);
-  }
-  return energy;
+  return energy_of(*world_, state_, scratch);
 }
 
 void Simulation::replace_world(std::shared_ptr<const World> world) {
@@ -195,6 +212,7 @@ void Simulation::replace_world(std::shared_ptr<const World> world) {
   integrator_->restore(memory);
   carry_memory(*world_, *world, state_);
   world_ = std::move(world);
+  if (watch_) watch_.emplace();
 }
 
 }  // namespace tissu

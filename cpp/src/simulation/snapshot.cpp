@@ -65,6 +65,7 @@ std::shared_ptr<const World> edited(const World& world, const std::vector<Snapsh
 
 Snapshot Simulation::snapshot() {
   if (solver_ != nullptr) solver_->forget();
+  hold();
   Snapshot result;
   result.state = state_;
   result.settled = settled_;
@@ -96,6 +97,8 @@ void Simulation::restore(const Snapshot& snapshot) {
   last_good_ = snapshot.state;
   last_good_.time = snapshot.time_before;
   last_good_.velocities = snapshot.velocities_before;
+  held_ = snapshot.state.velocities;
+  if (watch_) watch_.emplace();
   settled_ = snapshot.settled;
   integrator_->restore(snapshot.integrator);
   if (solver_ != nullptr) solver_->forget();

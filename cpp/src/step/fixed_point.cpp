@@ -49,25 +49,25 @@ StepReport Bdf2FixedPoint::step(State& state, double h) {
   v_ = state.velocities;
   history_.begin(start_, h, solver_);
   solver_.copy_given(v_);
-  const double load = solver_.system().external_force(solver_.stage().base, change_);
-  iterate(state, solver_.stage().push * load, report);
-  if (!report.converged && !(report.residual < 1.0)) refuse(h);
+  solver_.judge_by_load();
+  if (!iterate(state, report)) refuse(h);
   keep_angular_momentum(solver_.stage().base, solver_.world().frames(), state);
   history_.keep(start_, h, state);
   report.time = state.time;
   return report;
 }
 
-void Bdf2FixedPoint::iterate(State& state, double reference, StepReport& report) {
+bool Bdf2FixedPoint::iterate(State& state, StepReport& report) {
   anderson_.begin();
   double mixing = 1.0;
   double now = solver_.residual(state, v_);
-  reference = std::max({reference, now, 1e-300});
+  // The impulse of the forces at the guess: no linearised step, which may lead far off, goes before it.
+  const double first = std::max({solver_.acting(), now, 1e-300});
   while (true) {
-    report.residual = now / reference;
+    report.residual = now / first;
     report.converged = report.residual <= settings_.tolerance;
     if (report.converged || report.solver_iterations == settings_.iterations) break;
-    if (!(report.residual < kHopeless)) break;
+    if (!(now < kHopeless * first)) break;
     stop_if_asked();
     std::ranges::copy(solver_.right(), change_.begin());
     solver_.world().mass().divide(solver_.stage().base, change_);
@@ -79,6 +79,7 @@ void Bdf2FixedPoint::iterate(State& state, double reference, StepReport& report)
     ++report.solver_iterations;
   }
   if (!report.converged) report.message = "the fixed-point iteration stopped before its tolerance";
+  return report.converged || now < first;
 }
 
 void Bdf2FixedPoint::refuse(double h) const {

@@ -19,11 +19,25 @@ constexpr int kRescue = 10;      ///< Newton iterations at most where a linearis
 constexpr double kFalling =
     0.5;  ///< of the residual before: an iteration that gets so far was only stopped early
 constexpr double kHopeless = 1e9;       ///< times the first residual: Newton's iteration has lost its way
+constexpr double kRoundings = 16.0;     ///< in each row of the residual
 constexpr double kShortest = 1e-3;      ///< a Newton step is not cut below this, …
 constexpr double kShortestDown = 1e-9;  ///< … or below this where the energy is to fall
 constexpr double kArmijo = 1e-4;        ///< share of the fall that the slope promises
 constexpr double kFirstMass = 0.1;      ///< share of the mass that is added first to make a matrix definite
 constexpr double kLastMass = 1e9;
+
+/// The norm of what stands in held rows.
+double held_norm(const FixedDofs& fixed, ConstReals values) {
+  double sum = 0.0;
+  for (const std::int32_t row : fixed.rows()) {
+    const std::uint8_t mask = fixed.masks()[static_cast<std::size_t>(row)];
+    for (int axis = 0; axis < 3; ++axis) {
+      const double value = values[static_cast<std::size_t>(3 * row + axis)];
+      if (((mask >> axis) & 1) != 0) sum += value * value;
+    }
+  }
+  return std::sqrt(sum);
+}
 
 }  // namespace
 
@@ -55,7 +69,7 @@ void StageSolver::lead(const State& start, double time, double h, double share) 
 }
 
 void StageSolver::solve(State& state, std::vector<double>& v, StepReport& report) {
-  reference_ = stage_.push * system_->external_force(stage_.base, work_);
+  judge_by_load();
   guess_ = v;
   first_solve(v, report);
   const bool once = newton_.iterations == 1;
@@ -77,6 +91,8 @@ void StageSolver::solve(State& state, std::vector<double>& v, StepReport& report
   system_->world().fixed().copy(first_, v);
   report.message = iterate(state, v, Search::energy, most, report);
 }
+
+void StageSolver::judge_by_load() { reference_ = stage_.push * system_->external_force(stage_.base, work_); }
 
 bool StageSolver::is_good_enough(State& state, ConstReals v) {
   if (!system_->world().is_linear()) return residual(state, v) <= kWorse * start_ + kFloor * reference_;
@@ -130,10 +146,13 @@ void StageSolver::first_solve(std::vector<double>& v, StepReport& report) {
   world.mass().add_product(base, -1.0, work_, right_);
   fixed.clear(right_);
   start_ = norm(right_);
-  fixed.copy(change_, right_);
+  // What is given is on the right already: the solver sees free rows only, and judges by them.
+  std::ranges::copy(change_, first_.begin());
+  fixed.clear(change_);
 
   assemble(base, false);
   const SolveReport solved = solve_linear(base, kFloor * reference_, false, report);
+  fixed.copy(first_, change_);
   for (std::size_t i = 0; i < v.size(); ++i) v[i] += change_[i];
   report.newton_iterations += 1;
   report.residual = solved.residual;
@@ -179,7 +198,13 @@ double StageSolver::residual(State& state, ConstReals v) {
     right_[i] *= stage_.push;
     work_[i] = v[i] - stage_.base.velocities[i];
   }
-  world.mass().add_product(stage_.base, -1.0, work_, right_);
+  acting_ = reference_;
+  if (world.fixed().moves()) acting_ = std::max(acting_, held_norm(world.fixed(), right_));
+  std::ranges::fill(momentum_, 0.0);
+  world.mass().add_product(stage_.base, -1.0, work_, momentum_);
+  world.fixed().clear(momentum_);
+  acting_ = std::max(acting_, norm(momentum_));
+  for (std::size_t i = 0; i < right_.size(); ++i) right_[i] += momentum_[i];
   world.fixed().clear(right_);
   return norm(right_);
 }
@@ -200,16 +225,17 @@ std::string_view StageSolver::iterate(State& state, std::vector<double>& v, Sear
   report.newton_iterations = 1;
   report.converged = false;
   double now = residual(state, v);
-  const double reference = std::max({reference_, now, 1e-300});
+  const double first = now;
   double lowest = now;
   is_falling_ = false;
   while (true) {
-    report.residual = now / reference;
-    if (!(report.residual < kHopeless)) return "Newton's iteration ran away";
-    if (report.residual <= newton_.tolerance) break;
+    report.residual = acting_ > 0.0 ? now / acting_ : 0.0;
+    if (!(now <= kHopeless * std::max(acting_, first))) return "Newton's iteration ran away";
+    if (now <= newton_.tolerance * acting_) break;
     if (report.newton_iterations >= most) return "Newton's iteration stopped before its tolerance";
     assemble(state, search == Search::energy);
-    if (now <= system_->round_off(state) / stage_.move) break;
+    const double floor = system_->round_off(state) / stage_.move;
+    if (now <= (report.newton_iterations > 1 && !is_falling_ ? kRoundings : 1.0) * floor) break;
     stop_if_asked();
     std::ranges::fill(change_, 0.0);
     solve_linear(state, 0.0, search == Search::energy, report);

@@ -64,6 +64,7 @@ double System::external_force(const State& state, Reals f) {
     const Timed timed(profile_, rows_[i].force);
     world_.forces()[i]->add_force(state, scratch_, f);
   }
+  world_.fixed().clear(f);
   return norm(f);
 }
 

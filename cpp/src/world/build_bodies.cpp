@@ -12,6 +12,10 @@
 namespace tissu {
 namespace {
 
+/// Of the chunks of a body that may be cut: the cells and copies of nodes that an edit makes stand in the
+/// chunk of the cell that they come from.
+constexpr double kEditableFill = 0.75;
+
 /// Numbers from the body's own nodes on are those of nodes that it shares with others.
 std::vector<std::int32_t> with_shared(std::vector<std::int32_t> nodes, const Body& made,
                                       const std::vector<std::int32_t>& shared) {
@@ -63,6 +67,7 @@ std::vector<ElasticBlock> WorldBuilder::blocks_of(const BodyDescription& body, c
   std::int32_t first_cell = 0;
   for (ElasticBlock elastic : body.elastic) {
     elastic.body = body.name;
+    if (description_.editable) elastic.fill = kEditableFill;
     elastic.cells = with_shared(std::move(elastic.cells), made, shared);
     if (auto* condensed = std::get_if<CondensedOptions>(&elastic.model)) {
       condensed->kept = shifted(std::move(condensed->kept), made.first_node, made.node_count,

@@ -10,6 +10,10 @@
 namespace tissu {
 namespace {
 
+/// Of the rows of a matrix whose bodies may be cut: a share of their blocks, for the neighbours that an edit
+/// gives them.
+constexpr double kEditableRoom = 0.25;
+
 [[noreturn]] void unknown_body(std::string_view name) {
   throw ParameterError("there is no body \"" + std::string(name) + "\" in this world.");
 }
@@ -75,7 +79,7 @@ void WorldBuilder::build() {
 void WorldBuilder::lay_pattern() {
   SparsityBuilder builder(world_.blocks());
   for (const auto& model : world_.forces_) model->couple(builder);
-  world_.sparsity_ = builder.build();
+  world_.sparsity_ = builder.build(description_.editable ? kEditableRoom : 0.0);
   for (const auto& model : world_.forces_) model->bind(world_.sparsity_);
 }
 
@@ -99,6 +103,7 @@ void WorldBuilder::set_rest() {
     block(Reals(rest.velocities), frames[k].block) = speeds_[k];
     block(Reals(rest.velocities), frames[k].rotation) = spins_[k];
   }
+  world_.fixed_.clear(rest.velocities);
 }
 
 const Body& World::body(std::string_view name) const {

@@ -17,6 +17,7 @@ from tissu.scene.solver import Auto
 from tissu.scene.step import (
     BDF2,
     BDF2FixedPoint,
+    EnergyMomentum,
     Implicit,
     ImplicitEuler,
     Newton,
@@ -149,7 +150,7 @@ def rich_step(step: Step, divisor: int) -> Step:
         return BDF2(dt=step.dt / divisor, solver=solver)
     if isinstance(step, ImplicitEuler):
         return BDF2(dt=step.dt / divisor, newton=step.newton, solver=solver)
-    if isinstance(step, Implicit):
+    if isinstance(step, (Implicit, EnergyMomentum)):
         return step.replace(dt=step.dt / divisor, solver=solver)
     return step.replace(dt="auto")
 

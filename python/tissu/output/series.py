@@ -78,8 +78,8 @@ class Series:
                 write_points(self._folder / name, simulation, body)
             else:
                 mesh = simulation.meshes[body]
-                fields = write_vtu(self._folder / name, mesh, simulation, body)
-                self._look_for_inverted(body, fields["volume_ratio"])
+                write_vtu(self._folder / name, mesh, simulation, body)
+                self._look_for_inverted(body)
             self._entries.append(
                 f'    <DataSet timestep="{simulation.time:.9g}" group="" part="{part}" '
                 f'name={quoteattr(body)} file="{name}"/>\n'
@@ -103,9 +103,11 @@ class Series:
         last = times[len(kept) - 1]
         self.last_time = time if last >= time * (1.0 - 1e-8) else last
 
-    def _look_for_inverted(self, body: str, volume_ratio: Floats) -> None:
-        inverted = np.flatnonzero(volume_ratio <= 0.0)
-        if not len(inverted) or self.inverted:
+    def _look_for_inverted(self, body: str) -> None:
+        if self.inverted:
+            return
+        inverted = self._simulation.inverted_cells(body)
+        if not len(inverted):
             return
         first = ", ".join(map(str, inverted[:5])) + (", ..." if len(inverted) > 5 else "")
         verb = "is" if len(inverted) == 1 else "are"

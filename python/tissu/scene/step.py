@@ -29,6 +29,7 @@ __all__ = [
     "ImplicitMidpoint",
     "BDF2",
     "Newmark",
+    "EnergyMomentum",
     "BDF2FixedPoint",
     "Static",
     "Newton",
@@ -62,7 +63,7 @@ class Newton(Part):
     iterations: _Count = 10
     """largest number of iterations in a step; of Static, for each part of the load tried"""
     tolerance: _Tolerance = field(default=1e-6)
-    """residual relative to the first at which the step is solved"""
+    """residual relative to the load that acts at which the step is solved"""
 
 
 class Step(Part):
@@ -176,6 +177,20 @@ class Newmark(Implicit):
             yield Problem(("beta",), f"{text}is accepted: others are unstable for large steps")
 
 
+class EnergyMomentum(Step):
+    """Energy-momentum method: second order, keeps energy and momenta exactly for any law."""
+
+    type: Literal["energy_momentum"] = "energy_momentum"
+    dt: units.Time = field(gt=0.0, kw_only=False)
+    """time step [s], such as '1 ms'; halved where its equation is not solved"""
+    iterations: _Count = 20
+    """largest number of Newton iterations in a step"""
+    tolerance: _Tolerance = field(default=1e-9)
+    """residual relative to the load that acts at which the step is solved"""
+    solver: OneSolver = field(default_factory=ConjugateGradient)
+    """linear solver"""
+
+
 class BDF2FixedPoint(Step):
     """BDF2 by fixed-point iteration, without any matrix: for h omega below 3/2."""
 
@@ -185,21 +200,30 @@ class BDF2FixedPoint(Step):
     iterations: _Count = 50
     """largest number of iterations in a step"""
     tolerance: _Tolerance = field(default=1e-6)
-    """residual relative to the first at which the step is solved"""
+    """residual relative to the impulse of the forces at the guess at which the step is solved"""
     anderson: Annotated[int, Field(ge=0, le=8)] = 0
     """earlier differences that Anderson's acceleration uses; 0: plain iteration"""
 
 
 class Static(Step):
-    """Equilibrium without inertia, the load applied in equal steps."""
+    """Equilibrium without inertia, by continuation: parts of the load that shrink and grow."""
 
     type: Literal["static"] = "static"
     load_steps: _Count = 1
-    """number of equal steps in which the load is applied"""
-    newton: Newton = field(default_factory=Newton)
-    """Newton's method"""
+    """parts, at least, in which each step is taken; led nodes turn by at most 30 degrees in one"""
+    newton: Newton = field(default_factory=lambda: Newton(iterations=25))
+    """Newton's method, for each part that is tried"""
+    total_iterations: _Count | None = None
+    """largest number of Newton iterations in a step; absent: iterations (load_steps + 19)"""
+    arc_length: bool = False
+    """follow the path by its arc length from the start, as through limit points of the load; false:
+    only where no part of the load is small enough"""
     solver: OneSolver = field(default_factory=ConjugateGradient)
     """linear solver"""
+
+    def settings(self) -> dict[str, Any]:
+        """The fields that the integrator takes; 0 where it is to count the iterations itself."""
+        return super().settings() | {"total_iterations": self.total_iterations or 0}
 
     def effect(self) -> Effect:
         """What the step switches on."""
@@ -209,7 +233,7 @@ class Static(Step):
 STEPS: tuple[type[Step], ...] = (
     *(ExplicitEuler, SymplecticEuler, RK2, RK4),
     *(ImplicitEuler, ImplicitMidpoint, BDF2, Newmark),
-    *(BDF2FixedPoint, Static),
+    *(EnergyMomentum, BDF2FixedPoint, Static),
 )
 
 

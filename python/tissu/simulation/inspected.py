@@ -127,11 +127,18 @@ class Inspected:
         return {name: values[order] for name, values in found.items()}
 
     def inverted_cells(self, body: str) -> Ints:
-        """Numbers (k,) of the cells of a body that are inside out: their mean det F is not above 0.
+        """Numbers (k,) of the cells of a body that are inside out: det F is not above 0 somewhere.
 
-        Looked for only when asked: a step does not pay for it.
+        Looked for at the quadrature points of volume cells, and as the mean of thin cells and of
+        frames. Only when asked, and after a static step that converged, whose report names them.
+
+        Raises:
+            ParameterError: no body of that name.
         """
-        return np.flatnonzero(self.cell_fields(body)["volume_ratio"] <= 0.0).astype(np.int32)
+        self._require_body(body)
+        self._core.settle()
+        left = np.sort(self._core.remaining_cells(body))
+        return np.searchsorted(left, self._core.inverted_cells(body)).astype(np.int32)
 
     def reactions(self, body: str, *, moments: bool = False) -> Floats:
         """Forces (n, 3) that supports and led nodes give to a body [N]; zero where nothing is held.

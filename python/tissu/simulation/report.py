@@ -18,11 +18,13 @@ class StepReport:
         time: at its end [s].
         newton_iterations: linearisations.
         solver_iterations: of the linear solver, over all linearisations.
-        residual: of the linear system, or of Newton's equation when it is iterated; relative.
+        residual: of the linear system, over its right side; of Newton's equation when it is
+            iterated, over the load that acts: external forces, reactions where nodes are led and,
+            in time, changes of momentum.
         indefinite: systems whose matrix was not positive definite, and was made so.
         converged: every tolerance was met.
         milliseconds: wall time.
-        message: why it did not converge; empty when it did.
+        message: why it did not converge; where a static step did, the cells that are inside out.
     """
 
     number: int
@@ -42,7 +44,9 @@ class StepReport:
         )
         text = f"step {self.number}: t = {self.time:.6g} s, residual {self.residual:.1e}"
         text += f" after {iterations}, {self.milliseconds:.1f} ms"
-        return text if self.converged else f"{text}; not converged: {self.message}"
+        if self.converged:
+            return f"{text}; {self.message}" if self.message else text
+        return f"{text}; not converged: {self.message}"
 
 
 def report_of(report: _core.StepReport, *, number: int) -> StepReport:

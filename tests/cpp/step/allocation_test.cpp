@@ -7,6 +7,8 @@
 #include "../world/sample_worlds.h"
 #include "solve/multigrid.h"
 #include "tissu/model/models.h"
+#include "tissu/step/energy_momentum.h"
+#include "tissu/step/newmark.h"
 
 /// A steady step takes no memory. Counted in malloc and its kin, below operator new and below Eigen.
 
@@ -149,6 +151,77 @@ INSTANTIATE_TEST_SUITE_P(
         AllocationCase{
             "mean_dilatation_hexahedron", "neo_hooke", Split::none, 1, 1, false, {}, "mean-dilatation"}),
     testing::PrintToStringParamName());
+
+/// Steps of a bar that is held, pulled by a load, by that method. The first two take what they need.
+void expect_no_allocation(Integrator& method) {
+#ifdef TISSU_COUNTS_ALLOCATIONS
+  const Mesh mesh = box_mesh(Vec3::Zero(), Vec3(2, 1, 1), {8, 5, 5}, Split::none);
+  WorldDescription description;
+  description.bodies = {test::body_of(mesh, {.law = "stvk", .young = 100.0})};
+  description.gravity = Vec3(0, 0, -1);
+  description.fixed = {test::fixed(test::nodes_at(mesh, 0, 0.0))};
+  description.loads = {{"hand", "body", {3}, {0.1, 0.0, 0.0}, {{0.0, 1.0}, {0.0, 1.0}}}};
+  const World world(description);
+  ConjugateGradient solver({1e-6, 5000});
+  Profile profile;
+  method.prepare(world, &solver, profile);
+  State state = world.rest_state();
+  method.step(state, 0.01);
+  method.step(state, 0.01);
+  allocations = 0;
+  counting = true;
+  bool converged = true;
+  int iterations = 0;
+  for (int i = 0; i < 5; ++i) {
+    const StepReport report = method.step(state, 0.01);
+    converged = converged && report.converged;
+    iterations += report.newton_iterations;
+  }
+  counting = false;
+  EXPECT_EQ(allocations, 0);
+  EXPECT_TRUE(converged);
+  EXPECT_GE(iterations, 5);
+#else
+  GTEST_SKIP() << "allocations are counted with the GNU C library and without sanitizers only";
+#endif
+}
+
+TEST(AllocationOfMethods, EnergyMomentumTakesNone) {
+  EnergyMomentum method({20, 1e-7});
+  expect_no_allocation(method);
+}
+
+TEST(AllocationOfMethods, AStaticStepTakesNone) {
+  StaticEquilibrium::Settings settings;
+  settings.newton = {20, 1e-5};
+  StaticEquilibrium method(settings);
+  expect_no_allocation(method);
+}
+
+TEST(AllocationOfMethods, TheWatchOnEnergyTakesNone) {
+#ifdef TISSU_COUNTS_ALLOCATIONS
+  const Mesh mesh = box_mesh(Vec3::Zero(), Vec3(2, 1, 1), {8, 5, 5}, Split::none);
+  WorldDescription description;
+  description.bodies = {test::body_of(mesh, {.law = "stvk", .young = 100.0})};
+  description.gravity = Vec3(0, 0, -1);
+  description.fixed = {test::fixed(test::nodes_at(mesh, 0, 0.0))};
+  const World world(description);
+  ASSERT_TRUE(EnergyWatch::can_watch(world));
+  EnergyWatch watch;
+  State state = world.rest_state();
+  watch.begin(world, state);
+  watch.end(world, state);
+  allocations = 0;
+  counting = true;
+  state.positions.back() += 0.1;
+  watch.begin(world, state);
+  watch.end(world, state);
+  counting = false;
+  EXPECT_EQ(allocations, 0);
+#else
+  GTEST_SKIP() << "allocations are counted with the GNU C library and without sanitizers only";
+#endif
+}
 
 // Squeezed flat, so that every cell is projected: by the axes of F, by eigenvalues, at once, in any model.
 TEST(AllocationOfModels, ADefiniteMatrixTakesNone) {

@@ -105,7 +105,7 @@ TEST_P(DivergedTest, NamesTheBodyAtFault) {
 TEST_P(DivergedTest, NamesACellAtFault) {
   Simulation simulation = run(world());
   simulation.step(0.01);
-  const std::int32_t node = 20;
+  const std::int32_t node = 16;  // free: what is written on a held one is not taken
   simulation.state().velocities[static_cast<std::size_t>(3 * node)] = kNaN;
   const Diverged error = expect_rolled_back(simulation);
   ASSERT_GE(error.element(), 0);

@@ -22,6 +22,18 @@ struct Motion {
   [[nodiscard]] Vec3 position(const Vec3& rest, double time) const;
   /// The angle at `time`, turns and all [rad].
   [[nodiscard]] double angle(double time) const;
+  /// The displacement at `time` [m].
+  [[nodiscard]] Vec3 displacement(double time) const;
+};
+
+/// The way of led nodes in a static step, from `start` to where their motion is at the time `to`. They go
+/// along their motion, so that a rotation goes along its arc. What the motion asks for at the time `from`
+/// already is applied in proportion: as a share of the motion from rest, else on the straight way.
+struct LedWay {
+  double from = 0.0;  ///< [s]
+  double to = 0.0;    ///< [s]
+  bool is_from_rest = false;
+  [[nodiscard]] double time(double share) const { return from + share * (to - from); }
 };
 
 class FixedDofs {
@@ -46,6 +58,14 @@ class FixedDofs {
   /// Sets the led components of v so that a state moved by h v is where they are to be at `time`; `share` < 1
   /// goes only that part of the way.
   void set_velocities(const State& from, double time, double h, double share, Reals v) const;
+  /// Sets the led components of `way` to what leads `now` to where they are at that share of the way from
+  /// `start`. `before` is the share at which `now` stands: it tells by which turn a rotation goes on.
+  void set_way(const LedWay& way, const State& start, double before, double share, const State& now,
+               Reals change) const;
+  /// Something is led: it has a motion.
+  [[nodiscard]] bool moves() const;
+  /// The largest angle by which a motion turns on that way [rad].
+  [[nodiscard]] double largest_turn(const LedWay& way) const;
   /// The led places and rotations of `to` are those of `from` moved by h v.
   void place(const State& from, double h, ConstReals v, State& to) const;
   /// to = from in the led components.

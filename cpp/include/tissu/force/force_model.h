@@ -47,6 +47,8 @@ class ForceModel {
   [[nodiscard]] virtual bool has_constant_stiffness() const { return false; }
   /// It has a stiffness at all.
   [[nodiscard]] virtual bool has_stiffness() const { return true; }
+  /// What it gives to the bodies has no potential that stays the same, so that it may add energy to them.
+  [[nodiscard]] virtual bool may_add_energy() const { return false; }
 
   /// Names the nodes it couples, once for each topology, …
   virtual void couple(SparsityBuilder& /*builder*/) const {}

@@ -46,6 +46,8 @@ class Links final : public ForceModel {
 
   [[nodiscard]] std::string_view effect() const override { return "links"; }
   [[nodiscard]] ForceKind kind() const override { return ForceKind::elastic; }
+  /// Links are added and taken away while the world runs.
+  [[nodiscard]] bool may_add_energy() const override { return true; }
   void add_force(const State& state, Scratch& scratch, Reals f) const override;
   void add_product(const State& state, Scratch& scratch, StiffnessScale scale, ConstReals p,
                    Reals out) const override;

@@ -21,6 +21,8 @@ class NodalLoad final : public ForceModel {
   [[nodiscard]] ForceKind kind() const override { return ForceKind::external; }
   [[nodiscard]] bool has_constant_stiffness() const override { return true; }
   [[nodiscard]] bool has_stiffness() const override { return false; }
+  /// It changes with time.
+  [[nodiscard]] bool may_add_energy() const override { return !history_.times.empty(); }
   void add_force(const State& state, Scratch& scratch, Reals f) const override;
   /// -sum f . x [J]
   [[nodiscard]] double energy(const State& state, Scratch& scratch) const override;
@@ -65,6 +67,7 @@ class Pressure final : public ForceModel {
   Pressure(std::string name, std::vector<FaceCells> faces, double pressure, History history);
   [[nodiscard]] std::string_view effect() const override { return name_; }
   [[nodiscard]] ForceKind kind() const override { return ForceKind::external; }
+  [[nodiscard]] bool may_add_energy() const override { return true; }
   void couple(SparsityBuilder& builder) const override;
   void add_force(const State& state, Scratch& scratch, Reals f) const override;
   void add_stiffness(const State& state, Scratch& scratch, StiffnessScale scale,

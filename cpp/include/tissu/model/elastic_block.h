@@ -53,6 +53,7 @@ struct ElasticBlock {
   std::vector<double> cross_section = {1.0};
   Plane plane = Plane::free;
   ModelOptions model;  ///< which model carries it, and what that one alone asks for
+  double fill = 1.0;   ///< share of its chunks that is laid full; the rest is room for cells that edits add
 };
 
 /// The value of a cell, where there is one for all or one for each.

@@ -3,11 +3,13 @@
 /// A world, its state, and the loop that moves it.
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
 
 #include "tissu/base/profile.h"
+#include "tissu/simulation/energy_watch.h"
 #include "tissu/simulation/snapshot.h"
 #include "tissu/solve/linear_solver.h"
 #include "tissu/step/integrator.h"
@@ -16,21 +18,15 @@
 
 namespace tissu {
 
-struct Energy {
-  double kinetic = 0.0;
-  double elastic = 0.0;
-  double potential = 0.0;  ///< of gravity and loads
-  [[nodiscard]] double total() const { return kinetic + elastic + potential; }
-};
-
 class Simulation {
  public:
   /// `solver` may be null for methods that solve no system.
   Simulation(std::shared_ptr<const World> world, std::unique_ptr<Integrator> integrator,
              std::unique_ptr<LinearSolver> solver);
 
-  /// One step of h [s]. Throws Diverged, with the state as it was before, when a value is not finite or a
-  /// node would fly further than a thousand times the size of the scene.
+  /// One step of h [s]. Throws Diverged, with the state as it was before, when a value is not finite, a
+  /// node would fly further than a thousand times the size of the scene, or an undamped method has multiplied
+  /// the energy (EnergyWatch).
   StepReport step(double h);
 
   /// The largest step that is stable now [s]; infinite for methods that have no such limit.
@@ -69,6 +65,9 @@ class Simulation {
   [[nodiscard]] double farthest() const;
   [[nodiscard]] bool is_sane() const;
   [[noreturn]] void roll_back(double h);
+  void watch_energy(StepReport& report);
+  /// Velocities of held rows are the scene's, whatever was written there.
+  void hold() { world_->fixed().copy(held_, state_.velocities); }
 
   std::shared_ptr<const World> world_;
   std::unique_ptr<Integrator> integrator_;
@@ -77,7 +76,9 @@ class Simulation {
   State state_;
   State last_good_;
   Scratch scratch_;
+  std::vector<double> held_;  ///< velocities of held rows, as the scene and the latest step left them
   bool settled_ = true;
+  std::optional<EnergyWatch> watch_;  ///< of undamped methods, where nothing can add energy
 };
 
 }  // namespace tissu

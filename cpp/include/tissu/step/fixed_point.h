@@ -12,9 +12,8 @@ class Bdf2FixedPoint final : public Integrator {
  public:
   struct Settings {
     int iterations = 50;
-    double tolerance =
-        1e-6;          ///< on the norm of the residual, relative to the external force and the first one
-    int anderson = 0;  ///< differences that Anderson's acceleration keeps; 0: without
+    double tolerance = 1e-6;  ///< on the norm of the residual, relative to what acts at the guess
+    int anderson = 0;         ///< differences that Anderson's acceleration keeps; 0: without
   };
   explicit Bdf2FixedPoint(Settings settings);
   [[nodiscard]] std::string_view name() const override;
@@ -24,7 +23,8 @@ class Bdf2FixedPoint final : public Integrator {
   void restore(ConstReals memory) override { history_.restore(memory); }
 
  private:
-  void iterate(State& state, double reference, StepReport& report);
+  /// False: it does not contract.
+  bool iterate(State& state, StepReport& report);
   [[noreturn]] void refuse(double h) const;
 
   Settings settings_;

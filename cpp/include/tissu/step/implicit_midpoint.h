@@ -10,6 +10,7 @@ class ImplicitMidpoint final : public Integrator {
  public:
   explicit ImplicitMidpoint(NewtonSettings newton = {}) : solver_(newton) {}
   [[nodiscard]] std::string_view name() const override { return "implicit midpoint"; }
+  [[nodiscard]] bool is_undamped() const override { return true; }
   void prepare(const World& world, LinearSolver* solver, Profile& profile) override;
   StepReport step(State& state, double h) override;
 

@@ -15,11 +15,12 @@ struct StepReport {
   double time = 0.0;  ///< at the end of the step [s]
   int newton_iterations = 0;
   int solver_iterations = 0;
-  double residual = 0.0;      ///< of the last linear system, or of Newton's equation when it is iterated
+  double residual = 0.0;      ///< of the last linear system, or of Newton's equation over what acts when it
+                              ///< is iterated
   int indefinite = 0;         ///< systems whose matrix was not positive definite, and was made so
   bool converged = false;     ///< every tolerance was met
   double milliseconds = 0.0;  ///< wall time of the step
-  std::string message;        ///< empty, or why it did not converge
+  std::string message;        ///< empty, or why it did not converge, or what to know of where it converged
 };
 
 /// What to do where the matrix of a step is not positive definite, as it may be under compression.
@@ -33,7 +34,7 @@ enum class Indefinite {
 struct NewtonSettings {
   int iterations = 1;  ///< 1: the equations are linearised once, and iterated only where that made them worse
   double tolerance =
-      1e-6;  ///< on the norm of the residual, relative to the external force and the first residual
+      1e-6;  ///< on the norm of the residual, relative to what acts: loads, reactions, changes of momentum
   Indefinite indefinite = Indefinite::project;
 };
 
@@ -45,6 +46,10 @@ class Integrator {
   Integrator& operator=(const Integrator&) = delete;
 
   [[nodiscard]] virtual std::string_view name() const = 0;
+  /// Its steps end in equilibrium, and time only tells loads apart.
+  [[nodiscard]] virtual bool is_static() const { return false; }
+  /// It damps no motion by itself, so that energy it adds stays in the bodies, and solves systems.
+  [[nodiscard]] virtual bool is_undamped() const { return false; }
   /// Allocates what its steps need. Called before the first step, and again after an edit. `solver` outlives
   /// the steps; null for methods that solve no system.
   virtual void prepare(const World& world, LinearSolver* solver, Profile& profile) = 0;

@@ -17,6 +17,7 @@ class Newmark final : public Integrator {
   };
   explicit Newmark(Settings settings);
   [[nodiscard]] std::string_view name() const override { return "Newmark"; }
+  [[nodiscard]] bool is_undamped() const override { return gamma_ == 0.5; }
   void prepare(const World& world, LinearSolver* solver, Profile& profile) override;
   StepReport step(State& state, double h) override;
   [[nodiscard]] std::vector<double> memory() const override;

@@ -42,6 +42,11 @@ class StageSolver {
   /// push f - M (v - v^) at x(v), which goes into `state` with v; zero where motion is given. Its norm.
   double residual(State& state, ConstReals v);
   [[nodiscard]] ConstReals right() const { return right_; }
+  /// What acts at the latest residual, by which it is judged [N s]: the largest of the external impulse, the
+  /// change of momentum, and the reactions' impulse where nodes are led. Free rows only.
+  [[nodiscard]] double acting() const { return acting_; }
+  /// The external impulse of the stage is a part of what acts. `solve` does it itself.
+  void judge_by_load();
 
  private:
   enum class Search { none, residual, energy };
@@ -78,8 +83,9 @@ class StageSolver {
   std::vector<double> right_;
   std::vector<double> work_;
   std::vector<double> momentum_;
-  Scratch scratch_;          ///< of energies
-  double reference_ = 0.0;   ///< push |external force|
+  Scratch scratch_;         ///< of energies
+  double reference_ = 0.0;  ///< push |external force|
+  double acting_ = 0.0;
   double start_ = 0.0;       ///< residual that the first solve found
   bool is_falling_ = false;  ///< the last of Newton's iterations at least halved the least residual
 };

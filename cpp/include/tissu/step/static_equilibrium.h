@@ -1,24 +1,31 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <vector>
 
+#include "tissu/step/arc_length.h"
+#include "tissu/step/equilibrium.h"
 #include "tissu/step/integrator.h"
-#include "tissu/step/system.h"
 
 namespace tissu {
 
-/// Equilibrium without inertia: f(x) = 0 by Newton's method, with line search where whole steps fail. The
-/// external loads of the first step, and the way of led nodes in every step, are applied in `load_steps`
-/// parts; a part that does not converge is halved.
+/// Equilibrium without inertia: f(x) = 0 by continuation along a LoadPath. Every step goes in at least
+/// `load_steps` parts, none of which leads a node round by more than 30 degrees. A part is solved by Newton's
+/// method with whole steps, then with steps along which the energy falls. One that fails is halved, and parts
+/// grow again after an easy one. Where the smallest part fails the load may turn: from there the path is
+/// followed by its arc length. The sum of all Newton iterations of a step is bounded.
 class StaticEquilibrium final : public Integrator {
  public:
   struct Settings {
     NewtonSettings newton{50, 1e-9};
     int load_steps = 1;
+    int total_iterations = 0;  ///< of a step, at most; 0: newton.iterations (load_steps + 19)
+    bool arc_length = false;   ///< the whole path is followed by its arc length, not by parts of the load
   };
   explicit StaticEquilibrium(Settings settings);
   [[nodiscard]] std::string_view name() const override { return "static equilibrium"; }
+  [[nodiscard]] bool is_static() const override { return true; }
   void prepare(const World& world, LinearSolver* solver, Profile& profile) override;
   StepReport step(State& state, double h) override;
   /// One number: whether the external loads act in full already.
@@ -26,24 +33,23 @@ class StaticEquilibrium final : public Integrator {
   void restore(ConstReals memory) override { loaded_ = !memory.empty() && memory[0] != 0.0; }
 
  private:
-  /// Newton from the present state, led nodes going `share` of their way first; true when it converged.
-  bool equilibrate(State& state, double share, StepReport& report);
-  enum class LineSearch { off, on };
-  /// Newton's iteration: with whole steps, which may pass through worse states on the way to a better one, or
-  /// with steps that are halved until the residual falls.
-  bool iterate(State& state, double share, LineSearch search, StepReport& report);
-  /// Moves by change_, halved until the residual is below `below`; the residual.
-  double go(State& state, double below);
-  double residual(const State& state);
+  /// Goes on to 1 in parts of the load; the share that was reached.
+  double go_by_parts(const LoadPath& path, State& state, StepReport& report);
+  double go_by_arc(const LoadPath& path, double share, double part, State& state, StepReport& report);
+  /// One part; true when it converged. Otherwise `state` is as it was.
+  bool take(const LoadPath& path, double from, double to, State& state, StepReport& report);
+  [[nodiscard]] int left(const StepReport& report) const;
+  /// What gave up: the load, Newton's method or the linear solver.
+  [[nodiscard]] std::string reason() const;
 
   Settings settings_;
   bool loaded_ = false;
-  std::unique_ptr<System> system_;
-  State before_;  ///< of the part of the load
-  State from_;    ///< of the Newton step
-  std::vector<double> change_;
-  std::vector<double> right_;
-  std::vector<double> work_;
+  std::unique_ptr<Equilibrium> equilibrium_;
+  std::unique_ptr<ArcLength> arc_;
+  State start_;                  ///< of the step
+  State before_;                 ///< of the part of the load
+  bool solver_gave_up_ = false;  ///< since the last part that converged
+  ArcLength::End arc_ended_ = ArcLength::End::unused;
 };
 
 }  // namespace tissu

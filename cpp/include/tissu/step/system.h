@@ -20,10 +20,12 @@ class System {
   System(const World& world, LinearSolver* solver, Profile& profile);
 
   [[nodiscard]] const World& world() const { return world_; }
+  /// Room of the models, for whoever asks them beside the verbs below.
+  [[nodiscard]] Scratch& scratch() { return scratch_; }
   /// f = all forces
   void force(const State& state, Reals f);
-  /// The norm of the forces from outside the bodies, which go into f. Where there are none it is zero, and f
-  /// is left as it was.
+  /// The norm of the forces from outside the bodies on free rows, which go into f. Where there are none it is
+  /// zero, and f is left as it was.
   double external_force(const State& state, Reals f);
   /// out += (scale.position df/dx + scale.velocity df/dv) p
   void add_product(const State& state, StiffnessScale scale, ConstReals p, Reals out);

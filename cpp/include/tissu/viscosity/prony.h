@@ -28,6 +28,8 @@ class Prony final : public ViscousCells {
   Prony(const ElasticBlock& block, const std::vector<PronyBranch>& branches, ConstReals rest_positions,
         Isa isa, Threads threads);
   [[nodiscard]] std::string_view effect() const override { return "Prony viscosity"; }
+  /// Its potential is another one after each step.
+  [[nodiscard]] bool may_add_energy() const override { return true; }
   void add_force(const State& state, Scratch& scratch, Reals f) const override;
   void add_stiffness(const State& state, Scratch& scratch, StiffnessScale scale,
                      BlockMatrix& matrix) const override;

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "tissu/step/integrator.h"
+#include "tissu/step/momentum_free.h"
+#include "tissu/step/system.h"
+
+namespace tissu {
+
+/// The energy-momentum method with Gonzalez's discrete gradient (Time integration and discrete Hamiltonian
+/// systems, J. Nonlinear Sci. 6, 1996): the implicit midpoint rule with a force whose work over the step is
+/// the change of the stored energy,
+///   M (v1 - v0) = h (f(x) + a M d),  x1 - x0 = h (v0 + v1) / 2,  x = (x0 + x1) / 2,
+///   a = -(W(x1) - W(x0) + f_W(x) . (x1 - x0)) / (d . M d).
+/// d is x1 - x0 without its rigid motion in each free body (MomentumFree), so that the correction has no
+/// resultant: energy, linear and angular momentum are kept to Newton's tolerance for any step and any law. Of
+/// second order; the correction is of second order too.
+class EnergyMomentum final : public Integrator {
+ public:
+  explicit EnergyMomentum(NewtonSettings newton = {20, 1e-9});
+  [[nodiscard]] std::string_view name() const override { return "energy-momentum method"; }
+  [[nodiscard]] bool is_undamped() const override { return true; }
+  void prepare(const World& world, LinearSolver* solver, Profile& profile) override;
+  StepReport step(State& state, double h) override;
+
+ private:
+  /// A step from start_, in halves where Newton's method does not converge.
+  bool advance(const State& from, double h, int halvings, State& state, StepReport& report);
+  bool solve(const State& from, double h, State& state, StepReport& report);
+  /// h / 2 (f + a M d) - M (v - v0) at the mean velocity mean_; its norm.
+  double residual(const State& from, double h);
+  /// W of the elastic models, and their force without velocities.
+  double stored(const State& state);
+  void elastic_force(const State& state, std::vector<double>& f);
+  /// The change of mean_, by the midpoint rule's matrix and the slope of a.
+  bool find_change(double h, StepReport& report);
+
+  NewtonSettings newton_;
+  std::unique_ptr<System> system_;
+  MomentumFree momentum_free_;
+  State start_;
+  State middle_;
+  State end_;
+  std::vector<State> halves_;  ///< of steps that are taken in halves
+  double factor_ = 0.0;        ///< a
+  double acting_ = 0.0;        ///< what the residual is judged by
+  double square_ = 0.0;        ///< d . M d
+  std::vector<double> mean_, given_, right_, change_, way_, free_way_, push_, elastic_, slope_, answer_,
+      work_;
+};
+
+}  // namespace tissu

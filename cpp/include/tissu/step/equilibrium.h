@@ -1,0 +1,90 @@
+#pragma once
+
+/// Newton's method for f(x) = 0 at one share of a load.
+
+#include <optional>
+#include <vector>
+
+#include "tissu/step/integrator.h"
+#include "tissu/step/load_path.h"
+#include "tissu/step/system.h"
+#include "tissu/step/tangent_solve.h"
+
+namespace tissu {
+
+/// A state is in equilibrium when |f| on the free rows is at most the tolerance times the load that acts: the
+/// norm of the external forces on free rows, and of the reactions at that same state where nodes are led or
+/// no external force acts. Beside it, the last correction is at most a hundredth of the displacement. What
+/// round-off alone leaves of f is equilibrium too, and a few times as much where Newton's method stands
+/// still.
+class Equilibrium {
+ public:
+  /// Why Newton's iteration ended.
+  enum class End {
+    reached,
+    most,        ///< iterations
+    ran_away,    ///< the residual grew without bound, or did not fall any more
+    no_descent,  ///< the energy did not fall
+    solver,      ///< the linear solver gave up, and the residual did not fall
+  };
+  enum class Search {
+    none,    ///< whole steps, which may pass through worse states on the way to a better one
+    energy,  ///< steps along which the potential energy falls
+  };
+
+  Equilibrium(const World& world, LinearSolver* solver, Profile& profile, NewtonSettings newton);
+
+  [[nodiscard]] System& system() { return system_; }
+  [[nodiscard]] TangentSolve& tangent() { return tangent_; }
+  [[nodiscard]] const World& world() const { return system_.world(); }
+  [[nodiscard]] ConstReals right() const { return right_; }
+
+  /// A step begins: what acts at its end is the load of all its parts.
+  void begin(const LoadPath& path, const State& start);
+
+  /// Newton's iteration at `share` of the path, from a state that stands at the share `before`. At most
+  /// `most` iterations; they are added to the report, whose residual is that of the state.
+  End find(const LoadPath& path, double before, double share, Search search, int most, State& state,
+           StepReport& report);
+
+  /// f on the free rows goes into `right`; its norm.
+  double residual(const State& state);
+  /// Whether a state of that residual, which the last correction |`correction`| led to, is in equilibrium.
+  bool is_reached(double share, const State& state, double now, std::optional<double> correction,
+                  StepReport& report);
+  /// The potential energy of all forces [J].
+  [[nodiscard]] double energy(const State& state);
+
+ private:
+  struct Progress {
+    double lowest;
+    int idle = 0;  ///< iterations since it was
+  };
+  bool solve(const State& state, Search search, StepReport& report);
+  /// The first step: led nodes go their way, the body follows in its linear answer.
+  void lead(const LoadPath& path, double before, double share, State& state, StepReport& report);
+  /// The load that acts at a share, after `residual` of the same state [N].
+  double load(double share, const State& state);
+  /// Moves by the change, whole or halved until the energy falls; false: it does not.
+  bool descend(State& state, double& now);
+  /// state = from_ moved by that length of change_; the residual.
+  double go(State& state, double length);
+
+  System system_;
+  TangentSolve tangent_;
+  NewtonSettings newton_;
+  State rest_;
+  State from_;
+  std::vector<double> change_;
+  std::vector<double> right_;
+  std::vector<double> work_;
+  std::vector<double> way_;  ///< of led nodes
+  std::vector<double> reactions_;
+  double end_load_ = 0.0;             ///< |external forces| at the end of the step [N]
+  double start_way_ = 0.0;            ///< |displacement| that the body had at most
+  std::optional<double> correction_;  ///< |last correction|
+  double previous_ = 0.0;             ///< residual that was judged before
+  bool linear_solved_ = true;
+};
+
+}  // namespace tissu

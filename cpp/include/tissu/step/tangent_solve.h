@@ -1,0 +1,39 @@
+#pragma once
+
+#include <vector>
+
+#include "tissu/step/system.h"
+
+namespace tissu {
+
+/// K x = b with the tangent K = -df/dx of a state, definite and symmetric or not. Where the linear solver
+/// finds it indefinite, as beyond a limit point of the load, generalised conjugate residuals (Eisenstat,
+/// Elman, Schultz 1983) work on K, preconditioned by that solver with the definite matrix: the two differ in
+/// a few directions. So they do where external moments act on frames. A moment whose axis is fixed in space
+/// has no energy, and the tangent is the symmetric one of the models and half the cross product with the
+/// elastic moment.
+class TangentSolve {
+ public:
+  explicit TangentSolve(System& system) : system_(system) {}
+
+  /// Held rows of b and x are zero. `report.positive_definite` is what K is.
+  SolveReport solve(const State& state, ConstReals b, Reals x);
+  /// The same with the definite matrix only: x is a direction in which the energy falls.
+  SolveReport solve_definite(const State& state, ConstReals b, Reals x);
+
+ private:
+  SolveReport iterate(const State& state, ConstReals b, Reals x);
+  /// The elastic forces, where moments from outside act on free frames; false: none do.
+  bool find_moments(const State& state);
+  /// q = K p
+  void multiply(const State& state, ConstReals p, Reals q);
+
+  System& system_;
+  bool has_moments_ = false;
+  std::vector<double> moments_;
+  std::vector<double> left_;
+  std::vector<std::vector<double>> directions_;
+  std::vector<std::vector<double>> products_;
+};
+
+}  // namespace tissu

@@ -1,0 +1,51 @@
+"""The energy-momentum method from a scene, and what is said of methods that gain energy."""
+
+import numpy as np
+import pytest
+
+import tissu as ts
+
+
+def thrown(step):
+    """A bar of St-Venant-Kirchhoff at 500 m/s into its half that is held."""
+    mesh = ts.bar_mesh(size=(0.1, 0.02, 0.02), cells=(10, 2, 2), cell="hexahedron")
+    scene = ts.Scene(
+        bodies={"bar": ts.Body(mesh=mesh, law=ts.StVK(young="1 MPa", poisson=0.3), density=1000)},
+        fixed=[ts.Fixed("bar", on=ts.Box((-1, -1, -1), (0.0501, 1, 1)))],
+        step=step,
+    )
+    simulation = scene.compile()
+    simulation.velocities["bar"][:] = (-500.0, 0.0, 0.0)
+    return simulation
+
+
+def test_a_thrown_bar_keeps_its_energy():
+    """Newton's tolerance of 1e-9, whose work is of the size of the energy, over a hundred steps."""
+    simulation = thrown(ts.EnergyMomentum("0.1 ms", solver=ts.Cholesky()))
+    simulation.step()
+    before = simulation.energy()["total"]
+    for _ in range(99):
+        assert simulation.step().converged
+        assert simulation.energy()["total"] == pytest.approx(before, rel=1e-6)
+
+
+@pytest.mark.parametrize("step", [ts.Newmark, ts.ImplicitMidpoint])
+def test_energy_from_nothing_is_said(step):
+    newton = ts.Newton(iterations=40, tolerance=1e-9)
+    simulation = thrown(step("0.1 ms", newton=newton, solver=ts.Cholesky()))
+    said = []
+    try:
+        said += [simulation.step().message for _ in range(100)]
+    except ts.Diverged as error:
+        said.append(str(error))
+    assert any("take energy_momentum" in text for text in said)
+    assert np.isfinite(simulation.positions["bar"]).all()
+
+
+def test_shells_are_refused():
+    mesh = ts.bar_mesh(size=(1, 1, 0), cells=(2, 2, 0), cell="triangle")
+    law = ts.Hooke(young=1e6, poisson=0.3)
+    body = ts.Body(mesh=mesh, model="shell", law=law, thickness=0.01, density=1000)
+    scene = ts.Scene(bodies={"plate": body}, step=ts.EnergyMomentum("1 ms"))
+    with pytest.raises(ts.ParameterError, match="take implicit_midpoint or bdf2 for others"):
+        scene.compile()

@@ -59,6 +59,8 @@ class Grabs final : public ForceModel {
 
   [[nodiscard]] std::string_view effect() const override { return "grabs"; }
   [[nodiscard]] ForceKind kind() const override { return ForceKind::external; }
+  /// Its targets are moved.
+  [[nodiscard]] bool may_add_energy() const override { return true; }
   void add_force(const State& state, Scratch& scratch, Reals f) const override;
   void add_product(const State& state, Scratch& scratch, StiffnessScale scale, ConstReals p,
                    Reals out) const override;

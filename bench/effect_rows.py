@@ -28,8 +28,8 @@ class Row:
 
 ROWS = (
     Row("gravity", "gravity", r"\bGravity\b"),
-    Row("nodal load", "nodal-load", r"\b(NodalLoad|History)\b"),
-    Row("traction", "traction", r"\b(NodalLoad|History)\b"),
+    Row("nodal load", "nodal-load", r"\b(NodalLoad|LoadChange|History)\b"),
+    Row("traction", "traction", r"\b(NodalLoad|LoadChange|History)\b"),
     Row("pressure", "pressure", r"\bPressure\b"),
     Row("fixed nodes", "fixed", r"\bMotion\b"),
     Row("prescribed motion", "prescribed", r"\b(Motion|interpolate|locate)\b"),
@@ -49,6 +49,7 @@ ROWS = (
     Row("condensed region", "condensed", r"\bCondensed"),
     Row("rigid frame", "frame", r"\bspatial_inertia\b"),
     Row("run-time spring", "link", r"\b(Links|Couplings)\b"),
+    Row("grab", "grab", r"\b(Grabs|Couplings)\b"),
     Row("editing allowed, nothing removed", "editable", None),
     Row("a cell removed in each step", "editing", r"\b(remove_cells|edited_model|replace_world)\b"),
     Row("Newton's iteration", "newton", r"\bStageSolver::(iterate|advance|potential)\b"),

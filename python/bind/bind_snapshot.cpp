@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <string>
+#include <utility>
 
 #include "bind.h"
 #include "tissu/simulation/simulation.h"
@@ -125,10 +126,54 @@ Snapshot from_dict(const py::dict& from) {
   return snapshot;
 }
 
+py::array_t<double> remembered(Simulation& simulation, const std::string& name) {
+  return to_array(simulation.memory(name));
+}
+
+/// Puts other numbers in the place of what the state remembers; refuses those that no model can read.
+void set_remembered(Simulation& simulation, const std::string& name, const Doubles& numbers) {
+  std::vector<double>& place = simulation.memory(name);
+  std::vector<double> before = std::exchange(place, to_vector(numbers));
+  try {
+    check_memory(simulation.world(), simulation.state());
+  } catch (...) {
+    place = std::move(before);
+    throw;
+  }
+}
+
+/// Nodes of a body that are no unknowns, and those that are held or led on all axes.
+py::tuple unfree_nodes(const Simulation& simulation, const std::string& name) {
+  const Body& body = simulation.world().body(name);
+  std::vector<std::int32_t> eliminated;
+  for (const BodyModel* model : body.models) {
+    for (const std::int32_t node : model->eliminated()) eliminated.push_back(node - body.first_node);
+  }
+  std::vector<std::int32_t> held;
+  const std::vector<std::uint8_t>& masks = simulation.world().fixed().masks();
+  for (std::int32_t node = 0; node < body.node_count; ++node) {
+    if (masks[static_cast<std::size_t>(body.first_node + node)] == FixedDofs::kAllAxes) held.push_back(node);
+  }
+  return py::make_tuple(to_array(eliminated), to_array(held));
+}
+
+/// First frame of a body among those of the world, -1 where its nodes are none, and its rotations' first
+/// block.
+py::tuple frames_of(const Simulation& simulation, const std::string& name) {
+  const Body& body = simulation.world().body(name);
+  if (body.first_frame < 0) return py::make_tuple(-1, -1);
+  const Frame& first = simulation.world().frames()[static_cast<std::size_t>(body.first_frame)];
+  return py::make_tuple(body.first_frame, first.rotation);
+}
+
 }  // namespace
 
 void bind_snapshot(py::class_<Simulation>& simulation) {
-  simulation.def("snapshot", [](Simulation& s) { return to_dict(s.snapshot()); })
+  simulation.def("remembered", &remembered, py::arg("name"))
+      .def("set_remembered", &set_remembered, py::arg("name"), py::arg("numbers"))
+      .def("unfree_nodes", &unfree_nodes, py::arg("body"))
+      .def("frames_of", &frames_of, py::arg("body"))
+      .def("snapshot", [](Simulation& s) { return to_dict(s.snapshot()); })
       .def(
           "restore", [](Simulation& s, const py::dict& snapshot) { s.restore(from_dict(snapshot)); },
           py::arg("snapshot"));

@@ -149,14 +149,15 @@ void bind_world(py::module_& m) {
       .value("stress", Plane::stress)
       .value("strain", Plane::strain);
   py::class_<WorldDescription>(m, "WorldBuilder")
-      .def(py::init([](int threads, bool editable, bool consistent_weight) {
+      .def(py::init([](int threads, bool editable, bool grabbing, bool consistent_weight) {
              WorldDescription world;
              world.threads = threads;
              world.editable = editable;
+             world.grabbing = grabbing;
              world.consistent_weight = consistent_weight;
              return world;
            }),
-           py::kw_only(), arg("threads"), arg("editable"), arg("consistent_weight"))
+           py::kw_only(), arg("threads"), arg("editable"), arg("grabbing"), arg("consistent_weight"))
       .def(
           "add_body",
           [](WorldDescription& world, const std::string& name, const Doubles& positions, bool frames) {

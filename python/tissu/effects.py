@@ -31,6 +31,8 @@ def effects_of(scene: SceneData, counts: Mapping[str, str] | None = None) -> lis
     effects.append(scene.step.effect())
     if scene.editing:
         effects.append(Effect("cell removal", "editing is true"))
+    if scene.grabbing:
+        effects.append(Effect("grabs", "grabbing is true"))
     return effects
 
 
@@ -48,6 +50,7 @@ def absent_of(scene: SceneData) -> list[str]:
         "loads": bool(scene.loads),
         "inertia": scene.step.type != "static",
         "cell removal": scene.editing,
+        "grabs": scene.grabbing,
         "contact": False,
         "cutting": False,
         "haptics": False,

@@ -155,6 +155,9 @@ DENSITY = Dimension(
     {"kg/m^3": 1.0, "kg/m3": 1.0, "g/cm^3": 1e3, "g/cm3": 1e3, "g/ml": 1e3, "kg/l": 1e3},
 )  # fmt: skip
 FORCE = Dimension("force", "N", "20 mN", {"N": 1.0, "mN": 1e-3, "kN": 1e3})
+STIFFNESS = Dimension(
+    "stiffness", "N/m", "50 N/m", {"N/m": 1.0, "N/mm": 1e3, "mN/mm": 1.0, "kN/m": 1e3}
+)
 MOMENT = Dimension("moment", "N m", "2 N mm", {"N m": 1.0, "N mm": 1e-3, "kN m": 1e3})
 ACCELERATION = Dimension(
     "acceleration", "m/s^2", "-9.81 m/s^2", {"m/s^2": 1.0, "m/s2": 1.0, "mm/s^2": 1e-3}

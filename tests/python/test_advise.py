@@ -12,9 +12,9 @@ from typer.testing import CliRunner
 
 import tissu as ts
 from beam import beam as swinging
-from tissu.advice.places import places
 from tissu.advice.rows import front
 from tissu.cli.app import app
+from tissu.mesh.places import places
 
 
 def beam(**changes):

@@ -8,8 +8,8 @@ import pytest
 import tissu as ts
 from tissu.advice.goal import goal
 from tissu.advice.measure import Watch, measure, watch
-from tissu.advice.places import places
 from tissu.advice.richardson import estimate
+from tissu.mesh.places import places
 from tissu.mesh.thin import with_thin
 
 VOLUMES = [

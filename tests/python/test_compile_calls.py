@@ -81,6 +81,7 @@ def test_options(calls):
     assert only(calls(threads=3, editing=True), "options") == {
         "threads": usable,
         "editable": True,
+        "grabbing": False,
         "consistent_weight": False,
     }
 

@@ -2,10 +2,7 @@
 
 #include <utility>
 
-#include "tissu/assembly/fixed_dofs.h"
-
 namespace tissu {
-double History::at(double time) const { return interpolate(times, factors, time, 1.0); }
 
 NodalLoad::NodalLoad(std::string name, std::vector<std::int32_t> nodes, std::vector<double> forces,
                      History history)
@@ -15,19 +12,32 @@ NodalLoad::NodalLoad(std::string name, std::vector<std::int32_t> nodes, std::vec
       history_(std::move(history)) {}
 
 void NodalLoad::add_force(const State& state, Scratch& /*scratch*/, Reals f) const {
-  const double factor = state.load_factor * history_.at(state.time);
+  const double factor = state.load_factor * change_.factor(state, history_);
+  const ConstReals all = forces(state);
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
-    block(f, nodes_[i]) += factor * block(ConstReals(forces_), static_cast<std::int32_t>(i));
+    block(f, nodes_[i]) += factor * block(all, static_cast<std::int32_t>(i));
   }
 }
 
 double NodalLoad::energy(const State& state, Scratch& /*scratch*/) const {
+  const ConstReals all = forces(state);
   double sum = 0.0;
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
-    sum -= block(ConstReals(forces_), static_cast<std::int32_t>(i))
-               .dot(block(ConstReals(state.positions), nodes_[i]));
+    sum -= block(all, static_cast<std::int32_t>(i)).dot(block(ConstReals(state.positions), nodes_[i]));
   }
-  return history_.at(state.time) * sum;
+  return change_.factor(state, history_) * sum;
+}
+
+void NodalLoad::claim_memory(MemoryPlaces& places) { change_.claim(name_, kMadeOf + forces_.size(), places); }
+
+void NodalLoad::carry_memory(const ForceModel& before, const Memory& then, Memory& now) const {
+  const auto* load = dynamic_cast<const NodalLoad*>(&before);
+  if (load != nullptr && load->name_ == name_) change_.carry(load->change_, then, now);
+}
+
+ConstReals NodalLoad::forces(const State& state) const {
+  const double* changed = change_.values(state);
+  return changed == nullptr ? ConstReals(forces_) : ConstReals(changed + kMadeOf, forces_.size());
 }
 
 }  // namespace tissu

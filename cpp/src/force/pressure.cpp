@@ -89,7 +89,13 @@ Pressure::Pressure(std::string name, std::vector<FaceCells> faces, double pressu
 }
 
 double Pressure::pressure_at(const State& state) const {
-  return state.load_factor * pressure_ * history_.at(state.time);
+  const double* changed = change_.values(state);
+  return (changed == nullptr ? pressure_ : *changed) * change_.factor(state, history_);
+}
+
+void Pressure::carry_memory(const ForceModel& before, const Memory& then, Memory& now) const {
+  const auto* pressure = dynamic_cast<const Pressure*>(&before);
+  if (pressure != nullptr && pressure->name_ == name_) change_.carry(pressure->change_, then, now);
 }
 
 void Pressure::couple(SparsityBuilder& builder) const {
@@ -97,7 +103,7 @@ void Pressure::couple(SparsityBuilder& builder) const {
 }
 
 void Pressure::add_force(const State& state, Scratch& /*scratch*/, Reals f) const {
-  const double p = pressure_at(state);
+  const double p = state.load_factor * pressure_at(state);
   for (const Ruled& some : faces_) {
     for_points(some.faces, some.rule, state.positions,
                [&](Nodes face, const ReferenceCell::Point& point, const auto& t) {
@@ -111,7 +117,7 @@ void Pressure::add_force(const State& state, Scratch& /*scratch*/, Reals f) cons
 /// the stiffness has the blocks (N_a D_b - N_b D_a) / 2.
 template <class Function>
 void Pressure::for_blocks(const State& state, double scale, Function&& f) const {
-  const double p = scale * pressure_at(state);
+  const double p = scale * state.load_factor * pressure_at(state);
   for (const Ruled& some : faces_) {
     for_points(some.faces, some.rule, state.positions,
                [&](Nodes face, const ReferenceCell::Point& point, const auto& t) {
@@ -155,7 +161,7 @@ double Pressure::energy(const State& state, Scratch& /*scratch*/) const {
       volume += share * point.weight * place.dot(t[0].cross(t[1]));
     });
   }
-  return pressure_ * history_.at(state.time) * volume;
+  return pressure_at(state) * volume;
 }
 
 }  // namespace tissu

@@ -63,6 +63,7 @@ void StableStep::prepare(const World& world) {
 }
 
 double StableStep::limit(const Amplification& method, const State& state) {
+  if (!world_->run_time().coupling.empty() && limit_ != 0.0 && coupled(state) != coupled_) limit_ = 0.0;
   if (limit_ != 0.0 && state.time == time_) return limit_;
   time_ = state.time;
   age_ += 1.0;
@@ -84,7 +85,32 @@ bool StableStep::has_deformed(const State& state) const {
   return false;
 }
 
+double StableStep::coupled(const State& state) {
+  couplings_.clear();
+  for (const ForceModel* model : world_->run_time().coupling) {
+    model->add_couplings(state, {-1.0, 0.0}, couplings_);
+  }
+  double sum = 0.0;
+  double number = 0.0;
+  for (const Coupling& one : couplings_.list()) {
+    number += 1.0;
+    for (std::size_t v = 0; v < one.vertex.size(); ++v) {
+      const auto add = [&](std::int32_t row, double share) {
+        sum += number * (row + 1.0) * share * share * one.H.trace();
+      };
+      if (one.beta[v] == 0.0) continue;
+      if (one.vertex[v] > Couplings::kCarried) {
+        add(one.vertex[v], one.beta[v]);
+        continue;
+      }
+      for (const CarriedPart& part : couplings_.parts(one.vertex[v])) add(part.row, part.weight);
+    }
+  }
+  return sum;
+}
+
 void StableStep::measure(const Amplification& method, const State& state) {
+  if (!world_->run_time().coupling.empty()) coupled_ = coupled(state);
   limit_ = largest_stable_step(method, fastest_vibration(*world_, state));
   age_ = 0.0;
   const ConstReals x(state.positions);
@@ -94,7 +120,7 @@ void StableStep::measure(const Amplification& method, const State& state) {
 }
 
 std::vector<double> StableStep::memory() const {
-  std::vector<double> memory{limit_, age_, time_};
+  std::vector<double> memory{limit_, age_, time_, coupled_};
   memory.insert(memory.end(), lengths_.begin(), lengths_.end());
   return memory;
 }
@@ -102,11 +128,12 @@ std::vector<double> StableStep::memory() const {
 void StableStep::restore(ConstReals memory) {
   limit_ = 0.0;
   // Cells were removed since: what was measured is not of this world.
-  if (memory.size() != lengths_.size() + 3) return;
+  if (memory.size() != lengths_.size() + 4) return;
   limit_ = memory[0];
   age_ = memory[1];
   time_ = memory[2];
-  std::ranges::copy(memory.subspan(3), lengths_.begin());
+  coupled_ = memory[3];
+  std::ranges::copy(memory.subspan(4), lengths_.begin());
 }
 
 }  // namespace tissu

@@ -3,6 +3,7 @@
 #include "builder.h"
 #include "checks.h"
 #include "tissu/force/frame_weight.h"
+#include "tissu/force/grabs.h"
 #include "tissu/force/gravity.h"
 #include "tissu/force/links.h"
 #include "tissu/force/load.h"
@@ -21,6 +22,7 @@ void WorldBuilder::add_loads() {
   for (const LoadDescription& load : description_.loads) add_load(load);
   for (const PressureDescription& pressure : description_.pressures) add_pressure(pressure);
   if (description_.links) forces.push_back(std::make_unique<Links>());
+  if (description_.grabbing) forces.push_back(std::make_unique<Grabs>());
 }
 
 void WorldBuilder::add_load(const LoadDescription& load) {

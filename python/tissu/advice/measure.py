@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from tissu.advice.places import Places, places
 from tissu.errors import TissuError
+from tissu.mesh.places import Places, places
 
 if TYPE_CHECKING:
     from tissu.front import Scene

@@ -13,7 +13,7 @@ from tissu.compile.check import check_of
 from tissu.compile.material import fibres_of, parameters_of
 from tissu.compile.model import kept_nodes
 from tissu.compile.prepare import prepare
-from tissu.compile.prepared import Prepared
+from tissu.compile.prepared import LoadedNodes, Prepared
 from tissu.compile.solver import chosen_solver
 from tissu.compile.start import begin
 from tissu.compile.thin import cross_section_of
@@ -52,6 +52,7 @@ def compile_scene(scene: Scene, checkpoint: Path | None = None) -> Simulation:
         integrator=scene.step.integrator(),
         solver=None if solver is None else solver.linear_solver(),
         check=check,
+        loads=[(loaded.load, _where(prepared, loaded)) for loaded in prepared.loaded],
         checkpoint=saved,
     )
     if saved is not None:
@@ -84,6 +85,7 @@ def build_world(prepared: Prepared) -> Any:
     builder = WorldBuilder(
         threads=usable_threads(scene.threads),
         editable=scene.editing,
+        grabbing=scene.grabbing,
         consistent_weight=isinstance(scene.step, Static),
     )
     for name in prepared.bodies:
@@ -96,11 +98,16 @@ def build_world(prepared: Prepared) -> Any:
         support, frames = held.support, prepared.has_rotations(held.support.body)
         support.add_to(builder, held.nodes, frames=frames)
     for loaded in prepared.loaded:
-        load = loaded.load
-        mesh, thickness = prepared.meshes[load.body].mesh, _rim_thickness(prepared, load.body)
-        where = Where(mesh, loaded.nodes, loaded.faces, thickness)
-        load.add_to(builder, where, number=int(loaded.path[1]))
+        where = _where(prepared, loaded)
+        loaded.load.add_to(builder, where, number=int(loaded.path[1]))
     return builder.build()
+
+
+def _where(prepared: Prepared, loaded: LoadedNodes) -> Where:
+    """Where a load acts."""
+    body = loaded.load.body
+    mesh, thickness = prepared.meshes[body].mesh, _rim_thickness(prepared, body)
+    return Where(mesh, loaded.nodes, loaded.faces, thickness)
 
 
 def usable_threads(asked: int) -> int:

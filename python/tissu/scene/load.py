@@ -46,9 +46,11 @@ class Load(Part):
     Attributes:
         called: what it is called in words.
         on_surface: whether it acts on faces whose nodes are all selected.
+        quantity: the field that says how large it is.
     """
 
     called: ClassVar[str]
+    quantity: ClassVar[str]
     on_surface: ClassVar[bool] = False
     body: str = field(kw_only=False)
     """name of a body of the scene"""
@@ -58,6 +60,8 @@ class Load(Part):
     """strictly increasing times [s]; absent: the load is constant"""
     factors: MaybeMany[Many[units.Pure]] = field(default=None)
     """factor of the load at each time, linear between, held at the ends"""
+    name: str | None = None
+    """name by which a running simulation finds it, see `Simulation.load`"""
 
     if TYPE_CHECKING:
         type: str
@@ -86,73 +90,102 @@ class Load(Part):
         """
         raise NotImplementedError
 
+    def made_of(self, where: Where) -> Floats:
+        """What a run changes of it in the core: its value and, of dead loads, its nodal forces."""
+        raise NotImplementedError
+
+    def core_name(self, number: int) -> str:
+        """Its name in the core, by its number in the scene."""
+        return f"{self.called} on {self.body} (loads[{number}])"
+
     def _shared(self, number: int) -> dict[str, Any]:
         """What the core is told of every load: its name, and how it varies with time."""
         return {
-            "name": f"{self.called} on {self.body} (loads[{number}])",
+            "name": self.core_name(number),
             "body": self.body,
             "times": np.array([0.0] if self.times is None else self.times),
             "factors": np.array([1.0] if self.factors is None else self.factors),
         }
 
 
-class NodalLoad(Load):
+class DeadLoad(Load):
+    """What loads share whose forces on the nodes do not change as the body moves."""
+
+    moments: ClassVar[bool] = False
+
+    def nodal(self, where: Where) -> tuple[Ints, Floats]:
+        """The nodes (k,) on which it acts, and the force [N] or moment [N m] on each (k, 3)."""
+        raise NotImplementedError
+
+    def add_to(self, builder: WorldBuilder, where: Where, *, number: int) -> None:
+        """Put it on its body in the world."""
+        nodes, forces = self.nodal(where)
+        builder.add_load(nodes=nodes, forces=forces, moments=self.moments, **self._shared(number))
+
+    def made_of(self, where: Where) -> Floats:
+        """What a run changes of it in the core: its value, as three numbers, and nodal forces."""
+        return np.concatenate([_three(getattr(self, self.quantity)), self.nodal(where)[1].ravel()])
+
+
+class NodalLoad(DeadLoad):
     """A total force shared equally by the selected nodes."""
 
     called: ClassVar[str] = "nodal load"
+    quantity: ClassVar[str] = "force"
     type: Literal["nodal"] = "nodal"
     force: units.Force
     """total force [N]"""
 
-    def add_to(self, builder: WorldBuilder, where: Where, *, number: int) -> None:
-        """Put it on its body in the world."""
-        forces = _equal_shares(self.force, len(where.nodes))
-        builder.add_load(nodes=where.nodes, forces=forces, moments=False, **self._shared(number))
+    def nodal(self, where: Where) -> tuple[Ints, Floats]:
+        """The nodes (k,) on which it acts, and the force on each (k, 3) [N]."""
+        return where.nodes, _equal_shares(self.force, len(where.nodes))
 
 
-class Moment(Load):
+class Moment(DeadLoad):
     """A total moment shared equally by the selected nodes, which are frames; it keeps its axis."""
 
     called: ClassVar[str] = "moment"
+    quantity: ClassVar[str] = "moment"
+    moments: ClassVar[bool] = True
     type: Literal["moment"] = "moment"
     moment: units.Moment
     """total moment [N m]"""
 
-    def add_to(self, builder: WorldBuilder, where: Where, *, number: int) -> None:
-        """Put it on its body in the world."""
-        moments = _equal_shares(self.moment, len(where.nodes))
-        builder.add_load(nodes=where.nodes, forces=moments, moments=True, **self._shared(number))
+    def nodal(self, where: Where) -> tuple[Ints, Floats]:
+        """The nodes (k,) on which it acts, and the moment on each (k, 3) [N m]."""
+        return where.nodes, _equal_shares(self.moment, len(where.nodes))
 
 
-class Traction(Load):
+class Traction(DeadLoad):
     """A force per rest area that keeps its direction, on faces whose nodes are all selected.
 
     Of a flat body (`plane`): on edges of its rim.
     """
 
     called: ClassVar[str] = "traction"
+    quantity: ClassVar[str] = "traction"
     on_surface: ClassVar[bool] = True
     type: Literal["traction"] = "traction"
     traction: units.TractionVector
     """force per rest area [Pa]"""
 
-    def add_to(self, builder: WorldBuilder, where: Where, *, number: int) -> None:
-        """Put it on its body in the world."""
+    def nodal(self, where: Where) -> tuple[Ints, Floats]:
+        """The nodes (k,) on which it acts, and the force on each (k, 3) [N]."""
         from tissu.mesh.whole_faces import nodal_areas
 
         shares = nodal_areas(where.mesh, where.faces, thickness=where.thickness)
         nodes = np.flatnonzero(shares).astype(np.int32)
-        forces = shares[nodes, None] * np.array(self.traction)
-        builder.add_load(nodes=nodes, forces=forces, moments=False, **self._shared(number))
+        return nodes, shares[nodes, None] * np.array(self.traction)
 
 
-class Pressure(Load):
+class Pressure(DeadLoad):
     """A pressure that follows the surface, on faces whose nodes are all selected.
 
     Of a flat body (`plane`): on edges of its rim, per length along it and thickness at rest.
     """
 
     called: ClassVar[str] = "pressure"
+    quantity: ClassVar[str] = "pressure"
     on_surface: ClassVar[bool] = True
     type: Literal["pressure"] = "pressure"
     pressure: units.Pressure
@@ -164,21 +197,32 @@ class Pressure(Load):
 
     def add_to(self, builder: WorldBuilder, where: Where, *, number: int) -> None:
         """Put it on its body in the world."""
+        if not self.follows:
+            super().add_to(builder, where, number=number)
+            return
+        builder.add_pressure(
+            faces=[(block.type, block.nodes) for block in where.faces],
+            pressure=self.pressure,
+            thickness=where.thickness,
+            **self._shared(number),
+        )
+
+    def nodal(self, where: Where) -> tuple[Ints, Floats]:
+        """The nodes (k,) on which a dead pressure acts, and the force on each (k, 3) [N]."""
         from tissu.mesh.whole_faces import nodal_normals
 
-        if self.follows:
-            blocks = [(block.type, block.nodes) for block in where.faces]
-            builder.add_pressure(
-                faces=blocks,
-                pressure=self.pressure,
-                thickness=where.thickness,
-                **self._shared(number),
-            )
-            return
         normals = nodal_normals(where.mesh, where.faces, thickness=where.thickness)
         nodes = np.flatnonzero(normals.any(axis=1)).astype(np.int32)
-        forces = -self.pressure * normals[nodes]
-        builder.add_load(nodes=nodes, forces=forces, moments=False, **self._shared(number))
+        return nodes, -self.pressure * normals[nodes]
+
+    def made_of(self, where: Where) -> Floats:
+        """What a run changes of it in the core: the pressure and, of a dead one, nodal forces."""
+        return np.array([self.pressure]) if self.follows else super().made_of(where)
+
+
+def _three(value: float | tuple[float, float, float]) -> Floats:
+    """A value as three numbers, those that it does not have zero."""
+    return np.array(value if isinstance(value, tuple) else (value, 0.0, 0.0))
 
 
 def _equal_shares(total: tuple[float, float, float], count: int) -> Floats:

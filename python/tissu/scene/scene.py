@@ -106,6 +106,8 @@ class SceneData(Part):
     """number of threads"""
     editing: bool = False
     """whether cells may be removed while it runs"""
+    grabbing: bool = False
+    """whether points may be grabbed while it runs"""
     output: Output | None = None
     """what is written while it runs"""
     laws: Read[tuple[LawFile, ...], Sequence[PathLike]] = field(default=())
@@ -139,6 +141,17 @@ class SceneData(Part):
                         text = f"no body is named '{body}'{nearest(body, self.bodies)} "
                         text += f"Bodies: {one_of_words(self.bodies)}"
                         yield Problem(("tissue", name, "between", end), text)
+
+    @rule("loads")
+    def _names_loads_once(self) -> Iterator[Problem]:
+        """A name finds one load."""
+        names: list[str] = []
+        for number, load in enumerate(self.loads):
+            with contextlib.suppress(Unknown):
+                if load.name is not None and load.name in names:
+                    text = f"found '{load.name}' twice; each name once is accepted"
+                    yield Problem(("loads", number, "name"), text)
+                names += [load.name] if load.name is not None else []
 
     @rule("duration")
     def _ends(self) -> Iterator[Problem]:

@@ -1,13 +1,17 @@
 """A compiled scene: its state, and the loop that moves it."""
 
 from tissu.simulation.fields import IntegrationPoints
+from tissu.simulation.grab import Grab
+from tissu.simulation.live_load import LiveLoad
 from tissu.simulation.plan import Plan
 from tissu.simulation.profile import Profile, ProfileRow, Solves
 from tissu.simulation.report import StepReport
 from tissu.simulation.simulation import Simulation
 
 __all__ = [
+    "Grab",
     "IntegrationPoints",
+    "LiveLoad",
     "Plan",
     "Profile",
     "ProfileRow",

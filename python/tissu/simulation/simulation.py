@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, NoReturn, SupportsIndex
@@ -16,6 +16,7 @@ from tissu.counted import counted
 from tissu.errors import CheckpointError, ParameterError, TissuError
 from tissu.simulation.by_body import ByBody
 from tissu.simulation.entry import Entry, one_thread_at_a_time
+from tissu.simulation.handled import Handled
 from tissu.simulation.inspected import Inspected
 from tissu.simulation.plan import Plan
 from tissu.simulation.profile import Profile, profile_of
@@ -28,6 +29,7 @@ if TYPE_CHECKING:
     from tissu.compile import Check
     from tissu.front import Scene
     from tissu.mesh import Mesh
+    from tissu.scene.load import Load, Where
 
 Floats = NDArray[np.float64]
 
@@ -36,7 +38,7 @@ _SHARE_OF_STABLE = 0.9
 
 
 @one_thread_at_a_time
-class Simulation(Inspected):
+class Simulation(Inspected, Handled):
     """A compiled scene that can be stepped; made by `Scene.compile()`.
 
     One thread at a time may call it: while one is in a method, another one gets a `BusyError`.
@@ -57,11 +59,14 @@ class Simulation(Inspected):
         integrator: _core.Integrator,
         solver: _core.LinearSolver | None,
         check: Check,
+        loads: Sequence[tuple[Load, Where]] = (),
         checkpoint: Checkpoint | None = None,
     ) -> None:
         self.scene = scene
         self._entry = Entry(scene.name)
         self._check = check
+        self._loads = tuple(loads)
+        self._last_grab = 0
         self._world = world
         self._core = _core.Simulation(world=world, integrator=integrator, solver=solver)
         self._meshes = dict(meshes)

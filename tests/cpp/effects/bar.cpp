@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "tissu/edit/remove_cells.h"
+#include "tissu/force/grabs.h"
 #include "tissu/force/links.h"
 #include "tissu/mesh/box.h"
 #include "tissu/mesh/topology.h"
@@ -151,6 +152,13 @@ void add_link(Bar& bar) {
   bar.once = [](Simulation& simulation) {
     LinkTable(simulation.memory(Links::kMemory))
         .add({0}, {simulation.world().body("bar").node_count - 1}, 1.0);
+  };
+}
+
+void add_grab(Bar& bar) {
+  bar.world.grabbing = true;
+  bar.once = [](Simulation& simulation) {
+    GrabTable(simulation.memory(Grabs::kMemory)).add(1, {{{0, 0.5}, {1, 0.5}}}, Vec3::Zero(), 1.0);
   };
 }
 

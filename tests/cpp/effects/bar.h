@@ -49,6 +49,7 @@ void add_fibres(Bar& bar);
 void add_hexahedra(Bar& bar);
 void add_frame(Bar& bar);
 void add_link(Bar& bar);
+void add_grab(Bar& bar);
 void remove_a_cell_each_step(Bar& bar);
 void squeeze_each_step(Bar& bar);
 

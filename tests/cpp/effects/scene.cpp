@@ -103,6 +103,7 @@ constexpr std::array kRecipes = {
     Recipe{"condensed", &add_condensed},
     Recipe{"frame", &add_frame},
     Recipe{"link", &add_link},
+    Recipe{"grab", &add_grab},
     Recipe{"editable", &allow_edits},
     Recipe{"editing", &remove_a_cell_each_step},
     Recipe{"newton", &iterate_newton},

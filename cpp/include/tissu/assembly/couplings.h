@@ -5,9 +5,10 @@
 ///
 ///     C = sum_c J_c^T H_c J_c,   J_c p = sum_v beta_v (motion of vertex v)
 ///
-/// A coupling has up to four vertices, whose beta sum to zero, so that a translation of all costs nothing,
-/// and a positive semi-definite H of 3x3. A vertex is a row itself, or is carried by rows (a point of a
-/// frame, of a cell): the sum of weight p_row and, for rotations, weight p_row x arm.
+/// A coupling has up to four vertices, whose beta sum to zero, so that a translation of all costs nothing, or
+/// one vertex, which is drawn to a place in space; and a positive semi-definite H of 3x3. A vertex is a row
+/// itself, or is carried by rows (a point of a frame, of a cell): the sum of weight p_row and, for rotations,
+/// weight p_row x arm.
 ///
 /// Every coupling computes s_c = H_c J_c p alone, then every row adds what its couplings give it in the order
 /// of the list, so that the bits do not depend on the number of threads.

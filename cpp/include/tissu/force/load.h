@@ -8,17 +8,12 @@
 
 #include "tissu/element/reference_cell.h"
 #include "tissu/force/force_model.h"
+#include "tissu/force/load_change.h"
 
 namespace tissu {
 
-/// A factor over time, linear between its times and held at its ends; 1 when it has no times.
-struct History {
-  std::vector<double> times;  ///< ascending [s]
-  std::vector<double> factors;
-  [[nodiscard]] double at(double time) const;
-};
-
-/// Forces that keep their direction (dead loads): point forces, and tractions summed into nodes.
+/// Forces that keep their direction (dead loads): point forces, and tractions summed into nodes. What a run
+/// changes of it: three numbers of which the forces are made, for the one that asks, and the forces.
 class NodalLoad final : public ForceModel {
  public:
   NodalLoad(std::string name, std::vector<std::int32_t> nodes, std::vector<double> forces, History history);
@@ -31,12 +26,19 @@ class NodalLoad final : public ForceModel {
   void add_force(const State& state, Scratch& scratch, Reals f) const override;
   /// -sum f . x [J]
   [[nodiscard]] double energy(const State& state, Scratch& scratch) const override;
+  void claim_memory(MemoryPlaces& places) override;
+  void carry_memory(const ForceModel& before, const Memory& then, Memory& now) const override;
+  void check_memory(const State& state) const override { change_.check(name_, state); }
 
  private:
+  static constexpr std::size_t kMadeOf = 3;
+  [[nodiscard]] ConstReals forces(const State& state) const;
+
   std::string name_;
   std::vector<std::int32_t> nodes_;
   std::vector<double> forces_;  ///< [N], three for each node
   History history_;
+  LoadChange change_;
 };
 
 /// Faces of one kind: node numbers face after face, in VTK order, anticlockwise seen from outside. Those of a
@@ -59,7 +61,7 @@ void add_normals(const FaceCells& faces, ConstReals positions, std::vector<doubl
 /// an open surface; the symmetric part is used, which is exact for a pressure on a closed surface or one
 /// whose rim is held. A definite matrix goes without it: the eigenvalues of a face sum to zero, so half of
 /// what it says would be gone, and on a closed surface the faces' parts cancel each other, their halves would
-/// not.
+/// not. What a run changes of it: the pressure.
 class Pressure final : public ForceModel {
  public:
   Pressure(std::string name, std::vector<FaceCells> faces, double pressure, History history);
@@ -75,8 +77,12 @@ class Pressure final : public ForceModel {
   /// p times the volume between the faces and the origin [J]; of an open surface it depends on the origin,
   /// and only its change where the rim is held means something.
   [[nodiscard]] double energy(const State& state, Scratch& scratch) const override;
+  void claim_memory(MemoryPlaces& places) override { change_.claim(name_, 1, places); }
+  void carry_memory(const ForceModel& before, const Memory& then, Memory& now) const override;
+  void check_memory(const State& state) const override { change_.check(name_, state); }
 
  private:
+  /// At its time, whatever share of the loads acts.
   [[nodiscard]] double pressure_at(const State& state) const;
   template <class Function>
   void for_blocks(const State& state, double scale, Function&& f) const;
@@ -90,6 +96,7 @@ class Pressure final : public ForceModel {
   std::vector<Ruled> faces_;
   double pressure_;  ///< [Pa]
   History history_;
+  LoadChange change_;
 };
 
 }  // namespace tissu

@@ -29,8 +29,8 @@ std::pair<std::complex<double>, std::complex<double>> eigenvalues(double omega, 
 class StableStep {
  public:
   void prepare(const World& world);
-  /// The limit at `state`: measured again when it is not known, or, looked at every few steps, when an edge
-  /// of a cell has changed by a fiftieth of its length.
+  /// The limit at `state`: measured again when it is not known, when something is coupled that was not, or,
+  /// looked at every few steps, when an edge of a cell has changed by a fiftieth of its length.
   double limit(const Amplification& method, const State& state);
 
   [[nodiscard]] std::vector<double> memory() const;
@@ -38,6 +38,8 @@ class StableStep {
 
  private:
   [[nodiscard]] bool has_deformed(const State& state) const;
+  /// A number that changes with the couplings: which rows, how stiff.
+  [[nodiscard]] double coupled(const State& state);
   void measure(const Amplification& method, const State& state);
 
   const World* world_ = nullptr;
@@ -46,6 +48,8 @@ class StableStep {
   double time_ = 0.0;   ///< of the state that was asked about last
   std::vector<std::int32_t> edges_;
   std::vector<double> lengths_;
+  double coupled_ = 0.0;  ///< when it was measured
+  Couplings couplings_;
 };
 
 }  // namespace tissu

@@ -85,6 +85,7 @@ struct WorldDescription {
   std::vector<LoadDescription> loads;
   std::vector<PressureDescription> pressures;
   bool links = false;     ///< springs between points may be made and unmade while it runs
+  bool grabbing = false;  ///< points may be pulled to targets while it runs
   bool editable = false;  ///< cells may be removed while it runs
   int threads = 1;
   std::optional<Isa> isa;  ///< absent: the best there is

@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from tissu.advice.shapes import Shape, shape_of
 from tissu.counted import counted
 from tissu.errors import ParameterError
+from tissu.mesh.shapes import Shape, shape_of
 
 if TYPE_CHECKING:
     from tissu.mesh import Mesh

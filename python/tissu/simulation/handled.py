@@ -1,0 +1,160 @@
+"""What acts on a simulation while it runs: its loads, and points that are grabbed."""
+
+from __future__ import annotations
+
+import difflib
+import numbers
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tissu.errors import ParameterError
+from tissu.simulation import grab as kept
+from tissu.simulation.grab import Grab, Record
+from tissu.simulation.grab_point import grab_point
+from tissu.simulation.live_load import LiveLoad
+
+if TYPE_CHECKING:
+    from tissu import _core as core
+    from tissu.front import Scene
+    from tissu.mesh import Mesh
+    from tissu.reading import Number, VectorLike
+    from tissu.scene.load import Load, Where
+    from tissu.simulation.entry import Entry
+
+Floats = NDArray[np.float64]
+
+
+class Handled:
+    """The part of a simulation by which a running program pulls and pushes."""
+
+    scene: Scene
+    _core: core.Simulation
+    _entry: Entry
+    _meshes: dict[str, Mesh]
+    _tissue: dict[str, Mesh]
+    _positions: Mapping[str, Floats]
+    _loads: Sequence[tuple[Load, Where]]
+    _last_grab: int
+
+    def load(self, which: str | int) -> LiveLoad:
+        """A load of the scene, to be changed from the next step on.
+
+        What is changed stands in the state: checkpoints carry it.
+
+        Args:
+            which: its `name`, or its number in the scene.
+
+        Raises:
+            ParameterError: no load of that name or number.
+        """
+        number = self._number_of(which)
+        load, where = self._loads[number]
+        return LiveLoad(
+            simulation=self._core, entry=self._entry, load=load, where=where, number=number
+        )
+
+    def grab(
+        self,
+        body: str,
+        at: int | VectorLike,
+        target: VectorLike,
+        stiffness: Number | str,
+        *,
+        offset: VectorLike | None = None,
+    ) -> Grab:
+        """Pull a point of a body to a target, f = stiffness (target - position), until let go.
+
+        The grab stands in the state: checkpoints carry it.
+
+        Args:
+            body: its name.
+            at: number of a node, or a place of the body at rest (3,) [m], whose cell carries it
+                by its shape functions.
+            target: a place in space (3,) [m].
+            stiffness: of the spring [N/m], or text such as "50 N/m".
+            offset: of a node that is a frame: from the node to the point at rest (3,) [m]; it
+                turns with the node.
+
+        Raises:
+            ParameterError: the scene was compiled without `grabbing: true`; no such body or node;
+                a place outside the body; a point that cannot move; a stiffness that is not
+                positive.
+        """
+        self._require_grabbing()
+        self._require_known(body)
+        mesh = {**self._meshes, **self._tissue}[body]
+        point = grab_point(self._core, body=body, mesh=mesh, at=at, offset=offset)
+        pulled, stiff = kept.target_of(target), kept.stiffness_of(stiffness)
+        grabs = kept.records(self._core)
+        self._last_grab = max([self._last_grab, *grabs]) + 1
+        first, _ = self._core.body_range(body)
+        frame, rotation = -1, -1
+        if point.offset is not None:
+            frame, rotation = (one + int(point.nodes[0]) for one in self._core.frames_of(body))
+        grabs[self._last_grab] = Record(
+            number=self._last_grab,
+            stiffness=stiff,
+            target=pulled,
+            nodes=first + point.nodes,
+            weights=point.weights,
+            frame=frame,
+            rotation=rotation,
+            place=np.zeros(3) if point.offset is None else point.offset,
+        )
+        kept.keep(self._core, grabs)
+        return self._grab(self._last_grab, body)
+
+    @property
+    def grabs(self) -> tuple[Grab, ...]:
+        """The grabs that hold now, in the order in which they were made."""
+        if not self.scene.grabbing:
+            return ()
+        ranges = {name: self._core.body_range(name) for name in self._positions}
+        found = []
+        for number, record in kept.records(self._core).items():
+            row = int(record.nodes[0])
+            body = next(n for n, (first, count) in ranges.items() if first <= row < first + count)
+            found.append(self._grab(number, body))
+        return tuple(found)
+
+    def _grab(self, number: int, body: str) -> Grab:
+        return Grab(simulation=self._core, entry=self._entry, number=number, body=body)
+
+    def _number_of(self, which: str | int) -> int:
+        count = len(self._loads)
+        if isinstance(which, numbers.Integral) and not isinstance(which, bool):
+            if 0 <= which < count:
+                return int(which)
+            accepted = f"0 to {count - 1} are accepted" if count else "the scene has no load"
+            raise ParameterError(f"found load {which}; {accepted}")
+        names = [load.name for load, _ in self._loads]
+        if isinstance(which, str) and which in names:
+            return names.index(which)
+        known = [name for name in names if name is not None]
+        raise ParameterError(
+            f"found load {which!r}{_nearest(which, known)} accepted: "
+            + (", ".join(known) or "the number of a load, since none has a name")
+        )
+
+    def _require_grabbing(self) -> None:
+        if not self.scene.grabbing:
+            raise ParameterError(
+                f"found a grab in scene '{self.scene.name}', which was compiled without it; "
+                "`grabbing: true` is accepted: compile `scene.replace(grabbing=True)`"
+            )
+
+    def _require_known(self, body: str) -> None:
+        if body not in self._positions:
+            raise ParameterError(
+                f"found body {body!r}{_nearest(body, list(self._positions))} accepted: "
+                + ", ".join(self._positions)
+            )
+
+
+def _nearest(word: object, known: Sequence[str]) -> str:
+    """The known word nearest to it, as a question."""
+    near = difflib.get_close_matches(str(word), known, n=1, cutoff=0.5)
+    return f"; did you mean '{near[0]}'?" if near else ";"

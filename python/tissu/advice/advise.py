@@ -16,7 +16,7 @@ from tissu.advice.explore import explore
 from tissu.advice.goal import Goal, budget_seconds, goal
 from tissu.advice.laboratory import Laboratory, Tried
 from tissu.advice.measure import Watch, watch
-from tissu.advice.reference import find_reference
+from tissu.advice.reference import Reference, find_reference
 from tissu.advice.resolution import Resolutions
 from tissu.advice.rows import largest_move, row_of
 from tissu.advice.setting import Setting
@@ -31,6 +31,7 @@ if TYPE_CHECKING:
     from tissu.front import Scene
 
 _SHARE_OF_REFERENCE = 0.4  # of the budget, for the reference and its order
+_SMALL = 0.5  # of the error asked for: more of the reference leaves little to the settings
 _STILL = 1e-9  # of the extent: no node that moves less is said to move
 
 
@@ -46,9 +47,10 @@ def advise(
     """Run a scene with several settings, and find the cheapest that meets an error and a rate.
 
     What is varied, one after the other from the scene's own setting: the time step and its method,
-    the number and the order of cells, Newton's iteration, the linear solver and its tolerance, and
-    the models that keep the scene's laws. Errors are mean distances, over the nodes (n, 3) of the
-    scene's own mesh and up to 20 times, from the richest run that two fifths of the budget afford.
+    the number, the order and the family of cells, Newton's iteration, the linear solver and its
+    tolerance, and the models that keep the scene's laws. Errors are mean distances, over the nodes
+    (n, 3) of the scene's own mesh and up to 20 times, from the richest run that two fifths of the
+    budget afford; where its own error is too large, bars try richer cells for it as well.
 
     Args:
         scene: with a duration, or static.
@@ -80,7 +82,12 @@ def advise(
     lab = Laboratory(scene, resolutions, watch(simulation), begin + seconds, _teller(told))
     own = _own_run(lab, Setting(Fraction(1), resolutions.order, "", scene.step), seconds)
     _check_motion(own, lab.watched, asked)
-    reference = find_reference(lab, own, share=_SHARE_OF_REFERENCE)
+
+    def enough(found: Reference) -> bool:
+        largest = largest_move(found.moved)
+        return found.error is not None and asked.share_of(found.error, largest) <= _SMALL
+
+    reference = find_reference(lab, own, share=_SHARE_OF_REFERENCE, enough=enough)
     explore(lab, own, reference, Choices(lab, asked, reference.tried.setting, models))
     rows = tuple(
         row_of(tried, reference, asked)

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from tissu.advice.goal import Goal
     from tissu.advice.laboratory import Laboratory
 
-PARTS = ("step", "scale", "order", "newton", "solver", "tolerance", "model")
+PARTS = ("step", "scale", "order", "family", "newton", "solver", "tolerance", "model")
 """Parts of a setting, in the order in which they are tried."""
 
 _TOLERANCES = (1e-3, 1e-4, 1e-6)
@@ -64,6 +64,7 @@ class Choices:
             "step": self._steps,
             "scale": self._scales,
             "order": self._orders,
+            "family": self._families,
             "newton": _newtons,
             "solver": _solvers,
             "tolerance": _tolerances,
@@ -109,7 +110,7 @@ class Choices:
             scale
             for scale in SCALES
             if scale <= self._most(setting.order)
-            and self.lab.resolutions.bodies(scale, setting.order) is not None
+            and self.lab.resolutions.bodies(scale, setting.order, setting.family) is not None
         ]
         lower = [scale for scale in available if scale <= Fraction(3, 4) * setting.scale]
         upper = [scale for scale in available if scale >= Fraction(4, 3) * setting.scale]
@@ -125,12 +126,27 @@ class Choices:
         other = replace(setting, order=3 - setting.order)
         if other.order == 2 and other.model not in _OF_BOTH_ORDERS:
             other = replace(other, model="")
-        if other.order <= self.finest.order:
-            yield other
+        yield other
         if other.order == 2:
-            for scale in self._neighbours(other):
-                if scale < setting.scale:
-                    yield replace(other, scale=scale)
+            yield from self._fewer(other)
+
+    def _fewer(self, setting: Setting) -> Iterator[Setting]:
+        """The same with fewer cells."""
+        for scale in self._neighbours(setting):
+            if scale < setting.scale:
+                yield replace(setting, scale=scale)
+
+    def _families(self, setting: Setting) -> Iterator[Setting]:
+        """Richer cells of generated bars or the scene's own, of both orders."""
+        for family in ("", *self.lab.resolutions.families):
+            if family == setting.family:
+                continue
+            other = replace(setting, family=family)
+            yield other
+            if other.model in _OF_BOTH_ORDERS:
+                rich = replace(other, order=2)
+                yield rich
+                yield from self._fewer(rich)
 
     def _models(self, setting: Setting) -> Iterator[Setting]:
         bodies = self.lab.scene.bodies.values()

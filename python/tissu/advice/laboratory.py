@@ -71,7 +71,7 @@ class Laboratory:
     watched: Watch
     end: float
     told: Callable[[Tried], None] = lambda tried: None
-    tried: dict[tuple[Fraction, int, str, str], Tried] = field(default_factory=dict)
+    tried: dict[tuple[Fraction, int, str, str, str], Tried] = field(default_factory=dict)
 
     @property
     def left(self) -> float:

@@ -11,29 +11,15 @@ from typing import TYPE_CHECKING, Any
 
 from tissu.advice.laboratory import Laboratory, Tried
 from tissu.advice.measure import Floats
+from tissu.advice.rich import first_rich
 from tissu.advice.richardson import Estimate, estimate
 from tissu.advice.setting import Setting, is_explicit
-from tissu.scene.solver import Auto
 from tissu.scene.step import (
-    BDF2,
-    BDF2FixedPoint,
-    EnergyMomentum,
-    Implicit,
-    ImplicitEuler,
-    Newton,
     Static,
-    SymplecticEuler,
 )
 
 if TYPE_CHECKING:
-    from tissu.scene.step import Step
-
-_DIVISORS = {4: 0.2, 2: 0.4, 1: 0.7}
-"""Of the scene's time step -> share of the time for the reference that its first run may take."""
-
-_MORE = 0.3  # of that time beside, for cells of the scene's own order
-_SAME_AS_FEM = ("mass_tensor", "mass_link", "mean_dilatation")  # in the limit of small cells
-_TOLERANCE = 1e-6
+    pass
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,7 +49,7 @@ class Reference:
 
     @property
     def finer(self) -> bool:
-        """Whether its cells are more, or of higher order, than the scene's own."""
+        """Whether its cells are more than the scene's own, of higher order or another family."""
         return _cells(self.tried.setting) != _cells(self.own)
 
     def judges(self, setting: Setting) -> bool:
@@ -93,17 +79,43 @@ class Reference:
         return sum(found.error for found in (self.space, self.time) if found is not None)
 
 
-def find_reference(lab: Laboratory, own: Tried, *, share: float) -> Reference:
+def find_reference(
+    lab: Laboratory,
+    own: Tried,
+    *,
+    share: float,
+    enough: Callable[[Reference], bool] = lambda reference: True,
+) -> Reference:
+    """The richest run of the scene's own cells; where it is not enough, of richer ones as well.
+
+    Args:
+        lab: where they run.
+        own: the scene's own setting, which has run.
+        share: of what is left of the budget, for each family of cells.
+        enough: whether a reference is good enough to leave out richer families of cells.
+
+    Returns:
+        The one whose own error is the smallest; where none is known, the first of higher order.
+    """
+    found = []
+    for family in ("", *lab.resolutions.families):
+        found.append(_of_family(lab, own, family, share))
+        if enough(found[-1]):
+            break
+    return min(found, key=_doubtful)
+
+
+def _doubtful(reference: Reference) -> tuple[float, int]:
+    error = math.inf if reference.error is None else reference.error
+    return error, -reference.tried.setting.order
+
+
+def _of_family(lab: Laboratory, own: Tried, family: str, share: float) -> Reference:
     """Climb to ever richer settings while they take no longer than a share of the budget.
 
     First cells of second order and a quarter of the time step or, where that is cheaper, stable
     explicit steps (a half of the step, or the whole, where neither is affordable); then ever more
     cells; then cheaper runs that show its order.
-
-    Args:
-        lab: where they run.
-        own: the scene's own setting, which has run.
-        share: of what is left of the budget.
     """
     begin = time.perf_counter()
     whole = share * lab.left
@@ -113,7 +125,7 @@ def find_reference(lab: Laboratory, own: Tried, *, share: float) -> Reference:
     def left(part: float = 1.0) -> float:
         return part * whole - (time.perf_counter() - begin)
 
-    best = _first(lab, setting, left)
+    best = first_rich(lab, setting, family, left)
     if best is None:
         return Reference(own, None, None, dynamic, setting, changes)
     levels = {Fraction(1): best}
@@ -128,78 +140,12 @@ def find_reference(lab: Laboratory, own: Tried, *, share: float) -> Reference:
     return Reference(best, space, steps, dynamic, setting, changes)
 
 
-def _cells(setting: Setting) -> tuple[Fraction, int]:
-    return setting.scale, setting.order
+def _cells(setting: Setting) -> tuple[Fraction, int, str]:
+    return setting.scale, setting.order, setting.family
 
 
 def _steps(setting: Setting) -> tuple[str, object]:
     return setting.step.type, getattr(setting.step, "dt", None)
-
-
-def rich_step(step: Step, divisor: int) -> Step:
-    """A step that leaves less error: shorter, of second order where it is implicit Euler's.
-
-    Where the scene's own steps are linearised once, these are too: what that costs grows with the
-    step and is part of its error.
-    """
-    solver = Auto(tolerance=_TOLERANCE)
-    if isinstance(step, Static):
-        iterations = max(30, step.newton.iterations)
-        return step.replace(newton=Newton(iterations=iterations, tolerance=1e-8), solver=solver)
-    if isinstance(step, BDF2FixedPoint):
-        return BDF2(dt=step.dt / divisor, solver=solver)
-    if isinstance(step, ImplicitEuler):
-        return BDF2(dt=step.dt / divisor, newton=step.newton, solver=solver)
-    if isinstance(step, (Implicit, EnergyMomentum)):
-        return step.replace(dt=step.dt / divisor, solver=solver)
-    return step.replace(dt="auto")
-
-
-def _first(lab: Laboratory, own: Setting, left: Callable[..., float]) -> Tried | None:
-    """The scene's own number of cells, of second order where it can be, with a rich step."""
-    for order in (2, own.order) if own.order == 1 else (own.order,):
-        for model in dict.fromkeys((_model(lab), "")):
-            found = _richest_step(lab, Setting(own.scale, order, model, own.step), own, left)
-            if found is not None:
-                return found
-    return None
-
-
-def _richest_step(
-    lab: Laboratory, setting: Setting, own: Setting, left: Callable[..., float]
-) -> Tried | None:
-    """A quarter of the step or the stable explicit one, whichever is cheaper; else longer ones."""
-    more = _MORE if setting.order == own.order else 0.0
-    divided = hasattr(own.step, "dt") and not is_explicit(own)
-    runs: list[Tried] = []
-    for divisor, share in (_DIVISORS if divided else {1: 0.7}).items():
-        steps = [rich_step(own.step, divisor)] + [SymplecticEuler()] * divided
-        for step in steps[_hopeless(runs, divisor, left(share + more)) :]:
-            found = lab.run(replace(setting, step=step), allowance=left(share + more))
-            if found is not None and found.refused:
-                return None
-            runs += [found] if found is not None else []
-        finished = [run for run in runs if run.finished and run.measured is not None]
-        if finished:
-            return min(finished, key=_seconds)
-    return None
-
-
-def _hopeless(runs: list[Tried], divisor: int, allowance: float) -> bool:
-    """Whether a run with a quarter of the step was so slow that one with fewer is too."""
-    if not runs or runs[0].measured is None:
-        return False
-    return runs[0].measured.foreseen * divisor / 4.0 > 1.5 * allowance
-
-
-def _seconds(tried: Tried) -> float:
-    return tried.measured.seconds if tried.measured is not None else math.inf
-
-
-def _model(lab: Laboratory) -> str:
-    """The model that the scene's own one tends to for small cells; empty: itself."""
-    models = [model.type for body in lab.scene.bodies.values() for model in body.models().values()]
-    return "fem" if all(model in _SAME_AS_FEM for model in models) else ""
 
 
 def _climb(
@@ -208,7 +154,7 @@ def _climb(
     """Add runs with more cells, as long as they are affordable."""
     for scale in (Fraction(2), Fraction(3), Fraction(4)):
         found = _at(lab, first, scale, left)
-        if found is None and lab.resolutions.bodies(scale, first.order) is None:
+        if found is None and lab.resolutions.bodies(scale, first.order, first.family) is None:
             continue
         if found is None:
             break
@@ -233,7 +179,7 @@ def _descend(
 def _at(
     lab: Laboratory, first: Setting, scale: Fraction, left: Callable[..., float]
 ) -> Tried | None:
-    found = lab.run(Setting(scale, first.order, first.model, first.step), allowance=left())
+    found = lab.run(replace(first, scale=scale), allowance=left())
     return found if found is not None and found.finished else None
 
 

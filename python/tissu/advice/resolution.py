@@ -1,4 +1,4 @@
-"""The bodies of a scene with other cells: more or fewer of them, of first or second order."""
+"""The bodies of a scene with other cells: more or fewer, of another order or family."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from tissu.errors import MeshError
 from tissu.mesh import Mesh, into_quadratic, refined
 from tissu.mesh.cell import cell_table
-from tissu.scene.bar import BarMesh
+from tissu.scene.bar import BarMesh, bar_dimension
 from tissu.scene.selection import Nodes
 
 if TYPE_CHECKING:
@@ -36,6 +36,9 @@ _LINEAR = {rich: plain for plain, rich in _QUADRATIC.items()} | {
     "hexahedron27": "hexahedron",
     "quad9": "quad",
 }
+FAMILIES = ("hexahedron", "quad")
+"""Families of cells that are richer than others of their dimension, with the same nodes."""
+
 Source = BarMesh | Mesh | None  # None: the body's own
 
 
@@ -45,31 +48,41 @@ class Resolutions:
     Attributes:
         order: of the scene's own cells: 2 where every body that can change has quadratic ones.
         fixed: bodies that stay as they are, with the reason.
+        families: richer ones that a generated bar of the scene may have in place of its own.
     """
 
     def __init__(self, scene: Scene, meshes: Mapping[str, Mesh]) -> None:
         self._scene = scene
-        self._made: dict[tuple[str, Fraction, int], Source] = {}
+        self._made: dict[tuple[str, Fraction, int, str], Source] = {}
         self._meshes = meshes
         self.fixed: dict[str, str] = {}
-        self._makers: dict[str, Callable[[Fraction, int], Source]] = {}
+        self._makers: dict[str, Callable[[Fraction, int, str], Source]] = {}
         for name, body in scene.bodies.items():
             self._plan(name, body)
         orders = {_order(meshes[name]) for name in self._makers}
         self.order = min(orders, default=1)
+        bars = [scene.bodies[name].mesh for name in self._makers]
+        self.families = tuple(family for family in FAMILIES if any(_gains(b, family) for b in bars))
 
-    def bodies(self, scale: Fraction, order: int) -> dict[str, Body] | None:
+    def bodies(self, scale: Fraction, order: int, family: str = "") -> dict[str, Body] | None:
         """The bodies with `scale` times the cells along each edge, of an order (1 or 2).
+
+        Args:
+            scale: cells along each edge over those of the scene.
+            order: of the cells.
+            family: one of `families` for the bars that gain by it; empty: the scene's own.
 
         Returns:
             None where no mesh of these can be made, or all are the same as at another scale.
         """
-        if scale == 1 and order == self.order:
+        if family and family not in self.families:
+            return None
+        if scale == 1 and order == self.order and not family:
             return dict(self._scene.bodies)
         found = dict(self._scene.bodies)
         changed = False
         for name in self._makers:
-            source = self._source(name, scale, order)
+            source = self._source(name, scale, order, family)
             same = source is None or source == found[name].mesh
             if same and (scale != 1 or _order(self._meshes[name]) != order):
                 return None
@@ -93,11 +106,11 @@ class Resolutions:
         ]
         return all(count.denominator == 1 for count in counts)
 
-    def _source(self, name: str, scale: Fraction, order: int) -> Source:
-        key = (name, scale, order)
+    def _source(self, name: str, scale: Fraction, order: int, family: str) -> Source:
+        key = (name, scale, order, family)
         if key not in self._made:
             try:
-                self._made[key] = self._makers[name](scale, order)
+                self._made[key] = self._makers[name](scale, order, family)
             except MeshError:
                 self._made[key] = None
         return self._made[key]
@@ -111,12 +124,12 @@ class Resolutions:
             self.fixed[name] = "it begins at random places of its nodes"
         elif isinstance(body.mesh, BarMesh):
             bar = body.mesh
-            self._makers[name] = lambda scale, order: _bar(bar, scale, order)
+            self._makers[name] = lambda scale, order, family: _bar(bar, scale, order, family)
         elif self._meshes[name].thin_blocks:
             self.fixed[name] = "its sheets and lines come from a mesh that is not a bar"
         else:
             mesh = self._meshes[name]
-            self._makers[name] = lambda scale, order: _mesh(mesh, scale, order)
+            self._makers[name] = lambda scale, order, family: _mesh(mesh, scale, order)
 
 
 def _order(mesh: Mesh) -> int:
@@ -129,7 +142,14 @@ def _order(mesh: Mesh) -> int:
     return 2 if all(quadratic) else 1
 
 
-def _bar(bar: BarMesh, scale: Fraction, order: int) -> BarMesh | None:
+def _gains(mesh: object, family: str) -> bool:
+    """Whether a bar has cells of the family's dimension, but of another family."""
+    if not isinstance(mesh, BarMesh) or mesh.segments is not None:
+        return False
+    return bar_dimension(mesh.cell) == bar_dimension(family) and not mesh.cell.startswith(family)
+
+
+def _bar(bar: BarMesh, scale: Fraction, order: int, family: str) -> BarMesh | None:
     counts = [count * scale for count in bar.cells]
     if bar.segments is not None:
         same = order == (2 if _segments_are_quadratic(bar.segments) else 1)
@@ -137,8 +157,11 @@ def _bar(bar: BarMesh, scale: Fraction, order: int) -> BarMesh | None:
             return None
         return bar.replace(cells=[int(count) for count in counts])
     cells = [max(floor(count + Fraction(1, 2)), 1) if count else 0 for count in counts]
-    cell = (_QUADRATIC if order == 2 else _LINEAR).get(bar.cell, bar.cell)
-    return bar.replace(cells=cells, **({} if cell == bar.cell else {"cell": cell}))
+    own = family if family and _gains(bar, family) else bar.cell
+    cell = (_QUADRATIC if order == 2 else _LINEAR).get(own, own)
+    changes = {} if cell == bar.cell else {"cell": cell}
+    unsplit = {"split": "six"} if own != bar.cell and bar.split != "six" else {}
+    return bar.replace(cells=cells, **changes, **unsplit)
 
 
 def _segments_are_quadratic(segments: str) -> bool:

@@ -25,16 +25,18 @@ class Setting:
         order: of the cells, 1 or 2.
         model: name of the model of all bodies; empty: the scene's own.
         step: method, time step, Newton's method and linear solver.
+        family: of the cells of generated bars, "hexahedron" or "quad"; empty: the scene's own.
     """
 
     scale: Fraction
     order: int
     model: str
     step: Step
+    family: str = ""
 
     def scene(self, scene: Scene, resolutions: Resolutions) -> Scene | None:
         """The scene with this setting; None where there is no mesh of it."""
-        bodies = resolutions.bodies(self.scale, self.order)
+        bodies = resolutions.bodies(self.scale, self.order, self.family)
         if bodies is None:
             return None
         if self.model:
@@ -42,9 +44,9 @@ class Setting:
             bodies = {name: body.replace(**changes) for name, body in bodies.items()}
         return scene.replace(bodies=bodies, step=self.step)
 
-    def key(self) -> tuple[Fraction, int, str, str]:
+    def key(self) -> tuple[Fraction, int, str, str, str]:
         """What tells it from other settings."""
-        return self.scale, self.order, self.model, f"{self.step!r}"
+        return self.scale, self.order, self.family, self.model, f"{self.step!r}"
 
 
 def is_explicit(setting: Setting) -> bool:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from tissu.scene.model import MassSpring, MeanDilatation
+from tissu.scene.model import LOCKING, MassSpring, MeanDilatation
 
 if TYPE_CHECKING:
     from tissu.compile.prepared import Findings
@@ -12,11 +12,6 @@ if TYPE_CHECKING:
     from tissu.scene.model import Model
     from tissu.scene.problem import Path
 
-_LOCKING = 0.45
-"""Poisson's ratio from which on it is noted: there a bar of three or four layers of tetrahedra or
-wedges bends by 27 to 37 % less than the same cells with mean dilatation, one of hexahedra or
-pyramids by 9 to 15 % less; at 0.4 by 17 to 24 and by 5 to 9 %, at 0.49 by 60 to 70 and 25 to 40 %
-(docs/mean-dilatation.md)."""
 _MUCH, _LESS = ("tetra", "wedge"), ("hexahedron", "pyramid")
 
 
@@ -30,7 +25,7 @@ def note_locking(
         if cell in (*_MUCH, *_LESS)
         and not isinstance(model, MassSpring | MeanDilatation)
         and not (quadrature == "reduced" and cell == "hexahedron")
-        and law.poisson_at_rest() >= _LOCKING
+        and law.poisson_at_rest() >= LOCKING
     ]
     if not locking:
         return

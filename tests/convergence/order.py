@@ -56,7 +56,7 @@ class Integrals:
 
 def cube(mesh, law, parameters, quadrature="full", setting="solid"):
     """A builder with the mesh as body "cube", of one law and 1 kg/m3, held in line or plane."""
-    builder = _core.WorldBuilder(threads=1, editable=False, consistent_weight=False)
+    builder = _core.WorldBuilder(threads=1, editable=False, grabbing=False, consistent_weight=False)
     builder.add_body(name="cube", positions=mesh.points, frames=False)
     first = 0
     for block in mesh.cells:

@@ -98,7 +98,7 @@ def _measured(
 
     (block,) = mesh.cells
     count = len(block) if own else 1
-    builder = _core.WorldBuilder(threads=1, editable=False, consistent_weight=False)
+    builder = _core.WorldBuilder(threads=1, editable=False, grabbing=False, consistent_weight=False)
     builder.add_body(name="body", positions=points, frames=False)
     builder.add_elastic(
         body="body",

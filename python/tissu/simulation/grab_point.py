@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numbers
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -58,7 +58,7 @@ def grab_point(
     if isinstance(at, numbers.Integral) and not isinstance(at, bool):
         point = _node(int(at), body, mesh.node_count, offset, has_frames=has_frames)
     else:
-        point = _place(at, body, mesh, offset, has_frames=has_frames)
+        point = _place(cast("VectorLike", at), body, mesh, offset, has_frames=has_frames)
     _require_free(simulation, body, point.nodes)
     return point
 

@@ -59,7 +59,8 @@ class FixedDofs {
   /// goes only that part of the way.
   void set_velocities(const State& from, double time, double h, double share, Reals v) const;
   /// Sets the led components of `way` to what leads `now` to where they are at that share of the way from
-  /// `start`. `before` is the share at which `now` stands: the turn by which a rotation goes on follows from it.
+  /// `start`. `before` is the share at which `now` stands: the turn by which a rotation goes on follows from
+  /// it.
   void set_way(const LedWay& way, const State& start, double before, double share, const State& now,
                Reals change) const;
   /// Something is led: it has a motion.

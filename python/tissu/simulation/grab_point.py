@@ -78,7 +78,7 @@ def _node(
 
 
 def _place(
-    at: VectorLike, body: str, mesh: Mesh, offset: VectorLike | None, *, has_frames: bool
+    at: int | VectorLike, body: str, mesh: Mesh, offset: VectorLike | None, *, has_frames: bool
 ) -> GrabPoint:
     place = np.array(_POSITION(at), dtype=float)
     if has_frames:

@@ -69,9 +69,8 @@ def render_surface(
         limits=limits,
     )
     shown = np.zeros((camera.size[1], camera.size[0], 4))
-    rows, columns = (_reach(layer.covered.any(axis=axis)) for axis in (1, 0))
-    part = (slice(FINER * rows.start, FINER * rows.stop),)
-    part += (slice(FINER * columns.start, FINER * columns.stop),)
+    rows, columns = (_reach(np.asarray(layer.covered.any(axis=k))) for k in (1, 0))
+    part = tuple(slice(FINER * some.start, FINER * some.stop) for some in (rows, columns))
     shown[rows, columns] = flatten(layer.colour[part], layer.covered[part].astype(np.float64))
     return shown
 
@@ -79,7 +78,7 @@ def render_surface(
 def _reach(covered: NDArray[np.bool_]) -> slice:
     """The shown pixels from the first to the last of which a finer one is covered."""
     at = np.flatnonzero(covered) // FINER
-    return slice(int(at[0]), int(at[-1]) + 1) if len(at) else slice(0)
+    return slice(int(at[0]), int(at[-1]) + 1) if len(at) else slice(0, 0)
 
 
 def render_layer(

@@ -230,7 +230,7 @@ def test_scenes_that_cannot_be_advised_are_told():
 
 def test_the_command_writes_scene_table_and_figure(tmp_path):
     file, out = tmp_path / "beam.yaml", tmp_path / "out"
-    beam().save(file)
+    beam(threads=1).save(file)
     words = ["advise", str(file), "--error", "2%", "--rate", "30", "--budget", "2 s"]
     result = CliRunner().invoke(app, [*words, "-o", str(out)])
     assert result.exit_code == 0, result.output

@@ -120,3 +120,35 @@ def test_a_reference_that_is_not_enough_has_richer_cells_tried():
 def test_a_reference_that_is_enough_has_no_other_cells_tried():
     found = reference_of(soft(cells=(2, 1, 1), poisson=0.3), lambda reference: True)
     assert found.tried.setting.family == ""
+
+
+def test_an_error_is_not_refused_before_hexahedra_of_second_order_ran():
+    advice = ts.advise(soft(cells=(2, 1, 1)), 1e-9, 1e-3, budget=6)
+    assert advice.chosen is None
+    ran = {row.mesh.split()[1] for row in advice.rows if row.outcome == "finished"}
+    assert {"tetra", "tetra10", "hexahedron20"} <= ran
+
+
+def test_a_reference_of_first_order_does_not_lock(monkeypatch):
+    """Where no cells of second order are affordable, it bends as they do (nu 0.49: fem a third)."""
+
+    def tip(scene):
+        simulation = scene.compile()
+        for _ in simulation.run():
+            pass
+        return -simulation.displacements("bar")[:, 2].min()
+
+    with monkeypatch.context() as patch:
+        all_bodies = Resolutions.bodies
+        patch.setattr(
+            Resolutions,
+            "bodies",
+            lambda self, scale, order, family="": (
+                all_bodies(self, scale, order, family) if order == 1 else None
+            ),
+        )
+        found = reference_of(soft(cells=(8, 2, 2)), lambda reference: True).tried
+    truth = tip(soft("hexahedron20", cells=(8, 2, 2)))
+    assert found.setting.order == 1
+    assert tip(soft(cells=(8, 2, 2))) < 0.45 * truth
+    assert tip(found.scene) == pytest.approx(truth, rel=0.25)

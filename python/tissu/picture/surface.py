@@ -68,7 +68,17 @@ def render_surface(
         colormap=colormap,
         limits=limits,
     )
-    return flatten(layer.colour, layer.covered.astype(np.float64))
+    shown = np.zeros((camera.size[1], camera.size[0], 4))
+    rows, columns = (_reach(np.asarray(layer.covered.any(axis=k))) for k in (1, 0))
+    part = tuple(slice(FINER * some.start, FINER * some.stop) for some in (rows, columns))
+    shown[rows, columns] = flatten(layer.colour[part], layer.covered[part].astype(np.float64))
+    return shown
+
+
+def _reach(covered: NDArray[np.bool_]) -> slice:
+    """The shown pixels from the first to the last of which a finer one is covered."""
+    at = np.flatnonzero(covered) // FINER
+    return slice(int(at[0]), int(at[-1]) + 1) if len(at) else slice(0, 0)
 
 
 def render_layer(

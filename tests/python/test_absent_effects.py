@@ -6,6 +6,7 @@ functions of an effect are known by their names; that these names are right is s
 
 from __future__ import annotations
 
+import re
 import sys
 from pathlib import Path
 
@@ -60,11 +61,12 @@ def test_the_scene_without_it_is_the_same_before_and_after(
 
 
 @needs_counts
-def test_leave_to_edit_costs_nothing_until_something_is_edited(
-    measured: dict[str, Measured],
-) -> None:
+def test_leave_to_edit_costs_the_room_in_the_matrix_alone(measured: dict[str, Measured]) -> None:
+    """An editable body keeps a quarter of its rows free: more to clear, nothing more to compute."""
     one = measured["editing allowed, nothing removed"]
-    assert one.present.own == one.without.own
+    assert one.present.own.keys() == one.without.own.keys()
+    changed = [f for f in one.present.own if one.present.own[f] != one.without.own[f]]
+    assert [f.name for f in changed if not re.search(r"memset|BlockMatrix::", f.name)] == []
     assert one.present.scene["checksum"] == one.without.scene["checksum"]
 
 

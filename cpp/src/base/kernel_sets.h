@@ -42,11 +42,13 @@ const Kernels* find_kernels(KernelList<Kernels> list, const Property& has) {
   }
 
 #ifdef TISSU_HAS_AVX2
+// NOLINTNEXTLINE(bugprone-macro-parentheses): a name behind :: stands without them
 #define TISSU_UNLESS_AVX2(isa, name, other) ((isa) == Isa::avx2 ? avx2::name : other)
 #else
 #define TISSU_UNLESS_AVX2(isa, name, other) other
 #endif
 #ifdef TISSU_HAS_AVX512
+// NOLINTNEXTLINE(bugprone-macro-parentheses): a name behind :: stands without them
 #define TISSU_UNLESS_AVX512(isa, name, other) ((isa) == Isa::avx512 ? avx512::name : other)
 #else
 #define TISSU_UNLESS_AVX512(isa, name, other) other

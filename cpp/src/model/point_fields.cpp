@@ -36,8 +36,8 @@ CellFields cell_means(const PointFields& points) {
       const double w = points.volumes[i];
       volume += w;
       energy += w * points.W[i];
-      ratio += w * points.F_at(i).determinant();
-      sigma += w * cauchy_stress(points.F_at(i), points.P_at(i));
+      ratio += w * points.gradient_at(i).determinant();
+      sigma += w * cauchy_stress(points.gradient_at(i), points.stress_at(i));
     }
     fields.von_mises.push_back(von_mises(sigma / volume));
     fields.energy_density.push_back(energy / volume);

@@ -122,8 +122,9 @@ Seen rasterise(std::span<const double> corners, std::span<const std::int64_t> tr
     if (buffer.owner[pixel] < 0) continue;
     const auto at = static_cast<std::int64_t>(pixel);
     const Triangle triangle = triangle_of(corners, triangles, static_cast<std::size_t>(buffer.owner[pixel]));
-    const Vec3 weights =
-        triangle.weights(static_cast<double>(at % width) + 0.5, static_cast<double>(at / width) + 0.5);
+    const std::int64_t row = at / width;
+    const std::int64_t column = at % width;
+    const Vec3 weights = triangle.weights(static_cast<double>(column) + 0.5, static_cast<double>(row) + 0.5);
     seen.pixel.push_back(at);
     seen.triangle.push_back(buffer.owner[pixel]);
     seen.weights.insert(seen.weights.end(), weights.data(), weights.data() + 3);

@@ -33,10 +33,10 @@ struct PointFields {
 
   /// Room for so many points, all zero.
   void resize(std::size_t points);
-  [[nodiscard]] Mat3 F_at(std::size_t point) const { return tensor(F, point); }
-  [[nodiscard]] Mat3 P_at(std::size_t point) const { return tensor(P, point); }
-  void set_F(std::size_t point, const Mat3& value) { set(F, point, value); }
-  void set_P(std::size_t point, const Mat3& value) { set(P, point, value); }
+  [[nodiscard]] Mat3 gradient_at(std::size_t point) const { return tensor(F, point); }
+  [[nodiscard]] Mat3 stress_at(std::size_t point) const { return tensor(P, point); }
+  void set_gradient(std::size_t point, const Mat3& value) { set(F, point, value); }
+  void set_stress(std::size_t point, const Mat3& value) { set(P, point, value); }
 
  private:
   using RowMajor = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;

@@ -53,11 +53,12 @@ PointFields Corotational::point_fields(const PointQuery& query) const {
   for (std::size_t cell = 0; cell < centre.cells(); ++cell) R.push_back(rotation_of(centre, cell, rotation_));
   PointFields turned = points;
   for (std::size_t i = 0; i < points.volumes.size(); ++i) {
-    turned.set_F(i, R[i / count].transpose() * points.F_at(i));
+    turned.set_gradient(i, R[i / count].transpose() * points.gradient_at(i));
   }
   ListedMaterial(block_, cells_of_points(points), query.isa).stress_and_energy(turned);
   points.W = turned.W;
-  for (std::size_t i = 0; i < points.volumes.size(); ++i) points.set_P(i, R[i / count] * turned.P_at(i));
+  for (std::size_t i = 0; i < points.volumes.size(); ++i)
+    points.set_stress(i, R[i / count] * turned.stress_at(i));
   return points;
 }
 

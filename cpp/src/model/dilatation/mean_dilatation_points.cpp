@@ -59,21 +59,23 @@ PointFields MeanDilatation::point_fields(const PointQuery& query) const {
   const auto count = static_cast<std::size_t>(points.points_per_cell);
   const auto patch = [&](std::size_t i) { return static_cast<std::size_t>(of_cell_[i / count]); };
   std::vector<double> J(points.volumes.size());
-  for (std::size_t i = 0; i < J.size(); ++i) J[i] = points.F_at(i).determinant();
+  for (std::size_t i = 0; i < J.size(); ++i) J[i] = points.gradient_at(i).determinant();
   const std::vector<double> theta = patch_means(points, of_cell_, J);
   std::vector<double> s(J.size());
   PointFields dilated = points;
   for (std::size_t i = 0; i < J.size(); ++i) {
     s[i] = std::cbrt(Bounded(theta[patch(i)]).rho / Bounded(J[i]).rho);
-    dilated.set_F(i, s[i] * points.F_at(i));
+    dilated.set_gradient(i, s[i] * points.gradient_at(i));
   }
   ListedMaterial(block_, cells_of_points(points), query.isa).stress_and_energy(dilated);
   std::vector<double> q(J.size());
-  for (std::size_t i = 0; i < J.size(); ++i) q[i] = dilated.P_at(i).cwiseProduct(dilated.F_at(i)).sum() / 3.0;
+  for (std::size_t i = 0; i < J.size(); ++i)
+    q[i] = dilated.stress_at(i).cwiseProduct(dilated.gradient_at(i)).sum() / 3.0;
   const std::vector<double> Q = patch_means(points, of_cell_, q);
   for (std::size_t i = 0; i < J.size(); ++i) {
     const double pi = Bounded(theta[patch(i)]).slope * Q[patch(i)];
-    points.set_P(i, s[i] * dilated.P_at(i) + (pi - q[i] * Bounded(J[i]).slope) * cofactors(points.F_at(i)));
+    points.set_stress(i, s[i] * dilated.stress_at(i) +
+                             (pi - q[i] * Bounded(J[i]).slope) * cofactors(points.gradient_at(i)));
   }
   points.W = dilated.W;
   return points;

@@ -69,7 +69,7 @@ PointFields PlacedCells::lay() const {
     const CellPoint at = point(i / count, i % count);
     Eigen::Map<Vec3>(points.positions.data() + 3 * i) = at.position;
     points.volumes[i] = at.volume;
-    points.set_F(i, at.dx);
+    points.set_gradient(i, at.dx);
   }
   return points;
 }

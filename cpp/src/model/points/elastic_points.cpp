@@ -59,16 +59,16 @@ void fill_across(const Thin& thin, const PlacedCells& placed, const ListedMateri
                  PointFields& points) {
   const auto count = static_cast<std::size_t>(points.points_per_cell);
   for (std::size_t i = 0; i < points.volumes.size(); ++i) {
-    points.set_F(i, thin.unstrained_across(placed.point(i / count, i % count)));
+    points.set_gradient(i, thin.unstrained_across(placed.point(i / count, i % count)));
   }
   if (thin.plane == Plane::strain) return;
   PointFields free = points;
   for (std::size_t i = 0; thin.small_strain && i < points.volumes.size(); ++i) {
-    free.set_F(i, symmetric_part(points.F_at(i)));
+    free.set_gradient(i, symmetric_part(points.gradient_at(i)));
   }
   material.stretch_across(thin.m, free.F);
   for (std::size_t i = 0; i < points.volumes.size(); ++i) {
-    points.set_F(i, thin.stretched(points.F_at(i), free.F_at(i)));
+    points.set_gradient(i, thin.stretched(points.gradient_at(i), free.gradient_at(i)));
   }
 }
 
@@ -95,8 +95,8 @@ PointFields elastic_points(const ElasticBlock& block, const PointQuery& query) {
   const auto count = static_cast<std::size_t>(points.points_per_cell);
   for (std::size_t i = 0; i < points.volumes.size(); ++i) {
     const Mat3 Q = placed.point(i / count, i % count).Q;
-    points.set_F(i, Q * points.F_at(i) * Q.transpose());
-    points.set_P(i, Q * points.P_at(i) * Q.transpose());
+    points.set_gradient(i, Q * points.gradient_at(i) * Q.transpose());
+    points.set_stress(i, Q * points.stress_at(i) * Q.transpose());
   }
   return points;
 }

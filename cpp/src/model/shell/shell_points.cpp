@@ -56,8 +56,8 @@ PointFields Shell::point_fields(const PointQuery& query) const {
       const Vec3 sigma = C * eps;
       Mat3 F = Mat3::Identity() + in_plane(eps, 2.0);
       F(2, 2) -= section.poisson / (1.0 - section.poisson) * (eps[0] + eps[1]);
-      points.set_F(i, motion.R * F * element.axes().transpose());
-      points.set_P(i, motion.R * in_plane(sigma, 1.0) * element.axes().transpose());
+      points.set_gradient(i, motion.R * F * element.axes().transpose());
+      points.set_stress(i, motion.R * in_plane(sigma, 1.0) * element.axes().transpose());
       points.W[i] = 0.5 * sigma.dot(eps);
       points.volumes[i] = kShares[k] * element.volume();
       Eigen::Map<Vec3>(points.positions.data() + 3 * i) = centroid + z * element.axes().col(2);

@@ -114,8 +114,8 @@ TEST_P(PointFieldsTest, DoTheWorkOfTheForce) {
   double work = 0.0;
   double energy = 0.0;
   for (std::size_t i = 0; i < now.volumes.size(); ++i) {
-    const Mat3 dF = (after.F_at(i) - before.F_at(i)) / (2.0 * h);
-    work += now.volumes[i] * now.P_at(i).cwiseProduct(dF).sum();
+    const Mat3 dF = (after.gradient_at(i) - before.gradient_at(i)) / (2.0 * h);
+    work += now.volumes[i] * now.stress_at(i).cwiseProduct(dF).sum();
     energy += now.volumes[i] * now.W[i];
   }
   EXPECT_NEAR(work, expected, 1e-7 * std::abs(expected) + 1e-7);  // h^2
@@ -139,8 +139,8 @@ TEST_P(PointFieldsTest, AreThoseOfAVolume) {
     whole.col(k) *= std::sqrt(1.0 - 2.0 * across * trace);
   const PointFields found = points(sample_.moved(Q * F * Q.transpose()));
   for (std::size_t i = 0; i < found.volumes.size(); ++i) {
-    EXPECT_LT((found.F_at(i) - Q * whole * Q.transpose()).norm(), 1e-12);
-    EXPECT_LT((found.P_at(i) - Q * stvk_stress(whole) * Q.transpose()).norm(), 1e-9);
+    EXPECT_LT((found.gradient_at(i) - Q * whole * Q.transpose()).norm(), 1e-12);
+    EXPECT_LT((found.stress_at(i) - Q * stvk_stress(whole) * Q.transpose()).norm(), 1e-9);
   }
   const Elastic elastic(sample_.block, sample_.X, choose_isa(), Threads(1));
   const CellFields fields = elastic.fields(sample_.moved(Q * F * Q.transpose()));

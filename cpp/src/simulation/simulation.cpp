@@ -102,7 +102,7 @@ StepReport Simulation::step(double h) {
     throw;
   }
   if (!std::isfinite(report.residual) || !is_sane()) roll_back(h);
-  if (watch_) watch_energy(report);
+  if (watch_) watch_energy(*watch_, report);
   remember(*world_, state_);
   world_->fixed().copy(state_.velocities, held_);
   settled_ = false;
@@ -113,16 +113,16 @@ StepReport Simulation::step(double h) {
   return report;
 }
 
-void Simulation::watch_energy(StepReport& report) {
-  watch_->end(*world_, state_);
-  if (watch_->growth() <= EnergyWatch::kReported) return;
-  if (watch_->growth() <= EnergyWatch::kRefused) {
+void Simulation::watch_energy(EnergyWatch& watch, StepReport& report) {
+  watch.end(*world_, state_);
+  if (watch.growth() <= EnergyWatch::kReported) return;
+  if (watch.growth() <= EnergyWatch::kRefused) {
     report.converged = false;
-    report.message = watch_->say();
+    report.message = watch.say();
     return;
   }
   const Culprit culprit = worst_cell(*world_, state_);
-  const std::string message = "in the step from t = " + number_text(last_good_.time) + " s " + watch_->say() +
+  const std::string message = "in the step from t = " + number_text(last_good_.time) + " s " + watch.say() +
                               ". The simulation stands at its last good step.";
   state_ = last_good_;
   throw Diverged(message, culprit.body, culprit.element, state_.time);

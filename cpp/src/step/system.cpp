@@ -81,7 +81,7 @@ void System::assemble(const State& state, double mass, StiffnessScale scale) {
   const bool same = assembled_ && mass_scale_ == mass && scale_.position == scale.position &&
                     scale_.velocity == scale.velocity && scale_.definite == scale.definite;
   if (same && is_constant_ && matrix_) {
-    if (!world_.run_time().coupling.empty()) couple(state, scale);
+    if (!world_.run_time().coupling.empty()) couple(state, scale, *matrix_);
     return;
   }
   if (same && world_.is_linear()) return;
@@ -110,13 +110,13 @@ void System::assemble_blocks(const State& state, double mass, StiffnessScale sca
     model.add_stiffness(state, scratch_, scale, *matrix_);
   }
   matrix_->constrain(world_.fixed().rows(), world_.fixed().masks());
-  if (!world_.run_time().coupling.empty()) couple(state, scale);
+  if (!world_.run_time().coupling.empty()) couple(state, scale, *matrix_);
   if (solver_ == nullptr || !solver_->needs_places()) return;
   place_rows(state);
   matrix_->set_places(&places_);
 }
 
-void System::couple(const State& state, StiffnessScale scale) {
+void System::couple(const State& state, StiffnessScale scale, BlockMatrix& matrix) {
   couplings_.clear();
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     const ForceModel& model = *world_.forces()[i];
@@ -125,7 +125,7 @@ void System::couple(const State& state, StiffnessScale scale) {
     model.add_couplings(state, scale, couplings_);
   }
   couplings_.close(world_.blocks(), &world_.fixed().masks());
-  matrix_->set_couplings(couplings_.empty() ? nullptr : &couplings_);
+  matrix.set_couplings(couplings_.empty() ? nullptr : &couplings_);
 }
 
 void System::place_rows(const State& state) {

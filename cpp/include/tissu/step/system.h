@@ -51,7 +51,7 @@ class System {
     std::size_t stiffness;
   };
   /// What is coupled now, beside the matrix.
-  void couple(const State& state, StiffnessScale scale);
+  void couple(const State& state, StiffnessScale scale, BlockMatrix& matrix);
   /// Where the rows are, for a solver that asks.
   void place_rows(const State& state);
   void assemble_blocks(const State& state, double mass, StiffnessScale scale);

@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "base/kernel_sets.h"
+#include "base/kernel_choice.h"
 #include "loops.h"
 #include "meshes.h"
 #include "tissu/base/array.h"

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/kernel_sets.h"
+#include "base/kernel_choice.h"
 #include "loops.h"
 #include "tissu/base/array.h"
 #include "tissu/base/parallel.h"

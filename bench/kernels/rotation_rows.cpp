@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "base/kernel_sets.h"
+#include "base/kernel_choice.h"
 #include "loops.h"
 #include "machine.h"
 #include "tissu/base/array.h"

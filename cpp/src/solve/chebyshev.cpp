@@ -25,7 +25,7 @@ double scattered(std::size_t i) {
 }  // namespace
 
 template <class T>
-void Chebyshev<T>::make(const LevelMatrix& A, Isa isa, const Threads& threads) {
+void Chebyshev<T>::make(const LevelMatrix& A, Isa isa, const Threads& threads, bool measured) {
   A_.refer(*A.begin, *A.column, isa, A.end);
   couplings_ = A.couplings;
   coupling_scale_ = A.coupling_scale;
@@ -42,7 +42,7 @@ void Chebyshev<T>::make(const LevelMatrix& A, Isa isa, const Threads& threads) {
           (0.5 * (inverse + inverse.transpose())).template cast<T>();
     }
   });
-  find_largest(threads);
+  if (measured) find_largest(threads);
 }
 
 template <class T>

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "forecast.h"
 #include "iteration.h"
 #include "tissu/base/error.h"
 
@@ -59,7 +60,8 @@ std::string name_of(const ConjugateGradient::Settings& settings) {
 
 }  // namespace
 
-ConjugateGradient::ConjugateGradient(Settings settings) : settings_(settings), name_(name_of(settings)) {
+ConjugateGradient::ConjugateGradient(Settings settings)
+    : settings_(settings), name_(name_of(settings)), forecast_(std::make_unique<Forecast>()) {
   if (!(settings.tolerance > 0.0) || settings.iterations < 1) {
     throw ParameterError("conjugate gradient needs a positive tolerance and at least one iteration.");
   }
@@ -148,6 +150,7 @@ SolveReport ConjugateGradient::solve(const LinearOperator& A, ConstReals b, Real
   rounds(A, b, x, reference, report);
   if (full_) full_->end_solve();
   if (single_) single_->end_solve();
+  if (report.converged) forecast_->keep(x);
   return report;
 }
 
@@ -155,7 +158,9 @@ void ConjugateGradient::rounds(const LinearOperator& A, ConstReals b, Reals x, d
                                SolveReport& report) {
   bool single = settings_.precision == Precision::single;
   bool renew = false;
+  const bool zero = std::ranges::all_of(x, [](double value) { return value == 0.0; });
   double size = residual(A, b, x);
+  if (zero && size > settings_.tolerance * reference) size = forecast_->start(A, size, r_, x);
   Progress progress{size};
   for (int round = 0;; ++round) {
     report.residual = size / reference;
@@ -199,12 +204,13 @@ void ConjugateGradient::rounds(const LinearOperator& A, ConstReals b, Reals x, d
 void ConjugateGradient::forget() {
   if (full_) full_->forget();
   if (single_) single_->forget();
+  forecast_->forget();
 }
 
 std::size_t ConjugateGradient::bytes() const {
   const std::size_t vectors = (r_.size() + change_.size()) * sizeof(double) +
                               (single_r_.size() + single_change_.size()) * sizeof(float);
-  return vectors + (full_ ? full_->bytes() : 0) + (single_ ? single_->bytes() : 0);
+  return vectors + forecast_->bytes() + (full_ ? full_->bytes() : 0) + (single_ ? single_->bytes() : 0);
 }
 
 }  // namespace tissu

@@ -28,9 +28,15 @@ bool Iteration<T>::prepare(const LinearOperator& A, bool forced) {
   if constexpr (std::is_same_v<T, float>) matrix_.update(*A.matrix());
   const bool serves = made_ && id_ == A.id() && given_ == A.given();
   if (serves && version_ == A.version()) return false;
-  if (serves && !forced && !renewal_.due(expected(A))) return false;
-  made_ = false;
-  M_->make(A, scale());
+  if (serves && !forced && !in_parts_ && !renewal_.due(expected(A))) return false;
+  if (serves && !forced) {
+    in_parts_ = !M_->make_part(A, scale());
+    if (in_parts_) return true;
+  } else {
+    in_parts_ = false;
+    made_ = false;
+    M_->make(A, scale());
+  }
   renewal_.made(M_->price());
 
   made_ = true;
@@ -140,7 +146,7 @@ End Iteration<T>::run(const LinearOperator& A, std::span<T> r, std::span<T> d, d
   if (!goes_on_) std::ranges::fill(p_, T(0));
   std::ranges::fill(d, T(0));
   const double left =
-      version_ == A.version() ? Renewal::kUnlimited : std::min(0.5 * most, renewal_.left() - spent_);
+      version_ == A.version() || in_parts_ ? Renewal::kUnlimited : std::min(0.5 * most, renewal_.left() - spent_);
   iterations_ = 0;
   double square = 0.0;
   double rz = advance(threads, r, d, 0.0, square);
@@ -172,7 +178,7 @@ End Iteration<T>::run(const LinearOperator& A, std::span<T> r, std::span<T> d, d
 
 template <class T>
 void Iteration<T>::forget() {
-  made_ = false;
+  made_ = in_parts_ = false;
   renewal_ = Renewal();
   M_->forget();
 }

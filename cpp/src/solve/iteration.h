@@ -60,6 +60,7 @@ class Iteration {
   Renewal renewal_;
   bool made_ = false;
   bool made_midway_ = false;
+  bool in_parts_ = false;  ///< a making has begun that takes several solves
   std::uint64_t id_ = 0;
   std::uint64_t version_ = 0;
   const std::vector<std::uint8_t>* given_ = nullptr;

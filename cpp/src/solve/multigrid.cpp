@@ -9,60 +9,139 @@ constexpr std::int32_t kDirect = 80;  ///< rows of a level that gets a factor
 constexpr double kCoarser = 0.7;      ///< rows that a next level has at most, of those of its finer one
 constexpr double kOverrelaxed = 4.0 / 3.0;
 constexpr double kPairBytes = 400;  ///< what a product of a block with a motion costs, in bytes read
+constexpr double kPart = 1.5;     ///< iterations that a part of a making may take
+constexpr double kRefresh = 1.5;  ///< cycles of smoothing that a smoother and its prolongation take
 constexpr double kFirstShift = 1e-10;
 
 }  // namespace
 
 template <class T>
 void Multigrid<T>::make(const LinearOperator& A, double scale) {
-  const BlockMatrix& matrix = *A.matrix();
   const bool bound = !levels_.empty() && (direct_ || levels_.size() > 1);
   if (!complete_ || !bound || id_ != A.id() || given_ != A.given()) levels_.clear();
   complete_ = false;
   id_ = A.id();
   given_ = A.given();
-  isa_ = matrix.isa();
-  threads_ = matrix.threads();
-  LevelMatrix level{&matrix.sparsity().row_begin, &matrix.sparsity().column, matrix.values(), scale, given_,
-                    matrix.sparsity().row_end()};
+  isa_ = A.matrix()->isa();
+  threads_ = A.matrix()->threads();
   const bool fresh = levels_.empty();
-  if (fresh) start(level);
-  take_couplings(A, level);
-  if (A.places() != nullptr) levels_.front()->places = *A.places();
-  for (std::size_t n = 0;; ++n) {
-    Level& fine = *levels_[n];
-    direct_ = level.rows() <= kDirect;
-    if (direct_) break;
-    fine.smoother.make(level, isa_, threads_);
-    if (fresh && !coarsen(level, fine)) break;
-    if (!fine.pattern) break;
+  direct_ = false;
+  part_ = 0;
+  if (fresh) start(fine_matrix(A, scale));
+  take(A);
+  for (std::size_t n = 0; refresh(n, A, scale, fresh, true); ++n) {
     if (fresh) levels_.push_back(std::make_unique<Level>());
-    Level& coarse = *levels_[n + 1];
-    place_aggregates(fine.aggregates, fine.places, coarse.places);
-    fine.P.refer(fine.prolongation.begin, fine.prolongation.column, isa_);
-    fine.R.refer(fine.restriction.begin, fine.restriction.column, isa_);
-    fill_prolongation(level, fine.aggregates, fine.places, coarse.places, fine.smoother.inverse(),
-                      kOverrelaxed / fine.smoother.largest(), *fine.pattern, threads_, fine.P);
-    fill_restriction(*fine.pattern, fine.P, threads_, fine.R);
-    fill_coarse_matrix(level, *fine.pattern, fine.P, threads_, scratch_, fine.next_values);
-    level = {&fine.next_pattern.begin, &fine.next_pattern.column, fine.next_values.data(), 1.0, nullptr};
-    if (A.couplings() == nullptr) continue;
-    coarsen_couplings(fine.couplings, fine.aggregates, fine.places, coarse.places, carried_,
-                      coarse.couplings);
-    level.couplings = &coarse.couplings;
-    level.coupling_scale = scale;
+    project(n, A, scale);
   }
-  if (direct_) factor(level);
-  set_price(A);
-  complete_ = true;
+  finish(A, scale);
+}
+
+/// Parts in turn: the smoother of a level with its prolongation, the matrix of the next one row by row, and so on.
+/// What is new works with what is old: each part is of a matrix that was given lately.
+template <class T>
+bool Multigrid<T>::make_part(const LinearOperator& A, double scale) {
+  const bool couples = has_couplings_ || A.couplings() != nullptr;  // its parts would not fit each other
+  if (!complete_ || couples || id_ != A.id() || given_ != A.given()) {
+    make(A, scale);
+    return true;
+  }
+  double left = kPart;  // iterations
+  while (left > 0.0) {
+    if (part_ == 0) {
+      take(A);
+      renewals_ = (renewals_ + 1) % kMeasured;
+    }
+    const auto n = static_cast<std::size_t>(part_ / 2);
+    Level& level = *levels_[n];
+    if (part_ % 2 == 0) {
+      if (!refresh(n, A, scale, false, renewals_ == 0)) {
+        finish(A, scale);
+        return true;
+      }
+      left -= kRefresh * level.smoother.cycle_bytes() / iteration_bytes_;
+      row_ = 0;
+      ++part_;
+      continue;
+    }
+    const double whole = kPairBytes * static_cast<double>(level.pattern->pairs) / iteration_bytes_;
+    const double rows = static_cast<double>(level.smoother.rows());
+    const auto some = static_cast<std::int32_t>(std::clamp(rows * kPart / std::max(whole, 1e-9), 1.0, rows));
+    left -= whole * some / rows;
+    row_ = fill_coarse_part(level_matrix(n, A, scale), *level.pattern, level.P, row_, some, threads_, scratch_,
+                            level.next_values);
+    if (row_ > 0) continue;
+    levels_[n + 1]->places = level.next_places;
+    ++part_;
+  }
+  return false;
 }
 
 template <class T>
-void Multigrid<T>::take_couplings(const LinearOperator& A, LevelMatrix& level) {
-  if (A.couplings() == nullptr) return;
-  levels_.front()->couplings = *A.couplings();
-  level.couplings = &levels_.front()->couplings;
-  level.coupling_scale = level.scale;
+void Multigrid<T>::finish(const LinearOperator& A, double scale) {
+  if (direct_) factor(level_matrix(levels_.size() - 1, A, scale));
+  set_price(A);
+  complete_ = true;
+  part_ = 0;
+}
+
+template <class T>
+LevelMatrix Multigrid<T>::fine_matrix(const LinearOperator& A, double scale) const {
+  const BlockMatrix& matrix = *A.matrix();
+  return {&matrix.sparsity().row_begin, &matrix.sparsity().column,   matrix.values(), scale, given_,
+          matrix.sparsity().row_end()};
+}
+
+template <class T>
+LevelMatrix Multigrid<T>::level_matrix(std::size_t n, const LinearOperator& A, double scale) const {
+  LevelMatrix level = fine_matrix(A, scale);
+  if (n > 0) {
+    const Level& finer = *levels_[n - 1];
+    level = {&finer.next_pattern.begin, &finer.next_pattern.column, finer.next_values.data(), 1.0, nullptr};
+  }
+  if (has_couplings_) {
+    level.couplings = &levels_[n]->couplings;
+    level.coupling_scale = scale;
+  }
+  return level;
+}
+
+template <class T>
+bool Multigrid<T>::refresh(std::size_t n, const LinearOperator& A, double scale, bool fresh, bool measured) {
+  Level& fine = *levels_[n];
+  const LevelMatrix level = level_matrix(n, A, scale);
+  if (level.rows() <= kDirect) {
+    direct_ = true;
+    return false;
+  }
+  fine.smoother.make(level, isa_, threads_, measured);
+  if (fresh && !coarsen(level, fine)) return false;
+  if (!fine.pattern) return false;
+  place_aggregates(fine.aggregates, fine.places, fine.next_places);
+  fine.P.refer(fine.prolongation.begin, fine.prolongation.column, isa_);
+  fine.R.refer(fine.restriction.begin, fine.restriction.column, isa_);
+  fill_prolongation(level, fine.aggregates, fine.places, fine.next_places, fine.smoother.inverse(),
+                    kOverrelaxed / fine.smoother.largest(), *fine.pattern, threads_, fine.P);
+  fill_restriction(*fine.pattern, fine.P, threads_, fine.R);
+  return true;
+}
+
+template <class T>
+void Multigrid<T>::project(std::size_t n, const LinearOperator& A, double scale) {
+  Level& fine = *levels_[n];
+  Level& coarse = *levels_[n + 1];
+  coarse.places = fine.next_places;
+  fill_coarse_matrix(level_matrix(n, A, scale), *fine.pattern, fine.P, threads_, scratch_, fine.next_values);
+  if (!has_couplings_) return;
+  coarsen_couplings(fine.couplings, fine.aggregates, fine.places, coarse.places, carried_, coarse.couplings);
+}
+
+/// Of the first level: where its rows are, and what couples them.
+template <class T>
+void Multigrid<T>::take(const LinearOperator& A) {
+  Level& first = *levels_.front();
+  if (A.places() != nullptr) first.places = *A.places();
+  has_couplings_ = A.couplings() != nullptr;
+  if (has_couplings_) first.couplings = *A.couplings();
 }
 
 /// The first level; its rows are points at one place until others are known.
@@ -153,8 +232,8 @@ void Multigrid<T>::set_price(const LinearOperator& A) {
     cycle += static_cast<double>(level->P.bytes() + level->R.bytes());
     made += kPairBytes * static_cast<double>(level->pattern->pairs);
   }
-  const double iteration = static_cast<double>(A.bytes()) + kVectorBytes * A.rows() + cycle;
-  price_ = made / iteration;
+  iteration_bytes_ = static_cast<double>(A.bytes()) + kVectorBytes * A.rows() + cycle;
+  price_ = made / iteration_bytes_;
 }
 
 template <class T>

@@ -23,9 +23,13 @@ template <class T>
 class Multigrid final : public Preconditioner<T> {
  public:
   void make(const LinearOperator& A, double scale) override;
+  bool make_part(const LinearOperator& A, double scale) override;
   [[nodiscard]] double price() const override { return price_; }
   void apply(std::span<const T> r, std::span<T> z) override;
-  void forget() override { levels_.clear(); }
+  void forget() override {
+    levels_.clear();
+    part_ = renewals_ = 0;
+  }
   [[nodiscard]] std::size_t bytes() const override;
   /// Rows of each level, the coarsest last.
   [[nodiscard]] std::vector<std::int32_t> level_rows() const;
@@ -33,6 +37,7 @@ class Multigrid final : public Preconditioner<T> {
  private:
   struct Level {
     RowPlaces places;
+    RowPlaces next_places;  ///< of the next level
     Couplings couplings;  ///< as they were when it was made
     Chebyshev<T> smoother;
     Aggregates aggregates;
@@ -47,8 +52,14 @@ class Multigrid final : public Preconditioner<T> {
     std::vector<T> answer;  ///< of the next level
     std::vector<T> change;
   };
-  /// Without them when there are none.
-  void take_couplings(const LinearOperator& A, LevelMatrix& level);
+  void take(const LinearOperator& A);
+  [[nodiscard]] LevelMatrix fine_matrix(const LinearOperator& A, double scale) const;
+  [[nodiscard]] LevelMatrix level_matrix(std::size_t n, const LinearOperator& A, double scale) const;
+  /// The smoother of a level and its prolongation; false: it is the last one. `measured`: with its eigenvalue.
+  bool refresh(std::size_t n, const LinearOperator& A, double scale, bool fresh, bool measured);
+  /// The matrix of the next level.
+  void project(std::size_t n, const LinearOperator& A, double scale);
+  void finish(const LinearOperator& A, double scale);
   void start(const LevelMatrix& A);
   bool coarsen(const LevelMatrix& A, Level& level) const;
   void factor(const LevelMatrix& A);
@@ -62,12 +73,18 @@ class Multigrid final : public Preconditioner<T> {
   std::vector<std::unique_ptr<Level>> levels_;
   CoarseScratch scratch_;
   std::vector<CarriedPart> carried_;
+  static constexpr int kMeasured = 4;  ///< makings in parts, of which one measures the largest eigenvalues
+  int part_ = 0;                       ///< the next one of a making in parts
+  int renewals_ = 0;                   ///< makings in parts, modulo kMeasured
+  bool has_couplings_ = false;
   bool complete_ = false;  ///< the latest making came to its end
   bool direct_ = false;    ///< the coarsest level is solved by its factor
   Eigen::LLT<Eigen::MatrixXd> factor_;
   Eigen::MatrixXd dense_;
   Eigen::VectorXd vector_;
+  std::int32_t row_ = 0;  ///< at which a making in parts goes on
   double price_ = 0.0;
+  double iteration_bytes_ = 1.0;
 };
 
 }  // namespace tissu

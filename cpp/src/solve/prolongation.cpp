@@ -89,13 +89,19 @@ std::int64_t end_of(const RowPattern& pattern, std::int32_t row) {
   return pattern.begin[static_cast<std::size_t>(row) + 1];
 }
 
-/// Calls f(b, t) for the blocks b of a row of `from` and the blocks t of the same columns of a row of `to`,
-/// which has them all.
+/// The block of a row in the first column that is not before `least`.
+std::int64_t place_of(const RowPattern& pattern, std::int32_t row, std::int32_t least) {
+  const auto columns = pattern.row(row);
+  return begin_of(pattern, row) + (std::ranges::lower_bound(columns, least) - columns.begin());
+}
+
+/// Calls f(b, t) for the blocks b of a row of `from`, from the column `least` on, and the blocks t of the same
+/// columns of a row of `to`, which has them all.
 template <class Function>
 void for_same_columns(const RowPattern& from, std::int32_t row, const RowPattern& to, std::int32_t other,
-                      Function&& f) {
-  std::int64_t t = begin_of(to, other);
-  for (std::int64_t b = begin_of(from, row); b < end_of(from, row); ++b) {
+                      std::int32_t least, Function&& f) {
+  std::int64_t t = place_of(to, other, least);
+  for (std::int64_t b = place_of(from, row, least); b < end_of(from, row); ++b) {
     while (to.column[static_cast<std::size_t>(t)] != from.column[static_cast<std::size_t>(b)]) ++t;
     f(b, t);
   }
@@ -119,7 +125,7 @@ void fill_product(const LevelMatrix& A, const CoarsePattern& pattern, const Bloc
   for (std::int32_t i = begin; i < end; ++i) {
     for (std::int64_t s = A.first(i); s < A.last(i); ++s) {
       const Mat3 block = A.scale * A.block(s);
-      for_same_columns(pattern.prolongation, A.column_of(s), pattern.product, i,
+      for_same_columns(pattern.prolongation, A.column_of(s), pattern.product, i, 0,
                        [&](std::int64_t b, std::int64_t to) {
                          motion_at(product, to - first).noalias() +=
                              block.lazyProduct(motion_at(P, b).template cast<double>());
@@ -231,61 +237,109 @@ void fill_restriction(const CoarsePattern& pattern, const BlockRows<T>& P, const
   });
 }
 
+namespace {
+
+/// The rows of an aggregate in P^T A P: those of its translation lie before those of its rotation, 3x6 for each
+/// aggregate that it meets.
+struct AggregateRows {
+  AggregateRows(const RowPattern& pattern, AlignedVector<double>& values, std::int32_t aggregate)
+      : pattern_(pattern),
+        a_(aggregate),
+        moving_(values.data() + 36 * begin_of(pattern, aggregate)),
+        turning_(moving_ + 18 * pattern.length(aggregate)) {}
+  /// Of the block with this number in the pattern.
+  [[nodiscard]] Eigen::Map<Motion> moving(std::int64_t block) const { return at(moving_, block); }
+  [[nodiscard]] Eigen::Map<Motion> turning(std::int64_t block) const { return at(turning_, block); }
+
+ private:
+  [[nodiscard]] Eigen::Map<Motion> at(double* rows, std::int64_t block) const {
+    return Eigen::Map<Motion>(rows + 18 * (block - begin_of(pattern_, a_)));
+  }
+  const RowPattern& pattern_;
+  std::int32_t a_;
+  double* moving_;
+  double* turning_;
+};
+
+/// What was summed for columns from the diagonal on, mirrored, so that the matrix is symmetric whatever it was
+/// summed from; and what nothing drives, held.
+void complete_rows(const RowPattern& matrix, std::int32_t a, AlignedVector<double>& values) {
+  const AggregateRows rows(matrix, values, a);
+  const std::int64_t own = place_of(matrix, a, a);
+  for (std::int64_t b = begin_of(matrix, a); b < own; ++b) {
+    const std::int32_t c = matrix.column[static_cast<std::size_t>(b)];
+    const AggregateRows other(matrix, values, c);
+    const std::int64_t mirrored = place_of(matrix, c, a);
+    rows.moving(b) << other.moving(mirrored).leftCols<3>().transpose(),
+        other.turning(mirrored).leftCols<3>().transpose();
+    rows.turning(b) << other.moving(mirrored).rightCols<3>().transpose(),
+        other.turning(mirrored).rightCols<3>().transpose();
+  }
+  Eigen::Map<Motion> moving = rows.moving(own);
+  Eigen::Map<Motion> turning = rows.turning(own);
+  moving.leftCols<3>() = (0.5 * (moving.leftCols<3>() + moving.leftCols<3>().transpose())).eval();
+  turning.rightCols<3>() = (0.5 * (turning.rightCols<3>() + turning.rightCols<3>().transpose())).eval();
+  turning.leftCols<3>() = moving.rightCols<3>().transpose();
+  hold_idle(moving.leftCols<3>(), 1.0);
+  hold_idle(turning.rightCols<3>(), moving.leftCols<3>().diagonal().maxCoeff());
+}
+
+}  // namespace
+
 template <class T>
-void fill_coarse_matrix(const LevelMatrix& A, const CoarsePattern& pattern, const BlockRows<T>& P,
-                        const Threads& threads, CoarseScratch& scratch, AlignedVector<double>& values) {
+void add_coarse_rows(const LevelMatrix& A, const CoarsePattern& pattern, const BlockRows<T>& P, std::int32_t from,
+                     std::int32_t to, const Threads& threads, CoarseScratch& scratch,
+                     AlignedVector<double>& values) {
   const RowPattern& matrix = pattern.matrix;
-  // The rows of an aggregate's translation lie before those of its rotation.
-  const auto lower_of = [&](std::int32_t a) { return 18 * matrix.length(a); };
-  values.resize(static_cast<std::size_t>(36 * matrix.blocks() + 1));
-  scratch.next.resize(std::max(scratch.next.size(), static_cast<std::size_t>(matrix.rows())));
+  const std::int64_t first = begin_of(pattern.product, from);
+  const auto size = static_cast<std::size_t>(18 * (begin_of(pattern.product, to) - first));
+  if (scratch.product.size() < size) scratch.product.resize(size);
+  threads.for_pieces(to - from, [&](std::int32_t begin, std::int32_t end) {
+    fill_product(A, pattern, P, from + begin, from + end, first, scratch.product);
+  });
   threads.for_pieces(matrix.rows(), [&](std::int32_t begin, std::int32_t end) {
-    std::fill(values.begin() + 36 * begin_of(matrix, begin), values.begin() + 36 * begin_of(matrix, end),
-              0.0);
     for (std::int32_t a = begin; a < end; ++a) {
-      scratch.next[static_cast<std::size_t>(a)] = begin_of(pattern.restriction, a);
+      const AggregateRows rows(matrix, values, a);
+      std::int64_t& r = scratch.next[static_cast<std::size_t>(a)];
+      for (; r < end_of(pattern.restriction, a); ++r) {
+        const std::int32_t i = pattern.restriction.column[static_cast<std::size_t>(r)];
+        if (i >= to) break;
+        const Motion moved = motion_at(P, pattern.place[static_cast<std::size_t>(r)]).template cast<double>();
+        for_same_columns(pattern.product, i, matrix, a, a, [&](std::int64_t b, std::int64_t c) {
+          const Eigen::Map<Motion> force = motion_at(scratch.product, b - first);
+          rows.moving(c).noalias() += moved.leftCols<3>().transpose().lazyProduct(force);
+          rows.turning(c).noalias() += moved.rightCols<3>().transpose().lazyProduct(force);
+        });
+      }
     }
   });
-  const std::int32_t most = std::max(kLeastRows, A.rows() / kParts + 1);
-  for (std::int32_t from = 0; from < A.rows(); from += most) {
-    const std::int32_t to = std::min(A.rows(), from + most);
-    const std::int64_t first = begin_of(pattern.product, from);
-    const auto size = static_cast<std::size_t>(18 * (begin_of(pattern.product, to) - first));
-    if (scratch.product.size() < size) scratch.product.resize(size);
-    threads.for_pieces(to - from, [&](std::int32_t begin, std::int32_t end) {
-      fill_product(A, pattern, P, from + begin, from + end, first, scratch.product);
-    });
+}
+
+template <class T>
+std::int32_t fill_coarse_part(const LevelMatrix& A, const CoarsePattern& pattern, const BlockRows<T>& P,
+                              std::int32_t from, std::int32_t rows, const Threads& threads,
+                              CoarseScratch& scratch, AlignedVector<double>& values) {
+  const RowPattern& matrix = pattern.matrix;
+  if (from == 0) {
+    values.resize(static_cast<std::size_t>(36 * matrix.blocks() + 1));
+    scratch.next.resize(std::max(scratch.next.size(), static_cast<std::size_t>(matrix.rows())));
     threads.for_pieces(matrix.rows(), [&](std::int32_t begin, std::int32_t end) {
+      std::fill(values.begin() + 36 * begin_of(matrix, begin), values.begin() + 36 * begin_of(matrix, end), 0.0);
       for (std::int32_t a = begin; a < end; ++a) {
-        double* upper = values.data() + 36 * begin_of(matrix, a);
-        double* lower = upper + lower_of(a);
-        std::int64_t& r = scratch.next[static_cast<std::size_t>(a)];
-        for (; r < end_of(pattern.restriction, a); ++r) {
-          const std::int32_t i = pattern.restriction.column[static_cast<std::size_t>(r)];
-          if (i >= to) break;
-          const Motion moved =
-              motion_at(P, pattern.place[static_cast<std::size_t>(r)]).template cast<double>();
-          for_same_columns(pattern.product, i, matrix, a, [&](std::int64_t b, std::int64_t c) {
-            const Eigen::Map<Motion> force = motion_at(scratch.product, b - first);
-            const std::int64_t at = 18 * (c - begin_of(matrix, a));
-            Eigen::Map<Motion>(upper + at).noalias() += moved.leftCols<3>().transpose().lazyProduct(force);
-            Eigen::Map<Motion>(lower + at).noalias() += moved.rightCols<3>().transpose().lazyProduct(force);
-          });
-        }
+        scratch.next[static_cast<std::size_t>(a)] = begin_of(pattern.restriction, a);
       }
     });
   }
+  const std::int32_t most = std::max(kLeastRows, A.rows() / kParts + 1);
+  const std::int32_t last = std::min(A.rows(), rows < A.rows() - from ? from + rows : A.rows());
+  for (; from < last; from += most) {
+    add_coarse_rows(A, pattern, P, from, std::min(last, from + most), threads, scratch, values);
+  }
+  if (last < A.rows()) return last;
   threads.for_pieces(matrix.rows(), [&](std::int32_t begin, std::int32_t end) {
-    for (std::int32_t a = begin; a < end; ++a) {
-      const auto row = matrix.row(a);
-      const auto own = std::ranges::lower_bound(row, a) - row.begin();
-      double* upper = values.data() + 36 * begin_of(matrix, a);
-      Eigen::Map<Mat3> moving(upper + 18 * own);
-      Eigen::Map<Mat3> turning(upper + lower_of(a) + 18 * own + 9);
-      hold_idle(moving, 1.0);
-      hold_idle(turning, moving.diagonal().maxCoeff());
-    }
+    for (std::int32_t a = begin; a < end; ++a) complete_rows(matrix, a, values);
   });
+  return 0;
 }
 
 template void fill_prolongation(const LevelMatrix&, const Aggregates&, const RowPlaces&, const RowPlaces&,
@@ -298,9 +352,11 @@ template void fill_restriction(const CoarsePattern&, const BlockRows<double>&, c
                                BlockRows<double>&);
 template void fill_restriction(const CoarsePattern&, const BlockRows<float>&, const Threads&,
                                BlockRows<float>&);
-template void fill_coarse_matrix(const LevelMatrix&, const CoarsePattern&, const BlockRows<double>&,
-                                 const Threads&, CoarseScratch&, AlignedVector<double>&);
-template void fill_coarse_matrix(const LevelMatrix&, const CoarsePattern&, const BlockRows<float>&,
-                                 const Threads&, CoarseScratch&, AlignedVector<double>&);
+template std::int32_t fill_coarse_part(const LevelMatrix&, const CoarsePattern&, const BlockRows<double>&,
+                                       std::int32_t, std::int32_t, const Threads&, CoarseScratch&,
+                                       AlignedVector<double>&);
+template std::int32_t fill_coarse_part(const LevelMatrix&, const CoarsePattern&, const BlockRows<float>&,
+                                       std::int32_t, std::int32_t, const Threads&, CoarseScratch&,
+                                       AlignedVector<double>&);
 
 }  // namespace tissu

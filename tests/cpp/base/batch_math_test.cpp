@@ -8,7 +8,7 @@
 #include <limits>
 #include <vector>
 
-#include "base/kernel_sets.h"
+#include "base/kernel_choice.h"
 #include "batch_math_lanes.h"
 #include "random.h"
 #include "tissu/base/isa.h"

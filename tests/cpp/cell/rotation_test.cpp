@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "../base/random.h"
-#include "base/kernel_sets.h"
+#include "base/kernel_choice.h"
 #include "rotation_lanes.h"
 #include "tissu/base/isa.h"
 

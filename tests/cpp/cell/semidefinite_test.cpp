@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "../model/projection_sample.h"
-#include "base/kernel_sets.h"
+#include "base/kernel_choice.h"
 #include "projection_lanes.h"
 
 namespace tissu {

@@ -22,6 +22,7 @@ enum class Precision { full, single };
 /// What the iterations multiply with: an assembled matrix, or the forces' own products.
 enum class Product { assembled, free };
 
+class Forecast;
 template <class T>
 class Iteration;
 enum class End;
@@ -75,6 +76,7 @@ class ConjugateGradient final : public LinearSolver {
   std::vector<float> single_r_;
   std::vector<float> single_change_;
   std::vector<double> partial_;
+  std::unique_ptr<Forecast> forecast_;
   std::unique_ptr<Iteration<double>> full_;
   std::unique_ptr<Iteration<float>> single_;
 };

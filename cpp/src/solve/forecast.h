@@ -1,0 +1,36 @@
+#pragma once
+
+/// The first guess of a solve from the answers of those before it.
+
+#include <array>
+#include <vector>
+
+#include "tissu/assembly/linear_operator.h"
+
+namespace tissu {
+
+/// Answers of successive systems, as of the steps of a motion that is smooth, hardly differ. The guess is that
+/// combination of the latest answers whose residual is least (Fischer 1998, Computer Methods in Applied Mechanics
+/// and Engineering 163, 193-204, with the residual in place of the energy): never worse than no guess. A product
+/// for each answer is its price; where the guesses do not pay they are tried more and more seldom.
+class Forecast {
+ public:
+  /// x = 0 becomes the guess, and r = b its residual, whose norm is `size`; the new norm.
+  double start(const LinearOperator& A, double size, Reals r, Reals x);
+  /// An answer that was accepted.
+  void keep(ConstReals x);
+  void forget();
+  [[nodiscard]] std::size_t bytes() const;
+
+ private:
+  static constexpr std::size_t kMost = 3;
+
+  std::array<std::vector<double>, kMost> answers_;  ///< the latest first
+  std::array<std::vector<double>, kMost> products_;
+  std::vector<double> partial_;
+  std::size_t count_ = 0;  ///< of answers
+  int pause_ = 0;          ///< solves that go without
+  int pauses_ = 0;         ///< length of the next pause
+};
+
+}  // namespace tissu

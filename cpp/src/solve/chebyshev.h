@@ -14,8 +14,8 @@ template <class T>
 class Chebyshev {
  public:
   /// Takes over the values, which live in the pattern of A; the couplings outlive it. `measured`: the largest
-  /// eigenvalue too, which else stays: smoothing bears one that is 15 % larger, and a preconditioner that does not
-  /// serve is made as a whole.
+  /// eigenvalue too, which else stays: smoothing bears one that is 15 % larger, and a preconditioner that
+  /// does not serve is made as a whole.
   void make(const LevelMatrix& A, Isa isa, const Threads& threads, bool measured = true);
   /// x from zero; afterwards `residual()` = b - A x.
   void smooth_from_zero(const Threads& threads, const T* b, T* x);

@@ -8,14 +8,15 @@
 namespace tissu {
 namespace {
 
-constexpr double kPays = 0.5;         ///< of the residual: what a guess has to leave less of
-constexpr int kLongest = 16;          ///< solves that go without at most
-constexpr double kDependent = 1e-8;   ///< of a product, squared: what the other ones leave of it is round-off
+constexpr double kPays = 0.5;        ///< of the residual: what a guess has to leave less of
+constexpr int kLongest = 16;         ///< solves that go without at most
+constexpr double kDependent = 1e-8;  ///< of a product, squared: what the other ones leave of it is round-off
 
 /// y += a x
 void add(const Threads& threads, double a, ConstReals x, Reals y) {
   threads.for_pieces(static_cast<std::int32_t>(x.size() / 3), [&](std::int32_t begin, std::int32_t end) {
-    for (auto i = 3 * static_cast<std::size_t>(begin); i < 3 * static_cast<std::size_t>(end); ++i) y[i] += a * x[i];
+    for (auto i = 3 * static_cast<std::size_t>(begin); i < 3 * static_cast<std::size_t>(end); ++i)
+      y[i] += a * x[i];
   });
 }
 

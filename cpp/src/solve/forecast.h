@@ -9,10 +9,11 @@
 
 namespace tissu {
 
-/// Answers of successive systems, as of the steps of a motion that is smooth, hardly differ. The guess is that
-/// combination of the latest answers whose residual is least (Fischer 1998, Computer Methods in Applied Mechanics
-/// and Engineering 163, 193-204, with the residual in place of the energy): never worse than no guess. A product
-/// for each answer is its price; where the guesses do not pay they are tried more and more seldom.
+/// Answers of successive systems, as of the steps of a motion that is smooth, hardly differ. The guess is
+/// that combination of the latest answers whose residual is least (Fischer 1998, Computer Methods in Applied
+/// Mechanics and Engineering 163, 193-204, with the residual in place of the energy): never worse than no
+/// guess. A product for each answer is its price; where the guesses do not pay they are tried more and more
+/// seldom.
 class Forecast {
  public:
   /// x = 0 becomes the guess, and r = b its residual, whose norm is `size`; the new norm.

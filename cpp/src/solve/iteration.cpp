@@ -145,8 +145,8 @@ End Iteration<T>::run(const LinearOperator& A, std::span<T> r, std::span<T> d, d
   q_.assign(r.size(), T(0));
   if (!goes_on_) std::ranges::fill(p_, T(0));
   std::ranges::fill(d, T(0));
-  const double left =
-      version_ == A.version() || in_parts_ ? Renewal::kUnlimited : std::min(0.5 * most, renewal_.left() - spent_);
+  const double left = version_ == A.version() || in_parts_ ? Renewal::kUnlimited
+                                                           : std::min(0.5 * most, renewal_.left() - spent_);
   iterations_ = 0;
   double square = 0.0;
   double rz = advance(threads, r, d, 0.0, square);

@@ -9,8 +9,8 @@ constexpr std::int32_t kDirect = 80;  ///< rows of a level that gets a factor
 constexpr double kCoarser = 0.7;      ///< rows that a next level has at most, of those of its finer one
 constexpr double kOverrelaxed = 4.0 / 3.0;
 constexpr double kPairBytes = 400;  ///< what a product of a block with a motion costs, in bytes read
-constexpr double kPart = 1.5;     ///< iterations that a part of a making may take
-constexpr double kRefresh = 1.5;  ///< cycles of smoothing that a smoother and its prolongation take
+constexpr double kPart = 1.5;       ///< iterations that a part of a making may take
+constexpr double kRefresh = 1.5;    ///< cycles of smoothing that a smoother and its prolongation take
 constexpr double kFirstShift = 1e-10;
 
 }  // namespace
@@ -36,8 +36,8 @@ void Multigrid<T>::make(const LinearOperator& A, double scale) {
   finish(A, scale);
 }
 
-/// Parts in turn: the smoother of a level with its prolongation, the matrix of the next one row by row, and so on.
-/// What is new works with what is old: each part is of a matrix that was given lately.
+/// Parts in turn: the smoother of a level with its prolongation, the matrix of the next one row by row, and
+/// so on. What is new works with what is old: each part is of a matrix that was given lately.
 template <class T>
 bool Multigrid<T>::make_part(const LinearOperator& A, double scale) {
   const bool couples = has_couplings_ || A.couplings() != nullptr;  // its parts would not fit each other
@@ -67,8 +67,8 @@ bool Multigrid<T>::make_part(const LinearOperator& A, double scale) {
     const double rows = static_cast<double>(level.smoother.rows());
     const auto some = static_cast<std::int32_t>(std::clamp(rows * kPart / std::max(whole, 1e-9), 1.0, rows));
     left -= whole * some / rows;
-    row_ = fill_coarse_part(level_matrix(n, A, scale), *level.pattern, level.P, row_, some, threads_, scratch_,
-                            level.next_values);
+    row_ = fill_coarse_part(level_matrix(n, A, scale), *level.pattern, level.P, row_, some, threads_,
+                            scratch_, level.next_values);
     if (row_ > 0) continue;
     levels_[n + 1]->places = level.next_places;
     ++part_;
@@ -87,7 +87,7 @@ void Multigrid<T>::finish(const LinearOperator& A, double scale) {
 template <class T>
 LevelMatrix Multigrid<T>::fine_matrix(const LinearOperator& A, double scale) const {
   const BlockMatrix& matrix = *A.matrix();
-  return {&matrix.sparsity().row_begin, &matrix.sparsity().column,   matrix.values(), scale, given_,
+  return {&matrix.sparsity().row_begin, &matrix.sparsity().column, matrix.values(), scale, given_,
           matrix.sparsity().row_end()};
 }
 

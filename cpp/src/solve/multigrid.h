@@ -38,7 +38,7 @@ class Multigrid final : public Preconditioner<T> {
   struct Level {
     RowPlaces places;
     RowPlaces next_places;  ///< of the next level
-    Couplings couplings;  ///< as they were when it was made
+    Couplings couplings;    ///< as they were when it was made
     Chebyshev<T> smoother;
     Aggregates aggregates;
     std::unique_ptr<CoarsePattern> pattern;  ///< to the next level; nothing on the coarsest
@@ -55,7 +55,8 @@ class Multigrid final : public Preconditioner<T> {
   void take(const LinearOperator& A);
   [[nodiscard]] LevelMatrix fine_matrix(const LinearOperator& A, double scale) const;
   [[nodiscard]] LevelMatrix level_matrix(std::size_t n, const LinearOperator& A, double scale) const;
-  /// The smoother of a level and its prolongation; false: it is the last one. `measured`: with its eigenvalue.
+  /// The smoother of a level and its prolongation; false: it is the last one. `measured`: with its
+  /// eigenvalue.
   bool refresh(std::size_t n, const LinearOperator& A, double scale, bool fresh, bool measured);
   /// The matrix of the next level.
   void project(std::size_t n, const LinearOperator& A, double scale);

@@ -21,8 +21,9 @@ class Preconditioner {
   /// Made from the values that A has now, each multiplied by `scale`; symmetric and positive definite
   /// whatever A is.
   virtual void make(const LinearOperator& A, double scale) = 0;
-  /// A part of a making, so that no solve pays for all of it: what it was before and what is new serve together.
-  /// True: that was the last part. Parts of one making follow each other, unless `make` comes between.
+  /// A part of a making, so that no solve pays for all of it: what it was before and what is new serve
+  /// together. True: that was the last part. Parts of one making follow each other, unless `make` comes
+  /// between.
   virtual bool make_part(const LinearOperator& A, double scale) {
     make(A, scale);
     return true;

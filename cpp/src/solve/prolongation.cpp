@@ -95,8 +95,8 @@ std::int64_t place_of(const RowPattern& pattern, std::int32_t row, std::int32_t 
   return begin_of(pattern, row) + (std::ranges::lower_bound(columns, least) - columns.begin());
 }
 
-/// Calls f(b, t) for the blocks b of a row of `from`, from the column `least` on, and the blocks t of the same
-/// columns of a row of `to`, which has them all.
+/// Calls f(b, t) for the blocks b of a row of `from`, from the column `least` on, and the blocks t of the
+/// same columns of a row of `to`, which has them all.
 template <class Function>
 void for_same_columns(const RowPattern& from, std::int32_t row, const RowPattern& to, std::int32_t other,
                       std::int32_t least, Function&& f) {
@@ -239,8 +239,8 @@ void fill_restriction(const CoarsePattern& pattern, const BlockRows<T>& P, const
 
 namespace {
 
-/// The rows of an aggregate in P^T A P: those of its translation lie before those of its rotation, 3x6 for each
-/// aggregate that it meets.
+/// The rows of an aggregate in P^T A P: those of its translation lie before those of its rotation, 3x6 for
+/// each aggregate that it meets.
 struct AggregateRows {
   AggregateRows(const RowPattern& pattern, AlignedVector<double>& values, std::int32_t aggregate)
       : pattern_(pattern),
@@ -261,8 +261,8 @@ struct AggregateRows {
   double* turning_;
 };
 
-/// What was summed for columns from the diagonal on, mirrored, so that the matrix is symmetric whatever it was
-/// summed from; and what nothing drives, held.
+/// What was summed for columns from the diagonal on, mirrored, so that the matrix is symmetric whatever it
+/// was summed from; and what nothing drives, held.
 void complete_rows(const RowPattern& matrix, std::int32_t a, AlignedVector<double>& values) {
   const AggregateRows rows(matrix, values, a);
   const std::int64_t own = place_of(matrix, a, a);
@@ -287,8 +287,8 @@ void complete_rows(const RowPattern& matrix, std::int32_t a, AlignedVector<doubl
 }  // namespace
 
 template <class T>
-void add_coarse_rows(const LevelMatrix& A, const CoarsePattern& pattern, const BlockRows<T>& P, std::int32_t from,
-                     std::int32_t to, const Threads& threads, CoarseScratch& scratch,
+void add_coarse_rows(const LevelMatrix& A, const CoarsePattern& pattern, const BlockRows<T>& P,
+                     std::int32_t from, std::int32_t to, const Threads& threads, CoarseScratch& scratch,
                      AlignedVector<double>& values) {
   const RowPattern& matrix = pattern.matrix;
   const std::int64_t first = begin_of(pattern.product, from);
@@ -324,7 +324,8 @@ std::int32_t fill_coarse_part(const LevelMatrix& A, const CoarsePattern& pattern
     values.resize(static_cast<std::size_t>(36 * matrix.blocks() + 1));
     scratch.next.resize(std::max(scratch.next.size(), static_cast<std::size_t>(matrix.rows())));
     threads.for_pieces(matrix.rows(), [&](std::int32_t begin, std::int32_t end) {
-      std::fill(values.begin() + 36 * begin_of(matrix, begin), values.begin() + 36 * begin_of(matrix, end), 0.0);
+      std::fill(values.begin() + 36 * begin_of(matrix, begin), values.begin() + 36 * begin_of(matrix, end),
+                0.0);
       for (std::int32_t a = begin; a < end; ++a) {
         scratch.next[static_cast<std::size_t>(a)] = begin_of(pattern.restriction, a);
       }

@@ -48,9 +48,9 @@ struct CoarseScratch {
   }
 };
 
-/// P^T A P, block by block, in parts: of the rows [from, from + rows) of A, the first of all from 0 on. Returns
-/// where the next part begins, 0 after the last. A may change between parts: what they make is symmetric all the
-/// same. Motions that no row takes part in get a diagonal.
+/// P^T A P, block by block, in parts: of the rows [from, from + rows) of A, the first of all from 0 on.
+/// Returns where the next part begins, 0 after the last. A may change between parts: what they make is
+/// symmetric all the same. Motions that no row takes part in get a diagonal.
 template <class T>
 std::int32_t fill_coarse_part(const LevelMatrix& A, const CoarsePattern& pattern, const BlockRows<T>& P,
                               std::int32_t from, std::int32_t rows, const Threads& threads,

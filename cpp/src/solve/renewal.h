@@ -21,8 +21,9 @@ class Renewal {
   }
   /// `expected`: iterations that the next solve will take beyond its best one, as far as is known beforehand.
   [[nodiscard]] bool due(double expected = 0.0) const { return excess_ + expected >= price_; }
-  /// Iterations that a solve may take before a new one pays at once, the first ones that it has to take counted.
-  /// One that takes less than twice those ends with the old one: the new one is made before the next solve, in parts.
+  /// Iterations that a solve may take before a new one pays at once, the first ones that it has to take
+  /// counted. One that takes less than twice those ends with the old one: the new one is made before the next
+  /// solve, in parts.
   [[nodiscard]] double left() const {
     return best_ < 0 ? kUnlimited : 2.0 * best_ + std::max(price_ - excess_, 0.0);
   }

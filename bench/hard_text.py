@@ -9,9 +9,9 @@ the norm of the external forces on free rows and, where nodes are led or nothing
 outside, of the reactions at the same state. It is never held against the residual of an earlier
 iteration: in bending the first iteration stretches the body, and its residual is orders above
 the load. Beside it the last correction is at most a hundredth of the displacement. A residual
-that is round-off (epsilon |diag(K) x|) is accepted; the report's `residual` is the one over the
-load in every case, so that a body whose stiffness drowns its load in round-off shows it. Steps
-in time are judged in the same way, by external impulse, reactions and change of momentum.
+that is round-off (epsilon |diag(K) x|: what half a unit in the last place of the positions makes
+of the forces) is accepted, and the report's message says so with the share of the load that it
+leaves. `contrast` stops there, at 1e-4 of its load. Steps in time are judged in the same way, by external impulse, reactions and change of momentum.
 
 **How the load comes.** In the first step the external loads grow in proportion; in later steps
 time goes on and they follow their histories. Led nodes follow their motion in every step,
@@ -21,10 +21,13 @@ or fewer the next is twice as long, up to the first length.
 
 **Newton's method.** Whole steps come first: in bending they pass through worse states on the
 way to a better one. Where they do not converge, the part begins anew with steps along which the
-potential energy falls (Armijo), by the definite matrix where the tangent is not definite. Where
+potential energy falls (Armijo), by the definite matrix where the tangent is not definite. There
+a whole step by the exact tangent comes first, and is taken where it halves the residual: some
+equilibria, as that of a soft cube under its weight, are saddles of the energy. Where
 the linear solver finds the tangent indefinite, or where a moment with a fixed axis makes it
 unsymmetric, generalised conjugate residuals work on the exact tangent, with that solver as
-their preconditioner.
+their preconditioner, to 1e-4 where it is indefinite only. They stop after eight iterations that
+do not take nine tenths of the residual, and the definite matrix serves that step.
 
 **Where the load turns.** When parts of 1/4096 of the first fail too, the path is followed by
 its arc length (Riks 1979). `arc_length: true` does so from the start. Two bars with a flat top
@@ -57,7 +60,8 @@ pressure, run-time springs, frames, Prony series or loads that change with time)
 watch it. A growth of more than a tenth of the largest kinetic and elastic energy that the
 bodies had of their own makes a step report that it has not converged, with the remedy; more
 than ten times as much raises `Diverged`, at the last good step. What is written into the state
-between steps does not count. The watch costs one energy a step, for undamped implicit methods
+between steps, a load that is changed too, does not count; a checkpoint carries what the watch has
+seen. The watch costs one energy a step, for undamped implicit methods
 only.
 
 The cure is `energy_momentum`, the midpoint rule with Gonzalez's discrete gradient (1996): the

@@ -81,6 +81,7 @@ py::dict to_dict(const Snapshot& snapshot) {
   result["memory"] = to_array(joined(state.memory));
   result["memory_sizes"] = to_array(sizes_of(state.memory));
   result["integrator"] = to_array(snapshot.integrator);
+  result["energy_watch"] = to_array(snapshot.energy_watch);
   for (std::size_t i = 0; i < snapshot.bodies.size(); ++i) {
     const Snapshot::BodyCells& body = snapshot.bodies[i];
     const std::string number = std::to_string(i);
@@ -116,6 +117,7 @@ Snapshot from_dict(const py::dict& from) {
   state.rotations = rotations_of(doubles(from, "rotations"));
   state.memory = split(doubles(from, "memory"), to_vector(value<Array<std::int32_t>>(from, "memory_sizes")));
   snapshot.integrator = doubles(from, "integrator");
+  snapshot.energy_watch = doubles(from, "energy_watch");
   for (std::size_t i = 0; from.contains(("body_" + std::to_string(i)).c_str()); ++i) {
     const std::string number = std::to_string(i);
     snapshot.bodies.push_back({value<std::string>(from, "body_" + number),

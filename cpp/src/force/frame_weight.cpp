@@ -42,7 +42,7 @@ void FrameWeight::add_product(const State& state, Scratch& /*scratch*/, Stiffnes
 double FrameWeight::energy(const State& state, Scratch& /*scratch*/) const {
   double sum = 0.0;
   for (const Moment& moment : moments_) sum -= acceleration_.dot(state.rotations[moment.frame] * moment.c);
-  return sum;
+  return state.load_factor * sum;
 }
 
 }  // namespace tissu

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "held_place.h"
 #include "tissu/base/error.h"
 #include "tissu/base/number_text.h"
 
@@ -27,8 +28,7 @@ class Grab {
 
   /// From the frame's origin to the point, in space.
   [[nodiscard]] Vec3 arm(const State& state) const {
-    if (!on_frame()) return Vec3::Zero();
-    return state.rotations[static_cast<std::size_t>(whole(5))] * Vec3(numbers_[7], numbers_[8], numbers_[9]);
+    return lever_arm(state, whole(5), Vec3(numbers_[7], numbers_[8], numbers_[9]));
   }
   [[nodiscard]] Vec3 position(const State& state) const {
     Vec3 p = arm(state);
@@ -59,10 +59,6 @@ class Grab {
   [[nodiscard]] std::int32_t whole(std::size_t i) const { return static_cast<std::int32_t>(numbers_[i]); }
   std::span<const double> numbers_;
 };
-
-bool is_whole(double value, double from, double to) {
-  return value == std::floor(value) && value >= from && value < to;
-}
 
 /// Numbers of the grab that begins at `i`; beyond the end where the memory is none of grabs.
 std::size_t length_at(std::span<const double> numbers, std::size_t i) {

@@ -19,7 +19,7 @@ double Gravity::energy(const State& state, Scratch& /*scratch*/) const {
   for (std::size_t i = 0; i < masses_.size(); ++i) {
     moment += masses_[i] * block(ConstReals(state.positions), static_cast<std::int32_t>(i));
   }
-  return -acceleration_.dot(moment);
+  return -state.load_factor * acceleration_.dot(moment);
 }
 
 }  // namespace tissu

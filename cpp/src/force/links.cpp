@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "held_place.h"
 #include "tissu/base/error.h"
 #include "tissu/base/number_text.h"
 
@@ -12,11 +13,7 @@ namespace {
 
 constexpr std::size_t kNumbers = 11;  ///< of a link
 
-/// From the frame's origin to the point, in space.
-Vec3 arm(const State& state, const LinkPoint& point) {
-  return point.frame < 0 ? Vec3(Vec3::Zero())
-                         : Vec3(state.rotations[static_cast<std::size_t>(point.frame)] * point.place);
-}
+Vec3 arm(const State& state, const LinkPoint& point) { return lever_arm(state, point.frame, point.place); }
 
 Vec3 position(const State& state, const LinkPoint& point) {
   return block(ConstReals(state.positions), point.block) + arm(state, point);
@@ -43,10 +40,6 @@ std::int32_t vertex_of(const State& state, const LinkPoint& point, Couplings& co
   if (point.frame < 0) return point.block;
   return couplings.carry(
       std::array{CarriedPart{point.block, 1.0}, CarriedPart{point.block + 1, 1.0, arm(state, point), true}});
-}
-
-bool is_number(double value, double from, double to) {
-  return value == std::floor(value) && value >= from && value < to;
 }
 
 }  // namespace
@@ -89,7 +82,7 @@ void Links::check_memory(const State& state) const {
     for (const std::size_t p : {i, i + 5}) {
       const auto frames = static_cast<double>(state.rotations.size());
       const std::int32_t blocks = state.blocks() - (numbers[p + 1] >= 0.0 ? 1 : 0);  // a frame has two
-      if (is_number(numbers[p], 0.0, blocks) && is_number(numbers[p + 1], -1.0, frames)) continue;
+      if (is_whole(numbers[p], 0.0, blocks) && is_whole(numbers[p + 1], -1.0, frames)) continue;
       throw ParameterError("link " + std::to_string(i / kNumbers) + " holds block " +
                            number_text(numbers[p]) + " and frame " + number_text(numbers[p + 1]) +
                            "; the world has " + std::to_string(state.blocks()) + " blocks and " +

@@ -25,7 +25,7 @@ double NodalLoad::energy(const State& state, Scratch& /*scratch*/) const {
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     sum -= block(all, static_cast<std::int32_t>(i)).dot(block(ConstReals(state.positions), nodes_[i]));
   }
-  return change_.factor(state, history_) * sum;
+  return state.load_factor * change_.factor(state, history_) * sum;
 }
 
 void NodalLoad::claim_memory(MemoryPlaces& places) { change_.claim(name_, kMadeOf + forces_.size(), places); }

@@ -161,7 +161,7 @@ double Pressure::energy(const State& state, Scratch& /*scratch*/) const {
       volume += share * point.weight * place.dot(t[0].cross(t[1]));
     });
   }
-  return pressure_at(state) * volume;
+  return state.load_factor * pressure_at(state) * volume;
 }
 
 }  // namespace tissu

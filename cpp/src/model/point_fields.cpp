@@ -2,6 +2,7 @@
 
 #include <Eigen/LU>
 #include <cmath>
+#include <limits>
 
 #include "tissu/model/body_model.h"
 
@@ -24,6 +25,14 @@ double von_mises(const Mat3& sigma) {
   return std::sqrt(1.5) * (sigma - sigma.trace() / 3.0 * Mat3::Identity()).norm();
 }
 
+double least(ConstReals ratios) {
+  double found = std::numeric_limits<double>::infinity();
+  for (const double ratio : ratios) {
+    if (ratio < found) found = ratio;  // not a number either
+  }
+  return found;
+}
+
 CellFields cell_means(const PointFields& points) {
   CellFields fields;
   const auto of_cell = static_cast<std::size_t>(points.points_per_cell);
@@ -44,6 +53,10 @@ CellFields cell_means(const PointFields& points) {
     fields.volume_ratio.push_back(ratio / volume);
   }
   return fields;
+}
+
+double BodyModel::least_volume_ratio(const State& state, Scratch& /*scratch*/) const {
+  return least(fields(state).volume_ratio);
 }
 
 PointFields BodyModel::point_fields(const PointQuery& /*query*/) const { return {}; }

@@ -22,7 +22,7 @@ bool EnergyWatch::can_watch(const World& world) {
 }
 
 void EnergyWatch::begin(const World& world, const State& state) {
-  if (end_.is(state)) return;
+  if (is_end(state)) return;
   const Energy energy = energy_of(world, state, scratch_);
   total_ = energy.total();
   largest_ = std::max(largest_, energy.kinetic + energy.elastic);
@@ -35,7 +35,26 @@ void EnergyWatch::end(const World& world, const State& state) {
   // What moves and is strained without having been gained, as in a fall.
   const double own = energy.kinetic + energy.elastic - std::max(gained_, 0.0);
   largest_ = std::max(largest_, own);
+  set_end(state);
+}
+
+bool EnergyWatch::is_end(const State& state) const { return end_.is(state) && memory_ == state.memory; }
+
+void EnergyWatch::set_end(const State& state) {
   end_.set(state);
+  memory_ = state.memory;
+}
+
+std::vector<double> EnergyWatch::reference(const State& state) const {
+  return {total_, gained_, largest_, is_end(state) ? 1.0 : 0.0};
+}
+
+void EnergyWatch::restore(ConstReals reference, const State& state) {
+  total_ = reference[0];
+  gained_ = reference[1];
+  largest_ = reference[2];
+  end_.forget();
+  if (reference[3] != 0.0) set_end(state);
 }
 
 std::string EnergyWatch::say() const {

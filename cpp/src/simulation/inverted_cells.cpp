@@ -1,6 +1,7 @@
 #include "tissu/simulation/inverted_cells.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "tissu/element/reference_cell.h"
 
@@ -31,6 +32,14 @@ bool has_points(const BodyModel& model, const State& state, const ReferenceCell&
          cell.dimension == 3 && !cell.points.empty();
 }
 
+/// Whether a cell is inside out at a point of either rule.
+bool is_inverted(const World& world, const State& state, const BodyModel& model, std::size_t cell,
+                 const ReferenceCell& own, const ReferenceCell& full) {
+  const std::int32_t* nodes = model.block().cells.data() + cell * static_cast<std::size_t>(full.nodes);
+  return is_inverted(own, world.rest_positions(), state.positions, nodes) ||
+         is_inverted(full, world.rest_positions(), state.positions, nodes);
+}
+
 void add_inverted(const World& world, const State& state, const BodyModel& model, std::int32_t first,
                   std::vector<std::int32_t>& found) {
   const ElasticBlock& block = model.block();
@@ -41,16 +50,19 @@ void add_inverted(const World& world, const State& state, const BodyModel& model
   if (!by_points) means = model.fields(state).volume_ratio;
   const auto cells = static_cast<std::size_t>(model.cell_count());
   for (std::size_t e = 0; e < cells; ++e) {
-    bool inverted = e < means.size() && means[e] <= 0.0;
-    if (by_points) {
-      const std::int32_t* nodes = block.cells.data() + e * static_cast<std::size_t>(full.nodes);
-      for (const ReferenceCell* cell : {&own, &full}) {
-        inverted = inverted || is_inverted(*cell, world.rest_positions(), state.positions, nodes);
-      }
-    }
+    const bool inverted =
+        by_points ? is_inverted(world, state, model, e, own, full) : e < means.size() && means[e] <= 0.0;
     if (!inverted) continue;
     found.push_back(block.cell_numbers.empty() ? first + static_cast<std::int32_t>(e)
                                                : block.cell_numbers[e]);
+  }
+}
+
+/// Calls f(model) for each model of each body.
+template <class Function>
+void for_models(const World& world, Function&& f) {
+  for (const Body& body : world.bodies()) {
+    for (const BodyModel* model : body.models) f(*model);
   }
 }
 
@@ -64,6 +76,31 @@ std::vector<std::int32_t> inverted_cells(const World& world, const State& state,
     first += model->cell_count();
   }
   std::ranges::sort(found);
+  return found;
+}
+
+InversionCheck::InversionCheck(const World& world) {
+  const State rest = world.rest_state();
+  for_models(world, [&](const BodyModel& model) {
+    const ElasticBlock& block = model.block();
+    ReferenceCell own = reference_cell(block.element, block.quadrature);
+    ReferenceCell full = reference_cell(block.element, "full");
+    const bool by_points = has_points(model, rest, full);
+    rules_.push_back({std::move(own), std::move(full), by_points});
+  });
+}
+
+bool InversionCheck::any(const World& world, const State& state) {
+  std::size_t next = 0;
+  bool found = false;
+  for_models(world, [&](const BodyModel& model) {
+    const Rules& rules = rules_[next++];
+    if (!rules.by_points) found = found || model.least_volume_ratio(state, scratch_) <= 0.0;
+    const auto cells = rules.by_points ? static_cast<std::size_t>(model.cell_count()) : 0;
+    for (std::size_t e = 0; e < cells && !found; ++e) {
+      found = is_inverted(world, state, model, e, rules.own, rules.full);
+    }
+  });
   return found;
 }
 

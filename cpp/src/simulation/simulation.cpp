@@ -8,7 +8,6 @@
 
 #include "tissu/base/error.h"
 #include "tissu/base/number_text.h"
-#include "tissu/simulation/inverted_cells.h"
 #include "tissu/world/run_time.h"
 
 namespace tissu {
@@ -83,6 +82,7 @@ Simulation::Simulation(std::shared_ptr<const World> world, std::unique_ptr<Integ
       held_(state_.velocities) {
   integrator_->prepare(*world_, solver_.get(), profile_);
   if (integrator_->is_undamped() && EnergyWatch::can_watch(*world_)) watch_.emplace();
+  if (integrator_->is_static()) inverted_.emplace(*world_);
 }
 
 StepReport Simulation::step(double h) {
@@ -106,7 +106,7 @@ StepReport Simulation::step(double h) {
   remember(*world_, state_);
   world_->fixed().copy(state_.velocities, held_);
   settled_ = false;
-  if (report.converged && integrator_->is_static()) report.message = say_inverted(*world_, state_);
+  if (inverted_) tell_inverted(*inverted_, report);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   profile_.add_step(seconds);
   report.milliseconds = 1e3 * seconds;
@@ -126,6 +126,11 @@ void Simulation::watch_energy(EnergyWatch& watch, StepReport& report) {
                               ". The simulation stands at its last good step.";
   state_ = last_good_;
   throw Diverged(message, culprit.body, culprit.element, state_.time);
+}
+
+void Simulation::tell_inverted(InversionCheck& check, StepReport& report) const {
+  if (!report.converged || !check.any(*world_, state_)) return;
+  report.message += (report.message.empty() ? "" : "; ") + say_inverted(*world_, state_);
 }
 
 std::vector<double> Simulation::reactions() const {
@@ -213,6 +218,7 @@ void Simulation::replace_world(std::shared_ptr<const World> world) {
   carry_memory(*world_, *world, state_);
   world_ = std::move(world);
   if (watch_) watch_.emplace();
+  if (inverted_) inverted_.emplace(*world_);
 }
 
 }  // namespace tissu

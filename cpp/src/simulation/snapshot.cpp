@@ -72,6 +72,7 @@ Snapshot Simulation::snapshot() {
   result.time_before = last_good_.time;
   result.velocities_before = last_good_.velocities;
   result.integrator = integrator_->memory();
+  if (watch_) result.energy_watch = watch_->reference(state_);
   if (world_->description() == nullptr) return result;
   for (const Body& body : world_->bodies()) {
     LooseNodes loose = loose_nodes(*world_, body.name);
@@ -87,6 +88,8 @@ void Simulation::restore(const Snapshot& snapshot) {
   check_count("velocities", snapshot.state.velocities.size(), size);
   check_count("velocities before its latest step", snapshot.velocities_before.size(), size);
   check_count("rotations", snapshot.state.rotations.size(), world_->frames().size());
+  check_count("numbers of the watch on energy", snapshot.energy_watch.size(),
+              watch_ ? EnergyWatch::kReferences : 0);
   check_count("edited bodies", snapshot.bodies.size(),
               world_->description() == nullptr ? 0 : world_->bodies().size());
   std::shared_ptr<const World> left = edited(*world_, snapshot.bodies);
@@ -98,7 +101,7 @@ void Simulation::restore(const Snapshot& snapshot) {
   last_good_.time = snapshot.time_before;
   last_good_.velocities = snapshot.velocities_before;
   held_ = snapshot.state.velocities;
-  if (watch_) watch_.emplace();
+  if (watch_) watch_->restore(snapshot.energy_watch, state_);
   settled_ = snapshot.settled;
   integrator_->restore(snapshot.integrator);
   if (solver_ != nullptr) solver_->forget();

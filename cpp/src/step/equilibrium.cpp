@@ -11,7 +11,7 @@
 namespace tissu {
 namespace {
 
-constexpr double kHopeless = 1e9;    ///< times the load: Newton's iteration has lost its way
+constexpr double kFarthest = 1e3;    ///< sizes of the scene, the mean of a correction: it has lost its way
 constexpr int kPatience = 12;        ///< iterations that a whole step may take without a lower residual
 constexpr double kRoundings = 16.0;  ///< roundings in a row of f, as of a matrix (solve/linear_solver.cpp)
 constexpr double kStands = 0.5;      ///< of the residual before: one that does not fall below it stands still
@@ -69,6 +69,7 @@ bool Equilibrium::is_reached(double share, const State& state, double now, std::
                              StepReport& report) {
   const double load = this->load(share, state);
   const double before = std::exchange(previous_, now);
+  at_round_off_ = false;
   report.residual = load > 0.0 ? now / load : 0.0;
   if (!(now <= newton_.tolerance * load)) {
     if (now > 0.0 && !correction) system_.assemble(state, 0.0, {-1.0, 0.0});
@@ -76,6 +77,7 @@ bool Equilibrium::is_reached(double share, const State& state, double now, std::
     const bool stands = correction && now > kStands * before;
     if (now > (stands ? kRoundings : 1.0) * floor) return false;
     if (load <= kRoundings * floor) report.residual = 0.0;  // nothing acts
+    at_round_off_ = report.residual > 0.0;
     return true;
   }
   if (world().is_linear() || !correction) return true;
@@ -83,20 +85,24 @@ bool Equilibrium::is_reached(double share, const State& state, double now, std::
   return *correction <= kCorrection * start_way_;
 }
 
-bool Equilibrium::solve(const State& state, Search search, StepReport& report) {
-  SolveReport solved = tangent_.solve(state, right_, change_);
+bool Equilibrium::solve(const State& state, StepReport& report) {
+  const SolveReport solved = tangent_.solve(state, right_, change_);
+  is_exact_ = false;
   report.solver_iterations += solved.iterations;
   if (!solved.positive_definite) {
     ++report.indefinite;
-    if (search == Search::energy || !solved.converged) {
-      solved = tangent_.solve_definite(state, right_, change_);
-      report.solver_iterations += solved.iterations;
-    }
+    if (!solved.converged) solve_definite(state, report);
+    is_exact_ = solved.converged;
   }
   world().fixed().clear(change_);
   ++report.newton_iterations;
   linear_solved_ = linear_solved_ && (solved.converged || !solved.positive_definite);
   return std::ranges::all_of(change_, [](double c) { return std::isfinite(c); });
+}
+
+void Equilibrium::solve_definite(const State& state, StepReport& report) {
+  report.solver_iterations += tangent_.solve_definite(state, right_, change_).iterations;
+  world().fixed().clear(change_);
 }
 
 void Equilibrium::lead(const LoadPath& path, double before, double share, State& state, StepReport& report) {
@@ -106,15 +112,33 @@ void Equilibrium::lead(const LoadPath& path, double before, double share, State&
   system_.add_product(state, {1.0, 0.0}, way_, right_);
   world().fixed().clear(right_);
   from_ = state;
-  solve(state, Search::none, report);
+  solve(state, report);
   for (std::size_t i = 0; i < way_.size(); ++i) change_[i] += way_[i];
   go(state, 1.0);
+}
+
+bool Equilibrium::is_too_far() const {
+  const double size = world().extent() * std::sqrt(static_cast<double>(rest_.blocks()));
+  return size > 0.0 && correction_.value_or(0.0) > kFarthest * size;
 }
 
 double Equilibrium::go(State& state, double length) {
   for (std::size_t k = 0; k < work_.size(); ++k) work_[k] = length * change_[k];
   move(from_, world().frames(), work_, 1.0, state);
   return residual(state);
+}
+
+bool Equilibrium::halve(State& state, double& now) {
+  from_ = state;
+  const double next = go(state, 1.0);
+  if (next < kStands * now) {
+    now = next;
+    correction_ = norm(change_);
+    return true;
+  }
+  state = from_;
+  now = residual(state);
+  return false;
 }
 
 bool Equilibrium::descend(State& state, double& now) {
@@ -157,13 +181,12 @@ Equilibrium::End Equilibrium::find(const LoadPath& path, double before, double s
     if (!std::isfinite(now)) return stop(End::ran_away);
     stop_if_asked();
     if (is_reached(share, state, now, correction_, report)) return End::reached;
-    if (report.residual > kHopeless || progress.idle > kPatience) return stop(End::ran_away);
+    if (is_too_far() || progress.idle > kPatience) return stop(End::ran_away);
     if (report.newton_iterations - first >= most) return stop(End::most);
-    if (!solve(state, search, report)) return stop(End::ran_away);
+    if (!solve(state, report)) return stop(End::ran_away);
     if (search == Search::energy) {
-      if (!(dot(right_, change_) > 0.0)) {
-        report.solver_iterations += tangent_.solve_definite(state, right_, change_).iterations;
-      }
+      if (is_exact_ && halve(state, now)) continue;
+      if (is_exact_ || !(dot(right_, change_) > 0.0)) solve_definite(state, report);
       if (!descend(state, now)) return stop(End::no_descent);
       continue;
     }

@@ -52,6 +52,10 @@ StepReport StaticEquilibrium::step(State& state, double h) {
     report.message =
         "no equilibrium was found beyond " + number_text(100.0 * share) + " % of the load: " + reason();
   }
+  if (report.converged && equilibrium_->is_at_round_off()) {
+    report.message = "equilibrium to round-off, which leaves " + number_text(100.0 * report.residual) +
+                     " % of the load where forces within the bodies are so much larger";
+  }
   path.load(1.0, state);
   loaded_ = loaded_ || report.converged;
   report.time = state.time;

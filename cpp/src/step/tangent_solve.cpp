@@ -8,9 +8,12 @@
 namespace tissu {
 namespace {
 
-constexpr std::size_t kMost = 40;    ///< iterations
-constexpr double kTolerance = 1e-8;  ///< on |b - K x| / |b|
-constexpr double kAccepted = 1e-2;   ///< with which a Newton step is still worth taking
+constexpr std::size_t kMost = 40;     ///< iterations
+constexpr double kTolerance = 1e-8;   ///< on |b - K x| / |b| under moments, …
+constexpr double kIndefinite = 1e-4;  ///< … and where K is indefinite: Newton's method goes on by so much
+constexpr std::size_t kRound = 8;     ///< iterations, …
+constexpr double kFall = 0.1;  ///< … in which the residual of an indefinite K falls by so much, or never will
+constexpr double kAccepted = 1e-2;  ///< with which a Newton step is still worth taking
 
 double dot(ConstReals a, ConstReals b) { return std::inner_product(a.begin(), a.end(), b.begin(), 0.0); }
 
@@ -74,7 +77,13 @@ SolveReport TangentSolve::iterate(const State& state, ConstReals b, Reals x) {
   left_.assign(b.begin(), b.end());
   const double size = norm(b);
   double now = size;
-  for (std::size_t n = 0; n < kMost && now > kTolerance * size; ++n) {
+  double of_round = size;
+  const double tolerance = has_moments_ ? kTolerance : kIndefinite;
+  for (std::size_t n = 0; n < kMost && now > tolerance * size; ++n) {
+    if (n > 0 && n % kRound == 0) {
+      if (!has_moments_ && now > kFall * of_round) break;
+      of_round = now;
+    }
     if (directions_.size() == n) {
       directions_.emplace_back(b.size());
       products_.emplace_back(b.size());

@@ -29,6 +29,7 @@ _NUMBERS = (
     "velocities_before",
     "rotations",
     "memory",
+    "energy_watch",
 )
 _MOST_STEPS = 2**53  # whole numbers that a double holds
 

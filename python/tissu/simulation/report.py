@@ -24,7 +24,8 @@ class StepReport:
         indefinite: systems whose matrix was not positive definite, and was made so.
         converged: every tolerance was met.
         milliseconds: wall time.
-        message: why it did not converge; where a static step did, the cells that are inside out.
+        message: why it did not converge; where a static step did, the cells that are inside out,
+            and that round-off left more than the tolerance of the load.
     """
 
     number: int

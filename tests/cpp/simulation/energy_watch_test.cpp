@@ -56,5 +56,45 @@ TEST_F(Watched, NoNodesThatAreLed) {
   EXPECT_FALSE(is_watched());
 }
 
+// A force that is changed between two steps takes its potential with it: no gain of the method.
+TEST_F(Watched, DoesNotCountALoadThatIsChanged) {
+  description_.loads[0].nodes = {2};
+  const World world(description_);
+  State state = world.rest_state();
+  for (double& v : state.velocities) v = 0.1;  // 4 kg that move: 0.06 J
+  EnergyWatch watch;
+  watch.begin(world, state);
+  watch.end(world, state);
+  memory_of(world, state, "hand") = {0.0, 1.0, 0.0, 0.0, 0.0, -100.0, 0.0, 0.0};  // 2 m: 200 J
+  watch.begin(world, state);
+  watch.end(world, state);
+  EXPECT_EQ(watch.growth(), 0.0);
+}
+
+// The sums go on, and so does what is known of the end of the latest step.
+TEST_F(Watched, GoesOnFromItsReference) {
+  const World world(description_);
+  State state = world.rest_state();
+  EnergyWatch watch;
+  watch.begin(world, state);
+  for (double& v : state.velocities) v = 0.1;
+  watch.end(world, state);
+  const auto step = [&](EnergyWatch& one, State now, double written) {
+    for (double& x : now.positions) x += written;
+    one.begin(world, now);
+    for (double& v : now.velocities) v *= 1.1;
+    one.end(world, now);
+    return one.growth();
+  };
+  for (const double written : {0.0, 0.01}) {
+    EnergyWatch same = watch;
+    EnergyWatch other;
+    other.restore(watch.reference(state), state);
+    const double growth = step(same, state, written);
+    EXPECT_GT(growth, 0.0);
+    EXPECT_EQ(step(other, state, written), growth);
+  }
+}
+
 }  // namespace
 }  // namespace tissu

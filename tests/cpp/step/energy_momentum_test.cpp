@@ -100,6 +100,32 @@ TEST(EnergyWatch, SaysThatNewmarksMethodGains) {
   expect_growth_is_said(std::make_unique<Newmark>(Newmark::Settings{0.25, 0.5, {40, 1e-9}}));
 }
 
+/// What a step says, of either kind.
+std::string said_by(Simulation& simulation) {
+  try {
+    return simulation.step(1e-4).message;
+  } catch (const Diverged& error) {
+    return error.what();
+  }
+}
+
+// A growth that began before the snapshot counts after it: the same words with the same numbers.
+TEST(EnergyWatch, GoesOnFromASnapshot) {
+  const auto newmark = [] { return std::make_unique<Newmark>(Newmark::Settings{0.25, 0.5, {40, 1e-9}}); };
+  Simulation simulation = thrown(newmark());
+  const double before = simulation.energy().total();
+  while (simulation.energy().total() < 1.05 * before) simulation.step(1e-4);
+  Simulation other = thrown(newmark());
+  other.restore(simulation.snapshot());
+  std::string said;
+  for (int i = 0; i < 50 && said.empty(); ++i) {
+    said = said_by(simulation);
+    EXPECT_EQ(said_by(other), said) << i;
+  }
+  EXPECT_NE(said.find("the energy has grown by"), std::string::npos) << said;
+  EXPECT_EQ(other.snapshot().energy_watch, simulation.snapshot().energy_watch);
+}
+
 TEST(EnergyWatch, IsSilentWhereEnergyIsKept) {
   Simulation simulation = tumbling("stvk", std::make_unique<EnergyMomentum>());
   for (int i = 0; i < 20; ++i) EXPECT_TRUE(simulation.step(0.02).message.empty());

@@ -66,7 +66,8 @@ class ForceModel {
   /// out += (scale.position df/dx + scale.velocity df/dv) p
   virtual void add_product(const State& /*state*/, Scratch& /*scratch*/, StiffnessScale /*scale*/,
                            ConstReals /*p*/, Reals /*out*/) const {}
-  /// Stored energy [J]
+  /// Stored energy [J]; of a force with a potential the one whose negative gradient is `add_force`, at every
+  /// load factor.
   [[nodiscard]] virtual double energy(const State& /*state*/, Scratch& /*scratch*/) const { return 0.0; }
 
   // What changes while a world runs.

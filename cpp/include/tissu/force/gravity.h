@@ -6,7 +6,7 @@
 
 namespace tissu {
 
-/// f = m g for every node and frame.
+/// f = m g for every node and frame, times the share of the loads that acts.
 class Gravity final : public ForceModel {
  public:
   Gravity(std::vector<double> masses, Vec3 acceleration);
@@ -15,7 +15,7 @@ class Gravity final : public ForceModel {
   [[nodiscard]] bool has_constant_stiffness() const override { return true; }
   [[nodiscard]] bool has_stiffness() const override { return false; }
   void add_force(const State& state, Scratch& scratch, Reals f) const override;
-  /// -sum m g . x, zero for a body at the origin [J]
+  /// -sum f . x, zero for a body at the origin [J]
   [[nodiscard]] double energy(const State& state, Scratch& scratch) const override;
   [[nodiscard]] const Vec3& acceleration() const { return acceleration_; }
 

@@ -65,6 +65,9 @@ class BodyModel : public ForceModel {
   /// Puts those nodes where they are.
   virtual void settle(State& /*state*/) const {}
   [[nodiscard]] virtual CellFields fields(const State& state) const = 0;
+  /// The least of its cells' mean det F, infinite where it has none. Models whose cells are not judged at
+  /// points of their own take no memory for it.
+  [[nodiscard]] virtual double least_volume_ratio(const State& state, Scratch& scratch) const;
   /// Where its integration points are [m], three numbers each, where they are not those of cells.
   [[nodiscard]] virtual std::vector<double> points(const State& /*state*/) const { return {}; }
   /// Its springs, beside which its viscosity stands; null: it stands in the cells.

@@ -54,5 +54,7 @@ Mat3 cauchy_stress(const Mat3& F, const Mat3& P);
 double von_mises(const Mat3& sigma);
 /// Means over each cell; von Mises' stress is that of the mean Cauchy stress.
 CellFields cell_means(const PointFields& points);
+/// The least of these volume ratios that are numbers, infinite where there is none.
+double least(ConstReals ratios);
 
 }  // namespace tissu

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "tissu/step/state_mark.h"
 #include "tissu/world/world.h"
@@ -24,11 +25,19 @@ class EnergyWatch {
   /// Whether energy can only be kept or lost in that world.
   static bool can_watch(const World& world);
 
-  /// Before and after a step. What is written into the state between two steps does not count.
+  /// Before and after a step. What is written into the state between two steps, into its memory too, does not
+  /// count.
   void begin(const World& world, const State& state);
   void end(const World& world, const State& state);
   /// The energy gained since the first step over the largest kinetic and elastic energy before it grew.
   [[nodiscard]] double growth() const { return largest_ > 0.0 ? gained_ / largest_ : 0.0; }
+
+  /// Four numbers with which another watch goes on from `state`: the three sums, and whether the latest step
+  /// ended there …
+  [[nodiscard]] std::vector<double> reference(const State& state) const;
+  static constexpr std::size_t kReferences = 4;
+  /// … and back.
+  void restore(ConstReals reference, const State& state);
 
   static constexpr double kReported = 0.1;  ///< growth above which a step is reported as not converged, …
   static constexpr double kRefused = 10.0;  ///< … and above which the simulation has diverged
@@ -36,8 +45,12 @@ class EnergyWatch {
   [[nodiscard]] std::string say() const;
 
  private:
+  [[nodiscard]] bool is_end(const State& state) const;
+  void set_end(const State& state);
+
   Scratch scratch_;
   StateMark end_;       ///< of the latest step
+  Memory memory_;       ///< there: a load that was changed since has another energy
   double total_ = 0.0;  ///< energy there, or at the start of this one
   double gained_ = 0.0;
   double largest_ = 0.0;

@@ -10,6 +10,7 @@
 
 #include "tissu/base/profile.h"
 #include "tissu/simulation/energy_watch.h"
+#include "tissu/simulation/inverted_cells.h"
 #include "tissu/simulation/snapshot.h"
 #include "tissu/solve/linear_solver.h"
 #include "tissu/step/integrator.h"
@@ -66,6 +67,8 @@ class Simulation {
   [[nodiscard]] bool is_sane() const;
   [[noreturn]] void roll_back(double h);
   void watch_energy(EnergyWatch& watch, StepReport& report);
+  /// Adds to the report of a static step which cells are inside out.
+  void tell_inverted(InversionCheck& check, StepReport& report) const;
   /// Velocities of held rows are the scene's, whatever was written there.
   void hold() { world_->fixed().copy(held_, state_.velocities); }
 
@@ -78,7 +81,8 @@ class Simulation {
   Scratch scratch_;
   std::vector<double> held_;  ///< velocities of held rows, as the scene and the latest step left them
   bool settled_ = true;
-  std::optional<EnergyWatch> watch_;  ///< of undamped methods, where nothing can add energy
+  std::optional<EnergyWatch> watch_;        ///< of undamped methods, where nothing can add energy
+  std::optional<InversionCheck> inverted_;  ///< of static methods
 };
 
 }  // namespace tissu

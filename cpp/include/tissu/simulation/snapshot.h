@@ -24,6 +24,7 @@ struct Snapshot {
   double time_before = 0.0;               ///< the latest step began [s]
   std::vector<double> velocities_before;  ///< and had these velocities: reactions are computed from them
   std::vector<double> integrator;         ///< Integrator::memory()
+  std::vector<double> energy_watch;       ///< EnergyWatch::reference(); empty where energy is not watched
   std::vector<BodyCells> bodies;
 };
 

@@ -23,13 +23,14 @@ class Equilibrium {
   enum class End {
     reached,
     most,        ///< iterations
-    ran_away,    ///< the residual grew without bound, or did not fall any more
+    ran_away,    ///< the correction grew without bound, or the residual did not fall any more
     no_descent,  ///< the energy did not fall
     solver,      ///< the linear solver gave up, and the residual did not fall
   };
   enum class Search {
     none,    ///< whole steps, which may pass through worse states on the way to a better one
-    energy,  ///< steps along which the potential energy falls
+    energy,  ///< steps along which the potential energy falls, or which halve the residual where the tangent
+             ///< is indefinite: at a saddle of the energy nothing else converges fast
   };
 
   Equilibrium(const World& world, LinearSolver* solver, Profile& profile, NewtonSettings newton);
@@ -52,6 +53,8 @@ class Equilibrium {
   /// Whether a state of that residual, which the last correction |`correction`| led to, is in equilibrium.
   bool is_reached(double share, const State& state, double now, std::optional<double> correction,
                   StepReport& report);
+  /// Whether the latest state that was reached was so by round-off, above the tolerance on its load.
+  [[nodiscard]] bool is_at_round_off() const { return at_round_off_; }
   /// The potential energy of all forces [J].
   [[nodiscard]] double energy(const State& state);
 
@@ -60,11 +63,17 @@ class Equilibrium {
     double lowest;
     int idle = 0;  ///< iterations since it was
   };
-  bool solve(const State& state, Search search, StepReport& report);
+  /// The change by the tangent, by the definite matrix where that gives none.
+  bool solve(const State& state, StepReport& report);
+  void solve_definite(const State& state, StepReport& report);
   /// The first step: led nodes go their way, the body follows in its linear answer.
   void lead(const LoadPath& path, double before, double share, State& state, StepReport& report);
   /// The load that acts at a share, after `residual` of the same state [N].
   double load(double share, const State& state);
+  /// Whether the latest correction goes out of the scene.
+  [[nodiscard]] bool is_too_far() const;
+  /// Moves by the whole change where that halves the residual; false: the state is as it was.
+  bool halve(State& state, double& now);
   /// Moves by the change, whole or halved until the energy falls; false: it does not.
   bool descend(State& state, double& now);
   /// state = from_ moved by that length of change_; the residual.
@@ -85,6 +94,8 @@ class Equilibrium {
   std::optional<double> correction_;  ///< |last correction|
   double previous_ = 0.0;             ///< residual that was judged before
   bool linear_solved_ = true;
+  bool is_exact_ = false;  ///< the latest change is by a tangent that is indefinite
+  bool at_round_off_ = false;
 };
 
 }  // namespace tissu

@@ -100,7 +100,7 @@ double Condensed::energy(const State& state, Scratch& /*scratch*/) const {
     u.segment<3>(static_cast<Eigen::Index>(3 * k)) = tissu::block(ConstReals(state.positions), kept[k]) -
                                                      tissu::block(ConstReals(region_->rest()), kept[k]);
   }
-  return 0.5 * u.dot(region_->stiffness() * u) - u.dot(region_->pull());
+  return 0.5 * u.dot(region_->stiffness() * u) - state.load_factor * u.dot(region_->pull());
 }
 
 void Condensed::add_masses(std::vector<double>& nodal) const {

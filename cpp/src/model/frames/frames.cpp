@@ -280,4 +280,25 @@ CellFields Frames::fields(const State& state) const {
   return fields;
 }
 
+double Frames::least_volume_ratio(const State& state, Scratch& scratch) const {
+  const Reals work = scratch.reals(motion_size() + volumes_.size());
+  const Reals ratios = work.subspan(motion_size());
+  std::ranges::fill(ratios, 0.0);
+  gather(state, work.data());
+  std::array<double, kNine> F;
+  std::array<double, kNine> whole;
+  for (std::int32_t g = 0; g < order_.groups(); ++g) {
+    kernels_->gradient(view(), g, g + 1, work.data(), F.data());
+    material_.stretch(g, F.data(), whole.data());
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      const std::size_t i = static_cast<std::size_t>(g) * kLanes + lane;
+      if (order_.real[i] == 0) continue;
+      const auto point = static_cast<std::size_t>(order_.point[i]);
+      const std::size_t cell = points_.cells.empty() ? point : static_cast<std::size_t>(points_.cells[point]);
+      ratios[cell] += points_.volumes[point] / volumes_[cell] * tensor_of(whole.data(), lane).determinant();
+    }
+  }
+  return least(ratios);
+}
+
 }  // namespace tissu

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <map>
 #include <numeric>
 #include <utility>
@@ -194,6 +195,15 @@ CellFields Shell::fields(const State& state) const {
     fields.volume_ratio[cell] = element.volume_ratio(now);
   });
   return fields;
+}
+
+double Shell::least_volume_ratio(const State& state, Scratch& scratch) const {
+  const Reals ratios = scratch.reals(elements_.size());
+  std::ranges::fill(ratios, std::numeric_limits<double>::infinity());  // of lanes that pad
+  for_cells([&](std::size_t lane, std::size_t cell, const ShellElement& element) {
+    ratios[lane] = element.volume_ratio(pose(state, cell));
+  });
+  return least(ratios);
 }
 
 std::size_t Shell::bytes() const {

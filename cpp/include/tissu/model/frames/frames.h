@@ -48,6 +48,7 @@ class Frames final : public BodyModel {
   void add_inertias(std::vector<Mat3>& of_frames) const override;
   void add_moments(std::vector<Vec3>& of_frames) const override;
   [[nodiscard]] CellFields fields(const State& state) const override;
+  [[nodiscard]] double least_volume_ratio(const State& state, Scratch& scratch) const override;
   [[nodiscard]] PointFields point_fields(const PointQuery& query) const override;
   [[nodiscard]] std::size_t bytes() const override;
   [[nodiscard]] std::size_t reals_per_cell() const override;

@@ -32,6 +32,7 @@ class Shell final : public CellModel {
   void add_inertias(std::vector<Mat3>& of_frames) const override;
   /// Von Mises' stress is that of the face where it is larger.
   [[nodiscard]] CellFields fields(const State& state) const override;
+  [[nodiscard]] double least_volume_ratio(const State& state, Scratch& scratch) const override;
   [[nodiscard]] PointFields point_fields(const PointQuery& query) const override;
   [[nodiscard]] std::size_t bytes() const override;
   [[nodiscard]] std::size_t reals_per_cell() const override;

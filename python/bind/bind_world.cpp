@@ -118,16 +118,18 @@ Motion to_motion(const Doubles& times, const Doubles& displacements, const Doubl
   return motion;
 }
 
-void add_fixed(WorldDescription& world, const std::string& body, const Ints& nodes, int axes, bool rotations,
+void add_fixed(WorldDescription& world, const std::string& body, const Ints& nodes, int axes, int rotations,
                Motion motion) {
-  if (axes < 1 || axes > 7) throw ParameterError("axes must be a mask of x = 1, y = 2 and z = 4.");
+  if (axes < 0 || axes > 7) throw ParameterError("axes must be a mask of x = 1, y = 2 and z = 4.");
+  if (rotations < 0 || rotations > 7) {
+    throw ParameterError("rotations must be a mask of x = 1, y = 2 and z = 4.");
+  }
   world.fixed.push_back({world.body(body).name,
                          to_vector(nodes),
                          static_cast<std::uint8_t>(axes),
                          std::move(motion),
                          {},
-                         rotations,
-                         true});
+                         static_cast<std::uint8_t>(rotations)});
 }
 
 }  // namespace
@@ -226,7 +228,7 @@ void bind_world(py::module_& m) {
           arg("factors"), arg("thickness"))
       .def(
           "fix",
-          [](WorldDescription& world, const std::string& body, const Ints& nodes, int axes, bool rotations) {
+          [](WorldDescription& world, const std::string& body, const Ints& nodes, int axes, int rotations) {
             add_fixed(world, body, nodes, axes, rotations, {});
           },
           py::kw_only(), arg("body"), arg("nodes"), arg("axes"), arg("rotations"))
@@ -234,7 +236,7 @@ void bind_world(py::module_& m) {
           "prescribe",
           [](WorldDescription& world, const std::string& body, const Ints& nodes, int axes,
              const Doubles& times, const Doubles& displacements, const Doubles& angles, const Doubles& center,
-             const Doubles& axis, bool rotations) {
+             const Doubles& axis, int rotations) {
             add_fixed(world, body, nodes, axes, rotations,
                       to_motion(times, displacements, angles, center, axis));
           },

@@ -182,7 +182,7 @@ class WorldBuilder:
         factors: Floats,
         thickness: float,
     ) -> None: ...
-    def fix(self, *, body: str, nodes: Ints, axes: int, rotations: bool) -> None: ...
+    def fix(self, *, body: str, nodes: Ints, axes: int, rotations: int) -> None: ...
     def prescribe(
         self,
         *,
@@ -194,7 +194,7 @@ class WorldBuilder:
         angles: Floats,
         center: Floats,
         axis: Floats,
-        rotations: bool,
+        rotations: int,
     ) -> None: ...
     def build(self) -> World: ...
 

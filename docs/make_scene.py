@@ -36,6 +36,12 @@ law:
 thickness: 0.1 mm
 ```
 
+A `section` is an area, of a circle, or a shape, which rods (`model: frames`) bend and twist by:
+
+```yaml
+section: {{type: rectangle, height: 2 mm, width: 1 mm, up: [0, 0, 1]}}
+```
+
 With `model: frames` or `shell` the nodes turn as well, and sheets bend ([frames](frames.md),
 [shells](shells.md)). A held node does not turn where all its axes are held, unless
 `rotations: free` says so. On a plane of symmetry across x the place is held on x and the rotation

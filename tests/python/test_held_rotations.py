@@ -115,7 +115,9 @@ def test_half_a_beam_with_a_plane_of_symmetry_is_the_whole(moving: bool) -> None
         fields["step"] = ts.ImplicitEuler(dt=0.1, newton=newton, solver=ts.Cholesky())
     plane = ts.Fixed("rod", on=_at(1), axes="x", rotations="yz")
     of_whole = _static(
-        bodies={"rod": whole}, fixed=[ts.Fixed("rod", on=_at(0)), ts.Fixed("rod", on=_at(2))], **fields
+        bodies={"rod": whole},
+        fixed=[ts.Fixed("rod", on=_at(0)), ts.Fixed("rod", on=_at(2))],
+        **fields,
     )
     of_half = _static(bodies={"rod": half}, fixed=[ts.Fixed("rod", on=_at(0)), plane], **fields)
     for _ in range(10 if moving else 0):
@@ -129,7 +131,9 @@ def test_half_a_beam_with_a_plane_of_symmetry_is_the_whole(moving: bool) -> None
     assert here == pytest.approx(there, abs=1e-6)
     if not moving:  # the plane takes the moment of the other half
         middle = of_whole.reactions("rod", moments=True)[0]
-        assert of_half.reactions("rod", moments=True)[0] == pytest.approx(middle, rel=1e-6, abs=1e-9)
+        assert of_half.reactions("rod", moments=True)[0] == pytest.approx(
+            middle, rel=1e-6, abs=1e-9
+        )
         assert abs(of_half.reactions("rod", moments=True)[-1, 1]) > 0.1 * abs(middle[1])
 
 
@@ -163,6 +167,28 @@ def test_a_rotation_led_at_a_free_end_bends_a_rod_to_an_arc(moving: bool) -> Non
     assert np.allclose(simulation.rotations("rod")[-1] @ (1, 0, 0), (math.cos(1), 0, math.sin(1)))
     moment = simulation.reactions("rod", moments=True)[-1]
     stiffness = 1e6 * math.pi * 0.01**4 / 4
+    assert moment == pytest.approx((0, -stiffness * angle, 0), abs=5e-3 * stiffness)
+
+
+@pytest.mark.parametrize("model", ["shell", "frames"])
+def test_a_rotation_led_at_a_free_edge_bends_a_strip_to_an_arc(model: str) -> None:
+    """As the rod: E h^3 / 12 a / L is the moment of a strip of width 1 without Poisson's ratio."""
+    angle, width, thickness = 1.0, 0.1, 0.02
+    mesh = ts.BarMesh(size=(1, width, 0), cells=(40, 2, 0), cell="triangle")
+    law = ts.Hooke(young=1e6, poisson=0) if model == "shell" else ts.StVK(young=1e6, poisson=0)
+    body = ts.Body(mesh=mesh, model=model, law=law, thickness=thickness, density=1000.0)
+    strip = _static(
+        bodies={"rod": body},
+        fixed=[ts.Fixed("rod", on=_at(0))],
+        prescribed=[_led(angle, axes="free", rotations="held")],
+    )
+    end = np.isclose(strip.meshes["rod"].points[:, 0], 1)
+    arc = (math.sin(angle) / angle - 1, 0, (1 - math.cos(angle)) / angle)
+    # Chords are shorter than the arc by (a / n)^2 / 24; strain of the middle of (h / R)^2 / 24 comes
+    # of curvature in St-Venant-Kirchhoff's law.
+    assert strip.displacements("rod")[end].mean(axis=0) == pytest.approx(arc, abs=2e-4)
+    moment = strip.reactions("rod", moments=True)[end].sum(axis=0)
+    stiffness = 1e6 * width * thickness**3 / 12
     assert moment == pytest.approx((0, -stiffness * angle, 0), abs=5e-3 * stiffness)
 
 

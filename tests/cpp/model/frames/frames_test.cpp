@@ -4,6 +4,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "../../base/differences.h"
@@ -31,6 +32,9 @@ std::vector<FramesCase> cases() {
     all.push_back({element, "stvk"});
   for (const std::string element : {"triangle", "line"})
     all.push_back({element, "neo_hooke", "full", "middle"});
+  for (const std::string element : {"tetra", "hexahedron", "wedge", "pyramid", "quad", "line"})
+    all.push_back({element, "neo_hooke", "full", "whole", "half"});
+  all.push_back({"line", "stvk", "full", "whole", "whole"});
   return all;
 }
 
@@ -163,7 +167,8 @@ TEST_P(FramesTest, MassIsThatOfTheVolume) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, FramesTest, testing::ValuesIn(cases()), [](const auto& info) {
-  return info.param.element + "_" + info.param.law + "_" + info.param.section;
+  return info.param.element + "_" + info.param.law + "_" + info.param.section +
+         (info.param.lever.empty() ? "" : "_lever_" + info.param.lever);
 });
 
 /// Frames that are not turned, in places that are an affine map of theirs: F is that map.
@@ -210,6 +215,54 @@ TEST(Frames, SheetsAndLinesAreFreeToThin) {
     EXPECT_NEAR(model.energy(state, test::scratch()), 0.5 * E * e * e * volume,
                 1e-4 * 0.5 * E * e * e * volume);
     EXPECT_NEAR(model.fields(state).volume_ratio[0], 1.0 + (1.0 - 2.0 * nu) * e, 1e-9);
+  }
+}
+
+/// No law resists a turn of the frames alone, all by the same angle; the tie to the material does, by
+/// G sin^2 per volume.
+TEST(Frames, HalfLeversTieRotationsToTheMaterial) {
+  const double angle = 0.4;
+  for (const std::string element : {"tetra", "hexahedron", "wedge", "pyramid"}) {
+    const FramesSample sample({element, "stvk", "full", "whole", "half"});
+    ElasticBlock block = sample.block();
+    block.parameters = {{"young", {2.6}}, {"poisson", {0.3}}};
+    const Frames model(block, sample.rest(), choose_isa(), Threads(1));
+    State state = sample.rest_state();
+    for (Quaternion& q : state.rotations)
+      q = Quaternion(Eigen::AngleAxisd(angle, Vec3(1.0, 2.0, -2.0) / 3.0));
+    double volume = 0.0;
+    for (const double v : model.volumes()) volume += v;
+    const double wanted = volume * std::sin(angle) * std::sin(angle);
+    EXPECT_NEAR(model.energy(state, test::scratch()), wanted, 1e-12 * wanted);
+  }
+}
+
+/// The matrix of a free cell has six motions without stiffness, those of a rigid body: none that a point does
+/// not feel, as with whole levers.
+TEST(Frames, HalfLeversLeaveOnlyRigidMotionsFree) {
+  for (const std::string element : {"tetra", "hexahedron", "wedge", "pyramid"}) {
+    const FramesSample sample({element, "stvk", "full", "whole", "half"});
+    const Frames model = sample.model();
+    const State rest = sample.rest_state();
+    const auto n = static_cast<Eigen::Index>(rest.positions.size());
+    Eigen::MatrixXd K(n, n);
+    for (Eigen::Index c = 0; c < n; ++c) {
+      std::vector<double> unit(rest.positions.size(), 0.0);
+      std::vector<double> column(rest.positions.size(), 0.0);
+      unit[static_cast<std::size_t>(c)] = 1.0;
+      model.add_product(rest, test::scratch(), {-1.0, 0.0}, unit, column);
+      K.col(c) = view(column);
+    }
+    const Eigen::VectorXd values = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(K).eigenvalues();
+    EXPECT_LE(std::abs(values[5]), 1e-10 * values[n - 1]) << element;
+    EXPECT_GE(values[6], 1e-4 * values[n - 1]) << element;
+  }
+}
+
+TEST(Frames, HalfLeversRefuseWhatBendsByItself) {
+  for (const std::string element : {"tetra10", "hexahedron20"}) {
+    const FramesSample sample({element, "stvk", "full", "whole", "half"});
+    EXPECT_THROW((void)sample.model(), ParameterError);
   }
 }
 

@@ -59,10 +59,10 @@ equilibria or none. With half of the way from frame to point as the lever,
 
 they turn by k h, as the material does (linked interpolation: Taylor and Auricchio 1993), and a
 tie of 1/4 G |s|^2, s the axial vector of (sum_i w_i R_i)^T F, holds them to it at no cost of
-accuracy (Hughes and Brezzi 1989). No rotation is free then. Hexahedra and wedges take the points
-of `quadrature: over`, for those of `full` do not see all of a quadratic field. Meshes of tetra,
-hexahedron, wedge and pyramid are accepted; sheets and lines have half levers along themselves
-already.
+accuracy (Hughes and Brezzi 1989). No rotation is free then, but in a tetrahedron or a pyramid
+that stands alone. Hexahedra and wedges take the points of `quadrature: over`, for those of `full`
+do not see all of a quadratic field. Meshes of tetra, hexahedron, wedge and pyramid are accepted;
+sheets and lines have half levers along themselves already.
 
 **Trilinear and linear weights** with whole levers hold linear maps by their places alone: a turn
 that all frames share changes nothing inside a volume, so that at least one rotation is to be held
@@ -151,5 +151,6 @@ the top of the uterus is led aside.*
   few for linear frames of four neighbours, which the table shows as a sag that is too large.
 - Rods twist by Saint-Venant's torsion: where a clamp holds the warping of a section, as of an
   I-beam, they are too soft. The centre of shear is that of the area. Points on the middle
-  (`section: middle`) take round sections alone, with a shear factor of one. Viscosity of frames is Rayleigh's. Cells cannot be removed.
+  (`section: middle`) take round sections alone, with a shear factor of one. Viscosity of frames
+  is Rayleigh's. Cells cannot be removed.
 """

@@ -126,6 +126,18 @@ def test_a_moment_on_the_end_bends_to_an_arc() -> None:
     assert sag == pytest.approx(moment * 100 / (2 * stiffness), rel=0.03)
 
 
+@pytest.mark.parametrize("cell", ["tetra", "hexahedron", "wedge", "pyramid"])
+def test_only_rigid_motions_are_free(cell: str) -> None:
+    """Six motions of a block without stiffness: no rotation that moves no point is among them."""
+    mesh = ts.BarMesh(size=(1.6, 1, 1), cells=(1, 1, 1), cell=cell)
+    body = ts.Body(mesh=mesh, model=ts.Frames(lever="half"), law=SOFT, density=1.0)
+    simulation = ts.Scene(bodies={"bar": body}, step=ts.ImplicitEuler(dt=1.0)).compile()
+    stiffness = simulation.stiffness().toarray()
+    values = np.linalg.eigvalsh((stiffness + stiffness.T) / 2)
+    assert np.abs(values[:6]).max() < 1e-12 * values[-1]
+    assert values[6] > 1e-4 * values[-1]
+
+
 def test_momentum_of_a_thrown_bar_is_kept() -> None:
     body = _bar((4, 1, 1), "hexahedron", ts.Frames(lever="half"))
     start = ts.Start(velocity=(0.1, 0, -0.2), spin=(0, 0.3, 0.1))

@@ -184,8 +184,8 @@ def test_a_rotation_led_at_a_free_edge_bends_a_strip_to_an_arc(model: str) -> No
     )
     end = np.isclose(strip.meshes["rod"].points[:, 0], 1)
     arc = (math.sin(angle) / angle - 1, 0, (1 - math.cos(angle)) / angle)
-    # Chords are shorter than the arc by (a / n)^2 / 24; strain of the middle of (h / R)^2 / 24 comes
-    # of curvature in St-Venant-Kirchhoff's law.
+    # Chords are shorter than the arc by (a / n)^2 / 24; a strain of the middle of (h / R)^2 / 24
+    # comes of curvature in St-Venant-Kirchhoff's law.
     assert strip.displacements("rod")[end].mean(axis=0) == pytest.approx(arc, abs=2e-4)
     moment = strip.reactions("rod", moments=True)[end].sum(axis=0)
     stiffness = 1e6 * width * thickness**3 / 12

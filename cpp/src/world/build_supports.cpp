@@ -12,9 +12,9 @@
 namespace tissu {
 namespace {
 
-/// A mass whose frames of these numbers have no products of inertia between the axes in `mask` and the others:
-/// what holds a frame takes the moments that they make. The inertia is exact where two axes are held, for the
-/// frame then turns about the third alone; where one is held, to the first order of the frame's turn.
+/// A mass whose frames of these numbers have no products of inertia between the axes in `mask` and the
+/// others: what holds a frame takes the moments that they make. The inertia is exact where two axes are held,
+/// for the frame then turns about the third alone; where one is held, to the first order of the frame's turn.
 Mass uncoupled(const Mass& mass, std::span<const std::int32_t> numbers, std::uint8_t mask) {
   std::vector<Frame> frames = mass.frames();
   const auto is_held = [mask](int axis) { return ((mask >> axis) & 1) != 0; };
@@ -64,7 +64,8 @@ void WorldBuilder::hold_rotations(const FixedNodes& fixed, const Body& on,
     return;
   }
   if (std::ranges::any_of(fixed.motion.angles, [](double angle) { return angle != 0.0; })) {
-    throw ParameterError(where + " turns nodes whose rotation it gives about some axes only; let it give the " +
+    throw ParameterError(where +
+                         " turns nodes whose rotation it gives about some axes only; let it give the " +
                          "rotation about all axes or none.");
   }
   world_.fixed_.hold_turning(blocks, fixed.rotations);

@@ -36,9 +36,31 @@ law:
 thickness: 0.1 mm
 ```
 
+A `section` is an area, of a circle, or a shape, which rods (`model: frames`) bend and twist by:
+
+```yaml
+section: {{type: rectangle, height: 2 mm, width: 1 mm, up: [0, 0, 1]}}
+```
+
 With `model: frames` or `shell` the nodes turn as well, and sheets bend ([frames](frames.md),
 [shells](shells.md)). A held node does not turn where all its axes are held, unless
-`rotations: free` says so.
+`rotations: free` says so. On a plane of symmetry across x the place is held on x and the rotation
+about y and z; `axes: free` leaves the place free and holds or leads the rotation alone:
+
+```yaml
+fixed:
+  - {{body: wall, on: {{type: plane, point: [0, 0, 0], normal: [1, 0, 0]}}, axes: x, rotations: yz}}
+prescribed:
+  - body: rod
+    on: {{type: plane, point: [1 m, 0, 0], normal: [1, 0, 0]}}
+    axes: free
+    rotations: held
+    times: [0, 1 s]
+    rotation: {{axis: [0, 1, 0], angles: [0, 30 deg]}}
+```
+
+The axes are those of space. A rotation held about two of them stays one about the third, however
+large; one held about a single axis has no angular velocity about it.
 
 Files of `laws` are programs. They run only with `--trust-laws` (`trust_laws=True` in Python), only
 from the scene's folder or below it, links followed, and only when nothing else is wrong with the

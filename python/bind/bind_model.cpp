@@ -65,10 +65,10 @@ void bind_model(py::module_& m) {
       py::kw_only(), arg("kept"));
   m.def(
       "Frames",
-      [](const std::string& tangent, const std::string& section) {
-        return ModelSpec{FramesOptions{tangent, section}};
+      [](const std::string& tangent, const std::string& section, const std::string& lever) {
+        return ModelSpec{FramesOptions{tangent, section, lever}};
       },
-      py::kw_only(), arg("tangent"), arg("section"));
+      py::kw_only(), arg("tangent"), arg("section"), arg("lever"));
   m.def(
       "Shell", [](double drilling) { return ModelSpec{ShellOptions{drilling}}; }, py::kw_only(),
       arg("drilling"));

@@ -1,3 +1,7 @@
+#include <array>
+#include <string>
+#include <tuple>
+
 #include "bind.h"
 #include "specs.h"
 #include "tissu/world/world.h"
@@ -33,12 +37,15 @@ py::list elastic_blocks(const World& world) {
   return result;
 }
 
+/// Shape, sizes and `up` of LineSection.
+using SectionOfLines = std::tuple<std::string, std::array<double, 5>, std::array<double, 3>>;
+
 void add_elastic(WorldDescription& world, const std::string& body, const std::string& cell_type,
                  const Ints& cells, const Ints& cell_numbers, const std::string& law,
                  const Parameters& parameters, const Doubles& density, const std::string& quadrature,
                  const std::vector<std::pair<std::string, Parameters>>& reinforcements,
-                 const std::shared_ptr<LoadedLaw>& loaded, const Doubles& cross_section, Plane plane,
-                 const ModelSpec& model) {
+                 const std::shared_ptr<LoadedLaw>& loaded, const Doubles& cross_section,
+                 const SectionOfLines& section, Plane plane, const ModelSpec& model) {
   ElasticBlock block;
   block.element = cell_type;
   block.law = law;
@@ -54,6 +61,8 @@ void add_elastic(WorldDescription& world, const std::string& body, const std::st
     block.reinforcements.push_back({added, to_parameters(values)});
   block.density = to_vector(density);
   block.cross_section = to_vector(cross_section);
+  const auto& [shape, sizes, up] = section;
+  block.section = {section_shape(shape), sizes, Vec3(up[0], up[1], up[2])};
   block.plane = plane;
   block.model = model.options;
   world.body(body).elastic.push_back(std::move(block));
@@ -118,16 +127,18 @@ Motion to_motion(const Doubles& times, const Doubles& displacements, const Doubl
   return motion;
 }
 
-void add_fixed(WorldDescription& world, const std::string& body, const Ints& nodes, int axes, bool rotations,
+void add_fixed(WorldDescription& world, const std::string& body, const Ints& nodes, int axes, int rotations,
                Motion motion) {
-  if (axes < 1 || axes > 7) throw ParameterError("axes must be a mask of x = 1, y = 2 and z = 4.");
+  if (axes < 0 || axes > 7) throw ParameterError("axes must be a mask of x = 1, y = 2 and z = 4.");
+  if (rotations < 0 || rotations > 7) {
+    throw ParameterError("rotations must be a mask of x = 1, y = 2 and z = 4.");
+  }
   world.fixed.push_back({world.body(body).name,
                          to_vector(nodes),
                          static_cast<std::uint8_t>(axes),
                          std::move(motion),
                          {},
-                         rotations,
-                         true});
+                         static_cast<std::uint8_t>(rotations)});
 }
 
 }  // namespace
@@ -170,7 +181,8 @@ void bind_world(py::module_& m) {
           py::kw_only(), arg("name"), arg("positions"), arg("frames"))
       .def("add_elastic", &add_elastic, py::kw_only(), arg("body"), arg("cell_type"), arg("cells"),
            arg("cell_numbers"), arg("law"), arg("parameters"), arg("density"), arg("quadrature"),
-           arg("reinforcements"), arg("loaded").none(true), arg("cross_section"), arg("plane"), arg("model"))
+           arg("reinforcements"), arg("loaded").none(true), arg("cross_section"),
+           arg("section") = SectionOfLines("round", {}, {}), arg("plane"), arg("model"))
       .def("add_points", &add_points, py::kw_only(), arg("body"), arg("shared"), arg("frames"),
            arg("weights"), arg("gradients"), arg("positions"), arg("volumes"), arg("law"), arg("parameters"),
            arg("fibres"), arg("loaded").none(true), arg("density"), arg("model"))
@@ -226,7 +238,7 @@ void bind_world(py::module_& m) {
           arg("factors"), arg("thickness"))
       .def(
           "fix",
-          [](WorldDescription& world, const std::string& body, const Ints& nodes, int axes, bool rotations) {
+          [](WorldDescription& world, const std::string& body, const Ints& nodes, int axes, int rotations) {
             add_fixed(world, body, nodes, axes, rotations, {});
           },
           py::kw_only(), arg("body"), arg("nodes"), arg("axes"), arg("rotations"))
@@ -234,7 +246,7 @@ void bind_world(py::module_& m) {
           "prescribe",
           [](WorldDescription& world, const std::string& body, const Ints& nodes, int axes,
              const Doubles& times, const Doubles& displacements, const Doubles& angles, const Doubles& center,
-             const Doubles& axis, bool rotations) {
+             const Doubles& axis, int rotations) {
             add_fixed(world, body, nodes, axes, rotations,
                       to_motion(times, displacements, angles, center, axis));
           },

@@ -43,6 +43,10 @@ from tissu.picture import draw_overlay as draw_overlay
 from tissu.scene import Output as Output
 from tissu.scene import Body as Body
 from tissu.scene import MeshFile as MeshFile
+from tissu.scene import Round as Round
+from tissu.scene import Rectangle as Rectangle
+from tissu.scene import Tube as Tube
+from tissu.scene import GeneralSection as GeneralSection
 from tissu.scene import Start as Start
 from tissu.scene import BarMesh as BarMesh
 from tissu.scene import Tissue as Tissue

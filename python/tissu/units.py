@@ -144,6 +144,10 @@ AREA = Dimension(
     "area", "m^2", "2 mm^2",
     {"m^2": 1.0, "m2": 1.0, "cm^2": 1e-4, "cm2": 1e-4, "mm^2": 1e-6, "mm2": 1e-6, "um^2": 1e-12},
 )  # fmt: skip
+AREA_MOMENT = Dimension(
+    "second moment of area", "m^4", "80 mm^4",
+    {"m^4": 1.0, "m4": 1.0, "cm^4": 1e-8, "cm4": 1e-8, "mm^4": 1e-12, "mm4": 1e-12},
+)  # fmt: skip
 TIME = Dimension("time", "s", "10 ms", {"s": 1.0, "ms": 1e-3, "us": 1e-6, "min": 60.0})
 MASS = Dimension("mass", "kg", "1.5 kg", {"kg": 1.0, "g": 1e-3, "mg": 1e-6})
 PRESSURE = Dimension(
@@ -190,7 +194,7 @@ SPIN = Dimension(
 NUMBER = Dimension("pure number", "", "0.45", {"%": 0.01})
 DIMENSIONS = (
     *(LENGTH, AREA, TIME, MASS, PRESSURE, DENSITY, FORCE, ACCELERATION, ANGLE, RATE),
-    *(VISCOSITY, DAMPING_PER_VOLUME, VELOCITY, SPIN),
+    *(VISCOSITY, DAMPING_PER_VOLUME, VELOCITY, SPIN, AREA_MOMENT),
     NUMBER,
 )
 
@@ -271,6 +275,7 @@ _OpenThree = Read[
 ]
 Length = Annotated[_Quantity, BeforeValidator(LENGTH)]
 Area = Annotated[_Quantity, BeforeValidator(AREA)]
+AreaMoment = Annotated[_Quantity, BeforeValidator(AREA_MOMENT)]
 Time = Annotated[_Quantity, BeforeValidator(TIME)]
 Mass = Annotated[_Quantity, BeforeValidator(MASS)]
 Pressure = Annotated[_Quantity, BeforeValidator(PRESSURE)]

@@ -54,6 +54,11 @@ void FixedDofs::add_rotations(std::span<const std::int32_t> blocks, std::span<co
   lead(blocks, kAllAxes);
 }
 
+void FixedDofs::hold_turning(std::span<const std::int32_t> blocks, std::uint8_t mask) {
+  for (const std::int32_t block : blocks) held_turnings_.push_back({block, mask});
+  lead(blocks, mask);
+}
+
 void FixedDofs::lead(std::span<const std::int32_t> rows, std::uint8_t mask) {
   for (const std::int32_t row : rows) {
     masks_[static_cast<std::size_t>(row)] |= mask;
@@ -71,6 +76,11 @@ void FixedDofs::set_velocities(const State& from, double time, double h, double 
       if (((led.mask >> axis) & 1) == 0) continue;
       const auto i = static_cast<std::size_t>(3 * led.node + axis);
       v[i] = share * (target[axis] - x[i]) / h;
+    }
+  }
+  for (const HeldTurning& held : held_turnings_) {
+    for (int axis = 0; axis < 3; ++axis) {
+      if (((held.mask >> axis) & 1) != 0) v[static_cast<std::size_t>(3 * held.block + axis)] = 0.0;
     }
   }
   for (const LedRotation& led : led_rotations_) {

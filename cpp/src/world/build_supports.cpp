@@ -1,10 +1,35 @@
 /// Degrees of freedom of a world whose motion is given.
 
+#include <algorithm>
+#include <span>
+#include <utility>
+#include <vector>
+
 #include "builder.h"
 #include "checks.h"
 #include "tissu/base/error.h"
 
 namespace tissu {
+namespace {
+
+/// A mass whose frames of these numbers have no products of inertia between the axes in `mask` and the
+/// others: what holds a frame takes the moments that they make. The inertia is exact where two axes are held,
+/// for the frame then turns about the third alone; where one is held, to the first order of the frame's turn.
+Mass uncoupled(const Mass& mass, std::span<const std::int32_t> numbers, std::uint8_t mask) {
+  std::vector<Frame> frames = mass.frames();
+  const auto is_held = [mask](int axis) { return ((mask >> axis) & 1) != 0; };
+  for (const std::int32_t number : numbers) {
+    Mat3& inertia = frames[static_cast<std::size_t>(number)].inertia;
+    for (int i = 0; i < 3; ++i) {
+      for (int j = 0; j < 3; ++j) {
+        if (is_held(i) != is_held(j)) inertia(i, j) = 0.0;
+      }
+    }
+  }
+  return {mass.nodal(), std::move(frames)};
+}
+
+}  // namespace
 
 void WorldBuilder::add_supports() {
   world_.fixed_ = FixedDofs(world_.blocks());
@@ -24,12 +49,27 @@ void WorldBuilder::hold(const FixedNodes& fixed) {
   for (std::size_t i = 0; i < fixed.positions.size() / 3; ++i) {
     block(Reals(start), nodes[i]) = block(ConstReals(fixed.positions), static_cast<std::int32_t>(i));
   }
-  if (fixed.translations) world_.fixed_.add(nodes, start, fixed.axes, fixed.motion);
-  if (!fixed.rotations) return;
+  if (fixed.axes != 0) world_.fixed_.add(nodes, start, fixed.axes, fixed.motion);
+  if (fixed.rotations != 0) hold_rotations(fixed, on, nodes, where);
+}
+
+void WorldBuilder::hold_rotations(const FixedNodes& fixed, const Body& on,
+                                  const std::vector<std::int32_t>& nodes, const std::string& where) {
   std::vector<std::int32_t> numbers;
   numbers.reserve(nodes.size());
   for (const std::int32_t node : nodes) numbers.push_back(on.first_frame + node - on.first_node);
-  world_.fixed_.add_rotations(rotations_of(on, nodes, where), numbers, world_.rest_.rotations, fixed.motion);
+  const auto blocks = rotations_of(on, nodes, where);
+  if (fixed.rotations == FixedDofs::kAllAxes) {
+    world_.fixed_.add_rotations(blocks, numbers, world_.rest_.rotations, fixed.motion);
+    return;
+  }
+  if (std::ranges::any_of(fixed.motion.angles, [](double angle) { return angle != 0.0; })) {
+    throw ParameterError(where +
+                         " turns nodes whose rotation it gives about some axes only; let it give the " +
+                         "rotation about all axes or none.");
+  }
+  world_.fixed_.hold_turning(blocks, fixed.rotations);
+  world_.mass_ = uncoupled(world_.mass_, numbers, fixed.rotations);
 }
 
 std::vector<std::int32_t> WorldBuilder::rotations_of(const Body& body, std::vector<std::int32_t> nodes,

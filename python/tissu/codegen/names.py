@@ -52,7 +52,7 @@ MODULES = ("examples", "formula", "sampling")
 """Public modules."""
 HEADINGS: dict[str, tuple[str, ...]] = {
     "The scene": ("scene",),
-    "Bodies and meshes": ("body", "start", "bar"),
+    "Bodies and meshes": ("body", "section", "start", "bar"),
     "Connective tissue": ("tissue",),
     "Laws and viscosity": ("generated.laws", "law", "viscosity"),
     "Models": ("model",),

@@ -70,15 +70,24 @@ def _check_conflicts(prepared: Prepared) -> None:
 def _check_pair(prepared: Prepared, held: Held, other: Held) -> None:
     if other.support.body != held.support.body:
         return
-    axes = "".join(a for a in held.support.axes if a in other.support.axes)
+    body = prepared.scene.bodies.get(held.support.body)
+    turn = body is None or body.has_rotations
+    axes = _shared(held.support.axes_mask, other.support.axes_mask)
+    about = _shared(held.support.rotations_mask, other.support.rotations_mask) if turn else ""
     both = np.intersect1d(held.nodes, other.nodes)
-    if axes and both.size:
-        nodes = f"{counted(both.size, 'node')} {are(both.size)} held on {axes}"
+    if (axes or about) and both.size:
+        on = f"on {axes}" if axes else f"against turning about {about}"
+        nodes = f"{counted(both.size, 'node')} {are(both.size)} held {on}"
         text = (
             f"{nodes} by {field_path(other.path)} too "
             f"(first: {first_five(both)}); a node takes one motion on an axis"
         )
         prepared.findings.problem(held.path, text)
+
+
+def _shared(mask: int, other: int) -> str:
+    """The letters of the axes in both bit masks."""
+    return "".join(letter for bit, letter in enumerate("xyz") if mask & other & (1 << bit))
 
 
 def held_axes(held: list[Held], body: str, nodes: int) -> Ints:

@@ -143,6 +143,20 @@ def check_rotations(prepared: Prepared) -> None:
             text = f"found a moment on '{load.body}', whose nodes have no rotation; "
             text += "frames have one, other bodies take forces"
             _tell_once(("loads", number), text, prepared.findings)
+    _check_held_rotations(prepared)
+
+
+def _check_held_rotations(prepared: Prepared) -> None:
+    """Report supports that hold rotations of nodes that have none."""
+    bodies = getattr(prepared.scene, "bodies", {})
+    for group in ("fixed", "prescribed"):
+        for number, support in enumerate(getattr(prepared.scene, group, ())):
+            body = bodies.get(getattr(support, "body", None))
+            asked = getattr(support, "needs_rotations", None)
+            if asked is not None and body is not None and not body.has_rotations:
+                text = f"found {asked} on '{support.body}', whose nodes have no rotation; "
+                text += "leave it out, or take the model frames or shell"
+                _tell_once((group, number), text, prepared.findings)
 
 
 def note_condensed(

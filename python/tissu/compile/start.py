@@ -28,7 +28,7 @@ def _free(prepared: Prepared, name: str, shape: tuple[int, ...]) -> NDArray[np.b
     free = np.ones(shape, dtype=bool)
     for held in prepared.held:
         if held.support.body == name:
-            for axis, letter in enumerate("xyz"):
-                if letter in held.support.axes:
+            for axis in range(3):
+                if held.support.axes_mask >> axis & 1:
                     free[held.nodes, axis] = False
     return free

@@ -12,7 +12,9 @@ from tissu.counted import are, counted
 from tissu.mesh.cell import dimension
 from tissu.mesh.mesh import first_five
 from tissu.mesh.thin import KINDS, sizes
+from tissu.scene.direction import unit_vector
 from tissu.scene.problem import Problem, one_of_words
+from tissu.scene.section import Section, area_of
 
 if TYPE_CHECKING:
     from tissu.compile.prepared import Findings
@@ -22,6 +24,7 @@ if TYPE_CHECKING:
     from tissu.scene.problem import Path
     from tissu.scene.scene import SceneData
 
+_PARALLEL = 1e-6  # sine of the angle below which a direction says nothing across a line
 _FLAT = 1e-12  # share of the m-th power of a cell's diagonal below which it has no size
 
 
@@ -35,7 +38,7 @@ def cross_section_of(body: Body, cell_type: str) -> float:
     """Thickness [m] of surface cells, section [m2] of lines, 1 for volumes."""
     given = {2: body.thickness, 1: body.section}.get(dimension(cell_type), 1.0)
     assert given is not None  # cells are simulated where the body gives it
-    return given
+    return area_of(given)
 
 
 def material_volume(mesh: Mesh, body: Body) -> float:
@@ -64,7 +67,28 @@ def check_thin(mesh: Mesh, body: Body, path: Path, findings: Findings) -> bool:
         elif low != high:
             text = f"found z from {low:g} to {high:g} m; a flat body with one z is accepted"
             findings.problem((*path, "plane"), f"{text}: leave `plane` out for a sheet in space")
+    _check_up(mesh, body, path, findings)
     return len(findings.problems) == before
+
+
+def _check_up(mesh: Mesh, body: Body, path: Path, findings: Findings) -> None:
+    """Report lines along the direction that says how their section stands."""
+    section = getattr(body, "section", None)
+    up = section.direction if isinstance(section, Section) else None
+    if up is None or not body.has_rotations:
+        return
+    for block in mesh.thin_blocks:
+        if dimension(block.type) != 1:
+            continue
+        ends = mesh.points[block.nodes]
+        along = ends[:, 1] - ends[:, 0]
+        length = np.maximum(np.linalg.norm(along, axis=1), np.finfo(float).tiny)
+        sine = np.linalg.norm(np.cross(along, unit_vector(up)), axis=1) / length
+        bad = np.flatnonzero((sine <= _PARALLEL) & (length > np.finfo(float).tiny))
+        if len(bad):
+            text = f"found {counted(len(bad), 'line')} along it (first: {first_five(bad)}); a "
+            text += "direction across all lines is accepted: give other lines a body of their own"
+            findings.problem((*path, "section", "up"), text)
 
 
 def note_bending(mesh: Mesh, body: Body, scene: SceneData, path: Path, findings: Findings) -> None:

@@ -21,6 +21,7 @@ from tissu.errors import SceneError
 from tissu.scene.load import Where
 from tissu.scene.model import Frames
 from tissu.scene.problem import Problem
+from tissu.scene.section import section_in_core
 from tissu.scene.step import Static
 
 if TYPE_CHECKING:
@@ -142,6 +143,7 @@ def _add_body(builder: WorldBuilder, prepared: Prepared, name: str) -> None:
             reinforcements=[("fibre", group.fibres)] if group.fibres else [],
             loaded=None if group.made is None else group.made.build().loaded,
             cross_section=np.array([cross_section_of(body, group.cell_type)]),
+            section=section_in_core(body.section),
             plane=getattr(Plane, body.plane) if body.plane and group.surface else Plane.free,
             model=group.model.in_core(kept_nodes(prepared, name, group)),
         )

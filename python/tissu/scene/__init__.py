@@ -10,6 +10,12 @@ from tissu.scene.body import (
     Body,
     MeshFile,
 )
+from tissu.scene.section import (
+    Round,
+    Rectangle,
+    Tube,
+    GeneralSection,
+)
 from tissu.scene.start import (
     Start,
 )
@@ -93,6 +99,10 @@ __all__ = [
     "Output",
     "Body",
     "MeshFile",
+    "Round",
+    "Rectangle",
+    "Tube",
+    "GeneralSection",
     "Start",
     "BarMesh",
     "Tissue",

@@ -19,6 +19,7 @@ from tissu.scene.laws import LawOrMap
 from tissu.scene.model import FEM, Model, ModelOrMap
 from tissu.scene.part import Part, chosen
 from tissu.scene.problem import Problem
+from tissu.scene.section import AreaOrSection, Section
 from tissu.scene.selection import NamedSelections
 from tissu.scene.start import Start
 from tissu.scene.unknown import rule
@@ -114,8 +115,11 @@ class Body(Part):
     """rayleigh, kelvin_voigt, centroid or prony; absent: none"""
     thickness: Maybe[units.Length] = field(default=None, gt=0.0)
     """thickness [m] of sheets: the triangles and quads of the mesh; absent: they only mark faces"""
-    section: Maybe[units.Area] = field(default=None, gt=0.0)
-    """section [m^2] of fibres and cables: the lines of the mesh; absent: they only mark edges"""
+    section: AreaOrSection = field(default=None)
+    """section of fibres, cables and rods, the lines of the mesh: an area [m^2] (round), or round,
+    rectangle, tube or general, of which only frames see more than the area; absent: lines only mark
+    edges
+    """
     plane: Literal["strain", "stress"] | None = None
     """the body is flat, of one z, and stays so: without strain across, as in a slice of something
     long, or without stress across, as in a plate; absent: its sheets are free in space and to thin
@@ -171,7 +175,9 @@ class Body(Part):
             why = f"bodies.{name}.thickness is {self.thickness:g} m{plane}"
             yield Effect(f"sheets of {name}", why)
         if self.section is not None:
-            why = f"bodies.{name}.section is {self.section:g} m^2"
+            section = self.section
+            words = section.words() if isinstance(section, Section) else f"{section:g} m^2"
+            why = f"bodies.{name}.section is {words}"
             yield Effect(f"lines of {name}", why)
         if self.start is not None:
             yield Effect(f"start of {name}", f"bodies.{name}.start is {self.start.words()}")

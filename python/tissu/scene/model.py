@@ -131,6 +131,9 @@ class Condensed(Model):
         return {"kept": kept}
 
 
+Lever = Literal["whole", "half"]
+
+
 class Frames(Model):
     """Nodes that are frames of six degrees of freedom; any law on volumes, sheets and lines."""
 
@@ -142,6 +145,20 @@ class Frames(Model):
     """points of sheets and lines: through the section, which resists bending and twist, or on its
     middle only, as published
     """
+    lever: Lever | None = None
+    """share of the way from frame to point that rotations turn: whole, as published, or half, which
+    bends with the rotations of the material (linked interpolation: for large bending); absent: half
+    along sheets and lines whose section is whole, else whole
+    """
+
+    def _options(self, kept: Ints) -> dict[str, Any]:
+        return {**self._own_fields(), "lever": self.lever or ""}
+
+    def _own_fields(self) -> dict[str, Any]:
+        fields = super()._own_fields()
+        return (
+            fields if self.lever is not None else {k: v for k, v in fields.items() if k != "lever"}
+        )
 
 
 class Shell(Model):

@@ -21,6 +21,7 @@ from tissu.scene.load import LOADS, Load
 from tissu.scene.model import MODELS, Model
 from tissu.scene.part import Part, type_name
 from tissu.scene.scene import SceneData
+from tissu.scene.section import SECTIONS, Section
 from tissu.scene.selection import SELECTIONS, Region, Selection
 from tissu.scene.solver import SOLVERS, Solver
 from tissu.scene.step import STEPS, Step
@@ -35,6 +36,7 @@ _FAMILIES: dict[Any, tuple[type[Part], ...]] = {
     Law: LAWS,
     Load: LOADS,
     Model: MODELS,
+    Section: SECTIONS,
     Selection: SELECTIONS,
     Solver: SOLVERS,
     Step: STEPS,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
 from pydantic import AfterValidator, BeforeValidator
@@ -13,6 +13,7 @@ from tissu import units
 from tissu.counted import counted
 from tissu.errors import ParameterError
 from tissu.reading import Many, MaybeVectors, Read, VectorLike, listed
+from tissu.scene.axes import Axes, Rotations, mask_of
 from tissu.scene.direction import scaled
 from tissu.scene.effect import Effect
 from tissu.scene.field import field
@@ -25,19 +26,6 @@ if TYPE_CHECKING:
     from tissu._core import WorldBuilder
 
 __all__ = ["Fixed", "Prescribed", "Rotation"]
-
-
-def _axes(value: object) -> object:
-    if (
-        not isinstance(value, str)
-        or not value
-        or set(value) - set("xyz")
-        or len(set(value)) < len(value)
-    ):
-        raise ParameterError(
-            f"found {value!r}; one or more of the letters x, y, z are accepted, each once"
-        )
-    return "".join(sorted(value))
 
 
 def increasing(times: tuple[float, ...]) -> tuple[float, ...]:
@@ -82,7 +70,6 @@ def _list(value: object, of: str) -> Sequence[object]:
     raise ParameterError(f"found {value!r}; a list with an entry for each {of} is accepted")
 
 
-Axes = Annotated[str, BeforeValidator(_axes)]
 IncreasingTimes = Annotated[Many[units.Time], AfterValidator(increasing)]
 
 
@@ -103,17 +90,40 @@ class Support(Part):
 
     if TYPE_CHECKING:
         axes: Axes
-        rotations: Literal["held", "free"] | None
+        rotations: Rotations
+
+    @rule("axes", "rotations")
+    def _gives_something(self) -> Iterator[Problem]:
+        if self.axes == "free" and self.rotations in (None, "free"):
+            text = "found axes free, so that nothing is held; letters out of xyz are accepted, "
+            yield Problem((), text + "or rotations: held beside it")
 
     @property
     def axes_mask(self) -> int:
         """Bit mask of the axes: x = 1, y = 2, z = 4."""
-        return sum(1 << "xyz".index(letter) for letter in self.axes)
+        return 0 if self.axes == "free" else mask_of(self.axes)
 
     @property
-    def holds_rotations(self) -> bool:
-        """Whether it gives the rotation of nodes that are frames."""
-        return self.rotations == "held" or (self.rotations is None and len(self.axes) == 3)
+    def rotations_mask(self) -> int:
+        """Bit mask of the axes about which it gives the rotation of nodes that are frames."""
+        given = self.rotations or ("held" if self.axes == "xyz" else "free")
+        return {"held": 7, "free": 0}[given] if given in ("held", "free") else mask_of(given)
+
+    @property
+    def needs_rotations(self) -> str | None:
+        """What of it only nodes that are frames have, in words; None: nothing."""
+        if self.rotations in (None, "free"):
+            return None
+        return f"rotations {self.rotations}"
+
+    @property
+    def on_words(self) -> str:
+        """The axes on which it holds nodes, in words."""
+        words = "" if self.axes == "free" else f" on {self.axes}"
+        if self.needs_rotations is None:
+            return words
+        about = "" if self.rotations == "held" else f" about {self.rotations}"
+        return f"{words}{' and' if words else ''} in rotation{about}"
 
     def effect(self, path: str, count: str | None) -> Effect:
         """What it switches on; `count` where it is known ("42 nodes")."""
@@ -132,18 +142,20 @@ class Fixed(Support):
     """Nodes that stay where they are at rest, on some or all axes."""
 
     axes: Axes = "xyz"
-    """axes held: letters out of xyz"""
-    rotations: Literal["held", "free"] | None = None
-    """of nodes that are frames: whether their rotation is held too; absent: where all axes are"""
+    """axes held: letters out of xyz, or free: only the rotation is held"""
+    rotations: Rotations = None
+    """of nodes that are frames: held, free, or letters out of xyz, the axes of space about which
+    they do not turn (yz on a plane of symmetry across x); absent: held where all axes are
+    """
 
     def effect(self, path: str, count: str | None) -> Effect:
         """What it switches on; `count` where it is known ("42 nodes")."""
-        why = f"{path} holds {self.on.words(count)} on {self.axes}"
+        why = f"{path} holds {self.on.words(count)}{self.on_words}"
         return Effect(f"fixed nodes of {self.body}", why)
 
     def add_to(self, builder: WorldBuilder, nodes: Ints, *, frames: bool) -> None:
         """Hold the nodes of its body in the world; `frames`: they have a rotation."""
-        rotations = frames and self.holds_rotations
+        rotations = self.rotations_mask if frames else 0
         builder.fix(body=self.body, nodes=nodes, axes=self.axes_mask, rotations=rotations)
 
 
@@ -168,9 +180,14 @@ class Prescribed(Support):
     """Nodes moved along a path: a rotation, then a displacement, both linear between the times."""
 
     axes: Axes = "xyz"
-    """axes moved: letters out of xyz"""
-    rotations: Literal["held", "free"] | None = None
-    """of nodes that are frames: whether their rotation is given too; absent: where all axes are"""
+    """axes moved: letters out of xyz, or free: the rotation turns the nodes and leaves their places
+    free
+    """
+    rotations: Rotations = None
+    """of nodes that are frames: held (given by `rotation`, or none), free, or without `rotation`
+    letters out of xyz, the axes of space about which they do not turn; absent: held where all axes
+    are moved
+    """
     times: IncreasingTimes
     """strictly increasing times [s]"""
     displacements: MaybeVectors[Many[units.Position]] = field(default=None)
@@ -187,6 +204,18 @@ class Prescribed(Support):
         if all(move is None for move in moves):
             text = "found neither displacements nor rotation; at least one is needed"
             yield Problem((), text)
+
+    @rule("axes", "displacements", "node_displacements")
+    def _moves_on_axes(self) -> Iterator[Problem]:
+        if self.axes == "free" and (self.displacements or self.node_displacements):
+            text = "found displacements with axes free, which leaves places free; "
+            yield Problem((), text + "letters out of xyz are accepted with them")
+
+    @rule("rotations", "rotation")
+    def _turns_about_all_axes(self) -> Iterator[Problem]:
+        if self.rotation is not None and self.rotations not in (None, "held", "free"):
+            text = f"found rotations {self.rotations} beside a rotation, which is one about all "
+            yield Problem((), text + "axes; held and free are accepted")
 
     @rule("displacements", "times")
     def _displaced_at_each_time(self) -> Iterator[Problem]:
@@ -209,7 +238,7 @@ class Prescribed(Support):
     def effect(self, path: str, count: str | None) -> Effect:
         """What it switches on; `count` where it is known ("42 nodes")."""
         end = f"until {self.times[-1]:g} s"
-        why = f"{path} moves {self.on.words(count)} on {self.axes} {end}"
+        why = f"{path} moves {self.on.words(count)}{self.on_words} {end}"
         return Effect(f"prescribed motion of {self.body}", why)
 
     def misfit(self, nodes: Ints) -> str | None:
@@ -247,7 +276,7 @@ class Prescribed(Support):
             body=self.body,
             nodes=nodes,
             axes=self.axes_mask,
-            rotations=frames and self.holds_rotations,
+            rotations=self.rotations_mask if frames else 0,
             times=np.array(self.times),
             displacements=displacements,
             angles=still if turn is None else np.array(turn.angles),

@@ -114,6 +114,21 @@ TEST_F(FixedDofsTest, GathersAxes) {
   EXPECT_EQ(v, (std::vector<double>{9, 9, 9, 1, 0, 3, 9, 9, 9, 0, 0, 0}));
 }
 
+/// Held about y and z: what turns about x is left alone, here and by place().
+TEST_F(FixedDofsTest, HoldsTurningAboutSomeAxes) {
+  fixed_.hold_turning(std::vector<std::int32_t>{2}, 6);
+  EXPECT_EQ(fixed_.masks()[2], 6);
+  std::vector<double> v(12, 9.0);
+  fixed_.set_velocities(at(rest_), 1.0, 1.0, 1.0, v);
+  EXPECT_EQ(v[6], 9.0);
+  EXPECT_EQ(v[7], 0.0);
+  EXPECT_EQ(v[8], 0.0);
+  State to = at(rest_);
+  to.positions[6] = 7.0;
+  fixed_.place(at(rest_), 1.0, v, to);
+  EXPECT_EQ(to.positions[6], 7.0);
+}
+
 TEST(Interpolate, IsTheEmptyValueWithoutATable) { EXPECT_EQ(interpolate({}, {}, 1.0, 4.0), 4.0); }
 
 }  // namespace

@@ -50,6 +50,8 @@ class FixedDofs {
   /// Gives the rotation of some frames: their rotations' blocks, and their numbers in the state.
   void add_rotations(std::span<const std::int32_t> blocks, std::span<const std::int32_t> frames,
                      std::span<const Quaternion> rest, const Motion& motion);
+  /// Holds the rotation of some frames about the axes of space in `mask`: they do not turn about these.
+  void hold_turning(std::span<const std::int32_t> blocks, std::uint8_t mask);
 
   [[nodiscard]] bool empty() const { return rows_.empty(); }
   [[nodiscard]] const std::vector<std::int32_t>& rows() const { return rows_; }
@@ -81,6 +83,10 @@ class FixedDofs {
     std::int32_t motion;
     Vec3 rest;
   };
+  struct HeldTurning {
+    std::int32_t block;
+    std::uint8_t mask;
+  };
   struct LedRotation {
     std::int32_t block;
     std::int32_t frame;
@@ -92,6 +98,7 @@ class FixedDofs {
   std::vector<std::uint8_t> masks_;
   std::vector<Led> led_;
   std::vector<LedRotation> led_rotations_;
+  std::vector<HeldTurning> held_turnings_;
   std::vector<Motion> motions_;
 };
 

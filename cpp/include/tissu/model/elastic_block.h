@@ -13,6 +13,7 @@
 #include "tissu/base/vec.h"
 #include "tissu/law/law_info.h"
 #include "tissu/law/loaded_law.h"
+#include "tissu/model/line_section.h"
 #include "tissu/model/options.h"
 
 namespace tissu {
@@ -51,6 +52,7 @@ struct ElasticBlock {
   std::vector<double> density;                        ///< [kg/m3]
   /// Of surfaces the thickness [m], of lines the area [m2]; one, or one for each cell. Volumes have none.
   std::vector<double> cross_section = {1.0};
+  LineSection section;  ///< of lines that bend; others read their area only
   Plane plane = Plane::free;
   ModelOptions model;  ///< which model carries it, and what that one alone asks for
   double fill = 1.0;   ///< share of its chunks that is laid full; the rest is room for cells that edits add

@@ -39,11 +39,10 @@ struct BodyDescription {
 struct FixedNodes {
   std::string body;
   std::vector<std::int32_t> nodes;
-  std::uint8_t axes = FixedDofs::kAllAxes;
+  std::uint8_t axes = FixedDofs::kAllAxes;  ///< of space; 0: the places are free
   Motion motion;
   std::vector<double> positions;  ///< where the motion starts, three for each node; empty: at rest
-  bool rotations = false;         ///< of frames: their rotation is given too
-  bool translations = true;       ///< false: only their rotation
+  std::uint8_t rotations = 0;     ///< of frames: axes about which their rotation is given too
 };
 
 struct LoadDescription {

@@ -69,7 +69,29 @@ Place place_of(const ReferenceCell& cell, const ReferenceCell::Point& point, Cel
 struct Section {
   std::vector<Vec3> offsets;
   double turning = 0.0;
+  std::vector<FramePoints::OnSection> places = {};  ///< of rods
 };
+
+constexpr double kParallel = 1e-6;  ///< sine of the angle below which `up` says nothing across a line
+
+/// Four points on the axes of a rod's section, with its second moments of area.
+Section rod_section(const ElasticBlock& block, const Place& place, double area) {
+  const bool round = block.section.up.isZero();
+  const Vec3 up = round ? across(place.axis) : Vec3(place.axis.cross(block.section.up).cross(place.axis));
+  if (up.norm() <= kParallel * (round ? 1.0 : block.section.up.norm())) {
+    throw ParameterError("body \"" + block.body +
+                         "\" has lines along the `up` of their section; a direction across all of them is " +
+                         "accepted: give other lines a body of their own.");
+  }
+  const Vec3 e = up.normalized();
+  const Vec3 f = place.axis.cross(e);
+  const SectionConstants constants = section_constants(block.section, area, 0.0);
+  const double a = std::sqrt(2.0 * constants.inertia_up / area);
+  const double b = std::sqrt(2.0 * constants.inertia_across / area);
+  const FramePoints::OnSection on_up{e, true, area};
+  const FramePoints::OnSection on_across{f, false, area};
+  return {{a * e, b * f, -a * e, -b * f}, 0.0, {on_up, on_across, on_up, on_across}};
+}
 
 Section section_of(const ElasticBlock& block, int dimension, const Place& place, double cross_section) {
   if (dimension == 3) return {{Vec3::Zero()}};
@@ -79,11 +101,14 @@ Section section_of(const ElasticBlock& block, int dimension, const Place& place,
     if (middle) return {{Vec3::Zero()}, d * d};
     return {{d * place.axis, -d * place.axis}};
   }
-  const double d = std::sqrt(cross_section / (2.0 * std::numbers::pi));  // r / sqrt 2
-  if (middle) return {{Vec3::Zero()}, d * d};
-  const Vec3 e = across(place.axis);
-  const Vec3 f = place.axis.cross(e);
-  return {{d * e, d * f, -d * e, -d * f}};
+  if (!middle) return rod_section(block, place, cross_section);
+  if (block.section.shape != LineSection::Shape::round) {
+    throw ParameterError(
+        "body \"" + block.body +
+        "\" has a section that is not round on points on the middle only; `section: whole` of " +
+        "frames is accepted.");
+  }
+  return {{Vec3::Zero()}, cross_section / (2.0 * std::numbers::pi)};  // r^2 / 2
 }
 
 void add_point(const Place& place, const ReferenceCell::Point& point, Cell nodes, const Vec3& offset,
@@ -129,6 +154,7 @@ FramePoints points_of_cells(const ElasticBlock& block, ConstReals rest_positions
         points.cells.push_back(static_cast<std::int32_t>(e));
         if (section.turning > 0.0) points.turning.push_back(section.turning);
       }
+      points.sections.insert(points.sections.end(), section.places.begin(), section.places.end());
     }
     if (flat)
       bad.push_back(block.cell_numbers.empty() ? static_cast<std::int32_t>(e) : block.cell_numbers[e]);

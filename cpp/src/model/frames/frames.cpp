@@ -11,8 +11,8 @@ namespace tissu {
 namespace {
 
 constexpr std::size_t kLanes = FrameOrder::kLanes;
-constexpr std::size_t kNine = PointMaterial::kNine;
-constexpr std::size_t kTangent = PointMaterial::kTangent;
+constexpr std::size_t kNine = FrameMaterial::kNine;
+constexpr std::size_t kTangent = FrameMaterial::kTangent;
 
 using Matrix9 = Eigen::Matrix<double, 9, 9>;
 
@@ -153,6 +153,7 @@ void Frames::add_force(const State& state, Scratch& scratch, Reals f) const {
   const Room work = room(scratch);
   gather(state, work.q);
   const auto stride = static_cast<std::size_t>(points_.neighbours) * 6 * kLanes;
+  const bool tied = !tie_.empty();
   for_pieces([&](std::int32_t begin, std::int32_t end) {
     std::array<double, kPiece * kNine> F;
     std::array<double, kPiece * kNine> P;
@@ -160,9 +161,12 @@ void Frames::add_force(const State& state, Scratch& scratch, Reals f) const {
     for (std::int32_t g = begin; g < end; ++g) {
       const std::size_t at = static_cast<std::size_t>(g - begin) * kNine;
       material_.stress(g, F.data() + at, P.data() + at);
+      if (tied) tie_.add_stress(view(), g, work.q, F.data() + at, P.data() + at);
     }
-    kernels_->force(view(), begin, end, work.q, P.data(),
-                    work.shares + static_cast<std::size_t>(begin) * stride);
+    double* shares = work.shares + static_cast<std::size_t>(begin) * stride;
+    kernels_->force(view(), begin, end, work.q, P.data(), shares);
+    for (std::int32_t g = tied ? begin : end; g < end; ++g, shares += stride)
+      tie_.add_moments(view(), g, work.q, F.data() + static_cast<std::size_t>(g - begin) * kNine, shares);
   });
   add_shares(work.shares, 1.0, f);
 }
@@ -182,6 +186,7 @@ void Frames::add_product(const State& state, Scratch& scratch, StiffnessScale sc
     }
   }
   const auto stride = static_cast<std::size_t>(points_.neighbours) * 6 * kLanes;
+  const bool tied = !tie_.empty();
   for_pieces([&](std::int32_t begin, std::int32_t end) {
     std::array<double, kPiece * kNine> F;
     std::array<double, kPiece * kNine> P;
@@ -193,9 +198,16 @@ void Frames::add_product(const State& state, Scratch& scratch, StiffnessScale sc
       const std::size_t at = static_cast<std::size_t>(g - begin) * kNine;
       material_.stress(g, F.data() + at, P.data() + at);
       material_.stress_change(g, F.data() + at, dF.data() + at, dP.data() + at);
+      if (!tied) continue;
+      tie_.add_stress(view(), g, work.q, F.data() + at, P.data() + at);
+      tie_.add_stress_change(view(), g, work.q, F.data() + at, work.dq, dF.data() + at, dP.data() + at);
     }
-    kernels_->force_change(view(), begin, end, work.q, work.dq, P.data(), dP.data(),
-                           work.shares + static_cast<std::size_t>(begin) * stride);
+    double* shares = work.shares + static_cast<std::size_t>(begin) * stride;
+    kernels_->force_change(view(), begin, end, work.q, work.dq, P.data(), dP.data(), shares);
+    for (std::int32_t g = tied ? begin : end; g < end; ++g, shares += stride) {
+      const std::size_t at = static_cast<std::size_t>(g - begin) * kNine;
+      tie_.add_moments_change(view(), g, work.q, F.data() + at, work.dq, dF.data() + at, shares);
+    }
   });
   add_shares(work.shares, scale.position, out);
 }
@@ -207,6 +219,7 @@ void Frames::add_stiffness(const State& state, Scratch& scratch, StiffnessScale 
   gather(state, work.q);
   const bool material = options_.tangent == "material";
   const bool turning = !material && !scale.definite;
+  const bool tied = !tie_.empty();
   double* values = matrix.values();
   for_coloured([&](std::int32_t begin, std::int32_t end) {
     std::array<double, kPiece * kNine> F;
@@ -219,6 +232,10 @@ void Frames::add_stiffness(const State& state, Scratch& scratch, StiffnessScale 
       if (turning || material) material_.stress(g, F.data() + i * kNine, P.data() + i * kNine);
       if (material) keep_material(F.data() + i * kNine, P.data() + i * kNine, A.data() + i * kTangent);
       if (scale.definite) make_definite(A.data() + i * kTangent);
+      if (!tied) continue;
+      tie_.add_tangent(view(), g, work.q, A.data() + i * kTangent);
+      if (turning) tie_.add_stress(view(), g, work.q, F.data() + i * kNine, P.data() + i * kNine);
+      tie_.add_stiffness(view(), g, work.q, F.data() + i * kNine, turning, scale.position, values);
     }
     kernels_->stiffness(view(), begin, end, work.q, A.data(), turning ? P.data() : nullptr, scale.position,
                         values);
@@ -233,8 +250,10 @@ void Frames::energies(double* q, double* of_lanes) const {
     std::array<double, kPiece * kNine> F;
     kernels_->gradient(view(), begin, end, q, F.data());
     for (std::int32_t g = begin; g < end; ++g) {
-      material_.energy(g, F.data() + static_cast<std::size_t>(g - begin) * kNine,
-                       of_lanes + static_cast<std::size_t>(g) * kLanes);
+      const double* at = F.data() + static_cast<std::size_t>(g - begin) * kNine;
+      double* to = of_lanes + static_cast<std::size_t>(g) * kLanes;
+      material_.energy(g, at, to);
+      if (!tie_.empty()) tie_.add_energy(view(), g, q, at, to);
     }
   });
 }
@@ -246,59 +265,6 @@ double Frames::energy(const State& state, Scratch& scratch) const {
   gather(state, work.data());
   energies(work.data(), of_lanes.data());
   return std::inner_product(of_lanes.begin(), of_lanes.end(), lane_volumes_.begin(), 0.0);
-}
-
-CellFields Frames::fields(const State& state) const {
-  AlignedVector<double> q(motion_size());
-  std::vector<double> of_lanes(lane_volumes_.size(), 0.0);
-  gather(state, q.data());
-  energies(q.data(), of_lanes.data());
-  CellFields fields;
-  for (auto* values : {&fields.von_mises, &fields.energy_density, &fields.volume_ratio})
-    values->assign(volumes_.size(), 0.0);
-  std::array<double, kNine> F;
-  std::array<double, kNine> P;
-  std::array<double, kNine> whole;
-  for (std::int32_t g = 0; g < order_.groups(); ++g) {
-    kernels_->gradient(view(), g, g + 1, q.data(), F.data());
-    material_.stress(g, F.data(), P.data());
-    material_.stretch(g, F.data(), whole.data());
-    for (std::size_t lane = 0; lane < kLanes; ++lane) {
-      const std::size_t i = static_cast<std::size_t>(g) * kLanes + lane;
-      if (order_.real[i] == 0) continue;
-      const auto point = static_cast<std::size_t>(order_.point[i]);
-      const std::size_t cell = points_.cells.empty() ? point : static_cast<std::size_t>(points_.cells[point]);
-      const double share = points_.volumes[point] / volumes_[cell];
-      const double J = tensor_of(whole.data(), lane).determinant();
-      const Mat3 sigma = tensor_of(P.data(), lane) * tensor_of(F.data(), lane).transpose() / J;
-      const Mat3 deviator = sigma - sigma.trace() / 3.0 * Mat3::Identity();
-      fields.von_mises[cell] += share * std::sqrt(1.5) * deviator.norm();
-      fields.energy_density[cell] += share * of_lanes[i];
-      fields.volume_ratio[cell] += share * J;
-    }
-  }
-  return fields;
-}
-
-double Frames::least_volume_ratio(const State& state, Scratch& scratch) const {
-  const Reals work = scratch.reals(motion_size() + volumes_.size());
-  const Reals ratios = work.subspan(motion_size());
-  std::ranges::fill(ratios, 0.0);
-  gather(state, work.data());
-  std::array<double, kNine> F;
-  std::array<double, kNine> whole;
-  for (std::int32_t g = 0; g < order_.groups(); ++g) {
-    kernels_->gradient(view(), g, g + 1, work.data(), F.data());
-    material_.stretch(g, F.data(), whole.data());
-    for (std::size_t lane = 0; lane < kLanes; ++lane) {
-      const std::size_t i = static_cast<std::size_t>(g) * kLanes + lane;
-      if (order_.real[i] == 0) continue;
-      const auto point = static_cast<std::size_t>(order_.point[i]);
-      const std::size_t cell = points_.cells.empty() ? point : static_cast<std::size_t>(points_.cells[point]);
-      ratios[cell] += points_.volumes[point] / volumes_[cell] * tensor_of(whole.data(), lane).determinant();
-    }
-  }
-  return least(ratios);
 }
 
 }  // namespace tissu

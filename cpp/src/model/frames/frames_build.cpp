@@ -16,12 +16,12 @@ namespace tissu {
 namespace {
 
 constexpr int kMostNeighbours = 64;
-/// Of the way from frame to point along a sheet or line, which rotations turn: half of it makes the
-/// deflection follow them as a parabola does (linked interpolation), so that bending takes no shear (Taylor
-/// and Auricchio 1993). The published one is whole.
+/// Of the way from frame to point, which rotations turn: half of it makes the deflection follow them as a
+/// parabola does (linked interpolation), so that bending takes no shear (Taylor and Auricchio 1993). With
+/// linear weights and the whole of it rotations turn by half of what the material does. The published one is
+/// whole.
 constexpr double kLinked = 0.5;
-/// Of the stiffness that a point has against turning alone: what holds rotations that nothing depends on.
-constexpr double kHold = 1e-6;
+constexpr double kAtRest = 1e-9;  ///< of F, above round-off in weights
 
 void check(const ElasticBlock& block, const FramePoints& points) {
   const std::string where = "body \"" + block.body + "\"";
@@ -52,6 +52,22 @@ FramePoints points_for(const ElasticBlock& block, ConstReals rest_positions) {
   return points;
 }
 
+/// Half levers make a field quadratic in a cell: the points of `full` do not see all of it in a hexahedron or
+/// a wedge, which leaves a motion of the cell without energy.
+ElasticBlock with_quadrature(ElasticBlock block) {
+  const auto options = options_or_defaults<FramesOptions>(block.model);
+  if (options.lever != "half" || options.points) return block;
+  const bool blind = block.element == "hexahedron" || block.element == "wedge";
+  if (blind && block.quadrature == "full") block.quadrature = "over";
+  const ReferenceCell cell = reference_cell(block.element, block.quadrature);
+  const bool linear = block.element == "tetra" || block.element == "hexahedron" || block.element == "wedge" ||
+                      block.element == "pyramid";
+  if (cell.dimension < 3 || cell.points.empty() || linear) return block;
+  throw ParameterError("body \"" + block.body + "\" asks for half a lever on cells of type \"" +
+                       block.element +
+                       "\", which bend by themselves; tetra, hexahedron, wedge and pyramid are accepted.");
+}
+
 int nodes_of(const ElasticBlock& block) {
   if (const auto given = options_or_defaults<FramesOptions>(block.model).points) return given->neighbours;
   const ReferenceCell cell = reference_cell(block.element, block.quadrature);
@@ -68,7 +84,7 @@ int nodes_of(const ElasticBlock& block) {
 const FrameKernels* find_frame_kernels(Isa isa) { return TISSU_KERNELS_OF(isa, frame_kernels()); }
 
 Frames::Frames(ElasticBlock block, ConstReals rest_positions, Isa isa, Threads threads)
-    : block_(std::move(block)),
+    : block_(with_quadrature(std::move(block))),
       options_(options_or_defaults<FramesOptions>(block_.model)),
       threads_(threads),
       kernels_(find_frame_kernels(isa)),
@@ -90,8 +106,10 @@ Frames::Frames(ElasticBlock block, ConstReals rest_positions, Isa isa, Threads t
   lay_frames();
   order_ = order_points(listened_, points_.neighbours, static_cast<std::int32_t>(blocks_.size()));
   lay_coefficients(rest_positions);
-  material_ = PointMaterial(block_, stressed_points(), order_.point, isa);
+  if (options_.lever == "half") check_rest(rest_positions);
+  material_ = FrameMaterial(block_, stressed_points(), order_.point, isa);
   lay_holds();
+  if (points_.dimension == 3 && options_.lever == "half") lay_tie();
 }
 
 /// As the material sees them: in plane strain a sheet is a volume, which does not thin.
@@ -124,11 +142,14 @@ void Frames::lay_frames() {
 }
 
 Mat3 Frames::along(std::size_t point) const {
-  if (points_.dimension == 3) return Mat3::Identity();
+  const bool thin = points_.dimension < 3;
+  const bool linked =
+      options_.lever.empty() ? thin && options_.section != "middle" : options_.lever == "half";
+  const double share = linked ? kLinked : 1.0;
+  if (!thin) return share * Mat3::Identity();
   const Vec3 axis = tissu::block(ConstReals(points_.axes), static_cast<std::int32_t>(point));
   const Mat3 across = points_.dimension == 2 ? Mat3(axis * axis.transpose())
                                              : Mat3(Mat3::Identity() - axis * axis.transpose());
-  const double share = options_.section == "middle" ? 1.0 : kLinked;
   return share * (Mat3::Identity() - across) + across;
 }
 
@@ -164,23 +185,27 @@ void Frames::lay_coefficients(ConstReals rest_positions) {
   }
 }
 
-void Frames::lay_holds() {
-  holds_.assign(blocks_.size(), 0.0);
-  if (points_.dimension < 3) return;  // there the directors turn with their frames
+/// Half a lever leaves a body as it is at rest where weights hold linear fields, with frames alone.
+void Frames::check_rest(ConstReals rest_positions) const {
   const auto k = static_cast<std::size_t>(points_.neighbours);
-  std::array<double, PointMaterial::kNine> F{};
-  for (const std::size_t c : {0U, 4U, 8U}) std::fill_n(F.data() + c * kLanes, kLanes, 1.0);
-  std::array<double, PointMaterial::kTangent> A;
-  for (std::size_t group = 0; group < order_.point.size() / kLanes; ++group) {
-    material_.tangent(static_cast<std::int32_t>(group), F.data(), A.data());
-    for (std::size_t i = 0; i < k * kLanes; ++i) {
-      const std::size_t lane = i % kLanes;
-      const double* B = coefficients_.data() + (group * k + i / kLanes) * 12 * kLanes + 3 * kLanes + lane;
-      double square = 0.0;
-      for (std::size_t c = 0; c < 9; ++c) square += B[c * kLanes] * B[c * kLanes];
-      holds_[static_cast<std::size_t>(lanes_[group * k * kLanes + i])] +=
-          kHold * std::abs(A[lane]) * square * lane_volumes_[group * kLanes + lane];
+  for (std::size_t s = 0; s < points_.volumes.size(); ++s) {
+    Mat3 F = Mat3::Zero();
+    double size = 0.0;
+    bool all_turn = true;
+    for (std::size_t at = s * k; at < (s + 1) * k; ++at) {
+      const Vec3 g = tissu::block(ConstReals(points_.gradients), static_cast<std::int32_t>(at));
+      const Vec3 l = tissu::block(ConstReals(levers_), static_cast<std::int32_t>(at));
+      const Vec3 x = tissu::block(rest_positions, points_.frames[at]);
+      F += (x + l) * g.transpose() + points_.weights[at] * along(s);
+      size = std::max(size, x.cwiseAbs().maxCoeff() * g.cwiseAbs().maxCoeff());
+      all_turn = all_turn && numbers_[static_cast<std::size_t>(listened_[at])] >= 0;
     }
+    if (all_turn && (F - Mat3::Identity()).cwiseAbs().maxCoeff() <= kAtRest * (1.0 + size)) continue;
+    throw ParameterError(
+        "body \"" + block_.body + "\" asks for half a lever, but integration point " + std::to_string(s) +
+        (all_turn ? " has weights that do not hold linear fields" : " listens to nodes without a rotation") +
+        "; half a lever takes frames alone and the shape functions linear, trilinear and " +
+        "moving_least_squares.");
   }
 }
 
@@ -215,59 +240,6 @@ void Frames::bind(const Sparsity& pattern) {
   }
 }
 
-double Frames::density(std::size_t point) const {
-  return of_cell(block_.density,
-                 points_.cells.empty() ? static_cast<std::int32_t>(point) : points_.cells[point]);
-}
-
-template <class Function>
-void Frames::for_neighbours(Function&& f) const {
-  const auto k = static_cast<std::size_t>(points_.neighbours);
-  for (std::size_t s = 0; s < points_.volumes.size(); ++s) {
-    const std::span<const double> w(points_.weights.data() + s * k, k);
-    const bool squares = std::ranges::min(w) < 0.0;
-    const auto weight = [&](double value) { return squares ? value * value : value; };
-    double sum = 0.0;
-    for (const double value : w) sum += weight(value);
-    for (std::size_t a = 0; a < k; ++a) f(s * k + a, density(s) * points_.volumes[s], weight(w[a]) / sum);
-  }
-}
-
-void Frames::add_masses(std::vector<double>& nodal) const {
-  for_neighbours([&](std::size_t at, double mass, double share) {
-    nodal[static_cast<std::size_t>(points_.frames[at])] += share * mass;
-  });
-}
-
-void Frames::add_weights(std::vector<double>& nodal) const {
-  for_neighbours([&](std::size_t at, double mass, double /*share*/) {
-    nodal[static_cast<std::size_t>(points_.frames[at])] += points_.weights[at] * mass;
-  });
-}
-
-void Frames::add_inertias(std::vector<Mat3>& of_frames) const {
-  for_neighbours([&](std::size_t at, double mass, double share) {
-    const Vec3 l = tissu::block(ConstReals(levers_), static_cast<std::int32_t>(at));
-    const auto point = at / static_cast<std::size_t>(points_.neighbours);
-    const double own = !points_.turning.empty() ? points_.turning[point]
-                       : points_.dimension == 3 ? std::pow(points_.volumes[point], 2.0 / 3.0) / 6.0
-                                                : 0.0;
-    const std::int32_t frame = numbers_[static_cast<std::size_t>(listened_[at])];
-    if (frame < 0) return;
-    of_frames[static_cast<std::size_t>(frame)] +=
-        share * mass * ((l.squaredNorm() + own) * Mat3::Identity() - l * l.transpose());
-  });
-}
-
-void Frames::add_moments(std::vector<Vec3>& of_frames) const {
-  for_neighbours([&](std::size_t at, double mass, double /*share*/) {
-    const std::int32_t frame = numbers_[static_cast<std::size_t>(listened_[at])];
-    if (frame < 0) return;
-    of_frames[static_cast<std::size_t>(frame)] +=
-        points_.weights[at] * mass * tissu::block(ConstReals(levers_), static_cast<std::int32_t>(at));
-  });
-}
-
 std::vector<double> Frames::points(const State& state) const {
   std::vector<double> result(points_.positions.size(), 0.0);
   const auto k = static_cast<std::size_t>(points_.neighbours);
@@ -284,7 +256,8 @@ std::vector<double> Frames::points(const State& state) const {
 
 std::size_t Frames::bytes() const {
   return (coefficients_.size() + lane_volumes_.size() + scratch_size()) * sizeof(double) +
-         (lanes_.size() + slots_.size() + order_.share.size()) * sizeof(std::int32_t) + material_.bytes();
+         (lanes_.size() + slots_.size() + order_.share.size()) * sizeof(std::int32_t) + material_.bytes() +
+         tie_.bytes();
 }
 
 std::size_t Frames::reals_per_cell() const { return 12 * static_cast<std::size_t>(points_.neighbours) + 1; }

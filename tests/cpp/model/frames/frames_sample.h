@@ -17,6 +17,7 @@ struct FramesCase {
   std::string law;
   std::string quadrature = "full";
   std::string section = "whole";
+  std::string lever = {};
 };
 
 /// Nodes 0 to n - 1 are origins, n to 2 n - 1 their rotations.
@@ -32,7 +33,7 @@ class FramesSample {
       block_.parameters[std::string(p.name)] = {p.typical};
     block_.density = {1000.0};
     block_.cross_section = {0.2};
-    block_.model = FramesOptions{.tangent = std::move(tangent), .section = c.section};
+    block_.model = FramesOptions{.tangent = std::move(tangent), .section = c.section, .lever = c.lever};
     for (Vec3 x : reference_nodes(c.element)) {
       x += random.vector(0.04);
       rest_.insert(rest_.end(), x.begin(), x.end());

@@ -4,6 +4,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "../../base/differences.h"
@@ -31,6 +32,9 @@ std::vector<FramesCase> cases() {
     all.push_back({element, "stvk"});
   for (const std::string element : {"triangle", "line"})
     all.push_back({element, "neo_hooke", "full", "middle"});
+  for (const std::string element : {"tetra", "hexahedron", "wedge", "pyramid", "quad", "line"})
+    all.push_back({element, "neo_hooke", "full", "whole", "half"});
+  all.push_back({"line", "stvk", "full", "whole", "whole"});
   return all;
 }
 
@@ -163,7 +167,8 @@ TEST_P(FramesTest, MassIsThatOfTheVolume) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, FramesTest, testing::ValuesIn(cases()), [](const auto& info) {
-  return info.param.element + "_" + info.param.law + "_" + info.param.section;
+  return info.param.element + "_" + info.param.law + "_" + info.param.section +
+         (info.param.lever.empty() ? "" : "_lever_" + info.param.lever);
 });
 
 /// Frames that are not turned, in places that are an affine map of theirs: F is that map.

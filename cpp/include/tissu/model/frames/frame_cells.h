@@ -3,7 +3,7 @@
 /// The points of a mesh whose nodes are frames: the quadrature points of its cells, with the shape functions
 /// of the cells as weights. Hexahedra make trilinear frames (8 neighbours), tetrahedra linear ones (4).
 /// Sheets get two points through the thickness, at the places of Gauss, and lines four around the axis, whose
-/// moments of area are those of a round section; or one each on the middle, which feels no bending (sheet)
+/// moments of area are those of their section; or one each on the middle, which feels no bending (sheet)
 /// and no twist (line) but by the turning of neighbours against each other.
 
 #include "tissu/model/elastic_block.h"

@@ -11,9 +11,10 @@
 
 #include "tissu/model/body_model.h"
 #include "tissu/model/frames/frame_kernels.h"
+#include "tissu/model/frames/frame_material.h"
 #include "tissu/model/frames/frame_order.h"
+#include "tissu/model/frames/rotation_tie.h"
 #include "tissu/model/model_info.h"
-#include "tissu/model/points/point_material.h"
 
 namespace tissu {
 
@@ -66,7 +67,9 @@ class Frames final : public BodyModel {
   void lay_coefficients(ConstReals rest_positions);
   /// What of the way from frame to point follows the frame's rotation.
   [[nodiscard]] Mat3 along(std::size_t point) const;
+  void check_rest(ConstReals rest_positions) const;
   void lay_holds();
+  void lay_tie();
   [[nodiscard]] FrameView view() const;
   /// What it works with, in the caller's room.
   struct Room {
@@ -114,7 +117,8 @@ class Frames final : public BodyModel {
   AlignedVector<double> coefficients_;  ///< [group][k][12][8]
   AlignedVector<double> lane_volumes_;  ///< [group][8]
   AlignedVector<std::int32_t> slots_;   ///< [group][a][b][4][8]
-  PointMaterial material_;
+  FrameMaterial material_;
+  RotationTie tie_;  ///< of volumes with half levers; else empty
   /// [J/rad2] of each frame. Some rotations of trilinear and linear frames move no point, such as turns about
   /// x that depend on x alone: the matrix, and only it, holds them, so that a factor exists and each step of
   /// Newton's leaves them where they are.

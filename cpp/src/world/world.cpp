@@ -91,6 +91,7 @@ void WorldBuilder::list_run_time() {
     if (verbs.remembers) world_.run_time_.remembering.push_back(model.get());
     model->claim_memory(world_.memory_);
   }
+  world_.fixed_.claim_memory(world_.memory_);
 }
 
 /// The positions and rotations of the state at rest are there already.

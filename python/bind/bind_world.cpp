@@ -228,9 +228,7 @@ void bind_world(py::module_& m) {
       .def(
           "fix",
           [](WorldDescription& world, const std::string& body, const Ints& nodes, int axes, bool rotations,
-             std::string name) {
-            add_fixed(world, body, nodes, axes, rotations, {}, std::move(name));
-          },
+             std::string name) { add_fixed(world, body, nodes, axes, rotations, {}, std::move(name)); },
           py::kw_only(), arg("body"), arg("nodes"), arg("axes"), arg("rotations"), arg("name"))
       .def(
           "prescribe",

@@ -1,4 +1,4 @@
-"""Supports that are led live: the same as a scene's motion, reactions, checkpoints, what is refused."""
+"""Supports that are led live: like a motion of the scene, reactions, checkpoints, refusals."""
 
 from __future__ import annotations
 
@@ -183,7 +183,7 @@ def test_rotations_stay_while_nodes_are_placed() -> None:
         [np.cos(angle), -np.sin(angle), 0], [np.sin(angle), np.cos(angle), 0], [0, 0, 1]
     ]  # fmt: skip
     assert turned == pytest.approx(np.tile(about_z, (len(turned), 1, 1)), abs=1e-14)
-    hand.place(hand.positions + (0.01, 0, 0), over=3 * DT)
+    hand.place(hand.positions + np.array((0.01, 0, 0)), over=3 * DT)
     simulation.step()
     assert simulation.rotations("bar")[hand.nodes] == pytest.approx(turned, abs=1e-14)
 

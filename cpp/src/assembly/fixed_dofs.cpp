@@ -48,8 +48,7 @@ void FixedDofs::add(std::span<const std::int32_t> nodes, ConstReals rest_positio
 }
 
 void FixedDofs::add_rotations(std::span<const std::int32_t> blocks, std::span<const std::int32_t> frames,
-                              std::span<const Quaternion> rest, const Motion& motion,
-                              std::string_view name) {
+                              std::span<const Quaternion> rest, const Motion& motion, std::string_view name) {
   motions_.push_back(motion);
   const auto number = static_cast<std::int32_t>(motions_.size() - 1);
   if (!name.empty()) {

@@ -108,8 +108,7 @@ double FixedDofs::largest_live_turn(const LedWay& way, const State& start) const
   for (const LiveSupport& support : live_) {
     if (start.memory[support.place].empty()) continue;
     const LiveLead lead = lead_of(support, start);
-    const Vec3 turned =
-        place_of(support, lead, way.to).turned - place_of(support, lead, way.from).turned;
+    const Vec3 turned = place_of(support, lead, way.to).turned - place_of(support, lead, way.from).turned;
     largest = std::max(largest, turned.norm());
   }
   return largest;
@@ -229,7 +228,8 @@ void FixedDofs::check_memory(const State& state) const {
   for (const LiveSupport& support : live_) {
     const std::string text =
         LiveLead::misfit(state.memory[support.place], support.nodes.size(), support.rotations.size());
-    if (!text.empty()) throw ParameterError("the live lead of support \"" + support.name + "\" " + text + ".");
+    if (!text.empty())
+      throw ParameterError("the live lead of support \"" + support.name + "\" " + text + ".");
   }
 }
 

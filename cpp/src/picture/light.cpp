@@ -73,11 +73,10 @@ Canvas light(const Seen& seen, std::span<const double> normals, std::span<const 
   for (std::size_t i = 0; i < seen.pixel.size(); ++i) {
     const std::int64_t triangle = seen.triangle[i];
     const Vec3 weights = block(ConstReals(seen.weights), static_cast<std::int32_t>(i));
-    const Vec3 normal =
-        normal_at(normals, triangle, weights, towards[static_cast<std::size_t>(triangle)]);
+    const Vec3 normal = normal_at(normals, triangle, weights, towards[static_cast<std::size_t>(triangle)]);
     const double bright = std::clamp(lights.brightness(normal) / lights.facing, 0.0, kBrightest);
-    const Vec3 lit = bright * colour_at(paint, triangle, weights) +
-                     Vec3::Constant(kGloss * lights.gloss(normal));
+    const Vec3 lit =
+        bright * colour_at(paint, triangle, weights) + Vec3::Constant(kGloss * lights.gloss(normal));
     const auto pixel = static_cast<std::size_t>(seen.pixel[i]);
     for (std::size_t k = 0; k < 3; ++k) {
       canvas.colour[3 * pixel + k] = std::clamp(lit[static_cast<Eigen::Index>(k)], 0.0, 1.0);

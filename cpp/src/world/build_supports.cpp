@@ -30,7 +30,7 @@ void WorldBuilder::hold(const FixedNodes& fixed) {
   numbers.reserve(nodes.size());
   for (const std::int32_t node : nodes) numbers.push_back(on.first_frame + node - on.first_node);
   world_.fixed_.add_rotations(rotations_of(on, nodes, where), numbers, world_.rest_.rotations, fixed.motion,
-                               fixed.name);
+                              fixed.name);
 }
 
 std::vector<std::int32_t> WorldBuilder::rotations_of(const Body& body, std::vector<std::int32_t> nodes,
@@ -45,7 +45,7 @@ std::vector<std::int32_t> WorldBuilder::rotations_of(const Body& body, std::vect
   return nodes;
 }
 
-/// Eliminated nodes are no unknowns: they are held for the solver, and their model says where they are.
+/// Eliminated nodes are not unknowns: they are held for the solver, and their model says where they are.
 void WorldBuilder::hold_eliminated() {
   for (const Body& body : world_.bodies_) {
     for (const BodyModel* model : body.models) {

@@ -15,8 +15,8 @@ CROWDED = 48  # a point with more triangles is smooth: comparing them in pairs w
 def corner_normals(points: Array, triangles: Integers) -> Array:
     """Unit normals (t,3,3) at the corners of each triangle.
 
-    The normal of a corner is the mean over the triangles around its point that are no sharper than
-    the crease angle, weighted by area.
+    The normal of a corner is the mean over the triangles around its point not sharper than the
+    crease angle, weighted by area.
     """
     a, b, c = (points[triangles[:, k]] for k in range(3))
     weighted = np.cross(b - a, c - a)
@@ -42,7 +42,7 @@ def _crease_normals(
     chosen: Integers,
     crowd: Integers,
 ) -> Array:
-    """Normals (m,3) of the chosen corners from those triangles around them that are no crease."""
+    """Normals (m,3) of the chosen corners from those triangles around them without a crease."""
     by_point = np.argsort(corner, kind="stable")
     start = np.cumsum(crowd) - crowd
     count = crowd[corner[chosen]]

@@ -121,14 +121,14 @@ class Lead:
             ParameterError: a value is not finite or of another quantity; an axis of length zero; a
                 time that is not positive.
         """
-        direction = _DIRECTION(axis)
-        if not any(direction):
+        direction = np.array(_DIRECTION(axis), dtype=float)
+        if not direction.any():
             raise ParameterError("found the axis (0, 0, 0); a direction is accepted: (0, 0, 1)")
         self._core.lead_rigidly(
             name=self._name,
             displacement=np.array(_POSITION(displacement), dtype=float),
             angle=units.ANGLE(angle),
-            axis=scaled(direction),
+            axis=scaled(direction.tolist()),
             center=np.array(_POSITION(center), dtype=float),
             over=_seconds(over),
         )

@@ -28,7 +28,8 @@ Motion half_turn() {
 WorldDescription bar(const Motion& motion, std::string name, std::uint8_t axes = FixedDofs::kAllAxes) {
   WorldDescription world;
   world.bodies = {test::body_of(kMesh, {.law = "stvk", .young = 200.0})};
-  world.fixed = {test::fixed(test::nodes_at(kMesh, 0, 0.0)), test::fixed(test::nodes_at(kMesh, 0, 3.0), axes)};
+  world.fixed = {test::fixed(test::nodes_at(kMesh, 0, 0.0)),
+                 test::fixed(test::nodes_at(kMesh, 0, 3.0), axes)};
   world.fixed[1].motion = motion;
   world.fixed[1].name = std::move(name);
   return world;

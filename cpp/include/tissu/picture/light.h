@@ -29,9 +29,9 @@ struct Canvas {
   std::vector<double> nearness;  ///< towards the viewer
 };
 
-/// Colours of the seen pixels. `normals`: nine for each triangle, of length 1 at its corners, in the picture's
-/// axes. `towards`: for each triangle, positive where the side is seen that its normals point out of. A
-/// surface that faces the viewer keeps its colour, so that it can be read off a colour bar.
+/// Colours of the seen pixels. `normals`: nine for each triangle, of length 1 at its corners, in the
+/// picture's axes. `towards`: for each triangle, positive where the side is seen that its normals point out
+/// of. A surface that faces the viewer keeps its colour, so that it can be read off a colour bar.
 Canvas light(const Seen& seen, std::span<const double> normals, std::span<const double> towards,
              const Paint& paint, std::int64_t width, std::int64_t height);
 

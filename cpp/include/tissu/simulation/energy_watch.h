@@ -16,7 +16,7 @@ struct Energy {
 
 Energy energy_of(const World& world, const State& state, Scratch& scratch);
 
-/// Watches the energy of a scene in which nothing can add any: no led nodes (but live targets), no links, no pressure, no load
+/// Watches the energy of a scene in which nothing can add any: no led nodes, no links, no pressure, no load
 /// that changes with time, no material that remembers, no frames. An undamped method that gives a moving body
 /// more energy than it had is not stable there, however well its steps converge.
 class EnergyWatch {

@@ -10,7 +10,6 @@ from numpy.typing import ArrayLike, NDArray
 
 from tissu import units
 from tissu.errors import ParameterError
-from tissu.scene.direction import scaled
 from tissu.simulation.entry import one_thread_at_a_time
 
 if TYPE_CHECKING:
@@ -124,11 +123,12 @@ class Lead:
         direction = np.array(_DIRECTION(axis), dtype=float)
         if not direction.any():
             raise ParameterError("found the axis (0, 0, 0); a direction is accepted: (0, 0, 1)")
+        exponent = int(np.frexp(np.abs(direction).max())[1])
         self._core.lead_rigidly(
             name=self._name,
             displacement=np.array(_POSITION(displacement), dtype=float),
             angle=units.ANGLE(angle),
-            axis=scaled(direction.tolist()),
+            axis=np.ldexp(direction, 1 - exponent),  # its square is finite
             center=np.array(_POSITION(center), dtype=float),
             over=_seconds(over),
         )

@@ -1,4 +1,4 @@
-"""What is no mesh gives one sentence, whatever it is."""
+"""What is not a mesh gives one sentence, whatever it is."""
 
 from __future__ import annotations
 

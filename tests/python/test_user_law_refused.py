@@ -43,7 +43,7 @@ REFUSED = {
     ),
     "an undeclared parameter": (
         definition(parameters={"mu": "Pa", "kapa": "Pa"}),
-        r"uses 'kappa', which is no parameter.*did you mean kapa\?",
+        r"uses 'kappa', which is not a parameter.*did you mean kapa\?",
     ),
     "a parameter that nothing uses": (
         definition(parameters=UNITS | {"jm": "1"}),

@@ -49,7 +49,7 @@ void WorldBuilder::hold(const FixedNodes& fixed) {
   for (std::size_t i = 0; i < fixed.positions.size() / 3; ++i) {
     block(Reals(start), nodes[i]) = block(ConstReals(fixed.positions), static_cast<std::int32_t>(i));
   }
-  if (fixed.axes != 0) world_.fixed_.add(nodes, start, fixed.axes, fixed.motion);
+  if (fixed.axes != 0) world_.fixed_.add(nodes, start, fixed.axes, fixed.motion, fixed.name);
   if (fixed.rotations != 0) hold_rotations(fixed, on, nodes, where);
 }
 
@@ -60,7 +60,7 @@ void WorldBuilder::hold_rotations(const FixedNodes& fixed, const Body& on,
   for (const std::int32_t node : nodes) numbers.push_back(on.first_frame + node - on.first_node);
   const auto blocks = rotations_of(on, nodes, where);
   if (fixed.rotations == FixedDofs::kAllAxes) {
-    world_.fixed_.add_rotations(blocks, numbers, world_.rest_.rotations, fixed.motion);
+    world_.fixed_.add_rotations(blocks, numbers, world_.rest_.rotations, fixed.motion, fixed.name);
     return;
   }
   if (std::ranges::any_of(fixed.motion.angles, [](double angle) { return angle != 0.0; })) {
@@ -84,7 +84,7 @@ std::vector<std::int32_t> WorldBuilder::rotations_of(const Body& body, std::vect
   return nodes;
 }
 
-/// Eliminated nodes are no unknowns: they are held for the solver, and their model says where they are.
+/// Eliminated nodes are not unknowns: they are held for the solver, and their model says where they are.
 void WorldBuilder::hold_eliminated() {
   for (const Body& body : world_.bodies_) {
     for (const BodyModel* model : body.models) {

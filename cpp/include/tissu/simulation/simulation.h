@@ -66,6 +66,7 @@ class Simulation {
   [[nodiscard]] double farthest() const;
   [[nodiscard]] bool is_sane() const;
   [[noreturn]] void roll_back(double h);
+  void begin_watch(EnergyWatch& watch);
   void watch_energy(EnergyWatch& watch, StepReport& report);
   /// Adds to the report of a static step which cells are inside out.
   void tell_inverted(InversionCheck& check, StepReport& report) const;

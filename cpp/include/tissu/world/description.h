@@ -43,6 +43,8 @@ struct FixedNodes {
   Motion motion;
   std::vector<double> positions;  ///< where the motion starts, three for each node; empty: at rest
   std::uint8_t rotations = 0;     ///< of frames: axes about which their rotation is given too
+  /// By which a run leads them live (FixedDofs::lead_to), together with all others of the name; empty: never.
+  std::string name = {};
 };
 
 struct LoadDescription {

@@ -113,7 +113,7 @@ REFUSED = {
     ),
     "an energy that is never a number": (
         definition(energy=mu * ln(-J) + VOLUME),
-        r"no finite numbers near rest; give the parameters",
+        r"not finite numbers near rest; give the parameters",
     ),
     "a typical value at which it locks": (
         definition(
@@ -124,7 +124,7 @@ REFUSED = {
                 Parameter(name="kappa", unit="Pa", meaning="bulk", typical=1e3),
             ],
         ),
-        r"no finite numbers near rest",
+        r"not finite numbers near rest",
     ),
 }
 

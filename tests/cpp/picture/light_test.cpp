@@ -21,11 +21,13 @@ Canvas lit(const std::vector<double>& normal, double towards, const Paint& paint
 
 const Paint kClay{{0.8, 0.5, 0.4}, {}, {}, 0.0, 1.0};
 
-/// The gloss of what faces the viewer is 0.14 (h_z)^40: the key light's half vector is some 28 degrees off.
+/// But for the gloss, 0.14 c^40 with c = h_z of the half vector between the key light and the viewer.
 TEST(LightTest, WhatFacesTheViewerKeepsItsColour) {
+  const double key_z = 0.66 / std::sqrt(0.45 * 0.45 + 0.60 * 0.60 + 0.66 * 0.66);
+  const double gloss = 0.14 * std::pow(std::sqrt(0.5 * (1.0 + key_z)), 40.0);
   const Canvas canvas = lit({0, 0, 1}, 1.0, kClay);
   for (std::size_t i = 0; i < canvas.colour.size(); ++i) {
-    EXPECT_NEAR(canvas.colour[i], kClay.colour[i % 3], 2e-3);
+    EXPECT_NEAR(canvas.colour[i], kClay.colour[i % 3] + gloss, 1e-14);
   }
 }
 

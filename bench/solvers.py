@@ -59,12 +59,17 @@ Every step of an implicit method solves A x = b; a static one as well. `solver:`
   frames: an aggregate of nodes that hang together strongly moves by a translation and a rotation
   about its centre, so that bending passes through the levels and each is a matrix of 3x3 blocks as
   the first. Levels are smoothed by a Chebyshev polynomial, which threads share; aggregates are
-  found once, the rest is made anew when that pays. Iterations do not grow as a mesh is refined;
+  found once, the rest is made anew when that pays, in parts over several steps, so that no step
+  waits for all of it. Iterations do not grow as a mesh is refined;
 - … `precision: single`: iterations in single precision, half the bytes; residuals in double
   correct them to the tolerance, and where they do not fall the solve goes on in double;
 - … `matrix: free`: no matrix at all, the products of the forces themselves;
 - `cholesky`: a sparse factor (CHOLMOD); its symbolic part is kept while the mesh is;
 - `auto`: one of these by size, kind of step and editing; `plan()` says which, and why.
+
+Iterations start from that combination of the latest three answers whose residual is least (after
+Fischer 1998): never worse than from zero, at the price of three products; where it does not halve
+the residual it is tried more and more seldom.
 
 Whether a preconditioner pays is told by counts (iterations, flops, bytes of the factor), never by
 a clock: runs give the same bits. A solve has converged when the residual computed from x says so. A

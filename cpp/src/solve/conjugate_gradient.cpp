@@ -150,7 +150,7 @@ SolveReport ConjugateGradient::solve(const LinearOperator& A, ConstReals b, Real
   rounds(A, b, x, reference, report);
   if (full_) full_->end_solve();
   if (single_) single_->end_solve();
-  if (report.converged) forecast_->keep(x);
+  if (report.converged) forecast_->keep(A, x);
   return report;
 }
 

@@ -23,7 +23,7 @@ void add(const Threads& threads, double a, ConstReals x, Reals y) {
 }  // namespace
 
 double Forecast::start(const LinearOperator& A, double size, Reals r, Reals x) {
-  if (count_ == 0 || answers_.front().size() != x.size()) return size;
+  if (count_ == 0 || id_ != A.id() || answers_.front().size() != x.size()) return size;
   if (pause_ > 0) {
     --pause_;
     return size;
@@ -56,9 +56,10 @@ double Forecast::start(const LinearOperator& A, double size, Reals r, Reals x) {
   return left;
 }
 
-void Forecast::keep(ConstReals x) {
-  if (answers_.front().size() != x.size()) {
+void Forecast::keep(const LinearOperator& A, ConstReals x) {
+  if (id_ != A.id() || answers_.front().size() != x.size()) {
     forget();
+    id_ = A.id();
     for (auto* vectors : {&answers_, &products_}) {
       for (auto& v : *vectors) v.resize(x.size());
     }

@@ -3,6 +3,7 @@
 /// The first guess of a solve from the answers of those before it.
 
 #include <array>
+#include <cstdint>
 #include <vector>
 
 #include "tissu/assembly/linear_operator.h"
@@ -18,8 +19,8 @@ class Forecast {
  public:
   /// x = 0 becomes the guess, and r = b its residual, whose norm is `size`; the new norm.
   double start(const LinearOperator& A, double size, Reals r, Reals x);
-  /// An answer that was accepted.
-  void keep(ConstReals x);
+  /// An answer that was accepted, of a system of this operator; those of another one are forgotten.
+  void keep(const LinearOperator& A, ConstReals x);
   void forget();
   [[nodiscard]] std::size_t bytes() const;
 
@@ -29,6 +30,7 @@ class Forecast {
   std::array<std::vector<double>, kMost> answers_;  ///< the latest first
   std::array<std::vector<double>, kMost> products_;
   std::vector<double> partial_;
+  std::uint64_t id_ = 0;   ///< of the operator
   std::size_t count_ = 0;  ///< of answers
   int pause_ = 0;          ///< solves that go without
   int pauses_ = 0;         ///< length of the next pause

@@ -68,8 +68,8 @@ TEST(Forecast, FindsAnAnswerThatIsMadeOfEarlierOnes) {
   Forecast forecast;
   const std::vector<double> first = numbers(1);
   const std::vector<double> second = numbers(2);
-  forecast.keep(first);
-  forecast.keep(second);
+  forecast.keep(A, first);
+  forecast.keep(A, second);
   std::vector<double> answer(kSize);
   for (std::size_t i = 0; i < kSize; ++i) answer[i] = 2.0 * second[i] - first[i];
   std::vector<double> b(kSize);
@@ -83,7 +83,7 @@ TEST(Forecast, IsNeverWorseThanNoGuessAndSaysItsResidual) {
   const Counted A;
   for (unsigned seed = 1; seed < 20; ++seed) {
     Forecast forecast;
-    for (unsigned k = 0; k < 5; ++k) forecast.keep(numbers(100 * seed + k));
+    for (unsigned k = 0; k < 5; ++k) forecast.keep(A, numbers(100 * seed + k));
     const std::vector<double> b = numbers(seed);
     const Guess g = guess(forecast, A, b);
     EXPECT_LE(g.size, norm(b));
@@ -96,7 +96,7 @@ TEST(Forecast, IsNeverWorseThanNoGuessAndSaysItsResidual) {
 TEST(Forecast, IsNotMisledByTheSameAnswerTwice) {
   const Counted A;
   Forecast forecast;
-  for (int k = 0; k < 3; ++k) forecast.keep(numbers(1));
+  for (int k = 0; k < 3; ++k) forecast.keep(A, numbers(1));
   const Guess g = guess(forecast, A, numbers(2));
   EXPECT_TRUE(std::isfinite(g.size));
   const std::vector<double> r = residual(numbers(2), g.x);
@@ -109,20 +109,31 @@ TEST(Forecast, IsTriedMoreAndMoreSeldomWhereItDoesNotPay) {
   for (unsigned k = 0; k < 200; ++k) {
     const std::vector<double> b = numbers(k);
     guess(forecast, A, b);
-    forecast.keep(numbers(1000 + k));
+    forecast.keep(A, numbers(1000 + k));
   }
   // Pauses of 1, 2, 4, 8, then 16: some fifteen trials of three products.
   EXPECT_LE(A.products, 3 * 17);
   EXPECT_GE(A.products, 3 * 10);
 }
 
+TEST(Forecast, ForgetsTheAnswersOfAnotherOperator) {
+  const Counted A;
+  const Counted B;
+  Forecast forecast;
+  forecast.keep(A, numbers(1));
+  guess(forecast, B, numbers(2));
+  forecast.keep(B, numbers(3));
+  guess(forecast, A, numbers(2));
+  EXPECT_EQ(A.products + B.products, 0);
+}
+
 TEST(Forecast, ForgetsAndFollowsAnotherSize) {
   const Counted A;
   Forecast forecast;
-  forecast.keep(numbers(1));
+  forecast.keep(A, numbers(1));
   forecast.forget();
   guess(forecast, A, numbers(2));
-  forecast.keep(std::vector<double>(12, 1.0));
+  forecast.keep(A, std::vector<double>(12, 1.0));
   guess(forecast, A, numbers(2));
   EXPECT_EQ(A.products, 0);
 }

@@ -239,10 +239,10 @@ TEST(Renewal, PaysAtMostTwice) {
   EXPECT_FALSE(renewal.due());
   EXPECT_EQ(renewal.left(), Renewal::kUnlimited);
   renewal.used(3);  // what it takes when new
-  EXPECT_EQ(renewal.left(), 13.0);
+  EXPECT_EQ(renewal.left(), 16.0);  // twice those, and the price
   renewal.used(7);
   EXPECT_FALSE(renewal.due());
-  EXPECT_EQ(renewal.left(), 9.0);
+  EXPECT_EQ(renewal.left(), 12.0);
   renewal.used(9);
   EXPECT_TRUE(renewal.due());  // 4 + 6 beyond the first three
   renewal.made(10.0);

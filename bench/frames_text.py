@@ -110,6 +110,10 @@ the top of the uterus is led aside.*
 - Some rotations of trilinear and linear frames move no point (a turn about x that depends on x
   alone). The matrix holds them by a millionth of what a point has against turning, which changes
   no equilibrium; conjugate gradients in a static step feel it, so take `solver: cholesky` there.
+- A moment on frames: lines of frames take half a turn (20 cells, ten load steps: 63 Newton iterations, turned by 0.93 of half a
+  turn, since linear weights are stiff against large turns between neighbours; 10 cells: 0.63). On nodes of volumes of trilinear
+  or linear frames a moment does work on rotations that move nearly no point, so that they turn without bound and the result is
+  wrong also where it converged: load these by forces or tractions.
 - What rotations add to linear fields must be zero in the mean of a cell. Points of a grid stand
   alike in every cell; those of a Poisson sampling do not, and soften trilinear and linear frames:
   take several points for each frame, or another shape function. One point in a tetrahedron is too

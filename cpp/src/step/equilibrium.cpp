@@ -11,6 +11,8 @@
 namespace tissu {
 namespace {
 
+constexpr int kPause =
+    7;  ///< iterations, at most, that go by the definite matrix before an exact one is tried
 constexpr double kFarthest = 1e3;    ///< sizes of the scene, the mean of a correction: it has lost its way
 constexpr int kPatience = 12;        ///< iterations that a whole step may take without a lower residual
 constexpr double kRoundings = 16.0;  ///< roundings in a row of f, as of a matrix (solve/linear_solver.cpp)
@@ -86,13 +88,15 @@ bool Equilibrium::is_reached(double share, const State& state, double now, std::
 }
 
 bool Equilibrium::solve(const State& state, StepReport& report) {
-  const SolveReport solved = tangent_.solve(state, right_, change_);
+  const bool tries = pause_ == 0;
+  const SolveReport solved = tangent_.solve(state, right_, change_, tries);
   is_exact_ = false;
   report.solver_iterations += solved.iterations;
   if (!solved.positive_definite) {
     ++report.indefinite;
-    if (!solved.converged) solve_definite(state, report);
-    is_exact_ = solved.converged;
+    if (tries && !solved.converged) solve_definite(state, report);
+    is_exact_ = tries && solved.converged;
+    pause_ = tries ? 0 : pause_ - 1;
   }
   world().fixed().clear(change_);
   ++report.newton_iterations;
@@ -134,10 +138,12 @@ bool Equilibrium::halve(State& state, double& now) {
   if (next < kStands * now) {
     now = next;
     correction_ = norm(change_);
+    next_pause_ = 0;
     return true;
   }
   state = from_;
   now = residual(state);
+  pause_ = next_pause_ = std::min(2 * next_pause_ + 1, kPause);
   return false;
 }
 
@@ -171,6 +177,7 @@ Equilibrium::End Equilibrium::find(const LoadPath& path, double before, double s
   path.load(share, state);
   correction_.reset();
   linear_solved_ = true;
+  pause_ = next_pause_ = 0;
   start_way_ = distance(state.positions, rest_.positions);
   const int first = report.newton_iterations;
   const auto stop = [&](End end) { return linear_solved_ ? end : End::solver; };

@@ -79,7 +79,7 @@ double StaticEquilibrium::go_by_parts(const LoadPath& path, State& state, StepRe
     } else if (part < 2.0 * smallest) {
       return go_by_arc(path, share, part, state, report);
     } else {
-      part *= 0.5;
+      part = 0.5 * (to - share);
     }
   }
   return share;

@@ -24,17 +24,22 @@ void add(double a, ConstReals x, Reals y) {
 
 }  // namespace
 
-SolveReport TangentSolve::solve(const State& state, ConstReals b, Reals x) {
+SolveReport TangentSolve::solve(const State& state, ConstReals b, Reals x, bool exact) {
   std::ranges::fill(x, 0.0);
   system_.assemble(state, 0.0, {-1.0, 0.0});
   has_moments_ = find_moments(state);
   const SolveReport report = system_.solve(b, x, 0.0);
   if (report.positive_definite && !has_moments_) return report;
-  if (!report.positive_definite) system_.assemble(state, 0.0, {-1.0, 0.0, true});
-  SolveReport iterated = iterate(state, b, x);
-  iterated.iterations += report.iterations;
-  iterated.positive_definite = report.positive_definite;
-  return iterated;
+  SolveReport more;
+  if (!exact && !has_moments_) {
+    more = solve_definite(state, b, x);
+  } else {
+    if (!report.positive_definite) system_.assemble(state, 0.0, {-1.0, 0.0, true});
+    more = iterate(state, b, x);
+  }
+  more.iterations += report.iterations;
+  more.positive_definite = report.positive_definite;
+  return more;
 }
 
 bool TangentSolve::find_moments(const State& state) {

@@ -95,6 +95,8 @@ class Equilibrium {
   double previous_ = 0.0;             ///< residual that was judged before
   bool linear_solved_ = true;
   bool is_exact_ = false;  ///< the latest change is by a tangent that is indefinite
+  int pause_ = 0;          ///< iterations that do not try that
+  int next_pause_ = 0;     ///< the latest of them, longer each time that it was in vain
   bool at_round_off_ = false;
 };
 

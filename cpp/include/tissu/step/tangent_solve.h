@@ -16,8 +16,9 @@ class TangentSolve {
  public:
   explicit TangentSolve(System& system) : system_(system) {}
 
-  /// Held rows of b and x are zero. `report.positive_definite` is what K is.
-  SolveReport solve(const State& state, ConstReals b, Reals x);
+  /// Held rows of b and x are zero. `report.positive_definite` is what K is; not `exact`: x is by the
+  /// definite matrix where K is indefinite.
+  SolveReport solve(const State& state, ConstReals b, Reals x, bool exact = true);
   /// The same with the definite matrix only: x is a direction in which the energy falls.
   SolveReport solve_definite(const State& state, ConstReals b, Reals x);
 

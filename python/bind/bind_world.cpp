@@ -182,8 +182,8 @@ void bind_world(py::module_& m) {
           py::kw_only(), arg("name"), arg("positions"), arg("frames"))
       .def("add_elastic", &add_elastic, py::kw_only(), arg("body"), arg("cell_type"), arg("cells"),
            arg("cell_numbers"), arg("law"), arg("parameters"), arg("density"), arg("quadrature"),
-           arg("reinforcements"), arg("loaded").none(true), arg("cross_section"),
-           arg("section") = SectionOfLines("round", {}, {}), arg("plane"), arg("model"))
+           arg("reinforcements"), arg("loaded").none(true), arg("cross_section"), arg("section"),
+           arg("plane"), arg("model"))
       .def("add_points", &add_points, py::kw_only(), arg("body"), arg("shared"), arg("frames"),
            arg("weights"), arg("gradients"), arg("positions"), arg("volumes"), arg("law"), arg("parameters"),
            arg("fibres"), arg("loaded").none(true), arg("density"), arg("model"))

@@ -150,7 +150,7 @@ class WorldBuilder:
         reinforcements: Sequence[tuple[str, Mapping[str, Floats]]],
         loaded: LoadedLaw | None,
         cross_section: Floats,
-        section: SectionOfLines = ...,
+        section: SectionOfLines,
         plane: Plane,
         model: Model,
     ) -> None: ...

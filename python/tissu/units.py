@@ -146,7 +146,7 @@ AREA = Dimension(
 )  # fmt: skip
 AREA_MOMENT = Dimension(
     "second moment of area", "m^4", "80 mm^4",
-    {"m^4": 1.0, "m4": 1.0, "cm^4": 1e-8, "cm4": 1e-8, "mm^4": 1e-12, "mm4": 1e-12},
+    {"m^4": 1.0, "cm^4": 1e-8, "mm^4": 1e-12},
 )  # fmt: skip
 TIME = Dimension("time", "s", "10 ms", {"s": 1.0, "ms": 1e-3, "us": 1e-6, "min": 60.0})
 MASS = Dimension("mass", "kg", "1.5 kg", {"kg": 1.0, "g": 1e-3, "mg": 1e-6})

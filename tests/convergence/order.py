@@ -72,6 +72,7 @@ def cube(mesh, law, parameters, quadrature="full", setting="solid"):
             reinforcements=[],
             loaded=None,
             cross_section=np.array([CROSS_SECTION[setting]]),
+            section=("round", [0.0] * 5, [0.0] * 3),
             plane=_core.Plane.strain if setting == "plane strain" else _core.Plane.stress,
             model=_core.FEM(),
         )

@@ -171,6 +171,24 @@ def models():
     return [ts.Scene(bodies={"bar": body}, step=step) for body in bodies]
 
 
+def sections():
+    """A scene for each section of rods."""
+    mesh = ts.BarMesh(size=(1, 0, 0), cells=(4, 0, 0), cell="line")
+    step, law = ts.ImplicitEuler(0.01), ts.StVK(young=1e3, poisson=0.3)
+    numbers = {"inertia_up": "0.6 mm^4", "inertia_across": 2e-13, "torsion": "0.4 mm^4"}
+    each = [
+        ts.Round(radius="1 mm"),
+        ts.Rectangle(height="2 mm", width=0.001, up=(0, 0, 1)),
+        ts.Tube(outer="2 mm", inner="1 mm"),
+        ts.GeneralSection(area="2 mm^2", shear_up=0.8, shear_across=0.9, up=(0, 1, 0), **numbers),
+    ]
+    bodies = [
+        ts.Body(mesh=mesh, law=law, density=1e3, model=ts.Frames(), section=section)
+        for section in each
+    ]
+    return [ts.Scene(bodies={"rod": body}, step=step) for body in bodies]
+
+
 def viscosities():
     """A scene for each viscosity that `everything` lacks."""
     mesh = ts.BarMesh(size=(1, 1, 1), cells=(1, 1, 1))
@@ -226,7 +244,7 @@ def test_types_may_be_spelt_with_hyphens():
 
 
 def test_every_law_model_and_method_comes_back():
-    for scene in [*other_laws(), *models(), *methods()]:
+    for scene in [*other_laws(), *models(), *methods(), *sections()]:
         assert ts.Scene.from_yaml_text(scene.to_yaml()) == scene
 
 
@@ -235,7 +253,7 @@ def test_every_part_is_in_the_round_trip():
     import tissu.scene
 
     text = repr(everything()) + repr(organ("a")) + repr(ConjugateGradient()) + repr(other_laws())
-    text += repr(models()) + repr(viscosities()) + repr(methods())
+    text += repr(models()) + repr(viscosities()) + repr(methods()) + repr(sections())
     missing = [name for name in tissu.scene.__all__ if f"{name}(" not in text]
     assert missing == ["UserLaw"]
 

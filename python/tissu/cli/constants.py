@@ -112,6 +112,7 @@ def _measured(
         reinforcements=[],
         loaded=None,
         cross_section=np.array([1.0]),
+        section=("round", [0.0] * 5, [0.0] * 3),
         plane=_core.Plane.stress,
         model=_core.FEM(),
     )

@@ -8,8 +8,6 @@ from pydantic import BeforeValidator
 
 from tissu.errors import ParameterError
 
-__all__ = ["Axes", "Rotations", "mask_of"]
-
 
 def _letters(value: object) -> str | None:
     """Letters out of xyz, each once, in their order; None: the value is something else."""

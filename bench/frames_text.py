@@ -145,10 +145,10 @@ the top of the uterus is led aside.*
   that depends on x alone). The matrix holds them by a millionth of what a point has against
   turning, which changes no equilibrium; conjugate gradients in a static step feel it, so take
   `solver: cholesky` there.
-- A moment on lines of frames: half a turn of a cantilever takes 20 cells 63 Newton iterations in ten
-  load steps, and its end turns by 0.93 of half a turn, since linear weights are stiff against large
-  turns between neighbours. On volumes of trilinear or linear frames with whole levers a moment
-  would do work on rotations that move nearly no point; scenes refuse it there: load these by
+- A moment on lines of frames: half a turn of a cantilever takes 20 cells 63 Newton iterations in
+  ten load steps, and its end turns by 0.93 of half a turn, since linear weights are stiff against
+  large turns between neighbours. On volumes of trilinear or linear frames with whole levers a
+  moment would do work on rotations that move nearly no point; scenes refuse it there: load these by
   forces or tractions, or take `lever: half`.
 - What rotations add to linear fields must be zero in the mean of a cell. Points of a grid stand
   alike in every cell; those of a Poisson sampling do not, and soften trilinear and linear frames:

@@ -11,7 +11,8 @@ iteration: in bending the first iteration stretches the body, and its residual i
 the load. Beside it the last correction is at most a hundredth of the displacement. A residual
 that is round-off (epsilon |diag(K) x|: what half a unit in the last place of the positions makes
 of the forces) is accepted, and the report's message says so with the share of the load that it
-leaves. `contrast` stops there, at 1e-4 of its load. Steps in time are judged in the same way, by external impulse, reactions and change of momentum.
+leaves. `contrast` stops there, at 1e-4 of its load. Steps in time are judged in the same way, by
+external impulse, reactions and change of momentum.
 
 **How the load comes.** In the first step the external loads grow in proportion; in later steps
 time goes on and they follow their histories. Led nodes follow their motion in every step,

@@ -102,7 +102,7 @@ def main(names: list[str]) -> None:
         (body,) = simulation.bodies
         points = np.asarray(simulation.meshes[body].points)
         moved = simulation.displacements(body)
-        arrays = {"points": points, "displacements": moved}
+        arrays: dict[str, Any] = {"points": points, "displacements": moved}
         if name in EDGE:
             edge = np.flatnonzero((points[:, 1:] == points[0, 1:]).all(axis=1))
             edge = edge[np.argsort(points[edge, 0])]

@@ -126,6 +126,20 @@ def test_a_moment_on_the_end_bends_to_an_arc() -> None:
     assert sag == pytest.approx(moment * 100 / (2 * stiffness), rel=0.03)
 
 
+@pytest.mark.parametrize("model", [ts.Frames(), ts.Frames(lever="whole")])
+def test_whole_levers_of_a_volume_take_no_moment(model: ts.Frames) -> None:
+    """Its rotations move nearly no point: the answer would be wrong, and converged all the same."""
+    end = ts.Plane((SIZE[0], 0, 0), (1, 0, 0))
+    scene = ts.Scene(
+        bodies={"bar": _bar((4, 1, 1), "hexahedron", model)},
+        fixed=[ts.Fixed("bar", on=ts.Plane((0, 0, 0), (1, 0, 0)))],
+        loads=[ts.Moment("bar", on=end, moment=(0, 0, 1))],
+        step=STEP,
+    )
+    with pytest.raises(ts.SceneError, match=r"whole levers.*lever: half"):
+        scene.compile()
+
+
 @pytest.mark.parametrize("cell", ["tetra", "hexahedron", "wedge", "pyramid"])
 def test_only_rigid_motions_are_free(cell: str) -> None:
     """Six motions of a block without stiffness: no rotation that moves no point is among them."""

@@ -143,7 +143,22 @@ def check_rotations(prepared: Prepared) -> None:
             text = f"found a moment on '{load.body}', whose nodes have no rotation; "
             text += "frames have one, other bodies take forces"
             _tell_once(("loads", number), text, prepared.findings)
+        elif load.type == "moment" and asked is not None:
+            _check_moment(prepared, number, load.body, asked)
     _check_held_rotations(prepared)
+
+
+def _check_moment(prepared: Prepared, number: int, name: str, body: Body) -> None:
+    """Report a moment on a volume of frames with whole levers, which turns what moves no point."""
+    found = prepared.bodies.get(name)
+    levers = {getattr(model, "lever", "half") for model in body.models().values()}
+    whole = bool(levers & {None, "whole"})
+    if found is None or not whole or not found.mesh.volume_blocks:
+        return
+    text = f"found a moment on '{name}', a volume of frames with whole levers, whose rotations "
+    text += "move nearly no point there; take the model {type: frames, lever: half}, or load it by "
+    text += "forces"
+    _tell_once(("loads", number), text, prepared.findings)
 
 
 def _check_held_rotations(prepared: Prepared) -> None:

@@ -238,7 +238,7 @@ TEST(Renewal, PaysAtMostTwice) {
   renewal.made(10.0);
   EXPECT_FALSE(renewal.due());
   EXPECT_EQ(renewal.left(), Renewal::kUnlimited);
-  renewal.used(3);  // what it takes when new
+  renewal.used(3);                  // what it takes when new
   EXPECT_EQ(renewal.left(), 16.0);  // twice those, and the price
   renewal.used(7);
   EXPECT_FALSE(renewal.due());

@@ -79,7 +79,8 @@ ASKED = {
 PRESENT = {
     "elasticity": r"\b(Elastic|CellModel|BodyModel|ForceModel|StVK)\b.*::",
     "inertia": r"\bMass::",
-    "linear solver": r"\b(ConjugateGradient|Iteration<|BlockJacobi<|attainable)",
+    "linear solver": r"\b(ConjugateGradient|Forecast|attainable)|"
+    r"\b(Iteration|Preconditioner|BlockJacobi)<",
     "matrix": r"\b(BlockMatrix::|multiply_rows\b)",
     "method": r"\b(ImplicitEuler|StageSolver|System|State|World)::|\bmove\(",
     "loop and roll back": r"\bSimulation::|^tissu_effects_steps$",

@@ -81,14 +81,22 @@ def test_one_target_over_a_time_is_the_way_at_a_constant_rate() -> None:
 
 @pytest.mark.parametrize("kind", ["fem", "frames", "shell"])
 def test_static_steps_turn_by_the_arc(kind: str) -> None:
-    """A turn of 120 degrees about the bar's own axis in one static step."""
+    """A turn of 120 degrees about the bar's own axis in one static step.
+
+    Frames have half levers: with whole ones equilibria lie close together, and two ways there end
+    at different ones.
+    """
+    body = led_body(kind)
+    if kind == "frames":
+        body = body.replace(model=ts.Frames(lever="half"))
+    bodies = {"bar": body}
     static = ts.Static(newton=ts.Newton(iterations=60), solver=ts.Cholesky())
     angle, axis = 2.0 * np.pi / 3.0, (1.0, 0.0, 0.0)
     height = 0.0 if kind == "shell" else 0.05
     rotation = ts.Rotation(axis=axis, center=(LENGTH, 0.05, height), angles=[0.0, angle])
     motion = ts.Prescribed("bar", on=END, times=[0.0, 1.0], rotation=rotation)
-    given = led_scene(static, kind, fixed=[ROOT], prescribed=[motion]).compile()
-    live = led_scene(static, kind).compile()
+    given = led_scene(static, bodies=bodies, fixed=[ROOT], prescribed=[motion]).compile()
+    live = led_scene(static, bodies=bodies).compile()
     live.lead("hand").move(angle=angle, axis=axis, center=(LENGTH, 0.05, height))
     assert given.step(1.0).converged
     assert live.step(1.0).converged

@@ -131,7 +131,7 @@ def test_cells_may_go_after_a_change() -> None:
 
 
 def test_a_moment_on_frames() -> None:
-    frames = BAR.replace(model=ts.Frames())
+    frames = BAR.replace(model=ts.Frames(lever="half"))
     load = ts.Moment("bar", on=END, moment=(0, 0, 0), name="twist")
     live = _scene(load, STEPS["implicit"], bodies={"bar": frames}).compile()
     live.load("twist").moment = ("1 N mm", 0, 0)

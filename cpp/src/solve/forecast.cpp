@@ -12,15 +12,14 @@ constexpr double kPays = 0.5;        ///< of the residual: what a guess has to l
 constexpr int kLongest = 16;         ///< solves that go without at most
 constexpr double kDependent = 1e-8;  ///< of a product, squared: what the other ones leave of it is round-off
 
-/// y += a x
-void add(const Threads& threads, double a, ConstReals x, Reals y) {
+}  // namespace
+
+void Forecast::add(const Threads& threads, double a, ConstReals x, Reals y) {
   threads.for_pieces(static_cast<std::int32_t>(x.size() / 3), [&](std::int32_t begin, std::int32_t end) {
     for (auto i = 3 * static_cast<std::size_t>(begin); i < 3 * static_cast<std::size_t>(end); ++i)
       y[i] += a * x[i];
   });
 }
-
-}  // namespace
 
 double Forecast::start(const LinearOperator& A, double size, Reals r, Reals x) {
   if (count_ == 0 || id_ != A.id() || answers_.front().size() != x.size()) return size;

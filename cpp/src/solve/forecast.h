@@ -25,6 +25,9 @@ class Forecast {
   [[nodiscard]] std::size_t bytes() const;
 
  private:
+  /// y += a x
+  static void add(const Threads& threads, double a, ConstReals x, Reals y);
+
   static constexpr std::size_t kMost = 3;
 
   std::array<std::vector<double>, kMost> answers_;  ///< the latest first

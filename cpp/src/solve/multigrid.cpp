@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "work.h"
+
 namespace tissu {
 namespace {
 
@@ -54,6 +56,7 @@ void Multigrid<T>::make(const LinearOperator& A, double scale) {
   }
   if (direct_) factor(level);
   set_price(A);
+  once_ = fresh ? kAggregation * A.rows() : 0.0;
   complete_ = true;
 }
 
@@ -155,6 +158,8 @@ void Multigrid<T>::set_price(const LinearOperator& A) {
   }
   const double iteration = static_cast<double>(A.bytes()) + kVectorBytes * A.rows() + cycle;
   price_ = made / iteration;
+  making_ = made;
+  application_ = cycle;
 }
 
 template <class T>

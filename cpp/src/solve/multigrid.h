@@ -24,6 +24,9 @@ class Multigrid final : public Preconditioner<T> {
  public:
   void make(const LinearOperator& A, double scale) override;
   [[nodiscard]] double price() const override { return price_; }
+  [[nodiscard]] double making() const override { return making_; }
+  [[nodiscard]] double once() const override { return once_; }
+  [[nodiscard]] double application() const override { return application_; }
   void apply(std::span<const T> r, std::span<T> z) override;
   void forget() override { levels_.clear(); }
   [[nodiscard]] std::size_t bytes() const override;
@@ -68,6 +71,9 @@ class Multigrid final : public Preconditioner<T> {
   Eigen::MatrixXd dense_;
   Eigen::VectorXd vector_;
   double price_ = 0.0;
+  double making_ = 0.0;
+  double once_ = 0.0;
+  double application_ = 0.0;
 };
 
 }  // namespace tissu

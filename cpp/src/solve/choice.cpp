@@ -1,0 +1,127 @@
+#include "choice.h"
+
+#include <algorithm>
+
+namespace tissu {
+namespace {
+
+constexpr double kBetter = 0.9;    ///< rate, of the present arm's, below which another one is worth a change
+constexpr double kHopeful = 0.8;   ///< what a prediction is multiplied by, so that a doubtful arm gets a trial
+constexpr double kRoom = 1.5;      ///< of another arm's first solve, which an arm may spend in vain
+constexpr double kExpected = 3.0;  ///< of its own rate, which an arm may spend at least
+constexpr int kMemory = 32;        ///< solves over which a cost is averaged
+constexpr double kAfterFailure = 4.0;  ///< times the patience of an arm that failed
+constexpr double kUnfinished = 2.0;    ///< times what it spent: the price of a solve that was left
+constexpr double kMostPatience = 1e6;
+
+}  // namespace
+
+void Choice::begin(const ForArms<Cost>& predicted, double solves) {
+  *this = Choice();
+  predict(predicted);
+  const auto price = [&](Arm arm) {
+    const Cost& cost = at(arm).cost;
+    return cost.making + cost.once + (solves - 1.0) * cost.rate() + cost.solving;
+  };
+  current_ = *std::ranges::min_element(kAllArms, {}, price);
+}
+
+void Choice::predict(const ForArms<Cost>& predicted) {
+  for (const Arm arm : kAllArms) {
+    if (at(arm).solves == 0) at(arm).cost = predicted[number(arm)];
+  }
+}
+
+void Choice::begin_solve() {
+  unlimited_ = false;
+  for (State& state : state_) state.left = state.failed = false;
+}
+
+double Choice::allowance() const {
+  if (current_ == Arm::cholesky || unlimited_) return kNever;
+  double other = kNever;
+  for (const Arm arm : kAllArms) {
+    if (arm != current_ && is_open(arm)) other = std::min(other, at(arm).cost.first());
+  }
+  return std::max(kRoom * other, (is_counted(current_) ? kExpected : kRoom) * at(current_).cost.first());
+}
+
+bool Choice::leave(double spent, bool failed) {
+  State& mine = at(current_);
+  mine.left = true;
+  mine.failed = failed;
+  if (failed) {
+    mine.patience = std::min(kAfterFailure * mine.patience, kMostPatience);
+  } else {
+    count(0.0, kUnfinished * spent);
+  }
+  if (std::ranges::none_of(kAllArms, [&](Arm arm) { return is_open(arm); })) {
+    unlimited_ = true;
+    for (State& state : state_) state.left = state.failed;
+  }
+  Arm next = current_;
+  for (const Arm arm : kAllArms) {
+    if (is_open(arm) && (at(next).left || at(arm).cost.first() < at(next).cost.first())) next = arm;
+  }
+  if (at(next).left) return false;
+  if (next != current_) change(next, false);
+  return true;
+}
+
+double Choice::expected(Arm arm) const { return (is_counted(arm) ? 1.0 : kHopeful) * at(arm).cost.rate(); }
+
+void Choice::change(Arm to, bool trial) {
+  before_ = current_;
+  current_ = to;
+  on_trial_ = trial;
+  fresh_ = true;
+  ++changes_;
+  for (State& state : state_) state.regret = 0.0;
+}
+
+void Choice::used(const Spent& spent) {
+  const bool first = fresh_;
+  fresh_ = false;
+  const double solving = spent.solving + (first ? 0.0 : spent.once);
+  count(spent.making, solving);
+  const double rate = at(current_).cost.rate();
+  if (on_trial_) return end_trial(rate);
+  regret(first ? solving : solving + spent.making);
+  Arm best = current_;
+  for (const Arm arm : kAllArms) {
+    const State& other = at(arm);
+    if (arm == current_ || !(expected(arm) < kBetter * rate)) continue;
+    if (other.regret < other.patience * std::max(other.cost.making + other.cost.once, rate)) continue;
+    if (best == current_ || expected(arm) < expected(best)) best = arm;
+  }
+  if (best != current_) change(best, true);
+}
+
+void Choice::count(double making, double solving) {
+  State& mine = at(current_);
+  const double weight = 1.0 / std::min(kMemory, mine.solves + 1);
+  if (mine.solves == 0) {
+    mine.cost.solving = solving;
+  } else {
+    mine.cost.solving += weight * (solving - mine.cost.solving);
+    mine.cost.share += 1.0 / kMemory * ((making > 0.0 ? 1.0 : 0.0) - mine.cost.share);
+  }
+  if (making > 0.0) mine.cost.making = making;
+  ++mine.solves;
+}
+
+void Choice::end_trial(double rate) {
+  on_trial_ = false;
+  if (rate < kBetter * at(before_).cost.rate()) return;
+  State& mine = at(current_);
+  mine.patience = std::min(2.0 * mine.patience, kMostPatience);
+  change(before_, false);
+}
+
+void Choice::regret(double work) {
+  for (const Arm arm : kAllArms) {
+    if (arm != current_) at(arm).regret = std::max(0.0, at(arm).regret + work - expected(arm));
+  }
+}
+
+}  // namespace tissu

@@ -84,7 +84,7 @@ def contrast(unknowns: float, step: Any) -> ts.Scene:
     mesh = ts.BarMesh(
         size=(0.1, 0.1, 0.1), cells=cells_for(unknowns, (1, 1, 1)), regions={"core": core}
     )
-    law = {"core": ts.StVK(young="5 GPa", poisson=0.3), "rest": ts.StVK(young="5 kPa", poisson=0.3)}
+    law = {"core": ts.StVK(young="50 GPa", poisson=0.3), "rest": ts.StVK(young="50 kPa", poisson=0.3)}
     return held(mesh, step, law=law)
 
 

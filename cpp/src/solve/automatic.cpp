@@ -17,7 +17,7 @@ namespace {
 
 constexpr int kIterations = 20'000;
 constexpr double kFactorBytes = 2e9;  ///< a larger factor is not made
-constexpr double kSolvesSteps = 20.0;  ///< that are to pay for the first preparation
+constexpr double kSolvesSteps = 8.0;  ///< that are to pay for the first preparation
 constexpr double kSolvesNewton = 4.0;
 constexpr double kNewSize = 0.1;  ///< of rows and blocks: a matrix of another size is not compared
 constexpr double kOfPlain = 3.2;  ///< iterations of block-Jacobi for one of incomplete Cholesky
@@ -161,7 +161,8 @@ SolveReport Automatic::solve(const LinearOperator& A, ConstReals b, Reals x, dou
       if (report.converged && report.iterations > 0) choice_->used(spent(report));
       break;
     }
-    if (!choice_->leave(report.work, report.work < choice_->allowance())) break;
+    const double solving = spent(report).solving;
+    if (!choice_->leave(solving, solving < choice_->allowance())) break;
   }
   drop();
   return sum;
@@ -191,12 +192,18 @@ std::string_view Automatic::name() const {
 std::string Automatic::account() const {
   if (known_->id == 0 && std::ranges::all_of(solves_, [](std::int64_t n) { return n == 0; })) return {};
   std::string text;
+  std::int64_t last = 0;
   for (const Arm arm : kAllArms) {
     if (solves_[number(arm)] == 0) continue;
     text += (text.empty() ? "" : ", ") + std::string(name_of(arm)) + " in " +
             std::to_string(solves_[number(arm)]);
+    last = solves_[number(arm)];
   }
-  text += "; changed " + std::to_string(changes_ + choice_->changes()) + " times";
+  const int changes = changes_ + choice_->changes();
+  text += last == 1 ? " system" : " systems";
+  text += "; it " + (changes == 0   ? std::string("never changed")
+                     : changes == 1 ? std::string("changed once")
+                                    : "changed " + std::to_string(changes) + " times");
   if (known_->id == 0) return text;
   text += "; work of a system [MB]:";
   for (const Arm arm : kAllArms) {

@@ -7,9 +7,13 @@ namespace {
 
 constexpr double kBetter = 0.9;    ///< rate, of the present arm's, below which another one is worth a change
 constexpr double kHopeful = 0.8;   ///< what a prediction is multiplied by, so that a doubtful arm gets a trial
+constexpr double kLeast = 4.0;     ///< solves of the present arm that a change has to save, at least
 constexpr double kRoom = 1.5;      ///< of another arm's first solve, which an arm may spend in vain
 constexpr double kExpected = 3.0;  ///< of its own rate, which an arm may spend at least
-constexpr int kMemory = 32;        ///< solves over which a cost is averaged
+constexpr int kMemory = 8;         ///< solves over which a cost is averaged, …
+constexpr int kLongMemory = 32;    ///< … and the share of those with makings
+constexpr double kHoping = 0.99;   ///< by which the cost of an arm is doubted with every solve of another one
+constexpr double kAfterTrial = 2.0;    ///< times the patience of the arm that did not stay
 constexpr double kAfterFailure = 4.0;  ///< times the patience of an arm that failed
 constexpr double kUnfinished = 2.0;    ///< times what it spent: the price of a solve that was left
 constexpr double kMostPatience = 1e6;
@@ -39,11 +43,12 @@ void Choice::begin_solve() {
 
 double Choice::allowance() const {
   if (current_ == Arm::cholesky || unlimited_) return kNever;
+  if (on_trial_) return kRoom * at(before_).cost.rate();
   double other = kNever;
   for (const Arm arm : kAllArms) {
     if (arm != current_ && is_open(arm)) other = std::min(other, at(arm).cost.first());
   }
-  return std::max(kRoom * other, (is_counted(current_) ? kExpected : kRoom) * at(current_).cost.first());
+  return std::max(kRoom * other, (is_counted(current_) ? kExpected : kRoom) * at(current_).cost.solving);
 }
 
 bool Choice::leave(double spent, bool failed) {
@@ -51,7 +56,7 @@ bool Choice::leave(double spent, bool failed) {
   mine.left = true;
   mine.failed = failed;
   if (failed) {
-    mine.patience = std::min(kAfterFailure * mine.patience, kMostPatience);
+    wait_longer(current_, kAfterFailure);
   } else {
     count(0.0, kUnfinished * spent);
   }
@@ -68,7 +73,9 @@ bool Choice::leave(double spent, bool failed) {
   return true;
 }
 
-double Choice::expected(Arm arm) const { return (is_counted(arm) ? 1.0 : kHopeful) * at(arm).cost.rate(); }
+double Choice::expected(Arm arm) const {
+  return at(arm).hope * (is_counted(arm) ? 1.0 : kHopeful) * at(arm).cost.rate();
+}
 
 void Choice::change(Arm to, bool trial) {
   before_ = current_;
@@ -76,7 +83,6 @@ void Choice::change(Arm to, bool trial) {
   on_trial_ = trial;
   fresh_ = true;
   ++changes_;
-  for (State& state : state_) state.regret = 0.0;
 }
 
 void Choice::used(const Spent& spent) {
@@ -91,7 +97,7 @@ void Choice::used(const Spent& spent) {
   for (const Arm arm : kAllArms) {
     const State& other = at(arm);
     if (arm == current_ || !(expected(arm) < kBetter * rate)) continue;
-    if (other.regret < other.patience * std::max(other.cost.making + other.cost.once, rate)) continue;
+    if (other.regret < other.patience * std::max(other.cost.making + other.cost.once, kLeast * rate)) continue;
     if (best == current_ || expected(arm) < expected(best)) best = arm;
   }
   if (best != current_) change(best, true);
@@ -101,21 +107,34 @@ void Choice::count(double making, double solving) {
   State& mine = at(current_);
   const double weight = 1.0 / std::min(kMemory, mine.solves + 1);
   if (mine.solves == 0) {
-    mine.cost.solving = solving;
+    // The first solve with a new factor flatters it.
+    mine.cost.solving = current_ == Arm::stale_cholesky ? std::max(mine.cost.solving, solving) : solving;
   } else {
     mine.cost.solving += weight * (solving - mine.cost.solving);
-    mine.cost.share += 1.0 / kMemory * ((making > 0.0 ? 1.0 : 0.0) - mine.cost.share);
+    mine.cost.share += 1.0 / kLongMemory * ((making > 0.0 ? 1.0 : 0.0) - mine.cost.share);
   }
   if (making > 0.0) mine.cost.making = making;
   ++mine.solves;
+  mine.hope = 1.0;
+  for (const Arm arm : kAllArms) {
+    if (arm != current_) at(arm).hope *= kHoping;
+  }
 }
 
 void Choice::end_trial(double rate) {
   on_trial_ = false;
-  if (rate < kBetter * at(before_).cost.rate()) return;
-  State& mine = at(current_);
-  mine.patience = std::min(2.0 * mine.patience, kMostPatience);
+  at(current_).regret = 0.0;
+  if (rate < kBetter * at(before_).cost.rate()) {
+    for (State& state : state_) state.regret = 0.0;
+    wait_longer(before_, kAfterTrial);
+    return;
+  }
+  wait_longer(current_, kAfterTrial);
   change(before_, false);
+}
+
+void Choice::wait_longer(Arm arm, double times) {
+  at(arm).patience = std::min(times * at(arm).patience, kMostPatience);
 }
 
 void Choice::regret(double work) {

@@ -19,7 +19,7 @@ struct Spent {
 /// in use cost is counted, and the rule of who rents skis says when to change: what the present arm took
 /// beyond what another one would have taken is added up, and the other one is tried when the sum reaches the
 /// price of making it. One solve then says whether it stays. An arm that did not stay is tried again only
-/// after a sum twice as large, so that changes become rare whatever the matrices do, and all that is spent in
+/// after a sum twice as large, as is one that was left for good, so that changes become rare whatever the matrices do, and all that is spent in
 /// vain stays a fixed multiple of what the best arm takes.
 class Choice {
  public:
@@ -33,7 +33,8 @@ class Choice {
   [[nodiscard]] const Cost& cost(Arm arm) const { return at(arm).cost; }
   /// Its cost was counted; else it was predicted.
   [[nodiscard]] bool is_counted(Arm arm) const { return at(arm).solves > 0; }
-  /// Work that the present arm may spend in this solve: then another one solves it for less.
+  /// Work, makings not counted, that the present arm may spend in this solve: then another one solves it for
+  /// less.
   [[nodiscard]] double allowance() const;
   /// The present arm spent as much without an answer; `failed`: it has none to give. Another one goes on. When
   /// all were left, those that did not fail are taken up again without a limit; false when all failed.
@@ -52,6 +53,7 @@ class Choice {
     Cost cost;
     double regret = 0.0;    ///< what it would have saved
     double patience = 1.0;  ///< regret at which it is tried, in makings
+    double hope = 1.0;      ///< what its cost is multiplied by: it may be cheaper than when it was used
     int solves = 0;         ///< counted in its cost
     bool left = false;      ///< in this solve, …
     bool failed = false;    ///< … without hope
@@ -64,6 +66,7 @@ class Choice {
   void count(double making, double solving);
   void end_trial(double rate);
   void regret(double work);
+  void wait_longer(Arm arm, double times);
 
   ForArms<State> state_{};
   Arm current_ = Arm::block_jacobi;

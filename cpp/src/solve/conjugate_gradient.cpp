@@ -100,7 +100,7 @@ double ConjugateGradient::residual(const LinearOperator& A, ConstReals b, ConstR
 }
 
 double ConjugateGradient::spent(const SolveReport& report) const {
-  return report.work + (full_ ? full_->work() : 0.0) + (single_ ? single_->work() : 0.0);
+  return report.work + (full_ ? full_->solving() : 0.0) + (single_ ? single_->solving() : 0.0);
 }
 
 template <class T>
@@ -161,7 +161,7 @@ SolveReport ConjugateGradient::solve(const LinearOperator& A, ConstReals b, Real
   rounds(A, b, x, reference, report);
   report.making = (full_ ? full_->making() : 0.0) + (single_ ? single_->making() : 0.0);
   report.once = (full_ ? full_->once() : 0.0) + (single_ ? single_->once() : 0.0);
-  report.work = spent(report);
+  report.work = spent(report) + report.making + report.once;
   if (full_) full_->end_solve();
   if (single_) single_->end_solve();
   return report;

@@ -37,7 +37,6 @@ bool Iteration<T>::prepare(const LinearOperator& A, bool forced) {
   renewal_.made(M_->price());
   making_ += M_->making();
   once_ += M_->once();
-  work_ += M_->making() + M_->once();
   made_ = true;
   made_midway_ = forced;
   id_ = A.id();

@@ -54,8 +54,8 @@ class ConjugateGradient final : public LinearSolver {
     return settings_.preconditioning == Preconditioning::multigrid;
   }
   SolveReport solve(const LinearOperator& A, ConstReals b, Reals x, double floor) override;
-  /// The next solves stop, not converged, when they have taken so much work (SolveReport): for a caller that
-  /// has another way. Infinite at first.
+  /// The next solves stop, not converged, when they have taken so much work (SolveReport), makings not
+  /// counted: for a caller that has another way. Infinite at first.
   void allow(double work) { allowance_ = work; }
   void forget() override;
   [[nodiscard]] std::size_t bytes() const override;
@@ -63,7 +63,7 @@ class ConjugateGradient final : public LinearSolver {
  private:
   /// r_ = b - A x; |r_|
   double residual(const LinearOperator& A, ConstReals b, ConstReals x, SolveReport& report);
-  /// Work of this solve so far.
+  /// Work of this solve so far, makings not counted.
   [[nodiscard]] double spent(const SolveReport& report) const;
   /// Iterations that it may still take.
   template <class T>

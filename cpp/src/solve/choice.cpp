@@ -10,10 +10,11 @@ constexpr double kHopeful = 0.8;   ///< what a prediction is multiplied by, so t
 constexpr double kLeast = 4.0;     ///< solves of the present arm that a change has to save, at least
 constexpr double kRoom = 1.5;      ///< of another arm's first solve, which an arm may spend in vain
 constexpr double kExpected = 3.0;  ///< of its own rate, which an arm may spend at least
+constexpr int kFactorTrial = 4;    ///< solves of a trial of a factor, which the first ones flatter
 constexpr int kMemory = 8;         ///< solves over which a cost is averaged, …
 constexpr int kLongMemory = 32;    ///< … and the share of those with makings
-constexpr double kHoping = 0.99;   ///< by which the cost of an arm is doubted with every solve of another one
-constexpr double kAfterTrial = 2.0;    ///< times the patience of the arm that did not stay
+constexpr double kHoping = 0.997;  ///< by which the cost of an arm is doubted with every solve of another one
+constexpr double kAfterTrial = 3.0;    ///< times the patience of the arm that did not stay
 constexpr double kAfterFailure = 4.0;  ///< times the patience of an arm that failed
 constexpr double kUnfinished = 2.0;    ///< times what it spent: the price of a solve that was left
 constexpr double kMostPatience = 1e6;
@@ -58,7 +59,7 @@ bool Choice::leave(double spent, bool failed) {
   if (failed) {
     wait_longer(current_, kAfterFailure);
   } else {
-    count(0.0, kUnfinished * spent);
+    count(0.0, kUnfinished * spent, true);
   }
   if (std::ranges::none_of(kAllArms, [&](Arm arm) { return is_open(arm); })) {
     unlimited_ = true;
@@ -67,6 +68,10 @@ bool Choice::leave(double spent, bool failed) {
   Arm next = current_;
   for (const Arm arm : kAllArms) {
     if (is_open(arm) && (at(next).left || at(arm).cost.first() < at(next).cost.first())) next = arm;
+  }
+  if (on_trial_ && is_open(before_)) {
+    wait_longer(current_, kAfterTrial);
+    next = before_;  // what it made is kept
   }
   if (at(next).left) return false;
   if (next != current_) change(next, false);
@@ -82,6 +87,7 @@ void Choice::change(Arm to, bool trial) {
   current_ = to;
   on_trial_ = trial;
   fresh_ = true;
+  trial_left_ = to == Arm::stale_cholesky ? kFactorTrial : 1;
   ++changes_;
 }
 
@@ -89,9 +95,13 @@ void Choice::used(const Spent& spent) {
   const bool first = fresh_;
   fresh_ = false;
   const double solving = spent.solving + (first ? 0.0 : spent.once);
-  count(spent.making, solving);
+  count(first ? 0.0 : spent.making, solving, first);
+  if (first && spent.making > 0.0) at(current_).cost.making = spent.making;
   const double rate = at(current_).cost.rate();
-  if (on_trial_) return end_trial(rate);
+  if (on_trial_) {
+    if (--trial_left_ == 0) end_trial(rate);
+    return;
+  }
   regret(first ? solving : solving + spent.making);
   Arm best = current_;
   for (const Arm arm : kAllArms) {
@@ -103,16 +113,11 @@ void Choice::used(const Spent& spent) {
   if (best != current_) change(best, true);
 }
 
-void Choice::count(double making, double solving) {
+void Choice::count(double making, double solving, bool first) {
   State& mine = at(current_);
   const double weight = 1.0 / std::min(kMemory, mine.solves + 1);
-  if (mine.solves == 0) {
-    // The first solve with a new factor flatters it.
-    mine.cost.solving = current_ == Arm::stale_cholesky ? std::max(mine.cost.solving, solving) : solving;
-  } else {
-    mine.cost.solving += weight * (solving - mine.cost.solving);
-    mine.cost.share += 1.0 / kLongMemory * ((making > 0.0 ? 1.0 : 0.0) - mine.cost.share);
-  }
+  mine.cost.solving += (mine.solves == 0 ? 1.0 : weight) * (solving - mine.cost.solving);
+  if (!first) mine.cost.share += 1.0 / kLongMemory * ((making > 0.0 ? 1.0 : 0.0) - mine.cost.share);
   if (making > 0.0) mine.cost.making = making;
   ++mine.solves;
   mine.hope = 1.0;

@@ -18,8 +18,8 @@ struct Spent {
 /// The first arm is the one whose making and first solves cost least as predicted. From then on what the arms
 /// in use cost is counted, and the rule of who rents skis says when to change: what the present arm took
 /// beyond what another one would have taken is added up, and the other one is tried when the sum reaches the
-/// price of making it. One solve then says whether it stays. An arm that did not stay is tried again only
-/// after a sum twice as large, as is one that was left for good, so that changes become rare whatever the matrices do, and all that is spent in
+/// price of making it. One solve then says whether it stays; of a factor, which grows old, a few. An arm that did not stay is tried again only
+/// after a sum three times as large, as is one that was left for good, so that changes become rare whatever the matrices do, and all that is spent in
 /// vain stays a fixed multiple of what the best arm takes.
 class Choice {
  public:
@@ -63,7 +63,8 @@ class Choice {
   [[nodiscard]] bool is_open(Arm arm) const { return !at(arm).left && at(arm).cost.first() < kNever; }
   [[nodiscard]] double expected(Arm arm) const;
   void change(Arm to, bool trial);
-  void count(double making, double solving);
+  /// `first`: what was made is the price of the change, not a share of what solves cost.
+  void count(double making, double solving, bool first);
   void end_trial(double rate);
   void regret(double work);
   void wait_longer(Arm arm, double times);
@@ -72,6 +73,7 @@ class Choice {
   Arm current_ = Arm::block_jacobi;
   Arm before_ = Arm::block_jacobi;
   bool on_trial_ = false;
+  int trial_left_ = 0;  ///< solves
   bool unlimited_ = false;  ///< in this solve
   bool fresh_ = true;       ///< the present arm has ended no solve since it became that
   int changes_ = 0;

@@ -52,7 +52,8 @@ class Run:
 
     Attributes:
         first: of the first step.
-        later: median of a step in the second half; of the first where there is one only.
+        later: of a step in the second half: the median of times, which others disturb, and the mean
+            of counts, to which what is made anew belongs.
         whole: of all steps.
         failures: steps that were not solved.
         account: what `auto` chose.
@@ -93,9 +94,10 @@ def run(scene: ts.Scene, *, counts: bool, steps: int, cut: bool = False) -> Run:
             if time.perf_counter() - begin > MOST_SECONDS:
                 break
     later = taken[len(taken) // 2 :] or [float("nan")]
+    middle = float(np.mean(later) if counts else np.median(later))
     first = taken[0] if taken else float("nan")
     account = simulation.profile().solves.account
-    return Run(first, float(np.median(later)), float(np.sum(taken)), failures, account)
+    return Run(first, middle, float(np.sum(taken)), failures, account)
 
 
 def compared(

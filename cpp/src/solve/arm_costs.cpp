@@ -30,25 +30,35 @@ constexpr double kStale = 4.0;         ///< iterations with the factor of an ear
 constexpr double kServesSteps = 20.0;
 constexpr double kServesNewton = 2.0;
 
+/// Rows that hang together with others: not those that are given, or eliminated.
+std::vector<std::int32_t> bound_rows(const BlockMatrix& A) {
+  std::vector<std::int32_t> rows;
+  const Sparsity& pattern = A.sparsity();
+  for (std::int32_t i = 0; i < A.rows(); ++i) {
+    if (pattern.end_of(i) - pattern.begin_of(i) > 1) rows.push_back(i);
+  }
+  return rows;
+}
+
 /// Extents of the cloud of points, as those of a box with the same second moments.
-Vec3 extents_of(const RowPlaces& places) {
-  const auto rows = static_cast<std::int32_t>(places.point.size());
+Vec3 extents_of(const RowPlaces& places, const std::vector<std::int32_t>& rows) {
+  const auto count = static_cast<double>(rows.size());
   Vec3 mean = Vec3::Zero();
-  for (std::int32_t i = 0; i < rows; ++i) mean += block(ConstReals(places.positions), i);
-  mean /= std::max(rows, 1);
+  for (const std::int32_t i : rows) mean += block(ConstReals(places.positions), i);
+  mean /= count;
   Mat3 moments = Mat3::Zero();
-  for (std::int32_t i = 0; i < rows; ++i) {
+  for (const std::int32_t i : rows) {
     const Vec3 arm = block(ConstReals(places.positions), i) - mean;
     moments += arm * arm.transpose();
   }
-  const Eigen::SelfAdjointEigenSolver<Mat3> eigen(moments / std::max(rows, 1), Eigen::EigenvaluesOnly);
+  const Eigen::SelfAdjointEigenSolver<Mat3> eigen(moments / count, Eigen::EigenvaluesOnly);
   return (12.0 * eigen.eigenvalues().cwiseMax(0.0)).cwiseSqrt().reverse();
 }
 
-void count_cells(const RowPlaces* places, MatrixShape& shape) {
+void count_cells(const RowPlaces* places, const std::vector<std::int32_t>& rows, MatrixShape& shape) {
   shape.along = shape.across = shape.through = std::cbrt(shape.rows);
   if (places == nullptr || places->point.empty()) return;
-  const Vec3 extents = extents_of(*places);
+  const Vec3 extents = extents_of(*places, rows);
   if (!(extents[0] > 0.0) || !extents.allFinite()) return;
   double edge = std::cbrt(extents.prod() / shape.rows);  // of a cell: a box, a sheet or a line of them
   if (extents[2] < edge || !(edge > 0.0)) edge = std::sqrt(extents[0] * extents[1] / shape.rows);
@@ -71,13 +81,14 @@ std::string_view name_of(Arm arm) {
 
 MatrixShape shape_of(const BlockMatrix& A) {
   MatrixShape shape;
-  shape.rows = A.rows();
+  const std::vector<std::int32_t> rows = bound_rows(A);
+  shape.rows = std::max(1.0, static_cast<double>(rows.size()));
   shape.bytes = static_cast<double>(A.bytes());
-  count_cells(A.places(), shape);
+  if (!rows.empty()) count_cells(A.places(), rows, shape);
   std::vector<double> ratios;
-  ratios.reserve(static_cast<std::size_t>(A.rows()));
+  ratios.reserve(rows.size());
   const Sparsity& pattern = A.sparsity();
-  for (std::int32_t i = 0; i < A.rows(); ++i) {
+  for (const std::int32_t i : rows) {
     if (A.is_given(i, 0) || A.is_given(i, 1) || A.is_given(i, 2)) continue;
     double sum = 0.0;
     for (std::int64_t b = pattern.begin_of(i); b < pattern.end_of(i); ++b) {
@@ -105,13 +116,15 @@ double factor_bytes(const MatrixShape& shape) {
   return sizeof(double) * 3.0 * shape.rows * (30.0 + 0.5 * separator(shape));
 }
 
-ForArms<Cost> predicted_costs(const MatrixShape& shape, double plain, double tolerance, double changing,
+ForArms<Cost> predicted_costs(const MatrixShape& shape, double plain, double tolerance, const Changes& changes,
                               bool equilibrium) {
   const double digits = std::log(2.0 / tolerance) / kOfTolerance;
   const double product = 0.5 * shape.bytes;  // in single precision
   const double iteration = product + 0.5 * kVectorBytes * shape.rows;
   const double once = (kConversion + 1.0) * shape.bytes;  // the matrix in single precision, and a residual
-  const double kept = std::min(changing, 1.0 / (equilibrium ? kServesNewton : kServesSteps));
+  const double changing = changes.values;
+  const double serves = 1.0 / (equilibrium ? kServesNewton : kServesSteps);
+  const double kept = std::max(changes.pattern, std::min(changing, serves));
   const double width = separator(shape);
   const double blocks = 3.0 * shape.rows / std::max(1.0, std::pow(width, 1.5) / std::sqrt(3.0));
   const double operations = 3.0 * width * width * width * std::max(1.0, blocks);
@@ -131,6 +144,7 @@ ForArms<Cost> predicted_costs(const MatrixShape& shape, double plain, double tol
   costs[number(Arm::stale_cholesky)] = {factor, kept, std::max(1.0, changing * kStale * digits) * with_factor,
                                         ordering};
   costs[number(Arm::cholesky)] = {factor, changing, with_factor, ordering};
+  for (Cost& cost : costs) cost.solving += changes.pattern * cost.once;
   return costs;
 }
 

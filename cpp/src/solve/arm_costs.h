@@ -26,10 +26,15 @@ MatrixShape shape_of(const BlockMatrix& A);
 /// without it the bending of the longest direction.
 double plain_iterations(const MatrixShape& shape, double tolerance);
 
-/// `plain`: iterations of block-Jacobi, counted or predicted. `changing`: share of the solves that have a
-/// matrix of other values than the one before.
-ForArms<Cost> predicted_costs(const MatrixShape& shape, double plain, double tolerance, double changing,
-                              bool equilibrium);
+/// Shares of the solves that have a matrix of other values than the one before, or of another pattern.
+struct Changes {
+  double values = 1.0;
+  double pattern = 0.0;
+};
+
+/// `plain`: iterations of block-Jacobi, counted or predicted.
+ForArms<Cost> predicted_costs(const MatrixShape& shape, double plain, double tolerance,
+                              const Changes& changes, bool equilibrium);
 
 /// Bytes of a factor's numbers.
 double factor_bytes(const MatrixShape& shape);

@@ -72,7 +72,7 @@ struct Automatic::Known {
   std::uint64_t version = 0;
   MatrixShape shape;
   double plain = 0.0;  ///< iterations of block-Jacobi: predicted, or counted by it or by a like one
-  double changing = 1.0;
+  Changes changes;
 };
 
 Automatic::Automatic(Settings settings)
@@ -95,7 +95,7 @@ LinearSolver& Automatic::solver(Arm arm) {
 }
 
 void Automatic::predict(bool first) {
-  ForArms<Cost> costs = predicted_costs(known_->shape, known_->plain, settings_.tolerance, known_->changing,
+  ForArms<Cost> costs = predicted_costs(known_->shape, known_->plain, settings_.tolerance, known_->changes,
                                         settings_.equilibrium);
   const bool fits = factor_bytes(known_->shape) <= kFactorBytes;
   for (const Arm arm : {Arm::stale_cholesky, Arm::cholesky}) {
@@ -116,10 +116,12 @@ void Automatic::meet(const BlockMatrix& A) {
   if (first) {
     known.shape = shape_of(A);
     known.plain = plain_iterations(known.shape, settings_.tolerance);
-    known.changing = 1.0;
+    known.changes = Changes();
   } else {
-    const bool changed = known.id != A.id() || known.version != A.values_version();
-    known.changing += kRemember * ((changed ? 1.0 : 0.0) - known.changing);
+    const bool other = known.id != A.id();
+    const bool changed = other || known.version != A.values_version();
+    known.changes.values += kRemember * ((changed ? 1.0 : 0.0) - known.changes.values);
+    known.changes.pattern += kRemember * ((other ? 1.0 : 0.0) - known.changes.pattern);
   }
   predict(first);
   known.id = A.id();

@@ -84,15 +84,16 @@ def contrast(unknowns: float, step: Any) -> ts.Scene:
     mesh = ts.BarMesh(
         size=(0.1, 0.1, 0.1), cells=cells_for(unknowns, (1, 1, 1)), regions={"core": core}
     )
-    law = {"core": ts.StVK(young="50 GPa", poisson=0.3), "rest": ts.StVK(young="50 kPa", poisson=0.3)}
+    law = {
+        "core": ts.StVK(young="50 GPa", poisson=0.3),
+        "rest": ts.StVK(young="50 kPa", poisson=0.3),
+    }
     return held(mesh, step, law=law)
 
 
 def rubber(unknowns: float, step: Any) -> ts.Scene:
     """The cube of hexahedra with nu 0.499."""
-    mesh = ts.BarMesh(
-        size=(0.1, 0.1, 0.1), cells=cells_for(unknowns, (1, 1, 1)), cell="hexahedron"
-    )
+    mesh = ts.BarMesh(size=(0.1, 0.1, 0.1), cells=cells_for(unknowns, (1, 1, 1)), cell="hexahedron")
     return held(mesh, step, law=ts.StVK(young="50 kPa", poisson=0.499))
 
 
@@ -116,9 +117,7 @@ def condensed(unknowns: float, step: Any) -> ts.Scene:
     """A bar whose far half is condensed; the unknowns of the whole are counted."""
     cells = cells_for(unknowns, (2, 1, 1))
     near = ts.Box((None, None, None), (0.1001, None, None))
-    mesh = ts.BarMesh(
-        size=(0.2, 0.1, 0.1), cells=cells, cell="hexahedron", regions={"near": near}
-    )
+    mesh = ts.BarMesh(size=(0.2, 0.1, 0.1), cells=cells, cell="hexahedron", regions={"near": near})
     law = ts.Hooke(**STVK)  # type: ignore[arg-type]
     return held(mesh, step, law=law, model={"near": "fem", "rest": "condensed"})
 
@@ -143,7 +142,13 @@ def cut(unknowns: float, step: Any) -> ts.Scene:
 
 
 SCENES: dict[str, Callable[[float, Any], ts.Scene]] = {
-    **{"bar": bar, "bar of hexahedra": hexahedra, "cube": cube, "organ": organ, "thin plate": plate},
+    **{
+        "bar": bar,
+        "bar of hexahedra": hexahedra,
+        "cube": cube,
+        "organ": organ,
+        "thin plate": plate,
+    },
     **{"slivers": slivers, "contrast 1e6": contrast, "nu 0.499": rubber, "shell": shell},
     **{"frames": frames, "half condensed": condensed, "mixed cells": mixed, "cut": cut},
 }

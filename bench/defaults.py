@@ -40,8 +40,8 @@ up, and the other is tried when the sum reaches the price of making it; one solv
 stays. A choice that spends more in a solve than another would have taken is left within it, and one
 that fails as well.
 
-{what} Each cell is that of the second half of {taken} steps, then that of the first; a static row has
-one step. The last column is `auto` over the best fixed choice, without and with the first step.
+{what} Each cell is that of the second half of {taken} steps, then that of the first; a static row
+has one step. The last column is `auto` over the best fixed choice, without and with the first step.
 
 """
 

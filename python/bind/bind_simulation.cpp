@@ -163,9 +163,7 @@ void bind_simulation(py::module_& m) {
                                         forces.data());
            })
       .def("solver_account",
-           [](const Simulation& s) {
-             return s.solver() == nullptr ? std::string() : s.solver()->account();
-           })
+           [](const Simulation& s) { return s.solver() == nullptr ? std::string() : s.solver()->account(); })
       .def("solver_bytes",
            [](const Simulation& s) { return s.solver() == nullptr ? 0 : s.solver()->bytes(); })
       .def("stable_step", &Simulation::stable_step)

@@ -115,7 +115,9 @@ def test_auto_takes_the_same_steps(direct):
     solves = simulation.profile().solves
     assert (solves.solves, solves.failures) == (5, 0)
     assert solves.residual <= 1e-12
-    assert solves.work > 5 * simulation.plan().matrix_bytes / 2  # each reads the matrix once at least
+    assert (
+        solves.work > 5 * simulation.plan().matrix_bytes / 2
+    )  # each reads the matrix once at least
 
 
 def test_auto_says_what_it_chose_and_why():

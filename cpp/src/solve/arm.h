@@ -11,8 +11,8 @@ namespace tissu {
 /// A conjugate gradient with one of four preconditioners, or a factor of the matrix itself.
 enum class Arm : unsigned char { block_jacobi, incomplete_cholesky, multigrid, stale_cholesky, cholesky };
 inline constexpr std::size_t kArms = 5;
-inline constexpr std::array<Arm, kArms> kAllArms = {
-    Arm::block_jacobi, Arm::incomplete_cholesky, Arm::multigrid, Arm::stale_cholesky, Arm::cholesky};
+inline constexpr std::array<Arm, kArms> kAllArms = {Arm::block_jacobi, Arm::incomplete_cholesky,
+                                                    Arm::multigrid, Arm::stale_cholesky, Arm::cholesky};
 
 template <class T>
 using ForArms = std::array<T, kArms>;

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "preconditioner.h"
-#include "tissu/assembly/row_places.h"
 #include "sparse_factor.h"
+#include "tissu/assembly/row_places.h"
 #include "work.h"
 
 namespace tissu {
@@ -20,12 +20,12 @@ constexpr double kForACell = 12.8;
 constexpr double kOfTolerance = 14.5;  ///< ln(2 / 1e-6), at which the numbers here were found
 /// Iterations of block-Jacobi for one of incomplete Cholesky.
 constexpr double kSaved = 3.2;
-constexpr double kCycles = 11.0;       ///< iterations of a multigrid
-constexpr double kSheetCycles = 5.0;   ///< times as many for a body of one cell through
-constexpr double kCycleProducts = 6.0; ///< products, with those of the coarser levels, that a cycle costs
-constexpr double kLevelsMade = 20.0;   ///< products that making all levels costs
-constexpr double kTriangleMade = 8.0;  ///< products that an incomplete factor costs
-constexpr double kStale = 4.0;         ///< iterations with the factor of an earlier matrix
+constexpr double kCycles = 11.0;        ///< iterations of a multigrid
+constexpr double kSheetCycles = 5.0;    ///< times as many for a body of one cell through
+constexpr double kCycleProducts = 6.0;  ///< products, with those of the coarser levels, that a cycle costs
+constexpr double kLevelsMade = 20.0;    ///< products that making all levels costs
+constexpr double kTriangleMade = 8.0;   ///< products that an incomplete factor costs
+constexpr double kStale = 4.0;          ///< iterations with the factor of an earlier matrix
 /// Solves that a preconditioner serves while a body moves, and in Newton's iterations.
 constexpr double kServesSteps = 20.0;
 constexpr double kServesNewton = 2.0;
@@ -116,8 +116,8 @@ double factor_bytes(const MatrixShape& shape) {
   return sizeof(double) * 3.0 * shape.rows * (30.0 + 0.5 * separator(shape));
 }
 
-ForArms<Cost> predicted_costs(const MatrixShape& shape, double plain, double tolerance, const Changes& changes,
-                              bool equilibrium) {
+ForArms<Cost> predicted_costs(const MatrixShape& shape, double plain, double tolerance,
+                              const Changes& changes, bool equilibrium) {
   const double digits = std::log(2.0 / tolerance) / kOfTolerance;
   const double product = 0.5 * shape.bytes;  // in single precision
   const double iteration = product + 0.5 * kVectorBytes * shape.rows;
@@ -128,7 +128,8 @@ ForArms<Cost> predicted_costs(const MatrixShape& shape, double plain, double tol
   const double width = separator(shape);
   const double blocks = 3.0 * shape.rows / std::max(1.0, std::pow(width, 1.5) / std::sqrt(3.0));
   const double operations = 3.0 * width * width * width * std::max(1.0, blocks);
-  const double factor = operations / SparseFactor::operations_per_byte() + kFactorNumber * factor_bytes(shape) / sizeof(double);
+  const double factor =
+      operations / SparseFactor::operations_per_byte() + kFactorNumber * factor_bytes(shape) / sizeof(double);
   const double with_factor = 2.0 * kFactorSolve * factor_bytes(shape) + 2.0 * shape.bytes;
   const double cycles = (shape.through < 2.0 ? kSheetCycles : 1.0) * kCycles;
   const double needed = std::min(cycles * digits, std::max(3.0, plain / 5.0));

@@ -5,10 +5,10 @@
 namespace tissu {
 namespace {
 
-constexpr double kBetter = 0.9;    ///< rate, of the present arm's, below which another one is worth a change
-constexpr double kHopeful = 0.8;   ///< what a prediction is multiplied by, so that a doubtful arm gets a trial
-constexpr double kLeast = 4.0;     ///< solves of the present arm that a change has to save, at least
-constexpr double kRoom = 1.5;      ///< of another arm's first solve, which an arm may spend in vain
+constexpr double kBetter = 0.9;   ///< rate, of the present arm's, below which another one is worth a change
+constexpr double kHopeful = 0.8;  ///< what a prediction is multiplied by, so that a doubtful arm gets a trial
+constexpr double kLeast = 4.0;    ///< solves of the present arm that a change has to save, at least
+constexpr double kRoom = 1.5;     ///< of another arm's first solve, which an arm may spend in vain
 constexpr double kExpected = 3.0;  ///< of its own rate, which an arm may spend at least
 constexpr int kFactorTrial = 4;    ///< solves of a trial of a factor, which the first ones flatter
 constexpr int kMemory = 8;         ///< solves over which a cost is averaged, …
@@ -107,7 +107,8 @@ void Choice::used(const Spent& spent) {
   for (const Arm arm : kAllArms) {
     const State& other = at(arm);
     if (arm == current_ || !(expected(arm) < kBetter * rate)) continue;
-    if (other.regret < other.patience * std::max(other.cost.making + other.cost.once, kLeast * rate)) continue;
+    if (other.regret < other.patience * std::max(other.cost.making + other.cost.once, kLeast * rate))
+      continue;
     if (best == current_ || expected(arm) < expected(best)) best = arm;
   }
   if (best != current_) change(best, true);

@@ -18,9 +18,10 @@ struct Spent {
 /// The first arm is the one whose making and first solves cost least as predicted. From then on what the arms
 /// in use cost is counted, and the rule of who rents skis says when to change: what the present arm took
 /// beyond what another one would have taken is added up, and the other one is tried when the sum reaches the
-/// price of making it. One solve then says whether it stays; of a factor, which grows old, a few. An arm that did not stay is tried again only
-/// after a sum three times as large, as is one that was left for good, so that changes become rare whatever the matrices do, and all that is spent in
-/// vain stays a fixed multiple of what the best arm takes.
+/// price of making it. One solve then says whether it stays; of a factor, which grows old, a few. An arm that
+/// did not stay is tried again only after a sum three times as large, as is one that was left for good, so
+/// that changes become rare whatever the matrices do, and all that is spent in vain stays a fixed multiple of
+/// what the best arm takes.
 class Choice {
  public:
   /// Begins anew. `solves`: how many are expected to share the making.
@@ -36,8 +37,8 @@ class Choice {
   /// Work, makings not counted, that the present arm may spend in this solve: then another one solves it for
   /// less.
   [[nodiscard]] double allowance() const;
-  /// The present arm spent as much without an answer; `failed`: it has none to give. Another one goes on. When
-  /// all were left, those that did not fail are taken up again without a limit; false when all failed.
+  /// The present arm spent as much without an answer; `failed`: it has none to give. Another one goes on.
+  /// When all were left, those that did not fail are taken up again without a limit; false when all failed.
   bool leave(double spent, bool failed);
   /// The present arm ended a solve. Afterwards `current` may be another one.
   void used(const Spent& spent);
@@ -73,7 +74,7 @@ class Choice {
   Arm current_ = Arm::block_jacobi;
   Arm before_ = Arm::block_jacobi;
   bool on_trial_ = false;
-  int trial_left_ = 0;  ///< solves
+  int trial_left_ = 0;      ///< solves
   bool unlimited_ = false;  ///< in this solve
   bool fresh_ = true;       ///< the present arm has ended no solve since it became that
   int changes_ = 0;

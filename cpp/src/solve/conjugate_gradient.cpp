@@ -85,8 +85,7 @@ Iteration<float>& ConjugateGradient::iteration() {
   return *single_;
 }
 
-double ConjugateGradient::residual(const LinearOperator& A, ConstReals b, ConstReals x,
-                                   SolveReport& report) {
+double ConjugateGradient::residual(const LinearOperator& A, ConstReals b, ConstReals x, SolveReport& report) {
   r_.resize(b.size());
   const bool zero = std::ranges::all_of(x, [](double value) { return value == 0.0; });
   if (zero) {

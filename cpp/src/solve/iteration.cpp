@@ -5,8 +5,8 @@
 #include <type_traits>
 
 #include "make_preconditioner.h"
-#include "work.h"
 #include "tissu/base/interruption.h"
+#include "work.h"
 
 namespace tissu {
 namespace {

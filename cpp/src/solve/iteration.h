@@ -42,7 +42,8 @@ class Iteration {
   [[nodiscard]] int iterations() const { return iterations_; }
   /// |r| at its end, as the iterations count it.
   [[nodiscard]] double residual() const { return residual_; }
-  /// Work of this solve so far without makings, of its makings, of what a new pattern asked for, and of an iteration.
+  /// Work of this solve so far without makings, of its makings, of what a new pattern asked for, and of an
+  /// iteration.
   [[nodiscard]] double solving() const { return work_; }
   [[nodiscard]] double making() const { return making_; }
   [[nodiscard]] double once() const { return once_; }

@@ -53,13 +53,16 @@ class Solver(Part):
 
 
 class Auto(Solver):
-    """The cheapest way for each system by counted work: block-Jacobi, incomplete Cholesky,
-    multigrid, a stale or a new factor. It may change while the scene runs; `plan()` and
-    `profile()` say to which, and by which counts."""
+    """The way that counted work makes cheapest, for each system anew.
+
+    Block-Jacobi, incomplete Cholesky, multigrid, a stale factor or a new one. It may change while
+    the scene runs; `plan()` and `profile()` say to which, and by which counts.
+    """
 
     type: Literal["auto"] = "auto"
-    tolerance: _Tolerance = field(default=1e-6)
-    """residual relative to the right-hand side at which iterations stop"""
+    tolerance: _Tolerance = field(default=1e-5)
+    """residual relative to the right-hand side at which iterations stop; docs/solvers.md has what
+    it does to the answer"""
 
     def _of_step(self, *, equilibrium: bool) -> dict[str, bool]:
         return {"equilibrium": equilibrium}

@@ -14,12 +14,13 @@ enum class Arm : unsigned char;
 
 /// Solves each system by the cheapest way that it knows: conjugate gradient with block-Jacobi, incomplete
 /// Cholesky, a multigrid or the factor of an earlier matrix, or a factor of the matrix itself. Which one is
-/// decided by counted work (SolveReport), predicted from the matrix at first and then learned as the solves go
-/// on (solve/choice.h); never by a clock, so that the same calls give the same bits on any number of threads.
+/// decided by counted work (SolveReport), predicted from the matrix at first and then learned as the solves
+/// go on (solve/choice.h); never by a clock, so that the same calls give the same bits on any number of
+/// threads.
 ///
-/// A way that spends more than another one would have taken is left within a solve, whose x the other one goes
-/// on from. So is one that fails; the last resort is a factor, where its memory is affordable. A matrix that
-/// is not positive definite is reported at once, as by every solver.
+/// A way that spends more than another one would have taken is left within a solve, whose x the other one
+/// goes on from. So is one that fails; the last resort is a factor, where its memory is affordable. A matrix
+/// that is not positive definite is reported at once, as by every solver.
 class Automatic final : public LinearSolver {
  public:
   struct Settings {

@@ -17,7 +17,7 @@ ROWS = [
     *(("cube", 1000, "1 ms"), ("cube", 1000, "10 ms"), ("thin plate", 800, "10 ms")),
     *(("slivers", 1000, "10 ms"), ("nu 0.499", 800, "10 ms"), ("shell", 800, "10 ms")),
     *(("frames", 600, "10 ms"), ("mixed cells", 800, "10 ms"), ("cut", 800, "10 ms")),
-    *(("bar", 800, "static"), ("cube", 1000, "static"), ("half condensed", 1500, "static")),
+    *(("bar", 800, "static"), ("cube", 1000, "static"), ("half condensed", 1500, "10 ms")),
 ]
 
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <sstream>
 
 #include "arm_costs.h"
 #include "choice.h"
@@ -192,30 +193,31 @@ std::string_view Automatic::name() const {
 }
 
 std::string Automatic::account() const {
-  if (known_->id == 0 && std::ranges::all_of(solves_, [](std::int64_t n) { return n == 0; })) return {};
-  std::string text;
+  std::ostringstream text;
+  const char* between = "";
   std::int64_t last = 0;
   for (const Arm arm : kAllArms) {
     if (solves_[number(arm)] == 0) continue;
-    text += (text.empty() ? "" : ", ") + std::string(name_of(arm)) + " in " +
-            std::to_string(solves_[number(arm)]);
     last = solves_[number(arm)];
+    text << between << name_of(arm) << " in " << last;
+    between = ", ";
   }
+  if (last == 0) return {};
   const int changes = changes_ + choice_->changes();
-  text += last == 1 ? " system" : " systems";
-  text += "; it " + (changes == 0   ? std::string("never changed")
-                     : changes == 1 ? std::string("changed once")
-                                    : "changed " + std::to_string(changes) + " times");
-  if (known_->id == 0) return text;
-  text += "; work of a system [MB]:";
+  text << (last == 1 ? " system; it " : " systems; it ");
+  if (changes == 0) text << "never changed";
+  if (changes == 1) text << "changed once";
+  if (changes > 1) text << "changed " << changes << " times";
+  if (known_->id == 0) return text.str();
+  between = "; work of a system [MB]: ";
   for (const Arm arm : kAllArms) {
     const double rate = choice_->cost(arm).rate();
     if (!std::isfinite(rate)) continue;
-    text += " " + std::string(name_of(arm)) + " " + number_text(1e-6 * rate) +
-            (choice_->is_counted(arm) ? "," : " (predicted),");
+    text << between << name_of(arm) << " " << number_text(1e-6 * rate)
+         << (choice_->is_counted(arm) ? "" : " (predicted)");
+    between = ", ";
   }
-  text.back() = '.';
-  return text;
+  return text.str();
 }
 
 }  // namespace tissu

@@ -18,8 +18,10 @@ import tissu as ts
 from tissu.cli.info import machine_line
 from tissu.picture.series_colours import series_colours
 
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+from section import PAGE, kept
+
 ROOT = Path(__file__).resolve().parents[1]
-PAGE = ROOT / "docs" / "solvers.md"
 PICTURE = ROOT / "docs" / "pictures" / "solvers.png"
 SIZES = (6, 14, 31, 68)
 """cubes along an edge: 1e3, 1e4, 1e5 and 1e6 unknowns"""
@@ -65,7 +67,8 @@ Every step of an implicit method solves A x = b; a static one as well. `solver:`
   correct them to the tolerance, and where they do not fall the solve goes on in double;
 - … `matrix: free`: no matrix at all, the products of the forces themselves;
 - `cholesky`: a sparse factor (CHOLMOD); its symbolic part is kept while the mesh is;
-- `auto`: one of these by size, kind of step and editing; `plan()` says which, and why.
+- `auto`, the default: the cheapest of these by counted work, which may change while a scene runs;
+  `plan()` and `profile()` say to what it changed, and by which counts.
 
 Iterations start from that combination of the latest three answers whose residual is least (after
 Fischer 1998): never worse than from zero, at the price of three products; where it does not halve
@@ -234,7 +237,7 @@ if __name__ == "__main__":
     asked = parser.parse_args()
     text, studies = page(SIZES[:2] if asked.small else SIZES)
     if asked.write:
-        PAGE.write_text(text, encoding="utf-8")
+        PAGE.write_text(text + kept(), encoding="utf-8")
         picture(studies)
     else:
         print(text)

@@ -140,7 +140,7 @@ void bind_simulation(py::module_& m) {
            [](Simulation& s) {
              const Profile::Solves& solves = s.profile().solves();
              return py::make_tuple(solves.solves, solves.iterations, solves.preparations, solves.failures,
-                                   solves.residual);
+                                   solves.residual, solves.work);
            })
       .def("profile_steps", [](Simulation& s) { return s.profile().steps(); })
       .def("profile_step_seconds",
@@ -163,6 +163,8 @@ void bind_simulation(py::module_& m) {
              return py::array_t<double>({static_cast<py::ssize_t>(forces.size() / 3), py::ssize_t{3}},
                                         forces.data());
            })
+      .def("solver_account",
+           [](const Simulation& s) { return s.solver() == nullptr ? std::string() : s.solver()->account(); })
       .def("solver_bytes",
            [](const Simulation& s) { return s.solver() == nullptr ? 0 : s.solver()->bytes(); })
       .def("stable_step", &Simulation::stable_step)

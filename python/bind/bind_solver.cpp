@@ -3,6 +3,7 @@
 
 #include "bind.h"
 #include "specs.h"
+#include "tissu/solve/automatic.h"
 #include "tissu/solve/cholesky.h"
 #include "tissu/solve/conjugate_gradient.h"
 
@@ -49,6 +50,14 @@ void bind_solver(py::module_& m) {
       },
       py::kw_only(), arg("tolerance"), arg("iterations"), arg("preconditioner"), arg("precision"),
       arg("matrix"));
+  m.def(
+      "Auto",
+      [](double tolerance, bool equilibrium) {
+        const Automatic::Settings settings{tolerance, equilibrium};
+        return SolverSpec{
+            [=]() -> std::unique_ptr<LinearSolver> { return std::make_unique<Automatic>(settings); }};
+      },
+      py::kw_only(), arg("tolerance"), arg("equilibrium"));
   m.def("Cholesky", [] {
     return SolverSpec{[]() -> std::unique_ptr<LinearSolver> { return std::make_unique<Cholesky>(); }};
   });

@@ -142,7 +142,7 @@ def test_samples_stand_at_times_of_longer_steps_too_and_at_the_end():
 
 
 def test_between_two_steps_displacements_are_linear():
-    scene = falling(step=ts.ImplicitMidpoint("20 ms"), duration=0.06)
+    scene = falling(step=ts.ImplicitMidpoint("20 ms", solver=ts.Cholesky()), duration=0.06)
     points = {"bar": np.array(scene.compile().meshes["bar"].points)}
     watched = Watch(points, {"bar": np.arange(12)}, np.array([0.02, 0.03, 0.06]))
     found = measure(scene, watched, allowance=60.0)

@@ -43,6 +43,7 @@ void Cholesky::refine(const BlockMatrix& matrix, ConstReals b, Reals x, double f
   double size = 0.0;
   const auto find_residual = [&] {
     matrix.multiply(x, residual_);
+    report.work += static_cast<double>(matrix.bytes());
     for (std::size_t i = 0; i < b.size(); ++i) residual_[i] = b[i] - residual_[i];
     size = norm(residual_);
   };
@@ -50,6 +51,7 @@ void Cholesky::refine(const BlockMatrix& matrix, ConstReals b, Reals x, double f
   for (int i = 0; i < kMostRefinements && definite && size > kRefined * reference; ++i) {
     const double before = size;
     solve(ConstReals(residual_), Reals(correction_));
+    report.work += factor_->application();
     for (std::size_t k = 0; k < b.size(); ++k) x[k] += correction_[k];
     find_residual();
     if (!(size < 0.5 * before)) {
@@ -75,6 +77,7 @@ SolveReport Cholesky::solve(const LinearOperator& A, ConstReals b, Reals x, doub
   if (A.couplings() != nullptr) {
     if (coupled_ == nullptr) coupled_ = std::make_unique<CoupledSolve>();
     coupled_->solve(matrix, *factor_, b, x, report);
+    report.work += report.iterations * (factor_->application() + static_cast<double>(A.bytes()));
     refine(matrix, b, x, floor, coupled_->is_definite(), report,
            [&](ConstReals r, Reals change) { coupled_->again(*factor_, r, change); });
     return report;
@@ -83,10 +86,14 @@ SolveReport Cholesky::solve(const LinearOperator& A, ConstReals b, Reals x, doub
     const auto begin = std::chrono::steady_clock::now();
     factor_->make(matrix);
     report.preparations = 1;
+    report.making = factor_->making();
+    report.once = factor_->once();
+    report.work = report.making + report.once;
     report.preparation_seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   }
   factor_->solve(b, x);
+  report.work += factor_->application();
   refine(matrix, b, x, floor, factor_->is_definite(), report,
          [&](ConstReals r, Reals change) { factor_->solve(r, change); });
   return report;

@@ -87,16 +87,28 @@ Iteration<float>& ConjugateGradient::iteration() {
   return *single_;
 }
 
-double ConjugateGradient::residual(const LinearOperator& A, ConstReals b, ConstReals x) {
+double ConjugateGradient::residual(const LinearOperator& A, ConstReals b, ConstReals x, SolveReport& report) {
   r_.resize(b.size());
   const bool zero = std::ranges::all_of(x, [](double value) { return value == 0.0; });
   if (zero) {
     std::ranges::copy(b, r_.begin());
   } else {
     A.multiply(x, r_);
+    report.work += static_cast<double>(A.bytes());
     for (std::size_t i = 0; i < r_.size(); ++i) r_[i] = b[i] - r_[i];
   }
   return std::sqrt(dot<double>(A.threads(), r_, r_, partial_));
+}
+
+double ConjugateGradient::spent(const SolveReport& report) const {
+  return report.work + (full_ ? full_->solving() : 0.0) + (single_ ? single_->solving() : 0.0);
+}
+
+template <class T>
+int ConjugateGradient::left(const LinearOperator& A, const SolveReport& report) {
+  const int most = settings_.iterations - report.iterations;
+  const double allowed = (allowance_ - spent(report)) / iteration<T>().iteration_work(A);
+  return allowed < most ? std::max(1, static_cast<int>(allowed)) : most;
 }
 
 template <class T>
@@ -111,7 +123,7 @@ void ConjugateGradient::prepare(const LinearOperator& A, bool forced, SolveRepor
 End ConjugateGradient::full_round(const LinearOperator& A, Reals x, double target, SolveReport& report) {
   Iteration<double>& iteration = this->iteration<double>();
   change_.resize(r_.size());
-  const End end = iteration.run(A, r_, change_, target, settings_.iterations - report.iterations);
+  const End end = iteration.run(A, r_, change_, target, left<double>(A, report));
   report.iterations += iteration.iterations();
   for (std::size_t i = 0; i < x.size(); ++i) x[i] += change_[i];
   return end;
@@ -125,7 +137,7 @@ End ConjugateGradient::single_round(const LinearOperator& A, Reals x, double len
   single_change_.resize(r_.size());
   for (std::size_t i = 0; i < r_.size(); ++i) single_r_[i] = static_cast<float>(r_[i] / length);
   const double depth = std::max(0.5 * target / length, kSingleDepth);
-  const int most = std::min(kSingleIterations, settings_.iterations - report.iterations);
+  const int most = std::min(kSingleIterations, left<float>(A, report));
   const End end = iteration.run(A, single_r_, single_change_, depth, most);
   report.iterations += iteration.iterations();
   if (end == End::lost) return end;
@@ -148,6 +160,9 @@ SolveReport ConjugateGradient::solve(const LinearOperator& A, ConstReals b, Real
   if (full_) full_->begin_solve();
   if (single_) single_->begin_solve();
   rounds(A, b, x, reference, report);
+  report.making = (full_ ? full_->making() : 0.0) + (single_ ? single_->making() : 0.0);
+  report.once = (full_ ? full_->once() : 0.0) + (single_ ? single_->once() : 0.0);
+  report.work = spent(report) + report.making + report.once;
   if (full_) full_->end_solve();
   if (single_) single_->end_solve();
   if (report.converged) forecast_->keep(A, x);
@@ -159,8 +174,8 @@ void ConjugateGradient::rounds(const LinearOperator& A, ConstReals b, Reals x, d
   bool single = settings_.precision == Precision::single;
   bool renew = false;
   const bool zero = std::ranges::all_of(x, [](double value) { return value == 0.0; });
-  double size = residual(A, b, x);
-  if (zero && size > settings_.tolerance * reference) size = forecast_->start(A, size, r_, x);
+  double size = residual(A, b, x, report);
+  if (zero && size > settings_.tolerance * reference) size = forecast_->start(A, size, r_, x, report.work);
   Progress progress{size};
   for (int round = 0;; ++round) {
     report.residual = size / reference;
@@ -168,7 +183,7 @@ void ConjugateGradient::rounds(const LinearOperator& A, ConstReals b, Reals x, d
     if (!report.converged && round > 0) {
       report.converged = report.residual <= attainable(A, x, reference, settings_.tolerance);
     }
-    if (report.converged || report.iterations >= settings_.iterations) return;
+    if (report.converged || report.iterations >= settings_.iterations || spent(report) >= allowance_) return;
     const double before = size;
     const double target = settings_.tolerance * reference;
     End end{};
@@ -179,7 +194,7 @@ void ConjugateGradient::rounds(const LinearOperator& A, ConstReals b, Reals x, d
       prepare<double>(A, renew, report);
       end = full_round(A, x, target, report);
     }
-    size = residual(A, b, x);
+    size = residual(A, b, x, report);
     renew = end == End::renewal;
     if (renew) continue;
     if (single) {

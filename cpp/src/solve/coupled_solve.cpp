@@ -42,12 +42,16 @@ bool CoupledSolve::has_factor(const BlockMatrix& A, SparseFactor& of_matrix, Sol
   if (of_matrix.is_of(A)) return of_matrix.is_definite();
   const auto begin = std::chrono::steady_clock::now();
   const bool made = of_matrix.attempt(A);
-  count_preparation(begin, report);
+  count_preparation(begin, of_matrix, report);
   return made;
 }
 
-void CoupledSolve::count_preparation(std::chrono::steady_clock::time_point begin, SolveReport& report) {
+void CoupledSolve::count_preparation(std::chrono::steady_clock::time_point begin, const SparseFactor& made,
+                                     SolveReport& report) {
   ++report.preparations;
+  report.making += made.making();
+  report.once += made.once();
+  report.work += made.making() + made.once();
   report.preparation_seconds +=
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
@@ -59,7 +63,7 @@ void CoupledSolve::take_whole(const BlockMatrix& A, SolveReport& report) {
   if (!whole_->is_of(A, true)) {
     const auto begin = std::chrono::steady_clock::now();
     whole_->make(A, true);
-    count_preparation(begin, report);
+    count_preparation(begin, *whole_, report);
   }
   definite_ = whole_->is_definite();
 }

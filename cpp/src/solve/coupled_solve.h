@@ -29,7 +29,8 @@ class CoupledSolve {
  private:
   enum class Way { capacitance, gradient, whole };
   bool has_factor(const BlockMatrix& A, SparseFactor& of_matrix, SolveReport& report);
-  static void count_preparation(std::chrono::steady_clock::time_point begin, SolveReport& report);
+  static void count_preparation(std::chrono::steady_clock::time_point begin, const SparseFactor& made,
+                                SolveReport& report);
   bool iterate(const BlockMatrix& A, SparseFactor& of_matrix, ConstReals b, Reals x);
   void take_whole(const BlockMatrix& A, SolveReport& report);
 

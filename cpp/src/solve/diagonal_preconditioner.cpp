@@ -1,6 +1,7 @@
 #include "diagonal_preconditioner.h"
 
 #include "block_inverse.h"
+#include "work.h"
 
 namespace tissu {
 namespace {
@@ -35,6 +36,7 @@ template <class T>
 void Jacobi<T>::make(const LinearOperator& A, double scale) {
   inverse_.resize(3 * static_cast<std::size_t>(A.rows()));
   price_ = A.diagonal_cost();
+  making_ = price_ * static_cast<double>(A.bytes()) + kInverse * static_cast<double>(bytes());
   for_diagonal(A, scale, blocks_, [&](std::int32_t i, const Mat3& D) {
     const Vec3 inverse = diagonal_inverse(D).diagonal();
     for (int k = 0; k < 3; ++k) inverse_[static_cast<std::size_t>(3 * i + k)] = static_cast<T>(inverse[k]);
@@ -52,6 +54,7 @@ template <class T>
 void BlockJacobi<T>::make(const LinearOperator& A, double scale) {
   inverse_.resize(9 * static_cast<std::size_t>(A.rows()));
   price_ = A.diagonal_cost();
+  making_ = price_ * static_cast<double>(A.bytes()) + kInverse * static_cast<double>(bytes());
   for_diagonal(A, scale, blocks_, [&](std::int32_t i, const Mat3& D) {
     const Mat3 inverse = positive_inverse(D);
     T* to = inverse_.data() + 9 * static_cast<std::ptrdiff_t>(i);

@@ -12,12 +12,15 @@ class Jacobi final : public Preconditioner<T> {
  public:
   void make(const LinearOperator& A, double scale) override;
   [[nodiscard]] double price() const override { return price_; }
+  [[nodiscard]] double making() const override { return making_; }
+  [[nodiscard]] double application() const override { return static_cast<double>(bytes()); }
   [[nodiscard]] bool is_local() const override { return true; }
   void apply_rows(std::int32_t begin, std::int32_t end, const T* r, T* z) override;
   [[nodiscard]] std::size_t bytes() const override { return inverse_.size() * sizeof(T); }
 
  private:
   double price_ = 0.0;
+  double making_ = 0.0;
   std::vector<T> inverse_;
   std::vector<double> blocks_;
 };
@@ -28,12 +31,15 @@ class BlockJacobi final : public Preconditioner<T> {
  public:
   void make(const LinearOperator& A, double scale) override;
   [[nodiscard]] double price() const override { return price_; }
+  [[nodiscard]] double making() const override { return making_; }
+  [[nodiscard]] double application() const override { return static_cast<double>(bytes()); }
   [[nodiscard]] bool is_local() const override { return true; }
   void apply_rows(std::int32_t begin, std::int32_t end, const T* r, T* z) override;
   [[nodiscard]] std::size_t bytes() const override { return inverse_.size() * sizeof(T); }
 
  private:
   double price_ = 0.0;
+  double making_ = 0.0;
   std::vector<T> inverse_;  ///< [row][9], column by column
   std::vector<double> blocks_;
 };

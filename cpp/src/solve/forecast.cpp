@@ -21,7 +21,7 @@ void Forecast::add(const Threads& threads, double a, ConstReals x, Reals y) {
   });
 }
 
-double Forecast::start(const LinearOperator& A, double size, Reals r, Reals x) {
+double Forecast::start(const LinearOperator& A, double size, Reals r, Reals x, double& work) {
   if (count_ == 0 || id_ != A.id() || answers_.front().size() != x.size()) return size;
   if (pause_ > 0) {
     --pause_;
@@ -32,6 +32,7 @@ double Forecast::start(const LinearOperator& A, double size, Reals r, Reals x) {
     std::vector<double>& answer = answers_[n];
     std::vector<double>& product = products_[n];
     A.multiply(answer, product);
+    work += static_cast<double>(A.bytes());
     const double whole = dot<double>(threads, product, product, partial_);
     for (std::size_t k = 0; k < n; ++k) {
       const double length = dot<double>(threads, products_[k], products_[k], partial_);

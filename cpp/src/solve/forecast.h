@@ -17,8 +17,9 @@ namespace tissu {
 /// seldom.
 class Forecast {
  public:
-  /// x = 0 becomes the guess, and r = b its residual, whose norm is `size`; the new norm.
-  double start(const LinearOperator& A, double size, Reals r, Reals x);
+  /// x = 0 becomes the guess, and r = b its residual, whose norm is `size`; the new norm. `work`
+  /// grows by what its products read.
+  double start(const LinearOperator& A, double size, Reals r, Reals x, double& work);
   /// An answer that was accepted, of a system of this operator; those of another one are forgotten.
   void keep(const LinearOperator& A, ConstReals x);
   void forget();

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "block_inverse.h"
+#include "work.h"
 
 namespace tissu {
 namespace {
@@ -57,6 +58,7 @@ void IncompleteCholesky<T>::make(const LinearOperator& A, double scale) {
   const double made =
       static_cast<double>(matrix.bytes()) + kPairBytes * static_cast<double>(triangle_.pairs());
   price_ = tries * made / iteration;
+  making_ = tries * made;
 }
 
 template <class T>
@@ -193,6 +195,11 @@ void IncompleteCholesky<T>::apply(std::span<const T> r, std::span<T> z) {
   triangle_.backward.for_rows(threads_, [&](const std::int32_t* rows, std::int32_t count) {
     sweep_(rows, count, triangle_.upper_begin.data(), triangle_.upper_column.data(), upper_.data(), z.data());
   });
+}
+
+template <class T>
+double IncompleteCholesky<T>::application() const {
+  return kSweep * static_cast<double>((lower_.size() + upper_.size() + inverse_.size()) * sizeof(T));
 }
 
 template <class T>

@@ -22,6 +22,8 @@ class IncompleteCholesky final : public Preconditioner<T> {
  public:
   void make(const LinearOperator& A, double scale) override;
   [[nodiscard]] double price() const override { return price_; }
+  [[nodiscard]] double making() const override { return making_; }
+  [[nodiscard]] double application() const override;
   void apply(std::span<const T> r, std::span<T> z) override;
   void forget() override { shift_ = 0.0; }
   [[nodiscard]] std::size_t bytes() const override;
@@ -50,6 +52,7 @@ class IncompleteCholesky final : public Preconditioner<T> {
   SweepRows<T> sweep_ = nullptr;
   double shift_ = 0.0;
   double price_ = 0.0;
+  double making_ = 0.0;
   AlignedVector<T> lower_;    ///< S, then D^-1 S
   AlignedVector<T> upper_;    ///< S D^-1 while it is made, then D^-1 S^T
   std::vector<T> inverse_;    ///< D^-1, [row][9]

@@ -6,6 +6,7 @@
 
 #include "make_preconditioner.h"
 #include "tissu/base/interruption.h"
+#include "work.h"
 
 namespace tissu {
 namespace {
@@ -25,7 +26,9 @@ double Iteration<T>::scale() const {
 
 template <class T>
 bool Iteration<T>::prepare(const LinearOperator& A, bool forced) {
-  if constexpr (std::is_same_v<T, float>) matrix_.update(*A.matrix());
+  if constexpr (std::is_same_v<T, float>) {
+    if (matrix_.update(*A.matrix())) work_ += kConversion * static_cast<double>(A.bytes());
+  }
   const bool serves = made_ && id_ == A.id() && given_ == A.given();
   if (serves && version_ == A.version()) return false;
   if (serves && !forced && !in_parts_ && !renewal_.due(expected(A))) return false;
@@ -38,7 +41,8 @@ bool Iteration<T>::prepare(const LinearOperator& A, bool forced) {
     M_->make(A, scale());
   }
   renewal_.made(M_->price());
-
+  making_ += M_->making();
+  once_ += M_->once();
   made_ = true;
   made_midway_ = forced;
   id_ = A.id();
@@ -69,6 +73,9 @@ double Iteration<T>::expected(const LinearOperator& A) {
 template <class T>
 void Iteration<T>::begin_solve() {
   spent_ = 0;
+  work_ = 0.0;
+  making_ = 0.0;
+  once_ = 0.0;
   goes_on_ = false;
   made_midway_ = false;
 }
@@ -76,6 +83,13 @@ void Iteration<T>::begin_solve() {
 template <class T>
 void Iteration<T>::end_solve() {
   if (spent_ > 0 && !made_midway_) renewal_.used(spent_);
+}
+
+template <class T>
+double Iteration<T>::iteration_work(const LinearOperator& A) const {
+  constexpr double kShare = sizeof(T) / static_cast<double>(sizeof(double));
+  const double product = kShare * (static_cast<double>(A.bytes()) + kVectorBytes * A.rows());
+  return product + M_->application();
 }
 
 template <class T>
@@ -148,6 +162,7 @@ End Iteration<T>::run(const LinearOperator& A, std::span<T> r, std::span<T> d, d
   const double left = version_ == A.version() || in_parts_ ? Renewal::kUnlimited
                                                            : std::min(0.5 * most, renewal_.left() - spent_);
   iterations_ = 0;
+  work_ += M_->application();
   double square = 0.0;
   double rz = advance(threads, r, d, 0.0, square);
   double beta = goes_on_ && rz_ > 0.0 ? rz / rz_ : 0.0;
@@ -173,6 +188,7 @@ End Iteration<T>::run(const LinearOperator& A, std::span<T> r, std::span<T> d, d
     beta = rz / rz_;
     ++iterations_;
     ++spent_;
+    work_ += iteration_work(A);
   }
 }
 

@@ -42,6 +42,12 @@ class Iteration {
   [[nodiscard]] int iterations() const { return iterations_; }
   /// |r| at its end, as the iterations count it.
   [[nodiscard]] double residual() const { return residual_; }
+  /// Work of this solve so far without makings, of its makings, of what a new pattern asked for, and of an
+  /// iteration.
+  [[nodiscard]] double solving() const { return work_; }
+  [[nodiscard]] double making() const { return making_; }
+  [[nodiscard]] double once() const { return once_; }
+  [[nodiscard]] double iteration_work(const LinearOperator& A) const;
   /// What the matrix that it works with was multiplied by.
   [[nodiscard]] double scale() const;
   void forget();
@@ -67,6 +73,9 @@ class Iteration {
   std::vector<Couplings::Key> known_;  ///< couplings for which it was made
   std::vector<Couplings::Key> keys_;
   int spent_ = 0;  ///< iterations of this solve
+  double work_ = 0.0;
+  double making_ = 0.0;
+  double once_ = 0.0;
   int iterations_ = 0;
   double residual_ = 0.0;
   bool goes_on_ = false;

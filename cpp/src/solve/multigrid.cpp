@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "work.h"
+
 namespace tissu {
 namespace {
 
@@ -34,6 +36,7 @@ void Multigrid<T>::make(const LinearOperator& A, double scale) {
     project(n, A, scale);
   }
   finish(A, scale);
+  once_ = fresh ? kAggregation * A.rows() : 0.0;
 }
 
 /// Parts in turn: the smoother of a level with its prolongation, the matrix of the next one row by row, and
@@ -56,6 +59,7 @@ bool Multigrid<T>::make_part(const LinearOperator& A, double scale) {
     if (part_ % 2 == 0) {
       if (!refresh(n, A, scale, false, renewals_ == 0)) {
         finish(A, scale);
+        once_ = 0.0;
         return true;
       }
       left -= kRefresh * level.smoother.cycle_bytes() / iteration_bytes_;
@@ -234,6 +238,8 @@ void Multigrid<T>::set_price(const LinearOperator& A) {
   }
   iteration_bytes_ = static_cast<double>(A.bytes()) + kVectorBytes * A.rows() + cycle;
   price_ = made / iteration_bytes_;
+  making_ = made;
+  application_ = cycle;
 }
 
 template <class T>

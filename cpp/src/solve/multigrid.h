@@ -25,6 +25,9 @@ class Multigrid final : public Preconditioner<T> {
   void make(const LinearOperator& A, double scale) override;
   bool make_part(const LinearOperator& A, double scale) override;
   [[nodiscard]] double price() const override { return price_; }
+  [[nodiscard]] double making() const override { return making_; }
+  [[nodiscard]] double once() const override { return once_; }
+  [[nodiscard]] double application() const override { return application_; }
   void apply(std::span<const T> r, std::span<T> z) override;
   void forget() override {
     levels_.clear();
@@ -86,6 +89,9 @@ class Multigrid final : public Preconditioner<T> {
   std::int32_t row_ = 0;  ///< at which a making in parts goes on
   double price_ = 0.0;
   double iteration_bytes_ = 1.0;
+  double making_ = 0.0;
+  double once_ = 0.0;
+  double application_ = 0.0;
 };
 
 }  // namespace tissu

@@ -30,6 +30,11 @@ class Preconditioner {
   }
   /// The price of the latest making, counted in iterations.
   [[nodiscard]] virtual double price() const = 0;
+  /// Work (work.h) of the latest making, and of applying it once.
+  [[nodiscard]] virtual double making() const = 0;
+  [[nodiscard]] virtual double application() const = 0;
+  /// Work of what the latest making did because the pattern was new; not a part of `making`.
+  [[nodiscard]] virtual double once() const { return 0.0; }
   /// What is coupled beside the matrix has a part in it.
   [[nodiscard]] virtual bool takes_couplings() const { return true; }
   /// Rows of z = M^-1 r depend on the same rows of r only, and `apply_rows` gives them.

@@ -7,9 +7,9 @@
 
 namespace tissu {
 
-void SingleMatrix::update(const BlockMatrix& matrix) {
+bool SingleMatrix::update(const BlockMatrix& matrix) {
   matrix_ = &matrix;
-  if (id_ == matrix.id() && version_ == matrix.version()) return;
+  if (id_ == matrix.id() && version_ == matrix.version()) return false;
   id_ = matrix.id();
   version_ = matrix.version();
   multiply_rows_ = multiply_rows_of<float>(matrix.isa());
@@ -37,6 +37,7 @@ void SingleMatrix::update(const BlockMatrix& matrix) {
       values_[static_cast<std::size_t>(i)] = static_cast<float>(scale_ * from[i]);
     }
   });
+  return true;
 }
 
 void SingleMatrix::multiply(std::span<const float> p, std::span<float> out) const {

@@ -9,8 +9,8 @@ namespace tissu {
 /// A block matrix in single precision, scaled so that its largest diagonal number is 1.
 class SingleMatrix {
  public:
-  /// Takes over pattern and values, unless it has them.
-  void update(const BlockMatrix& matrix);
+  /// Takes over pattern and values; false where it has them.
+  bool update(const BlockMatrix& matrix);
   void multiply(std::span<const float> p, std::span<float> out) const;
   [[nodiscard]] double scale() const { return scale_; }
   [[nodiscard]] std::size_t bytes() const { return values_.size() * sizeof(float); }

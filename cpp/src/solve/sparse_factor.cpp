@@ -1,6 +1,7 @@
 #include "sparse_factor.h"
 
 #include "factor_library.h"
+#include "work.h"
 
 namespace tissu {
 namespace {
@@ -15,14 +16,27 @@ SparseFactor::~SparseFactor() = default;
 std::string_view SparseFactor::library() { return Library::kName; }
 double SparseFactor::operations_per_byte() { return Library::kOperationsPerByte; }
 
+void SparseFactor::take_pattern(const BlockMatrix& matrix, const Couplings* couplings) {
+  making_ = once_ = 0.0;
+  if (!library_->lower.update_pattern(matrix, couplings)) return;
+  library_->analyse();
+  once_ = kOrdering * matrix.rows();
+}
+
+bool SparseFactor::factorise() {
+  const bool made = library_->factorise();
+  making_ += operations() / operations_per_byte() + kFactorNumber * number_bytes() / sizeof(double);
+  return made;
+}
+
 void SparseFactor::make(const BlockMatrix& matrix, bool coupled) {
   const Couplings* couplings = coupled ? matrix.couplings() : nullptr;
   Library& l = *library_;
   l.ready = false;
-  if (l.lower.update_pattern(matrix, couplings)) l.analyse();
+  take_pattern(matrix, couplings);
   double shift = 0.0;
   l.lower.update_values(matrix, couplings, shift);
-  while (!l.factorise()) {
+  while (!factorise()) {
     shift = shift == 0.0 ? kFirstShift : 10.0 * shift;
     if (shift > kLastShift) throw Error("the matrix of the step is not finite or has a zero diagonal.");
     l.lower.update_values(matrix, couplings, shift);
@@ -36,9 +50,9 @@ void SparseFactor::make(const BlockMatrix& matrix, bool coupled) {
 bool SparseFactor::attempt(const BlockMatrix& matrix) {
   Library& l = *library_;
   l.ready = false;
-  if (l.lower.update_pattern(matrix, nullptr)) l.analyse();
+  take_pattern(matrix, nullptr);
   l.lower.update_values(matrix, nullptr, 0.0);
-  l.definite = l.factorise();
+  l.definite = factorise();
   if (!l.definite) return false;
   l.ready = true;
   l.id = matrix.id();
@@ -55,6 +69,7 @@ void SparseFactor::solve(ConstReals b, Reals x) { library_->solve(1, b, x); }
 void SparseFactor::solve_all(int columns, ConstReals b, Reals x) { library_->solve(columns, b, x); }
 void SparseFactor::forget() { library_->ready = false; }
 double SparseFactor::operations() const { return library_->operations; }
+double SparseFactor::application() const { return kFactorSolve * 2.0 * number_bytes(); }
 double SparseFactor::number_bytes() const { return sizeof(double) * library_->numbers; }
 
 std::size_t SparseFactor::bytes() const {

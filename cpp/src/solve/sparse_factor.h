@@ -40,11 +40,21 @@ class SparseFactor {
   [[nodiscard]] static double operations_per_byte();
   /// Bytes of the factor's numbers: what half a solve reads.
   [[nodiscard]] double number_bytes() const;
+  /// Work (work.h) of the latest making, of its ordering where the pattern was new, and of a solve.
+  [[nodiscard]] double making() const { return making_; }
+  [[nodiscard]] double once() const { return once_; }
+  [[nodiscard]] double application() const;
   [[nodiscard]] std::size_t bytes() const;
 
  private:
   struct Library;
+  /// Takes over the pattern, and begins the count of a making.
+  void take_pattern(const BlockMatrix& matrix, const Couplings* couplings);
+  bool factorise();
+
   std::unique_ptr<Library> library_;
+  double making_ = 0.0;
+  double once_ = 0.0;
 };
 
 }  // namespace tissu

@@ -13,11 +13,7 @@ void StaleCholesky<T>::make(const LinearOperator& A, double scale) {
     factor_.make(matrix, true);  // the couplings hold it
   }
   inverse_scale_ = 1.0 / scale;
-  const double read = static_cast<double>(A.bytes());
-  const double iteration = read + 2.0 * factor_.number_bytes() + kVectorBytes * A.rows();
-  const double made =
-      factor_.operations() / SparseFactor::operations_per_byte() + 2.0 * read + 2.0 * factor_.number_bytes();
-  price_ = made / iteration;
+  price_ = making() / (static_cast<double>(A.bytes()) + kVectorBytes * A.rows() + application());
 }
 
 template <>

@@ -14,6 +14,9 @@ class StaleCholesky final : public Preconditioner<T> {
  public:
   void make(const LinearOperator& A, double scale) override;
   [[nodiscard]] double price() const override { return price_; }
+  [[nodiscard]] double making() const override { return factor_.making(); }
+  [[nodiscard]] double once() const override { return factor_.once(); }
+  [[nodiscard]] double application() const override { return factor_.application(); }
   [[nodiscard]] bool takes_couplings() const override { return false; }
   void apply(std::span<const T> r, std::span<T> z) override;
   [[nodiscard]] std::size_t bytes() const override { return factor_.bytes() + 16 * right_.size(); }

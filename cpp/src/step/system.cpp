@@ -156,6 +156,7 @@ SolveReport System::solve(ConstReals b, Reals x, double floor) {
   solves.preparations += report.preparations;
   solves.failures += report.converged ? 0 : 1;
   solves.residual = std::max(solves.residual, report.residual);
+  solves.work += report.work;
   return report;
 }
 

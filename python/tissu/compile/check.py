@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from tissu.compile.doubts import doubts
 from tissu.compile.prepare import prepare
-from tissu.compile.solver import choice_of
+from tissu.compile.solver import said_of
 from tissu.effects import absent_of, effects_of
 
 if TYPE_CHECKING:
@@ -67,13 +67,12 @@ def check_of(prepared: Prepared) -> Check:
     """The same as check_scene for a scene that is resolved already."""
     scene = prepared.scene
     problems = _sentences(prepared)
-    choice = None if problems else choice_of(prepared)
     return Check(
         problems=problems,
         notes=[
             *prepared.findings.notes,
             *doubts(prepared),
-            *([] if choice is None else [f"step.solver: auto is {choice.why}"]),
+            *([] if problems else said_of(prepared)),
             *_outputs_between_steps(scene),
         ],
         effects=effects_of(scene, prepared.counts()),

@@ -14,7 +14,6 @@ from tissu.compile.material import fibres_of, parameters_of
 from tissu.compile.model import kept_nodes
 from tissu.compile.prepare import prepare
 from tissu.compile.prepared import LoadedNodes, Prepared
-from tissu.compile.solver import chosen_solver
 from tissu.compile.start import begin
 from tissu.compile.thin import cross_section_of
 from tissu.errors import SceneError
@@ -44,14 +43,15 @@ def compile_scene(scene: Scene, checkpoint: Path | None = None) -> Simulation:
         raise SceneError(check.problems)
     from tissu.simulation import Simulation
 
-    solver = chosen_solver(prepared)
+    solver = getattr(scene.step, "solver", None)
+    equilibrium = isinstance(scene.step, Static)
     simulation = Simulation(
         scene=scene,
         world=build_world(prepared),
         meshes={name: body.mesh for name, body in prepared.bodies.items()},
         tissue={name: tissue.mesh for name, tissue in prepared.tissue.items()},
         integrator=scene.step.integrator(),
-        solver=None if solver is None else solver.linear_solver(),
+        solver=None if solver is None else solver.linear_solver(equilibrium=equilibrium),
         check=check,
         loads=[(loaded.load, _where(prepared, loaded)) for loaded in prepared.loaded],
         checkpoint=saved,

@@ -33,29 +33,39 @@ class Solver(Part):
     if TYPE_CHECKING:
         type: str
 
-    def linear_solver(self) -> _core.LinearSolver:
-        """The core's solver of the same name, with the fields that are its own."""
+    def linear_solver(self, *, equilibrium: bool = False) -> _core.LinearSolver:
+        """The core's solver of the same name, with the fields that are its own.
+
+        Args:
+            equilibrium: its step has no inertia.
+        """
         from tissu import _core
 
         fields = {name: getattr(self, name) for name in type(self).model_fields if name != "type"}
-        made: _core.LinearSolver = getattr(_core, type(self).__name__)(**fields)
+        made: _core.LinearSolver = getattr(_core, type(self).__name__)(
+            **fields, **self._of_step(equilibrium=equilibrium)
+        )
         return made
+
+    def _of_step(self, *, equilibrium: bool) -> dict[str, bool]:
+        """What it is told of its step."""
+        return {}
 
 
 class Auto(Solver):
-    """The solver chosen by size, kind of step and editing; `plan()` says which, and why."""
+    """The way that counted work makes cheapest, for each system anew.
+
+    Block-Jacobi, incomplete Cholesky, multigrid, a stale factor or a new one. It may change while
+    the scene runs; `plan()` and `profile()` say to which, and by which counts.
+    """
 
     type: Literal["auto"] = "auto"
-    tolerance: _Tolerance = field(default=1e-6)
-    """residual relative to the right-hand side at which iterations stop"""
+    tolerance: _Tolerance = field(default=1e-5)
+    """residual relative to the right-hand side at which iterations stop; docs/solvers.md has what
+    it does to the answer"""
 
-    def linear_solver(self) -> _core.LinearSolver:
-        """None: compiling chooses the solver that it stands for.
-
-        Raises:
-            TypeError: always.
-        """
-        raise TypeError("`auto` stands for a solver that choice_for chooses")
+    def _of_step(self, *, equilibrium: bool) -> dict[str, bool]:
+        return {"equilibrium": equilibrium}
 
 
 class ConjugateGradient(Solver):

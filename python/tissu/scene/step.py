@@ -14,7 +14,7 @@ from tissu.scene.effect import Effect
 from tissu.scene.field import field
 from tissu.scene.part import Part, one_of
 from tissu.scene.problem import Problem
-from tissu.scene.solver import ConjugateGradient, OneSolver
+from tissu.scene.solver import Auto, OneSolver
 from tissu.scene.unknown import rule
 
 if TYPE_CHECKING:
@@ -137,7 +137,7 @@ class Implicit(Step):
     indefinite: Indefinite = "project"
     """what to do where the matrix of a step is not positive definite: project each cell's share on
     the positive semi-definite ones, regularise with a growing share of the mass, or refuse"""
-    solver: OneSolver = field(default_factory=ConjugateGradient)
+    solver: OneSolver = field(default_factory=Auto)
     """linear solver"""
 
 
@@ -187,7 +187,7 @@ class EnergyMomentum(Step):
     """largest number of Newton iterations in a step"""
     tolerance: _Tolerance = field(default=1e-9)
     """residual relative to the load that acts at which the step is solved"""
-    solver: OneSolver = field(default_factory=ConjugateGradient)
+    solver: OneSolver = field(default_factory=Auto)
     """linear solver"""
 
 
@@ -218,7 +218,7 @@ class Static(Step):
     arc_length: bool = False
     """follow the path by its arc length from the start, as through limit points of the load; false:
     only where no part of the load is small enough"""
-    solver: OneSolver = field(default_factory=ConjugateGradient)
+    solver: OneSolver = field(default_factory=Auto)
     """linear solver"""
 
     def settings(self) -> dict[str, Any]:

@@ -42,6 +42,8 @@ class Solves:
         preparations: preconditioners or factors made.
         failures: systems that were not solved to the tolerance.
         residual: the largest |b - A x| / |b|.
+        work: what they took, in bytes that a product of the matrix reads; counted, never timed.
+        account: what `auto` chose, and by which counts; empty for another solver.
     """
 
     solves: int
@@ -49,6 +51,8 @@ class Solves:
     preparations: int
     failures: int
     residual: float
+    work: float
+    account: str = ""
 
     def __str__(self) -> str:
         """One line."""
@@ -57,6 +61,7 @@ class Solves:
             f"linear solver: {counted(self.solves, 'system')}{failed}, "
             f"{self.iterations / max(self.solves, 1):.3g} iterations each, "
             f"{self.preparations} prepared, largest residual {self.residual:.2g}"
+            + (f"\nauto: {self.account}" if self.account else "")
         )
 
 
@@ -119,5 +124,5 @@ def profile_of(core: _core.Simulation, simulated: float) -> Profile:
         p95_ms=1e3 * float(p95),
         max_ms=1e3 * float(seconds.max()) if steps else 0.0,
         real_time_factor=simulated / total if total else 0.0,
-        solves=Solves(*core.profile_solves()),
+        solves=Solves(*core.profile_solves(), account=core.solver_account()),
     )

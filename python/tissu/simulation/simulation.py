@@ -305,7 +305,7 @@ class Simulation(Inspected, Handled):
         return Plan(
             effects=tuple(self._check.effects),
             absent=tuple(self._check.absent),
-            notes=tuple(self._check.notes),
+            notes=(*self._check.notes, *self._chosen()),
             unknowns=3 * self._world.blocks,
             matrix_blocks=self._world.matrix_blocks,
             integrator=self._core.integrator_name,
@@ -314,6 +314,11 @@ class Simulation(Inspected, Handled):
             threads=self._world.threads,
             instruction_set=self._world.instruction_set,
         )
+
+    def _chosen(self) -> list[str]:
+        """What the solver `auto` chose so far, as a note."""
+        account = self._core.solver_account()
+        return [f"step.solver: auto took {account}"] if account else []
 
     def remove_cells(self, *, body: str, cells: ArrayLike) -> None:
         """Take cells out of a body between two steps.

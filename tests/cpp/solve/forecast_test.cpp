@@ -59,7 +59,8 @@ struct Guess {
 Guess guess(Forecast& forecast, const Counted& A, const std::vector<double>& b) {
   Guess g;
   g.r = b;
-  g.size = forecast.start(A, norm(b), g.r, g.x);
+  double work = 0.0;
+  g.size = forecast.start(A, norm(b), g.r, g.x, work);
   return g;
 }
 

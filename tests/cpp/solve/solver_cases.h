@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "tissu/solve/automatic.h"
 #include "tissu/solve/cholesky.h"
 #include "tissu/solve/conjugate_gradient.h"
 
@@ -30,7 +31,9 @@ inline SolverCase gradient_case(std::string name, Preconditioning preconditionin
 
 inline std::vector<SolverCase> solver_cases() {
   std::vector<SolverCase> cases = {
-      {"cholesky", [](double /*tolerance*/) { return std::make_unique<Cholesky>(); }}};
+      {"cholesky", [](double /*tolerance*/) { return std::make_unique<Cholesky>(); }},
+      {"automatic",
+       [](double tolerance) { return std::make_unique<Automatic>(Automatic::Settings{tolerance, false}); }}};
   using P = Preconditioning;
   for (const Precision precision : {Precision::full, Precision::single}) {
     const std::string end = precision == Precision::single ? "_single" : "";

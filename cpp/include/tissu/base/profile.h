@@ -27,6 +27,7 @@ class Profile {
     std::int64_t preparations = 0;  ///< preconditioners or factors made
     std::int64_t failures = 0;      ///< solves that did not converge
     double residual = 0.0;          ///< the largest, relative to the right-hand side
+    double work = 0.0;              ///< in bytes read, or what takes as long (SolveReport)
   };
 
   /// The number of the row of an effect's stage; made when it is not there yet.

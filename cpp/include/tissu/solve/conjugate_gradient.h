@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -54,12 +55,20 @@ class ConjugateGradient final : public LinearSolver {
     return settings_.preconditioning == Preconditioning::multigrid;
   }
   SolveReport solve(const LinearOperator& A, ConstReals b, Reals x, double floor) override;
+  /// The next solves stop, not converged, when they have taken so much work (SolveReport), makings not
+  /// counted: for a caller that has another way. Infinite at first.
+  void allow(double work) { allowance_ = work; }
   void forget() override;
   [[nodiscard]] std::size_t bytes() const override;
 
  private:
   /// r_ = b - A x; |r_|
-  double residual(const LinearOperator& A, ConstReals b, ConstReals x);
+  double residual(const LinearOperator& A, ConstReals b, ConstReals x, SolveReport& report);
+  /// Work of this solve so far, makings not counted.
+  [[nodiscard]] double spent(const SolveReport& report) const;
+  /// Iterations that it may still take.
+  template <class T>
+  int left(const LinearOperator& A, const SolveReport& report);
   void rounds(const LinearOperator& A, ConstReals b, Reals x, double reference, SolveReport& report);
   template <class T>
   void prepare(const LinearOperator& A, bool forced, SolveReport& report);
@@ -70,6 +79,7 @@ class ConjugateGradient final : public LinearSolver {
   Iteration<T>& iteration();
 
   Settings settings_;
+  double allowance_ = std::numeric_limits<double>::infinity();
   std::string name_;
   std::vector<double> r_;
   std::vector<double> change_;  ///< of x in a round

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <string_view>
 
 #include "tissu/assembly/block_matrix.h"
@@ -14,6 +15,9 @@ struct SolveReport {
   bool positive_definite = true;  ///< false: x is a descent direction of the problem, not its solution
   int preparations = 0;           ///< how often a preconditioner or a factor was made
   double preparation_seconds = 0.0;
+  double work = 0.0;    ///< in bytes read from memory, or what takes as long; counted, never timed
+  double making = 0.0;  ///< the share of it that went into preconditioners or factors, …
+  double once = 0.0;    ///< … and the share of what a new pattern asked for: an ordering, aggregates
 };
 
 /// Solves A x = b with a symmetric matrix that is meant to be positive definite. Nothing that it decides
@@ -37,6 +41,8 @@ class LinearSolver {
   virtual SolveReport solve(const LinearOperator& A, ConstReals b, Reals x, double floor) = 0;
   /// Drops what it keeps of earlier matrices: the next solve gives the bits that a new solver gives.
   virtual void forget() = 0;
+  /// What it chose in the solves so far, and by which counts; empty for a solver that has one way.
+  [[nodiscard]] virtual std::string account() const { return {}; }
   /// What it keeps, the matrix itself not counted.
   [[nodiscard]] virtual std::size_t bytes() const = 0;
 };

@@ -1,0 +1,41 @@
+"""`solver: auto` against every fixed choice, in counted work: bench/defaults.py on small scenes."""
+
+import sys
+from pathlib import Path
+
+import pytest
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "bench"))
+from default_scenes import SCENES
+from defaults import HEAD, Run, cell, compared, ratio
+
+# Steps enough that each wrong prediction has been learned: a choice is tried when what it would
+# have saved has paid for making it, some tens of steps where a factor serves for twenty.
+STEPS = 160
+ROWS = [
+    *(("bar", 800, "10 ms"), ("bar", 800, "100 ms"), ("bar of hexahedra", 800, "10 ms")),
+    *(("cube", 1000, "1 ms"), ("cube", 1000, "10 ms"), ("thin plate", 800, "10 ms")),
+    *(("slivers", 1000, "10 ms"), ("nu 0.499", 800, "10 ms"), ("shell", 800, "10 ms")),
+    *(("frames", 600, "10 ms"), ("mixed cells", 800, "10 ms"), ("cut", 800, "10 ms")),
+    *(("bar", 800, "static"), ("cube", 1000, "static"), ("half condensed", 1500, "10 ms")),
+]
+
+
+@pytest.mark.parametrize(("name", "size", "step"), ROWS)
+def test_auto_takes_at_most_a_quarter_more_than_the_best_fixed_choice(name, size, step):
+    found = compared(name, size, step, counts=True, steps=STEPS)
+    assert found["auto"].failures == min(run.failures for run in found.values())
+    assert ratio(found) <= 1.25, {choice: cell(run, counts=True) for choice, run in found.items()}
+
+
+def test_a_failure_where_another_choice_succeeds_is_no_ratio():
+    runs = {"auto": Run(1.0, 1.0, 1.0, 1, ""), "cholesky": Run(9.0, 9.0, 9.0, 0, "")}
+    assert ratio(runs) == float("inf")
+    runs["auto"] = Run(12.0, 11.0, 12.0, 0, "")
+    runs["multigrid"] = Run(1.0, 1.0, 1.0, 3, "")  # cheap, and wrong three times
+    assert ratio(runs) == pytest.approx(11.0 / 9.0)
+
+
+def test_the_bench_has_the_rows_that_the_default_is_held_against():
+    assert {"organ", "contrast 1e6", "mixed cells", "cut"} <= set(SCENES)
+    assert "counted work" in HEAD

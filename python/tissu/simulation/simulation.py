@@ -331,6 +331,15 @@ class Simulation(Inspected, Handled):
         self._core.remove_cells(body=body, cells=removed_cells(self._meshes, body, cells))
         self._follow_cells(body)
 
+    def remaining_cells(self, body: str) -> NDArray[np.int32]:
+        """Numbers (e,) in the mesh of the scene of the cells that `meshes[body]` has now.
+
+        Raises:
+            ParameterError: no body of that name.
+        """
+        self._require_body(body)
+        return np.sort(self._core.remaining_cells(body))
+
     def _follow_cells(self, body: str) -> None:
         remaining = np.sort(self._core.remaining_cells(body))
         if len(remaining) < self._meshes[body].cell_count:

@@ -12,7 +12,7 @@ from collections.abc import Callable, Sequence
 from concurrent.futures import Future
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from tissu.errors import TissuError
+from tissu.errors import BusyError, TissuError
 from tissu.live_view.pace import Pace
 
 if TYPE_CHECKING:
@@ -25,6 +25,8 @@ _STATIC_STEP = 1.0 / 30.0
 """Simulated time of a step of a static scene [s]: it only moves along the loads' times."""
 _IDLE = 0.05
 """How long a paused thread waits for a wish before it looks again [s]."""
+_PATIENCE = 5e-4
+"""How long it waits while another thread is inside a simulation [s]."""
 
 
 class Runner:
@@ -153,6 +155,8 @@ class Runner:
                 if self.playing and self._time_left() <= 0.0:
                     self._step()
                 self._between()
+            except BusyError:  # the program looks at a simulation: there is another moment
+                self._ended.wait(_PATIENCE)
             except Exception as error:
                 self._fail(error)
 
@@ -176,14 +180,23 @@ class Runner:
                 return
 
     def _step(self) -> None:
-        """One step of each; where one fails all stand where they were asked to."""
+        """One step of each; where one fails it stands at its last good one, and all pause."""
         try:
-            self.reports = [one.step(step_of(one)) for one in self.simulations]
+            self.reports = [self._patiently(one) for one in self.simulations]
         except TissuError as error:
             self._set_playing(False)
             self.error = str(error)
             return
         self._measure()
+
+    def _patiently(self, simulation: Simulation) -> StepReport:
+        """A step, after the program's own thread has left the simulation that it looks at."""
+        while True:
+            try:
+                return simulation.step(step_of(simulation))
+            except BusyError:
+                if self._ended.wait(_PATIENCE):
+                    raise
 
     def _measure(self) -> None:
         """Simulated time for wall time, over half a second."""

@@ -32,7 +32,9 @@ _HERE = ("127.0.0.1", "localhost", "::1")
 class View:
     """A page on which one or two simulations run live.
 
-    They belong to the view's thread until it is closed: `ask` reaches them between two steps.
+    They belong to the view's thread until it is closed: `ask` reaches them between two steps, and
+    another thread that is inside one of them holds up its next step. Points may be grabbed, also
+    where the scene does not say `grabbing: true`.
 
     Attributes:
         url: the address of the page.
@@ -72,6 +74,8 @@ class View:
         _require_together(simulations)
         if not speed > 0.0:
             raise ParameterError(f"found a speed of {speed:g}; a positive one is accepted")
+        for one in simulations:
+            one.allow_grabbing()
         self._taker = FrameTaker()
         self._frame_due = 0.0
         self._runner = Runner(simulations, speed=speed, playing=playing, between=self._between)
@@ -130,8 +134,8 @@ class View:
         """Begin again: every simulation as it began, with the parameters that it has now."""
 
         def begin(simulations: list[Simulation]) -> None:
-            for number, simulation in enumerate(simulations):
-                simulations[number] = simulation.scene.compile()
+            for simulation in simulations:
+                simulation.reset()
             self._runner.error = ""
             self._runner.restart_clock()
 

@@ -123,9 +123,7 @@ class BodyDrawing:
         self._edges.visible = True
         self._edges.vertices, self._edges.faces = out, faces
 
-    def _show_bands(
-        self, at: Points, body: BodyFrame, limits: tuple[float, float] | None
-    ) -> None:
+    def _show_bands(self, at: Points, body: BodyFrame, limits: tuple[float, float] | None) -> None:
         found = []
         if limits is not None and body.values is not None:
             found = bands(at, body.seen.triangles, body.values, limits=limits, count=COUNT)

@@ -32,7 +32,7 @@ def far_enough(stage: Stage) -> float:
 
 def first_place(stage: Stage) -> NDArray[np.float64]:
     """Where the first view is seen from (3,), as in the pictures of `draw` [page units]."""
-    return stage.centre + far_enough(stage) * stage.axes[2]
+    return np.asarray(stage.centre + far_enough(stage) * stage.axes[2])
 
 
 def look_from(camera: viser.CameraHandle, preset: str, stage: Stage) -> None:

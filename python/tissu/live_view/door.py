@@ -56,7 +56,9 @@ class Door:
         """
         self.host, self.token, self._behind = host, token, behind
         self._loop = asyncio.new_event_loop()
-        self._thread = threading.Thread(target=self._loop.run_forever, name="tissu door", daemon=True)
+        self._thread = threading.Thread(
+            target=self._loop.run_forever, name="tissu door", daemon=True
+        )
         self._thread.start()
         ports = [port] if port is not None else list(range(FIRST_PORT, FIRST_PORT + PORTS))
         try:

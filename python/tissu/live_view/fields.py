@@ -1,4 +1,4 @@
-"""What can be shown by colour: each field with its unit, and its values at the nodes that are seen."""
+"""What can be shown by colour: each field with its unit, and its values at nodes."""
 
 from __future__ import annotations
 
@@ -61,9 +61,9 @@ def stiffness(simulation: Simulation, body: str, seen: Seen) -> Floats:
     mesh, rest = simulation.meshes[body], 0.0
     of_cells = np.full(mesh.cell_count, np.nan)
     for region, law in simulation.scene.bodies[body].laws().items():
-        lame, mu = law.small_strain()
-        if lame + mu <= 0.0:
+        if type(law).made is not None:
             raise ParameterError(f"found a law of '{body}' whose moduli nothing is known of")
+        lame, mu = law.small_strain()
         young = mu * (3.0 * lame + 2.0 * mu) / (lame + mu)
         if region is None:
             of_cells[:] = young

@@ -135,9 +135,7 @@ class FrameTaker:
             achieved=runner.achieved,
         )
 
-    def _colour(
-        self, found: Mapping[tuple[int, str], tuple[Simulation, Seen]], field: str
-    ) -> None:
+    def _colour(self, found: Mapping[tuple[int, str], tuple[Simulation, Seen]], field: str) -> None:
         """Compute what is coloured, if it is due, or nodes or field are others than before."""
         if not field:
             self._values.clear()

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Sequence, Sized
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -35,10 +35,10 @@ class Marks:
     labels: tuple[tuple[Floats, str], ...] = ()
 
 
-def few(places: Floats, most: int) -> NDArray[np.int64]:
+def few(rows: Sized, most: int) -> NDArray[np.int64]:
     """Numbers of at most so many rows, evenly among them all."""
-    count = min(len(places), most)
-    return np.linspace(0, len(places) - 1, count).round().astype(np.int64)
+    count = min(len(rows), most)
+    return np.linspace(0, len(rows) - 1, count).round().astype(np.int64)
 
 
 def arrows_at(places: Floats, vectors: ArrayLike, *, longest: float) -> Floats:

@@ -1,4 +1,4 @@
-"""The page: a viser server on this machine, the drawings and the panels, and the thread that feeds it."""
+"""The page: a viser server on this machine, drawings and panels, and the thread that feeds it."""
 
 from __future__ import annotations
 
@@ -50,6 +50,7 @@ class Page:
         self.sent = 0
         self._session = session
         self.server = _server(title)
+        session.recorder.of(self.server)
         self._prepare_scene()
         self._panels = [panel(self.server.gui, session) for panel in PANELS]
         self._bodies: dict[tuple[int, str], BodyDrawing] = {}
@@ -105,6 +106,7 @@ class Page:
             frame = self.frames.take(0.25)
             if frame is not None:
                 self.show(frame)
+                self._session.recorder.pass_time()
                 self.sent += 1
             self._ended.wait(max(0.0, begin + 1.0 / RATE - time.monotonic()))
 
@@ -125,7 +127,9 @@ class Page:
 
     def _limits(self, frame: Frame) -> tuple[float, float] | None:
         """Limits of the colours, wide enough for this frame."""
-        values = [b.values[np.isfinite(b.values)] for b in frame.bodies.values() if b.values is not None]
+        values = [
+            b.values[np.isfinite(b.values)] for b in frame.bodies.values() if b.values is not None
+        ]
         every = np.concatenate([np.empty(0), *values])
         if not frame.field or not len(every):
             return None

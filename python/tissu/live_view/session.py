@@ -10,6 +10,7 @@ if TYPE_CHECKING:
     import viser
 
     from tissu.live_view.frame import FrameTaker
+    from tissu.live_view.recorder import Recorder
     from tissu.live_view.rights import Rights
     from tissu.live_view.runner import Runner
     from tissu.live_view.stage import Stage
@@ -28,6 +29,7 @@ class Session:
         touch: the tools.
         rights: which page may touch.
         stage: where things stand on the page.
+        recorder: of what the page shows.
         begin_again: puts the simulations back to their beginning.
         show_edges: whether edges are drawn.
         limits: of the field that is coloured; they grow with its values, and `fit` forgets them.
@@ -38,6 +40,7 @@ class Session:
     touch: Touch
     rights: Rights
     stage: Stage
+    recorder: Recorder
     begin_again: Callable[[], object]
     show_edges: bool = True
     limits: tuple[float, float] | None = field(default=None)

@@ -45,7 +45,8 @@ class Stage:
 
     def in_space(self, places: ArrayLike, lane: int) -> Floats:
         """Places (..., 3) of the page in space [m]."""
-        return (np.asarray(places, dtype=np.float64) - self.shifts[lane]) / self.factor
+        at = np.asarray(places, dtype=np.float64) - self.shifts[lane]
+        return np.asarray(at / self.factor)
 
 
 def stage_of(rest: Sequence[ArrayLike], up: ArrayLike, *, lanes: int) -> Stage:

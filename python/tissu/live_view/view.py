@@ -1,19 +1,21 @@
-"""A view: simulations that run in a thread of their own, and a page in the browser that shows them."""
+"""A view: simulations that run in a thread of their own, and a page that shows them."""
 
 from __future__ import annotations
 
+import os
+import threading
 import time
 import webbrowser
 from collections.abc import Callable, Sequence
 from concurrent.futures import Future
+from pathlib import Path
 from typing import TYPE_CHECKING, TypeVar
-
-import numpy as np
 
 from tissu.errors import ParameterError
 from tissu.live_view.door import Door, new_token
 from tissu.live_view.frame import FrameTaker
 from tissu.live_view.page import RATE, Page
+from tissu.live_view.recorder import Recorder, recording_place
 from tissu.live_view.rights import Rights
 from tissu.live_view.runner import Runner
 from tissu.live_view.session import Session
@@ -50,6 +52,7 @@ class View:
         token: str | None = None,
         browser: bool = True,
         shared: bool = False,
+        record: str | os.PathLike[str] | None = None,
         speed: float = 1.0,
         playing: bool = True,
     ) -> None:
@@ -63,15 +66,20 @@ class View:
             token: that a page must bring; absent: a new one where `host` asks for it, else none.
             browser: whether the page is opened in a browser.
             shared: whether every page may touch; else the first one that is open.
+            record: a file (.html) to which everything that is shown is written when the view is
+                closed; it plays in a browser without a server.
             speed: simulated seconds for each second of wall time; infinite: as fast as it goes.
             playing: whether it runs at once.
 
         Raises:
-            ParameterError: the port is taken; the simulations have other time steps.
+            ParameterError: the port is taken; the simulations have other time steps; a recording
+                that is not an .html file, or has no place.
             TissuError: viser is not installed.
         """
         simulations = [simulation] if beside is None else [simulation, beside]
         _require_together(simulations)
+        self._record = None if record is None else recording_place(Path(record))
+        self._closed = threading.Event()
         if not speed > 0.0:
             raise ParameterError(f"found a speed of {speed:g}; a positive one is accepted")
         for one in simulations:
@@ -86,6 +94,7 @@ class View:
             touch=Touch(self._runner),
             rights=Rights(shared=shared),
             stage=stage_of(rest, up_of(simulation), lanes=len(simulations)),
+            recorder=Recorder(),
             begin_again=self.reset,
         )
         self._page = Page(self._session, title=simulation.scene.name)
@@ -97,6 +106,8 @@ class View:
             self._page.stop()
             raise
         self.url = self._door.url
+        if self._record is not None:
+            self._session.recorder.begin()
         self._page.start()
         self._runner.start()
         if browser:
@@ -156,21 +167,32 @@ class View:
         """How many frames the page was given."""
         return self._page.sent
 
-    def wait(self) -> None:
-        """Wait until Ctrl-C."""
-        while True:
-            time.sleep(3600.0)
+    def wait(self, seconds: float | None = None) -> None:
+        """Wait; without a time until Ctrl-C."""
+        self._closed.wait(seconds)
 
     def close(self) -> None:
-        """Stop the simulations after their present step, and close the page."""
+        """Stop the simulations after their present step, and close the page.
+
+        Raises:
+            TissuError: the recording that was asked for cannot be written.
+        """
+        if self._closed.is_set():
+            return
+        self._closed.set()
         self._runner.stop()
         self._door.close()
-        self._page.stop()
+        try:
+            if self._record is not None:
+                self._session.recorder.finish(self._record)
+        finally:
+            self._page.stop()
 
     def _between(self) -> None:
         """After a step, in the simulations' thread: a frame for the page when one is due."""
         now = time.monotonic()
-        if now < self._frame_due or not self._page.watched or self._page.frames.waiting:
+        seen = self._page.watched or self._session.recorder.running
+        if now < self._frame_due or not seen or self._page.frames.waiting:
             return
         self._frame_due = max(self._frame_due + 1.0 / RATE, now - 1.0 / RATE)
         marks = self._session.touch.draw(self._runner.simulations)

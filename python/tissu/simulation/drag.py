@@ -91,15 +91,17 @@ def _projected(u: Floats, v: Floats, w: Floats) -> Floats:
 
 def drag_stiffness(scene: Scene, body: str, mesh: Mesh) -> float:
     """E times the mean length of the surface's edges [N/m], E of the stiffest law of the body."""
-    of_body = scene.tissue[body] if body in scene.tissue else scene.bodies[body]
-    laws = [of_body.law] if body in scene.tissue else list(of_body.laws().values())
+    tissue = scene.tissue.get(body)
+    laws = [tissue.law] if tissue is not None else list(scene.bodies[body].laws().values())
     moduli = [lame_young(*law.small_strain()) for law in laws if type(law).made is None]
     if not moduli:
         return _UNKNOWN
     triangles = mesh.surface().triangles
     if len(triangles):
         a, b, c = (mesh.points[triangles[:, k]] for k in range(3))
-        length = float(np.mean([np.linalg.norm(x - y, axis=1) for x, y in ((a, b), (b, c), (c, a))]))
+        length = float(
+            np.mean([np.linalg.norm(x - y, axis=1) for x, y in ((a, b), (b, c), (c, a))])
+        )
     else:
         size = np.prod(np.maximum(np.ptp(mesh.points, axis=0), 1e-9)) / mesh.node_count
         length = float(size) ** (1.0 / 3.0)

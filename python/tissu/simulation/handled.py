@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 
 from tissu.errors import ParameterError
 from tissu.simulation import grab as kept
-from tissu.simulation.grab import Grab, Record
 from tissu.simulation.drag import drag_stiffness, near_frame, near_surface
+from tissu.simulation.grab import Grab, Record
 from tissu.simulation.grab_point import GrabPoint, grab_point, require_free
 from tissu.simulation.live_load import LiveLoad
 
@@ -123,10 +123,19 @@ class Handled:
         else:
             found = near_surface(mesh, now, place)
         require_free(self._core, body, found.nodes)
-        stiff = drag_stiffness(self.scene, body, mesh) if stiffness is None else stiffness
+        stiff = self.drag_stiffness(body) if stiffness is None else stiffness
         grab = self._hold(body, found, place, kept.stiffness_of(stiff))
         grab.target = grab.position
         return grab
+
+    def drag_stiffness(self, body: str) -> float:
+        """The stiffness of a `drag` that is given none [N/m].
+
+        Raises:
+            ParameterError: no such body.
+        """
+        self._require_known(body)
+        return drag_stiffness(self.scene, body, {**self._meshes, **self._tissue}[body])
 
     def drag_as(self, other: Grab) -> Grab:
         """Take hold of the same point of the same body as a grab of another simulation does.

@@ -106,9 +106,7 @@ class Parameters(MutableMapping[str, float]):
             live = self._simulation.load(number)
             name = f"loads.{load.name if load.name is not None else number}"
             metadata = _readers(type(load).model_fields[load.quantity])
-            yield from _numbers(
-                f"{name}.{load.quantity}", getattr(live, load.quantity), metadata
-            )
+            yield from _numbers(f"{name}.{load.quantity}", getattr(live, load.quantity), metadata)
             yield Parameter(f"{name}.factor", live.factor, "")
 
     def _set_load(self, path: list[str], value: Number) -> None:
@@ -180,9 +178,10 @@ def _numbers(name: str, value: Any, metadata: Any) -> Iterator[Parameter]:
 
 
 def _unit_of_vector(metadata: Any) -> str:
-    readers = (getattr(item, "func", None) for item in metadata)
-    dimension = next((r.dimension for r in readers if hasattr(r, "dimension")), None)
-    return "" if dimension is None else str(dimension.unit).replace("*", " ")
+    """SI unit of the components, as it is written; empty: pure numbers."""
+    readers = [getattr(item, "func", item) for item in metadata]
+    units = [reader.dimension.unit for reader in readers if hasattr(reader, "dimension")]
+    return str(units[0]).replace("*", " ") if units else ""
 
 
 def _replaced(value: Any, path: Path, number: object) -> Any:

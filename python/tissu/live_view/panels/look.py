@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from tissu.live_view.cameras import PRESETS, look_from
 from tissu.live_view.colours import legend
@@ -43,19 +43,19 @@ class LookPanel(Panel):
                 for layer in LAYERS
                 if any(layer.offered(simulation) for simulation in simulations)
             }
-            cameras = gui.add_dropdown("view from", ["…", *PRESETS], initial_value="…")
+            cameras: Any = gui.add_dropdown("view from", ["…", *PRESETS], initial_value="…")
         session.on_change(self._field, lambda _: self._want())
         session.on_change(edges, lambda on: setattr(session, "show_edges", on))
         session.on_press(fit, lambda _: setattr(session, "limits", None))
         for box in self._layers.values():
             session.on_change(box, lambda _: self._want())
 
-        @cameras.on_update
-        async def _(event: viser.GuiEvent[viser.GuiDropdownHandle[str]]) -> None:
+        async def turn(event: viser.GuiEvent[Any]) -> None:  # of one page; all may
             if event.client is not None and cameras.value in PRESETS:
                 look_from(event.client.camera, cameras.value, session.stage)
                 cameras.value = "…"
 
+        cameras.on_update(turn)
         self._want()
 
     def _want(self) -> None:
@@ -74,6 +74,4 @@ class LookPanel(Panel):
         if field is None or limits is None:
             return
         factor, unit = field.unit(max(abs(limits[0]), abs(limits[1])))
-        self._legend.content = legend(
-            field.label, unit, (factor * limits[0], factor * limits[1])
-        )
+        self._legend.content = legend(field.label, unit, (factor * limits[0], factor * limits[1]))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from collections.abc import Sequence
 from html import escape
 from typing import TYPE_CHECKING
 
@@ -22,6 +23,7 @@ class Panel(ABC):
 
     def show(self, frame: Frame) -> None:
         """Show what a frame says; at most a few times a second."""
+        return
 
 
 def text(*lines: str, colour: str = "inherit") -> str:
@@ -30,7 +32,7 @@ def text(*lines: str, colour: str = "inherit") -> str:
     return f'<div style="padding:0 1em;font-size:0.85em;color:{colour}">{inner}</div>'
 
 
-def table(head: tuple[str, ...], rows: list[tuple[str, ...]]) -> str:
+def table(head: tuple[str, ...], rows: Sequence[tuple[str, ...]]) -> str:
     """A table as HTML; the first column is left, the others right."""
 
     def line(cells: tuple[str, ...], tag: str) -> str:
@@ -42,6 +44,6 @@ def table(head: tuple[str, ...], rows: list[tuple[str, ...]]) -> str:
 
     body = "".join(f"<tr>{line(row, 'td')}</tr>" for row in rows)
     return (
-        '<table style="margin:0 1em;font-size:0.78em;border-collapse:collapse;width:calc(100% - 2em)">'
+        '<table style="margin:0 1em;font-size:0.78em;width:calc(100% - 2em)">'
         f"<tr>{line(head, 'th')}</tr>{body}</table>"
     )

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from tissu.live_view.panels.panel import Panel
 
@@ -74,7 +74,7 @@ class ParametersPanel(Panel):
             self.look(simulations)
 
     def look(self, simulations: Sequence[Simulation]) -> None:
-        """Note what the values are, after a change or a reset; called in the simulations' thread."""
+        """Note what the values are now; called in the simulations' thread."""
         self._now = dict(simulations[0].parameters)
 
     def show(self, frame: Frame) -> None:
@@ -82,7 +82,8 @@ class ParametersPanel(Panel):
         now, self._now = self._now, {}
         for name, value in now.items():
             if name in self._sliders and name not in self._wished:
-                self._sliders[name].value = value
+                slider: Any = self._sliders[name]
+                slider.value = value
 
 
 def span(parameter: Parameter) -> tuple[float, float]:

@@ -33,9 +33,7 @@ class RunPanel(Panel):
             now = f"{runner.speed:g} x"
             speeds.insert(0, now)
         self._speed = gui.add_dropdown("speed", speeds, initial_value=now)
-        session.on_press(
-            self._pause, lambda _: runner.pause() if runner.playing else runner.play()
-        )
+        session.on_press(self._pause, lambda _: runner.pause() if runner.playing else runner.play())
         session.on_press(
             step, lambda word: runner.step_once() if word == "Step" else session.begin_again()
         )

@@ -36,7 +36,9 @@ class TouchPanel(Panel):
         def choose(word: str) -> None:
             touch.choose("" if word == _NONE else word)
             tool = touch.tools.get(touch.chosen)
-            hint.content = text(tool.hint if tool else "Drag with the mouse to turn, wheel to zoom.")
+            hint.content = text(
+                tool.hint if tool else "Drag with the mouse to turn, wheel to zoom."
+            )
             for name, widgets in fields.items():
                 for widget in widgets:
                     widget.visible = name == touch.chosen
@@ -45,9 +47,7 @@ class TouchPanel(Panel):
         session.on_change(chosen, choose)
 
     @staticmethod
-    def _number(
-        gui: viser.GuiApi, session: Session, number: Number
-    ) -> viser.GuiInputHandle[float]:
+    def _number(gui: viser.GuiApi, session: Session, number: Number) -> viser.GuiInputHandle[float]:
         widget = gui.add_number(
             f"{number.label} [{number.unit}]", float(number.value), min=float(number.least)
         )

@@ -6,7 +6,6 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from tissu.live_view.tools.tool import Number, Tool
-from tissu.simulation.drag import drag_stiffness
 
 if TYPE_CHECKING:
     from tissu.live_view.pointer import Pointer
@@ -26,8 +25,8 @@ class Drag(Tool):
     def __init__(self, simulations: Sequence[Simulation]) -> None:
         """Nothing is held."""
         super().__init__(simulations)
-        scene, (body, mesh) = simulations[0].scene, next(iter(simulations[0].meshes.items()))
-        stiffness = float(f"{drag_stiffness(scene, body, mesh):.2g}")
+        first = simulations[0]
+        stiffness = float(f"{first.drag_stiffness([*first.bodies, *first.tissue][0]):.2g}")
         self.numbers = [Number("stiffness", "N/m", stiffness, 1e-6)]
         self._held: dict[int, list[Grab]] = {}
 

@@ -1,4 +1,4 @@
-"""A tool: what it does when a pointer is pressed on a body, moved and released, and what it draws."""
+"""A tool: what it does when a pointer is pressed, moved and released, and what it draws."""
 
 from __future__ import annotations
 
@@ -60,12 +60,15 @@ class Tool(ABC):
 
     def move(self, simulations: Sequence[Simulation], pointer: Pointer) -> None:
         """The pointer has moved; moves between two steps are one, to the latest place."""
+        return
 
     def release(self, simulations: Sequence[Simulation], pointer: Pointer) -> None:
         """The press has ended, whatever ended it."""
+        return
 
     def click(self, simulations: Sequence[Simulation], pointer: Pointer) -> None:
         """A press and release at one place, on the ray from `eye` to `there`."""
+        return
 
     def draw(self, simulations: Sequence[Simulation]) -> Sequence[Sequence[Marks]]:
         """Marks of each simulation, beside the layers of the page."""

@@ -55,6 +55,7 @@ class Frame:
         message: what went wrong; empty: nothing.
         playing: whether it runs, and
         achieved: simulated time for wall time then.
+        said: what the tool in hand feels.
     """
 
     time: float
@@ -66,6 +67,7 @@ class Frame:
     message: str
     playing: bool
     achieved: float
+    said: str
 
 
 @dataclass(frozen=True, slots=True)
@@ -97,8 +99,8 @@ class FrameTaker:
         self._profiles: list[Profile] = []
         self._profiles_due = 0.0
 
-    def take(self, runner: Runner, drawn: Sequence[Sequence[Marks]] = ()) -> Frame:
-        """The present moment of the simulations, and what a tool draws on each of them."""
+    def take(self, runner: Runner, drawn: Sequence[Sequence[Marks]] = (), said: str = "") -> Frame:
+        """The present moment of the simulations, what a tool draws on each of them and feels."""
         simulations = runner.simulations
         wanted, now = self.wanted, time.monotonic()
         if now >= self._profiles_due or len(self._profiles) != len(simulations):
@@ -133,6 +135,7 @@ class FrameTaker:
             message=runner.error,
             playing=runner.playing,
             achieved=runner.achieved,
+            said=said,
         )
 
     def _colour(self, found: Mapping[tuple[int, str], tuple[Simulation, Seen]], field: str) -> None:

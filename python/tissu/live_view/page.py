@@ -91,9 +91,8 @@ class Page:
 
     def _prepare_scene(self) -> None:
         scene, stage = self.server.scene, self._session.stage
-        self.server.gui.configure_theme(
-            control_layout="fixed", control_width="medium", show_logo=False, show_share_button=False
-        )
+        self.server.gui.configure_theme(show_logo=False, show_share_button=False)
+        self.server.gui.main_panel.dock_right()
         scene.set_up_direction(stage.up)
         camera = self.server.initial_camera
         camera.position, camera.look_at, camera.up = first_place(stage), stage.centre, stage.up

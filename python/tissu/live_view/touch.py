@@ -63,6 +63,11 @@ class Touch:
             return None
         return self._runner.ask(lambda simulations: self._move(simulations, pointer.client))
 
+    def say(self, simulations: Sequence[Simulation]) -> str:
+        """What the tool in hand feels."""
+        tool = self.tools.get(self.chosen)
+        return tool.say(simulations) if tool is not None else ""
+
     def draw(self, simulations: Sequence[Simulation]) -> Sequence[Sequence[Marks]]:
         """What the tool in hand draws on each simulation."""
         tool = self.tools.get(self.chosen)

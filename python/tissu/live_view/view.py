@@ -195,8 +195,9 @@ class View:
         if now < self._frame_due or not seen or self._page.frames.waiting:
             return
         self._frame_due = max(self._frame_due + 1.0 / RATE, now - 1.0 / RATE)
-        marks = self._session.touch.draw(self._runner.simulations)
-        self._page.frames.put(self._taker.take(self._runner, marks))
+        touch, simulations = self._session.touch, self._runner.simulations
+        drawn, said = touch.draw(simulations), touch.say(simulations)
+        self._page.frames.put(self._taker.take(self._runner, drawn, said))
 
 
 def _require_together(simulations: Sequence[Simulation]) -> None:

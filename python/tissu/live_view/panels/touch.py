@@ -9,6 +9,7 @@ from tissu.live_view.panels.panel import Panel, text
 if TYPE_CHECKING:
     import viser
 
+    from tissu.live_view.frame import Frame
     from tissu.live_view.session import Session
     from tissu.live_view.tools import Number
 
@@ -21,6 +22,7 @@ class TouchPanel(Panel):
     def __init__(self, gui: viser.GuiApi, session: Session) -> None:
         """Add the widgets to the page."""
         touch = session.touch
+        self._said: viser.GuiHtmlHandle | None = None
         if not touch.tools:
             return
         with gui.add_folder("Touch"):
@@ -28,6 +30,7 @@ class TouchPanel(Panel):
                 "tool", [*touch.tools, _NONE], initial_value=touch.chosen or _NONE
             )
             hint = gui.add_html("")
+            self._said = gui.add_html("", visible=False)
             fields = {
                 name: [self._number(gui, session, number) for number in tool.numbers]
                 for name, tool in touch.tools.items()
@@ -45,6 +48,12 @@ class TouchPanel(Panel):
 
         choose(chosen.value)
         session.on_change(chosen, choose)
+
+    def show(self, frame: Frame) -> None:
+        """What the tool feels."""
+        if self._said is not None:
+            self._said.visible = bool(frame.said)
+            self._said.content = text(frame.said, colour="#146ec8")
 
     @staticmethod
     def _number(gui: viser.GuiApi, session: Session, number: Number) -> viser.GuiInputHandle[float]:

@@ -5,6 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
+import numpy as np
+
+from tissu.live_view.layers.grabs import force_text
 from tissu.live_view.tools.tool import Number, Tool
 
 if TYPE_CHECKING:
@@ -52,6 +55,12 @@ class Drag(Tool):
         for grab in self._held.get(pointer.client, ()):
             if not grab.released:
                 grab.target = pointer.there
+
+    def say(self, simulations: Sequence[Simulation]) -> str:
+        """The forces of the grabs of each pointer; of several simulations beside each other."""
+        held = [[grab for grab in grabs if not grab.released] for grabs in self._held.values()]
+        forces = [[force_text(float(np.linalg.norm(g.force))) for g in grabs] for grabs in held]
+        return "; ".join(" and ".join(texts) for texts in forces if texts)
 
     def release(self, simulations: Sequence[Simulation], pointer: Pointer) -> None:
         """Let go."""

@@ -70,6 +70,10 @@ class Tool(ABC):
         """A press and release at one place, on the ray from `eye` to `there`."""
         return
 
+    def say(self, simulations: Sequence[Simulation]) -> str:
+        """What is felt now, for the page; empty: nothing."""
+        return ""
+
     def draw(self, simulations: Sequence[Simulation]) -> Sequence[Sequence[Marks]]:
         """Marks of each simulation, beside the layers of the page."""
         return [() for _ in simulations]

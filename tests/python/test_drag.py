@@ -38,7 +38,7 @@ def test_the_nearest_points_of_triangles_are_nearer_than_every_other_point_of_th
 def test_it_holds_the_place_and_pulls_with_nothing_at_first(cell):
     simulation = compiled(cell)
     place = np.array([0.043, 0.052, 0.1])
-    grab = simulation.drag("cube", place + (0, 0, 0.02))
+    grab = simulation.drag("cube", place + np.array([0, 0, 0.02]))
     assert np.abs(grab.position - place).max() < 1e-12
     assert np.abs(grab.force).max() == 0.0
     assert grab.point.weights.sum() == pytest.approx(1.0, abs=1e-12)
@@ -62,7 +62,7 @@ def test_a_static_pull_balances_its_reaction():
         grabbing=True,
     ).compile()
     grab = static.drag("cube", (0.07, 0.06, 0.1), stiffness=20)
-    grab.target = grab.position + (0.02, 0, 0.03)
+    grab.target = grab.position + np.array([0.02, 0, 0.03])
     static.step()
     assert np.linalg.norm(grab.force) > 0.1
     assert np.abs(static.reactions("cube").sum(axis=0) + grab.force).max() < 1e-7

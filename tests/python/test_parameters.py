@@ -169,7 +169,7 @@ def test_what_is_refused_changes_nothing():
         simulation.parameters["bodies.bar.law.young"] = -1.0
     with pytest.raises(ts.SceneError, match="is stable up to"):
         simulation.parameters["bodies.bar.law.young"] = 1e9
-    with pytest.raises(ts.ParameterError, match="did you mean 'bodies.bar.law.young'"):
+    with pytest.raises(ts.ParameterError, match=r"did you mean 'bodies\.bar\.law\.young'"):
         simulation.parameters["bodies.bar.law.yong"] = 1.0
     with pytest.raises(ts.ParameterError, match="another value is accepted"):
         del simulation.parameters["gravity.z"]
@@ -201,7 +201,7 @@ def test_grabbing_that_is_allowed_later_changes_no_bit_until_a_point_is_grabbed(
     assert one.scene.grabbing
     assert np.array_equal(after(one, 4), after(other, 4))
     grab = one.drag("bar", (0.1, 0.01, 0.01), stiffness="5 N/m")
-    grab.target = grab.position + (0, 0, 0.05)
+    grab.target = grab.position + np.array([0, 0, 0.05])
     assert after(one, 10)[:, 2].min() > after(other, 10)[:, 2].min() + 1e-2
 
 

@@ -11,6 +11,7 @@ from __future__ import annotations
 import asyncio
 import contextlib
 import hmac
+import re
 import secrets
 import threading
 from http.cookies import SimpleCookie
@@ -26,6 +27,7 @@ _PATIENCE = 10.0
 """How long a head may take [s]."""
 _HERE = ("127.0.0.1", "localhost", "::1")
 _COOKIE = "tissu"
+_TOKEN = re.compile("[A-Za-z0-9_-]{1,128}")
 
 
 def new_token() -> str:
@@ -52,8 +54,13 @@ class Door:
             token: that must be brought; empty: none.
 
         Raises:
-            ParameterError: the port is taken, or there is no such address.
+            ParameterError: the port is taken, there is no such address, or a token that no cookie
+                carries.
         """
+        if token and not _TOKEN.fullmatch(token):
+            raise ParameterError(
+                f"found the token {token[:30]!r}; up to 128 letters, digits, - and _ are accepted"
+            )
         self.host, self.token, self._behind = host, token, behind
         self._loop = asyncio.new_event_loop()
         self._thread = threading.Thread(

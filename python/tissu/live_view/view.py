@@ -117,6 +117,10 @@ class View:
         """Scene and address."""
         return f"View('{self._runner.simulations[0].scene.name}' at {self.url})"
 
+    def _repr_html_(self) -> str:
+        """The page, in a notebook."""
+        return f'<iframe src="{self.url}" width="100%" height="600" frameborder="0"></iframe>'
+
     def __enter__(self) -> View:
         """The view."""
         return self

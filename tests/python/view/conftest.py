@@ -7,6 +7,8 @@ import pytest
 import tissu as ts
 
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
+WAIT = 120_000
+"""Longest wait for the page [ms]: a busy machine draws slowly."""
 SOFTWARE = ["--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--ignore-gpu-blocklist"]
 
 
@@ -44,8 +46,9 @@ def pages(browser):
     def make(url):
         visitors.append(browser.new_context(viewport={"width": 800, "height": 500}))
         page = visitors[-1].new_page()
+        page.set_default_timeout(WAIT)
         page.goto(url)
-        page.get_by_text("real time").or_(page.get_by_text("paused")).first.wait_for(timeout=60_000)
+        page.get_by_text("real time").or_(page.get_by_text("paused")).first.wait_for()
         return page
 
     yield make

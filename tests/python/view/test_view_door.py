@@ -27,7 +27,7 @@ def echo():
     """The port of a server of this machine."""
     with socketserver.ThreadingTCPServer(("127.0.0.1", 0), Echo) as server:
         server.daemon_threads = True
-        thread = threading.Thread(target=server.serve_forever)
+        thread = threading.Thread(target=server.serve_forever, args=(0.02,))
         thread.start()
         yield server.server_address[1]
         server.shutdown()
@@ -130,11 +130,19 @@ def test_an_open_view_answers_and_a_closed_one_does_not():
     cube = ts.BarMesh(size=(0.1, 0.1, 0.1), cells=(2, 2, 2), cell="tetra")
     body = ts.Body(mesh=cube, law=ts.StVK(young=1e3, poisson=0.3), density=1000)
     scene = ts.Scene(bodies={"cube": body}, step=ts.ImplicitEuler("10 ms"))
-    with ts.view(scene.compile(), browser=False, playing=False) as view:
-        with urllib.request.urlopen(view.url, timeout=10.0) as page:
-            assert page.status == 200 and b"<html" in page.read()[:500]
+    with (
+        ts.view(scene.compile(), browser=False, playing=False) as view,
+        urllib.request.urlopen(view.url, timeout=10.0) as page,
+    ):
+        assert page.status == 200 and b"<html" in page.read()[:500]
     with pytest.raises(urllib.error.URLError):
         urllib.request.urlopen(view.url, timeout=1.0)
+
+
+@pytest.mark.parametrize("token", ["open sesame", "a;b", "é", "x" * 200])
+def test_a_token_that_a_cookie_cannot_carry_is_refused(echo, token):
+    with pytest.raises(ts.ParameterError, match="letters, digits, - and _"):
+        Door(host="127.0.0.1", port=0, behind=echo, token=token)
 
 
 def test_another_address_asks_for_a_token():

@@ -303,7 +303,7 @@ def test_layers_show_what_the_scene_holds_leads_and_loads():
     assert inwards[2] < 0 and abs(inwards[0]) < 1e-9
     assert shown["grabs"].marks(simulation) == []
     grab = simulation.drag("cube", (0.05, 0.05, 0.1), stiffness=10)
-    grab.target = grab.position + (0, 0, 0.03)
+    grab.target = grab.position + np.array([0, 0, 0.03])
     (pulled,) = shown["grabs"].marks(simulation)
     assert pulled.labels[0][1] == "0.3 N"
     assert np.allclose(pulled.lines[0, 1] - pulled.lines[0, 0], (0, 0, 0.03))

@@ -231,7 +231,7 @@ class TestTouch:
         )
         centres = mesh.points[mesh.cells[0].nodes].mean(axis=1)
         near = np.linalg.norm(centres - self.TOP, axis=1) <= 0.025
-        assert 0 < len(gone) and np.array_equal(gone, np.flatnonzero(near))
+        assert len(gone) > 0 and np.array_equal(gone, np.flatnonzero(near))
         assert left.surface().triangles.max() < mesh.node_count
         assert len(left.surface().triangles) > len(mesh.surface().triangles)
 

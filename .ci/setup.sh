@@ -20,5 +20,5 @@ step_system
 step_venv
 step_optional "$purpose"
 step_packages "$purpose"
-step_build
+step_build "$purpose"
 step_configure "$purpose"

@@ -37,7 +37,7 @@ function(tissu_own_target target)
                          VISIBILITY_INLINES_HIDDEN ON)
   # BEFORE: a flag given to one source file (a wider instruction set, say) comes later and wins.
   target_compile_options(${target} BEFORE PRIVATE ${TISSU_ARCH_FLAG} -Wall -Wextra -Wconversion)
-  target_compile_definitions(${target} PRIVATE TISSU_VERSION="${PROJECT_VERSION}" ${TISSU_KERNEL_DEFINITIONS})
+  target_compile_definitions(${target} PRIVATE TISSU_VERSION="${PROJECT_VERSION}")
   if(TISSU_WERROR)
     target_compile_options(${target} PRIVATE -Werror)
     if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
@@ -102,15 +102,19 @@ else()
   set(TISSU_KERNEL_ISAS baseline ${TISSU_ISAS})
 endif()
 list(REMOVE_DUPLICATES TISSU_KERNEL_ISAS)
-set(TISSU_KERNEL_DEFINITIONS "")
+set(TISSU_KERNEL_DEFINES "")
 foreach(isa IN LISTS TISSU_KERNEL_ISAS)
   if(NOT DEFINED TISSU_FLAGS_${isa})
     message(FATAL_ERROR "tissu: TISSU_ISAS is \"${TISSU_ISAS}\"; all, native, or a list of baseline, avx2 and avx512 "
                         "is accepted.")
   endif()
   string(TOUPPER ${isa} upper)
-  list(APPEND TISSU_KERNEL_DEFINITIONS TISSU_HAS_${upper})
+  string(APPEND TISSU_KERNEL_DEFINES "#define TISSU_HAS_${upper}\n")
 endforeach()
+# A header and no definitions on every command: another choice of sets compiles again what chooses among them, not all.
+# Written only where it changed.
+file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/generated/compiled_sets.h
+     CONTENT "#pragma once\n\n/// The instruction sets that this build has kernels for.\n${TISSU_KERNEL_DEFINES}")
 message(STATUS "tissu: kernels for ${TISSU_KERNEL_ISAS}")
 
 # tissu_for_each_isa(TARGET NAME SOURCES...): adds the sources to TARGET once for each set, as tissu_NAME_<set>.

@@ -2,6 +2,8 @@
 
 #include <Eigen/Core>
 
+#include "compiled_sets.h"
+
 namespace tissu {
 
 BuildInfo build_info() {

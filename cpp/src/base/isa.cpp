@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <string>
 
+#include "compiled_sets.h"
 #include "tissu/base/error.h"
 
 namespace tissu {

@@ -1,5 +1,6 @@
 #include "tissu/cell/elastic_kernels.h"
 
+#include "base/kernel_choice.h"
 #include "kernels/shape_list.h"
 
 namespace tissu {

@@ -1,5 +1,6 @@
 #include "tissu/law/law_kernels.h"
 
+#include "base/kernel_choice.h"
 #include "kernels/law_kernel_list.h"
 
 namespace tissu {

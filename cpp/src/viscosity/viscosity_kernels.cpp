@@ -1,3 +1,4 @@
+#include "base/kernel_choice.h"
 #include "kernels/viscosity_lists.h"
 #include "tissu/viscosity/viscous_law.h"
 

@@ -27,15 +27,6 @@ TISSU_PRODUCT(avx512)
 #undef TISSU_PRODUCT
 
 template <class T>
-MultiplyRows<T> multiply_rows_of(Isa isa) {
-#ifdef TISSU_HAS_AVX512
-  if (isa == Isa::avx512) return &avx512::multiply_rows;
-#endif
-#ifdef TISSU_HAS_AVX2
-  if (isa == Isa::avx2) return &avx2::multiply_rows;
-#endif
-  (void)isa;
-  return &baseline::multiply_rows;
-}
+MultiplyRows<T> multiply_rows_of(Isa isa);
 
 }  // namespace tissu

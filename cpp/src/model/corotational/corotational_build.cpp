@@ -4,6 +4,7 @@
 #include <span>
 #include <utility>
 
+#include "base/kernel_choice.h"
 #include "kernels/corotational_lists.h"
 #include "tissu/base/error.h"
 #include "tissu/model/corotational/corotational.h"

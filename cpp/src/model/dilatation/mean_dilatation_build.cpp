@@ -3,6 +3,7 @@
 #include <span>
 #include <utility>
 
+#include "base/kernel_choice.h"
 #include "kernels/dilatation_list.h"
 #include "tissu/base/error.h"
 #include "tissu/model/dilatation/mean_dilatation.h"

@@ -1,3 +1,4 @@
+#include "base/kernel_choice.h"
 #include "kernels/edge_lists.h"
 
 namespace tissu {

@@ -1,5 +1,6 @@
 #include "tissu/model/fem/fused_kernels.h"
 
+#include "base/kernel_choice.h"
 #include "kernels/fused_list.h"
 
 namespace tissu {

@@ -5,6 +5,7 @@
 #include <span>
 #include <utility>
 
+#include "base/kernel_choice.h"
 #include "kernels/frame_list.h"
 #include "tissu/base/error.h"
 #include "tissu/element/reference_cell.h"

@@ -27,15 +27,6 @@ TISSU_SWEEP(avx512)
 #undef TISSU_SWEEP
 
 template <class T>
-SweepRows<T> sweep_rows_of(Isa isa) {
-#ifdef TISSU_HAS_AVX512
-  if (isa == Isa::avx512) return &avx512::sweep_rows;
-#endif
-#ifdef TISSU_HAS_AVX2
-  if (isa == Isa::avx2) return &avx2::sweep_rows;
-#endif
-  (void)isa;
-  return &baseline::sweep_rows;
-}
+SweepRows<T> sweep_rows_of(Isa isa);
 
 }  // namespace tissu

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
@@ -23,6 +24,8 @@ Points = NDArray[np.float32]
 
 _OUT = 5e-4
 """How far edges stand before the surface, as a share of the stage."""
+_OUT_EVERY = 0.25
+"""Wall time after which the side on which they stand is found again [s]."""
 
 
 class BodyDrawing:
@@ -58,6 +61,10 @@ class BodyDrawing:
         self._felt, self._touchable = felt, False
         self._seen: Seen | None = None
         self._edges: viser.MeshHandle | None = None
+        self._edge_faces = np.empty((0, 3), dtype=np.uint32)
+        self._edges_shown = False
+        self._out = np.empty((0, 3), dtype=np.float32)
+        self._out_due = 0.0
         self._bands: dict[int, viser.MeshHandle] = {}
 
     def show(self, body: BodyFrame, *, limits: tuple[float, float] | None, edges: bool) -> None:
@@ -108,20 +115,29 @@ class BodyDrawing:
 
     def _show_edges(self, at: Points, seen: Seen, *, shown: bool) -> None:
         """Edges, and lines, which are always drawn, as triangles without area."""
-        ends = np.concatenate([seen.edges, seen.lines]) if shown else seen.lines
-        if not len(ends):
+        same = seen is self._seen and shown == self._edges_shown
+        if not same:
+            ends = np.concatenate([seen.edges, seen.lines]) if shown else seen.lines
+            self._edge_faces = ends[:, [0, 1, 1]].astype(np.uint32)
+            self._edges_shown = shown
+        if not len(self._edge_faces):
             if self._edges is not None:
                 self._edges.visible = False
             return
-        faces = ends[:, [0, 1, 1]].astype(np.uint32)
-        out = at + np.float32(_OUT * self._stage.size) * normals(at, seen.triangles)
+        now = time.monotonic()
+        if not same or now >= self._out_due:  # it turns slowly, and is dear
+            self._out = np.float32(_OUT * self._stage.size) * normals(at, seen.triangles)
+            self._out_due = now + _OUT_EVERY
+        out, faces = at + self._out, self._edge_faces
         if self._edges is None:
             self._edges = self._scene.add_mesh_simple(
                 f"/edges/{self._name}", out, faces, color=EDGE, wireframe=True, opacity=0.35
             )
             return
         self._edges.visible = True
-        self._edges.vertices, self._edges.faces = out, faces
+        self._edges.vertices = out
+        if not same:
+            self._edges.faces = faces
 
     def _show_bands(self, at: Points, body: BodyFrame, limits: tuple[float, float] | None) -> None:
         found = []

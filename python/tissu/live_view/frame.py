@@ -16,6 +16,7 @@ from tissu.live_view.layers import LAYERS
 from tissu.live_view.surface import Seen, seen
 
 if TYPE_CHECKING:
+    from tissu.live_view.layers.layer import Draw, Layer
     from tissu.live_view.marks import Marks
     from tissu.live_view.runner import Runner
     from tissu.simulation import Profile, Simulation
@@ -94,6 +95,7 @@ class FrameTaker:
         """Nothing was taken yet."""
         self.wanted = Wanted()
         self._values: dict[tuple[int, str], tuple[Seen, NDArray[np.float64] | None]] = {}
+        self._layers: dict[tuple[int, str], tuple[tuple[object, ...], Draw]] = {}
         self._values_of = ""
         self._colours_due = 0.0
         self._profiles: list[Profile] = []
@@ -124,7 +126,7 @@ class FrameTaker:
             },
             field=wanted.field,
             marks={
-                (lane, layer.name): layer.marks(simulation)
+                (lane, layer.name): self._drawn(lane, layer, simulation)()
                 for lane, simulation in enumerate(simulations)
                 for layer in LAYERS
                 if layer.name in wanted.layers and layer.offered(simulation)
@@ -137,6 +139,16 @@ class FrameTaker:
             achieved=runner.achieved,
             said=said,
         )
+
+    def _drawn(self, lane: int, layer: Layer, simulation: Simulation) -> Draw:
+        """What makes the marks of a layer, begun anew where the scene or its cells have changed."""
+        now = (simulation.scene, *simulation.meshes.values())
+        known = self._layers.get((lane, layer.name))
+        if known is not None and all(a is b for a, b in zip(known[0], now, strict=True)):
+            return known[1]
+        draw = layer.begin(simulation)
+        self._layers[lane, layer.name] = (now, draw)
+        return draw
 
     def _colour(self, found: Mapping[tuple[int, str], tuple[Simulation, Seen]], field: str) -> None:
         """Compute what is coloured, if it is due, or nodes or field are others than before."""

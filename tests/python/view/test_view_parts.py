@@ -294,17 +294,17 @@ def test_layers_show_what_the_scene_holds_leads_and_loads():
     ).compile()
     shown = {layer.name: layer for layer in LAYERS if layer.offered(simulation)}
     assert set(shown) == {"fixed nodes", "loads", "grabs"}
-    (fixed,) = shown["fixed nodes"].marks(simulation)
+    (fixed,) = shown["fixed nodes"].begin(simulation)()
     assert len(fixed.points) == 9 and np.abs(fixed.points[:, 2]).max() == 0.0
-    pull, press = shown["loads"].marks(simulation)
+    pull, press = shown["loads"].begin(simulation)()
     along = pull.arrows[:, 1] - pull.arrows[:, 0]
     assert np.allclose(along / np.linalg.norm(along, axis=1)[:, None], (0, 1, 0))
     inwards = (press.arrows[:, 1] - press.arrows[:, 0])[4]  # the middle of the top face
     assert inwards[2] < 0 and abs(inwards[0]) < 1e-9
-    assert shown["grabs"].marks(simulation) == []
+    assert shown["grabs"].begin(simulation)() == []
     grab = simulation.drag("cube", (0.05, 0.05, 0.1), stiffness=10)
     grab.target = grab.position + np.array([0, 0, 0.03])
-    (pulled,) = shown["grabs"].marks(simulation)
+    (pulled,) = shown["grabs"].begin(simulation)()
     assert pulled.labels[0][1] == "0.3 N"
     assert np.allclose(pulled.lines[0, 1] - pulled.lines[0, 0], (0, 0, 0.03))
 

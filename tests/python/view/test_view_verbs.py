@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 
 import tissu as ts
+from tissu.live_view.frame import Wanted
 
 ROOT = Path(__file__).parents[3]
 EXAMPLES = re.findall(
@@ -121,3 +122,31 @@ def test_the_command_refuses_with_a_sentence(words, why):
     with started(*words, "--no-browser") as command:
         _, err = command.communicate(timeout=120)
     assert command.returncode == 2 and why in err and "Traceback" not in err
+
+
+def test_frames_do_not_pile_up_where_no_page_takes_them():
+    """Twenty thousand messages or so are put in the place of one another: less than 1 MB stays."""
+    import tracemalloc
+
+    with ts.view(liver(), browser=False, playing=False) as view:
+        view._taker.wanted = Wanted(
+            field="displacement", layers=frozenset({"fixed nodes", "grabs"})
+        )
+
+        def one(_):
+            for simulation in view._runner.simulations:
+                simulation.step()
+            return view._taker.take(view._runner)
+
+        def show(count):
+            for _ in range(count):
+                view._page.show(view.ask(one).result(60))
+
+        show(100)
+        tracemalloc.start()
+        show(50)
+        early, _ = tracemalloc.get_traced_memory()
+        show(500)
+        late, _ = tracemalloc.get_traced_memory()
+        tracemalloc.stop()
+    assert late - early < 1_000_000

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from tissu.live_view.layers.layer import Layer
+from tissu.live_view.layers.layer import Draw, Layer
 from tissu.live_view.marks import Colour, Marks
 
 if TYPE_CHECKING:
@@ -15,24 +15,26 @@ if TYPE_CHECKING:
     from tissu.simulation import Simulation
 
 
-def _marks(simulation: Simulation, supports: Sequence[Support], colour: Colour) -> list[Marks]:
+def _begin(simulation: Simulation, supports: Sequence[Support], colour: Colour) -> Draw:
     meshes = {**simulation.meshes, **simulation.tissue}
-    places = [
-        simulation.positions[support.body][support.on.nodes(meshes[support.body])]
-        for support in supports
-    ]
-    return [Marks(colour, points=np.concatenate(places))] if places else []
+    held = [(support.body, support.on.nodes(meshes[support.body])) for support in supports]
+
+    def draw() -> list[Marks]:
+        places = [simulation.positions[body][nodes] for body, nodes in held]
+        return [Marks(colour, points=np.concatenate(places))] if places else []
+
+    return draw
 
 
 FIXED = Layer(
     name="fixed nodes",
     on=True,
     offered=lambda simulation: bool(simulation.scene.fixed),
-    marks=lambda simulation: _marks(simulation, simulation.scene.fixed, (60, 70, 90)),
+    begin=lambda simulation: _begin(simulation, simulation.scene.fixed, (60, 70, 90)),
 )
 LED = Layer(
     name="led nodes",
     on=True,
     offered=lambda simulation: bool(simulation.scene.prescribed),
-    marks=lambda simulation: _marks(simulation, simulation.scene.prescribed, (120, 60, 160)),
+    begin=lambda simulation: _begin(simulation, simulation.scene.prescribed, (120, 60, 160)),
 )

@@ -36,5 +36,5 @@ FRAMES = Layer(
     name="frames",
     on=False,
     offered=lambda simulation: bool(_turning(simulation)),
-    marks=_marks,
+    begin=lambda simulation: lambda: _marks(simulation),
 )

@@ -40,5 +40,5 @@ GRABS = Layer(
     name="grabs",
     on=True,
     offered=lambda simulation: simulation.scene.grabbing,
-    marks=_marks,
+    begin=lambda simulation: lambda: _marks(simulation),
 )

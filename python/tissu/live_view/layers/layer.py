@@ -10,6 +10,8 @@ if TYPE_CHECKING:
     from tissu.live_view.marks import Marks
     from tissu.simulation import Simulation
 
+Draw = Callable[[], "Sequence[Marks]"]
+
 
 @dataclass(frozen=True, slots=True)
 class Layer:
@@ -19,10 +21,12 @@ class Layer:
         name: on the page.
         on: whether it is shown at first.
         offered: whether a simulation has any.
-        marks: those of a simulation as it stands; called only while the layer is shown.
+        begin: finds what does not change from step to step, such as which nodes are held, and
+            gives what makes the marks of each frame. It is called again when cells were removed or
+            parameters were changed.
     """
 
     name: str
     on: bool
     offered: Callable[[Simulation], bool]
-    marks: Callable[[Simulation], Sequence[Marks]]
+    begin: Callable[[Simulation], Draw]

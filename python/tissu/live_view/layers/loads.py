@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from tissu.live_view.layers.layer import Layer
+from tissu.live_view.layers.layer import Draw, Layer
 from tissu.live_view.marks import Marks, arrows_at, extent, few
 
 if TYPE_CHECKING:
@@ -19,18 +19,25 @@ _LENGTH = 0.12  # of the longest arrow, as a share of the body
 _COLOUR = (200, 90, 30)
 
 
-def _marks(simulation: Simulation) -> list[Marks]:
-    meshes, found = {**simulation.meshes, **simulation.tissue}, []
+def _begin(simulation: Simulation) -> Draw:
+    meshes = {**simulation.meshes, **simulation.tissue}
+    chosen = []
     for number, load in enumerate(simulation.scene.loads):
-        mesh, live = meshes[load.body], simulation.load(number)
+        mesh = meshes[load.body]
         nodes = load.on.nodes(mesh)
-        places = simulation.positions[load.body]
-        some = nodes[few(nodes, _MOST)]
-        value = live.factor * np.asarray(getattr(live, load.quantity), dtype=float)
-        along = value if value.ndim else -value * _normals(mesh, places)[some]
-        longest = _LENGTH * extent([mesh.points])
-        found.append(Marks(_COLOUR, arrows=arrows_at(places[some], along, longest=longest)))
-    return found
+        size = _LENGTH * extent([mesh.points])
+        chosen.append((load, simulation.load(number), mesh, nodes[few(nodes, _MOST)], size))
+
+    def draw() -> list[Marks]:
+        found = []
+        for load, live, mesh, nodes, size in chosen:
+            places = simulation.positions[load.body]
+            value = live.factor * np.asarray(getattr(live, load.quantity), dtype=float)
+            along = value if value.ndim else -value * _normals(mesh, places)[nodes]
+            found.append(Marks(_COLOUR, arrows=arrows_at(places[nodes], along, longest=size)))
+        return found
+
+    return draw
 
 
 def _normals(mesh: Mesh, places: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -47,5 +54,5 @@ LOADS = Layer(
     name="loads",
     on=True,
     offered=lambda simulation: bool(simulation.scene.loads),
-    marks=_marks,
+    begin=_begin,
 )

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from tissu.live_view.layers.layer import Layer
+from tissu.live_view.layers.layer import Draw, Layer
 from tissu.live_view.marks import Marks
 
 if TYPE_CHECKING:
@@ -24,14 +24,19 @@ def with_points(simulation: Simulation) -> list[str]:
     return [*simulation.tissue, *framed]
 
 
-def _marks(simulation: Simulation) -> list[Marks]:
-    places = [simulation.points(name) for name in with_points(simulation)]
-    return [Marks((180, 120, 60), points=np.concatenate(places))] if places else []
+def _begin(simulation: Simulation) -> Draw:
+    names = with_points(simulation)
+
+    def draw() -> list[Marks]:
+        places = [simulation.points(name) for name in names]
+        return [Marks((180, 120, 60), points=np.concatenate(places))] if places else []
+
+    return draw
 
 
 TISSUE = Layer(
     name="points of tissue and frames",
     on=True,
     offered=lambda simulation: bool(with_points(simulation)),
-    marks=_marks,
+    begin=_begin,
 )

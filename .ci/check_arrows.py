@@ -127,7 +127,7 @@ INCLUDE = re.compile(r'^\s*#\s*include\s+["<]([^">]+)[">]', re.MULTILINE)
 
 
 def room_of(path: Path) -> str:
-    """The room of a file below the folder of all rooms; its own folder where that is no room."""
+    """The room of a file below the folder of all rooms; its own folder where that is not a room."""
     name, folder = path.with_suffix("").as_posix(), path.parent.as_posix()
     inner = folder.removesuffix("/kernels").removesuffix("/generated")
     return max((room for room in CPP if room in (name, inner)), key=len, default=folder)

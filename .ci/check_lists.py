@@ -1,4 +1,4 @@
-"""Checks that every C++ source is named in the list that should build it (there is no glob)."""
+"""Checks that every C++ source is named in the list that should build it (no glob)."""
 
 import re
 import sys

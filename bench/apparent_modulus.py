@@ -56,7 +56,7 @@ and the largest): Young's modulus, and the strain across beside that along.
 """
 
 REASON = """
-Poisson's ratio is no parameter. Where springs lie in all directions alike, the rule makes Lamé's
+Poisson's ratio is not a parameter. Where springs lie in all directions alike, the rule makes Lamé's
 constants lambda = mu = 2 E / 5: Young's modulus E and Poisson's ratio 1/4, as
 `tests/cpp/model/edges/mass_spring_test.cpp` derives by hand; the irregular mesh comes near. Meshes
 with directions of their own depart: cubes cut into five have most springs along their axes, so they

@@ -18,7 +18,7 @@ A row became slower or faster when all of these say so:
    chance (Benjamini and Hochberg 1995): with five hundred rows, one test in twenty would give
    twenty-five alarms on noise alone. Where nothing changed at all, that is the chance of any alarm.
 4. Of files only: the median changed by more than the spread of single repetitions, 1.48 times the
-   median distance from the median. Repetitions in one process are no independent samples, they
+   median distance from the median. Repetitions in one process are not independent samples, they
    share its memory and its moment, and with many of them a test finds differences of those.
 
 Times are those by the clock where a row was measured so, of the processor elsewhere. Rows "limit/"

@@ -19,7 +19,7 @@ A body of Hooke's law under `step: {type: static, solver: {type: cholesky}}` has
 matrix: its factor is made in the first step and kept, and every later step costs one solve.
 `model: condensed` goes further (Bro-Nielsen and Cotin 1996): inner nodes are eliminated once, and
 the unknowns are the nodes that are touched (held, led, loaded, shared with other cells), or the
-surface as well. Where the other nodes are is found when somebody looks: a solve with the factor of
+surface as well. Where the other nodes are is computed on demand: a solve with the factor of
 the inside.
 
 A region may be condensed beside others with their own models (Cotin, Delingette, Ayache 2000):

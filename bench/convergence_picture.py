@@ -10,6 +10,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "tests" / "converge
 
 from order import Errors
 from shape_basis import LINES, ORDER, SURFACES, VOLUMES
+from tissu.picture.series_colours import series_colours
 
 Series = tuple[tuple[int, ...], list[Errors]]  # cells along an edge, and the errors for each
 TITLES = (
@@ -40,7 +41,7 @@ def draw(path: Path, smooth: dict[str, Series], losing: dict[str, Series]) -> No
     from matplotlib import pyplot
 
     figure, rows = pyplot.subplots(2, 3, figsize=(13.5, 8.2), layout="constrained")
-    colours = pyplot.get_cmap("tab10").colors
+    colours = series_colours(max(len(VOLUMES), len(SURFACES + LINES)))
     for axes, cells, slopes in zip(rows, (VOLUMES, SURFACES + LINES), SLOPES, strict=True):
         for panel, title in zip(axes, TITLES, strict=True):
             _prepare(panel, title, (2, 4, 6, 8, 12) if cells is VOLUMES else (4, 6, 8, 12, 16, 24))

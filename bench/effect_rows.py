@@ -33,6 +33,7 @@ ROWS = (
     Row("pressure", "pressure", r"\bPressure\b"),
     Row("fixed nodes", "fixed", r"\bMotion\b"),
     Row("prescribed motion", "prescribed", r"\b(Motion|interpolate|locate)\b"),
+    Row("live lead", "live-lead", r"\bLive(Lead|Place)\b", "fixed"),
     Row("Rayleigh damping", "rayleigh", r"\bRayleigh\b"),
     Row("Kelvin–Voigt viscosity", "kelvin-voigt", r"\b(KelvinVoigt|ViscousCells|StrainRate)\b"),
     Row("centroid viscosity", "centroid", r"\bCentroidDamping\b"),

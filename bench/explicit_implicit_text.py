@@ -10,7 +10,7 @@ median times the steps.
 
 ## What limits an explicit step
 
-The paper names 2 sqrt(m/E), which has no length in it and so is no time. The limit is 2 / omega,
+The paper names 2 sqrt(m/E), which has no length in it and so is not a time. The limit is 2 / omega,
 omega the largest eigenfrequency of M^-1 K:
 
 """

@@ -103,7 +103,7 @@ def own_instructions(lines: Iterable[str]) -> dict[Function, int]:
     """Reads a profile of callgrind written without compression: own instructions by function.
 
     A line of a position and a cost belongs to the function named last, but the one after `calls=`
-    tells what the called function took in all, which is counted where that function stands.
+    gives what the called function took in all, which is counted where that function stands.
     """
     own: dict[Function, int] = {}
     object_file, function, total = "", None, None

@@ -70,7 +70,7 @@ Explicit methods on the bar with nine tenths of their stable step (`dt: auto`):
 TAIL = """
 ## Explicit Euler without damping is refused
 
-It multiplies a vibration by sqrt(1 + h^2 omega^2) in each step: there is no stable step. tissu
+It multiplies a vibration by sqrt(1 + h^2 omega^2) in each step: no step is stable. tissu
 accepts what takes a hundred seconds to grow by a factor e, h < 0.02 / omega^2. For the oscillator
 above, omega = {omega:.4g}/s, that is {closed:.4g} s; found by bisection: {limit:.4g} s; said of a
 step one tenth larger:

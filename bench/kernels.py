@@ -192,7 +192,7 @@ def definite_table(rows: dict[str, Row]) -> str:
 
 
 def processor() -> str:
-    """The processor's name, where the system tells it."""
+    """The processor's name, where the system gives it."""
     path = Path("/proc/cpuinfo")
     text = path.read_text(encoding="utf-8") if path.exists() else ""
     found = re.search(r"model name\s*:\s*(.+)", text)

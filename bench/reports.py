@@ -34,11 +34,11 @@ def parsed(text: str, where: str) -> dict[str, Any]:
     try:
         report = json.loads(text)
     except json.JSONDecodeError as error:
-        raise NotComparableError(f"{where} is no JSON: {error}.") from None
+        raise NotComparableError(f"{where} is not JSON: {error}.") from None
     rows = report.get("benchmarks") if isinstance(report, dict) else None
     if not isinstance(rows, list) or not all(isinstance(row, dict) for row in rows):
         raise NotComparableError(
-            f'{where} has no list "benchmarks", so it is no report of tissu-bench.'
+            f'{where} has no list "benchmarks", so it is not a report of tissu-bench.'
         )
     return dict(report)
 

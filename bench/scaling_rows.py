@@ -95,7 +95,7 @@ def rows_of(reports: list[dict[str, Any]]) -> Rows:
 
 
 def busy_seconds() -> float:
-    """Of all processors since the machine started; 0 where the system does not tell."""
+    """Of all processors since the machine started; 0 where the system does not say."""
     path = Path("/proc/stat")
     if not path.exists():
         return 0.0

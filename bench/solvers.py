@@ -16,6 +16,7 @@ import numpy as np
 
 import tissu as ts
 from tissu.cli.info import machine_line
+from tissu.picture.series_colours import series_colours
 
 ROOT = Path(__file__).resolve().parents[1]
 PAGE = ROOT / "docs" / "solvers.md"
@@ -191,11 +192,12 @@ def picture(studies: dict[str, list[list[Row]]]) -> None:
     mpl.use("Agg")
     from matplotlib import pyplot as plt
 
+    colours = series_colours(max(len(found) for found in studies.values()))
     figure, panels = plt.subplots(1, len(studies), figsize=(11, 4.4), sharey=True)
     for axes, (title, found) in zip(panels, studies.items(), strict=True):
-        for number, rows in enumerate(found):
+        for rows, colour in zip(found, colours, strict=False):
             x, y = [r.unknowns for r in rows], [r.seconds for r in rows]
-            axes.loglog(x, y, "o-", color=f"C{number}", label=rows[0].solver, markersize=5)
+            axes.loglog(x, y, "o-", color=colour, label=rows[0].solver, markersize=5)
         axes.set_title(title)
         axes.set_xlabel("unknowns")
         axes.grid(visible=True, which="major", alpha=0.3)

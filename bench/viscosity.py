@@ -75,7 +75,7 @@ TAIL = """
   stress, in proportion to the speed and to the coefficient.
 - The window between them is that of damping ratios around 0.1 to 0.5 of the slowest mode: eta =
   10 to 30 Pa s here.
-- c of `centroid` is no property of a material: the damper that it makes grows with the square of
+- c of `centroid` is not a property of a material: the damper that it makes grows with the square of
   the cells' size. On cells of half the size c must be four times as large: {coarse:.1f} % and
   {fine:.1f} % of oscillation with the same c on cells of 10 mm and 5 mm. eta of `kelvin_voigt` is
   one.

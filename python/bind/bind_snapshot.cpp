@@ -142,7 +142,7 @@ void set_remembered(Simulation& simulation, const std::string& name, const Doubl
   }
 }
 
-/// Nodes of a body that are no unknowns, and those that are held or led on all axes.
+/// Nodes of a body that are not unknowns, and those that are held or led on all axes.
 py::tuple unfree_nodes(const Simulation& simulation, const std::string& name) {
   const Body& body = simulation.world().body(name);
   std::vector<std::int32_t> eliminated;

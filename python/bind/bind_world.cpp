@@ -119,7 +119,7 @@ Motion to_motion(const Doubles& times, const Doubles& displacements, const Doubl
 }
 
 void add_fixed(WorldDescription& world, const std::string& body, const Ints& nodes, int axes, bool rotations,
-               Motion motion) {
+               Motion motion, std::string name) {
   if (axes < 1 || axes > 7) throw ParameterError("axes must be a mask of x = 1, y = 2 and z = 4.");
   world.fixed.push_back({world.body(body).name,
                          to_vector(nodes),
@@ -127,7 +127,8 @@ void add_fixed(WorldDescription& world, const std::string& body, const Ints& nod
                          std::move(motion),
                          {},
                          rotations,
-                         true});
+                         true,
+                         std::move(name)});
 }
 
 }  // namespace
@@ -226,20 +227,19 @@ void bind_world(py::module_& m) {
           arg("factors"), arg("thickness"))
       .def(
           "fix",
-          [](WorldDescription& world, const std::string& body, const Ints& nodes, int axes, bool rotations) {
-            add_fixed(world, body, nodes, axes, rotations, {});
-          },
-          py::kw_only(), arg("body"), arg("nodes"), arg("axes"), arg("rotations"))
+          [](WorldDescription& world, const std::string& body, const Ints& nodes, int axes, bool rotations,
+             std::string name) { add_fixed(world, body, nodes, axes, rotations, {}, std::move(name)); },
+          py::kw_only(), arg("body"), arg("nodes"), arg("axes"), arg("rotations"), arg("name"))
       .def(
           "prescribe",
           [](WorldDescription& world, const std::string& body, const Ints& nodes, int axes,
              const Doubles& times, const Doubles& displacements, const Doubles& angles, const Doubles& center,
-             const Doubles& axis, bool rotations) {
+             const Doubles& axis, bool rotations, std::string name) {
             add_fixed(world, body, nodes, axes, rotations,
-                      to_motion(times, displacements, angles, center, axis));
+                      to_motion(times, displacements, angles, center, axis), std::move(name));
           },
           py::kw_only(), arg("body"), arg("nodes"), arg("axes"), arg("times"), arg("displacements"),
-          arg("angles"), arg("center"), arg("axis"), arg("rotations"))
+          arg("angles"), arg("center"), arg("axis"), arg("rotations"), arg("name"))
       .def(
           "build", [](const WorldDescription& world) { return std::make_shared<World>(world); },
           py::call_guard<py::gil_scoped_release>());

@@ -28,6 +28,8 @@ def effects_of(scene: SceneData, counts: Mapping[str, str] | None = None) -> lis
         for number, part in enumerate(getattr(scene, group)):
             path = f"{group}[{number}]"
             effects.append(part.effect(path, counts.get(path)))
+    for path, name in _led_live(scene).items():
+        effects.append(Effect("live leads", f"{path} has the name '{name}'"))
     effects.append(scene.step.effect())
     if scene.editing:
         effects.append(Effect("cell removal", "editing is true"))
@@ -47,6 +49,7 @@ def absent_of(scene: SceneData) -> list[str]:
         "gravity": scene.gravity is not None,
         "fixed nodes": bool(scene.fixed),
         "prescribed motion": bool(scene.prescribed),
+        "live leads": bool(_led_live(scene)),
         "loads": bool(scene.loads),
         "inertia": scene.step.type != "static",
         "cell removal": scene.editing,
@@ -56,3 +59,13 @@ def absent_of(scene: SceneData) -> list[str]:
         "haptics": False,
     }
     return [name for name, on in present.items() if not on]
+
+
+def _led_live(scene: SceneData) -> dict[str, str]:
+    """Path -> name of the supports and motions that a run may lead."""
+    return {
+        f"{group}[{number}]": support.name
+        for group in ("fixed", "prescribed")
+        for number, support in enumerate(getattr(scene, group))
+        if support.name is not None
+    }

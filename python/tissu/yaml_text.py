@@ -45,7 +45,7 @@ def scene_file_text(path: Path) -> str:
     """The text of a scene file.
 
     Raises:
-        SceneError: it is no regular file, cannot be read, or is no text in UTF-8.
+        SceneError: it is not a regular file, cannot be read, or is not text in UTF-8.
     """
     try:
         kind = kind_of_place(path)
@@ -193,7 +193,7 @@ def _scalar(kind: str) -> Any:
         if pattern is None:
             return _checked(text, node)
         if pattern.fullmatch(text) is None:
-            raise refused(node, f"found '{text[:60]}', which is no {kind}")
+            raise refused(node, f"found '{text[:60]}', which is not of the type {kind}")
         if len(text) > _LONGEST_NUMBER:
             raise refused(node, f"found a number of {len(text)} digits")
         return _value(kind, text)

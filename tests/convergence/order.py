@@ -79,7 +79,7 @@ def cube(mesh, law, parameters, quadrature="full", setting="solid"):
     across = 7 - _along(setting)
     if across:
         every = np.arange(mesh.node_count, dtype=np.int32)
-        builder.fix(body="cube", nodes=every, axes=across, rotations=False)
+        builder.fix(body="cube", nodes=every, axes=across, rotations=False, name="")
     return builder
 
 
@@ -99,6 +99,7 @@ def lead(builder, nodes, displacements, setting="solid"):
             rotations=False,
             times=np.array([0.0, 1.0]),
             displacements=np.stack([np.zeros(3), displacements[node]]),
+            name="",
             **still,
         )
 

@@ -7,7 +7,7 @@ for first-order (isoparametric) elements on any regular sequence of meshes.
 
 Tolerance: an error C h^q (1 + c h) shows the order q + c (h0 - h1) / log(h0 / h1) between two
 meshes, q + 0.8 c h0 for h0 = 1.5 h1; measured here: at most 0.1 off, on meshes drawn at random too.
-0.2 is twice that, and tells every order from the next lower one.
+0.2 is twice that, and separates every order from the next lower one.
 """
 
 from functools import cache

@@ -1,6 +1,6 @@
 """Runs the cases of one fuzzer: run.py scenes|meshes|options SEED COUNT [SECONDS].
 
-Each seed is printed before its case, so that a crash or a wait tells which it was; a case that
+Each seed is printed before its case, so that a crash or a wait shows which it was; a case that
 fails is run again by itself with its seed and a count of 1. The last line counts what came of them.
 """
 

@@ -1,6 +1,6 @@
 """The fuzzers as tests: some hundred cases of each, or as long as TISSU_FUZZ_SECONDS says.
 
-TISSU_FUZZ_SEED chooses where the seeds begin. A failure tells its seed; that case alone:
+TISSU_FUZZ_SEED chooses where the seeds begin. A failure shows its seed; that case alone:
 python tests/fuzz/run.py scenes SEED 1
 """
 

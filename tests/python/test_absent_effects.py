@@ -79,7 +79,7 @@ def test_counts_are_the_same_in_another_process(
 
 @needs_counts
 def test_every_function_of_a_bare_step_is_of_something_present(bare_by_size: list[Counts]) -> None:
-    """Nothing runs that nobody knows of: an effect that came later would be seen."""
+    """Nothing runs that is not known: an effect that came later would be seen."""
     for counts in bare_by_size:
         unknown = [f for f in counts.own if effect_rows.part_of(f) == "unknown"]
         assert unknown == []

@@ -151,7 +151,7 @@ def test_a_change_below_the_least_does_not_count(tmp_path: Path) -> None:
 
 
 def test_a_change_within_the_spread_of_files_does_not_count() -> None:
-    """Two hundred repetitions tell 10 % apart in noise of 30 %; that may be their two processes."""
+    """Two hundred repetitions separate 10 % in noise of 30 %; that may be their two processes."""
     random = np.random.default_rng(5)
     old = {"kernel": [float(x) for x in np.exp(0.3 * random.standard_normal(200))]}
     new = {"kernel": [float(x) for x in 1.15 * np.exp(0.3 * random.standard_normal(200))]}
@@ -254,7 +254,7 @@ def test_wrong_input_is_one_sentence(tmp_path: Path, capsys: pytest.CaptureFixtu
     odd.write_text('{"benchmarks": [{"name": "x"}]}', encoding="utf-8")
     missing = tmp_path / "missing.json"
     assert "cannot be read" in complaint(capsys, good, missing)
-    assert "is no JSON" in complaint(capsys, text, good)
+    assert "is not JSON" in complaint(capsys, text, good)
     assert 'no list "benchmarks"' in complaint(capsys, good, listed)
     assert "cannot be read" in complaint(capsys, odd, good)
     assert "no row in common" in complaint(capsys, good, other)

@@ -1,4 +1,4 @@
-"""Checkpoints with a right digest that tissu did not write: anybody can compute one."""
+"""Checkpoints with a right digest that tissu did not write: a digest is easy to compute."""
 
 import hashlib
 import io

@@ -29,7 +29,7 @@ def entry(name: str, ns: float, **counters: float) -> dict[str, Any]:
 
 
 def test_fastest_repetition_counts_and_aggregates_do_not(kernels: ModuleType) -> None:
-    """A mean is no row, and the slower repetition is forgotten."""
+    """A mean is not a row, and the slower repetition is forgotten."""
     mean = {**entry("kernel/tetra/stvk/force", 1.0), "run_type": "aggregate"}
     report = {"benchmarks": [entry("kernel/tetra/stvk/force", t) for t in (80.0, 50.0)] + [mean]}
     rows = kernels.rows_of(report)

@@ -1,4 +1,4 @@
-"""What is no mesh gives one sentence, whatever it is."""
+"""What is not a mesh gives one sentence, whatever it is."""
 
 from __future__ import annotations
 
@@ -112,7 +112,7 @@ def test_damaged_binary_files_are_refused_in_words(tmp_path: Path, ending: str) 
         except MeshError as error:
             assert "codec" not in str(error)
             assert "Unicode" not in str(error)
-            damaged += "no text where text is expected; is it damaged?" in str(error)
+            damaged += "not text where text is expected; is it damaged?" in str(error)
     assert damaged > 0
 
 

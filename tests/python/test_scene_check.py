@@ -53,7 +53,7 @@ def test_each_effect_says_which_field_asks_for_it():
     ]
     assert check.absent == [
         *("sheets", "lines", "frames", "connective tissue", "prescribed motion"),
-        *("grabs", "contact", "cutting", "haptics"),
+        *("live leads", "grabs", "contact", "cutting", "haptics"),
     ]
     assert "Switched on:\n  - elasticity of bar" in str(check)
     assert "Problems" not in str(check)

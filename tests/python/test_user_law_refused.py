@@ -43,7 +43,7 @@ REFUSED = {
     ),
     "an undeclared parameter": (
         definition(parameters={"mu": "Pa", "kapa": "Pa"}),
-        r"uses 'kappa', which is no parameter.*did you mean kapa\?",
+        r"uses 'kappa', which is not a parameter.*did you mean kapa\?",
     ),
     "a parameter that nothing uses": (
         definition(parameters=UNITS | {"jm": "1"}),
@@ -113,7 +113,7 @@ REFUSED = {
     ),
     "an energy that is never a number": (
         definition(energy=mu * ln(-J) + VOLUME),
-        r"no finite numbers near rest; give the parameters",
+        r"not finite numbers near rest; give the parameters",
     ),
     "a typical value at which it locks": (
         definition(
@@ -124,7 +124,7 @@ REFUSED = {
                 Parameter(name="kappa", unit="Pa", meaning="bulk", typical=1e3),
             ],
         ),
-        r"no finite numbers near rest",
+        r"not finite numbers near rest",
     ),
 }
 

@@ -22,15 +22,15 @@ def simulation():
     )
     return ts.Scene(
         bodies={"liver": liver},
-        fixed=[ts.Fixed("liver", on=ts.Plane((0, 0, 0), (0, 0, 1)))],
+        fixed=[ts.Fixed("liver", on=ts.Plane((0, 0, 0), (0, 0, 1)), name="hand")],
         loads=[ts.NodalLoad("liver", on=end, force=(0, 0, 0), name="pull")],
         step=ts.ImplicitEuler("10 ms"),
         grabbing=True,
     ).compile()
 
 
-def test_there_are_two():
-    assert len(EXAMPLES) == 2
+def test_there_are_three():
+    assert len(EXAMPLES) == 3
 
 
 @pytest.mark.parametrize("example", EXAMPLES)
@@ -47,3 +47,16 @@ def test_the_load_of_the_page_pulls(simulation):
         simulation.step()
     assert simulation.displacements("liver")[:, 0].max() > 1e-5
     assert np.abs(simulation.load("pull").force - (0.02, 0, 0)).max() < 1e-15
+
+
+def test_the_lead_of_the_page_goes_there(simulation):
+    names = {"simulation": simulation}
+    exec(compile(EXAMPLES[2].split("simulation.step()")[0], "while-it-runs.md", "exec"), names)
+    for _ in range(5):
+        simulation.step()
+    hand = names["hand"]
+    rest = simulation.meshes["liver"].points[hand.nodes]
+    assert hand.positions[:, 2] == pytest.approx(rest[:, 2] + 0.01, abs=1e-15)
+    about = np.linalg.norm(hand.positions[:, :2] - rest[:, :2], axis=1)
+    radius = np.linalg.norm(rest[:, :2] - 0.05, axis=1)
+    assert about == pytest.approx(2 * radius * np.sin(np.pi / 12), abs=1e-14)

@@ -37,17 +37,25 @@ Vec3 Motion::displacement(double time) const {
 double Motion::angle(double time) const { return interpolate(times, angles, time, 0.0); }
 
 void FixedDofs::add(std::span<const std::int32_t> nodes, ConstReals rest_positions, std::uint8_t mask,
-                    const Motion& motion) {
+                    const Motion& motion, std::string_view name) {
   motions_.push_back(motion);
   const auto number = static_cast<std::int32_t>(motions_.size() - 1);
+  if (!name.empty()) {
+    for (std::size_t i = 0; i < nodes.size(); ++i) support_named(name).nodes.push_back(led_.size() + i);
+  }
   for (const std::int32_t node : nodes) led_.push_back({node, mask, number, block(rest_positions, node)});
   lead(nodes, mask);
 }
 
 void FixedDofs::add_rotations(std::span<const std::int32_t> blocks, std::span<const std::int32_t> frames,
-                              std::span<const Quaternion> rest, const Motion& motion) {
+                              std::span<const Quaternion> rest, const Motion& motion, std::string_view name) {
   motions_.push_back(motion);
   const auto number = static_cast<std::int32_t>(motions_.size() - 1);
+  if (!name.empty()) {
+    for (std::size_t i = 0; i < blocks.size(); ++i) {
+      support_named(name).rotations.push_back(led_rotations_.size() + i);
+    }
+  }
   for (std::size_t i = 0; i < blocks.size(); ++i) {
     led_rotations_.push_back({blocks[i], frames[i], number, rest[static_cast<std::size_t>(frames[i])]});
   }
@@ -82,6 +90,7 @@ void FixedDofs::set_velocities(const State& from, double time, double h, double 
     const Vec3 expected = (angle - motion.angle(time - h)) * motion.axis;
     block(v, led.block) = share / h * nearest_turn(way, expected);
   }
+  set_live_velocities(from, time, h, share, v);
 }
 
 void FixedDofs::place(const State& from, double h, ConstReals v, State& to) const {

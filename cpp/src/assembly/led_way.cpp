@@ -55,14 +55,15 @@ void FixedDofs::set_way(const LedWay& way, const State& start, double before, do
     const Vec3 expected = (last.angle - Given(motion, way, before).angle) * motion.axis;
     block(change, led.block) = nearest_turn(target * now.rotations[frame].conjugate(), expected);
   }
+  set_live_way(way, start, before, share, now, change);
 }
 
 bool FixedDofs::moves() const {
   return std::ranges::any_of(motions_, [](const Motion& motion) { return !motion.times.empty(); });
 }
 
-double FixedDofs::largest_turn(const LedWay& way) const {
-  double largest = 0.0;
+double FixedDofs::largest_turn(const LedWay& way, const State& start) const {
+  double largest = largest_live_turn(way, start);
   for (const Motion& motion : motions_) {
     if (motion.times.empty()) continue;
     double before = Given(motion, way, 0.0).angle;

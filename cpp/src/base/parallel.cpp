@@ -24,15 +24,15 @@ void pause_briefly() {
 }
 
 /// Threads that wait for loops. Each has its share of a loop, [first, end) in the loop's order, so that the
-/// same core meets the same data again; who is done takes from the shares of the others. So a thread that the
-/// system keeps waiting, on a busy machine, holds up no more than the one call that it is in.
+/// same core meets the same data again; a thread that is done takes from the shares of the others. So a
+/// thread that the system keeps waiting, on a busy machine, holds up no more than the one call that it is in.
 ///
 /// A share is one number: the loop's turn and the next index, so that a thread that comes late cannot take
 /// from a loop that is over.
 class Pool {
  public:
   /// Made once and never destroyed: its threads may outlive what a process tears down at its end. In a fork
-  /// its threads are missing, and who calls does all.
+  /// its threads are missing, and the caller does all.
   static Pool& only() {
     static Pool* const pool = new Pool;
     return *pool;
@@ -136,7 +136,7 @@ class Pool {
 
   std::mutex busy_;
   int made_ = 1;            ///< threads so far, with the one that calls
-  std::uint32_t turn_ = 0;  ///< how many loops there were; of who holds busy_
+  std::uint32_t turn_ = 0;  ///< how many loops there were; of the one that holds busy_
   std::atomic<void (*)(void*, std::int32_t)> call_{nullptr};
   std::atomic<void*> called_{nullptr};
   std::atomic<int> threads_{0};

@@ -42,7 +42,7 @@ Trilinear::Trilinear(const ShapeRequest& request) {
   std::optional<Grid> grid = find_grid(request.frames);
   if (!grid) {
     throw MeshError(request.where + "the " + std::to_string(request.nearest.count()) +
-                    " frames are no grid along the axes, as the shape function trilinear needs: each "
+                    " frames are not a grid along the axes, as the shape function trilinear needs: each "
                     "combination of some x, some y and some z once; make such a grid or take another shape "
                     "function.");
   }

@@ -37,8 +37,8 @@ void LoadedLaw::open() {
   const auto entry = reinterpret_cast<Entry>(dlsym(handle_.get(), kLawLibraryEntry));
   if (entry != nullptr) library_ = entry();
   if (library_ == nullptr) {
-    throw Error(path_ + " is no law for this version of tissu: it has no " + std::string(kLawLibraryEntry) +
-                "; make it again.");
+    throw Error(path_ + " is not a law for this version of tissu: it has no " +
+                std::string(kLawLibraryEntry) + "; make it again.");
   }
 }
 

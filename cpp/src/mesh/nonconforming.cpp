@@ -13,7 +13,7 @@ namespace {
 using Key = std::array<std::int32_t, 4>;
 using Edge = std::array<std::int32_t, 2>;
 
-/// Four corners more tetrahedral than this are no torn quad but the place of a missing cell.
+/// Four corners more tetrahedral than this are not a torn quad but the place of a missing cell.
 constexpr double kFlat = 0.1;
 
 /// Something that fills four corners from one side: a quad, or two triangles on both sides of a diagonal.

@@ -82,7 +82,7 @@ std::string say_inverted(const World& world, const State& state) {
   }
   if (!text.empty()) {
     text +=
-        ": this equilibrium is no deformation of the body; take a law with a barrier against lost volume "
+        ": this equilibrium is not a deformation of the body; take a law with a barrier against lost volume "
         "(neo_hooke), finer cells there, or less load";
   }
   return text;

@@ -92,10 +92,10 @@ StepReport Simulation::step(double h) {
   const auto start = std::chrono::steady_clock::now();
   hold();
   last_good_ = state_;
-  if (watch_) watch_->begin(*world_, state_);
   StepReport report;
   try {
     begin_step(*world_, state_, scratch_, h);
+    if (watch_) begin_watch(*watch_);
     report = integrator_->step(state_, h);
   } catch (...) {
     state_ = last_good_;
@@ -113,7 +113,17 @@ StepReport Simulation::step(double h) {
   return report;
 }
 
+/// A live target gives energy while it leads: the watch begins anew after it.
+void Simulation::begin_watch(EnergyWatch& watch) {
+  if (world_->fixed().is_led_live(state_)) {
+    watch = EnergyWatch();
+  } else {
+    watch.begin(*world_, state_);
+  }
+}
+
 void Simulation::watch_energy(EnergyWatch& watch, StepReport& report) {
+  if (world_->fixed().is_led_live(state_)) return;
   watch.end(*world_, state_);
   if (watch.growth() <= EnergyWatch::kReported) return;
   if (watch.growth() <= EnergyWatch::kRefused) {

@@ -10,7 +10,7 @@ namespace {
 constexpr double kStrong = 0.02;
 constexpr unsigned kAll = 7;
 
-/// Who is strongly coupled with whom, among points.
+/// Which points are strongly coupled.
 class Gathering {
  public:
   Gathering(const LevelMatrix& A, const RowPlaces& places) : A_(A), places_(places) {

@@ -51,7 +51,7 @@ void Equilibrium::begin(const LoadPath& path, const State& start) {
 
 double Equilibrium::load(double share, const State& state) {
   const double external = share == 1.0 ? system_.external_force(state, work_) : end_load_;
-  if (external > 0.0 && !world().fixed().moves()) return external;
+  if (external > 0.0 && !world().fixed().moves(state)) return external;
   double sum = 0.0;
   for (std::size_t i = 0; i < right_.size(); ++i) {
     sum += (reactions_[i] - right_[i]) * (reactions_[i] - right_[i]);

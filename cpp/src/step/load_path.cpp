@@ -18,7 +18,7 @@ void LoadPath::set_way(double before, double share, const State& now, Reals chan
 }
 
 double LoadPath::largest_part(double turn) const {
-  const double largest = world_.fixed().largest_turn(way_);
+  const double largest = world_.fixed().largest_turn(way_, start_);
   return largest > turn * (1.0 + 1e-9) ? turn / largest : 1.0;
 }
 

@@ -199,7 +199,7 @@ double StageSolver::residual(State& state, ConstReals v) {
     work_[i] = v[i] - stage_.base.velocities[i];
   }
   acting_ = reference_;
-  if (world.fixed().moves()) acting_ = std::max(acting_, held_norm(world.fixed(), right_));
+  if (world.fixed().moves(stage_.base)) acting_ = std::max(acting_, held_norm(world.fixed(), right_));
   std::ranges::fill(momentum_, 0.0);
   world.mass().add_product(stage_.base, -1.0, work_, momentum_);
   world.fixed().clear(momentum_);

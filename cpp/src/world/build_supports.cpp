@@ -24,12 +24,13 @@ void WorldBuilder::hold(const FixedNodes& fixed) {
   for (std::size_t i = 0; i < fixed.positions.size() / 3; ++i) {
     block(Reals(start), nodes[i]) = block(ConstReals(fixed.positions), static_cast<std::int32_t>(i));
   }
-  if (fixed.translations) world_.fixed_.add(nodes, start, fixed.axes, fixed.motion);
+  if (fixed.translations) world_.fixed_.add(nodes, start, fixed.axes, fixed.motion, fixed.name);
   if (!fixed.rotations) return;
   std::vector<std::int32_t> numbers;
   numbers.reserve(nodes.size());
   for (const std::int32_t node : nodes) numbers.push_back(on.first_frame + node - on.first_node);
-  world_.fixed_.add_rotations(rotations_of(on, nodes, where), numbers, world_.rest_.rotations, fixed.motion);
+  world_.fixed_.add_rotations(rotations_of(on, nodes, where), numbers, world_.rest_.rotations, fixed.motion,
+                              fixed.name);
 }
 
 std::vector<std::int32_t> WorldBuilder::rotations_of(const Body& body, std::vector<std::int32_t> nodes,
@@ -44,7 +45,7 @@ std::vector<std::int32_t> WorldBuilder::rotations_of(const Body& body, std::vect
   return nodes;
 }
 
-/// Eliminated nodes are no unknowns: they are held for the solver, and their model says where they are.
+/// Eliminated nodes are not unknowns: they are held for the solver, and their model says where they are.
 void WorldBuilder::hold_eliminated() {
   for (const Body& body : world_.bodies_) {
     for (const BodyModel* model : body.models) {

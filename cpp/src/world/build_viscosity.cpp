@@ -23,7 +23,7 @@ ElasticBlock numbered(const BodyModel& model, std::int32_t first) {
   return block;
 }
 
-/// A node that is no unknown has no speed of its own.
+/// A node that is not an unknown has no speed of its own.
 void refuse_eliminated(const Body& body) {
   if (std::ranges::all_of(body.models, [](const BodyModel* model) { return model->eliminated().empty(); }))
     return;

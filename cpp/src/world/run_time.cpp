@@ -9,6 +9,7 @@ namespace tissu {
 
 void begin_step(const World& world, State& state, Scratch& scratch, double h) {
   for (const ForceModel* model : world.run_time().beginning) model->begin_step(state, scratch, h);
+  world.fixed().begin_step(state, h);
 }
 
 void remember(const World& world, State& state) {
@@ -23,6 +24,7 @@ void carry_memory(const World& before, const World& after, State& state) {
   for (const auto& model : after.forces()) {
     for (const auto& then : before.forces()) model->carry_memory(*then, state.memory, memory);
   }
+  after.fixed().carry_memory(before.fixed(), state.memory, memory);
   state.memory = std::move(memory);
 }
 
@@ -34,6 +36,7 @@ void check_memory(const World& world, const State& state) {
                          "; restore it in the world that it was taken from.");
   }
   for (const auto& model : world.forces()) model->check_memory(state);
+  world.fixed().check_memory(state);
 }
 
 std::vector<double>& memory_of(const World& world, State& state, std::string_view name) {

@@ -18,7 +18,7 @@ constexpr double kEditableRoom = 0.25;
   throw ParameterError("there is no body \"" + std::string(name) + "\" in this world.");
 }
 
-/// Diagonal of the box around the nodes and the origins of frames; the blocks of rotations are no positions.
+/// Diagonal of the box around the nodes and the origins of frames; the blocks of rotations are not positions.
 double box_diagonal(const std::vector<double>& positions, const std::vector<Frame>& frames) {
   std::vector<char> is_rotation(positions.size() / 3, 0);
   for (const Frame& frame : frames) is_rotation[static_cast<std::size_t>(frame.rotation)] = 1;
@@ -91,6 +91,7 @@ void WorldBuilder::list_run_time() {
     if (verbs.remembers) world_.run_time_.remembering.push_back(model.get());
     model->claim_memory(world_.memory_);
   }
+  world_.fixed_.claim_memory(world_.memory_);
 }
 
 /// The positions and rotations of the state at rest are there already.

@@ -179,7 +179,7 @@ def measure(
 def _rest(
     first: tuple[float, float], last: tuple[float, float], compiled: float, span: float
 ) -> float:
-    """Wall time that the rest of a run will take [s]; its first step tells more only alone."""
+    """Wall time that the rest of a run will take [s]; its first step counts only if alone."""
     wall, moved = last[0] - first[0], last[1] - first[1]
     if not moved > 0.0:
         wall, moved = first[0] - compiled, first[1]

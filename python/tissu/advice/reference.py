@@ -53,7 +53,7 @@ class Reference:
         return _cells(self.tried.setting) != _cells(self.own)
 
     def judges(self, setting: Setting) -> bool:
-        """Whether it tells the error of a setting, as far as it is known.
+        """Whether it gives the error of a setting, as far as it is known.
 
         Not of one that has the same cells, or the same steps, of which the error is not known: both
         are off alike.

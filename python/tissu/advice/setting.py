@@ -45,7 +45,7 @@ class Setting:
         return scene.replace(bodies=bodies, step=self.step)
 
     def key(self) -> tuple[Fraction, int, str, str, str]:
-        """What tells it from other settings."""
+        """What distinguishes it from other settings."""
         return self.scale, self.order, self.family, self.model, f"{self.step!r}"
 
 

@@ -60,7 +60,7 @@ def unpack(data: bytes) -> tuple[dict[str, Any], dict[str, Array]]:
     """
     if len(data) <= _DIGEST or _digest(data[:-_DIGEST]) != data[-_DIGEST:]:
         raise DamagedError
-    # Anybody can compute a digest: what follows is believed no more than another file.
+    # A digest is easy to compute: what follows is believed no more than another file.
     try:
         with zipfile.ZipFile(io.BytesIO(data)) as archive:
             members = archive.infolist()
@@ -82,7 +82,7 @@ def _array(data: bytes) -> Array:
     """The array of a member, whose header asks for no more numbers than follow it.
 
     Raises:
-        DamagedError: it does, or they are no numbers.
+        DamagedError: it does, or they are not numbers.
     """
     stream = io.BytesIO(data)
     version = np.lib.format.read_magic(stream)

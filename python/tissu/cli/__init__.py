@@ -31,7 +31,7 @@ def _run() -> int:
         return INTERRUPTED
     except BrokenPipeError:
         return 0
-    except OSError as error:  # stdout is full: what a command writes elsewhere, it tells itself
+    except OSError as error:  # stdout is full: what a command writes elsewhere, it reports itself
         if error.filename is not None:
             raise
         complain(f"the output cannot be written: {error.strerror or error}")

@@ -79,7 +79,7 @@ def positive_time(text: str, option: str) -> float:
     """The time that an option gives [s].
 
     Raises:
-        ParameterError: it is no positive time.
+        ParameterError: it is not a positive time.
     """
     try:
         time = units.TIME(text)

@@ -53,7 +53,7 @@ def interruption() -> Iterator[Interruption]:
 
     from tissu import _core
 
-    # Who ignores a signal, as nohup does, goes on ignoring it.
+    # A signal that is ignored, as under nohup, stays ignored.
     heard = [number for number in _WORDS if signal.getsignal(number) is not signal.SIG_IGN]
     before = {number: signal.signal(number, note) for number in heard}
     _core.interrupt_on(heard)

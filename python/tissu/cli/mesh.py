@@ -32,7 +32,7 @@ def lengths(option: str, texts: Sequence[str]) -> Three:
     """Three lengths [m], each a number in metres or a text with its unit.
 
     Raises:
-        ParameterError: one of them is no length; says of which option.
+        ParameterError: one of them is not a length; says of which option.
     """
     try:
         x, y, z = (units.LENGTH(text) for text in texts)

@@ -29,7 +29,7 @@ def reported(*, debug: bool) -> Iterator[None]:
             raise
         complain("interrupted")
         raise typer.Exit(INTERRUPTED) from None
-    except BrokenPipeError:  # whoever read the output has left
+    except BrokenPipeError:  # the reader of the output has left
         raise typer.Exit(FINISHED) from None
     except MemoryError:
         if debug:
@@ -59,7 +59,7 @@ def prepare_streams() -> None:
 def ended(code: int) -> int:
     """Flushes stdout, and gives the exit code: another where what was printed was lost.
 
-    Whoever read the output and left, as `head` does, has what it wanted.
+    A reader of the output that left, as `head` does, has what it wanted.
     """
     stream = sys.stdout
     try:

@@ -110,7 +110,7 @@ def run_scene(job: Job, *, debug: bool = False) -> int:
             picture = drawn(simulation, series, clock) if job.picture else None
             conclude(simulation, series, tally, clock, ending, picture)
     if not job.quiet and not files.lost:
-        with contextlib.suppress(BrokenPipeError):  # who reads it has left; the run ends as it did
+        with contextlib.suppress(BrokenPipeError):  # its reader has left; the run ends as it did
             report(simulation, series, tally, clock, picture)
     if ending.error is not None and debug:
         raise ending.error
@@ -120,7 +120,7 @@ def run_scene(job: Job, *, debug: bool = False) -> int:
 
 
 def worth_knowing(simulation: Simulation) -> list[str]:
-    """What `tissu check` notes of the scene; which solver `auto` chose is no doubt about it."""
+    """What `tissu check` notes of the scene; which solver `auto` chose is not a doubt about it."""
     chosen = "step.solver: auto is "
     return [note for note in simulation.plan().notes if not note.startswith(chosen)]
 

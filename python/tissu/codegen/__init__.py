@@ -10,7 +10,7 @@ The stages, each in its own module:
     definition  a file              -> a Law
     derive      an energy           -> its derivatives by the invariants (Weights)
     kernels     Weights             -> four lists of assignments (Program)
-    program     lists               -> common parts named once, what nobody reads left out, counted
+    program     lists               -> common parts named once, what is never read left out, counted
     cpp         Programs            -> the text of a header
     listing     all laws            -> the list of types, and the table of parameters
     checks      a Law               -> refused, with the reason, or accepted

@@ -93,15 +93,15 @@ class Law:
 
 
 def refuse_unknown(law: str, place: str, used: Iterable[Expr], known: Iterable[str]) -> None:
-    """Refuses the first symbol that nobody declared."""
+    """Refuses the first symbol that is not declared."""
     names = sorted(known)
     for symbol in sorted(used, key=str):
         if str(symbol) not in names:
             near = difflib.get_close_matches(str(symbol), names, n=1)
             hint = f"; did you mean {near[0]}?" if near else f"; known: {', '.join(names)}."
             raise LawError(
-                f"{law}: {place} uses '{symbol}', which is no parameter, constant or word of the "
-                f"vocabulary{hint}"
+                f"{law}: {place} uses '{symbol}', which is not a parameter, constant or word of "
+                f"the vocabulary{hint}"
             )
 
 

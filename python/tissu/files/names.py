@@ -8,7 +8,7 @@ from collections import Counter
 from collections.abc import Iterable
 
 _LONGEST = 80  # bytes; file systems take 255, and numbers and endings come on top
-_DIGITS = 8  # of the digest that tells two names apart
+_DIGITS = 8  # of the digest that distinguishes two names
 
 
 def file_name(name: str) -> str:

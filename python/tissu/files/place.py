@@ -85,7 +85,7 @@ def require_folder_place(path: str | os.PathLike[str], what: str, *, within: boo
         path: the place; a link that was named by the user leads to its folder.
         what: what the folder is for, for the message.
         within: tissu made the name itself, inside a folder of results: a link there leads to a
-            folder that nobody named, and is refused.
+            folder that was not named, and is refused.
 
     Raises:
         TissuError: something else lies there, or it cannot be looked at.

@@ -54,7 +54,7 @@ def bar_mesh(
 
     Raises:
         ParameterError: a length or a number that is not positive, an unknown cell or split, or a
-            split of cells that are no tetrahedra.
+            split of cells that are not tetrahedra.
     """
     if cell in thin_types():
         _require_no_split(cell, split)

@@ -33,8 +33,8 @@ def read_mesh(path: str | os.PathLike[str], *, unit: str = "m", scale: float = 1
         scale: factor on all lengths, on top of the unit.
 
     Raises:
-        MeshError: the file cannot be read, or what it holds is no mesh; says why and where.
-        ParameterError: the unit is no length, or the scale is not positive.
+        MeshError: the file cannot be read, or what it holds is not a mesh; says why and where.
+        ParameterError: the unit is not one of length, or the scale is not positive.
     """
     factor = _factor(unit, scale)
     file = _existing(Path(path))

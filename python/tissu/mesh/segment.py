@@ -17,7 +17,7 @@ ALIASES = {
     "wedge6": "wedge",
     "pyramid5": "pyramid",
 }
-"""Names of cell types that tell the number of nodes -> meshio's."""
+"""Names of cell types that say the number of nodes -> meshio's."""
 
 
 @dataclass(frozen=True, slots=True)

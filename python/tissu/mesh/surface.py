@@ -40,7 +40,7 @@ class Surface:
 
     @property
     def faces(self) -> tuple[CellBlock, ...]:
-        """The faces as cells: triangles that are no half of a quad, then quads; no empty block."""
+        """The faces as cells: triangles that are not half of a quad, then quads; no empty block."""
         whole = self.triangles[: len(self.triangles) - 2 * len(self.quads)]
         blocks = (CellBlock("triangle", whole), CellBlock("quad", self.quads))
         return tuple(block for block in blocks if len(block))

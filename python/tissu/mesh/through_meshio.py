@@ -107,7 +107,7 @@ def read_through_meshio(path: Path) -> RawMesh:
 def _reason(name: str, error: BaseException, said: str) -> str:
     """Why a format's reader gave up, in one line."""
     if isinstance(error, UnicodeDecodeError):
-        return "it holds bytes that are no text where text is expected; is it damaged?"
+        return "it holds bytes that are not text where text is expected; is it damaged?"
     if isinstance(error, SystemExit):  # then what it printed holds the reason, before its verdict
         text = said.replace("\n", " ").split("Error:")[0]
     else:

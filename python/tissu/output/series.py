@@ -113,7 +113,7 @@ class Series:
         verb = "is" if len(inverted) == 1 else "are"
         self.inverted = (
             f"at t = {self._simulation.time:.4g} s {counted(len(inverted), 'cell')} of body "
-            f"'{body}' {verb} inside out ({first}); what follows is no deformation of the body: "
+            f"'{body}' {verb} inside out ({first}); what follows is not a deformation of the body: "
             "take smaller steps or the law stable_neo_hooke, which resists it"
         )
 

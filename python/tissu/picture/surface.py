@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from tissu import _core
 from tissu.errors import ParameterError
 from tissu.picture.camera import Camera
-from tissu.picture.raster import Seen, rasterise
-from tissu.picture.shading import corner_normals, shade
+from tissu.picture.normals import corner_normals
 
 if TYPE_CHECKING:
     from matplotlib.colors import Colormap
@@ -21,7 +20,6 @@ Array = NDArray[np.float64]
 
 CLAY = (0.80, 0.47, 0.40)  # colour of a surface without values
 FINER = 2  # pixels rendered for each one shown, in each direction
-PORTION = 16384  # pixels that are shaded at once: what is between stays in the cache
 STEP = 6.0  # a jump in nearness [pixels] that is drawn as an edge
 
 
@@ -58,27 +56,16 @@ def render_surface(
     Raises:
         ParameterError: arrays whose shapes do not fit together, or numbers of points that are not.
     """
-    fine = camera.enlarged(FINER)
     layer = render_layer(
         points,
         triangles,
         values,
-        camera=fine,
+        camera=camera.enlarged(FINER),
         colour=colour,
         colormap=colormap,
         limits=limits,
     )
-    shown = np.zeros((camera.size[1], camera.size[0], 4))
-    rows, columns = (_reach(np.asarray(layer.covered.any(axis=k))) for k in (1, 0))
-    part = tuple(slice(FINER * some.start, FINER * some.stop) for some in (rows, columns))
-    shown[rows, columns] = flatten(layer.colour[part], layer.covered[part].astype(np.float64))
-    return shown
-
-
-def _reach(covered: NDArray[np.bool_]) -> slice:
-    """The shown pixels from the first to the last of which a finer one is covered."""
-    at = np.flatnonzero(covered) // FINER
-    return slice(int(at[0]), int(at[-1]) + 1) if len(at) else slice(0, 0)
+    return flatten(layer.colour, layer.covered.astype(np.float64))
 
 
 def render_layer(
@@ -93,53 +80,30 @@ def render_layer(
 ) -> Layer:
     """A shaded surface at the camera's own pixels; arguments as for `render_surface`."""
     at, cells = _checked(points, triangles)
-    width, height = camera.size
-    seen = rasterise(camera.project(at), cells, camera.size)
     turned = at @ camera.axes.T
-    normals = corner_normals(turned, cells)
     a, b, c = (turned[cells[:, k], :2] for k in range(3))
     towards = (b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0]
-    paint = _paint(values, cells, at, colour, colormap, limits)
-    picture = np.zeros((height * width, 3))
-    for start in range(0, len(seen.pixel), PORTION):
-        some = seen.part(slice(start, start + PORTION))
-        normal = (some.weights[:, None] @ normals[some.triangle])[:, 0]
-        picture[some.pixel] = shade(paint(some), normal, towards[some.triangle])
-    nearness = np.full(height * width, -np.inf)
-    nearness[seen.pixel] = seen.nearness
-    near = nearness.reshape(height, width)
-    shown = picture.reshape(height, width, 3)
-    window = _window(seen, width)
-    shown[window] *= (1 - 0.45 * edges(near[window]))[..., None]
+    at_corners, table, (low, high) = _paint(values, cells, at, colormap, limits)
+    shown, near = _core.render(
+        corners=camera.project(at),
+        triangles=cells,
+        normals=corner_normals(turned, cells),
+        towards=towards,
+        values=at_corners,
+        table=table,
+        low=low,
+        high=high,
+        colour=colour,
+        width=camera.size[0],
+        height=camera.size[1],
+        step=STEP,
+    )
     return Layer(shown, np.isfinite(near), near)
-
-
-def _window(seen: Seen, width: int) -> tuple[slice, slice]:
-    """The rows and columns in which something is seen, and one more on each side."""
-    if not len(seen.pixel):
-        return slice(0), slice(0)
-    row, column = seen.pixel // width, seen.pixel % width
-    low, left = max(int(row[0]) - 1, 0), max(int(column.min()) - 1, 0)
-    return slice(low, int(row[-1]) + 2), slice(left, int(column.max()) + 2)
-
-
-def edges(nearness: Array) -> Array:
-    """(h,w) of 0 and 1: covered pixels at the near side of a jump in nearness."""
-    near = np.where(np.isfinite(nearness), nearness, np.nan)
-    edge = np.zeros(near.shape)
-    for view, mark in ((near, edge), (near.T, edge.T)):
-        here, before, after = view[1:-1], view[:-2], view[2:]
-        # Second differences: a surface seen at a grazing angle is steep, but does not jump.
-        mark[1:-1] += (np.abs(2 * here - before - after) > STEP) & (here > np.fmin(before, after))
-    return np.minimum(edge, 1.0)
 
 
 def flatten(colour: Array, opacity: Array) -> Array:
     """RGBA of the shown pixels from the finer ones: colour (h,w,3), opacity (h,w)."""
-    parts = [(slice(i, None, FINER), slice(j, None, FINER)) for i, j in np.ndindex(FINER, FINER)]
-    alpha = sum((opacity[at] for at in parts), np.zeros(())) / FINER**2
-    total = sum((colour[at] * opacity[at][..., None] for at in parts), np.zeros(())) / FINER**2
-    return np.dstack([total / np.maximum(alpha, 1e-9)[..., None], alpha])
+    return _core.shown_pixels(colour=colour, opacity=opacity, finer=FINER)
 
 
 def _checked(points: ArrayLike, triangles: ArrayLike) -> tuple[Array, NDArray[np.int64]]:
@@ -157,15 +121,14 @@ def _paint(
     values: ArrayLike | None,
     cells: NDArray[np.int64],
     points: Array,
-    colour: tuple[float, float, float],
     colormap: str | Colormap,
     limits: tuple[float, float] | None,
-) -> Callable[[Seen], Array]:
-    """What gives the colours (p,3) of seen pixels."""
+) -> tuple[Array, Array, tuple[float, float]]:
+    """Values (t,3) at the corners, the table of colours (m,3), and the values at its ends."""
+    if values is None:
+        return np.empty((0, 3)), np.empty((0, 3)), (0.0, 1.0)
     from matplotlib import colormaps
 
-    if values is None:
-        return lambda seen: np.broadcast_to(np.array(colour), (len(seen.pixel), 3))
     every = np.asarray(values, dtype=np.float64)
     if every.shape not in ((len(points),), (len(cells),)):
         raise ParameterError(
@@ -173,12 +136,7 @@ def _paint(
             f"found the shape {every.shape}"
         )
     at_corners = every[cells] if every.shape == (len(points),) else every[:, None].repeat(3, axis=1)
-    low, high = limits or (float(every.min()), float(every.max()))
     chosen = colormaps[colormap] if isinstance(colormap, str) else colormap
-
-    def mapped(seen: Seen) -> Array:
-        at_pixel = (at_corners[seen.triangle] * seen.weights).sum(axis=1)
-        share = (at_pixel - low) / (high - low) if high > low else np.zeros_like(at_pixel)
-        return np.asarray(chosen(share)[:, :3], dtype=np.float64)
-
-    return mapped
+    parts, beyond = chosen(np.arange(chosen.N)), chosen(np.array([-1.0, 2.0, np.nan]))
+    table = np.concatenate([parts, beyond])[:, :3]
+    return at_corners, table, limits or (float(every.min()), float(every.max()))

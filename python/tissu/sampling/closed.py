@@ -12,7 +12,7 @@ from tissu.sampling.region import Indices
 
 
 def require_triangles(points: Floats, triangles: Ints) -> None:
-    """Refuses arrays that are no triangles.
+    """Refuses arrays that are not triangles.
 
     Raises:
         MeshError: wrong shapes, no triangle, numbers of no point, or positions not finite.

@@ -84,7 +84,7 @@ def drawn(seed: int) -> np.random.Generator:
     """Random numbers that a seed decides.
 
     Raises:
-        ParameterError: the seed is no whole number from 0 on.
+        ParameterError: the seed is not a whole number from 0 on.
     """
     try:
         return np.random.default_rng(index(seed))

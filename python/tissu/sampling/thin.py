@@ -55,7 +55,7 @@ def sheet_points(
         seed: of the random numbers.
 
     Raises:
-        MeshError: there are no triangles, or they are none.
+        MeshError: no triangles, or arrays that are not triangles.
         ParameterError: a distance that is not positive, or larger than the sheet.
     """
     points, triangles = _triangles(sheet)
@@ -84,7 +84,7 @@ def line_points(line: Mesh | tuple[Floats, Ints], spacing: float) -> ThinPoints:
         spacing: length of the parts [m].
 
     Raises:
-        MeshError: there are no segments, or they are none.
+        MeshError: no segments, or arrays that are not segments.
         ParameterError: a spacing that is not positive, or larger than the longest stretch.
     """
     points, segments = _segments(line)

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 def scaled(direction: Sequence[float]) -> Floats:
     """The direction (3,) times the power of two that makes its largest component 1 to 2.
 
-    The squares of 1e160 and of 1e-200 are no numbers that a double holds. A power of two changes no
+    A double does not hold the squares of 1e160 and of 1e-200. A power of two changes no
     digit: the unit vector of a direction has the same bits with it and without it.
     """
     values = np.asarray(direction, dtype=np.float64)

@@ -65,7 +65,7 @@ class Part(BaseModel):
         if next(problems_in(self), None) is not None:
             raise SceneError([f"{type(self).__name__}: {text}" for text in self._refusal()])
 
-    # Tells pydantic that a nested part need not be made through this __init__, so that the
+    # Pydantic then need not make a nested part through this __init__, so that the
     # problems of all parts are gathered.
     __init__.__pydantic_base_init__ = True  # type: ignore[attr-defined]
 

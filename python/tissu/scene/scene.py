@@ -153,6 +153,23 @@ class SceneData(Part):
                     yield Problem(("loads", number, "name"), text)
                 names += [load.name] if load.name is not None else []
 
+    @rule("fixed", "prescribed")
+    def _names_supports_once(self) -> Iterator[Problem]:
+        """A name finds one support or motion."""
+        names: list[str] = []
+        for group in ("fixed", "prescribed"):
+            for number, support in enumerate(getattr(self, group)):
+                with contextlib.suppress(Unknown):
+                    if support.name is None:
+                        continue
+                    if support.name in names:
+                        text = f"found '{support.name}' twice among fixed and prescribed; each name"
+                        yield Problem((group, number, "name"), f"{text} once is accepted")
+                    if not support.name:
+                        text = "found an empty name; one of at least one letter is accepted"
+                        yield Problem((group, number, "name"), text)
+                    names.append(support.name)
+
     @rule("duration")
     def _ends(self) -> Iterator[Problem]:
         """A number of steps that a run can take."""

@@ -100,6 +100,8 @@ class Support(Part):
     """name of a body of the scene"""
     on: On
     """which nodes: a box, sphere, plane, nodes, surface or region"""
+    name: str | None = None
+    """name by which a running simulation leads it live, see `Simulation.lead`"""
 
     if TYPE_CHECKING:
         axes: Axes
@@ -144,7 +146,13 @@ class Fixed(Support):
     def add_to(self, builder: WorldBuilder, nodes: Ints, *, frames: bool) -> None:
         """Hold the nodes of its body in the world; `frames`: they have a rotation."""
         rotations = frames and self.holds_rotations
-        builder.fix(body=self.body, nodes=nodes, axes=self.axes_mask, rotations=rotations)
+        builder.fix(
+            body=self.body,
+            nodes=nodes,
+            axes=self.axes_mask,
+            rotations=rotations,
+            name=self.name or "",
+        )
 
 
 class Rotation(Part):
@@ -253,4 +261,5 @@ class Prescribed(Support):
             angles=still if turn is None else np.array(turn.angles),
             center=np.zeros(3) if turn is None else np.array(turn.center),
             axis=scaled((0.0, 0.0, 1.0) if turn is None else turn.axis),
+            name=self.name or "",
         )

@@ -1,8 +1,8 @@
 """What stays unknown of a scene with problems, and how all its problems are found nevertheless.
 
 A part is read field by field. A field that cannot be read leaves its problems behind and is absent
-from the part: asking for it raises Unknown. So whoever looks at such a part sees what is known, and
-stops where nothing can be said, without a word of its own about problems that are told already.
+from the part: asking for it raises Unknown. So code that looks at such a part sees what is known,
+and stops where nothing can be said, without a word of its own about problems that were reported.
 """
 
 from __future__ import annotations

@@ -31,7 +31,7 @@ class GrabPoint:
     Attributes:
         nodes: numbers (k,) of nodes and
         weights: their weights (k,), which sum to one.
-        offset: (3,) from the node, in the axes of its frame [m]; None: the nodes are no frames,
+        offset: (3,) from the node, in the axes of its frame [m]; None: the nodes are not frames,
             or the node itself is the point.
     """
 
@@ -51,7 +51,7 @@ def grab_point(
     """The point at a node, or at a place of the body at rest.
 
     Raises:
-        ParameterError: no such node, a place outside, an offset where nodes are no frames, or
+        ParameterError: no such node, a place outside, an offset where nodes are not frames, or
             nodes that cannot move.
     """
     has_frames = simulation.frames_of(body)[0] >= 0

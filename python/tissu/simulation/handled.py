@@ -1,4 +1,4 @@
-"""What acts on a simulation while it runs: its loads, and points that are grabbed."""
+"""What acts on a simulation while it runs: loads, grabbed points, and supports that are led."""
 
 from __future__ import annotations
 
@@ -8,13 +8,14 @@ from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from tissu.errors import ParameterError
 from tissu.simulation import grab as kept
 from tissu.simulation.drag import drag_stiffness, near_frame, near_surface
 from tissu.simulation.grab import Grab, Record
 from tissu.simulation.grab_point import GrabPoint, grab_point, require_free
+from tissu.simulation.lead import Lead
 from tissu.simulation.live_load import LiveLoad
 
 if TYPE_CHECKING:
@@ -23,6 +24,7 @@ if TYPE_CHECKING:
     from tissu.mesh import Mesh
     from tissu.reading import Number, VectorLike
     from tissu.scene.load import Load, Where
+    from tissu.scene.support import Support
     from tissu.simulation.entry import Entry
 
 Floats = NDArray[np.float64]
@@ -191,6 +193,49 @@ class Handled:
             found.append(self._grab(number, body))
         return tuple(found)
 
+    def lead(
+        self,
+        which: str | Support,
+        positions: ArrayLike | None = None,
+        *,
+        over: Number | str | None = None,
+    ) -> Lead:
+        """A support or motion of the scene that has a name, to be led live from the next step on.
+
+        Live targets stand in the state: checkpoints carry them.
+
+        Args:
+            which: its `name`, or the part itself as it stands in the scene.
+            positions: where its nodes are led to (k, 3) [m], see `Lead.place`; None: it goes on as
+                it does, until `move` or `place` of what is returned.
+            over: time until they are there [s]; None: the next step.
+
+        Raises:
+            ParameterError: no support of that name; one without a name; what `Lead.place` refuses.
+        """
+        lead = Lead(simulation=self._core, entry=self._entry, support=self._support(which))
+        if positions is not None:
+            lead.place(positions, over=over)
+        elif over is not None:
+            raise ParameterError("found over without positions; both or neither are accepted")
+        return lead
+
+    def _support(self, which: str | Support) -> Support:
+        supports = [*self.scene.fixed, *self.scene.prescribed]
+        known = [support.name for support in supports if support.name is not None]
+        name = which if isinstance(which, str) else getattr(which, "name", None)
+        for support in supports:
+            if support.name is not None and support.name == name:
+                return support
+        if not isinstance(which, str) and any(which is support for support in supports):
+            raise ParameterError(
+                f"found a support of '{which.body}' without a name; give it one in the scene, "
+                f"such as `name: hand`, and lead it by that; accepted: {_listed(known)}"
+            )
+        raise ParameterError(
+            f"found support {name!r}{_nearest(name, known)} accepted: {_listed(known)}"
+        )
+
     def _grab(self, number: int, body: str) -> Grab:
         return Grab(simulation=self._core, entry=self._entry, number=number, body=body)
 
@@ -223,6 +268,13 @@ class Handled:
                 f"found body {body!r}{_nearest(body, list(self._positions))} accepted: "
                 + ", ".join(self._positions)
             )
+
+
+def _listed(known: Sequence[str]) -> str:
+    """Names of supports, or how one gets a name."""
+    return ", ".join(known) or (
+        "none, since no part of `fixed` and `prescribed` has a name; give one to what is to be led"
+    )
 
 
 def _nearest(word: object, known: Sequence[str]) -> str:

@@ -21,7 +21,7 @@ def removed_cells(meshes: Mapping[str, Mesh], body: str, cells: ArrayLike) -> ND
     """The numbers of cells to take out of a body, each once, increasing.
 
     Raises:
-        ParameterError: they are no whole numbers, there is no such body, or no cell would be left.
+        ParameterError: they are not whole numbers, no body has that name, or no cell would be left.
     """
     given = np.atleast_1d(real_array(cells, "cells"))
     if given.size and not np.issubdtype(given.dtype, np.integer):

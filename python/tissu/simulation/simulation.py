@@ -171,7 +171,7 @@ class Simulation(Inspected, Handled, Changed):
     def dt(self) -> float:
         """Time step of the scene [s], where it is auto nine tenths of the stable step at present.
 
-        1 for a static scene, whose time only tells loads apart.
+        1 for a static scene, whose time only distinguishes loads.
         """
         dt = getattr(self.scene.step, "dt", 1.0)
         return _SHARE_OF_STABLE * self.stable_step if dt == "auto" else float(dt)
@@ -293,7 +293,7 @@ class Simulation(Inspected, Handled, Changed):
         """Rotation matrices (n, 3, 3) of the nodes of a body from rest.
 
         Raises:
-            ParameterError: no body of that name, or its nodes are no frames.
+            ParameterError: no body of that name, or its nodes are not frames.
         """
         self._require_body(body)
         found = self._core.rotations(body)

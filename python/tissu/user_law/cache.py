@@ -67,7 +67,7 @@ def library_for(
     Args:
         name: of the law: the files are called after it.
         source: its C++.
-        compiler: who compiles it.
+        compiler: what compiles it.
         flags: how.
         again: make it even if it is there.
 

@@ -77,7 +77,7 @@ def checked(law: Law, *, given: bool) -> Law:
         except (ValueError, ArithmeticError):
             continue
     raise first or LawError(
-        f"{law.name}: the energy or its derivatives are no finite numbers near rest; give the "
+        f"{law.name}: the energy or its derivatives are not finite numbers near rest; give the "
         "parameters as tissu.formula.Parameter with a typical value where they are."
     )
 

@@ -1,6 +1,6 @@
 """From a formula and parameters to a law of the scene: `tissu.law` and `tissu.read_law`.
 
-SymPy is imported here only, when a law is defined: whoever defines none needs none.
+SymPy is imported here only, when a law is defined: a scene without one does not need it.
 """
 
 from __future__ import annotations
@@ -179,7 +179,7 @@ def _read_formula(text: str, words: Mapping[str, Any]) -> Any:
     """The expression that a record's text stands for: arithmetic on known words, nothing else.
 
     Raises:
-        LawError: another word, or what is no arithmetic.
+        LawError: another word, or what is not arithmetic.
     """
     import sympy as sp
     from sympy.parsing.sympy_parser import parse_expr, standard_transformations
@@ -202,7 +202,7 @@ def _read_formula(text: str, words: Mapping[str, Any]) -> Any:
         )
     except (SyntaxError, TypeError, ValueError) as error:
         raise LawError(
-            f"found '{text}' as the formula of a record; it is no arithmetic: {error}"
+            f"found '{text}' as the formula of a record; it is not arithmetic: {error}"
         ) from None
 
 

@@ -1,4 +1,4 @@
-"""A library whose bytes are checked, as a file that nobody can change between check and load."""
+"""A library whose bytes are checked, as a file that cannot be changed between check and load."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ def library_image(name: str, data: bytes) -> str:
         data: the library.
 
     Raises:
-        OSError: there is no memory, or no folder, for it.
+        OSError: no memory, or no folder, for it.
     """
     if hasattr(os, "memfd_create"):
         descriptor = os.memfd_create(name, os.MFD_CLOEXEC)

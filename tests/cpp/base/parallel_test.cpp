@@ -9,7 +9,7 @@
 #include <chrono>
 #include <thread>
 
-/// Every call of a loop happens once, before the loop ends, whoever runs it.
+/// Every call of a loop happens once, before the loop ends, on any thread.
 namespace tissu {
 namespace {
 

@@ -89,6 +89,17 @@ void lead(Bar& bar) {
   bar.world.fixed.back().motion = {{0.0, 1.0}, {Vec3::Zero(), Vec3(0.01, 0.0, 0.0)}, {0.0, 0.1}};
 }
 
+/// One end has a live target.
+void lead_live(Bar& bar) {
+  hold(bar);
+  bar.world.fixed.back().name = "end";
+  bar.once = [](Simulation& simulation) {
+    Pose pose;
+    pose.angle = 0.1;
+    simulation.world().fixed().lead_to("end", pose, 1.0, simulation.state());
+  };
+}
+
 void pull_nodes(Bar& bar) {
   std::vector<std::int32_t> nodes = bar.end(kSize.x());
   std::vector<double> forces(3 * nodes.size(), 1e-3);

@@ -40,6 +40,7 @@ struct Bar {
 /// Effects, each of which is put on a bar.
 void hold(Bar& bar);
 void lead(Bar& bar);
+void lead_live(Bar& bar);
 void pull_nodes(Bar& bar);
 void pull_faces(Bar& bar);
 void press(Bar& bar);

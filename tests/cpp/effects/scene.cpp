@@ -87,6 +87,7 @@ constexpr std::array kRecipes = {
     Recipe{"pressure", &press},
     Recipe{"fixed", &hold},
     Recipe{"prescribed", &lead},
+    Recipe{"live-lead", &lead_live},
     Recipe{"rayleigh", &damp_like_rayleigh},
     Recipe{"kelvin-voigt", &damp_like_kelvin_voigt},
     Recipe{"centroid", &damp_against_centroids},

@@ -122,7 +122,8 @@ TEST(ShapeRefusal, OfACuspAtEachFrame) {
 TEST(ShapeRefusal, OfFramesThatAreNoGrid) {
   const ShapeFunctionUse use{.name = "trilinear"};
   const std::string words =
-      " frames are no grid along the axes, as the shape function trilinear needs: each combination of some "
+      " frames are not a grid along the axes, as the shape function trilinear needs: each combination of "
+      "some "
       "x, "
       "some y and some z once; make such a grid or take another shape function.";
   const std::vector<double> point{0.0, 0.0, 0.0};

@@ -408,7 +408,7 @@ TEST(Multigrid, GivesTheSameBitsOnAnyNumberOfThreads) {
   }
 }
 
-/// Nobody says where the rows are: translations alone are carried, more iterations, the same answer.
+/// Where the rows are is not given: translations alone are carried, more iterations, the same answer.
 TEST(Multigrid, ServesWithoutPlaces) {
   const Cube cube(8);
   BlockMatrix bare(cube.matrix().sparsity(), cube.matrix().isa(), Threads(1));

@@ -113,7 +113,7 @@ TEST_P(Methods, GoOnFromTheirMemoryBitForBit) {
             0);
 }
 
-/// Nobody is surprised: bodies that are put elsewhere between two steps go on from there.
+/// Bodies that are put elsewhere between two steps go on from there.
 TEST_P(Methods, ForgetWhatBelongsToAnotherState) {
   WorldDescription world = bar();
   world.fixed = {test::fixed(test::nodes_at(mesh_, 0, 0.0))};

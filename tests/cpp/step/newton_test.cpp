@@ -29,7 +29,8 @@ TEST_F(Newton, EndsWhenItsToleranceIsMet) {
   EXPECT_LE(report.residual, 1e-10);
 }
 
-// Who caps the iterations wants their cost: one that was on its way is not begun anew with another search.
+// A cap on the iterations is a cap on their cost: one that was on its way is not begun anew with another
+// search.
 TEST_F(Newton, TakesNoMoreThanItsCapWhereItIsOnItsWay) {
   const StepReport report = step(4, 1e-14);
   EXPECT_FALSE(report.converged);

@@ -66,6 +66,7 @@ class Simulation {
   [[nodiscard]] double farthest() const;
   [[nodiscard]] bool is_sane() const;
   [[noreturn]] void roll_back(double h);
+  void begin_watch(EnergyWatch& watch);
   void watch_energy(EnergyWatch& watch, StepReport& report);
   /// Velocities of held rows are the scene's, whatever was written there.
   void hold() { world_->fixed().copy(held_, state_.velocities); }

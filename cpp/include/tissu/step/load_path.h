@@ -16,7 +16,6 @@ class LoadPath {
   void load(double share, State& state) const;
   /// What moves led nodes of `now`, which stands at the share `before`, to the share; zero elsewhere.
   void set_way(double before, double share, const State& now, Reals change) const;
-  [[nodiscard]] bool leads() const { return world_.fixed().moves(); }
   /// The largest part of the path in which no node is led round by more than `turn` [rad].
   [[nodiscard]] double largest_part(double turn) const;
 

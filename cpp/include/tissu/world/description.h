@@ -44,6 +44,8 @@ struct FixedNodes {
   std::vector<double> positions;  ///< where the motion starts, three for each node; empty: at rest
   bool rotations = false;         ///< of frames: their rotation is given too
   bool translations = true;       ///< false: only their rotation
+  /// By which a run leads them live (FixedDofs::lead_to), together with all others of the name; empty: never.
+  std::string name = {};
 };
 
 struct LoadDescription {

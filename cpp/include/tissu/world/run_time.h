@@ -1,6 +1,6 @@
 #pragma once
 
-/// The verbs of a running world, each over those of its models that have it.
+/// The verbs of a running world, each over those of its models that have it and its live supports.
 
 #include <string_view>
 #include <vector>

@@ -47,8 +47,8 @@ void PatchMatrix::close(double slope, double curvature) {
   }
 }
 
-/// Most patches have none: a Cholesky factor of K with a diagonal moved by round-off tells at a twentieth of
-/// the price of the eigenvalues.
+/// Most patches have none: a Cholesky factor of K with a diagonal moved by round-off shows it at a twentieth
+/// of the price of the eigenvalues.
 void PatchMatrix::make_definite() {
   constexpr double kRoundOff = 1e-12;
   const double largest = K_.diagonal().cwiseAbs().maxCoeff();

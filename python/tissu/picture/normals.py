@@ -1,4 +1,4 @@
-"""Light on a surface: normals that are smooth but for creases, and three lights."""
+"""Normals of a surface that are smooth but for creases."""
 
 from __future__ import annotations
 
@@ -11,17 +11,12 @@ Integers = NDArray[np.int64]
 CREASE = np.cos(np.radians(55.0))  # sharper edges stay edges
 CROWDED = 48  # a point with more triangles is smooth: comparing them in pairs would cost too much
 
-# Lights in the axes of the picture: right, top, towards the viewer.
-KEY = np.array([-0.45, 0.60, 0.66])
-FILL = np.array([0.80, 0.05, 0.60])
-HALF = (KEY / np.linalg.norm(KEY) + np.array([0.0, 0.0, 1.0])) / 2
-
 
 def corner_normals(points: Array, triangles: Integers) -> Array:
     """Unit normals (t,3,3) at the corners of each triangle.
 
-    The normal of a corner is the mean over the triangles around its point that are no sharper than
-    the crease angle, weighted by area.
+    The normal of a corner is the mean over the triangles around its point not sharper than the
+    crease angle, weighted by area.
     """
     a, b, c = (points[triangles[:, k]] for k in range(3))
     weighted = np.cross(b - a, c - a)
@@ -47,7 +42,7 @@ def _crease_normals(
     chosen: Integers,
     crowd: Integers,
 ) -> Array:
-    """Normals (m,3) of the chosen corners from those triangles around them that are no crease."""
+    """Normals (m,3) of the chosen corners from those triangles around them without a crease."""
     by_point = np.argsort(corner, kind="stable")
     start = np.cumsum(crowd) - crowd
     count = crowd[corner[chosen]]
@@ -59,32 +54,6 @@ def _crease_normals(
     return np.stack(
         [np.bincount(run, share[:, k], minlength=len(chosen)) for k in range(3)], axis=1
     )
-
-
-def shade(colour: Array, normal: Array, towards: Array) -> Array:
-    """Colours (p,3) in [0, 1] under the lights.
-
-    A surface that faces the viewer keeps its colour, so that it can be read off a colour bar.
-
-    Args:
-        colour: (p,3) of the surface.
-        normal: (p,3) in the picture's axes.
-        towards: (p,) positive where the seen side is the one the normal points out of.
-    """
-    normal = normal * np.where(towards < 0, -1.0, 1.0)[:, None]
-    normal[:, 2] = np.maximum(normal[:, 2], 0.0)  # smoothed past the rim
-    normal = _unit(normal)
-    light = _light(normal) / _light(np.array([[0.0, 0.0, 1.0]]))
-    gloss = (normal @ (HALF / np.linalg.norm(HALF))).clip(0) ** 40
-    lit = colour * light.clip(0, 1.18)[:, None] + 0.14 * gloss[:, None]
-    return np.asarray(lit.clip(0, 1))
-
-
-def _light(normal: Array) -> Array:
-    """Brightness (p,) of white surfaces: wrapped key light, fill light and light from above."""
-    key = ((normal @ (KEY / np.linalg.norm(KEY)) + 0.35) / 1.35).clip(0)
-    fill = (normal @ (FILL / np.linalg.norm(FILL))).clip(0)
-    return np.asarray(0.60 * key + 0.26 * fill + 0.34 + 0.08 * normal[:, 1])
 
 
 def _unit(vectors: Array) -> Array:

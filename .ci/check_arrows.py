@@ -84,6 +84,8 @@ PYTHON: dict[str, set[str]] = {
     "effects": {"scene"},
     "checkpoint": {"errors", "counted", "files", "_core"},
     "picture": {"errors", "files", "mesh", "_core"},
+    # What is run, seen and touched in the browser. A simulation opens its own view.
+    "live_view": {"errors", "files", "mesh", "scene", "picture"},
     "simulation": {
         "arrays",
         "errors",
@@ -92,6 +94,7 @@ PYTHON: dict[str, set[str]] = {
         "units",
         "mesh",
         "checkpoint",
+        "live_view",
         "_core",
     },
     "compile": {

@@ -80,19 +80,24 @@ install_packages() {
   } >>"$log" 2>&1 9>&-
 }
 
-# $1: demo, test, lint or bench. What tests use where it is there, and are skipped without; asked for once.
+# $1: demo, test, lint or bench. What tests use where it is there, and are skipped without; asked for once each.
 step_optional() {
-  local right
   [ "$1" = test ] || return 0
-  command -v valgrind >/dev/null && return
-  is_done optional valgrind && return
-  mark_done optional valgrind
+  optional_package valgrind "the tests that count instructions"
+  optional_package chromium "the tests of the view in a browser"
+}
+
+# $1: a command and the Debian package of it, $2: the tests that are skipped without.
+optional_package() {
+  local right
+  command -v "$1" >/dev/null && return
+  is_done "optional-$1" "$1" && return
+  mark_done "optional-$1" "$1"
   if [ -n "${TISSU_NO_APT:-}" ] || ! command -v apt-get >/dev/null || ! right=$(privilege); then
-    say "no valgrind: the tests that count instructions are skipped"
+    say "no $1: $2 are skipped"
     return
   fi
-  install_packages "$right" valgrind ||
-    say "apt could not install valgrind ($log): the tests that count instructions are skipped"
+  install_packages "$right" "$1" || say "apt could not install $1 ($log): $2 are skipped"
 }
 
 step_venv() {

@@ -156,6 +156,9 @@ void bind_simulation(py::module_& m) {
             s.replace_world(remove_cells(s.world(), s.state(), body, numbers));
           },
           py::kw_only(), arg("body"), arg("cells"))
+      .def(
+          "replace_world", [](Simulation& s, const std::shared_ptr<World>& world) { s.replace_world(world); },
+          py::kw_only(), arg("world"))
       .def("settle", &Simulation::settle)
       .def("reactions",
            [](const Simulation& s) {

@@ -72,6 +72,10 @@ _HOMES = {
         "draw",
         "draw_overlay",
     ),
+    "tissu.live_view": (
+        "View",
+        "view",
+    ),
     "tissu.scene": (
         "Output",
         "Body",

@@ -40,6 +40,8 @@ from tissu.advice import Advice as Advice
 from tissu.advice import advise as advise
 from tissu.picture import draw as draw
 from tissu.picture import draw_overlay as draw_overlay
+from tissu.live_view import View as View
+from tissu.live_view import view as view
 from tissu.scene import Output as Output
 from tissu.scene import Body as Body
 from tissu.scene import MeshFile as MeshFile

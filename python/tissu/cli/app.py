@@ -84,6 +84,48 @@ def run(
         raise typer.Exit(run_scene(job, debug=debug))
 
 
+@app.command("view")
+def view_command(
+    scene: SceneFile,
+    port: Annotated[
+        int | None,
+        typer.Option(min=1, max=65535, help="Port of the page; default: the first free from 8080."),
+    ] = None,
+    host: Annotated[
+        str, typer.Option(help="Address to listen on; another than this machine asks for a token.")
+    ] = "127.0.0.1",
+    token: Annotated[
+        str | None, typer.Option(help="Token that a page must bring; default: a new one.")
+    ] = None,
+    browser: Annotated[
+        bool, typer.Option("--browser/--no-browser", help="Whether the page is opened.")
+    ] = True,
+    beside: Annotated[
+        str,
+        typer.Option(metavar="MODEL|SCENE", help="The same with this model, or another scene."),
+    ] = "",
+    record: Annotated[
+        Path | None,
+        typer.Option(metavar="FILE", help="Record to this page (.html), written at the end."),
+    ] = None,
+    shared: Annotated[
+        bool, typer.Option("--shared", help="Every page may touch, not the first one only.")
+    ] = False,
+    speed: Annotated[
+        float, typer.Option(help="Simulated seconds for each second; inf: as fast as it goes.")
+    ] = 1.0,
+    paused: Annotated[bool, typer.Option("--paused", help="Begin paused.")] = False,
+    trust_laws: TrustLaws = False,
+    debug: Debug = False,
+) -> None:
+    """Run a scene live in the browser, to be seen and touched."""
+    from tissu.cli.view import Job, view_scene
+
+    with reported(debug=debug):
+        more = (port, host, token, browser, beside, record, shared, speed, paused, trust_laws)
+        view_scene(Job(scene, *more))
+
+
 @app.command()
 def schema() -> None:
     """Print the JSON schema of scene files, with which editors complete and check them."""

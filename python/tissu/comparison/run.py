@@ -46,7 +46,7 @@ def compare(
     asked = [spelled(m) if isinstance(m, str) else m for m in models] or model_names()
     reference = spelled(reference) if isinstance(reference, str) else reference
     for model in [*asked, *([reference] if isinstance(reference, str) else [])]:
-        _check_name(model, also=("finest",) if model is reference else ())
+        check_model(model, also=("finest",) if model is reference else ())
     traces: dict[str, Trace | SceneError] = {}
     for model in asked:
         traces[_word(model)] = _tried(scene, model)
@@ -56,7 +56,12 @@ def compare(
     return Comparison(scene.name, cells, words, tuple(rows))
 
 
-def _check_name(model: object, *, also: Sequence[str] = ()) -> None:
+def check_model(model: object, *, also: Sequence[str] = ()) -> None:
+    """Refuse a name that no model has.
+
+    Raises:
+        ParameterError: which are accepted.
+    """
     names = [*model_names(), *also]
     if isinstance(model, str) and model not in names:
         raise ParameterError(

@@ -70,13 +70,13 @@ def draw(
     """
     if field not in LABELS:
         raise ParameterError(f"field '{field}'; accepted: {', '.join(LABELS)}")
-    up = _up(simulation)
+    up = up_of(simulation)
     title = simulation.scene.name
     shape, time = shape_of(simulation, field), simulation.time
     draw_shape(shape, path, title=title, time=time, up=up, size=size, field=field)
 
 
-def _up(simulation: Simulation) -> Array:
+def up_of(simulation: Simulation) -> Array:
     """What points to the top: against gravity; without it z, or y of flat bodies."""
     gravity = simulation.scene.gravity
     if gravity is not None and np.any(gravity):

@@ -32,6 +32,10 @@ class Fibres(Part):
     direction: units.Direction
     """direction at rest (3,), of any length but zero"""
 
+    def live_fields(self) -> list[str]:
+        """Its stiffness may change; not where it points."""
+        return ["k1", "k2"]
+
     @rule("direction")
     def _has_direction(self) -> Iterator[Problem]:
         if not any(self.direction):
@@ -57,6 +61,10 @@ class Law(Part):
     def parameter_names(cls) -> list[str]:
         """Names of its parameters, in the order of the formula."""
         return [name for name in cls.model_fields if name not in ("type", "fibres")]
+
+    def live_fields(self) -> list[str]:
+        """All its parameters."""
+        return self.parameter_names()
 
     def words(self) -> str:
         """Its type and parameters with the units of the formula, as `check` says them."""

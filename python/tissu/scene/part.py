@@ -123,6 +123,10 @@ class Part(BaseModel):
     def _forget(self, name: str) -> list[Problem]:
         return list(below(name, problems_in(self.__dict__.pop(name, None))))
 
+    def live_fields(self) -> list[str]:
+        """Fields with a number, or three, that may change while a simulation runs."""
+        return []
+
     def replace(self, **changes: Any) -> Self:
         """The same part with some fields changed, validated again."""
         fields = {name: getattr(self, name) for name in self.model_fields_set}

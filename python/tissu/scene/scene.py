@@ -206,6 +206,10 @@ class SceneData(Part):
         """The file and lines the scene was read from; None for a scene made in Python."""
         return self._source
 
+    def live_fields(self) -> list[str]:
+        """Gravity, where the scene has it."""
+        return ["gravity"]
+
     def replace(self, **changes: Any) -> Self:
         """The same scene with some fields changed, validated again."""
         other = super().replace(**changes)

@@ -32,6 +32,10 @@ class Viscosity(Part):
         names = (name for name in type(self).model_fields if name != "type")
         return f"{self.type}, {numbers_in_words(self, *names)}"
 
+    def live_fields(self) -> list[str]:
+        """All its numbers."""
+        return [name for name in type(self).model_fields if name not in ("type", "branches")]
+
     def add_to(self, builder: WorldBuilder, body: str) -> None:
         """Give it to a body of the world."""
         raise NotImplementedError
@@ -98,6 +102,10 @@ class PronyBranch(Part):
     """stiffness of the spring, beside the law's own at small strain"""
     time: units.Time = field(gt=0.0)
     """time after which its stress has fallen to 1/e [s]"""
+
+    def live_fields(self) -> list[str]:
+        """Both of its numbers."""
+        return ["weight", "time"]
 
 
 _Branches = Read[tuple[PronyBranch, ...], Sequence[PronyBranch]]

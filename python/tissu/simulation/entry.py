@@ -71,7 +71,7 @@ def one_thread_at_a_time(cls: type[T]) -> type[T]:
         name: member for base in reversed(cls.__mro__) for name, member in vars(base).items()
     }
     for name, member in members.items():
-        if name.startswith("_"):
+        if name.startswith("_") or getattr(member, "_before_the_door", False):
             continue
         if isinstance(member, property):
             setattr(cls, name, _guarded_property(name, member))
@@ -87,6 +87,15 @@ def _guarded(name: str, method: Callable[..., Any]) -> Callable[..., Any]:
             return method(self, *args, **named)
 
     return entering
+
+
+M = TypeVar("M", bound=Callable[..., Any])
+
+
+def before_the_door(method: M) -> M:
+    """A method that hands the simulation to another thread, so that it must not be inside."""
+    method._before_the_door = True  # type: ignore[attr-defined]
+    return method
 
 
 def _guarded_property(name: str, of: property) -> property:

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from tissu import units
 from tissu.errors import ParameterError
 from tissu.simulation.entry import one_thread_at_a_time
+from tissu.simulation.grab_point import GrabPoint
 
 if TYPE_CHECKING:
     from tissu import _core as core
@@ -167,6 +168,14 @@ class Grab:
         """What it pulls the body with now (3,), stiffness (target - position) [N]."""
         record = self._record()
         return np.asarray(record.stiffness * (record.target - self.position))
+
+    @property
+    def point(self) -> GrabPoint:
+        """The nodes of the body that carry the point, and how."""
+        record = self._record()
+        first, _ = self._core.body_range(self._body)
+        offset = record.place.copy() if record.frame >= 0 else None
+        return GrabPoint(record.nodes - first, record.weights.copy(), offset)
 
     def release(self) -> None:
         """Let go; once more does nothing."""

@@ -59,7 +59,7 @@ def grab_point(
         point = _node(int(at), body, mesh.node_count, offset, has_frames=has_frames)
     else:
         point = _place(cast("VectorLike", at), body, mesh, offset, has_frames=has_frames)
-    _require_free(simulation, body, point.nodes)
+    require_free(simulation, body, point.nodes)
     return point
 
 
@@ -101,7 +101,12 @@ def _place(
     return GrabPoint(found.nodes[0][used], weights[used])
 
 
-def _require_free(simulation: core.Simulation, body: str, nodes: Ints) -> None:
+def require_free(simulation: core.Simulation, body: str, nodes: Ints) -> None:
+    """Refuse a point that no pull moves, or that has no unknown.
+
+    Raises:
+        ParameterError: why.
+    """
     eliminated, held = simulation.unfree_nodes(body)
     inner = nodes[np.isin(nodes, eliminated)]
     if len(inner):

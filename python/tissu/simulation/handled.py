@@ -12,8 +12,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from tissu.errors import ParameterError
 from tissu.simulation import grab as kept
+from tissu.simulation.drag import drag_stiffness, near_frame, near_surface
 from tissu.simulation.grab import Grab, Record
-from tissu.simulation.grab_point import grab_point
+from tissu.simulation.grab_point import GrabPoint, grab_point, require_free
 from tissu.simulation.lead import Lead
 from tissu.simulation.live_load import LiveLoad
 
@@ -89,7 +90,77 @@ class Handled:
         self._require_known(body)
         mesh = {**self._meshes, **self._tissue}[body]
         point = grab_point(self._core, body=body, mesh=mesh, at=at, offset=offset)
-        pulled, stiff = kept.target_of(target), kept.stiffness_of(stiffness)
+        return self._hold(body, point, kept.target_of(target), kept.stiffness_of(stiffness))
+
+    def drag(
+        self,
+        body: str,
+        point: VectorLike,
+        *,
+        stiffness: Number | str | None = None,
+    ) -> Grab:
+        """Take hold of the surface where it is nearest to a point, as a hand or a mouse does.
+
+        The grab pulls with nothing yet: its target is where the point is. Move it by
+        `grab.target`, let go by `grab.release()`.
+
+        Args:
+            body: its name.
+            point: a place in space (3,) [m]. A body with faces is held by the triangle that is
+                nearest to it, another one by the nearest node, a frame with its offset from it.
+            stiffness: of the spring [N/m]; absent: Young's modulus at rest times the mean length
+                of an edge, so that the point follows about as far as the tissue around it yields.
+
+        Raises:
+            ParameterError: see `grab`.
+        """
+        self._require_grabbing()
+        self._require_known(body)
+        mesh = {**self._meshes, **self._tissue}[body]
+        place = kept.target_of(point)
+        self._core.settle()
+        now = self._positions[body]
+        if self._core.frames_of(body)[0] >= 0:
+            found = near_frame(now, self._core.rotations(body), place)
+        else:
+            found = near_surface(mesh, now, place)
+        require_free(self._core, body, found.nodes)
+        stiff = self.drag_stiffness(body) if stiffness is None else stiffness
+        grab = self._hold(body, found, place, kept.stiffness_of(stiff))
+        grab.target = grab.position
+        return grab
+
+    def drag_stiffness(self, body: str) -> float:
+        """The stiffness of a `drag` that is given none [N/m].
+
+        Raises:
+            ParameterError: no such body.
+        """
+        self._require_known(body)
+        return drag_stiffness(self.scene, body, {**self._meshes, **self._tissue}[body])
+
+    def drag_as(self, other: Grab) -> Grab:
+        """Take hold of the same point of the same body as a grab of another simulation does.
+
+        Its stiffness and its target are those of the other one. Of two simulations of one mesh.
+
+        Raises:
+            ParameterError: see `grab`; the body has fewer nodes here.
+        """
+        self._require_grabbing()
+        self._require_known(other.body)
+        point = other.point
+        count = len(self._positions[other.body])
+        if point.nodes.max() >= count:
+            raise ParameterError(
+                f"found a grab of node {point.nodes.max()} of '{other.body}', which has {count} "
+                "nodes here; a grab of a body with the same mesh is accepted"
+            )
+        require_free(self._core, other.body, point.nodes)
+        return self._hold(other.body, point, other.target, other.stiffness)
+
+    def _hold(self, body: str, point: GrabPoint, pulled: Floats, stiff: float) -> Grab:
+        """Pull a point of a body to a target [m], with a stiffness [N/m]."""
         grabs = kept.records(self._core)
         self._last_grab = max([self._last_grab, *grabs]) + 1
         first, _ = self._core.body_range(body)

@@ -74,6 +74,7 @@ class Profile:
         steps: how many were taken.
         p50_ms: median wall time of a step, of the latest 4096 steps.
         p95_ms: 95 % of them were shorter.
+        p99_ms: 99 % of them were shorter.
         max_ms: the longest of them.
         real_time_factor: simulated time for wall time; above 1 is faster than life.
         solves: what the linear solver did.
@@ -83,6 +84,7 @@ class Profile:
     steps: int
     p50_ms: float
     p95_ms: float
+    p99_ms: float
     max_ms: float
     real_time_factor: float
     solves: Solves
@@ -100,7 +102,8 @@ class Profile:
         if self.solves.solves:
             lines.append(str(self.solves))
         lines.append(
-            f"step: p50 {self.p50_ms:.3f} ms, p95 {self.p95_ms:.3f} ms, max {self.max_ms:.3f} ms; "
+            f"step: p50 {self.p50_ms:.3f} ms, p95 {self.p95_ms:.3f} ms, p99 {self.p99_ms:.3f} ms, "
+            f"max {self.max_ms:.3f} ms; "
             f"{self.real_time_factor:.3g} times real time"
         )
         return "\n".join(lines)
@@ -112,7 +115,7 @@ def profile_of(core: _core.Simulation, simulated: float) -> Profile:
     steps = core.profile_steps()
     rows = [row for row in core.profile_rows() if row[2] > 0]
     total = float(seconds.mean()) * steps if steps else 0.0
-    p50, p95 = np.percentile(seconds, [50, 95]) if steps else (0.0, 0.0)
+    p50, p95, p99 = np.percentile(seconds, [50, 95, 99]) if steps else (0.0, 0.0, 0.0)
     return Profile(
         rows=tuple(
             ProfileRow(effect, stage, calls, 1e3 * spent / max(steps, 1), spent / total)
@@ -122,6 +125,7 @@ def profile_of(core: _core.Simulation, simulated: float) -> Profile:
         steps=steps,
         p50_ms=1e3 * float(p50),
         p95_ms=1e3 * float(p95),
+        p99_ms=1e3 * float(p99),
         max_ms=1e3 * float(seconds.max()) if steps else 0.0,
         real_time_factor=simulated / total if total else 0.0,
         solves=Solves(*core.profile_solves(), account=core.solver_account()),

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, NoReturn, SupportsIndex
@@ -15,7 +15,8 @@ from tissu import _core, units
 from tissu.counted import counted
 from tissu.errors import CheckpointError, ParameterError, TissuError
 from tissu.simulation.by_body import ByBody
-from tissu.simulation.entry import Entry, one_thread_at_a_time
+from tissu.simulation.changed import Changed
+from tissu.simulation.entry import Entry, before_the_door, one_thread_at_a_time
 from tissu.simulation.handled import Handled
 from tissu.simulation.inspected import Inspected
 from tissu.simulation.plan import Plan
@@ -28,6 +29,7 @@ if TYPE_CHECKING:
     from tissu.checkpoint import Checkpoint, Resumed
     from tissu.compile import Check
     from tissu.front import Scene
+    from tissu.live_view import View
     from tissu.mesh import Mesh
     from tissu.scene.load import Load, Where
 
@@ -38,7 +40,7 @@ _SHARE_OF_STABLE = 0.9
 
 
 @one_thread_at_a_time
-class Simulation(Inspected, Handled):
+class Simulation(Inspected, Handled, Changed):
     """A compiled scene that can be stepped; made by `Scene.compile()`.
 
     One thread at a time may call it: while one is in a method, another one gets a `BusyError`.
@@ -67,6 +69,7 @@ class Simulation(Inspected, Handled):
         self._check = check
         self._loads = tuple(loads)
         self._last_grab = 0
+        self._observers: tuple[Callable[[StepReport], object], ...] = ()
         self._world = world
         self._core = _core.Simulation(world=world, integrator=integrator, solver=solver)
         self._meshes = dict(meshes)
@@ -195,7 +198,23 @@ class Simulation(Inspected, Handled):
         report = self._core.step(h)
         self._steps += 1
         self._simulated += h
-        return report_of(report, number=self._steps)
+        told = report_of(report, number=self._steps)
+        for observer in self._observers:
+            observer(told)
+        return told
+
+    def on_step(self, observer: Callable[[StepReport], object]) -> Callable[[], None]:
+        """Call a function with the report of every step from now on, in the thread that steps.
+
+        Returns:
+            A function that ends it.
+        """
+        self._observers = (*self._observers, observer)
+
+        def end() -> None:
+            self._observers = tuple(one for one in self._observers if one is not observer)
+
+        return end
 
     def run(
         self, duration: units.Number | None = None, *, until: units.Number | None = None
@@ -248,6 +267,18 @@ class Simulation(Inspected, Handled):
             snapshot=self._core.snapshot(),
             build=checkpoint.build(),
         ).write(Path(path))
+
+    @before_the_door
+    def view(self, **options: Any) -> View:
+        """Show the simulation in the browser, where it runs live; see `tissu.view`.
+
+        Raises:
+            ParameterError: an option that is not accepted.
+            TissuError: viser is not installed.
+        """
+        from tissu.live_view import View
+
+        return View(self, **options)
 
     def displacements(self, body: str) -> Floats:
         """Displacements (n, 3) of the nodes of a body from rest [m].
@@ -335,6 +366,15 @@ class Simulation(Inspected, Handled):
         """
         self._core.remove_cells(body=body, cells=removed_cells(self._meshes, body, cells))
         self._follow_cells(body)
+
+    def remaining_cells(self, body: str) -> NDArray[np.int32]:
+        """Numbers (e,) in the mesh of the scene of the cells that `meshes[body]` has now.
+
+        Raises:
+            ParameterError: no body of that name.
+        """
+        self._require_body(body)
+        return np.sort(self._core.remaining_cells(body))
 
     def _follow_cells(self, body: str) -> None:
         remaining = np.sort(self._core.remaining_cells(body))

@@ -59,7 +59,8 @@ class Simulation {
   /// what does not fit the world.
   void restore(const Snapshot& snapshot);
 
-  /// Goes on with another world of the same unknowns, made by an editor from this one.
+  /// Goes on with another world of the same unknowns: made by an editor from this one, or of the same scene
+  /// with other numbers in it. What models remember goes along, as far as the new ones have it too.
   void replace_world(std::shared_ptr<const World> world);
 
  private:

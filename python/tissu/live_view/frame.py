@@ -1,0 +1,184 @@
+"""What the page is given of the simulations: one moment, copied, of what is seen only."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tissu.errors import ParameterError
+from tissu.live_view.fields import FIELDS
+from tissu.live_view.layers import LAYERS
+from tissu.live_view.surface import Seen, seen
+
+if TYPE_CHECKING:
+    from tissu.live_view.layers.layer import Draw, Layer
+    from tissu.live_view.marks import Marks
+    from tissu.live_view.runner import Runner
+    from tissu.simulation import Profile, Simulation
+
+_SHARE = 0.03
+"""Of the thread's time, that colours may take: a dear field is computed less often."""
+_NUMBERS = 0.25
+"""Wall time between two looks at the profile [s]."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class BodyFrame:
+    """A body at one moment.
+
+    Attributes:
+        seen: what is seen of it.
+        positions: (k, 3) float32 of the nodes that are seen [m].
+        values: (k,) what is coloured, in SI units; None: the body does not have the field.
+    """
+
+    seen: Seen
+    positions: NDArray[np.float32]
+    values: NDArray[np.float64] | None
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Frame:
+    """All bodies at one moment; of several simulations one lane each.
+
+    Attributes:
+        time: simulated [s].
+        bodies: lane and name of a body -> the body.
+        field: name of the field that is coloured; empty: none.
+        marks: lane and name of a layer, or `tool` -> its marks.
+        profiles: of each simulation.
+        error: between two simulations; see `error_between`.
+        message: what went wrong; empty: nothing.
+        playing: whether it runs, and
+        achieved: simulated time for wall time then.
+        said: what the tool in hand feels.
+    """
+
+    time: float
+    bodies: Mapping[tuple[int, str], BodyFrame]
+    field: str
+    marks: Mapping[tuple[int, str], Sequence[Marks]]
+    profiles: Sequence[Profile]
+    error: tuple[float, float] | None
+    message: str
+    playing: bool
+    achieved: float
+    said: str
+
+
+@dataclass(frozen=True, slots=True)
+class Wanted:
+    """What the page shows now.
+
+    Attributes:
+        field: name of the field that is coloured; empty: none.
+        layers: names of the layers that are shown.
+    """
+
+    field: str = ""
+    layers: frozenset[str] = frozenset()
+
+
+class FrameTaker:
+    """Takes frames, in the thread that owns the simulations.
+
+    Attributes:
+        wanted: what the page shows now; another thread may put another one there.
+    """
+
+    def __init__(self) -> None:
+        """Nothing was taken yet."""
+        self.wanted = Wanted()
+        self._values: dict[tuple[int, str], tuple[Seen, NDArray[np.float64] | None]] = {}
+        self._layers: dict[tuple[int, str], tuple[tuple[object, ...], Draw]] = {}
+        self._values_of = ""
+        self._colours_due = 0.0
+        self._profiles: list[Profile] = []
+        self._profiles_due = 0.0
+
+    def take(self, runner: Runner, drawn: Sequence[Sequence[Marks]] = (), said: str = "") -> Frame:
+        """The present moment of the simulations, what a tool draws on each of them and feels."""
+        simulations = runner.simulations
+        wanted, now = self.wanted, time.monotonic()
+        if now >= self._profiles_due or len(self._profiles) != len(simulations):
+            self._profiles = [simulation.profile() for simulation in simulations]
+            self._profiles_due = now + _NUMBERS
+        found = {
+            (lane, name): (simulation, seen(mesh))
+            for lane, simulation in enumerate(simulations)
+            for name, mesh in simulation.meshes.items()
+        }
+        self._colour(found, wanted.field)
+        return Frame(
+            time=simulations[0].time,
+            bodies={
+                (lane, name): BodyFrame(
+                    of_body,
+                    simulation.positions[name][of_body.nodes].astype(np.float32),
+                    self._values.get((lane, name), (of_body, None))[1],
+                )
+                for (lane, name), (simulation, of_body) in found.items()
+            },
+            field=wanted.field,
+            marks={
+                (lane, layer.name): self._drawn(lane, layer, simulation)()
+                for lane, simulation in enumerate(simulations)
+                for layer in LAYERS
+                if layer.name in wanted.layers and layer.offered(simulation)
+            }
+            | {(lane, "tool"): marks for lane, marks in enumerate(drawn)},
+            profiles=tuple(self._profiles),
+            error=error_between(*simulations) if len(simulations) == 2 else None,
+            message=runner.error,
+            playing=runner.playing,
+            achieved=runner.achieved,
+            said=said,
+        )
+
+    def _drawn(self, lane: int, layer: Layer, simulation: Simulation) -> Draw:
+        """What makes the marks of a layer, begun anew where the scene or its cells have changed."""
+        now = (simulation.scene, *simulation.meshes.values())
+        known = self._layers.get((lane, layer.name))
+        if known is not None and all(a is b for a, b in zip(known[0], now, strict=True)):
+            return known[1]
+        draw = layer.begin(simulation)
+        self._layers[lane, layer.name] = (now, draw)
+        return draw
+
+    def _colour(self, found: Mapping[tuple[int, str], tuple[Simulation, Seen]], field: str) -> None:
+        """Compute what is coloured, if it is due, or nodes or field are others than before."""
+        if not field:
+            self._values.clear()
+        same = field == self._values_of and all(
+            key in self._values and self._values[key][0] is of_body
+            for key, (_, of_body) in found.items()
+        )
+        self._values_of = field
+        begin = time.monotonic()
+        if not field or (same and begin < self._colours_due):
+            return
+        for (lane, body), (simulation, of_body) in found.items():
+            try:
+                values = FIELDS[field].values(simulation, body, of_body)
+            except ParameterError:  # of a body that does not have it
+                values = None
+            self._values[lane, body] = (of_body, values)
+        end = time.monotonic()
+        self._colours_due = end + (end - begin) / _SHARE
+
+
+def error_between(one: Simulation, other: Simulation) -> tuple[float, float] | None:
+    """Mean and largest distance [m] of the nodes of one from those of the other.
+
+    None where they have other nodes.
+    """
+    mine, others = one.positions, other.positions
+    if {n: len(p) for n, p in mine.items()} != {n: len(p) for n, p in others.items()}:
+        return None
+    apart = np.concatenate([np.linalg.norm(mine[name] - others[name], axis=1) for name in mine])
+    return float(apart.mean()), float(apart.max())

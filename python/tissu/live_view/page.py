@@ -1,0 +1,194 @@
+"""The page: a viser server on this machine, drawings and panels, and the thread that feeds it."""
+
+from __future__ import annotations
+
+import contextlib
+import io
+import threading
+import time
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from tissu.errors import TissuError
+from tissu.live_view.body_drawing import BodyDrawing
+from tissu.live_view.cameras import FOV, first_place
+from tissu.live_view.colours import BODIES
+from tissu.live_view.latest import Latest
+from tissu.live_view.marks_drawing import MarksDrawing
+from tissu.live_view.panels import PANELS
+from tissu.live_view.pointer import Pointer
+
+if TYPE_CHECKING:
+    import viser
+
+    from tissu.live_view.frame import Frame
+    from tissu.live_view.session import Session
+
+RATE = 30.0
+"""Frames a second that are sent at most."""
+_PANELS = 5.0
+"""Times a second that the panels are written at most."""
+
+
+class Page:
+    """The page of a session.
+
+    Attributes:
+        frames: where the newest frame is left for it.
+        sent: how many frames it has shown.
+        server: viser's.
+    """
+
+    def __init__(self, session: Session, *, title: str) -> None:
+        """Open the server, on a free port of this machine only.
+
+        Raises:
+            TissuError: viser is not installed.
+        """
+        self.frames: Latest[Frame] = Latest()
+        self.sent = 0
+        self._session = session
+        self.server = _server(title)
+        session.recorder.of(self.server)
+        self._prepare_scene()
+        self._panels = [panel(self.server.gui, session) for panel in PANELS]
+        self._bodies: dict[tuple[int, str], BodyDrawing] = {}
+        self._marks: dict[tuple[int, str], MarksDrawing] = {}
+        self._panels_due = 0.0
+        self._ended = threading.Event()
+        self._thread = threading.Thread(target=self._feed, name="tissu page", daemon=True)
+        self.server.on_client_connect(self._come)
+        self.server.on_client_disconnect(self._leave)
+
+    @property
+    def port(self) -> int:
+        """Where viser listens, on this machine only."""
+        return self.server.get_port()
+
+    @property
+    def watched(self) -> bool:
+        """Whether a page is open, so that frames are of use."""
+        return self._session.rights.count > 0
+
+    def start(self) -> None:
+        """Begin to show frames."""
+        self._thread.start()
+
+    def stop(self) -> None:
+        """Close the pages."""
+        self._ended.set()
+        if self._thread.is_alive():
+            self._thread.join()
+        with contextlib.redirect_stdout(io.StringIO()):
+            self.server.stop()
+
+    async def _come(self, client: viser.ClientHandle) -> None:
+        self._session.rights.come(client.client_id)
+
+    async def _leave(self, client: viser.ClientHandle) -> None:
+        self._session.rights.leave(client.client_id)
+
+    def _prepare_scene(self) -> None:
+        scene, stage = self.server.scene, self._session.stage
+        self.server.gui.configure_theme(show_logo=False, show_share_button=False)
+        self.server.gui.main_panel.dock_right()
+        scene.set_up_direction(stage.up)
+        camera = self.server.initial_camera
+        camera.position, camera.look_at, camera.up = first_place(stage), stage.centre, stage.up
+        camera.fov, camera.near, camera.far = FOV, 1e-3 * stage.size, 1e3 * stage.size
+
+    def _feed(self) -> None:
+        """Show the newest frame, over and over."""
+        while not self._ended.is_set():
+            begin = time.monotonic()
+            frame = self.frames.take(0.25)
+            if frame is not None:
+                self.show(frame)
+                self._session.recorder.pass_time()
+                self.sent += 1
+            self._ended.wait(max(0.0, begin + 1.0 / RATE - time.monotonic()))
+
+    def show(self, frame: Frame) -> None:
+        """Draw a frame."""
+        limits = self._limits(frame)
+        with self.server.atomic():
+            for (lane, name), body in frame.bodies.items():
+                drawing = self._drawing(lane, name)
+                drawing.show(body, limits=limits, edges=self._session.show_edges)
+                drawing.be_touchable(bool(self._session.touch.chosen))
+            for key in {*self._marks, *frame.marks}:
+                self._marks_of(*key).show(frame.marks.get(key, ()))
+        if time.monotonic() >= self._panels_due:
+            self._panels_due = time.monotonic() + 1.0 / _PANELS
+            for panel in self._panels:
+                panel.show(frame)
+
+    def _limits(self, frame: Frame) -> tuple[float, float] | None:
+        """Limits of the colours, wide enough for this frame."""
+        values = [
+            b.values[np.isfinite(b.values)] for b in frame.bodies.values() if b.values is not None
+        ]
+        every = np.concatenate([np.empty(0), *values])
+        if not frame.field or not len(every):
+            return None
+        low, high = float(every.min()), float(every.max())
+        if low >= 0.0 and frame.field != "volume_ratio":
+            low = 0.0
+        before = self._session.limits
+        if before is not None:
+            low, high = min(low, before[0]), max(high, before[1])
+        self._session.limits = (low, high if high > low else low + max(abs(low), 1e-12))
+        return self._session.limits
+
+    def _drawing(self, lane: int, name: str) -> BodyDrawing:
+        found = self._bodies.get((lane, name))
+        if found is None:
+            number = sum(1 for other, _ in self._bodies if other == lane)
+            found = BodyDrawing(
+                self.server.scene,
+                f"{lane}/{name}",
+                stage=self._session.stage,
+                lane=lane,
+                colour=BODIES[number % len(BODIES)],
+                felt=lambda event: self._felt(lane, name, event),
+            )
+            self._bodies[lane, name] = found
+        return found
+
+    def _marks_of(self, lane: int, name: str) -> MarksDrawing:
+        found = self._marks.get((lane, name))
+        if found is None:
+            found = MarksDrawing(
+                self.server.scene, f"{lane}/{name}", stage=self._session.stage, lane=lane
+            )
+            self._marks[lane, name] = found
+        return found
+
+    def _felt(self, lane: int, name: str, event: Any) -> None:
+        """A pointer was pressed on a body, moved or released."""
+        if not self._session.rights.may(event.client_id):
+            return
+        stage, click = self._session.stage, not hasattr(event, "phase")
+        eye = np.array(event.ray_origin if click else event.client.camera.position)
+        there = eye + np.array(event.ray_direction) if click else event.end_position
+        pointer = Pointer(
+            lane=lane,
+            body=name,
+            client=event.client_id,
+            eye=stage.in_space(eye, lane),
+            there=stage.in_space(there, lane),
+            place=stage.in_space(there if click else event.start_position, lane),
+        )
+        self._session.touch.feel("click" if click else event.phase, pointer)
+
+
+def _server(title: str) -> viser.ViserServer:
+    try:
+        import viser
+    except ImportError:
+        raise TissuError(
+            "the view needs viser, which is not installed; python -m pip install 'tissu[view]'"
+        ) from None
+    with contextlib.redirect_stdout(io.StringIO()):  # its greeting names a port that is not ours
+        return viser.ViserServer(host="127.0.0.1", port=0, label=title, verbose=False)

@@ -1,0 +1,79 @@
+"""A recording of what the page shows: one HTML file that plays without a server."""
+
+from __future__ import annotations
+
+import time
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from tissu.errors import ParameterError
+from tissu.files import require_file_place, whole_file
+
+if TYPE_CHECKING:
+    import viser
+    from viser.infra import StateSerializer
+
+
+def recording_place(path: Path) -> Path:
+    """The path, where a recording can be written there.
+
+    Raises:
+        ParameterError: it is not an .html file.
+        TissuError: something else is there.
+    """
+    if path.suffix != ".html":
+        raise ParameterError(f"found the recording {path}; a file that ends with .html is accepted")
+    require_file_place(path, "recording")
+    return path
+
+
+class Recorder:
+    """Keeps what the page is told, with the times at which it was told.
+
+    A recording stays in memory until it ends.
+    """
+
+    def __init__(self) -> None:
+        """Nothing is recorded."""
+        self._server: viser.ViserServer | None = None
+        self._kept: StateSerializer | None = None
+        self._before = 0.0
+
+    def of(self, server: viser.ViserServer) -> None:
+        """Take the server of the page."""
+        self._server = server
+
+    @property
+    def running(self) -> bool:
+        """Whether it records."""
+        return self._kept is not None
+
+    def begin(self) -> None:
+        """Record from now on."""
+        assert self._server is not None  # the page names it before anything is pressed
+        if self._kept is None:
+            self._before = time.monotonic()
+            self._kept = self._server.get_scene_serializer()
+
+    def pass_time(self) -> None:
+        """A frame was told: the next one comes later by the time that passes until then."""
+        kept = self._kept
+        if kept is not None:
+            now = time.monotonic()
+            kept.insert_sleep(now - self._before)
+            self._before = now
+
+    def html(self) -> str:
+        """End it; the page that plays it."""
+        kept, self._kept = self._kept, None
+        return "" if kept is None else kept.as_html()
+
+    def finish(self, path: Path) -> None:
+        """End it, and write the page that plays it.
+
+        Raises:
+            TissuError: it cannot be written.
+        """
+        text = self.html()
+        with whole_file(path) as partial:
+            partial.write_text(text, encoding="utf-8")

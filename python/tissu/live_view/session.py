@@ -1,0 +1,87 @@
+"""What the parts of a page share: the simulations' thread, the tools, and what is shown."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any, TypeVar
+
+if TYPE_CHECKING:
+    import viser
+
+    from tissu.live_view.frame import FrameTaker
+    from tissu.live_view.recorder import Recorder
+    from tissu.live_view.rights import Rights
+    from tissu.live_view.runner import Runner
+    from tissu.live_view.stage import Stage
+    from tissu.live_view.touch import Touch
+
+T = TypeVar("T")
+
+
+@dataclass(slots=True)
+class Session:
+    """One view.
+
+    Attributes:
+        runner: the thread that owns the simulations.
+        taker: of frames, in that thread.
+        touch: the tools.
+        rights: which page may touch.
+        stage: where things stand on the page.
+        recorder: of what the page shows.
+        begin_again: puts the simulations back to their beginning.
+        show_edges: whether edges are drawn.
+        limits: of the field that is coloured; they grow with its values, and `fit` forgets them.
+    """
+
+    runner: Runner
+    taker: FrameTaker
+    touch: Touch
+    rights: Rights
+    stage: Stage
+    recorder: Recorder
+    begin_again: Callable[[], object]
+    show_edges: bool = True
+    limits: tuple[float, float] | None = field(default=None)
+
+    def on_change(self, handle: Any, act: Callable[[Any], object]) -> None:
+        """Do something with the value of a widget whenever a page that may touch changes it.
+
+        Of another page the change is taken back.
+        """
+        kept = handle.value
+
+        async def changed(event: viser.GuiEvent[Any]) -> None:
+            nonlocal kept
+            if handle.value == kept:
+                return
+            if not self.rights.may(event.client_id):
+                handle.value = kept
+                _refuse(event.client)
+                return
+            kept = handle.value
+            act(kept)
+
+        handle.on_update(changed)
+
+    def on_press(self, button: Any, act: Callable[[Any], object]) -> None:
+        """Do something with the value of a button when a page that may touch presses it."""
+
+        async def pressed(event: viser.GuiEvent[Any]) -> None:
+            if not self.rights.may(event.client_id):
+                _refuse(event.client)
+                return
+            act(button.value)
+
+        button.on_click(pressed)
+
+
+def _refuse(client: viser.ClientHandle | None) -> None:
+    """Say on a page why nothing happens."""
+    if client is not None:
+        client.add_notification(
+            title="This page looks on",
+            body="Another page is in control; `--shared` lets every page touch.",
+            auto_close_seconds=5.0,
+        )

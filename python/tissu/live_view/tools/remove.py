@@ -1,0 +1,62 @@
+"""Remove: cells around the place under the pointer are taken out of the body."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from tissu.live_view.marks import extent
+from tissu.live_view.pointer import met
+from tissu.live_view.tools.tool import Number, Tool
+
+if TYPE_CHECKING:
+    from tissu.live_view.pointer import Pointer
+    from tissu.simulation import Simulation
+
+_RADIUS = 0.04
+"""At first, as a share of the extent of the scene."""
+
+
+class Remove(Tool):
+    """Removes the cells whose centre is near the pointer, in every simulation that is shown."""
+
+    name = "remove cells"
+    hint = "Press on a body, or draw over it: cells whose centre is within the radius are removed."
+
+    def __init__(self, simulations: Sequence[Simulation]) -> None:
+        """Choose a radius that suits the scene."""
+        super().__init__(simulations)
+        size = extent([mesh.points for mesh in simulations[0].meshes.values()])
+        self.numbers = [Number("radius", "mm", float(f"{1e3 * _RADIUS * size:.2g}"), 0.0)]
+
+    @classmethod
+    def offered(cls, simulation: Simulation) -> bool:
+        """Where cells may be removed."""
+        return simulation.scene.editing
+
+    def press(self, simulations: Sequence[Simulation], pointer: Pointer) -> None:
+        """Remove the cells around the place; at least the one that is nearest."""
+        touched = simulations[pointer.lane]
+        mesh, now = touched.meshes[pointer.body], touched.positions[pointer.body]
+        place = met(pointer.eye, pointer.there, now[mesh.surface().triangles])
+        if place is None:
+            return
+        centres = [now[block.nodes].mean(axis=1) for block in mesh.body_blocks]
+        apart = np.linalg.norm(np.concatenate(centres) - place, axis=1)
+        near = np.flatnonzero(apart <= 1e-3 * self.numbers[0].value)
+        if not len(near):
+            near = np.array([int(apart.argmin())])
+        cells = touched.remaining_cells(pointer.body)[near]
+        for simulation in simulations:
+            left = simulation.remaining_cells(pointer.body)
+            simulation.remove_cells(body=pointer.body, cells=np.intersect1d(cells, left))
+
+    def move(self, simulations: Sequence[Simulation], pointer: Pointer) -> None:
+        """Draw on: the pointer removes what it passes."""
+        self.press(simulations, pointer)
+
+    def click(self, simulations: Sequence[Simulation], pointer: Pointer) -> None:
+        """Remove at one place."""
+        self.press(simulations, pointer)

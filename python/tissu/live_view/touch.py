@@ -1,0 +1,97 @@
+"""From the pointer of a page to the tool in the thread that owns the simulations."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Literal
+
+from tissu.errors import ParameterError
+from tissu.live_view.tools import TOOLS, Tool
+
+if TYPE_CHECKING:
+    from concurrent.futures import Future
+
+    from tissu.live_view.marks import Marks
+    from tissu.live_view.pointer import Pointer
+    from tissu.live_view.runner import Runner
+    from tissu.simulation import Simulation
+
+Phase = Literal["click", "start", "update", "end"]
+
+
+class Touch:
+    """The tools of a view, and the one that is in hand.
+
+    Attributes:
+        tools: those that its simulations can be touched with, by name.
+        chosen: name of the one in hand; empty: none, and the pointer turns the view.
+    """
+
+    def __init__(self, runner: Runner, tools: Sequence[type[Tool]] = TOOLS) -> None:
+        """Take the first tool that is offered in hand."""
+        self._runner = runner
+        first = runner.simulations[0]
+        self.tools = {tool.name: tool(runner.simulations) for tool in tools if tool.offered(first)}
+        self.chosen = next(iter(self.tools), "")
+        self._pressed: dict[int, Tool] = {}
+        self._moved: dict[int, Pointer] = {}
+
+    def choose(self, name: str) -> None:
+        """Take another tool in hand.
+
+        Raises:
+            ParameterError: no such tool is offered.
+        """
+        if name and name not in self.tools:
+            raise ParameterError(f"found the tool '{name}'; accepted: {', '.join(self.tools)}")
+        self.chosen = name
+
+    def feel(self, phase: Phase, pointer: Pointer) -> Future[None] | None:
+        """A pointer was pressed, moved or released, or pressed and released at once.
+
+        It is done between two steps.
+        """
+        if phase == "click":
+            return self._runner.ask(lambda simulations: self._click(simulations, pointer))
+        if phase == "start":
+            return self._runner.ask(lambda simulations: self._press(simulations, pointer))
+        if phase == "end":
+            return self._runner.ask(lambda simulations: self._release(simulations, pointer))
+        waiting = pointer.client in self._moved
+        self._moved[pointer.client] = pointer
+        if waiting:  # the one that is on its way takes the newest place
+            return None
+        return self._runner.ask(lambda simulations: self._move(simulations, pointer.client))
+
+    def say(self, simulations: Sequence[Simulation]) -> str:
+        """What the tool in hand feels."""
+        tool = self.tools.get(self.chosen)
+        return tool.say(simulations) if tool is not None else ""
+
+    def draw(self, simulations: Sequence[Simulation]) -> Sequence[Sequence[Marks]]:
+        """What the tool in hand draws on each simulation."""
+        tool = self.tools.get(self.chosen)
+        return tool.draw(simulations) if tool is not None else [() for _ in simulations]
+
+    def _click(self, simulations: Sequence[Simulation], pointer: Pointer) -> None:
+        tool = self.tools.get(self.chosen)
+        if tool is not None:
+            tool.click(simulations, pointer)
+
+    def _press(self, simulations: Sequence[Simulation], pointer: Pointer) -> None:
+        tool = self.tools.get(self.chosen)
+        if tool is None:
+            return
+        self._pressed[pointer.client] = tool
+        tool.press(simulations, pointer)
+
+    def _move(self, simulations: Sequence[Simulation], client: int) -> None:
+        pointer = self._moved.pop(client, None)
+        tool = self._pressed.get(client)
+        if tool is not None and pointer is not None:
+            tool.move(simulations, pointer)
+
+    def _release(self, simulations: Sequence[Simulation], pointer: Pointer) -> None:
+        tool = self._pressed.pop(pointer.client, None)
+        if tool is not None:
+            tool.release(simulations, pointer)

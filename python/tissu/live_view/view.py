@@ -1,0 +1,215 @@
+"""A view: simulations that run in a thread of their own, and a page that shows them."""
+
+from __future__ import annotations
+
+import os
+import threading
+import time
+import webbrowser
+from collections.abc import Callable, Sequence
+from concurrent.futures import Future
+from pathlib import Path
+from typing import TYPE_CHECKING, TypeVar
+
+from tissu.errors import ParameterError
+from tissu.live_view.door import Door, new_token
+from tissu.live_view.frame import FrameTaker
+from tissu.live_view.page import RATE, Page
+from tissu.live_view.recorder import Recorder, recording_place
+from tissu.live_view.rights import Rights
+from tissu.live_view.runner import Runner
+from tissu.live_view.session import Session
+from tissu.live_view.stage import stage_of
+from tissu.live_view.touch import Touch
+from tissu.picture.draw import up_of
+
+if TYPE_CHECKING:
+    from tissu.simulation import Simulation
+
+T = TypeVar("T")
+
+_HERE = ("127.0.0.1", "localhost", "::1")
+
+
+class View:
+    """A page on which one or two simulations run live.
+
+    They belong to the view's thread until it is closed: `ask` reaches them between two steps, and
+    another thread that is inside one of them holds up its next step. Points may be grabbed, also
+    where the scene does not say `grabbing: true`.
+
+    Attributes:
+        url: the address of the page.
+    """
+
+    def __init__(
+        self,
+        simulation: Simulation,
+        *,
+        beside: Simulation | None = None,
+        port: int | None = None,
+        host: str = "127.0.0.1",
+        token: str | None = None,
+        browser: bool = True,
+        shared: bool = False,
+        record: str | os.PathLike[str] | None = None,
+        speed: float = 1.0,
+        playing: bool = True,
+    ) -> None:
+        """Open the page, and begin to run.
+
+        Args:
+            simulation: what is shown.
+            beside: another one, shown at its right and stepped with it; grabs act on both.
+            port: of the page; absent: the first that is free, from 8080 on.
+            host: address to listen on; another than this machine asks for a token.
+            token: that a page must bring; absent: a new one where `host` asks for it, else none.
+            browser: whether the page is opened in a browser.
+            shared: whether every page may touch; else the first one that is open.
+            record: a file (.html) to which everything that is shown is written when the view is
+                closed; it plays in a browser without a server.
+            speed: simulated seconds for each second of wall time; infinite: as fast as it goes.
+            playing: whether it runs at once.
+
+        Raises:
+            ParameterError: the port is taken; the simulations have other time steps; a recording
+                that is not an .html file, or has no place.
+            TissuError: viser is not installed.
+        """
+        simulations = [simulation] if beside is None else [simulation, beside]
+        _require_together(simulations)
+        self._record = None if record is None else recording_place(Path(record))
+        self._closed = threading.Event()
+        if not speed > 0.0:
+            raise ParameterError(f"found a speed of {speed:g}; a positive one is accepted")
+        for one in simulations:
+            one.allow_grabbing()
+        self._taker = FrameTaker()
+        self._frame_due = 0.0
+        self._runner = Runner(simulations, speed=speed, playing=playing, between=self._between)
+        rest = [mesh.points for mesh in {**simulation.meshes, **simulation.tissue}.values()]
+        self._session = Session(
+            runner=self._runner,
+            taker=self._taker,
+            touch=Touch(self._runner),
+            rights=Rights(shared=shared),
+            stage=stage_of(rest, up_of(simulation), lanes=len(simulations)),
+            recorder=Recorder(),
+            begin_again=self.reset,
+        )
+        self._page = Page(self._session, title=simulation.scene.name)
+        if token is None:
+            token = "" if host in _HERE else new_token()
+        try:
+            self._door = Door(host=host, port=port, behind=self._page.port, token=token)
+        except BaseException:
+            self._page.stop()
+            raise
+        self.url = self._door.url
+        if self._record is not None:
+            self._session.recorder.begin()
+        self._page.start()
+        self._runner.start()
+        if browser:
+            webbrowser.open(self.url)
+
+    def __repr__(self) -> str:
+        """Scene and address."""
+        return f"View('{self._runner.simulations[0].scene.name}' at {self.url})"
+
+    def _repr_html_(self) -> str:
+        """The page, in a notebook."""
+        return f'<iframe src="{self.url}" width="100%" height="600" frameborder="0"></iframe>'
+
+    def __enter__(self) -> View:
+        """The view."""
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        """Close it."""
+        self.close()
+
+    def ask(self, wish: Callable[[list[Simulation]], T]) -> Future[T]:
+        """Have something done with the simulations between two steps."""
+        return self._runner.ask(wish)
+
+    def play(self) -> None:
+        """Run on."""
+        self._runner.play().result()
+
+    def pause(self) -> None:
+        """Stand still; returns when it does."""
+        self._runner.pause().result()
+
+    def step(self) -> None:
+        """Pause, and take one step."""
+        self._runner.step_once().result()
+
+    def reset(self) -> Future[None]:
+        """Begin again: every simulation as it began, with the parameters that it has now."""
+
+        def begin(simulations: list[Simulation]) -> None:
+            for simulation in simulations:
+                simulation.reset()
+            self._runner.error = ""
+            self._runner.restart_clock()
+
+        return self._runner.ask(begin)
+
+    @property
+    def message(self) -> str:
+        """What went wrong last; empty: nothing."""
+        return self._runner.error
+
+    @property
+    def pages(self) -> int:
+        """How many pages are open."""
+        return self._session.rights.count
+
+    @property
+    def frames_sent(self) -> int:
+        """How many frames the page was given."""
+        return self._page.sent
+
+    def wait(self, seconds: float | None = None) -> None:
+        """Wait; without a time until Ctrl-C."""
+        self._closed.wait(seconds)
+
+    def close(self) -> None:
+        """Stop the simulations after their present step, and close the page.
+
+        Raises:
+            TissuError: the recording that was asked for cannot be written.
+        """
+        if self._closed.is_set():
+            return
+        self._closed.set()
+        self._runner.stop()
+        self._door.close()
+        try:
+            if self._record is not None:
+                self._session.recorder.finish(self._record)
+        finally:
+            self._page.stop()
+
+    def _between(self) -> None:
+        """After a step, in the simulations' thread: a frame for the page when one is due."""
+        now = time.monotonic()
+        seen = self._page.watched or self._session.recorder.running
+        if now < self._frame_due or not seen or self._page.frames.waiting:
+            return
+        self._frame_due = max(self._frame_due + 1.0 / RATE, now - 1.0 / RATE)
+        touch, simulations = self._session.touch, self._runner.simulations
+        drawn, said = touch.draw(simulations), touch.say(simulations)
+        self._page.frames.put(self._taker.take(self._runner, drawn, said))
+
+
+def _require_together(simulations: Sequence[Simulation]) -> None:
+    """Refuse simulations that cannot be stepped by the same time."""
+    steps = [getattr(simulation.scene.step, "dt", None) for simulation in simulations]
+    if len({*steps}) > 1 or (len(steps) > 1 and steps[0] == "auto"):
+        shown = " and ".join("none" if dt is None else str(dt) for dt in steps)
+        raise ParameterError(
+            f"found simulations side by side with the time steps {shown}; the same step, in "
+            "seconds, is accepted"
+        )

@@ -1,0 +1,100 @@
+"""What of a simulation's scene may change while it runs: its numbers, by a world made anew.
+
+A constant of a cell stands in many places of a world, packed for the kernels. So another number
+makes another world, as the removal of cells does; the state goes on, with all that models and the
+method in time remember.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from tissu.simulation.parameters import Parameters
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+    from typing import Any
+
+    from tissu import _core as core
+    from tissu.compile import Check
+    from tissu.front import Scene
+    from tissu.mesh import Mesh
+    from tissu.scene.load import Load, Where
+    from tissu.simulation.entry import Entry
+
+
+class Changed:
+    """The part of a simulation that changes what it was compiled from."""
+
+    scene: Scene
+    _core: core.Simulation
+    _entry: Entry
+    _world: core.World
+    _check: Check
+    _meshes: dict[str, Mesh]
+    _rest: dict[str, Mesh]
+    _loads: Sequence[tuple[Load, Where]]
+    _physics_known: dict[str, Any] | None
+    _steps: int
+
+    @property
+    def parameters(self) -> Parameters:
+        """The numbers of the scene that may change while it runs, by their names.
+
+        `simulation.parameters["bodies.liver.law.young"] = "6 kPa"` holds from the next step on, and
+        does what a new scene with that value would do from there. See `Parameters`.
+        """
+        return Parameters(self, self._entry)  # type: ignore[arg-type]
+
+    def allow_grabbing(self) -> None:
+        """Let points be grabbed from now on, where the scene was compiled without `grabbing: true`.
+
+        The motion stays the same until one is.
+        """
+        if not self.scene.grabbing:
+            self._become(self.scene.replace(grabbing=True))
+
+    def reset(self) -> None:
+        """Begin again: the state in which the scene begins, at time zero and with all its cells.
+
+        Parameters keep the values that they were given; loads are as the scene has them, and
+        grabs are let go.
+        """
+        fresh = self._compiled(self.scene)
+        self._core.replace_world(world=fresh._world)
+        self._core.restore(fresh._core.snapshot())
+        self._take_over(fresh)
+        self._steps = 0
+        self._meshes.update(self._rest)
+
+    def _become(self, scene: Scene) -> None:
+        """Go on with a scene that differs in numbers only.
+
+        Raises:
+            SceneError: it is not accepted; nothing has changed then.
+        """
+        removed = {
+            body: np.setdiff1d(
+                np.arange(mesh.cell_count, dtype=np.int32), self._core.remaining_cells(body)
+            ).astype(np.int32)
+            for body, mesh in self._rest.items()
+            if self._meshes[body] is not mesh
+        }
+        fresh = self._compiled(scene)
+        self._core.settle()
+        self._core.replace_world(world=fresh._world)
+        for body, cells in removed.items():
+            self._core.remove_cells(body=body, cells=cells)
+        self._take_over(fresh)
+        self.scene = scene
+        self._physics_known = None
+
+    def _compiled(self, scene: Scene) -> Changed:
+        """A simulation of the scene, with the meshes that are in memory already."""
+        bodies = {name: body.replace(mesh=self._rest[name]) for name, body in scene.bodies.items()}
+        return scene.replace(bodies=bodies).compile()
+
+    def _take_over(self, fresh: Changed) -> None:
+        self._world, self._check, self._loads = fresh._world, fresh._check, fresh._loads

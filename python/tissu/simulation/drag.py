@@ -1,0 +1,113 @@
+"""The point of a body that is nearest to a place, and how stiff a spring drags it by."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tissu.simulation.grab_point import GrabPoint
+
+if TYPE_CHECKING:
+    from tissu.front import Scene
+    from tissu.mesh import Mesh
+
+Floats = NDArray[np.float64]
+
+_UNKNOWN = 20.0
+"""Stiffness [N/m] where nothing is known of the law."""
+
+
+def near_surface(mesh: Mesh, places: Floats, point: Floats) -> GrabPoint:
+    """The point of the surface that is nearest, by the corners of its triangle.
+
+    Args:
+        mesh: of the body.
+        places: of its nodes (n, 3) [m].
+        point: (3,) [m].
+    """
+    triangles = np.asarray(mesh.surface().triangles, dtype=np.int64)
+    if not len(triangles):
+        return GrabPoint(np.array([_nearest(places, point)]), np.ones(1))
+    weights = shares(places[triangles], point)
+    apart = np.linalg.norm(np.einsum("tk,tki->ti", weights, places[triangles]) - point, axis=1)
+    nearest = int(apart.argmin())
+    used = np.flatnonzero(weights[nearest])
+    return GrabPoint(triangles[nearest][used], weights[nearest][used])
+
+
+def near_frame(places: Floats, rotations: Floats, point: Floats) -> GrabPoint:
+    """The nearest frame, with the offset of the point in its axes.
+
+    Args:
+        places: of the frames (n, 3) [m].
+        rotations: of the frames (n, 3, 3) from rest.
+        point: (3,) [m].
+    """
+    node = _nearest(places, point)
+    return GrabPoint(
+        np.array([node]), np.ones(1), np.asarray(rotations[node].T @ (point - places[node]))
+    )
+
+
+def _nearest(places: Floats, point: Floats) -> int:
+    return int(np.linalg.norm(places - point, axis=1).argmin())
+
+
+def shares(corners: Floats, point: Floats) -> Floats:
+    """Weights (t, 3) of the corners (t, 3, 3) of triangles at their points nearest to a point.
+
+    Inside, those of its projection; where that is outside, those of the nearest point of a side.
+    """
+    a, b, c = corners.swapaxes(0, 1)
+    found = _projected(b - a, c - a, point - a)
+    best = np.full(len(corners), np.inf)
+    outside = ~(found >= 0.0).all(axis=1)
+    for first, second in ((0, 1), (1, 2), (2, 0)):
+        start, along = corners[:, first], corners[:, second] - corners[:, first]
+        length = np.maximum(np.einsum("ti,ti->t", along, along), 1e-300)
+        share = np.clip(np.einsum("ti,ti->t", point - start, along) / length, 0.0, 1.0)
+        apart = np.linalg.norm(start + share[:, None] * along - point, axis=1)
+        nearer = outside & (apart < best)
+        best = np.where(nearer, apart, best)
+        of_side = np.zeros((len(corners), 3))
+        of_side[:, first], of_side[:, second] = 1.0 - share, share
+        found = np.where(nearer[:, None], of_side, found)
+    return found
+
+
+def _projected(u: Floats, v: Floats, w: Floats) -> Floats:
+    """Weights (t, 3) of the projection of w on the plane of u and v; negative outside."""
+    uu, uv, vv = (np.einsum("ti,ti->t", x, y) for x, y in ((u, u), (u, v), (v, v)))
+    wu, wv = np.einsum("ti,ti->t", w, u), np.einsum("ti,ti->t", w, v)
+    area = uu * vv - uv * uv
+    flat = area <= 1e-14 * uu * vv  # a triangle without area: a side is nearest
+    area = np.where(flat, 1.0, area)
+    second, third = (vv * wu - uv * wv) / area, (uu * wv - uv * wu) / area
+    weights = np.stack([1.0 - second - third, second, third], axis=1)
+    return np.where(flat[:, None], -1.0, weights)
+
+
+def drag_stiffness(scene: Scene, body: str, mesh: Mesh) -> float:
+    """E times the mean length of the surface's edges [N/m], E of the stiffest law of the body."""
+    tissue = scene.tissue.get(body)
+    laws = [tissue.law] if tissue is not None else list(scene.bodies[body].laws().values())
+    moduli = [lame_young(*law.small_strain()) for law in laws if type(law).made is None]
+    if not moduli:
+        return _UNKNOWN
+    triangles = mesh.surface().triangles
+    if len(triangles):
+        a, b, c = (mesh.points[triangles[:, k]] for k in range(3))
+        length = float(
+            np.mean([np.linalg.norm(x - y, axis=1) for x, y in ((a, b), (b, c), (c, a))])
+        )
+    else:
+        size = np.prod(np.maximum(np.ptp(mesh.points, axis=0), 1e-9)) / mesh.node_count
+        length = float(size) ** (1.0 / 3.0)
+    return max(moduli) * length
+
+
+def lame_young(lame: float, mu: float) -> float:
+    """Young's modulus [Pa] of Lame's numbers."""
+    return mu * (3.0 * lame + 2.0 * mu) / (lame + mu)

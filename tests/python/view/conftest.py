@@ -1,0 +1,56 @@
+"""Pages of the view in the machine's own chromium, which draws without a graphics card."""
+
+import shutil
+
+import pytest
+
+import tissu as ts
+
+CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
+WAIT = 120_000
+"""Longest wait for the page [ms]: a busy machine draws slowly."""
+SOFTWARE = ["--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--ignore-gpu-blocklist"]
+
+
+@pytest.fixture(scope="session")
+def browser():
+    """The browser, started once; skipped where the machine has none."""
+    sync_api = pytest.importorskip("playwright.sync_api", reason="no playwright: pip install it")
+    if CHROMIUM is None:
+        pytest.skip("no chromium on this machine (Debian: apt install chromium)")
+    with sync_api.sync_playwright() as driver:
+        found = driver.chromium.launch(executable_path=CHROMIUM, args=[*SOFTWARE, "--no-sandbox"])
+        yield found
+        found.close()
+
+
+@pytest.fixture
+def views():
+    """Opens views without a window of the desk's own browser, and closes them."""
+    opened = []
+
+    def make(simulation, **options):
+        opened.append(ts.view(simulation, **{"browser": False, **options}))
+        return opened[-1]
+
+    yield make
+    for view in opened:
+        view.close()
+
+
+@pytest.fixture
+def pages(browser):
+    """Opens pages, each of a visitor of its own, and closes them."""
+    visitors = []
+
+    def make(url):
+        visitors.append(browser.new_context(viewport={"width": 800, "height": 500}))
+        page = visitors[-1].new_page()
+        page.set_default_timeout(WAIT)
+        page.goto(url)
+        page.get_by_text("real time").or_(page.get_by_text("paused")).first.wait_for()
+        return page
+
+    yield make
+    for visitor in visitors:
+        visitor.close()

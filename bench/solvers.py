@@ -94,12 +94,12 @@ without, their number grows with the number of cells along the cube, but for a m
 its iterations multiplies with the matrix four times more and pays for that from some ten thousand
 unknowns on. Its first system includes finding the aggregates, as a cut does; later ones do not.
 
-Tried and dropped, on the bar of 10,368 and 48,000 tetrahedra with a multigrid in single precision: a
-register of sixteen numbers for a block in single precision (within 3 % of the time, for the product
-waits for its blocks and not for its instructions); one step of the polynomial on every level (40 %
-more iterations, within 4 % of the time) or on the finest alone (35 % more iterations, 2 to 7 % less
-time, most with hexahedra); a fourth answer for the first guess (one iteration in eight less, the
-same time).
+Tried and dropped, on the bar of 10,368 and 48,000 tetrahedra with a multigrid in single
+precision: a register of sixteen numbers for a block in single precision (within 3 % of the time,
+for the product waits for its blocks and not for its instructions); one step of the polynomial on
+every level (40 % more iterations, within 4 % of the time) or on the finest alone (35 % more
+iterations, 2 to 7 % less time, most with hexahedra); a fourth answer for the first guess (one
+iteration in eight less, the same time).
 
 Printed by `python bench/solvers.py --write`; {machine}
 """

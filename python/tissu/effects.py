@@ -30,7 +30,7 @@ def effects_of(scene: SceneData, counts: Mapping[str, str] | None = None) -> lis
             effects.append(part.effect(path, counts.get(path)))
     for path, name in _led_live(scene).items():
         effects.append(Effect("live leads", f"{path} has the name '{name}'"))
-    effects.append(scene.step.effect())
+    effects += [scene.step.effect(), *scene.step.solver_effects()]
     if scene.editing:
         effects.append(Effect("cell removal", "editing is true"))
     if scene.grabbing:

@@ -102,7 +102,7 @@ def test_numpy_opens_it_and_equal_states_are_equal_bytes(file, tmp_path):
         ({"editing": True}, "editing is False there and True here"),
         (
             {"step": ts.ImplicitEuler(0.01, solver=ts.Cholesky())},
-            "step.solver.type is conjugate_gradient there and cholesky here",
+            "step.solver.type is auto there and cholesky here",
         ),
         ({"step": ts.Static()}, "step.type is implicit_euler there and static here"),
         (

@@ -25,7 +25,8 @@ END = Box(None, (0, None, None))
 
 def test_a_bare_scene():
     made = Scene(bodies={"bar": BODY}, step=ImplicitEuler(0.01))
-    assert [effect.name for effect in effects_of(made)] == ["elasticity of bar", "inertia"]
+    names = [effect.name for effect in effects_of(made)]
+    assert names == ["elasticity of bar", "inertia", "linear solver"]
     absent = absent_of(made)
     assert {"viscosity", "gravity", "loads", "contact", "cutting", "haptics"} <= set(absent)
     assert "inertia" not in absent
@@ -49,6 +50,8 @@ def test_each_effect_says_which_field_asks_for_it():
         "fixed nodes of bar: fixed[0] holds 4 nodes (box) on xyz",
         "nodal load on bar: loads[0] acts on 4 nodes (box)",
         "inertia: step is implicit_euler with dt 0.01 s",
+        "linear solver: step.solver is auto: it begins with what the first matrix makes cheapest "
+        "for many solves, and changes where counted work says so",
         "cell removal: editing is true",
     ]
     assert check.absent == [

@@ -122,12 +122,13 @@ def test_auto_takes_the_same_steps(direct):
 
 def test_auto_says_what_it_chose_and_why():
     simulation = scene(ts.Auto()).compile()
-    (note,) = [note for note in simulation.plan().notes if "solver" in note]
-    assert note.startswith("step.solver: auto begins with what the first matrix makes cheapest")
+    (said,) = [e for e in simulation.plan().effects if e.name == "linear solver"]
+    assert "auto: it begins with what the first matrix makes cheapest" in str(said)
+    assert not [note for note in simulation.plan().notes if "solver" in note]
     assert simulation.plan().solver == "automatic"
     assert simulation.step().converged
     assert simulation.plan().solver.startswith("automatic: ")
-    (_, chosen) = [note for note in simulation.plan().notes if "solver" in note]
+    (chosen,) = [note for note in simulation.plan().notes if "solver" in note]
     for text in (chosen, str(simulation.profile())):
         assert "in 1 system; it never changed" in text
         assert "work of a system [MB]: block_jacobi" in text

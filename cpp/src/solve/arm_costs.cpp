@@ -21,6 +21,8 @@ constexpr double kOfTolerance = 14.5;  ///< ln(2 / 1e-6), at which the numbers h
 /// Iterations of block-Jacobi for one of incomplete Cholesky.
 constexpr double kSaved = 3.2;
 constexpr double kCycles = 11.0;        ///< iterations of a multigrid
+constexpr double kGuessed = 0.7;        ///< of them, where a motion goes on
+constexpr double kGuesses = 1.0;        ///< what the products of a guess cost, in iterations of a multigrid
 constexpr double kSheetCycles = 5.0;    ///< times as many for a body of one cell through
 constexpr double kCycleProducts = 6.0;  ///< products, with those of the coarser levels, that a cycle costs
 constexpr double kLevelsMade = 20.0;    ///< products that making all levels costs
@@ -132,14 +134,16 @@ ForArms<Cost> predicted_costs(const MatrixShape& shape, double plain, double tol
       operations / SparseFactor::operations_per_byte() + kFactorNumber * factor_bytes(shape) / sizeof(double);
   const double with_factor = 2.0 * kFactorSolve * factor_bytes(shape) + 2.0 * shape.bytes;
   const double cycles = (shape.through < 2.0 ? kSheetCycles : 1.0) * kCycles;
-  const double needed = std::min(cycles * digits, std::max(3.0, plain / 5.0));
+  // The guess from the latest answers (forecast.h) saves a share of the digits of a motion.
+  const double guessed = equilibrium ? 1.0 : kGuessed;
+  const double needed = guessed * std::min(cycles * digits, std::max(3.0, plain / 5.0));
 
   ForArms<Cost> costs;
   costs[number(Arm::block_jacobi)] = {0.1 * shape.bytes, changing, once + plain * iteration, 0.0};
   costs[number(Arm::incomplete_cholesky)] = {kTriangleMade * shape.bytes, kept,
                                              once + plain / kSaved * (iteration + kSweep * product), 0.0};
   costs[number(Arm::multigrid)] = {kLevelsMade * product, kept,
-                                   once + (needed + 3.0) * (iteration + kCycleProducts * product),
+                                   once + (needed + kGuesses) * (iteration + kCycleProducts * product),
                                    kAggregation * shape.rows};
   const double ordering = kOrdering * shape.rows;
   costs[number(Arm::stale_cholesky)] = {factor, kept, std::max(1.0, changing * kStale * digits) * with_factor,

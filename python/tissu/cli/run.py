@@ -121,7 +121,7 @@ def run_scene(job: Job, *, debug: bool = False) -> int:
 
 def worth_knowing(simulation: Simulation) -> list[str]:
     """What `tissu check` notes of the scene; which solver `auto` chose is not a doubt about it."""
-    chosen = "step.solver: auto "
+    chosen = "step.solver: auto took "
     return [note for note in simulation.plan().notes if not note.startswith(chosen)]
 
 

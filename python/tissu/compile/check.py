@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 
 from tissu.compile.doubts import doubts
 from tissu.compile.prepare import prepare
-from tissu.compile.solver import said_of
 from tissu.effects import absent_of, effects_of
 
 if TYPE_CHECKING:
@@ -72,7 +71,6 @@ def check_of(prepared: Prepared) -> Check:
         notes=[
             *prepared.findings.notes,
             *doubts(prepared),
-            *([] if problems else said_of(prepared)),
             *_outputs_between_steps(scene),
         ],
         effects=effects_of(scene, prepared.counts()),

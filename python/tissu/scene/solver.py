@@ -51,6 +51,10 @@ class Solver(Part):
         """What it is told of its step."""
         return {}
 
+    def words(self, _solves: str) -> str:
+        """What a plan says of it; `_solves`: "few solves" or "many solves" of a run."""
+        return f"step.solver is {self.type}"
+
 
 class Auto(Solver):
     """The way that counted work makes cheapest, for each system anew.
@@ -66,6 +70,13 @@ class Auto(Solver):
 
     def _of_step(self, *, equilibrium: bool) -> dict[str, bool]:
         return {"equilibrium": equilibrium}
+
+    def words(self, solves: str) -> str:
+        """What it begins with, and that it may change."""
+        return (
+            "step.solver is auto: it begins with what the first matrix makes cheapest for "
+            f"{solves}, and changes where counted work says so"
+        )
 
 
 class ConjugateGradient(Solver):
@@ -83,6 +94,12 @@ class ConjugateGradient(Solver):
     """of the iterations; residuals are double and correct single ones to the tolerance"""
     matrix: Matrix = "assembled"
     """free: the products of the forces themselves, no matrix; with jacobi and block_jacobi"""
+
+    def words(self, _solves: str) -> str:
+        """The method and its preconditioner."""
+        return (
+            f"step.solver is conjugate_gradient with {self.preconditioner}, to {self.tolerance:g}"
+        )
 
     @rule("matrix")
     def _free_is_simple(self) -> Iterator[Problem]:

@@ -14,7 +14,7 @@ from tissu.scene.effect import Effect
 from tissu.scene.field import field
 from tissu.scene.part import Part, one_of
 from tissu.scene.problem import Problem
-from tissu.scene.solver import Auto, OneSolver
+from tissu.scene.solver import Auto, OneSolver, Solver
 from tissu.scene.unknown import rule
 
 if TYPE_CHECKING:
@@ -94,6 +94,12 @@ class Step(Part):
         dt = getattr(self, "dt", None)
         shown = dt if isinstance(dt, str) else f"{dt:g} s"
         return Effect("inertia", f"step is {self.type} with dt {shown}")
+
+    def solver_effects(self) -> list[Effect]:
+        """What solves its linear systems, in words, where it has any."""
+        solver: Solver | None = getattr(self, "solver", None)
+        few = "few solves" if isinstance(self, Static) else "many solves"
+        return [] if solver is None else [Effect("linear solver", solver.words(few))]
 
 
 class Explicit(Step):

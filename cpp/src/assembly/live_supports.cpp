@@ -42,7 +42,7 @@ Vec3 FixedDofs::position(const LiveSupport& support, const LiveLead& lead, const
                          std::size_t i, double time) const {
   const Led& led = led_[support.nodes[i]];
   if (!lead.is_released()) return place.position(led.rest, lead.before(i), lead.after(i));
-  const Vec3 own = motions_[static_cast<std::size_t>(led.motion)].position(led.rest, time);
+  Vec3 own = motions_[static_cast<std::size_t>(led.motion)].position(led.rest, time);
   if (place.share == 1.0) return own;
   return place.position(led.rest, lead.before(i), own - place.target.position(led.rest));
 }

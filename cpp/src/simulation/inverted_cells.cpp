@@ -80,7 +80,7 @@ std::vector<std::int32_t> inverted_cells(const World& world, const State& state,
 }
 
 InversionCheck::InversionCheck(const World& world) {
-  const State rest = world.rest_state();
+  const State& rest = world.rest_state();
   for_models(world, [&](const BodyModel& model) {
     const ElasticBlock& block = model.block();
     ReferenceCell own = reference_cell(block.element, block.quadrature);

@@ -117,13 +117,13 @@ struct RotationTie::Lane {
   Vec3 s;
   double stiffness = 0.0;
 
-  [[nodiscard]] Mat3 P() const { return -stiffness * rows_across(M, s); }
-  [[nodiscard]] Mat3 Q() const { return stiffness * rows_across(F, s); }
-  /// dP and dQ of dM and dF
-  [[nodiscard]] Mat3 dP(const Mat3& dM, const Vec3& ds) const {
+  [[nodiscard]] Mat3 stress() const { return -stiffness * rows_across(M, s); }
+  [[nodiscard]] Mat3 turning_stress() const { return stiffness * rows_across(F, s); }
+  /// Of changes of M, F and s.
+  [[nodiscard]] Mat3 stress_change(const Mat3& dM, const Vec3& ds) const {
     return -stiffness * (rows_across(dM, s) + rows_across(M, ds));
   }
-  [[nodiscard]] Mat3 dQ(const Mat3& dF, const Vec3& ds) const {
+  [[nodiscard]] Mat3 turning_stress_change(const Mat3& dF, const Vec3& ds) const {
     return stiffness * (rows_across(dF, s) + rows_across(F, ds));
   }
 };
@@ -149,13 +149,14 @@ void RotationTie::add_energy(const FrameView& view, std::int32_t group, const do
 
 void RotationTie::add_stress(const FrameView& view, std::int32_t group, const double* q, const double* F,
                              double* P) const {
-  for (std::size_t lane = 0; lane < kLanes; ++lane) add_tensor(lane_of(view, group, lane, q, F).P(), lane, P);
+  for (std::size_t lane = 0; lane < kLanes; ++lane)
+    add_tensor(lane_of(view, group, lane, q, F).stress(), lane, P);
 }
 
 void RotationTie::add_moments(const FrameView& view, std::int32_t group, const double* q, const double* F,
                               double* shares) const {
   for (std::size_t lane = 0; lane < kLanes; ++lane) {
-    const Mat3 Q = lane_of(view, group, lane, q, F).Q();
+    const Mat3 Q = lane_of(view, group, lane, q, F).turning_stress();
     for (int a = 0; a < neighbours_; ++a) {
       const double scale = -volume_at(view, group, lane) * weight(group, a, lane);
       const Vec3 tau = scale * moment(rotation_at(view, group, a, lane, q), Q);
@@ -174,7 +175,7 @@ void RotationTie::add_stress_change(const FrameView& view, std::int32_t group, c
             rotation_at(view, group, a, lane, q);
     }
     const Vec3 ds = axial(dM, at.F) + axial(at.M, tensor_of(dF, lane));
-    add_tensor(at.dP(dM, ds), lane, dP);
+    add_tensor(at.stress_change(dM, ds), lane, dP);
   }
 }
 
@@ -189,8 +190,8 @@ void RotationTie::add_moments_change(const FrameView& view, std::int32_t group, 
             rotation_at(view, group, a, lane, q);
     }
     const Mat3 change = tensor_of(dF, lane);
-    const Mat3 Q = at.Q();
-    const Mat3 dQ = at.dQ(change, axial(dM, at.F) + axial(at.M, change));
+    const Mat3 Q = at.turning_stress();
+    const Mat3 dQ = at.turning_stress_change(change, axial(dM, at.F) + axial(at.M, change));
     for (int a = 0; a < neighbours_; ++a) {
       const Mat3 R = rotation_at(view, group, a, lane, q);
       const double scale = -volume_at(view, group, lane) * weight(group, a, lane);
@@ -258,7 +259,7 @@ void RotationTie::add_stiffness(const FrameView& view, std::int32_t group, const
       const double w = weight(group, frame, lane);
       matrix.of_F[a] = motion_of(view, group, frame, lane, R);
       matrix.of_M[a] = w * turned(R);
-      if (whole) turns[a] = -scale * volume * w * turning(R, at.Q());
+      if (whole) turns[a] = -scale * volume * w * turning(R, at.turning_stress());
     }
     const std::int32_t* slots = view.slots + static_cast<std::size_t>(group) * k * k * 4 * kLanes + lane;
     for (std::size_t pair = 0; pair < k * k; ++pair, slots += 4 * kLanes) {

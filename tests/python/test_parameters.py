@@ -205,6 +205,25 @@ def test_grabbing_that_is_allowed_later_changes_no_bit_until_a_point_is_grabbed(
     assert after(one, 10)[:, 2].min() > after(other, 10)[:, 2].min() + 1e-2
 
 
+def test_names_that_are_given_later_change_no_bit_and_leads_outlive_a_change():
+    one, other = scene().compile(), scene().compile()
+    after(one, 4), after(other, 4)
+    one.allow_touch()
+    assert one.scene.fixed[0].name == "fixed[0]" and one.scene.grabbing
+    assert np.array_equal(after(one, 4), after(other, 4))
+    one.lead("fixed[0]").move((0.01, 0, 0), over="100 ms")
+    after(one, 3)
+    named = scene(
+        law=ts.StVK(young=9e3, poisson=0.4),
+        fixed=[ts.Fixed("bar", on=ts.Plane((0, 0, 0), (1, 0, 0)), name="fixed[0]")],
+        grabbing=True,
+    )
+    new = taken_up(one, named)
+    one.parameters["bodies.bar.law.young"] = 9e3
+    assert np.array_equal(after(one, 10), after(new, 10))
+    assert np.allclose(one.lead("fixed[0]").positions[:, 0], 0.01, atol=1e-15)
+
+
 def test_each_step_is_told_to_those_that_ask():
     simulation, told = scene().compile(), []
     end = simulation.on_step(told.append)

@@ -1,7 +1,7 @@
 """The door to the page: it lets in who may see it, and hands everything else through.
 
-viser itself asks for nothing. It listens on this machine only, and the door stands before it on
-the address and port that were asked for. It refuses a page of another site that the same browser
+viser listens on this machine only, and the door stands before it on the address and port that were
+asked for. It refuses a page of another site that the same browser
 shows (its Origin is not ours, or it names this machine otherwise), and, on an address that other
 machines reach, whoever does not bring the token.
 """
@@ -18,6 +18,7 @@ from http.cookies import SimpleCookie
 from urllib.parse import parse_qs, urlsplit
 
 from tissu.errors import ParameterError
+from tissu.live_view.server import FIELD
 
 FIRST_PORT, PORTS = 8080, 20
 """Where a port is looked for when none is asked for."""
@@ -44,7 +45,9 @@ class Door:
         token: that must be brought; empty: none.
     """
 
-    def __init__(self, *, host: str, port: int | None, behind: int, token: str) -> None:
+    def __init__(
+        self, *, host: str, port: int | None, behind: int, token: str, word: str = ""
+    ) -> None:
         """Open it.
 
         Args:
@@ -52,6 +55,7 @@ class Door:
             port: to listen on; None: the first that is free of 20, from 8080 on.
             behind: port of this machine to which it leads.
             token: that must be brought; empty: none.
+            word: that it brings itself to what is behind.
 
         Raises:
             ParameterError: the port is taken, there is no such address, or a token that no cookie
@@ -61,7 +65,7 @@ class Door:
             raise ParameterError(
                 f"found the token {token[:30]!r}; up to 128 letters, digits, - and _ are accepted"
             )
-        self.host, self.token, self._behind = host, token, behind
+        self.host, self.token, self._behind, self._word = host, token, behind, word
         self._loop = asyncio.new_event_loop()
         self._thread = threading.Thread(
             target=self._loop.run_forever, name="tissu door", daemon=True
@@ -125,12 +129,17 @@ class Door:
                 await writer.drain()
                 return writer.close()
             inner, out = await asyncio.open_connection("127.0.0.1", self._behind)
-            out.write(head)
+            out.write(self._with_word(head))
             try:
                 await asyncio.gather(_hand_on(reader, out), _hand_on(inner, writer))
             finally:
                 out.close()
         writer.close()
+
+    def _with_word(self, head: bytes) -> bytes:
+        """The head with the word for what is behind, after its first line."""
+        first, end, rest = head.partition(b"\r\n")
+        return first + end + f"{FIELD}: {self._word}\r\n".encode() + rest
 
     def judge(self, head: bytes) -> bytes | None:
         """What a request is answered by the door itself; None: it passes."""

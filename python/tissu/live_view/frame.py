@@ -16,9 +16,11 @@ from tissu.live_view.layers import LAYERS
 from tissu.live_view.surface import Seen, seen
 
 if TYPE_CHECKING:
+    from tissu.live_view.gizmo import Gizmo
     from tissu.live_view.layers.layer import Draw, Layer
     from tissu.live_view.marks import Marks
     from tissu.live_view.runner import Runner
+    from tissu.live_view.touch import Touch
     from tissu.simulation import Profile, Simulation
 
 _SHARE = 0.03
@@ -57,6 +59,7 @@ class Frame:
         playing: whether it runs, and
         achieved: simulated time for wall time then.
         said: what the tool in hand feels.
+        gizmos: of the tool in hand.
     """
 
     time: float
@@ -69,6 +72,7 @@ class Frame:
     playing: bool
     achieved: float
     said: str
+    gizmos: list[Gizmo]
 
 
 @dataclass(frozen=True, slots=True)
@@ -101,10 +105,11 @@ class FrameTaker:
         self._profiles: list[Profile] = []
         self._profiles_due = 0.0
 
-    def take(self, runner: Runner, drawn: Sequence[Sequence[Marks]] = (), said: str = "") -> Frame:
-        """The present moment of the simulations, what a tool draws on each of them and feels."""
+    def take(self, runner: Runner, touch: Touch | None = None) -> Frame:
+        """The present moment of the simulations, and of the tool that is in hand."""
         simulations = runner.simulations
         wanted, now = self.wanted, time.monotonic()
+        drawn = [] if touch is None else touch.draw(simulations)
         if now >= self._profiles_due or len(self._profiles) != len(simulations):
             self._profiles = [simulation.profile() for simulation in simulations]
             self._profiles_due = now + _NUMBERS
@@ -137,7 +142,8 @@ class FrameTaker:
             message=runner.error,
             playing=runner.playing,
             achieved=runner.achieved,
-            said=said,
+            said="" if touch is None else touch.say(simulations),
+            gizmos=[] if touch is None else touch.gizmos(simulations),
         )
 
     def _drawn(self, lane: int, layer: Layer, simulation: Simulation) -> Draw:

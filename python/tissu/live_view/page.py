@@ -10,14 +10,15 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from tissu.errors import TissuError
 from tissu.live_view.body_drawing import BodyDrawing
 from tissu.live_view.cameras import FOV, first_place
 from tissu.live_view.colours import BODIES
+from tissu.live_view.gizmo import Gizmo, GizmoDrawing
 from tissu.live_view.latest import Latest
 from tissu.live_view.marks_drawing import MarksDrawing
 from tissu.live_view.panels import PANELS
 from tissu.live_view.pointer import Pointer
+from tissu.live_view.server import open_server
 
 if TYPE_CHECKING:
     import viser
@@ -40,8 +41,13 @@ class Page:
         server: viser's.
     """
 
-    def __init__(self, session: Session, *, title: str) -> None:
+    def __init__(self, session: Session, *, title: str, word: str) -> None:
         """Open the server, on a free port of this machine only.
+
+        Args:
+            session: what is shown.
+            title: of the page.
+            word: that the door brings with every request.
 
         Raises:
             TissuError: viser is not installed.
@@ -49,11 +55,12 @@ class Page:
         self.frames: Latest[Frame] = Latest()
         self.sent = 0
         self._session = session
-        self.server = _server(title)
+        self.server = open_server(title, word)
         session.recorder.of(self.server)
         self._prepare_scene()
         self._panels = [panel(self.server.gui, session) for panel in PANELS]
         self._bodies: dict[tuple[int, str], BodyDrawing] = {}
+        self._gizmos = GizmoDrawing(self.server.scene, session.stage, self._moved)
         self._marks: dict[tuple[int, str], MarksDrawing] = {}
         self._panels_due = 0.0
         self._ended = threading.Event()
@@ -117,6 +124,7 @@ class Page:
                 drawing = self._drawing(lane, name)
                 drawing.show(body, limits=limits, edges=self._session.show_edges)
                 drawing.be_touchable(bool(self._session.touch.chosen))
+            self._gizmos.show(frame.gizmos)
             for key in {*self._marks, *frame.marks}:
                 self._marks_of(*key).show(frame.marks.get(key, ()))
         if time.monotonic() >= self._panels_due:
@@ -165,6 +173,13 @@ class Page:
             self._marks[lane, name] = found
         return found
 
+    def _moved(self, gizmo: Gizmo, client: int | None) -> bool:
+        """A hand has put a gizmo somewhere; whether it may."""
+        if client is None or not self._session.rights.may(client):
+            return False
+        self._session.touch.turn(gizmo)
+        return True
+
     def _felt(self, lane: int, name: str, event: Any) -> None:
         """A pointer was pressed on a body, moved or released."""
         if not self._session.rights.may(event.client_id):
@@ -181,14 +196,3 @@ class Page:
             place=stage.in_space(there if click else event.start_position, lane),
         )
         self._session.touch.feel("click" if click else event.phase, pointer)
-
-
-def _server(title: str) -> viser.ViserServer:
-    try:
-        import viser
-    except ImportError:
-        raise TissuError(
-            "the view needs viser, which is not installed; python -m pip install 'tissu[view]'"
-        ) from None
-    with contextlib.redirect_stdout(io.StringIO()):  # its greeting names a port that is not ours
-        return viser.ViserServer(host="127.0.0.1", port=0, label=title, verbose=False)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from tissu.live_view.runner import Runner
     from tissu.live_view.stage import Stage
     from tissu.live_view.touch import Touch
+    from tissu.simulation import Simulation
 
 T = TypeVar("T")
 
@@ -33,6 +34,7 @@ class Session:
         begin_again: puts the simulations back to their beginning.
         show_edges: whether edges are drawn.
         limits: of the field that is coloured; they grow with its values, and `fit` forgets them.
+        after_reset: called in the simulations' thread when they have begun again.
     """
 
     runner: Runner
@@ -43,7 +45,8 @@ class Session:
     recorder: Recorder
     begin_again: Callable[[], object]
     show_edges: bool = True
-    limits: tuple[float, float] | None = field(default=None)
+    limits: tuple[float, float] | None = None
+    after_reset: list[Callable[[Sequence[Simulation]], object]] = field(default_factory=list)
 
     def on_change(self, handle: Any, act: Callable[[Any], object]) -> None:
         """Do something with the value of a widget whenever a page that may touch changes it.

@@ -11,6 +11,7 @@ from tissu.live_view.tools import TOOLS, Tool
 if TYPE_CHECKING:
     from concurrent.futures import Future
 
+    from tissu.live_view.gizmo import Gizmo
     from tissu.live_view.marks import Marks
     from tissu.live_view.pointer import Pointer
     from tissu.live_view.runner import Runner
@@ -35,6 +36,7 @@ class Touch:
         self.chosen = next(iter(self.tools), "")
         self._pressed: dict[int, Tool] = {}
         self._moved: dict[int, Pointer] = {}
+        self._turned: dict[str, Gizmo] = {}
 
     def choose(self, name: str) -> None:
         """Take another tool in hand.
@@ -63,6 +65,19 @@ class Touch:
             return None
         return self._runner.ask(lambda simulations: self._move(simulations, pointer.client))
 
+    def turn(self, gizmo: Gizmo) -> Future[None] | None:
+        """A gizmo was moved or turned; done between two steps."""
+        waiting = gizmo.name in self._turned
+        self._turned[gizmo.name] = gizmo
+        if waiting:
+            return None
+        return self._runner.ask(lambda simulations: self._turn(simulations, gizmo.name))
+
+    def gizmos(self, simulations: Sequence[Simulation]) -> list[Gizmo]:
+        """Those of the tool in hand."""
+        tool = self.tools.get(self.chosen)
+        return tool.gizmos(simulations) if tool is not None else []
+
     def say(self, simulations: Sequence[Simulation]) -> str:
         """What the tool in hand feels."""
         tool = self.tools.get(self.chosen)
@@ -90,6 +105,11 @@ class Touch:
         tool = self._pressed.get(client)
         if tool is not None and pointer is not None:
             tool.move(simulations, pointer)
+
+    def _turn(self, simulations: Sequence[Simulation], name: str) -> None:
+        gizmo, tool = self._turned.pop(name), self.tools.get(self.chosen)
+        if tool is not None:
+            tool.turn(simulations, gizmo)
 
     def _release(self, simulations: Sequence[Simulation], pointer: Pointer) -> None:
         tool = self._pressed.pop(pointer.client, None)

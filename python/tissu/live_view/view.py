@@ -36,7 +36,7 @@ class View:
 
     They belong to the view's thread until it is closed: `ask` reaches them between two steps, and
     another thread that is inside one of them holds up its next step. Points may be grabbed, also
-    where the scene does not say `grabbing: true`.
+    where the scene does not say `grabbing: true`, and supports without a name get one.
 
     Attributes:
         url: the address of the page.
@@ -83,7 +83,7 @@ class View:
         if not speed > 0.0:
             raise ParameterError(f"found a speed of {speed:g}; a positive one is accepted")
         for one in simulations:
-            one.allow_grabbing()
+            one.allow_touch()
         self._taker = FrameTaker()
         self._frame_due = 0.0
         self._runner = Runner(simulations, speed=speed, playing=playing, between=self._between)
@@ -97,11 +97,12 @@ class View:
             recorder=Recorder(),
             begin_again=self.reset,
         )
-        self._page = Page(self._session, title=simulation.scene.name)
+        word = new_token()
+        self._page = Page(self._session, title=simulation.scene.name, word=word)
         if token is None:
             token = "" if host in _HERE else new_token()
         try:
-            self._door = Door(host=host, port=port, behind=self._page.port, token=token)
+            self._door = Door(host=host, port=port, behind=self._page.port, token=token, word=word)
         except BaseException:
             self._page.stop()
             raise
@@ -153,6 +154,8 @@ class View:
                 simulation.reset()
             self._runner.error = ""
             self._runner.restart_clock()
+            for look in self._session.after_reset:
+                look(simulations)
 
         return self._runner.ask(begin)
 
@@ -199,9 +202,7 @@ class View:
         if now < self._frame_due or not seen or self._page.frames.waiting:
             return
         self._frame_due = max(self._frame_due + 1.0 / RATE, now - 1.0 / RATE)
-        touch, simulations = self._session.touch, self._runner.simulations
-        drawn, said = touch.draw(simulations), touch.say(simulations)
-        self._page.frames.put(self._taker.take(self._runner, drawn, said))
+        self._page.frames.put(self._taker.take(self._runner, self._session.touch))
 
 
 def _require_together(simulations: Sequence[Simulation]) -> None:

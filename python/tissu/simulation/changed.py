@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from tissu.front import Scene
     from tissu.mesh import Mesh
     from tissu.scene.load import Load, Where
+    from tissu.scene.support import Support
     from tissu.simulation.entry import Entry
 
 
@@ -55,6 +56,22 @@ class Changed:
         """
         if not self.scene.grabbing:
             self._become(self.scene.replace(grabbing=True))
+
+    def allow_touch(self) -> None:
+        """Allow grabbing, and give supports without a name one, by which `lead` finds them.
+
+        The motion stays the same until one is used.
+        """
+        scene, taken = self.scene, set[str]()
+        for support in (*scene.fixed, *scene.prescribed):
+            taken |= set() if support.name is None else {support.name}
+        given = {
+            group: [_named(part, f"{group}[{number}]", taken) for number, part in enumerate(parts)]
+            for group, parts in (("fixed", scene.fixed), ("prescribed", scene.prescribed))
+        }
+        unnamed = any(support.name is None for support in (*scene.fixed, *scene.prescribed))
+        if unnamed or not scene.grabbing:
+            self._become(scene.replace(grabbing=True, **given))
 
     def reset(self) -> None:
         """Begin again: the state in which the scene begins, at time zero and with all its cells.
@@ -98,3 +115,8 @@ class Changed:
 
     def _take_over(self, fresh: Changed) -> None:
         self._world, self._check, self._loads = fresh._world, fresh._check, fresh._loads
+
+
+def _named(support: Support, name: str, taken: set[str]) -> Support:
+    """The support with a name: its own, or the one that is offered, unless another has it."""
+    return support if support.name is not None or name in taken else support.replace(name=name)

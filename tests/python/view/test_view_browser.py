@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import tissu as ts
+from tissu.live_view.cameras import FOV, first_place
 
 WAIT = 120_000  # ms; a busy machine draws slowly
 
@@ -158,6 +159,48 @@ def test_cells_are_removed_under_the_mouse(views, pages):
     opened = of(view, lambda sims: len(sims[0].meshes["organ"].surface().triangles))
     assert opened > faces  # the walls of the hole
     assert view.message == ""
+
+
+def on_screen(page, view, places):
+    """Column and row of places (n, 3) of the first simulation, seen by the first camera."""
+    stage = view._session.stage
+    eye, size = first_place(stage), page.locator("canvas").first.bounding_box()
+    at = stage.on_page(np.asarray(places), 0) - eye
+    towards = stage.centre - eye
+    towards = towards / np.linalg.norm(towards)
+    right = np.cross(towards, stage.up) / np.linalg.norm(np.cross(towards, stage.up))
+    top = np.cross(right, towards)
+    scale = 0.5 * size["height"] / np.tan(FOV / 2) / (at @ towards)
+    column = size["x"] + 0.5 * size["width"] + scale * (at @ right)
+    return np.stack([column, size["y"] + 0.5 * size["height"] - scale * (at @ top)], axis=1)
+
+
+def test_held_nodes_are_led_by_a_gizmo(views, pages):
+    view = views(organ(gravity=None))
+    page = pages(view.url)
+    choose(page, "tool", "lead")
+    settled(page)
+    foot = np.array([0.0, 0.04, 0.04])
+    arm = 0.18 * view._session.stage.size / view._session.stage.factor
+    # On the arrow that points up.
+    (start,) = on_screen(page, view, [foot + np.array([0, 0, 0.6 * arm])])
+    page.mouse.move(*start)
+    page.wait_for_timeout(500)
+    page.mouse.down()
+    for step in range(1, 11):
+        page.mouse.move(start[0], start[1] - 4 * step)
+        page.wait_for_timeout(50)
+
+    def led(sims):
+        nodes = sims[0].lead("fixed[0]").nodes
+        return sims[0].displacements("organ")[nodes]
+
+    until(page, lambda: of(view, led)[:, 2].mean() > 0.01)
+    page.mouse.up()
+    moved = of(view, led)
+    assert np.abs(moved[:, :2]).max() < 1e-6 and np.ptp(moved[:, 2]) < 1e-9  # up, as one piece
+    before, after = on_screen(page, view, [foot, foot + moved.mean(axis=0)])
+    assert before[1] - after[1] == pytest.approx(40, abs=12)  # as far as the mouse went
 
 
 def test_where_editing_is_off_nothing_offers_to_remove(views, pages):

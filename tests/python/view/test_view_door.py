@@ -67,11 +67,13 @@ def received(way, count):
 
 
 def test_what_may_pass_is_handed_through_and_back(opened):
-    door = opened()
+    door = opened(word="a word")
     head = f"GET / HTTP/1.1\r\nHost: localhost:{door.port}\r\n\r\n"
     with socket.create_connection(("127.0.0.1", door.port), timeout=10.0) as way:
         way.sendall(head.encode())
-        assert received(way, len(head)) == head.encode()  # the echo begins with the head
+        word = b"X-Tissu-Door: a word\r\n"
+        first = received(way, len(head) + len(word))  # the echo begins with the head
+        assert first == head.encode().replace(b"Host:", word + b"Host:")
         long = b"x" * 1_000_000 + b"\n"
         threading.Thread(target=way.sendall, args=(long,)).start()
         assert received(way, len(long)) == long
@@ -124,6 +126,32 @@ def test_a_port_that_is_taken_is_refused_with_a_sentence(opened, echo):
 def test_two_doors_take_ports_one_after_the_other(opened):
     one, other = opened(port=None), opened(port=None)
     assert 8080 <= one.port < other.port < 8100
+
+
+def test_there_is_no_way_beside_the_door():
+    """viser's own port refuses a page, and a websocket of its own protocol."""
+    import viser
+
+    cube = ts.BarMesh(size=(0.1, 0.1, 0.1), cells=(2, 2, 2), cell="tetra")
+    body = ts.Body(mesh=cube, law=ts.StVK(young=1e3, poisson=0.3), density=1000)
+    scene = ts.Scene(bodies={"cube": body}, step=ts.ImplicitEuler("10 ms"))
+    with ts.view(scene.compile(), browser=False, playing=False) as view:
+        inner = view._page.port
+        with pytest.raises(urllib.error.HTTPError, match="403"):
+            urllib.request.urlopen(f"http://127.0.0.1:{inner}/", timeout=10.0)
+        fields = [
+            f"Host: 127.0.0.1:{inner}",
+            "Upgrade: websocket",
+            "Connection: Upgrade",
+            "Sec-WebSocket-Version: 13",
+            "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==",
+            f"Sec-WebSocket-Protocol: viser-v{viser.__version__}",
+        ]
+        for port, status in ((inner, b"403"), (view._door.port, b"101")):
+            with socket.create_connection(("127.0.0.1", port), timeout=10.0) as way:
+                given = [f"Host: 127.0.0.1:{port}", *fields[1:]]
+                way.sendall("\r\n".join(["GET / HTTP/1.1", *given, "", ""]).encode())
+                assert way.recv(65536).split()[1] == status
 
 
 def test_an_open_view_answers_and_a_closed_one_does_not():

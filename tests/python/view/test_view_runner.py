@@ -8,6 +8,7 @@ import pytest
 
 import tissu as ts
 from tissu.live_view.frame import FrameTaker, Wanted, error_between
+from tissu.live_view.gizmo import Gizmo
 from tissu.live_view.pointer import Pointer
 from tissu.live_view.runner import Runner
 from tissu.live_view.tools import Tool
@@ -265,6 +266,61 @@ class TestTouch:
         assert felt == [("press", "cube"), ("release", "cube")]
         with pytest.raises(ts.ParameterError, match="accepted: poke"):
             touch.choose("drag")
+
+
+class TestLead:
+    """A gizmo moves and turns held nodes as one rigid piece: x = R (X - c) + p."""
+
+    def test_the_nodes_are_where_the_gizmo_is(self, run):
+        simulation = cube()
+        simulation.allow_touch()
+        runner = run(simulation, cube("corotational"))
+        runner.ask(lambda sims: sims[1].allow_touch()).result(10)
+        touch = Touch(runner)
+        touch.choose("lead")
+        gizmo, other = runner.ask(lambda sims: touch.gizmos(sims)).result(10)
+        assert (gizmo.name, gizmo.lane, other.lane) == ("fixed[0]", 0, 1)
+        assert np.allclose(gizmo.place, (0.05, 0.05, 0.0), atol=1e-15)
+        angle = 0.4  # about z
+        place = gizmo.place + np.array([0.01, -0.005, 0.002])
+        wxyz = np.array([np.cos(angle / 2), 0, 0, np.sin(angle / 2)])
+        touch.turn(Gizmo(gizmo.name, 0, place, wxyz)).result(10)
+        for _ in range(8):
+            runner.step_once().result(10)
+        c, s = np.cos(angle), np.sin(angle)
+        rotation = np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]])
+        for one in runner.simulations:
+            foot = np.flatnonzero(one.meshes["cube"].points[:, 2] == 0.0)
+            rest = one.meshes["cube"].points[foot]
+            expected = (rest - gizmo.place) @ rotation.T + place
+            assert np.abs(one.positions["cube"][foot] - expected).max() < 1e-12
+        now = runner.ask(lambda sims: touch.gizmos(sims)).result(10)[0]
+        assert np.allclose(now.place, place, atol=1e-12) and np.array_equal(now.wxyz, wxyz)
+
+    def test_turns_between_two_steps_are_one_and_the_longer_way_round_is_not_taken(self, run):
+        simulation = cube()
+        simulation.allow_touch()
+        runner, gate = run(simulation), threading.Event()
+        touch = Touch(runner)
+        touch.choose("lead")
+        (gizmo,) = runner.ask(lambda sims: touch.gizmos(sims)).result(10)
+        runner.ask(lambda _: gate.wait(10))
+        turns = [np.array([np.cos(a / 2), 0, 0, np.sin(a / 2)]) for a in (1.0, 6.0)]
+        asked = [touch.turn(Gizmo(gizmo.name, 0, gizmo.place, wxyz)) for wxyz in turns]
+        gate.set()
+        asked[0].result(10)
+        assert asked[1] is None
+        for _ in range(8):  # 6 rad is -0.28 rad, the shorter way: no node goes far in a step
+            before = simulation.positions["cube"].copy()
+            runner.step_once().result(10)
+            moved = np.linalg.norm(simulation.positions["cube"] - before, axis=1)
+            assert moved[simulation.lead("fixed[0]").nodes].max() < 0.01
+
+    def test_without_held_nodes_it_is_not_offered(self, run):
+        body = cube().scene.bodies["cube"]
+        free = ts.Scene(bodies={"cube": body}, step=ts.ImplicitEuler(0.01)).compile()
+        free.allow_touch()
+        assert "lead" not in Touch(run(free)).tools
 
 
 class TestFrames:

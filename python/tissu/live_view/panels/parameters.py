@@ -33,6 +33,7 @@ class ParametersPanel(Panel):
         parameters = session.runner.simulations[0].parameters.all()
         if not parameters:
             return
+        session.after_reset.append(self.look)
         with gui.add_folder("Parameters", expand_by_default=False):
             for parameter in parameters:
                 self._sliders[parameter.name] = self._slider(gui, parameter)
@@ -67,15 +68,15 @@ class ParametersPanel(Panel):
         value = self._wished.pop(name)
         try:
             for simulation in simulations:
-                found = simulation.parameters
-                if name in found and found[name] != value:
-                    found[name] = value
+                now = {one.name: one.value for one in simulation.parameters.all()}
+                if now.get(name, value) != value:
+                    simulation.parameters[name] = value
         finally:
             self.look(simulations)
 
     def look(self, simulations: Sequence[Simulation]) -> None:
         """Note what the values are now; called in the simulations' thread."""
-        self._now = dict(simulations[0].parameters)
+        self._now = {one.name: one.value for one in simulations[0].parameters.all()}
 
     def show(self, frame: Frame) -> None:
         """A slider whose value was refused, or reset, goes back to what holds."""

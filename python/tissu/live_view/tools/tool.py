@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar
 
 if TYPE_CHECKING:
+    from tissu.live_view.gizmo import Gizmo
     from tissu.live_view.marks import Marks
     from tissu.live_view.pointer import Pointer
     from tissu.simulation import Simulation
@@ -68,6 +69,14 @@ class Tool(ABC):
 
     def click(self, simulations: Sequence[Simulation], pointer: Pointer) -> None:
         """A press and release at one place, on the ray from `eye` to `there`."""
+        return
+
+    def gizmos(self, simulations: Sequence[Simulation]) -> list[Gizmo]:
+        """Gizmos that stand on the page while the tool is in hand."""
+        return []
+
+    def turn(self, simulations: Sequence[Simulation], gizmo: Gizmo) -> None:
+        """A hand has moved or turned a gizmo; moves between two steps are one, to the latest."""
         return
 
     def say(self, simulations: Sequence[Simulation]) -> str:

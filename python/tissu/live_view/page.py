@@ -123,7 +123,7 @@ class Page:
             for (lane, name), body in frame.bodies.items():
                 drawing = self._drawing(lane, name)
                 drawing.show(body, limits=limits, edges=self._session.show_edges)
-                drawing.be_touchable(bool(self._session.touch.chosen))
+                drawing.be_touchable(self._session.touch.on_bodies)
             self._gizmos.show(frame.gizmos)
             for key in {*self._marks, *frame.marks}:
                 self._marks_of(*key).show(frame.marks.get(key, ()))

@@ -38,6 +38,12 @@ class Touch:
         self._moved: dict[int, Pointer] = {}
         self._turned: dict[str, Gizmo] = {}
 
+    @property
+    def on_bodies(self) -> bool:
+        """Whether the tool in hand is pressed on bodies."""
+        tool = self.tools.get(self.chosen)
+        return tool is not None and tool.on_bodies
+
     def choose(self, name: str) -> None:
         """Take another tool in hand.
 

@@ -25,6 +25,8 @@ class Lead(Tool):
     name = "lead"
     hint = "Drag an arrow or a ring of a gizmo: the held nodes go with it, as one piece."
 
+    on_bodies = False
+
     def __init__(self, simulations: Sequence[Simulation]) -> None:
         """Every support that has a name has a gizmo."""
         super().__init__(simulations)

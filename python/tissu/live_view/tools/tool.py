@@ -40,11 +40,13 @@ class Tool(ABC):
     Attributes:
         name: on the page.
         hint: one sentence: what a press does.
+        on_bodies: whether a press on a body is its own; else it turns the view, or meets a gizmo.
         numbers: that the page lets be changed.
     """
 
     name: ClassVar[str]
     hint: ClassVar[str]
+    on_bodies: ClassVar[bool] = True
 
     def __init__(self, simulations: Sequence[Simulation]) -> None:
         """Look at the simulations that it will work on."""

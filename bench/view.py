@@ -3,7 +3,7 @@
 On plates of hexahedra with so many triangles on their surface:
 
 - frames a second that reach a page (a process that reads everything and draws nothing, and the
-  machine's own chromium, which draws on the processor where there is no graphics card);
+  machine's own chromium, which draws on the processor if the machine has no graphics card);
 - steps a second as fast as they go, alone and with such a reader: the cost of viewing;
 - the time from a move of the mouse in chromium to the force on the body;
 - memory of the process before and after so many frames were sent to the reader.

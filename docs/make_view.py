@@ -33,7 +33,7 @@ def main(path: Path) -> None:
         page.get_by_role("combobox", name="colour").click()
         page.get_by_role("option", name="von Mises stress").click()
         page.wait_for_timeout(4000)
-        # Without the notice that there is no graphics card here.
+        # Without the notice about a missing graphics card.
         page.add_style_tag(content=".mantine-Notifications-root { display: none }")
         page.mouse.move(520, 350)
         page.mouse.down()

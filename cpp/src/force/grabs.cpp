@@ -139,7 +139,7 @@ std::size_t GrabTable::find(std::int32_t number) const {
 std::size_t GrabTable::required(std::int32_t number) const {
   const std::size_t at = find(number);
   if (at < numbers_.size()) return at;
-  throw ParameterError("there is no grab number " + std::to_string(number) + "; it was let go.");
+  throw ParameterError("grab number " + std::to_string(number) + " does not exist; it was let go.");
 }
 
 void Grabs::claim_memory(MemoryPlaces& places) { place_ = places.claim(std::string(kMemory), 0); }

@@ -3,7 +3,7 @@
 viser listens on this machine only, and the door stands before it on the address and port that were
 asked for. It refuses a page of another site that the same browser
 shows (its Origin is not ours, or it names this machine otherwise), and, on an address that other
-machines reach, whoever does not bring the token.
+machines reach, a caller without the token.
 """
 
 from __future__ import annotations
@@ -58,7 +58,7 @@ class Door:
             word: that it brings itself to what is behind.
 
         Raises:
-            ParameterError: the port is taken, there is no such address, or a token that no cookie
+            ParameterError: the port is taken, the address does not exist, or a token that no cookie
                 carries.
         """
         if token and not _TOKEN.fullmatch(token):

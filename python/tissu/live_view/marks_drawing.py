@@ -19,7 +19,7 @@ KINDS: tuple[Kind, ...] = ("points", "arrows", "lines")
 
 
 class MarksDrawing:
-    """Marks of one simulation; what is no longer among them vanishes."""
+    """Draws the marks of one simulation and removes those that it no longer has."""
 
     def __init__(self, scene: viser.SceneApi, name: str, *, stage: Stage, lane: int) -> None:
         """Take a name for them on the page; nothing is drawn yet."""

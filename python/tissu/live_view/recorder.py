@@ -28,7 +28,7 @@ def recording_place(path: Path) -> Path:
 
 
 class Recorder:
-    """Keeps what the page is told, with the times at which it was told.
+    """Records the messages sent to the page, each with its time.
 
     A recording stays in memory until it ends.
     """

@@ -1,6 +1,6 @@
 """viser's server, which only the door may ask.
 
-viser asks for nothing: whoever finds its port, another user or a page of another site, could touch
+viser asks for nothing: another user or a page of another site that finds its port could touch
 the simulation. So every request must bring a word that only the door knows. viser has no place for
 such a check; the function of websockets by which it opens its server is given one while it does.
 """

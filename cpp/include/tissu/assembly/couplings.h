@@ -121,7 +121,7 @@ class Couplings {
   std::vector<std::int32_t> row_begin_;
   std::vector<Entry> entries_;  ///< of each row in the order of the list
   std::vector<Mat3> diagonal_;
-  // Scratch of whoever has the matrix: one product at a time.
+  // Scratch of the matrix that holds it: one product at a time.
   mutable std::vector<Vec3> sums_;  ///< s_c
   mutable std::vector<Term> terms_;
 };

@@ -8,7 +8,7 @@
 
 namespace tissu {
 
-/// Room that force models work in while they compute. It belongs to whoever calls them, one for each caller,
+/// Room that force models work in while they compute. It belongs to the caller, one for each caller,
 /// so that several may compute with one constant world at the same time.
 class Scratch {
  public:

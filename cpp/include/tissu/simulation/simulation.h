@@ -49,11 +49,11 @@ class Simulation {
   /// What supports and led nodes give to the bodies [N], three for each node, zero where nothing is held:
   /// M dv/dt - f with the change of velocity of the latest step.
   [[nodiscard]] std::vector<double> reactions() const;
-  /// Puts nodes that are no unknowns where they are now, for whoever looks at positions or velocities.
+  /// Puts nodes that are not unknowns where they are now, before positions or velocities are read.
   void settle();
 
   /// What a simulation of the same scene needs to go on from here, with the same bits. The solver forgets
-  /// what it keeps of earlier steps, since whoever goes on from the snapshot does not have it.
+  /// what it keeps of earlier steps, since a run that goes on from the snapshot does not have it.
   Snapshot snapshot();
   /// Goes on from a snapshot of a simulation of the same scene; this one has all its cells still. Refuses
   /// what does not fit the world.

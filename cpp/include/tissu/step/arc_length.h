@@ -16,7 +16,7 @@ class ArcLength {
     reached,    ///< share 1
     most,       ///< iterations
     no_longer,  ///< steps below the shortest find nothing
-    released,   ///< the load went below minus itself: what the path leads to is no equilibrium of this load
+    released,   ///< the load went below minus itself: the path leads to a state that is not an equilibrium
   };
   ArcLength(Equilibrium& equilibrium, NewtonSettings newton);
 

@@ -20,7 +20,7 @@ class System {
   System(const World& world, LinearSolver* solver, Profile& profile);
 
   [[nodiscard]] const World& world() const { return world_; }
-  /// Room of the models, for whoever asks them beside the verbs below.
+  /// Scratch of the models, for calls to them beside the verbs below.
   [[nodiscard]] Scratch& scratch() { return scratch_; }
   /// f = all forces
   void force(const State& state, Reals f);

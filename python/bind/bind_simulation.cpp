@@ -157,7 +157,11 @@ void bind_simulation(py::module_& m) {
           },
           py::kw_only(), arg("body"), arg("cells"))
       .def(
-          "replace_world", [](Simulation& s, const std::shared_ptr<World>& world) { s.replace_world(world); },
+          "replace_world",
+          [](Simulation& s, const std::shared_ptr<World>& world) {
+            s.replace_world(world);
+            s.forget_solves();  // as a simulation of the new scene would begin
+          },
           py::kw_only(), arg("world"))
       .def("settle", &Simulation::settle)
       .def("reactions",

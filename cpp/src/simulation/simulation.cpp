@@ -218,6 +218,10 @@ Energy Simulation::energy() const {
   return energy_of(*world_, state_, scratch);
 }
 
+void Simulation::forget_solves() {
+  if (solver_ != nullptr) solver_->forget();
+}
+
 void Simulation::replace_world(std::shared_ptr<const World> world) {
   if (world->blocks() != world_->blocks()) {
     throw ParameterError("the new world has other unknowns than the one that runs.");

@@ -64,7 +64,7 @@ std::shared_ptr<const World> edited(const World& world, const std::vector<Snapsh
 }  // namespace
 
 Snapshot Simulation::snapshot() {
-  if (solver_ != nullptr) solver_->forget();
+  forget_solves();
   hold();
   Snapshot result;
   result.state = state_;
@@ -104,7 +104,7 @@ void Simulation::restore(const Snapshot& snapshot) {
   if (watch_) watch_->restore(snapshot.energy_watch, state_);
   settled_ = snapshot.settled;
   integrator_->restore(snapshot.integrator);
-  if (solver_ != nullptr) solver_->forget();
+  forget_solves();
 }
 
 }  // namespace tissu

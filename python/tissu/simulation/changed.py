@@ -52,7 +52,8 @@ class Changed:
     def allow_grabbing(self) -> None:
         """Let points be grabbed from now on, where the scene was compiled without `grabbing: true`.
 
-        The motion stays the same until one is.
+        The motion stays the same until one is. As after a checkpoint, the linear solver begins
+        anew: an iterative one may end at other digits within its tolerance.
         """
         if not self.scene.grabbing:
             self._become(self.scene.replace(grabbing=True))
@@ -60,7 +61,7 @@ class Changed:
     def allow_touch(self) -> None:
         """Allow grabbing, and give supports without a name one, by which `lead` finds them.
 
-        The motion stays the same until one is used.
+        The motion stays the same until one is used, as `allow_grabbing` says.
         """
         scene, taken = self.scene, set[str]()
         for support in (*scene.fixed, *scene.prescribed):

@@ -62,6 +62,8 @@ class Simulation {
   /// Goes on with another world of the same unknowns: made by an editor from this one, or of the same scene
   /// with other numbers in it. What models remember goes along, as far as the new ones have it too.
   void replace_world(std::shared_ptr<const World> world);
+  /// The solver forgets what it keeps of earlier steps, as when a simulation begins or a snapshot is taken.
+  void forget_solves();
 
  private:
   [[nodiscard]] double farthest() const;

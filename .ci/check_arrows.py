@@ -52,12 +52,13 @@ CPP: dict[str, set[str]] = {
     "model/shell": MODEL,
     "model/condensed": MODEL | {"model/fem", "solve"},
     "viscosity": MODEL | {"model/edges"},  # dampers beside springs
+    "contact": {"base", "mesh", "assembly", "state", "force"},
     "edit": MODEL | {"world"},
     "picture": {"base"},
 }
 CPP["model/models"] = MODEL | {room for room in CPP if room.startswith("model/")}
-CPP["world"] = MODEL | {"model/models", "viscosity"}
-CPP["step"] = {"base", "assembly", "solve", "force", "model", "state", "world"}
+CPP["world"] = MODEL | {"model/models", "viscosity", "contact"}
+CPP["step"] = {"base", "assembly", "solve", "force", "model", "state", "world", "contact"}
 CPP["simulation"] = set(CPP)  # sees everything
 
 # Module of python/tissu -> the modules it may import, at the top or inside a function. Imports for

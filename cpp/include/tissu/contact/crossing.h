@@ -1,0 +1,16 @@
+#pragma once
+
+/// The exact audit: which edges cross which triangles. Signs are exact (base/exact.h).
+
+#include <array>
+
+#include "tissu/base/vec.h"
+
+namespace tissu {
+
+/// Whether the closed segment a b and the closed triangle share a point. Exact for the given coordinates;
+/// touching counts. False for a triangle without area and for a segment in the triangle's plane: their edges
+/// and vertices are audited by their neighbours.
+bool crosses(const Vec3& a, const Vec3& b, const std::array<Vec3, 3>& triangle);
+
+}  // namespace tissu

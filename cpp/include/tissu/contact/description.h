@@ -1,0 +1,63 @@
+#pragma once
+
+/// What of a scene touches what, as plain data.
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tissu/assembly/fixed_dofs.h"
+#include "tissu/contact/broad_phase.h"
+
+namespace tissu {
+
+/// The surface of a body or of an obstacle. It is made of triangles, of edges that belong to no triangle
+/// (lines, a capsule) and of vertices that belong to no edge (a sphere).
+struct SurfaceDescription {
+  std::string name;  ///< of the body or obstacle
+  /// Of an obstacle: its vertices where it stands at rest [m], three numbers each. A body's are its nodes.
+  std::vector<double> vertices = {};
+  std::vector<std::array<std::int32_t, 3>> triangles = {};  ///< anticlockwise seen from outside
+  std::vector<std::array<std::int32_t, 2>> edges = {};
+  std::vector<std::int32_t> points = {};
+  /// Half the thickness of what the primitives stand for [m], one number for each vertex; empty: none.
+  std::vector<double> radius = {};
+  bool closed = false;  ///< its triangles enclose a volume: they are met from outside only
+};
+
+/// A thing that is not deformed: a plane, or a surface.
+struct ObstacleDescription {
+  SurfaceDescription surface;   ///< empty for a plane
+  bool plane = false;           ///< all points x with normal . (x - origin) <= 0 are inside
+  Vec3 normal = Vec3::UnitZ();  ///< of length 1
+  Vec3 origin = Vec3::Zero();   ///< what `motion` moves, and what moments are taken about [m]
+  Motion motion = {};           ///< the path on which it is led; at rest when empty
+};
+
+enum class ContactMethod { augmented, barrier, penalty, impulse, geometric };
+
+/// A pair of surfaces that meet. Bodies are numbered first, in the order of `bodies`, then obstacles.
+struct ContactPair {
+  std::int32_t a = 0;
+  std::int32_t b = 0;     ///< the same: it meets itself
+  double friction = 0.0;  ///< Coulomb's mu
+  double gap = 0.0;       ///< at which surfaces rest [m], beside the radii; positive
+  double restitution = 0.0;
+  std::optional<double> stiffness =
+      std::nullopt;                      ///< of the penalty method [Pa/m]; absent: from the step's matrix
+  std::vector<std::int32_t> nodes = {};  ///< of a that alone meet b; empty: all
+};
+
+struct ContactDescription {
+  std::vector<SurfaceDescription> bodies;
+  std::vector<ObstacleDescription> obstacles;
+  std::vector<ContactPair> pairs;
+  ContactMethod method = ContactMethod::augmented;
+  BroadPhaseKind broad_phase = BroadPhaseKind::hierarchy;
+  int iterations = 3;  ///< systems at most in a step that is linearised once
+  bool travel = true;  ///< nothing passes through anything
+};
+
+}  // namespace tissu

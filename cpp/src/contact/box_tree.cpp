@@ -91,16 +91,19 @@ struct Counts {
 
 }  // namespace
 
+void BoxTree::reserve(std::size_t primitives) {
+  entries_.reserve(primitives);
+  nodes_.reserve(2 * primitives);
+  leaves_.reserve(primitives);
+}
+
 void BoxTree::build(std::span<const Box> boxes, std::span<const std::int32_t> primitives) {
   entries_.clear();
   nodes_.clear();
   leaves_.clear();
-  entries_.reserve(primitives.size());
+  reserve(primitives.size());  // a tree built again, with other leaves, takes no memory
   for (const std::int32_t p : primitives) entries_.push_back({boxes[static_cast<std::size_t>(p)], p});
   if (entries_.empty()) return;
-  // So that a tree built again, with other leaves, takes no memory.
-  nodes_.reserve(2 * primitives.size());
-  leaves_.reserve(primitives.size());
   std::array<Part, kDeepest + 1> waiting;
   std::size_t count = 0;
   nodes_.emplace_back();

@@ -29,6 +29,8 @@ class BoxTree {
     std::array<std::int32_t, kLeaf> primitive;
   };
 
+  /// Takes the memory that a tree of so many primitives can need.
+  void reserve(std::size_t primitives);
   /// The tree of `primitives`, numbers of boxes, made anew: each set is cut in two where the sum of areas
   /// times numbers is least, among 16 slices along the longest side of the boxes' middles.
   void build(std::span<const Box> boxes, std::span<const std::int32_t> primitives);

@@ -1,6 +1,9 @@
 #include "tissu/contact/broad_phase.h"
 
+#include "contact/grid.h"
 #include "contact/hierarchy.h"
+#include "contact/octree.h"
+#include "contact/sweep_and_prune.h"
 #include "tissu/base/error.h"
 
 namespace tissu {
@@ -9,7 +12,13 @@ std::unique_ptr<BroadPhase> make_broad_phase(BroadPhaseKind kind, const SearchPl
   switch (kind) {
     case BroadPhaseKind::hierarchy:
       return std::make_unique<Hierarchy>(plan);
-    default:
+    case BroadPhaseKind::sweep_and_prune:
+      return std::make_unique<SweepAndPrune>(plan);
+    case BroadPhaseKind::grid:
+      return std::make_unique<Grid>(plan);
+    case BroadPhaseKind::octree:
+      return std::make_unique<Octree>(plan);
+    case BroadPhaseKind::fcl:
       break;
   }
   throw ParameterError(

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "tissu/contact/broad_phase.h"
@@ -27,6 +28,18 @@ class FoundPairs {
   void add(std::int32_t p, std::int32_t q) {
     expect(1);
     put(p, q, true);
+  }
+  [[nodiscard]] std::size_t count() const { return count_; }
+  /// Of the pairs from number `first` on, those stay for which `holds(a, b)`.
+  template <class Holds>
+  void keep_if(std::size_t first, Holds&& holds) {
+    std::size_t kept = first;
+    for (std::size_t i = first; i < count_; ++i) {
+      const BoxPair pair = pairs_[i];
+      pairs_[kept] = pair;
+      kept += holds(pair.a, pair.b) ? 1U : 0U;
+    }
+    count_ = kept;
   }
   [[nodiscard]] std::span<const BoxPair> all() const { return {pairs_.data(), count_}; }
   [[nodiscard]] std::size_t bytes() const { return pairs_.capacity() * sizeof(BoxPair); }

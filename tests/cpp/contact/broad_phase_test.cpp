@@ -104,7 +104,10 @@ TEST_P(BroadPhases, AMeetingNamedTwiceCountsOnce) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Contact, BroadPhases,
-                         testing::Values(BroadCase{"hierarchy", BroadPhaseKind::hierarchy}),
+                         testing::Values(BroadCase{"hierarchy", BroadPhaseKind::hierarchy},
+                                         BroadCase{"sweep_and_prune", BroadPhaseKind::sweep_and_prune},
+                                         BroadCase{"grid", BroadPhaseKind::grid},
+                                         BroadCase{"octree", BroadPhaseKind::octree}),
                          testing::PrintToStringParamName());
 
 TEST(BroadPhase, FclIsRefusedByName) {

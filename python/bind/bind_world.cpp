@@ -3,6 +3,7 @@
 #include <tuple>
 
 #include "bind.h"
+#include "motion.h"
 #include "specs.h"
 #include "tissu/world/world.h"
 
@@ -111,22 +112,6 @@ std::vector<FaceCells> to_faces(const std::vector<std::pair<std::string, Ints>>&
   return result;
 }
 
-Motion to_motion(const Doubles& times, const Doubles& displacements, const Doubles& angles,
-                 const Doubles& center, const Doubles& axis) {
-  with_columns(displacements, 3, "displacements");
-  if (times.size() == 0 || displacements.shape(0) != times.size() || angles.size() != times.size()) {
-    throw ParameterError(
-        "a motion needs as many displacements and angles as it has times, and at least one.");
-  }
-  const Vec3 direction = to_vec3(axis, "axis");
-  if (!(direction.norm() > 0.0)) throw ParameterError("the axis of a rotation must not be zero.");
-  Motion motion{to_vector(times), {}, to_vector(angles), to_vec3(center, "center"), direction.normalized()};
-  for (py::ssize_t i = 0; i < displacements.shape(0); ++i) {
-    motion.displacements.emplace_back(displacements.at(i, 0), displacements.at(i, 1), displacements.at(i, 2));
-  }
-  return motion;
-}
-
 void add_fixed(WorldDescription& world, const std::string& body, const Ints& nodes, int axes, int rotations,
                Motion motion, std::string name) {
   if (axes < 0 || axes > 7) throw ParameterError("axes must be a mask of x = 1, y = 2 and z = 4.");
@@ -144,6 +129,9 @@ void add_fixed(WorldDescription& world, const std::string& body, const Ints& nod
 
 }  // namespace
 
+/// Of bind_contact.cpp.
+void bind_contact(py::class_<WorldDescription>& builder);
+
 void bind_world(py::module_& m) {
   using py::arg;
   py::class_<World, std::shared_ptr<World>>(m, "World")
@@ -160,7 +148,9 @@ void bind_world(py::module_& m) {
       .value("free", Plane::free)
       .value("stress", Plane::stress)
       .value("strain", Plane::strain);
-  py::class_<WorldDescription>(m, "WorldBuilder")
+  py::class_<WorldDescription> builder(m, "WorldBuilder");
+  bind_contact(builder);
+  builder
       .def(py::init([](int threads, bool editable, bool grabbing, bool consistent_weight) {
              WorldDescription world;
              world.threads = threads;

@@ -88,6 +88,15 @@ from tissu.scene import NodalLoad as NodalLoad
 from tissu.scene import Moment as Moment
 from tissu.scene import Traction as Traction
 from tissu.scene import Pressure as Pressure
+from tissu.scene import Motion as Motion
+from tissu.scene import PlaneObstacle as PlaneObstacle
+from tissu.scene import SphereObstacle as SphereObstacle
+from tissu.scene import CapsuleObstacle as CapsuleObstacle
+from tissu.scene import BoxObstacle as BoxObstacle
+from tissu.scene import MeshObstacle as MeshObstacle
+from tissu.scene import Contact as Contact
+from tissu.scene import SelfContact as SelfContact
+from tissu.scene import ContactSettings as ContactSettings
 from tissu.scene import ExplicitEuler as ExplicitEuler
 from tissu.scene import SymplecticEuler as SymplecticEuler
 from tissu.scene import RK2 as RK2

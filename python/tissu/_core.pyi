@@ -126,6 +126,8 @@ def Shell(*, drilling: float) -> Model: ...
 
 SectionOfLines = tuple[str, Sequence[float], Sequence[float]]
 
+MotionPath = tuple[Floats, Floats, Floats, Floats, Floats]
+
 class WorldBuilder:
     def __init__(
         self,
@@ -215,6 +217,40 @@ class WorldBuilder:
         rotations: int,
         name: str,
     ) -> None: ...
+    def set_contact(
+        self, *, method: str, broad_phase: str, iterations: int, travel: bool
+    ) -> None: ...
+    def add_contact_surface(
+        self, *, body: str, triangles: Ints, edges: Ints, radius: Floats, closed: bool
+    ) -> None: ...
+    def add_obstacle(
+        self,
+        *,
+        name: str,
+        vertices: Floats,
+        triangles: Ints,
+        edges: Ints,
+        points: Ints,
+        radius: Floats,
+        closed: bool,
+        origin: Floats,
+        motion: MotionPath | None,
+    ) -> None: ...
+    def add_plane(
+        self, *, name: str, normal: Floats, origin: Floats, motion: MotionPath | None
+    ) -> None: ...
+    def add_contact_pair(
+        self,
+        *,
+        a: int,
+        b: int,
+        friction: float,
+        gap: float,
+        restitution: float,
+        stiffness: float | None,
+        nodes: Ints,
+    ) -> None: ...
+    def described_contact(self) -> dict[str, Any] | None: ...
     def build(self) -> World: ...
 
 class Integrator: ...

@@ -28,6 +28,8 @@ def effects_of(scene: SceneData, counts: Mapping[str, str] | None = None) -> lis
         for number, part in enumerate(getattr(scene, group)):
             path = f"{group}[{number}]"
             effects.append(part.effect(path, counts.get(path)))
+    effects += [obstacle.effect(name) for name, obstacle in scene.obstacles.items()]
+    effects += _contact_effects(scene, counts)
     for path, name in _led_live(scene).items():
         effects.append(Effect("live leads", f"{path} has the name '{name}'"))
     effects += [scene.step.effect(), *scene.step.solver_effects()]
@@ -36,6 +38,15 @@ def effects_of(scene: SceneData, counts: Mapping[str, str] | None = None) -> lis
     if scene.grabbing:
         effects.append(Effect("grabs", "grabbing is true"))
     return effects
+
+
+def _contact_effects(scene: SceneData, counts: Mapping[str, str]) -> list[Effect]:
+    """What meets what, and how."""
+    paths = [f"contacts[{number}]" for number in range(len(scene.contacts))]
+    found = [c.effect(p, counts.get(p)) for p, c in zip(paths, scene.contacts, strict=True)]
+    if "contact" in counts:
+        found.append(Effect("contact", counts["contact"]))
+    return found
 
 
 def absent_of(scene: SceneData) -> list[str]:
@@ -54,7 +65,7 @@ def absent_of(scene: SceneData) -> list[str]:
         "inertia": scene.step.type != "static",
         "cell removal": scene.editing,
         "grabs": scene.grabbing,
-        "contact": False,
+        "contact": bool(scene.contacts),
         "cutting": False,
         "haptics": False,
     }

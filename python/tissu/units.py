@@ -162,6 +162,10 @@ FORCE = Dimension("force", "N", "20 mN", {"N": 1.0, "mN": 1e-3, "kN": 1e3})
 STIFFNESS = Dimension(
     "stiffness", "N/m", "50 N/m", {"N/m": 1.0, "N/mm": 1e3, "mN/mm": 1.0, "kN/m": 1e3}
 )
+STIFFNESS_PER_AREA = Dimension(
+    "stiffness per area", "Pa/m", "5 kPa/mm",
+    {"Pa/m": 1.0, "kPa/m": 1e3, "kPa/mm": 1e6, "MPa/m": 1e6, "N/m^3": 1.0},
+)  # fmt: skip
 MOMENT = Dimension("moment", "N m", "2 N mm", {"N m": 1.0, "N mm": 1e-3, "kN m": 1e3})
 ACCELERATION = Dimension(
     "acceleration", "m/s^2", "-9.81 m/s^2", {"m/s^2": 1.0, "m/s2": 1.0, "mm/s^2": 1e-3}
@@ -194,7 +198,7 @@ SPIN = Dimension(
 NUMBER = Dimension("pure number", "", "0.45", {"%": 0.01})
 DIMENSIONS = (
     *(LENGTH, AREA, TIME, MASS, PRESSURE, DENSITY, FORCE, ACCELERATION, ANGLE, RATE),
-    *(VISCOSITY, DAMPING_PER_VOLUME, VELOCITY, SPIN, AREA_MOMENT),
+    *(VISCOSITY, DAMPING_PER_VOLUME, VELOCITY, SPIN, AREA_MOMENT, STIFFNESS_PER_AREA),
     NUMBER,
 )
 
@@ -280,6 +284,7 @@ Time = Annotated[_Quantity, BeforeValidator(TIME)]
 Mass = Annotated[_Quantity, BeforeValidator(MASS)]
 Pressure = Annotated[_Quantity, BeforeValidator(PRESSURE)]
 Density = Annotated[_Quantity, BeforeValidator(DENSITY)]
+StiffnessPerArea = Annotated[_Quantity, BeforeValidator(STIFFNESS_PER_AREA)]
 Rate = Annotated[_Quantity, BeforeValidator(RATE)]
 Viscosity = Annotated[_Quantity, BeforeValidator(VISCOSITY)]
 DampingPerVolume = Annotated[_Quantity, BeforeValidator(DAMPING_PER_VOLUME)]

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from tissu.errors import SceneError
 from tissu.files import distinct_names, require_file_place, whole_file
-from tissu.scene.body import Body, MeshFile
+from tissu.scene.body import MeshFile
 from tissu.scene.part import KEEP_PROBLEMS, Part
 from tissu.scene.problem import Problem, Source
 from tissu.scene.scene import SceneData
@@ -154,10 +154,10 @@ def scene_data(
         SceneError: a mesh or a law that came from no file.
     """
     problems = [
-        f"bodies.{name}.mesh: made in memory, so it has no file to name; "
+        f"{group}.{name}.mesh: made in memory, so it has no file to name; "
         "scene.save(path) writes it beside the scene"
-        for name, body in scene.bodies.items()
-        if not isinstance(body.mesh, Part) and body.mesh.source is None
+        for group in ("bodies", "obstacles")
+        for name in _made_in_memory(getattr(scene, group))
     ]
     problems += [
         f"the law {law.name} was made in memory, so it has no file to name; write its formula to a "
@@ -173,6 +173,12 @@ def scene_data(
         rest = {key: value for key, value in data.items() if key != "laws"}
         data = {"laws": _plain(list(files), folder), **rest}
     return data
+
+
+def _made_in_memory(parts: Mapping[str, Part]) -> list[str]:
+    """The names of the bodies, or obstacles, whose mesh came from no file."""
+    meshes = {name: getattr(part, "mesh", part) for name, part in parts.items()}
+    return [n for n, m in meshes.items() if not isinstance(m, Part) and m.source is None]
 
 
 def scene_text(
@@ -196,19 +202,19 @@ def write_scene(scene: SceneData, path: Path) -> None:
         SceneError: the file or a mesh cannot be written.
     """
     require_file_place(path, "scene", error=_scene_error)
-    bodies: dict[str, Body] = {}
-    files = distinct_names(scene.bodies)
-    for name, body in scene.bodies.items():
-        if isinstance(body.mesh, Part) or body.mesh.source is not None:
-            bodies[name] = body
-            continue
-        from tissu.mesh import write_mesh
+    changes = {}
+    files = distinct_names([*scene.bodies, *scene.obstacles])
+    for group in ("bodies", "obstacles"):
+        parts = dict(getattr(scene, group))
+        for name in _made_in_memory(parts):
+            from tissu.mesh import write_mesh
 
-        file = path.with_name(f"{path.stem}-{files[name]}.vtu")
-        write_mesh(body.mesh, file)
-        bodies[name] = body.replace(mesh=MeshFile(file))
+            file = path.with_name(f"{path.stem}-{files[name]}.vtu")
+            write_mesh(parts[name].mesh, file)
+            parts[name] = parts[name].replace(mesh=MeshFile(file))
+            changes[group] = parts
     moved = laws_beside(scene, path.parent)
-    text = scene_text(scene.replace(bodies=bodies), folder=path.parent, moved=moved)
+    text = scene_text(scene.replace(**changes), folder=path.parent, moved=moved)
     with whole_file(path, error=_scene_error) as partial:
         partial.write_text(text, encoding="utf-8")
 

@@ -60,6 +60,7 @@ HEADINGS: dict[str, tuple[str, ...]] = {
     "Selections: which nodes": ("selection",),
     "Supports and motion": ("support",),
     "Loads": ("load",),
+    "Obstacles and contacts": ("motion", "obstacle", "contact"),
     "Steps": ("step",),
     "Linear solvers": ("solver",),
 }

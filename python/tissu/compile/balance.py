@@ -120,6 +120,8 @@ def _check_held(prepared: Prepared, name: str, mesh: Mesh) -> None:
             f"bodies.{name}: held at fewer than three nodes, so it may turn freely in a static step"
         )
     elif not static and not mask.any() and any(gravity or ()):
+        if name in _caught(prepared):
+            return
         prepared.findings.note(
             f"bodies.{name}: nothing holds the body, so it falls; hold nodes with `fixed`, "
             "or leave gravity out"
@@ -129,6 +131,16 @@ def _check_held(prepared: Prepared, name: str, mesh: Mesh) -> None:
         prepared.findings.note(
             f"bodies.{name}: {free} of {parts} separate parts without a fixed node fly free"
         )
+
+
+def _caught(prepared: Prepared) -> set[str]:
+    """Bodies that contacts may stop."""
+    scene = prepared.scene
+    contacts = getattr(scene, "contacts", ())
+    if any(getattr(contact, "between", None) == "all" for contact in contacts):
+        return set(scene.bodies)
+    pairs = (contact.pairs() for contact in contacts if hasattr(contact, "between"))
+    return {name for some in pairs for pair in some for name in (pair[1], pair[3])}
 
 
 def _part_of_nodes(mesh: Mesh) -> Ints:

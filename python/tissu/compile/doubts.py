@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from tissu.compile.balance import held_axes
+from tissu.compile.overlap import boxes_that_overlap
 from tissu.counted import are, counted
 from tissu.scene.law import UserLaw
 from tissu.scene.load import Pressure
@@ -35,7 +36,7 @@ _LINEAR_MODELS = ("fem", "mean_dilatation")
 def doubts(prepared: Prepared) -> list[str]:
     """What is computed as it stands, one sentence each."""
     found: list[str] = []
-    checks = (_sizes, _moduli, _held_loads, _following_pressure, _turning)
+    checks = (_sizes, _moduli, _held_loads, _following_pressure, _turning, _contacts)
     for check in checks:
         with contextlib.suppress(Unknown):
             for text in check(prepared):
@@ -82,6 +83,32 @@ def young_of(law: Law) -> float | None:
         return None
     lam, mu = limit
     return float(mu * (3.0 * lam + 2.0 * mu) / (lam + mu))
+
+
+def _contacts(prepared: Prepared) -> Iterator[str]:
+    scene = prepared.scene
+    if scene.contacts:
+        met = (
+            {name for pair in prepared.contact.pairs for name in pair[:2]}
+            if prepared.contact
+            else set()
+        )
+        yield from (
+            f"obstacles.{name}: no contact names it, so that all bodies pass through it"
+            for name in scene.obstacles
+            if prepared.contact is not None and name not in met
+        )
+        return
+    if scene.contact is not None or scene.obstacles:
+        field = "contact" if scene.contact is not None else "obstacles"
+        yield f"{field}: without `contacts` nothing meets anything; name the pairs that meet"
+    both = boxes_that_overlap({n: k.mesh.bounds for n, k in prepared.meshes.items() if k.positions})
+    if both:
+        shown = ", ".join(f"{a} and {b}" for a, b in both[:5]) + (", ..." if len(both) > 5 else "")
+        yield (
+            f"contacts: none, so that bodies pass through each other; at rest the boxes of {shown} "
+            "touch or overlap"
+        )
 
 
 def _held_loads(prepared: Prepared) -> Iterator[str]:

@@ -8,17 +8,17 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from tissu.compile.balance import check_supports
+from tissu.compile.contact import prepare_contact
 from tissu.compile.material import cell_groups, density_of
 from tissu.compile.meshes import known_mesh
 from tissu.compile.model import check_kept, check_rotations, note_condensed, note_static_frames
-from tissu.compile.prepared import Held, Ints, LoadedNodes, Prepared, PreparedBody
+from tissu.compile.prepared import Held, LoadedNodes, Prepared, PreparedBody
 from tissu.compile.quadrature import check_quadrature
-from tissu.compile.select import selected_faces
+from tissu.compile.select import selected_faces, selected_nodes, selection_words
 from tissu.compile.thin import note_bending, note_held_plane
 from tissu.compile.tissue import prepare_tissue
 from tissu.compile.viscosity import check_viscosity
 from tissu.counted import counted
-from tissu.errors import ParameterError
 from tissu.scene.part import problems_in
 from tissu.scene.selection import SurfaceNodes
 from tissu.scene.support import Fixed
@@ -29,7 +29,6 @@ if TYPE_CHECKING:
     from tissu.scene.load import Load
     from tissu.scene.problem import Path
     from tissu.scene.scene import SceneData
-    from tissu.scene.selection import Selection
     from tissu.scene.support import Support
 
 
@@ -54,6 +53,8 @@ def prepare(scene: SceneData) -> Prepared:
     with contextlib.suppress(Unknown):
         check_rotations(prepared)
     check_supports(prepared)
+    with contextlib.suppress(Unknown):
+        prepare_contact(prepared)
     return prepared
 
 
@@ -87,7 +88,7 @@ def _hold_plane(prepared: Prepared, name: str, mesh: Mesh) -> None:
 
 def _prepare_support(prepared: Prepared, path: Path, support: Support) -> None:
     with contextlib.suppress(Unknown):
-        nodes = _nodes(prepared, path, support.body, support.on)
+        nodes = selected_nodes(prepared, path, support.body, support.on)
         if nodes is not None:
             misfit = support.misfit(nodes)
             if misfit is not None:
@@ -96,29 +97,8 @@ def _prepare_support(prepared: Prepared, path: Path, support: Support) -> None:
             prepared.held.append(Held(support, path, nodes))
 
 
-def _nodes(prepared: Prepared, path: Path, body: str, on: Selection) -> Ints | None:
-    """Selected nodes; None, and maybe a problem, when there are none."""
-    known = prepared.meshes.get(body)
-    if known is None:
-        return None  # no such body, or none that can be read: told already
-    if not (known.positions or not on.by_place):
-        return None
-    if on.type == "surface" and not known.surface:
-        return None
-    try:
-        nodes = on.nodes(known.mesh)
-    except ParameterError as error:
-        prepared.findings.problem((*path, "on"), str(error))
-        return None
-    if nodes.size:
-        return nodes
-    text = f"{_words(on)} selects no node of body '{body}', which {_extent(known.mesh)}"
-    prepared.findings.problem((*path, "on"), text)
-    return None
-
-
 def _prepare_load(prepared: Prepared, path: Path, load: Load) -> None:
-    nodes = _nodes(prepared, path, load.body, load.on)
+    nodes = selected_nodes(prepared, path, load.body, load.on)
     if nodes is None:
         return
     faces: tuple[CellBlock, ...] = ()
@@ -127,31 +107,9 @@ def _prepare_load(prepared: Prepared, path: Path, load: Load) -> None:
         flat = getattr(prepared.scene.bodies.get(load.body), "plane", None) is not None
         faces = selected_faces(nodes, known.mesh, flat=flat)
         if not faces:
-            text = f"{_words(load.on)} selects {counted(len(nodes), 'node')} of body '{load.body}'"
-            text += f", but no {'edge' if flat else 'face'} of its surface with all its nodes"
+            count, side = counted(len(nodes), "node"), "edge" if flat else "face"
+            text = f"{selection_words(load.on)} selects {count} of body '{load.body}', but "
+            text += f"no {side} of its surface with all its nodes"
             prepared.findings.problem((*path, "on"), text)
             return
     prepared.loaded.append(LoadedNodes(load, path, nodes, faces))
-
-
-def _words(on: Selection) -> str:
-    fields = {name: getattr(on, name) for name in type(on).model_fields if name != "type"}
-    text = ", ".join(f"{name} {_shown(value)}" for name, value in fields.items())
-    return f"the {on.type} ({text})" if text else f"the {on.type}"
-
-
-def _shown(value: object) -> str:
-    """A field of a selection in a sentence; what is absent is open."""
-    if value is None:
-        return "open"
-    if isinstance(value, tuple):
-        few = [_shown(item) for item in value[:6]] + ["..."] * (len(value) > 6)
-        return f"({', '.join(few)})"
-    return f"{value:g}" if isinstance(value, float) else f"{value}"
-
-
-def _extent(mesh: Mesh) -> str:
-    low, high = mesh.bounds
-    return "reaches " + ", ".join(
-        f"{axis} from {a:g} to {b:g} m" for axis, a, b in zip("xyz", low, high, strict=True)
-    )

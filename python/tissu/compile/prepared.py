@@ -14,6 +14,7 @@ from tissu.scene.model import FEM, Model
 from tissu.scene.problem import Path, Problem
 
 if TYPE_CHECKING:
+    from tissu.compile.contact import PreparedContact
     from tissu.mesh import CellBlock, Mesh
     from tissu.scene.load import Load
     from tissu.scene.scene import SceneData
@@ -155,6 +156,7 @@ class Prepared:
     Attributes:
         meshes: those in which nodes can be selected, whether or not they have problems.
         bodies: those without any problem.
+        contact: the contacts, where the scene has any.
     """
 
     scene: SceneData
@@ -164,6 +166,7 @@ class Prepared:
     tissue: dict[str, PreparedTissue] = field(default_factory=dict)
     held: list[Held] = field(default_factory=list)
     loaded: list[LoadedNodes] = field(default_factory=list)
+    contact: PreparedContact | None = None
 
     def has_rotations(self, name: str) -> bool:
         """Whether the nodes of a body or tissue are frames."""
@@ -185,4 +188,6 @@ class Prepared:
                 else counted(len(loaded.nodes), "node")
             )
             counts[f"{loaded.path[0]}[{loaded.path[1]}]"] = text
+        if self.contact is not None:
+            counts |= {"contact": self.contact.words(), **self.contact.gaps}
         return counts

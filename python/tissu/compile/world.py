@@ -101,6 +101,8 @@ def build_world(prepared: Prepared) -> Any:
     for loaded in prepared.loaded:
         where = _where(prepared, loaded)
         loaded.load.add_to(builder, where, number=int(loaded.path[1]))
+    if prepared.contact is not None:
+        prepared.contact.add_to(builder)
     return builder.build()
 
 

@@ -75,6 +75,21 @@ from tissu.scene.load import (
     Traction,
     Pressure,
 )
+from tissu.scene.motion import (
+    Motion,
+)
+from tissu.scene.obstacle import (
+    PlaneObstacle,
+    SphereObstacle,
+    CapsuleObstacle,
+    BoxObstacle,
+    MeshObstacle,
+)
+from tissu.scene.contact import (
+    Contact,
+    SelfContact,
+    ContactSettings,
+)
 from tissu.scene.step import (
     ExplicitEuler,
     SymplecticEuler,
@@ -142,6 +157,15 @@ __all__ = [
     "Moment",
     "Traction",
     "Pressure",
+    "Motion",
+    "PlaneObstacle",
+    "SphereObstacle",
+    "CapsuleObstacle",
+    "BoxObstacle",
+    "MeshObstacle",
+    "Contact",
+    "SelfContact",
+    "ContactSettings",
     "ExplicitEuler",
     "SymplecticEuler",
     "RK2",

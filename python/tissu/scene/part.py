@@ -44,7 +44,7 @@ class Part(BaseModel):
     )
     _problems: tuple[Problem, ...] = PrivateAttr(default=())
 
-    def __init__(self, *values: Any, **fields: Any) -> None:
+    def __init__(self, /, *values: Any, **fields: Any) -> None:
         """Make the part from its fields.
 
         Raises:

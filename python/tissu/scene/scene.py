@@ -15,8 +15,11 @@ from tissu.field_names import FIELD_NAMES, WRITTEN_BESIDE
 from tissu.reading import Maybe, MaybeVector, Read
 from tissu.scene.body import Body, PathLike
 from tissu.scene.bounds import name_problem, step_problems
+from tissu.scene.contact import Contacts, ContactSettings
+from tissu.scene.contact_rules import contact_problems
 from tissu.scene.field import field
 from tissu.scene.load import Load, OneLoad
+from tissu.scene.obstacle import Obstacles
 from tissu.scene.part import Part, problems_in
 from tissu.scene.problem import Problem, Source, nearest, one_of_words
 from tissu.scene.step import OneStep
@@ -98,6 +101,12 @@ class SceneData(Part):
     """nodes moved along a given path"""
     loads: Read[tuple[OneLoad, ...], Sequence[Load]] = field(default=())
     """forces, tractions and pressures"""
+    obstacles: Annotated[Obstacles, BeforeValidator(_by_name)] = field(default_factory=dict)
+    """rigid things by name that bodies meet where a contact says so"""
+    contacts: Contacts = field(default=())
+    """what meets what; absent: bodies pass through each other"""
+    contact: ContactSettings | None = None
+    """how contacts are found and answered, of all of them"""
     step: OneStep
     """how time is stepped, such as {type: implicit_euler, dt: 10 ms}"""
     duration: Maybe[units.Time] = field(default=None, gt=0.0)
@@ -142,6 +151,22 @@ class SceneData(Part):
                         text += f"Bodies: {one_of_words(self.bodies)}"
                         yield Problem(("tissue", name, "between", end), text)
 
+    @rule("obstacles")
+    def _names_obstacles_once(self) -> Iterator[Problem]:
+        """A name finds one body, tissue or obstacle."""
+        bodies, tissue = getattr(self, "bodies", {}), tissues_of(self)
+        for name in self.obstacles:
+            if name in bodies or name in tissue:
+                kind = "body" if name in bodies else "tissue"
+                yield Problem(
+                    ("obstacles", name), f"found '{name}' as a {kind} too; names are unique"
+                )
+
+    @rule()
+    def _contacts_can_be(self) -> Iterator[Problem]:
+        """Contacts of what there is, with a method that the step has."""
+        yield from contact_problems(self)
+
     @rule("loads")
     def _names_loads_once(self) -> Iterator[Problem]:
         """A name finds one load."""
@@ -181,7 +206,7 @@ class SceneData(Part):
     def _has_names_to_write(self) -> Iterator[Problem]:
         """Names that can stand in files and messages."""
         named = [(("name",), getattr(self, "name", ""))]
-        for group in ("bodies", "tissue"):
+        for group in ("bodies", "tissue", "obstacles"):
             named += [((group,), name) for name in getattr(self, group, {})]
         for path, name in named:
             text = name_problem(name)

@@ -19,6 +19,7 @@ from tissu.scene.generated.laws import LAWS
 from tissu.scene.law import Law
 from tissu.scene.load import LOADS, Load
 from tissu.scene.model import MODELS, Model
+from tissu.scene.obstacle import OBSTACLES, MeshObstacle, Obstacle
 from tissu.scene.part import Part, type_name
 from tissu.scene.scene import SceneData
 from tissu.scene.section import SECTIONS, Section
@@ -36,6 +37,7 @@ _FAMILIES: dict[Any, tuple[type[Part], ...]] = {
     Law: LAWS,
     Load: LOADS,
     Model: MODELS,
+    Obstacle: OBSTACLES,
     Section: SECTIONS,
     Selection: SELECTIONS,
     Solver: SOLVERS,
@@ -44,6 +46,7 @@ _FAMILIES: dict[Any, tuple[type[Part], ...]] = {
 }
 _READ_AS: dict[tuple[type[Part], str], Any] = {  # fields that read more than they keep
     (Body, "mesh"): _MESH,
+    (MeshObstacle, "mesh"): _MESH,
     (Tissue, "inside"): _MESH | None,
     (Region, "name"): str | int,  # YAML reads the name 7 as a number
 }

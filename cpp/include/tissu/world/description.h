@@ -9,6 +9,7 @@
 
 #include "tissu/assembly/fixed_dofs.h"
 #include "tissu/base/isa.h"
+#include "tissu/contact/description.h"
 #include "tissu/force/load.h"
 #include "tissu/model/elastic_block.h"
 #include "tissu/viscosity/viscosity.h"
@@ -85,6 +86,7 @@ struct WorldDescription {
   bool consistent_weight = false;
   std::vector<LoadDescription> loads;
   std::vector<PressureDescription> pressures;
+  std::optional<ContactDescription> contact;
   bool links = false;     ///< springs between points may be made and unmade while it runs
   bool grabbing = false;  ///< points may be pulled to targets while it runs
   bool editable = false;  ///< cells may be removed while it runs

@@ -1,0 +1,209 @@
+/// What touches what: surfaces, obstacles and pairs, added to the description of a world.
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <string_view>
+#include <tuple>
+#include <utility>
+
+#include "bind.h"
+#include "motion.h"
+#include "tissu/world/description.h"
+
+namespace tissu::bind {
+namespace {
+
+using Doubles = Array<double>;
+using Ints = Array<std::int32_t>;
+
+template <class Kind, std::size_t n>
+using Words = std::array<std::pair<std::string_view, Kind>, n>;
+
+constexpr Words<ContactMethod, 5> kMethods = {{{"augmented", ContactMethod::augmented},
+                                               {"barrier", ContactMethod::barrier},
+                                               {"penalty", ContactMethod::penalty},
+                                               {"impulse", ContactMethod::impulse},
+                                               {"geometric", ContactMethod::geometric}}};
+constexpr Words<BroadPhaseKind, 5> kBroadPhases = {{{"hierarchy", BroadPhaseKind::hierarchy},
+                                                    {"sweep_and_prune", BroadPhaseKind::sweep_and_prune},
+                                                    {"grid", BroadPhaseKind::grid},
+                                                    {"octree", BroadPhaseKind::octree},
+                                                    {"fcl", BroadPhaseKind::fcl}}};
+
+template <class Kind, std::size_t n>
+Kind named(const Words<Kind, n>& words, const std::string& name, const char* what) {
+  for (const auto& [word, kind] : words) {
+    if (word == name) return kind;
+  }
+  throw ParameterError("found the " + std::string(what) + " '" + name + "', which is not known.");
+}
+
+template <class Kind, std::size_t n>
+std::string name_of(const Words<Kind, n>& words, Kind wanted) {
+  for (const auto& [word, kind] : words) {
+    if (kind == wanted) return std::string(word);
+  }
+  return {};
+}
+
+ContactDescription& contact_of(WorldDescription& world) {
+  if (!world.contact) throw ParameterError("set_contact comes before surfaces, obstacles and pairs.");
+  return *world.contact;
+}
+
+template <std::size_t n>
+std::vector<std::array<std::int32_t, n>> to_rows(const Ints& array, const char* name) {
+  with_columns(array, static_cast<py::ssize_t>(n), name);
+  std::vector<std::array<std::int32_t, n>> rows(static_cast<std::size_t>(array.shape(0)));
+  for (std::size_t i = 0; i < rows.size(); ++i) std::copy_n(array.data() + i * n, n, rows[i].begin());
+  return rows;
+}
+
+SurfaceDescription to_surface(const std::string& name, const Doubles& vertices, const Ints& triangles,
+                              const Ints& edges, const Ints& points, const Doubles& radius, bool closed) {
+  SurfaceDescription surface;
+  surface.name = name;
+  surface.vertices = to_vector(with_columns(vertices, 3, "vertices"));
+  surface.triangles = to_rows<3>(triangles, "triangles");
+  surface.edges = to_rows<2>(edges, "edges");
+  surface.points = to_vector(points);
+  surface.radius = to_vector(radius);
+  surface.closed = closed;
+  return surface;
+}
+
+/// Times, displacements, angles, center and axis of a motion.
+using Path = std::tuple<Doubles, Doubles, Doubles, Doubles, Doubles>;
+
+Motion motion_of(const std::optional<Path>& path) {
+  if (!path) return {};
+  const auto& [times, displacements, angles, center, axis] = *path;
+  return to_motion(times, displacements, angles, center, axis);
+}
+
+void set_contact(WorldDescription& world, const std::string& method, const std::string& broad_phase,
+                 int iterations, bool travel) {
+  ContactDescription contact;
+  contact.method = named(kMethods, method, "contact method");
+  contact.broad_phase = named(kBroadPhases, broad_phase, "broad phase");
+  contact.iterations = iterations;
+  contact.travel = travel;
+  world.contact = std::move(contact);
+}
+
+void add_obstacle(WorldDescription& world, const std::string& name, const Doubles& vertices,
+                  const Ints& triangles, const Ints& edges, const Ints& points, const Doubles& radius,
+                  bool closed, const Doubles& origin, const std::optional<Path>& motion) {
+  ObstacleDescription obstacle;
+  obstacle.surface = to_surface(name, vertices, triangles, edges, points, radius, closed);
+  obstacle.origin = to_vec3(origin, "origin");
+  obstacle.motion = motion_of(motion);
+  contact_of(world).obstacles.push_back(std::move(obstacle));
+}
+
+void add_plane(WorldDescription& world, const std::string& name, const Doubles& normal, const Doubles& origin,
+               const std::optional<Path>& motion) {
+  ObstacleDescription obstacle;
+  obstacle.surface.name = name;
+  obstacle.plane = true;
+  const Vec3 direction = to_vec3(normal, "normal");
+  if (!(direction.norm() > 0.0)) throw ParameterError("the normal of a plane must not be zero.");
+  obstacle.normal = direction.normalized();
+  obstacle.origin = to_vec3(origin, "origin");
+  obstacle.motion = motion_of(motion);
+  contact_of(world).obstacles.push_back(std::move(obstacle));
+}
+
+void add_pair(WorldDescription& world, std::int32_t a, std::int32_t b, double friction, double gap,
+              double restitution, std::optional<double> stiffness, const Ints& nodes) {
+  contact_of(world).pairs.push_back({a, b, friction, gap, restitution, stiffness, to_vector(nodes)});
+}
+
+template <std::size_t n>
+py::array_t<std::int32_t> rows_of(const std::vector<std::array<std::int32_t, n>>& rows) {
+  py::array_t<std::int32_t> array({static_cast<py::ssize_t>(rows.size()), static_cast<py::ssize_t>(n)});
+  for (std::size_t i = 0; i < rows.size(); ++i) std::copy_n(rows[i].begin(), n, array.mutable_data() + i * n);
+  return array;
+}
+
+template <class T>
+py::array_t<T> array_of(const std::vector<T>& values) {
+  return py::array_t<T>(static_cast<py::ssize_t>(values.size()), values.data());
+}
+
+py::array_t<double> array_of(const Vec3& vector) { return py::array_t<double>(3, vector.data()); }
+
+py::dict surface_of(const SurfaceDescription& surface) {
+  py::dict found;
+  found["name"] = surface.name;
+  found["vertices"] = array_of(surface.vertices).attr("reshape")(-1, 3);
+  found["triangles"] = rows_of(surface.triangles);
+  found["edges"] = rows_of(surface.edges);
+  found["points"] = array_of(surface.points);
+  found["radius"] = array_of(surface.radius);
+  found["closed"] = surface.closed;
+  return found;
+}
+
+py::dict obstacle_of(const ObstacleDescription& obstacle) {
+  py::dict found = surface_of(obstacle.surface);
+  found["plane"] = obstacle.plane;
+  found["normal"] = array_of(obstacle.normal);
+  found["origin"] = array_of(obstacle.origin);
+  found["times"] = array_of(obstacle.motion.times);
+  found["angles"] = array_of(obstacle.motion.angles);
+  py::list displacements;
+  for (const Vec3& displacement : obstacle.motion.displacements) displacements.append(array_of(displacement));
+  found["displacements"] = displacements;
+  return found;
+}
+
+/// The description as it stands, for tests; None without contact.
+py::object described_contact(const WorldDescription& world) {
+  if (!world.contact) return py::none();
+  const ContactDescription& contact = *world.contact;
+  py::dict found;
+  py::list bodies, obstacles, pairs;
+  for (const SurfaceDescription& body : contact.bodies) bodies.append(surface_of(body));
+  for (const ObstacleDescription& obstacle : contact.obstacles) obstacles.append(obstacle_of(obstacle));
+  for (const ContactPair& pair : contact.pairs) {
+    pairs.append(py::make_tuple(pair.a, pair.b, pair.friction, pair.gap, pair.restitution, pair.stiffness,
+                                array_of(pair.nodes)));
+  }
+  found["bodies"] = bodies;
+  found["obstacles"] = obstacles;
+  found["pairs"] = pairs;
+  found["method"] = name_of(kMethods, contact.method);
+  found["broad_phase"] = name_of(kBroadPhases, contact.broad_phase);
+  found["iterations"] = contact.iterations;
+  found["travel"] = contact.travel;
+  return found;
+}
+
+}  // namespace
+
+void bind_contact(py::class_<WorldDescription>& builder) {
+  using py::arg;
+  builder
+      .def("set_contact", &set_contact, py::kw_only(), arg("method"), arg("broad_phase"), arg("iterations"),
+           arg("travel"))
+      .def(
+          "add_contact_surface",
+          [](WorldDescription& world, const std::string& body, const Ints& triangles, const Ints& edges,
+             const Doubles& radius, bool closed) {
+            const Doubles none(std::vector<py::ssize_t>{0, 3});
+            contact_of(world).bodies.push_back(
+                to_surface(world.body(body).name, none, triangles, edges, Ints(0), radius, closed));
+          },
+          py::kw_only(), arg("body"), arg("triangles"), arg("edges"), arg("radius"), arg("closed"))
+      .def("add_obstacle", &add_obstacle, py::kw_only(), arg("name"), arg("vertices"), arg("triangles"),
+           arg("edges"), arg("points"), arg("radius"), arg("closed"), arg("origin"), arg("motion").none(true))
+      .def("add_plane", &add_plane, py::kw_only(), arg("name"), arg("normal"), arg("origin"),
+           arg("motion").none(true))
+      .def("add_contact_pair", &add_pair, py::kw_only(), arg("a"), arg("b"), arg("friction"), arg("gap"),
+           arg("restitution"), arg("stiffness").none(true), arg("nodes"))
+      .def("described_contact", &described_contact);
+}
+
+}  // namespace tissu::bind

@@ -1,0 +1,222 @@
+"""Contacts of a scene: surfaces, pairs and their gaps, as the world takes them."""
+
+from __future__ import annotations
+
+import contextlib
+import itertools
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from tissu.compile.contact_surface import ContactSurface, body_surface
+from tissu.compile.obstacle import PreparedObstacle, prepared_obstacle
+from tissu.compile.select import selected_nodes, selection_words
+from tissu.counted import counted
+from tissu.scene.contact import Contact, ContactSettings
+from tissu.scene.contact_rules import method_of, surface_missing
+from tissu.scene.problem import field_path
+from tissu.scene.unknown import Unknown
+
+if TYPE_CHECKING:
+    from tissu._core import WorldBuilder
+    from tissu.compile.prepared import Ints, Prepared
+    from tissu.scene.contact import SelfContact
+    from tissu.scene.problem import Path
+
+GAP = 0.02
+"""share of the mean surface edge of the finer body that is the gap where none is given"""
+_WIDE = 0.1
+"""share of that edge above which a gap is remarkable"""
+
+
+class PreparedPair(NamedTuple):
+    """Two surfaces that meet, a body first, and which nodes of it; empty: all."""
+
+    a: str
+    b: str
+    contact: Contact | SelfContact
+    gap: float
+    nodes: Ints
+
+
+@dataclass(slots=True)
+class PreparedContact:
+    """All contacts of a scene, of what is known of them.
+
+    Attributes:
+        bodies: surfaces of the bodies that meet something, in the order of the scene.
+        obstacles: all of them.
+        gaps: the gap of each contact, in words.
+    """
+
+    method: str
+    step: str
+    settings: ContactSettings
+    bodies: dict[str, ContactSurface] = field(default_factory=dict)
+    obstacles: dict[str, PreparedObstacle] = field(default_factory=dict)
+    pairs: list[PreparedPair] = field(default_factory=list)
+    gaps: dict[str, str] = field(default_factory=dict)
+
+    @property
+    def triangle_count(self) -> int:
+        """Triangles of all surfaces."""
+        solid = [obstacle.surface for obstacle in self.obstacles.values() if obstacle.surface]
+        return sum(len(surface.triangles) for surface in (*self.bodies.values(), *solid))
+
+    def words(self) -> str:
+        """Method, broad phase and size."""
+        size = counted(self.triangle_count, "surface triangle")
+        return f"{self.settings.words(self.method, self.step)}; {size}"
+
+    def add_to(self, builder: WorldBuilder) -> None:
+        """Put it into the world, whose bodies are there."""
+        settings = self.settings
+        builder.set_contact(
+            method=self.method,
+            broad_phase=settings.broad_phase,
+            iterations=settings.iterations,
+            travel=settings.travel,
+        )
+        for name, surface in self.bodies.items():
+            fields = surface._asdict()
+            rest = {key: fields[key] for key in ("triangles", "edges", "radius", "closed")}
+            builder.add_contact_surface(body=name, **rest)
+        for obstacle in self.obstacles.values():
+            obstacle.add_to(builder)
+        numbers = {name: number for number, name in enumerate([*self.bodies, *self.obstacles])}
+        for pair in self.pairs:
+            contact = pair.contact
+            builder.add_contact_pair(
+                a=numbers[pair.a],
+                b=numbers[pair.b],
+                friction=contact.friction,
+                gap=pair.gap,
+                restitution=contact.restitution,
+                stiffness=contact.stiffness,
+                nodes=pair.nodes,
+            )
+
+
+def prepare_contact(prepared: Prepared) -> None:
+    """Resolve the contacts of a scene as far as its problems allow.
+
+    Raises:
+        Unknown: fields that all contacts need could not be read.
+    """
+    scene, findings = prepared.scene, prepared.findings
+    obstacles: dict[str, PreparedObstacle] = {}
+    for name, obstacle in scene.obstacles.items():
+        with contextlib.suppress(Unknown):
+            ready = prepared_obstacle(name, obstacle, findings)
+            if ready is not None:
+                obstacles[name] = ready
+    if not scene.contacts:
+        return
+    method = method_of(scene)
+    made = PreparedContact(method or "", scene.step.type, scene.contact or ContactSettings())
+    made.obstacles = obstacles
+    surfaces = {name: body_surface(prepared.meshes[name].mesh, body)
+                for name, body in scene.bodies.items() if _has_surface(prepared, name)}  # fmt: skip
+    wrong = {problem.path[:2] for problem in findings.problems}
+    for number, contact in enumerate(scene.contacts):
+        path: Path = ("contacts", number)
+        if path in wrong:
+            continue
+        with contextlib.suppress(Unknown):
+            _prepare_pairs(prepared, made, surfaces, path, contact)
+    met = {name for pair in made.pairs for name in (pair.a, pair.b)}
+    made.bodies = {name: surface for name, surface in surfaces.items() if name in met}
+    prepared.contact = made
+
+
+def _has_surface(prepared: Prepared, name: str) -> bool:
+    """Whether what meets of a body is beyond doubt."""
+    known = prepared.meshes.get(name)
+    with contextlib.suppress(Unknown):
+        return known is not None and known.surface and not surface_missing(prepared.scene, name)
+    return False
+
+
+def _prepare_pairs(
+    prepared: Prepared,
+    made: PreparedContact,
+    surfaces: dict[str, ContactSurface],
+    path: Path,
+    contact: Contact | SelfContact,
+) -> None:
+    """The pairs of one contact, of surfaces that are known."""
+    gaps, finest = [], 0.0
+    for a, b in pairs_of(prepared, contact):
+        first, second = (a, b) if a in surfaces else (b, a)
+        if first not in surfaces or (second not in surfaces and second not in made.obstacles):
+            continue  # told already
+        nodes = _met_nodes(prepared, surfaces[first], path, contact, first)
+        if nodes is None:
+            return
+        sides = [surfaces[name].mean_edge for name in {first, second} if name in surfaces]
+        edge = min(sides)
+        gaps.append(GAP * edge if contact.gap is None else contact.gap)
+        finest = edge if not finest else min(finest, edge)
+        made.pairs.append(PreparedPair(first, second, contact, gaps[-1], nodes))
+    if not gaps:
+        return
+    made.gaps[field_path(path)] = _gap_words(gaps, given=contact.gap is not None)
+    if contact.gap is not None and contact.gap > _WIDE * finest:
+        prepared.findings.note(
+            f"{field_path(path)}.gap: {contact.gap:g} m is more than a tenth of the mean surface "
+            f"edge, {finest:.4g} m, so that surfaces rest visibly apart; {GAP * finest:.2g} m is "
+            "the default"
+        )
+
+
+def pairs_of(prepared: Prepared, contact: Contact | SelfContact) -> Iterator[tuple[str, str]]:
+    """The names of what meets, by this contact."""
+    if not isinstance(contact, Contact):
+        yield contact.self, contact.self
+        return
+    if contact.between != "all":
+        yield from ((first, second) for _, first, _, second in contact.pairs())
+        return
+    scene = prepared.scene
+    named = set()
+    for other in scene.contacts:
+        if other is not contact:
+            named |= {frozenset(pair) for pair in pairs_of(prepared, other)}
+    bodies = list(scene.bodies)
+    every = [
+        *itertools.combinations_with_replacement(bodies, 2),
+        *itertools.product(bodies, scene.obstacles),
+    ]
+    yield from (pair for pair in every if frozenset(pair) not in named)
+
+
+def _met_nodes(
+    prepared: Prepared,
+    surface: ContactSurface,
+    path: Path,
+    contact: Contact | SelfContact,
+    body: str,
+) -> Ints | None:
+    """Nodes of a body's surface that `on` selects; empty: all; None, and maybe a problem: none."""
+    on = contact.on if isinstance(contact, Contact) else None
+    if on is None:
+        return np.empty(0, dtype=np.int32)
+    nodes = selected_nodes(prepared, path, body, on)
+    if nodes is None:
+        return None
+    kept = np.intersect1d(nodes, surface.nodes).astype(np.int32)
+    if not len(kept):
+        text = f"{selection_words(on)} selects {counted(len(nodes), 'node')} of body '{body}', but "
+        prepared.findings.problem((*path, "on"), f"{text}none of its surface")
+        return None
+    return kept
+
+
+def _gap_words(gaps: list[float], *, given: bool) -> str:
+    if given:
+        return f"gap {gaps[0]:g} m"
+    low, high = f"{min(gaps):.3g}", f"{max(gaps):.3g}"
+    size = f"{low} m" if low == high else f"{low} to {high} m"
+    return f"gap {size} by default"

@@ -1,0 +1,158 @@
+"""Obstacles as the core takes them: a plane, or vertices, edges and triangles at rest."""
+
+from __future__ import annotations
+
+import itertools
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from tissu.compile.contact_surface import ContactSurface, halves_of
+from tissu.compile.meshes import mesh_of
+from tissu.compile.prepared import Findings, Floats, Ints
+from tissu.errors import TissuError
+from tissu.mesh.surface import edge_faults, enclosed_volume
+from tissu.scene.direction import unit_vector
+from tissu.scene.obstacle import (
+    BoxObstacle,
+    CapsuleObstacle,
+    MeshObstacle,
+    PlaneObstacle,
+    SphereObstacle,
+)
+
+if TYPE_CHECKING:
+    from tissu._core import WorldBuilder
+    from tissu.scene.motion import Motion
+    from tissu.scene.obstacle import Obstacle
+
+_LONG = 1.0
+"""m: an obstacle above it is larger than any tool or bone; a mesh in millimetres read as metres"""
+
+# Corners of a box are numbered x + 2 y + 4 z; faces anticlockwise seen from outside.
+_BOX = (
+    *((0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4)),
+    *((2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5)),
+)
+
+
+class PreparedObstacle(NamedTuple):
+    """An obstacle with its surface, or with the normal (3,) of length 1 of its plane.
+
+    Attributes:
+        origin: (3,) what is led, and what moments are taken about [m].
+    """
+
+    name: str
+    origin: Floats
+    surface: ContactSurface | None
+    normal: Floats | None
+    motion: Motion | None
+
+    def add_to(self, builder: WorldBuilder) -> None:
+        """Put it into the world."""
+        motion = None if self.motion is None else self.motion.in_core()
+        if self.surface is None:
+            assert self.normal is not None  # a plane
+            builder.add_plane(name=self.name, normal=self.normal, origin=self.origin, motion=motion)
+            return
+        builder.add_obstacle(
+            name=self.name, origin=self.origin, motion=motion, **self.surface._asdict()
+        )
+
+
+def prepared_obstacle(name: str, obstacle: Obstacle, findings: Findings) -> PreparedObstacle | None:
+    """The obstacle of a scene; None, and a problem, where its mesh is none.
+
+    Raises:
+        Unknown: a field of it could not be read.
+    """
+    normal: Floats | None = None
+    surface: ContactSurface | None = None
+    if isinstance(obstacle, PlaneObstacle):
+        origin, normal = np.array(obstacle.point), unit_vector(obstacle.normal)
+    elif isinstance(obstacle, SphereObstacle):
+        surface = _made([obstacle.center], points=[0], radius=obstacle.radius)
+        origin = np.array(obstacle.center)
+    elif isinstance(obstacle, CapsuleObstacle):
+        surface = _made(obstacle.ends, edges=[(0, 1)], radius=obstacle.radius)
+        origin = np.mean(obstacle.ends, axis=0)
+    elif isinstance(obstacle, BoxObstacle):
+        surface = _box(obstacle)
+        origin = np.mean([obstacle.min, obstacle.max], axis=0)
+    else:
+        assert isinstance(obstacle, MeshObstacle)
+        surface = _of_mesh(name, obstacle, findings)
+        if surface is None:
+            return None
+        origin = (surface.vertices.min(axis=0) + surface.vertices.max(axis=0)) / 2.0
+    return PreparedObstacle(name, origin, surface, normal, obstacle.motion)
+
+
+def _made(
+    vertices: object, *, points: object = (), edges: object = (), radius: float
+) -> ContactSurface:
+    """Vertices, and edges between them, of one radius."""
+    places = np.array(vertices, dtype=np.float64)
+    return ContactSurface(
+        vertices=places,
+        triangles=np.empty((0, 3), dtype=np.int32),
+        edges=np.array(edges, dtype=np.int32).reshape(-1, 2),
+        points=np.array(points, dtype=np.int32),
+        radius=np.full(len(places), radius),
+        closed=False,
+    )
+
+
+def _solid(vertices: Floats, triangles: Ints, *, closed: bool) -> ContactSurface:
+    return ContactSurface(
+        vertices=vertices,
+        triangles=triangles.astype(np.int32),
+        edges=np.empty((0, 2), dtype=np.int32),
+        points=np.empty(0, dtype=np.int32),
+        radius=np.empty(0),
+        closed=closed,
+    )
+
+
+def _box(box: BoxObstacle) -> ContactSurface:
+    """Twelve triangles."""
+    sides = [(a, b) for a, b in zip(box.min, box.max, strict=True)]
+    corners = np.array([(x, y, z) for z, y, x in itertools.product(*reversed(sides))])
+    quads = np.array(_BOX, dtype=np.int32)
+    return _solid(corners, halves_of(corners, quads), closed=True)
+
+
+def _of_mesh(name: str, obstacle: MeshObstacle, findings: Findings) -> ContactSurface | None:
+    """The boundary of the mesh's volume, or its faces; a closed one is turned outward."""
+    place = ("obstacles", name, "mesh")
+    try:
+        mesh = mesh_of(obstacle.mesh)
+        outer = mesh.surface()
+    except TissuError as error:
+        findings.problem(place, str(error))
+        return None
+    whole = outer.triangles[: len(outer.triangles) - 2 * len(outer.quads)]
+    faces = np.concatenate([whole, halves_of(mesh.points, outer.quads)])
+    if not len(faces):
+        text = "found no triangle, quad or volume cell; a mesh with one of them is accepted"
+        findings.problem(place, text)
+        return None
+    used, numbers = np.unique(faces, return_inverse=True)
+    vertices, triangles = mesh.points[used], numbers.reshape(-1, 3).astype(np.int32)
+    closed = edge_faults(triangles) == (0, 0)
+    if closed and enclosed_volume(vertices, triangles) < 0.0:
+        triangles = triangles[:, [0, 2, 1]]
+        findings.note(f"obstacles.{name}.mesh: its faces look inward; they are turned outward")
+    if not closed:
+        findings.note(
+            f"obstacles.{name}.mesh: its surface is not closed or its faces look both ways, so "
+            "that bodies meet it from both sides"
+        )
+    size = float(np.ptp(vertices, axis=0).max())
+    if size > _LONG:
+        findings.note(
+            f"obstacles.{name}.mesh: is {size:.4g} m long; where the file is written in another "
+            "unit, say so: mesh: {file: ..., unit: mm}"
+        )
+    return _solid(vertices, triangles, closed=closed)

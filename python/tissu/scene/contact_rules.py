@@ -1,0 +1,191 @@
+"""What a scene may ask of its contacts: whom it names, which method runs with which step."""
+
+from __future__ import annotations
+
+import contextlib
+from collections.abc import Iterator
+from typing import Any
+
+from tissu.counted import counted
+from tissu.scene.contact import Contact, ContactSettings, Meeting
+from tissu.scene.problem import Path, Problem, nearest, one_of_words
+from tissu.scene.tissue import tissues_of
+from tissu.scene.unknown import Unknown
+
+STEPS_OF_METHOD: dict[str, tuple[str, ...]] = {
+    "augmented": ("implicit_euler", "implicit_midpoint", "bdf2", "newmark"),
+}
+"""Contact method -> the steps that have it; `auto` takes the first method that the step has."""
+FIELDS_OF_METHOD: dict[str, tuple[str, ...]] = {
+    "impulse": ("restitution",),
+    "penalty": ("restitution", "stiffness"),
+}
+"""Contact method -> the fields of a contact that it alone has."""
+
+
+def method_of(scene: Any) -> str | None:
+    """The contact method that the scene's step runs; None where it has none."""
+    settings = scene.contact or ContactSettings()
+    runs = [name for name, steps in STEPS_OF_METHOD.items() if scene.step.type in steps]
+    if settings.method == "auto":
+        return runs[0] if runs else None
+    return settings.method if settings.method in runs else None
+
+
+def contact_problems(scene: Any) -> Iterator[Problem]:
+    """What is wrong with the contacts of a scene, whose other fields may have problems."""
+    contacts = getattr(scene, "contacts", ())
+    met: dict[frozenset[str], int] = {}
+    for number, contact in enumerate(contacts):
+        with contextlib.suppress(Unknown):
+            for problem in _named(scene, contact, number, met):
+                yield Problem(("contacts", number, *problem.path), problem.text)
+    alls = [n for n, contact in enumerate(contacts) if getattr(contact, "between", "") == "all"]
+    for number in alls[1:]:
+        text = f"found all a second time, beside contacts[{alls[0]}]; once is accepted"
+        yield Problem(("contacts", number, "between"), text)
+    if contacts:
+        with contextlib.suppress(Unknown):
+            yield from _method_problems(scene)
+
+
+def _named(
+    scene: Any, contact: Any, number: int, met: dict[frozenset[str], int]
+) -> Iterator[Problem]:
+    """Names that nothing has, and pairs that are none."""
+    if not isinstance(contact, Contact):
+        found = list(_nameless(scene, ("self",), contact.self, obstacles=False))
+        yield from found or _once(met, ("self",), contact.self, contact.self, number)
+        return
+    if contact.between == "all":
+        yield from _all_problems(scene, contact)
+        return
+    told: set[Path] = set()
+    for at, first, then, second in contact.pairs():
+        missing = [p for place, name in ((at, first), (then, second)) for p in
+                   _nameless(scene, place, name, obstacles=True)]  # fmt: skip
+        yield from (problem for problem in missing if problem.path not in told)
+        told.update(problem.path for problem in missing)
+        if missing:
+            continue
+        wrong = list(_no_pair(scene, then, first, second))
+        yield from wrong or _once(met, then, first, second, number)
+    if contact.on is not None and contact.pairs()[0][1] in scene.obstacles:
+        text = f"found nodes of '{contact.pairs()[0][1]}', which is an obstacle; `on` selects "
+        yield Problem(("on",), f"{text}nodes of the first: write the body first")
+
+
+def _nameless(scene: Any, place: Path, name: str, *, obstacles: bool) -> Iterator[Problem]:
+    """A name that nothing has, or whose surface is not there yet."""
+    bodies, tissue = scene.bodies, tissues_of(scene)
+    known = {**bodies, **tissue, **(scene.obstacles if obstacles else {})}
+    if name not in known:
+        what = "body or obstacle" if obstacles else "body"
+        text = f"no {what} is named '{name}'{nearest(name, known)} Accepted: {one_of_words(known)}"
+        yield Problem(place, text)
+        return
+    missing = surface_missing(scene, name)
+    if missing:
+        yield Problem(place, f"found '{name}', {missing}")
+
+
+def surface_missing(scene: Any, name: str) -> str:
+    """Why a body or tissue has no surface for contact yet; empty: it has one."""
+    if name in tissues_of(scene):
+        return "a tissue, whose surface frames carry: contact of it is not there yet, name bodies"
+    body = scene.bodies.get(name)
+    if body is None:
+        return ""
+    if body.plane is not None:
+        return "a flat body: contact of its rim is not there yet, leave `plane` out of the body"
+    if any(model.type == "condensed" for model in body.models().values()):
+        text = "a body with a condensed region: contact of it is not there yet, "
+        return f"{text}take another model"
+    return ""
+
+
+def _no_pair(scene: Any, place: Path, first: str, second: str) -> Iterator[Problem]:
+    if first == second:
+        text = f"found '{first}' twice; a body that meets itself is written {{self: {first}}}"
+        yield Problem(place, text)
+    elif first in scene.obstacles and second in scene.obstacles:
+        text = f"found the obstacles '{first}' and '{second}', of which a contact moves neither; "
+        yield Problem(place, f"{text}a pair with a body is accepted")
+
+
+def _once(
+    met: dict[frozenset[str], int], place: Path, first: str, second: str, number: int
+) -> Iterator[Problem]:
+    """Each pair of names has one contact."""
+    pair = frozenset((first, second))
+    if pair not in met:
+        met[pair] = number
+        return
+    both = f"'{first}' with itself" if first == second else f"'{first}' and '{second}'"
+    text = f"found {both} in contacts[{met[pair]}] too; each pair once is accepted"
+    yield Problem(place, text)
+
+
+def _all_problems(scene: Any, contact: Contact) -> Iterator[Problem]:
+    for name in (*scene.bodies, *tissues_of(scene)):
+        with contextlib.suppress(Unknown):
+            missing = surface_missing(scene, name)
+            if missing:
+                text = f"found all, and among the bodies '{name}', {missing.split(',')[0]}"
+                yield Problem(("between",), f"{text}; name the pairs that meet instead")
+    if contact.on is not None:
+        text = "found `on` beside all, which has no first body; name the pairs, or leave `on` out"
+        yield Problem(("on",), text)
+
+
+def _method_problems(scene: Any) -> Iterator[Problem]:
+    """A method that is not there, or not for this step; fields that it does not have."""
+    settings, step = scene.contact or ContactSettings(), scene.step.type
+    there = one_of_words(STEPS_OF_METHOD)
+    if settings.method not in ("auto", *STEPS_OF_METHOD):
+        text = f"found {settings.method}, which is not there yet; accepted: auto, {there}"
+        yield Problem(("contact", "method"), text)
+        return
+    method = method_of(scene)
+    if method is None:
+        wanted = settings.method
+        steps = STEPS_OF_METHOD.get(wanted) or dict.fromkeys(
+            step for steps in STEPS_OF_METHOD.values() for step in steps
+        )
+        asked = "" if wanted == "auto" else f" of the method {wanted}"
+        count = counted(len(scene.contacts), "contact")
+        text = f"found {step} with {count}{asked}; accepted with contact: {one_of_words(steps)}"
+        yield Problem(("step",), text)
+        return
+    yield from _settings_problems(settings)
+    for number, contact in enumerate(scene.contacts):
+        with contextlib.suppress(Unknown):
+            for problem in _field_problems(contact, method):
+                yield Problem(("contacts", number, *problem.path), problem.text)
+
+
+def _settings_problems(settings: ContactSettings) -> Iterator[Problem]:
+    if settings.overlap == "separate":
+        text = "found separate, which is not there yet; refuse is accepted: move the bodies apart"
+        yield Problem(("contact", "overlap"), text)
+    if settings.broad_phase == "fcl" and not _has_fcl():
+        text = "found fcl, which this build of tissu is without; hierarchy, sweep_and_prune, grid "
+        yield Problem(("contact", "broad_phase"), f"{text}and octree are accepted")
+
+
+def _has_fcl() -> bool:
+    from tissu._core import build_info
+
+    return any(str(name).lower() == "fcl" for name in build_info()["libraries"])
+
+
+def _field_problems(contact: Meeting, method: str) -> Iterator[Problem]:
+    """Fields that the method that runs does not have."""
+    for name in ("restitution", "stiffness"):
+        if not getattr(contact, name):
+            continue
+        having = [m for m, fields in FIELDS_OF_METHOD.items() if name in fields]
+        if method not in having:
+            text = f"found {name} {getattr(contact, name):g}, which the method {method} does not "
+            text += f"have, but {' and '.join(having)} alone; leave it out"
+            yield Problem((name,), text)

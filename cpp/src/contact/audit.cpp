@@ -27,7 +27,9 @@ class Audit {
       if (face.corners < 3) continue;
       for (const std::int32_t e : surfaces_.edges_of(p)) {
         const auto& [a, b] = surfaces_.edges()[at(e)].vertex;
-        const auto is_corner = [&](std::int32_t v) { return std::ranges::find(face.vertex, v) != face.vertex.end(); };
+        const auto is_corner = [&](std::int32_t v) {
+          return std::ranges::find(face.vertex, v) != face.vertex.end();
+        };
         if (is_corner(a) || is_corner(b)) continue;
         if (!crosses(place(a), place(b),
                      {place(face.vertex[0]), place(face.vertex[1]), place(face.vertex[2])})) {
@@ -80,7 +82,8 @@ std::vector<Crossing> crossings(const Contact& contact, const State& state) {
   std::vector<Box> boxes;
   for (const Primitive& primitive : surfaces.primitives()) {
     Box box = Box::none();
-    for (int i = 0; i < primitive.corners; ++i) box.add(Vec3(block(ConstReals(places), primitive.vertex[at(i)])));
+    for (int i = 0; i < primitive.corners; ++i)
+      box.add(Vec3(block(ConstReals(places), primitive.vertex[at(i)])));
     boxes.push_back(box);
   }
   std::vector<BoxPair> pairs;
@@ -111,7 +114,8 @@ class Separation {
     const auto& vertices = contact_.surfaces().vertices();
     for (std::size_t v = 0; v < vertices.size(); ++v) {
       if (vertices[v].row < 0) continue;
-      block(Reals(start_.positions), vertices[v].row) = block(ConstReals(places_), static_cast<std::int32_t>(v));
+      block(Reals(start_.positions), vertices[v].row) =
+          block(ConstReals(places_), static_cast<std::int32_t>(v));
     }
   }
 
@@ -140,8 +144,8 @@ class Separation {
   }
 
   bool push_off_plane(const PlaneCandidate& c) {
-    const Vec3 origin = contact_.place_of(
-        c.obstacle, contact_.description().obstacles[at(c.obstacle)].origin, start_, start_.time);
+    const Vec3 origin = contact_.place_of(c.obstacle, contact_.description().obstacles[at(c.obstacle)].origin,
+                                          start_, start_.time);
     const Vec3 n = contact_.normal_of(c.obstacle, start_, start_.time);
     const double s = n.dot(place(c.vertex) - origin);
     if (s >= kEnough * c.apart || s < -c.apart || !is_free(c.vertex)) return false;
@@ -153,9 +157,8 @@ class Separation {
     Part part{};
     const Closest closest = closest_point_triangle(
         {place(c.vertex[0]), place(c.vertex[1]), place(c.vertex[2]), place(c.vertex[3])}, part);
-    const Vec3 n = (place(c.vertex[2]) - place(c.vertex[1]))
-                       .cross(place(c.vertex[3]) - place(c.vertex[1]))
-                       .normalized();
+    const Vec3 n =
+        (place(c.vertex[2]) - place(c.vertex[1])).cross(place(c.vertex[3]) - place(c.vertex[1])).normalized();
     if (part != Part::interior) return false;
     const double s = n.dot(closest.r);
     if (s >= kEnough * c.apart || s < -c.apart || !n.allFinite()) return false;

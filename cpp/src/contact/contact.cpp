@@ -12,7 +12,7 @@ static_assert(std::is_trivially_copyable_v<ContactNumbers>);
 
 ContactNumbers ContactTable::operator[](std::size_t i) const {
   ContactNumbers contact;
-  std::memcpy(&contact, numbers_.data() + i * kNumbers, sizeof contact);
+  std::memcpy(static_cast<void*>(&contact), numbers_.data() + i * kNumbers, sizeof contact);
   return contact;
 }
 

@@ -186,8 +186,8 @@ void ContactRun::keep_multipliers() {
   std::iota(order_.begin(), order_.end(), 0);
   std::ranges::sort(order_, {}, [&](std::int32_t i) { return key_of(contacts_[at(i)]); });
   for (ContactNumbers& c : looked_) {
-    const auto found =
-        std::ranges::lower_bound(order_, key_of(c), {}, [&](std::int32_t i) { return key_of(contacts_[at(i)]); });
+    const auto found = std::ranges::lower_bound(order_, key_of(c), {},
+                                                [&](std::int32_t i) { return key_of(contacts_[at(i)]); });
     if (found == order_.end() || !contacts_[at(*found)].same_key(c)) continue;
     const ContactNumbers& before = contacts_[at(*found)];
     c.force = before.force;
@@ -208,7 +208,8 @@ void ContactRun::hand_over() {
     const auto is_heir = [&](const ContactNumbers& c) {
       return is_of_vertex(c) && c.a == before.a && other_surface(c) == other_surface(before);
     };
-    const bool lives = std::ranges::any_of(looked_, [&](const ContactNumbers& c) { return c.same_key(before); });
+    const bool lives =
+        std::ranges::any_of(looked_, [&](const ContactNumbers& c) { return c.same_key(before); });
     const auto heirs = std::ranges::count_if(looked_, is_heir);
     if (lives || heirs == 0) continue;
     const double share = 1.0 / static_cast<double>(heirs);

@@ -9,10 +9,10 @@
 namespace tissu {
 namespace {
 
-constexpr double kLeast = 0.1;      ///< of xi
-constexpr double kOfStart = 0.5;    ///< of the distance at the start
-constexpr double kBall = 0.45;      ///< of the distance that is left
-constexpr double kKept = 0.9;       ///< of the way to a plane
+constexpr double kLeast = 0.1;    ///< of xi
+constexpr double kOfStart = 0.5;  ///< of the distance at the start
+constexpr double kBall = 0.45;    ///< of the distance that is left
+constexpr double kKept = 0.9;     ///< of the way to a plane
 
 std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 

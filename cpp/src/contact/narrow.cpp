@@ -9,8 +9,8 @@
 namespace tissu {
 namespace {
 
-constexpr double kFan = 1e-6;        ///< tolerance of normal fans, of |r| times a length
-constexpr double kParallel = 1e-3;   ///< of the square of the sine between two edges
+constexpr double kFan = 1e-6;       ///< tolerance of normal fans, of |r| times a length
+constexpr double kParallel = 1e-3;  ///< of the square of the sine between two edges
 constexpr double kNoWeight = 1e-9;
 
 std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
@@ -88,9 +88,15 @@ class Narrow {
 
   bool take(const Candidate& candidate, const Closest& closest, double reach) {
     if (!(closest.square < reach * reach) || !(closest.square > 0.0)) return false;
-    found_ = {candidate.kind,        candidate.a, candidate.b,
-              candidate.vertex,      closest.beta, closest.r,
-              std::sqrt(closest.square), 1.0,      0.0};
+    found_ = {candidate.kind,
+              candidate.a,
+              candidate.b,
+              candidate.vertex,
+              closest.beta,
+              closest.r,
+              std::sqrt(closest.square),
+              1.0,
+              0.0};
     return true;
   }
 
@@ -137,7 +143,8 @@ class Narrow {
   [[nodiscard]] bool is_outside(std::int32_t face, const Vec3& r, double sign) const {
     return !is_closed(surfaces_.primitives()[at(face)].vertex[0]) || sign * normal(face).dot(r) > 0.0;
   }
-  /// Before the corner, not behind it: the normals of a vertex's faces are approximated by those of its edges.
+  /// Before the corner, not behind it: the normals of a vertex's faces are approximated by those of its
+  /// edges.
   [[nodiscard]] bool is_outside_vertex(std::int32_t v, const Vec3& r) const {
     if (!surfaces_.vertices()[at(v)].has_faces || !is_closed(v)) return true;
     return is_outside(surfaces_.owner(v), r, 1.0);
@@ -166,7 +173,8 @@ class Narrow {
   }
   [[nodiscard]] double edge_area(const SurfaceEdge& e) const {
     double sum = 0.0;
-    for (std::size_t side = 0; side < 2 && e.face[side] >= 0; ++side) sum += normal(e.face[side]).norm() / 6.0;
+    for (std::size_t side = 0; side < 2 && e.face[side] >= 0; ++side)
+      sum += normal(e.face[side]).norm() / 6.0;
     return sum;
   }
 

@@ -16,8 +16,8 @@ std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 LivePlace Contact::live_place(std::int32_t obstacle, const State& state, double time) const {
   const LiveLead lead(state.memory[leads_[at(obstacle)]], 0);
-  return lead.at(time, lead.is_released() ? description_.obstacles[at(obstacle)].motion.pose(time)
-                                          : lead.target());
+  return lead.at(time,
+                 lead.is_released() ? description_.obstacles[at(obstacle)].motion.pose(time) : lead.target());
 }
 
 Vec3 Contact::place_of(std::int32_t obstacle, const Vec3& rest, const State& state, double time) const {
@@ -29,8 +29,7 @@ Vec3 Contact::place_of(std::int32_t obstacle, const Vec3& rest, const State& sta
 
 Vec3 Contact::normal_of(std::int32_t obstacle, const State& state, double time) const {
   const ObstacleDescription& of = description_.obstacles[at(obstacle)];
-  return (place_of(obstacle, of.origin + of.normal, state, time) -
-          place_of(obstacle, of.origin, state, time))
+  return (place_of(obstacle, of.origin + of.normal, state, time) - place_of(obstacle, of.origin, state, time))
       .normalized();
 }
 
@@ -63,8 +62,9 @@ std::int32_t Contact::obstacle_named(std::string_view name) const {
 std::int32_t Contact::required(std::string_view name) const {
   const std::int32_t obstacle = obstacle_named(name);
   if (obstacle >= 0) return obstacle;
-  throw ParameterError("found obstacle \"" + std::string(name) +
-                       "\", which this world has not; the name of an obstacle of its description is accepted.");
+  throw ParameterError(
+      "found obstacle \"" + std::string(name) +
+      "\", which this world has not; the name of an obstacle of its description is accepted.");
 }
 
 void Contact::begin_way(std::int32_t obstacle, bool released, const Pose& target, double over,

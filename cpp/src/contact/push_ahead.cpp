@@ -78,8 +78,8 @@ void PushAhead::push(const LedMotion& motion, Candidates& candidates, std::vecto
   place_planes(motion, 1.0, last);
   for (std::size_t i = 0; i < last.size(); ++i) {
     if (!contact_.description().obstacles[i].plane) continue;
-    way = std::max({way, (last[i].point - first[i].point).norm(),
-                    (last[i].normal - first[i].normal).norm() * part_});
+    way = std::max(
+        {way, (last[i].point - first[i].point).norm(), (last[i].normal - first[i].normal).norm() * part_});
   }
   planes = last;
   if (way == 0.0) return;
@@ -90,7 +90,8 @@ void PushAhead::push(const LedMotion& motion, Candidates& candidates, std::vecto
     places = begin_;
     bool done = true;
     for (int i = 0; done && i < parts; ++i) {
-      done = go(motion, static_cast<double>(i) / parts, static_cast<double>(i + 1) / parts, candidates, places);
+      done =
+          go(motion, static_cast<double>(i) / parts, static_cast<double>(i + 1) / parts, candidates, places);
     }
     if (done) return;
   }
@@ -179,11 +180,13 @@ void PushAhead::refuse(const LedMotion& motion, double way) const {
     return "\"" + surfaces.surfaces()[at(surfaces.vertices()[at(vertex)].surface)].name + "\"";
   };
   const double h = motion.to - motion.from;
-  std::string message = "in the step from t = " + number_text(motion.from) + " s with dt = " + number_text(h) +
-                        " s something is led " + number_text(way) + " m, at " + number_text(way / h) + " m/s";
+  std::string message = "in the step from t = " + number_text(motion.from) +
+                        " s with dt = " + number_text(h) + " s something is led " + number_text(way) +
+                        " m, at " + number_text(way / h) + " m/s";
   if (way > kMostParts * part_) {
-    message += "; at most " + number_text(kMostParts * part_) + " m a step are accepted. Take dt = " +
-               number_text(0.5 * h * kMostParts * part_ / way) + " s or less, or lead it more slowly.";
+    message += "; at most " + number_text(kMostParts * part_) +
+               " m a step are accepted. Take dt = " + number_text(0.5 * h * kMostParts * part_ / way) +
+               " s or less, or lead it more slowly.";
   } else {
     message += ", and leaves no room";
     if (culprit_ >= 0) message += " for " + name(culprit_);

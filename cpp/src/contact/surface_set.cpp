@@ -75,8 +75,8 @@ void SurfaceSet::add(const SurfaceDescription& description, std::int32_t first_r
     vertex.surface = surface;
     if (!description.radius.empty()) vertex.radius = description.radius[at(node)];
     vertices_.push_back(vertex);
-    const Vec3 place = obstacle < 0 ? Vec3(block(rest, vertex.row))
-                                    : Vec3(block(ConstReals(description.vertices), node));
+    const Vec3 place =
+        obstacle < 0 ? Vec3(block(rest, vertex.row)) : Vec3(block(ConstReals(description.vertices), node));
     rest_.insert(rest_.end(), place.begin(), place.end());
   }
   for (const auto& t : description.triangles) {
@@ -161,8 +161,9 @@ std::span<const std::int32_t> SurfaceSet::edges_of(std::int32_t primitive) const
 }
 
 std::span<const std::int32_t> SurfaceSet::neighbours(std::int32_t vertex) const {
-  return std::span(neighbour_).subspan(at(neighbour_begin_[at(vertex)]),
-                                       at(neighbour_begin_[at(vertex) + 1] - neighbour_begin_[at(vertex)]));
+  return std::span(neighbour_)
+      .subspan(at(neighbour_begin_[at(vertex)]),
+               at(neighbour_begin_[at(vertex) + 1] - neighbour_begin_[at(vertex)]));
 }
 
 std::int32_t SurfaceSet::surface_of_primitive(std::int32_t primitive) const {

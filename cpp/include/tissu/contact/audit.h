@@ -13,9 +13,9 @@ namespace tissu {
 
 /// An edge that goes through a triangle, or a vertex behind a plane.
 struct Crossing {
-  std::int32_t surface;                 ///< of the edge, of the vertex
-  std::int32_t other;                   ///< of the triangle, of the plane
-  std::array<std::int32_t, 2> edge;     ///< nodes of their body or obstacle; -1: a vertex alone
+  std::int32_t surface;                  ///< of the edge, of the vertex
+  std::int32_t other;                    ///< of the triangle, of the plane
+  std::array<std::int32_t, 2> edge;      ///< nodes of their body or obstacle; -1: a vertex alone
   std::array<std::int32_t, 3> triangle;  ///< nodes of theirs; -1: a plane
 };
 

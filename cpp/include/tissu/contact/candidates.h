@@ -17,8 +17,8 @@ namespace tissu {
 /// Two features that may come near each other: p of `PairWay` are the places of `vertex`.
 struct Candidate {
   PairKind kind;
-  std::int32_t a;  ///< number of the vertex, of the first edge
-  std::int32_t b;  ///< number of the triangle, of the second edge, of the other vertex
+  std::int32_t a;     ///< number of the vertex, of the first edge
+  std::int32_t b;     ///< number of the triangle, of the second edge, of the other vertex
   std::int32_t pair;  ///< of the description
   std::array<std::int32_t, 4> vertex;
   double apart;  ///< at which they rest, xi [m]
@@ -60,7 +60,7 @@ class Candidates {
 
   const ContactDescription& description_;
   const SurfaceSet& surfaces_;
-  std::vector<std::int32_t> pair_;            ///< [a][b] of surfaces
+  std::vector<std::int32_t> pair_;             ///< [a][b] of surfaces
   std::vector<std::vector<std::uint8_t>> on_;  ///< of each pair: vertices that alone meet; empty: all
   std::vector<double> reach_;                  ///< of each surface: what its boxes are grown by [m]
   std::vector<double> skin_;

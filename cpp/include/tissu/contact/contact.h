@@ -7,9 +7,9 @@
 ///
 ///     r = sum_k beta_k p_k      d = |r|      n = r / d      g = d - xi
 ///
-/// xi is the distance at which the surfaces rest: half their thicknesses and the gap. While a system is solved
-/// its force is linear in r: f = push - H (r - place). Between steps H is zero and `push` is the force of the
-/// latest step.
+/// xi is the distance at which the surfaces rest: half their thicknesses and the gap. While a system is
+/// solved its force is linear in r: f = push - H (r - place). Between steps H is zero and `push` is the force
+/// of the latest step.
 
 #include <array>
 #include <cstdint>
@@ -34,16 +34,17 @@ struct ContactNumbers {
   double pair = 0.0;
   std::array<double, 4> vertex = {-1.0, -1.0, -1.0, -1.0};  ///< of the surfaces; -1: none
   std::array<double, 4> beta = {};
-  std::array<double, 3> fixed = {};  ///< sum of beta p over vertices of obstacles, minus a point of a plane [m]
+  std::array<double, 3> fixed =
+      {};  ///< sum of beta p over vertices of obstacles, minus a point of a plane [m]
   std::array<double, 3> normal = {};
-  std::array<double, 3> place = {};    ///< r at which the force is `push` [m]
-  std::array<double, 3> push = {};     ///< [N]
+  std::array<double, 3> place = {};      ///< r at which the force is `push` [m]
+  std::array<double, 3> push = {};       ///< [N]
   std::array<double, 6> stiffness = {};  ///< H: xx yy zz yz xz xy [N/m]
-  double apart = 0.0;                  ///< xi [m]
-  double force = 0.0;                  ///< lambda_n [N]
-  std::array<double, 3> drag = {};     ///< lambda_T [N]
-  double sliding = 0.0;                ///< 1: friction gave way
-  double area = 0.0;                   ///< on which it acts [m2]
+  double apart = 0.0;                    ///< xi [m]
+  double force = 0.0;                    ///< lambda_n [N]
+  std::array<double, 3> drag = {};       ///< lambda_T [N]
+  double sliding = 0.0;                  ///< 1: friction gave way
+  double area = 0.0;                     ///< on which it acts [m2]
 
   [[nodiscard]] bool same_key(const ContactNumbers& other) const {
     return kind == other.kind && a == other.a && b == other.b;
@@ -133,8 +134,8 @@ class Contact final : public ForceModel {
 
   ContactDescription description_;
   SurfaceSet surfaces_;
-  std::size_t place_ = 0;             ///< in State::memory
-  std::vector<std::size_t> leads_;    ///< of each obstacle, its live lead's
+  std::size_t place_ = 0;           ///< in State::memory
+  std::vector<std::size_t> leads_;  ///< of each obstacle, its live lead's
 };
 
 Mat3 stiffness_of(const ContactNumbers& contact);

@@ -8,9 +8,9 @@
 ///     friction    t_T = lambda_T - k u_T      f_T = t_T on the disk of radius F = mu <t>
 ///     after each solve  lambda_n <- n . f,  lambda_T <- f_T on the disk
 ///
-/// k = 3 a / (move push), 1/a = |sum_r N_r beta_r^2 A_rr^-1| with the blocks A_rr of the step's own matrix and
-/// the contacts N_r at a row: the couplings never exceed three times the block diagonal of A, whatever the
-/// scene.
+/// k = 3 a / (move push), 1/a = |sum_r N_r beta_r^2 A_rr^-1| with the blocks A_rr of the step's own matrix
+/// and the contacts N_r at a row: the couplings never exceed three times the block diagonal of A, whatever
+/// the scene.
 
 #include <memory>
 #include <span>

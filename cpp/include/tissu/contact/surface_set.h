@@ -24,7 +24,7 @@ struct Primitive {
 /// Every edge and every vertex belongs to its lowest primitive, so that each pair is made once.
 struct SurfaceEdge {
   std::array<std::int32_t, 2> vertex;
-  std::array<std::int32_t, 2> face = {-1, -1};   ///< the first two triangles beside it
+  std::array<std::int32_t, 2> face = {-1, -1};    ///< the first two triangles beside it
   std::array<std::int32_t, 2> across = {-1, -1};  ///< the vertex of each that is not on the edge
   double length = 0.0;                            ///< at rest [m]
   [[nodiscard]] bool is_lone() const { return face[0] < 0; }
@@ -34,10 +34,10 @@ struct SurfaceVertex {
   std::int32_t row = -1;  ///< of the unknown; -1: of an obstacle
   std::int32_t node = 0;  ///< number in its body or obstacle
   std::int32_t surface = 0;
-  double radius = 0.0;      ///< [m]
-  double area = 0.0;        ///< a third of its triangles' at rest [m2]
+  double radius = 0.0;  ///< [m]
+  double area = 0.0;    ///< a third of its triangles' at rest [m2]
   bool has_faces = false;
-  bool is_lone = false;     ///< it has no edge
+  bool is_lone = false;  ///< it has no edge
 };
 
 class SurfaceSet {

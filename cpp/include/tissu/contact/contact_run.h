@@ -69,6 +69,10 @@ class ContactRun {
   void stiffen();
   void press(const State& at);
   void rub(ContactNumbers& contact, const Vec3& n, double t, const Vec3& at, double k) const;
+  /// It has a multiplier, or is shut, or will be.
+  [[nodiscard]] bool may_press(std::size_t i) const {
+    return looked_[i].force > 0.0 || gaps_[i] < 0.0 || predicted_[i] != 0;
+  }
   [[nodiscard]] Mat3 compliance(const ContactNumbers& contact) const;
   [[nodiscard]] std::int32_t row(double vertex) const;
   [[nodiscard]] Vec3 reach(const ContactNumbers& contact, ConstReals places) const;
@@ -83,6 +87,7 @@ class ContactRun {
   std::vector<double> begin_;  ///< places of all vertices at the start of the step, …
   std::vector<double> from_;   ///< … after what is led went ahead, …
   std::vector<double> now_;    ///< … and where they are looked at
+  std::vector<double> goal_;   ///< where the latest system led them, before they were held back
   const State* start_ = nullptr;
   double end_ = 0.0;
   std::span<const double> blocks_;
@@ -90,6 +95,7 @@ class ContactRun {
   std::vector<ContactNumbers> contacts_;
   std::vector<ContactNumbers> looked_;
   std::vector<double> gaps_;         ///< of looked_
+  std::vector<std::uint8_t> predicted_;  ///< of looked_: shut at the goal, whatever the gap is now
   std::vector<double> weights_;      ///< of looked_
   std::vector<double> stiffnesses_;  ///< of looked_
   std::vector<std::int32_t> order_;

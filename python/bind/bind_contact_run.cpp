@@ -27,7 +27,7 @@ py::array_t<T> rows(std::size_t count, py::ssize_t columns) {
   return py::array_t<T>({static_cast<py::ssize_t>(count), columns});
 }
 
-/// Pair, surfaces (m, 2), nodes (m, 4), weights (m, 4), point, normal, gap, force, sliding, area.
+/// Surfaces (m, 2), nodes (m, 4), weights (m, 4), point, normal, gap, force, sliding, area.
 py::tuple contacts(const Simulation& simulation) {
   const Contact& contact = contact_of(simulation);
   const ContactTable table = contact.table(simulation.state());

@@ -10,6 +10,7 @@
 #include "hold_back.h"
 #include "narrow.h"
 #include "push_ahead.h"
+#include "tissu/base/norm.h"
 #include "tissu/contact/candidates.h"
 
 namespace tissu {
@@ -44,6 +45,7 @@ ContactRun::ContactRun(const Contact& contact, const FixedDofs& fixed) : contact
   begin_.resize(3 * vertices.size());
   from_ = now_ = begin_;
   counts_.assign(fixed.masks().size(), 0);
+  forces_.assign(3 * fixed.masks().size(), 0.0);
 }
 
 ContactRun::~ContactRun() = default;
@@ -111,7 +113,7 @@ int ContactRun::hold_back(State& to) {
   return rows;
 }
 
-bool ContactRun::look(const State& at) {
+double ContactRun::look(const State& at) {
   gather(at, now_);
   candidates_->cover(from_, now_);
   find(at);
@@ -119,11 +121,31 @@ bool ContactRun::look(const State& at) {
   hand_over();
   stiffen();
   press(at);
-  if (looked_.size() != contacts_.size()) return true;
-  for (std::size_t i = 0; i < looked_.size(); ++i) {
-    if (!looked_[i].same_key(contacts_[i]) || looked_[i].sliding != contacts_[i].sliding) return true;
+  return change();
+}
+
+/// |change of the forces on rows| / |forces|, from those of the latest solve to those of the latest look.
+double ContactRun::change() {
+  std::ranges::fill(forces_, 0.0);
+  const auto scatter = [&](const ContactNumbers& c, const Vec3& force) {
+    for (std::size_t k = 0; k < 4; ++k) {
+      const std::int32_t i = row(c.vertex[k]);
+      if (i >= 0) block(Reals(forces_), i) += c.beta[k] * force;
+    }
+  };
+  double size = 0.0;
+  double other = 0.0;
+  for (const ContactNumbers& c : contacts_) {
+    const Vec3 force = c.force * vector_of(c.normal) + vector_of(c.drag);
+    size += force.squaredNorm();
+    scatter(c, -force);
   }
-  return false;
+  for (const ContactNumbers& c : looked_) {
+    other += vector_of(c.push).squaredNorm();
+    scatter(c, vector_of(c.push));
+  }
+  const double largest = std::sqrt(std::max(size, other));
+  return largest > 0.0 ? norm(forces_) / largest : 0.0;
 }
 
 void ContactRun::find(const State& /*at*/) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "../../../bench/contact/folded_sheet.h"
 #include "../base/allocations.h"
 #include "box_sets.h"
 #include "contact/hierarchy.h"
@@ -58,12 +59,12 @@ std::vector<Box> moved(std::vector<Box> boxes, float by) {
 }
 
 TEST(BroadPhaseWork, ATreeIsBuiltAgainWhenItsBoxesAreMixedUpOnly) {
-  std::vector<Box> boxes = test::folded_sheet(20, 4, 0.4, 0.1, 0.0);
+  std::vector<Box> boxes = bench::folded_sheet(20, 4, 0.4, 0.1, 0.0);
   Hierarchy hierarchy(itself(boxes.size()));
   std::vector<BoxPair> pairs;
   hierarchy.find(boxes, pairs);
   hierarchy.find(moved(boxes, 1000.0F), pairs);
-  hierarchy.find(test::folded_sheet(20, 4, 0.4, 0.5, 1.0), pairs);  // larger ones, a little on
+  hierarchy.find(bench::folded_sheet(20, 4, 0.4, 0.5, 1.0), pairs);  // larger ones, a little on
   EXPECT_EQ(hierarchy.builds(), 1);
   std::reverse(boxes.begin() + 200, boxes.begin() + 600);
   hierarchy.find(boxes, pairs);
@@ -73,7 +74,7 @@ TEST(BroadPhaseWork, ATreeIsBuiltAgainWhenItsBoxesAreMixedUpOnly) {
 }
 
 TEST(BroadPhaseWork, AnOctreeIsBuiltAgainWhenAFifthHaveLeftTheirCubes) {
-  std::vector<Box> boxes = test::folded_sheet(20, 4, 0.4, 0.1, 0.0);
+  std::vector<Box> boxes = bench::folded_sheet(20, 4, 0.4, 0.1, 0.0);
   Octree octree(itself(boxes.size()));
   std::vector<BoxPair> pairs;
   octree.find(boxes, pairs);
@@ -89,7 +90,7 @@ TEST(BroadPhaseWork, AnOctreeIsBuiltAgainWhenAFifthHaveLeftTheirCubes) {
 }
 
 TEST(BroadPhaseWork, SortedEndsAreCarriedWhileTheBoxesMoveALittle) {
-  const std::vector<Box> boxes = test::folded_sheet(20, 4, 0.4, 0.1, 0.0);
+  const std::vector<Box> boxes = bench::folded_sheet(20, 4, 0.4, 0.1, 0.0);
   SweepAndPrune sweep(itself(boxes.size()));
   std::vector<BoxPair> pairs;
   sweep.find(boxes, pairs);
@@ -113,7 +114,7 @@ TEST(BroadPhaseWork, SortedEndsAreCarriedWhileTheBoxesMoveALittle) {
 
 // So that an order that is lost costs n log n and not n^2.
 TEST(BroadPhaseWork, AnOrderThatIsLostIsSortedAnew) {
-  std::vector<Box> boxes = test::folded_sheet(40, 4, 0.4, 0.1, 0.0);
+  std::vector<Box> boxes = bench::folded_sheet(40, 4, 0.4, 0.1, 0.0);
   SweepAndPrune sweep(itself(boxes.size()));
   std::vector<BoxPair> pairs;
   sweep.find(boxes, pairs);

@@ -2,6 +2,7 @@
 
 #include <limits>
 
+#include "../../../bench/contact/folded_sheet.h"
 #include "box_sets.h"
 #include "tissu/base/error.h"
 
@@ -68,7 +69,7 @@ TEST_P(BroadPhases, FindManyBoxesAsTheHierarchyDoes) {
   std::vector<BoxPair> pairs;
   std::vector<BoxPair> others;
   for (int time = 0; time < 3; ++time) {
-    const std::vector<Box> boxes = test::folded_sheet(100, 5, 0.4, 0.2, time);
+    const std::vector<Box> boxes = bench::folded_sheet(100, 5, 0.4, 0.2, time);
     broad->find(boxes, pairs);
     hierarchy->find(boxes, others);
     EXPECT_EQ(pairs, others);

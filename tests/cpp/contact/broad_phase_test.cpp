@@ -111,6 +111,10 @@ INSTANTIATE_TEST_SUITE_P(Contact, BroadPhases,
                                          BroadCase{"octree", BroadPhaseKind::octree}),
                          testing::PrintToStringParamName());
 
+#ifdef TISSU_HAVE_FCL
+INSTANTIATE_TEST_SUITE_P(ContactByFcl, BroadPhases, testing::Values(BroadCase{"fcl", BroadPhaseKind::fcl}),
+                         testing::PrintToStringParamName());
+#else
 TEST(BroadPhase, FclIsRefusedByName) {
   try {
     make_broad_phase(BroadPhaseKind::fcl, {});
@@ -120,6 +124,7 @@ TEST(BroadPhase, FclIsRefusedByName) {
   }
   FAIL() << "fcl was made";
 }
+#endif
 
 }  // namespace
 }  // namespace tissu

@@ -9,6 +9,7 @@
 
 #include "hold_back.h"
 #include "narrow.h"
+#include "nearest_pair.h"
 #include "push_ahead.h"
 #include "tissu/base/norm.h"
 #include "tissu/contact/candidates.h"
@@ -116,11 +117,11 @@ int ContactRun::hold_back(State& to) {
 double ContactRun::look(const State& at) {
   gather(at, now_);
   candidates_->cover(from_, now_);
-  find(at);
+  find();
   keep_multipliers();
   hand_over();
   stiffen();
-  press(at);
+  press();
   return change();
 }
 
@@ -148,24 +149,62 @@ double ContactRun::change() {
   return largest > 0.0 ? norm(forces_) / largest : 0.0;
 }
 
-void ContactRun::find(const State& /*at*/) {
-  const auto& vertices = contact_.surfaces().vertices();
-  const auto& pairs = contact_.description().pairs;
+/// Whether the latest contacts have one of this key, which acts.
+const ContactNumbers* ContactRun::acting(const ContactNumbers& c) const {
+  const auto found = std::ranges::lower_bound(order_, key_of(c), {},
+                                              [&](std::int32_t i) { return key_of(contacts_[at(i)]); });
+  if (found == order_.end() || !contacts_[at(*found)].same_key(c)) return nullptr;
+  return &contacts_[at(*found)];
+}
+
+/// The nearest points of a candidate, whatever the rules of the narrow phase say of it.
+bool ContactRun::find_plainly(const Candidate& candidate, double reach, Found& found) const {
+  std::array<Vec3, 4> p{};
+  for (int i = 0; i < vertices_of(candidate.kind); ++i) {
+    p[at(i)] = block(ConstReals(now_), candidate.vertex[at(i)]);
+  }
+  const Closest closest = nearest_of(candidate.kind, p);
+  if (!(closest.square < reach * reach) || !(closest.square > 0.0)) return false;
+  found = {candidate.kind, candidate.a, candidate.b,
+           candidate.vertex, closest.beta, closest.r,
+           std::sqrt(closest.square), 1.0, 0.0};
+  return true;
+}
+
+void ContactRun::find() {
   looked_.clear();
   gaps_.clear();
   weights_.clear();
   predicted_.clear();
+  order_.resize(contacts_.size());
+  std::iota(order_.begin(), order_.end(), 0);
+  std::ranges::sort(order_, {}, [&](std::int32_t i) { return key_of(contacts_[at(i)]); });
+  find_pairs();
+  find_planes();
+}
+
+/// Beside what the narrow phase finds, pairs that stopped a way, and pairs that act already: the linear
+/// answer would lead through them.
+void ContactRun::find_pairs() {
+  const auto& vertices = contact_.surfaces().vertices();
+  const auto& pairs = contact_.description().pairs;
   Found found{};
   auto stopped = held_->stopped().begin();
   for (std::size_t i = 0; i < candidates_->list().size(); ++i) {
     const Candidate& candidate = candidates_->list()[i];
     double reach = candidate.apart + pairs[at(candidate.pair)].gap;
-    if (stopped != held_->stopped().end() && at(*stopped) == i) {
+    const bool stops = stopped != held_->stopped().end() && at(*stopped) == i;
+    if (stops) {
       reach = std::numeric_limits<double>::infinity();
       ++stopped;
     }
-    if (!find_contact(contact_.surfaces(), now_, candidate, reach, found)) continue;
     ContactNumbers c;
+    if (!find_contact(contact_.surfaces(), now_, candidate, reach, found)) {
+      c.kind = static_cast<double>(candidate.kind);
+      c.a = candidate.a;
+      c.b = candidate.b;
+      if (!(stops || acting(c) != nullptr) || !find_plainly(candidate, reach, found)) continue;
+    }
     c.kind = static_cast<double>(found.kind);
     c.a = found.a;
     c.b = found.b;
@@ -187,6 +226,11 @@ void ContactRun::find(const State& /*at*/) {
     gaps_.push_back(found.distance - candidate.apart);
     weights_.push_back(found.weight);
   }
+}
+
+void ContactRun::find_planes() {
+  const auto& vertices = contact_.surfaces().vertices();
+  const auto& pairs = contact_.description().pairs;
   for (const PlaneCandidate& candidate : candidates_->planes()) {
     const PlacedPlane& plane = planes_[at(candidate.obstacle)];
     const Vec3 place = block(ConstReals(now_), candidate.vertex);
@@ -213,16 +257,11 @@ void ContactRun::find(const State& /*at*/) {
   }
 }
 
-/// Multipliers of the contacts that there were: in `contacts_`, whose order is kept in `order_`.
 void ContactRun::keep_multipliers() {
-  order_.resize(contacts_.size());
-  std::iota(order_.begin(), order_.end(), 0);
-  std::ranges::sort(order_, {}, [&](std::int32_t i) { return key_of(contacts_[at(i)]); });
   for (ContactNumbers& c : looked_) {
-    const auto found = std::ranges::lower_bound(order_, key_of(c), {},
-                                                [&](std::int32_t i) { return key_of(contacts_[at(i)]); });
-    if (found == order_.end() || !contacts_[at(*found)].same_key(c)) continue;
-    const ContactNumbers& before = contacts_[at(*found)];
+    const ContactNumbers* found = acting(c);
+    if (found == nullptr) continue;
+    const ContactNumbers& before = *found;
     c.force = before.force;
     c.sliding = before.sliding;
     const Vec3 n = vector_of(c.normal);
@@ -296,7 +335,7 @@ void ContactRun::stiffen() {
 }
 
 /// Forces and stiffnesses at the places that were looked at; what does not press is dropped.
-void ContactRun::press(const State& /*at*/) {
+void ContactRun::press() {
   std::size_t kept = 0;
   depth_ = 0.0;
   for (std::size_t i = 0; i < looked_.size(); ++i) {

@@ -24,6 +24,8 @@ namespace tissu {
 class Candidates;
 class HoldBack;
 class PushAhead;
+struct Candidate;
+struct Found;
 struct PlacedPlane;
 
 class ContactRun {
@@ -63,11 +65,15 @@ class ContactRun {
 
  private:
   void gather(const State& state, std::vector<double>& places) const;
-  void find(const State& at);
+  void find();
+  void find_pairs();
+  void find_planes();
+  bool find_plainly(const Candidate& candidate, double reach, Found& found) const;
+  [[nodiscard]] const ContactNumbers* acting(const ContactNumbers& c) const;
   void keep_multipliers();
   void hand_over();
   void stiffen();
-  void press(const State& at);
+  void press();
   double change();
   void rub(ContactNumbers& contact, const Vec3& n, double t, const Vec3& at, double k) const;
   /// It has a multiplier, or is shut, or will be.
@@ -99,7 +105,7 @@ class ContactRun {
   std::vector<std::uint8_t> predicted_;  ///< of looked_: shut at the goal, whatever the gap is now
   std::vector<double> weights_;      ///< of looked_
   std::vector<double> stiffnesses_;  ///< of looked_
-  std::vector<std::int32_t> order_;
+  std::vector<std::int32_t> order_;  ///< of contacts_, by their keys
   std::vector<std::int32_t> counts_;  ///< contacts of each row
   std::vector<double> forces_;  ///< on rows
   double depth_ = 0.0;

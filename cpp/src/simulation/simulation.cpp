@@ -96,7 +96,7 @@ StepReport Simulation::step(double h) {
   try {
     begin_step(*world_, state_, scratch_, h);
     if (watch_) begin_watch(*watch_);
-    report = integrator_->step(state_, h);
+    report = world_->contact() == nullptr ? integrator_->step(state_, h) : step_in_parts(h, 0);
   } catch (...) {
     state_ = last_good_;
     throw;

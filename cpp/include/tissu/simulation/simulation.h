@@ -66,6 +66,8 @@ class Simulation {
   void forget_solves();
 
  private:
+  /// A step of a world with contact: in halves of halves where surfaces would have to be held back.
+  StepReport step_in_parts(double h, int halvings);
   [[nodiscard]] double farthest() const;
   [[nodiscard]] bool is_sane() const;
   [[noreturn]] void roll_back(double h);

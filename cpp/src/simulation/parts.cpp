@@ -1,0 +1,48 @@
+/// Steps that contact makes too long for one go.
+
+#include <algorithm>
+#include <optional>
+
+#include "tissu/base/error.h"
+#include "tissu/simulation/simulation.h"
+
+namespace tissu {
+namespace {
+
+constexpr int kHalvings = 3;  ///< at most: eight parts
+
+/// The report of two parts of a step, one after the other.
+StepReport sum(const StepReport& first, const StepReport& then) {
+  StepReport both = then;
+  both.newton_iterations += first.newton_iterations;
+  both.solver_iterations += first.solver_iterations;
+  both.indefinite += first.indefinite;
+  both.residual = std::max(first.residual, then.residual);
+  both.converged = first.converged && then.converged;
+  both.held_back = std::max(first.held_back, then.held_back);
+  both.least_gap = std::min(first.least_gap, then.least_gap);
+  both.substeps = first.substeps + then.substeps;
+  if (both.message.empty()) both.message = first.message;
+  return both;
+}
+
+}  // namespace
+
+/// Where a step has to hold nodes back, what is linearised in it went too far: shorter ones see contacts come.
+StepReport Simulation::step_in_parts(double h, int halvings) {
+  if (halvings == kHalvings) return integrator_->step(state_, h);
+  const State start = state_;
+  const std::vector<double> memory = integrator_->memory();
+  try {
+    const StepReport report = integrator_->step(state_, h);
+    if (report.held_back == 0 && is_sane()) return report;
+  } catch (const Diverged&) {
+    // The shortest parts say what is wrong.
+  }
+  state_ = start;
+  integrator_->restore(memory);
+  const StepReport first = step_in_parts(0.5 * h, halvings + 1);
+  return sum(first, step_in_parts(0.5 * h, halvings + 1));
+}
+
+}  // namespace tissu

@@ -15,9 +15,12 @@ void FreeOperator::set(const State& state, double mass, StiffnessScale scale) {
   mass_ = mass;
   scale_ = scale;
   count_change();
-  if (world_.run_time().coupling.empty()) return;
+  if (!world_.run_time().coupling.empty()) couple(state_);
+}
+
+void FreeOperator::couple(const State& state) {
   couplings_.clear();
-  for (const ForceModel* model : world_.run_time().coupling) model->add_couplings(state_, scale_, couplings_);
+  for (const ForceModel* model : world_.run_time().coupling) model->add_couplings(state, scale_, couplings_);
   couplings_.close(rows(), &world_.fixed().masks());
   set_couplings(couplings_.empty() ? nullptr : &couplings_);
 }

@@ -53,9 +53,12 @@ void StageSolver::prepare(const World& world, LinearSolver* solver, Profile& pro
   for (auto* v : {&given_, &guess_, &first_, &trial_, &change_, &right_, &work_, &momentum_}) {
     v->assign(stage_.base.positions.size(), 0.0);
   }
+  contact_.reset();
+  if (world.contact() != nullptr) contact_ = std::make_unique<ContactRun>(*world.contact(), world.fixed());
 }
 
 void StageSolver::begin(const State& start, double time, double h) {
+  step_start_ = &start;
   stage_.base = start;
   stage_.base.time = time;
   stage_.move = h;
@@ -71,6 +74,10 @@ void StageSolver::lead(const State& start, double time, double h, double share) 
 void StageSolver::solve(State& state, std::vector<double>& v, StepReport& report) {
   judge_by_load();
   guess_ = v;
+  if (contact_ != nullptr) {
+    solve_touching(state, v, report);
+    return;
+  }
   first_solve(v, report);
   const bool once = newton_.iterations == 1;
   if (once && is_good_enough(state, v)) return;
@@ -117,7 +124,7 @@ void StageSolver::place(State& state, ConstReals v) const {
   state.time = stage_.base.time;
 }
 
-void StageSolver::first_solve(std::vector<double>& v, StepReport& report) {
+void StageSolver::lay_right(std::vector<double>& v) {
   const World& world = system_->world();
   const FixedDofs& fixed = world.fixed();
   const double h2 = stage_.move * stage_.push;
@@ -146,8 +153,14 @@ void StageSolver::first_solve(std::vector<double>& v, StepReport& report) {
   world.mass().add_product(base, -1.0, work_, right_);
   fixed.clear(right_);
   start_ = norm(right_);
-  // What is given is on the right already: the solver sees free rows only, and judges by them.
   std::ranges::copy(change_, first_.begin());
+}
+
+void StageSolver::first_solve(std::vector<double>& v, StepReport& report) {
+  lay_right(v);
+  const FixedDofs& fixed = system_->world().fixed();
+  const State& base = stage_.base;
+  // What is given is on the right already: the solver sees free rows only, and judges by them.
   fixed.clear(change_);
 
   assemble(base, false);

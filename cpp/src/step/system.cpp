@@ -128,6 +128,14 @@ void System::couple(const State& state, StiffnessScale scale, BlockMatrix& matri
   matrix.set_couplings(couplings_.empty() ? nullptr : &couplings_);
 }
 
+void System::recouple(const State& state) {
+  if (free_) {
+    free_->couple(state);
+  } else if (matrix_) {
+    couple(state, scale_, *matrix_);
+  }
+}
+
 void System::place_rows(const State& state) {
   if (places_.point.empty()) {
     for (std::int32_t i = 0; i < world_.blocks(); ++i) places_.point.push_back(i);

@@ -32,6 +32,9 @@ class WorldBuilder {
   void add_loads();
   void add_load(const LoadDescription& load);
   void add_pressure(const PressureDescription& pressure);
+  // build_contact.cpp
+  void add_contact();
+  void separate_surfaces();
   // build_supports.cpp
   void add_supports();
   void hold(const FixedNodes& fixed);

@@ -69,10 +69,12 @@ void WorldBuilder::build() {
   add_bodies();
   add_loads();
   add_supports();
+  add_contact();
   for (const Body& body : world_.bodies_) refuse_massless(body, world_.mass_.nodal(), world_.fixed_);
   lay_pattern();
   list_run_time();
   set_rest();
+  separate_surfaces();
   world_.extent_ = box_diagonal(world_.rest_positions(), world_.frames());
 }
 

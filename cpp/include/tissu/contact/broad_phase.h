@@ -41,14 +41,16 @@ class BroadPhase {
   BroadPhase& operator=(const BroadPhase&) = delete;
 
   [[nodiscard]] virtual std::string_view name() const = 0;
-  /// One box for each primitive of the plan.
+  /// One box for each primitive of the plan. Throws ParameterError where their number is another, or a box
+  /// holds NaN, an infinite number, or a low side above its high side.
   virtual void find(std::span<const Box> boxes, std::vector<BoxPair>& pairs) = 0;
   [[nodiscard]] virtual std::size_t bytes() const = 0;
 };
 
 enum class BroadPhaseKind { hierarchy, sweep_and_prune, grid, octree, fcl };
 
-/// Refuses `fcl` where the library was built without it.
+/// Throws ParameterError for `fcl` where the library was built without it, and for a plan whose meetings name
+/// no surface or whose `first` does not ascend from 0. A meeting that is named twice counts once.
 std::unique_ptr<BroadPhase> make_broad_phase(BroadPhaseKind kind, const SearchPlan& plan);
 
 }  // namespace tissu

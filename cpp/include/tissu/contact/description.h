@@ -47,7 +47,7 @@ struct ContactPair {
   double restitution = 0.0;
   std::optional<double> stiffness =
       std::nullopt;                      ///< of the penalty method [Pa/m]; absent: from the step's matrix
-  std::vector<std::int32_t> nodes = {};  ///< of a that alone meet b; empty: all
+  std::vector<std::int32_t> nodes = {};  ///< of a that alone meet b, ascending; empty: all
 };
 
 struct ContactDescription {

@@ -18,6 +18,8 @@ class FreeOperator final : public LinearOperator {
   explicit FreeOperator(const World& world);
   /// A at this state, from now on. `scale.definite` is of matrices only.
   void set(const State& state, double mass, StiffnessScale scale);
+  /// What is coupled at this state, beside what `set` found.
+  void couple(const State& state);
 
   [[nodiscard]] std::int32_t rows() const override { return world_.blocks(); }
   [[nodiscard]] const Threads& threads() const override { return threads_; }

@@ -19,6 +19,10 @@ struct StepReport {
                               ///< is iterated
   int indefinite = 0;         ///< systems whose matrix was not positive definite, and was made so
   bool converged = false;     ///< every tolerance was met
+  int contacts = 0;           ///< that press at the end of the step
+  int held_back = 0;          ///< rows whose way was cut so that nothing passes through anything
+  double least_gap = std::numeric_limits<double>::infinity();  ///< distance of the nearest of them, as a share
+                                                               ///< of that at which surfaces rest
   double milliseconds = 0.0;  ///< wall time of the step
   std::string message;        ///< empty, or why it did not converge, or what to know of where it converged
 };

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "tissu/contact/contact_run.h"
 #include "tissu/step/integrator.h"
 #include "tissu/step/system.h"
 
@@ -51,6 +52,19 @@ class StageSolver {
  private:
   enum class Search { none, residual, energy };
   void first_solve(std::vector<double>& v, StepReport& report);
+  /// push f + push move K (v + given) + push D given - M (v - v^ + given) goes into right_, free rows only;
+  /// changes of velocity that are given go into first_.
+  void lay_right(std::vector<double>& v);
+
+  // touching.cpp: steps of a world with contact.
+  void solve_touching(State& state, std::vector<double>& v, StepReport& report);
+  void begin_touching(State& state, std::vector<double>& v);
+  /// Systems that differ in contacts alone: what is elastic stays linearised at the base.
+  bool solve_contacts(State& state, std::vector<double>& v, StepReport& report);
+  void iterate_contacts(State& state, std::vector<double>& v, StepReport& report);
+  /// Velocities that lead to where `state` is, of rows that were held back.
+  void follow(const State& state, std::vector<double>& v) const;
+  void set_contacts(State& state);
   /// What a step that is linearised once left over is no more than it found.
   bool is_good_enough(State& state, ConstReals v);
   /// The solution is one that lies below the guess: far above it there may be others, which no body reaches.
@@ -83,8 +97,12 @@ class StageSolver {
   std::vector<double> right_;
   std::vector<double> work_;
   std::vector<double> momentum_;
-  Scratch scratch_;         ///< of energies
-  double reference_ = 0.0;  ///< push |external force|
+  std::unique_ptr<ContactRun> contact_;  ///< null where nothing touches
+  const State* step_start_ = nullptr;    ///< of the step
+  std::vector<double> blocks_;           ///< diagonal of the matrix without contact
+  std::vector<double> elastic_;          ///< what is right without contact
+  Scratch scratch_;                      ///< of energies
+  double reference_ = 0.0;               ///< push |external force|
   double acting_ = 0.0;
   double start_ = 0.0;       ///< residual that the first solve found
   bool is_falling_ = false;  ///< the last of Newton's iterations at least halved the least residual

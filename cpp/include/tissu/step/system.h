@@ -33,6 +33,8 @@ class System {
   /// Nothing is done when a linear world is asked for the matrix it has; couplings are always made anew. For
   /// a solver that needs no matrix, A is a product only, at a copy of the state.
   void assemble(const State& state, double mass, StiffnessScale scale);
+  /// What is coupled beside A becomes that of this state. Only after `assemble`.
+  void recouple(const State& state);
   /// Solves A x = b from the first guess x.
   SolveReport solve(ConstReals b, Reals x, double floor);
 

@@ -12,6 +12,7 @@
 #include "tissu/assembly/fixed_dofs.h"
 #include "tissu/assembly/mass.h"
 #include "tissu/assembly/sparsity.h"
+#include "tissu/contact/contact.h"
 #include "tissu/force/force_model.h"
 #include "tissu/model/body_model.h"
 #include "tissu/world/description.h"
@@ -48,6 +49,8 @@ class World {
   [[nodiscard]] const std::vector<Frame>& frames() const { return mass_.frames(); }
   [[nodiscard]] const FixedDofs& fixed() const { return fixed_; }
   [[nodiscard]] const std::vector<std::unique_ptr<ForceModel>>& forces() const { return forces_; }
+  /// One of the forces; null in a world where nothing touches.
+  [[nodiscard]] const Contact* contact() const { return contact_; }
   [[nodiscard]] const RunTimeModels& run_time() const { return run_time_; }
   /// What its states remember.
   [[nodiscard]] const MemoryPlaces& memory() const { return memory_; }
@@ -74,6 +77,7 @@ class World {
   Mass mass_;
   FixedDofs fixed_;
   std::vector<std::unique_ptr<ForceModel>> forces_;
+  const Contact* contact_ = nullptr;
   RunTimeModels run_time_;
   MemoryPlaces memory_;
   Sparsity sparsity_;

@@ -1,0 +1,29 @@
+#pragma once
+
+/// Exact answers about a state: what crosses, and how things that touch are moved apart at the start.
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "tissu/assembly/fixed_dofs.h"
+#include "tissu/contact/contact.h"
+
+namespace tissu {
+
+/// An edge that goes through a triangle, or a vertex behind a plane.
+struct Crossing {
+  std::int32_t surface;                  ///< of the edge, of the vertex
+  std::int32_t other;                    ///< of the triangle, of the plane
+  std::array<std::int32_t, 2> edge;      ///< nodes of their body or obstacle; -1: a vertex alone
+  std::array<std::int32_t, 3> triangle;  ///< nodes of theirs; -1: a plane
+};
+
+/// All crossings of pairs that the scene says meet, in the order of the features; signs are exact.
+std::vector<Crossing> crossings(const Contact& contact, const State& state);
+
+/// Moves apart what touches, or overlaps by no more than the gap, along outward normals, by at most the gap;
+/// obstacles and given rows stay. Refuses bodies that overlap more.
+void separate(const Contact& contact, const FixedDofs& fixed, State& start);
+
+}  // namespace tissu

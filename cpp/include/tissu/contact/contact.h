@@ -1,0 +1,144 @@
+#pragma once
+
+/// Contact as one of a world's forces. What touches what, and how hard, stands in the memory of a state, so
+/// that copies, roll-backs and checkpoints of the state hold it; `ContactRun` writes it.
+///
+/// A contact joins up to four vertices of surfaces with weights beta that sum to zero:
+///
+///     r = sum_k beta_k p_k      d = |r|      n = r / d      g = d - xi
+///
+/// xi is the distance at which the surfaces rest: half their thicknesses and the gap. While a system is
+/// solved its force is linear in r: f = push - H (r - place). Between steps H is zero and `push` is the force
+/// of the latest step.
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "tissu/assembly/live_lead.h"
+#include "tissu/contact/description.h"
+#include "tissu/contact/surface_set.h"
+#include "tissu/force/force_model.h"
+
+namespace tissu {
+
+/// One contact as it stands in the memory: numbers alone.
+struct ContactNumbers {
+  static constexpr double kPlane = 4.0;  ///< a vertex before a plane; else a PairKind
+
+  double kind = 0.0;
+  double a = 0.0;  ///< the vertex, or the first edge
+  double b = 0.0;  ///< the triangle, the second edge, the other vertex, or the obstacle that is a plane
+  double pair = 0.0;
+  std::array<double, 4> vertex = {-1.0, -1.0, -1.0, -1.0};  ///< of the surfaces; -1: none
+  std::array<double, 4> beta = {};
+  std::array<double, 3> fixed =
+      {};  ///< sum of beta p over vertices of obstacles, minus a point of a plane [m]
+  std::array<double, 3> normal = {};
+  std::array<double, 3> place = {};      ///< r at which the force is `push` [m]
+  std::array<double, 3> push = {};       ///< [N]
+  std::array<double, 6> stiffness = {};  ///< H: xx yy zz yz xz xy [N/m]
+  double apart = 0.0;                    ///< xi [m]
+  double force = 0.0;                    ///< lambda_n [N]
+  std::array<double, 3> drag = {};       ///< lambda_T [N]
+  double sliding = 0.0;                  ///< 1: friction gave way
+  double area = 0.0;                     ///< on which it acts [m2]
+
+  [[nodiscard]] bool same_key(const ContactNumbers& other) const {
+    return kind == other.kind && a == other.a && b == other.b;
+  }
+};
+
+/// The contacts that a memory holds.
+class ContactTable {
+ public:
+  static constexpr std::size_t kNumbers = sizeof(ContactNumbers) / sizeof(double);
+  explicit ContactTable(std::span<const double> numbers) : numbers_(numbers) {}
+  [[nodiscard]] std::size_t size() const { return numbers_.size() / kNumbers; }
+  [[nodiscard]] ContactNumbers operator[](std::size_t i) const;
+  static void write(std::span<const ContactNumbers> contacts, std::vector<double>& numbers);
+
+ private:
+  std::span<const double> numbers_;
+};
+
+class Contact final : public ForceModel {
+ public:
+  static constexpr std::string_view kMemory = "contact";  ///< name of their place in the memory
+
+  /// `first_node`: the row of the first node of each of the description's bodies; `rest`: all positions.
+  Contact(ContactDescription description, std::span<const std::int32_t> first_node, ConstReals rest);
+
+  [[nodiscard]] std::string_view effect() const override { return "contact"; }
+  [[nodiscard]] ForceKind kind() const override { return ForceKind::external; }
+  /// Obstacles are led, and friction takes.
+  [[nodiscard]] bool may_add_energy() const override { return true; }
+  void add_force(const State& state, Scratch& scratch, Reals f) const override;
+  void add_product(const State& state, Scratch& scratch, StiffnessScale scale, ConstReals p,
+                   Reals out) const override;
+  /// Of the linear force: zero between steps.
+  [[nodiscard]] double energy(const State& state, Scratch& scratch) const override;
+
+  [[nodiscard]] RunTime run_time() const override { return {.begins = true, .couples = true}; }
+  void claim_memory(MemoryPlaces& places) override;
+  /// Live leads of obstacles go on.
+  void begin_step(State& state, Scratch& scratch, double h) const override;
+  void add_couplings(const State& state, StiffnessScale scale, Couplings& couplings) const override;
+  void carry_memory(const ForceModel& before, const Memory& then, Memory& now) const override;
+  void check_memory(const State& state) const override;
+
+  [[nodiscard]] const ContactDescription& description() const { return description_; }
+  [[nodiscard]] const SurfaceSet& surfaces() const { return surfaces_; }
+  [[nodiscard]] std::vector<double>& numbers(State& state) const { return state.memory[place_]; }
+  [[nodiscard]] ContactTable table(const State& state) const { return ContactTable(state.memory[place_]); }
+
+  // Obstacles, at a time of the run that a state is in.
+  [[nodiscard]] Vec3 place_of(std::int32_t obstacle, const Vec3& rest, const State& state, double time) const;
+  /// Where the point is at time `to` that stands at `place` at time `from`.
+  [[nodiscard]] Vec3 carried(std::int32_t obstacle, const Vec3& place, const State& state, double from,
+                             double to) const;
+  [[nodiscard]] Vec3 normal_of(std::int32_t obstacle, const State& state, double time) const;
+  /// Of the obstacle with that name; -1: none.
+  [[nodiscard]] std::int32_t obstacle_named(std::string_view name) const;
+  /// Leads an obstacle from where it is to a pose, over so many seconds from the next step on; 0: in that
+  /// step. Refuses an unknown name.
+  void lead_to(std::string_view name, const Pose& pose, double over, State& state) const;
+  /// Leads it back to its own path.
+  void release(std::string_view name, double over, State& state) const;
+  [[nodiscard]] bool is_led_live(std::string_view name, const State& state) const;
+  /// The pose, from rest, in which an obstacle is.
+  [[nodiscard]] Pose pose_of(std::int32_t obstacle, const State& state, double time) const;
+
+  /// All vertices of the surfaces, three numbers each.
+  void place_vertices(const State& state, double time, Reals places) const;
+  /// Force [N], and moment about its origin [N m], that the contacts of a state give to a body or obstacle.
+  struct Wrench {
+    Vec3 force = Vec3::Zero();
+    Vec3 moment = Vec3::Zero();
+  };
+  [[nodiscard]] Wrench force_on(std::int32_t surface, const State& state) const;
+
+ private:
+  template <class Function>
+  void for_contacts(const State& state, Function&& f) const;
+  [[nodiscard]] std::int32_t row(double vertex) const {
+    return vertex < 0.0 ? -1 : surfaces_.vertices()[static_cast<std::size_t>(vertex)].row;
+  }
+  [[nodiscard]] Vec3 reach(const ContactNumbers& contact, ConstReals positions) const;
+  void scatter(const ContactNumbers& contact, const Vec3& force, Reals f) const;
+  [[nodiscard]] LivePlace live_place(std::int32_t obstacle, const State& state, double time) const;
+  void begin_way(std::int32_t obstacle, bool released, const Pose& target, double over, State& state) const;
+  [[nodiscard]] std::int32_t required(std::string_view name) const;
+
+  ContactDescription description_;
+  SurfaceSet surfaces_;
+  std::size_t place_ = 0;           ///< in State::memory
+  std::vector<std::size_t> leads_;  ///< of each obstacle, its live lead's
+};
+
+Mat3 stiffness_of(const ContactNumbers& contact);
+inline Vec3 vector_of(const std::array<double, 3>& numbers) { return {numbers[0], numbers[1], numbers[2]}; }
+
+}  // namespace tissu

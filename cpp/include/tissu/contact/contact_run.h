@@ -1,0 +1,101 @@
+#pragma once
+
+/// Contact during the steps of one run: it looks, says how stiff contacts are, keeps ways free, and updates
+/// multipliers (augmented Lagrangian: Alart and Curnier 1991, Computer Methods in Applied Mechanics and
+/// Engineering 92, 353-375).
+///
+///     normal      t = lambda_n - k g          f_n = <t> n,  H_n = k n n^T where t > 0
+///     friction    t_T = lambda_T - k u_T      f_T = t_T on the disk of radius F = mu <t>
+///     after each solve  lambda_n <- n . f,  lambda_T <- f_T on the disk
+///
+/// k = 3 a / (move push), 1/a = |sum_r N_r beta_r^2 A_rr^-1| with the blocks A_rr of the step's own matrix
+/// and the contacts N_r at a row: the couplings never exceed three times the block diagonal of A, whatever
+/// the scene.
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "tissu/assembly/fixed_dofs.h"
+#include "tissu/contact/contact.h"
+
+namespace tissu {
+
+class Candidates;
+class HoldBack;
+class PushAhead;
+struct PlacedPlane;
+
+class ContactRun {
+ public:
+  ContactRun(const Contact& contact, const FixedDofs& fixed);
+  ~ContactRun();
+  ContactRun(const ContactRun&) = delete;
+  ContactRun& operator=(const ContactRun&) = delete;
+
+  /// A step begins at `start` and ends at the time `end`; `led` holds the places of given rows then. What is
+  /// led goes there first, and pushes what is in its way.
+  void begin(const State& start, double end, ConstReals led);
+  /// The diagonal blocks of the step's matrix without contact, [row][9], and move times push: they outlive
+  /// the step.
+  void set_matrix(std::span<const double> blocks, double scale);
+  /// Shortens the ways from the start to `to` until nothing passes through anything. The number of rows that
+  /// were held back.
+  int hold_back(State& to);
+  /// Contacts at the places of `at`, with the multipliers of those that were there before. True when other
+  /// contacts act than before, or friction gave way elsewhere.
+  bool look(const State& at);
+  /// How far contacts that act are inside each other, as a share of xi, at the latest look.
+  [[nodiscard]] double depth() const { return depth_; }
+  /// A system was solved with the contacts of the latest look, and led to `end`: multipliers become the
+  /// forces there.
+  void update(const State& end);
+  /// The contacts of the latest look are those that act from now on.
+  void take() { contacts_.swap(looked_); }
+  /// The contacts that act, into the memory of a state.
+  void write(State& state) const;
+  /// The step is over: contacts keep the forces with which the last system was solved.
+  void finish(State& end);
+  [[nodiscard]] std::size_t size() const { return contacts_.size(); }
+  /// The least distance, as a share of xi, of a pair that acts, at the end of the step; infinite for none.
+  [[nodiscard]] double least_gap() const { return least_gap_; }
+  [[nodiscard]] std::size_t bytes() const;
+
+ private:
+  void gather(const State& state, std::vector<double>& places) const;
+  void find(const State& at);
+  void keep_multipliers();
+  void hand_over();
+  void stiffen();
+  void press(const State& at);
+  void rub(ContactNumbers& contact, const Vec3& n, double t, const Vec3& at, double k) const;
+  [[nodiscard]] Mat3 compliance(const ContactNumbers& contact) const;
+  [[nodiscard]] std::int32_t row(double vertex) const;
+  [[nodiscard]] Vec3 reach(const ContactNumbers& contact, ConstReals places) const;
+
+  const Contact& contact_;
+  const FixedDofs& fixed_;
+  std::vector<std::uint8_t> given_;  ///< of each vertex
+  std::unique_ptr<Candidates> candidates_;
+  std::unique_ptr<HoldBack> held_;
+  std::unique_ptr<PushAhead> ahead_;
+  std::vector<PlacedPlane> planes_;
+  std::vector<double> begin_;  ///< places of all vertices at the start of the step, …
+  std::vector<double> from_;   ///< … after what is led went ahead, …
+  std::vector<double> now_;    ///< … and where they are looked at
+  const State* start_ = nullptr;
+  double end_ = 0.0;
+  std::span<const double> blocks_;
+  double scale_ = 0.0;
+  std::vector<ContactNumbers> contacts_;
+  std::vector<ContactNumbers> looked_;
+  std::vector<double> gaps_;         ///< of looked_
+  std::vector<double> weights_;      ///< of looked_
+  std::vector<double> stiffnesses_;  ///< of looked_
+  std::vector<std::int32_t> order_;
+  std::vector<std::int32_t> counts_;  ///< contacts of each row
+  double depth_ = 0.0;
+  double least_gap_ = 0.0;
+};
+
+}  // namespace tissu

@@ -1,0 +1,207 @@
+#include "tissu/contact/audit.h"
+
+#include <algorithm>
+#include <map>
+
+#include "tissu/base/error.h"
+#include "tissu/contact/candidates.h"
+#include "tissu/contact/closest.h"
+#include "tissu/contact/crossing.h"
+
+namespace tissu {
+namespace {
+
+std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
+
+constexpr int kSweeps = 16;
+constexpr double kEnough = 0.5;  ///< of xi: what is nearer is moved apart, to xi
+
+class Audit {
+ public:
+  Audit(const Contact& contact, ConstReals places)
+      : contact_(contact), surfaces_(contact.surfaces()), places_(places) {}
+
+  void add(const BoxPair& pair, std::vector<Crossing>& found) const {
+    for (const auto& [p, q] : {std::pair(pair.a, pair.b), std::pair(pair.b, pair.a)}) {
+      const Primitive& face = surfaces_.primitives()[at(q)];
+      if (face.corners < 3) continue;
+      for (const std::int32_t e : surfaces_.edges_of(p)) {
+        const auto& [a, b] = surfaces_.edges()[at(e)].vertex;
+        const auto is_corner = [&](std::int32_t v) {
+          return std::ranges::find(face.vertex, v) != face.vertex.end();
+        };
+        if (is_corner(a) || is_corner(b)) continue;
+        if (!crosses(place(a), place(b),
+                     {place(face.vertex[0]), place(face.vertex[1]), place(face.vertex[2])})) {
+          continue;
+        }
+        const auto node = [&](std::int32_t v) { return surfaces_.vertices()[at(v)].node; };
+        found.push_back({surfaces_.vertices()[at(a)].surface,
+                         surfaces_.vertices()[at(face.vertex[0])].surface,
+                         {node(a), node(b)},
+                         {node(face.vertex[0]), node(face.vertex[1]), node(face.vertex[2])}});
+      }
+    }
+  }
+
+ private:
+  [[nodiscard]] Vec3 place(std::int32_t v) const { return block(places_, v); }
+
+  const Contact& contact_;
+  const SurfaceSet& surfaces_;
+  ConstReals places_;
+};
+
+}  // namespace
+
+std::vector<Crossing> crossings(const Contact& contact, const State& state) {
+  const SurfaceSet& surfaces = contact.surfaces();
+  std::vector<double> places(3 * surfaces.vertices().size());
+  contact.place_vertices(state, state.time, places);
+  SearchPlan plan;
+  plan.first = surfaces.first_primitive();
+  std::vector<Crossing> found;
+  const auto bodies = static_cast<std::int32_t>(contact.description().bodies.size());
+  for (const ContactPair& pair : contact.description().pairs) {
+    plan.meetings.push_back({std::min(pair.a, pair.b), std::max(pair.a, pair.b)});
+    for (const auto& [body, obstacle] : {std::pair(pair.a, pair.b), std::pair(pair.b, pair.a)}) {
+      if (obstacle < bodies || !contact.description().obstacles[at(obstacle - bodies)].plane) continue;
+      const Vec3 origin =
+          contact.place_of(obstacle - bodies, contact.description().obstacles[at(obstacle - bodies)].origin,
+                           state, state.time);
+      const Vec3 normal = contact.normal_of(obstacle - bodies, state, state.time);
+      const auto& of = surfaces.surfaces()[at(body)];
+      for (std::int32_t v = of.first_vertex; v < of.last_vertex; ++v) {
+        const std::int32_t node = surfaces.vertices()[at(v)].node;
+        if (!pair.nodes.empty() && !std::ranges::binary_search(pair.nodes, node)) continue;
+        if (normal.dot(block(ConstReals(places), v) - origin) > 0.0) continue;
+        found.push_back({body, obstacle, {node, -1}, {-1, -1, -1}});
+      }
+    }
+  }
+  std::vector<Box> boxes;
+  for (const Primitive& primitive : surfaces.primitives()) {
+    Box box = Box::none();
+    for (int i = 0; i < primitive.corners; ++i)
+      box.add(Vec3(block(ConstReals(places), primitive.vertex[at(i)])));
+    boxes.push_back(box);
+  }
+  std::vector<BoxPair> pairs;
+  make_broad_phase(BroadPhaseKind::hierarchy, plan)->find(boxes, pairs);
+  const Audit audit(contact, places);
+  for (const BoxPair& pair : pairs) audit.add(pair, found);
+  return found;
+}
+
+namespace {
+
+/// One sweep of moving apart; true when something was too near.
+class Separation {
+ public:
+  Separation(const Contact& contact, const FixedDofs& fixed, State& start)
+      : contact_(contact),
+        fixed_(fixed),
+        start_(start),
+        candidates_(contact.description(), contact.surfaces()),
+        places_(3 * contact.surfaces().vertices().size()) {
+    contact.place_vertices(start, start.time, places_);
+    first_ = places_;
+  }
+
+  void run() {
+    bool near = true;
+    for (int i = 0; near && i < kSweeps; ++i) near = sweep();
+    const auto& vertices = contact_.surfaces().vertices();
+    for (std::size_t v = 0; v < vertices.size(); ++v) {
+      if (vertices[v].row < 0) continue;
+      block(Reals(start_.positions), vertices[v].row) =
+          block(ConstReals(places_), static_cast<std::int32_t>(v));
+    }
+  }
+
+ private:
+  [[nodiscard]] bool is_free(std::int32_t v) const {
+    const std::int32_t row = contact_.surfaces().vertices()[at(v)].row;
+    return row >= 0 && fixed_.masks()[at(row)] == 0;
+  }
+  [[nodiscard]] Vec3 place(std::int32_t v) const { return block(ConstReals(places_), v); }
+
+  bool sweep() {
+    moves_.assign(places_.size(), 0.0);
+    counts_.assign(places_.size() / 3, 0);
+    candidates_.cover(places_, places_);
+    bool near = false;
+    for (const Candidate& c : candidates_.list()) {
+      if (c.kind == PairKind::vertex_face) near = push_off_face(c) || near;
+    }
+    for (const PlaneCandidate& c : candidates_.planes()) near = push_off_plane(c) || near;
+    for (std::size_t v = 0; v < counts_.size(); ++v) {
+      if (counts_[v] == 0) continue;
+      const auto number = static_cast<std::int32_t>(v);
+      block(Reals(places_), number) += block(ConstReals(moves_), number) / counts_[v];
+    }
+    return near;
+  }
+
+  bool push_off_plane(const PlaneCandidate& c) {
+    const Vec3 origin = contact_.place_of(c.obstacle, contact_.description().obstacles[at(c.obstacle)].origin,
+                                          start_, start_.time);
+    const Vec3 n = contact_.normal_of(c.obstacle, start_, start_.time);
+    const double s = n.dot(place(c.vertex) - origin);
+    if (s >= kEnough * c.apart || s < -c.apart || !is_free(c.vertex)) return false;
+    add(c.vertex, (c.apart - s) * n);
+    return true;
+  }
+
+  bool push_off_face(const Candidate& c) {
+    Part part{};
+    const Closest closest = closest_point_triangle(
+        {place(c.vertex[0]), place(c.vertex[1]), place(c.vertex[2]), place(c.vertex[3])}, part);
+    const Vec3 n =
+        (place(c.vertex[2]) - place(c.vertex[1])).cross(place(c.vertex[3]) - place(c.vertex[1])).normalized();
+    if (part != Part::interior) return false;
+    const double s = n.dot(closest.r);
+    if (s >= kEnough * c.apart || s < -c.apart || !n.allFinite()) return false;
+    double sum = 0.0;
+    for (std::size_t k = 0; k < 4; ++k) sum += is_free(c.vertex[k]) ? closest.beta[k] * closest.beta[k] : 0.0;
+    if (sum == 0.0) return false;
+    for (std::size_t k = 0; k < 4; ++k) {
+      if (is_free(c.vertex[k])) add(c.vertex[k], (c.apart - s) * closest.beta[k] / sum * n);
+    }
+    return true;
+  }
+
+  void add(std::int32_t v, const Vec3& move) {
+    block(Reals(moves_), v) += move;
+    ++counts_[at(v)];
+  }
+
+  const Contact& contact_;
+  const FixedDofs& fixed_;
+  State& start_;
+  Candidates candidates_;
+  std::vector<double> places_, first_, moves_;
+  std::vector<int> counts_;
+};
+
+}  // namespace
+
+void separate(const Contact& contact, const FixedDofs& fixed, State& start) {
+  if (!contact.description().travel) return;
+  Separation(contact, fixed, start).run();
+  std::map<std::pair<std::int32_t, std::int32_t>, int> counts;
+  for (const Crossing& crossing : crossings(contact, start)) {
+    ++counts[std::minmax(crossing.surface, crossing.other)];
+  }
+  if (counts.empty()) return;
+  const auto& surfaces = contact.surfaces().surfaces();
+  std::string text;
+  for (const auto& [pair, count] : counts) {
+    text += (text.empty() ? "\"" : "; \"") + surfaces[at(pair.first)].name + "\" and \"" +
+            surfaces[at(pair.second)].name + "\" in " + std::to_string(count) + " places";
+  }
+  throw ParameterError("found surfaces that overlap at the start: " + text +
+                       "; they must begin apart, or overlap by no more than their gap. Move one of them.");
+}
+
+}  // namespace tissu

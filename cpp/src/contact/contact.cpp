@@ -1,0 +1,183 @@
+#include "tissu/contact/contact.h"
+
+#include <cmath>
+#include <cstring>
+#include <utility>
+
+#include "tissu/base/error.h"
+
+namespace tissu {
+
+static_assert(std::is_trivially_copyable_v<ContactNumbers>);
+
+ContactNumbers ContactTable::operator[](std::size_t i) const {
+  ContactNumbers contact;
+  std::memcpy(static_cast<void*>(&contact), numbers_.data() + i * kNumbers, sizeof contact);
+  return contact;
+}
+
+void ContactTable::write(std::span<const ContactNumbers> contacts, std::vector<double>& numbers) {
+  numbers.resize(contacts.size() * kNumbers);
+  if (!contacts.empty()) std::memcpy(numbers.data(), contacts.data(), contacts.size_bytes());
+}
+
+Mat3 stiffness_of(const ContactNumbers& contact) {
+  const auto& [xx, yy, zz, yz, xz, xy] = contact.stiffness;
+  Mat3 H;
+  H << xx, xy, xz, xy, yy, yz, xz, yz, zz;
+  return H;
+}
+
+Contact::Contact(ContactDescription description, std::span<const std::int32_t> first_node, ConstReals rest)
+    : description_(std::move(description)), surfaces_(description_, first_node, rest) {}
+
+template <class Function>
+void Contact::for_contacts(const State& state, Function&& f) const {
+  const ContactTable all = table(state);
+  for (std::size_t i = 0; i < all.size(); ++i) f(all[i]);
+}
+
+/// r of a contact.
+Vec3 Contact::reach(const ContactNumbers& contact, ConstReals positions) const {
+  Vec3 r = vector_of(contact.fixed);
+  for (std::size_t k = 0; k < 4; ++k) {
+    const std::int32_t i = row(contact.vertex[k]);
+    if (i >= 0) r += contact.beta[k] * block(positions, i);
+  }
+  return r;
+}
+
+void Contact::scatter(const ContactNumbers& contact, const Vec3& force, Reals f) const {
+  for (std::size_t k = 0; k < 4; ++k) {
+    const std::int32_t i = row(contact.vertex[k]);
+    if (i >= 0) block(f, i) += contact.beta[k] * force;
+  }
+}
+
+void Contact::add_force(const State& state, Scratch& /*scratch*/, Reals f) const {
+  for_contacts(state, [&](const ContactNumbers& c) {
+    const Vec3 moved = reach(c, state.positions) - vector_of(c.place);
+    scatter(c, vector_of(c.push) - stiffness_of(c) * moved, f);
+  });
+}
+
+void Contact::add_product(const State& state, Scratch& /*scratch*/, StiffnessScale scale, ConstReals p,
+                          Reals out) const {
+  if (scale.position == 0.0) return;
+  for_contacts(state, [&](const ContactNumbers& c) {
+    const Vec3 moved = reach(c, p) - vector_of(c.fixed);
+    scatter(c, -scale.position * (stiffness_of(c) * moved), out);
+  });
+}
+
+double Contact::energy(const State& state, Scratch& /*scratch*/) const {
+  double sum = 0.0;
+  for_contacts(state, [&](const ContactNumbers& c) {
+    const Mat3 H = stiffness_of(c);
+    if (H.isZero(0.0)) return;
+    const Vec3 moved = reach(c, state.positions) - vector_of(c.place);
+    sum += 0.5 * moved.dot(H * moved) - vector_of(c.push).dot(moved);
+  });
+  return sum;
+}
+
+void Contact::claim_memory(MemoryPlaces& places) {
+  place_ = places.claim(std::string(kMemory), 0);
+  for (const ObstacleDescription& obstacle : description_.obstacles) {
+    leads_.push_back(places.claim("obstacle " + obstacle.surface.name, 0));
+  }
+}
+
+void Contact::add_couplings(const State& state, StiffnessScale scale, Couplings& couplings) const {
+  if (scale.position == 0.0) return;
+  for_contacts(state, [&](const ContactNumbers& c) {
+    const Mat3 H = stiffness_of(c);
+    if (H.isZero(0.0)) return;
+    Coupling coupling{{0, 0, 0, 0}, {0.0, 0.0, 0.0, 0.0}, -scale.position * H};
+    for (std::size_t k = 0; k < 4; ++k) {
+      const std::int32_t i = row(c.vertex[k]);
+      if (i < 0) continue;
+      coupling.vertex[k] = i;
+      coupling.beta[k] = c.beta[k];
+    }
+    couplings.add(coupling);
+  });
+}
+
+void Contact::carry_memory(const ForceModel& before, const Memory& then, Memory& now) const {
+  const auto* contact = dynamic_cast<const Contact*>(&before);
+  if (contact == nullptr) return;
+  for (std::size_t i = 0; i < leads_.size() && i < contact->leads_.size(); ++i) {
+    now[leads_[i]] = then[contact->leads_[i]];
+  }
+  // Numbers of vertices, edges and triangles are those of one topology.
+  const bool same = surfaces_.vertices().size() == contact->surfaces_.vertices().size() &&
+                    surfaces_.primitives().size() == contact->surfaces_.primitives().size();
+  if (same) now[place_] = then[contact->place_];
+}
+
+void Contact::check_memory(const State& state) const {
+  const std::vector<double>& numbers = state.memory[place_];
+  if (numbers.size() % ContactTable::kNumbers != 0) {
+    throw ParameterError("found " + std::to_string(numbers.size()) +
+                         " numbers of contacts, which are not those of whole contacts.");
+  }
+  const auto vertices = static_cast<double>(surfaces_.vertices().size());
+  const auto edges = static_cast<double>(surfaces_.edges().size());
+  const auto primitives = static_cast<double>(surfaces_.primitives().size());
+  const auto obstacles = static_cast<double>(description_.obstacles.size());
+  const auto whole = [](double x, double low, double end) {
+    return x >= low && x < end && x == std::floor(x);
+  };
+  for_contacts(state, [&](const ContactNumbers& c) {
+    bool known = whole(c.kind, 0.0, ContactNumbers::kPlane + 1.0);
+    known = known && whole(c.pair, 0.0, static_cast<double>(description_.pairs.size()));
+    known = known && whole(c.a, 0.0, std::max(vertices, edges));
+    known = known && whole(c.b, 0.0, std::max({vertices, edges, primitives, obstacles}));
+    for (const double v : c.vertex) known = known && (v == -1.0 || whole(v, 0.0, vertices));
+    if (!known) {
+      throw ParameterError(
+          "found a contact of features that this world has not; restore it in the world that it was "
+          "taken from.");
+    }
+  });
+  for (std::size_t i = 0; i < leads_.size(); ++i) {
+    const std::string text = LiveLead::misfit(state.memory[leads_[i]], 0, 0);
+    if (!state.memory[leads_[i]].empty() && !text.empty()) {
+      throw ParameterError("the live lead of obstacle \"" + description_.obstacles[i].surface.name + "\" " +
+                           text + ".");
+    }
+  }
+}
+
+Contact::Wrench Contact::force_on(std::int32_t surface, const State& state) const {
+  Wrench wrench;
+  const auto bodies = static_cast<std::int32_t>(description_.bodies.size());
+  Vec3 origin = Vec3::Zero();
+  if (surface >= bodies) {
+    const ObstacleDescription& obstacle = description_.obstacles[static_cast<std::size_t>(surface - bodies)];
+    origin = place_of(surface - bodies, obstacle.origin, state, state.time);
+  }
+  const auto add = [&](const Vec3& force, const Vec3& place) {
+    wrench.force += force;
+    wrench.moment += (place - origin).cross(force);
+  };
+  for_contacts(state, [&](const ContactNumbers& c) {
+    const Vec3 force = vector_of(c.push);
+    if (c.kind == ContactNumbers::kPlane && static_cast<std::int32_t>(c.b) + bodies == surface) {
+      add(-force, -vector_of(c.fixed));
+    }
+    for (std::size_t k = 0; k < 4; ++k) {
+      if (c.vertex[k] < 0.0) continue;
+      const auto v = static_cast<std::size_t>(c.vertex[k]);
+      const SurfaceVertex& vertex = surfaces_.vertices()[v];
+      if (vertex.surface != surface) continue;
+      const Vec3 rest = block(ConstReals(surfaces_.rest()), static_cast<std::int32_t>(v));
+      add(c.beta[k] * force, vertex.row >= 0 ? Vec3(block(ConstReals(state.positions), vertex.row))
+                                             : place_of(surface - bodies, rest, state, state.time));
+    }
+  });
+  return wrench;
+}
+
+}  // namespace tissu

@@ -1,0 +1,62 @@
+#pragma once
+
+/// Travel: no way leads through anything.
+
+#include <cstdint>
+#include <vector>
+
+#include "tissu/contact/candidates.h"
+#include "tissu/contact/contact.h"
+
+namespace tissu {
+
+/// A plane where it stands.
+struct PlacedPlane {
+  Vec3 point;
+  Vec3 normal;
+};
+
+/// Shortens ways so that every candidate stays apart. A pair passes by one of three tests, cheapest first:
+/// none of its vertices goes as far as 0.45 of the distance that is left; one plane keeps its sides apart at
+/// both ends; additive conservative advancement along the whole way. The first two hold however ways are
+/// shortened. The vertices of pairs that pass by the third form islands, which go the least share of their
+/// pairs together, for apart from each other their ways would be others than those that were tested.
+class HoldBack {
+ public:
+  /// `given`: of each vertex, whether its way is given, so that it is never shortened.
+  HoldBack(const SurfaceSet& surfaces, const std::vector<std::uint8_t>& given)
+      : surfaces_(surfaces), given_(given) {}
+
+  /// Shares of the ways, in [0, 1], for every vertex; true when one is below 1. `planes`: of each obstacle.
+  bool find(const Candidates& candidates, std::span<const PlacedPlane> planes, ConstReals from,
+            ConstReals to);
+  [[nodiscard]] double share(std::int32_t vertex) const { return shares_[root(vertex)]; }
+  /// Contacts of the pairs whose whole way is not free, in the order of the list.
+  [[nodiscard]] const std::vector<std::int32_t>& stopped() const { return stopped_; }
+  [[nodiscard]] const std::vector<std::int32_t>& stopped_at_planes() const { return stopped_at_planes_; }
+
+  /// The nearest that a pair may come: a tenth of what it rests at; half of what it begins with where that
+  /// is less.
+  static double least(double apart, double start);
+
+ private:
+  [[nodiscard]] std::size_t root(std::int32_t vertex) const;
+  void join(const Candidate& candidate, double share);
+  void lower(std::int32_t vertex, double share);
+
+  const SurfaceSet& surfaces_;
+  const std::vector<std::uint8_t>& given_;
+  mutable std::vector<std::int32_t> parent_;
+  std::vector<double> shares_;
+  std::vector<std::int32_t> stopped_;
+  std::vector<std::int32_t> stopped_at_planes_;
+};
+
+/// The share of a pair's way that is free, and whether that is so however ways are shortened.
+struct FreeWay {
+  double share;
+  bool whatever;
+};
+FreeWay free_way(const Candidate& candidate, ConstReals from, ConstReals to);
+
+}  // namespace tissu

@@ -1,0 +1,180 @@
+#include "tissu/contact/surface_set.h"
+
+#include <algorithm>
+#include <unordered_map>
+
+namespace tissu {
+namespace {
+
+std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
+
+std::uint64_t key_of(std::int32_t a, std::int32_t b) {
+  const auto [low, high] = std::minmax(a, b);
+  return (static_cast<std::uint64_t>(low) << 32U) | static_cast<std::uint32_t>(high);
+}
+
+/// Lists `items` by the bin of each: those of bin b stand at [begin[b], begin[b + 1]).
+void list_by(const std::vector<std::int32_t>& bin, std::size_t bins, std::vector<std::int32_t>& begin,
+             std::vector<std::int32_t>& items) {
+  begin.assign(bins + 1, 0);
+  for (const std::int32_t b : bin) ++begin[at(b) + 1];
+  for (std::size_t b = 0; b < bins; ++b) begin[b + 1] += begin[b];
+  std::vector<std::int32_t> next(begin.begin(), begin.end() - 1);
+  items.resize(bin.size());
+  for (std::size_t i = 0; i < bin.size(); ++i) {
+    items[at(next[at(bin[i])]++)] = static_cast<std::int32_t>(i);
+  }
+}
+
+std::span<const std::int32_t> listed(const std::vector<std::int32_t>& begin,
+                                     const std::vector<std::int32_t>& items, std::int32_t bin) {
+  return std::span(items).subspan(at(begin[at(bin)]), at(begin[at(bin) + 1] - begin[at(bin)]));
+}
+
+}  // namespace
+
+SurfaceSet::SurfaceSet(const ContactDescription& description, std::span<const std::int32_t> first_node,
+                       ConstReals rest) {
+  for (std::size_t i = 0; i < description.bodies.size(); ++i) {
+    add(description.bodies[i], first_node[i], -1, rest);
+  }
+  for (std::size_t i = 0; i < description.obstacles.size(); ++i) {
+    add(description.obstacles[i].surface, -1, static_cast<std::int32_t>(i), rest);
+  }
+  list_by(owner_, primitives_.size(), own_vertex_begin_, own_vertex_);
+  std::vector<std::int32_t> edge_owner(edges_.size());
+  for (std::size_t p = primitives_.size(); p-- > 0;) {
+    for (const std::int32_t e : triangle_edges_[p]) {
+      if (e >= 0) edge_owner[at(e)] = static_cast<std::int32_t>(p);
+    }
+  }
+  list_by(edge_owner, primitives_.size(), own_edge_begin_, own_edge_);
+  list_neighbours();
+}
+
+/// Vertices are those that a primitive has, in the order of the nodes.
+void SurfaceSet::add(const SurfaceDescription& description, std::int32_t first_row, std::int32_t obstacle,
+                     ConstReals rest) {
+  const auto surface = static_cast<std::int32_t>(surfaces_.size());
+  const auto first_vertex = static_cast<std::int32_t>(vertices_.size());
+  const auto first_primitive = static_cast<std::int32_t>(primitives_.size());
+  const auto first_edge = static_cast<std::int32_t>(edges_.size());
+  std::vector<std::int32_t> nodes;
+  for (const auto& t : description.triangles) nodes.insert(nodes.end(), t.begin(), t.end());
+  for (const auto& e : description.edges) nodes.insert(nodes.end(), e.begin(), e.end());
+  nodes.insert(nodes.end(), description.points.begin(), description.points.end());
+  std::ranges::sort(nodes);
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  const auto number = [&](std::int32_t node) {
+    return first_vertex + static_cast<std::int32_t>(std::ranges::lower_bound(nodes, node) - nodes.begin());
+  };
+  for (const std::int32_t node : nodes) {
+    SurfaceVertex vertex;
+    vertex.row = obstacle < 0 ? first_row + node : -1;
+    vertex.node = node;
+    vertex.surface = surface;
+    if (!description.radius.empty()) vertex.radius = description.radius[at(node)];
+    vertices_.push_back(vertex);
+    const Vec3 place =
+        obstacle < 0 ? Vec3(block(rest, vertex.row)) : Vec3(block(ConstReals(description.vertices), node));
+    rest_.insert(rest_.end(), place.begin(), place.end());
+  }
+  for (const auto& t : description.triangles) {
+    primitives_.push_back({{number(t[0]), number(t[1]), number(t[2])}, 3});
+  }
+  for (const auto& e : description.edges) primitives_.push_back({{number(e[0]), number(e[1]), -1}, 2});
+  for (const std::int32_t p : description.points) primitives_.push_back({{number(p), -1, -1}, 1});
+  add_edges(first_primitive, first_vertex);
+  measure(first_primitive, first_edge);
+  surfaces_.push_back({description.name, first_vertex, static_cast<std::int32_t>(vertices_.size()),
+                       description.closed, obstacle});
+  first_primitive_.push_back(static_cast<std::int32_t>(primitives_.size()));
+}
+
+void SurfaceSet::add_edges(std::int32_t first_primitive, std::int32_t first_vertex) {
+  std::unordered_map<std::uint64_t, std::int32_t> known;
+  owner_.resize(vertices_.size(), -1);
+  for (std::size_t v = at(first_vertex); v < vertices_.size(); ++v) vertices_[v].is_lone = true;
+  triangle_edges_.resize(primitives_.size(), {-1, -1, -1});
+  for (auto p = first_primitive; p < static_cast<std::int32_t>(primitives_.size()); ++p) {
+    const Primitive& primitive = primitives_[at(p)];
+    for (int i = 0; i < primitive.corners; ++i) {
+      std::int32_t& owner = owner_[at(primitive.vertex[at(i)])];
+      if (owner < 0) owner = p;
+    }
+    for (int i = 0; i < (primitive.corners == 3 ? 3 : primitive.corners - 1); ++i) {
+      const std::int32_t a = primitive.vertex[at(i)];
+      const std::int32_t b = primitive.vertex[at((i + 1) % 3)];
+      const auto [place, made] = known.try_emplace(key_of(a, b), static_cast<std::int32_t>(edges_.size()));
+      if (made) edges_.push_back({{a, b}});
+      triangle_edges_[at(p)][at(i)] = place->second;
+      vertices_[at(a)].is_lone = vertices_[at(b)].is_lone = false;
+      if (primitive.corners < 3) continue;
+      vertices_[at(a)].has_faces = vertices_[at(b)].has_faces = true;
+      SurfaceEdge& edge = edges_[at(place->second)];
+      const std::size_t side = edge.face[0] < 0 ? 0 : 1;
+      if (edge.face[side] >= 0) continue;  // a third triangle beside an edge
+      edge.face[side] = p;
+      edge.across[side] = primitive.vertex[at((i + 2) % 3)];
+    }
+  }
+}
+
+void SurfaceSet::measure(std::int32_t first_primitive, std::int32_t first_edge) {
+  double sum = 0.0;
+  for (std::size_t e = at(first_edge); e < edges_.size(); ++e) {
+    const auto& [a, b] = edges_[e].vertex;
+    edges_[e].length = (block(ConstReals(rest_), a) - block(ConstReals(rest_), b)).norm();
+    sum += edges_[e].length;
+  }
+  const std::size_t count = edges_.size() - at(first_edge);
+  mean_edge_.push_back(count == 0 ? 0.0 : sum / static_cast<double>(count));
+  for (std::size_t p = at(first_primitive); p < primitives_.size(); ++p) {
+    if (primitives_[p].corners < 3) continue;
+    const auto& [a, b, c] = primitives_[p].vertex;
+    const Vec3 x = block(ConstReals(rest_), a);
+    const double area = 0.5 * (block(ConstReals(rest_), b) - x).cross(block(ConstReals(rest_), c) - x).norm();
+    for (const std::int32_t v : {a, b, c}) vertices_[at(v)].area += area / 3.0;
+  }
+}
+
+void SurfaceSet::list_neighbours() {
+  neighbour_begin_.assign(vertices_.size() + 1, 0);
+  for (const SurfaceEdge& edge : edges_) {
+    for (const std::int32_t v : edge.vertex) ++neighbour_begin_[at(v) + 1];
+  }
+  for (std::size_t v = 0; v < vertices_.size(); ++v) neighbour_begin_[v + 1] += neighbour_begin_[v];
+  neighbour_.resize(at(neighbour_begin_.back()));
+  std::vector<std::int32_t> next(neighbour_begin_.begin(), neighbour_begin_.end() - 1);
+  for (const SurfaceEdge& edge : edges_) {
+    neighbour_[at(next[at(edge.vertex[0])]++)] = edge.vertex[1];
+    neighbour_[at(next[at(edge.vertex[1])]++)] = edge.vertex[0];
+  }
+}
+
+std::span<const std::int32_t> SurfaceSet::vertices_of(std::int32_t primitive) const {
+  return listed(own_vertex_begin_, own_vertex_, primitive);
+}
+
+std::span<const std::int32_t> SurfaceSet::edges_of(std::int32_t primitive) const {
+  return listed(own_edge_begin_, own_edge_, primitive);
+}
+
+std::span<const std::int32_t> SurfaceSet::neighbours(std::int32_t vertex) const {
+  return std::span(neighbour_)
+      .subspan(at(neighbour_begin_[at(vertex)]),
+               at(neighbour_begin_[at(vertex) + 1] - neighbour_begin_[at(vertex)]));
+}
+
+std::int32_t SurfaceSet::surface_of_primitive(std::int32_t primitive) const {
+  return vertices_[at(primitives_[at(primitive)].vertex[0])].surface;
+}
+
+std::size_t SurfaceSet::bytes() const {
+  const auto of = [](const auto& list) { return list.size() * sizeof(list[0]); };
+  return of(vertices_) + of(edges_) + of(primitives_) + of(triangle_edges_) + of(rest_) + of(owner_) +
+         of(own_vertex_) + of(own_edge_) + of(own_vertex_begin_) + of(own_edge_begin_) + of(neighbour_) +
+         of(neighbour_begin_);
+}
+
+}  // namespace tissu

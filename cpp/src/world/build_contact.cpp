@@ -1,0 +1,21 @@
+#include "builder.h"
+#include "tissu/contact/audit.h"
+
+namespace tissu {
+
+void WorldBuilder::add_contact() {
+  if (!description_.contact) return;
+  std::vector<std::int32_t> first;
+  for (const SurfaceDescription& surface : description_.contact->bodies) {
+    first.push_back(world_.body(surface.name).first_node);
+  }
+  auto contact = std::make_unique<Contact>(*description_.contact, first, world_.rest_.positions);
+  world_.contact_ = contact.get();
+  world_.forces_.push_back(std::move(contact));
+}
+
+void WorldBuilder::separate_surfaces() {
+  if (world_.contact_ != nullptr) separate(*world_.contact_, world_.fixed_, world_.rest_);
+}
+
+}  // namespace tissu

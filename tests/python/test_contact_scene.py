@@ -1,12 +1,15 @@
 """What a scene says of contacts: both ways of writing it, and every slip at its place."""
 
 import re
+from pathlib import Path
 
 import pytest
 
 import tissu as ts
 from contact_scenes import SOFT, cube, every_contact_part, scene, sheet
 from tissu.errors import SceneError
+from tissu.scene.contact_rules import STEPS_OF_METHOD
+from tissu.scene.obstacle import OBSTACLES
 
 TEXT = """\
 bodies:
@@ -311,3 +314,36 @@ def test_a_body_that_falls_on_something_is_not_said_to_fall():
     assert "nothing holds the body" in notes(**fall, obstacles={})[0]
     assert notes(**fall, contacts=[ts.Contact(("liver", "table"))]) == []
     assert notes(**fall, contacts=[ts.Contact("all")]) == []
+
+
+KINDS = ("yaml", "python")
+BODIES = """\
+bodies:
+  liver:
+    mesh: {type: bar, size: [10 cm, 10 cm, 10 cm], cells: [2, 2, 2], cell: hexahedron,
+      origin: [0, 0, 0]}
+    law: {type: stvk, young: 4 kPa, poisson: 0.4}
+    density: 1000
+step: {type: implicit_euler, dt: 10 ms}
+"""
+PAGE = (Path(__file__).parents[2] / "docs" / "contact.md").read_text(encoding="utf-8")
+
+
+def test_the_examples_of_the_page_are_the_same_scene():
+    yaml, python = (re.search(rf"```{kind}\n(.*?)```", PAGE, re.DOTALL)[1] for kind in KINDS)
+    names = {"ts": ts, "liver": cube(), "print": lambda check: None}
+    exec(compile(python, "contact.md", "exec"), names)
+    read = ts.Scene.from_yaml_text(BODIES + yaml)
+    assert read == names["scene"]
+    assert read.check().problems == read.check().notes == []
+
+
+def test_the_page_names_every_obstacle_field_and_step():
+    for cls in OBSTACLES:
+        fields = ", ".join(f"`{name}`" for name in cls.__annotations__ if name != "type")
+        assert f"| `{cls.model_fields['type'].default}` | `{cls.__name__}` | {fields} |" in PAGE
+    for cls in (ts.Contact, ts.SelfContact, ts.ContactSettings):
+        for name in cls.model_fields:
+            assert f"| `{name}` |" in PAGE
+    for step in STEPS_OF_METHOD["augmented"]:
+        assert f"`{step}`" in PAGE

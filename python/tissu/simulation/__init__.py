@@ -1,5 +1,6 @@
 """A compiled scene: its state, and the loop that moves it."""
 
+from tissu.simulation.contacts import Contacts, Crossing, LedObstacle, Wrench
 from tissu.simulation.fields import IntegrationPoints
 from tissu.simulation.grab import Grab
 from tissu.simulation.live_load import LiveLoad
@@ -9,8 +10,11 @@ from tissu.simulation.report import StepReport
 from tissu.simulation.simulation import Simulation
 
 __all__ = [
+    "Contacts",
+    "Crossing",
     "Grab",
     "IntegrationPoints",
+    "LedObstacle",
     "LiveLoad",
     "Plan",
     "Profile",
@@ -18,4 +22,5 @@ __all__ = [
     "Simulation",
     "Solves",
     "StepReport",
+    "Wrench",
 ]

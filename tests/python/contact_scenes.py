@@ -11,9 +11,9 @@ def cube(origin=(0, 0, 0), *, cell="hexahedron", cells=(2, 2, 2), size=(0.1, 0.1
     return ts.Body(**({"mesh": mesh, "law": SOFT, "density": 1000.0} | fields))
 
 
-def sheet(**fields):
-    """A sheet of quads, 2 mm thick, in z = 20 cm."""
-    mesh = ts.BarMesh(size=(0.1, 0.1, 0), cells=(4, 4, 0), cell="quad", origin=(0, 0, 0.2))
+def sheet(z=0.25, **fields):
+    """A sheet of quads, 2 mm thick, at a height [m]."""
+    mesh = ts.BarMesh(size=(0.1, 0.1, 0), cells=(4, 4, 0), cell="quad", origin=(0, 0, z))
     return ts.Body(mesh=mesh, law=SOFT, density=1000.0, thickness=0.002, **fields)
 
 

@@ -1,13 +1,15 @@
 """What a running simulation says of its contacts: forces, moments, the audit, led obstacles."""
 
 import math
+import re
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 import tissu as ts
 from contact_scenes import cube, scene
-from tissu.errors import ParameterError
+from tissu.errors import ParameterError, SceneError
 
 WEIGHT = 1000.0 * 1e-3 * 9.81
 """of the cube [N]"""
@@ -136,3 +138,39 @@ def test_what_is_refused(resting):
             call()
     with pytest.raises(ParameterError, match="found a scene without contacts"):
         bare.obstacle("table")
+
+
+def test_the_calls_of_the_page_run():
+    """The second example of docs/contact.md, with the scene of the first."""
+    page = (Path(__file__).parents[2] / "docs" / "contact.md").read_text(encoding="utf-8")
+    first, second = re.findall(r"```python\n(.*?)```", page, re.DOTALL)
+    names = {"ts": ts, "liver": cube(), "print": lambda check: None}
+    exec(compile(first, "contact.md", "exec"), names)
+    exec(compile(second, "contact.md", "exec"), names)
+    assert names["report"].converged
+    assert names["simulation"].crossings() == []
+
+
+def laid(z):
+    """A cube on a table at this height [m]."""
+    table = ts.PlaneObstacle((0, 0, z), (0, 0, 1))
+    contacts = [ts.Contact(("liver", "table"), gap="1 mm")]
+    return scene(bodies={"liver": cube()}, obstacles={"table": table}, contacts=contacts)
+
+
+def test_overlap_at_the_start_is_refused_at_check():
+    (problem,) = laid(0.01).check().problems
+    assert problem.startswith("contacts: found surfaces that overlap at the start: ")
+    assert '"liver" and "table" in 9 places' in problem
+    with pytest.raises(SceneError, match="overlap at the start"):
+        laid(0.01).compile()
+
+
+def test_what_touches_is_moved_apart():
+    """By the gap at most, and within a hundredth of it, the core's tolerance."""
+    made = laid(0.0)
+    assert made.check().ok
+    simulation = made.compile()
+    assert simulation.crossings() == []
+    low = simulation.positions["liver"][:, 2].min()
+    assert 0.99e-3 <= low <= 1e-3

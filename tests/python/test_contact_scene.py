@@ -286,7 +286,7 @@ def notes(**fields):
 def test_without_contacts_check_says_whose_boxes_overlap():
     apart = {"liver": cube(), "gut": cube((0, 0, 0.1001))}
     assert notes(bodies=apart, obstacles={}) == []
-    touching = {"liver": cube(), "gut": cube((0, 0, 0.1)), "skin": sheet()}
+    touching = {"liver": cube(), "gut": cube((0, 0, 0.1)), "skin": sheet(0.2)}
     (note,) = notes(bodies=touching, obstacles={})
     assert note.startswith("contacts: none, so that bodies pass through each other")
     assert "the boxes of liver and gut, gut and skin touch or overlap" in note

@@ -1,6 +1,5 @@
 """A compiled scene: its state, and the loop that moves it."""
 
-from tissu.simulation.contacts import Contacts, Crossing, LedObstacle, Wrench
 from tissu.simulation.fields import IntegrationPoints
 from tissu.simulation.grab import Grab
 from tissu.simulation.live_load import LiveLoad
@@ -10,11 +9,8 @@ from tissu.simulation.report import StepReport
 from tissu.simulation.simulation import Simulation
 
 __all__ = [
-    "Contacts",
-    "Crossing",
     "Grab",
     "IntegrationPoints",
-    "LedObstacle",
     "LiveLoad",
     "Plan",
     "Profile",
@@ -22,5 +18,4 @@ __all__ = [
     "Simulation",
     "Solves",
     "StepReport",
-    "Wrench",
 ]

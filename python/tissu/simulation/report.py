@@ -2,11 +2,8 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
-
-from tissu.counted import counted
 
 if TYPE_CHECKING:
     from tissu import _core
@@ -29,10 +26,6 @@ class StepReport:
         milliseconds: wall time.
         message: why it did not converge; where a static step did, the cells that are inside out,
             and that round-off left more than the tolerance of the load.
-        contacts: contacts that press at its end; 0 where nothing touches.
-        held_back: rows whose way was cut so that nothing passes through anything.
-        least_gap: distance of the nearest contact as a share of that at which surfaces rest;
-            infinite without contacts.
     """
 
     number: int
@@ -44,9 +37,6 @@ class StepReport:
     converged: bool
     milliseconds: float
     message: str
-    contacts: int = 0
-    held_back: int = 0
-    least_gap: float = math.inf
 
     def __str__(self) -> str:
         """One line."""
@@ -55,8 +45,6 @@ class StepReport:
         )
         text = f"step {self.number}: t = {self.time:.6g} s, residual {self.residual:.1e}"
         text += f" after {iterations}, {self.milliseconds:.1f} ms"
-        if self.contacts:
-            text += f", {counted(self.contacts, 'contact')}"
         if self.converged:
             return f"{text}; {self.message}" if self.message else text
         return f"{text}; not converged: {self.message}"
@@ -74,7 +62,4 @@ def report_of(report: _core.StepReport, *, number: int) -> StepReport:
         converged=report.converged,
         milliseconds=report.milliseconds,
         message=report.message,
-        contacts=report.contacts,
-        held_back=report.held_back,
-        least_gap=report.least_gap,
     )

@@ -16,7 +16,6 @@ from tissu.counted import counted
 from tissu.errors import CheckpointError, ParameterError, TissuError
 from tissu.simulation.by_body import ByBody
 from tissu.simulation.changed import Changed
-from tissu.simulation.contacts import Touched
 from tissu.simulation.entry import Entry, before_the_door, one_thread_at_a_time
 from tissu.simulation.handled import Handled
 from tissu.simulation.inspected import Inspected
@@ -41,7 +40,7 @@ _SHARE_OF_STABLE = 0.9
 
 
 @one_thread_at_a_time
-class Simulation(Inspected, Handled, Touched, Changed):
+class Simulation(Inspected, Handled, Changed):
     """A compiled scene that can be stepped; made by `Scene.compile()`.
 
     One thread at a time may call it: while one is in a method, another one gets a `BusyError`.

@@ -83,9 +83,10 @@ py::array_t<double> points(const Simulation& simulation, const std::string& name
 
 }  // namespace
 
-/// Of bind_snapshot.cpp, bind_lead.cpp, bind_point_fields.cpp and bind_matrices.cpp.
+/// Of bind_snapshot.cpp, bind_lead.cpp, bind_contact_run.cpp, bind_point_fields.cpp and bind_matrices.cpp.
 void bind_snapshot(py::class_<Simulation>& simulation);
 void bind_lead(py::class_<Simulation>& simulation);
+void bind_contact_run(py::class_<Simulation>& simulation);
 void bind_point_fields(py::class_<Simulation>& simulation);
 void bind_matrices(py::class_<Simulation>& simulation);
 
@@ -185,6 +186,7 @@ void bind_simulation(py::module_& m) {
           arg("body"));
   bind_snapshot(simulation);
   bind_lead(simulation);
+  bind_contact_run(simulation);
   bind_point_fields(simulation);
   bind_matrices(simulation);
 }

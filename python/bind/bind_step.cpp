@@ -48,6 +48,9 @@ void bind_report(py::module_& m) {
       .def_readonly("residual", &StepReport::residual)
       .def_readonly("indefinite", &StepReport::indefinite)
       .def_readonly("converged", &StepReport::converged)
+      .def_readonly("contacts", &StepReport::contacts)
+      .def_readonly("held_back", &StepReport::held_back)
+      .def_readonly("least_gap", &StepReport::least_gap)
       .def_readonly("milliseconds", &StepReport::milliseconds)
       .def_readonly("message", &StepReport::message);
 }

@@ -54,11 +54,14 @@ _HOMES = {
         "FIELD_NAMES",
     ),
     "tissu.simulation": (
+        "Contacts",
+        "Crossing",
         "IntegrationPoints",
         "Plan",
         "Profile",
         "Simulation",
         "StepReport",
+        "Wrench",
     ),
     "tissu.comparison": (
         "Comparison",

@@ -29,11 +29,14 @@ from tissu.mesh import refined as refined
 from tissu.user_law import law as law
 from tissu.user_law import read_law as read_law
 from tissu.field_names import FIELD_NAMES as FIELD_NAMES
+from tissu.simulation import Contacts as Contacts
+from tissu.simulation import Crossing as Crossing
 from tissu.simulation import IntegrationPoints as IntegrationPoints
 from tissu.simulation import Plan as Plan
 from tissu.simulation import Profile as Profile
 from tissu.simulation import Simulation as Simulation
 from tissu.simulation import StepReport as StepReport
+from tissu.simulation import Wrench as Wrench
 from tissu.comparison import Comparison as Comparison
 from tissu.comparison import compare as compare
 from tissu.advice import Advice as Advice

@@ -10,6 +10,7 @@
 #include "hold_back.h"
 #include "narrow.h"
 #include "push_ahead.h"
+#include "tissu/base/norm.h"
 #include "tissu/contact/candidates.h"
 
 namespace tissu {
@@ -44,6 +45,7 @@ ContactRun::ContactRun(const Contact& contact, const FixedDofs& fixed) : contact
   begin_.resize(3 * vertices.size());
   from_ = now_ = begin_;
   counts_.assign(fixed.masks().size(), 0);
+  forces_.assign(3 * fixed.masks().size(), 0.0);
 }
 
 ContactRun::~ContactRun() = default;
@@ -92,9 +94,10 @@ void ContactRun::gather(const State& state, std::vector<double>& places) const {
 }
 
 int ContactRun::hold_back(State& to) {
-  if (!contact_.description().travel) return 0;
   gather(to, now_);
+  goal_ = now_;
   candidates_->cover(from_, now_);
+  if (!contact_.description().travel) return 0;
   if (!held_->find(*candidates_, planes_, from_, now_)) return 0;
   int rows = 0;
   const auto& vertices = contact_.surfaces().vertices();
@@ -110,7 +113,7 @@ int ContactRun::hold_back(State& to) {
   return rows;
 }
 
-bool ContactRun::look(const State& at) {
+double ContactRun::look(const State& at) {
   gather(at, now_);
   candidates_->cover(from_, now_);
   find(at);
@@ -118,11 +121,31 @@ bool ContactRun::look(const State& at) {
   hand_over();
   stiffen();
   press(at);
-  if (looked_.size() != contacts_.size()) return true;
-  for (std::size_t i = 0; i < looked_.size(); ++i) {
-    if (!looked_[i].same_key(contacts_[i]) || looked_[i].sliding != contacts_[i].sliding) return true;
+  return change();
+}
+
+/// |change of the forces on rows| / |forces|, from those of the latest solve to those of the latest look.
+double ContactRun::change() {
+  std::ranges::fill(forces_, 0.0);
+  const auto scatter = [&](const ContactNumbers& c, const Vec3& force) {
+    for (std::size_t k = 0; k < 4; ++k) {
+      const std::int32_t i = row(c.vertex[k]);
+      if (i >= 0) block(Reals(forces_), i) += c.beta[k] * force;
+    }
+  };
+  double size = 0.0;
+  double other = 0.0;
+  for (const ContactNumbers& c : contacts_) {
+    const Vec3 force = c.force * vector_of(c.normal) + vector_of(c.drag);
+    size += force.squaredNorm();
+    scatter(c, -force);
   }
-  return false;
+  for (const ContactNumbers& c : looked_) {
+    other += vector_of(c.push).squaredNorm();
+    scatter(c, vector_of(c.push));
+  }
+  const double largest = std::sqrt(std::max(size, other));
+  return largest > 0.0 ? norm(forces_) / largest : 0.0;
 }
 
 void ContactRun::find(const State& /*at*/) {
@@ -131,9 +154,16 @@ void ContactRun::find(const State& /*at*/) {
   looked_.clear();
   gaps_.clear();
   weights_.clear();
+  predicted_.clear();
   Found found{};
-  for (const Candidate& candidate : candidates_->list()) {
-    const double reach = candidate.apart + pairs[at(candidate.pair)].gap;
+  auto stopped = held_->stopped().begin();
+  for (std::size_t i = 0; i < candidates_->list().size(); ++i) {
+    const Candidate& candidate = candidates_->list()[i];
+    double reach = candidate.apart + pairs[at(candidate.pair)].gap;
+    if (stopped != held_->stopped().end() && at(*stopped) == i) {
+      reach = std::numeric_limits<double>::infinity();
+      ++stopped;
+    }
     if (!find_contact(contact_.surfaces(), now_, candidate, reach, found)) continue;
     ContactNumbers c;
     c.kind = static_cast<double>(found.kind);
@@ -153,6 +183,7 @@ void ContactRun::find(const State& /*at*/) {
     c.apart = candidate.apart;
     c.area = found.area;
     looked_.push_back(c);
+    predicted_.push_back(vector_of(c.normal).dot(this->reach(c, goal_)) < candidate.apart ? 1 : 0);
     gaps_.push_back(found.distance - candidate.apart);
     weights_.push_back(found.weight);
   }
@@ -160,7 +191,8 @@ void ContactRun::find(const State& /*at*/) {
     const PlacedPlane& plane = planes_[at(candidate.obstacle)];
     const Vec3 place = block(ConstReals(now_), candidate.vertex);
     const double distance = plane.normal.dot(place - plane.point);
-    if (!(distance < candidate.apart + pairs[at(candidate.pair)].gap)) continue;
+    const double goal = plane.normal.dot(block(ConstReals(goal_), candidate.vertex) - plane.point);
+    if (!(std::min(distance, goal) < candidate.apart + pairs[at(candidate.pair)].gap)) continue;
     ContactNumbers c;
     c.kind = ContactNumbers::kPlane;
     c.a = candidate.vertex;
@@ -175,6 +207,7 @@ void ContactRun::find(const State& /*at*/) {
     c.apart = candidate.apart;
     c.area = vertices[at(candidate.vertex)].area;
     looked_.push_back(c);
+    predicted_.push_back(goal < candidate.apart ? 1 : 0);
     gaps_.push_back(distance - candidate.apart);
     weights_.push_back(1.0);
   }
@@ -191,6 +224,7 @@ void ContactRun::keep_multipliers() {
     if (found == order_.end() || !contacts_[at(*found)].same_key(c)) continue;
     const ContactNumbers& before = contacts_[at(*found)];
     c.force = before.force;
+    c.sliding = before.sliding;
     const Vec3 n = vector_of(c.normal);
     const Vec3 drag = vector_of(before.drag);
     c.drag = numbers_of(drag - n.dot(drag) * n);
@@ -244,7 +278,7 @@ Mat3 ContactRun::compliance(const ContactNumbers& contact) const {
 void ContactRun::stiffen() {
   const auto for_rows = [&](auto&& f) {
     for (std::size_t i = 0; i < looked_.size(); ++i) {
-      if (!(looked_[i].force > 0.0 || gaps_[i] < 0.0)) continue;
+      if (!may_press(i)) continue;
       for (std::size_t k = 0; k < 4; ++k) {
         const std::int32_t r = row(looked_[i].vertex[k]);
         if (r >= 0 && looked_[i].beta[k] != 0.0) f(counts_[at(r)]);
@@ -255,7 +289,7 @@ void ContactRun::stiffen() {
   for_rows([](std::int32_t& count) { ++count; });
   stiffnesses_.assign(looked_.size(), 0.0);
   for (std::size_t i = 0; i < looked_.size(); ++i) {
-    if (!(looked_[i].force > 0.0 || gaps_[i] < 0.0)) continue;
+    if (!may_press(i)) continue;
     const double largest = compliance(looked_[i]).cwiseAbs().rowwise().sum().maxCoeff();
     if (largest > 0.0) stiffnesses_[i] = kStiff * weights_[i] / (largest * scale_);
   }
@@ -268,14 +302,14 @@ void ContactRun::press(const State& /*at*/) {
   for (std::size_t i = 0; i < looked_.size(); ++i) {
     const double k = stiffnesses_[i];
     const double t = looked_[i].force - k * gaps_[i];
-    if (k == 0.0 || !(t > 0.0)) continue;
+    if (k == 0.0 || !(t > 0.0 || predicted_[i] != 0)) continue;
     ContactNumbers c = looked_[i];
     const Vec3 n = vector_of(c.normal);
     c.push = numbers_of(t * n);
-    c.sliding = 0.0;
     set_stiffness(c, k * n * n.transpose());
     const double friction = contact_.description().pairs[static_cast<std::size_t>(c.pair)].friction;
-    if (friction > 0.0) rub(c, n, friction * t, vector_of(c.place), k);
+    if (friction == 0.0) c.sliding = 0.0;
+    if (friction > 0.0) rub(c, n, friction * std::max(t, 0.0), vector_of(c.place), k);
     depth_ = std::max(depth_, -gaps_[i] / c.apart);
     looked_[kept++] = c;
   }
@@ -291,12 +325,17 @@ void ContactRun::rub(ContactNumbers& c, const Vec3& n, double bound, const Vec3&
   }
   Vec3 slid = place - before;
   slid -= n.dot(slid) * n;
-  const Vec3 t = vector_of(c.drag) - k * slid;
-  const double size = t.norm();
+  const Vec3 drag = vector_of(c.drag);
+  Vec3 force = drag - k * slid;
   Mat3 H = k * (Mat3::Identity() - n * n.transpose());
-  Vec3 force = t;
-  if (size > bound) {
-    const Vec3 along = t / size;
+  // Where the bound alone turned the sliding round, it stops: it sticks from where the step began.
+  const bool turned = c.sliding != 0.0 && force.dot(drag) < 0.0;
+  c.sliding = 0.0;
+  const double size = force.norm();
+  if (turned) {
+    force = -k * slid;
+  } else if (size > bound) {
+    const Vec3 along = force / size;
     force = bound * along;
     H = bound / size * (H - k * along * along.transpose());
     c.sliding = 1.0;

@@ -13,6 +13,8 @@ namespace {
 constexpr double kFloor = 1e-3;  ///< of the external impulse: a smaller right-hand side is judged by it
 constexpr double kDepth = 1e-2;  ///< of xi: contacts no deeper than this need no other system
 constexpr double kDepthNewton = 1e-3;
+constexpr double kForce = 1e-2;  ///< of the contacts' forces: a smaller change needs no other system
+constexpr double kForceNewton = 1e-3;
 constexpr int kMostLooks = 20;  ///< of a step whose equation is solved to its tolerance
 constexpr double kWorse = 2.0;
 constexpr int kRescue = 10;
@@ -87,8 +89,8 @@ bool StageSolver::solve_contacts(State& state, std::vector<double>& v, StepRepor
     contact_->update(state);
     report.held_back = contact_->hold_back(state);
     if (i == most) break;
-    const bool other = contact_->look(state);
-    if (!other && report.held_back == 0 && contact_->depth() <= kDepth) break;
+    const double other = contact_->look(state);
+    if (other <= kForce && report.held_back == 0 && contact_->depth() <= kDepth) break;
     contact_->take();
     stop_if_asked();
   }
@@ -117,8 +119,8 @@ void StageSolver::iterate_contacts(State& state, std::vector<double>& v, StepRep
     contact_->update(state);
     report.held_back = contact_->hold_back(state);
     if (report.held_back > 0) follow(state, v);
-    const bool other = contact_->look(state);
-    if (!other && report.held_back == 0 && contact_->depth() <= kDepthNewton) break;
+    const double other = contact_->look(state);
+    if (other <= kForceNewton && report.held_back == 0 && contact_->depth() <= kDepthNewton) break;
     if (i + 1 == kMostLooks) {
       report.converged = false;
       report.message = "contacts had not come to rest after " + std::to_string(kMostLooks) + " looks";

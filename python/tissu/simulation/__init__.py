@@ -7,8 +7,11 @@ from tissu.simulation.plan import Plan
 from tissu.simulation.profile import Profile, ProfileRow, Solves
 from tissu.simulation.report import StepReport
 from tissu.simulation.simulation import Simulation
+from tissu.simulation.touched import Contacts, Crossing, Wrench
 
 __all__ = [
+    "Contacts",
+    "Crossing",
     "Grab",
     "IntegrationPoints",
     "LiveLoad",
@@ -18,4 +21,5 @@ __all__ = [
     "Simulation",
     "Solves",
     "StepReport",
+    "Wrench",
 ]

@@ -17,6 +17,7 @@ from tissu.simulation.grab import Grab, Record
 from tissu.simulation.grab_point import GrabPoint, grab_point, require_free
 from tissu.simulation.lead import Lead
 from tissu.simulation.live_load import LiveLoad
+from tissu.simulation.obstacle_lead import ObstacleLead
 
 if TYPE_CHECKING:
     from tissu import _core as core
@@ -220,6 +221,21 @@ class Handled:
             raise ParameterError("found over without positions; both or neither are accepted")
         return lead
 
+    def obstacle(self, name: str) -> ObstacleLead:
+        """An obstacle of the scene, to be led live from the next step on.
+
+        Live targets stand in the state: checkpoints carry them.
+
+        Raises:
+            ParameterError: no obstacle of that name, or nothing meets anything.
+        """
+        known = list(self.scene.obstacles) if self.scene.contacts else []
+        if name not in known:
+            raise ParameterError(
+                f"found obstacle {name!r}{_nearest(name, known)} accepted: {_listed(known)}"
+            )
+        return ObstacleLead(simulation=self._core, entry=self._entry, name=name)
+
     def _support(self, which: str | Support) -> Support:
         supports = [*self.scene.fixed, *self.scene.prescribed]
         known = [support.name for support in supports if support.name is not None]
@@ -231,6 +247,10 @@ class Handled:
             raise ParameterError(
                 f"found a support of '{which.body}' without a name; give it one in the scene, "
                 f"such as `name: hand`, and lead it by that; accepted: {_listed(known)}"
+            )
+        if name in self.scene.obstacles:
+            raise ParameterError(
+                f"found {name!r}, an obstacle: lead it by `obstacle({name!r}).move`"
             )
         raise ParameterError(
             f"found support {name!r}{_nearest(name, known)} accepted: {_listed(known)}"

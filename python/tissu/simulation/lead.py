@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypedDict
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -120,17 +120,10 @@ class Lead:
             ParameterError: a value is not finite or of another quantity; an axis of length zero; a
                 time that is not positive.
         """
-        direction = np.array(_DIRECTION(axis), dtype=float)
-        if not direction.any():
-            raise ParameterError("found the axis (0, 0, 0); a direction is accepted: (0, 0, 1)")
-        exponent = int(np.frexp(np.abs(direction).max())[1])
         self._core.lead_rigidly(
             name=self._name,
-            displacement=np.array(_POSITION(displacement), dtype=float),
-            angle=units.ANGLE(angle),
-            axis=np.ldexp(direction, 1 - exponent),  # its square is finite
-            center=np.array(_POSITION(center), dtype=float),
-            over=_seconds(over),
+            **pose_arguments(displacement, angle, axis, center),
+            over=seconds_of(over),
         )
 
     def place(self, positions: ArrayLike, *, over: Number | str | None = None) -> None:
@@ -146,7 +139,9 @@ class Lead:
             ParameterError: another shape, a value that is not finite, or a time that is not
                 positive.
         """
-        self._core.lead_nodes(name=self._name, positions=self._rows(positions), over=_seconds(over))
+        self._core.lead_nodes(
+            name=self._name, positions=self._rows(positions), over=seconds_of(over)
+        )
 
     def release(self, *, over: Number | str | None = None) -> None:
         """Hand it back to its own path; once more does nothing.
@@ -157,7 +152,7 @@ class Lead:
         Raises:
             ParameterError: a time that is not positive.
         """
-        self._core.release_lead(name=self._name, over=_seconds(over))
+        self._core.release_lead(name=self._name, over=seconds_of(over))
 
     def _rows(self, positions: Any) -> Floats:
         count = len(self._core.led_nodes(self._name))
@@ -178,7 +173,34 @@ class Lead:
         return rows
 
 
-def _seconds(over: Number | str | None) -> float:
+class _Pose(TypedDict):
+    displacement: Floats
+    angle: float
+    axis: Floats
+    center: Floats
+
+
+def pose_arguments(
+    displacement: VectorLike, angle: Number | str, axis: VectorLike, center: VectorLike
+) -> _Pose:
+    """A rotation from rest, then a displacement from rest, as the core takes them.
+
+    Raises:
+        ParameterError: a value is not finite or of another quantity; an axis of length zero.
+    """
+    direction = np.array(_DIRECTION(axis), dtype=float)
+    if not direction.any():
+        raise ParameterError("found the axis (0, 0, 0); a direction is accepted: (0, 0, 1)")
+    exponent = int(np.frexp(np.abs(direction).max())[1])
+    return {
+        "displacement": np.array(_POSITION(displacement), dtype=float),
+        "angle": units.ANGLE(angle),
+        "axis": np.ldexp(direction, 1 - exponent),  # its square is finite
+        "center": np.array(_POSITION(center), dtype=float),
+    }
+
+
+def seconds_of(over: Number | str | None) -> float:
     """The duration of a way [s]; 0 for that of the next step."""
     if over is None:
         return 0.0

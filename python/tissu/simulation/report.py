@@ -23,6 +23,10 @@ class StepReport:
             in time, changes of momentum.
         indefinite: systems whose matrix was not positive definite, and was made so.
         converged: every tolerance was met.
+        contacts: that press at the end of the step.
+        held_back: nodes whose way was cut so that nothing passes through anything.
+        least_gap: distance of the nearest pair that presses, as a share of that at which the
+            surfaces rest; infinite where nothing does.
         milliseconds: wall time.
         message: why it did not converge; where a static step did, the cells that are inside out,
             and that round-off left more than the tolerance of the load.
@@ -35,6 +39,9 @@ class StepReport:
     residual: float
     indefinite: int
     converged: bool
+    contacts: int
+    held_back: int
+    least_gap: float
     milliseconds: float
     message: str
 
@@ -45,6 +52,10 @@ class StepReport:
         )
         text = f"step {self.number}: t = {self.time:.6g} s, residual {self.residual:.1e}"
         text += f" after {iterations}, {self.milliseconds:.1f} ms"
+        if self.contacts:
+            text += f", {self.contacts} contacts"
+        if self.held_back:
+            text += f", {self.held_back} nodes held back"
         if self.converged:
             return f"{text}; {self.message}" if self.message else text
         return f"{text}; not converged: {self.message}"
@@ -60,6 +71,9 @@ def report_of(report: _core.StepReport, *, number: int) -> StepReport:
         residual=report.residual,
         indefinite=report.indefinite,
         converged=report.converged,
+        contacts=report.contacts,
+        held_back=report.held_back,
+        least_gap=report.least_gap,
         milliseconds=report.milliseconds,
         message=report.message,
     )

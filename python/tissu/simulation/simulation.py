@@ -24,6 +24,7 @@ from tissu.simulation.profile import Profile, profile_of
 from tissu.simulation.remaining import keep_cells, removed_cells
 from tissu.simulation.report import StepReport, report_of
 from tissu.simulation.schedule import stable_steps, steps_of, steps_until
+from tissu.simulation.touched import Touched
 
 if TYPE_CHECKING:
     from tissu.checkpoint import Checkpoint, Resumed
@@ -40,7 +41,7 @@ _SHARE_OF_STABLE = 0.9
 
 
 @one_thread_at_a_time
-class Simulation(Inspected, Handled, Changed):
+class Simulation(Inspected, Handled, Touched, Changed):
     """A compiled scene that can be stepped; made by `Scene.compile()`.
 
     One thread at a time may call it: while one is in a method, another one gets a `BusyError`.

@@ -42,9 +42,9 @@ class ContactRun {
   /// Shortens the ways from the start to `to` until nothing passes through anything. The number of rows that
   /// were held back.
   int hold_back(State& to);
-  /// Contacts at the places of `at`, with the multipliers of those that were there before. True when other
-  /// contacts act than before, or friction gave way elsewhere.
-  bool look(const State& at);
+  /// Contacts at the places of `at`, with the multipliers of those that were there before. By how much their
+  /// forces differ from those of the latest solve, as a share.
+  double look(const State& at);
   /// How far contacts that act are inside each other, as a share of xi, at the latest look.
   [[nodiscard]] double depth() const { return depth_; }
   /// A system was solved with the contacts of the latest look, and led to `end`: multipliers become the
@@ -68,7 +68,12 @@ class ContactRun {
   void hand_over();
   void stiffen();
   void press(const State& at);
+  double change();
   void rub(ContactNumbers& contact, const Vec3& n, double t, const Vec3& at, double k) const;
+  /// It has a multiplier, or is shut, or will be.
+  [[nodiscard]] bool may_press(std::size_t i) const {
+    return looked_[i].force > 0.0 || gaps_[i] < 0.0 || predicted_[i] != 0;
+  }
   [[nodiscard]] Mat3 compliance(const ContactNumbers& contact) const;
   [[nodiscard]] std::int32_t row(double vertex) const;
   [[nodiscard]] Vec3 reach(const ContactNumbers& contact, ConstReals places) const;
@@ -83,6 +88,7 @@ class ContactRun {
   std::vector<double> begin_;  ///< places of all vertices at the start of the step, …
   std::vector<double> from_;   ///< … after what is led went ahead, …
   std::vector<double> now_;    ///< … and where they are looked at
+  std::vector<double> goal_;   ///< where the latest system led them, before they were held back
   const State* start_ = nullptr;
   double end_ = 0.0;
   std::span<const double> blocks_;
@@ -90,10 +96,12 @@ class ContactRun {
   std::vector<ContactNumbers> contacts_;
   std::vector<ContactNumbers> looked_;
   std::vector<double> gaps_;         ///< of looked_
+  std::vector<std::uint8_t> predicted_;  ///< of looked_: shut at the goal, whatever the gap is now
   std::vector<double> weights_;      ///< of looked_
   std::vector<double> stiffnesses_;  ///< of looked_
   std::vector<std::int32_t> order_;
   std::vector<std::int32_t> counts_;  ///< contacts of each row
+  std::vector<double> forces_;  ///< on rows
   double depth_ = 0.0;
   double least_gap_ = 0.0;
 };

@@ -1,0 +1,155 @@
+/// Contact while a simulation runs: what presses, with which force, what crosses, and obstacles that are led.
+
+#include "bind.h"
+#include "tissu/contact/audit.h"
+#include "tissu/simulation/simulation.h"
+
+namespace tissu::bind {
+namespace {
+
+using Doubles = Array<double>;
+
+const Contact& contact_of(const Simulation& simulation) {
+  if (simulation.world().contact() == nullptr) throw ParameterError("this world has no contact.");
+  return *simulation.world().contact();
+}
+
+std::int32_t surface_named(const Contact& contact, const std::string& name) {
+  const auto& surfaces = contact.surfaces().surfaces();
+  for (std::size_t i = 0; i < surfaces.size(); ++i) {
+    if (surfaces[i].name == name) return static_cast<std::int32_t>(i);
+  }
+  throw ParameterError("found \"" + name + "\", which meets nothing in this world.");
+}
+
+template <class T>
+py::array_t<T> rows(std::size_t count, py::ssize_t columns) {
+  return py::array_t<T>({static_cast<py::ssize_t>(count), columns});
+}
+
+/// Surfaces (m, 2), nodes (m, 4), weights (m, 4), point, normal, gap, force, sliding, area.
+py::tuple contacts(const Simulation& simulation) {
+  const Contact& contact = contact_of(simulation);
+  const ContactTable table = contact.table(simulation.state());
+  const std::size_t count = table.size();
+  py::array_t<std::int32_t> surfaces = rows<std::int32_t>(count, 2);
+  py::array_t<std::int32_t> nodes = rows<std::int32_t>(count, 4);
+  py::array_t<double> weights = rows<double>(count, 4);
+  py::array_t<double> points = rows<double>(count, 3);
+  py::array_t<double> normals = rows<double>(count, 3);
+  py::array_t<double> forces = rows<double>(count, 3);
+  py::array_t<double> gaps(static_cast<py::ssize_t>(count));
+  py::array_t<double> areas(static_cast<py::ssize_t>(count));
+  py::array_t<bool> sliding(static_cast<py::ssize_t>(count));
+  const auto& vertices = contact.surfaces().vertices();
+  const auto bodies = static_cast<std::int32_t>(contact.description().bodies.size());
+  for (std::size_t i = 0; i < count; ++i) {
+    const ContactNumbers c = table[i];
+    const auto row = static_cast<py::ssize_t>(i);
+    const Vec3 n = vector_of(c.normal);
+    Vec3 point = Vec3::Zero();
+    double positive = 0.0;
+    std::int32_t other = -1;
+    for (std::size_t k = 0; k < 4; ++k) {
+      const auto at = static_cast<py::ssize_t>(k);
+      nodes.mutable_at(row, at) = -1;
+      weights.mutable_at(row, at) = c.beta[k];
+      if (c.vertex[k] < 0.0) continue;
+      const auto& vertex = vertices[static_cast<std::size_t>(c.vertex[k])];
+      nodes.mutable_at(row, at) = vertex.node;
+      if (k == 0) surfaces.mutable_at(row, 0) = vertex.surface;
+      if (c.beta[k] < 0.0) other = vertex.surface;
+      if (c.beta[k] <= 0.0) continue;
+      positive += c.beta[k];
+      const Vec3 rest = block(ConstReals(contact.surfaces().rest()), static_cast<std::int32_t>(c.vertex[k]));
+      const std::int32_t obstacle =
+          contact.surfaces().surfaces()[static_cast<std::size_t>(vertex.surface)].obstacle;
+      point +=
+          c.beta[k] * (vertex.row >= 0
+                           ? Vec3(block(ConstReals(simulation.state().positions), vertex.row))
+                           : contact.place_of(obstacle, rest, simulation.state(), simulation.state().time));
+    }
+    if (c.kind == ContactNumbers::kPlane) other = bodies + static_cast<std::int32_t>(c.b);
+    surfaces.mutable_at(row, 1) = other;
+    point /= positive;
+    for (py::ssize_t k = 0; k < 3; ++k) {
+      points.mutable_at(row, k) = point[k];
+      normals.mutable_at(row, k) = n[k];
+      forces.mutable_at(row, k) = c.push[static_cast<std::size_t>(k)];
+    }
+    gaps.mutable_at(row) = n.dot(vector_of(c.place)) - c.apart;
+    areas.mutable_at(row) = c.area;
+    sliding.mutable_at(row) = c.sliding != 0.0;
+  }
+  return py::make_tuple(surfaces, nodes, weights, points, normals, gaps, forces, sliding, areas);
+}
+
+py::list surface_names(const Simulation& simulation) {
+  py::list names;
+  for (const auto& surface : contact_of(simulation).surfaces().surfaces()) names.append(surface.name);
+  return names;
+}
+
+py::tuple force_on(const Simulation& simulation, const std::string& name) {
+  const Contact& contact = contact_of(simulation);
+  const Contact::Wrench wrench = contact.force_on(surface_named(contact, name), simulation.state());
+  return py::make_tuple(py::array_t<double>(3, wrench.force.data()),
+                        py::array_t<double>(3, wrench.moment.data()));
+}
+
+/// Surface and its edge (-1: a vertex alone), other surface and its triangle (-1: a plane).
+py::list crossing_list(const Simulation& simulation) {
+  py::list found;
+  for (const Crossing& c : crossings(contact_of(simulation), simulation.state())) {
+    found.append(py::make_tuple(c.surface, c.edge, c.other, c.triangle));
+  }
+  return found;
+}
+
+void lead_obstacle(Simulation& simulation, const std::string& name, const Doubles& displacement, double angle,
+                   const Doubles& axis, const Doubles& center, double over) {
+  const Pose pose{to_vec3(center, "center"), to_vec3(displacement, "displacement"),
+                  to_vec3(axis, "axis").normalized(), angle};
+  contact_of(simulation).lead_to(name, pose, over, simulation.state());
+}
+
+/// Where the points of an obstacle at rest are now.
+py::array_t<double> obstacle_places(const Simulation& simulation, const std::string& name,
+                                    const Doubles& rest) {
+  const Contact& contact = contact_of(simulation);
+  const std::int32_t obstacle = contact.obstacle_named(name);
+  if (obstacle < 0) throw ParameterError("there is no obstacle \"" + name + "\" in this world.");
+  std::vector<double> places = to_vector(with_columns(rest, 3, "rest"));
+  for (std::int32_t i = 0; i < static_cast<std::int32_t>(places.size() / 3); ++i) {
+    const Vec3 point = block(ConstReals(places), i);
+    block(Reals(places), i) = contact.place_of(obstacle, point, simulation.state(), simulation.state().time);
+  }
+  return py::array_t<double>({static_cast<py::ssize_t>(places.size() / 3), py::ssize_t{3}}, places.data());
+}
+
+}  // namespace
+
+void bind_contact_run(py::class_<Simulation>& simulation) {
+  using py::arg;
+  simulation.def("contacts", &contacts)
+      .def("contact_surfaces", &surface_names)
+      .def("contact_force_on", &force_on, arg("name"))
+      .def("crossings", &crossing_list)
+      .def("obstacle_places", &obstacle_places, py::kw_only(), arg("name"), arg("rest"))
+      .def("lead_obstacle", &lead_obstacle, py::kw_only(), arg("name"), arg("displacement"), arg("angle"),
+           arg("axis"), arg("center"), arg("over"))
+      .def(
+          "is_obstacle_led_live",
+          [](const Simulation& s, const std::string& name) {
+            return contact_of(s).is_led_live(name, s.state());
+          },
+          arg("name"))
+      .def(
+          "release_obstacle",
+          [](Simulation& s, const std::string& name, double over) {
+            contact_of(s).release(name, over, s.state());
+          },
+          py::kw_only(), arg("name"), arg("over"));
+}
+
+}  // namespace tissu::bind

@@ -1,0 +1,160 @@
+"""What touches what while a simulation runs: contacts, their forces, and the audit of crossings."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tissu.errors import ParameterError
+from tissu.scene.problem import nearest_word
+
+if TYPE_CHECKING:
+    from tissu import _core as core
+    from tissu.front import Scene
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int32]
+Bools = NDArray[np.bool_]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Contacts:
+    """The contacts that press, as they stood at the end of the latest step: m of them.
+
+    Attributes:
+        surfaces: names of the bodies and obstacles that `pairs` numbers.
+        pairs: which two meet (m, 2): the one that `forces` act on, and the other one.
+        nodes: whose places the contact joins, numbers in their own body or obstacle (m, 4); -1:
+            none.
+        weights: of the nodes (m, 4). The distance vector is the sum of weight times place.
+        points: where the forces act (m, 3) [m], on the first of the pair.
+        normals: from the other one to the first (m, 3).
+        gaps: distance beyond that at which the surfaces rest (m,) [m]; negative: inside the gap.
+        forces: on the first of the pair (m, 3) [N]; the other one takes the opposite.
+        sliding: where friction gave way (m,).
+        areas: on which they act (m,) [m2]: a share of the surface at rest.
+    """
+
+    surfaces: tuple[str, ...]
+    pairs: Ints
+    nodes: Ints
+    weights: Floats
+    points: Floats
+    normals: Floats
+    gaps: Floats
+    forces: Floats
+    sliding: Bools
+    areas: Floats
+
+    def __len__(self) -> int:
+        """How many contacts there are."""
+        return len(self.gaps)
+
+    def __repr__(self) -> str:
+        """How many there are, and of what."""
+        met = sorted({self.surfaces[number] for number in np.unique(self.pairs)})
+        return f"Contacts({len(self)} of {', '.join(met)})" if len(self) else "Contacts(none)"
+
+    @property
+    def pressures(self) -> Floats:
+        """Normal force over area (m,) [Pa]; 0 for edges of no area."""
+        normal = np.einsum("ij,ij->i", self.forces, self.normals)
+        pressed = np.zeros_like(normal)
+        np.divide(normal, self.areas, out=pressed, where=self.areas > 0.0)
+        return np.asarray(pressed)
+
+
+class Wrench(NamedTuple):
+    """A force and a moment.
+
+    Attributes:
+        force: (3,) [N].
+        moment: (3,) [N m].
+    """
+
+    force: Floats
+    moment: Floats
+
+
+class Crossing(NamedTuple):
+    """An edge of one surface that goes through a triangle of another, or a vertex behind a plane.
+
+    Attributes:
+        surface: name of the body or obstacle of the edge.
+        edge: its two nodes; one alone for a vertex behind a plane.
+        other: name of the body or obstacle of the triangle, or of the plane.
+        triangle: its three nodes; empty for a plane.
+    """
+
+    surface: str
+    edge: tuple[int, ...]
+    other: str
+    triangle: tuple[int, ...]
+
+
+class Touched:
+    """The part of a simulation that says what touches what."""
+
+    scene: Scene
+    _core: core.Simulation
+
+    def contacts(self) -> Contacts:
+        """The contacts that press, as the latest step left them; none before the first step.
+
+        Raises:
+            ParameterError: the scene has no contacts.
+        """
+        self._require_contact()
+        return Contacts(tuple(self._core.contact_surfaces()), *self._core.contacts())
+
+    def force_on(self, name: str) -> Wrench:
+        """What all contacts give to a body or obstacle, of the latest step.
+
+        Args:
+            name: of the body or obstacle.
+
+        Returns:
+            The force [N], and the moment [N m]: of an obstacle about its origin where that is now
+            (the point of a plane, the center of others), of a body about the origin of space.
+
+        Raises:
+            ParameterError: the scene has no contacts; nothing of that name meets anything.
+        """
+        self._require_contact()
+        known = self._core.contact_surfaces()
+        if name not in known:
+            meant = nearest_word(name, known)
+            hint = f"; did you mean {meant!r}?" if meant else f"; known: {', '.join(known)}"
+            raise ParameterError(f"found {name!r}, which meets nothing in this scene{hint}")
+        return Wrench(*self._core.contact_force_on(name))
+
+    def crossings(self) -> list[Crossing]:
+        """What crosses now, of the surfaces that meet; with `travel: true` nothing ever does.
+
+        The answer is exact for the positions as they are: it uses exact signs, and counts what
+        touches as crossing.
+
+        Raises:
+            ParameterError: the scene has no contacts.
+        """
+        self._require_contact()
+        names = self._core.contact_surfaces()
+        return [
+            Crossing(
+                names[a],
+                tuple(n for n in edge if n >= 0),
+                names[b],
+                tuple(t for t in face if t >= 0),
+            )
+            for a, edge, b, face in self._core.crossings()
+        ]
+
+    def _require_contact(self) -> None:
+        if not self.scene.contacts:
+            raise ParameterError(
+                "this scene has no contacts: nothing meets anything; add `contacts` to the scene, such "
+                "as ts.Contact(['liver', 'probe'])"
+            )

@@ -155,6 +155,6 @@ class Touched:
     def _require_contact(self) -> None:
         if not self.scene.contacts:
             raise ParameterError(
-                "this scene has no contacts: nothing meets anything; add `contacts` to the scene, such "
+                "this scene has no contacts: nothing meets anything; add `contacts` to it, such "
                 "as ts.Contact(['liver', 'probe'])"
             )

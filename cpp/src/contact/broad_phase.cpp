@@ -1,5 +1,8 @@
 #include "tissu/contact/broad_phase.h"
 
+#ifdef TISSU_HAVE_FCL
+#include "contact/fcl_broad_phase.h"
+#endif
 #include "contact/grid.h"
 #include "contact/hierarchy.h"
 #include "contact/octree.h"
@@ -19,7 +22,11 @@ std::unique_ptr<BroadPhase> make_broad_phase(BroadPhaseKind kind, const SearchPl
     case BroadPhaseKind::octree:
       return std::make_unique<Octree>(plan);
     case BroadPhaseKind::fcl:
+#ifdef TISSU_HAVE_FCL
+      return std::make_unique<FclBroadPhase>(plan);
+#else
       break;
+#endif
   }
   throw ParameterError(
       "found the broad phase fcl, which this build has not; install libfcl-dev and build again with "

@@ -54,29 +54,36 @@ Meetings::Meetings(const SearchPlan& plan) : first_(plan.first), meetings_(plan.
   std::ranges::sort(meetings_, {}, key);
   const auto twice = std::ranges::unique(meetings_, {}, key);
   meetings_.erase(twice.begin(), twice.end());
+  fill_rows();
+  fill_searched();
+  only_one_ = meetings_.size() == 1 && meetings_[0].a == meetings_[0].b;
+}
 
+void Meetings::fill_rows() {
   std::vector<std::tuple<std::int32_t, std::int32_t>> both;
   for (const SearchPlan::Meeting& m : meetings_) {
     both.emplace_back(m.a, m.b);
     if (m.a != m.b) both.emplace_back(m.b, m.a);
   }
   std::ranges::sort(both);
-  row_.assign(static_cast<std::size_t>(surfaces) + 1, 0);
+  row_.assign(static_cast<std::size_t>(surface_count()) + 1, 0);
   for (const auto& [a, b] : both) {
     ++row_[static_cast<std::size_t>(a) + 1];
     met_.push_back(b);
   }
   for (std::size_t s = 0; s + 1 < row_.size(); ++s) row_[s + 1] += row_[s];
+}
+
+void Meetings::fill_searched() {
   surface_of_.resize(static_cast<std::size_t>(primitive_count()));
   first_searched_.push_back(0);
-  for (std::int32_t s = 0; s < surfaces; ++s) {
+  for (std::int32_t s = 0; s < surface_count(); ++s) {
     for (std::int32_t p = first(s); p < first(s + 1); ++p) {
       surface_of_[static_cast<std::size_t>(p)] = s;
       if (has_meeting(s)) searched_.push_back(p);
     }
     first_searched_.push_back(static_cast<std::int32_t>(searched_.size()));
   }
-  only_one_ = meetings_.size() == 1 && meetings_[0].a == meetings_[0].b;
 }
 
 void Meetings::check(std::span<const Box> boxes) const {

@@ -44,6 +44,8 @@ class Meetings {
   [[nodiscard]] std::size_t bytes() const;
 
  private:
+  void fill_rows();
+  void fill_searched();
   [[nodiscard]] bool surfaces_meet(std::int32_t a, std::int32_t b) const;
 
   std::vector<std::int32_t> first_;

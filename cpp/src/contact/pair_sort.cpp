@@ -1,17 +1,21 @@
 #include "contact/pair_sort.h"
 
+#include <array>
+
 namespace tissu {
 namespace {
 
-constexpr std::ptrdiff_t kFew = 32;  ///< numbers that insertion sorts faster
+constexpr std::size_t kFew = 64;  ///< numbers whose ranks are counted faster than they are sorted
 
-void sort_few(std::int32_t* begin, const std::int32_t* end) {
-  for (std::int32_t* at = begin + 1; at < end; ++at) {
-    const std::int32_t moved = *at;
-    std::int32_t* to = at;
-    for (; to > begin && to[-1] > moved; --to) *to = to[-1];
-    *to = moved;
+/// Pairs of a with a few b, all different: the rank of one is how many are smaller. No branch depends on
+/// them.
+void write_few(std::int32_t a, const std::int32_t* b, std::size_t count, BoxPair* sorted) {
+  std::array<std::int32_t, kFew> rank{};
+  for (std::size_t j = 0; j < count; ++j) {
+    const std::int32_t other = b[j];
+    for (std::size_t i = 0; i < count; ++i) rank[i] += other < b[i] ? 1 : 0;
   }
+  for (std::size_t i = 0; i < count; ++i) sorted[rank[i]] = {a, b[i]};
 }
 
 }  // namespace
@@ -27,13 +31,13 @@ void PairSort::sort(std::span<const BoxPair> found, std::int32_t primitives, std
   std::size_t at = 0;
   for (std::int32_t a = 0; a < primitives; ++a) {
     const std::size_t end = end_[static_cast<std::size_t>(a)];
-    std::int32_t* const low = second_.data() + at;
-    std::int32_t* const high = second_.data() + end;
-    if (high - low > kFew) {
-      std::sort(low, high);
-    } else if (high - low > 1) {
-      sort_few(low, high);
+    std::int32_t* const b = second_.data() + at;
+    if (end - at <= kFew) {
+      write_few(a, b, end - at, sorted.data() + at);
+      at = end;
+      continue;
     }
+    std::sort(b, second_.data() + end);
     for (; at < end; ++at) sorted[at] = {a, second_[at]};
   }
 }

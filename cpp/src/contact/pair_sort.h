@@ -11,7 +11,7 @@
 
 namespace tissu {
 
-/// Pairs as they are found, each once. A pair is written first and counted afterwards, so that no branch
+/// Pairs as they are found. A pair is written first and counted afterwards, so that no branch
 /// depends on whether it is one.
 class FoundPairs {
  public:
@@ -28,6 +28,13 @@ class FoundPairs {
   void add(std::int32_t p, std::int32_t q) {
     expect(1);
     put(p, q, true);
+  }
+  /// Of pairs that were found several times one stays.
+  void remove_repeated() {
+    const auto begin = pairs_.begin();
+    std::sort(begin, begin + static_cast<std::ptrdiff_t>(count_));
+    count_ =
+        static_cast<std::size_t>(std::unique(begin, begin + static_cast<std::ptrdiff_t>(count_)) - begin);
   }
   [[nodiscard]] std::size_t count() const { return count_; }
   /// Of the pairs from number `first` on, those stay for which `holds(a, b)`.
@@ -53,7 +60,8 @@ class FoundPairs {
 /// whose few b are then sorted in place.
 class PairSort {
  public:
-  /// `sorted` becomes the pairs of `found`, ascending. Their numbers are below `primitives`.
+  /// `sorted` becomes the pairs of `found`, which are all different, ascending. Their numbers are below
+  /// `primitives`.
   void sort(std::span<const BoxPair> found, std::int32_t primitives, std::vector<BoxPair>& sorted);
   [[nodiscard]] std::size_t bytes() const {
     return end_.capacity() * sizeof(std::size_t) + second_.capacity() * sizeof(std::int32_t);

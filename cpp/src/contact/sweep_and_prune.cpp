@@ -52,6 +52,7 @@ bool SweepAndPrune::carry_order(std::span<const Box> boxes) {
   for (std::size_t k = 0; k < 3; ++k) {
     if (!carry_order_along(k, boxes)) return false;
   }
+  begun_.remove_repeated();  // found along several axes
   return true;
 }
 
@@ -138,16 +139,15 @@ void SweepAndPrune::sweep(std::span<const Box> boxes) {
   }
 }
 
-/// Pairs that still overlap, and those that begin to. One of these may have been found along several axes.
+/// Pairs that still overlap, and those that begin to.
 void SweepAndPrune::join(std::span<const Box> boxes, std::vector<BoxPair>& pairs) {
   sort_.sort(begun_.all(), meetings_.primitive_count(), begun_sorted_);
-  const auto begun_end = std::unique(begun_sorted_.begin(), begun_sorted_.end());
   const auto parted = [&](const BoxPair& pair) {
     return !boxes[static_cast<std::size_t>(pair.a)].overlaps(boxes[static_cast<std::size_t>(pair.b)]);
   };
   const auto kept_end = std::remove_if(kept_.begin(), kept_.end(), parted);
-  pairs.resize(static_cast<std::size_t>((kept_end - kept_.begin()) + (begun_end - begun_sorted_.begin())));
-  std::merge(kept_.begin(), kept_end, begun_sorted_.begin(), begun_end, pairs.begin());
+  pairs.resize(static_cast<std::size_t>((kept_end - kept_.begin()) + std::ssize(begun_sorted_)));
+  std::merge(kept_.begin(), kept_end, begun_sorted_.begin(), begun_sorted_.end(), pairs.begin());
   kept_.assign(pairs.begin(), pairs.end());
 }
 

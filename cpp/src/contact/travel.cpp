@@ -55,7 +55,6 @@ Vec3 shortest(PairKind kind, const Four& p) {
 /// common to all four changes no distance.
 struct Moving {
   explicit Moving(const PairWay& pair) : kind(pair.kind), sides(sides_of(pair.kind)) {
-    Vec3 mean = Vec3::Zero();
     for (std::size_t i = 0; i < sides.end; ++i) mean += pair.way[i];
     mean /= static_cast<double>(sides.end);
     for (std::size_t i = 0; i < sides.end; ++i) {
@@ -80,6 +79,7 @@ struct Moving {
   }
   PairKind kind;
   Sides sides;
+  Vec3 mean = Vec3::Zero();  ///< of the ways
   Four from;
   Four way;
 };
@@ -92,11 +92,11 @@ double share_along(const Moving& moving, const Four& p, const Vec3& normal, doub
     for (std::size_t j = moving.sides.first; j < moving.sides.end; ++j) {
       const double above = normal.dot(p[i] - p[j]) - wanted;
       const double closing = normal.dot(moving.way[j] - moving.way[i]);
-      if (closing <= 0.0 || above >= share * closing) continue;
-      share = above / closing;
+      if (!(above >= 0.0)) return 0.0;  // the normal of a distance near round-off
+      if (closing > 0.0 && above < share * closing) share = above / closing;
     }
   }
-  return share > 0.0 ? share : 0.0;  // 0 for what is not finite, too
+  return share;
 }
 
 /// Whether a plane across `normal`, of length 1, has each side on its own side of it at both ends.
@@ -104,16 +104,18 @@ bool separates(const PairWay& pair, const Vec3& normal, double least) {
   const Sides sides = sides_of(pair.kind);
   double low = std::numeric_limits<double>::infinity();
   double high = -low;
+  double sum = 0.0;  // a NaN is neither low nor high
   for (std::size_t i = 0; i < sides.end; ++i) {
     const double start = normal.dot(pair.from[i] - pair.from[0]);
     const double end = start + normal.dot(pair.way[i]);
+    sum += end;
     if (i < sides.first) {
       low = std::min({low, start, end});
     } else {
       high = std::max({high, start, end});
     }
   }
-  return low - high >= least;
+  return low - high >= least && std::isfinite(sum);
 }
 
 }  // namespace
@@ -137,7 +139,7 @@ double free_share(const PairWay& pair, double least) {
   Vec3 r = shortest(moving.kind, p);
   double distance = r.norm();
   const double start = distance - least;
-  if (!(start > 0.0)) return 0.0;
+  if (!(start > 0.0) || !moving.mean.allFinite()) return 0.0;
   if (moving.relative_way() <= (1.0 - kKept) * start) return 1.0;
   const double kept = least + kKept * start;
   double share = 0.0;

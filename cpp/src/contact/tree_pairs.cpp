@@ -1,5 +1,7 @@
 #include "contact/tree_pairs.h"
 
+#include <bit>
+
 namespace tissu {
 namespace {
 
@@ -7,18 +9,18 @@ using Node = BoxTree::Node;
 using Leaf = BoxTree::Leaf;
 constexpr std::size_t kLeaf = BoxTree::kLeaf;
 
-/// Which primitives of a leaf overlap a box, one by one: 1 or 0.
+/// Four numbers at once; a comparison gives 0 or -1 in each.
+using Lanes = float __attribute__((vector_size(kLeaf * sizeof(float))));
+using Signs = std::int32_t __attribute__((vector_size(kLeaf * sizeof(std::int32_t))));
+
+/// Which primitives of a leaf overlap a box: -1, or else 0.
 std::array<std::int32_t, kLeaf> hits(const Leaf& leaf, const Box& box) {
-  std::array<std::int32_t, kLeaf> hit;
-  for (std::size_t i = 0; i < kLeaf; ++i) {
-    hit[i] = static_cast<std::int32_t>(leaf.low[0][i] <= box.high[0]) &
-             static_cast<std::int32_t>(box.low[0] <= leaf.high[0][i]) &
-             static_cast<std::int32_t>(leaf.low[1][i] <= box.high[1]) &
-             static_cast<std::int32_t>(box.low[1] <= leaf.high[1][i]) &
-             static_cast<std::int32_t>(leaf.low[2][i] <= box.high[2]) &
-             static_cast<std::int32_t>(box.low[2] <= leaf.high[2][i]);
+  Signs hit = ~Signs{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    hit &= std::bit_cast<Lanes>(leaf.low[k]) <= Lanes{} + box.high[k];
+    hit &= Lanes{} + box.low[k] <= std::bit_cast<Lanes>(leaf.high[k]);
   }
-  return hit;
+  return std::bit_cast<std::array<std::int32_t, kLeaf>>(hit);
 }
 
 Box box_of(const Leaf& leaf, std::size_t i) {

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "../../../bench/contact/folded_sheet.h"
 #include "../base/random.h"
 
 namespace tissu::test {
@@ -126,30 +126,6 @@ Boxes thrown(int time) {
 
 }  // namespace
 
-Boxes folded_sheet(int cells, int layers, double apart, double grown, double time) {
-  const double width = static_cast<double>(cells) / layers;
-  const auto at = [&](int i, int j) {
-    const double layer = std::min(std::floor(i / width), static_cast<double>(layers - 1));
-    const double along = i - layer * width;
-    const double x = static_cast<int>(layer) % 2 == 0 ? along : width - along;
-    const double wave = 0.3 * std::sin(2.0 * std::numbers::pi * (x / 20.0 + 0.01 * time));
-    return Vec3(x, j, layer * apart + wave);
-  };
-  Boxes boxes;
-  boxes.reserve(2 * static_cast<std::size_t>(cells) * static_cast<std::size_t>(cells));
-  for (int i = 0; i < cells; ++i) {
-    for (int j = 0; j < cells; ++j) {
-      for (const Vec3& third : {at(i, j), at(i + 1, j + 1)}) {
-        Box box = box_of(at(i + 1, j), at(i, j + 1));
-        box.add(third);
-        box.grow(grown);
-        boxes.push_back(box);
-      }
-    }
-  }
-  return boxes;
-}
-
 std::vector<BoxPair> every_pair_tested(const SearchPlan& plan, const Boxes& boxes) {
   const auto surface = [&](std::int32_t p) {
     return static_cast<std::int32_t>(std::ranges::upper_bound(plan.first, p) - plan.first.begin()) - 1;
@@ -175,7 +151,7 @@ std::vector<BoxScene> box_scenes() {
   return {
       {"Random", one_surface(400), [=](int t) { return scattered(400, small, 0.01, t); }},
       {"Crowded", one_surface(150), [](int t) { return scattered(150, Vec3::Ones(), 0.05, t); }},
-      {"Sheet", one_surface(450), [](int t) { return folded_sheet(15, 3, 0.4, 0.2, 3.0 * t); }},
+      {"Sheet", one_surface(450), [](int t) { return bench::folded_sheet(15, 3, 0.4, 0.2, 3.0 * t); }},
       {"Slivers", one_surface(300), slivers},
       {"AllIdentical", one_surface(200),
        [](int t) { return Boxes(200, box_of(Vec3(t, 0, 0), Vec3::Ones())); }},

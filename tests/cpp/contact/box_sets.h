@@ -22,8 +22,4 @@ std::vector<BoxPair> every_pair_tested(const SearchPlan& plan, const std::vector
 /// The scenes, each of fewer than a thousand boxes.
 std::vector<BoxScene> box_scenes();
 
-/// Boxes of the triangles of a square sheet of edges of length 1, `cells` a side, folded into layers that are
-/// `apart` from each other; a wave goes through it in time. Boxes are grown by `grown`.
-std::vector<Box> folded_sheet(int cells, int layers, double apart, double grown, double time);
-
 }  // namespace tissu::test

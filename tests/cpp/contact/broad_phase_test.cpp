@@ -2,6 +2,7 @@
 
 #include <limits>
 
+#include "../../../bench/contact/folded_sheet.h"
 #include "box_sets.h"
 #include "tissu/base/error.h"
 
@@ -68,7 +69,7 @@ TEST_P(BroadPhases, FindManyBoxesAsTheHierarchyDoes) {
   std::vector<BoxPair> pairs;
   std::vector<BoxPair> others;
   for (int time = 0; time < 3; ++time) {
-    const std::vector<Box> boxes = test::folded_sheet(100, 5, 0.4, 0.2, time);
+    const std::vector<Box> boxes = bench::folded_sheet(100, 5, 0.4, 0.2, time);
     broad->find(boxes, pairs);
     hierarchy->find(boxes, others);
     EXPECT_EQ(pairs, others);
@@ -110,6 +111,10 @@ INSTANTIATE_TEST_SUITE_P(Contact, BroadPhases,
                                          BroadCase{"octree", BroadPhaseKind::octree}),
                          testing::PrintToStringParamName());
 
+#ifdef TISSU_HAVE_FCL
+INSTANTIATE_TEST_SUITE_P(ContactByFcl, BroadPhases, testing::Values(BroadCase{"fcl", BroadPhaseKind::fcl}),
+                         testing::PrintToStringParamName());
+#else
 TEST(BroadPhase, FclIsRefusedByName) {
   try {
     make_broad_phase(BroadPhaseKind::fcl, {});
@@ -119,6 +124,7 @@ TEST(BroadPhase, FclIsRefusedByName) {
   }
   FAIL() << "fcl was made";
 }
+#endif
 
 }  // namespace
 }  // namespace tissu

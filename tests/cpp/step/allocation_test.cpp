@@ -1,8 +1,6 @@
 #include <gtest/gtest.h>
 
-#include <atomic>
-#include <cstdlib>
-
+#include "../base/allocations.h"
 #include "../force/room.h"
 #include "../world/sample_worlds.h"
 #include "solve/multigrid.h"
@@ -10,48 +8,13 @@
 #include "tissu/step/energy_momentum.h"
 #include "tissu/step/newmark.h"
 
-/// A steady step takes no memory. Counted in malloc and its kin, below operator new and below Eigen.
-
-#if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-#define TISSU_COUNTS_ALLOCATIONS
-
-namespace {
-constinit std::atomic<bool> counting{false};
-constinit std::atomic<long> allocations{0};
-
-void note() {
-  if (counting.load(std::memory_order_relaxed)) allocations.fetch_add(1, std::memory_order_relaxed);
-}
-}  // namespace
-
-// The C library's own allocators, under the names that it keeps for programs that put themselves before them.
-extern "C" {
-void* __libc_malloc(std::size_t size);                           // NOLINT(bugprone-reserved-identifier)
-void* __libc_calloc(std::size_t count, std::size_t size);        // NOLINT(bugprone-reserved-identifier)
-void* __libc_realloc(void* old, std::size_t size);               // NOLINT(bugprone-reserved-identifier)
-void* __libc_memalign(std::size_t alignment, std::size_t size);  // NOLINT(bugprone-reserved-identifier)
-
-[[gnu::visibility("default")]] void* malloc(std::size_t size) {
-  note();
-  return __libc_malloc(size);
-}
-[[gnu::visibility("default")]] void* calloc(std::size_t count, std::size_t size) {
-  note();
-  return __libc_calloc(count, size);
-}
-[[gnu::visibility("default")]] void* realloc(void* old, std::size_t size) {
-  note();
-  return __libc_realloc(old, size);
-}
-[[gnu::visibility("default")]] void* aligned_alloc(std::size_t alignment, std::size_t size) {
-  note();
-  return __libc_memalign(alignment, size);
-}
-}
-#endif
+/// A steady step takes no memory.
 
 namespace tissu {
 namespace {
+
+using test::allocations;
+using test::counting;
 
 struct AllocationCase {
   const char* name;

@@ -8,9 +8,9 @@
 
 namespace tissu {
 
-/// Whether the closed segment a b and the closed triangle share a point. Exact for the given coordinates;
-/// touching counts. False for a triangle without area and for a segment in the triangle's plane: their edges
-/// and vertices are audited by their neighbours.
+/// Whether the closed segment a b and the closed triangle share a point. Exact for the given coordinates, in
+/// the range that base/exact.h states; touching counts, in the triangle's plane too. False for a triangle
+/// without area: its edges and vertices are audited by its neighbours.
 bool crosses(const Vec3& a, const Vec3& b, const std::array<Vec3, 3>& triangle);
 
 }  // namespace tissu

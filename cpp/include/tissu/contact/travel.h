@@ -26,11 +26,12 @@ struct PairWay {
 /// still true when any of the ways is shortened.
 bool is_kept_apart(const PairWay& pair, double least);
 
-/// The share of the way, in [0, 1], up to which the pair certainly keeps more than `least` between its sides
-/// (additive conservative advancement: Li et al. 2021, ACM Transactions on Graphics 40(4), Codimensional
-/// Incremental Potential Contact, section 4). 1: the whole way. At least a tenth of the distance above
-/// `least` at the start is kept. 0 where the start is nearer than `least`. No cubic is solved; after 64
-/// rounds the share that was reached is the answer, which is safe.
+/// The share of the way, in [0, 1], up to which the pair keeps `least` >= 0 between its sides, but for the
+/// round-off that closest.h states, which `least` has to contain (additive conservative advancement: Li et
+/// al. 2021, ACM Transactions on Graphics 40(4), Codimensional Incremental Potential Contact, section 4; the
+/// relative way is bounded along the shortest line). 1: the whole way. At the share at least a tenth of the
+/// distance above `least` at the start is left. 0 where the start is nearer than `least` or not finite. No
+/// cubic is solved; after 64 rounds the share that was reached is the answer, which is safe.
 double free_share(const PairWay& pair, double least);
 
 }  // namespace tissu

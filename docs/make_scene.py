@@ -62,6 +62,8 @@ prescribed:
 The axes are those of space. A rotation held about two of them stays one about the third, however
 large; one held about a single axis has no angular velocity about it.
 
+What bodies meet, and how, is said by `obstacles`, `contacts` and `contact`: [contact](contact.md).
+
 Files of `laws` are programs. They run only with `--trust-laws` (`trust_laws=True` in Python), only
 from the scene's folder or below it, links followed, and only when nothing else is wrong with the
 scene ([laws](laws.md)).

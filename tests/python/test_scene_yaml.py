@@ -3,6 +3,7 @@
 import pytest
 
 import tissu as ts
+from contact_scenes import every_contact_part
 from tissu import (
     BarMesh,
     Body,
@@ -244,7 +245,7 @@ def test_types_may_be_spelt_with_hyphens():
 
 
 def test_every_law_model_and_method_comes_back():
-    for scene in [*other_laws(), *models(), *methods(), *sections()]:
+    for scene in [*other_laws(), *models(), *methods(), *sections(), every_contact_part()]:
         assert ts.Scene.from_yaml_text(scene.to_yaml()) == scene
 
 
@@ -254,6 +255,7 @@ def test_every_part_is_in_the_round_trip():
 
     text = repr(everything()) + repr(organ("a")) + repr(ConjugateGradient()) + repr(other_laws())
     text += repr(models()) + repr(viscosities()) + repr(methods()) + repr(sections())
+    text += repr(every_contact_part())
     missing = [name for name in tissu.scene.__all__ if f"{name}(" not in text]
     assert missing == ["UserLaw"]
 

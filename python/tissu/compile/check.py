@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from tissu.compile.doubts import doubts
 from tissu.compile.prepare import prepare
 from tissu.effects import absent_of, effects_of
+from tissu.errors import SceneError
 
 if TYPE_CHECKING:
     from tissu.compile.prepared import Prepared
@@ -54,7 +55,17 @@ class Check:
 
 def check_scene(scene: SceneData) -> Check:
     """Everything that compile() would refuse, and what the scene switches on; raises nothing."""
-    return check_of(prepare(scene))
+    prepared = prepare(scene)
+    check = check_of(prepared)
+    if not check.ok or prepared.contact is None:
+        return check
+    from tissu.compile.world import world_of
+
+    try:  # whether surfaces overlap at the start, the core says
+        world_of(prepared)
+    except SceneError as error:
+        return replace(check, problems=error.problems)
+    return check
 
 
 def problems_of(scene: SceneData) -> list[str]:

@@ -182,7 +182,7 @@ def pairs_of(prepared: Prepared, contact: Contact | SelfContact) -> Iterator[tup
     scene = prepared.scene
     named = set()
     for other in scene.contacts:
-        if other is not contact:
+        if getattr(other, "between", None) != "all":
             named |= {frozenset(pair) for pair in pairs_of(prepared, other)}
     bodies = list(scene.bodies)
     every = [

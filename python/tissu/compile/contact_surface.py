@@ -9,7 +9,6 @@ import numpy as np
 
 from tissu.compile.prepared import Floats, Ints
 from tissu.mesh import thin
-from tissu.mesh.cell import dimension
 from tissu.scene.section import area_of
 
 if TYPE_CHECKING:
@@ -65,34 +64,37 @@ def body_surface(mesh: Mesh, body: Body) -> ContactSurface:
 
     Sheets on the boundary take its place; what lies inside the volume meets nothing.
     """
-    outer = mesh.surface()
-    whole, quads = outer.triangles[: len(outer.triangles) - 2 * len(outer.quads)], outer.quads
-    inside_whole, inside_quads = (_in_a_volume_cell(mesh, faces) for faces in (whole, quads))
+    whole, quads, loose = _faces(mesh)
+    triangles = np.concatenate([whole, halves_of(mesh.points, quads)]).astype(np.int32)
     volume = np.zeros(mesh.node_count, dtype=bool)
     for block in mesh.volume_blocks:
         volume[block.nodes] = True
-    of_sheets = sum(dimension(block.type) == 2 for block in mesh.thin_blocks) > 0
-    if of_sheets and mesh.volume_blocks:
-        count = sum(len(block) for block in mesh.volume_blocks)
-        whole_cells = outer.cells[: len(whole)]
-        quad_cells = outer.cells[len(whole) :: 2]
-        whole = whole[(whole_cells < count) | ~inside_whole]
-        quads = quads[(quad_cells < count) | ~inside_quads]
-        loose = bool((whole_cells >= count)[~inside_whole].any())
-        loose = loose or bool((quad_cells >= count)[~inside_quads].any())
-    else:
-        loose = of_sheets
-    triangles = np.concatenate([whole, halves_of(mesh.points, quads)]).astype(np.int32)
     pieces = thin.line_pieces(mesh)[0]
-    pieces = pieces[~volume[pieces].all(axis=1)] if len(pieces) else pieces
+    pieces = pieces[~volume[pieces].all(axis=1)]
     return ContactSurface(
         vertices=mesh.points,
         triangles=triangles,
         edges=_without(pieces, edges_of(triangles)),
         points=np.empty(0, dtype=np.int32),
-        radius=_radius(mesh, body, triangles, pieces),
-        closed=bool(mesh.volume_blocks) and not loose,
+        radius=_radius(mesh, body, (whole, quads), pieces),
+        closed=not loose and len(triangles) > 0,
     )
+
+
+def _faces(mesh: Mesh) -> tuple[Ints, Ints, bool]:
+    """Triangles and quads on the boundary and beside it, and whether there are any beside it."""
+    outer, count = mesh.surface(), sum(len(block) for block in mesh.volume_blocks)
+    three = len(outer.triangles) - 2 * len(outer.quads)
+    kept, loose = [], False
+    for faces, cells in (
+        (outer.triangles[:three], outer.cells[:three]),
+        (outer.quads, outer.cells[three::2]),
+    ):
+        sheets = np.flatnonzero(cells >= count)
+        inside = _in_a_volume_cell(mesh, faces[sheets])
+        kept.append(np.delete(faces, sheets[inside], axis=0))
+        loose = loose or not inside.all()
+    return kept[0], kept[1], loose
 
 
 def halves_of(points: Floats, quads: Ints) -> Ints:
@@ -133,16 +135,15 @@ def _in_a_volume_cell(mesh: Mesh, faces: Ints) -> np.ndarray[tuple[int], np.dtyp
     return np.asarray(shared.sum(axis=1)).ravel() > 0
 
 
-def _radius(mesh: Mesh, body: Body, triangles: Ints, pieces: Ints) -> Floats:
+def _radius(mesh: Mesh, body: Body, faces: tuple[Ints, Ints], pieces: Ints) -> Floats:
     """Half the thickness at each node; of a line the radius of a circle of its section's area."""
     radius = np.zeros(mesh.node_count)
     if body.thickness is not None:
-        sheets = [b.nodes for b in mesh.thin_blocks if dimension(b.type) == 2]
-        of_sheet = np.zeros(mesh.node_count, dtype=bool)
-        for nodes in sheets:
-            of_sheet[nodes] = True
-        on = np.unique(triangles)
-        radius[on[of_sheet[on]]] = body.thickness / 2.0
+        sheets = thin.faces(mesh)
+        for there, of_sheets in zip(faces, (sheets[0], sheets[2]), strict=True):
+            known = {tuple(face) for face in np.sort(there, axis=1).tolist()}
+            met = [tuple(face) in known for face in np.sort(of_sheets, axis=1).tolist()]
+            radius[of_sheets[np.array(met, dtype=bool)]] = body.thickness / 2.0
     if body.section is not None and len(pieces):
         round_one = math.sqrt(area_of(body.section) / math.pi)
         radius[pieces] = np.maximum(radius[pieces], round_one)

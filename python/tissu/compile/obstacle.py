@@ -69,6 +69,7 @@ def prepared_obstacle(name: str, obstacle: Obstacle, findings: Findings) -> Prep
     """
     normal: Floats | None = None
     surface: ContactSurface | None = None
+    motion = obstacle.motion  # unknown where the obstacle is
     if isinstance(obstacle, PlaneObstacle):
         origin, normal = np.array(obstacle.point), unit_vector(obstacle.normal)
     elif isinstance(obstacle, SphereObstacle):
@@ -86,7 +87,7 @@ def prepared_obstacle(name: str, obstacle: Obstacle, findings: Findings) -> Prep
         if surface is None:
             return None
         origin = (surface.vertices.min(axis=0) + surface.vertices.max(axis=0)) / 2.0
-    return PreparedObstacle(name, origin, surface, normal, obstacle.motion)
+    return PreparedObstacle(name, origin, surface, normal, motion)
 
 
 def _made(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import math
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -16,7 +17,7 @@ from tissu.compile.prepare import prepare
 from tissu.compile.prepared import LoadedNodes, Prepared
 from tissu.compile.start import begin
 from tissu.compile.thin import cross_section_of
-from tissu.errors import SceneError
+from tissu.errors import ParameterError, SceneError
 from tissu.scene.load import Where
 from tissu.scene.model import Frames
 from tissu.scene.problem import Problem
@@ -47,7 +48,7 @@ def compile_scene(scene: Scene, checkpoint: Path | None = None) -> Simulation:
     equilibrium = isinstance(scene.step, Static)
     simulation = Simulation(
         scene=scene,
-        world=build_world(prepared),
+        world=world_of(prepared),
         meshes={name: body.mesh for name, body in prepared.bodies.items()},
         tissue={name: tissue.mesh for name, tissue in prepared.tissue.items()},
         integrator=scene.step.integrator(),
@@ -63,6 +64,22 @@ def compile_scene(scene: Scene, checkpoint: Path | None = None) -> Simulation:
     if problem is not None:
         raise SceneError([problem.sentence(scene.source)])
     return simulation
+
+
+def world_of(prepared: Prepared) -> Any:
+    """The world of a scene that has no problems by itself.
+
+    Raises:
+        SceneError: surfaces that meet overlap at the start.
+    """
+    try:
+        return build_world(prepared)
+    except ParameterError as error:
+        if prepared.contact is None:
+            raise
+        build_world(dataclasses.replace(prepared, contact=None))  # raises what else is wrong
+        problem = Problem(("contacts",), str(error))
+        raise SceneError([problem.sentence(prepared.scene.source)]) from None
 
 
 def unstable_step(simulation: Simulation) -> Problem | None:

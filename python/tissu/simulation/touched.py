@@ -9,7 +9,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tissu.errors import ParameterError
-from tissu.scene.problem import nearest_word
 
 if TYPE_CHECKING:
     from tissu import _core as core
@@ -126,8 +125,7 @@ class Touched:
         self._require_contact()
         known = self._core.contact_surfaces()
         if name not in known:
-            meant = nearest_word(name, known)
-            hint = f"; did you mean {meant!r}?" if meant else f"; known: {', '.join(known)}"
+            hint = f"; accepted: {', '.join(known)}"
             raise ParameterError(f"found {name!r}, which meets nothing in this scene{hint}")
         return Wrench(*self._core.contact_force_on(name))
 
@@ -155,6 +153,6 @@ class Touched:
     def _require_contact(self) -> None:
         if not self.scene.contacts:
             raise ParameterError(
-                "this scene has no contacts: nothing meets anything; add `contacts` to the scene, such "
+                "this scene has no contacts: nothing meets anything; add `contacts` to it, such "
                 "as ts.Contact(['liver', 'probe'])"
             )

@@ -1,0 +1,349 @@
+"""What a scene says of contacts: both ways of writing it, and every slip at its place."""
+
+import re
+from pathlib import Path
+
+import pytest
+
+import tissu as ts
+from contact_scenes import SOFT, cube, every_contact_part, scene, sheet
+from tissu.errors import SceneError
+from tissu.scene.contact_rules import STEPS_OF_METHOD
+from tissu.scene.obstacle import OBSTACLES
+
+TEXT = """\
+bodies:
+  liver:
+    mesh: {type: bar, size: [10 cm, 10 cm, 10 cm], cells: [2, 2, 2]}
+    law: {type: stvk, young: 4 kPa, poisson: 0.4}
+    density: 1000
+  7: {mesh: {type: bar, size: [1 cm, 1 cm, 1 cm], cells: [1, 1, 1], origin: [1, 0, 0]},
+      law: {type: stvk, young: 4 kPa, poisson: 0.4}, density: 1000}
+obstacles:
+  table: {type: plane, point: [0, 0, -1 mm], normal: [0, 0, 1]}
+  probe: {type: capsule, ends: [[0, 0, 12 cm], [0, 0, 18 cm]], radius: 3 mm,
+    motion: {times: [0 s, 1 s], displacements: [[0, 0, 0], [0, 0, -6 cm]]}}
+contacts:
+  - {between: [liver, probe], friction: 0.2}
+  - {between: [liver, [table, 7]], on: {type: box, max: [null, null, 1 cm]}}
+  - {self: liver, gap: 0.2 mm}
+contact: {method: auto, broad_phase: hierarchy}
+step: {type: implicit_euler, dt: 10 ms}
+"""
+
+
+def problems(make):
+    with pytest.raises(SceneError) as caught:
+        make()
+    return caught.value.problems
+
+
+def test_yaml_says_what_python_says():
+    read = ts.Scene.from_yaml_text(TEXT)
+    path = ts.Motion(times=(0, 1), displacements=((0, 0, 0), (0, 0, -0.06)))
+    assert read.obstacles == {
+        "table": ts.PlaneObstacle((0, 0, -1e-3), (0, 0, 1)),
+        "probe": ts.CapsuleObstacle(((0, 0, 0.12), (0, 0, 0.18)), "3 mm", motion=path),
+    }
+    assert read.contacts == (
+        ts.Contact(("liver", "probe"), friction=0.2),
+        ts.Contact(("liver", ("table", "7")), on=ts.Box(max=(None, None, 0.01))),
+        ts.SelfContact("liver", gap=2e-4),
+    )
+    assert read.contact == ts.ContactSettings()
+    assert ts.Scene.from_yaml_text(read.to_yaml()) == read
+
+
+def test_defaults():
+    plain, settings = ts.Contact(("a", "b")), ts.ContactSettings()
+    assert (plain.friction, plain.gap, plain.restitution, plain.stiffness) == (0.0, None, 0.0, None)
+    assert plain.on is None
+    assert ts.SelfContact(self="a") == ts.SelfContact("a")
+    assert settings.model_dump() == {
+        "method": "auto",
+        "broad_phase": "hierarchy",
+        "iterations": 3,
+        "travel": True,
+        "overlap": "refuse",
+    }
+    assert scene().contacts == ()
+    assert scene().contact is None
+
+
+def test_a_mesh_made_in_memory_is_written_beside_the_scene(tmp_path):
+    bone = ts.bar_mesh(size=(1, 1, 1), cells=(1, 1, 1), origin=(3, 3, 3))
+    made = scene(obstacles={"bone": ts.MeshObstacle(bone)}, contacts=[ts.Contact(("gut", "bone"))])
+    assert problems(made.to_yaml)[0].startswith("obstacles.bone.mesh: made in memory")
+    made.save(tmp_path / "scene.yaml")
+    read = ts.Scene.from_yaml(tmp_path / "scene.yaml")
+    assert read.obstacles["bone"].mesh.file.name == "scene-bone.vtu"
+    assert read.contacts == made.contacts
+    assert read.check().ok
+
+
+def test_check_says_what_meets_what():
+    words = "\n".join(str(effect) for effect in every_contact_part().check().effects)
+    assert "obstacle probe: obstacles.probe is a capsule, radius 0.003 m, moved until 1 s" in words
+    assert "contact of liver with probe: contacts[0] has friction 0.2, gap 0.0005 m" in words
+    assert "contact of skin with itself: contacts[2] has friction 0.1, gap 0.0001 m" in words
+    assert (
+        "contact of all: contacts[3] has friction 0, gap 0.000559 to 0.00114 m by default" in words
+    )
+    assert "contact.method is augmented; broad phase grid; travel is false" in words
+    assert "contact.method is auto: augmented, for the step implicit_euler" in "\n".join(
+        str(effect) for effect in ts.Scene.from_yaml_text(TEXT).check().effects
+    )
+    assert "contact" in scene().check().absent
+    assert "contact" not in every_contact_part().check().absent
+
+
+# What is written instead of what, the place it is told at, and words of the sentence.
+SLIPS = {
+    "unknown": ("[liver, probe]", "[livr, probe]", "contacts[0].between[0]", "mean 'liver'?"),
+    "unknown second": ("r, probe]", "r, prob]", "contacts[0].between[1]", "did you mean 'probe'"),
+    "unknown of several": ("[table, 7]", "[tabl, 7]", "contacts[1].between[1][0]", "'table'?"),
+    "unknown self": ("self: liver", "self: livr", "contacts[2].self", "no body is named 'livr'"),
+    "self an obstacle": ("self: liver", "self: table", "contacts[2].self", "no body is named"),
+    "itself": ("[liver, probe]", "[liver, liver]", "contacts[0].between[1]", "{self: liver}"),
+    "two obstacles": (
+        "[liver, probe]",
+        "[table, probe]",
+        "contacts[0].between[1]",
+        "found the obstacles 'table' and 'probe', of which a contact moves neither",
+    ),
+    "twice": ("[table, 7]", "[table, probe]", "contacts[1].between[1][1]", "in contacts[0] too"),
+    "self twice": (
+        "  - {self: liver,",
+        "  - {self: liver}\n  - {self: liver,",
+        "contacts[3].self",
+        "'liver' with itself in contacts[2] too",
+    ),
+    "three": ("[liver, probe]", "[liver, 7, probe]", "contacts[0].between", "[liver, [table,"),
+    "one": ("[liver, probe]", "liver", "contacts[0].between", "or all"),
+    "empty list": ("[liver, probe]", "[liver, []]", "contacts[0].between", "a list of others"),
+    "gap": ("gap: 0.2 mm", "gap: 0 mm", "contacts[2].gap", "more than 0 is accepted"),
+    "gap's unit": ("gap: 0.2 mm", "gap: 0.2 s", "contacts[2].gap", "which is a time"),
+    "friction": ("friction: 0.2", "friction: -1", "contacts[0].friction", "at least 0"),
+    "key": ("friction:", "fricton:", "contacts[0].fricton", "did you mean 'friction'"),
+    "neither": ("self: liver, gap", "gap", "contacts[2]", "found neither between nor self"),
+    "both": ("{self: liver", "{between: all, self: liver", "contacts[2]", "both between and self"),
+    "between misspelt": (
+        "{between: [liver, p",
+        "{betwen: [liver, p",
+        "contacts[0].betwen",
+        "did you mean 'between'",
+    ),
+    "on nothing": ("max: [null, null, 1 cm]", "min: [9, 9, 9]", "contacts[1].on", "selects no"),
+    "on an obstacle": (
+        "[liver, [table, 7]]",
+        "[table, [liver, 7]]",
+        "contacts[1].on",
+        "write the body first",
+    ),
+    "restitution": (
+        "friction: 0.2",
+        "restitution: 0.5",
+        "contacts[0].restitution",
+        "which the method augmented does not have, but impulse and penalty alone",
+    ),
+    "stiffness": (
+        "friction: 0.2",
+        "stiffness: 2 kPa/mm",
+        "contacts[0].stiffness",
+        "found stiffness 2e+06, which the method augmented",
+    ),
+    "bouncy": ("friction: 0.2", "restitution: 2", "contacts[0].restitution", "equal to 1"),
+    "explicit": (
+        "{type: implicit_euler, dt: 10 ms}",
+        "rk4",
+        "step",
+        "mapping with a `type` is accepted",
+    ),
+    "explicit step": (
+        "{type: implicit_euler, dt: 10 ms}",
+        "{type: rk4}",
+        "step",
+        "found rk4 with 3 contacts; accepted with contact: implicit_euler",
+    ),
+    "static step": (
+        "{type: implicit_euler, dt: 10 ms}",
+        "{type: static}",
+        "step",
+        "found static with 3 contacts",
+    ),
+    "method": ("method: auto", "method: barrier", "contact.method", "not there yet; accepted"),
+    "method's name": ("method: auto", "method: augment", "contact.method", "mean 'augmented'"),
+    "method and step": (
+        "auto, broad_phase: hierarchy}\nstep: {type: implicit_euler, dt: 10 ms}",
+        "augmented}\nstep: {type: bdf2_fixed_point, dt: 1 ms}",
+        "step",
+        "found bdf2_fixed_point with 3 contacts of the method augmented",
+    ),
+    "iterations": ("method: auto", "iterations: 0", "contact.iterations", "at least 1"),
+    "overlap": ("method: auto", "overlap: separate", "contact.overlap", "not there yet; refuse"),
+    "editing": ("step: {", "editing: true\nstep: {", "editing", "do not follow removed cells"),
+    "a name twice": ("  table: {", "  liver: {", "obstacles.liver", "as a body too"),
+    "mass": ("radius: 3 mm,", "radius: 3 mm, mass: 30 g,", "obstacles.probe.mass", "freely is not"),
+    "type": ("type: capsule", "type: capsul", "obstacles.probe", "did you mean 'capsule'"),
+    "normal": ("normal: [0, 0, 1]", "normal: [0, 0, 0]", "obstacles.table.normal", "a direction"),
+    "radius": ("radius: 3 mm", "radius: 0", "obstacles.probe.radius", "more than 0"),
+    "one end": ("[[0, 0, 12 cm], [0", "[[0", "obstacles.probe.ends", "two points are accepted"),
+    "same ends": ("0, 12 cm]", "0, 18 cm]", "obstacles.probe.ends", "the same point twice"),
+    "end's unit": ("0, 12 cm]", "0, 12 s]", "obstacles.probe.ends", "component z: found '12 s'"),
+    "motion": ("times: [0 s, 1 s]", "times: [0 s]", "obstacles.probe.motion", "for 1 time;"),
+    "no motion": (
+        ", displacements: [[0, 0, 0], [0, 0, -6 cm]]",
+        "",
+        "obstacles.probe.motion",
+        "neither displacements nor rotation",
+    ),
+}
+# The slip takes the table away too; a static step needs held nodes, on both bodies.
+MORE = {"a name twice": 2, "static step": 3}
+
+
+@pytest.mark.parametrize("name", SLIPS)
+def test_a_slip_is_told_at_its_place(name):
+    old, new, place, words = SLIPS[name]
+    assert TEXT.count(old) == 1
+    text = TEXT.replace(old, new)
+    found = problems(lambda: ts.Scene.from_yaml_text(text).compile())
+    assert len(found) == MORE.get(name, 1), found
+    told = [p for p in found if re.match(rf"text:\d+: {re.escape(place)}: ", p) and words in p]
+    assert len(told) == 1, found
+    line = int(told[0].split(":")[1])
+    assert text.splitlines()[line - 1].strip() != ""
+
+
+def test_box_upside_down_and_mesh_that_is_none():
+    flat = problems(lambda: ts.BoxObstacle((0, 0, 0), (1, 1, 0)))
+    assert "found min 0 m and max 0 m on axis z; a max above min is accepted" in flat[0]
+    line = ts.bar_mesh(size=(1, 0, 0), cells=(1, 0, 0), cell="line")
+    made = scene(obstacles={"wire": ts.MeshObstacle(line)}, contacts=[ts.Contact(("gut", "wire"))])
+    assert "obstacles.wire.mesh: found no triangle, quad or volume cell" in made.check().problems[0]
+    lost = scene(obstacles={"bone": ts.MeshObstacle("lost.stl")})
+    assert "obstacles.bone.mesh: " in lost.check().problems[0]
+
+
+def test_a_selection_is_no_obstacle():
+    found = problems(lambda: scene(obstacles={"ball": ts.Sphere((0, 0, 0), 1.0)}))
+    assert found == [
+        "Scene: obstacles.ball: found Sphere, which selects nodes; an obstacle is accepted: "
+        "SphereObstacle"
+    ]
+
+
+FLAT = ts.Body(
+    mesh=ts.BarMesh(size=(1, 1, 0), cells=(1, 1, 0), cell="quad"),
+    law=SOFT,
+    density=1000.0,
+    thickness=1.0,
+    plane="strain",
+)
+STIFF = cube(law=ts.Hooke(young=4e3, poisson=0.4), model=ts.Condensed(keep="surface"))
+FILLED = ts.BarMesh(size=(1, 1, 1), cells=(1, 1, 1))
+FAT = ts.Tissue(inside=FILLED, frames=8, points=40, law=SOFT, density=1000.0)
+
+
+@pytest.mark.parametrize(
+    ("fields", "name", "words"),
+    [
+        ({"bodies": {"liver": cube(), "stiff": STIFF}}, "stiff", "a body with a condensed region"),
+        ({"bodies": {"liver": cube(), "slice": FLAT}}, "slice", "a flat body"),
+        ({"bodies": {"liver": cube()}, "tissue": {"fat": FAT}}, "fat", "a tissue"),
+    ],
+)
+def test_surfaces_that_are_not_there_yet(fields, name, words):
+    pair = problems(lambda: scene(**fields, contacts=[ts.Contact(("liver", name))]))
+    assert len(pair) == 1
+    assert f"contacts[0].between[1]: found '{name}', {words}" in pair[0]
+    assert "not there yet" in pair[0]
+    every = problems(lambda: scene(**fields, contacts=[ts.Contact("all")]))
+    assert f"contacts[0].between: found all, and among the bodies '{name}', {words}" in every[0]
+
+
+def test_all_is_said_once_and_without_on():
+    twice = problems(lambda: scene(contacts=[ts.Contact("all"), ts.Contact("all")]))
+    assert twice == [
+        "Scene: contacts[1].between: found all a second time, beside contacts[0]; once is accepted"
+    ]
+    on = problems(lambda: scene(contacts=[ts.Contact("all", on=ts.Nodes([0]))]))
+    assert "contacts[0].on: found `on` beside all" in on[0]
+
+
+def test_on_inside_the_body_selects_nothing_of_its_surface():
+    inner = ts.Nodes([13])  # the middle one of 27
+    made = scene(contacts=[ts.Contact(("liver", "table"), on=inner)])
+    (problem,) = made.check().problems
+    assert problem.startswith("contacts[0].on: the nodes (ids (13)) selects 1 node of body 'liver'")
+    assert problem.endswith("but none of its surface")
+
+
+def notes(**fields):
+    return scene(**fields).check().notes
+
+
+def test_without_contacts_check_says_whose_boxes_overlap():
+    apart = {"liver": cube(), "gut": cube((0, 0, 0.1001))}
+    assert notes(bodies=apart, obstacles={}) == []
+    touching = {"liver": cube(), "gut": cube((0, 0, 0.1)), "skin": sheet(0.2)}
+    (note,) = notes(bodies=touching, obstacles={})
+    assert note.startswith("contacts: none, so that bodies pass through each other")
+    assert "the boxes of liver and gut, gut and skin touch or overlap" in note
+    met = [ts.Contact(("liver", "gut"))]
+    assert notes(bodies=touching, obstacles={}, contacts=met) == []
+
+
+def test_settings_and_obstacles_without_contacts_are_noted():
+    assert notes()[0].startswith("obstacles: without `contacts` nothing meets anything")
+    assert notes(contact=ts.ContactSettings())[0].startswith("contact: without `contacts`")
+    (note,) = notes(contacts=[ts.Contact(("liver", "gut"))])
+    assert note == "obstacles.table: no contact names it, so that all bodies pass through it"
+
+
+def test_a_gap_above_a_tenth_of_the_edges_is_noted():
+    # 48 edges of 5 cm and 24 diagonals: (48 + 24 sqrt(2)) / 72 * 5 cm = 5.69 cm in the mean
+    pair = ("liver", "table")
+    assert notes(contacts=[ts.Contact(pair, gap="5.6 mm")]) == []
+    (note,) = notes(contacts=[ts.Contact(pair, gap="5.8 mm")])
+    assert "contacts[0].gap: 0.0058 m is more than a tenth of the mean surface edge, 0.0569" in note
+
+
+def test_a_body_that_falls_on_something_is_not_said_to_fall():
+    fall = {"gravity": (0, 0, -9.81), "bodies": {"liver": cube()}}
+    assert "nothing holds the body" in notes(**fall, obstacles={})[0]
+    assert notes(**fall, contacts=[ts.Contact(("liver", "table"))]) == []
+    assert notes(**fall, contacts=[ts.Contact("all")]) == []
+
+
+KINDS = ("yaml", "python")
+BODIES = """\
+bodies:
+  liver:
+    mesh: {type: bar, size: [10 cm, 10 cm, 10 cm], cells: [2, 2, 2], cell: hexahedron,
+      origin: [0, 0, 0]}
+    law: {type: stvk, young: 4 kPa, poisson: 0.4}
+    density: 1000
+step: {type: implicit_euler, dt: 10 ms}
+"""
+PAGE = (Path(__file__).parents[2] / "docs" / "contact.md").read_text(encoding="utf-8")
+
+
+def test_the_examples_of_the_page_are_the_same_scene():
+    yaml, python = (re.search(rf"```{kind}\n(.*?)```", PAGE, re.DOTALL)[1] for kind in KINDS)
+    names = {"ts": ts, "liver": cube(), "print": lambda check: None}
+    exec(compile(python, "contact.md", "exec"), names)
+    read = ts.Scene.from_yaml_text(BODIES + yaml)
+    assert read == names["scene"]
+    assert read.check().problems == read.check().notes == []
+
+
+def test_the_page_names_every_obstacle_field_and_step():
+    for cls in OBSTACLES:
+        fields = ", ".join(f"`{name}`" for name in cls.__annotations__ if name != "type")
+        assert f"| `{cls.model_fields['type'].default}` | `{cls.__name__}` | {fields} |" in PAGE
+    for cls in (ts.Contact, ts.SelfContact, ts.ContactSettings):
+        for name in cls.model_fields:
+            assert f"| `{name}` |" in PAGE
+    for step in STEPS_OF_METHOD["augmented"]:
+        assert f"`{step}`" in PAGE

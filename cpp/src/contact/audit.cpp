@@ -105,7 +105,13 @@ class Separation {
         candidates_(contact.description(), contact.surfaces()),
         places_(3 * contact.surfaces().vertices().size()) {
     contact.place_vertices(start, start.time, places_);
-    first_ = places_;
+    normals_.assign(places_.size(), 0.0);
+    for (const Primitive& face : contact.surfaces().primitives()) {
+      if (face.corners < 3) continue;
+      const auto& [a, b, c] = face.vertex;
+      const Vec3 normal = (place(b) - place(a)).cross(place(c) - place(a));
+      for (const std::int32_t v : face.vertex) block(Reals(normals_), v) += normal;
+    }
   }
 
   void run() {
@@ -159,9 +165,12 @@ class Separation {
         {place(c.vertex[0]), place(c.vertex[1]), place(c.vertex[2]), place(c.vertex[3])}, part);
     const Vec3 n =
         (place(c.vertex[2]) - place(c.vertex[1])).cross(place(c.vertex[3]) - place(c.vertex[1])).normalized();
-    if (part != Part::interior) return false;
     const double s = n.dot(closest.r);
     if (s >= kEnough * c.apart || s < -c.apart || !n.allFinite()) return false;
+    // What it touches lies before it and not beside it, as the sides of two blocks that stand on each other.
+    if (closest.square > c.apart * c.apart || !(n.dot(block(ConstReals(normals_), c.vertex[0])) < 0.0)) {
+      return false;
+    }
     double sum = 0.0;
     for (std::size_t k = 0; k < 4; ++k) sum += is_free(c.vertex[k]) ? closest.beta[k] * closest.beta[k] : 0.0;
     if (sum == 0.0) return false;
@@ -180,7 +189,8 @@ class Separation {
   const FixedDofs& fixed_;
   State& start_;
   Candidates candidates_;
-  std::vector<double> places_, first_, moves_;
+  std::vector<double> places_, moves_;
+  std::vector<double> normals_;  ///< of vertices, of any length
   std::vector<int> counts_;
 };
 

@@ -28,14 +28,15 @@ StepReport sum(const StepReport& first, const StepReport& then) {
 
 }  // namespace
 
-/// Where a step has to hold nodes back, what is linearised in it went too far: shorter ones see contacts come.
+/// Where a step has to hold nodes back, or leaves more residual than it found, it was too long: shorter ones
+/// see contacts come.
 StepReport Simulation::step_in_parts(double h, int halvings) {
   if (halvings == kHalvings) return integrator_->step(state_, h);
   const State start = state_;
   const std::vector<double> memory = integrator_->memory();
   try {
     const StepReport report = integrator_->step(state_, h);
-    if (report.held_back == 0 && is_sane()) return report;
+    if (report.held_back == 0 && !report.hasty && is_sane()) return report;
   } catch (const Diverged&) {
     // The shortest parts say what is wrong.
   }

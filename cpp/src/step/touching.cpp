@@ -17,7 +17,6 @@ constexpr double kForce = 1e-2;  ///< of the contacts' forces: a smaller change 
 constexpr double kForceNewton = 1e-3;
 constexpr int kMostLooks = 20;  ///< of a step whose equation is solved to its tolerance
 constexpr double kWorse = 2.0;
-constexpr int kRescue = 10;
 
 }  // namespace
 
@@ -100,7 +99,7 @@ bool StageSolver::solve_contacts(State& state, std::vector<double>& v, StepRepor
 /// Newton's iteration with the contacts of one look, and looks until they stay.
 void StageSolver::iterate_contacts(State& state, std::vector<double>& v, StepReport& report) {
   const World& world = system_->world();
-  const int most = newton_.iterations == 1 ? kRescue : newton_.iterations;
+  const int most = newton_.iterations;
   int iterations = report.newton_iterations;
   for (int i = 0; i < kMostLooks; ++i) {
     contact_->look(state);
@@ -138,13 +137,11 @@ void StageSolver::solve_touching(State& state, std::vector<double>& v, StepRepor
   if (report.held_back > 0) follow(state, v);
   std::ranges::copy(v, state.velocities.begin());
   contact_->finish(state);
-  bool iterate = newton_.iterations > 1;
-  if (!iterate && report.held_back == 0 && !system_->world().is_linear()) {
-    iterate = !(residual(state, v) <= kWorse * start_ + kFloor * reference_);
-  }
-  if (iterate) {
+  if (newton_.iterations > 1) {
     iterate_contacts(state, v, report);
     contact_->finish(state);
+  } else if (report.held_back == 0 && !system_->world().is_linear()) {
+    report.hasty = !(residual(state, v) <= kWorse * start_ + kFloor * reference_);
   }
   report.contacts = static_cast<int>(contact_->size());
   report.least_gap = contact_->least_gap();

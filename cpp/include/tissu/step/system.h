@@ -33,6 +33,9 @@ class System {
   /// Nothing is done when a linear world is asked for the matrix it has; couplings are always made anew. For
   /// a solver that needs no matrix, A is a product only, at a copy of the state.
   void assemble(const State& state, double mass, StiffnessScale scale);
+  /// The mean of -df/dx and of its definite matrix, of which it takes that share. A solver that asks for
+  /// products only gets the definite matrix.
+  void assemble_mean(const State& state, double share);
   /// Solves A x = b from the first guess x.
   SolveReport solve(ConstReals b, Reals x, double floor);
 
@@ -54,7 +57,7 @@ class System {
   void couple(const State& state, StiffnessScale scale, BlockMatrix& matrix);
   /// Where the rows are, for a solver that asks.
   void place_rows(const State& state);
-  void assemble_blocks(const State& state, double mass, StiffnessScale scale);
+  void assemble_blocks(const State& state, double mass, StiffnessScale scale, double definite = 0.0);
 
   const World& world_;
   LinearSolver* solver_;

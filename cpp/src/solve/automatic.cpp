@@ -20,6 +20,7 @@ constexpr int kIterations = 20'000;
 constexpr double kFactorBytes = 2e9;  ///< a larger factor is not made
 constexpr double kSolvesSteps = 8.0;  ///< that are to pay for the first preparation
 constexpr double kSolvesNewton = 4.0;
+constexpr double kFrame = 3.0;  ///< solves that one of a trial may take, as the first step of a scene may
 constexpr double kNewSize = 0.1;  ///< of rows and blocks: a matrix of another size is not compared
 constexpr double kOfPlain = 3.2;  ///< iterations of block-Jacobi for one of incomplete Cholesky
 constexpr double kRemember = 1.0 / 16.0;
@@ -104,7 +105,8 @@ void Automatic::predict(bool first) {
   }
   if (first) {
     changes_ += choice_->changes();
-    choice_->begin(costs, settings_.equilibrium ? kSolvesNewton : kSolvesSteps);
+    choice_->begin(costs, settings_.equilibrium ? kSolvesNewton : kSolvesSteps,
+                   settings_.equilibrium ? Choice::kNever : kFrame);
   } else {
     choice_->predict(costs);
   }

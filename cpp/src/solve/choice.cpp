@@ -10,9 +10,11 @@ constexpr double kHopeful = 0.8;  ///< what a prediction is multiplied by, so th
 constexpr double kLeast = 4.0;    ///< solves of the present arm that a change has to save, at least
 constexpr double kRoom = 1.5;     ///< of another arm's first solve, which an arm may spend in vain
 constexpr double kExpected = 3.0;  ///< of its own rate, which an arm may spend at least
-/// Solves within which a trial that makes a frame late has to save its price: twice over the hundred frames of
-/// which the 99th percentile leaves one out.
+/// Solves within which a trial that makes a frame late has to save its price: twice over the hundred frames
+/// of which the 99th percentile leaves one out.
 constexpr double kSoon = 50.0;
+/// Of the rate of the present arm: above it a rate may be the lower one only as far as predictions err.
+constexpr double kClear = 0.7;
 constexpr int kFactorTrial = 4;    ///< solves of a trial of a factor, which the first ones flatter
 constexpr int kMemory = 8;         ///< solves over which a cost is averaged, …
 constexpr int kLongMemory = 32;    ///< … and the share of those with makings
@@ -89,7 +91,9 @@ double Choice::expected(Arm arm) const {
 /// Costs as they are known, without hope: a frame that is late for sure needs a gain that is.
 bool Choice::fits(Arm arm, double rate) const {
   const Cost& other = at(arm).cost;
-  return other.first() <= frame_ * rate || other.making + other.once <= kSoon * (rate - other.rate());
+  if (other.first() <= frame_ * rate) return true;
+  const bool soon = other.making + other.once <= kSoon * (rate - other.rate());
+  return frame_ == kNever || (soon && other.rate() < kClear * rate);
 }
 
 void Choice::change(Arm to, bool trial) {

@@ -24,13 +24,14 @@ struct Spent {
 /// what the best arm takes.
 ///
 /// Where each solve belongs to a frame, a trial must not make one late: an arm is tried only where its first
-/// solve fits a frame, or where the price of making it is saved again soon by its cost as predicted or counted.
+/// solve fits a frame, or where the price of making it is saved again soon by its cost as predicted or
+/// counted.
 class Choice {
  public:
   static constexpr double kNever = std::numeric_limits<double>::infinity();
 
-  /// Begins anew. `solves`: how many are expected to share the making. `frame`: how many solves of the present
-  /// arm the first one of a trial may take.
+  /// Begins anew. `solves`: how many are expected to share the making. `frame`: how many solves of the
+  /// present arm the first one of a trial may take.
   void begin(const ForArms<Cost>& predicted, double solves, double frame = kNever);
   /// Predictions for arms that were not used yet.
   void predict(const ForArms<Cost>& predicted);

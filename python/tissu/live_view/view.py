@@ -12,14 +12,17 @@ from pathlib import Path
 from typing import TYPE_CHECKING, TypeVar
 
 from tissu.errors import ParameterError
+from tissu.live_view.bands import MOST_CUT
 from tissu.live_view.door import Door, new_token
-from tissu.live_view.frame import FrameTaker
+from tissu.live_view.frame import SHARE, FrameTaker
 from tissu.live_view.page import RATE, Page
+from tissu.live_view.ration import Ration
 from tissu.live_view.recorder import Recorder, recording_place
 from tissu.live_view.rights import Rights
 from tissu.live_view.runner import Runner
 from tissu.live_view.session import Session
 from tissu.live_view.stage import stage_of
+from tissu.live_view.surface import seen
 from tissu.live_view.touch import Touch
 from tissu.picture.draw import up_of
 
@@ -28,6 +31,10 @@ if TYPE_CHECKING:
 
 T = TypeVar("T")
 
+_SHARE = 0.025
+"""Of a processor, that frames may take of a simulation that has no time to spare."""
+_LONGEST = 1.0
+"""The longest wait for a frame [s]."""
 _HERE = ("127.0.0.1", "localhost", "::1")
 
 
@@ -85,7 +92,7 @@ class View:
         for one in simulations:
             one.allow_touch()
         self._taker = FrameTaker()
-        self._frame_due = 0.0
+        self._ration = Ration(_SHARE, shortest=1.0 / RATE, longest=_LONGEST)
         self._runner = Runner(simulations, speed=speed, playing=playing, between=self._between)
         rest = [mesh.points for mesh in {**simulation.meshes, **simulation.tissue}.values()]
         self._session = Session(
@@ -96,6 +103,9 @@ class View:
             stage=stage_of(rest, up_of(simulation), lanes=len(simulations)),
             recorder=Recorder(),
             begin_again=self.reset,
+            show_edges=all(
+                len(seen(mesh).triangles) <= MOST_CUT for mesh in simulation.meshes.values()
+            ),
         )
         word = new_token()
         self._page = Page(self._session, title=simulation.scene.name, word=word)
@@ -107,6 +117,7 @@ class View:
             self._page.stop()
             raise
         self.url = self._door.url
+        self._page.senders.add(self._door.thread)
         if self._record is not None:
             self._session.recorder.begin()
         self._page.start()
@@ -198,11 +209,14 @@ class View:
     def _between(self) -> None:
         """After a step, in the simulations' thread: a frame for the page when one is due."""
         now = time.monotonic()
-        seen = self._page.watched or self._session.recorder.running
-        if now < self._frame_due or not seen or self._page.frames.waiting:
+        wanted = self._page.watched or self._session.recorder.running
+        if not wanted or not self._ration.is_due(now) or self._page.frames.waiting:
             return
-        self._frame_due = max(self._frame_due + 1.0 / RATE, now - 1.0 / RATE)
-        self._page.frames.put(self._taker.take(self._runner, self._session.touch))
+        self._ration.share = self._session.share(_SHARE)
+        self._taker.ration.share = self._session.share(SHARE)
+        frame = self._taker.take(self._runner, self._session.touch)
+        self._ration.spent(self._taker.cost + self._page.cost, begun=now)
+        self._page.frames.put(frame)
 
 
 def _require_together(simulations: Sequence[Simulation]) -> None:

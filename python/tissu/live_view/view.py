@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, TypeVar
 from tissu.errors import ParameterError
 from tissu.live_view.bands import MOST_CUT
 from tissu.live_view.door import Door, new_token
+from tissu.live_view.film import Film
 from tissu.live_view.frame import SHARE, FrameTaker
 from tissu.live_view.page import RATE, Page
 from tissu.live_view.ration import Ration
@@ -73,15 +74,16 @@ class View:
             token: that a page must bring; absent: a new one where `host` asks for it, else none.
             browser: whether the page is opened in a browser.
             shared: whether every page may touch; else the first one that is open.
-            record: a file (.html) to which everything that is shown is written when the view is
-                closed; it plays in a browser without a server.
+            record: a file that is written when the view is closed: .html keeps everything that
+                is shown and plays in a browser without a server; .glb is glTF of the surfaces, up
+                to 30 moments of each simulated second.
             speed: simulated seconds for each second of wall time; infinite: as fast as it goes.
             playing: whether it runs at once.
 
         Raises:
             ParameterError: the port is taken; the simulations have other time steps; a recording
-                that is not an .html file, or has no place.
-            TissuError: viser is not installed.
+                that is neither an .html nor a .glb file.
+            TissuError: viser is not installed; the recording has no place.
         """
         simulations = [simulation] if beside is None else [simulation, beside]
         _require_together(simulations)
@@ -118,7 +120,11 @@ class View:
             raise
         self.url = self._door.url
         self._page.senders.add(self._door.thread)
-        if self._record is not None:
+        self._film: Film | None = None
+        if self._record is not None and self._record.suffix == ".glb":
+            self._film = Film(self._session.stage)
+            self._film.look(simulations)
+        elif self._record is not None:
             self._session.recorder.begin()
         self._page.start()
         self._runner.start()
@@ -202,12 +208,23 @@ class View:
         self._door.close()
         try:
             if self._record is not None:
-                self._session.recorder.finish(self._record)
+                self._finish(self._record)
         finally:
             self._page.stop()
 
+    def _finish(self, record: Path) -> None:
+        """Write the recording that was asked for, after the last step."""
+        if self._film is None:
+            self._session.recorder.finish(record)
+            return
+        simulations = self._runner.simulations
+        self._film.look(simulations, last=True)
+        self._film.write(record, name=simulations[0].scene.name)
+
     def _between(self) -> None:
         """After a step, in the simulations' thread: a frame for the page when one is due."""
+        if self._film is not None:
+            self._film.look(self._runner.simulations)
         now = time.monotonic()
         wanted = self._page.watched or self._session.recorder.running
         if not wanted or not self._ration.is_due(now) or self._page.frames.waiting:

@@ -90,11 +90,15 @@ class Page:
         """Begin to show frames."""
         self._thread.start()
 
-    def stop(self) -> None:
-        """Close the pages."""
+    def halt(self) -> None:
+        """Show no more frames; the threads that send may end then, whose time is counted."""
         self._ended.set()
         if self._thread.is_alive():
             self._thread.join()
+
+    def stop(self) -> None:
+        """Close the pages."""
+        self.halt()
         with contextlib.redirect_stdout(io.StringIO()):
             self.server.stop()
 

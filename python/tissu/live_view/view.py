@@ -205,6 +205,7 @@ class View:
             return
         self._closed.set()
         self._runner.stop()
+        self._page.halt()
         self._door.close()
         try:
             if self._record is not None:

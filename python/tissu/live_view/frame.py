@@ -123,9 +123,7 @@ class FrameTaker:
         simulations = runner.simulations
         wanted, now = self.wanted, time.monotonic()
         drawn = [] if touch is None else touch.draw(simulations)
-        if now >= self._profiles_due or len(self._profiles) != len(simulations):
-            self._profiles = [simulation.profile() for simulation in simulations]
-            self._profiles_due = now + _NUMBERS
+        self._look_at_profiles(simulations, now)
         found = {
             (lane, name): (simulation, seen(mesh))
             for lane, simulation in enumerate(simulations)
@@ -159,6 +157,12 @@ class FrameTaker:
             gizmos=[] if touch is None else touch.gizmos(simulations),
         )
         return frame, cost
+
+    def _look_at_profiles(self, simulations: Sequence[Simulation], now: float) -> None:
+        """A few times a second; they are dear."""
+        if now >= self._profiles_due or len(self._profiles) != len(simulations):
+            self._profiles = [simulation.profile() for simulation in simulations]
+            self._profiles_due = now + _NUMBERS
 
     def _drawn(self, lane: int, layer: Layer, simulation: Simulation) -> Draw:
         """What makes the marks of a layer, begun anew where the scene or its cells have changed."""

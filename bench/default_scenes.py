@@ -141,6 +141,22 @@ def cut(unknowns: float, step: Any) -> ts.Scene:
     return cube(unknowns, step).replace(editing=True)
 
 
+def read_scenes(folder: Path | None) -> dict[str, Callable[[float, Any], ts.Scene]]:
+    """The liver and the phantom, of one size each; bench/liver.py and phantom.py name meshes."""
+    if folder is None:
+        return {}
+    import liver
+    import phantom
+
+    organ_of = liver.scene_of(ts.read_mesh(folder / "liver.msh", unit="cm"))
+    hexahedra = ts.read_mesh(folder / "cylinder_Hexa.msh", unit="m")
+    silicone = phantom.scene_of(hexahedra, "stvk")
+    return {
+        "liver": lambda _, step: organ_of.replace(step=step, output=None),
+        "phantom": lambda _, step: silicone.replace(step=step),
+    }
+
+
 SCENES: dict[str, Callable[[float, Any], ts.Scene]] = {
     **{
         "bar": bar,

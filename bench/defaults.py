@@ -1,9 +1,12 @@
 """Prints the section of docs/solvers.md that holds `solver: auto` against every fixed choice.
 
-    python bench/defaults.py [--counts] [--full] [--threads 1,2] [--scenes bar,cube] [--write]
+    python bench/defaults.py [--rows 'TEXT; TEXT'] [--minutes 8] [--meshes FOLDER] [--write]
+    python bench/defaults.py --counts [--rows 'TEXT; TEXT'] [--write]
 
-With --counts the counted work of the solves stands for their time: the same numbers on any machine,
-however busy. A step that other choices solve and one does not counts as failed.
+Every row gives `auto` and each fixed choice its turn, a few steps at a time, so that a drift of the
+machine meets all of them alike. With --counts the counted work of the solves stands for their time:
+the same numbers on any machine, however busy. A step that other choices solve and one does not
+counts as failed.
 """
 
 from __future__ import annotations
@@ -13,7 +16,6 @@ import sys
 import time
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -21,11 +23,10 @@ import tissu as ts
 from tissu.cli.info import machine_line
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
+from default_rows import ROWS, Row, Taken, choices, step_of, timed
 from default_scenes import SCENES, fixed
 from section import put
 
-STEPS = ("1 ms", "10 ms", "100 ms", "static")
-SIZES, MORE_SIZES = (1e3, 1e4, 1e5), (1e6,)
 TAKEN, MOST_SECONDS = 120, 30.0
 """steps of a run, the second half of which is what is compared, and when it is cut short"""
 LARGEST_FACTOR = 60_000
@@ -40,10 +41,17 @@ up, and the other is tried when the sum reaches the price of making it; one solv
 stays. A choice that spends more in a solve than another would have taken is left within it, and one
 that fails as well.
 
-{what} Each cell is that of the second half of {taken} steps, then that of the first; a static row
-has one step. The last column is `auto` over the best fixed choice, without and with the first step.
+{what} The last column is `auto` over the best fixed choice.
 
 """
+COUNTED = """Counted work of a step in MB. Each cell is that of the second half of {taken} steps,
+then that of the first; a static row has one step."""
+TIMED = """Milliseconds of a step's solves: p50 of the second half of the steps, then the first;
+of a static row p50 of several runs, then the first. The choices took turns of a few steps, as many
+rounds as the time allowed. One that took four times as long as `auto` was left out from then on,
+as was one that ran past a limit; each is compared over the steps that both took."""
+SHARE = 1.6
+"""what a row takes, of the seconds that it is given, with the turns that run past them"""
 
 
 @dataclass(frozen=True)
@@ -64,11 +72,6 @@ class Run:
     whole: float
     failures: int
     account: str
-
-
-def step_of(name: str, solver: Any) -> Any:
-    """The step of a row."""
-    return ts.Static(solver=solver) if name == "static" else ts.ImplicitEuler(name, solver=solver)
 
 
 def run(scene: ts.Scene, *, counts: bool, steps: int, cut: bool = False) -> Run:
@@ -136,44 +139,83 @@ def cell(run: Run, *, counts: bool) -> str:
     return f"{text} ({run.failures} failed)" if run.failures else text
 
 
-def table(sizes: tuple[float, ...], scenes: list[str], *, counts: bool, threads: int) -> str:
-    """Markdown."""
-    choices = ["auto", *fixed(1e-6)]
-    lines = [f"| | {' | '.join(choices)} | auto / best |", "|---" * (len(choices) + 2) + "|"]
-    for name in scenes:
-        for size in sizes[:1] if name == "organ" else sizes:
-            for step in STEPS:
-                found = compared(name, size, step, counts=counts, threads=threads)
-                cells = [
-                    cell(found[c], counts=counts) if c in found else "not run" for c in choices
-                ]
-                ratios = f"{ratio(found):.2f}, {ratio(found, 'whole'):.2f}"
-                lines.append(f"| {name}, {size:.0e}, {step} | {' | '.join(cells)} | {ratios} |")
-                print(lines[-1], found["auto"].account, file=sys.stderr, flush=True)
+def over_best(found: dict[str, Taken]) -> float:
+    """p50 of `auto` over that of the best, each over the steps that both took.
+
+    Infinite where `auto` fails and another one does not; one that fails more is not compared.
+    """
+    auto = found["auto"]
+    others = [t for name, t in found.items() if name != "auto" and t.steps and not t.past]
+    if auto.past or any(auto.failures > taken.failures for taken in others):
+        return float("inf")
+    ratios = [
+        auto.p50(common) / taken.p50(common)
+        for taken in others
+        if taken.failures == auto.failures
+        for common in (min(len(auto.steps), len(taken.steps)),)
+    ]
+    return max(ratios, default=float("nan"))
+
+
+def time_cell(taken: Taken | None) -> str:
+    """p50 and the first step [ms]."""
+    if taken is None:
+        return "not run"
+    if taken.past:
+        return f"> {taken.past:.0f} s"
+    text = f"{1e3 * taken.p50():.3g}, {1e3 * taken.first:.3g}"
+    return f"{text} ({taken.failures} failed)" if taken.failures else text
+
+
+def count_table(rows: list[Row]) -> str:
+    """Markdown of counted work."""
+    lines = head_of_table()
+    for row in (row for row in rows if row.threads == 1 and row.scene in SCENES):
+        found = compared(row.scene, row.size, row.step, counts=True)
+        cells = [cell(found[c], counts=True) if c in found else "not run" for c in choices(0)]
+        lines.append(f"| {row} | {' | '.join(cells)} | {ratio(found):.2f} |")
+        print(lines[-1], found["auto"].account, file=sys.stderr, flush=True)
     return "\n".join(lines)
+
+
+def time_table(rows: list[Row], minutes: float, meshes: Path | None) -> str:
+    """Markdown of times; what is left of the minutes is shared by the rows that are left."""
+    lines, end = head_of_table(), time.perf_counter() + 60.0 * minutes
+    for number, row in enumerate(rows):
+        if row.scene in ("liver", "phantom") and meshes is None:
+            continue
+        left = max(end - time.perf_counter(), 1.0)
+        found = timed(row, left / (len(rows) - number) / SHARE, meshes)
+        cells = [time_cell(found.get(name)) for name in choices(0)]
+        lines.append(f"| {row} | {' | '.join(cells)} | {over_best(found):.2f} |")
+        print(lines[-1], file=sys.stderr, flush=True)
+    return "\n".join(lines)
+
+
+def head_of_table() -> list[str]:
+    """Its first two lines."""
+    names = list(choices(0))
+    return [f"| | {' | '.join(names)} | auto / best |", "|---" * (len(names) + 2) + "|"]
 
 
 def section(asked: argparse.Namespace) -> str:
     """The whole section."""
-    sizes = SIZES + MORE_SIZES if asked.full else SIZES
-    if asked.sizes:
-        sizes = tuple(float(size) for size in asked.sizes.split(","))
-    scenes = asked.scenes.split(",") if asked.scenes else list(SCENES)
-    what = "Counted work of a step in MB." if asked.counts else "Milliseconds of a step's solves."
-    parts = [HEAD.format(what=what, taken=TAKEN)]
-    for threads in (1,) if asked.counts else tuple(map(int, asked.threads.split(","))):
-        words = "One thread." if threads == 1 else f"{threads} threads."
-        parts.append(f"{words}\n\n{table(sizes, scenes, counts=asked.counts, threads=threads)}\n")
-    return "\n".join(parts) + f"\nPrinted by `python bench/defaults.py --write`; {machine_line()}\n"
+    names = [text.strip() for text in asked.rows.split(";")] if asked.rows else [""]
+    rows = [row for row in ROWS if any(str(row).startswith(name) for name in names)]
+    if not rows:
+        every = "; ".join(map(str, ROWS))
+        raise SystemExit(f"no row begins with {asked.rows!r}; the rows are: {every}.")
+    text = HEAD.format(what=COUNTED.format(taken=TAKEN) if asked.counts else TIMED)
+    text += count_table(rows) if asked.counts else time_table(rows, asked.minutes, asked.meshes)
+    return f"{text}\n\nPrinted by `python bench/defaults.py --write`; {machine_line()}\n"
 
 
 if __name__ == "__main__":
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
     parser.add_argument("--counts", action="store_true", help="counted work in place of time")
-    parser.add_argument("--full", action="store_true", help="up to 1e6 unknowns")
-    parser.add_argument("--sizes", help="unknowns, such as 1e3,3e3")
-    parser.add_argument("--threads", default="1,2")
-    parser.add_argument("--scenes", help="by name, such as bar,cube")
+    parser.add_argument("--rows", help="beginnings of rows, such as 'bar, 1e+04; cube'")
+    parser.add_argument("--minutes", type=float, default=8.0, help="for all rows")
+    parser.add_argument("--meshes", type=Path, help="folder of the liver's and the phantom's mesh")
     parser.add_argument("--write", action="store_true", help="to docs/solvers.md")
     arguments = parser.parse_args()
     text = section(arguments)

@@ -22,13 +22,23 @@ or fewer the next is twice as long, up to the first length.
 
 **Newton's method.** Whole steps come first: in bending they pass through worse states on the
 way to a better one. Where they do not converge, the part begins anew with steps along which the
-potential energy falls (Armijo), by the definite matrix where the tangent is not definite. There
-a whole step by the exact tangent comes first, and is taken where it halves the residual: some
-equilibria, as that of a soft cube under its weight, are saddles of the energy. Where
+potential energy falls (Armijo). Where the tangent is not definite they go by a mean of it and of
+the definite matrix. The share of the definite matrix falls to a quarter after a whole step and
+rises until the mean is positive definite; a small share keeps the long directions in which a
+body topples. A whole step by the exact tangent comes first, and is taken where it halves the
+residual; after one in vain the next is tried 1, 3, 7, ... 63 iterations later. Half of the
+iterations that are left serve a descent, the rest smaller parts. Where
 the linear solver finds the tangent indefinite, or where a moment with a fixed axis makes it
 unsymmetric, generalised conjugate residuals work on the exact tangent, with that solver as
-their preconditioner, to 1e-4 where it is indefinite only. They stop after eight iterations that
+their preconditioner, to 1e-3 where it is indefinite only. They stop after eight iterations that
 do not take nine tenths of the residual, and the definite matrix serves that step.
+
+**Unstable equilibria are told.** Whole steps converge to saddles of the energy too. A report that
+has converged says so where the tangent at its state is found indefinite; a conjugate gradient
+sees this only in directions that its residual has, Cholesky's factor always. A soft cube twice
+as heavy as stiff stands on such a saddle with 8 and 12 cells an edge. With 16 its lower corners
+crease as well, the descent leaves the saddle, and the cube topples and hangs beside its support,
+which does not touch it: a minimum of the energy, after 186 iterations.
 
 **Where the load turns.** When parts of 1/4096 of the first fail too, the path is followed by
 its arc length (Riks 1979). `arc_length: true` does so from the start. Two bars with a flat top
@@ -48,8 +58,8 @@ equilibria beyond a pressure of E / (3 sqrt 3).
 |---|---|---|
 | `strip`: dead shear at its end | 17 | 1e-8 |
 | `half_turn` in one step | 42 | 2e-13 |
-| `soft_cube` under its weight, 8 cells an edge | 28 | 8e-7 |
-| `cook`: Cook's membrane, mean dilatation | 5 | 5e-8 |
+| `soft_cube` under its weight, 8 cells an edge, unstable | 8 | 6e-7 |
+| `cook`: Cook's membrane, mean dilatation | 5 | 1e-9 |
 | `rolled`: a strip of shells, 40 load steps | 160 | 2e-10 |
 
 ## Energy

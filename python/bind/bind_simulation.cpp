@@ -149,6 +149,12 @@ void bind_simulation(py::module_& m) {
              const auto& seconds = s.profile().step_seconds();
              return py::array_t<double>(static_cast<py::ssize_t>(seconds.size()), seconds.data());
            })
+      .def("profile_worst",
+           [](Simulation& s) {
+             const Profile::Worst& worst = s.profile().worst();
+             return py::make_tuple(worst.step, worst.seconds, worst.solves, worst.iterations,
+                                   worst.preparations, worst.row_seconds);
+           })
       .def("profile_clear", [](Simulation& s) { s.profile().clear(); })
       .def(
           "remove_cells",

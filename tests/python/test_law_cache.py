@@ -12,6 +12,7 @@ import tissu as ts
 pytest.importorskip("sympy")
 
 from tissu.user_law import compiler
+from tissu.user_law.private import private_folder
 
 DEFINE = """
 import sympy, tissu as ts
@@ -59,6 +60,14 @@ def test_the_folder_and_its_files_are_the_user_s_alone(made):
     assert stat.S_IMODE((made / "laws").stat().st_mode) == 0o700
     for ending in (".so", ".json"):
         assert stat.S_IMODE(files(made, ending).stat().st_mode) == 0o600
+
+
+def test_a_folder_that_others_may_read_is_closed_to_them(tmp_path):
+    folder = tmp_path / "laws"
+    folder.mkdir()
+    folder.chmod(0o755)
+    private_folder(folder)
+    assert stat.S_IMODE(folder.stat().st_mode) == 0o700
 
 
 def evil_library(folder):

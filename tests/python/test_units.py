@@ -130,6 +130,12 @@ def test_a_unit_is_a_name_of_a_table_and_nothing_is_computed(written):
     assert "\n" not in str(refused.value)
 
 
+def test_a_long_text_is_refused_by_its_length():
+    """Before it is read: no quantity is longer than 200 characters."""
+    with pytest.raises(ParameterError, match="found a text of 100000 characters"):
+        units.TIME("9" * 100_000)
+
+
 AMBIGUOUS = {"hbar"}
 """Prefix and unit that together mean something else."""
 

@@ -157,7 +157,7 @@ const ContactNumbers* ContactRun::acting(const ContactNumbers& c) const {
   return &contacts_[at(*found)];
 }
 
-/// The nearest points of a candidate, whatever the rules of the narrow phase say of it.
+/// The nearest points inside both parts of a candidate, whatever the narrow phase's rules say of them.
 bool ContactRun::find_plainly(const Candidate& candidate, double reach, Found& found) const {
   std::array<Vec3, 4> p{};
   for (int i = 0; i < vertices_of(candidate.kind); ++i) {
@@ -165,10 +165,25 @@ bool ContactRun::find_plainly(const Candidate& candidate, double reach, Found& f
   }
   const Closest closest = nearest_of(candidate.kind, p);
   if (!(closest.square < reach * reach) || !(closest.square > 0.0)) return false;
-  found = {candidate.kind, candidate.a, candidate.b,
-           candidate.vertex, closest.beta, closest.r,
-           std::sqrt(closest.square), 1.0, 0.0};
-  return true;
+  // The ends of edges and the corners and edges of faces are parts of their own.
+  const auto count = static_cast<std::size_t>(vertices_of(candidate.kind));
+  if (std::any_of(closest.beta.begin(), closest.beta.begin() + count, [](double b) { return b == 0.0; })) {
+    return false;
+  }
+  double weight = 1.0;
+  if (candidate.kind == PairKind::edge_edge) {
+    weight = weight_of_edges(contact_.surfaces(), now_, candidate.a, candidate.b);
+  }
+  found = {candidate.kind,
+           candidate.a,
+           candidate.b,
+           candidate.vertex,
+           closest.beta,
+           closest.r,
+           std::sqrt(closest.square),
+           weight,
+           0.0};
+  return weight > 0.0;
 }
 
 void ContactRun::find() {

@@ -64,13 +64,9 @@ class Narrow {
     if (!is_in_fan(candidate.a, -closest.r) || !is_in_fan(candidate.b, closest.r)) return false;
     const SurfaceEdge& e = surfaces_.edges()[at(candidate.a)];
     const SurfaceEdge& f = surfaces_.edges()[at(candidate.b)];
-    const Vec3 along = place(e.vertex[1]) - place(e.vertex[0]);
-    const Vec3 other = place(f.vertex[1]) - place(f.vertex[0]);
-    const double sine = along.cross(other).squaredNorm();
-    const double least = kParallel * e.length * e.length * f.length * f.length;
-    if (sine < least) found_.weight = (2.0 - sine / least) * sine / least;
+    found_.weight = weight_of_edges(surfaces_, places_, candidate.a, candidate.b);
     found_.area = 0.25 * (edge_area(e) + edge_area(f));
-    return found_.weight > kNoWeight;
+    return found_.weight > 0.0;
   }
 
   bool points_alone(const Candidate& candidate, double reach) {
@@ -184,6 +180,18 @@ class Narrow {
 };
 
 }  // namespace
+
+double weight_of_edges(const SurfaceSet& surfaces, ConstReals places, std::int32_t e, std::int32_t f) {
+  const SurfaceEdge& first = surfaces.edges()[at(e)];
+  const SurfaceEdge& second = surfaces.edges()[at(f)];
+  const Vec3 along = block(places, first.vertex[1]) - block(places, first.vertex[0]);
+  const Vec3 other = block(places, second.vertex[1]) - block(places, second.vertex[0]);
+  const double sine = along.cross(other).squaredNorm();
+  const double least = kParallel * first.length * first.length * second.length * second.length;
+  if (sine >= least) return 1.0;
+  const double weight = (2.0 - sine / least) * sine / least;
+  return weight > kNoWeight ? weight : 0.0;
+}
 
 bool find_contact(const SurfaceSet& surfaces, ConstReals places, const Candidate& candidate, double reach,
                   Found& found) {

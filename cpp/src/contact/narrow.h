@@ -30,4 +30,8 @@ struct Found {
 bool find_contact(const SurfaceSet& surfaces, ConstReals places, const Candidate& candidate, double reach,
                   Found& found);
 
+/// By how much the contact of two edges counts: 1, and less where they are nearly parallel, for there the
+/// places where they are nearest jump; their ends carry such contacts. 0 where nothing is left.
+double weight_of_edges(const SurfaceSet& surfaces, ConstReals places, std::int32_t e, std::int32_t f);
+
 }  // namespace tissu

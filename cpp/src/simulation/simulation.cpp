@@ -90,6 +90,7 @@ StepReport Simulation::step(double h) {
     throw ParameterError("the step is " + number_text(h) + " s; it must be positive and finite.");
   }
   const auto start = std::chrono::steady_clock::now();
+  profile_.begin_step();
   hold();
   last_good_ = state_;
   StepReport report;

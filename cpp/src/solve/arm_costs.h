@@ -14,12 +14,14 @@ struct MatrixShape {
   double along = 1.0;    ///< cells in its longest direction, …
   double across = 1.0;   ///< … in the next, …
   double through = 1.0;  ///< … and in the thinnest
-  /// Median over the rows of what inertia has of the diagonal: a stiffness gives no force where all rows move
-  /// alike, so that the sum of a row's blocks is its inertia. Zero in equilibrium.
+  /// Median over the points of what inertia has of the diagonal: a stiffness gives no force where all points
+  /// move alike, so that the sum of a row's blocks is its inertia. Zero in equilibrium.
   double inertia = 0.0;
+  /// (lambda + 2 mu) / mu, which grows without bound as Poisson's ratio nears 1/2.
+  double wave_ratio = 1.0;
 };
 
-MatrixShape shape_of(const BlockMatrix& A);
+MatrixShape shape_of(const BlockMatrix& A, bool equilibrium);
 
 /// Iterations that block-Jacobi takes to lower a residual by `tolerance`: those of the condition number
 /// (Saad, Iterative Methods for Sparse Linear Systems, 2nd edition, 6.11.3), which inertia bounds, and

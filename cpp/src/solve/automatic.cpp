@@ -20,8 +20,10 @@ constexpr int kIterations = 20'000;
 constexpr double kFactorBytes = 2e9;  ///< a larger factor is not made
 constexpr double kSolvesSteps = 8.0;  ///< that are to pay for the first preparation
 constexpr double kSolvesNewton = 4.0;
+constexpr double kFrame = 3.0;    ///< solves that one of a trial may take, as the first step of a scene may
 constexpr double kNewSize = 0.1;  ///< of rows and blocks: a matrix of another size is not compared
 constexpr double kOfPlain = 3.2;  ///< iterations of block-Jacobi for one of incomplete Cholesky
+constexpr double kUnfinished = 2.0;  ///< times the iterations of a solve that was left: those of a whole one
 constexpr double kRemember = 1.0 / 16.0;
 
 std::unique_ptr<LinearSolver> solver_of(Arm arm, double tolerance) {
@@ -104,7 +106,8 @@ void Automatic::predict(bool first) {
   }
   if (first) {
     changes_ += choice_->changes();
-    choice_->begin(costs, settings_.equilibrium ? kSolvesNewton : kSolvesSteps);
+    choice_->begin(costs, settings_.equilibrium ? kSolvesNewton : kSolvesSteps,
+                   settings_.equilibrium ? Choice::kNever : kFrame);
   } else {
     choice_->predict(costs);
   }
@@ -115,7 +118,7 @@ void Automatic::meet(const BlockMatrix& A) {
   const auto bytes = static_cast<double>(A.bytes());
   const bool first = known.id == 0 || std::abs(bytes - known.shape.bytes) > kNewSize * known.shape.bytes;
   if (first) {
-    known.shape = shape_of(A);
+    known.shape = shape_of(A, settings_.equilibrium);
     known.plain = plain_iterations(known.shape, settings_.tolerance);
     known.changes = Changes();
   } else {
@@ -135,9 +138,10 @@ SolveReport Automatic::attempt(const LinearOperator& A, ConstReals b, Reals x, d
   if (arm == Arm::cholesky) return solver.solve(A, b, x, floor);
   static_cast<ConjugateGradient&>(solver).allow(choice_->allowance());
   const SolveReport report = solver.solve(A, b, x, floor);
-  if (!report.converged || report.iterations == 0) return report;
-  if (arm == Arm::block_jacobi) known_->plain = report.iterations;
-  if (arm == Arm::incomplete_cholesky) known_->plain = kOfPlain * report.iterations;
+  const double of_plain = arm == Arm::incomplete_cholesky ? kOfPlain : 1.0;
+  const double plain = of_plain * report.iterations;
+  if (report.iterations == 0 || (arm != Arm::block_jacobi && arm != Arm::incomplete_cholesky)) return report;
+  known_->plain = report.converged ? plain : std::max(known_->plain, kUnfinished * plain);
   return report;
 }
 
@@ -158,6 +162,7 @@ SolveReport Automatic::solve(const LinearOperator& A, ConstReals b, Reals x, dou
       continue;
     }
     add(report, sum);
+    if (!report.converged) predict(false);  // what it took tells of the others
     if (report.converged || !report.positive_definite) {
       ++solves_[number(arm)];
       // A first guess that is the answer tells nothing.

@@ -10,6 +10,11 @@ constexpr double kHopeful = 0.8;  ///< what a prediction is multiplied by, so th
 constexpr double kLeast = 4.0;    ///< solves of the present arm that a change has to save, at least
 constexpr double kRoom = 1.5;     ///< of another arm's first solve, which an arm may spend in vain
 constexpr double kExpected = 3.0;  ///< of its own rate, which an arm may spend at least
+/// Solves within which a trial that makes a frame late has to save its price: twice over the hundred frames
+/// of which the 99th percentile leaves one out.
+constexpr double kSoon = 50.0;
+/// Of the rate of the present arm: above it a rate may be the lower one only as far as predictions err.
+constexpr double kClear = 0.7;
 constexpr int kFactorTrial = 4;    ///< solves of a trial of a factor, which the first ones flatter
 constexpr int kMemory = 8;         ///< solves over which a cost is averaged, …
 constexpr int kLongMemory = 32;    ///< … and the share of those with makings
@@ -21,8 +26,9 @@ constexpr double kMostPatience = 1e6;
 
 }  // namespace
 
-void Choice::begin(const ForArms<Cost>& predicted, double solves) {
+void Choice::begin(const ForArms<Cost>& predicted, double solves, double frame) {
   *this = Choice();
+  frame_ = frame;
   predict(predicted);
   const auto price = [&](Arm arm) {
     const Cost& cost = at(arm).cost;
@@ -82,6 +88,14 @@ double Choice::expected(Arm arm) const {
   return at(arm).hope * (is_counted(arm) ? 1.0 : kHopeful) * at(arm).cost.rate();
 }
 
+/// Costs as they are known, without hope: a frame that is late for sure needs a gain that is.
+bool Choice::fits(Arm arm, double rate) const {
+  const Cost& other = at(arm).cost;
+  if (other.first() <= frame_ * rate) return true;
+  const bool soon = other.making + other.once <= kSoon * (rate - other.rate());
+  return frame_ == kNever || (soon && other.rate() < kClear * rate);
+}
+
 void Choice::change(Arm to, bool trial) {
   before_ = current_;
   current_ = to;
@@ -106,7 +120,7 @@ void Choice::used(const Spent& spent) {
   Arm best = current_;
   for (const Arm arm : kAllArms) {
     const State& other = at(arm);
-    if (arm == current_ || !(expected(arm) < kBetter * rate)) continue;
+    if (arm == current_ || !(expected(arm) < kBetter * rate) || !fits(arm, rate)) continue;
     if (other.regret < other.patience * std::max(other.cost.making + other.cost.once, kLeast * rate))
       continue;
     if (best == current_ || expected(arm) < expected(best)) best = arm;

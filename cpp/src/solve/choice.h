@@ -22,10 +22,17 @@ struct Spent {
 /// did not stay is tried again only after a sum three times as large, as is one that was left for good, so
 /// that changes become rare whatever the matrices do, and all that is spent in vain stays a fixed multiple of
 /// what the best arm takes.
+///
+/// Where each solve belongs to a frame, a trial must not make one late: an arm is tried only where its first
+/// solve fits a frame, or where the price of making it is saved again soon by its cost as predicted or
+/// counted.
 class Choice {
  public:
-  /// Begins anew. `solves`: how many are expected to share the making.
-  void begin(const ForArms<Cost>& predicted, double solves);
+  static constexpr double kNever = std::numeric_limits<double>::infinity();
+
+  /// Begins anew. `solves`: how many are expected to share the making. `frame`: how many solves of the
+  /// present arm the first one of a trial may take.
+  void begin(const ForArms<Cost>& predicted, double solves, double frame = kNever);
   /// Predictions for arms that were not used yet.
   void predict(const ForArms<Cost>& predicted);
   /// A solve begins: every arm that did not fail may be used in it.
@@ -49,7 +56,6 @@ class Choice {
   [[nodiscard]] Arm spare() const { return on_trial_ ? before_ : current_; }
 
  private:
-  static constexpr double kNever = std::numeric_limits<double>::infinity();
   struct State {
     Cost cost;
     double regret = 0.0;    ///< what it would have saved
@@ -63,6 +69,8 @@ class Choice {
   [[nodiscard]] const State& at(Arm arm) const { return state_[number(arm)]; }
   [[nodiscard]] bool is_open(Arm arm) const { return !at(arm).left && at(arm).cost.first() < kNever; }
   [[nodiscard]] double expected(Arm arm) const;
+  /// A trial of it makes no frame late, or saves soon what it makes late.
+  [[nodiscard]] bool fits(Arm arm, double rate) const;
   void change(Arm to, bool trial);
   /// `first`: what was made is the price of the change, not a share of what solves cost.
   void count(double making, double solving, bool first);
@@ -73,6 +81,7 @@ class Choice {
   ForArms<State> state_{};
   Arm current_ = Arm::block_jacobi;
   Arm before_ = Arm::block_jacobi;
+  double frame_ = kNever;
   bool on_trial_ = false;
   int trial_left_ = 0;      ///< solves
   bool unlimited_ = false;  ///< in this solve

@@ -73,8 +73,9 @@ double EnergyMomentum::residual(const State& from, double h) {
   middle_.velocities = mean_;
 
   free_way_ = way_;
+  // The way of led nodes stays in it: what they store beyond the work of their reactions in the first step
+  // from rest cannot be given to free nodes, which have hardly moved.
   momentum_free_.project(middle_.positions, free_way_);
-  fixed.clear(free_way_);
   std::ranges::fill(push_, 0.0);
   world.mass().add_product(middle_, 1.0, free_way_, push_);
   square_ = dot(free_way_, push_);

@@ -11,8 +11,11 @@
 namespace tissu {
 namespace {
 
-constexpr int kPause =
-    7;  ///< iterations, at most, that go by the definite matrix before an exact one is tried
+constexpr int kPause = 63;       ///< iterations, at most, by a mean of matrices before an exact one is tried
+constexpr double kLeast = 1e-3;  ///< share of the definite matrix in a mean
+constexpr double kEaser = 0.25;  ///< times the share after a whole step
+constexpr double kHarder = 4.0;  ///< times the share after …
+constexpr double kCut = 0.2;     ///< … a step that was cut to so much
 constexpr double kFarthest = 1e3;    ///< sizes of the scene, the mean of a correction: it has lost its way
 constexpr int kPatience = 12;        ///< iterations that a whole step may take without a lower residual
 constexpr double kRoundings = 16.0;  ///< roundings in a row of f, as of a matrix (solve/linear_solver.cpp)
@@ -88,25 +91,42 @@ bool Equilibrium::is_reached(double share, const State& state, double now, std::
 }
 
 bool Equilibrium::solve(const State& state, StepReport& report) {
-  const bool tries = pause_ == 0;
-  const SolveReport solved = tangent_.solve(state, right_, change_, tries);
-  is_exact_ = false;
-  report.solver_iterations += solved.iterations;
-  if (!solved.positive_definite) {
+  is_exact_ = is_in_vain_ = false;
+  if (pause_ > 0) {
+    --pause_;
     ++report.indefinite;
-    if (tries && !solved.converged) solve_definite(state, report);
-    is_exact_ = tries && solved.converged;
-    pause_ = tries ? 0 : pause_ - 1;
+    solve_mean(state, report);
+  } else {
+    const SolveReport solved = tangent_.solve(state, right_, change_);
+    report.solver_iterations += solved.iterations;
+    was_indefinite_ = !solved.positive_definite;
+    if (was_indefinite_) {
+      ++report.indefinite;
+      is_exact_ = solved.converged;
+      is_in_vain_ = !is_exact_;
+      if (is_in_vain_) solve_mean(state, report);
+    } else {
+      share_ = 0.0;
+      linear_solved_ = linear_solved_ && solved.converged;
+    }
+    world().fixed().clear(change_);
   }
-  world().fixed().clear(change_);
   ++report.newton_iterations;
-  linear_solved_ = linear_solved_ && (solved.converged || !solved.positive_definite);
   return std::ranges::all_of(change_, [](double c) { return std::isfinite(c); });
 }
 
-void Equilibrium::solve_definite(const State& state, StepReport& report) {
-  report.solver_iterations += tangent_.solve_definite(state, right_, change_).iterations;
+void Equilibrium::solve_mean(const State& state, StepReport& report) {
+  if (share_ == 0.0) share_ = 1.0;
+  const SolveReport solved = tangent_.solve_mean(state, right_, change_, share_);
+  report.solver_iterations += solved.iterations;
+  linear_solved_ = linear_solved_ && solved.converged;
   world().fixed().clear(change_);
+}
+
+bool Equilibrium::is_unstable(const State& state) {
+  if (!was_indefinite_) return false;
+  residual(state);
+  return tangent_.is_indefinite(state, right_, change_);
 }
 
 void Equilibrium::lead(const LoadPath& path, double before, double share, State& state, StepReport& report) {
@@ -138,12 +158,11 @@ bool Equilibrium::halve(State& state, double& now) {
   if (next < kStands * now) {
     now = next;
     correction_ = norm(change_);
-    next_pause_ = 0;
+    next_pause_ /= 2;
     return true;
   }
   state = from_;
   now = residual(state);
-  pause_ = next_pause_ = std::min(2 * next_pause_ + 1, kPause);
   return false;
 }
 
@@ -153,7 +172,6 @@ bool Equilibrium::descend(State& state, double& now) {
   const double before = energy(state);
   double size = 0.0;
   for (const auto& model : world().forces()) size += std::abs(model->energy(state, system_.scratch()));
-  const double start = now;
   for (double length = 1.0; length > kShortest; length *= 0.5) {
     const double next = go(state, length);
     if (!std::isfinite(next)) continue;
@@ -165,11 +183,26 @@ bool Equilibrium::descend(State& state, double& now) {
     if (!falls && !flat) continue;
     now = next;
     correction_ = length * norm(change_);
+    if (share_ > 0.0) {
+      share_ *= length == 1.0 ? kEaser : length < kCut ? kHarder : 1.0;
+      share_ = std::clamp(share_, kLeast, 1.0);
+    }
     return true;
   }
   state = from_;
-  now = start;
+  now = residual(state);
   return false;
+}
+
+bool Equilibrium::search_energy(State& state, double& now, StepReport& report) {
+  if (is_exact_ && halve(state, now)) return true;
+  if (is_in_vain_ || is_exact_) pause_ = next_pause_ = std::min(2 * next_pause_ + 1, kPause);
+  if (is_exact_ || !(dot(right_, change_) > 0.0)) solve_mean(state, report);
+  if (descend(state, now)) return true;
+  if (share_ == 1.0) return false;
+  share_ = 1.0;
+  solve_mean(state, report);
+  return descend(state, now);
 }
 
 Equilibrium::End Equilibrium::find(const LoadPath& path, double before, double share, Search search, int most,
@@ -178,6 +211,7 @@ Equilibrium::End Equilibrium::find(const LoadPath& path, double before, double s
   correction_.reset();
   linear_solved_ = true;
   pause_ = next_pause_ = 0;
+  share_ = 0.0;
   start_way_ = distance(state.positions, rest_.positions);
   const int first = report.newton_iterations;
   const auto stop = [&](End end) { return linear_solved_ ? end : End::solver; };
@@ -192,9 +226,7 @@ Equilibrium::End Equilibrium::find(const LoadPath& path, double before, double s
     if (report.newton_iterations - first >= most) return stop(End::most);
     if (!solve(state, report)) return stop(End::ran_away);
     if (search == Search::energy) {
-      if (is_exact_ && halve(state, now)) continue;
-      if (is_exact_ || !(dot(right_, change_) > 0.0)) solve_definite(state, report);
-      if (!descend(state, now)) return stop(End::no_descent);
+      if (!search_energy(state, now, report)) return stop(End::no_descent);
       continue;
     }
     from_ = state;

@@ -56,6 +56,12 @@ StepReport StaticEquilibrium::step(State& state, double h) {
     report.message = "equilibrium to round-off, which leaves " + number_text(100.0 * report.residual) +
                      " % of the load where forces within the bodies are so much larger";
   }
+  if (report.converged && report.message.empty() && equilibrium_->is_unstable(state)) {
+    report.message =
+        "an unstable equilibrium: the tangent is indefinite there, and a body that is disturbed leaves it; "
+        "to "
+        "see where it goes let a damped body come to rest in steps of time (implicit_euler, rayleigh)";
+  }
   path.load(1.0, state);
   loaded_ = loaded_ || report.converged;
   report.time = state.time;
@@ -94,7 +100,9 @@ double StaticEquilibrium::go_by_arc(const LoadPath& path, double share, double p
 bool StaticEquilibrium::take(const LoadPath& path, double from, double to, State& state, StepReport& report) {
   before_ = state;
   for (const auto search : {Equilibrium::Search::none, Equilibrium::Search::energy}) {
-    const int most = std::min(settings_.newton.iterations, left(report));
+    // A descent may be long, as that of a body that topples; half of what is left stays for smaller parts.
+    const int share = search == Equilibrium::Search::energy ? left(report) / 2 : 0;
+    const int most = std::min(std::max(settings_.newton.iterations, share), left(report));
     const auto end = equilibrium_->find(path, from, to, search, most, state, report);
     if (end == Equilibrium::End::reached) return true;
     solver_gave_up_ = solver_gave_up_ || end == Equilibrium::End::solver;

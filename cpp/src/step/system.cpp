@@ -96,7 +96,13 @@ void System::assemble(const State& state, double mass, StiffnessScale scale) {
   scale_ = scale;
 }
 
-void System::assemble_blocks(const State& state, double mass, StiffnessScale scale) {
+void System::assemble_mean(const State& state, double share) {
+  if (solver_ != nullptr && !solver_->needs_matrix()) return assemble(state, 0.0, {-1.0, 0.0, true});
+  assemble_blocks(state, 0.0, {share - 1.0, 0.0}, share);
+  assembled_ = false;
+}
+
+void System::assemble_blocks(const State& state, double mass, StiffnessScale scale, double definite) {
   if (!matrix_) matrix_.emplace(world_.sparsity(), world_.isa(), world_.threads());
   {
     const Timed timed(profile_, mass_row_);
@@ -108,6 +114,7 @@ void System::assemble_blocks(const State& state, double mass, StiffnessScale sca
     if (!model.has_stiffness()) continue;
     const Timed timed(profile_, rows_[i].stiffness);
     model.add_stiffness(state, scratch_, scale, *matrix_);
+    if (definite > 0.0) model.add_stiffness(state, scratch_, {-definite, 0.0, true}, *matrix_);
   }
   matrix_->constrain(world_.fixed().rows(), world_.fixed().masks());
   if (!world_.run_time().coupling.empty()) couple(state, scale, *matrix_);

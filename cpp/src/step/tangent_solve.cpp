@@ -10,9 +10,10 @@ namespace {
 
 constexpr std::size_t kMost = 40;     ///< iterations
 constexpr double kTolerance = 1e-8;   ///< on |b - K x| / |b| under moments, …
-constexpr double kIndefinite = 1e-4;  ///< … and where K is indefinite: Newton's method goes on by so much
+constexpr double kIndefinite = 1e-3;  ///< … and where K is indefinite: Newton's method goes on by so much
 constexpr std::size_t kRound = 8;     ///< iterations, …
 constexpr double kFall = 0.1;  ///< … in which the residual of an indefinite K falls by so much, or never will
+constexpr double kRaised = 4.0;     ///< share of the definite matrix, where it does not do
 constexpr double kAccepted = 1e-2;  ///< with which a Newton step is still worth taking
 
 double dot(ConstReals a, ConstReals b) { return std::inner_product(a.begin(), a.end(), b.begin(), 0.0); }
@@ -24,19 +25,14 @@ void add(double a, ConstReals x, Reals y) {
 
 }  // namespace
 
-SolveReport TangentSolve::solve(const State& state, ConstReals b, Reals x, bool exact) {
+SolveReport TangentSolve::solve(const State& state, ConstReals b, Reals x) {
   std::ranges::fill(x, 0.0);
   system_.assemble(state, 0.0, {-1.0, 0.0});
   has_moments_ = find_moments(state);
   const SolveReport report = system_.solve(b, x, 0.0);
   if (report.positive_definite && !has_moments_) return report;
-  SolveReport more;
-  if (!exact && !has_moments_) {
-    more = solve_definite(state, b, x);
-  } else {
-    if (!report.positive_definite) system_.assemble(state, 0.0, {-1.0, 0.0, true});
-    more = iterate(state, b, x);
-  }
+  if (!report.positive_definite) system_.assemble(state, 0.0, {-1.0, 0.0, true});
+  SolveReport more = iterate(state, b, x);
   more.iterations += report.iterations;
   more.positive_definite = report.positive_definite;
   return more;
@@ -70,10 +66,30 @@ void TangentSolve::multiply(const State& state, ConstReals p, Reals q) {
   system_.world().fixed().clear(q);
 }
 
-SolveReport TangentSolve::solve_definite(const State& state, ConstReals b, Reals x) {
+SolveReport TangentSolve::solve_mean(const State& state, ConstReals b, Reals x, double& share) {
+  int iterations = 0;
+  while (true) {
+    std::ranges::fill(x, 0.0);
+    if (share < 1.0) {
+      system_.assemble_mean(state, share);
+    } else {
+      system_.assemble(state, 0.0, {-1.0, 0.0, true});
+    }
+    SolveReport report = system_.solve(b, x, 0.0);
+    iterations += report.iterations;
+    if (report.positive_definite || share >= 1.0) {
+      report.iterations = iterations;
+      return report;
+    }
+    share = std::min(1.0, kRaised * share);
+  }
+}
+
+bool TangentSolve::is_indefinite(const State& state, ConstReals b, Reals x) {
+  if (find_moments(state)) return false;
   std::ranges::fill(x, 0.0);
-  system_.assemble(state, 0.0, {-1.0, 0.0, true});
-  return system_.solve(b, x, 0.0);
+  system_.assemble(state, 0.0, {-1.0, 0.0});
+  return !system_.solve(b, x, 0.0).positive_definite;
 }
 
 SolveReport TangentSolve::iterate(const State& state, ConstReals b, Reals x) {

@@ -18,6 +18,7 @@ Loops<ElasticKernels, ElasticView> KelvinVoigt::loops() const {
   ElasticView v = view();
   v.laws = &law_;
   v.law_count = 1;
+  v.at_point = kernels_->at_point;
   return {*kernels_, v, order_};
 }
 

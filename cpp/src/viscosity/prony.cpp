@@ -37,7 +37,8 @@ Lame small_strain(const ElasticBlock& block, std::int32_t cell) {
 Prony::Prony(const ElasticBlock& block, const std::vector<PronyBranch>& branches, ConstReals rest_positions,
              Isa isa, Threads threads)
     : ViscousCells(block, rest_positions, threads),
-      kernels_(find_prony_kernels(isa, reference_.dimension == 3 ? reference_.nodes : 0)) {
+      kernels_(find_prony_kernels(isa, reference_.dimension == 3 ? reference_.nodes : 0)),
+      shape_kernels_(find_shape_kernels(isa, reference_.nodes, reference_.dimension)) {
   if (kernels_ == nullptr) {
     throw ParameterError("body \"" + block_.body + "\" asks for a Prony series on cells of type " +
                          block_.element + "; only cells with a volume take it, so take another viscosity.");
@@ -67,6 +68,7 @@ Prony::Course Prony::course(const State& state) const {
 PronyView Prony::prony_view(const State& state, const Course& course) const {
   PronyView result{};
   static_cast<ElasticView&>(result) = view();
+  result.at_point = kernels_->at_point;
   result.memory = state.memory[place_].data();
   result.branches = static_cast<int>(shares_.size());
   result.shares = shares_.data();
@@ -77,20 +79,19 @@ PronyView Prony::prony_view(const State& state, const Course& course) const {
 
 void Prony::add_force(const State& state, Scratch& /*scratch*/, Reals f) const {
   const Course now = course(state);
-  force_by(Loops{kernels_->forces, prony_view(state, now), order_}, state.positions, f);
+  force_by(Loops{*shape_kernels_, prony_view(state, now), order_}, state.positions, f);
 }
 
 void Prony::add_product(const State& state, Scratch& /*scratch*/, StiffnessScale scale, ConstReals p,
                         Reals out) const {
   const Course now = course(state);
-  product_by(Loops{kernels_->forces, prony_view(state, now), order_}, state.positions, scale.position, p,
-             out);
+  product_by(Loops{*shape_kernels_, prony_view(state, now), order_}, state.positions, scale.position, p, out);
 }
 
 void Prony::add_stiffness(const State& state, Scratch& /*scratch*/, StiffnessScale scale,
                           BlockMatrix& matrix) const {
   const Course now = course(state);
-  stiffness_by(Loops{kernels_->forces, prony_view(state, now), order_}, state.positions, scale, matrix);
+  stiffness_by(Loops{*shape_kernels_, prony_view(state, now), order_}, state.positions, scale, matrix);
 }
 
 double Prony::energy(const State& state, Scratch& scratch) const {

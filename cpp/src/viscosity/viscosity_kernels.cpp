@@ -11,7 +11,7 @@ const LawKernels* find_viscous_law(Isa isa, int dimension) {
 
 const PronyKernels* find_prony_kernels(Isa isa, int nodes) {
   return find_kernels(TISSU_KERNELS_OF(isa, prony_kernels()),
-                      [&](const PronyKernels& k) { return k.forces.nodes == nodes; });
+                      [&](const PronyKernels& k) { return k.nodes == nodes; });
 }
 
 }  // namespace tissu

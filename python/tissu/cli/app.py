@@ -106,7 +106,7 @@ def view_command(
     ] = "",
     record: Annotated[
         Path | None,
-        typer.Option(metavar="FILE", help="Record to this page (.html), written at the end."),
+        typer.Option(metavar="FILE", help="Record to this file, a page (.html) or glTF (.glb)."),
     ] = None,
     shared: Annotated[
         bool, typer.Option("--shared", help="Every page may touch, not the first one only.")

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from tissu.live_view.bands import bands
+from tissu.live_view.bands import Band, bands
 from tissu.live_view.colours import COUNT, EDGE, band_colours
 
 if TYPE_CHECKING:
@@ -65,24 +65,35 @@ class BodyDrawing:
         self._edges_shown = False
         self._out = np.empty((0, 3), dtype=np.float32)
         self._out_due = 0.0
-        self._bands: dict[int, viser.MeshHandle] = {}
+        self._bands: list[Band] = []
+        self._bands_new = False
+        self._painted: dict[int, viser.MeshHandle] = {}
 
-    def show(self, body: BodyFrame, *, limits: tuple[float, float] | None, edges: bool) -> None:
-        """Draw the body as it is now.
+    def colour(self, body: BodyFrame, limits: tuple[float, float] | None) -> None:
+        """Find the colours of the field that the body has now; `show` draws them.
 
         Args:
             body: the body.
-            limits: of the field that is coloured; None: the body has its own colour.
+            limits: of the colours; None: the body has its own colour.
+        """
+        self._bands, self._bands_new = [], True
+        if limits is not None and body.values is not None and len(body.seen.triangles):
+            self._bands = bands(body.seen.triangles, body.values, limits=limits, count=COUNT)
+
+    def show(self, body: BodyFrame, *, edges: bool) -> None:
+        """Draw the body where it is now.
+
+        Args:
+            body: the body.
             edges: whether edges are drawn.
         """
         at = self._stage.on_page(body.positions, self._lane)
         self._show_surface(at, body.seen)
         self._show_edges(at, body.seen, shown=edges)
-        coloured = limits is not None and body.values is not None and len(body.seen.triangles) > 0
         if self.surface is not None:
             # The surface stays for the pointer where its bands are painted in its place.
-            self.surface.opacity = 0.0 if coloured else None
-        self._show_bands(at, body, limits if coloured else None)
+            self.surface.opacity = 0.0 if self._bands else None
+        self._show_bands(at)
         self._seen = body.seen
 
     def be_touchable(self, wanted: bool) -> None:
@@ -139,25 +150,26 @@ class BodyDrawing:
         if not same:
             self._edges.faces = faces
 
-    def _show_bands(self, at: Points, body: BodyFrame, limits: tuple[float, float] | None) -> None:
-        found = []
-        if limits is not None and body.values is not None:
-            found = bands(at, body.seen.triangles, body.values, limits=limits, count=COUNT)
-        for number in set(self._bands) - {band.number for band in found}:
-            self._bands[number].visible = False
-        for band in found:
-            mesh = self._bands.get(band.number)
+    def _show_bands(self, at: Points) -> None:
+        if self._bands_new:
+            for number in set(self._painted) - {band.number for band in self._bands}:
+                self._painted[number].visible = False
+        for band in self._bands:
+            mesh, points = self._painted.get(band.number), band.points(at)
             if mesh is None:
-                self._bands[band.number] = self._scene.add_mesh_simple(
+                self._painted[band.number] = self._scene.add_mesh_simple(
                     f"/bands/{self._name}/{band.number}",
-                    band.points,
+                    points,
                     band.triangles,
                     color=band_colours()[band.number],
                     side="double",
                 )
                 continue
             mesh.visible = True
-            mesh.vertices, mesh.faces = band.points, band.triangles
+            mesh.vertices = points
+            if self._bands_new:
+                mesh.faces = band.triangles
+        self._bands_new = False
 
 
 def normals(at: Points, triangles: NDArray[np.int64]) -> Points:

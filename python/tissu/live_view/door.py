@@ -80,6 +80,11 @@ class Door:
         self.port = int(self._server.sockets[0].getsockname()[1])
 
     @property
+    def thread(self) -> int:
+        """Number of the thread that hands everything on."""
+        return self._thread.ident or 0
+
+    @property
     def url(self) -> str:
         """The address of the page, token included."""
         host = f"[{self.host}]" if ":" in self.host else self.host

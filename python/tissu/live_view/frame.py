@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from tissu.errors import ParameterError
 from tissu.live_view.fields import FIELDS
 from tissu.live_view.layers import LAYERS
+from tissu.live_view.ration import Ration
 from tissu.live_view.surface import Seen, seen
 
 if TYPE_CHECKING:
@@ -23,8 +24,10 @@ if TYPE_CHECKING:
     from tissu.live_view.touch import Touch
     from tissu.simulation import Profile, Simulation
 
-_SHARE = 0.03
-"""Of the thread's time, that colours may take: a dear field is computed less often."""
+SHARE = 0.015
+"""Of the thread's time, that a field may take where there is none to spare."""
+_LONGEST = 5.0
+"""The longest that a dear field stays as it is [s]."""
 _NUMBERS = 0.25
 """Wall time between two looks at the profile [s]."""
 
@@ -93,33 +96,41 @@ class FrameTaker:
 
     Attributes:
         wanted: what the page shows now; another thread may put another one there.
+        ration: of the time for the field that is coloured.
+        cost: processor time of the latest frame without that field [s].
     """
 
     def __init__(self) -> None:
         """Nothing was taken yet."""
         self.wanted = Wanted()
+        self.ration = Ration(SHARE, longest=_LONGEST)
+        self.cost = 0.0
         self._values: dict[tuple[int, str], tuple[Seen, NDArray[np.float64] | None]] = {}
         self._layers: dict[tuple[int, str], tuple[tuple[object, ...], Draw]] = {}
         self._values_of = ""
-        self._colours_due = 0.0
         self._profiles: list[Profile] = []
         self._profiles_due = 0.0
 
     def take(self, runner: Runner, touch: Touch | None = None) -> Frame:
         """The present moment of the simulations, and of the tool that is in hand."""
+        begin = time.thread_time()
+        frame, field = self._take(runner, touch)
+        self.cost = time.thread_time() - begin - field
+        return frame
+
+    def _take(self, runner: Runner, touch: Touch | None) -> tuple[Frame, float]:
+        """The present moment, and what its field cost [s]."""
         simulations = runner.simulations
         wanted, now = self.wanted, time.monotonic()
         drawn = [] if touch is None else touch.draw(simulations)
-        if now >= self._profiles_due or len(self._profiles) != len(simulations):
-            self._profiles = [simulation.profile() for simulation in simulations]
-            self._profiles_due = now + _NUMBERS
+        self._look_at_profiles(simulations, now)
         found = {
             (lane, name): (simulation, seen(mesh))
             for lane, simulation in enumerate(simulations)
             for name, mesh in simulation.meshes.items()
         }
-        self._colour(found, wanted.field)
-        return Frame(
+        cost = self._colour(found, wanted.field)
+        frame = Frame(
             time=simulations[0].time,
             bodies={
                 (lane, name): BodyFrame(
@@ -145,6 +156,13 @@ class FrameTaker:
             said="" if touch is None else touch.say(simulations),
             gizmos=[] if touch is None else touch.gizmos(simulations),
         )
+        return frame, cost
+
+    def _look_at_profiles(self, simulations: Sequence[Simulation], now: float) -> None:
+        """A few times a second; they are dear."""
+        if now >= self._profiles_due or len(self._profiles) != len(simulations):
+            self._profiles = [simulation.profile() for simulation in simulations]
+            self._profiles_due = now + _NUMBERS
 
     def _drawn(self, lane: int, layer: Layer, simulation: Simulation) -> Draw:
         """What makes the marks of a layer, begun anew where the scene or its cells have changed."""
@@ -156,8 +174,13 @@ class FrameTaker:
         self._layers[lane, layer.name] = (now, draw)
         return draw
 
-    def _colour(self, found: Mapping[tuple[int, str], tuple[Simulation, Seen]], field: str) -> None:
-        """Compute what is coloured, if it is due, or nodes or field are others than before."""
+    def _colour(
+        self, found: Mapping[tuple[int, str], tuple[Simulation, Seen]], field: str
+    ) -> float:
+        """Compute what is coloured, if it is due, or nodes or field are others than before.
+
+        Gives the processor time that it took [s].
+        """
         if not field:
             self._values.clear()
         same = field == self._values_of and all(
@@ -165,17 +188,18 @@ class FrameTaker:
             for key, (_, of_body) in found.items()
         )
         self._values_of = field
-        begin = time.monotonic()
-        if not field or (same and begin < self._colours_due):
-            return
+        begun, before = time.monotonic(), time.thread_time()
+        if not field or (same and not self.ration.is_due(begun)):
+            return 0.0
         for (lane, body), (simulation, of_body) in found.items():
             try:
                 values = FIELDS[field].values(simulation, body, of_body)
             except ParameterError:  # of a body that does not have it
                 values = None
             self._values[lane, body] = (of_body, values)
-        end = time.monotonic()
-        self._colours_due = end + (end - begin) / _SHARE
+        cost = time.thread_time() - before
+        self.ration.spent(cost, begun=begun)
+        return cost
 
 
 def error_between(one: Simulation, other: Simulation) -> tuple[float, float] | None:

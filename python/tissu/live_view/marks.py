@@ -1,4 +1,4 @@
-"""What is drawn beside the bodies: points, arrows, lines and words in space."""
+"""What is drawn beside the bodies: points, arrows, lines, surfaces and words in space."""
 
 from __future__ import annotations
 
@@ -25,6 +25,7 @@ class Marks:
         points: (p, 3) [m].
         arrows: (a, 2, 3) from and to [m].
         lines: (l, 2, 3) from and to [m].
+        surface: (t, 3, 3) corners of triangles [m], such as those of an obstacle.
         labels: places (3,) [m] and what is written there.
     """
 
@@ -32,6 +33,7 @@ class Marks:
     points: Floats = field(default_factory=lambda: _none(3))
     arrows: Floats = field(default_factory=lambda: _none(2, 3))
     lines: Floats = field(default_factory=lambda: _none(2, 3))
+    surface: Floats = field(default_factory=lambda: _none(3, 3))
     labels: tuple[tuple[Floats, str], ...] = ()
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,8 +14,11 @@ if TYPE_CHECKING:
     from tissu.live_view.marks import Colour, Marks
     from tissu.live_view.stage import Stage
 
-Kind = Literal["points", "arrows", "lines"]
-KINDS: tuple[Kind, ...] = ("points", "arrows", "lines")
+
+Drawn = Any
+"""Of viser: a point cloud, arrows, line segments or a mesh."""
+Kind = Literal["points", "arrows", "lines", "surface"]
+KINDS: tuple[Kind, ...] = ("points", "arrows", "lines", "surface")
 
 
 class MarksDrawing:
@@ -24,10 +27,7 @@ class MarksDrawing:
     def __init__(self, scene: viser.SceneApi, name: str, *, stage: Stage, lane: int) -> None:
         """Take a name for them on the page; nothing is drawn yet."""
         self._scene, self._name, self._stage, self._lane = scene, name, stage, lane
-        self._drawn: dict[
-            tuple[Kind, int],
-            viser.PointCloudHandle | viser.ArrowsHandle | viser.LineSegmentsHandle,
-        ] = {}
+        self._drawn: dict[tuple[Kind, int], Drawn] = {}
         self._labels: dict[int, viser.LabelHandle] = {}
 
     def show(self, marks: Sequence[Marks]) -> None:
@@ -41,17 +41,20 @@ class MarksDrawing:
         for key in set(self._drawn) - set(wanted):
             self._drawn[key].visible = False
         for key, (places, colour) in wanted.items():
+            kind = key[0]
             at = self._stage.on_page(places, self._lane)
             drawn = self._drawn.get(key)
             if drawn is None:
                 self._drawn[key] = self._add(*key, at, colour)
                 continue
-            drawn.visible, drawn.points = True, at
+            drawn.visible = True
+            if kind == "surface":
+                drawn.vertices, drawn.faces = _mesh(at)
+            else:
+                drawn.points = at
         self._show_labels([label for one in marks for label in one.labels])
 
-    def _add(
-        self, kind: Kind, number: int, at: NDArray[np.float32], colour: Colour
-    ) -> viser.PointCloudHandle | viser.ArrowsHandle | viser.LineSegmentsHandle:
+    def _add(self, kind: Kind, number: int, at: NDArray[np.float32], colour: Colour) -> Drawn:
         name, size = f"/marks/{self._name}/{kind} {number}", self._stage.size
         if kind == "points":
             return self._scene.add_point_cloud(
@@ -71,6 +74,10 @@ class MarksDrawing:
                 head_radius=0.006 * size,
                 head_length=0.02 * size,
             )
+        if kind == "surface":
+            return self._scene.add_mesh_simple(
+                name, *_mesh(at), color=colour, flat_shading=True, side="double"
+            )
         return self._scene.add_line_segments(
             name, at, colour, thickness=3.0, thickness_units="screen"
         )
@@ -86,3 +93,9 @@ class MarksDrawing:
                 self._labels[number] = self._scene.add_label(name, text, position=at)
                 continue
             drawn.visible, drawn.text, drawn.position = True, text, at
+
+
+def _mesh(corners: NDArray[np.float32]) -> tuple[NDArray[np.float32], NDArray[np.uint32]]:
+    """Points and triangles of a surface by its corners (t, 3, 3)."""
+    points = corners.reshape(-1, 3)
+    return points, np.arange(len(points), dtype=np.uint32).reshape(-1, 3)

@@ -12,12 +12,14 @@ import numpy as np
 
 from tissu.live_view.body_drawing import BodyDrawing
 from tissu.live_view.cameras import FOV, first_place
+from tissu.live_view.colouring import Colouring
 from tissu.live_view.colours import BODIES
 from tissu.live_view.gizmo import Gizmo, GizmoDrawing
 from tissu.live_view.latest import Latest
 from tissu.live_view.marks_drawing import MarksDrawing
 from tissu.live_view.panels import PANELS
 from tissu.live_view.pointer import Pointer
+from tissu.live_view.ration import processor_time
 from tissu.live_view.server import open_server
 
 if TYPE_CHECKING:
@@ -38,6 +40,8 @@ class Page:
     Attributes:
         frames: where the newest frame is left for it.
         sent: how many frames it has shown.
+        cost: processor time of the latest one, with its way to the door, without new colours [s].
+        senders: numbers of the threads that take part in it, the door's too.
         server: viser's.
     """
 
@@ -54,6 +58,9 @@ class Page:
         """
         self.frames: Latest[Frame] = Latest()
         self.sent = 0
+        self.cost = 0.0
+        self.senders: set[int] = set()
+        self._colouring = Colouring(session)
         self._session = session
         self.server = open_server(title, word)
         session.recorder.of(self.server)
@@ -63,6 +70,7 @@ class Page:
         self._gizmos = GizmoDrawing(self.server.scene, session.stage, self._moved)
         self._marks: dict[tuple[int, str], MarksDrawing] = {}
         self._panels_due = 0.0
+        self._worked: tuple[frozenset[int], float] = (frozenset(), 0.0)
         self._ended = threading.Event()
         self._thread = threading.Thread(target=self._feed, name="tissu page", daemon=True)
         self.server.on_client_connect(self._come)
@@ -82,15 +90,20 @@ class Page:
         """Begin to show frames."""
         self._thread.start()
 
-    def stop(self) -> None:
-        """Close the pages."""
+    def halt(self) -> None:
+        """Show no more frames; the threads that send may end then, whose time is counted."""
         self._ended.set()
         if self._thread.is_alive():
             self._thread.join()
+
+    def stop(self) -> None:
+        """Close the pages."""
+        self.halt()
         with contextlib.redirect_stdout(io.StringIO()):
             self.server.stop()
 
     async def _come(self, client: viser.ClientHandle) -> None:
+        self.senders.add(threading.get_ident())  # viser's own, which sends
         self._session.rights.come(client.client_id)
 
     async def _leave(self, client: viser.ClientHandle) -> None:
@@ -107,6 +120,7 @@ class Page:
 
     def _feed(self) -> None:
         """Show the newest frame, over and over."""
+        self.senders.add(threading.get_ident())
         while not self._ended.is_set():
             begin = time.monotonic()
             frame = self.frames.take(0.25)
@@ -114,15 +128,27 @@ class Page:
                 self.show(frame)
                 self._session.recorder.pass_time()
                 self.sent += 1
+                self._count_cost()
             self._ended.wait(max(0.0, begin + 1.0 / RATE - time.monotonic()))
+
+    def _count_cost(self) -> None:
+        """What the threads that send have worked since the frame before."""
+        senders = frozenset(self.senders)
+        before, self._worked = self._worked, (senders, processor_time(senders))
+        if before[0] == senders:
+            self.cost = max(0.0, self._worked[1] - before[1] - self._colouring.cost)
+        self._colouring.cost = 0.0
 
     def show(self, frame: Frame) -> None:
         """Draw a frame."""
-        limits = self._limits(frame)
         with self.server.atomic():
+            if self._colouring.are_due(frame):
+                with self._colouring.anew(frame) as limits:
+                    for (lane, name), body in frame.bodies.items():
+                        self._drawing(lane, name).colour(body, limits)
             for (lane, name), body in frame.bodies.items():
                 drawing = self._drawing(lane, name)
-                drawing.show(body, limits=limits, edges=self._session.show_edges)
+                drawing.show(body, edges=self._session.show_edges)
                 drawing.be_touchable(self._session.touch.on_bodies)
             self._gizmos.show(frame.gizmos)
             for key in {*self._marks, *frame.marks}:
@@ -131,23 +157,6 @@ class Page:
             self._panels_due = time.monotonic() + 1.0 / _PANELS
             for panel in self._panels:
                 panel.show(frame)
-
-    def _limits(self, frame: Frame) -> tuple[float, float] | None:
-        """Limits of the colours, wide enough for this frame."""
-        values = [
-            b.values[np.isfinite(b.values)] for b in frame.bodies.values() if b.values is not None
-        ]
-        every = np.concatenate([np.empty(0), *values])
-        if not frame.field or not len(every):
-            return None
-        low, high = float(every.min()), float(every.max())
-        if low >= 0.0 and frame.field != "volume_ratio":
-            low = 0.0
-        before = self._session.limits
-        if before is not None:
-            low, high = min(low, before[0]), max(high, before[1])
-        self._session.limits = (low, high if high > low else low + max(abs(low), 1e-12))
-        return self._session.limits
 
     def _drawing(self, lane: int, name: str) -> BodyDrawing:
         found = self._bodies.get((lane, name))

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import os
 import time
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from tissu.errors import ParameterError
+from tissu.errors import ParameterError, TissuError
 from tissu.files import require_file_place, whole_file
 
 if TYPE_CHECKING:
@@ -18,12 +19,19 @@ def recording_place(path: Path) -> Path:
     """The path, where a recording can be written there.
 
     Raises:
-        ParameterError: it is not an .html file.
-        TissuError: something else is there.
+        ParameterError: it is neither an .html nor a .glb file.
+        TissuError: something else is there, or there is no folder that may be written to.
     """
-    if path.suffix != ".html":
-        raise ParameterError(f"found the recording {path}; a file that ends with .html is accepted")
+    if path.suffix not in (".html", ".glb"):
+        raise ParameterError(
+            f"found the recording {path}; a file that ends with .html or .glb is accepted"
+        )
     require_file_place(path, "recording")
+    if not os.path.isdir(path.parent) or not os.access(path.parent, os.W_OK):
+        raise TissuError(
+            f"recording {path}: cannot be written: found no folder {path.parent} that may be "
+            "written to; name another place"
+        )
     return path
 
 

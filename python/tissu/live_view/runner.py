@@ -41,6 +41,7 @@ class Runner:
         error: the sentence of what went wrong last; empty: nothing since the last play.
         playing: whether it steps.
         achieved: simulated time for wall time of late; 0 when it does not step.
+        spare: share of the wall time of late in which it waited for its pace; 1 when paused.
     """
 
     def __init__(
@@ -64,6 +65,8 @@ class Runner:
         self.error = ""
         self.playing = playing
         self.achieved = 0.0
+        self.spare = 0.0 if playing else 1.0
+        self._waited = 0.0
         self._pace = Pace(speed)
         self._between = between
         self._wishes: queue.SimpleQueue[Callable[[], None]] = queue.SimpleQueue()
@@ -144,12 +147,15 @@ class Runner:
             self.error = ""
         self.playing = playing
         self.achieved = 0.0
+        self.spare = 0.0 if playing else 1.0
         self.restart_clock()
 
     def _run(self) -> None:
         while not self._ended.is_set():
             try:
-                self._grant(self._time_left())
+                left, begin = self._time_left(), time.monotonic()
+                self._grant(left)
+                self._waited += min(left, time.monotonic() - begin)
                 if self._ended.is_set():
                     return
                 if self.playing and self._time_left() <= 0.0:
@@ -199,14 +205,15 @@ class Runner:
                     raise
 
     def _measure(self) -> None:
-        """Simulated time for wall time, over half a second."""
+        """Simulated time for wall time and what was waited, over half a second."""
         now, simulated = time.monotonic(), self.simulations[0].time
         if self._measured is None:
-            self._measured = (now, simulated)
+            self._measured, self._waited = (now, simulated), 0.0
             return
         wall, before = self._measured
         if now - wall >= 0.5:
             self.achieved = (simulated - before) / (now - wall)
+            self.spare, self._waited = min(1.0, self._waited / (now - wall)), 0.0
             self._measured = (now, simulated)
 
     def _fail(self, error: Exception) -> None:

@@ -19,6 +19,9 @@ if TYPE_CHECKING:
 
 T = TypeVar("T")
 
+_SPARE = 0.25
+"""Of the time in which the simulation waits for its pace, that a kind of work may take."""
+
 
 @dataclass(slots=True)
 class Session:
@@ -32,7 +35,7 @@ class Session:
         stage: where things stand on the page.
         recorder: of what the page shows.
         begin_again: puts the simulations back to their beginning.
-        show_edges: whether edges are drawn.
+        show_edges: whether edges are drawn; at first not those of a very fine surface.
         limits: of the field that is coloured; they grow with its values, and `fit` forgets them.
         after_reset: called in the simulations' thread when they have begun again.
     """
@@ -47,6 +50,14 @@ class Session:
     show_edges: bool = True
     limits: tuple[float, float] | None = None
     after_reset: list[Callable[[Sequence[Simulation]], object]] = field(default_factory=list)
+
+    def share(self, least: float) -> float:
+        """Of a processor, that work for the page may take.
+
+        Args:
+            least: what it takes of a simulation that has no time to spare.
+        """
+        return least + _SPARE * self.runner.spare
 
     def on_change(self, handle: Any, act: Callable[[Any], object]) -> None:
         """Do something with the value of a widget whenever a page that may touch changes it.

@@ -12,14 +12,18 @@ from pathlib import Path
 from typing import TYPE_CHECKING, TypeVar
 
 from tissu.errors import ParameterError
+from tissu.live_view.bands import MOST_CUT
 from tissu.live_view.door import Door, new_token
-from tissu.live_view.frame import FrameTaker
+from tissu.live_view.film import Film
+from tissu.live_view.frame import SHARE, FrameTaker
 from tissu.live_view.page import RATE, Page
+from tissu.live_view.ration import Ration
 from tissu.live_view.recorder import Recorder, recording_place
 from tissu.live_view.rights import Rights
 from tissu.live_view.runner import Runner
 from tissu.live_view.session import Session
 from tissu.live_view.stage import stage_of
+from tissu.live_view.surface import seen
 from tissu.live_view.touch import Touch
 from tissu.picture.draw import up_of
 
@@ -28,6 +32,10 @@ if TYPE_CHECKING:
 
 T = TypeVar("T")
 
+_SHARE = 0.025
+"""Of a processor, that frames may take of a simulation that has no time to spare."""
+_LONGEST = 1.0
+"""The longest wait for a frame [s]."""
 _HERE = ("127.0.0.1", "localhost", "::1")
 
 
@@ -66,15 +74,16 @@ class View:
             token: that a page must bring; absent: a new one where `host` asks for it, else none.
             browser: whether the page is opened in a browser.
             shared: whether every page may touch; else the first one that is open.
-            record: a file (.html) to which everything that is shown is written when the view is
-                closed; it plays in a browser without a server.
+            record: a file that is written when the view is closed: .html keeps everything that
+                is shown and plays in a browser without a server; .glb is glTF of the surfaces, up
+                to 30 moments of each simulated second.
             speed: simulated seconds for each second of wall time; infinite: as fast as it goes.
             playing: whether it runs at once.
 
         Raises:
             ParameterError: the port is taken; the simulations have other time steps; a recording
-                that is not an .html file, or has no place.
-            TissuError: viser is not installed.
+                that is neither an .html nor a .glb file.
+            TissuError: viser is not installed; the recording has no place.
         """
         simulations = [simulation] if beside is None else [simulation, beside]
         _require_together(simulations)
@@ -85,7 +94,7 @@ class View:
         for one in simulations:
             one.allow_touch()
         self._taker = FrameTaker()
-        self._frame_due = 0.0
+        self._ration = Ration(_SHARE, shortest=1.0 / RATE, longest=_LONGEST)
         self._runner = Runner(simulations, speed=speed, playing=playing, between=self._between)
         rest = [mesh.points for mesh in {**simulation.meshes, **simulation.tissue}.values()]
         self._session = Session(
@@ -96,6 +105,9 @@ class View:
             stage=stage_of(rest, up_of(simulation), lanes=len(simulations)),
             recorder=Recorder(),
             begin_again=self.reset,
+            show_edges=all(
+                len(seen(mesh).triangles) <= MOST_CUT for mesh in simulation.meshes.values()
+            ),
         )
         word = new_token()
         self._page = Page(self._session, title=simulation.scene.name, word=word)
@@ -107,7 +119,12 @@ class View:
             self._page.stop()
             raise
         self.url = self._door.url
-        if self._record is not None:
+        self._page.senders.add(self._door.thread)
+        self._film: Film | None = None
+        if self._record is not None and self._record.suffix == ".glb":
+            self._film = Film(self._session.stage)
+            self._film.look(simulations)
+        elif self._record is not None:
             self._session.recorder.begin()
         self._page.start()
         self._runner.start()
@@ -188,21 +205,36 @@ class View:
             return
         self._closed.set()
         self._runner.stop()
+        self._page.halt()
         self._door.close()
         try:
             if self._record is not None:
-                self._session.recorder.finish(self._record)
+                self._finish(self._record)
         finally:
             self._page.stop()
 
+    def _finish(self, record: Path) -> None:
+        """Write the recording that was asked for, after the last step."""
+        if self._film is None:
+            self._session.recorder.finish(record)
+            return
+        simulations = self._runner.simulations
+        self._film.look(simulations, last=True)
+        self._film.write(record, name=simulations[0].scene.name)
+
     def _between(self) -> None:
         """After a step, in the simulations' thread: a frame for the page when one is due."""
+        if self._film is not None:
+            self._film.look(self._runner.simulations)
         now = time.monotonic()
-        seen = self._page.watched or self._session.recorder.running
-        if now < self._frame_due or not seen or self._page.frames.waiting:
+        wanted = self._page.watched or self._session.recorder.running
+        if not wanted or not self._ration.is_due(now) or self._page.frames.waiting:
             return
-        self._frame_due = max(self._frame_due + 1.0 / RATE, now - 1.0 / RATE)
-        self._page.frames.put(self._taker.take(self._runner, self._session.touch))
+        self._ration.share = self._session.share(_SHARE)
+        self._taker.ration.share = self._session.share(SHARE)
+        frame = self._taker.take(self._runner, self._session.touch)
+        self._ration.spent(self._taker.cost + self._page.cost, begun=now)
+        self._page.frames.put(frame)
 
 
 def _require_together(simulations: Sequence[Simulation]) -> None:

@@ -220,7 +220,8 @@ class Static(Step):
     newton: Newton = field(default_factory=lambda: Newton(iterations=25))
     """Newton's method, for each part that is tried"""
     total_iterations: _Count | None = None
-    """largest number of Newton iterations in a step; absent: iterations (load_steps + 19)"""
+    """largest number of Newton iterations in a step, half of which a descent of the energy may
+    take; absent: iterations (load_steps + 19)"""
     arc_length: bool = False
     """follow the path by its arc length from the start, as through limit points of the load; false:
     only where no part of the load is small enough"""

@@ -4,7 +4,7 @@ from tissu.simulation.fields import IntegrationPoints
 from tissu.simulation.grab import Grab
 from tissu.simulation.live_load import LiveLoad
 from tissu.simulation.plan import Plan
-from tissu.simulation.profile import Profile, ProfileRow, Solves
+from tissu.simulation.profile import Profile, ProfileRow, Solves, WorstStep
 from tissu.simulation.report import StepReport
 from tissu.simulation.simulation import Simulation
 from tissu.simulation.touched import Contacts, Crossing, Wrench
@@ -22,4 +22,5 @@ __all__ = [
     "Solves",
     "StepReport",
     "Wrench",
+    "WorstStep",
 ]

@@ -66,6 +66,40 @@ class Solves:
 
 
 @dataclass(frozen=True, slots=True)
+class WorstStep:
+    """The longest step after the first, which prepares; the first where there is no other.
+
+    Attributes:
+        step: its number since the profile was cleared, from 1 on; 0 where no step was taken.
+        ms: its wall time [ms].
+        rows: effect, stage and wall time [ms] of what ran in it, the longest first.
+        solves: linear systems.
+        iterations: of all of them.
+        preparations: preconditioners or factors made, or parts of one.
+    """
+
+    step: int
+    ms: float
+    rows: tuple[tuple[str, str, float], ...]
+    solves: int
+    iterations: int
+    preparations: int
+
+    def __str__(self) -> str:
+        """One line, with the three longest rows."""
+        if not self.step:
+            return "no step was taken yet"
+        parts = [f"{effect}: {stage} {ms:.3f} ms" for effect, stage, ms in self.rows[:3]]
+        if self.solves:
+            parts.append(
+                f"{counted(self.solves, 'system')}, {counted(self.iterations, 'iteration')}, "
+                f"{self.preparations} prepared"
+            )
+        which = "only step" if self.step == 1 else f"longest after the first: step {self.step}"
+        return f"{which}, {self.ms:.3f} ms" + "".join(f"; {part}" for part in parts)
+
+
+@dataclass(frozen=True, slots=True)
 class Profile:
     """Times of a simulation.
 
@@ -78,6 +112,7 @@ class Profile:
         max_ms: the longest of them.
         real_time_factor: simulated time for wall time; above 1 is faster than life.
         solves: what the linear solver did.
+        worst: the longest step after the first of all that were taken, and what it did.
     """
 
     rows: tuple[ProfileRow, ...]
@@ -88,6 +123,7 @@ class Profile:
     max_ms: float
     real_time_factor: float
     solves: Solves
+    worst: WorstStep
 
     def __str__(self) -> str:
         """A table: effect, calls, milliseconds a step, share."""
@@ -106,6 +142,7 @@ class Profile:
             f"max {self.max_ms:.3f} ms; "
             f"{self.real_time_factor:.3g} times real time"
         )
+        lines.append(str(self.worst))
         return "\n".join(lines)
 
 
@@ -129,4 +166,14 @@ def profile_of(core: _core.Simulation, simulated: float) -> Profile:
         max_ms=1e3 * float(seconds.max()) if steps else 0.0,
         real_time_factor=simulated / total if total else 0.0,
         solves=Solves(*core.profile_solves(), account=core.solver_account()),
+        worst=_worst(core),
     )
+
+
+def _worst(core: _core.Simulation) -> WorstStep:
+    """The longest step and its rows."""
+    step, seconds, solves, iterations, preparations, spent = core.profile_worst()
+    names = ((effect, stage) for effect, stage, _, _ in core.profile_rows())
+    rows = [(*name, 1e3 * s) for name, s in zip(names, spent, strict=False) if s > 0.0]
+    rows.sort(key=lambda row: -row[2])
+    return WorstStep(step, 1e3 * seconds, tuple(rows), solves, iterations, preparations)

@@ -4,13 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
-#include <Eigen/SVD>
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <vector>
 
 #include "../base/random.h"
+#include "../base/singular_values.h"
 #include "base/kernel_choice.h"
 #include "rotation_lanes.h"
 #include "tissu/base/isa.h"
@@ -23,15 +23,14 @@ using test::Rotations;
 
 /// U V^T with the last column of U turned when that is a reflection.
 struct Reference {
-  explicit Reference(const Mat3& F) : svd(F, Eigen::ComputeFullU | Eigen::ComputeFullV) {
-    const Mat3 UV = svd.matrixU() * svd.matrixV().transpose();
+  explicit Reference(const Mat3& F) {
+    const auto [U, s, V] = test::singular_values(F);
+    const Mat3 UV = U * V.transpose();
     sign = UV.determinant() < 0.0 ? -1.0 : 1.0;
-    R = svd.matrixU() * Vec3(1, 1, sign).asDiagonal() * svd.matrixV().transpose();
-    const Vec3 s = svd.singularValues();
+    R = U * Vec3(1, 1, sign).asDiagonal() * V.transpose();
     best = s[0] + s[1] + sign * s[2];
     gap = s[1] + sign * s[2];
   }
-  Eigen::JacobiSVD<Mat3> svd;
   double sign;
   Mat3 R;
   double best;  ///< tr(R^T F)

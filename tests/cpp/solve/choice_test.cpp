@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 /// Which way is chosen, from costs alone: what is spent stays near what the best way would have taken.
@@ -101,6 +102,41 @@ TEST(Choice, EqualWaysDoNotChangePlaces) {
   // Each of the other four is tried, to and fro, after sums that treble from four solves on: at most
   // log3(1000 / 4) times.
   EXPECT_LE(choice.changes() - early, 4 * 2 * 5);
+}
+
+/// Work of the costliest of `count` solves after the first.
+double worst(const ForArms<Cost>& predicted, const ForArms<Cost>& real, int count, double frame) {
+  Choice choice;
+  choice.begin(predicted, 8.0, frame);
+  run(choice, real, 1);
+  double most = 0.0;
+  ForArms<bool> made{};
+  made[number(choice.current())] = true;
+  for (int i = 0; i < count; ++i) {
+    choice.begin_solve();
+    const Arm arm = choice.current();
+    const Cost& cost = real[number(arm)];
+    const double making = made[number(arm)] ? 0.0 : cost.making;
+    made[number(arm)] = true;
+    most = std::max(most, making + cost.solving);
+    choice.used({making, 0.0, cost.solving});
+  }
+  return most;
+}
+
+TEST(Choice, ATrialMakesNoFrameLate) {
+  ForArms<Cost> costs = like(5.0, 10.0);
+  costs[number(Arm::stale_cholesky)] = {400.0, 0.0, 9.5, 0.0};  // 9.5 and hope: worth a trial
+  EXPECT_DOUBLE_EQ(worst(costs, costs, 2000, HUGE_VAL), 409.5);
+  EXPECT_LE(worst(costs, costs, 2000, 3.0), 30.0);
+}
+
+TEST(Choice, AFrameIsLateOnceForAGainThatIsClear) {
+  ForArms<Cost> costs = like(5.0, 10.0);
+  costs[number(Arm::stale_cholesky)] = {400.0, 0.0, 1.0, 0.0};  // saved again in 45 solves
+  EXPECT_DOUBLE_EQ(worst(costs, costs, 200, 3.0), 401.0);
+  costs[number(Arm::stale_cholesky)] = {500.0, 0.0, 1.0, 0.0};  // … in 56
+  EXPECT_LE(worst(costs, costs, 2000, 3.0), 30.0);
 }
 
 TEST(Choice, AFailureHandsOnAndComesBackLater) {

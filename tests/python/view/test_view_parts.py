@@ -1,12 +1,15 @@
 """The parts of the view that need neither a browser nor a thread: numbers in, numbers out."""
 
 import math
+import sys
+import threading
+import time
 
 import numpy as np
 import pytest
 
 import tissu as ts
-from tissu.live_view.bands import bands
+from tissu.live_view.bands import MOST_CUT, bands
 from tissu.live_view.body_drawing import normals
 from tissu.live_view.colours import COUNT, band_colours, legend
 from tissu.live_view.fields import FIELDS, offered
@@ -16,6 +19,7 @@ from tissu.live_view.marks import arrows_at
 from tissu.live_view.pace import Pace
 from tissu.live_view.panels.parameters import span
 from tissu.live_view.pointer import met
+from tissu.live_view.ration import Ration, processor_time
 from tissu.live_view.rights import Rights
 from tissu.live_view.runner import speed_of
 from tissu.live_view.stage import stage_of
@@ -53,8 +57,8 @@ class TestBands:
     def test_they_cover_the_surface_once_and_face_as_it_does(self):
         """Areas as vectors add up to those of the triangles; float32 points, 1e-6 of the whole."""
         points, triangles, values = patch(12)
-        found = bands(points, triangles, values, limits=(0.0, 1.0), count=7)
-        parts = [areas(band.points, band.triangles) for band in found]
+        found = bands(triangles, values, limits=(0.0, 1.0), count=7)
+        parts = [areas(band.points(points), band.triangles) for band in found]
         whole = areas(points, triangles)
         assert np.abs(sum(part.sum(axis=0) for part in parts) - whole.sum(axis=0)).max() < 1e-6
         size = sum(np.linalg.norm(part, axis=1).sum() for part in parts)
@@ -63,8 +67,8 @@ class TestBands:
 
     def test_each_has_the_values_of_its_band(self):
         points, triangles, values = patch(6)
-        for band in bands(points, triangles, values, limits=(0.0, 1.0), count=5):
-            middles = band.points[band.triangles].mean(axis=1)
+        for band in bands(triangles, values, limits=(0.0, 1.0), count=5):
+            middles = band.points(points)[band.triangles].mean(axis=1)
             for at in middles:
                 found = value_at(points, triangles, values, at)
                 assert band.number / 5 - 1e-5 <= found <= (band.number + 1) / 5 + 1e-5
@@ -72,25 +76,92 @@ class TestBands:
     def test_neighbours_share_points_so_that_shading_is_smooth(self):
         """Of a field that is constant, the band is the surface itself, with as many points."""
         points, triangles, _ = patch(8)
-        (one,) = bands(points, triangles, np.full(len(points), 0.3), limits=(0, 1), count=4)
-        assert (one.number, len(one.points), len(one.triangles)) == (1, 64, len(triangles))
-        ramp = bands(points, triangles, points[:, 0].astype(float), limits=(0, 1), count=3)
+        (one,) = bands(triangles, np.full(len(points), 0.3), limits=(0, 1), count=4)
+        assert (one.number, len(one.points(points)), len(one.triangles)) == (1, 64, len(triangles))
+        ramp = bands(triangles, points[:, 0].astype(float), limits=(0, 1), count=3)
         for band in ramp:  # each is one strip, a disc: Euler's number of it is one
             sides = np.sort(band.triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
             count = len(np.unique(sides, axis=0))
-            assert len(band.points) - count + len(band.triangles) == 1
+            assert len(band.points(points)) - count + len(band.triangles) == 1
 
     def test_values_beyond_the_limits_and_values_that_are_none(self):
         points, triangles, values = patch(5)
         values[3], wide = np.nan, 10.0 * values - 5.0
-        found = bands(points, triangles, wide, limits=(0.0, 1.0), count=4)
-        size = sum(np.linalg.norm(areas(b.points, b.triangles), axis=1).sum() for b in found)
+        found = bands(triangles, wide, limits=(0.0, 1.0), count=4)
+        size = sum(
+            np.linalg.norm(areas(b.points(points), b.triangles), axis=1).sum() for b in found
+        )
         assert size == pytest.approx(
             np.linalg.norm(areas(points, triangles), axis=1).sum(), rel=1e-6
         )
         assert {0, 3} <= {band.number for band in found}
-        (flat,) = bands(points, triangles, values, limits=(0.5, 0.5), count=4)
+        (flat,) = bands(triangles, values, limits=(0.5, 0.5), count=4)
         assert flat.number == 0
+
+    def test_they_move_with_the_nodes(self):
+        """Points on edges keep their share of the way: what is linear in space stays so.
+
+        Of an affine motion the bands of the moved surface are the moved bands, to float32.
+        """
+        points, triangles, values = patch(9)
+        found = bands(triangles, values, limits=(0.0, 1.0), count=6)
+        turn = np.array([[0.5, -0.3, 0.1], [0.2, 0.9, 0.0], [0.0, 0.4, 1.2]], dtype=np.float32)
+        for band in found:
+            moved = band.points(points @ turn.T)
+            assert np.abs(moved - band.points(points) @ turn.T).max() < 1e-6
+
+    def test_a_fine_surface_is_not_cut(self):
+        """Every triangle has the band of its mean, and every point is a node."""
+        points, triangles, values = patch(102)
+        assert len(triangles) > MOST_CUT
+        found = bands(triangles, values, limits=(0.0, 1.0), count=7)
+        rows = np.concatenate([band.nodes[band.triangles] for band in found])
+        assert np.array_equal(np.unique(rows, axis=0), np.unique(triangles, axis=0))
+        assert len(rows) == len(triangles)
+        for band in found:
+            mean = values[band.nodes[band.triangles]].mean(axis=1)
+            assert np.array_equal(np.floor(mean * 7), np.full(len(mean), band.number))
+            assert np.array_equal(band.points(points), points[band.nodes])
+
+
+class TestRation:
+    def test_work_waits_for_its_share(self):
+        """2 ms of work at a share of a twentieth: the next begins 40 ms after it began."""
+        ration = Ration(0.05, shortest=0.01, longest=1.0)
+        assert ration.is_due(100.0)
+        ration.spent(0.002, begun=100.0)
+        assert not ration.is_due(100.0399) and ration.is_due(100.0401)
+
+    def test_it_has_a_shortest_and_a_longest_wait(self):
+        ration = Ration(0.05, shortest=0.01, longest=1.0)
+        ration.spent(0.0, begun=0.0)
+        ration.spent(0.0, begun=0.012)  # late by 2 ms, which the next one is not
+        assert not ration.is_due(0.0199) and ration.is_due(0.0201)
+        ration.spent(7.0, begun=5.0)
+        assert not ration.is_due(5.99) and ration.is_due(6.0)
+
+    def test_the_time_of_a_processor_is_that_of_the_threads_named(self):
+        ended, ready = threading.Event(), threading.Event()
+
+        def work():
+            while not ended.is_set():
+                ready.set()
+
+        busy = threading.Thread(target=work)
+        busy.start()
+        ready.wait()
+        mine = threading.get_ident()
+        before = processor_time([mine]), processor_time([mine, busy.ident])
+        until = time.monotonic() + 20.0
+        while processor_time([mine, busy.ident]) - before[1] < 0.2 and time.monotonic() < until:
+            time.sleep(0.01)
+        own, both = processor_time([mine]) - before[0], processor_time([mine, busy.ident])
+        ended.set()
+        busy.join()
+        if sys.platform == "linux":
+            assert both - before[1] >= 0.2 > own + 0.1
+        else:
+            assert both >= before[1]
 
 
 class TestPace:

@@ -67,7 +67,7 @@ def test_a_view_runs_and_gives_the_simulation_back_when_it_is_closed():
     [
         ({"speed": 0.0}, "a positive one is accepted"),
         ({"speed": float("nan")}, "a positive one is accepted"),
-        ({"record": "page.mp4"}, "ends with .html is accepted"),
+        ({"record": "page.mp4"}, "ends with .html or .glb is accepted"),
         ({"token": "two words"}, "letters, digits"),
     ],
 )
@@ -114,7 +114,7 @@ def test_the_command_says_where_the_page_is_and_ends_with_ctrl_c(tmp_path):
     ("words", "why"),
     [
         (("examples/organ.yaml", "--beside", "fen"), "did you mean 'fem'"),
-        (("examples/organ.yaml", "--record", "a.mp4"), "ends with .html is accepted"),
+        (("examples/organ.yaml", "--record", "a.mp4"), "ends with .html or .glb is accepted"),
         (("examples/none.yaml",), "none.yaml"),
     ],
 )

@@ -30,12 +30,24 @@ class Profile {
     double work = 0.0;              ///< in bytes read, or what takes as long (SolveReport)
   };
 
+  /// The longest step after the first, which prepares; that one where there is no other.
+  struct Worst {
+    std::int64_t step = 0;  ///< from 1 on; 0: no step was taken
+    double seconds = 0.0;
+    std::vector<double> row_seconds;  ///< of each row that there was
+    std::int64_t solves = 0;
+    std::int64_t iterations = 0;
+    std::int64_t preparations = 0;
+  };
+
   /// The number of the row of an effect's stage; made when it is not there yet.
   std::size_t row(std::string_view effect, std::string_view stage);
   void add(std::size_t row, double seconds, std::int64_t calls = 1) {
     rows_[row].calls += calls;
     rows_[row].seconds += seconds;
   }
+  /// Of a step that ends with `add_step`, or is not taken.
+  void begin_step();
   void add_step(double seconds);
   void clear();
 
@@ -43,14 +55,20 @@ class Profile {
   [[nodiscard]] std::int64_t steps() const { return steps_; }
   [[nodiscard]] const Solves& solves() const { return solves_; }
   [[nodiscard]] Solves& solves() { return solves_; }
+  [[nodiscard]] const Worst& worst() const { return worst_; }
   /// Durations of the latest steps [s], at most kKept, in no order.
   [[nodiscard]] const std::vector<double>& step_seconds() const { return step_seconds_; }
 
   static constexpr std::size_t kKept = 4096;
 
  private:
+  void keep_worst(double seconds);
+
   std::vector<Row> rows_;
   Solves solves_;
+  Worst worst_;
+  std::vector<double> before_;  ///< seconds of each row when the step began
+  Solves solves_before_;
   std::vector<double> step_seconds_;
   std::int64_t steps_ = 0;
 };

@@ -13,6 +13,19 @@
 
 namespace tissu {
 
+struct ElasticView;
+
+/// The laws of a view at one point of the eight elements of a group: their sum, as F, P and dP/dF of
+/// LawKernels, but written and not added. It lets one loop over elements serve any law.
+struct PointLaws {
+  void (*stress)(const ElasticView&, std::int32_t group, int point, const double* F, double* P);
+  void (*stress_change)(const ElasticView&, std::int32_t group, int point, const double* F, const double* dF,
+                        double* dP);
+  void (*tangent)(const ElasticView&, std::int32_t group, int point, const double* F, double* A);
+  /// The positive semi-definite tangent nearest to it.
+  void (*definite)(const ElasticView&, std::int32_t group, int point, const double* F, double* A);
+};
+
 /// What a kernel reads of a block. Padding lanes repeat an element with zero volume, so they add nothing.
 /// m is the reference dimension of the element. Where J is the same all over every cell, `rest` holds it
 /// once: `rest_points` is 1.
@@ -30,6 +43,7 @@ struct ElasticView {
   int points;
   const LawKernels* const* laws;  ///< their energies add up
   int law_count;
+  const PointLaws* at_point;  ///< how they are asked
 };
 
 /// All functions add to what they write, but for `stress`. x, f, p are arrays of 3-vectors of the whole
@@ -56,6 +70,8 @@ struct ElasticKernels {
   /// As `stiffness`, dP/dF replaced at every point by the nearest positive semi-definite one; null where it
   /// is so in every state.
   void (*definite)(const ElasticView&, const Chunk&, const double* x, double scale, double* blocks) = nullptr;
+  /// Of a shape's kernels: what a view of its own laws takes for `at_point`.
+  const PointLaws* at_point = nullptr;
 };
 
 /// The kernels of a shape, for any element and law on it; null when there are none.

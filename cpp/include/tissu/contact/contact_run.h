@@ -101,13 +101,13 @@ class ContactRun {
   double scale_ = 0.0;
   std::vector<ContactNumbers> contacts_;
   std::vector<ContactNumbers> looked_;
-  std::vector<double> gaps_;         ///< of looked_
+  std::vector<double> gaps_;             ///< of looked_
   std::vector<std::uint8_t> predicted_;  ///< of looked_: shut at the goal, whatever the gap is now
-  std::vector<double> weights_;      ///< of looked_
-  std::vector<double> stiffnesses_;  ///< of looked_
-  std::vector<std::int32_t> order_;  ///< of contacts_, by their keys
-  std::vector<std::int32_t> counts_;  ///< contacts of each row
-  std::vector<double> forces_;  ///< on rows
+  std::vector<double> weights_;          ///< of looked_
+  std::vector<double> stiffnesses_;      ///< of looked_
+  std::vector<std::int32_t> order_;      ///< of contacts_, by their keys
+  std::vector<std::int32_t> counts_;     ///< contacts of each row
+  std::vector<double> forces_;           ///< on rows
   double depth_ = 0.0;
   double least_gap_ = 0.0;
 };

@@ -55,6 +55,9 @@ class Equilibrium {
                   StepReport& report);
   /// Whether the latest state that was reached was so by round-off, above the tolerance on its load.
   [[nodiscard]] bool is_at_round_off() const { return at_round_off_; }
+  /// Whether a state that was reached is a saddle of the energy. It is asked only where the latest tangent
+  /// was indefinite.
+  bool is_unstable(const State& state);
   /// The potential energy of all forces [J].
   [[nodiscard]] double energy(const State& state);
 
@@ -65,7 +68,8 @@ class Equilibrium {
   };
   /// The change by the tangent, by the definite matrix where that gives none.
   bool solve(const State& state, StepReport& report);
-  void solve_definite(const State& state, StepReport& report);
+  /// The change by a mean of the tangent and of the definite matrix, which has no negative direction.
+  void solve_mean(const State& state, StepReport& report);
   /// The first step: led nodes go their way, the body follows in its linear answer.
   void lead(const LoadPath& path, double before, double share, State& state, StepReport& report);
   /// The load that acts at a share, after `residual` of the same state [N].
@@ -76,6 +80,8 @@ class Equilibrium {
   bool halve(State& state, double& now);
   /// Moves by the change, whole or halved until the energy falls; false: it does not.
   bool descend(State& state, double& now);
+  /// One iteration of the search on the energy; false: neither matrix gives a step along which it falls.
+  bool search_energy(State& state, double& now, StepReport& report);
   /// state = from_ moved by that length of change_; the residual.
   double go(State& state, double length);
 
@@ -94,9 +100,12 @@ class Equilibrium {
   std::optional<double> correction_;  ///< |last correction|
   double previous_ = 0.0;             ///< residual that was judged before
   bool linear_solved_ = true;
-  bool is_exact_ = false;  ///< the latest change is by a tangent that is indefinite
-  int pause_ = 0;          ///< iterations that do not try that
-  int next_pause_ = 0;     ///< the latest of them, longer each time that it was in vain
+  bool is_exact_ = false;        ///< the latest change is by a tangent that is indefinite
+  bool is_in_vain_ = false;      ///< the latest tangent is indefinite and gave no change
+  bool was_indefinite_ = false;  ///< the latest tangent that was looked at
+  double share_ = 0.0;           ///< of the definite matrix; 0: the tangent was definite
+  int pause_ = 0;                ///< iterations that do not try an exact change
+  int next_pause_ = 0;           ///< the latest of them, longer each time that it was in vain
   bool at_round_off_ = false;
 };
 

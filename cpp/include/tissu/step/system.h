@@ -35,6 +35,9 @@ class System {
   void assemble(const State& state, double mass, StiffnessScale scale);
   /// What is coupled beside A becomes that of this state. Only after `assemble`.
   void recouple(const State& state);
+  /// The mean of -df/dx and of its definite matrix, of which it takes that share. A solver that asks for
+  /// products only gets the definite matrix.
+  void assemble_mean(const State& state, double share);
   /// Solves A x = b from the first guess x.
   SolveReport solve(ConstReals b, Reals x, double floor);
 
@@ -56,7 +59,7 @@ class System {
   void couple(const State& state, StiffnessScale scale, BlockMatrix& matrix);
   /// Where the rows are, for a solver that asks.
   void place_rows(const State& state);
-  void assemble_blocks(const State& state, double mass, StiffnessScale scale);
+  void assemble_blocks(const State& state, double mass, StiffnessScale scale, double definite = 0.0);
 
   const World& world_;
   LinearSolver* solver_;

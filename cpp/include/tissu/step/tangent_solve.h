@@ -16,11 +16,14 @@ class TangentSolve {
  public:
   explicit TangentSolve(System& system) : system_(system) {}
 
-  /// Held rows of b and x are zero. `report.positive_definite` is what K is; not `exact`: x is by the
-  /// definite matrix where K is indefinite.
-  SolveReport solve(const State& state, ConstReals b, Reals x, bool exact = true);
-  /// The same with the definite matrix only: x is a direction in which the energy falls.
-  SolveReport solve_definite(const State& state, ConstReals b, Reals x);
+  /// Held rows of b and x are zero. `report.positive_definite` is what K is.
+  SolveReport solve(const State& state, ConstReals b, Reals x);
+  /// The same with a mean of K and of the definite matrix, whose `share` is raised until the mean is positive
+  /// definite: x is a direction in which the energy falls. A small share keeps the directions in which the
+  /// energy curves down, and with them the long way that a body topples or snaps.
+  SolveReport solve_mean(const State& state, ConstReals b, Reals x, double& share);
+  /// Whether K of the state, without moments, is found indefinite when it is solved with for b.
+  bool is_indefinite(const State& state, ConstReals b, Reals x);
 
  private:
   SolveReport iterate(const State& state, ConstReals b, Reals x);

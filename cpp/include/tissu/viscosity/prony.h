@@ -58,6 +58,7 @@ class Prony final : public ViscousCells {
   [[nodiscard]] std::size_t reals_of_cell() const;
 
   const PronyKernels* kernels_;
+  const ElasticKernels* shape_kernels_;
   std::size_t place_ = 0;  ///< in State::memory
   std::vector<double> shares_;
   std::vector<double> times_;

@@ -19,7 +19,8 @@ struct PronyView : ElasticView {
 };
 
 struct PronyKernels {
-  ElasticKernels forces;  ///< force, product and stiffness; they are given a PronyView
+  int nodes;
+  const PointLaws* at_point;  ///< of a PronyView: with it the kernels of the shape serve for the forces
   /// Energy in the branches' springs of each element [J], [group][8], added.
   void (*energy)(const PronyView&, const Chunk&, const double* x, double* energies);
   /// Writes the memory at the end of a step into `memory`, which may be that of the view.

@@ -98,17 +98,17 @@ struct PrincipalAxes {
 
 /// Of any law: `A` [entry of the upper triangle, row after row][8], of a symmetric matrix of n rows.
 template <int n>
-[[gnu::noinline]] void make_tangents_semidefinite(double (*A)[kLanes]) {
+[[gnu::noinline]] void make_tangents_semidefinite(double* A) {
   for (int lane = 0; lane < kLanes; lane += kWidth) {
     Batch full[n][n];
-    double(*entry)[kLanes] = A;
+    double* entry = A + lane;
     for (int i = 0; i < n; ++i) {
-      for (int j = i; j < n; ++j, ++entry) full[i][j] = full[j][i] = Batch::load(*entry + lane);
+      for (int j = i; j < n; ++j, entry += kLanes) full[i][j] = full[j][i] = Batch::load(entry);
     }
     make_semidefinite(full);
-    entry = A;
+    entry = A + lane;
     for (int i = 0; i < n; ++i) {
-      for (int j = i; j < n; ++j, ++entry) full[i][j].store(*entry + lane);
+      for (int j = i; j < n; ++j, entry += kLanes) full[i][j].store(entry);
     }
   }
 }

@@ -4,32 +4,12 @@
 /// point the law is called for the eight elements of a group. Next to elastic.h, which is compiled for one
 /// element, quadrature and law and keeps F in registers, it costs a pass through the first-level cache.
 
-#include "definite_tangent.h"
+#include "point_laws.h"
 #include "shape.h"
 
 namespace tissu::TISSU_KERNELS {
 
-/// The laws at a point: those of the view, with the constants of the group at all its points.
-struct LawsOfGroup {
-  static bool isotropic(const ElasticView& view) {
-    for (int l = 0; l < view.law_count; ++l) {
-      if (!view.laws[l]->isotropic) return false;
-    }
-    return true;
-  }
-  /// Calls f(law, its constants) for each law.
-  template <class Function>
-  TISSU_INLINE static void for_each(const ElasticView& view, std::int32_t group, int /*point*/,
-                                    Function&& f) {
-    const double* constants = view.constants + group * view.constants_stride;
-    for (int l = 0; l < view.law_count; ++l) {
-      f(*view.laws[l], constants);
-      constants += static_cast<std::ptrdiff_t>(view.laws[l]->constants) * kLanes;
-    }
-  }
-};
-
-template <int N, int M, class Laws = LawsOfGroup>
+template <int N, int M>
 struct ShapeKernels : Shape<N, M> {
   using Base = Shape<N, M>;
   using Base::gradients_of;
@@ -47,11 +27,6 @@ struct ShapeKernels : Shape<N, M> {
   static void deformation(const ElasticView& view, std::int32_t group, int point, const Nodal& u, Point& F) {
     Base::gradient(gradients_of(view, point), rest_of(view, group, point), u, F);
     Base::turn_in(view, group, point, F);
-  }
-  static void stress_at(const ElasticView& view, std::int32_t group, int point, const Point& F, Point& P) {
-    clear(P);
-    Laws::for_each(view, group, point,
-                   [&](const LawKernels& law, const double* c) { law.stress(c, 1, F[0], P[0]); });
   }
   static void spread_from(const ElasticView& view, std::int32_t group, int point, double scale, Point& P,
                           Nodal& f) {
@@ -73,7 +48,7 @@ struct ShapeKernels : Shape<N, M> {
       clear(result);
       for (int g = 0; g < view.points; ++g) {
         deformation(view, group, g, position, F);
-        stress_at(view, group, g, F, P);
+        view.at_point->stress(view, group, g, F[0], P[0]);
         spread_from(view, group, g, -1.0, P, result);
       }
       Base::scatter_nodes(view, group, result, sums);
@@ -102,10 +77,7 @@ struct ShapeKernels : Shape<N, M> {
       for (int g = 0; g < view.points; ++g) {
         deformation(view, group, g, position, F);
         deformation(view, group, g, change, dF);
-        clear(dP);
-        Laws::for_each(view, group, g, [&](const LawKernels& law, const double* c) {
-          law.stress_change(c, 1, F[0], dF[0], dP[0]);
-        });
+        view.at_point->stress_change(view, group, g, F[0], dF[0], dP[0]);
         spread_from(view, group, g, -scale, dP, result);
       }
       Base::scatter_nodes(view, group, result, sums);
@@ -113,44 +85,9 @@ struct ShapeKernels : Shape<N, M> {
     sums.add_to(chunk, out);
   }
 
-  /// dP/dF
-  static void exact_tangent(const ElasticView& view, std::int32_t group, int point, const Point& F,
-                            PointTangent& A) {
-    clear(A);
-    Laws::for_each(view, group, point,
-                   [&](const LawKernels& law, const double* c) { law.tangent(c, 1, F[0], A[0]); });
-  }
-  /// The positive semi-definite tangent nearest to it, for any law, …
-  static void definite_tangent(const ElasticView& view, std::int32_t group, int point, const Point& F,
-                               PointTangent& A) {
-    exact_tangent(view, group, point, F, A);
-    make_tangents_semidefinite<Base::kEntries>(A);
-  }
-  /// … and for laws that are isotropic.
-  static void isotropic_tangent(const ElasticView& view, std::int32_t group, int point, const Point& F,
-                                PointTangent& A) {
-    alignas(64) Point stretch;
-    PrincipalAxes axes[kLanes / kWidth];
-    for (int lane = 0; lane < kLanes; lane += kWidth) {
-      Matrix at;
-      for (int k = 0; k < 9; ++k) at.m[k / 3][k % 3] = Batch::load(F[k] + lane);
-      axes[lane / kWidth].find(at);
-      for (int k = 0; k < 9; ++k) axes[lane / kWidth].stretch.m[k / 3][k % 3].store(stretch[k] + lane);
-    }
-    exact_tangent(view, group, point, stretch, A);
-    for (int lane = 0; lane < kLanes; lane += kWidth) {
-      Tangent<Batch> at;
-      for (int k = 0; k < Base::kTangent; ++k) at.a[k] = Batch::load(A[k] + lane);
-      axes[lane / kWidth].make_definite(at);
-      for (int k = 0; k < Base::kTangent; ++k) at.a[k].store(A[k] + lane);
-    }
-  }
-  using TangentAt = void(const ElasticView& view, std::int32_t group, int point, const Point& F,
-                         PointTangent& A);
-
-  template <TangentAt tangent>
-  static void assemble(const ElasticView& view, const Chunk& chunk, const double* x, double scale,
-                       double* blocks) {
+  /// Of dP/dF, or of what stands in its place.
+  [[gnu::noinline]] static void assemble(decltype(PointLaws::tangent) tangent, const ElasticView& view,
+                                         const Chunk& chunk, const double* x, double scale, double* blocks) {
     PackedNodes positions;
     alignas(64) Nodal position;
     alignas(64) Point F;
@@ -162,7 +99,7 @@ struct ShapeKernels : Shape<N, M> {
       clear(K);
       for (int g = 0; g < view.points; ++g) {
         deformation(view, group, g, position, F);
-        tangent(view, group, g, F, A);
+        tangent(view, group, g, F[0], A[0]);
         for (int lane = 0; lane < kLanes; lane += kWidth) {
           Batch B[3][M][3][M];
           Base::pull_back(rest_of(view, group, g), -scale * view.weights[g], lane, A, B);
@@ -173,12 +110,13 @@ struct ShapeKernels : Shape<N, M> {
       Base::scatter_pairs(view, group, K, blocks);
     }
   }
+  static void stiffness(const ElasticView& view, const Chunk& chunk, const double* x, double scale,
+                        double* blocks) {
+    assemble(view.at_point->tangent, view, chunk, x, scale, blocks);
+  }
   static void definite(const ElasticView& view, const Chunk& chunk, const double* x, double scale,
                        double* blocks) {
-    if constexpr (M == 3) {
-      if (Laws::isotropic(view)) return assemble<isotropic_tangent>(view, chunk, x, scale, blocks);
-    }
-    assemble<definite_tangent>(view, chunk, x, scale, blocks);
+    assemble(view.at_point->definite, view, chunk, x, scale, blocks);
   }
 
   static void energy(const ElasticView& view, const Chunk& chunk, const double* x, double* energies) {
@@ -194,8 +132,8 @@ struct ShapeKernels : Shape<N, M> {
         const double* volume = rest_of(view, group, g) + M * M * kLanes;
         deformation(view, group, g, position, F);
         clear(W);
-        Laws::for_each(view, group, g,
-                       [&](const LawKernels& law, const double* c) { law.energy(c, 1, F[0], W); });
+        LawsOfGroup::for_each(view, group, g,
+                              [&](const LawKernels& law, const double* c) { law.energy(c, 1, F[0], W); });
         for (int lane = 0; lane < kLanes; ++lane) to[lane] += view.weights[g] * volume[lane] * W[lane];
       }
     }
@@ -219,7 +157,7 @@ struct ShapeKernels : Shape<N, M> {
       for (int g = 0; g < view.points; ++g) {
         const double* measure = rest_of(view, group, g) + M * M * kLanes;
         deformation(view, group, g, position, F);
-        stress_at(view, group, g, F, P);
+        view.at_point->stress(view, group, g, F[0], P[0]);
         Base::turn_out(view, group, g, F);
         Base::turn_out(view, group, g, P);
         for (int lane = 0; lane < kLanes; ++lane) {
@@ -251,8 +189,8 @@ struct ShapeKernels : Shape<N, M> {
     }
   }
 
-  static constexpr ElasticKernels table() {
-    return {"", "", "", N, M, &force, &product, &assemble<exact_tangent>, &energy, &stress, false, &definite};
+  static constexpr ElasticKernels table(const PointLaws* at_point) {
+    return {"", "", "", N, M, &force, &product, &stiffness, &energy, &stress, false, &definite, at_point};
   }
 };
 

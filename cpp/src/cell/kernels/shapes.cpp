@@ -3,13 +3,18 @@
 
 namespace tissu::TISSU_KERNELS {
 namespace {
+constexpr PointLaws kLaws[] = {LawsAtPoint<LawsOfGroup, 1>::table(), LawsAtPoint<LawsOfGroup, 2>::table(),
+                               LawsAtPoint<LawsOfGroup, 3>::table()};
+
+template <int N, int M>
+constexpr ElasticKernels kernels() {
+  return ShapeKernels<N, M>::table(&kLaws[M - 1]);
+}
+
 constexpr ElasticKernels kTables[] = {
-    ShapeKernels<4, 3>::table(),  ShapeKernels<10, 3>::table(), ShapeKernels<8, 3>::table(),
-    ShapeKernels<20, 3>::table(), ShapeKernels<27, 3>::table(), ShapeKernels<6, 3>::table(),
-    ShapeKernels<15, 3>::table(), ShapeKernels<5, 3>::table(),  ShapeKernels<13, 3>::table(),
-    ShapeKernels<2, 1>::table(),  ShapeKernels<3, 1>::table(),  ShapeKernels<3, 2>::table(),
-    ShapeKernels<6, 2>::table(),  ShapeKernels<4, 2>::table(),  ShapeKernels<8, 2>::table(),
-    ShapeKernels<9, 2>::table(),
+    kernels<4, 3>(),  kernels<10, 3>(), kernels<8, 3>(),  kernels<20, 3>(), kernels<27, 3>(), kernels<6, 3>(),
+    kernels<15, 3>(), kernels<5, 3>(),  kernels<13, 3>(), kernels<2, 1>(),  kernels<3, 1>(),  kernels<3, 2>(),
+    kernels<6, 2>(),  kernels<4, 2>(),  kernels<8, 2>(),  kernels<9, 2>(),
 };
 }  // namespace
 

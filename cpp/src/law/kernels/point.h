@@ -1,7 +1,7 @@
 #pragma once
 
 /// A law at the points of eight elements: the loops that LawKernels names, around the four functions of a
-/// law.
+/// law. They are not inlined: the numbers of a law are the same wherever it is asked.
 
 #include "tissu/base/batch.h"
 #include "tissu/law/law_kernels.h"
@@ -39,7 +39,7 @@ struct LawAtPoints {
       }
     }
   }
-  static void stress(const double* constants, int points, const double* F, double* P) {
+  [[gnu::noinline]] static void stress(const double* constants, int points, const double* F, double* P) {
     for (int lane = 0; lane < kLanes; lane += kWidth) {
       const MaterialLaw law = load_law(constants + lane);
       for (int g = 0; g < points; ++g) {
@@ -49,8 +49,8 @@ struct LawAtPoints {
       }
     }
   }
-  static void stress_change(const double* constants, int points, const double* F, const double* dF,
-                            double* dP) {
+  [[gnu::noinline]] static void stress_change(const double* constants, int points, const double* F,
+                                              const double* dF, double* dP) {
     for (int lane = 0; lane < kLanes; lane += kWidth) {
       const MaterialLaw law = load_law(constants + lane);
       for (int g = 0; g < points; ++g) {
@@ -61,7 +61,7 @@ struct LawAtPoints {
       }
     }
   }
-  static void tangent(const double* constants, int points, const double* F, double* A) {
+  [[gnu::noinline]] static void tangent(const double* constants, int points, const double* F, double* A) {
     for (int lane = 0; lane < kLanes; lane += kWidth) {
       const MaterialLaw law = load_law(constants + lane);
       for (int g = 0; g < points; ++g) {

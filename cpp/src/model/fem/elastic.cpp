@@ -16,6 +16,7 @@ Loops<ElasticKernels, ElasticView> Elastic::loops() const {
   view.gradients = gradients_.data();
   view.laws = laws_.data();
   view.law_count = static_cast<int>(laws_.size());
+  view.at_point = kernels_->at_point;
   return {*kernels_, view, order_};
 }
 

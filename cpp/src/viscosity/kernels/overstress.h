@@ -44,7 +44,7 @@ struct Overstress {
       for (int j = 0; j < 3; ++j) e[i][j] = T(0.5) * (D(i, j) + D(j, i));
     }
   }
-  void second_stress(const Tensor2<T>& F, Symmetric& S) const {
+  [[gnu::always_inline]] void second_stress(const Tensor2<T>& F, Symmetric& S) const {
     Symmetric E;
     symmetric_part(F, F, E);
     TISSU_UNROLL
@@ -58,6 +58,17 @@ struct Overstress {
     for (int i = 0; i < 3; ++i) {
       TISSU_UNROLL
       for (int j = 0; j < 3; ++j) S[i][j] += H[entry[i][j]];
+    }
+  }
+  /// The same as a call. What the compiler contracts to a fused product ends at a call, so where one stands
+  /// is part of the bits: it is written here, and not left to what else the source holds.
+  [[gnu::noinline]] void call_second_stress(const Tensor2<T>& F, Symmetric& S) const { second_stress(F, S); }
+  /// Within its caller where there are 32 wide registers, by a call elsewhere.
+  [[gnu::always_inline]] void second_stress_of_set(const Tensor2<T>& F, Symmetric& S) const {
+    if constexpr (sizeof(T) == 64) {
+      second_stress(F, S);
+    } else {
+      call_second_stress(F, S);
     }
   }
   /// P += F S
@@ -79,7 +90,7 @@ struct Overstress {
   /// P = F S
   [[nodiscard]] Tensor2<T> stress(const Tensor2<T>& F) const {
     Symmetric S;
-    second_stress(F, S);
+    second_stress_of_set(F, S);
     Tensor2<T> P = zero();
     add_product(F, S, P);
     return P;
@@ -89,7 +100,7 @@ struct Overstress {
     Symmetric S;
     Symmetric dE;
     Symmetric dS;
-    second_stress(F, S);
+    call_second_stress(F, S);
     symmetric_part(F, dF, dE);
     elastic(dE, dS);
     Tensor2<T> dP = zero();
@@ -100,7 +111,7 @@ struct Overstress {
   /// dP_iJ/dF_kL = delta_ik S_JL + lambda' F_iJ F_kL + mu' ((F F^T)_ik delta_JL + F_iL F_kJ)
   [[nodiscard]] Tangent<T> tangent(const Tensor2<T>& F) const {
     Symmetric S;
-    second_stress(F, S);
+    second_stress_of_set(F, S);
     Tangent<T> A;
     TISSU_UNROLL
     for (int i = 0; i < 3; ++i) {

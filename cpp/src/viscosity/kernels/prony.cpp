@@ -1,4 +1,5 @@
-#include "cell/kernels/shape_kernels.h"
+#include "cell/kernels/point_laws.h"
+#include "cell/kernels/shape.h"
 #include "law/kernels/point.h"
 #include "overstress.h"
 #include "tissu/viscosity/prony_kernels.h"
@@ -69,9 +70,11 @@ struct OverstressOfMemory {
   }
 };
 
+constexpr PointLaws kAtPoint = LawsAtPoint<OverstressOfMemory, 3>::table();
+
 template <int N>
-struct Prony : ShapeKernels<N, 3, OverstressOfMemory> {
-  using Base = ShapeKernels<N, 3, OverstressOfMemory>;
+struct Prony : Shape<N, 3> {
+  using Base = Shape<N, 3>;
   using typename Base::Nodal;
   using typename Base::Point;
 
@@ -103,7 +106,7 @@ struct Prony : ShapeKernels<N, 3, OverstressOfMemory> {
     for (std::int32_t group = chunk.begin; group < chunk.end; ++group) {
       Base::gather_nodes(view, group, positions, position);
       for (int g = 0; g < view.points; ++g) {
-        Base::deformation(view, group, g, position, F);
+        Base::gradient(Base::gradients_of(view, g), Base::rest_of(view, group, g), position, F);
         f(group, g, F);
       }
     }
@@ -151,12 +154,7 @@ struct Prony : ShapeKernels<N, 3, OverstressOfMemory> {
     });
   }
 
-  static constexpr PronyKernels table() {
-    return {{"", "", "", N, 3, &Base::force, &Base::product, &Base::template assemble<Base::exact_tangent>,
-             nullptr, nullptr, false, &Base::definite},
-            &energy,
-            &advance};
-  }
+  static constexpr PronyKernels table() { return {N, &kAtPoint, &energy, &advance}; }
 };
 
 constexpr PronyKernels kTables[] = {

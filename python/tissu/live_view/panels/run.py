@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from tissu.live_view.panels.panel import Panel, text
+from tissu.live_view.panels.panel import Panel, table, text, warning
 from tissu.live_view.runner import speed_of
 
 if TYPE_CHECKING:
@@ -45,20 +45,28 @@ class RunPanel(Panel):
     def show(self, frame: Frame) -> None:
         """Time, rates, and the message."""
         self._pause.label = "Pause" if frame.playing else "Play"
-        lines = [f"t = {frame.time:.3f} s" + ("" if frame.playing else ", paused")]
+        clock = f"t = {frame.time:.3f} s" + ("" if frame.playing else ", paused")
         if frame.playing:
-            lines[0] += f", {frame.achieved:.2f} x real time"
-        several = len(frame.profiles) > 1
-        for number, profile in enumerate(frame.profiles):
-            of = f"{'left' if number == 0 else 'right'}: " if several else ""
-            lines.append(
-                f"{of}step p50 {profile.p50_ms:.2f} ms, p99 {profile.p99_ms:.2f} ms; "
-                f"alone {profile.real_time_factor:.2f} x real time"
-            )
+            clock += f", {frame.achieved:.2f} x real time"
+        rows = [
+            (of, f"{one.p50_ms:.2f}", f"{one.p99_ms:.2f}", f"{one.real_time_factor:.2f} x")
+            for of, one in zip(self._called(), frame.profiles, strict=True)
+        ]
+        said = text(clock) + table(("a step [ms]", "p50", "p99", "real time"), rows)
         if frame.error is not None:
             mean, largest = (1e3 * value for value in frame.error)
-            lines.append(f"apart by {mean:.3g} mm in the mean, {largest:.3g} mm at most")
-        self._numbers.content = text(*lines)
+            said += text(f"apart by {mean:.3g} mm in the mean, {largest:.3g} mm at most")
+        self._numbers.content = said
         self._message.visible = bool(frame.message)
         if frame.message:
-            self._message.content = text(*frame.message.splitlines(), colour="#b3261e")
+            self._message.content = warning(*frame.message.splitlines())
+
+    def _called(self) -> list[str]:
+        """What each simulation is called: its models, and its place where there are two."""
+        models = []
+        for simulation in self._runner.simulations:
+            found = [m.type for b in simulation.scene.bodies.values() for m in b.models().values()]
+            models.append(", ".join(dict.fromkeys(found)) or "tissue")
+        if len(models) == 1:
+            return models
+        return [f"{side}: {model}" for side, model in zip(("left", "right"), models, strict=True)]

@@ -1,5 +1,4 @@
-#include <Eigen/SVD>
-
+#include "../../base/singular_values.h"
 #include "corotational_sample.h"
 
 /// Cells that are crushed, flat or inside out come back to their rest shape by steps of implicit Euler with
@@ -50,9 +49,9 @@ class CorotationalRecovery : public testing::TestWithParam<RecoveryCase> {
     const Eigen::Map<const Eigen::Matrix3Xd> rest(X.data(), 3, count);
     const Eigen::Matrix3Xd a = now.colwise() - now.rowwise().mean();
     const Eigen::Matrix3Xd b = rest.colwise() - rest.rowwise().mean();
-    const Eigen::JacobiSVD<Mat3> svd(Mat3(a * b.transpose()), Eigen::ComputeFullU | Eigen::ComputeFullV);
-    const double sign = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0.0 ? -1.0 : 1.0;
-    const Mat3 R = svd.matrixU() * Vec3(1, 1, sign).asDiagonal() * svd.matrixV().transpose();
+    const auto [U, values, V] = test::singular_values(a * b.transpose());
+    const double sign = (U * V.transpose()).determinant() < 0.0 ? -1.0 : 1.0;
+    const Mat3 R = U * Vec3(1, 1, sign).asDiagonal() * V.transpose();
     return (a - R * b).colwise().norm().maxCoeff();
   }
   static void expect_return(const CellBox& box, const std::vector<double>& start) {

@@ -1,5 +1,3 @@
-#include <Eigen/SVD>
-
 #include "../../base/eigenvalues.h"
 #include "../../force/room.h"
 #include "corotational_sample.h"

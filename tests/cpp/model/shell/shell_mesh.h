@@ -3,12 +3,9 @@
 /// Structures of shell elements: a mesh, what is held, what pulls, and equilibrium by Newton's method. Nodes
 /// have six freedoms in the order of an element's.
 
-#include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>
-#include <Eigen/SparseLU>
 #include <functional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "shell_sample.h"
@@ -19,39 +16,11 @@ struct ShellMesh {
   std::vector<Vec3> nodes;
   std::vector<std::array<int, 3>> cells;
 
-  int node(const Vec3& near) const {
-    int best = 0;
-    for (int i = 0; i < static_cast<int>(nodes.size()); ++i) {
-      if ((nodes[static_cast<std::size_t>(i)] - near).norm() <
-          (nodes[static_cast<std::size_t>(best)] - near).norm())
-        best = i;
-    }
-    return best;
-  }
+  int node(const Vec3& near) const;
 };
 
 /// A grid of nx x ny squares, each cut in two along the diagonals in turn, at place(x, y), x and y in [0, 1].
-inline ShellMesh grid(int nx, int ny, const std::function<Vec3(double, double)>& place) {
-  ShellMesh mesh;
-  for (int j = 0; j <= ny; ++j) {
-    for (int i = 0; i <= nx; ++i)
-      mesh.nodes.push_back(place(static_cast<double>(i) / nx, static_cast<double>(j) / ny));
-  }
-  for (int j = 0; j < ny; ++j) {
-    for (int i = 0; i < nx; ++i) {
-      const int a = j * (nx + 1) + i;
-      const int b = a + nx + 1;
-      if ((i + j) % 2 == 0) {
-        mesh.cells.push_back({a, a + 1, b + 1});
-        mesh.cells.push_back({a, b + 1, b});
-      } else {
-        mesh.cells.push_back({a, a + 1, b});
-        mesh.cells.push_back({a + 1, b + 1, b});
-      }
-    }
-  }
-  return mesh;
-}
+ShellMesh grid(int nx, int ny, const std::function<Vec3(double, double)>& place);
 
 class ShellStructure {
  public:
@@ -62,108 +31,22 @@ class ShellStructure {
   Eigen::VectorXd load;    ///< [N], [N m]
   std::vector<char> held;  ///< of each freedom
 
-  ShellStructure(ShellMesh given, const ShellSection& section) : mesh(std::move(given)) {
-    for (const auto& cell : mesh.cells) {
-      elements.emplace_back(Corners{mesh.nodes[static_cast<std::size_t>(cell[0])],
-                                    mesh.nodes[static_cast<std::size_t>(cell[1])],
-                                    mesh.nodes[static_cast<std::size_t>(cell[2])]},
-                            section);
-    }
-    positions = mesh.nodes;
-    rotations.assign(mesh.nodes.size(), Mat3::Identity());
-    load = Eigen::VectorXd::Zero(freedoms());
-    held.assign(static_cast<std::size_t>(freedoms()), 0);
-  }
+  ShellStructure(ShellMesh given, const ShellSection& section);
   Eigen::Index freedoms() const { return 6 * static_cast<Eigen::Index>(mesh.nodes.size()); }
 
   /// Holds some freedoms ("xyz" of translation, "XYZ" of rotation) of the nodes that `where` names.
-  void hold(const std::string& which, const std::function<bool(const Vec3&)>& where) {
-    for (std::size_t n = 0; n < mesh.nodes.size(); ++n) {
-      if (!where(mesh.nodes[n])) continue;
-      for (const char axis : which) held[6 * n + std::string("xyzXYZ").find(axis)] = 1;
-    }
-  }
-
-  ShellPose pose(std::size_t e) const {
-    ShellPose result;
-    for (std::size_t a = 0; a < 3; ++a) {
-      result.positions[a] = positions[static_cast<std::size_t>(mesh.cells[e][a])];
-      result.rotations[a] = rotations[static_cast<std::size_t>(mesh.cells[e][a])];
-    }
-    return result;
-  }
-
+  void hold(const std::string& which, const std::function<bool(const Vec3&)>& where);
+  ShellPose pose(std::size_t e) const;
   /// What is out of balance under `share` of the load; nothing where it is held.
-  Eigen::VectorXd residual(double share) const {
-    Eigen::VectorXd r = share * load;
-    for (std::size_t e = 0; e < elements.size(); ++e) {
-      const Vec18 f = elements[e].force(pose(e));
-      for (int a = 0; a < 3; ++a)
-        r.segment<6>(6 * mesh.cells[e][static_cast<std::size_t>(a)]) += f.segment<6>(6 * a);
-    }
-    for (Eigen::Index i = 0; i < r.size(); ++i) {
-      if (held[static_cast<std::size_t>(i)] != 0) r[i] = 0.0;
-    }
-    return r;
-  }
-
+  Eigen::VectorXd residual(double share) const;
   /// -d(residual)/d(freedoms). `skew`: with what an element's symmetric stiffness leaves out.
-  Eigen::SparseMatrix<double> stiffness(bool skew = false) const {
-    std::vector<Eigen::Triplet<double>> entries;
-    for (std::size_t e = 0; e < elements.size(); ++e) {
-      Mat18 K = elements[e].stiffness(pose(e));
-      if (skew) {
-        const Vec18 f = elements[e].force(pose(e));
-        for (int a = 3; a < 18; a += 6) K.block<3, 3>(a, a) += 0.5 * cross_matrix(f.segment<3>(a));
-      }
-      for (int i = 0; i < 18; ++i) {
-        for (int j = 0; j < 18; ++j) {
-          const int row = 6 * mesh.cells[e][static_cast<std::size_t>(i / 6)] + i % 6;
-          const int column = 6 * mesh.cells[e][static_cast<std::size_t>(j / 6)] + j % 6;
-          if (held[static_cast<std::size_t>(row)] == 0 && held[static_cast<std::size_t>(column)] == 0)
-            entries.emplace_back(row, column, K(i, j));
-        }
-      }
-    }
-    for (int i = 0; i < static_cast<int>(freedoms()); ++i) {
-      if (held[static_cast<std::size_t>(i)] != 0) entries.emplace_back(i, i, 1.0);
-    }
-    Eigen::SparseMatrix<double> K(freedoms(), freedoms());
-    K.setFromTriplets(entries.begin(), entries.end());
-    return K;
-  }
-
+  Eigen::SparseMatrix<double> stiffness(bool skew = false) const;
   /// Displacements and rotations under the load, linear at rest, where those held are as in `given`.
-  Eigen::VectorXd linear_answer(const Eigen::VectorXd& given) {
-    std::vector<char> none(held.size(), 0);
-    std::swap(held, none);
-    Eigen::VectorXd r = load - stiffness() * given;
-    std::swap(held, none);
-    for (Eigen::Index i = 0; i < r.size(); ++i) {
-      if (held[static_cast<std::size_t>(i)] != 0) r[i] = 0.0;
-    }
-    return given + Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>(stiffness()).solve(r);
-  }
+  Eigen::VectorXd linear_answer(const Eigen::VectorXd& given);
   /// Displacements and rotations under the load, linear at rest.
-  Eigen::VectorXd linear_answer() const {
-    return Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>(stiffness()).solve(residual(1.0));
-  }
-
+  Eigen::VectorXd linear_answer() const;
   /// Newton's method under `share` of the load; the number of steps, or -1.
-  int balance(double share, double tolerance, int most) {
-    for (int step = 0; step <= most; ++step) {
-      const Eigen::VectorXd r = residual(share);
-      if (r.norm() < tolerance) return step;
-      if (!(r.norm() < 1e20)) return -1;
-      const Eigen::SparseLU<Eigen::SparseMatrix<double>> factor(stiffness(true));
-      const Eigen::VectorXd p = factor.solve(r);
-      for (std::size_t n = 0; n < positions.size(); ++n) {
-        positions[n] += p.segment<3>(6 * static_cast<Eigen::Index>(n));
-        rotations[n].applyOnTheLeft(turn(p.segment<3>(6 * static_cast<Eigen::Index>(n) + 3)));
-      }
-    }
-    return -1;
-  }
+  int balance(double share, double tolerance, int most);
 };
 
 }  // namespace tissu::test

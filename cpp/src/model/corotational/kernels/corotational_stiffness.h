@@ -156,16 +156,14 @@ struct CorotationalStiffness : Corotational<Element, Rule, LawOf, kExact> {
     }
   }
 
-  /// scale df/dx
-  TISSU_INLINE static void all_blocks_of(const CorotationalView& view, const Cell& cell, double scale,
-                                         Batch (&K)[kPairs][9]) {
+  /// scale df/dx. A call, so that it is compiled once for the matrix and the definite one.
+  [[gnu::noinline]] static void exact_blocks_of(const CorotationalView& view, const Cell& cell, double scale,
+                                                Batch (&K)[kPairs][9]) {
     blocks_of(cell, scale, K);
-    if constexpr (kExact) {
-      const SpinBlocks<Element, Rule, LawOf> spin(view, cell);
-      int pair = 0;
-      for (int b = kFirst; b < kNodes; ++b) {
-        for (int a = kFirst; a <= b; ++a, ++pair) spin.add_to(a, b, Batch(-scale), K[pair]);
-      }
+    const SpinBlocks<Element, Rule, LawOf> spin(view, cell);
+    int pair = 0;
+    for (int b = kFirst; b < kNodes; ++b) {
+      for (int a = kFirst; a <= b; ++a, ++pair) spin.add_to(a, b, Batch(-scale), K[pair]);
     }
   }
   TISSU_INLINE static void make_definite(double scale, Batch (&K)[kPairs][9]) {
@@ -188,7 +186,11 @@ struct CorotationalStiffness : Corotational<Element, Rule, LawOf, kExact> {
     for_batches(chunk, [&](std::int32_t group, int lane) {
       const Cell cell(view, positions, group, lane);
       Batch K[kPairs][9];
-      all_blocks_of(view, cell, kDefinite ? -1.0 : scale, K);
+      if constexpr (kExact) {
+        exact_blocks_of(view, cell, kDefinite ? -1.0 : scale, K);
+      } else {
+        blocks_of(cell, scale, K);
+      }
       if constexpr (kDefinite) make_definite(scale, K);
       int pair = 0;
       for (int b = kFirst; b < kNodes; ++b) {

@@ -190,7 +190,8 @@ ElasticView CellModel::cell_view() const {
           .gradients = nullptr,
           .points = static_cast<int>(reference_.points.size()),
           .laws = nullptr,
-          .law_count = 0};
+          .law_count = 0,
+          .at_point = nullptr};
 }
 
 CellFields CellModel::cell_fields(const std::vector<double>& stresses, const std::vector<double>& ratios,

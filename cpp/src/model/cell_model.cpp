@@ -191,7 +191,7 @@ ElasticView CellModel::cell_view() const {
           .points = static_cast<int>(reference_.points.size()),
           .laws = nullptr,
           .law_count = 0,
-          .at_point = {}};
+          .at_point = nullptr};
 }
 
 CellFields CellModel::cell_fields(const std::vector<double>& stresses, const std::vector<double>& ratios,

@@ -21,6 +21,6 @@ __all__ = [
     "Simulation",
     "Solves",
     "StepReport",
-    "Wrench",
     "WorstStep",
+    "Wrench",
 ]

@@ -10,9 +10,10 @@ namespace {
 
 std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
-constexpr double kOfRest = 0.9;   ///< of the distance at rest: where such pairs are held apart
-constexpr double kSkin = 0.1;     ///< of the mean edge
-constexpr double kGapSkin = 0.5;  ///< of the gap
+constexpr double kOfRest = 0.9;       ///< of the distance at rest: where such pairs are held apart
+constexpr double kSkin = 0.1;         ///< of the mean edge
+constexpr double kSure = 1.0 - 1e-9;  ///< of a distance: round-off is less
+constexpr double kGapSkin = 0.5;      ///< of the gap
 
 }  // namespace
 
@@ -95,7 +96,10 @@ bool Candidates::cover(ConstReals from, ConstReals to) {
   };
   bool covered = searched_.size() == needed_.size();
   for (std::size_t p = 0; covered && p < needed_.size(); ++p) covered = is_inside(needed_[p], searched_[p]);
-  if (covered) return false;
+  if (covered) {
+    follow(from, to);
+    return false;
+  }
   searched_ = needed_;
   for (std::size_t p = 0; p < searched_.size(); ++p) {
     searched_[p].grow(skin_[at(surfaces_.surface_of_primitive(static_cast<std::int32_t>(p)))]);
@@ -103,7 +107,29 @@ bool Candidates::cover(ConstReals from, ConstReals to) {
   broad_->find(searched_, found_);
   list_.clear();
   for (const BoxPair& pair : found_) list_features(pair);
+  measure(from);
+  follow(from, to);
   return true;
+}
+
+void Candidates::measure(ConstReals places) {
+  made_.assign(places.begin(), places.end());
+  distance_.resize(list_.size());
+  for (std::size_t i = 0; i < list_.size(); ++i) {
+    std::array<Vec3, 4> p{};
+    for (int k = 0; k < vertices_of(list_[i].kind); ++k) p[at(k)] = block(places, list_[i].vertex[at(k)]);
+    distance_[i] = kSure * std::sqrt(nearest_of(list_[i].kind, p).square);
+  }
+}
+
+void Candidates::follow(ConstReals from, ConstReals to) {
+  gone_.resize(made_.size() / 3);
+  for (std::size_t v = 0; v < gone_.size(); ++v) {
+    const auto number = static_cast<std::int32_t>(v);
+    const Vec3 was = block(ConstReals(made_), number);
+    gone_[v] = std::sqrt(
+        std::max((block(from, number) - was).squaredNorm(), (block(to, number) - was).squaredNorm()));
+  }
 }
 
 void Candidates::list_features(const BoxPair& pair) {

@@ -213,6 +213,7 @@ void ContactRun::find_pairs() {
       reach = std::numeric_limits<double>::infinity();
       ++stopped;
     }
+    if (candidates_->is_far(i, reach)) continue;
     ContactNumbers c;
     if (!find_contact(contact_.surfaces(), now_, candidate, reach, found)) {
       c.kind = static_cast<double>(candidate.kind);

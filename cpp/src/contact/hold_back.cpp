@@ -77,6 +77,7 @@ bool HoldBack::find(const Candidates& candidates, std::span<const PlacedPlane> p
   bool held = false;
   const auto& list = candidates.list();
   for (std::size_t i = 0; i < list.size(); ++i) {
+    if (candidates.is_far(i, list[i].apart)) continue;
     const FreeWay way = free_way(list[i], from, to);
     if (way.whatever) continue;
     join(list[i], way.share);

@@ -119,7 +119,9 @@ bool PushAhead::go(const LedMotion& motion, double before, double after, Candida
 /// True when all pairs keep apart; else `pushed` says whether something was moved out of the way.
 bool PushAhead::push_pairs(const Candidates& candidates, ConstReals from, bool& pushed) {
   bool clear = true;
-  for (const Candidate& candidate : candidates.list()) {
+  for (std::size_t i = 0; i < candidates.list().size(); ++i) {
+    const Candidate& candidate = candidates.list()[i];
+    if (candidates.is_far(i, candidate.apart)) continue;
     const FreeWay way = free_way(candidate, from, to_);
     if (way.share == 1.0) continue;
     clear = false;
@@ -128,18 +130,18 @@ bool PushAhead::push_pairs(const Candidates& candidates, ConstReals from, bool& 
     std::array<Vec3, 4> p{};
     const int count = vertices_of(candidate.kind);
     const int first = vertices_of_first(candidate.kind);
-    for (int i = 0; i < count; ++i) p[at(i)] = block(from, candidate.vertex[at(i)]);
+    for (int k = 0; k < count; ++k) p[at(k)] = block(from, candidate.vertex[at(k)]);
     const Closest closest = nearest_of(candidate.kind, p);
     std::array<Vec3, 2> moved = {Vec3::Zero(), Vec3::Zero()};
-    for (int i = 0; i < count; ++i) {
-      const std::int32_t v = candidate.vertex[at(i)];
-      moved[i < first ? 0 : 1] +=
-          std::abs(closest.beta[at(i)]) * (block(ConstReals(to_), v) - block(from, v));
+    for (int k = 0; k < count; ++k) {
+      const std::int32_t v = candidate.vertex[at(k)];
+      moved[k < first ? 0 : 1] +=
+          std::abs(closest.beta[at(k)]) * (block(ConstReals(to_), v) - block(from, v));
     }
     const int pusher = moved[0].squaredNorm() >= moved[1].squaredNorm() ? 0 : 1;
-    for (int i = 0; i < count; ++i) {
-      const std::int32_t v = candidate.vertex[at(i)];
-      if ((i < first ? 0 : 1) == pusher || given_[at(v)] != 0) continue;
+    for (int k = 0; k < count; ++k) {
+      const std::int32_t v = candidate.vertex[at(k)];
+      if ((k < first ? 0 : 1) == pusher || given_[at(v)] != 0) continue;
       const Vec3 now = block(ConstReals(to_), v) - block(from, v);
       if (now.squaredNorm() >= moved[at(pusher)].squaredNorm()) continue;
       block(Reals(to_), v) = block(from, v) + moved[at(pusher)];

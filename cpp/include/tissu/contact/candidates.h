@@ -2,6 +2,7 @@
 
 /// Pairs of features that may meet, from boxes that overlap.
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <memory>
@@ -42,6 +43,18 @@ class Candidates {
   /// Covers the ways of all vertices between two states. True when the list was made anew.
   bool cover(ConstReals from, ConstReals to);
   [[nodiscard]] const std::vector<Candidate>& list() const { return list_; }
+  /// The pair stays farther apart than `reach` all along the ways that were covered last, and on shorter
+  /// ones: its distance when the list was made, less what its vertices may have gone since.
+  [[nodiscard]] bool is_far(std::size_t i, double reach) const {
+    const Candidate& c = list_[i];
+    const auto gone = [&](std::size_t k) {
+      return c.vertex[k] < 0 ? 0.0 : gone_[static_cast<std::size_t>(c.vertex[k])];
+    };
+    const double first = c.kind == PairKind::edge_edge ? std::max(gone(0), gone(1)) : gone(0);
+    const double second = c.kind == PairKind::edge_edge ? std::max(gone(2), gone(3))
+                                                        : std::max(std::max(gone(1), gone(2)), gone(3));
+    return distance_[i] - first - second > reach;
+  }
   [[nodiscard]] const std::vector<PlaneCandidate>& planes() const { return planes_; }
   [[nodiscard]] const BroadPhase& broad_phase() const { return *broad_; }
   [[nodiscard]] std::size_t bytes() const;
@@ -57,6 +70,8 @@ class Candidates {
   [[nodiscard]] double apart_at_rest(PairKind kind, const std::array<std::int32_t, 4>& vertex,
                                      double apart) const;
   void list_planes();
+  void measure(ConstReals places);
+  void follow(ConstReals from, ConstReals to);
 
   const ContactDescription& description_;
   const SurfaceSet& surfaces_;
@@ -69,6 +84,9 @@ class Candidates {
   std::vector<Box> searched_;
   std::vector<BoxPair> found_;
   std::vector<Candidate> list_;
+  std::vector<double> distance_;  ///< of each when the list was made [m], less round-off
+  std::vector<double> made_;      ///< places of all vertices then
+  std::vector<double> gone_;      ///< how far each may be from there on the ways covered last [m]
   std::vector<PlaneCandidate> planes_;
 };
 

@@ -43,6 +43,7 @@ StepReport Simulation::step_in_parts(double h, int halvings) {
   state_ = start;
   integrator_->restore(memory);
   const StepReport first = step_in_parts(0.5 * h, halvings + 1);
+  remember(*world_, state_);
   return sum(first, step_in_parts(0.5 * h, halvings + 1));
 }
 

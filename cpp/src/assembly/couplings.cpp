@@ -205,14 +205,16 @@ std::span<const Couplings::Term> Couplings::terms(std::size_t coupling) const {
 }
 
 void Couplings::keys(std::vector<Key>& sorted) const {
-  sorted.resize(list_.size());
-  for (std::size_t c = 0; c < list_.size(); ++c) {
+  sorted.clear();
+  for (const Coupling& coupling : list_) {
+    if (coupling.mild) continue;
+    Key key{};
     for (std::size_t v = 0; v < 4; ++v) {
-      const std::int32_t vertex = list_[c].vertex[v];
-      std::int32_t key = -1;
-      if (list_[c].beta[v] != 0.0) key = vertex > kCarried ? vertex : parts(vertex).front().row;
-      sorted[c][v] = key;
+      const std::int32_t vertex = coupling.vertex[v];
+      key[v] = -1;
+      if (coupling.beta[v] != 0.0) key[v] = vertex > kCarried ? vertex : parts(vertex).front().row;
     }
+    sorted.push_back(key);
   }
   std::ranges::sort(sorted);
 }

@@ -93,7 +93,7 @@ void Contact::add_couplings(const State& state, StiffnessScale scale, Couplings&
   for_contacts(state, [&](const ContactNumbers& c) {
     const Mat3 H = stiffness_of(c);
     if (H.isZero(0.0)) return;
-    Coupling coupling{{0, 0, 0, 0}, {0.0, 0.0, 0.0, 0.0}, -scale.position * H};
+    Coupling coupling{{0, 0, 0, 0}, {0.0, 0.0, 0.0, 0.0}, -scale.position * H, true};
     for (std::size_t k = 0; k < 4; ++k) {
       const std::int32_t i = row(c.vertex[k]);
       if (i < 0) continue;

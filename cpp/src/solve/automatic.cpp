@@ -7,6 +7,7 @@
 
 #include "arm_costs.h"
 #include "choice.h"
+#include "tissu/assembly/couplings.h"
 #include "tissu/base/error.h"
 #include "tissu/base/interruption.h"
 #include "tissu/base/number_text.h"
@@ -17,6 +18,8 @@ namespace tissu {
 namespace {
 
 constexpr int kIterations = 20'000;
+constexpr std::size_t kManyCouplings = 16;
+constexpr double kRowsOfFactor = 1000.0;  ///< of three, beside many couplings
 constexpr double kFactorBytes = 2e9;  ///< a larger factor is not made
 constexpr double kSolvesSteps = 8.0;  ///< that are to pay for the first preparation
 constexpr double kSolvesNewton = 4.0;
@@ -76,6 +79,7 @@ struct Automatic::Known {
   MatrixShape shape;
   double plain = 0.0;  ///< iterations of block-Jacobi: predicted, or counted by it or by a like one
   Changes changes;
+  bool touched = false;  ///< many couplings came and went: a factor of the matrix without them is of little use
 };
 
 Automatic::Automatic(Settings settings)
@@ -100,7 +104,8 @@ LinearSolver& Automatic::solver(Arm arm) {
 void Automatic::predict(bool first) {
   ForArms<Cost> costs = predicted_costs(known_->shape, known_->plain, settings_.tolerance, known_->changes,
                                         settings_.equilibrium);
-  const bool fits = factor_bytes(known_->shape) <= kFactorBytes;
+  const bool fits = factor_bytes(known_->shape) <= kFactorBytes &&
+                    !(known_->touched && known_->shape.rows > kRowsOfFactor);
   for (const Arm arm : {Arm::stale_cholesky, Arm::cholesky}) {
     if (!fits) costs[number(arm)].solving = std::numeric_limits<double>::infinity();
   }
@@ -116,6 +121,7 @@ void Automatic::predict(bool first) {
 void Automatic::meet(const BlockMatrix& A) {
   Known& known = *known_;
   const auto bytes = static_cast<double>(A.bytes());
+  known.touched = known.touched || (A.couplings() != nullptr && A.couplings()->size() > kManyCouplings);
   const bool first = known.id == 0 || std::abs(bytes - known.shape.bytes) > kNewSize * known.shape.bytes;
   if (first) {
     known.shape = shape_of(A, settings_.equilibrium);

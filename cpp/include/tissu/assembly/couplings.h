@@ -35,6 +35,9 @@ struct Coupling {
   std::array<std::int32_t, 4> vertex;  ///< a row; kCarried and below: carried
   std::array<double, 4> beta;          ///< 0: no vertex
   Mat3 H;
+  /// No stiffer than a few times the matrix's own blocks, whatever the scene: a preconditioner that does not
+  /// have it serves on.
+  bool mild = false;
 };
 
 class Couplings {
@@ -94,7 +97,8 @@ class Couplings {
       }
     }
   }
-  /// Which rows each coupling begins with: tells lists of other couplings apart, whatever their H.
+  /// Which rows each coupling begins with: tells lists of other couplings apart, whatever their H. Mild ones
+  /// are left out.
   using Key = std::array<std::int32_t, 4>;
   void keys(std::vector<Key>& sorted) const;
   [[nodiscard]] std::size_t bytes() const;

@@ -1,7 +1,7 @@
 /// Steps that contact makes too long for one go.
 
 #include <algorithm>
-#include <optional>
+#include <cmath>
 
 #include "tissu/base/error.h"
 #include "tissu/simulation/simulation.h"
@@ -9,7 +9,8 @@
 namespace tissu {
 namespace {
 
-constexpr int kHalvings = 3;  ///< at most: eight parts
+constexpr int kHalvings = 3;      ///< at most: eight parts, …
+constexpr int kMostHalvings = 6;  ///< … and sixty-four of a step that diverges
 
 /// The report of two parts of a step, one after the other.
 StepReport sum(const StepReport& first, const StepReport& then) {
@@ -31,12 +32,14 @@ StepReport sum(const StepReport& first, const StepReport& then) {
 /// Where a step has to hold nodes back, or leaves more residual than it found, it was too long: shorter ones
 /// see contacts come.
 StepReport Simulation::step_in_parts(double h, int halvings) {
-  if (halvings == kHalvings) return integrator_->step(state_, h);
+  if (halvings == kMostHalvings) return integrator_->step(state_, h);
   const State start = state_;
   const std::vector<double> memory = integrator_->memory();
   try {
     const StepReport report = integrator_->step(state_, h);
-    if (report.held_back == 0 && !report.hasty && is_sane()) return report;
+    const bool good = report.held_back == 0 && !report.hasty;
+    const bool finite = std::isfinite(report.residual) && is_sane();
+    if ((good || halvings >= kHalvings) && finite) return report;
   } catch (const Diverged&) {
     // The shortest parts say what is wrong.
   }

@@ -25,7 +25,7 @@ def on_a_slope(tangent, **fields):
 
 
 def mean_velocity(simulation):
-    """Of the cube, along the slope [m/s]; its nodes' mean: all move alike once the swing is over."""
+    """Of the cube, along the slope [m/s]; its nodes move alike once the swing is over."""
     return simulation.velocities["cube"].mean(axis=0)[0]
 
 
@@ -55,9 +55,7 @@ def test_above_its_angle_it_slides_with_the_acceleration_of_coulomb():
     # What the slope feels is on Coulomb's cone, node by node.
     forces = simulation.contacts().forces
     normal = forces[:, 2]
-    assert np.hypot(forces[:, 0], forces[:, 1]) == pytest.approx(
-        MU * normal, rel=1e-5
-    )  # the solver's
+    assert np.hypot(forces[:, 0], forces[:, 1]) == pytest.approx(MU * normal, rel=1e-5)
 
 
 def test_a_block_slides_to_rest():

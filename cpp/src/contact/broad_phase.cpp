@@ -18,7 +18,7 @@ std::unique_ptr<BroadPhase> make_broad_phase(BroadPhaseKind kind, const SearchPl
     case BroadPhaseKind::sweep_and_prune:
       return std::make_unique<SweepAndPrune>(plan);
     case BroadPhaseKind::grid:
-      return std::make_unique<Grid>(plan);
+      return std::make_unique<GridBroadPhase>(plan);
     case BroadPhaseKind::octree:
       return std::make_unique<Octree>(plan);
     case BroadPhaseKind::fcl:

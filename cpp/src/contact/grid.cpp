@@ -38,7 +38,7 @@ double longest_side(const Box& box) {
 
 }  // namespace
 
-Grid::Grid(const SearchPlan& plan) : meetings_(plan), slot_bits_(1) {
+GridBroadPhase::GridBroadPhase(const SearchPlan& plan) : meetings_(plan), slot_bits_(1) {
   const std::size_t n = meetings_.searched().size();
   while (std::size_t{1} << static_cast<unsigned>(slot_bits_) < 4 * n) ++slot_bits_;
   small_.reserve(n);
@@ -49,7 +49,7 @@ Grid::Grid(const SearchPlan& plan) : meetings_(plan), slot_bits_(1) {
   tree_.reserve(n);
 }
 
-void Grid::find(std::span<const Box> boxes, std::vector<BoxPair>& pairs) {
+void GridBroadPhase::find(std::span<const Box> boxes, std::vector<BoxPair>& pairs) {
   meetings_.check(boxes);
   found_.clear();
   if (!meetings_.searched().empty()) {
@@ -60,7 +60,7 @@ void Grid::find(std::span<const Box> boxes, std::vector<BoxPair>& pairs) {
   sort_.sort(found_.all(), meetings_.primitive_count(), pairs);
 }
 
-Grid::Cells Grid::cells(std::span<const Box> boxes) const {
+GridBroadPhase::Cells GridBroadPhase::cells(std::span<const Box> boxes) const {
   Box all = boxes[static_cast<std::size_t>(meetings_.searched().front())];
   double sides = 0.0;
   for (const std::int32_t p : meetings_.searched()) {
@@ -76,7 +76,7 @@ Grid::Cells Grid::cells(std::span<const Box> boxes) const {
 }
 
 /// Ascends with the box's sides, so that boxes that overlap share a cell whatever the round-off.
-Grid::Range Grid::range(const Box& box, const Cells& cells) {
+GridBroadPhase::Range GridBroadPhase::range(const Box& box, const Cells& cells) {
   Range range{};
   for (std::size_t k = 0; k < 3; ++k) {
     const auto number = [&](float x) {
@@ -89,12 +89,12 @@ Grid::Range Grid::range(const Box& box, const Cells& cells) {
 }
 
 /// Multiplied by 2^64 over the golden ratio, whose highest bits mix all of the cell's (Knuth, 6.4).
-std::size_t Grid::slot(std::uint64_t cell) const {
+std::size_t GridBroadPhase::slot(std::uint64_t cell) const {
   return static_cast<std::size_t>((cell * 0x9E3779B97F4A7C15U) >> static_cast<unsigned>(64 - slot_bits_));
 }
 
 /// A counting sort.
-void Grid::sort_into_cells(std::span<const Box> boxes) {
+void GridBroadPhase::sort_into_cells(std::span<const Box> boxes) {
   const Cells grid = cells(boxes);
   small_.clear();
   large_.clear();
@@ -117,7 +117,7 @@ void Grid::sort_into_cells(std::span<const Box> boxes) {
   for (std::size_t i = 0; i < small_.size(); ++i) enter(ranges_[i], small_[i]);
 }
 
-void Grid::enter(const Range& range, std::int32_t primitive) {
+void GridBroadPhase::enter(const Range& range, std::int32_t primitive) {
   for_each_cell(range, [&](std::uint64_t cell, std::uint32_t at_first) {
     entries_[end_[slot(cell)]++] = {cell, primitive, at_first};
   });
@@ -125,7 +125,7 @@ void Grid::enter(const Range& range, std::int32_t primitive) {
 
 /// Two boxes may share several cells. Their pair is made in the one where, along each axis, one of them
 /// begins.
-void Grid::add_pairs_in_cells(std::span<const Box> boxes) {
+void GridBroadPhase::add_pairs_in_cells(std::span<const Box> boxes) {
   std::size_t begin = 0;
   for (std::size_t s = 0; s + 1 < end_.size(); begin = end_[s++]) {
     const std::span<const Entry> slot(entries_.data() + begin, end_[s] - begin);
@@ -141,7 +141,7 @@ void Grid::add_pairs_in_cells(std::span<const Box> boxes) {
   }
 }
 
-void Grid::add_pairs_of_large(std::span<const Box> boxes) {
+void GridBroadPhase::add_pairs_of_large(std::span<const Box> boxes) {
   if (large_.empty()) return;
   tree_.build(boxes, large_);
   const std::size_t first = found_.count();
@@ -152,7 +152,7 @@ void Grid::add_pairs_of_large(std::span<const Box> boxes) {
   found_.keep_if(first, [&](std::int32_t a, std::int32_t b) { return meetings_.meet(a, b); });
 }
 
-std::size_t Grid::bytes() const {
+std::size_t GridBroadPhase::bytes() const {
   return meetings_.bytes() + (small_.capacity() + large_.capacity()) * sizeof(std::int32_t) +
          ranges_.capacity() * sizeof(Range) + end_.capacity() * sizeof(std::uint32_t) +
          entries_.capacity() * sizeof(Entry) + tree_.bytes() + found_.bytes() + sort_.bytes();

@@ -10,9 +10,9 @@
 
 namespace tissu {
 
-class Grid final : public BroadPhase {
+class GridBroadPhase final : public BroadPhase {
  public:
-  explicit Grid(const SearchPlan& plan);
+  explicit GridBroadPhase(const SearchPlan& plan);
 
   [[nodiscard]] std::string_view name() const override { return "grid"; }
   void find(std::span<const Box> boxes, std::vector<BoxPair>& pairs) override;

@@ -1,0 +1,97 @@
+"""What contacts give to one body they take from another: momenta, stacks, patches."""
+
+import numpy as np
+import pytest
+
+import tissu as ts
+from contact_audit import GRAVITY, audited, between, block, damped
+
+
+def masses(simulation, body):
+    """Lumped mass of every node (n,) [kg]."""
+    rows = simulation.rows(body)
+    return simulation.mass_matrix().diagonal()[3 * rows.start : 3 * rows.stop : 3]
+
+
+def momentum(simulation):
+    """Of all bodies (3,) [kg m/s]."""
+    return sum(masses(simulation, b) @ simulation.velocities[b] for b in simulation.bodies)
+
+
+def collision(step, **fields):
+    """Two cubes in free flight meet off centre; one of them spins."""
+    right = ts.Start(velocity=(1, 0, 0), spin=(0, 0, 5))
+    left = ts.Start(velocity=(-1, 0, 0))
+    return ts.Scene(
+        bodies={
+            "a": block(young=1e4, start=right),
+            "b": block((0.11, 0.03, 0.02), young=1e4, cells=(3, 3, 3), start=left),
+        },
+        contacts=[ts.Contact(("a", "b"), **fields)],
+        step=step,
+    )
+
+
+@pytest.mark.parametrize("friction", [0.0, 0.4])
+@pytest.mark.parametrize("step", [ts.ImplicitEuler, ts.BDF2])
+def test_a_free_collision_keeps_the_linear_momentum(step, friction):
+    """To round-off with exact solves: 1e-12 of the momentum of one cube."""
+    simulation = collision(step("2 ms", solver=ts.Cholesky()), friction=friction).compile()
+    start = momentum(simulation)
+    felt = 0.0
+    for _ in range(60):
+        audited(simulation, 1)
+        force, moment = simulation.force_on("a")
+        other = simulation.force_on("b")
+        size = np.abs(force).max()
+        assert np.abs(force + other.force).max() <= 1e-12 * size
+        felt = max(felt, size)
+        # The two ends of a force are a gap of 1 mm apart, along it but for what slides in a step.
+        assert np.abs(moment + other.moment).max() <= 1e-3 * size
+    assert felt > 10.0
+    assert np.abs(momentum(simulation) - start).max() <= 1e-12 * 1.0
+    assert simulation.velocities["a"].mean(axis=0)[0] < 0.5
+
+
+EDGE = 0.05
+
+
+def stack(shift, cells):
+    """Five cubes of 1 MPa; every other one is shifted and has other cells.
+
+    Of 100 kPa the tower would be as high as a column that buckles under its weight,
+    (7.84 E I / (rho g A))^(1/3) = 25.5 cm.
+    """
+    bodies = {}
+    for k in range(5):
+        odd = k % 2
+        bodies[f"c{k}"] = block(
+            (shift * odd, shift * odd, k * (EDGE + 5e-4) + 5e-4),
+            size=(EDGE,) * 3,
+            cells=cells if odd else (2, 2, 2),
+            young=1e6,
+            viscosity=damped(5.0, 0.005),
+        )
+    pairs = [("c0", "table"), *((f"c{k}", f"c{k + 1}") for k in range(4))]
+    return ts.Scene(
+        bodies=bodies,
+        obstacles={"table": ts.PlaneObstacle((0, 0, 0), (0, 0, 1))},
+        contacts=[ts.Contact(pair, friction=0.5, gap="0.5 mm") for pair in pairs],
+        gravity=(0, 0, -GRAVITY),
+        step=ts.ImplicitEuler("10 ms"),
+    )
+
+
+@pytest.mark.parametrize(("shift", "cells"), [(0.0, (2, 2, 2)), (0.007, (3, 3, 3))])
+def test_each_joint_of_a_stack_carries_what_lies_above(shift, cells):
+    """Within 0.1 %, and it stands: less than 1 % of an edge to a side."""
+    simulation = stack(shift, cells).compile()
+    audited(simulation, 100)
+    weight = 1000.0 * EDGE**3 * GRAVITY
+    assert simulation.force_on("table").force[2] == pytest.approx(-5 * weight, rel=1e-3)
+    for k in range(4):
+        joint = between(simulation, f"c{k}", f"c{k + 1}")
+        assert joint[2] == pytest.approx(-(4 - k) * weight, rel=1e-3)
+        assert np.abs(joint[:2]).max() <= 1e-2 * weight
+    for body in simulation.bodies:
+        assert np.abs(simulation.displacements(body)[:, :2].mean(axis=0)).max() < 0.01 * EDGE

@@ -106,11 +106,11 @@ class StageSolver {
   std::size_t detection_row_ = 0;  ///< of the profile; there where something touches
   std::size_t travel_row_ = 0;
   std::size_t response_row_ = 0;
-  const State* step_start_ = nullptr;    ///< of the step
-  std::vector<double> blocks_;           ///< diagonal of the matrix without contact
-  std::vector<double> elastic_;          ///< what is right without contact
-  Scratch scratch_;                      ///< of energies
-  double reference_ = 0.0;               ///< push |external force|
+  const State* step_start_ = nullptr;  ///< of the step
+  std::vector<double> blocks_;         ///< diagonal of the matrix without contact
+  std::vector<double> elastic_;        ///< what is right without contact
+  Scratch scratch_;                    ///< of energies
+  double reference_ = 0.0;             ///< push |external force|
   double acting_ = 0.0;
   double start_ = 0.0;       ///< residual that the first solve found
   bool is_falling_ = false;  ///< the last of Newton's iterations at least halved the least residual

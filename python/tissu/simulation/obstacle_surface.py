@@ -14,7 +14,7 @@ _ROUND = 24
 """Sides of a rod."""
 _RINGS = 6
 """Rings of triangles on the half of a ball."""
-_WIDE = 1.5
+_WIDE = 1.2
 """Side of the square that stands for a plane, as a share of the extent of the bodies at rest."""
 
 

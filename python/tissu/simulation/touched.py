@@ -144,8 +144,8 @@ class Touched:
     def obstacle_surface(self, name: str) -> ObstacleSurface:
         """The surface of an obstacle as triangles, at rest and now.
 
-        Round obstacles have points on their exact surface; a plane is a square of it, half as long
-        again as the bodies.
+        Round obstacles have points on their exact surface; a plane is a square of it, a fifth longer
+        than the extent of the bodies.
 
         Raises:
             ParameterError: the scene has no contacts, or no obstacle of that name.

@@ -77,9 +77,7 @@ def draw(
     title = simulation.scene.name
     shape, time = shape_of(simulation, field), simulation.time
     beside = obstacles_of(simulation)
-    draw_shape(
-        shape, path, title=title, time=time, up=up, size=size, field=field, obstacles=beside
-    )
+    draw_shape(shape, path, title=title, time=time, up=up, size=size, field=field, obstacles=beside)
 
 
 def up_of(simulation: Simulation) -> Array:

@@ -1,4 +1,4 @@
-"""Obstacles as triangles, for pictures, pages and files; contact itself knows their exact shapes."""
+"""Obstacles as triangles, for pictures, pages and files; contact has their exact shapes."""
 
 from __future__ import annotations
 

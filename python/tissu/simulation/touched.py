@@ -117,7 +117,7 @@ class Touched:
 
     @property
     def touching(self) -> tuple[str, ...]:
-        """Names of the bodies that a contact names, then of the obstacles; none without contacts."""
+        """Names of the bodies that contacts name, then of the obstacles; none without contacts."""
         return tuple(self._core.contact_surfaces()) if self.scene.contacts else ()
 
     @property
@@ -144,8 +144,8 @@ class Touched:
     def obstacle_surface(self, name: str) -> ObstacleSurface:
         """The surface of an obstacle as triangles, at rest and now.
 
-        Round obstacles have points on their exact surface; a plane is a square of it, a fifth longer
-        than the extent of the bodies.
+        Round obstacles have points on their exact surface; a plane is a square of it, a fifth
+        longer than the extent of the bodies.
 
         Raises:
             ParameterError: the scene has no contacts, or no obstacle of that name.

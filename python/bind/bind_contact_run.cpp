@@ -1,5 +1,7 @@
 /// Contact while a simulation runs: what presses, with which force, what crosses, and obstacles that are led.
 
+#include <algorithm>
+
 #include "bind.h"
 #include "tissu/contact/audit.h"
 #include "tissu/simulation/simulation.h"
@@ -127,6 +129,47 @@ py::array_t<double> obstacle_places(const Simulation& simulation, const std::str
   return py::array_t<double>({static_cast<py::ssize_t>(places.size() / 3), py::ssize_t{3}}, places.data());
 }
 
+/// Of an obstacle at rest: vertices (v, 3), triangles (t, 3), edges (e, 2), points (p,), radii (v,) or none,
+/// its origin and, of a plane, its normal.
+py::tuple obstacle_surface(const Simulation& simulation, const std::string& name) {
+  const Contact& contact = contact_of(simulation);
+  const std::int32_t number = contact.obstacle_named(name);
+  if (number < 0) throw ParameterError("there is no obstacle \"" + name + "\" in this world.");
+  const ObstacleDescription& obstacle = contact.description().obstacles[static_cast<std::size_t>(number)];
+  const SurfaceDescription& surface = obstacle.surface;
+  const auto count = [](const auto& some) { return static_cast<py::ssize_t>(some.size()); };
+  py::array_t<double> vertices({count(surface.vertices) / 3, py::ssize_t{3}}, surface.vertices.data());
+  py::array_t<std::int32_t> triangles = rows<std::int32_t>(surface.triangles.size(), 3);
+  py::array_t<std::int32_t> edges = rows<std::int32_t>(surface.edges.size(), 2);
+  for (std::size_t i = 0; i < surface.triangles.size(); ++i) {
+    std::ranges::copy(surface.triangles[i], triangles.mutable_data() + 3 * i);
+  }
+  for (std::size_t i = 0; i < surface.edges.size(); ++i) {
+    std::ranges::copy(surface.edges[i], edges.mutable_data() + 2 * i);
+  }
+  py::object normal = py::none();
+  if (obstacle.plane) normal = py::array_t<double>(3, obstacle.normal.data());
+  return py::make_tuple(vertices, triangles, edges,
+                        py::array_t<std::int32_t>(count(surface.points), surface.points.data()),
+                        py::array_t<double>(count(surface.radius), surface.radius.data()),
+                        py::array_t<double>(3, obstacle.origin.data()), normal);
+}
+
+/// Area at rest that belongs to each node of a body, up to the last one on its surface [m2]: a third of the
+/// triangles at it.
+py::array_t<double> contact_areas(const Simulation& simulation, const std::string& body) {
+  const Contact& contact = contact_of(simulation);
+  const std::int32_t number = surface_named(contact, body);
+  std::vector<double> areas;
+  for (const SurfaceVertex& vertex : contact.surfaces().vertices()) {
+    if (vertex.surface != number) continue;
+    const auto node = static_cast<std::size_t>(vertex.node);
+    if (node >= areas.size()) areas.resize(node + 1, 0.0);
+    areas[node] += vertex.area;
+  }
+  return py::array_t<double>(static_cast<py::ssize_t>(areas.size()), areas.data());
+}
+
 }  // namespace
 
 void bind_contact_run(py::class_<Simulation>& simulation) {
@@ -136,6 +179,8 @@ void bind_contact_run(py::class_<Simulation>& simulation) {
       .def("contact_force_on", &force_on, arg("name"))
       .def("crossings", &crossing_list)
       .def("obstacle_places", &obstacle_places, py::kw_only(), arg("name"), arg("rest"))
+      .def("obstacle_surface", &obstacle_surface, arg("name"))
+      .def("contact_areas", &contact_areas, arg("body"))
       .def("lead_obstacle", &lead_obstacle, py::kw_only(), arg("name"), arg("displacement"), arg("angle"),
            arg("axis"), arg("center"), arg("over"))
       .def(

@@ -54,7 +54,12 @@ void StageSolver::prepare(const World& world, LinearSolver* solver, Profile& pro
     v->assign(stage_.base.positions.size(), 0.0);
   }
   contact_.reset();
-  if (world.contact() != nullptr) contact_ = std::make_unique<ContactRun>(*world.contact(), world.fixed());
+  if (world.contact() == nullptr) return;
+  contact_ = std::make_unique<ContactRun>(*world.contact(), world.fixed());
+  profile_ = &profile;
+  detection_row_ = profile.row("contact", "detection");
+  travel_row_ = profile.row("contact", "travel");
+  response_row_ = profile.row("contact", "response");
 }
 
 void StageSolver::begin(const State& start, double time, double h) {

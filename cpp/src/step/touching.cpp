@@ -20,6 +20,21 @@ constexpr double kWorse = 2.0;
 
 }  // namespace
 
+double StageSolver::look(const State& at) {
+  const Timed timed(*profile_, detection_row_);
+  return contact_->look(at);
+}
+
+int StageSolver::hold_back(State& to) {
+  const Timed timed(*profile_, travel_row_);
+  return contact_->hold_back(to);
+}
+
+void StageSolver::update_contacts(const State& end) {
+  const Timed timed(*profile_, response_row_);
+  contact_->update(end);
+}
+
 /// v takes what is given, and what is led goes ahead.
 void StageSolver::begin_touching(State& state, std::vector<double>& v) {
   const World& world = system_->world();
@@ -27,7 +42,10 @@ void StageSolver::begin_touching(State& state, std::vector<double>& v) {
   std::ranges::copy(v, trial_.begin());
   world.fixed().copy(given_, trial_);
   place(state, trial_);
-  contact_->begin(*step_start_, stage_.base.time, state.positions);
+  {
+    const Timed timed(*profile_, detection_row_);
+    contact_->begin(*step_start_, stage_.base.time, state.positions);
+  }
   world.contact()->numbers(stage_.base).clear();
   lay_right(v);
   for (std::size_t i = 0; i < v.size(); ++i) v[i] += first_[i];
@@ -59,15 +77,18 @@ bool StageSolver::solve_contacts(State& state, std::vector<double>& v, StepRepor
   const Contact& contact = *world.contact();
   const int most = contact.description().iterations;
   place(state, v);
-  contact_->hold_back(state);
-  contact_->look(state);
+  hold_back(state);
+  look(state);
   contact_->take();
   bool solved = true;
   for (int i = 1;; ++i) {
     set_contacts(state);
     place(state, v);
     std::ranges::fill(work_, 0.0);
-    contact.add_force(state, scratch_, work_);
+    {
+      const Timed timed(*profile_, response_row_);
+      contact.add_force(state, scratch_, work_);
+    }
     for (std::size_t k = 0; k < work_.size(); ++k) right_[k] = elastic_[k] + stage_.push * work_[k];
     world.fixed().clear(right_);
     system_->recouple(stage_.base);
@@ -85,10 +106,10 @@ bool StageSolver::solve_contacts(State& state, std::vector<double>& v, StepRepor
     }
     world.fixed().clear(elastic_);
     place(state, v);
-    contact_->update(state);
-    report.held_back = contact_->hold_back(state);
+    update_contacts(state);
+    report.held_back = hold_back(state);
     if (i == most) break;
-    const double other = contact_->look(state);
+    const double other = look(state);
     if (other <= kForce && report.held_back == 0 && contact_->depth() <= kDepth) break;
     contact_->take();
     stop_if_asked();
@@ -102,7 +123,7 @@ void StageSolver::iterate_contacts(State& state, std::vector<double>& v, StepRep
   const int most = newton_.iterations;
   int iterations = report.newton_iterations;
   for (int i = 0; i < kMostLooks; ++i) {
-    contact_->look(state);
+    look(state);
     contact_->take();
     set_contacts(state);
     first_ = v;
@@ -115,10 +136,10 @@ void StageSolver::iterate_contacts(State& state, std::vector<double>& v, StepRep
     iterations += report.newton_iterations;
     report.message = why;
     place(state, v);
-    contact_->update(state);
-    report.held_back = contact_->hold_back(state);
+    update_contacts(state);
+    report.held_back = hold_back(state);
     if (report.held_back > 0) follow(state, v);
-    const double other = contact_->look(state);
+    const double other = look(state);
     if (other <= kForceNewton && report.held_back == 0 && contact_->depth() <= kDepthNewton) break;
     if (i + 1 == kMostLooks) {
       report.converged = false;

@@ -17,7 +17,14 @@ from tissu.cli.progress import RunProgress
 from tissu.cli.timetable import Timetable
 from tissu.counted import counted
 from tissu.errors import CheckpointError, Diverged, TissuError
-from tissu.output import Series, StepTally, prepare_folder, summarise, write_summary
+from tissu.output import (
+    ContactTally,
+    Series,
+    StepTally,
+    prepare_folder,
+    summarise,
+    write_summary,
+)
 
 if TYPE_CHECKING:
     from tissu.checkpoint import Resumed
@@ -101,14 +108,14 @@ def run_scene(job: Job, *, debug: bool = False) -> int:
         for note in worth_knowing(simulation):
             complain(f"note: {note}")
     with interruption() as interrupted:
-        series = Series(simulation, folder)
+        series, contacts = Series(simulation, folder), ContactTally(simulation)
         files = Files(series, checkpoints, Timetable(span(scene)[1]), clock)
         ending = advance(simulation, files, tally, interrupted, quiet=job.quiet)
         ending = judged(ending, tally, accepted=job.accept_unconverged)
         picture = None
         if not files.lost:
             picture = drawn(simulation, series, clock) if job.picture else None
-            conclude(simulation, series, tally, clock, ending, picture)
+            conclude(simulation, series, tally, clock, ending, picture, contacts)
     if not job.quiet and not files.lost:
         with contextlib.suppress(BrokenPipeError):  # its reader has left; the run ends as it did
             report(simulation, series, tally, clock, picture)
@@ -266,6 +273,7 @@ def conclude(
     clock: Clock,
     ending: Ending,
     picture: Path | None,
+    contacts: ContactTally,
 ) -> None:
     """Writes the summary."""
     files = {"series": series.index.name}
@@ -279,6 +287,7 @@ def conclude(
         files=files,
         why=ending.message,
         notes=[*worth_knowing(simulation), *filter(None, (ending.message, series.inverted))],
+        contacts=contacts,
     )
     write_summary(series.index.with_name("summary.json"), summary)
 

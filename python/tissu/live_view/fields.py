@@ -42,6 +42,13 @@ def displacement(simulation: Simulation, body: str, seen: Seen) -> Floats:
     return np.asarray(np.linalg.norm(simulation.positions[body][seen.nodes] - rest, axis=1))
 
 
+def contact_pressure(simulation: Simulation, body: str, seen: Seen) -> Floats:
+    """Normal force of contacts over the area of the surface (k,) [Pa]; see `contact_at_nodes`."""
+    if body not in simulation.meshes:
+        raise ParameterError(f"found tissue '{body}', which meets nothing")
+    return simulation.contact_at_nodes(body).pressure[seen.nodes]
+
+
 def _of_cells(name: str) -> Callable[[Simulation, str, Seen], Floats]:
     def values(simulation: Simulation, body: str, seen: Seen) -> Floats:
         if body in simulation.tissue:
@@ -95,6 +102,7 @@ FIELDS: dict[str, Field] = {
     "von_mises": Field("von Mises stress", pressure_unit, _of_cells("von_mises")),
     "energy_density": Field("strain energy density", _density_unit, _of_cells("energy_density")),
     "volume_ratio": Field("volume ratio", lambda _: (1.0, "1"), _of_cells("volume_ratio")),
+    "contact_pressure": Field("contact pressure", pressure_unit, contact_pressure),
     "stiffness": Field("Young's modulus at small strain", pressure_unit, stiffness),
 }
 """The fields by their names; another one is another line."""

@@ -26,6 +26,7 @@ class Marks:
         arrows: (a, 2, 3) from and to [m].
         lines: (l, 2, 3) from and to [m].
         surface: (t, 3, 3) corners of triangles [m], such as those of an obstacle.
+        opacity: of the surface, 0 to 1.
         labels: places (3,) [m] and what is written there.
     """
 
@@ -34,6 +35,7 @@ class Marks:
     arrows: Floats = field(default_factory=lambda: _none(2, 3))
     lines: Floats = field(default_factory=lambda: _none(2, 3))
     surface: Floats = field(default_factory=lambda: _none(3, 3))
+    opacity: float = 1.0
     labels: tuple[tuple[Floats, str], ...] = ()
 
 

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 if TYPE_CHECKING:
     import viser
 
-    from tissu.live_view.marks import Colour, Marks
+    from tissu.live_view.marks import Marks
     from tissu.live_view.stage import Stage
 
 
@@ -28,34 +28,39 @@ class MarksDrawing:
         """Take a name for them on the page; nothing is drawn yet."""
         self._scene, self._name, self._stage, self._lane = scene, name, stage, lane
         self._drawn: dict[tuple[Kind, int], Drawn] = {}
+        self._places: dict[tuple[Kind, int], NDArray[np.float64]] = {}
         self._labels: dict[int, viser.LabelHandle] = {}
 
     def show(self, marks: Sequence[Marks]) -> None:
         """Draw these."""
         wanted = {
-            (kind, number): (places, one.colour)
+            (kind, number): (places, one)
             for number, one in enumerate(marks)
             for kind in KINDS
             if len(places := getattr(one, kind))
         }
         for key in set(self._drawn) - set(wanted):
             self._drawn[key].visible = False
-        for key, (places, colour) in wanted.items():
-            kind = key[0]
-            at = self._stage.on_page(places, self._lane)
-            drawn = self._drawn.get(key)
-            if drawn is None:
-                self._drawn[key] = self._add(*key, at, colour)
+        for key, (places, one) in wanted.items():
+            kind, drawn, known = key[0], self._drawn.get(key), self._places.get(key)
+            self._places[key] = places
+            if drawn is not None:
+                drawn.visible = True
+            if places is known:  # what stands still is not sent again
                 continue
-            drawn.visible = True
+            at = self._stage.on_page(places, self._lane)
+            if drawn is None:
+                self._drawn[key] = self._add(*key, at, one)
+                continue
             if kind == "surface":
                 drawn.vertices, drawn.faces = _mesh(at)
             else:
                 drawn.points = at
         self._show_labels([label for one in marks for label in one.labels])
 
-    def _add(self, kind: Kind, number: int, at: NDArray[np.float32], colour: Colour) -> Drawn:
+    def _add(self, kind: Kind, number: int, at: NDArray[np.float32], marks: Marks) -> Drawn:
         name, size = f"/marks/{self._name}/{kind} {number}", self._stage.size
+        colour = marks.colour
         if kind == "points":
             return self._scene.add_point_cloud(
                 name,
@@ -76,7 +81,12 @@ class MarksDrawing:
             )
         if kind == "surface":
             return self._scene.add_mesh_simple(
-                name, *_mesh(at), color=colour, flat_shading=True, side="double"
+                name,
+                *_mesh(at),
+                color=colour,
+                opacity=None if marks.opacity >= 1.0 else marks.opacity,
+                flat_shading=True,
+                side="double",
             )
         return self._scene.add_line_segments(
             name, at, colour, thickness=3.0, thickness_units="screen"

@@ -15,6 +15,7 @@ from tissu.counted import counted
 from tissu.files import distinct_names, file_name, require_folder_place, whole_file
 from tissu.files.whole import clear_unfinished
 from tissu.output.folder import inner_folder
+from tissu.output.obstacle_file import write_obstacle
 from tissu.output.vtu_fields import cell_data, node_data
 
 if TYPE_CHECKING:
@@ -30,8 +31,10 @@ class Series:
 
     The points are where the nodes are at that time; point fields: displacement [m] and velocity
     [m/s]; cell fields: strain_energy_density [J/m^3], and von_mises [Pa] of models that know it,
-    or those that the scene's `output` names. Of connective tissue its integration points. After
-    each call all files are complete and the index lists all of them.
+    or those that the scene's `output` names; of bodies with contacts the point fields
+    contact_pressure [Pa] and contact_gap [m] too. Of connective tissue its integration points, of
+    obstacles that bodies meet their surface. After each call all files are complete and the index
+    lists all of them.
 
     Attributes:
         index: the PVD file.
@@ -53,29 +56,32 @@ class Series:
         self._folder = Path(folder)
         self._entries: list[str] = []
         require_folder_place(self._folder / FRAMES, "output folder", within=True)
-        self._names = distinct_names([*simulation.meshes, *simulation.tissue])
+        self._parts = [*simulation.meshes, *simulation.tissue, *simulation.obstacles]
+        self._names = distinct_names(self._parts)
         self.index = self._folder / f"{file_name(simulation.scene.name)}.pvd"
         self.count = 0
         self.last_time = -1.0
         self.inverted = ""
         if simulation.resumed_from is not None:
-            self._continue(len(simulation.meshes) + len(simulation.tissue))
+            self._continue(len(self._parts))
         _clear(self.index, kept=self._entries)
         for folder in (self._folder, self._folder / FRAMES):
             clear_unfinished(folder)
 
     def write(self) -> None:
-        """Writes the present state of every body.
+        """Writes the present state of every body and obstacle.
 
         Raises:
             TissuError: a file cannot be written.
         """
         simulation = self._simulation
         inner_folder(self._folder, FRAMES)
-        for part, body in enumerate([*simulation.meshes, *simulation.tissue]):
+        for part, body in enumerate(self._parts):
             name = f"{FRAMES}/{self._names[body]}_{self.count:05d}.vtu"
             if body in simulation.tissue:
                 write_points(self._folder / name, simulation, body)
+            elif body in simulation.obstacles:
+                write_obstacle(self._folder / name, simulation, body)
             else:
                 mesh = simulation.meshes[body]
                 write_vtu(self._folder / name, mesh, simulation, body)
@@ -89,7 +95,7 @@ class Series:
         with whole_file(self.index) as partial:
             partial.write_text(_index(self._entries), encoding="utf-8")
 
-    def _continue(self, bodies: int) -> None:
+    def _continue(self, parts: int) -> None:
         """Takes over what is in the folder until the present time, when it is all there."""
         time = self._simulation.time
         text = self.index.read_text(encoding="utf-8") if self.index.is_file() else ""
@@ -97,9 +103,9 @@ class Series:
         times = [_number(r'timestep="([^"]+)"', entry) for entry in entries]
         kept = [e for e, t in zip(entries, times, strict=True) if t <= time * (1.0 + 1e-8)]
         whole = all((self._folder / name).is_file() for name in _frames("".join(kept)))
-        if not kept or not whole or len(kept) % bodies:
+        if not kept or not whole or len(kept) % parts:
             return
-        self._entries, self.count = kept, len(kept) // bodies
+        self._entries, self.count = kept, len(kept) // parts
         last = times[len(kept) - 1]
         self.last_time = time if last >= time * (1.0 - 1e-8) else last
 

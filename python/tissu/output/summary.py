@@ -17,6 +17,7 @@ from tissu.files import whole_file
 
 if TYPE_CHECKING:
     from tissu.mesh import Mesh
+    from tissu.output.contact_tally import ContactTally
     from tissu.simulation import Simulation, StepReport
 
 
@@ -63,6 +64,7 @@ def summarise(
     files: Mapping[str, str],
     why: str = "",
     notes: Sequence[str] = (),
+    contacts: ContactTally | None = None,
 ) -> dict[str, Any]:
     """The summary as data; numbers in SI.
 
@@ -75,11 +77,13 @@ def summarise(
         files: what was written, by kind, relative to the folder of the summary.
         why: what is wrong, where it is not finished or some steps did not converge.
         notes: sentences worth knowing.
+        contacts: of the run; without it, or where nothing meets anything, the summary has none.
     """
     from tissu import _core
 
     build, resumed = dict(_core.build_info()), simulation.resumed_from
     every_note = [*(note for mesh in simulation.meshes.values() for note in mesh.notes), *notes]
+    touched = None if contacts is None else contacts.record()
     return {
         "tissu": build.pop("version", ""),
         "status": status,
@@ -98,6 +102,7 @@ def summarise(
         "timings": profile_data(simulation),
         "wall_seconds": dict(wall_seconds),
         "energy_joules": dict(simulation.energy()),
+        **({} if touched is None else {"contacts": touched}),
         "files": dict(files),
         "notes": every_note,
     }

@@ -42,11 +42,13 @@ def cell_data(
 
 
 def node_data(simulation: Simulation, body: str, known: dict[str, Floats]) -> dict[str, Floats]:
-    """Fields (n, ...) of the nodes, and reactions where the scene's output names them."""
+    """Fields (n, ...) of the nodes that the scene's output names, reactions, and contact."""
     data: dict[str, Floats] = {}
     names = _asked(simulation, "node_fields")
     if names and "von_mises" in known:
         data = {name: _rows(v) for name, v in simulation.fields(names, "nodes", body).items()}
+    if body in simulation.touching:
+        data["contact_pressure"], data["contact_gap"] = simulation.contact_at_nodes(body)
     if "reactions" in (_asked(simulation, "fields") or ()):
         data["reactions"] = simulation.reactions(body)
         if simulation.scene.bodies[body].has_rotations:

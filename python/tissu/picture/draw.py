@@ -16,8 +16,9 @@ from tissu.mesh.thin import line_pieces
 from tissu.picture import layout
 from tissu.picture.camera import Camera, look_at
 from tissu.picture.dots import dots
+from tissu.picture.obstacles import Obstacles, obstacles_of, render_beside
 from tissu.picture.rod import LINE, rods, rods_values
-from tissu.picture.surface import render_surface
+from tissu.picture.surface import CLAY, FINER, Layer, flatten, render_layer
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -57,6 +58,8 @@ def draw(
 ) -> None:
     """Writes a PNG of the bodies at rest and now, same view and scale, coloured by a field.
 
+    Obstacles that bodies meet are grey beside them, and a little transparent before them.
+
     Args:
         simulation: what is drawn.
         path: the PNG file; its folder is made.
@@ -73,7 +76,8 @@ def draw(
     up = up_of(simulation)
     title = simulation.scene.name
     shape, time = shape_of(simulation, field), simulation.time
-    draw_shape(shape, path, title=title, time=time, up=up, size=size, field=field)
+    beside = obstacles_of(simulation)
+    draw_shape(shape, path, title=title, time=time, up=up, size=size, field=field, obstacles=beside)
 
 
 def up_of(simulation: Simulation) -> Array:
@@ -94,16 +98,20 @@ def draw_shape(
     up: ArrayLike = (0.0, 0.0, 1.0),
     size: tuple[int, int] = (1600, 800),
     field: Field = "displacement",
+    obstacles: Obstacles | None = None,
 ) -> None:
-    """Writes a PNG of a shape at rest and deformed; see `draw`."""
+    """Writes a PNG of a shape at rest and deformed, and of obstacles; see `draw`."""
     if size[0] < 200 or size[1] < 100:
         found = f"{size[0]} x {size[1]} pixels"
         raise ParameterError(f"a picture of {found}; at least 200 x 100 is needed")
     figure, text = layout.sheet(size), layout.letters(size)
     left, wide, top = round(0.01 * size[0]), round(0.44 * size[0]), round(0.12 * size[1])
     panel_size = (wide, size[1] - top - round(0.02 * size[1]))
-    camera = look_at([shape.rest, shape.now], size=panel_size, up=up)
-    _panels(figure, shape, camera, (left, top), field)
+    seen = [shape.rest, shape.now]
+    if obstacles is not None:
+        seen += obstacles.in_view(np.concatenate(seen))
+    camera = look_at(seen, size=panel_size, up=up)
+    _panels(figure, shape, obstacles, camera, (left, top), field)
 
     shift = float(np.linalg.norm(shape.now - shape.rest, axis=1).max(initial=0.0))
     moved = f"moved by up to {layout.shown_length(shift)}"
@@ -116,25 +124,45 @@ def draw_shape(
 
 
 def _panels(
-    figure: Figure, shape: Shape, camera: Camera, corner: tuple[int, int], field: Field
+    figure: Figure,
+    shape: Shape,
+    obstacles: Obstacles | None,
+    camera: Camera,
+    corner: tuple[int, int],
+    field: Field,
 ) -> None:
     """Both shapes from a corner of the sheet [pixels] on, and the colour bar beside them."""
     size = tuple(round(s * layout.DPI) for s in figure.get_size_inches())
     text, (left, top), wide = layout.letters((size[0], size[1])), corner, camera.size[0]
     factor, unit, limits = _scale(shape.values, field)
-    colours, values = layout.colours(), shape.values * factor
-    at_rest = render_surface(shape.rest, shape.triangles, camera=camera)
-    deformed = render_surface(
-        shape.now, shape.triangles, values, camera=camera, colormap=colours, limits=limits
+    colours, values, fine = layout.colours(), shape.values * factor, camera.enlarged(FINER)
+    at_rest = render_layer(shape.rest, shape.triangles, None, camera=fine, colour=CLAY)
+    deformed = render_layer(
+        shape.now,
+        shape.triangles,
+        values,
+        camera=fine,
+        colour=CLAY,
+        colormap=colours,
+        limits=limits,
     )
+    alone = flatten(at_rest.colour, at_rest.covered.astype(np.float64))
     first = layout.panel(figure, left, top, camera)
-    layout.place(first, at_rest, camera)
+    layout.place(first, _beside(at_rest, obstacles, camera, rest=True), camera)
     layout.length_bar(first, camera, text)
     second = layout.panel(figure, left + wide, top, camera)
-    layout.outline(second, at_rest[..., 3])
-    layout.place(second, deformed, camera)
+    layout.outline(second, alone[..., 3])
+    layout.place(second, _beside(deformed, obstacles, camera, rest=False), camera)
     bar = ((left + 2 * wide) / size[0] + 0.012, 0.16, 0.014, 0.62)
     layout.colour_bar(figure, bar, limits, f"{LABELS[field]} [{unit}]", text, colours)
+
+
+def _beside(body: Layer, obstacles: Obstacles | None, camera: Camera, *, rest: bool) -> Array:
+    """A body, and the obstacles beside it, as RGBA (h,w,4)."""
+    if obstacles is None:
+        return flatten(body.colour, body.covered.astype(np.float64))
+    points = obstacles.rest if rest else obstacles.now
+    return render_beside(body, points, obstacles.triangles, camera=camera)
 
 
 def shape_of(simulation: Simulation, field: Field) -> Shape:

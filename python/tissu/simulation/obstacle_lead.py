@@ -49,6 +49,11 @@ class ObstacleLead:
         return not self._core.is_obstacle_led_live(self._name)
 
     @property
+    def origin(self) -> Floats:
+        """Its origin at rest (3,) [m]: the point of a plane, the middle of others."""
+        return np.asarray(self._core.obstacle_surface(self._name)[5])
+
+    @property
     def force(self) -> Floats:
         """What the bodies give to it (3,) [N], of the latest step: what a hand would feel."""
         return self._core.contact_force_on(self._name)[0]

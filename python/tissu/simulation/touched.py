@@ -9,10 +9,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tissu.errors import ParameterError
+from tissu.simulation.contact_at_nodes import ContactAtNodes, contact_at_nodes
+from tissu.simulation.obstacle_surface import ObstacleSurface, plane_square, round_surface
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from tissu import _core as core
     from tissu.front import Scene
+    from tissu.mesh import Mesh
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int32]
@@ -99,6 +104,7 @@ class Touched:
 
     scene: Scene
     _core: core.Simulation
+    _rest: Mapping[str, Mesh]
 
     def contacts(self) -> Contacts:
         """The contacts that press, as the latest step left them; none before the first step.
@@ -108,6 +114,56 @@ class Touched:
         """
         self._require_contact()
         return Contacts(tuple(self._core.contact_surfaces()), *self._core.contacts())
+
+    @property
+    def touching(self) -> tuple[str, ...]:
+        """Names of the bodies that contacts name, then of the obstacles; none without contacts."""
+        return tuple(self._core.contact_surfaces()) if self.scene.contacts else ()
+
+    @property
+    def obstacles(self) -> tuple[str, ...]:
+        """Names of the obstacles; none in a scene without contacts, which never meets them."""
+        return tuple(self.scene.obstacles) if self.scene.contacts else ()
+
+    def contact_at_nodes(self, body: str) -> ContactAtNodes:
+        """Contact pressure [Pa] and gap [m] at the nodes of a body, of the latest step.
+
+        Raises:
+            ParameterError: the scene has no contacts; the body meets nothing.
+        """
+        self._require_contact()
+        bodies = [name for name in self.touching if name not in self.scene.obstacles]
+        if body not in bodies:
+            hint = f"a body that meets something is accepted: {', '.join(bodies)}"
+            raise ParameterError(f"found {body!r}; {hint}")
+        areas = np.zeros(self._rest[body].node_count)
+        found = self._core.contact_areas(body)
+        areas[: len(found)] = found
+        return contact_at_nodes(self.contacts(), body, areas)
+
+    def obstacle_surface(self, name: str) -> ObstacleSurface:
+        """The surface of an obstacle as triangles, at rest and now.
+
+        Round obstacles have points on their exact surface; a plane is a square of it, a fifth
+        longer than the extent of the bodies.
+
+        Raises:
+            ParameterError: the scene has no contacts, or no obstacle of that name.
+        """
+        self._require_contact()
+        if name not in self.obstacles:
+            hint = f"accepted: {', '.join(self.obstacles) or 'none, since there is none'}"
+            raise ParameterError(f"found obstacle {name!r}; {hint}")
+        vertices, triangles, edges, points, radius, origin, normal = self._core.obstacle_surface(
+            name
+        )
+        if normal is None:
+            rest, faces = round_surface(vertices, triangles, edges, points, radius)
+        else:
+            bodies = np.concatenate([mesh.points for mesh in self._rest.values()])
+            rest, faces = plane_square(origin, normal, bodies)
+        now = self._core.obstacle_places(name=name, rest=rest)
+        return ObstacleSurface(rest, now, faces, normal is not None)
 
     def force_on(self, name: str) -> Wrench:
         """What all contacts give to a body or obstacle, of the latest step.

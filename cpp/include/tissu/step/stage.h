@@ -65,6 +65,10 @@ class StageSolver {
   /// Velocities that lead to where `state` is, of rows that were held back.
   void follow(const State& state, std::vector<double>& v) const;
   void set_contacts(State& state);
+  /// Looks at contacts, keeps ways free and updates multipliers: what each takes is a row of the profile.
+  double look(const State& at);
+  int hold_back(State& to);
+  void update_contacts(const State& end);
   /// What a step that is linearised once left over is no more than it found.
   bool is_good_enough(State& state, ConstReals v);
   /// The solution is one that lies below the guess: far above it there may be others, which no body reaches.
@@ -98,11 +102,15 @@ class StageSolver {
   std::vector<double> work_;
   std::vector<double> momentum_;
   std::unique_ptr<ContactRun> contact_;  ///< null where nothing touches
-  const State* step_start_ = nullptr;    ///< of the step
-  std::vector<double> blocks_;           ///< diagonal of the matrix without contact
-  std::vector<double> elastic_;          ///< what is right without contact
-  Scratch scratch_;                      ///< of energies
-  double reference_ = 0.0;               ///< push |external force|
+  Profile* profile_ = nullptr;
+  std::size_t detection_row_ = 0;  ///< of the profile; there where something touches
+  std::size_t travel_row_ = 0;
+  std::size_t response_row_ = 0;
+  const State* step_start_ = nullptr;  ///< of the step
+  std::vector<double> blocks_;         ///< diagonal of the matrix without contact
+  std::vector<double> elastic_;        ///< what is right without contact
+  Scratch scratch_;                    ///< of energies
+  double reference_ = 0.0;             ///< push |external force|
   double acting_ = 0.0;
   double start_ = 0.0;       ///< residual that the first solve found
   bool is_falling_ = false;  ///< the last of Newton's iterations at least halved the least residual

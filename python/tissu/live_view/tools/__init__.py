@@ -2,9 +2,10 @@
 
 from tissu.live_view.tools.drag import Drag
 from tissu.live_view.tools.lead import Lead
+from tissu.live_view.tools.obstacle import MoveObstacle
 from tissu.live_view.tools.remove import Remove
 from tissu.live_view.tools.tool import Number, Tool
 
-TOOLS: tuple[type[Tool], ...] = (Drag, Lead, Remove)
+TOOLS: tuple[type[Tool], ...] = (Drag, Lead, MoveObstacle, Remove)
 
 __all__ = ["TOOLS", "Number", "Tool"]

@@ -1,0 +1,57 @@
+"""Pressure and gap of contacts at the nodes of a body."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+if TYPE_CHECKING:
+    from tissu.simulation.touched import Contacts
+
+Floats = NDArray[np.float64]
+
+FAR = 1e30
+"""m: the gap of a node that no contact has."""
+
+
+class ContactAtNodes(NamedTuple):
+    """What contacts do at the nodes of a body.
+
+    Attributes:
+        pressure: normal force on the node over its area of the surface at rest (n,) [Pa]; 0 where
+            nothing presses, and at nodes that have no area, such as those of lines.
+        gap: the least gap of the contacts that the node is a part of (n,) [m]; 1e30 of a node that
+            no contact has.
+    """
+
+    pressure: Floats
+    gap: Floats
+
+
+def contact_at_nodes(contacts: Contacts, body: str, areas: Floats) -> ContactAtNodes:
+    """Shares of all contacts with a body at its nodes.
+
+    A contact gives each of its nodes the share |weight| of its normal force.
+
+    Args:
+        contacts: as `Simulation.contacts` gives them.
+        body: name of the body.
+        areas: of the surface at rest, at each node (n,) [m2].
+    """
+    force, gap = np.zeros(len(areas)), np.full(len(areas), FAR)
+    number = contacts.surfaces.index(body)
+    normal = np.einsum("ij,ij->i", contacts.forces, contacts.normals)
+    # Nodes of a positive weight belong to the first of the pair, others to the other one.
+    of_first = contacts.pairs[:, [0]] == number
+    of_other = contacts.pairs[:, [1]] == number
+    mine = np.where(contacts.weights > 0.0, of_first, of_other) & (contacts.nodes >= 0)
+    mine &= contacts.weights != 0.0
+    row, _ = np.nonzero(mine)
+    nodes, shares = contacts.nodes[mine], np.abs(contacts.weights[mine])
+    np.add.at(force, nodes, shares * normal[row])
+    np.minimum.at(gap, nodes, contacts.gaps[row])
+    pressure = np.zeros(len(areas))
+    np.divide(force, areas, out=pressure, where=areas > 0.0)
+    return ContactAtNodes(pressure, gap)

@@ -1,5 +1,6 @@
 """The examples with contact: weights carried, forces opposite, no crossing at any step."""
 
+import itertools
 import runpy
 from pathlib import Path
 
@@ -54,7 +55,7 @@ def test_an_organ_lies_on_a_table():
     simulation = example("table")
     body = simulation.scene.bodies["organ"]
     weight = simulation.meshes["organ"].volume() * body.density * G
-    # It still moves by 5 mm/s, which takes less than a hundredth of the weight to turn round in 50 ms.
+    # It still moves by 5 mm/s: less than a hundredth of the weight turns that round in 50 ms.
     assert simulation.force_on("table").force[2] == pytest.approx(-weight, rel=0.01)
     assert np.linalg.norm(simulation.velocities["organ"], axis=1).max() < 0.02
     assert simulation.positions["organ"][:, 2].min() > -0.081
@@ -65,7 +66,7 @@ def test_blocks_stand_on_each_other():
     simulation = example("stack")
     weight = 1000.0 * 0.05**3 * G
     below = ["floor", "first", "second", "third", "fourth"]
-    for k, (lower, upper) in enumerate(zip(below, below[1:], strict=False)):
+    for k, (lower, upper) in enumerate(itertools.pairwise(below)):
         lifted = joint(simulation, upper, lower)
         assert lifted[2] == pytest.approx((4 - k) * weight, rel=0.01)
     for name in below[1:]:

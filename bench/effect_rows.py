@@ -26,6 +26,10 @@ class Row:
     without: str = "bare"
 
 
+CONTACT = (
+    r"\b(Contact|ContactRun|Candidates|Meetings|SurfaceSet|HoldBack|PushAhead|Hierarchy|BoxTree)\b"
+    r"|\b(Box|find_contact|free_way|is_kept_apart|closest_edge_edge|closest_point_triangle)\b"
+)
 ROWS = (
     Row("gravity", "gravity", r"\bGravity\b"),
     Row("nodal load", "nodal-load", r"\b(NodalLoad|LoadChange|History)\b"),
@@ -51,6 +55,10 @@ ROWS = (
     Row("rigid frame", "frame", r"\bspatial_inertia\b"),
     Row("run-time spring", "link", r"\b(Links|Couplings)\b"),
     Row("grab", "grab", r"\b(Grabs|Couplings)\b"),
+    Row("contact with an obstacle", "touch-plane", CONTACT),
+    Row("friction", "rub-plane", r"\bContactRun::rub\b", "touch-plane"),
+    Row("contact of two bodies", "touch-bar", CONTACT, "two-bars"),
+    Row("self-contact", "touch-itself", CONTACT),
     Row("editing allowed, nothing removed", "editable", None),
     Row("a cell removed in each step", "editing", r"\b(remove_cells|edited_model|replace_world)\b"),
     Row("Newton's iteration", "newton", r"\bStageSolver::(iterate|advance|potential)\b"),

@@ -53,5 +53,11 @@ void add_link(Bar& bar);
 void add_grab(Bar& bar);
 void remove_a_cell_each_step(Bar& bar);
 void squeeze_each_step(Bar& bar);
+void touch_plane(Bar& bar);
+void rub_plane(Bar& bar);
+/// A second bar that lies on it and may go through it.
+void lay_bar_above(Bar& bar);
+void touch_bar(Bar& bar);
+void touch_itself(Bar& bar);
 
 }  // namespace tissu::effects

@@ -1,0 +1,98 @@
+"""The examples with contact: weights carried, forces opposite, no crossing at any step."""
+
+import itertools
+import runpy
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from tissu import Scene
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
+G = 9.81
+
+
+def run(scene):
+    """Its simulation at the end; every step converged and was audited."""
+    simulation = scene.compile()
+    for report in simulation.run():
+        assert report.converged, report
+        assert simulation.crossings() == []
+    return simulation
+
+
+def example(name):
+    return run(Scene.from_yaml(EXAMPLES / f"{name}.yaml"))
+
+
+def joint(simulation, one, other):
+    """Force of the contacts between two on the first of them (3,) [N]."""
+    found = simulation.contacts()
+    a, b = found.surfaces.index(one), found.surfaces.index(other)
+    there = (found.pairs == [a, b]).all(axis=1)
+    back = (found.pairs == [b, a]).all(axis=1)
+    return found.forces[there].sum(axis=0) - found.forces[back].sum(axis=0)
+
+
+def test_a_probe_palpates():
+    """What it presses with goes through the organ to its support."""
+    simulation = example("palpation")
+    force = simulation.force_on("probe").force
+    assert 0.5 < force[2] < 20.0
+    assert np.abs(simulation.force_on("organ").force + force).max() <= 1e-12 * force[2]
+    # It stands still but for what creeps after 0.3 s.
+    support = simulation.reactions("organ").sum(axis=0)
+    assert support == pytest.approx(force, abs=0.02 * force[2])
+    tip = np.array([-0.046, 0.006, 0.082 - 0.026])
+    beside = simulation.positions["organ"] - tip
+    beside[:, 2] = np.minimum(beside[:, 2], 0.0)  # the axis goes up from there
+    assert np.linalg.norm(beside, axis=1).min() > 0.012
+    assert simulation.displacements("organ")[:, 2].min() < -0.02
+
+
+def test_an_organ_lies_on_a_table():
+    simulation = example("table")
+    body = simulation.scene.bodies["organ"]
+    weight = simulation.meshes["organ"].volume() * body.density * G
+    # It still moves by 5 mm/s: less than a hundredth of the weight turns that round in 50 ms.
+    assert simulation.force_on("table").force[2] == pytest.approx(-weight, rel=0.01)
+    assert np.linalg.norm(simulation.velocities["organ"], axis=1).max() < 0.02
+    assert simulation.positions["organ"][:, 2].min() > -0.081
+
+
+def test_blocks_stand_on_each_other():
+    """Each joint carries the weight above it, to a hundredth while the stack still sways."""
+    simulation = example("stack")
+    weight = 1000.0 * 0.05**3 * G
+    below = ["floor", "first", "second", "third", "fourth"]
+    for k, (lower, upper) in enumerate(itertools.pairwise(below)):
+        lifted = joint(simulation, upper, lower)
+        assert lifted[2] == pytest.approx((4 - k) * weight, rel=0.01)
+    for name in below[1:]:
+        moved = simulation.displacements(name)
+        assert np.abs(moved[:, :2]).max() < 1e-3  # they bulge, and none slides off
+        assert np.linalg.norm(simulation.velocities[name], axis=1).max() < 5e-3
+
+
+def test_a_sheet_is_turned_over_onto_itself():
+    simulation = example("fold")
+    assert np.linalg.norm(simulation.velocities["sheet"], axis=1).max() < 5e-3
+    found = simulation.contacts()
+    own = (found.pairs == found.surfaces.index("sheet")).all(axis=1)
+    assert own.any()
+    # Layers rest no nearer than their thickness: as far as all self-contacts say.
+    assert found.gaps[own].min() > -0.01 * 2e-3
+    end = simulation.positions["sheet"][simulation.meshes["sheet"].points[:, 0] > 0.199]
+    assert end[:, 0] == pytest.approx(0.06, abs=1e-9)  # turned by half a turn about x = 13 cm
+
+
+def test_two_organs_are_pushed_together():
+    made = runpy.run_path(str(EXAMPLES / "two_organs.py"))
+    simulation = run(made["scene"]())
+    on_lower = simulation.force_on("lower").force
+    assert on_lower[2] < -0.3
+    assert np.abs(on_lower + simulation.force_on("upper").force).max() <= 1e-12 * -on_lower[2]
+    # The lower one still sways a little, 0.2 s after the upper one stopped.
+    held = simulation.reactions("lower").sum(axis=0)
+    assert held == pytest.approx(-on_lower, abs=0.05 * -on_lower[2])

@@ -1,0 +1,201 @@
+/// What the latest look finds, and what it takes over from the contacts before it.
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <tuple>
+#include <utility>
+
+#include "hold_back.h"
+#include "narrow.h"
+#include "nearest_pair.h"
+#include "push_ahead.h"
+#include "tissu/contact/candidates.h"
+#include "tissu/contact/contact_run.h"
+
+namespace tissu {
+namespace {
+
+std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
+std::array<double, 3> numbers_of(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
+
+std::tuple<double, double, double> key_of(const ContactNumbers& c) { return {c.kind, c.a, c.b}; }
+
+bool is_of_vertex(const ContactNumbers& c) {
+  return c.kind != ContactNumbers::kPlane && c.kind != static_cast<double>(PairKind::edge_edge);
+}
+
+}  // namespace
+
+/// Whether the latest contacts have one of this key, which acts.
+const ContactNumbers* ContactRun::acting(const ContactNumbers& c) const {
+  const auto found = std::ranges::lower_bound(order_, key_of(c), {},
+                                              [&](std::int32_t i) { return key_of(contacts_[at(i)]); });
+  if (found == order_.end() || !contacts_[at(*found)].same_key(c)) return nullptr;
+  return &contacts_[at(*found)];
+}
+
+/// The nearest points inside both parts of a candidate, whatever the narrow phase's rules say of them.
+bool ContactRun::find_plainly(const Candidate& candidate, double reach, Found& found) const {
+  std::array<Vec3, 4> p{};
+  for (int i = 0; i < vertices_of(candidate.kind); ++i) {
+    p[at(i)] = block(ConstReals(now_), candidate.vertex[at(i)]);
+  }
+  const Closest closest = nearest_of(candidate.kind, p);
+  if (!(closest.square < reach * reach) || !(closest.square > 0.0)) return false;
+  // The ends of edges and the corners and edges of faces are parts of their own.
+  const auto count = static_cast<std::size_t>(vertices_of(candidate.kind));
+  if (std::any_of(closest.beta.begin(), closest.beta.begin() + count, [](double b) { return b == 0.0; })) {
+    return false;
+  }
+  double weight = 1.0;
+  if (candidate.kind == PairKind::edge_edge) {
+    weight = weight_of_edges(contact_.surfaces(), now_, candidate.a, candidate.b);
+  }
+  found = {candidate.kind,
+           candidate.a,
+           candidate.b,
+           candidate.vertex,
+           closest.beta,
+           closest.r,
+           std::sqrt(closest.square),
+           weight,
+           0.0};
+  return weight > 0.0;
+}
+
+void ContactRun::find() {
+  looked_.clear();
+  gaps_.clear();
+  weights_.clear();
+  predicted_.clear();
+  order_.resize(contacts_.size());
+  std::iota(order_.begin(), order_.end(), 0);
+  std::ranges::sort(order_, {}, [&](std::int32_t i) { return key_of(contacts_[at(i)]); });
+  find_pairs();
+  find_planes();
+}
+
+/// Beside what the narrow phase finds, pairs that stopped a way, and pairs that act already: the linear
+/// answer would lead through them.
+void ContactRun::find_pairs() {
+  const auto& vertices = contact_.surfaces().vertices();
+  const auto& pairs = contact_.description().pairs;
+  Found found{};
+  auto stopped = held_->stopped().begin();
+  for (std::size_t i = 0; i < candidates_->list().size(); ++i) {
+    const Candidate& candidate = candidates_->list()[i];
+    double reach = candidate.apart + pairs[at(candidate.pair)].gap;
+    const bool stops = stopped != held_->stopped().end() && at(*stopped) == i;
+    if (stops) {
+      reach = std::numeric_limits<double>::infinity();
+      ++stopped;
+    }
+    if (candidates_->is_far(i, reach)) continue;
+    ContactNumbers c;
+    if (!find_contact(contact_.surfaces(), now_, candidate, reach, found)) {
+      c.kind = static_cast<double>(candidate.kind);
+      c.a = candidate.a;
+      c.b = candidate.b;
+      if (!(stops || acting(c) != nullptr) || !find_plainly(candidate, reach, found)) continue;
+    }
+    c.kind = static_cast<double>(found.kind);
+    c.a = found.a;
+    c.b = found.b;
+    c.pair = candidate.pair;
+    Vec3 fixed = Vec3::Zero();
+    for (std::size_t k = 0; k < 4; ++k) {
+      c.vertex[k] = found.vertex[k];
+      c.beta[k] = found.vertex[k] < 0 ? 0.0 : found.beta[k];
+      if (found.vertex[k] < 0 || vertices[at(found.vertex[k])].row >= 0) continue;
+      fixed += c.beta[k] * block(ConstReals(now_), found.vertex[k]);
+    }
+    c.fixed = numbers_of(fixed);
+    c.normal = numbers_of(found.r / found.distance);
+    c.place = numbers_of(found.r);
+    c.apart = candidate.apart;
+    c.area = found.area;
+    looked_.push_back(c);
+    predicted_.push_back(vector_of(c.normal).dot(this->reach(c, goal_)) < candidate.apart ? 1 : 0);
+    gaps_.push_back(found.distance - candidate.apart);
+    weights_.push_back(found.weight);
+  }
+}
+
+void ContactRun::find_planes() {
+  const auto& vertices = contact_.surfaces().vertices();
+  const auto& pairs = contact_.description().pairs;
+  for (const PlaneCandidate& candidate : candidates_->planes()) {
+    const PlacedPlane& plane = planes_[at(candidate.obstacle)];
+    const Vec3 place = block(ConstReals(now_), candidate.vertex);
+    const double distance = plane.normal.dot(place - plane.point);
+    const double goal = plane.normal.dot(block(ConstReals(goal_), candidate.vertex) - plane.point);
+    if (!(std::min(distance, goal) < candidate.apart + pairs[at(candidate.pair)].gap)) continue;
+    ContactNumbers c;
+    c.kind = ContactNumbers::kPlane;
+    c.a = candidate.vertex;
+    c.b = candidate.obstacle;
+    c.pair = candidate.pair;
+    c.vertex[0] = candidate.vertex;
+    c.beta[0] = 1.0;
+    const Vec3 r = distance * plane.normal;
+    c.fixed = numbers_of(r - place);
+    c.normal = numbers_of(plane.normal);
+    c.place = numbers_of(r);
+    c.apart = candidate.apart;
+    c.area = vertices[at(candidate.vertex)].area;
+    looked_.push_back(c);
+    predicted_.push_back(goal < candidate.apart ? 1 : 0);
+    gaps_.push_back(distance - candidate.apart);
+    weights_.push_back(1.0);
+  }
+}
+
+void ContactRun::keep_multipliers() {
+  met_.assign(contacts_.size(), 0);
+  for (ContactNumbers& c : looked_) {
+    const ContactNumbers* found = acting(c);
+    if (found == nullptr) continue;
+    const ContactNumbers& before = *found;
+    met_[static_cast<std::size_t>(found - contacts_.data())] = 1;
+    c.force = before.force;
+    c.sliding = before.sliding;
+    const Vec3 n = vector_of(c.normal);
+    const Vec3 drag = vector_of(before.drag);
+    c.drag = numbers_of(drag - n.dot(drag) * n);
+  }
+}
+
+/// A vertex that slid to the next face hands its multiplier on, in equal shares.
+void ContactRun::hand_over() {
+  const auto& vertices = contact_.surfaces().vertices();
+  const auto other_surface = [&](const ContactNumbers& c) {
+    return vertices[static_cast<std::size_t>(c.vertex[1])].surface;
+  };
+  heirs_.clear();
+  for (std::size_t i = 0; i < looked_.size(); ++i) {
+    if (is_of_vertex(looked_[i])) heirs_.push_back(static_cast<std::int32_t>(i));
+  }
+  const auto vertex_of = [&](std::int32_t i) { return looked_[at(i)].a; };
+  std::ranges::sort(heirs_, {}, [&](std::int32_t i) { return std::pair(vertex_of(i), i); });
+  for (std::size_t k = 0; k < contacts_.size(); ++k) {
+    const ContactNumbers& before = contacts_[k];
+    if (met_[k] != 0 || !is_of_vertex(before) || !(before.force > 0.0)) continue;
+    const auto of_vertex = std::ranges::equal_range(heirs_, before.a, {}, vertex_of);
+    const auto is_heir = [&](std::int32_t i) {
+      return other_surface(looked_[at(i)]) == other_surface(before);
+    };
+    const double share = 1.0 / static_cast<double>(std::ranges::count_if(of_vertex, is_heir));
+    for (const std::int32_t i : of_vertex) {
+      if (!is_heir(i)) continue;
+      ContactNumbers& c = looked_[at(i)];
+      c.force += share * before.force;
+      const Vec3 n = vector_of(c.normal);
+      const Vec3 drag = vector_of(before.drag);
+      c.drag = numbers_of(vector_of(c.drag) + share * (drag - n.dot(drag) * n));
+    }
+  }
+}
+
+}  // namespace tissu

@@ -19,7 +19,7 @@ constexpr double kEnough = 0.5;  ///< of xi: what is nearer is moved apart, to x
 class Audit {
  public:
   Audit(const Contact& contact, ConstReals places)
-      : contact_(contact), surfaces_(contact.surfaces()), places_(places) {}
+      : surfaces_(contact.surfaces()), places_(places) {}
 
   void add(const BoxPair& pair, std::vector<Crossing>& found) const {
     for (const auto& [p, q] : {std::pair(pair.a, pair.b), std::pair(pair.b, pair.a)}) {
@@ -47,7 +47,6 @@ class Audit {
  private:
   [[nodiscard]] Vec3 place(std::int32_t v) const { return block(places_, v); }
 
-  const Contact& contact_;
   const SurfaceSet& surfaces_;
   ConstReals places_;
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "tissu/base/error.h"
 #include "tissu/simulation/simulation.h"
@@ -35,14 +36,15 @@ StepReport Simulation::step_in_parts(double h, int halvings) {
   if (halvings == kMostHalvings) return integrator_->step(state_, h);
   const State start = state_;
   const std::vector<double> memory = integrator_->memory();
+  std::optional<StepReport> report;
   try {
-    const StepReport report = integrator_->step(state_, h);
-    const bool good = report.held_back == 0 && !report.hasty;
-    const bool finite = std::isfinite(report.residual) && is_sane();
-    if ((good || halvings >= kHalvings) && finite) return report;
+    report = integrator_->step(state_, h);
   } catch (const Diverged&) {
-    // The shortest parts say what is wrong.
+    report.reset();  // the shortest parts say what is wrong
   }
+  const bool finite = report && std::isfinite(report->residual) && is_sane();
+  const bool good = finite && report->held_back == 0 && !report->hasty;
+  if (good || (finite && halvings >= kHalvings)) return *report;
   state_ = start;
   integrator_->restore(memory);
   const StepReport first = step_in_parts(0.5 * h, halvings + 1);

@@ -23,7 +23,7 @@ bool is_finite(const Box& box) {
   constexpr float largest = std::numeric_limits<float>::max();
   bool good = true;
   for (std::size_t k = 0; k < 3; ++k) {
-    good &= (box.low[k] <= box.high[k]) & (box.low[k] >= -largest) & (box.high[k] <= largest);
+    good = good && box.low[k] <= box.high[k] && box.low[k] >= -largest && box.high[k] <= largest;
   }
   return good;
 }

@@ -254,7 +254,7 @@ def test_a_scene_without_contacts_gives_the_world_nothing():
     assert prepare(scene()).contact is None
 
 
-@pytest.mark.parametrize("step", ["implicit_euler", "implicit_midpoint", "bdf2", "newmark"])
+@pytest.mark.parametrize("step", ["implicit_euler", "bdf2"])
 def test_auto_is_augmented_with_implicit_steps(step):
     text = f"type: {step}"
     made = scene(contacts=[ts.Contact("all")], step={"type": step, "dt": 0.01})

@@ -1,0 +1,62 @@
+#include <gtest/gtest.h>
+
+#include "../base/allocations.h"
+#include "../world/sample_worlds.h"
+#include "tissu/mesh/topology.h"
+
+/// A step that sees no more contacts than one before it takes no memory.
+
+namespace tissu {
+namespace {
+
+using test::allocations;
+using test::counting;
+
+SurfaceDescription surface_of(const Mesh& mesh, const char* name) {
+  SurfaceDescription surface{.name = name, .closed = true};
+  surface.triangles = boundary_surface(mesh).triangles;
+  return surface;
+}
+
+/// A block on a block that is held, and both beside a plane.
+WorldDescription two_blocks() {
+  const Mesh low = box_mesh(Vec3::Zero(), Vec3(1, 1, 1), {3, 3, 3}, Split::six);
+  const Mesh high = box_mesh(Vec3(0.1, 0.1, 1.02), Vec3(1, 1, 1), {4, 4, 4}, Split::six);
+  WorldDescription world;
+  world.bodies = {test::body_of(low, {.young = 1e4}, "low"), test::body_of(high, {.young = 1e4}, "high")};
+  for (BodyDescription& body : world.bodies) body.rayleigh = {5.0, 0.01};
+  world.gravity = Vec3(0, 0, -9.81);
+  world.fixed = {test::fixed(test::nodes_at(low, 2, 0.0))};
+  ContactDescription contact;
+  contact.bodies = {surface_of(low, "low"), surface_of(high, "high")};
+  ObstacleDescription floor;
+  floor.surface.name = "floor";
+  floor.plane = true;
+  floor.origin = Vec3(0, 0, -0.02);
+  contact.obstacles = {floor};
+  contact.pairs = {{.a = 0, .b = 1, .friction = 0.5, .gap = 0.02}, {.a = 1, .b = 2, .gap = 0.02}};
+  world.contact = contact;
+  return world;
+}
+
+TEST(ContactAllocation, AStepAtRestTakesNone) {
+#ifdef TISSU_COUNTS_ALLOCATIONS
+  Simulation simulation = test::simulate(
+      two_blocks(), test::implicit_euler(),
+      std::make_unique<ConjugateGradient>(ConjugateGradient::Settings{
+          1e-6, 5000, Preconditioning::block_jacobi, Precision::full, Product::assembled}));
+  for (int i = 0; i < 300; ++i) simulation.step(0.01);
+  allocations = 0;
+  counting = true;
+  int contacts = 0;
+  for (int i = 0; i < 10; ++i) contacts += simulation.step(0.01).contacts;
+  counting = false;
+  EXPECT_EQ(allocations, 0);
+  EXPECT_GT(contacts, 10);
+#else
+  GTEST_SKIP() << "allocations are counted with the GNU C library and without sanitizers only";
+#endif
+}
+
+}  // namespace
+}  // namespace tissu

@@ -1,0 +1,73 @@
+"""What is wrong while contact runs is said in a sentence, and leaves the simulation as it was."""
+
+import numpy as np
+import pytest
+
+import tissu as ts
+from contact_audit import audited
+from contact_scenes import cube, scene
+from tissu.errors import ParameterError, SceneError, TissuError
+
+
+def resting():
+    contacts = [ts.Contact(("liver", "table"))]
+    return scene(bodies={"liver": cube()}, contacts=contacts, gravity=(0, 0, -9.81))
+
+
+@pytest.mark.parametrize("step", [ts.ImplicitMidpoint("1 ms"), ts.Newmark("1 ms")])
+def test_steps_that_ring_at_impacts_are_refused(step):
+    with pytest.raises(
+        SceneError, match=f"found {step.type} with 1 contact; accepted with contact"
+    ):
+        resting().replace(step=step).compile()
+
+
+CALLS = {
+    "unknown obstacle": lambda s: s.obstacle("plate"),
+    "unknown surface": lambda s: s.force_on("plate"),
+    "a body in the place of an obstacle": lambda s: s.obstacle("liver"),
+    "a displacement that is not finite": lambda s: s.obstacle("table").move((0, 0, np.nan)),
+    "a displacement of two numbers": lambda s: s.obstacle("table").move((0, 0)),
+    "a displacement in newtons": lambda s: s.obstacle("table").move((0, 0, "1 N")),
+    "an axis of zero": lambda s: s.obstacle("table").move(angle=1.0, axis=(0, 0, 0)),
+    "a time of zero": lambda s: s.obstacle("table").move((0, 0, 0.1), over=0),
+    "a negative time": lambda s: s.obstacle("table").release(over=-1),
+}
+
+
+@pytest.mark.parametrize("call", CALLS.values(), ids=CALLS.keys())
+def test_a_wrong_call_changes_nothing(call):
+    simulation = resting().compile()
+    other = resting().compile()
+    audited(simulation, 12)
+    audited(other, 12)
+    with pytest.raises(ParameterError) as error:
+        call(simulation)
+    text = str(error.value)
+    assert "found" in text
+    assert "\n" not in text
+    audited(simulation, 3)
+    audited(other, 3)
+    assert np.array_equal(simulation.positions["liver"], other.positions["liver"])
+
+
+def test_plates_that_close_on_a_body_name_it_and_leave_the_state_whole():
+    """Two plates that leave no room at all: the step says so, as often as it is tried."""
+    plates = {
+        "low": ts.PlaneObstacle((0, 0, -0.01), (0, 0, 1)),
+        "high": ts.PlaneObstacle((0, 0, 0.11), (0, 0, -1)),
+    }
+    contacts = [ts.Contact(("liver", ("low", "high")))]
+    made = scene(bodies={"liver": cube()}, obstacles=plates, contacts=contacts)
+    simulation = made.compile()
+    audited(simulation, 3)
+    before = simulation.positions["liver"].copy()
+    simulation.obstacle("high").move((0, 0, -0.13))
+    for _ in range(2):
+        with pytest.raises(TissuError, match="liver"):
+            simulation.step()
+        assert np.array_equal(simulation.positions["liver"], before)
+        assert simulation.time == pytest.approx(0.03)
+        assert simulation.crossings() == []
+    simulation.obstacle("high").move((0, 0, 0))
+    audited(simulation, 3)

@@ -13,8 +13,6 @@ from tissu.simulation.contact_at_nodes import ContactAtNodes, contact_at_nodes
 from tissu.simulation.obstacle_surface import ObstacleSurface, plane_square, round_surface
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
-
     from tissu import _core as core
     from tissu.front import Scene
     from tissu.mesh import Mesh
@@ -104,7 +102,7 @@ class Touched:
 
     scene: Scene
     _core: core.Simulation
-    _rest: Mapping[str, Mesh]
+    _rest: dict[str, Mesh]
 
     def contacts(self) -> Contacts:
         """The contacts that press, as the latest step left them; none before the first step.

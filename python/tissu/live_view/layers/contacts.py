@@ -1,4 +1,4 @@
-"""Contacts: arrows of the forces that press, to the places at which they act."""
+"""Contacts: arrows of the forces that press on bodies, to the places at which they act."""
 
 from __future__ import annotations
 
@@ -27,7 +27,10 @@ def _begin(simulation: Simulation) -> Draw:
         forces = np.linalg.norm(found.forces, axis=1)
         pressing = np.flatnonzero(forces > 0.0)
         shown = pressing[np.argsort(-forces[pressing], kind="stable")[:_MOST]]
-        arrows = arrows_at(found.points[shown], found.forces[shown], longest=size)
+        obstacle = np.array([name in simulation.scene.obstacles for name in found.surfaces])
+        on_body = np.where(obstacle[found.pairs[shown, 0]], -1.0, 1.0)
+        along = on_body[:, None] * found.forces[shown]
+        arrows = arrows_at(found.points[shown], along, longest=size)
         return [Marks(_COLOUR, arrows=arrows)]
 
     return draw

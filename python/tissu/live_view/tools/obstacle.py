@@ -35,6 +35,11 @@ class MoveObstacle(Tool):
         """Every obstacle has a gizmo."""
         super().__init__(simulations)
         self.numbers = [Number("follow in", "ms", _OVER, 0.0)]
+        self._origins = {
+            name: simulation.obstacle(name).origin
+            for simulation in simulations
+            for name in simulation.obstacles
+        }
 
     @classmethod
     def offered(cls, simulation: Simulation) -> bool:
@@ -50,7 +55,7 @@ class MoveObstacle(Tool):
         for lane, simulation in enumerate(simulations):
             for name in simulation.obstacles:
                 obstacle = simulation.obstacle(name)
-                origin = obstacle.origin
+                origin = self._origins[name]
                 place = obstacle.place_of(origin)
                 axes = [obstacle.place_of(origin + axis) - place for axis in np.eye(3)]
                 found.append(Gizmo(name, lane, place, quaternion(np.stack(axes, axis=1))))
@@ -63,7 +68,7 @@ class MoveObstacle(Tool):
             if gizmo.name not in simulation.obstacles:
                 continue
             obstacle = simulation.obstacle(gizmo.name)
-            center = obstacle.origin
+            center = self._origins[gizmo.name]
             angle = 2.0 * math.atan2(float(np.linalg.norm(gizmo.wxyz[1:])), float(gizmo.wxyz[0]))
             obstacle.move(
                 gizmo.place - center,

@@ -43,7 +43,7 @@ def steps_text(names: list[str]) -> str:
 def searches() -> list[dict[str, Any]]:
     """The rows of tissu-bench on broad phases."""
     command = [str(PROGRAM), "--benchmark_filter=broad phase", "--benchmark_format=json"]
-    command.append("--benchmark_min_time=0.05s")
+    command.append("--benchmark_min_time=0.05")
     done = subprocess.run(command, check=True, capture_output=True, text=True)
     return list(json.loads(done.stdout)["benchmarks"])
 

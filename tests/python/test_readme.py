@@ -13,7 +13,7 @@ ROOT = Path(__file__).parents[2]
 
 def test_the_example_of_the_readme_runs(monkeypatch):
     monkeypatch.chdir(ROOT)
-    text = re.search(r"```python\n(.*?)```", (ROOT / "README.md").read_text(), re.DOTALL)[1]
+    text = re.findall(r"```python\n(.*?)```", (ROOT / "README.md").read_text(), re.DOTALL)[0]
     names = {}
     with contextlib.redirect_stdout(io.StringIO()) as out:
         exec(compile(text, "README.md", "exec"), names)
@@ -23,6 +23,19 @@ def test_the_example_of_the_readme_runs(monkeypatch):
     assert "not converged" not in out.getvalue()
     moved = np.linalg.norm(simulation.displacements("liver"), axis=1).max()
     assert 0.005 < moved < 0.08  # centimetres: it hangs, and has not run away
+
+
+def test_the_example_of_contact_runs(monkeypatch):
+    """With the organ of the first example; it audits each of its steps."""
+    monkeypatch.chdir(ROOT)
+    first, contact = re.findall(r"```python\n(.*?)```", (ROOT / "README.md").read_text(), re.DOTALL)
+    names = {}
+    with contextlib.redirect_stdout(io.StringIO()):
+        exec(compile(first.partition("simulation =")[0], "README.md", "exec"), names)
+        exec(compile(contact, "README.md", "exec"), names)
+    assert names["report"].converged
+    force = names["simulation"].force_on("probe").force
+    assert 0.3 < force[2] < 20.0  # newtons: it presses the probe up
 
 
 def test_the_page_of_scene_files_is_current():

@@ -117,7 +117,10 @@ class Narrow {
   bool vertex_vertex(std::int32_t v, std::int32_t w, const Closest& closest) {
     const auto is_before_edges = [&](std::int32_t of, const Vec3& r) {
       const auto all = surfaces_.neighbours(of);
-      return std::ranges::any_of(all, [&](std::int32_t u) { return r.dot(place(u) - place(of)) > 0.0; });
+      return std::ranges::any_of(all, [&](std::int32_t u) {
+        const Vec3 along = place(u) - place(of);
+        return r.dot(along) > kFan * r.norm() * along.norm();
+      });
     };
     if (is_before_edges(w, closest.r) || is_before_edges(v, -closest.r)) return false;
     if (!is_outside_vertex(w, closest.r) || !is_outside_vertex(v, -closest.r)) return false;

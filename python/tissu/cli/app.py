@@ -18,7 +18,7 @@ app = typer.Typer(
     context_settings={"help_option_names": ["-h", "--help"]},
 )
 app.add_typer(mesh_app, name="mesh")
-bench_app = typer.Typer(help="Measure what accuracy costs.", no_args_is_help=True)
+bench_app = typer.Typer(help="Measure what accuracy and contact cost.", no_args_is_help=True)
 app.add_typer(bench_app, name="bench")
 
 SceneFile = Annotated[Path, typer.Argument(metavar="SCENE", help="A scene (YAML).")]
@@ -198,7 +198,7 @@ def compare_command(
 
 @bench_app.callback()
 def bench_options() -> None:
-    """Measure what accuracy costs."""
+    """Measure what accuracy and contact cost."""
 
 
 @bench_app.command("accuracy")
@@ -233,6 +233,25 @@ def bench_accuracy_command(
             list_cases(folder)
             return
         bench_accuracy(Job(cases or [], preset, folder, meshes, out, trust_laws))
+
+
+@bench_app.command("contact")
+def bench_contact_command(
+    cases: Annotated[
+        list[str] | None,
+        typer.Argument(metavar="[CASE]...", help="Names of cases, as --list prints; default: all."),
+    ] = None,
+    listed: Annotated[bool, typer.Option("--list", help="Print the cases and leave.")] = False,
+    debug: Debug = False,
+) -> None:
+    """Run bodies that touch: what a step costs, and how well the contacts hold."""
+    with reported(debug=debug):
+        from tissu.cli.bench_contact import bench_contact, list_contact_cases
+
+        if listed:
+            list_contact_cases()
+            return
+        bench_contact(cases or [])
 
 
 @app.command("advise")

@@ -1,0 +1,101 @@
+"""Prints the tables of docs/contact.md: steps of bodies that touch, and broad phases.
+
+    python bench/contact.py [--write] [CASE …]
+
+Needs `cmake --build build/main --target tissu-bench` for the broad phases; TISSU_BENCH names
+another program. With cases named, the table of steps has those alone and the rest stays as it is.
+"""
+
+from __future__ import annotations
+
+import argparse
+import datetime
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+from kernels import commit, digits, processor, table
+
+from tissu.cli.bench_contact import HEAD, cells_of, measured
+from tissu.cli.info import machine_line
+
+ROOT = Path(__file__).resolve().parents[1]
+PAGE = ROOT / "docs" / "contact.md"
+PROGRAM = Path(os.environ.get("TISSU_BENCH", ROOT / "build/main/bench/tissu-bench"))
+BEGIN, END = "<!-- bench/contact.py: {} -->", "<!-- end of bench/contact.py: {} -->"
+
+
+def steps_text(names: list[str]) -> str:
+    """The table of steps, and why rows ended early."""
+    rows = []
+    for row in measured(names):
+        print(row.name, row.ended, file=sys.stderr, flush=True)
+        rows.append(row)
+    early = [f"- {row.name}: ended early. {row.ended}" for row in rows if row.ended]
+    found = table(HEAD, [cells_of(row) for row in rows])
+    where = f"{machine_line()} {processor()}, commit {commit()}, {datetime.date.today()}."
+    return "\n\n".join([found, *(["\n".join(early)] if early else []), where])
+
+
+def searches() -> list[dict[str, Any]]:
+    """The rows of tissu-bench on broad phases."""
+    command = [str(PROGRAM), "--benchmark_filter=broad phase", "--benchmark_format=json"]
+    command.append("--benchmark_min_time=0.05")
+    done = subprocess.run(command, check=True, capture_output=True, text=True)
+    return list(json.loads(done.stdout)["benchmarks"])
+
+
+def broad_text() -> str:
+    """The table of broad phases: a line for each, a column for each number of triangles."""
+    times: dict[str, dict[int, dict[str, Any]]] = {}
+    for entry in searches():
+        _, name, triangles = entry["name"].split("/")[:3]
+        times.setdefault(name, {})[int(triangles)] = entry
+    sizes = sorted({size for of in times.values() for size in of})
+    lines = []
+    for name, of in times.items():
+        largest = of[max(of)]
+        cells = [digits(float(of[size]["cpu_time"])) if size in of else "" for size in sizes]
+        growth = f"n^{largest['growth']:.2f}" if "growth" in largest else ""
+        lines.append([f"`{name}`", *cells, growth, digits(float(largest["bytes/triangle"]))])
+    head = ["ms", *(f"{size:,} triangles" for size in sizes), "growth", "bytes a triangle"]
+    return table(head, lines)
+
+
+def put(page: str, part: str, text: str) -> str:
+    """The page with the text between the markers of a part."""
+    begin, end = BEGIN.format(part), END.format(part)
+    before, found, rest = page.partition(begin)
+    _, closed, after = rest.partition(end)
+    if not (found and closed):
+        raise RuntimeError(f"{PAGE.name} has no place between {begin} and {end}")
+    return f"{before}{begin}\n\n{text}\n\n{end}{after}"
+
+
+def main() -> int:
+    """Runs, prints or writes."""
+    parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
+    parser.add_argument("names", nargs="*", metavar="CASE")
+    parser.add_argument("--write", action="store_true", help="write docs/contact.md")
+    asked = parser.parse_args()
+    if not PROGRAM.exists() and not asked.names:
+        print(f"contact: {PROGRAM} is not built", file=sys.stderr)
+        return 1
+    parts = {"steps": steps_text(asked.names)}
+    if not asked.names:
+        parts["broad phases"] = broad_text()
+    page = PAGE.read_text(encoding="utf-8")
+    for part, text in parts.items():
+        page = put(page, part, text)
+    if asked.write:
+        PAGE.write_text(page, encoding="utf-8")
+    else:
+        print("\n\n".join(parts.values()))
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,6 @@
+"""What a step with contact costs, and how well it holds: the scenes of `tissu bench contact`."""
+
+from tissu.contact_cost.measure import Row, measure
+from tissu.contact_cost.scenes import CASES, Case
+
+__all__ = ["CASES", "Case", "Row", "measure"]

@@ -5,6 +5,8 @@
 #include <optional>
 
 #include "tissu/base/error.h"
+#include "tissu/base/interruption.h"
+#include "tissu/base/number_text.h"
 #include "tissu/simulation/simulation.h"
 
 namespace tissu {
@@ -28,23 +30,39 @@ StepReport sum(const StepReport& first, const StepReport& then) {
   return both;
 }
 
+[[noreturn]] void refuse_part(double time, double h, const Error& error) {
+  throw Diverged("the step from t = " + number_text(time) +
+                     " s diverged where surfaces meet, also in parts of " + number_text(h) +
+                     " s: " + error.what() +
+                     " The simulation stands at its last good step; take a smaller dt, a stable law, or let "
+                     "things meet more slowly.",
+                 "", -1, time);
+}
+
 }  // namespace
 
 /// Where a step has to hold nodes back, or leaves more residual than it found, it was too long: shorter ones
 /// see contacts come.
 StepReport Simulation::step_in_parts(double h, int halvings) {
-  if (halvings == kMostHalvings) return integrator_->step(state_, h);
   const State start = state_;
   const std::vector<double> memory = integrator_->memory();
+  const bool last = halvings == kMostHalvings;
   std::optional<StepReport> report;
   try {
     report = integrator_->step(state_, h);
+  } catch (const Interrupted&) {
+    throw;
   } catch (const Diverged&) {
-    report.reset();  // the shortest parts say what is wrong
+    if (last) throw;
+    report.reset();
+  } catch (const Error& error) {  // of values that are not finite, wherever they were met first
+    if (last) refuse_part(start.time, h, error);
+    report.reset();
   }
   const bool finite = report && std::isfinite(report->residual) && is_sane();
   const bool good = finite && report->held_back == 0 && !report->hasty;
   if (good || (finite && halvings >= kHalvings)) return *report;
+  if (last) roll_back(h);
   state_ = start;
   integrator_->restore(memory);
   const StepReport first = step_in_parts(0.5 * h, halvings + 1);

@@ -74,7 +74,7 @@ void PushAhead::push(const LedMotion& motion, Candidates& candidates, std::vecto
   place_planes(motion, 0.0, planes);
   const std::vector<PlacedPlane>& first = planes;
   double way = std::sqrt(longest);
-  std::vector<PlacedPlane> last;
+  std::vector<PlacedPlane>& last = last_;
   place_planes(motion, 1.0, last);
   for (std::size_t i = 0; i < last.size(); ++i) {
     if (!contact_.description().obstacles[i].plane) continue;

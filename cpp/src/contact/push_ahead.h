@@ -46,7 +46,8 @@ class PushAhead {
   double part_ = 0.0;  ///< longest way of a part [m]
   std::vector<double> to_;
   std::vector<double> begin_;
-  std::int32_t culprit_ = -1;  ///< a vertex of the latest pair that stayed in the way
+  std::vector<PlacedPlane> last_;  ///< planes at the end of the step
+  std::int32_t culprit_ = -1;      ///< a vertex of the latest pair that stayed in the way
   std::int32_t other_ = -1;
 };
 

@@ -18,8 +18,7 @@ constexpr double kEnough = 0.5;  ///< of xi: what is nearer is moved apart, to x
 
 class Audit {
  public:
-  Audit(const Contact& contact, ConstReals places)
-      : surfaces_(contact.surfaces()), places_(places) {}
+  Audit(const Contact& contact, ConstReals places) : surfaces_(contact.surfaces()), places_(places) {}
 
   void add(const BoxPair& pair, std::vector<Crossing>& found) const {
     for (const auto& [p, q] : {std::pair(pair.a, pair.b), std::pair(pair.b, pair.a)}) {

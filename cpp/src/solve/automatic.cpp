@@ -20,8 +20,8 @@ namespace {
 constexpr int kIterations = 20'000;
 constexpr std::size_t kManyCouplings = 16;
 constexpr double kRowsOfFactor = 1000.0;  ///< of three, beside many couplings
-constexpr double kFactorBytes = 2e9;  ///< a larger factor is not made
-constexpr double kSolvesSteps = 8.0;  ///< that are to pay for the first preparation
+constexpr double kFactorBytes = 2e9;      ///< a larger factor is not made
+constexpr double kSolvesSteps = 8.0;      ///< that are to pay for the first preparation
 constexpr double kSolvesNewton = 4.0;
 constexpr double kFrame = 3.0;    ///< solves that one of a trial may take, as the first step of a scene may
 constexpr double kNewSize = 0.1;  ///< of rows and blocks: a matrix of another size is not compared
@@ -79,7 +79,8 @@ struct Automatic::Known {
   MatrixShape shape;
   double plain = 0.0;  ///< iterations of block-Jacobi: predicted, or counted by it or by a like one
   Changes changes;
-  bool touched = false;  ///< many couplings came and went: a factor of the matrix without them is of little use
+  bool touched =
+      false;  ///< many couplings came and went: a factor of the matrix without them is of little use
 };
 
 Automatic::Automatic(Settings settings)
@@ -104,8 +105,8 @@ LinearSolver& Automatic::solver(Arm arm) {
 void Automatic::predict(bool first) {
   ForArms<Cost> costs = predicted_costs(known_->shape, known_->plain, settings_.tolerance, known_->changes,
                                         settings_.equilibrium);
-  const bool fits = factor_bytes(known_->shape) <= kFactorBytes &&
-                    !(known_->touched && known_->shape.rows > kRowsOfFactor);
+  const bool fits =
+      factor_bytes(known_->shape) <= kFactorBytes && !(known_->touched && known_->shape.rows > kRowsOfFactor);
   for (const Arm arm : {Arm::stale_cholesky, Arm::cholesky}) {
     if (!fits) costs[number(arm)].solving = std::numeric_limits<double>::infinity();
   }

@@ -106,8 +106,8 @@ class ContactRun {
   std::vector<double> weights_;          ///< of looked_
   std::vector<double> stiffnesses_;      ///< of looked_
   std::vector<std::int32_t> order_;      ///< of contacts_, by their keys
-  std::vector<std::uint8_t> met_;    ///< of contacts_: found again in the latest look
-  std::vector<std::int32_t> heirs_;  ///< of looked_: contacts of a vertex, by the vertex
+  std::vector<std::uint8_t> met_;        ///< of contacts_: found again in the latest look
+  std::vector<std::int32_t> heirs_;      ///< of looked_: contacts of a vertex, by the vertex
   std::vector<std::int32_t> counts_;     ///< contacts of each row
   std::vector<double> forces_;           ///< on rows
   double depth_ = 0.0;

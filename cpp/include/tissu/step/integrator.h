@@ -15,14 +15,14 @@ struct StepReport {
   double time = 0.0;  ///< at the end of the step [s]
   int newton_iterations = 0;
   int solver_iterations = 0;
-  double residual = 0.0;      ///< of the last linear system, or of Newton's equation over what acts when it
-                              ///< is iterated
-  int indefinite = 0;         ///< systems whose matrix was not positive definite, and was made so
-  bool converged = false;     ///< every tolerance was met
-  int contacts = 0;           ///< that press at the end of the step
-  int held_back = 0;          ///< rows whose way was cut so that nothing passes through anything
-  double least_gap = std::numeric_limits<double>::infinity();  ///< distance of the nearest of them, as a share
-                                                               ///< of that at which surfaces rest
+  double residual = 0.0;   ///< of the last linear system, or of Newton's equation over what acts when it
+                           ///< is iterated
+  int indefinite = 0;      ///< systems whose matrix was not positive definite, and was made so
+  bool converged = false;  ///< every tolerance was met
+  int contacts = 0;        ///< that press at the end of the step
+  int held_back = 0;       ///< rows whose way was cut so that nothing passes through anything
+  double least_gap = std::numeric_limits<double>::infinity();  ///< distance of the nearest of them, as a
+                                                               ///< share of that at which surfaces rest
   bool hasty = false;         ///< with contact: what was linearised once left more residual than it found
   int substeps = 1;           ///< parts in which the step was taken, more than one only with contact
   double milliseconds = 0.0;  ///< wall time of the step

@@ -27,6 +27,7 @@ class StepReport:
         held_back: nodes whose way was cut so that nothing passes through anything.
         least_gap: distance of the nearest pair that presses, as a share of that at which the
             surfaces rest; infinite where nothing does.
+        substeps: parts in which the step was taken: more than one where contact made it too long.
         milliseconds: wall time.
         message: why it did not converge; where a static step did, the cells that are inside out,
             and that round-off left more than the tolerance of the load.
@@ -42,6 +43,7 @@ class StepReport:
     contacts: int
     held_back: int
     least_gap: float
+    substeps: int
     milliseconds: float
     message: str
 
@@ -54,6 +56,8 @@ class StepReport:
         text += f" after {iterations}, {self.milliseconds:.1f} ms"
         if self.contacts:
             text += f", {self.contacts} contacts"
+        if self.substeps > 1:
+            text += f", in {self.substeps} parts"
         if self.held_back:
             text += f", {self.held_back} nodes held back"
         if self.converged:
@@ -74,6 +78,7 @@ def report_of(report: _core.StepReport, *, number: int) -> StepReport:
         contacts=report.contacts,
         held_back=report.held_back,
         least_gap=report.least_gap,
+        substeps=report.substeps,
         milliseconds=report.milliseconds,
         message=report.message,
     )

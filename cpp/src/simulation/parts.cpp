@@ -61,14 +61,7 @@ StepReport Simulation::step_in_parts(double h, int halvings) {
   }
   const bool finite = report && std::isfinite(report->residual) && is_sane();
   const bool good = finite && report->held_back == 0 && !report->hasty;
-  if (good) return *report;
-  if (finite && halvings >= kHalvings) {
-    report->converged = report->converged && !report->hasty;
-    if (report->hasty && report->message.empty()) {
-      report->message = "contacts had not settled in the shortest part of the step";
-    }
-    return *report;
-  }
+  if (good || (finite && halvings >= kHalvings)) return *report;
   if (last) roll_back(h);
   state_ = start;
   integrator_->restore(memory);

@@ -13,9 +13,7 @@ namespace {
 constexpr double kFloor = 1e-3;  ///< of the external impulse: a smaller right-hand side is judged by it
 constexpr double kDepth = 1e-2;  ///< of xi: contacts no deeper than this need no other system
 constexpr double kDepthNewton = 1e-3;
-constexpr double kForce = 1e-2;   ///< of the contacts' forces: a smaller change needs no other system
-constexpr double kNearly = 5e-2;  ///< of them: a larger change needs more systems than the scene allows, …
-constexpr int kPatience = 4;      ///< … at most so many times as many
+constexpr double kForce = 1e-2;  ///< of the contacts' forces: a smaller change needs no other system
 constexpr double kForceNewton = 1e-3;
 constexpr int kMostLooks = 20;  ///< of a step whose equation is solved to its tolerance
 constexpr double kWorse = 2.0;
@@ -110,14 +108,9 @@ bool StageSolver::solve_contacts(State& state, std::vector<double>& v, StepRepor
     place(state, v);
     update_contacts(state);
     report.held_back = hold_back(state);
+    if (i == most) break;
     const double other = look(state);
-    const bool free = report.held_back == 0;
-    if (free && other <= kForce && contact_->depth() <= kDepth) break;
-    if (free && other <= kNearly && i >= most) break;
-    if (i >= kPatience * most) {
-      report.hasty = true;
-      break;
-    }
+    if (other <= kForce && report.held_back == 0 && contact_->depth() <= kDepth) break;
     contact_->take();
     stop_if_asked();
   }
@@ -169,7 +162,7 @@ void StageSolver::solve_touching(State& state, std::vector<double>& v, StepRepor
     iterate_contacts(state, v, report);
     contact_->finish(state);
   } else if (report.held_back == 0 && !system_->world().is_linear()) {
-    report.hasty = report.hasty || !(residual(state, v) <= kWorse * start_ + kFloor * reference_);
+    report.hasty = !(residual(state, v) <= kWorse * start_ + kFloor * reference_);
   }
   report.contacts = static_cast<int>(contact_->size());
   report.least_gap = contact_->least_gap();

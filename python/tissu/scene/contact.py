@@ -138,9 +138,7 @@ class ContactSettings(Part):
     broad_phase: Literal["hierarchy", "sweep_and_prune", "grid", "octree", "fcl"] = "hierarchy"
     """how near surfaces are found; it changes the time of a step and no bit of its result"""
     iterations: Annotated[int, Field(ge=1)] = 3
-    """linear systems in a step that is linearised once; up to four times as many until contacts
-    settle
-    """
+    """linear systems at most in a step that is linearised once"""
     travel: bool = True
     """whether nodes are held back where surfaces would pass through each other"""
     overlap: Literal["refuse", "separate"] = "refuse"

@@ -33,7 +33,7 @@ unsymmetric, generalised conjugate residuals work on the exact tangent, with tha
 their preconditioner, to 1e-3 where it is indefinite only. They stop after eight iterations that
 do not take nine tenths of the residual, and the definite matrix serves that step.
 
-**Unstable equilibria are told.** Whole steps converge to saddles of the energy too. A report that
+**Unstable equilibria.** Whole steps may converge to a saddle of the energy. A report that
 has converged says so where the tangent at its state is found indefinite; a conjugate gradient
 sees this only in directions that its residual has, Cholesky's factor always. A soft cube twice
 as heavy as stiff stands on such a saddle with 8 and 12 cells an edge. With 16 its lower corners

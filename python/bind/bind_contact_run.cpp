@@ -120,7 +120,9 @@ py::array_t<double> obstacle_places(const Simulation& simulation, const std::str
                                     const Doubles& rest) {
   const Contact& contact = contact_of(simulation);
   const std::int32_t obstacle = contact.obstacle_named(name);
-  if (obstacle < 0) throw ParameterError("there is no obstacle \"" + name + "\" in this world.");
+  if (obstacle < 0)
+    throw ParameterError("found obstacle \"" + name +
+                         "\", which this world does not have; the name of one of its obstacles is accepted.");
   std::vector<double> places = to_vector(with_columns(rest, 3, "rest"));
   for (std::int32_t i = 0; i < static_cast<std::int32_t>(places.size() / 3); ++i) {
     const Vec3 point = block(ConstReals(places), i);
@@ -134,7 +136,9 @@ py::array_t<double> obstacle_places(const Simulation& simulation, const std::str
 py::tuple obstacle_surface(const Simulation& simulation, const std::string& name) {
   const Contact& contact = contact_of(simulation);
   const std::int32_t number = contact.obstacle_named(name);
-  if (number < 0) throw ParameterError("there is no obstacle \"" + name + "\" in this world.");
+  if (number < 0)
+    throw ParameterError("found obstacle \"" + name +
+                         "\", which this world does not have; the name of one of its obstacles is accepted.");
   const ObstacleDescription& obstacle = contact.description().obstacles[static_cast<std::size_t>(number)];
   const SurfaceDescription& surface = obstacle.surface;
   const auto count = [](const auto& some) { return static_cast<py::ssize_t>(some.size()); };

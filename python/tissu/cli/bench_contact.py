@@ -39,7 +39,7 @@ def measured(names: list[str]) -> Iterator[Row]:
     """A row for each case; none named: all.
 
     Raises:
-        ParameterError: there is no case of this name.
+        ParameterError: found a name that no case has.
     """
     for name in names:
         if name not in CASES:
@@ -70,7 +70,7 @@ def bench_contact(names: list[str]) -> None:
     """Runs the cases and prints a line or two for each.
 
     Raises:
-        ParameterError: there is no case of this name.
+        ParameterError: found a name that no case has.
     """
     for row in measured(names):
         typer.echo(row.name)

@@ -34,6 +34,7 @@ void search(benchmark::State& run, BroadPhaseKind kind, int cells) {
   const int triangles = 2 * cells * cells;
   const auto broad = make_broad_phase(kind, {{0, triangles}, {{0, 0}}});
   std::vector<std::vector<Box>> boxes;
+  boxes.reserve(kTimes);
   for (int t = 0; t < kTimes; ++t) {
     boxes.push_back(folded_sheet(cells, std::max(2, cells / kLayerWidth), kApart, kGrown, 0.2 * t));
   }

@@ -261,4 +261,4 @@ def test_auto_is_augmented_with_implicit_steps(step):
     assert text in made.to_yaml()
     assert described(made)["method"] == "augmented"
     assert described(made)["broad_phase"] == "hierarchy"
-    assert (described(made)["iterations"], described(made)["travel"]) == (3, True)
+    assert (described(made)["iterations"], described(made)["travel"]) == (20, True)

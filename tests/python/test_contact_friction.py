@@ -58,6 +58,36 @@ def test_above_its_angle_it_slides_with_the_acceleration_of_coulomb():
     assert np.hypot(forces[:, 0], forces[:, 1]) == pytest.approx(MU * normal, rel=1e-5)
 
 
+@pytest.mark.parametrize(("cell", "cells"), [("hexahedron", (4, 4, 2)), ("tetra", (5, 3, 2))])
+def test_other_meshes_slide_alike(cell, cells):
+    """Three systems a step were too few for these: the block jerked, and its steps said converged."""
+    mesh = ts.BarMesh(size=(0.1, 0.1, 0.05), cells=cells, cell=cell, origin=(0, 0, 1e-3))
+    law = ts.StableNeoHooke(young="100 kPa", poisson=0.3)
+    body = ts.Body(mesh=mesh, law=law, density=1000.0, viscosity=damped(0.0, 0.01))
+    simulation = on_a_slope(0.55).replace(bodies={"cube": body}).compile()
+    audited(simulation, 100)
+    before = mean_velocity(simulation)
+    audited(simulation, 100)
+    phi = math.atan(0.55)
+    expected = GRAVITY * (math.sin(phi) - MU * math.cos(phi))
+    assert mean_velocity(simulation) - before == pytest.approx(expected, rel=5e-3)
+
+
+def test_too_few_systems_are_not_called_converged():
+    """Pulling forces and such beyond Coulomb's disk are not contact."""
+    mesh = ts.BarMesh(
+        size=(0.1, 0.1, 0.05), cells=(4, 4, 2), cell="hexahedron", origin=(0, 0, 1e-3)
+    )
+    law = ts.StableNeoHooke(young="100 kPa", poisson=0.3)
+    body = ts.Body(mesh=mesh, law=law, density=1000.0, viscosity=damped(0.0, 0.01))
+    scene = on_a_slope(0.55, contact=ts.ContactSettings(iterations=1))
+    simulation = scene.replace(bodies={"cube": body}).compile()
+    reports = [simulation.step() for _ in range(20)]
+    unsettled = [report for report in reports if not report.converged]
+    assert unsettled
+    assert all("contacts had not settled after 1 system" in report.message for report in unsettled)
+
+
 def test_a_block_slides_to_rest():
     """v0^2 / (2 mu g), less the h v0 / 2 of implicit Euler, which brakes at the end of each step.
 

@@ -62,7 +62,7 @@ def test_defaults():
     assert settings.model_dump() == {
         "method": "auto",
         "broad_phase": "hierarchy",
-        "iterations": 3,
+        "iterations": 20,
         "travel": True,
         "overlap": "refuse",
     }

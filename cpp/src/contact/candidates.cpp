@@ -158,7 +158,13 @@ void Candidates::list_features(const BoxPair& pair) {
   }
   for (const std::int32_t v : surfaces_.vertices_of(pair.a)) {
     for (const std::int32_t w : surfaces_.vertices_of(pair.b)) {
-      if (vertices[at(v)].is_lone && vertices[at(w)].is_lone) {
+      const bool lone = vertices[at(v)].is_lone && vertices[at(w)].is_lone;
+      const bool round = vertices[at(v)].is_lone && vertices[at(w)].has_faces;
+      if (vertices[at(v)].has_faces && vertices[at(w)].is_lone) {
+        add(PairKind::vertex_vertex, v, w, {v, w, -1, -1});
+      } else if (round) {
+        add(PairKind::vertex_vertex, w, v, {w, v, -1, -1});
+      } else if (lone) {
         add(PairKind::vertex_vertex, v, w, {v, w, -1, -1});
       }
     }

@@ -11,6 +11,7 @@
 #include "narrow.h"
 #include "nearest_pair.h"
 #include "push_ahead.h"
+#include "round.h"
 #include "tissu/contact/candidates.h"
 #include "tissu/contact/contact_run.h"
 
@@ -20,10 +21,13 @@ namespace {
 std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 std::array<double, 3> numbers_of(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
-std::tuple<double, double, double> key_of(const ContactNumbers& c) { return {c.kind, c.a, c.b}; }
+std::tuple<double, double, double, double> key_of(const ContactNumbers& c) {
+  return {c.kind, c.a, c.b, c.point};
+}
 
 bool is_of_vertex(const ContactNumbers& c) {
-  return c.kind != ContactNumbers::kPlane && c.kind != static_cast<double>(PairKind::edge_edge);
+  return c.kind != ContactNumbers::kPlane && c.point == 0.0 &&
+         c.kind != static_cast<double>(PairKind::edge_edge);
 }
 
 }  // namespace
@@ -80,7 +84,6 @@ void ContactRun::find() {
 /// Beside what the narrow phase finds, pairs that stopped a way, and pairs that act already: the linear
 /// answer would lead through them.
 void ContactRun::find_pairs() {
-  const auto& vertices = contact_.surfaces().vertices();
   const auto& pairs = contact_.description().pairs;
   Found found{};
   auto stopped = held_->stopped().begin();
@@ -93,34 +96,47 @@ void ContactRun::find_pairs() {
       ++stopped;
     }
     if (candidates_->is_far(i, reach)) continue;
-    ContactNumbers c;
+    const int parts = parts_before_round(contact_.surfaces(), candidate);
+    if (parts > 0 && !stops) {
+      RoundPoints points(contact_.surfaces(), now_, candidate, parts);
+      while (points.next(reach, found)) add(candidate, found, points.number());
+      continue;
+    }
     if (!find_contact(contact_.surfaces(), now_, candidate, reach, found)) {
+      ContactNumbers c;
       c.kind = static_cast<double>(candidate.kind);
       c.a = candidate.a;
       c.b = candidate.b;
       if (!(stops || acting(c) != nullptr) || !find_plainly(candidate, reach, found)) continue;
     }
-    c.kind = static_cast<double>(found.kind);
-    c.a = found.a;
-    c.b = found.b;
-    c.pair = candidate.pair;
-    Vec3 fixed = Vec3::Zero();
-    for (std::size_t k = 0; k < 4; ++k) {
-      c.vertex[k] = found.vertex[k];
-      c.beta[k] = found.vertex[k] < 0 ? 0.0 : found.beta[k];
-      if (found.vertex[k] < 0 || vertices[at(found.vertex[k])].row >= 0) continue;
-      fixed += c.beta[k] * block(ConstReals(now_), found.vertex[k]);
-    }
-    c.fixed = numbers_of(fixed);
-    c.normal = numbers_of(found.r / found.distance);
-    c.place = numbers_of(found.r);
-    c.apart = candidate.apart;
-    c.area = found.area;
-    looked_.push_back(c);
-    predicted_.push_back(vector_of(c.normal).dot(this->reach(c, goal_)) < candidate.apart ? 1 : 0);
-    gaps_.push_back(found.distance - candidate.apart);
-    weights_.push_back(found.weight);
+    add(candidate, found, 0);
   }
+}
+
+void ContactRun::add(const Candidate& candidate, const Found& found, std::int32_t point) {
+  const auto& vertices = contact_.surfaces().vertices();
+  ContactNumbers c;
+  c.kind = static_cast<double>(found.kind);
+  c.a = found.a;
+  c.b = found.b;
+  c.point = point;
+  c.pair = candidate.pair;
+  Vec3 fixed = Vec3::Zero();
+  for (std::size_t k = 0; k < 4; ++k) {
+    c.vertex[k] = found.vertex[k];
+    c.beta[k] = found.vertex[k] < 0 ? 0.0 : found.beta[k];
+    if (found.vertex[k] < 0 || vertices[at(found.vertex[k])].row >= 0) continue;
+    fixed += c.beta[k] * block(ConstReals(now_), found.vertex[k]);
+  }
+  c.fixed = numbers_of(fixed);
+  c.normal = numbers_of(found.r / found.distance);
+  c.place = numbers_of(found.r);
+  c.apart = candidate.apart;
+  c.area = found.area;
+  looked_.push_back(c);
+  predicted_.push_back(vector_of(c.normal).dot(reach(c, goal_)) < candidate.apart ? 1 : 0);
+  gaps_.push_back(found.distance - candidate.apart);
+  weights_.push_back(found.weight);
 }
 
 void ContactRun::find_planes() {

@@ -9,7 +9,10 @@
 namespace tissu {
 namespace {
 
-constexpr double kStiff = 3.0;  ///< s: couplings over the block diagonal of the matrix
+constexpr double kStiff = 3.0;   ///< s: couplings over the block diagonal of the matrix, …
+constexpr int kPatience = 4;     ///< … which from so many updates of a step on falls, …
+constexpr double kSofter = 0.7;  ///< … by this for each, …
+constexpr double kSoft = 0.5;  ///< … no further than here: contacts that alternate come to rest when softer
 
 std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 std::array<double, 3> numbers_of(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
@@ -51,10 +54,11 @@ void ContactRun::stiffen() {
   for_rows([](std::int32_t& count) { count = 0; });
   for_rows([](std::int32_t& count) { ++count; });
   stiffnesses_.assign(looked_.size(), 0.0);
+  const double stiff = std::max(kSoft, kStiff * std::pow(kSofter, std::max(0, alternations_ - kPatience)));
   for (std::size_t i = 0; i < looked_.size(); ++i) {
     if (!may_press(i)) continue;
     const double largest = compliance(looked_[i]).cwiseAbs().rowwise().sum().maxCoeff();
-    if (largest > 0.0) stiffnesses_[i] = kStiff * weights_[i] / (largest * scale_);
+    if (largest > 0.0) stiffnesses_[i] = stiff * weights_[i] / (largest * scale_);
   }
 }
 
@@ -70,10 +74,11 @@ void ContactRun::press() {
     const Vec3 n = vector_of(c.normal);
     c.push = numbers_of(t * n);
     set_stiffness(c, k * n * n.transpose());
-    const double friction = contact_.description().pairs[static_cast<std::size_t>(c.pair)].friction;
+    const ContactPair& pair = contact_.description().pairs[static_cast<std::size_t>(c.pair)];
+    const double friction = pair.friction;
     if (friction == 0.0) c.sliding = 0.0;
     if (friction > 0.0) rub(c, n, friction * std::max(t, 0.0), vector_of(c.place), k);
-    depth_ = std::max(depth_, -gaps_[i] / c.apart);
+    depth_ = std::max(depth_, -gaps_[i] / std::min(c.apart, pair.gap));
     looked_[kept++] = c;
   }
   looked_.resize(kept);

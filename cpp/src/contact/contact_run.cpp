@@ -12,6 +12,8 @@
 namespace tissu {
 namespace {
 
+constexpr double kAlternates = 1e-2;  ///< inadmissible share of the forces
+
 std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 std::array<double, 3> numbers_of(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
@@ -30,6 +32,7 @@ ContactRun::ContactRun(const Contact& contact, const FixedDofs& fixed) : contact
   from_ = now_ = begin_;
   counts_.assign(fixed.masks().size(), 0);
   forces_.assign(3 * fixed.masks().size(), 0.0);
+  refusals_ = forces_;
 }
 
 ContactRun::~ContactRun() = default;
@@ -49,8 +52,10 @@ Vec3 ContactRun::reach(const ContactNumbers& contact, ConstReals places) const {
   return r;
 }
 
-void ContactRun::begin(const State& start, double end, ConstReals led) {
+void ContactRun::begin(const State& start, double end, ConstReals led, double floor) {
   start_ = &start;
+  alternations_ = 0;
+  floor_ = floor;
   end_ = end;
   const ContactTable before = contact_.table(start);
   contacts_.resize(before.size());
@@ -108,31 +113,34 @@ double ContactRun::look(const State& at) {
   return change();
 }
 
+void ContactRun::scatter(const ContactNumbers& contact, const Vec3& force, Reals f) const {
+  for (std::size_t k = 0; k < 4; ++k) {
+    const std::int32_t i = row(contact.vertex[k]);
+    if (i >= 0) block(f, i) += contact.beta[k] * force;
+  }
+}
+
 /// |change of the forces on rows| / |forces|, from those of the latest solve to those of the latest look.
 double ContactRun::change() {
   std::ranges::fill(forces_, 0.0);
-  const auto scatter = [&](const ContactNumbers& c, const Vec3& force) {
-    for (std::size_t k = 0; k < 4; ++k) {
-      const std::int32_t i = row(c.vertex[k]);
-      if (i >= 0) block(Reals(forces_), i) += c.beta[k] * force;
-    }
-  };
   double size = 0.0;
   double other = 0.0;
   for (const ContactNumbers& c : contacts_) {
     const Vec3 force = c.force * vector_of(c.normal) + vector_of(c.drag);
     size += force.squaredNorm();
-    scatter(c, -force);
+    scatter(c, -force, forces_);
   }
   for (const ContactNumbers& c : looked_) {
     other += vector_of(c.push).squaredNorm();
-    scatter(c, vector_of(c.push));
+    scatter(c, vector_of(c.push), forces_);
   }
-  const double largest = std::sqrt(std::max(size, other));
+  const double largest = std::max(floor_, std::sqrt(std::max(size, other)));
   return largest > 0.0 ? norm(forces_) / largest : 0.0;
 }
 
 void ContactRun::update(const State& end) {
+  std::ranges::fill(forces_, 0.0);
+  std::ranges::fill(refusals_, 0.0);
   for (ContactNumbers& c : contacts_) {
     Vec3 r = vector_of(c.fixed);
     for (std::size_t k = 0; k < 4; ++k) {
@@ -148,8 +156,16 @@ void ContactRun::update(const State& end) {
     const double bound = friction * c.force;
     if (drag.norm() > bound) drag *= bound > 0.0 ? bound / drag.norm() : 0.0;
     c.drag = numbers_of(drag);
+    const Vec3 left = c.force * n + drag;
+    scatter(c, left, forces_);
+    scatter(c, f - left, refusals_);
   }
+  taken_ = norm(forces_);
+  refused_ = norm(refusals_);
+  alternations_ = inadmissible() > kAlternates ? alternations_ + 1 : std::max(0, alternations_ - 1);
 }
+
+double ContactRun::inadmissible() const { return refused_ > 0.0 ? refused_ / std::max(floor_, taken_) : 0.0; }
 
 void ContactRun::write(State& state) const { ContactTable::write(contacts_, contact_.numbers(state)); }
 

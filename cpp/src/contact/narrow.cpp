@@ -38,8 +38,9 @@ class Narrow {
       return vertex_edge(v, e, closest);
     }
     const std::int32_t w = corners[part == Part::vertex0 ? 0 : part == Part::vertex1 ? 1 : 2];
+    if (!surfaces_.vertices()[at(v)].has_faces) return false;  // of a round thing: w finds it
     // Of two vertices of faces the lower one finds the other.
-    const bool other_finds = surfaces_.vertices()[at(v)].has_faces && v > w;
+    const bool other_finds = v > w;
     return surfaces_.owner(w) == face && !other_finds && vertex_vertex(v, w, closest);
   }
 
@@ -50,7 +51,9 @@ class Narrow {
     const std::int32_t v = candidate.vertex[0];
     if (part == Part::interior) return vertex_edge(v, candidate.b, closest);
     const std::int32_t w = candidate.vertex[part == Part::vertex0 ? 1 : 2];
-    if (surfaces_.vertices()[at(w)].has_faces || surfaces_.vertices()[at(v)].has_faces) return false;
+    if (surfaces_.vertices()[at(w)].has_faces) return false;
+    if (surfaces_.vertices()[at(v)].has_faces)
+      return is_lowest_edge(w, candidate.b) && before_end(v, w, closest);
     const bool other_finds = !surfaces_.vertices()[at(v)].is_lone && v > w;
     return is_lowest_edge(w, candidate.b) && !other_finds && vertex_vertex(v, w, closest);
   }
@@ -71,7 +74,9 @@ class Narrow {
 
   bool points_alone(const Candidate& candidate, double reach) {
     const Vec3 r = place(candidate.vertex[0]) - place(candidate.vertex[1]);
-    return take(candidate, {{1.0, -1.0, 0.0, 0.0}, r, r.squaredNorm()}, reach);
+    if (!take(candidate, {{1.0, -1.0, 0.0, 0.0}, r, r.squaredNorm()}, reach)) return false;
+    found_.area = shared_area(candidate.vertex[0], candidate.vertex[1]);
+    return true;
   }
 
  private:
@@ -114,22 +119,36 @@ class Narrow {
     return true;
   }
 
+  /// r goes away from a vertex, into one of the edges there.
+  [[nodiscard]] bool is_before_edges(std::int32_t of, const Vec3& r) const {
+    const auto all = surfaces_.neighbours(of);
+    return std::ranges::any_of(all, [&](std::int32_t u) {
+      const Vec3 along = place(u) - place(of);
+      return r.dot(along) > kFan * r.norm() * along.norm();
+    });
+  }
+
+  /// Before the round end w, whatever side v is seen from: inside its radius is inside. A dent that follows
+  /// it has no other contacts than those of its vertices and of its faces' middles.
+  bool before_end(std::int32_t v, std::int32_t w, const Closest& closest) {
+    if (is_before_edges(w, closest.r)) return false;
+    join_vertices(v, w);
+    return true;
+  }
+
   bool vertex_vertex(std::int32_t v, std::int32_t w, const Closest& closest) {
-    const auto is_before_edges = [&](std::int32_t of, const Vec3& r) {
-      const auto all = surfaces_.neighbours(of);
-      return std::ranges::any_of(all, [&](std::int32_t u) {
-        const Vec3 along = place(u) - place(of);
-        return r.dot(along) > kFan * r.norm() * along.norm();
-      });
-    };
     if (is_before_edges(w, closest.r) || is_before_edges(v, -closest.r)) return false;
     if (!is_outside_vertex(w, closest.r) || !is_outside_vertex(v, -closest.r)) return false;
+    join_vertices(v, w);
+    return true;
+  }
+
+  void join_vertices(std::int32_t v, std::int32_t w) {
     found_.kind = PairKind::vertex_vertex;
     found_.b = w;
     found_.vertex = {v, w, -1, -1};
     found_.beta = {1.0, -1.0, 0.0, 0.0};
     found_.area = shared_area(v, w);
-    return true;
   }
 
   [[nodiscard]] Vec3 normal(std::int32_t face) const {

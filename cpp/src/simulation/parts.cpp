@@ -39,13 +39,25 @@ StepReport sum(const StepReport& first, const StepReport& then) {
                  "", -1, time);
 }
 
+void say_held_back(StepReport& report) {
+  report.converged = false;
+  report.message =
+      std::to_string(report.held_back) +
+      " rows had to be held back, where surfaces would pass through each other, in the shortest part "
+      "of the step; take a smaller dt";
+}
+
 }  // namespace
 
 /// Where a step has to hold nodes back, or leaves more residual than it found, it was too long: shorter ones
 /// see contacts come.
 StepReport Simulation::step_in_parts(double h, int halvings) {
-  const State start = state_;
-  const std::vector<double> memory = integrator_->memory();
+  const auto level = static_cast<std::size_t>(halvings);
+  if (part_starts_.size() <= level) part_starts_.resize(level + 1);
+  PartStart& start = part_starts_[level];
+  start.state = state_;
+  start.integrator.clear();
+  integrator_->append_memory(start.integrator);
   const bool last = halvings == kMostHalvings;
   std::optional<StepReport> report;
   try {
@@ -56,15 +68,19 @@ StepReport Simulation::step_in_parts(double h, int halvings) {
     if (last) throw;
     report.reset();
   } catch (const Error& error) {  // of values that are not finite, wherever they were met first
-    if (last) refuse_part(start.time, h, error);
+    if (last) refuse_part(start.state.time, h, error);
     report.reset();
   }
   const bool finite = report && std::isfinite(report->residual) && is_sane();
   const bool good = finite && report->held_back == 0 && !report->hasty;
-  if (good || (finite && halvings >= kHalvings)) return *report;
+  if (good) return *report;
+  if (finite && halvings >= kHalvings) {
+    if (report->held_back > 0) say_held_back(*report);
+    return *report;
+  }
   if (last) roll_back(h);
-  state_ = start;
-  integrator_->restore(memory);
+  state_ = start.state;
+  integrator_->restore(start.integrator);
   const StepReport first = step_in_parts(0.5 * h, halvings + 1);
   remember(*world_, state_);
   return sum(first, step_in_parts(0.5 * h, halvings + 1));

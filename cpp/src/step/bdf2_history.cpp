@@ -43,16 +43,14 @@ void Bdf2History::keep(const State& start, double h, const State& end) {
   end_.set(end);
 }
 
-std::vector<double> Bdf2History::memory() const {
-  if (end_.is_empty()) return {};
-  std::vector<double> memory;
+void Bdf2History::append_memory(std::vector<double>& memory) const {
+  if (end_.is_empty()) return;
   end_.append_to(memory);
   memory.push_back(step_);
   memory.insert(memory.end(), before_.positions.begin(), before_.positions.end());
   memory.insert(memory.end(), before_.velocities.begin(), before_.velocities.end());
   for (const Quaternion& q : before_.rotations)
     memory.insert(memory.end(), q.coeffs().begin(), q.coeffs().end());
-  return memory;
 }
 
 void Bdf2History::restore(ConstReals memory) {

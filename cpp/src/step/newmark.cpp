@@ -56,12 +56,10 @@ StepReport Newmark::step(State& state, double h) {
   return report;
 }
 
-std::vector<double> Newmark::memory() const {
-  if (end_.is_empty()) return {};
-  std::vector<double> memory;
+void Newmark::append_memory(std::vector<double>& memory) const {
+  if (end_.is_empty()) return;
   end_.append_to(memory);
   memory.insert(memory.end(), a_.begin(), a_.end());
-  return memory;
 }
 
 void Newmark::restore(ConstReals memory) {

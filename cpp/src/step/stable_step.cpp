@@ -119,10 +119,9 @@ void StableStep::measure(const Amplification& method, const State& state) {
   }
 }
 
-std::vector<double> StableStep::memory() const {
-  std::vector<double> memory{limit_, age_, time_, coupled_};
+void StableStep::append_memory(std::vector<double>& memory) const {
+  memory.insert(memory.end(), {limit_, age_, time_, coupled_});
   memory.insert(memory.end(), lengths_.begin(), lengths_.end());
-  return memory;
 }
 
 void StableStep::restore(ConstReals memory) {

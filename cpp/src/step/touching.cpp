@@ -2,6 +2,7 @@
 /// looked at again after each system, which differs from the one before in couplings alone.
 
 #include <algorithm>
+#include <string>
 
 #include "tissu/base/interruption.h"
 #include "tissu/base/norm.h"
@@ -10,13 +11,23 @@
 namespace tissu {
 namespace {
 
-constexpr double kFloor = 1e-3;  ///< of the external impulse: a smaller right-hand side is judged by it
-constexpr double kDepth = 1e-2;  ///< of xi: contacts no deeper than this need no other system
+constexpr double kFloor = 1e-3;      ///< of the external impulse: a smaller right-hand side is judged by it
+constexpr double kDepth = 1e-2;      ///< of the gap: contacts no deeper than this need no other system
+constexpr int kLater = 8;            ///< after so many systems …
+constexpr double kLaterDepth = 0.1;  ///< … this is deep enough: the next step goes on from its forces
+constexpr double kTooDeep = 0.5;
 constexpr double kDepthNewton = 1e-3;
 constexpr double kForce = 1e-2;  ///< of the contacts' forces: a smaller change needs no other system
 constexpr double kForceNewton = 1e-3;
 constexpr int kMostLooks = 20;  ///< of a step whose equation is solved to its tolerance
 constexpr double kWorse = 2.0;
+
+std::string unsettled(int systems) {
+  return "contacts had not settled after " + std::to_string(systems) +
+         (systems == 1 ? " system" : " systems") +
+         ": more than a hundredth of their forces pull or exceed friction, or they are deeper than half "
+         "the gap; take a smaller dt or more iterations of contact";
+}
 
 }  // namespace
 
@@ -44,7 +55,7 @@ void StageSolver::begin_touching(State& state, std::vector<double>& v) {
   place(state, trial_);
   {
     const Timed timed(*profile_, detection_row_);
-    contact_->begin(*step_start_, stage_.base.time, state.positions);
+    contact_->begin(*step_start_, stage_.base.time, state.positions, kFloor * reference_ / stage_.push);
   }
   world.contact()->numbers(stage_.base).clear();
   lay_right(v);
@@ -108,13 +119,18 @@ bool StageSolver::solve_contacts(State& state, std::vector<double>& v, StepRepor
     place(state, v);
     update_contacts(state);
     report.held_back = hold_back(state);
-    if (i == most) break;
     const double other = look(state);
-    if (other <= kForce && report.held_back == 0 && contact_->depth() <= kDepth) break;
+    const bool free = report.held_back == 0;
+    if (free && other <= kForce && contact_->depth() <= (i < kLater ? kDepth : kLaterDepth)) break;
+    if (i == most) {
+      report.hasty = contact_->inadmissible() > kForce || contact_->depth() > kTooDeep;
+      if (report.hasty) report.message = unsettled(most);
+      break;
+    }
     contact_->take();
     stop_if_asked();
   }
-  return solved;
+  return solved && !report.hasty;
 }
 
 /// Newton's iteration with the contacts of one look, and looks until they stay.
@@ -154,7 +170,7 @@ void StageSolver::iterate_contacts(State& state, std::vector<double>& v, StepRep
 void StageSolver::solve_touching(State& state, std::vector<double>& v, StepReport& report) {
   begin_touching(state, v);
   report.converged = solve_contacts(state, v, report);
-  if (!report.converged) report.message = "the linear solver stopped before its tolerance";
+  if (!report.converged && !report.hasty) report.message = "the linear solver stopped before its tolerance";
   if (report.held_back > 0) follow(state, v);
   std::ranges::copy(v, state.velocities.begin());
   contact_->finish(state);
@@ -162,7 +178,7 @@ void StageSolver::solve_touching(State& state, std::vector<double>& v, StepRepor
     iterate_contacts(state, v, report);
     contact_->finish(state);
   } else if (report.held_back == 0 && !system_->world().is_linear()) {
-    report.hasty = !(residual(state, v) <= kWorse * start_ + kFloor * reference_);
+    report.hasty = report.hasty || !(residual(state, v) <= kWorse * start_ + kFloor * reference_);
   }
   report.contacts = static_cast<int>(contact_->size());
   report.least_gap = contact_->least_gap();

@@ -137,7 +137,7 @@ class ContactSettings(Part):
     """how contacts become forces; auto: the first that the step takes"""
     broad_phase: Literal["hierarchy", "sweep_and_prune", "grid", "octree", "fcl"] = "hierarchy"
     """how near surfaces are found; it changes the time of a step and no bit of its result"""
-    iterations: Annotated[int, Field(ge=1)] = 3
+    iterations: Annotated[int, Field(ge=1)] = 20
     """linear systems at most in a step that is linearised once"""
     travel: bool = True
     """whether nodes are held back where surfaces would pass through each other"""

@@ -29,8 +29,9 @@ struct ContactNumbers {
   static constexpr double kPlane = 4.0;  ///< a vertex before a plane; else a PairKind
 
   double kind = 0.0;
-  double a = 0.0;  ///< the vertex, or the first edge
-  double b = 0.0;  ///< the triangle, the second edge, the other vertex, or the obstacle that is a plane
+  double a = 0.0;      ///< the vertex, or the first edge
+  double b = 0.0;      ///< the triangle, the second edge, the other vertex, or the obstacle that is a plane
+  double point = 0.0;  ///< of a face or edge before something round, from 1 on; 0: the nearest
   double pair = 0.0;
   std::array<double, 4> vertex = {-1.0, -1.0, -1.0, -1.0};  ///< of the surfaces; -1: none
   std::array<double, 4> beta = {};
@@ -47,7 +48,7 @@ struct ContactNumbers {
   double area = 0.0;                     ///< on which it acts [m2]
 
   [[nodiscard]] bool same_key(const ContactNumbers& other) const {
-    return kind == other.kind && a == other.a && b == other.b;
+    return kind == other.kind && a == other.a && b == other.b && point == other.point;
   }
 };
 

@@ -36,8 +36,9 @@ class ContactRun {
   ContactRun& operator=(const ContactRun&) = delete;
 
   /// A step begins at `start` and ends at the time `end`; `led` holds the places of given rows then. What is
-  /// led goes there first, and pushes what is in its way.
-  void begin(const State& start, double end, ConstReals led);
+  /// led goes there first, and pushes what is in its way. Smaller forces of all contacts than `floor` [N] are
+  /// judged by it.
+  void begin(const State& start, double end, ConstReals led, double floor);
   /// The diagonal blocks of the step's matrix without contact, [row][9], and move times push: they outlive
   /// the step.
   void set_matrix(std::span<const double> blocks, double scale);
@@ -47,11 +48,14 @@ class ContactRun {
   /// Contacts at the places of `at`, with the multipliers of those that were there before. By how much their
   /// forces differ from those of the latest solve, as a share.
   double look(const State& at);
-  /// How far contacts that act are inside each other, as a share of xi, at the latest look.
+  /// How far contacts that act are inside each other, as a share of the gap, at the latest look.
   [[nodiscard]] double depth() const { return depth_; }
   /// A system was solved with the contacts of the latest look, and led to `end`: multipliers become the
   /// forces there.
   void update(const State& end);
+  /// The part of the forces with which that system was solved that no contact can give, since it pulls or
+  /// lies beyond Coulomb's disk: on rows, as a share of the rest of them.
+  [[nodiscard]] double inadmissible() const;
   /// The contacts of the latest look are those that act from now on.
   void take() { contacts_.swap(looked_); }
   /// The contacts that act, into the memory of a state.
@@ -68,6 +72,7 @@ class ContactRun {
   void find();
   void find_pairs();
   void find_planes();
+  void add(const Candidate& candidate, const Found& found, std::int32_t point);
   bool find_plainly(const Candidate& candidate, double reach, Found& found) const;
   [[nodiscard]] const ContactNumbers* acting(const ContactNumbers& c) const;
   void keep_multipliers();
@@ -75,6 +80,7 @@ class ContactRun {
   void stiffen();
   void press();
   double change();
+  void scatter(const ContactNumbers& contact, const Vec3& force, Reals f) const;
   void rub(ContactNumbers& contact, const Vec3& n, double t, const Vec3& at, double k) const;
   /// It has a multiplier, or is shut, or will be.
   [[nodiscard]] bool may_press(std::size_t i) const {
@@ -110,7 +116,12 @@ class ContactRun {
   std::vector<std::int32_t> heirs_;      ///< of looked_: contacts of a vertex, by the vertex
   std::vector<std::int32_t> counts_;     ///< contacts of each row
   std::vector<double> forces_;           ///< on rows
+  std::vector<double> refusals_;         ///< on rows, of the latest update: what was taken off
+  int alternations_ = 0;                 ///< updates of this step that found much inadmissible, less others
+  double refused_ = 0.0;                 ///< of the latest update: the norm of what was taken off, …
+  double taken_ = 0.0;                   ///< … and of what was left [N]
   double depth_ = 0.0;
+  double floor_ = 0.0;
   double least_gap_ = 0.0;
 };
 

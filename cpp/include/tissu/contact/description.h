@@ -56,8 +56,8 @@ struct ContactDescription {
   std::vector<ContactPair> pairs;
   ContactMethod method = ContactMethod::augmented;
   BroadPhaseKind broad_phase = BroadPhaseKind::hierarchy;
-  int iterations = 3;  ///< systems at most in a step that is linearised once
-  bool travel = true;  ///< nothing passes through anything
+  int iterations = 20;  ///< systems at most in a step that is linearised once
+  bool travel = true;   ///< nothing passes through anything
 };
 
 }  // namespace tissu

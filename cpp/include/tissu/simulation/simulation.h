@@ -75,6 +75,11 @@ class Simulation {
   void watch_energy(EnergyWatch& watch, StepReport& report);
   /// Adds to the report of a static step which cells are inside out.
   void tell_inverted(InversionCheck& check, StepReport& report) const;
+  /// Where a part of a step began.
+  struct PartStart {
+    State state;
+    std::vector<double> integrator;
+  };
   /// Velocities of held rows are the scene's, whatever was written there.
   void hold() { world_->fixed().copy(held_, state_.velocities); }
 
@@ -86,6 +91,7 @@ class Simulation {
   State last_good_;
   Scratch scratch_;
   std::vector<double> held_;  ///< velocities of held rows, as the scene and the latest step left them
+  std::vector<PartStart> part_starts_;  ///< of each halving that there was, where something touches
   bool settled_ = true;
   std::optional<EnergyWatch> watch_;        ///< of undamped methods, where nothing can add energy
   std::optional<InversionCheck> inverted_;  ///< of static methods

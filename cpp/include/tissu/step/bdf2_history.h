@@ -16,7 +16,7 @@ class Bdf2History {
   /// The step of h from `start` led to `end`.
   void keep(const State& start, double h, const State& end);
 
-  [[nodiscard]] std::vector<double> memory() const;
+  void append_memory(std::vector<double>& memory) const;
   void restore(ConstReals memory);
 
  private:

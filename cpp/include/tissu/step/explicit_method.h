@@ -16,7 +16,7 @@ class ExplicitMethod : public Integrator {
   /// Refuses a step above the stable one.
   StepReport step(State& state, double h) final;
   double stable_step(const State& state) override;
-  [[nodiscard]] std::vector<double> memory() const override { return stable_.memory(); }
+  void append_memory(std::vector<double>& memory) const override { stable_.append_memory(memory); }
   void restore(ConstReals memory) override { stable_.restore(memory); }
 
  protected:

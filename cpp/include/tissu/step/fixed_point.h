@@ -19,7 +19,7 @@ class Bdf2FixedPoint final : public Integrator {
   [[nodiscard]] std::string_view name() const override;
   void prepare(const World& world, LinearSolver* solver, Profile& profile) override;
   StepReport step(State& state, double h) override;
-  [[nodiscard]] std::vector<double> memory() const override { return history_.memory(); }
+  void append_memory(std::vector<double>& memory) const override { history_.append_memory(memory); }
   void restore(ConstReals memory) override { history_.restore(memory); }
 
  private:

@@ -65,9 +65,15 @@ class Integrator {
   }
   /// Moves the state by h [s]. The state is undefined when it throws.
   virtual StepReport step(State& state, double h) = 0;
-  /// What the next step needs beside the state, such as earlier states: nothing for methods of one step.
-  [[nodiscard]] virtual std::vector<double> memory() const { return {}; }
-  /// Goes on from what `memory` gave; an empty one starts anew.
+  /// What the next step needs beside the state, such as earlier states, goes to the end of `memory`: nothing
+  /// for methods of one step.
+  virtual void append_memory(std::vector<double>& /*memory*/) const {}
+  [[nodiscard]] std::vector<double> memory() const {
+    std::vector<double> memory;
+    append_memory(memory);
+    return memory;
+  }
+  /// Goes on from what was appended; an empty one starts anew.
   virtual void restore(ConstReals /*memory*/) {}
 };
 

@@ -20,7 +20,7 @@ class Newmark final : public Integrator {
   [[nodiscard]] bool is_undamped() const override { return gamma_ == 0.5; }
   void prepare(const World& world, LinearSolver* solver, Profile& profile) override;
   StepReport step(State& state, double h) override;
-  [[nodiscard]] std::vector<double> memory() const override;
+  void append_memory(std::vector<double>& memory) const override;
   void restore(ConstReals memory) override;
 
  private:

@@ -33,7 +33,7 @@ class StableStep {
   /// looked at every few steps, when an edge of a cell has changed by a fiftieth of its length.
   double limit(const Amplification& method, const State& state);
 
-  [[nodiscard]] std::vector<double> memory() const;
+  void append_memory(std::vector<double>& memory) const;
   void restore(ConstReals memory);
 
  private:

@@ -29,7 +29,7 @@ class StaticEquilibrium final : public Integrator {
   void prepare(const World& world, LinearSolver* solver, Profile& profile) override;
   StepReport step(State& state, double h) override;
   /// One number: whether the external loads act in full already.
-  [[nodiscard]] std::vector<double> memory() const override { return {loaded_ ? 1.0 : 0.0}; }
+  void append_memory(std::vector<double>& memory) const override { memory.push_back(loaded_ ? 1.0 : 0.0); }
   void restore(ConstReals memory) override { loaded_ = !memory.empty() && memory[0] != 0.0; }
 
  private:

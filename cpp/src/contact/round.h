@@ -1,0 +1,45 @@
+#pragma once
+
+/// Round things (spheres, capsules, ends of lines) before faces. The nearest point of a face jumps about in
+/// the dent that a round thing presses, and its contacts come and go. Points of the body that stay the same
+/// meet it instead: the corners of faces, and points between them that are so close together that a chord
+/// between two is lower than the arc by no more than the gap.
+
+#include <cstdint>
+
+#include "narrow.h"
+
+namespace tissu {
+
+/// Into how many parts the edges of the face, or the edge, of a candidate are cut before something round:
+/// 1 where its corners are enough. 0 where the candidate has nothing round, or only something so thin that
+/// no dent follows it: the narrow phase finds its nearest points.
+int parts_before_round(const SurfaceSet& surfaces, const Candidate& candidate);
+
+/// Contacts of the points inside a face, inside those of its edges that it is the first face of, or inside
+/// an edge. Corners are candidates of their own.
+class RoundPoints {
+ public:
+  RoundPoints(const SurfaceSet& surfaces, ConstReals places, const Candidate& candidate, int parts);
+  /// The next one nearer than `reach`; false: no more.
+  bool next(double reach, Found& found);
+  /// Number of the one found last, from 1 on, which stays that of the same point of the body.
+  [[nodiscard]] std::int32_t number() const { return number_; }
+
+ private:
+  bool face_point(std::int32_t number, Found& found) const;
+  bool rim_point(std::int32_t number, Found& found) const;
+  bool edge_point(std::int32_t number, Found& found) const;
+  [[nodiscard]] Vec3 place(std::int32_t v) const { return block(places_, v); }
+  /// The contact of vertex 0 and a point with these weights of the others.
+  bool meet(const std::array<std::int32_t, 4>& vertex, const std::array<double, 4>& beta, double area,
+            Found& found) const;
+
+  const SurfaceSet& surfaces_;
+  ConstReals places_;
+  const Candidate& candidate_;
+  std::int32_t parts_;
+  std::int32_t number_ = 0;
+};
+
+}  // namespace tissu

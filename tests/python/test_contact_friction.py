@@ -60,7 +60,7 @@ def test_above_its_angle_it_slides_with_the_acceleration_of_coulomb():
 
 @pytest.mark.parametrize(("cell", "cells"), [("hexahedron", (4, 4, 2)), ("tetra", (5, 3, 2))])
 def test_other_meshes_slide_alike(cell, cells):
-    """Three systems a step were too few for these: the block jerked, and its steps said converged."""
+    """With three systems a step these jerked, and their steps said converged."""
     mesh = ts.BarMesh(size=(0.1, 0.1, 0.05), cells=cells, cell=cell, origin=(0, 0, 1e-3))
     law = ts.StableNeoHooke(young="100 kPa", poisson=0.3)
     body = ts.Body(mesh=mesh, law=law, density=1000.0, viscosity=damped(0.0, 0.01))

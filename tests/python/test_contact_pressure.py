@@ -153,7 +153,7 @@ def test_a_ball_pressed_into_a_block_follows_hertz():
 
 @pytest.mark.parametrize("radius", [0.1, 0.03, 0.01, 0.005])
 def test_a_ball_that_rests_in_its_dent_is_pressed_steadily(radius):
-    """Whether the dent is of many faces or of one: nothing moves, so that the force does not either.
+    """Whether the dent is of many faces or of one: nothing moves, nor does the force.
 
     1e-3 is a tenth of the change of forces at which a step ends.
     """

@@ -1,0 +1,233 @@
+"""Prints docs/peers.md: programs from the package index beside tissu, on the same work.
+
+    python bench/peers.py [--python PATH] [--steps N] [--write]
+    python bench/peers.py --reference
+
+MuJoCo, Rapier and Taichi run in the Python that --python names, this one where it is left out;
+tissu runs in this one. A program that is not there is named as such. All are given the same mesh
+and take turns of a few steps in one run, each in a process of its own, on one thread.
+
+--reference computes bench/peers_reference.json anew, with which the tips are compared; minutes.
+"""
+
+from __future__ import annotations
+
+import argparse
+import datetime
+import json
+import sys
+import tempfile
+from importlib import import_module
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+import tissu as ts
+from tissu.cli.info import machine_line
+
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+from kernels import commit, digits, processor, table
+from peer_tissu import Bar
+from peer_turns import Subject, Taken, side_by_side
+from peer_work import SIZE, Facts, Work
+
+ROOT = Path(__file__).resolve().parents[1]
+PAGE, REFERENCE = ROOT / "docs" / "peers.md", ROOT / "bench" / "peers_reference.json"
+BEGIN, END = "<!-- bench/peers.py -->", "<!-- end of bench/peers.py -->"
+NAMES = {"tissu": "tissu", "mujoco": "MuJoCo", "rapier": "Rapier", "taichi": "Taichi"}
+PEERS = ("mujoco", "rapier", "taichi")
+SIZES = {"10,368 tetrahedra": (48, 6, 6), "48,000 tetrahedra": (80, 10, 10)}
+IMPLICIT = [
+    *(Subject("tissu", way) for way in ("all defaults", "tolerance 1e-6")),
+    *(Subject("tissu", way) for way in ("four steps of 2.5 ms", "BDF2")),
+    *(Subject("rapier", "defaults"), Subject("mujoco", "discrete")),
+]
+EXPLICIT = [Subject(program, "explicit") for program in ("tissu", "taichi", "mujoco")]
+DT, SHORT = 0.01, 2e-4  # s, of an implicit and an explicit step
+STEPS, TURN = 100, 5  # implicit; explicit ones take ten times as many
+FINER = 8  # steps of the reference for one of 10 ms
+
+
+def bar(cells: tuple[int, int, int], dt: float) -> Work:
+    """The bar, each cube cut into six tetrahedra."""
+    mesh = ts.bar_mesh(size=SIZE, cells=cells, cell="tetra")
+    return Work(np.array(mesh.points), np.array(mesh.cells[0].nodes), dt)
+
+
+def reference_of(cells: tuple[int, int, int], steps: int, finer: int = FINER) -> list[list[float]]:
+    """Tips (steps, 3) [m] after each 10 ms: BDF2 in short steps, each iterated to 1e-8."""
+    running = Bar(bar(cells, DT / finer), "reference")
+    tips = []
+    for _ in range(steps):
+        for _ in range(finer):
+            running.step()
+        tips.append([round(u, 9) for u in running.tip()])
+    if running.unsolved():
+        raise SystemExit(f"{running.unsolved()} steps of the reference did not converge")
+    return tips
+
+
+def facts(subject: Subject) -> Facts:
+    """What is said of it."""
+    found = import_module(f"peer_{subject.program}").WAYS[subject.way]
+    assert isinstance(found, Facts)
+    return found
+
+
+def share(value: float) -> str:
+    """As a percentage of two digits."""
+    return f"{100.0 * value:.2g} %"
+
+
+def name_of(subject: Subject) -> str:
+    """In the tables."""
+    return f"{NAMES[subject.program]}, {subject.way}"
+
+
+def implicit_row(subject: Subject, taken: Taken, reference: Any) -> list[str]:
+    """A line of the table of implicit steps."""
+    if taken.why:
+        return [name_of(subject), taken.why, *[""] * 6]
+    end, over = taken.errors(reference)
+    unsolved = "does not say" if taken.unsolved is None else f"{taken.unsolved}"
+    times = [digits(ms) for ms in (taken.first, taken.p(50), taken.p(99))]
+    return [name_of(subject), facts(subject).law, *times, share(end), share(over), unsolved]
+
+
+def explicit_row(subject: Subject, taken: Taken, against: Taken) -> list[str]:
+    """A line of the table of explicit steps; `against` has the tips to compare with."""
+    if taken.why:
+        return [name_of(subject), taken.why, *[""] * 3]
+    away = share(taken.errors(against.tips)[0]) if not against.why else ""
+    return [name_of(subject), facts(subject).law, digits(taken.p(50)), digits(taken.p(99)), away]
+
+
+HEAD = [
+    "",
+    "law",
+    "first, ms",
+    "p50, ms",
+    "p99, ms",
+    "off at the end",
+    "off, all steps",
+    "unsolved",
+]
+SHORT_HEAD = ["", "law", "p50, ms", "p99, ms", "from tissu's tip"]
+TEXT = """Each table is one run: the programs took turns of {turn} implicit steps or {many} explicit
+ones, on one thread; times are CPU time of a step without the first. {versions}
+
+{tables}
+
+"off": how far the middle of the free end is from the reference, the same mesh under
+St-Venant–Kirchhoff in steps of {fine:g} ms by BDF2, as a share of its largest displacement: after
+{seconds:g} s, and as the root of the mean square over all steps. What is off is what a program's
+time step, solver and law make of it together. "unsolved": steps of which the program says itself
+that they are not solved to its own tolerance.
+
+{steps}
+
+{lacks}
+
+{machine}"""
+
+
+def listed(subjects: list[Subject], what: str) -> str:
+    """What the facts say, a line each."""
+    said = {name_of(s): getattr(facts(s), what) for s in subjects if getattr(facts(s), what)}
+    return "\n".join(f"- {name}: {text}." for name, text in said.items())
+
+
+def versions_of(found: dict[Subject, Taken]) -> str:
+    """A sentence."""
+    known = {NAMES[s.program]: taken.version for s, taken in found.items() if taken.version}
+    missing = {NAMES[s.program] for s, taken in found.items() if taken.why.startswith("not inst")}
+    text = ", ".join(f"{name} {version}" for name, version in known.items())
+    return f"{text}." + (f" Not installed: {', '.join(sorted(missing))}." if missing else "")
+
+
+def section(found: dict[str, dict[Subject, Taken]], references: dict[str, Any], steps: int) -> str:
+    """All of it, from what `measured` gave."""
+    tables, every = [], {}
+    for name, taken in found.items():
+        every.update(taken)
+        size, kind = name.split("; ")
+        if kind == "implicit":
+            rows = [implicit_row(s, t, references[size]) for s, t in taken.items()]
+            tables.append(f"### {size}, a step of 10 ms\n\n{table(HEAD, rows)}")
+        else:
+            tissu = taken[Subject("tissu", "explicit")]
+            rows = [explicit_row(s, t, tissu) for s, t in taken.items()]
+            tables.append(f"### {size}, an explicit step of 0.2 ms\n\n{table(SHORT_HEAD, rows)}")
+    where = f"{machine_line()} {processor()}, commit {commit()}, {datetime.date.today()}."
+    return TEXT.format(
+        turn=TURN,
+        many=10 * TURN,
+        versions=versions_of(every),
+        tables="\n\n".join(tables),
+        fine=1e3 * DT / FINER,
+        seconds=steps * DT,
+        steps=listed([*IMPLICIT, *EXPLICIT], "step"),
+        lacks="What of tissu's they do not do:\n\n" + listed([*IMPLICIT, *EXPLICIT], "lacks"),
+        machine=f"Printed by `python bench/peers.py --write`; {where}",
+    )
+
+
+def measured(sizes: dict[str, Any], pythons: dict[str, str], steps: int) -> dict[str, Any]:
+    """Every table's runs."""
+    found = {}
+    with tempfile.TemporaryDirectory() as name:
+        for size, cells in sizes.items():
+            for kind, subjects, dt, times in (
+                ("implicit", IMPLICIT, DT, 1),
+                ("explicit", EXPLICIT, SHORT, 10),
+            ):
+                file = Path(name) / f"{len(found)}.npz"
+                bar(cells, dt).write(file)
+                taken = side_by_side(
+                    subjects, pythons, file, steps=times * steps, turn=times * TURN
+                )
+                found[f"{size}; {kind}"] = taken
+                for subject, of in taken.items():
+                    said = of.why or f"made in {of.making:.1f} s, p50 {of.p(50):.3g} ms"
+                    print(size, name_of(subject), said, sep=": ", file=sys.stderr, flush=True)
+    return found
+
+
+def put(page: str, text: str) -> str:
+    """The page with the text between its markers."""
+    before, found, rest = page.partition(BEGIN)
+    _, closed, after = rest.partition(END)
+    if not (found and closed):
+        raise SystemExit(f"{PAGE.name} has no place between {BEGIN} and {END}")
+    return f"{before}{BEGIN}\n\n{text}\n\n{END}{after}"
+
+
+def main() -> int:
+    """Runs, prints or writes."""
+    parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
+    parser.add_argument("--python", default=sys.executable, help="in which the peers are installed")
+    parser.add_argument("--steps", type=int, default=STEPS, help="implicit ones of each")
+    parser.add_argument("--write", action="store_true", help="to docs/peers.md")
+    parser.add_argument("--reference", action="store_true", help="computes the reference anew")
+    asked = parser.parse_args()
+    if asked.reference:
+        tips = {size: reference_of(cells, STEPS) for size, cells in SIZES.items()}
+        lines = [f"{json.dumps(size)}: {json.dumps(of)}" for size, of in tips.items()]
+        REFERENCE.write_text("{\n" + ",\n".join(lines) + "\n}\n", encoding="utf-8")
+        return 0
+    if asked.write and commit().endswith("-dirty"):
+        print("peers: what is printed names its commit; commit all changes first", file=sys.stderr)
+        return 1
+    references = json.loads(REFERENCE.read_text(encoding="utf-8"))
+    steps = min(asked.steps, STEPS)
+    text = section(measured(SIZES, dict.fromkeys(PEERS, asked.python), steps), references, steps)
+    if asked.write:
+        PAGE.write_text(put(PAGE.read_text(encoding="utf-8"), text), encoding="utf-8")
+    else:
+        print(text)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

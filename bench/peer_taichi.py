@@ -59,7 +59,7 @@ class Bar:
         self._move()
         self._ti.sync()
 
-    def tip(self) -> list[float]:
+    def seen(self) -> list[float]:
         """Of the free end [m]."""
         return self._work.tip(self._x.to_numpy())
 

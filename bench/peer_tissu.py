@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from peer_work import DENSITY, GRAVITY, POISSON, YOUNG, Facts, Work
+from peer_work import DENSITY, GRAVITY, POISSON, SOFT, STIFFNESS_DAMPING, YOUNG, Facts, Work
 
 LAW = "St-Venant–Kirchhoff"
 WAYS = {
@@ -13,6 +13,7 @@ WAYS = {
     "four steps of 2.5 ms": Facts(LAW, "all defaults, four steps for one of the others"),
     "BDF2": Facts(LAW, "BDF2 of 10 ms, else all defaults"),
     "explicit": Facts(LAW, "symplectic Euler, double precision"),
+    "dropped": Facts(LAW, "all defaults"),
 }
 
 
@@ -57,7 +58,7 @@ class Bar:
         for _ in range(self._parts):
             self._unsolved += not self._simulation.step().converged
 
-    def tip(self) -> list[float]:
+    def seen(self) -> list[float]:
         """Of the free end [m]."""
         return self._work.tip(self._simulation.positions["bar"])
 
@@ -66,4 +67,51 @@ class Bar:
         return self._unsolved
 
 
-make = Bar
+class Cube:
+    """The cube, above a plane or with nothing below it."""
+
+    def __init__(self, work: Work, way: str) -> None:
+        """`way` is "dropped", or "falling" for ever."""
+        import tissu as ts
+
+        self._falls = way == "falling"
+        met: dict[str, Any] = {
+            "obstacles": {"plane": ts.PlaneObstacle((0, 0, 0), (0, 0, 1))},
+            "contacts": [ts.Contact("all")],
+        }
+        body = ts.Body(
+            mesh=ts.Mesh(points=work.points, cells=(ts.CellBlock("tetra", work.tetrahedra),)),
+            law=ts.StVK(young=SOFT, poisson=POISSON),
+            density=DENSITY,
+            viscosity=ts.Rayleigh(mass=0.0, stiffness=STIFFNESS_DAMPING),
+        )
+        self._simulation = ts.Scene(
+            bodies={"cube": body},
+            gravity=(0, 0, -GRAVITY),
+            step=ts.ImplicitEuler(work.dt),
+            **({} if self._falls else met),
+        ).compile()
+        self._unsolved = 0
+
+    def step(self) -> None:
+        """One of dt."""
+        self._unsolved += not self._simulation.step().converged
+
+    def seen(self) -> list[float]:
+        """Depth in the gap [m], and what the plane carries [N]."""
+        if self._falls:
+            return [0.0, 0.0]
+        gaps = self._simulation.contacts().gaps
+        return [
+            max(0.0, -float(gaps.min(initial=0.0))),
+            -float(self._simulation.force_on("plane").force[2]),
+        ]
+
+    def unsolved(self) -> int | None:
+        """Steps that did not converge."""
+        return self._unsolved
+
+
+def make(work: Work, way: str) -> Bar | Cube:
+    """The bar, or the cube."""
+    return Cube(work, way) if way in ("dropped", "falling") else Bar(work, way)

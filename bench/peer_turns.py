@@ -32,7 +32,7 @@ class Taken:
         version: of the program.
         making: seconds for all before the first step.
         ms: CPU time of each step [ms].
-        tips: displacement of the free end after each (3,) [m].
+        seen: what is compared after each (peer_work.Running.seen).
         unsolved: steps of which it says itself that they are not solved; None: it does not say.
         why: why there is nothing; empty: there is.
     """
@@ -40,7 +40,7 @@ class Taken:
     version: str = ""
     making: float = float("nan")
     ms: list[float] = field(default_factory=list)
-    tips: list[list[float]] = field(default_factory=list)
+    seen: list[list[float]] = field(default_factory=list)
     unsolved: int | None = None
     why: str = ""
 
@@ -59,8 +59,8 @@ class Taken:
         Args:
             reference: displacements (k, 3) [m] at the same times, k at least the steps taken.
         """
-        known = np.asarray(reference)[: len(self.tips)]
-        away = np.linalg.norm(np.asarray(self.tips) - known, axis=1)
+        known = np.asarray(reference)[: len(self.seen)]
+        away = np.linalg.norm(np.asarray(self.seen) - known, axis=1)
         size = float(np.linalg.norm(known, axis=1).max())
         return float(away[-1]) / size, float(np.sqrt(np.mean(away**2))) / size
 
@@ -114,9 +114,9 @@ class Worker:
         """Some steps."""
         if answer := self._ask(do="turn", steps=steps):
             self.taken.ms += answer["ms"]
-            self.taken.tips += answer["tips"]
+            self.taken.seen += answer["seen"]
             self.taken.unsolved = answer["unsolved"]
-            if not np.isfinite(answer["tips"]).all():
+            if not np.isfinite(answer["seen"]).all():
                 self.taken.why = "its values are not finite"
 
 

@@ -1,4 +1,4 @@
-"""The work that bench/peers.py gives to every program: a bar that swings, as arrays.
+"""The work that bench/peers.py gives to programs, as arrays: a bar that swings, a cube that falls.
 
 NumPy alone: a program may run in a Python of its own, in which tissu is not installed.
 """
@@ -14,12 +14,15 @@ import numpy as np
 SIZE = (8.0, 1.0, 1.0)  # m
 YOUNG, POISSON, DENSITY = 50e6, 0.3, 1000.0  # Pa, 1, kg/m3
 GRAVITY = 9.81  # m/s2, along -z
+SIDE, HEIGHT, SOFT = 0.05, 0.02, 100e3  # m, m, Pa: the cube, its fall, its Young's modulus
+CUBE = 6  # its cells along an edge, each cut in six
+STIFFNESS_DAMPING = 0.005  # s, Rayleigh's, of the cube
 NEAR = 1e-9  # m
 
 
 @dataclass(frozen=True)
 class Work:
-    """A bar of tetrahedra, held at x = 0, that bends under its weight from rest on.
+    """Tetrahedra at rest: a bar held at x = 0 that bends under its weight, or a cube above a plane.
 
     Attributes:
         points: nodes (n, 3) [m].
@@ -91,8 +94,12 @@ class Running(Protocol):
     def step(self) -> None:
         """Goes on by the work's dt; this is what is timed."""
 
-    def tip(self) -> list[float]:
-        """Mean displacement (3,) [m] of the free end; not timed."""
+    def seen(self) -> list[float]:
+        """What is compared; not timed.
+
+        Of a bar the mean displacement (3,) [m] of its free end; of a cube how deep it is in the
+        plane, beyond the thickness that the program gives it [m], and what the plane carries [N].
+        """
 
     def unsolved(self) -> int | None:
         """Steps that are not solved, as the program itself says; None: it does not say."""

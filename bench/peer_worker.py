@@ -3,7 +3,7 @@
 Reads a request a line and answers each with a line, both JSON:
 
     {"do": "make", "work": FILE, "way": WAY}  ->  {"version": …, "seconds": …}
-    {"do": "turn", "steps": N}  ->  {"ms": […], "tips": [[x, y, z], …], "unsolved": N or null}
+    {"do": "turn", "steps": N}  ->  {"ms": […], "seen": [[…], …], "unsolved": N or null}
 
 Milliseconds are the process's CPU time. What goes wrong is an answer too: {"missing": …} where the
 program is not installed, {"failed": …} otherwise.
@@ -33,13 +33,13 @@ def answers_only() -> TextIO:
 
 def turn(running: Running, steps: int) -> dict[str, Any]:
     """Some steps, each timed."""
-    ms, tips = [], []
+    ms, seen = [], []
     for _ in range(steps):
         begin = time.process_time()
         running.step()
         ms.append(1e3 * (time.process_time() - begin))
-        tips.append(running.tip())
-    return {"ms": ms, "tips": tips, "unsolved": running.unsolved()}
+        seen.append(running.seen())
+    return {"ms": ms, "seen": seen, "unsolved": running.unsolved()}
 
 
 def main() -> int:

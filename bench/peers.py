@@ -17,7 +17,6 @@ import datetime
 import json
 import sys
 import tempfile
-from importlib import import_module
 from pathlib import Path
 from typing import Any
 
@@ -27,15 +26,27 @@ import tissu as ts
 from tissu.cli.info import machine_line
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
-from kernels import commit, digits, processor, table
+from kernels import commit, processor, table
+from peer_rows import (
+    DROPPED_HEAD,
+    EXPLICIT_HEAD,
+    IMPACT,
+    IMPLICIT_HEAD,
+    WINDOW,
+    dropped_row,
+    explicit_row,
+    implicit_row,
+    listed,
+    name_of,
+    versions_of,
+)  # fmt: skip
 from peer_tissu import Bar
 from peer_turns import Subject, Taken, side_by_side
-from peer_work import SIZE, Facts, Work
+from peer_work import CUBE, GRAVITY, HEIGHT, SIDE, SIZE, Work
 
 ROOT = Path(__file__).resolve().parents[1]
 PAGE, REFERENCE = ROOT / "docs" / "peers.md", ROOT / "bench" / "peers_reference.json"
 BEGIN, END = "<!-- bench/peers.py -->", "<!-- end of bench/peers.py -->"
-NAMES = {"tissu": "tissu", "mujoco": "MuJoCo", "rapier": "Rapier", "taichi": "Taichi"}
 PEERS = ("mujoco", "rapier", "taichi")
 SIZES = {"10,368 tetrahedra": (48, 6, 6), "48,000 tetrahedra": (80, 10, 10)}
 IMPLICIT = [
@@ -43,7 +54,13 @@ IMPLICIT = [
     *(Subject("tissu", way) for way in ("four steps of 2.5 ms", "BDF2")),
     *(Subject("rapier", "defaults"), Subject("mujoco", "discrete")),
 ]
+DROPPED = [
+    *(Subject(program, "dropped") for program in ("tissu", "rapier", "mujoco")),
+    Subject("mujoco", "dropped, stiff contacts"),
+]
+FALLING = [Subject(program, "falling") for program in ("tissu", "rapier", "mujoco")]
 EXPLICIT = [Subject(program, "explicit") for program in ("tissu", "taichi", "mujoco")]
+EVERY = [*IMPLICIT, *EXPLICIT, *DROPPED]
 DT, SHORT = 0.01, 2e-4  # s, of an implicit and an explicit step
 STEPS, TURN = 100, 5  # implicit; explicit ones take ten times as many
 FINER = 8  # steps of the reference for one of 10 ms
@@ -55,6 +72,13 @@ def bar(cells: tuple[int, int, int], dt: float) -> Work:
     return Work(np.array(mesh.points), np.array(mesh.cells[0].nodes), dt)
 
 
+def cube() -> Work:
+    """1,296 tetrahedra, 2 cm above the plane z = 0."""
+    cells = (CUBE, CUBE, CUBE)
+    mesh = ts.bar_mesh(size=(SIDE,) * 3, cells=cells, cell="tetra", origin=(0, 0, HEIGHT))
+    return Work(np.array(mesh.points), np.array(mesh.cells[0].nodes), DT)
+
+
 def reference_of(cells: tuple[int, int, int], steps: int, finer: int = FINER) -> list[list[float]]:
     """Tips (steps, 3) [m] after each 10 ms: BDF2 in short steps, each iterated to 1e-8."""
     running = Bar(bar(cells, DT / finer), "reference")
@@ -62,68 +86,29 @@ def reference_of(cells: tuple[int, int, int], steps: int, finer: int = FINER) ->
     for _ in range(steps):
         for _ in range(finer):
             running.step()
-        tips.append([round(u, 9) for u in running.tip()])
+        tips.append([round(u, 9) for u in running.seen()])
     if running.unsolved():
         raise SystemExit(f"{running.unsolved()} steps of the reference did not converge")
     return tips
 
 
-def facts(subject: Subject) -> Facts:
-    """What is said of it."""
-    found = import_module(f"peer_{subject.program}").WAYS[subject.way]
-    assert isinstance(found, Facts)
-    return found
-
-
-def share(value: float) -> str:
-    """As a percentage of two digits."""
-    return f"{100.0 * value:.2g} %"
-
-
-def name_of(subject: Subject) -> str:
-    """In the tables."""
-    return f"{NAMES[subject.program]}, {subject.way}"
-
-
-def implicit_row(subject: Subject, taken: Taken, reference: Any) -> list[str]:
-    """A line of the table of implicit steps."""
-    if taken.why:
-        return [name_of(subject), taken.why, *[""] * 6]
-    end, over = taken.errors(reference)
-    unsolved = "does not say" if taken.unsolved is None else f"{taken.unsolved}"
-    times = [digits(ms) for ms in (taken.first, taken.p(50), taken.p(99))]
-    return [name_of(subject), facts(subject).law, *times, share(end), share(over), unsolved]
-
-
-def explicit_row(subject: Subject, taken: Taken, against: Taken) -> list[str]:
-    """A line of the table of explicit steps; `against` has the tips to compare with."""
-    if taken.why:
-        return [name_of(subject), taken.why, *[""] * 3]
-    away = share(taken.errors(against.tips)[0]) if not against.why else ""
-    return [name_of(subject), facts(subject).law, digits(taken.p(50)), digits(taken.p(99)), away]
-
-
-HEAD = [
-    "",
-    "law",
-    "first, ms",
-    "p50, ms",
-    "p99, ms",
-    "off at the end",
-    "off, all steps",
-    "unsolved",
-]
-SHORT_HEAD = ["", "law", "p50, ms", "p99, ms", "from tissu's tip"]
 TEXT = """Each table is one run: the programs took turns of {turn} implicit steps or {many} explicit
 ones, on one thread; times are CPU time of a step without the first. {versions}
 
 {tables}
 
-"off": how far the middle of the free end is from the reference, the same mesh under
+"off" of a bar: how far the middle of the free end is from the reference, the same mesh under
 St-Venant–Kirchhoff in steps of {fine:g} ms by BDF2, as a share of its largest displacement: after
 {seconds:g} s, and as the root of the mean square over all steps. What is off is what a program's
 time step, solver and law make of it together. "unsolved": steps of which the program says itself
 that they are not solved to its own tolerance.
+
+The cube of 5 cm, E = 100 kPa, falls 2 cm. Its times are those of the steps from the first contact
+on, "without" those of the same cube that falls for ever. "at impact" and "at rest": how far its
+lowest node is in the plane, beyond the thickness that the program itself gives it, in edges of
+8.3 mm; the most of {impact} steps from the first contact on, and of the last {window}. "force": by
+how much the mean of what the program says that the plane carries differs from the weight, over the
+last {window} steps.
 
 {steps}
 
@@ -132,33 +117,27 @@ that they are not solved to its own tolerance.
 {machine}"""
 
 
-def listed(subjects: list[Subject], what: str) -> str:
-    """What the facts say, a line each."""
-    said = {name_of(s): getattr(facts(s), what) for s in subjects if getattr(facts(s), what)}
-    return "\n".join(f"- {name}: {text}." for name, text in said.items())
-
-
-def versions_of(found: dict[Subject, Taken]) -> str:
-    """A sentence."""
-    known = {NAMES[s.program]: taken.version for s, taken in found.items() if taken.version}
-    missing = {NAMES[s.program] for s, taken in found.items() if taken.why.startswith("not inst")}
-    text = ", ".join(f"{name} {version}" for name, version in known.items())
-    return f"{text}." + (f" Not installed: {', '.join(sorted(missing))}." if missing else "")
-
-
 def section(found: dict[str, dict[Subject, Taken]], references: dict[str, Any], steps: int) -> str:
     """All of it, from what `measured` gave."""
     tables, every = [], {}
     for name, taken in found.items():
         every.update(taken)
         size, kind = name.split("; ")
-        if kind == "implicit":
+        if kind == "dropped":
+            weight = GRAVITY * float(cube().masses.sum())
+            rows = [
+                dropped_row(s, t, taken[Subject(s.program, "falling")], weight)
+                for s, t in taken.items()
+                if s.way != "falling"
+            ]
+            tables.append(f"### {size}, dropped on a plane\n\n{table(DROPPED_HEAD, rows)}")
+        elif kind == "implicit":
             rows = [implicit_row(s, t, references[size]) for s, t in taken.items()]
-            tables.append(f"### {size}, a step of 10 ms\n\n{table(HEAD, rows)}")
+            tables.append(f"### {size}, a step of 10 ms\n\n{table(IMPLICIT_HEAD, rows)}")
         else:
             tissu = taken[Subject("tissu", "explicit")]
             rows = [explicit_row(s, t, tissu) for s, t in taken.items()]
-            tables.append(f"### {size}, an explicit step of 0.2 ms\n\n{table(SHORT_HEAD, rows)}")
+            tables.append(f"### {size}, an explicit step of 0.2 ms\n\n{table(EXPLICIT_HEAD, rows)}")
     where = f"{machine_line()} {processor()}, commit {commit()}, {datetime.date.today()}."
     return TEXT.format(
         turn=TURN,
@@ -167,8 +146,10 @@ def section(found: dict[str, dict[Subject, Taken]], references: dict[str, Any], 
         tables="\n\n".join(tables),
         fine=1e3 * DT / FINER,
         seconds=steps * DT,
-        steps=listed([*IMPLICIT, *EXPLICIT], "step"),
-        lacks="What of tissu's they do not do:\n\n" + listed([*IMPLICIT, *EXPLICIT], "lacks"),
+        impact=IMPACT,
+        window=WINDOW,
+        steps=listed(EVERY, "step"),
+        lacks="What of tissu's they do not do:\n\n" + listed(EVERY, "lacks"),
         machine=f"Printed by `python bench/peers.py --write`; {where}",
     )
 
@@ -191,6 +172,12 @@ def measured(sizes: dict[str, Any], pythons: dict[str, str], steps: int) -> dict
                 for subject, of in taken.items():
                     said = of.why or f"made in {of.making:.1f} s, p50 {of.p(50):.3g} ms"
                     print(size, name_of(subject), said, sep=": ", file=sys.stderr, flush=True)
+        file = Path(name) / "cube.npz"
+        cube().write(file)
+        both = [*DROPPED, *FALLING]
+        found["A cube of 1,296 tetrahedra; dropped"] = side_by_side(
+            both, pythons, file, steps=round(1.5 * steps), turn=TURN
+        )
     return found
 
 

@@ -11,8 +11,9 @@ import pytest
 import tissu as ts
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "bench"))
+import peer_rows
 import peers
-from peer_mujoco import model
+from peer_mujoco import cube_model, model
 from peer_tissu import Bar
 from peer_turns import Subject, Taken, side_by_side
 from peer_work import Work
@@ -42,6 +43,10 @@ def test_the_work_goes_through_a_file(work, tmp_path):
 
 def test_mujoco_is_given_the_whole_bar(work):
     flex = ElementTree.fromstring(model(work, "discrete")).find("worldbody/flexcomp")
+    cube = peers.cube()
+    for way, planes in (("dropped", 1), ("falling", 0)):
+        world = ElementTree.fromstring(cube_model(cube, way)).find("worldbody")
+        assert len(world.findall("geom")) == planes
     assert np.array_equal(np.array(flex.get("point").split(), dtype=float), work.points.ravel())
     assert np.array_equal(np.array(flex.get("element").split(), int), work.tetrahedra.ravel())
     assert np.array_equal(np.array(flex.find("pin").get("id").split(), int), work.held)
@@ -49,7 +54,7 @@ def test_mujoco_is_given_the_whole_bar(work):
 
 def test_errors_are_shares_of_the_largest_reference():
     reference = [[0.0, 0.0, -1.0], [0.0, 0.0, -2.0], [0.0, 0.0, -1.0]]
-    taken = Taken(ms=[9.0, 1.0, 2.0], tips=[[0, 0, -1], [0, 0, -2], [0.3, 0.4, -1]])
+    taken = Taken(ms=[9.0, 1.0, 2.0], seen=[[0, 0, -1], [0, 0, -2], [0.3, 0.4, -1]])
     end, over = taken.errors(reference)
     assert end == pytest.approx(0.5 / 2.0)
     assert over == pytest.approx(0.5 / np.sqrt(3) / 2.0)
@@ -63,12 +68,12 @@ def test_tissu_runs_and_who_is_not_there_is_named(work, tmp_path):
     subjects = [Subject("tissu", "all defaults"), Subject("absent", "defaults")]
     found = side_by_side(subjects, {}, tmp_path / "work.npz", steps=7, turn=3)
     tissu, absent = found[subjects[0]], found[subjects[1]]
-    assert (len(tissu.ms), len(tissu.tips), tissu.unsolved, tissu.why) == (7, 7, 0, "")
+    assert (len(tissu.ms), len(tissu.seen), tissu.unsolved, tissu.why) == (7, 7, 0, "")
     # Backward Euler falls by g h^2 n (n + 1) / 2; the hold is hardly felt at the far end yet.
-    assert tissu.tips[2][2] == pytest.approx(-9.81 * 1e-4 * 6, rel=0.02)
+    assert tissu.seen[2][2] == pytest.approx(-9.81 * 1e-4 * 6, rel=0.02)
     assert absent.why == "not installed (No module named 'peer_absent')"
-    row = peers.implicit_row(subjects[0], tissu, tissu.tips)
-    assert len(row) == len(peers.HEAD)
+    row = peer_rows.implicit_row(subjects[0], tissu, tissu.seen)
+    assert len(row) == len(peer_rows.IMPLICIT_HEAD)
     assert row[-3:] == ["0 %", "0 %", "0"]
 
 
@@ -78,14 +83,39 @@ def test_a_program_that_fails_is_a_row_that_says_why(tmp_path):
     subject = Subject("tissu", "all defaults")
     (taken,) = side_by_side([subject], {}, tmp_path / "work.npz", steps=2, turn=1).values()
     assert "Error" in taken.why
-    assert peers.implicit_row(subject, taken, [])[1] == taken.why
+    assert peer_rows.implicit_row(subject, taken, [])[1] == taken.why
+
+
+def test_a_row_of_the_cube_is_its_steps_that_touch():
+    bare = Taken(ms=[9.0, 1.0, 1.0])
+    seen = [[0.0, 0.0], [0.0, 0.0], [1e-3, 4.0], *[[5e-4, 2.2]] * 60]
+    taken = Taken(ms=[9.0, 9.0, *[3.0] * 61], seen=seen, unsolved=None)
+    subject = Subject("tissu", "dropped")
+    row = peer_rows.dropped_row(subject, taken, bare, 2.0)
+    assert len(row) == len(peer_rows.DROPPED_HEAD)
+    # An edge is 50 mm / 6: 1 mm is 12 % of it, 0.5 mm 6 %.
+    assert row[2:] == ["1", "3", "3", "12 %", "6 %", "10 %", "does not say"]
+
+
+def test_the_cube_of_tissu_rests_on_its_plane(tmp_path):
+    peers.cube().write(tmp_path / "cube.npz")
+    subject = Subject("tissu", "dropped")
+    (taken,) = side_by_side([subject], {}, tmp_path / "cube.npz", steps=60, turn=60).values()
+    depth, force = np.array(taken.seen).T
+    assert taken.unsolved == 0
+    # Backward Euler falls g h^2 n (n + 1) / 2: 1.5 cm in five steps, 2.1 cm in six.
+    assert not force[:5].any()
+    assert force[5:8].max() > 1.2
+    # Damped by 5 ms, it has come to rest; the goal of docs/contact.md is 0.1 % of the weight.
+    assert force[-10:] == pytest.approx(1000.0 * 0.05**3 * 9.81, rel=1e-3)
+    assert depth[-10:].max() < 0.003 * 0.05 / 6
 
 
 def test_every_subject_has_its_facts():
-    for subject in [*peers.IMPLICIT, *peers.EXPLICIT]:
-        assert peers.facts(subject).law
-        assert peers.facts(subject).step
-    lacks = peers.listed([*peers.IMPLICIT, *peers.EXPLICIT], "lacks")
+    for subject in peers.EVERY:
+        assert peer_rows.facts(subject).law
+        assert peer_rows.facts(subject).step
+    lacks = peer_rows.listed(peers.EVERY, "lacks")
     assert all(name in lacks for name in ("MuJoCo", "Rapier", "Taichi"))
 
 
@@ -107,12 +137,12 @@ def test_the_reference_is_that_of_the_sizes_by_another_method():
 
 
 def test_the_section_names_who_is_missing_and_goes_between_its_markers():
-    here = Taken(version="1", ms=[2.0, 1.0], tips=[[0, 0, -1.0], [0, 0, -2.0]], unsolved=0)
+    here = Taken(version="1", ms=[2.0, 1.0], seen=[[0, 0, -1.0], [0, 0, -2.0]], unsolved=0)
     found = {"10,368 tetrahedra; implicit": dict.fromkeys(peers.IMPLICIT, here)}
     found["10,368 tetrahedra; explicit"] = dict.fromkeys(peers.EXPLICIT, here)
     gone = Taken(why="not installed (No module named 'mujoco')")
     found["10,368 tetrahedra; implicit"][Subject("mujoco", "discrete")] = gone
-    text = peers.section(found, {"10,368 tetrahedra": here.tips}, 2)
+    text = peers.section(found, {"10,368 tetrahedra": here.seen}, 2)
     assert "Not installed: MuJoCo." in text
     assert "| MuJoCo, discrete | not installed" in text
     page = peers.PAGE.read_text(encoding="utf-8")

@@ -154,30 +154,33 @@ def section(found: dict[str, dict[Subject, Taken]], references: dict[str, Any], 
     )
 
 
-def measured(sizes: dict[str, Any], pythons: dict[str, str], steps: int) -> dict[str, Any]:
-    """Every table's runs."""
+def runs(sizes: dict[str, Any], steps: int) -> list[tuple[str, list[Subject], Work, int, int]]:
+    """Of each table its name, what runs, the work, how many steps, and how many at a time.
+
+    Explicit steps run on the first size alone: what they cost grows in proportion.
+    """
+    found = [(f"{s}; implicit", IMPLICIT, bar(c, DT), steps, TURN) for s, c in sizes.items()]
+    first, cells = next(iter(sizes.items()))
+    short = (f"{first}; explicit", EXPLICIT, bar(cells, SHORT), 10 * steps, 10 * TURN)
+    both = [*DROPPED, *FALLING]
+    fall = ("A cube of 1,296 tetrahedra; dropped", both, cube(), round(1.5 * steps), TURN)
+    return [*found, short, fall]
+
+
+def measured(
+    sizes: dict[str, Any], pythons: dict[str, str], steps: int
+) -> dict[str, dict[Subject, Taken]]:
+    """Every table's run."""
     found = {}
-    with tempfile.TemporaryDirectory() as name:
-        for size, cells in sizes.items():
-            for kind, subjects, dt, times in (
-                ("implicit", IMPLICIT, DT, 1),
-                ("explicit", EXPLICIT, SHORT, 10),
-            ):
-                file = Path(name) / f"{len(found)}.npz"
-                bar(cells, dt).write(file)
-                taken = side_by_side(
-                    subjects, pythons, file, steps=times * steps, turn=times * TURN
-                )
-                found[f"{size}; {kind}"] = taken
-                for subject, of in taken.items():
-                    said = of.why or f"made in {of.making:.1f} s, p50 {of.p(50):.3g} ms"
-                    print(size, name_of(subject), said, sep=": ", file=sys.stderr, flush=True)
-        file = Path(name) / "cube.npz"
-        cube().write(file)
-        both = [*DROPPED, *FALLING]
-        found["A cube of 1,296 tetrahedra; dropped"] = side_by_side(
-            both, pythons, file, steps=round(1.5 * steps), turn=TURN
-        )
+    with tempfile.TemporaryDirectory() as folder:
+        for name, subjects, work, count, at_once in runs(sizes, steps):
+            file = Path(folder) / "work.npz"
+            work.write(file)
+            taken = side_by_side(subjects, pythons, file, steps=count, turn=at_once)
+            found[name] = taken
+            for subject, of in taken.items():
+                said = of.why or f"made in {of.making:.1f} s, p50 {of.p(50):.3g} ms"
+                print(name, name_of(subject), said, sep=": ", file=sys.stderr, flush=True)
     return found
 
 

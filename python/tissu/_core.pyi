@@ -26,7 +26,9 @@ class TriangleTree:
     """The nearest points of triangles; corners (t, 3, 3)."""
 
     def __init__(self, *, corners: Floats) -> None: ...
-    def nearest(self, *, points: Floats, reach: float) -> tuple[Floats, Floats]: ...
+    def nearest(
+        self, *, points: Floats, reach: float | Floats, threads: int
+    ) -> tuple[Floats, Floats]: ...
 
 def render(
     *,

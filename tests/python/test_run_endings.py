@@ -164,6 +164,30 @@ def test_sighup_leaves_a_checkpoint_and_nohup_ignores_it(scene, tmp_path):
     assert (ended, said) == (0, "")
 
 
+@pytest.mark.parametrize(
+    ("number", "handler", "code", "said"),
+    [
+        (signal.SIGHUP, signal.SIG_DFL, 129, "tissu: left by its terminal, nothing was written\n"),
+        (signal.SIGTERM, signal.SIG_DFL, 143, "tissu: terminated, nothing was written\n"),
+        (signal.SIGHUP, signal.SIG_IGN, 0, ""),
+    ],
+    ids=["hup", "term", "nohup"],
+)
+def test_a_command_that_runs_no_scene_ends_with_a_sentence(number, handler, code, said):
+    """The signal comes while a command is at work, in the place of whatever it does."""
+    program = f"""
+import os
+from tissu import cli
+cli._run = lambda: os.kill(os.getpid(), {int(number)}) or 0
+cli.main()
+"""
+    ended = subprocess.run(
+        [sys.executable, "-c", program], capture_output=True, text=True, timeout=300,
+        preexec_fn=lambda: signal.signal(number, handler),
+    )  # fmt: skip
+    assert (ended.returncode, ended.stderr) == (code, said)
+
+
 def test_python_gets_keyboard_interrupt_and_the_last_good_step(scene, tmp_path):
     program = f"""
 import os, signal, sys, threading, time

@@ -89,6 +89,25 @@ def test_distance_to_a_box_is_known():
     assert box().nearest(points)[1:3] == pytest.approx(np.array([[0.4, 0.1, 0.05], [0, 0, 0.05]]))
 
 
+def test_each_point_may_have_a_reach_of_its_own():
+    """More points than a piece of the loop has (512), so that threads share them."""
+    tree = box().tree
+    points = scattered(box(), 1200, margin=0.3)
+    places, away = tree.nearest(points)
+    limits = np.where(np.arange(len(points)) % 3 == 0, 0.5 * away, 2.0 * away + 1e-3)
+    near, found = tree.nearest(points, limits)
+    missed = limits < away
+    assert missed.any()
+    assert np.isinf(found[missed]).all()
+    assert np.isnan(near[missed]).all()
+    assert np.array_equal(near[~missed], places[~missed])
+    assert np.array_equal(found[~missed], away[~missed])
+    alone = [tree.nearest(points[i : i + 1])[1][0] for i in range(0, len(points), 7)]
+    assert np.array_equal(alone, away[::7])
+    with pytest.raises(ValueError, match="found 3 numbers for 1200 points"):
+        tree.nearest(points, limits[:3])
+
+
 def test_a_cavity_is_outside():
     points, rows = icosphere(1)
     both = np.concatenate([points, 0.5 * points])

@@ -28,8 +28,7 @@ bool is_inverted(const ReferenceCell& cell, ConstReals rest, ConstReals x, const
 
 /// Whether its cells have quadrature points of their own that move with their nodes' places alone.
 bool has_points(const BodyModel& model, const State& state, const ReferenceCell& cell) {
-  return model.eliminated().empty() && model.block().frames.empty() && model.points(state).empty() &&
-         cell.dimension == 3 && !cell.points.empty();
+  return model.block().frames.empty() && model.points(state).empty() && !cell.points.empty();
 }
 
 /// Whether a cell is inside out at a point of either rule.
@@ -45,7 +44,7 @@ void add_inverted(const World& world, const State& state, const BodyModel& model
   const ElasticBlock& block = model.block();
   const ReferenceCell own = reference_cell(block.element, block.quadrature);
   const ReferenceCell full = reference_cell(block.element, "full");
-  const bool by_points = has_points(model, state, full);
+  const bool by_points = full.dimension == 3 && has_points(model, state, full);
   std::vector<double> means;
   if (!by_points) means = model.fields(state).volume_ratio;
   const auto cells = static_cast<std::size_t>(model.cell_count());
@@ -83,11 +82,24 @@ InversionCheck::InversionCheck(const World& world) {
   const State& rest = world.rest_state();
   for_models(world, [&](const BodyModel& model) {
     const ElasticBlock& block = model.block();
-    ReferenceCell own = reference_cell(block.element, block.quadrature);
-    ReferenceCell full = reference_cell(block.element, "full");
-    const bool by_points = has_points(model, rest, full);
-    rules_.push_back({std::move(own), std::move(full), by_points});
+    Rules rules{
+        reference_cell(block.element, block.quadrature), reference_cell(block.element, "full"), {}, {}};
+    const bool has_own = has_points(model, rest, rules.full);
+    rules.by_points = has_own && rules.full.dimension == 3;
+    if (has_own && rules.full.dimension < 3) rules.thin.emplace(block, world.isa());
+    rules_.push_back(std::move(rules));
   });
+}
+
+bool InversionCheck::Rules::any(const World& world, const State& state, const BodyModel& model,
+                                Scratch& scratch) const {
+  if (thin) return thin->least(model.block(), world.rest_positions(), state.positions) <= 0.0;
+  if (!by_points) return model.least_volume_ratio(state, scratch) <= 0.0;
+  const auto cells = static_cast<std::size_t>(model.cell_count());
+  for (std::size_t e = 0; e < cells; ++e) {
+    if (is_inverted(world, state, model, e, own, full)) return true;
+  }
+  return false;
 }
 
 bool InversionCheck::any(const World& world, const State& state) {
@@ -95,11 +107,7 @@ bool InversionCheck::any(const World& world, const State& state) {
   bool found = false;
   for_models(world, [&](const BodyModel& model) {
     const Rules& rules = rules_[next++];
-    if (!rules.by_points) found = found || model.least_volume_ratio(state, scratch_) <= 0.0;
-    const auto cells = rules.by_points ? static_cast<std::size_t>(model.cell_count()) : 0;
-    for (std::size_t e = 0; e < cells && !found; ++e) {
-      found = is_inverted(world, state, model, e, rules.own, rules.full);
-    }
+    found = found || rules.any(world, state, model, scratch_);
   });
   return found;
 }

@@ -139,8 +139,10 @@ void Simulation::watch_energy(EnergyWatch& watch, StepReport& report) {
   throw Diverged(message, culprit.body, culprit.element, state_.time);
 }
 
-void Simulation::tell_inverted(InversionCheck& check, StepReport& report) const {
-  if (!report.converged || !check.any(*world_, state_)) return;
+void Simulation::tell_inverted(InversionCheck& check, StepReport& report) {
+  if (!report.converged) return;
+  settle();
+  if (!check.any(*world_, state_)) return;
   report.message += (report.message.empty() ? "" : "; ") + say_inverted(*world_, state_);
 }
 

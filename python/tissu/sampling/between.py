@@ -17,6 +17,7 @@ from tissu.sampling.surface import Surface
 
 _FINE = (16, 32)  # cells along the longest side: to find the bounds, then to measure the volume
 _DRAWS = 2  # random places in each
+_ROUNDING = 1e-9  # of the reach
 
 
 def between(
@@ -109,7 +110,8 @@ class Between:
         answer[numbers[~near]] = False
         numbers, on_a, d_a = numbers[near], on_a[near], d_a[near]
         seen = places[numbers]
-        on_b, d_b = self.tree_b.nearest(seen, self.reach)
+        # What is left of the reach, and a little that rounding takes: whatever is held is found.
+        on_b, d_b = self.tree_b.nearest(seen, self.reach - d_a + _ROUNDING * self.reach)
         held = d_a + d_b <= self.reach
         seen = seen[held]
         held[held] = np.einsum("ij,ij->i", on_a[held] - seen, on_b[held] - seen) <= 0.0

@@ -17,6 +17,7 @@ class TriangleTree:
         """Corners (t, 3, 3) [m]."""
         self._corners = corners
         self._tree = _core.TriangleTree(corners=np.ascontiguousarray(corners))
+        self._threads = int(_core.build_info()["threads_available"])
 
     @property
     def bounds(self) -> Floats:
@@ -28,9 +29,15 @@ class TriangleTree:
         """Positions (n, 3) [m] of the corners, each once."""
         return np.unique(self._corners.reshape(-1, 3), axis=0)
 
-    def nearest(self, points: Floats, limit: float = math.inf) -> tuple[Floats, Floats]:
-        """Nearest points (n, 3) and their distances (n,) [m]; NaN and infinity beyond `limit`."""
-        return self._tree.nearest(points=np.ascontiguousarray(points), reach=limit)
+    def nearest(self, points: Floats, limit: float | Floats = math.inf) -> tuple[Floats, Floats]:
+        """Nearest points (n, 3) and their distances (n,) [m]; NaN and infinity beyond `limit`.
+
+        The limit is one [m], or one for each point (n,). All threads of the machine look, and find
+        the same on any number.
+        """
+        return self._tree.nearest(
+            points=np.ascontiguousarray(points), reach=np.asarray(limit), threads=self._threads
+        )
 
 
 def closest_on_triangles(points: Floats, corners: Floats) -> Floats:

@@ -186,39 +186,6 @@ TEST(AllocationOfMethods, TheWatchOnEnergyTakesNone) {
 #endif
 }
 
-// With what the simulation itself does: asks for cells that are inside out, watches, remembers.
-TEST(AllocationOfMethods, AStaticStepOfASimulationTakesNone) {
-#ifdef TISSU_COUNTS_ALLOCATIONS
-  for (const Split split : {Split::none, Split::six}) {
-    const Mesh mesh = box_mesh(Vec3::Zero(), Vec3(2, 1, 1), {8, 5, 5}, split);
-    WorldDescription description;
-    description.bodies = {test::body_of(mesh, {.law = "stvk", .young = 100.0})};
-    description.gravity = Vec3(0, 0, -1);
-    description.fixed = {test::fixed(test::nodes_at(mesh, 0, 0.0))};
-    description.loads = {{"hand", "body", {3}, {0.1, 0.0, 0.0}, {{0.0, 1.0}, {0.0, 1.0}}}};
-    StaticEquilibrium::Settings settings;
-    settings.newton = {20, 1e-5};
-    Simulation simulation =
-        test::simulate(description, std::make_unique<StaticEquilibrium>(settings),
-                       std::make_unique<ConjugateGradient>(ConjugateGradient::Settings{1e-6, 5000}));
-    simulation.step(0.01);
-    simulation.step(0.01);
-    allocations = 0;
-    counting = true;
-    bool silent = true;
-    for (int i = 0; i < 5; ++i) {
-      const StepReport report = simulation.step(0.01);
-      silent = silent && report.converged && report.message.empty();
-    }
-    counting = false;
-    EXPECT_EQ(allocations, 0);
-    EXPECT_TRUE(silent);
-  }
-#else
-  GTEST_SKIP() << "allocations are counted with the GNU C library and without sanitizers only";
-#endif
-}
-
 // Squeezed flat, so that every cell is projected: by the axes of F, by eigenvalues, at once, in any model.
 TEST(AllocationOfModels, ADefiniteMatrixTakesNone) {
 #ifdef TISSU_COUNTS_ALLOCATIONS

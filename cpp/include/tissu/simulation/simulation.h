@@ -74,7 +74,7 @@ class Simulation {
   void begin_watch(EnergyWatch& watch);
   void watch_energy(EnergyWatch& watch, StepReport& report);
   /// Adds to the report of a static step which cells are inside out.
-  void tell_inverted(InversionCheck& check, StepReport& report) const;
+  void tell_inverted(InversionCheck& check, StepReport& report);
   /// Where a part of a step began.
   struct PartStart {
     State state;

@@ -139,19 +139,21 @@ void CondensedRegion::share_masses() {
 
 void CondensedRegion::settle(State& state) const {
   const std::scoped_lock lock(looking_);
-  std::vector<double> of_kept(rest_.size(), 0.0);
-  std::vector<double> b(rest_.size());
-  std::vector<double> x(rest_.size());
+  const std::size_t size = rest_.size();
+  room_.assign(3 * size, 0.0);
+  const Reals of_kept = Reals(room_).first(size);
+  const Reals b = Reals(room_).subspan(size, size);
+  const Reals x = Reals(room_).last(size);
   for (const std::int32_t k : kept_) {
-    block(Reals(of_kept), k) = block(ConstReals(state.positions), k) - block(ConstReals(rest_), k);
+    block(of_kept, k) = block(ConstReals(state.positions), k) - block(ConstReals(rest_), k);
   }
   K_->multiply(of_kept, b);
-  for (std::size_t i = 0; i < b.size(); ++i) b[i] = state.load_factor * weight_[i] - b[i];
+  for (std::size_t i = 0; i < size; ++i) b[i] = state.load_factor * weight_[i] - b[i];
   solve_inner(b, x);
   for (const std::int32_t i : inner_) {
     block(Reals(state.positions), i) = block(ConstReals(rest_), i) + block(ConstReals(x), i);
   }
-  for (const std::int32_t k : kept_) block(Reals(of_kept), k) = block(ConstReals(state.velocities), k);
+  for (const std::int32_t k : kept_) block(of_kept, k) = block(ConstReals(state.velocities), k);
   K_->multiply(of_kept, b);
   for (double& value : b) value = -value;
   solve_inner(b, x);

@@ -36,7 +36,8 @@ std::size_t PlacedCells::cells() const {
   return block.cells.size() / static_cast<std::size_t>(reference.nodes);
 }
 
-CellPoint PlacedCells::point(std::size_t cell, std::size_t g) const {
+CellPoint cell_point(const ElasticBlock& block, const ReferenceCell& reference, ConstReals X, ConstReals x,
+                     std::size_t cell, std::size_t g) {
   const ReferenceCell::Point& at = reference.points[g];
   const auto nodes = static_cast<std::size_t>(reference.nodes);
   const int m = reference.dimension;

@@ -49,14 +49,18 @@ void ListedMaterial::stress_and_energy(PointFields& points) const {
   }
 }
 
-void ListedMaterial::stretch_across(int m, std::vector<double>& F) const {
+PointMaterial ListedMaterial::across(int m) const {
   FramePoints thin = list_;
   thin.dimension = m;
   for (std::size_t i = 0; i < list_.cells.size(); ++i) {
     const Vec3 axis = m == 2 ? Vec3::UnitZ() : Vec3::UnitX();
     thin.axes.insert(thin.axes.end(), axis.begin(), axis.end());
   }
-  const PointMaterial material(block_, thin, lanes_, isa_);
+  return {block_, thin, lanes_, isa_};
+}
+
+void ListedMaterial::stretch_across(int m, std::vector<double>& F) const {
+  const PointMaterial material = across(m);
   Nine from;
   Nine whole;
   for (std::size_t i = 0; i < lanes_.size(); i += kLanes) {

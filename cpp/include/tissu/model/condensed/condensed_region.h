@@ -55,6 +55,7 @@ class CondensedRegion {
   // A cache: the factor of Kii_, made once, and the room that a solve with it works in; one caller at a time.
   mutable std::mutex looking_;
   mutable Cholesky factor_;
+  mutable std::vector<double> room_;  ///< of settle
 };
 
 }  // namespace tissu

@@ -17,6 +17,10 @@ struct CellPoint {
   Mat3 dx;        ///< dx/dX along the m tangents; the columns beyond are zero
 };
 
+/// Point g of a cell whose nodes stand at X at rest and at x now, in arrays of the whole world.
+CellPoint cell_point(const ElasticBlock& block, const ReferenceCell& reference, ConstReals X, ConstReals x,
+                     std::size_t cell, std::size_t g);
+
 /// A block's cells and where their nodes are at rest and now.
 struct PlacedCells {
   const ElasticBlock& block;
@@ -27,7 +31,9 @@ struct PlacedCells {
   PlacedCells(const ElasticBlock& of, std::string_view quadrature, const PointQuery& query);
   [[nodiscard]] std::size_t cells() const;
   /// Point g of a cell.
-  [[nodiscard]] CellPoint point(std::size_t cell, std::size_t g) const;
+  [[nodiscard]] CellPoint point(std::size_t cell, std::size_t g) const {
+    return cell_point(block, reference, X, x, cell, g);
+  }
   /// The same of every cell: places and volumes, and F of volumes.
   [[nodiscard]] PointFields lay() const;
 };

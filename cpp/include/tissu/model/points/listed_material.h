@@ -17,6 +17,8 @@ class ListedMaterial {
   /// F of pieces of m dimensions with its last 3 - m columns stretched until no stress is left across. F is
   /// in the axes of the piece, the first m along it.
   void stretch_across(int m, std::vector<double>& F) const;
+  /// What stretches the points so, in groups of eight as the list has them; padding repeats the last.
+  [[nodiscard]] PointMaterial across(int m) const;
 
  private:
   const ElasticBlock& block_;

@@ -16,7 +16,7 @@ if command -v flock >/dev/null; then flock 9; fi   # two at once would spoil eac
 : >build/setup.log
 
 step_python
-step_system
+step_system "$purpose"
 step_venv
 step_optional "$purpose"
 step_packages "$purpose"

@@ -30,17 +30,18 @@ step_python() {
 
 has_package() { dpkg-query -W -f '${db:Status-Status}\n' "$1" 2>/dev/null | grep -qx installed; }
 
-# Prints what the machine lacks, one Debian package a line.
+# Prints what the machine lacks, one Debian package a line. $1: demo, test, lint or bench.
 missing_packages() {
-  local package
+  local package wanted=yes
+  case $1 in test | lint) wanted='\(yes\|tests\)' ;; esac
   command -v g++ >/dev/null || echo g++
   command -v cmake >/dev/null || echo cmake
   command -v ninja >/dev/null || echo ninja-build
   "$python" -c 'import venv, ensurepip' 2>/dev/null || echo python3-venv
   "$python" -c 'import os, sys, sysconfig
 sys.exit(not os.path.exists(os.path.join(sysconfig.get_paths()["include"], "Python.h")))' || echo python3-dev
-  # The libraries: the DEBIAN lines of third_party/dependencies.cmake that say INSTALL yes.
-  sed -n '/^ *DEBIAN /{s/^ *DEBIAN "\(.*\)".*/\1/;h;};/^ *INSTALL yes/{x;p;}' third_party/dependencies.cmake |
+  # The libraries: the DEBIAN lines of third_party/dependencies.cmake that say INSTALL yes, or tests for them.
+  sed -n "/^ *DEBIAN /{s/^ *DEBIAN \"\(.*\)\".*/\1/;h;};/^ *INSTALL $wanted/{x;p;}" third_party/dependencies.cmake |
     while read -r package; do [ "$package" = g++ ] || has_package "$package" || echo "$package"; done
 }
 
@@ -51,6 +52,7 @@ privilege() {
   else return 1; fi
 }
 
+# $1: demo, test, lint or bench.
 step_system() {
   local missing right
   if [ -n "${TISSU_NO_APT:-}" ] || ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
@@ -60,7 +62,7 @@ step_system() {
     command -v ninja >/dev/null || from_pypi="$from_pypi"$'\n'"ninja"
     return
   fi
-  missing=$(missing_packages | tr '\n' ' ')
+  missing=$(missing_packages "$1" | tr '\n' ' ')
   [ -n "$missing" ] || return 0
   right=$(privilege) || fail "these packages are missing and this user may not install them; run
   sudo apt-get update && sudo apt-get install -y ${missing% }

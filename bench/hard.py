@@ -1,4 +1,7 @@
-"""Prints docs/hard-cases.md: every hard case with every method, by running them: --write."""
+"""Prints docs/hard-cases.md: every hard case with every method, by running them: --write.
+
+--contact prints, or writes, the chapter on contact alone.
+"""
 
 from __future__ import annotations
 
@@ -10,7 +13,16 @@ ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT / "tests" / "hard"))
 
 from hard_text import CHAPTERS  # noqa: E402
-from outcome import CASES, Outcome, case, methods, names, outcome, with_method  # noqa: E402
+from outcome import (  # noqa: E402
+    CASES,
+    CONTACT,
+    Outcome,
+    case,
+    methods,
+    names,
+    outcome,
+    with_method,
+)
 
 import tissu as ts  # noqa: E402
 
@@ -34,6 +46,15 @@ smaller; implicit ones take the scene's.
 """
 
 
+BEGIN, END = "<!-- contact -->", "<!-- end of contact -->"
+CONTACT_HEAD = """## Contact
+
+Scenes in `tests/hard/contact`, with the methods that contact has. The exact audit is asked after
+every step; an entry that says nothing of crossings had none. `tests/hard/test_contact_*.py` states
+what each case comes to: forces by closed form, momenta to round-off, the same bits on 1, 2 and 4
+threads. What contact cannot hold yet is said in [contact.md](contact.md).
+
+"""
 TAIL = "This page is printed by `python bench/hard.py --write`.\n"
 
 
@@ -45,14 +66,15 @@ def cell(found: Outcome, notes: list[str]) -> str:
             notes.append(said)
         return f"refused ({notes.index(said) + 1})"
     marks = ("*" if found.unconverged else "") + ("!" if found.inverted else "")
-    return f"{found.kind} {found.bound:.3g}{marks}"
+    crossings = f", {found.crossings} cross" if found.crossings else ""
+    return f"{found.kind} {found.bound:.3g}{marks}{crossings}"
 
 
-def page() -> str:
-    """The whole page."""
-    columns, notes, rows = methods(), [], []
-    for name in names():
-        scene, entries = case(name), []
+def rows(folder: Path, columns: list[str], notes: list[str]) -> list[str]:
+    """A line of the table for every case of a folder; refusals are added to the notes."""
+    lines = []
+    for name in names(folder):
+        scene, entries = case(name, folder), []
         for method in columns:
             begin = time.perf_counter()
             try:
@@ -66,26 +88,53 @@ def page() -> str:
             print(f"{name:24} {method:18} {spent:6.1f} s  {found}", file=sys.stderr, flush=True)
         own = columns.index(scene.step.type)
         entries[own] = f"**{entries[own]}**"
-        rows.append(f"| [{name}](../tests/hard/cases/{name}.yaml) | " + " | ".join(entries) + " |")
-    table = ["| case | " + " | ".join(columns) + " |", "|---|" + "---|" * len(columns), *rows]
-    about = [f"- `{name}`: {_first_comment(name)}" for name in names()]
-    said = [f"{number}. {text}" for number, text in enumerate(notes, 1)]
+        link = f"[{name}](../{folder.relative_to(ROOT)}/{name}.yaml)"
+        lines.append(f"| {link} | " + " | ".join(entries) + " |")
+    return lines
+
+
+def table(folder: Path, columns: list[str]) -> str:
+    """What the cases are about, the table, and its notes."""
+    notes: list[str] = []
+    lines = rows(folder, columns, notes)
+    about = [f"- `{name}`: {_first_comment(folder / f'{name}.yaml')}" for name in names(folder)]
+    head = "| case | " + " | ".join(columns) + " |"
     parts = [
         "\n".join(about),
         "The scene's own method is in bold.",
-        "\n".join(table),
-        "\n".join(said),
+        "\n".join([head, "|---|" + "---|" * len(columns), *lines]),
+        "\n".join(f"{number}. {text}" for number, text in enumerate(notes, 1)),
     ]
-    return HEAD + "\n\n".join([*parts, CHAPTERS + "\n" + TAIL])
+    return "\n\n".join(part for part in parts if part)
 
 
-def _first_comment(name: str) -> str:
-    lines = (CASES / f"{name}.yaml").read_text(encoding="utf-8").splitlines()
+def contact() -> str:
+    """The chapter on contact, between its markers."""
+    return f"{BEGIN}\n\n{CONTACT_HEAD}{table(CONTACT, ['implicit_euler', 'bdf2'])}\n\n{END}\n"
+
+
+def page() -> str:
+    """The whole page."""
+    return "\n".join([HEAD + table(CASES, methods()), "", contact(), CHAPTERS, TAIL])
+
+
+def with_contact(text: str) -> str:
+    """The page as it stands, with its chapter on contact written anew."""
+    before, begun, rest = text.partition(BEGIN)
+    _, ended, after = rest.partition(f"{END}\n")
+    if not (begun and ended):
+        raise RuntimeError(f"{PAGE.name} has no place between {BEGIN} and {END}")
+    return before + contact() + after
+
+
+def _first_comment(path: Path) -> str:
+    lines = path.read_text(encoding="utf-8").splitlines()
     return " ".join(line[2:] for line in lines if line.startswith("# "))
 
 
 if __name__ == "__main__":
-    text = page()
+    only = "--contact" in sys.argv
+    text = with_contact(PAGE.read_text(encoding="utf-8")) if only else page()
     if "--write" in sys.argv:
         PAGE.write_text(text, encoding="utf-8")
     else:

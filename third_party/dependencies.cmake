@@ -15,7 +15,7 @@ function(tissu_dependency name)
 endfunction()
 
 # ---- the table -----------------------------------------------------------------------------------------------------
-# INSTALL: does the set-up script install the Debian package.
+# INSTALL: does the set-up script install the Debian package: yes, no, or for the tests alone.
 tissu_dependency(EIGEN
   VERSIONS ">= 3.4"  # the Python build requirement cmeel-eigen serves where there is neither a package nor a network
   LICENCE "MPL-2.0"
@@ -41,15 +41,16 @@ tissu_dependency(FCL
   VERSIONS "0.7"
   LICENCE "BSD-3-Clause (its libccd too)"
   DEBIAN "libfcl-dev"
-  INSTALL no
+  INSTALL tests
   GIT https://github.com/flexible-collision-library/fcl.git
   TAG df2702ca5e703dec98ebd725782ce13862e87fc8  # 0.7.0
-  WHY "rigid tools against a surface, BVHModel<OBB> only: RSS and OBBRSS give wrong distances after a bottom-up refit")
+  WHY "a broad phase, and the oracle of the tests of contact, BVHModel<AABB> only: RSS and OBBRSS give wrong distances
+       after a bottom-up refit. The library itself links it with TISSU_WITH_FCL alone")
 tissu_dependency(CCD
   VERSIONS ">= 2.1"
   LICENCE "BSD-3-Clause"
   DEBIAN "libccd-dev"
-  INSTALL no
+  INSTALL tests
   GIT https://github.com/danfis/libccd.git
   TAG 7931e764a19ef6b21b443376c699bbc9c6d4fba8  # the head after 2.1
   WHY "needed by FCL")
@@ -162,7 +163,17 @@ if(SKBUILD)
   endif()
 endif()
 
+# FCL for the tests, where its package is there: they compare with it, the library goes without.
+set(TISSU_TEST_FCL OFF)
 if(TISSU_BUILD_TESTS)
+  if(NOT TARGET fcl)
+    find_package(fcl 0.7 QUIET CONFIG)
+  endif()
+  if(TARGET fcl)
+    set(TISSU_TEST_FCL ON)
+  else()
+    message(STATUS "tissu: no FCL (Debian: ${TISSU_FCL_DEBIAN}): contact is tested without its answers")
+  endif()
   find_package(GTest 1.11 QUIET CONFIG)
   if(NOT TARGET GTest::gtest_main)
     message(STATUS "tissu: no GoogleTest (Debian: ${TISSU_GTEST_DEBIAN}); fetching ${TISSU_GTEST_TAG}")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -11,6 +12,7 @@ import tissu as ts
 from tissu.scene.step import STEPS
 
 CASES = Path(__file__).with_name("cases")
+CONTACT = Path(__file__).with_name("contact")
 MOST_STEPS = 20_000
 EXPLICIT = ("explicit_euler", "symplectic_euler", "rk2", "rk4")
 STEADY = 1e-3
@@ -29,6 +31,8 @@ class Outcome:
         unconverged: steps that did not meet their tolerances.
         steps: how many were taken.
         message: why it was refused; empty.
+        held: steps in which ways were cut so that nothing passes through anything.
+        crossings: the most that the exact audit found after a step.
     """
 
     kind: str
@@ -38,6 +42,8 @@ class Outcome:
     unconverged: int = 0
     steps: int = 0
     message: str = ""
+    held: int = 0
+    crossings: int = 0
 
     def __str__(self) -> str:
         if self.kind == "refused":
@@ -47,17 +53,21 @@ class Outcome:
             text += f", {self.inverted} cells inside out"
         if self.unconverged:
             text += f", {self.unconverged} of {self.steps} steps unconverged"
+        if self.held:
+            text += f", {self.held} steps held back"
+        if self.crossings:
+            text += f", {self.crossings} crossings"
         return text
 
 
-def case(name: str) -> ts.Scene:
+def case(name: str, folder: Path = CASES) -> ts.Scene:
     """The scene of a case, as its file has it."""
-    return ts.Scene.from_yaml(CASES / f"{name}.yaml")
+    return ts.Scene.from_yaml(folder / f"{name}.yaml")
 
 
-def names() -> list[str]:
-    """All cases."""
-    return sorted(path.stem for path in CASES.glob("*.yaml"))
+def names(folder: Path = CASES) -> list[str]:
+    """All cases of a folder: CASES, or CONTACT for those with contact."""
+    return sorted(path.stem for path in folder.glob("*.yaml"))
 
 
 def methods() -> list[str]:
@@ -91,8 +101,16 @@ def with_method(scene: ts.Scene, method: str) -> ts.Scene:
     return scene.replace(step=cls(dt=own.dt, **kept))
 
 
-def outcome(scene: ts.Scene, *, keep: list[ts.Simulation] | None = None) -> Outcome:
-    """Run a scene and say what came of it; `keep` gets its simulation."""
+Watch = Callable[[ts.Simulation, ts.StepReport], None]
+
+
+def outcome(
+    scene: ts.Scene, *, keep: list[ts.Simulation] | None = None, watch: Watch | None = None
+) -> Outcome:
+    """Run a scene and say what came of it; `keep` gets its simulation, `watch` sees each step.
+
+    Scenes with contacts are audited after every step.
+    """
     try:
         simulation = scene.compile()
         if keep is not None:
@@ -106,7 +124,7 @@ def outcome(scene: ts.Scene, *, keep: list[ts.Simulation] | None = None) -> Outc
     sizes = {
         name: float(np.ptp(mesh.points, axis=0).max()) for name, mesh in simulation.meshes.items()
     }
-    bound, unconverged, count = 0.0, 0, 0
+    bound, unconverged, count, held, crossings = 0.0, 0, 0, 0, 0
     late: dict[str, tuple[np.ndarray, np.ndarray]] = {}
     try:
         for report in simulation.run():
@@ -114,6 +132,11 @@ def outcome(scene: ts.Scene, *, keep: list[ts.Simulation] | None = None) -> Outc
             if count > MOST_STEPS:
                 text = f"its stable step fell to {simulation.dt / 0.9:.2g} s: not run to the end"
                 return Outcome("refused", bound=bound, steps=count, message=text)
+            held += report.held_back > 0
+            if scene.contacts:
+                crossings = max(crossings, len(simulation.crossings()))
+            if watch is not None:
+                watch(simulation, report)
             for name, size in sizes.items():
                 moved = simulation.displacements(name)
                 bound = max(bound, float(np.abs(moved).max()) / size)
@@ -121,13 +144,15 @@ def outcome(scene: ts.Scene, *, keep: list[ts.Simulation] | None = None) -> Outc
                     low, high = late.get(name, (moved, moved))
                     late[name] = (np.minimum(low, moved), np.maximum(high, moved))
     except ts.TissuError as error:
-        return Outcome("refused", bound=bound, steps=count, message=_first_line(error))
+        return Outcome(
+            "refused", bound, steps=count, message=_first_line(error), crossings=crossings
+        )
     swing = max(
         (float((high - low).max()) / sizes[n] for n, (low, high) in late.items()), default=0.0
     )
     inverted = sum(len(simulation.inverted_cells(name)) for name in simulation.bodies)
     kind = "steady" if swing < STEADY else "bounded"
-    return Outcome(kind, bound, swing, inverted, unconverged, count)
+    return Outcome(kind, bound, swing, inverted, unconverged, count, "", held, crossings)
 
 
 def _size(mesh: ts.Mesh) -> float:

@@ -1,8 +1,8 @@
 #include "tissu/step/static_touching.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
-#include <numeric>
 #include <utility>
 
 #include "tissu/base/error.h"
@@ -12,6 +12,8 @@ namespace tissu {
 namespace {
 
 constexpr int kMostLooks = 100;        ///< at one part of a load
+constexpr double kShallow = 0.05;       ///< of xi, …
+constexpr int kBisections = 12;        ///< … found by so many at most
 constexpr int kMostFalls = 40;
 constexpr int kMostTouching = 4;  ///< of what contacts held before
 constexpr double kNormal = 10.0;       ///< times stiffer against coming nearer than in steps of time
@@ -20,7 +22,7 @@ constexpr int kPatience = 6;           ///< … so many looks goes round in a ci
 constexpr double kForce = 1e-4;        ///< of the contact forces: a smaller change needs no other look
 constexpr double kDepth = 1e-3;        ///< of xi
 constexpr double kFarthest = 0.1;      ///< of the scene's size, which a body that nothing holds falls at once
-constexpr double kLooseMass = 1e-6;    ///< of the mass with which the stiffest nodes swing
+constexpr double kLooseMass = 1e-6;    ///< of the stiffness of the node that is softest for its mass
 constexpr int kHeldNodes = 3;          ///< hold a body, on all axes together
 constexpr const char* kMovesOn =
     "a body that supports alone do not hold moves on, as one that contacts do not hold either or whose "
@@ -94,14 +96,16 @@ int StaticTouching::hold_back(State& to) {
   return contact_.hold_back(to);
 }
 
-/// So much of the mass that its matrix is small beside that of the stiffness.
+/// So much of the mass that no node feels it beside its own stiffness.
 void StaticTouching::measure_mass() {
-  double trace = 0.0;
-  for (std::size_t i = 0; i < blocks_.size(); i += 9) trace += blocks_[i] + blocks_[i + 4] + blocks_[i + 8];
   const World& world = equilibrium_.world();
-  const double mass = world.mass().total();
-  const double share = mass > 0.0 ? kLooseMass * trace / (3.0 * mass) : 0.0;
-  equilibrium_.steady(share, kFarthest * world.extent());
+  const std::vector<double>& mass = world.mass().nodal();
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < mass.size(); ++i) {
+    const double trace = blocks_[9 * i] + blocks_[9 * i + 4] + blocks_[9 * i + 8];
+    if (mass[i] > 0.0 && trace > 0.0) least = std::min(least, trace / (3.0 * mass[i]));
+  }
+  equilibrium_.steady(std::isfinite(least) ? kLooseMass * least : 0.0, kFarthest * world.extent());
 }
 
 /// What is led goes where it stands at the share `to`, pushes what is in its way, and is looked at there.
@@ -125,6 +129,7 @@ void StaticTouching::begin(const LoadPath& path, double from, double to, State& 
   best_ = std::numeric_limits<double>::infinity();
   idle_ = 0;
   contact_.set_stiffer(kNormal, tangent_);
+  contact_.hand_over_to_all();
   if (is_loose_) measure_mass();
   is_falling_ = is_loose_;
   hold_back(held_);
@@ -157,12 +162,24 @@ bool StaticTouching::solve(const LoadPath& path, double before, double to, int m
   return false;
 }
 
-/// What flies stops all together at the first thing that it meets.
+/// What flies stops all together at the first thing that it meets, hardly inside the distance of rest: springs
+/// that are pressed in deep would throw it back.
 void StaticTouching::fall(State& state) {
   if (before_.positions != held_.positions) return;  // pushed, or held back: ways do not begin where it is
   held_ = state;
   hold_back(held_);
-  if (contact_.least_share() < 1.0) equilibrium_.shorten(contact_.least_share(), state);
+  double high = contact_.least_share();
+  if (high == 1.0) return;
+  double low = 0.0;
+  double share = high;
+  for (int i = 0; i < kBisections; ++i) {
+    equilibrium_.shorten(share, state);
+    look(state);
+    const bool is_deep = contact_.depth() > kShallow;
+    if (!is_deep && (i == 0 || contact_.depth() > 0.0)) return;
+    (is_deep ? high : low) = share;
+    share = 0.5 * (low + high);
+  }
 }
 
 bool StaticTouching::look_again(double share, State& state, StepReport& report) {

@@ -45,6 +45,8 @@ class ContactRun {
   void set_matrix(std::span<const double> blocks, double scale);
   /// How many times stiffer than that contacts are against coming nearer, and against sliding: 1, as at first.
   void set_stiffer(double normal, double tangent);
+  /// A multiplier whose vertex has no contact any more goes to those of the vertices that it was shared with.
+  void hand_over_to_all() { hands_to_all_ = true; }
   /// Shortens the ways from the start to `to` until nothing passes through anything. The number of rows that
   /// were held back.
   int hold_back(State& to);
@@ -80,6 +82,7 @@ class ContactRun {
   [[nodiscard]] const ContactNumbers* acting(const ContactNumbers& c) const;
   void keep_multipliers();
   void hand_over();
+  bool hand_to(double vertex, std::int32_t other, double sign, const ContactNumbers& before);
   void stiffen();
   void press();
   double change();
@@ -107,6 +110,7 @@ class ContactRun {
   double end_ = 0.0;
   std::span<const double> blocks_;
   double scale_ = 0.0;
+  bool hands_to_all_ = false;
   double normal_ = 1.0;   ///< times stiffer
   double tangent_ = 1.0;  ///< times stiffer
   std::vector<ContactNumbers> contacts_;

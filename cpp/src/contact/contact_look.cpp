@@ -194,7 +194,8 @@ void ContactRun::hand_over() {
   }
 }
 
-/// To the contacts of a vertex with a surface; false: there are none. `heirs_` stands in the order of vertices.
+/// To the contacts of a vertex with a surface; false: there are none. `heirs_` stands in the order of
+/// vertices.
 bool ContactRun::hand_to(double vertex, std::int32_t other, double sign, const ContactNumbers& before) {
   const auto& vertices = contact_.surfaces().vertices();
   const auto of_vertex =

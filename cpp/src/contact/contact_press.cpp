@@ -72,7 +72,8 @@ void ContactRun::press() {
     set_stiffness(c, k * n * n.transpose());
     const double friction = contact_.description().pairs[static_cast<std::size_t>(c.pair)].friction;
     if (friction == 0.0) c.sliding = 0.0;
-    if (friction > 0.0) rub(c, n, friction * std::max(t, 0.0), vector_of(c.place), tangent_ * stiffnesses_[i]);
+    if (friction > 0.0)
+      rub(c, n, friction * std::max(t, 0.0), vector_of(c.place), tangent_ * stiffnesses_[i]);
     depth_ = std::max(depth_, -gaps_[i] / c.apart);
     looked_[kept++] = c;
   }

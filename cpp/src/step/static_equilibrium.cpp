@@ -10,9 +10,9 @@
 namespace tissu {
 namespace {
 
-constexpr int kHalvings = 12;  ///< of a part of the load
-constexpr int kRoom = 19;      ///< parts beyond load_steps for which iterations are set aside
-constexpr int kEasy = 6;       ///< iterations of a part after which the next one is larger, …
+constexpr int kHalvings = 12;      ///< of a part of the load
+constexpr int kRoom = 19;          ///< parts beyond load_steps for which iterations are set aside
+constexpr int kEasy = 6;           ///< iterations of a part after which the next one is larger, …
 constexpr int kEasyTouching = 30;  ///< … and where contacts are looked at between them
 constexpr double kTurn = std::numbers::pi / 6.0;  ///< by which led nodes go round in one part, at most
 
@@ -127,9 +127,8 @@ bool StaticEquilibrium::take(const LoadPath& path, double from, double to, State
 void StaticEquilibrium::refuse(double share, double h) const {
   const double from = start_.time;
   throw Diverged("in the static step from t = " + number_text(from) + " s with dt = " + number_text(h) +
-                     " s no equilibrium was found beyond " + number_text(100.0 * share) +
-                     " % of the load: " + touching_->reason() +
-                     ". The simulation stands at its last good step.",
+                     " s no equilibrium was found beyond " + number_text(100.0 * share) + " % of the load: " +
+                     touching_->reason() + ". The simulation stands at its last good step.",
                  "", -1, from);
 }
 

@@ -11,19 +11,19 @@
 namespace tissu {
 namespace {
 
-constexpr int kMostLooks = 100;        ///< at one part of a load
-constexpr double kShallow = 0.05;       ///< of xi, …
-constexpr int kBisections = 12;        ///< … found by so many at most
+constexpr int kMostLooks = 100;    ///< at one part of a load
+constexpr double kShallow = 0.05;  ///< of xi, …
+constexpr int kBisections = 12;    ///< … found by so many at most
 constexpr int kMostFalls = 40;
-constexpr int kMostTouching = 4;  ///< of what contacts held before
-constexpr double kNormal = 10.0;       ///< times stiffer against coming nearer than in steps of time
-constexpr double kFalls = 0.7;         ///< of the least change before: one that does not fall so far in …
-constexpr int kPatience = 6;           ///< … so many looks goes round in a circle
-constexpr double kForce = 1e-4;        ///< of the contact forces: a smaller change needs no other look
-constexpr double kDepth = 1e-3;        ///< of xi
-constexpr double kFarthest = 0.1;      ///< of the scene's size, which a body that nothing holds falls at once
-constexpr double kLooseMass = 1e-6;    ///< of the stiffness of the node that is softest for its mass
-constexpr int kHeldNodes = 3;          ///< hold a body, on all axes together
+constexpr int kMostTouching = 4;     ///< of what contacts held before
+constexpr double kNormal = 10.0;     ///< times stiffer against coming nearer than in steps of time
+constexpr double kFalls = 0.7;       ///< of the least change before: one that does not fall so far in …
+constexpr int kPatience = 6;         ///< … so many looks goes round in a circle
+constexpr double kForce = 1e-4;      ///< of the contact forces: a smaller change needs no other look
+constexpr double kDepth = 1e-3;      ///< of xi
+constexpr double kFarthest = 0.1;    ///< of the scene's size, which a body that nothing holds falls at once
+constexpr double kLooseMass = 1e-6;  ///< of the stiffness of the node that is softest for its mass
+constexpr int kHeldNodes = 3;        ///< hold a body, on all axes together
 constexpr const char* kMovesOn =
     "a body that supports alone do not hold moves on, as one that contacts do not hold either or whose "
     "equilibrium is unstable; hold it with `fixed`, or by friction";
@@ -162,8 +162,8 @@ bool StaticTouching::solve(const LoadPath& path, double before, double to, int m
   return false;
 }
 
-/// What flies stops all together at the first thing that it meets, hardly inside the distance of rest: springs
-/// that are pressed in deep would throw it back.
+/// What flies stops all together at the first thing that it meets, hardly inside the distance of rest:
+/// springs that are pressed in deep would throw it back.
 void StaticTouching::fall(State& state) {
   if (before_.positions != held_.positions) return;  // pushed, or held back: ways do not begin where it is
   held_ = state;
@@ -236,7 +236,8 @@ bool StaticTouching::find(const LoadPath& path, double from, double to, int most
     if (left <= 0) return give_up(falls_ > 0 ? kMovesOn : "all of Newton's iterations were used");
     if (!solve(path, before, to, left, state, report)) {
       if (!reason_.empty()) return false;
-      return give_up(falls_ > 0 ? kMovesOn : "Newton's iteration found no equilibrium with the contacts there");
+      return give_up(falls_ > 0 ? kMovesOn
+                                : "Newton's iteration found no equilibrium with the contacts there");
     }
     before = to;
     falls_ += is_falling_ ? 1 : 0;

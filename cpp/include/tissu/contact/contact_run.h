@@ -43,7 +43,8 @@ class ContactRun {
   /// The diagonal blocks of the step's matrix without contact, [row][9], and move times push: they outlive
   /// the step.
   void set_matrix(std::span<const double> blocks, double scale);
-  /// How many times stiffer than that contacts are against coming nearer, and against sliding: 1, as at first.
+  /// How many times stiffer than that contacts are against coming nearer, and against sliding: 1, as at
+  /// first.
   void set_stiffer(double normal, double tangent);
   /// A multiplier whose vertex has no contact any more goes to those of the vertices that it was shared with.
   void hand_over_to_all() { hands_to_all_ = true; }

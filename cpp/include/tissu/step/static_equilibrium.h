@@ -51,9 +51,9 @@ class StaticEquilibrium final : public Integrator {
   std::unique_ptr<Equilibrium> equilibrium_;
   std::unique_ptr<ArcLength> arc_;
   std::unique_ptr<StaticTouching> touching_;  ///< null where nothing touches
-  State start_;                  ///< of the step
-  State before_;                 ///< of the part of the load
-  bool solver_gave_up_ = false;  ///< since the last part that converged
+  State start_;                               ///< of the step
+  State before_;                              ///< of the part of the load
+  bool solver_gave_up_ = false;               ///< since the last part that converged
   ArcLength::End arc_ended_ = ArcLength::End::unused;
 };
 

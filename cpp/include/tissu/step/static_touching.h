@@ -12,9 +12,10 @@
 namespace tissu {
 
 /// A part of a load is looked at again and again. A look finds the contacts, and their forces stay linear in
-/// the positions while Newton's iteration solves for equilibrium with them; then multipliers become the forces
-/// there. It is over where the contact forces and the depth stay, no way was cut, and the residual with the
-/// forces that contacts may have - none that pulls, friction within Coulomb's disk - meets the tolerance.
+/// the positions while Newton's iteration solves for equilibrium with them; then multipliers become the
+/// forces there. It is over where the contact forces and the depth stay, no way was cut, and the residual
+/// with the forces that contacts may have - none that pulls, friction within Coulomb's disk - meets the
+/// tolerance.
 ///
 /// Bodies that supports alone do not hold fall on what they meet: a share of the mass stands beside the
 /// tangent, and such a correction goes as far as the first contact. The mass changes the way, not where it
@@ -25,8 +26,8 @@ class StaticTouching {
 
   /// The largest part of a path on which no obstacle is led by more than half a mean edge.
   [[nodiscard]] double largest_part(const LoadPath& path, const State& start) const;
-  /// Equilibrium at the share `to`, from `state`, which stands at the share `from`; at most `most` of Newton's
-  /// iterations. False: none was found, `reason` says why, and the state is undefined.
+  /// Equilibrium at the share `to`, from `state`, which stands at the share `from`; at most `most` of
+  /// Newton's iterations. False: none was found, `reason` says why, and the state is undefined.
   bool find(const LoadPath& path, double from, double to, int most, State& state, StepReport& report);
   [[nodiscard]] const std::string& reason() const { return reason_; }
   /// Whether the state that was found is a saddle of the energy of what does not rub.
@@ -54,7 +55,7 @@ class StaticTouching {
   bool is_loose_;
   bool start_touches_ = false;
   bool is_falling_ = false;  ///< the latest correction was cut, by its length or by what it met
-  int falls_ = 0;  ///< such corrections
+  int falls_ = 0;            ///< such corrections
   bool is_unstable_ = false;
   double other_ = 0.0;  ///< change of the contact forces at the latest look
   double best_ = 0.0;   ///< the least of them, …

@@ -62,19 +62,23 @@ class Taken:
     Attributes:
         steps: of every step but the first; of every solve of a static scene.
         first: of the first.
-        failures: steps that were not solved.
+        failed: numbers of the steps that were not solved; the first is 0.
         past: the limit [s] that it ran past; 0: none.
     """
 
     steps: list[float] = field(default_factory=list)
     first: float = float("nan")
-    failures: int = 0
+    failed: list[int] = field(default_factory=list)
     past: float = 0.0
 
     def p50(self, steps: int | None = None) -> float:
         """Of the second half of so many steps, or of all, when `auto` has learned."""
         some = self.steps[:steps]
         return float(np.median(some[len(some) // 2 :])) if some else float("nan")
+
+    def failures(self, steps: int) -> int:
+        """How many of the first and so many further steps were not solved."""
+        return sum(number <= steps for number in self.failed)
 
 
 class LateError(Exception):
@@ -133,7 +137,8 @@ def turn(simulation: ts.Simulation, taken: Taken, steps: int, *, cut: bool, limi
                     last = simulation.meshes["body"].cell_count - 1
                     simulation.remove_cells(body="body", cells=[last])
                 seconds, converged = solved(simulation)
-                taken.failures += not converged
+                if not converged:
+                    taken.failed.append(0 if np.isnan(taken.first) else 1 + len(taken.steps))
                 if np.isnan(taken.first):
                     taken.first = seconds
                 else:

@@ -146,14 +146,14 @@ def over_best(found: dict[str, Taken]) -> float:
     """
     auto = found["auto"]
     others = [t for name, t in found.items() if name != "auto" and t.steps and not t.past]
-    if auto.past or any(auto.failures > taken.failures for taken in others):
-        return float("inf")
-    ratios = [
-        auto.p50(common) / taken.p50(common)
-        for taken in others
-        if taken.failures == auto.failures
-        for common in (min(len(auto.steps), len(taken.steps)),)
-    ]
+    ratios = []
+    for taken in others:
+        common = min(len(auto.steps), len(taken.steps))
+        more = auto.failures(common) - taken.failures(common)
+        if auto.past or more > 0:
+            return float("inf")
+        if more == 0:
+            ratios.append(auto.p50(common) / taken.p50(common))
     return max(ratios, default=float("nan"))
 
 
@@ -164,7 +164,7 @@ def time_cell(taken: Taken | None) -> str:
     if taken.past:
         return f"> {taken.past:.0f} s"
     text = f"{1e3 * taken.p50():.3g}, {1e3 * taken.first:.3g}"
-    return f"{text} ({taken.failures} failed)" if taken.failures else text
+    return f"{text} ({len(taken.failed)} failed)" if taken.failed else text
 
 
 def count_table(rows: list[Row]) -> str:

@@ -44,6 +44,8 @@ SOFTWARE = [
     "--ignore-gpu-blocklist",
     "--no-sandbox",
 ]
+SETTLING = 6.0
+"""Seconds after which a page has all of the scene: what opening it takes is not part of the cost."""
 COUNT_DRAWN = """
 window.drawn = 0; let changed = false;
 const send = WebGL2RenderingContext.prototype.bufferSubData;
@@ -133,7 +135,7 @@ def cost(side: int, seconds: float, rounds: int) -> tuple[float, float, float]:
             time.sleep(1.0)
             alone.append(steps_a_second(view, seconds))
             with reader(view):
-                time.sleep(1.0)
+                time.sleep(SETTLING)
                 before, begin = view.frames_sent, time.monotonic()
                 watched.append(steps_a_second(view, seconds))
                 frames.append((view.frames_sent - before) / (time.monotonic() - begin))

@@ -62,8 +62,10 @@ def test_times_are_compared_over_the_steps_that_both_took():
     found = {"auto": auto, "stale_cholesky": early, "multigrid": Taken(steps=[1.0] * 4 + [0.8] * 4)}
     assert over_best(found) == pytest.approx(1.0 / 0.8)
     assert over_best({"auto": auto, "stale_cholesky": early}) == pytest.approx(2.0 / 8.0)
-    found["auto"] = Taken(steps=[0.1] * 8, failures=1)
+    found["auto"] = Taken(steps=[0.1] * 8, failed=[2])
     assert over_best(found) == float("inf")
+    late = Taken(steps=[1.0] * 8, failed=[6])  # in a step that the other one never came to
+    assert over_best({"auto": late, "cholesky": Taken(steps=[2.0] * 4)}) == pytest.approx(0.5)
 
 
 def test_the_bench_has_the_rows_that_the_default_is_held_against():

@@ -23,7 +23,7 @@ def judged(simulation, report):
     friction = max(getattr(c, "friction", 0.0) for c in simulation.scene.contacts)
     assert (along <= friction * normal * (1 + 1e-9) + 1e-12 * size).all()
     if report.contacts:
-        assert report.least_gap >= 0.999 - 1e-9  # a depth of 1e-3 of the gap is the step's tolerance
+        assert report.least_gap >= 0.999 - 1e-9  # 1e-3 of the gap is the step's tolerance
     assert report.residual <= TOLERANCE or "round-off" in report.message
     assert out_of_balance(simulation) <= 2 * max(TOLERANCE, report.residual)
     return report

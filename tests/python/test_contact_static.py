@@ -1,4 +1,4 @@
-"""Static steps with contact against closed forms: weights, friction, pressing, stiff beside soft."""
+"""Static steps with contact against closed forms: weights, friction, pressing, contrasts."""
 
 import math
 
@@ -217,11 +217,18 @@ def test_a_stack_carries_its_weights(name):
 def patch(**fields):
     """Two blocks of matching meshes, pressed together by a plate, free to widen."""
     gap = 1e-4
-    half = {"cells": (4, 4, 2), "size": (SIDE, SIDE, SIDE / 2), "law": ts.StVK(young=1e5, poisson=0.3)}
+    half = {
+        "cells": (4, 4, 2),
+        "size": (SIDE, SIDE, SIDE / 2),
+        "law": ts.StVK(young=1e5, poisson=0.3),
+    }
     down = ts.Motion(times=(0, 1), displacements=((0, 0, 0), (0, 0, -0.02 * SIDE)))
     bodies = {"a": block((0, 0, gap), **half), "b": block((0, 0, SIDE / 2 + 2 * gap), **half)}
-    sides = [ts.Fixed(b, on=ts.Plane(point=(0, 0, 0), normal=normal), axes=axis)
-             for b in bodies for axis, normal in {"x": (1, 0, 0), "y": (0, 1, 0)}.items()]  # fmt: skip
+    sides = [
+        ts.Fixed(b, on=ts.Plane(point=(0, 0, 0), normal=normal), axes=axis)
+        for b in bodies
+        for axis, normal in {"x": (1, 0, 0), "y": (0, 1, 0)}.items()
+    ]
     return ts.Scene(
         bodies=bodies,
         obstacles={
@@ -283,65 +290,3 @@ def test_plates_that_leave_no_room_are_refused_and_leave_the_state_whole():
     assert "\n" not in str(error.value)
     assert np.array_equal(simulation.positions["cube"], before)
     assert simulation.crossings() == []
-
-
-def graded(edge, uniform, length):
-    """Places from 0: even up to `uniform`, then each gap half as long again."""
-    places = list(np.arange(0.0, uniform + edge / 2, edge))
-    while places[-1] < length:
-        edge *= 1.5
-        places.append(places[-1] + edge)
-    return np.array(places)
-
-
-def pressed_paraboloid(edges, radius=0.02, curvature=1.0):
-    """A quarter of a paraboloid on an elastic half-space, twenty radii of contact deep, under a
-    plate that comes down by radius^2 / curvature. Force over that of Hertz.
-
-    F = 4/3 E* sqrt(R) delta^1.5. What is fixed below would have sunk there by Boussinesq's
-    F (1 + nu) (3 - 2 nu) / (2 pi E depth), which is added to delta.
-    """
-    x = graded(radius / edges, 1.5 * radius, 20 * radius)
-    count = len(x)
-    points = np.array([(a, b, -c) for a in x for b in x for c in x])
-    top = points[:, 2] == 0.0
-    far = np.minimum(np.hypot(*points[top, :2].T), 3 * radius)  # nothing is met beyond
-    points[top, 2] = -(far**2) / (2 * curvature)
-    node = np.arange(count**3).reshape(count, count, count)
-    low, high = slice(None, -1), slice(1, None)
-    around = ((low, low), (high, low), (high, high), (low, high))
-    corners = [node[i, j, k] for k in (high, low) for i, j in around]
-    cells = np.stack([c.ravel() for c in corners], axis=1)
-    young, poisson, delta = 1e5, 0.3, radius**2 / curvature
-    gap = 0.01 * delta
-    down = ts.Motion(times=(0, 1), displacements=((0, 0, 0), (0, 0, -delta)))
-    planes = {"xyz": ((0, 0, -x[-1]), (0, 0, 1)), "x": ((0, 0, 0), (1, 0, 0)),
-              "y": ((0, 0, 0), (0, 1, 0))}  # fmt: skip
-    scene = ts.Scene(
-        bodies={
-            "ball": ts.Body(
-                mesh=ts.Mesh(points=points, cells={"hexahedron": cells}),
-                law=ts.StVK(young=young, poisson=poisson),
-                density=1000,
-            )
-        },
-        obstacles={"plate": ts.PlaneObstacle((0, 0, gap), (0, 0, -1), motion=down)},
-        contacts=[ts.Contact(("ball", "plate"), gap=gap)],
-        fixed=[ts.Fixed("ball", on=ts.Plane(point=p, normal=n), axes=axes)
-               for axes, (p, n) in planes.items()],
-        step=ts.Static(solver=ts.Cholesky()),
-    )  # fmt: skip
-    simulation = scene.compile()
-    pushed(simulation)
-    force = 4 * simulation.force_on("plate").force[2]
-    sunk = force * (1 + poisson) * (3 - 2 * poisson) / (2 * math.pi * young * x[-1])
-    reduced = young / (1 - poisson**2)
-    return force / (4 / 3 * reduced * math.sqrt(curvature) * (delta + sunk) ** 1.5)
-
-
-def test_hertz():
-    """Two edges in the radius of contact leave 5 %, three leave 2.5 %: the area goes by nodes."""
-    coarse, fine = pressed_paraboloid(2), pressed_paraboloid(3)
-    assert coarse == pytest.approx(1.0, abs=0.05)
-    assert fine == pytest.approx(1.0, abs=0.025)
-    assert abs(fine - 1) < abs(coarse - 1)

@@ -225,10 +225,18 @@ bool StaticTouching::find(const LoadPath& path, double from, double to, int most
   reason_.clear();
   try {
     begin(path, from, to, state);
-  } catch (const Diverged& error) {
-    return give_up(error.what());
+    return look_until_it_stays(path, from, to, most, state, report);
+  } catch (const Interrupted&) {
+    throw;
+  } catch (const Error& error) {  // of what is led too far, or of values that are not finite
+    std::string why = error.what();
+    if (why.ends_with('.')) why.pop_back();
+    return give_up(why);
   }
-  double before = from;
+}
+
+bool StaticTouching::look_until_it_stays(const LoadPath& path, double before, double to, int most,
+                                         State& state, StepReport& report) {
   const int first = report.newton_iterations;
   for (int i = 0; i < kMostLooks; ++i) {
     stop_if_asked();
@@ -241,9 +249,7 @@ bool StaticTouching::find(const LoadPath& path, double from, double to, int most
     }
     before = to;
     falls_ += is_falling_ ? 1 : 0;
-    if (falls_ > (start_touches_ ? kMostTouching : kMostFalls)) {
-      return give_up(kMovesOn);
-    }
+    if (falls_ > (start_touches_ ? kMostTouching : kMostFalls)) return give_up(kMovesOn);
     if (look_again(to, state, report)) {
       report.contacts = static_cast<int>(contact_.size());
       report.least_gap = contact_.least_gap();

@@ -168,7 +168,7 @@ def _method_problems(scene: Any) -> Iterator[Problem]:
         return
     yield from _settings_problems(settings)
     if getattr(scene.step, "arc_length", False):
-        text = "found true beside contacts, whose forces no arc length follows; leave arc_length out"
+        text = "found true beside contacts, which an arc length does not follow; leave it out"
         yield Problem(("step", "arc_length"), text)
     if scene.editing:
         text = "found true beside contacts, but surfaces do not follow removed cells yet; leave "

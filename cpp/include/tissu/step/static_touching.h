@@ -35,13 +35,17 @@ class StaticTouching {
 
  private:
   void begin(const LoadPath& path, double from, double to, State& state);
+  bool look_until_it_stays(const LoadPath& path, double before, double to, int most, State& state,
+                           StepReport& report);
   /// Newton's iteration with the contacts of the latest look; false: it found nothing.
   bool solve(const LoadPath& path, double before, double to, int most, State& state, StepReport& report);
+  /// What flew is put where it first meets something.
   void fall(State& state);
   /// Looks again from what was solved; true where equilibrium is reached.
   bool look_again(double share, State& state, StepReport& report);
   void look(const State& at);
   int hold_back(State& to);
+  /// Springs against sliding, where looks go round in a circle.
   void soften();
   void measure_mass();
   bool give_up(std::string why);
@@ -57,10 +61,10 @@ class StaticTouching {
   bool is_falling_ = false;  ///< the latest correction was cut, by its length or by what it met
   int falls_ = 0;            ///< such corrections
   bool is_unstable_ = false;
-  double other_ = 0.0;  ///< change of the contact forces at the latest look
-  double best_ = 0.0;   ///< the least of them, …
-  int idle_ = 0;        ///< … and looks since then
-  double tangent_ = 1.0;
+  double other_ = 0.0;    ///< change of the contact forces at the latest look
+  double best_ = 0.0;     ///< the least of them, …
+  int idle_ = 0;          ///< … and looks since then
+  double tangent_ = 1.0;  ///< times stiffer against sliding
   int held_back_ = 0;
   std::vector<double> blocks_;
   std::vector<double> way_;

@@ -51,6 +51,18 @@ def test_a_probe_palpates():
     assert simulation.displacements("organ")[:, 2].min() < -0.02
 
 
+def test_a_block_is_pressed_statically():
+    """Plates' forces are opposite, to the step's tolerance; the rim slides, the middle sticks."""
+    simulation = example("pressed")
+    low, high = simulation.force_on("table").force, simulation.force_on("plate").force
+    assert low + high == pytest.approx([0, 0, 0], abs=1e-6 * high[2])
+    assert np.ptp(simulation.positions["block"][:, 2]) == pytest.approx(0.06, rel=1e-4)
+    forces = simulation.contacts().forces
+    share = np.hypot(forces[:, 0], forces[:, 1]) / np.abs(forces[:, 2])
+    assert share.max() == pytest.approx(0.1, rel=1e-3)
+    assert share.min() < 0.01
+
+
 def test_an_organ_lies_on_a_table():
     simulation = example("table")
     body = simulation.scene.bodies["organ"]

@@ -165,11 +165,11 @@ SLIPS = {
         "step",
         "found rk4 with 3 contacts; accepted with contact: implicit_euler",
     ),
-    "static step": (
+    "arc length": (
         "{type: implicit_euler, dt: 10 ms}",
-        "{type: static}",
-        "step",
-        "found static with 3 contacts",
+        "{type: static, arc_length: true}",
+        "step.arc_length",
+        "found true beside contacts",
     ),
     "method": ("method: auto", "method: barrier", "contact.method", "not there yet; accepted"),
     "method's name": ("method: auto", "method: augment", "contact.method", "mean 'augmented'"),
@@ -198,8 +198,8 @@ SLIPS = {
         "neither displacements nor rotation",
     ),
 }
-# The slip takes the table away too; a static step needs held nodes, on both bodies.
-MORE = {"a name twice": 2, "static step": 3}
+# The slip takes the table away too.
+MORE = {"a name twice": 2}
 
 
 @pytest.mark.parametrize("name", SLIPS)

@@ -198,20 +198,38 @@ void ContactRun::hand_over() {
   for (std::size_t k = 0; k < contacts_.size(); ++k) {
     const ContactNumbers& before = contacts_[k];
     if (met_[k] != 0 || !is_of_vertex(before) || !(before.force > 0.0)) continue;
-    const auto of_vertex = std::ranges::equal_range(heirs_, before.a, {}, vertex_of);
-    const auto is_heir = [&](std::int32_t i) {
-      return other_surface(looked_[at(i)]) == other_surface(before);
-    };
-    const double share = 1.0 / static_cast<double>(std::ranges::count_if(of_vertex, is_heir));
-    for (const std::int32_t i : of_vertex) {
-      if (!is_heir(i)) continue;
-      ContactNumbers& c = looked_[at(i)];
-      c.force += share * before.force;
-      const Vec3 n = vector_of(c.normal);
-      const Vec3 drag = vector_of(before.drag);
-      c.drag = numbers_of(vector_of(c.drag) + share * (drag - n.dot(drag) * n));
+    if (hand_to(before.a, other_surface(before), 1.0, before) || !hands_to_all_) continue;
+    const std::int32_t own = vertices[static_cast<std::size_t>(before.a)].surface;
+    std::array<std::size_t, 3> others = {1, 2, 3};
+    std::ranges::sort(others, {}, [&](std::size_t i) { return std::pair(-std::abs(before.beta[i]), i); });
+    for (const std::size_t i : others) {
+      if (before.vertex[i] >= 0.0 && before.beta[i] != 0.0 && hand_to(before.vertex[i], own, -1.0, before)) {
+        break;
+      }
     }
   }
+}
+
+/// To the contacts of a vertex with a surface; false: there are none. `heirs_` stands in the order of
+/// vertices.
+bool ContactRun::hand_to(double vertex, std::int32_t other, double sign, const ContactNumbers& before) {
+  const auto& vertices = contact_.surfaces().vertices();
+  const auto of_vertex =
+      std::ranges::equal_range(heirs_, vertex, {}, [&](std::int32_t i) { return looked_[at(i)].a; });
+  const auto is_heir = [&](std::int32_t i) {
+    return vertices[static_cast<std::size_t>(looked_[at(i)].vertex[1])].surface == other;
+  };
+  const auto count = std::ranges::count_if(of_vertex, is_heir);
+  const double share = 1.0 / static_cast<double>(count);
+  for (const std::int32_t i : of_vertex) {
+    if (!is_heir(i)) continue;
+    ContactNumbers& c = looked_[at(i)];
+    c.force += share * before.force;
+    const Vec3 n = vector_of(c.normal);
+    const Vec3 drag = sign * vector_of(before.drag);
+    c.drag = numbers_of(vector_of(c.drag) + share * (drag - n.dot(drag) * n));
+  }
+  return count > 0;
 }
 
 }  // namespace tissu

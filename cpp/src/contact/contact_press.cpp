@@ -67,7 +67,7 @@ void ContactRun::press() {
   std::size_t kept = 0;
   depth_ = 0.0;
   for (std::size_t i = 0; i < looked_.size(); ++i) {
-    const double k = stiffnesses_[i];
+    const double k = normal_ * stiffnesses_[i];
     const double t = looked_[i].force - k * gaps_[i];
     if (k == 0.0 || !(t > 0.0 || predicted_[i] != 0)) continue;
     ContactNumbers c = looked_[i];
@@ -77,7 +77,9 @@ void ContactRun::press() {
     const ContactPair& pair = contact_.description().pairs[static_cast<std::size_t>(c.pair)];
     const double friction = pair.friction;
     if (friction == 0.0) c.sliding = 0.0;
-    if (friction > 0.0) rub(c, n, friction * std::max(t, 0.0), vector_of(c.place), k);
+    if (friction > 0.0) {
+      rub(c, n, friction * std::max(t, 0.0), vector_of(c.place), tangent_ * stiffnesses_[i]);
+    }
     depth_ = std::max(depth_, -gaps_[i] / std::min(c.apart, pair.gap));
     looked_[kept++] = c;
   }

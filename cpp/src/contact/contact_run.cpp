@@ -66,9 +66,18 @@ void ContactRun::begin(const State& start, double end, ConstReals led, double fl
   now_ = from_;
 }
 
+double ContactRun::half_edges_led(const State& start, double end) const {
+  return ahead_->parts_of({start, start.time, end, {}});
+}
+
 void ContactRun::set_matrix(std::span<const double> blocks, double scale) {
   blocks_ = blocks;
   scale_ = scale;
+}
+
+void ContactRun::set_stiffer(double normal, double tangent) {
+  normal_ = normal;
+  tangent_ = tangent;
 }
 
 /// Rows where `state` has them, obstacles where they are at the end of the step.
@@ -84,6 +93,7 @@ void ContactRun::gather(const State& state, std::vector<double>& places) const {
 
 int ContactRun::hold_back(State& to) {
   gather(to, now_);
+  least_share_ = 1.0;
   goal_ = now_;
   candidates_->cover(from_, now_);
   if (!contact_.description().travel) return 0;
@@ -95,6 +105,7 @@ int ContactRun::hold_back(State& to) {
     if (given_[v] != 0) continue;
     const double share = held_->share(number);
     if (share == 1.0) continue;
+    least_share_ = std::min(least_share_, share);
     ++rows;
     const Vec3 from = block(ConstReals(from_), number);
     block(Reals(to.positions), vertices[v].row) = from + share * (block(ConstReals(now_), number) - from);

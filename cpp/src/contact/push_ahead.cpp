@@ -62,6 +62,30 @@ void PushAhead::place_planes(const LedMotion& motion, double share, std::vector<
   }
 }
 
+double PushAhead::parts_of(const LedMotion& motion) const {
+  const SurfaceSet& surfaces = contact_.surfaces();
+  double way = 0.0;
+  for (std::size_t v = 0; v < given_.size(); ++v) {
+    const SurfaceVertex& vertex = surfaces.vertices()[v];
+    if (vertex.row >= 0) continue;
+    const std::int32_t obstacle = surfaces.surfaces()[at(vertex.surface)].obstacle;
+    const Vec3 rest = block(ConstReals(surfaces.rest()), static_cast<std::int32_t>(v));
+    way = std::max(way, (contact_.place_of(obstacle, rest, motion.state, motion.to) -
+                         contact_.place_of(obstacle, rest, motion.state, motion.from))
+                            .norm());
+  }
+  std::vector<PlacedPlane> first;
+  std::vector<PlacedPlane> last;
+  place_planes(motion, 0.0, first);
+  place_planes(motion, 1.0, last);
+  for (std::size_t i = 0; i < last.size(); ++i) {
+    if (!contact_.description().obstacles[i].plane) continue;
+    way = std::max(
+        {way, (last[i].point - first[i].point).norm(), (last[i].normal - first[i].normal).norm() * part_});
+  }
+  return way / part_;
+}
+
 void PushAhead::push(const LedMotion& motion, Candidates& candidates, std::vector<double>& places,
                      std::vector<PlacedPlane>& planes) {
   to_ = places;

@@ -29,6 +29,8 @@ class PushAhead {
   /// end. Throws Diverged where things that are led close on a body.
   void push(const LedMotion& motion, Candidates& candidates, std::vector<double>& places,
             std::vector<PlacedPlane>& planes);
+  /// How far obstacles are led, over the longest way of a part.
+  [[nodiscard]] double parts_of(const LedMotion& motion) const;
 
  private:
   void lead(const LedMotion& motion, double share, Reals places) const;

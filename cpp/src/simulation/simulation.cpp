@@ -97,7 +97,8 @@ StepReport Simulation::step(double h) {
   try {
     begin_step(*world_, state_, scratch_, h);
     if (watch_) begin_watch(*watch_);
-    report = world_->contact() == nullptr ? integrator_->step(state_, h) : step_in_parts(h, 0);
+    const bool whole = world_->contact() == nullptr || integrator_->is_static();
+    report = whole ? integrator_->step(state_, h) : step_in_parts(h, 0);
   } catch (...) {
     state_ = last_good_;
     throw;

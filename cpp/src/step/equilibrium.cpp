@@ -48,6 +48,28 @@ double Equilibrium::residual(const State& state) {
   return norm(right_);
 }
 
+void Equilibrium::steady(double mass, double farthest) {
+  tangent_.set_mass(mass);
+  farthest_ = farthest;
+}
+
+void Equilibrium::shorten(double share, State& state) {
+  for (std::size_t k = 0; k < work_.size(); ++k) work_[k] = share * change_[k];
+  world().fixed().copy(change_, work_);
+  move(from_, world().frames(), work_, 1.0, state);
+}
+
+void Equilibrium::cut(bool leads) {
+  double largest = 0.0;
+  for (const double c : change_) largest = std::max(largest, std::abs(c));
+  flew_ = farthest_ > 0.0 && largest > farthest_;
+  if (flew_) {
+    for (double& c : change_) c *= farthest_ / largest;
+  }
+  if (!leads) return;
+  for (std::size_t i = 0; i < way_.size(); ++i) change_[i] += way_[i];
+}
+
 void Equilibrium::begin(const LoadPath& path, const State& start) {
   from_ = start;
   path.load(1.0, from_);
@@ -55,7 +77,8 @@ void Equilibrium::begin(const LoadPath& path, const State& start) {
 }
 
 double Equilibrium::load(double share, const State& state) {
-  const double external = share == 1.0 ? system_.external_force(state, work_) : end_load_;
+  const bool now = share == 1.0 || world().contact() != nullptr;
+  const double external = now ? system_.external_force(state, work_) : end_load_;
   if (external > 0.0 && !world().fixed().moves(state)) return external;
   double sum = 0.0;
   for (std::size_t i = 0; i < right_.size(); ++i) {
@@ -137,7 +160,7 @@ void Equilibrium::lead(const LoadPath& path, double before, double share, State&
   world().fixed().clear(right_);
   from_ = state;
   solve(state, report);
-  for (std::size_t i = 0; i < way_.size(); ++i) change_[i] += way_[i];
+  cut(true);
   go(state, 1.0);
 }
 
@@ -210,6 +233,7 @@ Equilibrium::End Equilibrium::find(const LoadPath& path, double before, double s
   path.load(share, state);
   correction_.reset();
   linear_solved_ = true;
+  flew_ = false;
   pause_ = next_pause_ = 0;
   share_ = 0.0;
   start_way_ = distance(state.positions, rest_.positions);
@@ -221,10 +245,13 @@ Equilibrium::End Equilibrium::find(const LoadPath& path, double before, double s
   while (true) {
     if (!std::isfinite(now)) return stop(End::ran_away);
     stop_if_asked();
+    if (flew_) return End::flew;
     if (is_reached(share, state, now, correction_, report)) return End::reached;
     if (is_too_far() || progress.idle > kPatience) return stop(End::ran_away);
     if (report.newton_iterations - first >= most) return stop(End::most);
     if (!solve(state, report)) return stop(End::ran_away);
+    if (farthest_ > 0.0) cut(false);
+    if (flew_) search = Search::none;
     if (search == Search::energy) {
       if (!search_energy(state, now, report)) return stop(End::no_descent);
       continue;

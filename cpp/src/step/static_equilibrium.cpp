@@ -10,9 +10,10 @@
 namespace tissu {
 namespace {
 
-constexpr int kHalvings = 12;  ///< of a part of the load
-constexpr int kRoom = 19;      ///< parts beyond load_steps for which iterations are set aside
-constexpr int kEasy = 6;       ///< iterations of a part after which the next one is larger
+constexpr int kHalvings = 12;      ///< of a part of the load
+constexpr int kRoom = 19;          ///< parts beyond load_steps for which iterations are set aside
+constexpr int kEasy = 6;           ///< iterations of a part after which the next one is larger, …
+constexpr int kEasyTouching = 30;  ///< … and where contacts are looked at between them
 constexpr double kTurn = std::numbers::pi / 6.0;  ///< by which led nodes go round in one part, at most
 
 }  // namespace
@@ -30,6 +31,8 @@ StaticEquilibrium::StaticEquilibrium(Settings settings) : settings_(settings) {
 void StaticEquilibrium::prepare(const World& world, LinearSolver* solver, Profile& profile) {
   equilibrium_ = std::make_unique<Equilibrium>(world, solver, profile, settings_.newton);
   arc_ = std::make_unique<ArcLength>(*equilibrium_, settings_.newton);
+  touching_.reset();
+  if (world.contact() != nullptr) touching_ = std::make_unique<StaticTouching>(*equilibrium_, profile);
   start_ = before_ = world.rest_state();
 }
 
@@ -48,6 +51,7 @@ StepReport StaticEquilibrium::step(State& state, double h) {
   const double share = settings_.arc_length ? go_by_arc(path, 0.0, 1.0 / settings_.load_steps, state, report)
                                             : go_by_parts(path, state, report);
   report.converged = share >= 1.0;
+  if (touching_ && !report.converged) refuse(share, h);
   if (!report.converged) {
     report.message =
         "no equilibrium was found beyond " + number_text(100.0 * share) + " % of the load: " + reason();
@@ -56,7 +60,8 @@ StepReport StaticEquilibrium::step(State& state, double h) {
     report.message = "equilibrium to round-off, which leaves " + number_text(100.0 * report.residual) +
                      " % of the load where forces within the bodies are so much larger";
   }
-  if (report.converged && report.message.empty() && equilibrium_->is_unstable(state)) {
+  if (report.converged && report.message.empty() &&
+      (touching_ ? touching_->is_unstable() : equilibrium_->is_unstable(state))) {
     report.message =
         "an unstable equilibrium: the tangent is indefinite there, and a body that is disturbed leaves it; "
         "to "
@@ -69,18 +74,20 @@ StepReport StaticEquilibrium::step(State& state, double h) {
 }
 
 double StaticEquilibrium::go_by_parts(const LoadPath& path, State& state, StepReport& report) {
-  const double largest = std::min(1.0 / settings_.load_steps, path.largest_part(kTurn));
+  double largest = std::min(1.0 / settings_.load_steps, path.largest_part(kTurn));
+  if (touching_) largest = std::min(largest, touching_->largest_part(path, start_));
   const double smallest = std::ldexp(largest, -kHalvings);
   double share = 0.0;
   double part = largest;
+  const int easy = touching_ ? kEasyTouching : kEasy;
   while (share < 1.0) {
     const double to = share + part * (1.0 + 1e-9) >= 1.0 ? 1.0 : share + part;
     const int before = report.newton_iterations;
     if (take(path, share, to, state, report)) {
       share = to;
       solver_gave_up_ = false;
-      if (report.newton_iterations - before <= kEasy) part = std::min(2.0 * part, largest);
-    } else if (left(report) == 0) {
+      if (report.newton_iterations - before <= easy) part = std::min(2.0 * part, largest);
+    } else if (left(report) == 0 || (touching_ && part < 2.0 * smallest)) {
       return share;
     } else if (part < 2.0 * smallest) {
       return go_by_arc(path, share, part, state, report);
@@ -99,6 +106,11 @@ double StaticEquilibrium::go_by_arc(const LoadPath& path, double share, double p
 
 bool StaticEquilibrium::take(const LoadPath& path, double from, double to, State& state, StepReport& report) {
   before_ = state;
+  if (touching_) {
+    const bool found = touching_->find(path, from, to, left(report), state, report);
+    if (!found) state = before_;
+    return found;
+  }
   for (const auto search : {Equilibrium::Search::none, Equilibrium::Search::energy}) {
     // A descent may be long, as that of a body that topples; half of what is left stays for smaller parts.
     const int share = search == Equilibrium::Search::energy ? left(report) / 2 : 0;
@@ -110,6 +122,14 @@ bool StaticEquilibrium::take(const LoadPath& path, double from, double to, State
     if (equilibrium_->world().is_linear()) break;
   }
   return false;
+}
+
+void StaticEquilibrium::refuse(double share, double h) const {
+  const double from = start_.time;
+  throw Diverged("in the static step from t = " + number_text(from) + " s with dt = " + number_text(h) +
+                     " s no equilibrium was found beyond " + number_text(100.0 * share) + " % of the load: " +
+                     touching_->reason() + ". The simulation stands at its last good step.",
+                 "", -1, from);
 }
 
 std::string StaticEquilibrium::reason() const {

@@ -96,9 +96,9 @@ void System::assemble(const State& state, double mass, StiffnessScale scale) {
   scale_ = scale;
 }
 
-void System::assemble_mean(const State& state, double share) {
-  if (solver_ != nullptr && !solver_->needs_matrix()) return assemble(state, 0.0, {-1.0, 0.0, true});
-  assemble_blocks(state, 0.0, {share - 1.0, 0.0}, share);
+void System::assemble_mean(const State& state, double share, double mass) {
+  if (solver_ != nullptr && !solver_->needs_matrix()) return assemble(state, mass, {-1.0, 0.0, true});
+  assemble_blocks(state, mass, {share - 1.0, 0.0}, share);
   assembled_ = false;
 }
 

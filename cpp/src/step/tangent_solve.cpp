@@ -27,11 +27,11 @@ void add(double a, ConstReals x, Reals y) {
 
 SolveReport TangentSolve::solve(const State& state, ConstReals b, Reals x) {
   std::ranges::fill(x, 0.0);
-  system_.assemble(state, 0.0, {-1.0, 0.0});
+  system_.assemble(state, mass_, {-1.0, 0.0});
   has_moments_ = find_moments(state);
   const SolveReport report = system_.solve(b, x, 0.0);
   if (report.positive_definite && !has_moments_) return report;
-  if (!report.positive_definite) system_.assemble(state, 0.0, {-1.0, 0.0, true});
+  if (!report.positive_definite) system_.assemble(state, mass_, {-1.0, 0.0, true});
   SolveReport more = iterate(state, b, x);
   more.iterations += report.iterations;
   more.positive_definite = report.positive_definite;
@@ -71,9 +71,9 @@ SolveReport TangentSolve::solve_mean(const State& state, ConstReals b, Reals x, 
   while (true) {
     std::ranges::fill(x, 0.0);
     if (share < 1.0) {
-      system_.assemble_mean(state, share);
+      system_.assemble_mean(state, share, mass_);
     } else {
-      system_.assemble(state, 0.0, {-1.0, 0.0, true});
+      system_.assemble(state, mass_, {-1.0, 0.0, true});
     }
     SolveReport report = system_.solve(b, x, 0.0);
     iterations += report.iterations;
@@ -88,7 +88,7 @@ SolveReport TangentSolve::solve_mean(const State& state, ConstReals b, Reals x, 
 bool TangentSolve::is_indefinite(const State& state, ConstReals b, Reals x) {
   if (find_moments(state)) return false;
   std::ranges::fill(x, 0.0);
-  system_.assemble(state, 0.0, {-1.0, 0.0});
+  system_.assemble(state, mass_, {-1.0, 0.0});
   return !system_.solve(b, x, 0.0).positive_definite;
 }
 

@@ -111,6 +111,8 @@ def _check_held(prepared: Prepared, name: str, mesh: Mesh) -> None:
         if parts == 1
         else f"{len(loose)} of {parts} separate parts of body '{name}'"
     )
+    if static and name in _caught(prepared):
+        return  # whether contacts hold it, the step finds
     if static and loose:
         need = "a static step needs fixed or prescribed nodes on x, y and z"
         text = f"{where} can move freely on some axis; {need}"

@@ -13,7 +13,7 @@ from tissu.scene.tissue import tissues_of
 from tissu.scene.unknown import Unknown
 
 STEPS_OF_METHOD: dict[str, tuple[str, ...]] = {
-    "augmented": ("implicit_euler", "bdf2"),
+    "augmented": ("implicit_euler", "bdf2", "static"),
 }
 """Contact method -> the steps that have it; `auto` takes the first method that the step has.
 
@@ -167,6 +167,9 @@ def _method_problems(scene: Any) -> Iterator[Problem]:
         yield Problem(("step",), text)
         return
     yield from _settings_problems(settings)
+    if getattr(scene.step, "arc_length", False):
+        text = "found true beside contacts, which an arc length does not follow; leave it out"
+        yield Problem(("step", "arc_length"), text)
     if scene.editing:
         text = "found true beside contacts, but surfaces do not follow removed cells yet; leave "
         yield Problem(("editing",), f"{text}editing out")

@@ -39,12 +39,23 @@ class ContactRun {
   /// led goes there first, and pushes what is in its way. Smaller forces of all contacts than `floor` [N] are
   /// judged by it.
   void begin(const State& start, double end, ConstReals led, double floor);
+  /// How far obstacles are led in such a step, in half mean edges of the finest body.
+  [[nodiscard]] double half_edges_led(const State& start, double end) const;
   /// The diagonal blocks of the step's matrix without contact, [row][9], and move times push: they outlive
   /// the step.
   void set_matrix(std::span<const double> blocks, double scale);
+  /// How many times stiffer than that contacts are against coming nearer, and against sliding: 1, as at
+  /// first.
+  void set_stiffer(double normal, double tangent);
+  /// A multiplier whose vertex has no contact any more goes to those of the vertices that it was shared with.
+  void hand_over_to_all() { hands_to_all_ = true; }
   /// Shortens the ways from the start to `to` until nothing passes through anything. The number of rows that
   /// were held back.
   int hold_back(State& to);
+  /// The least share of its way that the latest `hold_back` left to anything.
+  [[nodiscard]] double least_share() const { return least_share_; }
+  /// Ways go on from `at`, to which the way was free, and not from the start of the step any more.
+  void go_on_from(const State& at) { gather(at, from_); }
   /// Contacts at the places of `at`, with the multipliers of those that were there before. By how much their
   /// forces differ from those of the latest solve, as a share.
   double look(const State& at);
@@ -77,6 +88,7 @@ class ContactRun {
   [[nodiscard]] const ContactNumbers* acting(const ContactNumbers& c) const;
   void keep_multipliers();
   void hand_over();
+  bool hand_to(double vertex, std::int32_t other, double sign, const ContactNumbers& before);
   void stiffen();
   void press();
   double change();
@@ -105,6 +117,9 @@ class ContactRun {
   double end_ = 0.0;
   std::span<const double> blocks_;
   double scale_ = 0.0;
+  bool hands_to_all_ = false;
+  double normal_ = 1.0;   ///< times stiffer
+  double tangent_ = 1.0;  ///< times stiffer
   std::vector<ContactNumbers> contacts_;
   std::vector<ContactNumbers> looked_;
   std::vector<double> gaps_;             ///< of looked_
@@ -123,6 +138,7 @@ class ContactRun {
   double depth_ = 0.0;
   double floor_ = 0.0;
   double least_gap_ = 0.0;
+  double least_share_ = 1.0;
 };
 
 }  // namespace tissu

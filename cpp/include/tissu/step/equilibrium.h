@@ -26,6 +26,7 @@ class Equilibrium {
     ran_away,    ///< the correction grew without bound, or the residual did not fall any more
     no_descent,  ///< the energy did not fall
     solver,      ///< the linear solver gave up, and the residual did not fall
+    flew,        ///< the latest correction was cut, see `steady`
   };
   enum class Search {
     none,    ///< whole steps, which may pass through worse states on the way to a better one
@@ -39,6 +40,12 @@ class Equilibrium {
   [[nodiscard]] TangentSolve& tangent() { return tangent_; }
   [[nodiscard]] const World& world() const { return system_.world(); }
   [[nodiscard]] ConstReals right() const { return right_; }
+
+  /// Where contact alone holds a body: so much of the mass stands beside the tangent [1/s2], and a correction
+  /// goes no farther than `farthest` [m]. 0 and 0, as at first: neither.
+  void steady(double mass, double farthest);
+  /// `state` goes only that share of the latest correction; what is led goes all of it.
+  void shorten(double share, State& state);
 
   /// A step begins: what acts at its end is the load of all its parts.
   void begin(const LoadPath& path, const State& start);
@@ -70,6 +77,8 @@ class Equilibrium {
   bool solve(const State& state, StepReport& report);
   /// The change by a mean of the tangent and of the definite matrix, which has no negative direction.
   void solve_mean(const State& state, StepReport& report);
+  /// Cuts the change where it goes too far; what is led still goes `way_`.
+  void cut(bool leads);
   /// The first step: led nodes go their way, the body follows in its linear answer.
   void lead(const LoadPath& path, double before, double share, State& state, StepReport& report);
   /// The load that acts at a share, after `residual` of the same state [N].
@@ -107,6 +116,8 @@ class Equilibrium {
   int pause_ = 0;                ///< iterations that do not try an exact change
   int next_pause_ = 0;           ///< the latest of them, longer each time that it was in vain
   bool at_round_off_ = false;
+  double farthest_ = 0.0;
+  bool flew_ = false;  ///< the latest change was cut
 };
 
 }  // namespace tissu

@@ -12,6 +12,8 @@ class LoadPath {
   /// `start` stays as it is while the path is followed.
   LoadPath(const World& world, const State& start, double h, bool is_loaded);
 
+  /// The time at which what is led stands at a share [s].
+  [[nodiscard]] double time(double share) const { return way_.time(share); }
   /// Sets the time and the load factor of a share.
   void load(double share, State& state) const;
   /// What moves led nodes of `now`, which stands at the share `before`, to the share; zero elsewhere.

@@ -7,6 +7,7 @@
 #include "tissu/step/arc_length.h"
 #include "tissu/step/equilibrium.h"
 #include "tissu/step/integrator.h"
+#include "tissu/step/static_touching.h"
 
 namespace tissu {
 
@@ -15,6 +16,8 @@ namespace tissu {
 /// method with whole steps, then with steps along which the energy falls. One that fails is halved, and parts
 /// grow again after an easy one. Where the smallest part fails the load may turn: from there the path is
 /// followed by its arc length. The sum of all Newton iterations of a step is bounded.
+///
+/// With contact a step without equilibrium throws Diverged: what is led would stand where bodies are.
 class StaticEquilibrium final : public Integrator {
  public:
   struct Settings {
@@ -38,6 +41,7 @@ class StaticEquilibrium final : public Integrator {
   double go_by_arc(const LoadPath& path, double share, double part, State& state, StepReport& report);
   /// One part; true when it converged. Otherwise `state` is as it was.
   bool take(const LoadPath& path, double from, double to, State& state, StepReport& report);
+  [[noreturn]] void refuse(double share, double h) const;
   [[nodiscard]] int left(const StepReport& report) const;
   /// What gave up: the load, Newton's method or the linear solver.
   [[nodiscard]] std::string reason() const;
@@ -46,9 +50,10 @@ class StaticEquilibrium final : public Integrator {
   bool loaded_ = false;
   std::unique_ptr<Equilibrium> equilibrium_;
   std::unique_ptr<ArcLength> arc_;
-  State start_;                  ///< of the step
-  State before_;                 ///< of the part of the load
-  bool solver_gave_up_ = false;  ///< since the last part that converged
+  std::unique_ptr<StaticTouching> touching_;  ///< null where nothing touches
+  State start_;                               ///< of the step
+  State before_;                              ///< of the part of the load
+  bool solver_gave_up_ = false;               ///< since the last part that converged
   ArcLength::End arc_ended_ = ArcLength::End::unused;
 };
 

@@ -35,9 +35,9 @@ class System {
   void assemble(const State& state, double mass, StiffnessScale scale);
   /// What is coupled beside A becomes that of this state. Only after `assemble`.
   void recouple(const State& state);
-  /// The mean of -df/dx and of its definite matrix, of which it takes that share. A solver that asks for
-  /// products only gets the definite matrix.
-  void assemble_mean(const State& state, double share);
+  /// The mean of -df/dx and of its definite matrix, of which it takes that share, and `mass` M. A solver that
+  /// asks for products only gets the definite matrix.
+  void assemble_mean(const State& state, double share, double mass = 0.0);
   /// Solves A x = b from the first guess x.
   SolveReport solve(ConstReals b, Reals x, double floor);
 

@@ -16,6 +16,10 @@ class TangentSolve {
  public:
   explicit TangentSolve(System& system) : system_(system) {}
 
+  /// Adds so much of the mass to the matrices that systems are solved with [1/s2], which holds what nothing
+  /// else does. 0, as at first: none.
+  void set_mass(double mass) { mass_ = mass; }
+
   /// Held rows of b and x are zero. `report.positive_definite` is what K is.
   SolveReport solve(const State& state, ConstReals b, Reals x);
   /// The same with a mean of K and of the definite matrix, whose `share` is raised until the mean is positive
@@ -33,6 +37,7 @@ class TangentSolve {
   void multiply(const State& state, ConstReals p, Reals q);
 
   System& system_;
+  double mass_ = 0.0;
   bool has_moments_ = false;
   std::vector<double> moments_;
   std::vector<double> left_;

@@ -45,7 +45,7 @@ SOFTWARE = [
     "--no-sandbox",
 ]
 SETTLING = 6.0
-"""Seconds after which a page has all of the scene: what opening it takes is not part of the cost."""
+"""Seconds after which a page has all of the scene: opening it is not part of the cost."""
 COUNT_DRAWN = """
 window.drawn = 0; let changed = false;
 const send = WebGL2RenderingContext.prototype.bufferSubData;

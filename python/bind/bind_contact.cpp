@@ -31,6 +31,9 @@ constexpr Words<BroadPhaseKind, 5> kBroadPhases = {{{"hierarchy", BroadPhaseKind
                                                     {"octree", BroadPhaseKind::octree},
                                                     {"fcl", BroadPhaseKind::fcl}}};
 
+constexpr Words<PenaltyLaw, 2> kPenalties = {
+    {{"linear", PenaltyLaw::linear}, {"reciprocal", PenaltyLaw::reciprocal}}};
+
 template <class Kind, std::size_t n>
 Kind named(const Words<Kind, n>& words, const std::string& name, const char* what) {
   for (const auto& [word, kind] : words) {
@@ -83,10 +86,11 @@ Motion motion_of(const std::optional<Path>& path) {
 }
 
 void set_contact(WorldDescription& world, const std::string& method, const std::string& broad_phase,
-                 int iterations, bool travel) {
+                 const std::string& penalty, int iterations, bool travel) {
   ContactDescription contact;
   contact.method = named(kMethods, method, "contact method");
   contact.broad_phase = named(kBroadPhases, broad_phase, "broad phase");
+  contact.penalty = named(kPenalties, penalty, "penalty");
   contact.iterations = iterations;
   contact.travel = travel;
   world.contact = std::move(contact);
@@ -116,7 +120,7 @@ void add_plane(WorldDescription& world, const std::string& name, const Doubles& 
 }
 
 void add_pair(WorldDescription& world, std::int32_t a, std::int32_t b, double friction, double gap,
-              double restitution, std::optional<double> stiffness, const Ints& nodes) {
+              std::optional<double> restitution, std::optional<double> stiffness, const Ints& nodes) {
   contact_of(world).pairs.push_back({a, b, friction, gap, restitution, stiffness, to_vector(nodes)});
 }
 
@@ -176,6 +180,7 @@ py::object described_contact(const WorldDescription& world) {
   found["pairs"] = pairs;
   found["method"] = name_of(kMethods, contact.method);
   found["broad_phase"] = name_of(kBroadPhases, contact.broad_phase);
+  found["penalty"] = name_of(kPenalties, contact.penalty);
   found["iterations"] = contact.iterations;
   found["travel"] = contact.travel;
   return found;
@@ -186,8 +191,8 @@ py::object described_contact(const WorldDescription& world) {
 void bind_contact(py::class_<WorldDescription>& builder) {
   using py::arg;
   builder
-      .def("set_contact", &set_contact, py::kw_only(), arg("method"), arg("broad_phase"), arg("iterations"),
-           arg("travel"))
+      .def("set_contact", &set_contact, py::kw_only(), arg("method"), arg("broad_phase"), arg("penalty"),
+           arg("iterations"), arg("travel"))
       .def(
           "add_contact_surface",
           [](WorldDescription& world, const std::string& body, const Ints& triangles, const Ints& edges,
@@ -202,7 +207,7 @@ void bind_contact(py::class_<WorldDescription>& builder) {
       .def("add_plane", &add_plane, py::kw_only(), arg("name"), arg("normal"), arg("origin"),
            arg("motion").none(true))
       .def("add_contact_pair", &add_pair, py::kw_only(), arg("a"), arg("b"), arg("friction"), arg("gap"),
-           arg("restitution"), arg("stiffness").none(true), arg("nodes"))
+           arg("restitution").none(true), arg("stiffness").none(true), arg("nodes"))
       .def("described_contact", &described_contact);
 }
 

@@ -220,7 +220,7 @@ class WorldBuilder:
         name: str,
     ) -> None: ...
     def set_contact(
-        self, *, method: str, broad_phase: str, iterations: int, travel: bool
+        self, *, method: str, broad_phase: str, penalty: str, iterations: int, travel: bool
     ) -> None: ...
     def add_contact_surface(
         self, *, body: str, triangles: Ints, edges: Ints, radius: Floats, closed: bool
@@ -248,7 +248,7 @@ class WorldBuilder:
         b: int,
         friction: float,
         gap: float,
-        restitution: float,
+        restitution: float | None,
         stiffness: float | None,
         nodes: Ints,
     ) -> None: ...

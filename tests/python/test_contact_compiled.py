@@ -222,7 +222,7 @@ def test_pairs_and_settings():
     others |= {(b, o) for b in (gut, skin) for o in (table, ball, probe, brick, bone)}
     assert set(pairs[4:]) == others
     assert len(pairs) == 4 + len(others)
-    assert made["pairs"][0][2:6] == (0.2, 0.0005, 0.0, None)
+    assert made["pairs"][0][2:6] == (0.2, 0.0005, None, None)
     assert made["pairs"][3][2:4] == (0.1, 1e-4)
     settings = {key: made[key] for key in ("method", "broad_phase", "iterations", "travel")}
     assert settings == {

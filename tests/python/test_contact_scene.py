@@ -56,12 +56,14 @@ def test_yaml_says_what_python_says():
 
 def test_defaults():
     plain, settings = ts.Contact(("a", "b")), ts.ContactSettings()
-    assert (plain.friction, plain.gap, plain.restitution, plain.stiffness) == (0.0, None, 0.0, None)
+    assert (plain.friction, plain.gap) == (0.0, None)
+    assert (plain.restitution, plain.stiffness) == (None, None)
     assert plain.on is None
     assert ts.SelfContact(self="a") == ts.SelfContact("a")
     assert settings.model_dump() == {
         "method": "auto",
         "broad_phase": "hierarchy",
+        "penalty": "linear",
         "iterations": 20,
         "travel": True,
         "overlap": "refuse",
@@ -160,11 +162,25 @@ SLIPS = {
         "mapping with a `type` is accepted",
     ),
     "explicit step": (
-        "{type: implicit_euler, dt: 10 ms}",
-        "{type: rk4}",
+        "auto, broad_phase: hierarchy}\nstep: {type: implicit_euler, dt: 10 ms}",
+        "augmented}\nstep: {type: rk4}",
         "step",
-        "found rk4 with 3 contacts; accepted with contact: implicit_euler",
+        "found rk4 with 3 contacts of the method augmented; accepted with contact: implicit_euler",
     ),
+    "impulse and step": (
+        "method: auto",
+        "method: impulse",
+        "step",
+        "found implicit_euler with 3 contacts of the method impulse; accepted with contact: "
+        "symplectic_euler",
+    ),
+    "law of another method": (
+        "method: auto",
+        "penalty: reciprocal",
+        "contact.penalty",
+        "found reciprocal beside the method augmented",
+    ),
+    "law's name": ("method: auto", "penalty: linea", "contact.penalty", "did you mean 'linear'"),
     "arc length": (
         "{type: implicit_euler, dt: 10 ms}",
         "{type: static, arc_length: true}",
@@ -213,6 +229,59 @@ def test_a_slip_is_told_at_its_place(name):
     assert len(told) == 1, found
     line = int(told[0].split(":")[1])
     assert text.splitlines()[line - 1].strip() != ""
+
+
+EXPLICIT = TEXT.replace("{type: implicit_euler, dt: 10 ms}", "{type: symplectic_euler}")
+# What is written instead of `method: auto` and `friction: 0.2`; the place; words of the sentence.
+EXPLICIT_SLIPS = {
+    "stiffness of impulse": (
+        "method: impulse",
+        "stiffness: 2 kPa/mm",
+        "contacts[0].stiffness",
+        "found stiffness 2e+06, which the method impulse does not have, but penalty alone",
+    ),
+    "stiffness of auto": (
+        "method: auto",
+        "stiffness: 2 kPa/mm",
+        "contacts[0].stiffness",
+        "which the method impulse does not have",
+    ),
+    "restitution that no damper has": (
+        "method: penalty",
+        "restitution: 0.1",
+        "contacts[0].restitution",
+        "gives back at least 0.1353; that to 1 is accepted",
+    ),
+    "no bounce of penalty": (
+        "method: penalty",
+        "restitution: 0",
+        "contacts[0].restitution",
+        "leave it out, or take impulse",
+    ),
+    "no stiffness": ("method: penalty", "stiffness: 0 Pa/m", "contacts[0].stiffness", "more than"),
+    "law of penalty": (
+        "penalty: reciprocal",
+        "friction: 0.2",
+        "contact.penalty",
+        "found reciprocal beside the method impulse",
+    ),
+    "barrier": ("method: barrier", "friction: 0.2", "contact.method", "which is not there yet"),
+}
+
+
+@pytest.mark.parametrize("name", EXPLICIT_SLIPS)
+def test_a_slip_with_an_explicit_step_is_told_at_its_place(name):
+    settings, field, place, words = EXPLICIT_SLIPS[name]
+    text = EXPLICIT.replace("method: auto", settings).replace("friction: 0.2", field)
+    found = problems(lambda: ts.Scene.from_yaml_text(text).compile())
+    assert len(found) == 1, found
+    assert re.match(rf"text:\d+: {re.escape(place)}: ", found[0])
+    assert words in found[0]
+
+
+def test_auto_is_impulse_for_explicit_steps():
+    words = "\n".join(str(effect) for effect in ts.Scene.from_yaml_text(EXPLICIT).check().effects)
+    assert "contact.method is auto: impulse, for the step symplectic_euler" in words
 
 
 def test_box_upside_down_and_mesh_that_is_none():
@@ -345,5 +414,5 @@ def test_the_page_names_every_obstacle_field_and_step():
     for cls in (ts.Contact, ts.SelfContact, ts.ContactSettings):
         for name in cls.model_fields:
             assert f"| `{name}` |" in PAGE
-    for step in STEPS_OF_METHOD["augmented"]:
-        assert f"`{step}`" in PAGE
+    for steps in STEPS_OF_METHOD.values():
+        assert all(f"`{step}`" in PAGE for step in steps)

@@ -107,7 +107,8 @@ void ContactRun::find_pairs() {
       c.kind = static_cast<double>(candidate.kind);
       c.a = candidate.a;
       c.b = candidate.b;
-      if (!(stops || acting(c) != nullptr) || !find_plainly(candidate, reach, found)) continue;
+      if (!plainly_ || !(stops || acting(c) != nullptr)) continue;
+      if (!find_plainly(candidate, reach, found)) continue;
     }
     add(candidate, found, 0);
   }

@@ -62,6 +62,7 @@ void ContactRun::begin(const State& start, double end, ConstReals led, double fl
   for (std::size_t i = 0; i < before.size(); ++i) contacts_[i] = before[i];
   contact_.place_vertices(start, start.time, begin_);
   from_ = begin_;
+  held_->forget();
   ahead_->push({start, start.time, end, led}, *candidates_, from_, planes_);
   now_ = from_;
 }

@@ -35,6 +35,11 @@ class HoldBack {
   [[nodiscard]] const std::vector<std::int32_t>& stopped() const { return stopped_; }
   [[nodiscard]] const std::vector<std::int32_t>& stopped_at_planes() const { return stopped_at_planes_; }
 
+  void forget() {
+    stopped_.clear();
+    stopped_at_planes_.clear();
+  }
+
   /// The nearest that a pair may come: a tenth of what it rests at; half of what it begins with where that
   /// is less.
   static double least(double apart, double start);

@@ -31,10 +31,9 @@ void ExplicitEuler::prepare(const World& world, LinearSolver* solver, Profile& p
 Amplification ExplicitEuler::amplification() const { return {&forward, kGrowth}; }
 
 void ExplicitEuler::advance(State& state, double h) {
-  acceleration(start(), a_);
+  acceleration(start(), 1.0, a_);
   for (std::size_t i = 0; i < a_.size(); ++i) state.velocities[i] += h * a_[i];
-  move(start(), world().frames(), start().velocities, h, state);
-  lead(state, h);
+  go(start().velocities, 0.0, h, state);
 }
 
 void SymplecticEuler::prepare(const World& world, LinearSolver* solver, Profile& profile) {
@@ -45,10 +44,9 @@ void SymplecticEuler::prepare(const World& world, LinearSolver* solver, Profile&
 Amplification SymplecticEuler::amplification() const { return {&symplectic, 0.0}; }
 
 void SymplecticEuler::advance(State& state, double h) {
-  acceleration(start(), a_);
+  acceleration(start(), 1.0, a_);
   for (std::size_t i = 0; i < a_.size(); ++i) state.velocities[i] += h * a_[i];
-  move(start(), world().frames(), state.velocities, h, state);
-  lead(state, h);
+  go(state.velocities, 1.0, h, state);
 }
 
 }  // namespace tissu

@@ -17,6 +17,8 @@ void ExplicitMethod::prepare(const World& world, LinearSolver* /*solver*/, Profi
   system_ = std::make_unique<System>(world, nullptr, profile);
   start_ = world.rest_state();
   stable_.prepare(world);
+  contact_.reset();
+  if (world.contact() != nullptr) prepare_touching(world, profile);
 }
 
 double ExplicitMethod::stable_step(const State& state) { return stable_.limit(amplification(), state); }
@@ -36,17 +38,34 @@ StepReport ExplicitMethod::step(State& state, double h) {
   StepReport report;
   start_ = state;
   state.time = start_.time + h;
+  if (contact_ != nullptr) begin_touching(h);
   advance(state, h);
+  if (contact_ != nullptr) {
+    require_bearable(h, limit);
+    report.contacts = static_cast<int>(contact_->size());
+    report.held_back = held_back_;
+    report.least_gap = contact_->least_gap();
+  }
   keep_angular_momentum(start_, world().frames(), state);
   report.time = state.time;
   report.converged = true;
   return report;
 }
 
-void ExplicitMethod::acceleration(const State& state, Reals a) {
+void ExplicitMethod::acceleration(const State& state, double share, Reals a) {
   system_->force(state, a);
+  if (contact_ != nullptr) push(state, share, a);
   world().mass().divide(start_, a);
   world().fixed().clear(a);
+}
+
+void ExplicitMethod::go(ConstReals way, double pushed, double h, State& state) {
+  if (contact_ != nullptr) {
+    touch(way, pushed, h, state);
+    return;
+  }
+  move(start_, world().frames(), way, h, state);
+  lead(state, h);
 }
 
 void ExplicitMethod::lead(State& state, double since) const {

@@ -70,15 +70,14 @@ void RungeKutta::advance(State& state, double h) {
       }
       lead(stage_, at * h);
     }
-    acceleration(stage_, a_);
+    acceleration(stage_, weight, a_);
     for (std::size_t i = 0; i < a_.size(); ++i) {
       velocity_[i] += weight * stage_.velocities[i];
       acceleration_[i] += weight * a_[i];
     }
   }
   for (std::size_t i = 0; i < a_.size(); ++i) state.velocities[i] += h * acceleration_[i];
-  move(start(), world().frames(), velocity_, h, state);
-  lead(state, h);
+  go(velocity_, 0.5, h, state);
 }
 
 }  // namespace tissu

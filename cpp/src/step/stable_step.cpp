@@ -46,6 +46,8 @@ double largest_stable_step(const Amplification& method, const Vibration& vibrati
 void StableStep::prepare(const World& world) {
   world_ = &world;
   limit_ = 0.0;
+  more_frequency_ = 0.0;
+  more_damping_ = 0.0;
   edges_.clear();
   for (const Body& body : world.bodies()) {
     for (const BodyModel* model : body.models) {
@@ -60,6 +62,11 @@ void StableStep::prepare(const World& world) {
     }
   }
   lengths_.assign(edges_.size() / 2, 0.0);
+}
+
+void StableStep::stiffen(double frequency, double damping) {
+  more_frequency_ = frequency;
+  more_damping_ = damping;
 }
 
 double StableStep::limit(const Amplification& method, const State& state) {
@@ -111,7 +118,13 @@ double StableStep::coupled(const State& state) {
 
 void StableStep::measure(const Amplification& method, const State& state) {
   if (!world_->run_time().coupling.empty()) coupled_ = coupled(state);
-  limit_ = largest_stable_step(method, fastest_vibration(*world_, state));
+  Vibration vibration = fastest_vibration(*world_, state);
+  limit_ = largest_stable_step(method, vibration);
+  // What does not touch stays as it is; what does may be damped by it too.
+  vibration.frequency = std::hypot(vibration.frequency, more_frequency_);
+  vibration.damping += more_damping_;
+  vibration.largest_damping += more_damping_;
+  limit_ = std::min(limit_, largest_stable_step(method, vibration));
   age_ = 0.0;
   const ConstReals x(state.positions);
   for (std::size_t e = 0; e < lengths_.size(); ++e) {

@@ -76,6 +76,7 @@ class PreparedContact:
         builder.set_contact(
             method=self.method,
             broad_phase=settings.broad_phase,
+            penalty=settings.penalty,
             iterations=settings.iterations,
             travel=settings.travel,
         )

@@ -55,14 +55,14 @@ class Meeting(Part):
     if TYPE_CHECKING:
         friction: units.Pure
         gap: Maybe[units.Length]
-        restitution: units.Pure
+        restitution: Maybe[units.Pure]
         stiffness: Maybe[units.StiffnessPerArea]
 
     def words(self, gap: str | None) -> str:
         """Its numbers; `gap` where that is known ("gap 0.0001 m by default")."""
         found = [f"friction {self.friction:g}"]
         found += [gap] if gap else []
-        found += [f"restitution {self.restitution:g}"] if self.restitution else []
+        found += [] if self.restitution is None else [f"restitution {self.restitution:g}"]
         found += [] if self.stiffness is None else [f"stiffness {self.stiffness:g} Pa/m"]
         return ", ".join(found)
 
@@ -84,10 +84,12 @@ class Contact(Meeting):
     """distance at which surfaces rest [m]; absent: 2 % of the mean surface edge of the finer
     body
     """
-    restitution: units.Pure = field(default=0.0, ge=0.0, le=1.0)
-    """speed of parting over speed of meeting, of the methods impulse and penalty"""
+    restitution: Maybe[units.Pure] = field(default=None, ge=0.0, le=1.0)
+    """speed of parting over speed of meeting, of the methods impulse and penalty; absent: 0 of
+    impulse, 0.57 of penalty, whose damper has a fifth of the critical damping
+    """
     stiffness: Maybe[units.StiffnessPerArea] = field(default=None, gt=0.0)
-    """of the method penalty [Pa/m]; absent: from the matrix of the step"""
+    """of the method penalty [Pa/m]; absent: from the masses"""
     on: On | None = None
     """which nodes of the first body's surface meet the others; absent: all"""
 
@@ -120,10 +122,12 @@ class SelfContact(Meeting):
     """Coulomb's coefficient mu"""
     gap: Maybe[units.Length] = field(default=None, gt=0.0)
     """distance at which surfaces rest [m]; absent: 2 % of the mean surface edge"""
-    restitution: units.Pure = field(default=0.0, ge=0.0, le=1.0)
-    """speed of parting over speed of meeting, of the methods impulse and penalty"""
+    restitution: Maybe[units.Pure] = field(default=None, ge=0.0, le=1.0)
+    """speed of parting over speed of meeting, of the methods impulse and penalty; absent: 0 of
+    impulse, 0.57 of penalty, whose damper has a fifth of the critical damping
+    """
     stiffness: Maybe[units.StiffnessPerArea] = field(default=None, gt=0.0)
-    """of the method penalty [Pa/m]; absent: from the matrix of the step"""
+    """of the method penalty [Pa/m]; absent: from the masses"""
 
     def effect(self, path: str, gap: str | None) -> Effect:
         """What it switches on; `gap` where it is known."""
@@ -137,8 +141,14 @@ class ContactSettings(Part):
     """how contacts become forces; auto: the first that the step takes"""
     broad_phase: Literal["hierarchy", "sweep_and_prune", "grid", "octree", "fcl"] = "hierarchy"
     """how near surfaces are found; it changes the time of a step and no bit of its result"""
+    penalty: Literal["linear", "reciprocal"] = "linear"
+    """how the force of the method penalty grows as surfaces close: with their depth, or as one over
+    their distance
+    """
     iterations: Annotated[int, Field(ge=1)] = 20
-    """linear systems at most in a step that is linearised once"""
+    """linear systems at most in a step that is linearised once; of the method impulse, looks at
+    contacts at most where ways are cut
+    """
     travel: bool = True
     """whether nodes are held back where surfaces would pass through each other"""
     overlap: Literal["refuse", "separate"] = "refuse"
@@ -149,6 +159,7 @@ class ContactSettings(Part):
     def words(self, method: str, step: str) -> str:
         """What a plan says of it; `method`: the one that runs."""
         chosen = f"auto: {method}, for the step {step}" if self.method == "auto" else method
+        chosen += f" with a {self.penalty} law" if method == "penalty" else ""
         travel = "" if self.travel else "; travel is false, so that surfaces may cross"
         return f"contact.method is {chosen}; broad phase {self.broad_phase}{travel}"
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import math
 from collections.abc import Iterator
 from typing import Any
 
@@ -12,8 +13,11 @@ from tissu.scene.problem import Path, Problem, nearest, one_of_words
 from tissu.scene.tissue import tissues_of
 from tissu.scene.unknown import Unknown
 
+_EXPLICIT = ("symplectic_euler", "explicit_euler", "rk2", "rk4")
 STEPS_OF_METHOD: dict[str, tuple[str, ...]] = {
     "augmented": ("implicit_euler", "bdf2", "static"),
+    "impulse": _EXPLICIT,
+    "penalty": _EXPLICIT,
 }
 """Contact method -> the steps that have it; `auto` takes the first method that the step has.
 
@@ -24,6 +28,8 @@ FIELDS_OF_METHOD: dict[str, tuple[str, ...]] = {
     "penalty": ("restitution", "stiffness"),
 }
 """Contact method -> the fields of a contact that it alone has."""
+LEAST_RESTITUTION = math.exp(-2.0)
+"""what a damper that does not pull gives back at least (Schwager, Poeschel 2007)"""
 
 
 def method_of(scene: Any) -> str | None:
@@ -166,7 +172,7 @@ def _method_problems(scene: Any) -> Iterator[Problem]:
         text = f"found {step} with {count}{asked}; accepted with contact: {one_of_words(steps)}"
         yield Problem(("step",), text)
         return
-    yield from _settings_problems(settings)
+    yield from _settings_problems(settings, method)
     if getattr(scene.step, "arc_length", False):
         text = "found true beside contacts, which an arc length does not follow; leave it out"
         yield Problem(("step", "arc_length"), text)
@@ -179,7 +185,10 @@ def _method_problems(scene: Any) -> Iterator[Problem]:
                 yield Problem(("contacts", number, *problem.path), problem.text)
 
 
-def _settings_problems(settings: ContactSettings) -> Iterator[Problem]:
+def _settings_problems(settings: ContactSettings, method: str) -> Iterator[Problem]:
+    if settings.penalty != "linear" and method != "penalty":
+        text = f"found {settings.penalty} beside the method {method}, which has no such law; "
+        yield Problem(("contact", "penalty"), f"{text}leave it out, or take the method penalty")
     if settings.overlap == "separate":
         text = "found separate, which is not there yet; refuse is accepted: move the bodies apart"
         yield Problem(("contact", "overlap"), text)
@@ -197,10 +206,16 @@ def _has_fcl() -> bool:
 def _field_problems(contact: Meeting, method: str) -> Iterator[Problem]:
     """Fields that the method that runs does not have."""
     for name in ("restitution", "stiffness"):
-        if not getattr(contact, name):
+        value = getattr(contact, name)
+        if not value:
             continue
         having = [m for m, fields in FIELDS_OF_METHOD.items() if name in fields]
         if method not in having:
-            text = f"found {name} {getattr(contact, name):g}, which the method {method} does not "
+            text = f"found {name} {value:g}, which the method {method} does not "
             text += f"have, but {' and '.join(having)} alone; leave it out"
             yield Problem((name,), text)
+    e = contact.restitution
+    if method == "penalty" and e is not None and e < LEAST_RESTITUTION:
+        text = f"found {e:g}, but a damper that does not pull gives back at least "
+        text += f"{LEAST_RESTITUTION:.4f}; that to 1 is accepted: leave it out, or take impulse"
+        yield Problem(("restitution",), text)

@@ -122,13 +122,19 @@ class SymplecticEuler(Explicit):
 
 
 class RK2(Explicit):
-    """Runge-Kutta of second order, the explicit midpoint rule: two forces a step."""
+    """Runge-Kutta of second order, the explicit midpoint rule: two forces a step.
+
+    Impacts are met to first order.
+    """
 
     type: Literal["rk2"] = "rk2"
 
 
 class RK4(Explicit):
-    """The classical Runge-Kutta method: fourth order, four forces a step."""
+    """The classical Runge-Kutta method: fourth order, four forces a step.
+
+    Impacts are met to first order.
+    """
 
     type: Literal["rk4"] = "rk4"
 

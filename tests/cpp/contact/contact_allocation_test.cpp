@@ -3,6 +3,8 @@
 #include "../base/allocations.h"
 #include "../world/sample_worlds.h"
 #include "tissu/mesh/topology.h"
+#include "tissu/step/explicit_euler.h"
+#include "tissu/step/runge_kutta.h"
 
 /// A step that sees no more contacts than one before it takes no memory.
 
@@ -40,22 +42,43 @@ WorldDescription two_blocks() {
   return world;
 }
 
-TEST(ContactAllocation, AStepAtRestTakesNone) {
-#ifdef TISSU_COUNTS_ALLOCATIONS
-  const World world(two_blocks());
+/// Allocations, and contacts, of ten steps after many.
+void count_steps(Integrator& method, const WorldDescription& description, double h) {
+  const World world(description);
   ConjugateGradient solver({1e-6, 5000});
   Profile profile;
-  ImplicitEuler method({1, 1e-6});
   method.prepare(world, &solver, profile);
   State state = world.rest_state();
-  for (int i = 0; i < 300; ++i) method.step(state, 0.01);
+  for (int i = 0; i < 300; ++i) method.step(state, h);
   allocations = 0;
   counting = true;
   int contacts = 0;
-  for (int i = 0; i < 10; ++i) contacts += method.step(state, 0.01).contacts;
+  for (int i = 0; i < 10; ++i) contacts += method.step(state, h).contacts;
   counting = false;
   EXPECT_EQ(allocations, 0);
   EXPECT_GT(contacts, 10);
+}
+
+TEST(ContactAllocation, AStepAtRestTakesNone) {
+#ifdef TISSU_COUNTS_ALLOCATIONS
+  ImplicitEuler method({1, 1e-6});
+  count_steps(method, two_blocks(), 0.01);
+#else
+  GTEST_SKIP() << "allocations are counted with the GNU C library and without sanitizers only";
+#endif
+}
+
+TEST(ContactAllocation, AnExplicitStepTakesNone) {
+#ifdef TISSU_COUNTS_ALLOCATIONS
+  for (const ContactMethod response : {ContactMethod::impulse, ContactMethod::penalty}) {
+    WorldDescription description = two_blocks();
+    description.contact->method = response;
+    for (BodyDescription& body : description.bodies) body.rayleigh = {5.0, 0.0};
+    SymplecticEuler euler;
+    count_steps(euler, description, 1e-3);
+    RungeKutta runge_kutta(4);
+    count_steps(runge_kutta, description, 1e-3);
+  }
 #else
   GTEST_SKIP() << "allocations are counted with the GNU C library and without sanitizers only";
 #endif

@@ -78,6 +78,25 @@ class ContactRun {
   [[nodiscard]] double least_gap() const { return least_gap_; }
   [[nodiscard]] std::size_t bytes() const;
 
+  // Of explicit steps, whose responses are their own (contact_detect.cpp).
+  /// Contacts at the places of `at`, on ways that lead to `goal`; null: at places where ways were cut, with
+  /// what stopped them beside what the narrow phase finds.
+  void detect(const State& at, const State* goal);
+  [[nodiscard]] std::span<const ContactNumbers> looked() const { return looked_; }
+  /// Of a contact of the latest look: its distance less that at which it rests [m], and how much it counts.
+  [[nodiscard]] double gap(std::size_t i) const { return gaps_[i]; }
+  [[nodiscard]] double weight(std::size_t i) const { return weights_[i]; }
+  /// How r of a contact has changed since the step began where rows are as in `at` and what is led is at the
+  /// end of its way, …
+  [[nodiscard]] Vec3 gone(const ContactNumbers& contact, const State& at) const;
+  /// … what obstacles alone have of it, …
+  [[nodiscard]] Vec3 led(const ContactNumbers& contact) const;
+  /// … and how fast it changes by the velocities of rows.
+  [[nodiscard]] Vec3 rate(const ContactNumbers& contact, ConstReals velocities) const;
+  /// r of a contact, of rows at the places of `at`.
+  [[nodiscard]] Vec3 reach_of(const ContactNumbers& contact, const State& at) const;
+  [[nodiscard]] std::int32_t row_of(double vertex) const { return row(vertex); }
+
  private:
   void gather(const State& state, std::vector<double>& places) const;
   void find();
@@ -115,6 +134,7 @@ class ContactRun {
   std::vector<double> goal_;   ///< where the latest system led them, before they were held back
   const State* start_ = nullptr;
   double end_ = 0.0;
+  bool plainly_ = true;
   std::span<const double> blocks_;
   double scale_ = 0.0;
   bool hands_to_all_ = false;

@@ -38,16 +38,19 @@ struct ObstacleDescription {
 
 enum class ContactMethod { augmented, barrier, penalty, impulse, geometric };
 
+/// How the force of the penalty method grows as surfaces close.
+enum class PenaltyLaw { linear, reciprocal };
+
 /// A pair of surfaces that meet. Bodies are numbered first, in the order of `bodies`, then obstacles.
 struct ContactPair {
   std::int32_t a = 0;
   std::int32_t b = 0;     ///< the same: it meets itself
   double friction = 0.0;  ///< Coulomb's mu
   double gap = 0.0;       ///< at which surfaces rest [m], beside the radii; positive
-  double restitution = 0.0;
-  std::optional<double> stiffness =
-      std::nullopt;                      ///< of the penalty method [Pa/m]; absent: from the step's matrix
-  std::vector<std::int32_t> nodes = {};  ///< of a that alone meet b, ascending; empty: all
+  /// Speed of parting over speed of meeting; absent: 0 of impulses, what the damper of penalty gives.
+  std::optional<double> restitution = std::nullopt;
+  std::optional<double> stiffness = std::nullopt;  ///< of the penalty method [Pa/m]; absent: from the masses
+  std::vector<std::int32_t> nodes = {};            ///< of a that alone meet b, ascending; empty: all
 };
 
 struct ContactDescription {
@@ -55,6 +58,7 @@ struct ContactDescription {
   std::vector<ObstacleDescription> obstacles;
   std::vector<ContactPair> pairs;
   ContactMethod method = ContactMethod::augmented;
+  PenaltyLaw penalty = PenaltyLaw::linear;
   BroadPhaseKind broad_phase = BroadPhaseKind::hierarchy;
   int iterations = 20;  ///< systems at most in a step that is linearised once
   bool travel = true;   ///< nothing passes through anything

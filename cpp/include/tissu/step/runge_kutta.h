@@ -6,7 +6,7 @@ namespace tissu {
 
 /// Runge's and Kutta's explicit methods of second order (the midpoint rule) and of fourth (the classical
 /// one). The second makes undamped vibrations grow, by 1 + (h omega)^4 / 8 a step; the fourth damps them
-/// while h omega < 2 sqrt(2).
+/// while h omega < 2 sqrt(2). Of first order where surfaces meet.
 class RungeKutta final : public ExplicitMethod {
  public:
   /// `order` is 2 or 4.
@@ -16,6 +16,7 @@ class RungeKutta final : public ExplicitMethod {
 
  protected:
   [[nodiscard]] Amplification amplification() const override;
+  [[nodiscard]] bool has_stages() const override { return true; }
   void advance(State& state, double h) override;
 
  private:

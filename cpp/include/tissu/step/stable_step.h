@@ -29,6 +29,9 @@ std::pair<std::complex<double>, std::complex<double>> eigenvalues(double omega, 
 class StableStep {
  public:
   void prepare(const World& world);
+  /// Something beside the world's forces adds to every vibration: to omega^2 the square of a frequency, and
+  /// damping [1/s].
+  void stiffen(double frequency, double damping);
   /// The limit at `state`: measured again when it is not known, when something is coupled that was not, or,
   /// looked at every few steps, when an edge of a cell has changed by a fiftieth of its length.
   double limit(const Amplification& method, const State& state);
@@ -43,6 +46,8 @@ class StableStep {
   void measure(const Amplification& method, const State& state);
 
   const World* world_ = nullptr;
+  double more_frequency_ = 0.0;
+  double more_damping_ = 0.0;
   double limit_ = 0.0;  ///< 0: not known
   double age_ = 0.0;    ///< steps since the lengths were looked at
   double time_ = 0.0;   ///< of the state that was asked about last

@@ -1,0 +1,109 @@
+#pragma once
+
+/// Contact during the steps of an explicit method. What is led goes first and pushes, a response gives forces
+/// or changes velocities, and ways are shortened until nothing passes through anything.
+
+#include <memory>
+#include <tuple>
+#include <vector>
+
+#include "tissu/assembly/fixed_dofs.h"
+#include "tissu/assembly/mass.h"
+#include "tissu/contact/contact_run.h"
+
+namespace tissu {
+
+/// What contact adds to the fastest vibration of a body: omega^2 grows by that of `frequency`, df/dv by the
+/// damping [1/s].
+struct ContactRates {
+  double frequency = 0.0;
+  double damping = 0.0;
+};
+
+class ExplicitContact {
+ public:
+  /// `frequency`: the largest one of the bodies at rest [1/s].
+  static std::unique_ptr<ExplicitContact> make(const Contact& contact, const FixedDofs& fixed,
+                                               const Mass& mass, double frequency);
+  ExplicitContact(const Contact& contact, const FixedDofs& fixed, const Mass& mass);
+  virtual ~ExplicitContact() = default;
+  ExplicitContact(const ExplicitContact&) = delete;
+  ExplicitContact& operator=(const ExplicitContact&) = delete;
+
+  /// What its forces may add at most; nothing where it has none.
+  [[nodiscard]] virtual ContactRates rates() const { return {}; }
+  /// The frequency that the step's contacts have added, which may be more [1/s].
+  [[nodiscard]] virtual double stiffest() const { return 0.0; }
+  /// A step begins at `start`, which outlives it, and ends at the time `end`; `led` holds the places of given
+  /// rows then.
+  void begin(const State& start, double end, ConstReals led);
+  /// Looks at the places of `at`, on ways to `goal`; null: ways were cut, and led to where they were cut
+  /// from.
+  void look(const State& at, const State* goal) { run_.detect(at, goal); }
+  /// Its forces stay during a step those of the look at its start.
+  [[nodiscard]] virtual bool stays() const = 0;
+  /// f += the forces of the latest look, which count in the step's mean force by that share.
+  virtual void add_force(const State& at, double share, Reals f) = 0;
+
+  // Impulses of the contacts of the latest look.
+  /// They are needed before any way is cut.
+  [[nodiscard]] virtual bool strikes_first() const = 0;
+  /// `pushed`: the share that the way has of the change of velocity by a force that stays.
+  virtual void find_blows(double pushed) = 0;
+  /// Takes forces that stay out of the velocities of the way and of the end: impulses give them from now on.
+  virtual void take_back(double pushed, Reals way, Reals end) = 0;
+  /// What they change of the mean velocities of the way, …
+  virtual void strike_way(ConstReals way, Reals change) = 0;
+  /// … takes depth out of the places at the end, …
+  virtual void lift(State& end) = 0;
+  /// … and what they change of the velocities at the end.
+  virtual void strike_end(ConstReals velocities, const State& end, Reals change) = 0;
+  /// Shortens the ways to `to` until nothing passes. The number of rows that were held back.
+  int hold_back(State& to) { return run_.hold_back(to); }
+  /// The step is over: its contacts go into the memory of its end.
+  void finish(State& end);
+
+  [[nodiscard]] std::size_t size() const { return kept_.size(); }
+  /// The least distance, as a share of xi, of a pair that acts; infinite for none.
+  [[nodiscard]] double least_gap() const { return least_gap_; }
+
+ protected:
+  virtual void begin_response() = 0;
+  /// Puts what acted into `kept`, with the forces `push` and what the next step takes over.
+  virtual void keep(const State& end, std::vector<ContactNumbers>& kept) = 0;
+
+  /// sum_r n_r beta_r^2 M_rr^-1 without given axes: what a contact's acceleration is over its force [1/kg].
+  /// `shared`: n_r, empty for ones.
+  [[nodiscard]] Vec3 mobility(const ContactNumbers& contact, ConstReals shared) const;
+  /// Calls f(row, beta) for the unknowns that a contact has.
+  template <class Function>
+  void for_rows(const ContactNumbers& contact, Function&& f) const {
+    for (std::size_t k = 0; k < 4; ++k) {
+      const std::int32_t i = run_.row_of(contact.vertex[k]);
+      if (i >= 0 && contact.beta[k] != 0.0) f(i, contact.beta[k]);
+    }
+  }
+  [[nodiscard]] const ContactPair& pair_of(const ContactNumbers& contact) const {
+    return contact_.description().pairs[static_cast<std::size_t>(contact.pair)];
+  }
+  [[nodiscard]] Vec3 inverse_mass(std::int32_t row) const;
+  [[nodiscard]] const State& start() const { return *start_; }
+
+  const Contact& contact_;
+  const FixedDofs& fixed_;
+  const Mass& mass_;
+  ContactRun run_;
+  double h_ = 0.0;
+
+ private:
+  const State* start_ = nullptr;
+  std::vector<ContactNumbers> kept_;
+  double least_gap_ = 0.0;
+};
+
+/// By which contacts are put in order.
+inline std::tuple<double, double, double> key_of(const ContactNumbers& c) { return {c.kind, c.a, c.b}; }
+/// The part of a force along a surface, no longer than Coulomb's bound.
+Vec3 on_disk(const Vec3& along, double bound);
+
+}  // namespace tissu

@@ -1,0 +1,65 @@
+#include "tissu/contact/explicit_contact.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "tissu/contact/impulse.h"
+#include "tissu/contact/penalty.h"
+
+namespace tissu {
+
+Vec3 on_disk(const Vec3& along, double bound) {
+  const double size = along.norm();
+  return size > bound ? Vec3(bound / size * along) : along;
+}
+
+std::unique_ptr<ExplicitContact> ExplicitContact::make(const Contact& contact, const FixedDofs& fixed,
+                                                       const Mass& mass, double frequency) {
+  if (contact.description().method == ContactMethod::impulse) {
+    return std::make_unique<ImpulseContact>(contact, fixed, mass);
+  }
+  return std::make_unique<PenaltyContact>(contact, fixed, mass, frequency);
+}
+
+ExplicitContact::ExplicitContact(const Contact& contact, const FixedDofs& fixed, const Mass& mass)
+    : contact_(contact), fixed_(fixed), mass_(mass), run_(contact, fixed) {}
+
+void ExplicitContact::begin(const State& start, double end, ConstReals led) {
+  h_ = end - start.time;
+  start_ = &start;
+  run_.begin(start, end, led, 0.0);
+  begin_response();
+}
+
+Vec3 ExplicitContact::inverse_mass(std::int32_t row) const {
+  const auto i = static_cast<std::size_t>(row);
+  Vec3 inverse = Vec3::Constant(1.0 / mass_.nodal()[i]);
+  for (int axis = 0; axis < 3; ++axis) {
+    if (((fixed_.masks()[i] >> axis) & 1) != 0) inverse(axis) = 0.0;
+  }
+  return inverse;
+}
+
+Vec3 ExplicitContact::mobility(const ContactNumbers& contact, ConstReals shared) const {
+  Vec3 sum = Vec3::Zero();
+  for_rows(contact, [&](std::int32_t row, double beta) {
+    const double n = shared.empty() ? 1.0 : shared[static_cast<std::size_t>(row)];
+    sum += n * beta * beta * inverse_mass(row);
+  });
+  return sum;
+}
+
+void ExplicitContact::finish(State& end) {
+  kept_.clear();
+  keep(end, kept_);
+  least_gap_ = std::numeric_limits<double>::infinity();
+  for (ContactNumbers& c : kept_) {
+    const Vec3 r = run_.reach_of(c, end);
+    c.place = {r.x(), r.y(), r.z()};
+    c.stiffness = {};
+    least_gap_ = std::min(least_gap_, vector_of(c.normal).dot(r) / c.apart);
+  }
+  ContactTable::write(kept_, contact_.numbers(end));
+}
+
+}  // namespace tissu

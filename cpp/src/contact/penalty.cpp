@@ -1,0 +1,192 @@
+#include "tissu/contact/penalty.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <tuple>
+
+#include "nearest_pair.h"
+
+namespace tissu {
+namespace {
+
+constexpr double kSigma = 1.0 / 3.0;  ///< of the square of the bodies' largest frequency: s = 1
+constexpr double kZeta = 0.2;
+constexpr double kStop = 0.2;      ///< of the gap: the distance at which a spring is at its end
+constexpr double kNearStop = 0.6;  ///< of the gap: stops are looked for from here
+constexpr int kHalvings = 60;
+
+std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
+std::array<double, 3> numbers_of(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
+
+/// The largest area over mass of the free vertices of a surface [m2/kg].
+double largest_area_over_mass(const SurfaceSet& surfaces, std::int32_t surface, const Mass& mass) {
+  double largest = 0.0;
+  for (const SurfaceVertex& vertex : surfaces.vertices()) {
+    if (vertex.surface != surface || vertex.row < 0) continue;
+    largest = std::max(largest, vertex.area / mass.nodal()[at(vertex.row)]);
+  }
+  return largest;
+}
+
+}  // namespace
+
+double damping_of_restitution(double e) {
+  double low = 0.0;
+  double high = 0.5 * std::numbers::pi;
+  for (int i = 0; i < kHalvings; ++i) {
+    const double theta = 0.5 * (low + high);
+    const double found = std::exp(-std::tan(theta) * (std::numbers::pi - 2.0 * theta));
+    (found > e ? low : high) = theta;
+  }
+  return std::sin(low);
+}
+
+PenaltyContact::PenaltyContact(const Contact& contact, const FixedDofs& fixed, const Mass& mass,
+                               double frequency)
+    : ImpulseContact(contact, fixed, mass), omega2_(kSigma * frequency * frequency) {
+  shared_.assign(fixed.masks().size(), 0.0);
+  const SurfaceSet& surfaces = contact.surfaces();
+  for (const ContactPair& pair : contact.description().pairs) {
+    zetas_.push_back(pair.restitution ? damping_of_restitution(*pair.restitution) : kZeta);
+    double square = omega2_;
+    if (pair.stiffness) {
+      // Two surfaces that face each other: as vertices of one and as corners of faces of the other.
+      const bool obstacle = surfaces.surfaces()[at(pair.b)].obstacle >= 0;
+      square = std::max(square, (obstacle ? 1.0 : 2.0) * *pair.stiffness *
+                                    std::max(largest_area_over_mass(surfaces, pair.a, mass),
+                                             largest_area_over_mass(surfaces, pair.b, mass)));
+    }
+    rates_.frequency = std::max(rates_.frequency, std::sqrt(square));
+    rates_.damping = std::max(rates_.damping, 2.0 * zetas_.back() * std::sqrt(square));
+  }
+}
+
+void PenaltyContact::begin_response() {
+  ImpulseContact::begin_response();
+  acted_.clear();
+  stage_ = 2.0;
+  stiffest_ = 0.0;
+  near_stop_ = false;
+}
+
+/// xi less most of the gap.
+double PenaltyContact::stop_of(const ContactNumbers& c) const {
+  return c.apart - (1.0 - kStop) * std::min(pair_of(c).gap, c.apart);
+}
+
+void PenaltyContact::begin_blow(Blow& blow, double /*pushed*/) const {
+  blow.apart = stop_of(blow.contact);
+  blow.restitution = 0.0;
+}
+
+/// d0 - xi: a gap, or what is left of the distance at rest of parts of one body.
+double PenaltyContact::range_of(const ContactNumbers& contact) const {
+  const SurfaceSet& surfaces = contact_.surfaces();
+  const ContactPair& pair = pair_of(contact);
+  if (pair.a != pair.b) return pair.gap;
+  std::array<Vec3, 4> p{};
+  const auto kind = static_cast<PairKind>(static_cast<int>(contact.kind));
+  for (std::size_t k = 0; k < 4; ++k) {
+    if (contact.vertex[k] < 0.0) continue;
+    p[k] = block(ConstReals(surfaces.rest()), static_cast<std::int32_t>(contact.vertex[k]));
+  }
+  return std::clamp(std::sqrt(nearest_of(kind, p).square) - contact.apart, 0.0, pair.gap);
+}
+
+void PenaltyContact::find_near() {
+  near_.clear();
+  const auto looked = run_.looked();
+  for (std::size_t i = 0; i < looked.size(); ++i) {
+    const ContactNumbers& c = looked[i];
+    const double gap = pair_of(c).gap;
+    if (run_.gap(i) >= gap) continue;
+    const double range = range_of(c);
+    if (run_.gap(i) >= range) continue;
+    near_stop_ = near_stop_ || -run_.gap(i) > (1.0 - kNearStop) * std::min(gap, c.apart);
+    const double depth = range - run_.gap(i);
+    const double s0 = range + std::min(gap, c.apart);
+    near_.push_back({i, depth, s0, run_.weight(i) * depth / s0});
+  }
+}
+
+void PenaltyContact::share_rows() {
+  const auto each = [&](auto&& f) {
+    for (const Near& near : near_) {
+      for_rows(run_.looked()[near.looked],
+               [&](std::int32_t row, double /*beta*/) { f(shared_[at(row)], near.share); });
+    }
+  };
+  each([](double& sum, double /*share*/) { sum = 0.0; });
+  each([](double& sum, double share) { sum += share; });
+}
+
+double PenaltyContact::law(const Near& near, double k) const {
+  if (contact_.description().penalty == PenaltyLaw::linear) return k * near.depth;
+  const double s0 = near.range;
+  const double s = std::max(s0 - near.depth, 0.5 * s0);
+  const double k1 = 0.25 * k * s0 * s0;
+  return k1 * (1.0 / s - 1.0 / s0) + k * (s - (s0 - near.depth));
+}
+
+/// Its force, whose parts go into the contact: `force`, `drag` of the start of the step, k in `stiffness`.
+Vec3 PenaltyContact::force_of(ContactNumbers& c, const Near& near, const State& at) {
+  const double w = mobility(c, shared_).maxCoeff() / near.share;  // 1/a
+  if (!(w > 0.0)) return Vec3::Zero();
+  const ContactPair& pair = pair_of(c);
+  const bool own = pair.stiffness && c.area > 0.0;
+  const double k = own ? run_.weight(near.looked) * *pair.stiffness * c.area : omega2_ / w;
+  stiffest_ = std::max(stiffest_, std::sqrt(k * w));
+  const double damper = 2.0 * zetas_[static_cast<std::size_t>(c.pair)] * std::sqrt(k / w);
+  const Vec3 n = vector_of(c.normal);
+  const Vec3 v = run_.rate(c, at.velocities) + run_.led(c) / h_;
+  const double u = n.dot(v);
+  c.force = std::max(0.0, law(near, k) - damper * u);
+  c.stiffness[0] = k;
+  if (!(pair.friction > 0.0)) return c.force * n;
+  const Vec3 slid = run_.gone(c, at);
+  const Vec3 held = vector_of(c.drag) - k * (slid - n.dot(slid) * n) - damper * (v - u * n);
+  return c.force * n + on_disk(held, pair.friction * c.force);
+}
+
+void PenaltyContact::add_force(const State& state, double share, Reals f) {
+  find_near();
+  share_rows();
+  for (const Near& near : near_) {
+    ContactNumbers c = run_.looked()[near.looked];
+    const Vec3 force = force_of(c, near, state);
+    for_rows(c, [&](std::int32_t row, double beta) { block(f, row) += beta * force; });
+    if (share == 0.0) continue;
+    c.push = numbers_of(share * force);
+    c.sliding = stage_;
+    acted_.push_back(c);
+  }
+  stage_ += 1.0;
+}
+
+/// The mean of the stages' forces, and stops; what friction's spring holds at the end.
+void PenaltyContact::keep(const State& end, std::vector<ContactNumbers>& kept) {
+  ImpulseContact::keep(end, acted_);
+  std::ranges::sort(acted_, {}, [](const ContactNumbers& c) { return std::tuple(key_of(c), c.sliding); });
+  for (const ContactNumbers& c : acted_) {
+    if (kept.empty() || !kept.back().same_key(c)) {
+      kept.push_back(c);
+      continue;
+    }
+    const Vec3 sum = vector_of(kept.back().push) + vector_of(c.push);
+    if (c.stiffness[0] > 0.0) kept.back() = c;
+    kept.back().push = numbers_of(sum);
+  }
+  for (ContactNumbers& c : kept) {
+    const Vec3 n = vector_of(c.normal);
+    const Vec3 slid = run_.gone(c, end);
+    const Vec3 drag = vector_of(c.drag) - c.stiffness[0] * (slid - n.dot(slid) * n);
+    c.force = std::max(0.0, n.dot(vector_of(c.push)));
+    const double bound = pair_of(c).friction * c.force;
+    c.sliding = drag.norm() > bound && bound > 0.0 ? 1.0 : 0.0;
+    c.drag = numbers_of(on_disk(drag, bound));
+  }
+  std::erase_if(kept, [](const ContactNumbers& c) { return !(c.force > 0.0); });
+}
+
+}  // namespace tissu

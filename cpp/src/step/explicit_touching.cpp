@@ -1,0 +1,123 @@
+/// Explicit steps of a world with contact.
+
+#include <algorithm>
+
+#include "tissu/base/error.h"
+#include "tissu/base/number_text.h"
+#include "tissu/step/explicit_method.h"
+
+namespace tissu {
+namespace {
+
+constexpr double kSame = 1e-9;
+/// Impulses that the stages of a step do not see act on later ones as stiffness: sqrt(2) of the bodies'
+/// largest frequency, measured with Runge-Kutta's fourth order, which needs a little less.
+constexpr double kUnseen = 1.4142135623730951;
+
+}  // namespace
+
+void ExplicitMethod::prepare_touching(const World& world, Profile& profile) {
+  const double frequency = fastest_vibration(world, world.rest_state()).frequency;
+  contact_ = ExplicitContact::make(*world.contact(), world.fixed(), world.mass(), frequency);
+  const ContactRates rates = contact_->rates();
+  const bool long_stages = has_stages() && amplification().growth == 0.0;
+  const double unseen = contact_->stays() && long_stages ? kUnseen * frequency : 0.0;
+  stable_.stiffen(std::max(rates.frequency, unseen), rates.damping);
+  profile_ = &profile;
+  detection_row_ = profile.row("contact", "detection");
+  travel_row_ = profile.row("contact", "travel");
+  response_row_ = profile.row("contact", "response");
+  led_ = start_;
+  for (auto* v : {&free_way_, &free_ends_, &change_, &way_, &placed_}) {
+    v->assign(start_.positions.size(), 0.0);
+  }
+}
+
+/// What is led goes ahead; forces of contact are those of the looks from now on.
+void ExplicitMethod::begin_touching(double h) {
+  const Timed timed(*profile_, detection_row_);
+  led_ = start_;
+  led_.time = start_.time + h;
+  lead(led_, h);
+  contact_->begin(start_, led_.time, led_.positions);
+  world().contact()->numbers(start_).clear();
+  looked_ = false;
+}
+
+void ExplicitMethod::push(const State& state, double share, Reals f) {
+  if (!looked_ || !contact_->stays()) look(state, &state);
+  looked_ = true;
+  const Timed timed(*profile_, response_row_);
+  contact_->add_force(state, share, f);
+}
+
+void ExplicitMethod::touch(ConstReals way, double pushed, double h, State& state) {
+  const int looks = world().contact()->description().iterations;
+  std::ranges::copy(way, free_way_.begin());
+  std::ranges::copy(state.velocities, free_ends_.begin());
+  world().fixed().copy(led_.velocities, free_way_);
+  world().fixed().copy(led_.velocities, free_ends_);
+  place(free_way_, h, state);
+  if (contact_->strikes_first()) {
+    if (!contact_->stays()) look(start_, &state);
+    strike(pushed, h, state);
+  }
+  held_back_ = hold_back(h, state);
+  for (int i = 1; held_back_ > 0 && i < looks; ++i) {
+    contact_->take_back(pushed, free_way_, free_ends_);
+    look(state, nullptr);
+    strike(pushed, h, state);
+    held_back_ = hold_back(h, state);
+  }
+  const Timed timed(*profile_, response_row_);
+  contact_->finish(state);
+}
+
+void ExplicitMethod::look(const State& at, const State* goal) {
+  const Timed timed(*profile_, detection_row_);
+  contact_->look(at, goal);
+}
+
+/// Impulses of the contacts that were looked at.
+void ExplicitMethod::strike(double pushed, double h, State& state) {
+  const Timed timed(*profile_, response_row_);
+  contact_->find_blows(pushed);
+  contact_->strike_way(free_way_, change_);
+  for (std::size_t i = 0; i < way_.size(); ++i) way_[i] = free_way_[i] + change_[i];
+  place(way_, h, state);
+  contact_->lift(state);
+  contact_->strike_end(free_ends_, state, change_);
+  for (std::size_t i = 0; i < way_.size(); ++i) state.velocities[i] = free_ends_[i] + change_[i];
+}
+
+void ExplicitMethod::place(ConstReals way, double h, State& state) {
+  move(start_, world().frames(), way, h, state);
+  lead(state, h);
+}
+
+/// Rows whose way was cut have the velocity of the way that they went.
+int ExplicitMethod::hold_back(double h, State& state) {
+  const Timed timed(*profile_, travel_row_);
+  placed_ = state.positions;
+  const int rows = contact_->hold_back(state);
+  if (rows == 0) return 0;
+  for (std::size_t i = 0; i < placed_.size(); ++i) {
+    if (placed_[i] == state.positions[i]) continue;
+    state.velocities[i] = (state.positions[i] - start_.positions[i]) / h;
+  }
+  return rows;
+}
+
+/// A stiffness of the user's may come to more than was seen at rest: where many contacts meet at a node.
+void ExplicitMethod::require_bearable(double h, double limit) const {
+  const double expected = contact_->rates().frequency;
+  const double found = contact_->stiffest();
+  if (!(found > expected * (1.0 + kSame)) || h <= limit * expected / found) return;
+  throw Diverged("the contacts in the step from t = " + number_text(start_.time) +
+                     " s have a stiffness that bears steps up to " + number_text(limit * expected / found) +
+                     " s, and dt is " + number_text(h) +
+                     " s; take a smaller dt, a smaller stiffness, or leave the stiffness out.",
+                 "", -1, start_.time);
+}
+
+}  // namespace tissu

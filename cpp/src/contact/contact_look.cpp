@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
-#include <tuple>
 #include <utility>
 
 #include "hold_back.h"
@@ -21,10 +20,6 @@ namespace {
 std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 std::array<double, 3> numbers_of(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
-std::tuple<double, double, double, double> key_of(const ContactNumbers& c) {
-  return {c.kind, c.a, c.b, c.point};
-}
-
 bool is_of_vertex(const ContactNumbers& c) {
   return c.kind != ContactNumbers::kPlane && c.point == 0.0 &&
          c.kind != static_cast<double>(PairKind::edge_edge);
@@ -34,9 +29,9 @@ bool is_of_vertex(const ContactNumbers& c) {
 
 /// Whether the latest contacts have one of this key, which acts.
 const ContactNumbers* ContactRun::acting(const ContactNumbers& c) const {
-  const auto found = std::ranges::lower_bound(order_, key_of(c), {},
-                                              [&](std::int32_t i) { return key_of(contacts_[at(i)]); });
-  if (found == order_.end() || !contacts_[at(*found)].same_key(c)) return nullptr;
+  const auto found =
+      std::ranges::lower_bound(order_, c.key(), {}, [&](std::int32_t i) { return contacts_[at(i)].key(); });
+  if (found == order_.end() || contacts_[at(*found)].key() != c.key()) return nullptr;
   return &contacts_[at(*found)];
 }
 
@@ -76,7 +71,7 @@ void ContactRun::find() {
   predicted_.clear();
   order_.resize(contacts_.size());
   std::iota(order_.begin(), order_.end(), 0);
-  std::ranges::sort(order_, {}, [&](std::int32_t i) { return key_of(contacts_[at(i)]); });
+  std::ranges::sort(order_, {}, [&](std::int32_t i) { return contacts_[at(i)].key(); });
   find_pairs();
   find_planes();
 }

@@ -58,7 +58,7 @@ void ImpulseContact::find_blows(double pushed) {
     begin_blow(blow, pushed);
     blows_.push_back(blow);
   }
-  std::ranges::sort(blows_, {}, [](const Blow& blow) { return key_of(blow.contact); });
+  std::ranges::sort(blows_, {}, [](const Blow& blow) { return blow.contact.key(); });
 }
 
 void ImpulseContact::give(const ContactNumbers& contact, const Vec3& impulse, Reals change) const {

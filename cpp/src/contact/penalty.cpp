@@ -167,9 +167,9 @@ void PenaltyContact::add_force(const State& state, double share, Reals f) {
 /// The mean of the stages' forces, and stops; what friction's spring holds at the end.
 void PenaltyContact::keep(const State& end, std::vector<ContactNumbers>& kept) {
   ImpulseContact::keep(end, acted_);
-  std::ranges::sort(acted_, {}, [](const ContactNumbers& c) { return std::tuple(key_of(c), c.sliding); });
+  std::ranges::sort(acted_, {}, [](const ContactNumbers& c) { return std::tuple(c.key(), c.sliding); });
   for (const ContactNumbers& c : acted_) {
-    if (kept.empty() || !kept.back().same_key(c)) {
+    if (kept.empty() || kept.back().key() != c.key()) {
       kept.push_back(c);
       continue;
     }

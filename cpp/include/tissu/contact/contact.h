@@ -15,6 +15,7 @@
 #include <cstdint>
 #include <span>
 #include <string_view>
+#include <tuple>
 #include <vector>
 
 #include "tissu/assembly/live_lead.h"
@@ -47,9 +48,8 @@ struct ContactNumbers {
   double sliding = 0.0;                  ///< 1: friction gave way
   double area = 0.0;                     ///< on which it acts [m2]
 
-  [[nodiscard]] bool same_key(const ContactNumbers& other) const {
-    return kind == other.kind && a == other.a && b == other.b && point == other.point;
-  }
+  /// What it is between: contacts of two looks with the same key are one contact.
+  [[nodiscard]] std::tuple<double, double, double, double> key() const { return {kind, a, b, point}; }
 };
 
 /// The contacts that a memory holds.

@@ -4,7 +4,6 @@
 /// or changes velocities, and ways are shortened until nothing passes through anything.
 
 #include <memory>
-#include <tuple>
 #include <vector>
 
 #include "tissu/assembly/fixed_dofs.h"
@@ -101,8 +100,6 @@ class ExplicitContact {
   double least_gap_ = 0.0;
 };
 
-/// By which contacts are put in order.
-inline std::tuple<double, double, double> key_of(const ContactNumbers& c) { return {c.kind, c.a, c.b}; }
 /// The part of a force along a surface, no longer than Coulomb's bound.
 Vec3 on_disk(const Vec3& along, double bound);
 

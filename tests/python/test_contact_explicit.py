@@ -251,6 +251,50 @@ def test_a_block_slides_to_rest(name):
     assert way == pytest.approx(speed**2 / (2 * MU * GRAVITY) - h * speed / 2, rel=5e-3)
 
 
+@pytest.mark.parametrize("name", METHODS)
+def test_a_belt_takes_a_block_along(name):
+    """With mu g up to the speed of the belt, and no faster; 2 %: the block shears and swings at first."""
+    speed, h = 0.5, 2e-4
+    path = ts.Motion(times=(0, 1), displacements=((0, 0, 0), (speed, 0, 0)))
+    body = block((0, 0, 1.95e-3 if name == "penalty" else 1e-3), young=1e6,
+                 viscosity=damped(0.0, 5e-4))  # fmt: skip
+    made = over_a_table(
+        body, step=ts.SymplecticEuler(h), gap=GAP, friction=MU, contact=method(name)
+    ).replace(obstacles={"table": ts.PlaneObstacle((0, 0, 0), (0, 0, 1), motion=path)})
+    simulation = made.compile()
+    half = 0.5 * speed / (MU * GRAVITY)
+    run(simulation, half)
+    assert speed_of(simulation) == pytest.approx(0.5 * speed, rel=2e-2)
+    force = simulation.force_on("table").force
+    assert force[0] == pytest.approx(MU * force[2], rel=1e-3)
+    run(simulation, 4 * half)
+    assert speed_of(simulation) == pytest.approx(speed, rel=5e-3)
+
+
+@pytest.mark.parametrize("name", METHODS)
+def test_a_rope_of_rods_lies_on_two_bars(name):
+    """Lines have a radius and no area; 20 cm of rope weigh 0.1 N."""
+    mesh = ts.BarMesh(size=(0.2, 0, 0), cells=(10, 0, 0), cell="line", origin=(0, 0, 0.02))
+    rope = ts.Body(
+        mesh=mesh, law=ts.StVK(young=1e5, poisson=0.3), density=1000.0, section=5e-5,
+        viscosity=damped(10.0, 1e-4),
+    )  # fmt: skip
+    bars = {
+        f"bar{k}": ts.CapsuleObstacle(((x, -0.1, 0), (x, 0.1, 0)), "1 cm")
+        for k, x in enumerate((0.05, 0.15))
+    }
+    stiffness = {"stiffness": "1e6 Pa/m"} if name == "penalty" else {}
+    contacts = [ts.Contact(("rope", tuple(bars)), friction=1.0, gap=GAP, **stiffness)]
+    simulation = ts.Scene(
+        bodies={"rope": rope}, obstacles=bars, contacts=contacts, contact=method(name),
+        gravity=(0, 0, -GRAVITY), step=ts.SymplecticEuler("1e-4 s"),
+    ).compile()  # fmt: skip
+    run(simulation, 1.5)
+    load = 1000.0 * 0.2 * 5e-5 * GRAVITY
+    forces = [simulation.force_on(bar).force[2] for bar in bars]
+    assert forces == pytest.approx([-0.5 * load] * 2, rel=2e-2)
+
+
 # Nothing passes.
 
 

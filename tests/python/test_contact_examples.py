@@ -1,6 +1,7 @@
 """The examples with contact: weights carried, forces opposite, no crossing at any step."""
 
 import itertools
+import math
 import runpy
 from pathlib import Path
 
@@ -61,6 +62,22 @@ def test_a_block_is_pressed_statically():
     share = np.hypot(forces[:, 0], forces[:, 1]) / np.abs(forces[:, 2])
     assert share.max() == pytest.approx(0.1, rel=1e-3)
     assert share.min() < 0.01
+
+
+def test_sheets_bounce_to_the_square_of_their_restitution():
+    """Each bounce forgets at most the way of a step, 2 g h / v = 0.2 % of the first height."""
+    simulation = Scene.from_yaml(EXAMPLES / "bounce.yaml").compile()
+    top = dict.fromkeys(simulation.bodies, 0.0)
+    fallen = math.sqrt(2 * 0.05 / G)
+    while simulation.time < fallen + 1.6 * 0.9 * fallen:
+        simulation.step()
+        assert simulation.crossings() == []
+        for body in top:
+            if simulation.time > fallen + 1e-3:
+                height = simulation.positions[body][:, 2].mean() - 2e-3
+                top[body] = max(top[body], height / 0.05)
+    for body, e in (("dull", 0.3), ("fair", 0.6), ("lively", 0.9)):
+        assert top[body] == pytest.approx(e**2, rel=2e-2)
 
 
 def test_an_organ_lies_on_a_table():

@@ -2,6 +2,7 @@
 
 import functools
 import math
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -251,6 +252,50 @@ def test_a_block_slides_to_rest(name):
     assert way == pytest.approx(speed**2 / (2 * MU * GRAVITY) - h * speed / 2, rel=5e-3)
 
 
+@pytest.mark.parametrize("name", METHODS)
+def test_a_belt_takes_a_block_along(name):
+    """With mu g up to the speed of the belt, and no faster. 2 %: it shears and swings at first."""
+    speed, h = 0.5, 2e-4
+    path = ts.Motion(times=(0, 1), displacements=((0, 0, 0), (speed, 0, 0)))
+    body = block((0, 0, 1.95e-3 if name == "penalty" else 1e-3), young=1e6,
+                 viscosity=damped(0.0, 5e-4))  # fmt: skip
+    made = over_a_table(
+        body, step=ts.SymplecticEuler(h), gap=GAP, friction=MU, contact=method(name)
+    ).replace(obstacles={"table": ts.PlaneObstacle((0, 0, 0), (0, 0, 1), motion=path)})
+    simulation = made.compile()
+    half = 0.5 * speed / (MU * GRAVITY)
+    run(simulation, half)
+    assert speed_of(simulation) == pytest.approx(0.5 * speed, rel=2e-2)
+    force = simulation.force_on("table").force
+    assert force[0] == pytest.approx(MU * force[2], rel=1e-3)
+    run(simulation, 4 * half)
+    assert speed_of(simulation) == pytest.approx(speed, rel=5e-3)
+
+
+@pytest.mark.parametrize("name", METHODS)
+def test_a_rope_of_rods_lies_on_two_bars(name):
+    """Lines have a radius and no area; 20 cm of rope weigh 0.1 N."""
+    mesh = ts.BarMesh(size=(0.2, 0, 0), cells=(10, 0, 0), cell="line", origin=(0, 0, 0.02))
+    rope = ts.Body(
+        mesh=mesh, law=ts.StVK(young=1e5, poisson=0.3), density=1000.0, section=5e-5,
+        viscosity=damped(10.0, 1e-4),
+    )  # fmt: skip
+    bars = {
+        f"bar{k}": ts.CapsuleObstacle(((x, -0.1, 0), (x, 0.1, 0)), "1 cm")
+        for k, x in enumerate((0.05, 0.15))
+    }
+    stiffness = {"stiffness": "1e6 Pa/m"} if name == "penalty" else {}
+    contacts = [ts.Contact(("rope", tuple(bars)), friction=1.0, gap=GAP, **stiffness)]
+    simulation = ts.Scene(
+        bodies={"rope": rope}, obstacles=bars, contacts=contacts, contact=method(name),
+        gravity=(0, 0, -GRAVITY), step=ts.SymplecticEuler("1e-4 s"),
+    ).compile()  # fmt: skip
+    run(simulation, 1.5)
+    load = 1000.0 * 0.2 * 5e-5 * GRAVITY
+    forces = [simulation.force_on(bar).force[2] for bar in bars]
+    assert forces == pytest.approx([-0.5 * load] * 2, rel=2e-2)
+
+
 # Nothing passes.
 
 
@@ -290,6 +335,28 @@ def test_steps_that_are_too_long_for_a_ball_pass_nothing(name, speed):
     under = np.hypot(*(simulation.positions["slab"][:, :2] - BALL[:2]).T) < 0.01
     assert simulation.positions["slab"][under, 2].max() < low + 0.005
     assert most > 5.0
+
+
+@pytest.mark.parametrize("name", METHODS)
+def test_a_shell_is_folded_onto_itself(name):
+    """The example, in explicit steps: its layers rest on each other, and no way is cut."""
+    text = (Path(__file__).parents[2] / "examples/fold.yaml").read_text()
+    for old, new in (
+        ("cells: [32, 8, 0]", "cells: [16, 4, 0]"),
+        ("stiffness: 10 ms", "stiffness: 0.05 ms"),
+        ("{type: implicit_euler, dt: 10 ms}", "{type: symplectic_euler}"),
+    ):
+        assert text.count(old) == 1
+        text = text.replace(old, new)
+    simulation = ts.Scene.from_yaml_text(f"{text}contact: {{method: {name}}}\n").compile()
+    held = 0
+    while simulation.time < 1.2:
+        held += audited(simulation, 1).held_back
+    assert held == 0
+    assert np.abs(simulation.velocities["sheet"]).max() < 0.2
+    found = simulation.contacts()
+    sheet = found.surfaces.index("sheet")
+    assert (found.pairs == sheet).all(axis=1).sum() > 10
 
 
 def test_a_stiffness_that_the_step_does_not_bear_is_taken_in_parts():

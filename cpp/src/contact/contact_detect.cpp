@@ -51,7 +51,8 @@ Vec3 ContactRun::rate(const ContactNumbers& contact, ConstReals velocities) cons
 }
 
 Vec3 ContactRun::gone(const ContactNumbers& contact, const State& at) const {
-  return led(contact) + rate(contact, at.positions) - rate(contact, start_->positions);
+  const double share = (at.time - start_->time) / (end_ - start_->time);
+  return share * led(contact) + rate(contact, at.positions) - rate(contact, start_->positions);
 }
 
 Vec3 ContactRun::reach_of(const ContactNumbers& contact, const State& at) const {

@@ -6,13 +6,13 @@
 
 #include "hold_back.h"
 #include "push_ahead.h"
-#include "tissu/base/norm.h"
 #include "tissu/contact/candidates.h"
 
 namespace tissu {
 namespace {
 
 constexpr double kAlternates = 1e-2;  ///< inadmissible share of the forces
+constexpr double kFloor = 1e-3;       ///< of the load on a body
 
 std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 std::array<double, 3> numbers_of(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
@@ -33,6 +33,8 @@ ContactRun::ContactRun(const Contact& contact, const FixedDofs& fixed) : contact
   counts_.assign(fixed.masks().size(), 0);
   forces_.assign(3 * fixed.masks().size(), 0.0);
   refusals_ = forces_;
+  floors_.assign(contact.surfaces().surfaces().size(), 0.0);
+  sizes_ = others_ = changes_ = floors_;
 }
 
 ContactRun::~ContactRun() = default;
@@ -52,10 +54,12 @@ Vec3 ContactRun::reach(const ContactNumbers& contact, ConstReals places) const {
   return r;
 }
 
-void ContactRun::begin(const State& start, double end, ConstReals led, double floor) {
+void ContactRun::begin(const State& start, double end, ConstReals led, ConstReals load) {
   start_ = &start;
   alternations_ = 0;
-  floor_ = floor;
+  std::ranges::fill(floors_, 0.0);
+  if (!load.empty()) sum_squares(load, floors_);
+  for (double& floor : floors_) floor = kFloor * std::sqrt(floor);
   end_ = end;
   const ContactTable before = contact_.table(start);
   contacts_.resize(before.size());
@@ -132,22 +136,49 @@ void ContactRun::scatter(const ContactNumbers& contact, const Vec3& force, Reals
   }
 }
 
-/// |change of the forces on rows| / |forces|, from those of the latest solve to those of the latest look.
+void ContactRun::sum_squares(ConstReals forces, std::vector<double>& squares) const {
+  std::ranges::fill(squares, 0.0);
+  for (const SurfaceVertex& vertex : contact_.surfaces().vertices()) {
+    if (vertex.row >= 0) squares[at(vertex.surface)] += block(forces, vertex.row).squaredNorm();
+  }
+}
+
+void ContactRun::add_squares(const ContactNumbers& contact, double square,
+                             std::vector<double>& squares) const {
+  for (std::size_t k = 0; k < 4; ++k) {
+    if (row(contact.vertex[k]) < 0) continue;
+    const auto v = static_cast<std::size_t>(contact.vertex[k]);
+    squares[at(contact_.surfaces().vertices()[v].surface)] += contact.beta[k] * contact.beta[k] * square;
+  }
+}
+
+double ContactRun::largest_share(ConstReals parts, ConstReals wholes) const {
+  double largest = 0.0;
+  for (std::size_t s = 0; s < parts.size(); ++s) {
+    if (parts[s] > 0.0)
+      largest = std::max(largest, std::sqrt(parts[s]) / std::max(floors_[s], std::sqrt(wholes[s])));
+  }
+  return largest;
+}
+
+/// Of the body where it is largest: |change of the forces on rows| / |forces|, from those of the latest solve
+/// to those of the latest look.
 double ContactRun::change() {
   std::ranges::fill(forces_, 0.0);
-  double size = 0.0;
-  double other = 0.0;
+  std::ranges::fill(sizes_, 0.0);
+  std::ranges::fill(others_, 0.0);
   for (const ContactNumbers& c : contacts_) {
     const Vec3 force = c.force * vector_of(c.normal) + vector_of(c.drag);
-    size += force.squaredNorm();
+    add_squares(c, force.squaredNorm(), sizes_);
     scatter(c, -force, forces_);
   }
   for (const ContactNumbers& c : looked_) {
-    other += vector_of(c.push).squaredNorm();
+    add_squares(c, vector_of(c.push).squaredNorm(), others_);
     scatter(c, vector_of(c.push), forces_);
   }
-  const double largest = std::max(floor_, std::sqrt(std::max(size, other)));
-  return largest > 0.0 ? norm(forces_) / largest : 0.0;
+  sum_squares(forces_, changes_);
+  for (std::size_t s = 0; s < sizes_.size(); ++s) sizes_[s] = std::max(sizes_[s], others_[s]);
+  return largest_share(changes_, sizes_);
 }
 
 void ContactRun::update(const State& end) {
@@ -172,12 +203,11 @@ void ContactRun::update(const State& end) {
     scatter(c, left, forces_);
     scatter(c, f - left, refusals_);
   }
-  taken_ = norm(forces_);
-  refused_ = norm(refusals_);
+  sum_squares(forces_, sizes_);
+  sum_squares(refusals_, changes_);
+  inadmissible_ = largest_share(changes_, sizes_);
   alternations_ = inadmissible() > kAlternates ? alternations_ + 1 : std::max(0, alternations_ - 1);
 }
-
-double ContactRun::inadmissible() const { return refused_ > 0.0 ? refused_ / std::max(floor_, taken_) : 0.0; }
 
 void ContactRun::write(State& state) const { ContactTable::write(contacts_, contact_.numbers(state)); }
 

@@ -27,7 +27,7 @@ ExplicitContact::ExplicitContact(const Contact& contact, const FixedDofs& fixed,
 void ExplicitContact::begin(const State& start, double end, ConstReals led) {
   h_ = end - start.time;
   start_ = &start;
-  run_.begin(start, end, led, 0.0);
+  run_.begin(start, end, led, {});
   begin_response();
 }
 

@@ -119,7 +119,7 @@ void StaticTouching::begin(const LoadPath& path, double from, double to, State& 
   move(state, world.frames(), way_, 1.0, held_);
   {
     const Timed timed(profile_, detection_row_);
-    contact_.begin(start_, path.time(to), held_.positions, 0.0);
+    contact_.begin(start_, path.time(to), held_.positions, {});
   }
   world.contact()->numbers(state).clear();
   equilibrium_.system().assemble(state, 0.0, {-1.0, 0.0, true});

@@ -55,7 +55,8 @@ void StageSolver::begin_touching(State& state, std::vector<double>& v) {
   place(state, trial_);
   {
     const Timed timed(*profile_, detection_row_);
-    contact_->begin(*step_start_, stage_.base.time, state.positions, kFloor * reference_ / stage_.push);
+    // work_ is the external force, as judge_by_load left it.
+    contact_->begin(*step_start_, stage_.base.time, state.positions, work_);
   }
   world.contact()->numbers(stage_.base).clear();
   lay_right(v);

@@ -36,9 +36,9 @@ class ContactRun {
   ContactRun& operator=(const ContactRun&) = delete;
 
   /// A step begins at `start` and ends at the time `end`; `led` holds the places of given rows then. What is
-  /// led goes there first, and pushes what is in its way. Smaller forces of all contacts than `floor` [N] are
-  /// judged by it.
-  void begin(const State& start, double end, ConstReals led, double floor);
+  /// led goes there first, and pushes what is in its way. Forces on a body are judged by a thousandth of
+  /// its `load` [N] where they are smaller; `load` may be empty.
+  void begin(const State& start, double end, ConstReals led, ConstReals load);
   /// How far obstacles are led in such a step, in half mean edges of the finest body.
   [[nodiscard]] double half_edges_led(const State& start, double end) const;
   /// The diagonal blocks of the step's matrix without contact, [row][9], and move times push: they outlive
@@ -65,8 +65,9 @@ class ContactRun {
   /// forces there.
   void update(const State& end);
   /// The part of the forces with which that system was solved that no contact can give, since it pulls or
-  /// lies beyond Coulomb's disk: on rows, as a share of the rest of them.
-  [[nodiscard]] double inadmissible() const;
+  /// lies beyond Coulomb's disk: on the body where it is the
+  /// largest share of the rest of them.
+  [[nodiscard]] double inadmissible() const { return inadmissible_; }
   /// The contacts of the latest look are those that act from now on.
   void take() { contacts_.swap(looked_); }
   /// The contacts that act, into the memory of a state.
@@ -110,6 +111,11 @@ class ContactRun {
   void stiffen();
   void press();
   double change();
+  /// Squares of forces on rows, summed for each body.
+  void sum_squares(ConstReals forces, std::vector<double>& squares) const;
+  void add_squares(const ContactNumbers& contact, double square, std::vector<double>& squares) const;
+  /// The largest |part| / |whole| of a body; each body's floor counts as a part of its whole.
+  [[nodiscard]] double largest_share(ConstReals parts, ConstReals wholes) const;
   void scatter(const ContactNumbers& contact, const Vec3& force, Reals f) const;
   void rub(ContactNumbers& contact, const Vec3& n, double t, const Vec3& at, double k) const;
   /// It has a multiplier, or is shut, or will be.
@@ -152,10 +158,12 @@ class ContactRun {
   std::vector<double> forces_;           ///< on rows
   std::vector<double> refusals_;         ///< on rows, of the latest update: what was taken off
   int alternations_ = 0;                 ///< updates of this step that found much inadmissible, less others
-  double refused_ = 0.0;                 ///< of the latest update: the norm of what was taken off, …
-  double taken_ = 0.0;                   ///< … and of what was left [N]
+  double inadmissible_ = 0.0;
   double depth_ = 0.0;
-  double floor_ = 0.0;
+  std::vector<double> floors_;   ///< of each body [N]
+  std::vector<double> sizes_;    ///< squares on each body: of the forces before, …
+  std::vector<double> others_;   ///< … of those after, …
+  std::vector<double> changes_;  ///< … and of what changed
   double least_gap_ = 0.0;
   double least_share_ = 1.0;
 };

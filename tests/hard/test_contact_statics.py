@@ -36,13 +36,13 @@ def pressed(stretch: float) -> float:
 
 @pytest.mark.parametrize("method", ["implicit_euler", "bdf2"])
 def test_smooth_plates_press_with_the_closed_form(method: str) -> None:
-    """The plates end 50.2 mm apart, the block two gaps of 0.1 mm less: half of its height.
+    """The plates end 60.2 mm apart, the block two gaps of 0.1 mm less: six tenths of its height.
 
-    Half a percent, as the design states.
+    Half a percent, as the design states. At half its height a block of this law is unstable.
     """
     simulation = ran("plates_smooth", method).simulation
     force = simulation.force_on("high").force
-    assert force[2] == pytest.approx(-0.01 * pressed(0.5), rel=5e-3)
+    assert force[2] == pytest.approx(-0.01 * pressed(0.6), rel=5e-3)
     # No friction, not even from the sides: the block has stayed a block.
     assert np.abs(force[:2]).max() < 1e-6 * force[2]
     moved = simulation.positions["block"]
@@ -55,9 +55,7 @@ def test_smooth_plates_press_with_the_closed_form(method: str) -> None:
 
 @pytest.mark.parametrize("method", ["implicit_euler", "bdf2"])
 def test_rough_plates_hold_the_block_and_its_sides_bulge(method: str) -> None:
-    """Forces opposite to 1e-6. What sticks gives way a little while the force grows, for a step has
-    three solves at most: by less than a millimetre, where a smooth block goes 2 cm.
-    """
+    """Forces opposite to 1e-6. What sticks gives way a little while the force grows: by less than a millimetre, where a smooth block goes 2 cm."""
     simulation = ran("plates_rough", method).simulation
     low, high = (simulation.force_on(plate).force for plate in ("low", "high"))
     assert np.abs(low + high).max() < 1e-6 * high[2]

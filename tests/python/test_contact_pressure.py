@@ -42,13 +42,14 @@ def axial_stress(simulation, body):
 def test_matching_blocks_pass_the_patch_test():
     """sigma = -p in every cell of both, and sigma = E strain in the displacement.
 
-    A step ends with contacts no deeper than 1 % of the gap, 5e-6 m of 10 cm: 5 Pa of 1e5 Pa.
+    A step ends where the forces of contacts change by less than 1 %: 5 Pa, at the edges of a cell, which
+    two contacts share with one, three times that.
     """
     pressure = 500.0
     simulation = pressed(3, 3, pressure).compile()
     audited(simulation, 150)
     for body in ("low", "high"):
-        assert axial_stress(simulation, body) == pytest.approx(-pressure, abs=5.0)
+        assert axial_stress(simulation, body) == pytest.approx(-pressure, abs=15.0)
     force = simulation.force_on("plate").force
     assert force[2] == pytest.approx(-pressure * A * A, rel=1e-3)
     z = simulation.positions["low"][:, 2]

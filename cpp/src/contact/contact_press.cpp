@@ -9,10 +9,11 @@
 namespace tissu {
 namespace {
 
-constexpr double kStiff = 3.0;   ///< s: couplings over the block diagonal of the matrix, …
-constexpr int kPatience = 4;     ///< … which from so many updates of a step on falls, …
+constexpr double kStiff = 3.0;  ///< s: couplings over the block diagonal of the matrix
+// Contacts that alternate between sticking and sliding come to rest when they are softer against sliding.
+constexpr int kPatience = 4;     ///< so many alternations later …
 constexpr double kSofter = 0.7;  ///< … by this for each, …
-constexpr double kSoft = 0.5;  ///< … no further than here: contacts that alternate come to rest when softer
+constexpr double kSoft = 0.17;   ///< … no further than here
 
 std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 std::array<double, 3> numbers_of(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
@@ -54,11 +55,10 @@ void ContactRun::stiffen() {
   for_rows([](std::int32_t& count) { count = 0; });
   for_rows([](std::int32_t& count) { ++count; });
   stiffnesses_.assign(looked_.size(), 0.0);
-  const double stiff = std::max(kSoft, kStiff * std::pow(kSofter, std::max(0, alternations_ - kPatience)));
   for (std::size_t i = 0; i < looked_.size(); ++i) {
     if (!may_press(i)) continue;
     const double largest = compliance(looked_[i]).cwiseAbs().rowwise().sum().maxCoeff();
-    if (largest > 0.0) stiffnesses_[i] = stiff * weights_[i] / (largest * scale_);
+    if (largest > 0.0) stiffnesses_[i] = kStiff * weights_[i] / (largest * scale_);
   }
 }
 
@@ -66,6 +66,8 @@ void ContactRun::stiffen() {
 void ContactRun::press() {
   std::size_t kept = 0;
   depth_ = 0.0;
+  const int alternations = std::max(0, alternations_ - kPatience);
+  const double tangent = tangent_ * std::max(kSoft, std::pow(kSofter, alternations));
   for (std::size_t i = 0; i < looked_.size(); ++i) {
     const double k = normal_ * stiffnesses_[i];
     const double t = looked_[i].force - k * gaps_[i];
@@ -78,7 +80,7 @@ void ContactRun::press() {
     const double friction = pair.friction;
     if (friction == 0.0) c.sliding = 0.0;
     if (friction > 0.0) {
-      rub(c, n, friction * std::max(t, 0.0), vector_of(c.place), tangent_ * stiffnesses_[i]);
+      rub(c, n, friction * std::max(t, 0.0), vector_of(c.place), tangent * stiffnesses_[i]);
     }
     depth_ = std::max(depth_, -gaps_[i] / std::min(c.apart, pair.gap));
     looked_[kept++] = c;

@@ -55,7 +55,10 @@ def test_smooth_plates_press_with_the_closed_form(method: str) -> None:
 
 @pytest.mark.parametrize("method", ["implicit_euler", "bdf2"])
 def test_rough_plates_hold_the_block_and_its_sides_bulge(method: str) -> None:
-    """Forces opposite to 1e-6. What sticks gives way a little while the force grows: by less than a millimetre, where a smooth block goes 2 cm."""
+    """Forces opposite to 1e-6. What sticks gives way a little while the force grows.
+
+    By less than a millimetre, where a smooth block goes 2 cm.
+    """
     simulation = ran("plates_rough", method).simulation
     low, high = (simulation.force_on(plate).force for plate in ("low", "high"))
     assert np.abs(low + high).max() < 1e-6 * high[2]

@@ -42,8 +42,8 @@ def axial_stress(simulation, body):
 def test_matching_blocks_pass_the_patch_test():
     """sigma = -p in every cell of both, and sigma = E strain in the displacement.
 
-    A step ends where the forces of contacts change by less than 1 %: 5 Pa, at the edges of a cell, which
-    two contacts share with one, three times that.
+    A step ends where the forces of contacts change by less than 1 %: 5 Pa, three times that in
+    cells at the rim, which two contacts share with one.
     """
     pressure = 500.0
     simulation = pressed(3, 3, pressure).compile()

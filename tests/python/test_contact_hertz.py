@@ -1,4 +1,4 @@
-"""Hertz: an elastic paraboloid that a plate presses in static steps."""
+"""Round things pressed in static steps: a paraboloid after Hertz, a ball into a block."""
 
 import math
 
@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 import tissu as ts
-from contact_static import pushed
+from contact_audit import block
+from contact_static import judged, pushed
 
 YOUNG, POISSON = 1e5, 0.3
 RADIUS = 0.02
@@ -75,3 +76,29 @@ def test_hertz():
     assert coarse == pytest.approx(1.0, abs=0.05)
     assert fine == pytest.approx(1.0, abs=0.025)
     assert abs(fine - 1) < abs(coarse - 1)
+
+
+@pytest.mark.parametrize("friction", [0.0, 0.3])
+def test_a_ball_is_pressed_into_a_block(friction):
+    """Few triangles carry it, and tilt under it; support and ball have opposite forces."""
+    radius, rest = 0.02, 1e-3
+    down = ts.Motion(times=(0, 1), displacements=((0, 0, 0), (0, 0, -0.01)))
+    law = ts.StableNeoHooke(young=5e3, poisson=0.45)
+    scene = ts.Scene(
+        bodies={"block": block(cells=(6, 6, 6), law=law)},
+        obstacles={
+            "ball": ts.SphereObstacle((0.052, 0.047, 0.1 + radius + rest), radius, motion=down)
+        },
+        contacts=[ts.Contact(("block", "ball"), friction=friction)],
+        fixed=[ts.Fixed("block", on=ts.Plane(point=(0, 0, 0), normal=(0, 0, 1)))],
+        step=ts.Static(),
+    )
+    simulation = scene.compile()
+    last = 0.0
+    for _ in range(4):
+        judged(simulation, simulation.step(0.25))
+        force = simulation.force_on("ball").force
+        support = simulation.reactions("block").sum(axis=0)
+        assert support == pytest.approx(force, abs=1e-5 * np.linalg.norm(force))
+        assert force[2] > last
+        last = force[2]

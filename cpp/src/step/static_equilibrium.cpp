@@ -14,6 +14,7 @@ constexpr int kHalvings = 12;      ///< of a part of the load
 constexpr int kRoom = 19;          ///< parts beyond load_steps for which iterations are set aside
 constexpr int kEasy = 6;           ///< iterations of a part after which the next one is larger, …
 constexpr int kEasyTouching = 30;  ///< … and where contacts are looked at between them
+constexpr int kMoreTouching = 4;   ///< times as many iterations of a step, where none are given
 constexpr double kTurn = std::numbers::pi / 6.0;  ///< by which led nodes go round in one part, at most
 
 }  // namespace
@@ -23,7 +24,8 @@ StaticEquilibrium::StaticEquilibrium(Settings settings) : settings_(settings) {
     throw ParameterError(
         "static equilibrium needs at least one load step, one Newton iteration and a positive tolerance.");
   }
-  if (settings_.total_iterations < 1) {
+  is_bounded_ = settings_.total_iterations >= 1;
+  if (!is_bounded_) {
     settings_.total_iterations = settings.newton.iterations * (settings.load_steps + kRoom);
   }
 }
@@ -37,7 +39,8 @@ void StaticEquilibrium::prepare(const World& world, LinearSolver* solver, Profil
 }
 
 int StaticEquilibrium::left(const StepReport& report) const {
-  return std::max(0, settings_.total_iterations - report.newton_iterations);
+  const int times = touching_ && !is_bounded_ ? kMoreTouching : 1;
+  return std::max(0, times * settings_.total_iterations - report.newton_iterations);
 }
 
 StepReport StaticEquilibrium::step(State& state, double h) {

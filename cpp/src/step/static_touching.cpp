@@ -12,15 +12,17 @@ namespace tissu {
 namespace {
 
 constexpr int kMostLooks = 100;    ///< at one part of a load
-constexpr double kShallow = 0.05;  ///< of xi, …
+constexpr double kShallow = 0.05;  ///< of the gap, …
+constexpr double kDeeper = 0.2;    ///< of the gap, …
 constexpr int kBisections = 12;    ///< … found by so many at most
 constexpr int kMostFalls = 40;
-constexpr int kMostTouching = 4;     ///< of what contacts held before
-constexpr double kNormal = 10.0;     ///< times stiffer against coming nearer than in steps of time
-constexpr double kFalls = 0.7;       ///< of the least change before: one that does not fall so far in …
-constexpr int kPatience = 6;         ///< … so many looks goes round in a circle
-constexpr double kForce = 1e-3;      ///< of a body's contact forces: a smaller change needs no other look
-constexpr double kDepth = 1e-3;      ///< of xi
+constexpr int kMostTouching = 4;        ///< of what contacts held before
+constexpr double kNormal = 10.0;        ///< times stiffer against coming nearer than in steps of time
+constexpr double kFalls = 0.7;          ///< of the least change before: one that does not fall so far in …
+constexpr int kPatience = 6;            ///< … so many looks goes round in a circle
+constexpr double kLeastRelaxed = 0.25;  ///< of the way from look to look
+constexpr double kForce = 1e-3;         ///< of a body's contact forces: a smaller change needs no other look
+constexpr double kDepth = 1e-3;         ///< of the gap
 constexpr double kFarthest = 0.1;    ///< of the scene's size, which a body that nothing holds falls at once
 constexpr double kLooseMass = 1e-6;  ///< of the stiffness of the node that is softest for its mass
 constexpr int kHeldNodes = 3;        ///< hold a body, on all axes together
@@ -125,7 +127,7 @@ void StaticTouching::begin(const LoadPath& path, double from, double to, State& 
   equilibrium_.system().assemble(state, 0.0, {-1.0, 0.0, true});
   equilibrium_.system().system_matrix().diagonal_blocks(blocks_);
   contact_.set_matrix(blocks_, 1.0);
-  tangent_ = 1.0;
+  tangent_ = relaxed_ = 1.0;
   best_ = std::numeric_limits<double>::infinity();
   idle_ = 0;
   contact_.set_stiffer(kNormal, tangent_);
@@ -134,6 +136,7 @@ void StaticTouching::begin(const LoadPath& path, double from, double to, State& 
   is_falling_ = is_loose_;
   hold_back(held_);
   look(held_);
+  depth_ = contact_.depth();
   contact_.go_on_from(held_);
   contact_.take();
   contact_.write(state);
@@ -170,12 +173,14 @@ void StaticTouching::fall(State& state) {
   hold_back(held_);
   double high = contact_.least_share();
   if (high == 1.0) return;
+  // What touches already may go deeper, as where a body tips over it.
+  const double most = depth_ > 0.0 ? depth_ + kDeeper : kShallow;
   double low = 0.0;
   double share = high;
   for (int i = 0; i < kBisections; ++i) {
     equilibrium_.shorten(share, state);
     look(state);
-    const bool is_deep = contact_.depth() > kShallow;
+    const bool is_deep = contact_.depth() > most;
     if (!is_deep && (i == 0 || contact_.depth() > 0.0)) return;
     (is_deep ? high : low) = share;
     share = 0.5 * (low + high);
@@ -187,11 +192,20 @@ bool StaticTouching::look_again(double share, State& state, StepReport& report) 
     const Timed timed(profile_, response_row_);
     contact_.update(state);
   }
-  held_ = state;
+  const bool whole = relaxed_ == 1.0 || is_falling_ || other_ <= kForce;
+  if (whole) {
+    held_ = state;
+  } else {
+    for (std::size_t i = 0; i < held_.positions.size(); ++i) {
+      held_.positions[i] += relaxed_ * (state.positions[i] - held_.positions[i]);
+    }
+  }
   held_back_ = hold_back(held_);
   look(held_);
+  depth_ = contact_.depth();
   contact_.go_on_from(held_);
-  const bool stays = !is_falling_ && held_back_ == 0 && other_ <= kForce && contact_.depth() <= kDepth;
+  const bool stays =
+      whole && !is_falling_ && held_back_ == 0 && other_ <= kForce && contact_.depth() <= kDepth;
   if (stays) {
     is_unstable_ = equilibrium_.is_unstable(state);
     contact_.finish(state);
@@ -203,7 +217,8 @@ bool StaticTouching::look_again(double share, State& state, StepReport& report) 
   return false;
 }
 
-/// Between sticking and sliding the looks may go round in a circle: softer springs end it.
+/// Looks may go round in a circle, between sticking and sliding or from face to face: softer springs and
+/// looks at a part of the way end it.
 void StaticTouching::soften() {
   if (is_falling_) return;
   ++idle_;
@@ -213,6 +228,7 @@ void StaticTouching::soften() {
   }
   if (idle_ < kPatience) return;
   tangent_ *= 0.5;
+  if (equilibrium_.world().frames().empty()) relaxed_ = std::max(kLeastRelaxed, 0.5 * relaxed_);
   idle_ = 0;
   best_ = other_;
   contact_.set_stiffer(kNormal, tangent_);

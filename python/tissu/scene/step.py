@@ -227,7 +227,7 @@ class Static(Step):
     """Newton's method, for each part that is tried"""
     total_iterations: _Count | None = None
     """largest number of Newton iterations in a step, half of which a descent of the energy may
-    take; absent: iterations (load_steps + 19)"""
+    take; absent: iterations (load_steps + 19), with contact four times that"""
     arc_length: bool = False
     """follow the path by its arc length from the start, as through limit points of the load; false:
     only where no part of the load is small enough"""

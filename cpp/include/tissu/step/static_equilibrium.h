@@ -23,7 +23,8 @@ class StaticEquilibrium final : public Integrator {
   struct Settings {
     NewtonSettings newton{50, 1e-9};
     int load_steps = 1;
-    int total_iterations = 0;  ///< of a step, at most; 0: newton.iterations (load_steps + 19)
+    int total_iterations = 0;  ///< of a step, at most; 0: newton.iterations (load_steps + 19), four
+                               ///< times that with contact
     bool arc_length = false;   ///< the whole path is followed by its arc length, not by parts of the load
   };
   explicit StaticEquilibrium(Settings settings);
@@ -47,6 +48,7 @@ class StaticEquilibrium final : public Integrator {
   [[nodiscard]] std::string reason() const;
 
   Settings settings_;
+  bool is_bounded_ = false;  ///< total_iterations was given
   bool loaded_ = false;
   std::unique_ptr<Equilibrium> equilibrium_;
   std::unique_ptr<ArcLength> arc_;

@@ -62,9 +62,11 @@ class StaticTouching {
   int falls_ = 0;            ///< such corrections
   bool is_unstable_ = false;
   double other_ = 0.0;    ///< change of the contact forces at the latest look
+  double depth_ = 0.0;    ///< at the latest look
   double best_ = 0.0;     ///< the least of them, …
   int idle_ = 0;          ///< … and looks since then
   double tangent_ = 1.0;  ///< times stiffer against sliding
+  double relaxed_ = 1.0;  ///< share of the way from the look before that the next one goes
   int held_back_ = 0;
   std::vector<double> blocks_;
   std::vector<double> way_;

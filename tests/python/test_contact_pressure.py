@@ -43,7 +43,7 @@ def test_matching_blocks_pass_the_patch_test():
     """sigma = -p in every cell of both, and sigma = E strain in the displacement.
 
     A step ends where the forces of contacts change by less than 1 %: 5 Pa, three times that in
-    cells at the rim, which two contacts share with one.
+    cells at the rim, which two contacts share with one. Contacts may be a tenth of the gap deep.
     """
     pressure = 500.0
     simulation = pressed(3, 3, pressure).compile()
@@ -53,7 +53,7 @@ def test_matching_blocks_pass_the_patch_test():
     force = simulation.force_on("plate").force
     assert force[2] == pytest.approx(-pressure * A * A, rel=1e-3)
     z = simulation.positions["low"][:, 2]
-    assert np.ptp(z) == pytest.approx(A * (1 - pressure / 1e5), abs=1e-5)
+    assert np.ptp(z) == pytest.approx(A * (1 - pressure / 1e5), abs=5e-5)
 
 
 def test_other_meshes_carry_the_same_force():

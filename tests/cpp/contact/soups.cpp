@@ -140,8 +140,10 @@ class EveryPair {
         if (surfaces_.edges()[at(e.number)].is_lone()) add(PairKind::vertex_edge, v, e);
       }
       if (!surfaces_.vertices()[at(v.number)].is_lone) continue;
-      for (std::int32_t w = v.number + 1; w < std::ssize(vertices_); ++w) {
-        if (surfaces_.vertices()[at(w)].is_lone) add(PairKind::vertex_vertex, v, vertices_[at(w)]);
+      for (const Feature& w : vertices_) {
+        const SurfaceVertex& other = surfaces_.vertices()[at(w.number)];
+        if (other.is_lone && w.number > v.number) add(PairKind::vertex_vertex, v, w);
+        if (other.has_faces) add(PairKind::vertex_vertex, w, v);  // the lone one may be round
       }
     }
     for (const Feature& e : edges_) {

@@ -158,14 +158,12 @@ void Candidates::list_features(const BoxPair& pair) {
   }
   for (const std::int32_t v : surfaces_.vertices_of(pair.a)) {
     for (const std::int32_t w : surfaces_.vertices_of(pair.b)) {
-      const bool lone = vertices[at(v)].is_lone && vertices[at(w)].is_lone;
-      const bool round = vertices[at(v)].is_lone && vertices[at(w)].has_faces;
-      if (vertices[at(v)].has_faces && vertices[at(w)].is_lone) {
+      // What is round is the second; of two such things the order is theirs.
+      const bool may_be_round = vertices[at(w)].is_lone;
+      if (may_be_round && (vertices[at(v)].is_lone || vertices[at(v)].has_faces)) {
         add(PairKind::vertex_vertex, v, w, {v, w, -1, -1});
-      } else if (round) {
+      } else if (vertices[at(v)].is_lone && vertices[at(w)].has_faces) {
         add(PairKind::vertex_vertex, w, v, {w, v, -1, -1});
-      } else if (lone) {
-        add(PairKind::vertex_vertex, v, w, {v, w, -1, -1});
       }
     }
   }

@@ -41,7 +41,7 @@ def unsolved(taken: Taken) -> str:
 
 
 def ended(subject: Subject, taken: Taken, head: list[str]) -> list[str]:
-    """A line that says why there are no numbers."""
+    """A row without numbers, with the reason."""
     return [name_of(subject), taken.why, *[""] * (len(head) - 2)]
 
 

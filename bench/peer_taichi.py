@@ -11,8 +11,8 @@ WAYS = {
     "explicit": Facts(
         "St-Venant–Kirchhoff",
         "symplectic Euler in kernels of ours, double precision",
-        "it is a language for kernels: elements, laws and solvers are the user's to write, so that "
-        "there is no implicit step to run",
+        "it is a language for kernels. Its users write elements, laws and solvers, and it has no "
+        "implicit step of its own",
     ),
 }
 LAMBDA = YOUNG * POISSON / ((1.0 + POISSON) * (1.0 - 2.0 * POISSON))

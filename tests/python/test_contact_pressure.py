@@ -127,25 +127,29 @@ def test_a_block_between_smooth_plates_gives_the_homogeneous_force(stretch):
     assert table[2] == pytest.approx(homogeneous(stretch, mu, lame), rel=5e-3)
 
 
-def test_a_ball_pressed_into_a_block_follows_hertz():
-    """F = 4/3 E* sqrt(R) delta^1.5 for a half-space; delta/R = 2 %.
-
-    The contact's radius sqrt(R delta) is 1.7 edges, where the stiffness of points is some 10 % off.
-    """
-    young, poisson, radius, depth = 1e4, 0.3, 0.1, 0.002
-    law = ts.StVK(young=young, poisson=poisson)
-    n = 12
-    body = block((0, 0, 0), size=(A, A, A), cells=(n, n, n), law=law, viscosity=damped(20.0, 0.01))
-    gap = 1e-4
-    center = (A / 2, A / 2, A + radius + gap)
-    path = ts.Motion(times=(0, 0.2), displacements=((0, 0, 0), (0, 0, -depth)))
-    simulation = ts.Scene(
+def under_a_ball(radius, gap, cells, aside=(0.0, 0.0)):
+    """A block of 10 kPa on a held bottom, into which a led ball goes 2 mm deep."""
+    law = ts.StVK(young=1e4, poisson=0.3)
+    viscosity = damped(20.0, 0.01)
+    body = block((0, 0, 0), size=(A, A, A), cells=(cells,) * 3, law=law, viscosity=viscosity)
+    center = (A / 2 + aside[0], A / 2 + aside[1], A + radius + gap)
+    path = ts.Motion(times=(0, 0.2), displacements=((0, 0, 0), (0, 0, -0.002)))
+    return ts.Scene(
         bodies={"block": body},
         fixed=[ts.Fixed("block", on=ts.Plane(point=(0, 0, 0), normal=(0, 0, 1)))],
         obstacles={"ball": ts.SphereObstacle(center, radius, motion=path)},
         contacts=[ts.Contact(("block", "ball"), gap=gap)],
         step=ts.ImplicitEuler("20 ms"),
     ).compile()
+
+
+def test_a_ball_pressed_into_a_block_follows_hertz():
+    """F = 4/3 E* sqrt(R) delta^1.5 for a half-space; delta/R = 2 %.
+
+    The contact's radius sqrt(R delta) is 1.7 edges, where the stiffness of points is some 10 % off.
+    """
+    young, poisson, radius, depth = 1e4, 0.3, 0.1, 0.002
+    simulation = under_a_ball(radius, 1e-4, 12)
     audited(simulation, 40)
     effective = young / (1 - poisson**2)
     hertz = 4 / 3 * effective * math.sqrt(radius) * depth**1.5
@@ -158,21 +162,9 @@ def test_a_ball_that_rests_in_its_dent_is_pressed_steadily(radius):
 
     1e-3 is a tenth of the change of forces at which a step ends.
     """
-    size, gap, n = 0.1, 1.6e-4, 8
-    law = ts.StVK(young=1e4, poisson=0.3)
-    body = block(
-        (0, 0, 0), size=(size, size, size), cells=(n, n, n), law=law, viscosity=damped(20.0, 0.01)
-    )
+    gap = 1.6e-4
     # Off the middle, so that no face is before the ball alone.
-    center = (size / 2 + 0.001, size / 2 + 0.0005, size + radius + gap)
-    path = ts.Motion(times=(0, 0.2), displacements=((0, 0, 0), (0, 0, -0.002)))
-    simulation = ts.Scene(
-        bodies={"block": body},
-        fixed=[ts.Fixed("block", on=ts.Plane(point=(0, 0, 0), normal=(0, 0, 1)))],
-        obstacles={"ball": ts.SphereObstacle(center, radius, motion=path)},
-        contacts=[ts.Contact(("block", "ball"), gap=gap)],
-        step=ts.ImplicitEuler("20 ms"),
-    ).compile()
+    simulation = under_a_ball(radius, gap, 8, aside=(0.001, 0.0005))
     audited(simulation, 30)
     forces = []
     for _ in range(10):

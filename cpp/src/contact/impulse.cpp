@@ -10,7 +10,7 @@ namespace {
 constexpr int kSweeps = 50;
 constexpr double kSettled = 1e-6;  ///< of the largest impulse: a smaller change ends the sweeps
 constexpr int kLifts = 4;
-constexpr double kShallow = 1e-6;  ///< of xi: less depth stays, and what is no farther away is shut
+constexpr double kShallow = 1e-6;  ///< of xi: smaller depths remain, and nearer surfaces count as shut
 constexpr double kBounce = 2.0;    ///< times what the step's forces change the rate
 constexpr double kSlides = 1.0 - 1e-9;
 constexpr double kNever = -std::numeric_limits<double>::infinity();

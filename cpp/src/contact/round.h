@@ -2,8 +2,8 @@
 
 /// Round things (spheres, capsules, ends of lines) before faces. The nearest point of a face jumps about in
 /// the dent that a round thing presses, and its contacts come and go. Points of the body that stay the same
-/// meet it instead: the corners of faces, and points between them that are so close together that a chord
-/// between two is lower than the arc by no more than the gap.
+/// meet it instead: the corners of faces, and points between them. These are so close together that the arc
+/// between two of them rises above their chord by at most the gap.
 
 #include <cstdint>
 

@@ -29,7 +29,7 @@ class InversionCheck {
     ReferenceCell own;
     ReferenceCell full;
     bool by_points = false;          ///< else by the mean det F, …
-    std::optional<ThinRatios> thin;  ///< … which of sheets and lines this tells
+    std::optional<ThinRatios> thin;  ///< … the volume ratios of sheets and lines
 
     [[nodiscard]] bool any(const World& world, const State& state, const BodyModel& model,
                            Scratch& scratch) const;

@@ -6,7 +6,7 @@
 #include "../../cell/reference_nodes.h"
 #include "tissu/model/fem/elastic.h"
 
-/// What is told without memory is what the fields of the cells say.
+/// The check without memory finds the same cells as their fields.
 
 namespace tissu {
 namespace {

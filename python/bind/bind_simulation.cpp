@@ -1,3 +1,5 @@
+#include <map>
+
 #include "bind.h"
 #include "interruption.h"
 #include "specs.h"
@@ -165,11 +167,16 @@ void bind_simulation(py::module_& m) {
           py::kw_only(), arg("body"), arg("cells"))
       .def(
           "replace_world",
-          [](Simulation& s, const std::shared_ptr<World>& world) {
-            s.replace_world(world);
+          [](Simulation& s, const std::shared_ptr<World>& world,
+             const std::map<std::string, Array<std::int32_t>>& removed) {
+            std::shared_ptr<const World> next = world;
+            for (const auto& [body, cells] : removed) {
+              next = remove_cells(*next, s.state(), body, to_vector(cells));
+            }
+            s.replace_world(next);
             s.forget_solves();  // as a simulation of the new scene would begin
           },
-          py::kw_only(), arg("world"))
+          py::kw_only(), arg("world"), arg("removed"))
       .def("settle", &Simulation::settle)
       .def("reactions",
            [](const Simulation& s) {

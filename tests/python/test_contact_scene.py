@@ -197,7 +197,6 @@ SLIPS = {
     ),
     "iterations": ("method: auto", "iterations: 0", "contact.iterations", "at least 1"),
     "overlap": ("method: auto", "overlap: separate", "contact.overlap", "not there yet; refuse"),
-    "editing": ("step: {", "editing: true\nstep: {", "editing", "do not follow removed cells"),
     "a name twice": ("  table: {", "  liver: {", "obstacles.liver", "as a body too"),
     "mass": ("radius: 3 mm,", "radius: 3 mm, mass: 30 g,", "obstacles.probe.mass", "freely is not"),
     "type": ("type: capsule", "type: capsul", "obstacles.probe", "did you mean 'capsule'"),

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "tissu/base/error.h"
+#include "tissu/contact/surface_change.h"
 
 namespace tissu {
 
@@ -110,10 +111,15 @@ void Contact::carry_memory(const ForceModel& before, const Memory& then, Memory&
   for (std::size_t i = 0; i < leads_.size() && i < contact->leads_.size(); ++i) {
     now[leads_[i]] = then[contact->leads_[i]];
   }
-  // Numbers of vertices, edges and triangles are those of one topology.
-  const bool same = surfaces_.vertices().size() == contact->surfaces_.vertices().size() &&
-                    surfaces_.primitives().size() == contact->surfaces_.primitives().size();
-  if (same) now[place_] = then[contact->place_];
+  // Numbers of vertices, edges and triangles are those of one topology: contacts take those of the other.
+  const SurfaceChange change(contact->surfaces_, surfaces_);
+  std::vector<ContactNumbers> kept;
+  const ContactTable all(then[contact->place_]);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    ContactNumbers c = all[i];
+    if (c.pair < static_cast<double>(description_.pairs.size()) && change.carry(c)) kept.push_back(c);
+  }
+  ContactTable::write(kept, now[place_]);
 }
 
 void Contact::check_memory(const State& state) const {

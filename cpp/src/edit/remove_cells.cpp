@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <unordered_set>
 
+#include "body_surface.h"
 #include "tissu/base/error.h"
 #include "tissu/element/reference_cell.h"
 
@@ -92,6 +93,7 @@ std::shared_ptr<const World> remove_cells(const World& world, const State& state
   }
   std::erase_if(edited.elastic, [](const ElasticBlock& block) { return block.cells.empty(); });
   hold_debris(description, edited, state, world.body(body).first_node);
+  renew_surface(description, edited);
   return std::make_shared<const World>(std::move(description), &world);
 }
 

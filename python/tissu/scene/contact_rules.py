@@ -176,9 +176,6 @@ def _method_problems(scene: Any) -> Iterator[Problem]:
     if getattr(scene.step, "arc_length", False):
         text = "found true beside contacts, which an arc length does not follow; leave it out"
         yield Problem(("step", "arc_length"), text)
-    if scene.editing:
-        text = "found true beside contacts, but surfaces do not follow removed cells yet; leave "
-        yield Problem(("editing",), f"{text}editing out")
     for number, contact in enumerate(scene.contacts):
         with contextlib.suppress(Unknown):
             for problem in _field_problems(contact, method):

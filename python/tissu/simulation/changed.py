@@ -81,7 +81,7 @@ class Changed:
         grabs are let go.
         """
         fresh = self._compiled(self.scene)
-        self._core.replace_world(world=fresh._world)
+        self._core.replace_world(world=fresh._world, removed={})
         self._core.restore(fresh._core.snapshot())
         self._take_over(fresh)
         self._steps = 0
@@ -102,9 +102,7 @@ class Changed:
         }
         fresh = self._compiled(scene)
         self._core.settle()
-        self._core.replace_world(world=fresh._world)
-        for body, cells in removed.items():
-            self._core.remove_cells(body=body, cells=cells)
+        self._core.replace_world(world=fresh._world, removed=removed)
         self._take_over(fresh)
         self.scene = scene
         self._physics_known = None

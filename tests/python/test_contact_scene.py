@@ -308,7 +308,6 @@ FLAT = ts.Body(
     thickness=1.0,
     plane="strain",
 )
-STIFF = cube(law=ts.Hooke(young=4e3, poisson=0.4), model=ts.Condensed(keep="surface"))
 FILLED = ts.BarMesh(size=(1, 1, 1), cells=(1, 1, 1))
 FAT = ts.Tissue(inside=FILLED, frames=8, points=40, law=SOFT, density=1000.0)
 
@@ -316,7 +315,6 @@ FAT = ts.Tissue(inside=FILLED, frames=8, points=40, law=SOFT, density=1000.0)
 @pytest.mark.parametrize(
     ("fields", "name", "words"),
     [
-        ({"bodies": {"liver": cube(), "stiff": STIFF}}, "stiff", "a body with a condensed region"),
         ({"bodies": {"liver": cube(), "slice": FLAT}}, "slice", "a flat body"),
         ({"bodies": {"liver": cube()}, "tissue": {"fat": FAT}}, "fat", "a tissue"),
     ],

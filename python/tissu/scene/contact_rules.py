@@ -113,10 +113,22 @@ def surface_missing(scene: Any, name: str) -> str:
         return ""
     if body.plane is not None:
         return "a flat body: contact of its rim is not there yet, leave `plane` out of the body"
-    if any(model.type == "condensed" for model in body.models().values()):
-        text = "a body with a condensed region: contact of it is not there yet, "
-        return f"{text}take another model"
     return ""
+
+
+def meets_others(scene: Any, name: str) -> bool:
+    """Whether a contact of the scene names a body."""
+    for contact in getattr(scene, "contacts", ()):
+        with contextlib.suppress(Unknown):
+            if not isinstance(contact, Contact):
+                named = contact.self == name
+            else:
+                named = contact.between == "all" or any(
+                    name in (first, second) for _, first, _, second in contact.pairs()
+                )
+            if named:
+                return True
+    return False
 
 
 def _no_pair(scene: Any, place: Path, first: str, second: str) -> Iterator[Problem]:

@@ -40,13 +40,15 @@ def near_tip(simulation: ts.Simulation) -> np.ndarray:
 
 
 def work(simulation: ts.Simulation) -> None:
-    """Steps to the end, with a removal every tenth of a second."""
+    """Steps to the end; every tenth of a second what presses the probe is removed."""
     then = EVERY
     for _ in simulation.run():
         if simulation.time < then - 1e-9:
             continue
         then += EVERY
         before = simulation.force_on("probe").force
+        if not before.any():
+            continue
         simulation.remove_cells(body="organ", cells=near_tip(simulation))
         after = simulation.force_on("probe").force
         left = simulation.meshes["organ"].cell_count

@@ -19,13 +19,13 @@ CUTS = (50, 70, 90)
 
 
 def touched_cells(simulation: ts.Simulation, body: str) -> np.ndarray:
-    """Numbers of the cells with a face, as far as three nodes go, in contact."""
+    """Numbers of the cells with a node in contact."""
     found = simulation.contacts()
     number = found.surfaces.index(body)
     own = np.where(found.weights > 0.0, found.pairs[:, [0]], found.pairs[:, [1]]) == number
     nodes = np.unique(found.nodes[own & (found.nodes >= 0) & (found.weights != 0.0)])
     cells = np.concatenate([b.nodes for b in simulation.meshes[body].volume_blocks])
-    return simulation.remaining_cells(body)[np.isin(cells, nodes).sum(axis=1) >= 3]
+    return simulation.remaining_cells(body)[np.isin(cells, nodes).any(axis=1)]
 
 
 def parts_of(simulation: ts.Simulation, body: str) -> set[frozenset[int]]:
@@ -54,9 +54,10 @@ def livers(threads: int = 1) -> ts.Scene:
 def go(simulation: ts.Simulation, steps: range) -> str:
     """Takes these steps, cuts before some of them, and audits each; a sum over all their bits."""
     bits = hashlib.sha256()
+    gone = 0
     for number in steps:
         if number in CUTS:
-            cut(simulation)
+            gone += cut(simulation)
         report = simulation.step()
         assert report.converged, report
         assert simulation.crossings() == [], report
@@ -66,24 +67,28 @@ def go(simulation: ts.Simulation, steps: range) -> str:
             bits.update(np.ascontiguousarray(simulation.positions[body]).tobytes())
             assert not len(simulation.inverted_cells(body))
         bits.update(np.ascontiguousarray(simulation.contacts().forces).tobytes())
+    assert gone > 0
     return bits.hexdigest()
 
 
-def cut(simulation: ts.Simulation) -> None:
-    """Half of the touched cells of each go; forces of what is left are there to the bit."""
+def cut(simulation: ts.Simulation) -> int:
+    """A third of the touched cells of each go; forces of what is left are there to the bit.
+
+    How many contacts went with them.
+    """
     before = simulation.contacts()
     assert between(simulation, "high", "low")[2] > 0.02
     for body in ("low", "high"):
         cells = touched_cells(simulation, body)
         assert len(cells) > 1
-        simulation.remove_cells(body=body, cells=cells[::2])
+        simulation.remove_cells(body=body, cells=cells[::3])
     require_no_stale_key(simulation)
     after = simulation.contacts()
     keys = [tuple(row) for row in before.nodes.tolist()]
     old = dict(zip(keys, before.forces, strict=True))
     for row, force in zip(after.nodes.tolist(), after.forces, strict=True):
         assert np.array_equal(old[tuple(row)], force)
-    assert len(after) < len(before)
+    return len(before) - len(after)
 
 
 @cache
@@ -110,6 +115,7 @@ def test_all_cells_of_one_side_go_under_a_tool(method: str) -> None:
     touch: the force falls to zero, and the tool meets what is below."""
     scene = livers().replace(step={"type": method, "dt": "10 ms", "solver": {"type": "cholesky"}})
     simulation = scene.compile()
+    before = simulation.meshes["low"].cell_count
     forces = []
     for number in range(120):
         if number >= 50 and number % 5 == 0 and len(simulation.contacts()):
@@ -122,4 +128,4 @@ def test_all_cells_of_one_side_go_under_a_tool(method: str) -> None:
         forces.append(between(simulation, "high", "low")[2])
     assert max(forces[40:50]) > 0.1
     assert abs(forces[-1]) < 0.1 * max(forces[40:50])
-    assert simulation.meshes["low"].cell_count < 590
+    assert simulation.meshes["low"].cell_count < before - 50

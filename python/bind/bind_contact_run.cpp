@@ -108,6 +108,15 @@ py::list crossing_list(const Simulation& simulation) {
   return found;
 }
 
+/// Both surfaces, and how far their thicknesses are inside each other.
+py::list overlap_list(const Simulation& simulation) {
+  py::list found;
+  for (const auto& [pair, depth] : overlaps(contact_of(simulation), simulation.state())) {
+    found.append(py::make_tuple(pair.first, pair.second, depth));
+  }
+  return found;
+}
+
 void lead_obstacle(Simulation& simulation, const std::string& name, const Doubles& displacement, double angle,
                    const Doubles& axis, const Doubles& center, double over) {
   const Pose pose{to_vec3(center, "center"), to_vec3(displacement, "displacement"),
@@ -200,6 +209,7 @@ void bind_contact_run(py::class_<Simulation>& simulation) {
       .def("contact_surfaces", &surface_names)
       .def("contact_force_on", &force_on, arg("name"))
       .def("crossings", &crossing_list)
+      .def("overlaps", &overlap_list)
       .def("obstacle_places", &obstacle_places, py::kw_only(), arg("name"), arg("rest"))
       .def("obstacle_surface", &obstacle_surface, arg("name"))
       .def("contact_surface", &contact_surface, arg("body"))

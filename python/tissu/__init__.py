@@ -57,6 +57,7 @@ _HOMES = {
         "Contacts",
         "Crossing",
         "IntegrationPoints",
+        "Overlap",
         "Plan",
         "Profile",
         "Simulation",

@@ -32,6 +32,7 @@ from tissu.field_names import FIELD_NAMES as FIELD_NAMES
 from tissu.simulation import Contacts as Contacts
 from tissu.simulation import Crossing as Crossing
 from tissu.simulation import IntegrationPoints as IntegrationPoints
+from tissu.simulation import Overlap as Overlap
 from tissu.simulation import Plan as Plan
 from tissu.simulation import Profile as Profile
 from tissu.simulation import Simulation as Simulation

@@ -136,3 +136,41 @@ def test_no_deeper_than_the_gap_they_are_moved_apart_by_no_more(depth):
     contacts = [ts.Contact(("liver", "ball"), gap=1e-4)]
     moved = overlapping(bodies={"liver": cube()}, obstacles=below, contacts=contacts)
     assert moved <= 4 * (depth + 1e-4)  # of the nodes of a triangle whose inside touches
+
+
+def test_overlaps_say_how_deep_balls_and_sheets_are_inside():
+    """Closed forms, of bodies that are put there: a ball over a face, a rod over a sheet."""
+    made = scene(
+        bodies={"liver": cube(), "skin": sheet(0.25)},
+        obstacles={
+            "ball": ts.SphereObstacle((0.05, 0.05, 0.13), 0.02),
+            "rod": ts.CapsuleObstacle(((0.01, 0.05, 0.3), (0.09, 0.05, 0.3)), radius=0.004),
+        },
+        contacts=[ts.Contact(("liver", "ball")), ts.Contact(("skin", "rod"))],
+    )
+    simulation = made.compile()
+    assert simulation.overlaps() == []
+    simulation.positions["liver"][:, 2] += 0.0135  # its top is at 11.35 cm, the ball's low at 11 cm
+    simulation.positions["skin"][:, 2] += 0.0475  # 2.5 mm below the axis of the rod
+    liver, skin = simulation.overlaps()
+    assert liver[:2] == ("liver", "ball")
+    assert liver.depth == pytest.approx(0.0035, rel=1e-9)
+    assert skin[:2] == ("skin", "rod")
+    assert skin.depth == pytest.approx(0.001 + 0.004 - 0.0025, rel=1e-9)
+    assert simulation.crossings() == []
+
+
+def test_a_pressed_ball_is_no_deeper_than_the_gap():
+    """Between the points that meet it the surface rises by at most the gap."""
+    down = ts.Motion(times=(0, 0.1), displacements=((0, 0, 0), (0, 0, -0.025)))
+    made = scene(
+        bodies={"liver": cube(viscosity=ts.Rayleigh(mass=5.0, stiffness=0.01))},
+        obstacles={"ball": ts.SphereObstacle((0.05, 0.05, 0.131), 0.03, motion=down)},
+        contacts=[ts.Contact(("liver", "ball"), gap=5e-4)],
+        fixed=[ts.Fixed("liver", on=ts.Plane((0, 0, 0), (0, 0, 1)))],
+    )
+    simulation = made.compile()
+    for _ in range(20):
+        simulation.step()
+        assert all(overlap.depth <= 5e-4 for overlap in simulation.overlaps())
+    assert simulation.force_on("ball").force[2] > 0.1

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <map>
 
-#include "start_depth.h"
+#include "overlap.h"
 #include "tissu/base/error.h"
 #include "tissu/base/number_text.h"
 #include "tissu/contact/candidates.h"
@@ -115,7 +115,7 @@ class Separation {
   }
 
   /// Thick and round things that remain inside each other.
-  [[nodiscard]] Depths depths() const { return deep_overlaps(contact_, candidates_, places_, start_); }
+  [[nodiscard]] Depths depths() const { return deep_overlaps(contact_, candidates_, places_, start_, 1.0); }
 
   void run() {
     bool near = true;

@@ -85,7 +85,7 @@ void SurfaceSet::add(const SurfaceDescription& description, std::int32_t first_r
   for (const auto& e : description.edges) primitives_.push_back({{number(e[0]), number(e[1]), -1}, 2});
   for (const std::int32_t p : description.points) primitives_.push_back({{number(p), -1, -1}, 1});
   const std::vector<std::int32_t> crowded = add_edges(first_primitive, first_vertex);
-  if (description.closed) part_wedges(crowded, first_primitive);
+  if (description.closed) part_wedges(crowded, first_primitive, first_edge);
   measure(first_primitive, first_edge);
   surfaces_.push_back({description.name, first_vertex, static_cast<std::int32_t>(vertices_.size()),
                        description.closed, obstacle});

@@ -49,7 +49,8 @@ std::vector<std::array<Beside, 2>> wedges_of(const std::vector<Beside>& round) {
 }  // namespace
 
 /// `crowded`: the edges that have more than two triangles, ascending.
-void SurfaceSet::part_wedges(const std::vector<std::int32_t>& crowded, std::int32_t first_primitive) {
+void SurfaceSet::part_wedges(const std::vector<std::int32_t>& crowded, std::int32_t first_primitive,
+                             std::int32_t first_edge) {
   std::vector<std::vector<Beside>> rounds(crowded.size());
   for (auto p = first_primitive; p < static_cast<std::int32_t>(primitives_.size()); ++p) {
     for (std::size_t i = 0; i < 3; ++i) {
@@ -65,7 +66,7 @@ void SurfaceSet::part_wedges(const std::vector<std::int32_t>& crowded, std::int3
       const Vec3 into = block(ConstReals(rest_), across) - from;
       const double angle = std::atan2(into.dot(along.cross(first)), into.dot(first));
       rounds[static_cast<std::size_t>(found - crowded.begin())].push_back(
-          {angle, corners[i] == a, p, across});
+          {std::isfinite(angle) ? angle : 0.0, corners[i] == a, p, across});
     }
   }
   for (std::size_t k = 0; k < crowded.size(); ++k) {
@@ -85,6 +86,24 @@ void SurfaceSet::part_wedges(const std::vector<std::int32_t>& crowded, std::int3
     }
     if (number != crowded[k]) edges_.pop_back();
   }
+  if (!crowded.empty()) number_edges(first_primitive, first_edge);
+}
+
+/// Edges stand in the order of their first primitives.
+void SurfaceSet::number_edges(std::int32_t first_primitive, std::int32_t first_edge) {
+  std::vector<std::int32_t> numbers(edges_.size(), -1);
+  std::vector<SurfaceEdge> ordered;
+  for (auto p = first_primitive; p < static_cast<std::int32_t>(primitives_.size()); ++p) {
+    for (std::int32_t& e : triangle_edges_[at(p)]) {
+      if (e < 0) continue;
+      if (numbers[at(e)] < 0) {
+        numbers[at(e)] = first_edge + static_cast<std::int32_t>(ordered.size());
+        ordered.push_back(edges_[at(e)]);
+      }
+      e = numbers[at(e)];
+    }
+  }
+  std::ranges::copy(ordered, edges_.begin() + first_edge);
 }
 
 }  // namespace tissu

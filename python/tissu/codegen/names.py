@@ -46,6 +46,7 @@ NAMES: dict[str, tuple[str, ...]] = {
         "Contacts",
         "Crossing",
         "IntegrationPoints",
+        "Overlap",
         "Plan",
         "Profile",
         "Simulation",

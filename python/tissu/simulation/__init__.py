@@ -7,7 +7,7 @@ from tissu.simulation.plan import Plan
 from tissu.simulation.profile import Profile, ProfileRow, Solves, WorstStep
 from tissu.simulation.report import StepReport
 from tissu.simulation.simulation import Simulation
-from tissu.simulation.touched import Contacts, Crossing, Wrench
+from tissu.simulation.touched import Contacts, Crossing, Overlap, Wrench
 
 __all__ = [
     "Contacts",
@@ -15,6 +15,7 @@ __all__ = [
     "Grab",
     "IntegrationPoints",
     "LiveLoad",
+    "Overlap",
     "Plan",
     "Profile",
     "ProfileRow",

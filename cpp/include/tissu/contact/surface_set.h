@@ -86,7 +86,9 @@ class SurfaceSet {
   void add(const SurfaceDescription& description, std::int32_t first_row, std::int32_t obstacle,
            ConstReals rest);
   std::vector<std::int32_t> add_edges(std::int32_t first_primitive, std::int32_t first_vertex);
-  void part_wedges(const std::vector<std::int32_t>& crowded, std::int32_t first_primitive);
+  void number_edges(std::int32_t first_primitive, std::int32_t first_edge);
+  void part_wedges(const std::vector<std::int32_t>& crowded, std::int32_t first_primitive,
+                   std::int32_t first_edge);
   void measure(std::int32_t first_primitive, std::int32_t first_edge);
   void list_neighbours();
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <set>
 #include <span>
 #include <string_view>
@@ -138,7 +139,8 @@ class VolumeCells {
 Surface volume_surface(const BodyDescription& body, const std::vector<Run>& runs) {
   Mesh mesh{body.positions, {}};
   for (const Run& run : runs) {
-    if (run.dimension == 3) mesh.blocks.push_back({*cell_type(run.element), run.cells});
+    const std::optional<CellType> volume = cell_type(run.element);
+    if (volume) mesh.blocks.push_back({*volume, run.cells});
   }
   return boundary_surface(mesh);
 }

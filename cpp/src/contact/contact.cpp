@@ -21,6 +21,10 @@ void ContactTable::write(std::span<const ContactNumbers> contacts, std::vector<d
   if (!contacts.empty()) std::memcpy(numbers.data(), contacts.data(), contacts.size_bytes());
 }
 
+void ContactTable::write(const ContactNumbers& contact, std::size_t i, std::vector<double>& numbers) {
+  std::memcpy(numbers.data() + i * kNumbers, static_cast<const void*>(&contact), sizeof contact);
+}
+
 Mat3 stiffness_of(const ContactNumbers& contact) {
   const auto& [xx, yy, zz, yz, xz, xy] = contact.stiffness;
   Mat3 H;
@@ -59,6 +63,10 @@ void Contact::add_force(const State& state, Scratch& /*scratch*/, Reals f) const
     const Vec3 moved = reach(c, state.positions) - vector_of(c.place);
     scatter(c, vector_of(c.push) - stiffness_of(c) * moved, f);
   });
+}
+
+void Contact::take_force(const State& state, Reals f) const {
+  for_contacts(state, [&](const ContactNumbers& c) { scatter(c, -vector_of(c.push), f); });
 }
 
 void Contact::add_product(const State& state, Scratch& /*scratch*/, StiffnessScale scale, ConstReals p,

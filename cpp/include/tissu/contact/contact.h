@@ -60,6 +60,8 @@ class ContactTable {
   [[nodiscard]] std::size_t size() const { return numbers_.size() / kNumbers; }
   [[nodiscard]] ContactNumbers operator[](std::size_t i) const;
   static void write(std::span<const ContactNumbers> contacts, std::vector<double>& numbers);
+  /// In the place of contact i.
+  static void write(const ContactNumbers& contact, std::size_t i, std::vector<double>& numbers);
 
  private:
   std::span<const double> numbers_;
@@ -114,6 +116,8 @@ class Contact final : public ForceModel {
 
   /// All vertices of the surfaces, three numbers each.
   void place_vertices(const State& state, double time, Reals places) const;
+  /// f -= the forces of the contacts of a state.
+  void take_force(const State& state, Reals f) const;
   /// Force [N], and moment about its origin [N m], that the contacts of a state give to a body or obstacle.
   struct Wrench {
     Vec3 force = Vec3::Zero();

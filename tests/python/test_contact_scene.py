@@ -266,6 +266,12 @@ EXPLICIT_SLIPS = {
         "found reciprocal beside the method impulse",
     ),
     "barrier": ("method: barrier", "friction: 0.2", "contact.method", "which is not there yet"),
+    "bounce of geometric": (
+        "method: geometric",
+        "restitution: 0.5",
+        "contacts[0].restitution",
+        "which the method geometric does not have, but impulse and penalty alone",
+    ),
 }
 
 

@@ -14,14 +14,16 @@ from tissu.scene.tissue import tissues_of
 from tissu.scene.unknown import Unknown
 
 _EXPLICIT = ("symplectic_euler", "explicit_euler", "rk2", "rk4")
+_IMPLICIT = ("implicit_euler", "bdf2", "implicit_midpoint", "newmark", "energy_momentum")
 STEPS_OF_METHOD: dict[str, tuple[str, ...]] = {
-    "augmented": ("implicit_euler", "bdf2", "static"),
+    "augmented": (*_IMPLICIT, "static"),
     "impulse": _EXPLICIT,
-    "penalty": _EXPLICIT,
+    "penalty": (*_EXPLICIT, "implicit_euler", "bdf2", "static"),
+    "geometric": _EXPLICIT,
 }
 """Contact method -> the steps that have it; `auto` takes the first method that the step has.
 
-The midpoint rule and Newmark's method ring after an impact and let surfaces cross.
+Contact in steps without damping ends with impulses that take all that springs would give back.
 """
 FIELDS_OF_METHOD: dict[str, tuple[str, ...]] = {
     "impulse": ("restitution",),
@@ -181,7 +183,7 @@ def _method_problems(scene: Any) -> Iterator[Problem]:
         yield Problem(("editing",), f"{text}editing out")
     for number, contact in enumerate(scene.contacts):
         with contextlib.suppress(Unknown):
-            for problem in _field_problems(contact, method):
+            for problem in _field_problems(contact, method, step):
                 yield Problem(("contacts", number, *problem.path), problem.text)
 
 
@@ -203,7 +205,7 @@ def _has_fcl() -> bool:
     return any(str(name).lower() == "fcl" for name in build_info()["libraries"])
 
 
-def _field_problems(contact: Meeting, method: str) -> Iterator[Problem]:
+def _field_problems(contact: Meeting, method: str, step: str) -> Iterator[Problem]:
     """Fields that the method that runs does not have."""
     for name in ("restitution", "stiffness"):
         value = getattr(contact, name)
@@ -215,7 +217,11 @@ def _field_problems(contact: Meeting, method: str) -> Iterator[Problem]:
             text += f"have, but {' and '.join(having)} alone; leave it out"
             yield Problem((name,), text)
     e = contact.restitution
-    if method == "penalty" and e is not None and e < LEAST_RESTITUTION:
+    if method == "penalty" and e is not None and step == "static":
+        text = f"found {e:g} in a static step, in which nothing meets at a speed; leave it out"
+        yield Problem(("restitution",), text)
+    elif method == "penalty" and e is not None and e < LEAST_RESTITUTION:
         text = f"found {e:g}, but a damper that does not pull gives back at least "
-        text += f"{LEAST_RESTITUTION:.4f}; that to 1 is accepted: leave it out, or take impulse"
+        other = ", or take impulse" if step in _EXPLICIT else ""
+        text += f"{LEAST_RESTITUTION:.4f}; that to 1 is accepted: leave it out{other}"
         yield Problem(("restitution",), text)

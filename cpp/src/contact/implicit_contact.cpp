@@ -63,10 +63,19 @@ void ImplicitContact::note_depth(const ContactNumbers& contact, double depth) {
   depth_ = std::max(depth_, depth / std::min(contact.apart, pair_of(contact).gap));
 }
 
+Vec3 ImplicitContact::reach(const ContactNumbers& contact, const State& at) const {
+  Vec3 r = vector_of(contact.fixed);
+  for (std::size_t k = 0; k < 4; ++k) {
+    const std::int32_t i = run_.row_of(contact.vertex[k]);
+    if (i >= 0) r += contact.beta[k] * block(ConstReals(at.positions), i);
+  }
+  return r;
+}
+
 void ImplicitContact::update(const State& end) {
   bodies_.clear();
   for (ContactNumbers& c : run_.acting()) {
-    const Vec3 r = run_.reach_of(c, end);
+    const Vec3 r = reach(c, end);
     const Vec3 f = vector_of(c.push) - stiffness_of(c) * (r - vector_of(c.place));
     const Vec3 n = vector_of(c.normal);
     const double normal = n.dot(f);
@@ -89,7 +98,7 @@ void ImplicitContact::write(State& state) const {
   if (stage_.stretch == 1.0 && stage_.times == 1.0) return;
   std::size_t place = 0;
   for (ContactNumbers c : run_.acting()) {
-    const Vec3 from = run_.reach_of(c, *start_);
+    const Vec3 from = reach(c, *start_);
     c.place = numbers_of(from + (vector_of(c.place) - from) / stage_.stretch);
     c.push = numbers_of(stage_.times * vector_of(c.push));
     for (double& h : c.stiffness) h *= stage_.times * stage_.stretch;
@@ -101,7 +110,7 @@ void ImplicitContact::finish(const State& end, State& into) {
   least_gap_ = std::numeric_limits<double>::infinity();
   for (ContactNumbers& c : run_.acting()) {
     const Vec3 n = vector_of(c.normal);
-    const Vec3 r = run_.reach_of(c, end);
+    const Vec3 r = reach(c, end);
     c.push = numbers_of(c.force * n + vector_of(c.drag));
     c.place = numbers_of(r);
     c.stiffness = {};

@@ -41,7 +41,7 @@ void ImplicitPenalty::begin_press() {
   find_stiffnesses(rest_, 1.0, shares_, springs_);
 }
 
-bool ImplicitPenalty::press(std::size_t i, ContactNumbers& c) {
+std::optional<double> ImplicitPenalty::press(std::size_t i, ContactNumbers& c) {
   const ContactPair& pair = pair_of(c);
   const bool own = pair.stiffness && c.area > 0.0;
   const double k = own ? run_.weight(i) * *pair.stiffness * c.area : springs_[i];
@@ -60,9 +60,9 @@ bool ImplicitPenalty::press(std::size_t i, ContactNumbers& c) {
     force = stop;
     slope = hard;
   }
-  if (!(force > 0.0)) return false;
+  if (!(force > 0.0)) return std::nullopt;
   give(c, force, slope);
-  return true;
+  return force;
 }
 
 }  // namespace tissu

@@ -67,11 +67,12 @@ void ImplicitContact::press_all() {
   const double tangent = tangent_ * std::max(kSoft, std::pow(kSofter, alternations));
   for (std::size_t i = 0; i < run_.looked().size(); ++i) {
     ContactNumbers c = run_.looked()[i];
-    if (stiffnesses_[i] == 0.0 || !press(i, c)) continue;
+    if (stiffnesses_[i] == 0.0) continue;
+    const std::optional<double> force = press(i, c);
+    if (!force) continue;
     const double friction = pair_of(c).friction;
     if (friction == 0.0) c.sliding = 0.0;
-    const double bound = friction * std::max(0.0, vector_of(c.normal).dot(vector_of(c.push)));
-    if (friction > 0.0) rub(c, bound, tangent * stiffnesses_[i]);
+    if (friction > 0.0) rub(c, friction * std::max(0.0, *force), tangent * stiffnesses_[i]);
     pressing_.push_back(c);
   }
 }

@@ -20,7 +20,7 @@ class AugmentedContact final : public ImplicitContact {
   [[nodiscard]] bool may_press(std::size_t i) const override {
     return run_.looked()[i].force > 0.0 || run_.gap(i) < 0.0 || run_.is_predicted(i);
   }
-  bool press(std::size_t i, ContactNumbers& contact) override;
+  std::optional<double> press(std::size_t i, ContactNumbers& contact) override;
 };
 
 }  // namespace tissu

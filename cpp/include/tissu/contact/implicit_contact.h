@@ -8,6 +8,7 @@
 /// whatever the scene.
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -81,8 +82,9 @@ class ImplicitContact {
  protected:
   /// It may press, so that it counts at its rows.
   [[nodiscard]] virtual bool may_press(std::size_t i) const = 0;
-  /// Gives a contact of the latest look, number i, its normal force and stiffness; false: it does not press.
-  virtual bool press(std::size_t i, ContactNumbers& contact) = 0;
+  /// Gives a contact of the latest look, number i, its normal force and stiffness. That force [N]; nothing:
+  /// it does not press.
+  virtual std::optional<double> press(std::size_t i, ContactNumbers& contact) = 0;
 
   [[nodiscard]] const ContactPair& pair_of(const ContactNumbers& contact) const {
     return contact_.description().pairs[static_cast<std::size_t>(contact.pair)];
@@ -117,6 +119,8 @@ class ImplicitContact {
   void press_all();
   /// Adds friction of that bound [N]; k is the stiffness against sliding [N/m].
   void rub(ContactNumbers& contact, double bound, double k) const;
+  /// r of a contact, of rows at the places of `at`.
+  [[nodiscard]] Vec3 reach(const ContactNumbers& contact, const State& at) const;
   [[nodiscard]] Mat3 compliance(const ContactNumbers& contact, std::span<const double> blocks) const;
 
   const FixedDofs& fixed_;

@@ -25,7 +25,7 @@ class ImplicitPenalty final : public ImplicitContact {
  protected:
   [[nodiscard]] bool may_press(std::size_t i) const override;
   void begin_press() override;
-  bool press(std::size_t i, ContactNumbers& contact) override;
+  std::optional<double> press(std::size_t i, ContactNumbers& contact) override;
 
  private:
   /// c / h of a spring of stiffness k [N/m].

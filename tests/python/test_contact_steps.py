@@ -20,7 +20,7 @@ GAP = 1e-4
 
 
 def bar_on_a_wall(step, cells):
-    """A bar of 1 m without lateral motion flies onto a wall; a wave crosses a cell in 1 / (10 n)."""
+    """A bar of 1 m without lateral motion flies onto a wall; a wave goes along it in 0.1 s."""
     mesh = ts.BarMesh(
         size=(1, 0.05, 0.05), cells=(cells, 1, 1), cell="hexahedron", origin=(1.001 * GAP, 0, 0)
     )

@@ -89,8 +89,8 @@ class Contact(Meeting):
     impulse, 0.57 of penalty, whose damper has a fifth of the critical damping
     """
     stiffness: Maybe[units.StiffnessPerArea] = field(default=None, gt=0.0)
-    """of the method penalty [Pa/m]; absent: from the masses in explicit steps, from the stiffness of
-    the bodies at rest in others
+    """of the method penalty [Pa/m]; absent: from the masses in explicit steps, from the bodies'
+    stiffness at rest in others
     """
     on: On | None = None
     """which nodes of the first body's surface meet the others; absent: all"""
@@ -129,8 +129,8 @@ class SelfContact(Meeting):
     impulse, 0.57 of penalty, whose damper has a fifth of the critical damping
     """
     stiffness: Maybe[units.StiffnessPerArea] = field(default=None, gt=0.0)
-    """of the method penalty [Pa/m]; absent: from the masses in explicit steps, from the stiffness of
-    the bodies at rest in others
+    """of the method penalty [Pa/m]; absent: from the masses in explicit steps, from the bodies'
+    stiffness at rest in others
     """
 
     def effect(self, path: str, gap: str | None) -> Effect:

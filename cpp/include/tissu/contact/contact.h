@@ -76,8 +76,8 @@ class Contact final : public ForceModel {
 
   [[nodiscard]] std::string_view effect() const override { return "contact"; }
   [[nodiscard]] ForceKind kind() const override { return ForceKind::external; }
-  /// Obstacles are led, and friction takes.
-  [[nodiscard]] bool may_add_energy() const override { return true; }
+  /// Where an obstacle is led, or springs store what is not counted.
+  [[nodiscard]] bool may_add_energy() const override;
   void add_force(const State& state, Scratch& scratch, Reals f) const override;
   void add_product(const State& state, Scratch& scratch, StiffnessScale scale, ConstReals p,
                    Reals out) const override;
@@ -111,6 +111,7 @@ class Contact final : public ForceModel {
   /// Leads it back to its own path.
   void release(std::string_view name, double over, State& state) const;
   [[nodiscard]] bool is_led_live(std::string_view name, const State& state) const;
+  [[nodiscard]] bool is_any_led_live(const State& state) const;
   /// The pose, from rest, in which an obstacle is.
   [[nodiscard]] Pose pose_of(std::int32_t obstacle, const State& state, double time) const;
 

@@ -71,6 +71,7 @@ class Simulation {
   [[nodiscard]] double farthest() const;
   [[nodiscard]] bool is_sane() const;
   [[noreturn]] void roll_back(double h);
+  [[nodiscard]] bool is_led_live() const;
   void begin_watch(EnergyWatch& watch);
   void watch_energy(EnergyWatch& watch, StepReport& report);
   /// Adds to the report of a static step which cells are inside out.
@@ -93,7 +94,8 @@ class Simulation {
   std::vector<double> held_;  ///< velocities of held rows, as the scene and the latest step left them
   std::vector<PartStart> part_starts_;  ///< of each halving that there was, where something touches
   bool settled_ = true;
-  std::optional<EnergyWatch> watch_;        ///< of undamped methods, where nothing can add energy
+  std::optional<EnergyWatch>
+      watch_;  ///< of undamped methods and where surfaces meet, if nothing can add energy
   std::optional<InversionCheck> inverted_;  ///< of static methods
 };
 

@@ -10,6 +10,7 @@ from tissu import scene as parts
 from tissu.contact_cost.measure import Row, measure
 from tissu.contact_cost.scenes import CASES, Case
 from tissu.front import Scene
+from tissu.scene.step import Step
 
 SCENES = ("cube", "stick", "slide")
 """Cases that every response runs: a fall, and slopes below and above the angle of friction."""
@@ -28,7 +29,7 @@ class Response:
     """
 
     method: str
-    step: Callable[[float], parts.Step]
+    step: Callable[[float], Step]
     dt: float = 0.0
     law: str = "linear"
 

@@ -53,7 +53,8 @@ CPP: dict[str, set[str]] = {
     "model/condensed": MODEL | {"model/fem", "solve"},
     "viscosity": MODEL | {"model/edges"},  # dampers beside springs
     "contact": {"base", "mesh", "assembly", "state", "force"},
-    "edit": MODEL | {"world"},
+    "edit/cut": {"base", "mesh"},
+    "edit": MODEL | {"world", "edit/cut"},
     "picture": {"base"},
 }
 CPP["model/models"] = MODEL | {room for room in CPP if room.startswith("model/")}

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <map>
 
+#include "tissu/base/crossing.h"
 #include "tissu/base/error.h"
 #include "tissu/contact/candidates.h"
 #include "tissu/contact/closest.h"
-#include "tissu/contact/crossing.h"
 
 namespace tissu {
 namespace {

@@ -60,7 +60,7 @@ struct CutPlan {
   std::vector<ChangedCell> changed;
   std::int32_t first_node = 0;  ///< `Hosts::node_count` before
   std::vector<BornNode> nodes;
-  std::vector<std::int32_t> emptied;  ///< old nodes that lose the last material at them: virtual from now on
+  std::vector<std::int32_t> emptied;  ///< touched old nodes without material at them from now on: virtual
   MaterialChange material;
 
   std::int32_t cells_cut = 0;     ///< hosts that have an edge divided or a face opened

@@ -54,8 +54,12 @@ class Hosts {
     return cells_at_[static_cast<std::size_t>(node)];
   }
 
-  /// The cells whose boxes of corners at places `x` (3 numbers per node) meet the box low..high, ascending.
-  [[nodiscard]] std::vector<std::int32_t> near(ConstReals x, const Vec3& low, const Vec3& high) const;
+  /// Cells that lie together, and every node that a corner of one of them is.
+  struct Cluster {
+    std::vector<std::int32_t> cells;
+    std::vector<std::int32_t> corners;
+  };
+  [[nodiscard]] std::span<const Cluster> clusters() const { return clusters_; }
 
   void apply(const CutPlan& plan);
   /// Throws ParameterError, and removes none, when one of them is not there.
@@ -69,14 +73,10 @@ class Hosts {
     CellType type;
     std::int32_t cluster;
   };
-  /// Cells that lie together, and every node that a corner of them is.
-  struct Cluster {
-    std::vector<std::int32_t> cells;
-    std::vector<std::int32_t> corners;
-  };
   [[nodiscard]] const Slot& slot(std::int32_t cell) const { return cells_[static_cast<std::size_t>(cell)]; }
-  void add(const Cell& cell);
+  void add(const Cell& cell, std::int32_t cluster);
   void take_out(std::int32_t cell);
+  void replace_nodes(std::int32_t cell, std::span<const std::int32_t> nodes);
   void make_clusters();
   void join_cluster(std::int32_t cell, std::int32_t cluster);
 

@@ -14,7 +14,7 @@ namespace tissu {
 /// One connected surface, its triangles turned alike. Parts of a sweep are cut one after the other.
 struct SweepPart {
   std::vector<std::array<Vec3, 3>> triangles;
-  bool flat = false;           ///< all triangles lie in one plane, to round-off
+  std::vector<std::uint8_t> border;  ///< of each triangle, bit i: no other one has its edge from corner i on
   std::int32_t incision = -1;  ///< number of the incision that goes on here; -1: no later sweep goes on here
 };
 

@@ -17,6 +17,7 @@ namespace tissu {
 struct OnCut {
   struct Vertex {
     bool on = false;
+    bool before = false;                                    ///< an earlier sweep of the incision put it there
     double away = std::numeric_limits<double>::infinity();  ///< of the crossing [m]
     Vec3 met = Vec3::Zero();
     int votes = 0;

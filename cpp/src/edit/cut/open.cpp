@@ -33,7 +33,7 @@ class Opener {
         near_(near),
         known_(known),
         all_(part.triangles.size()),
-        distances_(patch.vertices.size(), kUnknown) {
+        heights_(patch.vertices.size(), kUnknown) {
     std::iota(all_.begin(), all_.end(), 0);
   }
 
@@ -78,10 +78,10 @@ class Opener {
     return near_.triangles(patch_.cell(patch_.tetra(tetra).cell).number);
   }
 
-  /// Signed distance of a vertex; its crossed edges decide its side, else the triangles near the cells
+  /// Height of a vertex above the blade; its crossed edges decide its side, else the triangles near the cells
   /// around.
-  double signed_distance_of(std::int32_t v) {
-    double& known = distances_[at(v)];
+  double height_of(std::int32_t v) {
+    double& known = heights_[at(v)];
     if (!std::isnan(known)) return known;
     std::vector<std::int32_t> candidates;
     for (const std::int32_t t : patch_.tetrahedra_at(v)) {
@@ -90,7 +90,7 @@ class Opener {
     std::ranges::sort(candidates);
     candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());
     if (candidates.empty()) candidates = all_;
-    known = signed_distance(part_, candidates, patch_.vertex(v).place);
+    known = signed_height(part_, candidates, patch_.vertex(v).place);
     const int votes = known_[v].votes;
     if (!known_.on(v) && votes != 0) {
       known = std::copysign(std::max(std::abs(known), std::numeric_limits<double>::min()), votes);
@@ -105,12 +105,14 @@ class Opener {
     const bool all = std::ranges::all_of(vertices, [&](std::int32_t v) { return known_.on(v); });
     double sum = 0.0;
     for (const std::int32_t v : vertices) {
-      if (all || !known_.on(v)) sum += signed_distance_of(v);
+      if (all || !known_.on(v)) sum += height_of(v);
     }
     return sum >= 0.0;
   }
 
   [[nodiscard]] bool covered(const FaceSide& a, const FaceSide& b) const {
+    const auto before = std::ranges::count_if(a.key, [&](std::int32_t v) { return known_[v].before; });
+    if (before == 1 || before == 2) return true;  // the blade went from those to the others
     std::array<Vec3, 3> met;
     for (std::size_t i = 0; i < 3; ++i) met[i] = known_[a.key[i]].met;
     const Vec3 mean = (met[0] + met[1] + met[2]) / 3.0;
@@ -144,7 +146,7 @@ class Opener {
   const NearCells& near_;
   const OnCut& known_;
   std::vector<std::int32_t> all_;
-  std::vector<double> distances_;
+  std::vector<double> heights_;
   OpenedFaces opened_;
 };
 

@@ -21,7 +21,8 @@ struct OpenedFaces {
 
 /// Opens each inner face whose three vertices are on the cut, whose two tetrahedra lie on different sides of
 /// the blade, and which the blade covers: the mean of the three places where it met them lies within a fifth
-/// of their longest distance from it.
+/// of their longest distance from it. A face between vertices of this sweep and of earlier ones of its
+/// incision is covered by both together.
 OpenedFaces open_faces(Patch& patch, const SweepPart& part, const NearCells& near, const OnCut& known);
 
 }  // namespace tissu

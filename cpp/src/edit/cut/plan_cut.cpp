@@ -127,6 +127,7 @@ class Attempt {
         const Patch::Vertex& vertex = patch_.vertices[v];
         if (!std::ranges::binary_search(incision.vertices, vertex.number)) continue;
         known.put_on(static_cast<std::int32_t>(v), vertex.place, vertex.place);
+        known.vertices[v].before = true;
       }
     }
     return known;

@@ -30,7 +30,7 @@ double distance(const SweepPart& part, std::span<const std::int32_t> triangles, 
   return least;
 }
 
-double signed_distance(const SweepPart& part, std::span<const std::int32_t> triangles, const Vec3& p) {
+double signed_height(const SweepPart& part, std::span<const std::int32_t> triangles, const Vec3& p) {
   double least = kInfinity;
   double height = 0.0;
   int sign = 0;
@@ -45,7 +45,7 @@ double signed_distance(const SweepPart& part, std::span<const std::int32_t> tria
     height = above;
     sign = orientation(triangle[0], triangle[1], triangle[2], p);
   }
-  return sign == 0 ? 0.0 : sign * least;
+  return sign * height;
 }
 
 }  // namespace tissu

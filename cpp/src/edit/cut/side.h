@@ -12,8 +12,8 @@ namespace tissu {
 /// Distance to the nearest of the named triangles [m], infinite for none.
 double distance(const SweepPart& part, std::span<const std::int32_t> triangles, const Vec3& p);
 
-/// The same with the sign of the side, 0 on the plane of the nearest triangle. Of triangles equally near, at
-/// an edge or a corner, the one whose plane is farthest away has the sign.
-double signed_distance(const SweepPart& part, std::span<const std::int32_t> triangles, const Vec3& p);
+/// Height above the plane of the nearest triangle, negative below [m]. Of triangles equally near, at an edge
+/// or a corner, the one whose plane is farthest away counts.
+double signed_height(const SweepPart& part, std::span<const std::int32_t> triangles, const Vec3& p);
 
 }  // namespace tissu

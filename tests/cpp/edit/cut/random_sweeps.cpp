@@ -129,22 +129,7 @@ Mesh pyramids(const Mesh& boxes) {
   return mesh;
 }
 
-}  // namespace
-
-Mesh typed_box(CellType type, const Vec3& size, std::array<int, 3> cells, double jitter, std::uint64_t seed) {
-  const int corners = info(type).corners;
-  Mesh mesh = box_mesh(Vec3::Zero(), size, cells,
-                       corners == 4 ? (seed % 2 == 0 ? Split::five : Split::six) : Split::none);
-  Random random(seed);
-  double edge = size[0];
-  for (int i = 0; i < 3; ++i) edge = std::min(edge, size[i] / cells[static_cast<std::size_t>(i)]);
-  jitter_inside(mesh, size, jitter * edge, random);
-  if (corners == 6) mesh = wedges(mesh);
-  if (corners == 5) mesh = pyramids(mesh);
-  return info(type).order == 1 ? mesh : Raiser(mesh, type).raise();
-}
-
-Sweep random_sweep(std::mt19937_64& random, const CutBody& body) {
+Sweep try_sweep(Random& random, const CutBody& body) {
   const auto node = static_cast<std::int32_t>(random() % static_cast<std::uint64_t>(body.hosts.node_count()));
   Vec3 through = block(ConstReals(body.x), node);
   Eigen::AlignedBox3d box;
@@ -169,14 +154,34 @@ Sweep random_sweep(std::mt19937_64& random, const CutBody& body) {
         points.insert(points.end(), p.data(), p.data() + 3);
       }
       const std::vector<std::array<std::int32_t, 3>> triangles{{0, 1, 2}, {0, 2, 3}};
-      try {
-        return triangle_sweep(points, triangles);
-      } catch (const ParameterError&) {  // the directions were one line
-        return body.plane(through, u);
-      }
+      return triangle_sweep(points, triangles);
     }
     default:
       return bent(random, through, size * real(random, 0.2, 1.5));
+  }
+}
+
+}  // namespace
+
+Mesh typed_box(CellType type, const Vec3& size, std::array<int, 3> cells, double jitter, std::uint64_t seed) {
+  const int corners = info(type).corners;
+  Mesh mesh = box_mesh(Vec3::Zero(), size, cells,
+                       corners == 4 ? (seed % 2 == 0 ? Split::five : Split::six) : Split::none);
+  Random random(seed);
+  double edge = size[0];
+  for (int i = 0; i < 3; ++i) edge = std::min(edge, size[i] / cells[static_cast<std::size_t>(i)]);
+  jitter_inside(mesh, size, jitter * edge, random);
+  if (corners == 6) mesh = wedges(mesh);
+  if (corners == 5) mesh = pyramids(mesh);
+  return info(type).order == 1 ? mesh : Raiser(mesh, type).raise();
+}
+
+Sweep random_sweep(std::mt19937_64& random, const CutBody& body) {
+  for (;;) {
+    try {
+      return try_sweep(random, body);
+    } catch (const ParameterError&) {  // two of the directions were one
+    }
   }
 }
 

@@ -23,7 +23,8 @@ struct MaterialSurface {
 };
 MaterialSurface material_surface(const Hosts& hosts, const Material& material);
 
-/// Uncut cells as they are, then the tetrahedra of cut ones.
+/// Uncut cells as they are, then the tetrahedra of cut ones. A quad of an uncut cell may meet two triangles
+/// of a cut one, which fill it.
 struct MaterialMesh {
   std::vector<Rider> vertices;            ///< nodes of uncut cells and vertices of tetrahedra
   std::vector<std::int32_t> vertex_node;  ///< -1: rides

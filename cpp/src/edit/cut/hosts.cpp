@@ -33,6 +33,11 @@ std::uint32_t morton(const Vec3& p, const Eigen::AlignedBox3d& box) {
   return code;
 }
 
+void sort_unique(std::vector<std::int32_t>& list) {
+  std::ranges::sort(list);
+  list.erase(std::unique(list.begin(), list.end()), list.end());
+}
+
 void insert_sorted(std::vector<std::int32_t>& list, std::int32_t value) {
   const auto place = std::ranges::lower_bound(list, value);
   if (place == list.end() || *place != value) list.insert(place, value);
@@ -94,6 +99,16 @@ std::span<const std::int32_t> Hosts::nodes(std::int32_t cell) const {
 
 std::span<const std::int32_t> Hosts::corners(std::int32_t cell) const {
   return std::span(pool_).subspan(at(slot(cell).first), at(info(type(cell)).corners));
+}
+
+std::vector<std::int32_t> Hosts::with_neighbours(std::span<const std::int32_t> cells) const {
+  std::vector<std::int32_t> found;
+  for (const std::int32_t cell : cells) found.insert(found.end(), nodes(cell).begin(), nodes(cell).end());
+  sort_unique(found);
+  std::vector<std::int32_t> all;
+  for (const std::int32_t node : found) all.insert(all.end(), cells_at(node).begin(), cells_at(node).end());
+  sort_unique(all);
+  return all;
 }
 
 void Hosts::add(const Cell& cell, std::int32_t cluster) {

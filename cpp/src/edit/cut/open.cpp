@@ -42,7 +42,7 @@ class Opener {
     for (std::size_t i = 0; i + 1 < sides.size(); ++i) {
       if (sides[i].key != sides[i + 1].key) continue;
       if (is_open(sides[i]) || is_open(sides[i + 1])) continue;
-      if (side(sides[i].tetra) != side(sides[i + 1].tetra) && covered(sides[i], sides[i + 1])) {
+      if (above(sides[i].tetra) != above(sides[i + 1].tetra) && covered(sides[i], sides[i + 1])) {
         open(sides[i], sides[i + 1]);
       }
     }
@@ -98,16 +98,42 @@ class Opener {
     return known;
   }
 
-  /// Whether a tetrahedron is above the blade: its vertices that are not on the cut decide, of all four if
-  /// all are.
-  bool side(std::int32_t tetra) {
-    const auto& vertices = patch_.tetra(tetra).vertices;
-    const bool all = std::ranges::all_of(vertices, [&](std::int32_t v) { return known_.on(v); });
-    double sum = 0.0;
-    for (const std::int32_t v : vertices) {
-      if (all || !known_.on(v)) sum += height_of(v);
+  /// Above what an earlier sweep of the incision opened, a tetrahedron is above the blade: 1; below: -1; at
+  /// no such face: 0.
+  [[nodiscard]] int side_of_earlier(const Patch::Tetra& tetra) const {
+    for (std::size_t f = 0; f < 4; ++f) {
+      if ((tetra.cut >> f & 1U) == 0) continue;
+      const auto corner = [&](std::size_t i) { return tetra.vertices[kOpposite[f][i]]; };
+      if (!known_[corner(0)].before || !known_[corner(1)].before || !known_[corner(2)].before) continue;
+      const Vec3& a = patch_.vertex(corner(0)).place;
+      const Vec3& b = patch_.vertex(corner(1)).place;
+      const Vec3& c = patch_.vertex(corner(2)).place;
+      const Vec3 normal = nearest_normal(part_, all_, (a + b + c) / 3.0);
+      return (b - a).cross(c - a).dot(normal) < 0.0 ? 1 : -1;  // outward of the tetrahedron
     }
+    return 0;
+  }
+
+  /// Whether a tetrahedron is above the blade: its vertices that are not on the cut decide, its middle if all
+  /// are.
+  bool above(std::int32_t number) {
+    const Patch::Tetra& tetra = patch_.tetra(number);
+    if (const int earlier = side_of_earlier(tetra); earlier != 0) return earlier > 0;
+    double sum = 0.0;
+    bool all = true;
+    Vec3 middle = Vec3::Zero();
+    for (const std::int32_t v : tetra.vertices) {
+      middle += 0.25 * patch_.vertex(v).place;
+      if (known_.on(v)) continue;
+      all = false;
+      sum += height_of(v);
+    }
+    if (all) sum = signed_height(part_, near_or_all(triangles(number)), middle);
     return sum >= 0.0;
+  }
+
+  [[nodiscard]] std::span<const std::int32_t> near_or_all(std::span<const std::int32_t> list) const {
+    return list.empty() ? std::span<const std::int32_t>(all_) : list;
   }
 
   [[nodiscard]] bool covered(const FaceSide& a, const FaceSide& b) const {

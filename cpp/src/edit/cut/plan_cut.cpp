@@ -34,21 +34,6 @@ void sort_unique(Numbers& numbers) {
   numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
 }
 
-/// The cells at the nodes of some cells, themselves included, ascending.
-Numbers with_neighbours(const Hosts& hosts, const Numbers& cells) {
-  Numbers nodes;
-  for (const std::int32_t cell : cells) {
-    nodes.insert(nodes.end(), hosts.nodes(cell).begin(), hosts.nodes(cell).end());
-  }
-  sort_unique(nodes);
-  Numbers all;
-  for (const std::int32_t node : nodes) {
-    all.insert(all.end(), hosts.cells_at(node).begin(), hosts.cells_at(node).end());
-  }
-  sort_unique(all);
-  return all;
-}
-
 void check(const Hosts& hosts, ConstReals x, const CutOptions& options) {
   if (!(options.t0 >= 0.0 && options.t0 <= kLargestT0)) {
     throw ParameterError("a cut has t0 = " + std::to_string(options.t0) + "; 0 to 0.45 are accepted.");
@@ -88,15 +73,16 @@ class Attempt {
 
   /// The plan's cells, nodes and material. False when a part is too small; then `raised` says of which hosts.
   bool finish(CutPlan& plan, RaisedT0& raised, bool last) {
-    Numbers opened;
+    Numbers touched;
     for (const Patch::Cell& cell : patch_.cells) {
       plan.cells_cut += cell.divided || cell.opened ? 1 : 0;
-      if (cell.opened) opened.push_back(cell.number);
+      if (cell.opened) touched.push_back(cell.number);
     }
-    std::ranges::sort(opened);
+    part_divided_edges(touched);
+    sort_unique(touched);
     sort_unique(parted_);
-    patch_.extend(hosts_, material_, x_, with_neighbours(hosts_, opened));
-    const Fragments fragments(hosts_, patch_, opened, {});
+    patch_.extend(hosts_, material_, x_, hosts_.with_neighbours(touched));
+    const Fragments fragments(hosts_, patch_, touched, {});
     const Replicas replicas = find_replicas(hosts_, patch_, fragments);
     if (!last && !large_enough(replicas, raised)) return false;
     const Fans fans(patch_, fragments, parted_);
@@ -110,7 +96,7 @@ class Attempt {
     Numbers cells;
     for (const NearCells& near : near_) cells.insert(cells.end(), near.cells().begin(), near.cells().end());
     sort_unique(cells);
-    return with_neighbours(hosts_, cells);
+    return hosts_.with_neighbours(cells);
   }
 
   [[nodiscard]] double t0(std::int32_t cell) const {
@@ -191,6 +177,24 @@ class Attempt {
     plan.unresolved.erase(same, plan.unresolved.end());
   }
 
+  /// An edge on faces opened before may have two fans while its ends, at the front, have one each. A vertex
+  /// put on it parts.
+  void part_divided_edges(Numbers& touched) {
+    for (std::size_t v = 0; v < patch_.vertices.size(); ++v) {
+      if (-1 - patch_.vertices[v].number < patch_.old_riders) continue;
+      const auto vertex = static_cast<std::int32_t>(v);
+      const auto& around = patch_.tetrahedra_at(vertex);
+      const bool open = std::ranges::any_of(around, [&](std::int32_t t) {
+        const Patch::Tetra& tetra = patch_.tetra(t);
+        const auto corner = std::ranges::find(tetra.vertices, vertex) - tetra.vertices.begin();
+        return (tetra.cut & ~(1U << static_cast<unsigned>(corner))) != 0;  // a face that has the vertex
+      });
+      if (!open) continue;
+      parted_.push_back(vertex);
+      for (const std::int32_t t : around) touched.push_back(patch_.cell(patch_.tetra(t).cell).number);
+    }
+  }
+
   bool large_enough(const Replicas& replicas, RaisedT0& raised) const {
     bool all = true;
     for (const Replicas::Replica& replica : replicas.all) {
@@ -269,27 +273,6 @@ CutPlan plan_cut(const Hosts& hosts, const Material& material, ConstReals x, con
     if (cut.finish(plan, wanted, attempt == kAttempts)) return plan;
     raised = std::move(wanted);
   }
-}
-
-CutPlan plan_ablation(const Hosts& hosts, const Material& material, std::vector<std::int32_t> cells) {
-  sort_unique(cells);
-  for (const std::int32_t cell : cells) {
-    if (!hosts.has(cell))
-      throw ParameterError("the body has no cell " + std::to_string(cell) + " (any more).");
-  }
-  Patch patch(hosts, material, hosts.rest(), with_neighbours(hosts, cells));
-  Numbers parted;
-  for (const Patch::Tetra& tetra : patch.tetrahedra) {
-    if (!std::ranges::binary_search(cells, patch.cell(tetra.cell).number)) continue;
-    parted.insert(parted.end(), tetra.vertices.begin(), tetra.vertices.end());
-  }
-  sort_unique(parted);
-  CutPlan plan;
-  plan.gone = cells;
-  const Fragments fragments(hosts, patch, cells, cells);
-  const Replicas replicas = find_replicas(hosts, patch, fragments);
-  write_plan(hosts, material, patch, fragments, replicas, Fans(patch, fragments, parted), plan);
-  return plan;
 }
 
 }  // namespace tissu

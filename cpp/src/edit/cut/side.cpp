@@ -16,6 +16,8 @@ std::array<double, 9> numbers(const std::array<Vec3, 3>& t) {
   return {t[0][0], t[0][1], t[0][2], t[1][0], t[1][1], t[1][2], t[2][0], t[2][1], t[2][2]};
 }
 
+Vec3 unit_normal(const std::array<Vec3, 3>& t) { return (t[1] - t[0]).cross(t[2] - t[0]).normalized(); }
+
 double distance(const std::array<Vec3, 3>& triangle, const Vec3& p) {
   return (p - closest_on_triangle(p, numbers(triangle).data())).norm();
 }
@@ -38,14 +40,26 @@ double signed_height(const SweepPart& part, std::span<const std::int32_t> triang
     const auto& triangle = part.triangles[static_cast<std::size_t>(t)];
     const double away = distance(triangle, p);
     if (away > least * (1.0 + kEqual)) continue;
-    const Vec3 normal = (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]).normalized();
-    const double above = std::abs(normal.dot(p - triangle[0]));
+    const double above = std::abs(unit_normal(triangle).dot(p - triangle[0]));
     if (away >= least * (1.0 - kEqual) && above <= height) continue;
     least = std::min(least, away);
     height = above;
     sign = orientation(triangle[0], triangle[1], triangle[2], p);
   }
   return sign * height;
+}
+
+Vec3 nearest_normal(const SweepPart& part, std::span<const std::int32_t> triangles, const Vec3& p) {
+  double least = kInfinity;
+  Vec3 normal = Vec3::Zero();
+  for (const std::int32_t t : triangles) {
+    const auto& triangle = part.triangles[static_cast<std::size_t>(t)];
+    const double away = distance(triangle, p);
+    if (away >= least) continue;
+    least = away;
+    normal = unit_normal(triangle);
+  }
+  return normal;
 }
 
 }  // namespace tissu

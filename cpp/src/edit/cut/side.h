@@ -16,4 +16,7 @@ double distance(const SweepPart& part, std::span<const std::int32_t> triangles, 
 /// or a corner, the one whose plane is farthest away counts.
 double signed_height(const SweepPart& part, std::span<const std::int32_t> triangles, const Vec3& p);
 
+/// The normal of the nearest of the named triangles, of length 1.
+Vec3 nearest_normal(const SweepPart& part, std::span<const std::int32_t> triangles, const Vec3& p);
+
 }  // namespace tissu

@@ -65,5 +65,13 @@ TEST(CutFuzzTest, RandomCutsKeepEveryInvariant) {
   }
 }
 
+/// Seeds that once failed: an edge with two fans, on faces opened before, that a later cut divides.
+TEST(CutFuzzTest, SeedsThatOnceFailed) {
+  for (const std::uint64_t seed : {6732U}) {
+    long cuts = 0;
+    EXPECT_EQ(cut_some(seed, cuts), "");
+  }
+}
+
 }  // namespace
 }  // namespace tissu

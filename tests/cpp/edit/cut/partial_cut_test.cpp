@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <numbers>
 #include <set>
 
@@ -102,6 +103,37 @@ TEST(PartialCutTest, AnIncisionGoesOnFromSweepToSweep) {
     EXPECT_NEAR(area, whole.cut_area() / 2.0, 0.25 * 0.25) << parts;  // a cell of difference
     ASSERT_EQ(body.material.incisions.size(), 1U);
     EXPECT_EQ(body.material.incisions[0].number, 5);
+  }
+}
+
+/// A bent blade through the bar, in one sweep and in steps that go on: two pieces.
+TEST(PartialCutTest, ABentBladeThroughGivesTwoPieces) {
+  for (const CellType type : {CellType::tetra, CellType::hexahedron}) {
+    for (std::uint64_t seed = 0; seed < 6; ++seed) {
+      std::vector<double> places;
+      for (int k = 0; k <= 20; ++k) {
+        const double z = 1.2 - 0.07 * k;
+        for (int i = 0; i < 5; ++i) {
+          const double y = -0.1 + 0.3 * i;
+          places.insert(places.end(), {1.01 + 0.25 * std::sin(2.5 * z) + 0.02 * std::sin(3.0 * y), y, z});
+        }
+      }
+      test::CutBody whole(test::typed_box(type, kSize, kCells, 0.15, seed));
+      whole.cut(edge_sweep(places, 21, 5));
+      test::CutBody steps(test::typed_box(type, kSize, kCells, 0.15, seed));
+      for (int k = 1; k <= 20; ++k) {
+        const int first = std::max(0, k - 2);
+        const std::span<const double> way = std::span(places).subspan(
+            static_cast<std::size_t>(15 * first), static_cast<std::size_t>(15 * (k - first + 1)));
+        steps.cut(edge_sweep(way, k - first + 1, 5, 1));
+      }
+      for (const test::CutBody* body : {&whole, &steps}) {
+        EXPECT_EQ(body->fault(), "") << seed;
+        EXPECT_EQ(body->piece_count(), 2U) << seed;
+        EXPECT_EQ(body->characteristic(), 2) << seed;
+      }
+      EXPECT_NEAR(whole.cut_area(), steps.cut_area(), 0.02 * whole.cut_area()) << seed;
+    }
   }
 }
 

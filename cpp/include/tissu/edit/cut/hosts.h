@@ -54,6 +54,9 @@ class Hosts {
     return cells_at_[static_cast<std::size_t>(node)];
   }
 
+  /// The cells at the nodes of some cells, themselves included, ascending.
+  [[nodiscard]] std::vector<std::int32_t> with_neighbours(std::span<const std::int32_t> cells) const;
+
   /// Cells that lie together, and every node that a corner of one of them is.
   struct Cluster {
     std::vector<std::int32_t> cells;

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "tissu/base/error.h"
 
@@ -40,7 +41,7 @@ TEST(SweepTest, APlaneCoversTheBoxAndKeepsAnAxisExactly) {
 TEST(SweepTest, ADiscHasItsPolygonsArea) {
   const double radius = 0.3;
   const Sweep sweep = disc_sweep(Vec3(1, 2, 3), Vec3(1, -2, 0.5), radius);
-  EXPECT_NEAR(area(sweep), 16.0 * radius * radius * std::sin(M_PI / 16.0), 1e-15);
+  EXPECT_NEAR(area(sweep), 16.0 * radius * radius * std::sin(std::numbers::pi / 16.0), 1e-15);
   for (const std::uint8_t border : sweep.parts[0].border) EXPECT_EQ(border, 0b010);  // the rim
 }
 
@@ -89,7 +90,7 @@ TEST(SweepTest, AMoebiusStripIsRefused) {
   std::vector<double> points;
   std::vector<std::array<std::int32_t, 3>> triangles;
   for (int i = 0; i < kSteps; ++i) {
-    const double turn = 2.0 * M_PI * i / kSteps;
+    const double turn = 2.0 * std::numbers::pi * i / kSteps;
     for (const double side : {-0.2, 0.2}) {
       const double reach = 1.0 + side * std::cos(0.5 * turn);
       points.insert(points.end(),

@@ -13,8 +13,8 @@
 
 namespace tissu {
 
-/// A point of the material as weights of nodes, which sum to 1. A tetrahedron of the material lies in one of
-/// four corners of its host, so that four pairs are enough.
+/// A point of the material as weights of nodes, which sum to 1. A tetrahedron of the material lies inside one
+/// between four corners of its host, so that four pairs are enough.
 struct Rider {
   std::array<std::int32_t, 4> node{-1, -1, -1, -1};
   std::array<double, 4> weight{};

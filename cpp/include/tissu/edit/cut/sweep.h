@@ -31,7 +31,8 @@ Sweep disc_sweep(const Vec3& center, const Vec3& normal, double radius);
 /// alike. Refused: a part that cannot be turned alike, as a Moebius strip.
 Sweep triangle_sweep(std::span<const double> points, std::span<const std::array<std::int32_t, 3>> triangles);
 /// The ruled surface that an edge of `points` points sweeps through `moments` moments, 3 numbers per point,
-/// moment after moment. A blade that goes on gives one moment more from before, so that the surfaces overlap.
+/// moment after moment. A blade that goes on begins one moment earlier, so that the surfaces overlap.
+/// Vertices on the cut of that `incision` stay on it without a look at the blade.
 Sweep edge_sweep(std::span<const double> places, std::int32_t moments, std::int32_t points,
                  std::int32_t incision = -1);
 

@@ -261,6 +261,7 @@ CutPlan plan_cut(const Hosts& hosts, const Material& material, ConstReals x, con
                  const CutOptions& options) {
   check(hosts, x, options);
   std::vector<NearCells> near;
+  near.reserve(sweep.parts.size());
   for (const SweepPart& part : sweep.parts) near.emplace_back(hosts, x, part);
   RaisedT0 raised;
   for (int attempt = 1;; ++attempt) {

@@ -111,7 +111,7 @@ PYTHON: dict[str, set[str]] = {
     },
     "front": {"errors", "scene", "yaml_io", "compile"},
     "comparison": {"errors", "counted", "mesh", "scene", "picture"},
-    "accuracy": {"errors", "pareto", "front", "yaml_io", "picture"},
+    "accuracy": {"errors", "counted", "pareto", "front", "yaml_io", "picture"},
     "contact_cost": {"errors", "mesh", "scene", "front", "simulation"},
     "advice": {"errors", "counted", "pareto", "units", "mesh", "scene", "picture"},
     "output": {"errors", "counted", "field_names", "files", "mesh", "_core"},

@@ -206,7 +206,8 @@ void separate(const Contact& contact, const FixedDofs& fixed, State& start) {
   std::string text;
   for (const auto& [pair, count] : counts) {
     text += (text.empty() ? "\"" : "; \"") + surfaces[at(pair.first)].name + "\" and \"" +
-            surfaces[at(pair.second)].name + "\" in " + std::to_string(count) + " places";
+            surfaces[at(pair.second)].name + "\" in " + std::to_string(count) +
+            (count == 1 ? " place" : " places");
   }
   throw ParameterError("found surfaces that overlap at the start: " + text +
                        "; they must begin apart, or overlap by no more than their gap. Move one of them.");

@@ -27,8 +27,8 @@ constexpr double kFarthest = 0.1;    ///< of the scene's size, which a body that
 constexpr double kLooseMass = 1e-6;  ///< of the stiffness of the node that is softest for its mass
 constexpr int kHeldNodes = 3;        ///< hold a body, on all axes together
 constexpr const char* kMovesOn =
-    "a body that supports alone do not hold moves on, as one that contacts do not hold either or whose "
-    "equilibrium is unstable; hold it with `fixed`, or by friction";
+    "a body moves on: neither supports nor contacts hold it, or its equilibrium is unstable; hold it with "
+    "`fixed`, or by friction";
 constexpr std::uint8_t kAllAxes = FixedDofs::kAllAxes;
 
 /// Whether there are bodies, or separate parts, that supports do not hold.

@@ -146,14 +146,14 @@ class ContactSettings(Part):
     their distance
     """
     iterations: Annotated[int, Field(ge=1)] = 20
-    """linear systems at most in a step that is linearised once; of the method impulse, looks at
-    contacts at most where ways are cut
+    """linear systems at most in a step that is linearised once; with the method impulse, contact
+    searches at most in a step whose motion is cut short
     """
     travel: bool = True
     """whether nodes are held back where surfaces would pass through each other"""
     overlap: Literal["refuse", "separate"] = "refuse"
     """what to do with surfaces that cross at the start: refuse the scene, or push them apart first,
-    which is not there yet
+    which is not implemented
     """
 
     def words(self, method: str, step: str) -> str:

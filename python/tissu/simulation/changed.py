@@ -1,6 +1,6 @@
 """What of a simulation's scene may change while it runs: its numbers, by a world made anew.
 
-A constant of a cell stands in many places of a world, packed for the kernels. So another number
+A constant of a cell is in many places of a world, packed for the kernels. So another number
 makes another world, as the removal of cells does; the state goes on, with all that models and the
 method in time remember.
 """

@@ -17,7 +17,7 @@ namespace tissu {
 /// with the forces that contacts may have - none that pulls, friction within Coulomb's disk - meets the
 /// tolerance.
 ///
-/// Bodies that supports alone do not hold fall on what they meet: a share of the mass stands beside the
+/// Bodies that the supports do not hold fall onto what they meet: a share of the mass stands beside the
 /// tangent, and such a correction goes as far as the first contact. The mass changes the way, not where it
 /// ends.
 class StaticTouching {

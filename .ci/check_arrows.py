@@ -53,7 +53,8 @@ CPP: dict[str, set[str]] = {
     "model/condensed": MODEL | {"model/fem", "solve"},
     "viscosity": MODEL | {"model/edges"},  # dampers beside springs
     "contact": {"base", "mesh", "assembly", "state", "force"},
-    "edit": MODEL | {"world"},
+    "edit/cut": {"base", "mesh"},
+    "edit": MODEL | {"world", "contact", "edit/cut"},
     "picture": {"base"},
 }
 CPP["model/models"] = MODEL | {room for room in CPP if room.startswith("model/")}
@@ -86,8 +87,11 @@ PYTHON: dict[str, set[str]] = {
     "checkpoint": {"errors", "counted", "files", "_core"},
     "picture": {"errors", "files", "mesh", "_core"},
     # What is run, seen and touched in the browser. A simulation opens its own view.
-    "live_view": {"errors", "files", "mesh", "scene", "picture"},
+    "live_view": {"errors", "files", "mesh", "scene", "picture", "cutting"},
+    # What cuts, and what a cut leaves: blades, material, reports.
+    "cutting": {"_core", "arrays", "counted", "errors", "mesh", "scene", "units"},
     "simulation": {
+        "cutting",
         "arrays",
         "errors",
         "counted",
@@ -111,7 +115,7 @@ PYTHON: dict[str, set[str]] = {
     },
     "front": {"errors", "scene", "yaml_io", "compile"},
     "comparison": {"errors", "counted", "mesh", "scene", "picture"},
-    "accuracy": {"errors", "pareto", "front", "yaml_io", "picture"},
+    "accuracy": {"errors", "counted", "pareto", "front", "yaml_io", "picture"},
     "contact_cost": {"errors", "mesh", "scene", "front", "simulation"},
     "advice": {"errors", "counted", "pareto", "units", "mesh", "scene", "picture"},
     "output": {"errors", "counted", "field_names", "files", "mesh", "_core"},

@@ -1,4 +1,4 @@
-"""Prints the tables of docs/contact.md: steps of bodies that touch, and broad phases.
+"""Prints the tables of docs/contact.md: steps of bodies that touch, responses, broad phases.
 
     python bench/contact.py [--write] [CASE …]
 
@@ -21,6 +21,7 @@ from kernels import commit, digits, processor, table
 
 from tissu.cli.bench_contact import HEAD, cells_of, measured
 from tissu.cli.info import machine_line
+from tissu.contact_cost import Row, measured_responses
 
 ROOT = Path(__file__).resolve().parents[1]
 PAGE = ROOT / "docs" / "contact.md"
@@ -38,6 +39,48 @@ def steps_text(names: list[str]) -> str:
     found = table(HEAD, [cells_of(row) for row in rows])
     where = f"{machine_line()} {processor()}, commit {commit()}, {datetime.date.today()}."
     return "\n\n".join([found, *(["\n".join(early)] if early else []), where])
+
+
+RESPONSE_HEAD = [
+    "response",
+    "dt, ms",
+    "ms a step",
+    "ms a second",
+    "depth at impact",
+    "depth at the end",
+    "force error",
+    "unconverged",
+    "creep, mm/s",
+    "sliding",
+]
+
+
+def response_cells(label: str, dt: float, row: Row) -> list[str]:
+    """A row in words, under RESPONSE_HEAD."""
+    return [
+        label,
+        digits(1e3 * dt),
+        digits(row.steps[0]),
+        digits(row.steps[0] / dt),
+        *(f"{100.0 * depth:.2g} %" for depth in row.deepest),
+        "" if row.force_error is None else f"{100.0 * row.force_error:.2g} %",
+        str(row.unconverged),
+        "" if row.moved is None else f"{1e3 * row.moved:.2g}",
+        "" if row.slides is None else f"{row.slides:.4f}",
+    ]
+
+
+def responses_text() -> str:
+    """A table for each scene: a line for each response, error beside milliseconds."""
+    tables: dict[str, list[list[str]]] = {}
+    early = []
+    for label, dt, row in measured_responses():
+        print(row.name, label, row.ended, file=sys.stderr, flush=True)
+        tables.setdefault(row.name, []).append(response_cells(label, dt, row))
+        early += [f"- {label}, {row.name}: ended early. {row.ended}"] if row.ended else []
+    parts = [f"{name}:\n\n{table(RESPONSE_HEAD, rows)}" for name, rows in tables.items()]
+    where = f"{machine_line()} {processor()}, commit {commit()}, {datetime.date.today()}."
+    return "\n\n".join([*parts, *(["\n".join(early)] if early else []), where])
 
 
 def searches() -> list[dict[str, Any]]:
@@ -86,6 +129,7 @@ def main() -> int:
         return 1
     parts = {"steps": steps_text(asked.names)}
     if not asked.names:
+        parts["responses"] = responses_text()
         parts["broad phases"] = broad_text()
     page = PAGE.read_text(encoding="utf-8")
     for part, text in parts.items():

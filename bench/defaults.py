@@ -49,7 +49,9 @@ then that of the first; a static row has one step."""
 TIMED = """Milliseconds of a step's solves: p50 of the second half of the steps, then the first;
 of a static row p50 of several runs, then the first. The choices took turns of a few steps, as many
 rounds as the time allowed. One that took four times as long as `auto` was left out from then on,
-as was one that ran past a limit; each is compared over the steps that both took."""
+as was one that ran past a limit; each is compared over the steps that both took. Steps that a
+choice did not solve are counted in brackets; `inf` in the last column: another choice solved more
+steps than `auto`."""
 SHARE = 1.6
 """what a row takes, of the seconds that it is given, with the turns that run past them"""
 

@@ -59,7 +59,7 @@ equilibria or none. With half of the way from frame to point as the lever,
 
 they turn by k h, as the material does (linked interpolation: Taylor and Auricchio 1993), and a
 tie of 1/4 G |s|^2, s the axial vector of (sum_i w_i R_i)^T F, holds them to it at no cost of
-accuracy (Hughes and Brezzi 1989). No rotation is free then, but in a tetrahedron or a pyramid
+accuracy (Hughes and Brezzi 1989). No rotation is free then, except in a tetrahedron or a pyramid
 that stands alone. Hexahedra and wedges take the points of `quadrature: over`, for those of `full`
 do not see all of a quadratic field. Meshes of tetra, hexahedron, wedge and pyramid are accepted;
 sheets and lines have half levers along themselves already.

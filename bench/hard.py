@@ -37,11 +37,11 @@ method that is put in place of the scene's own. What comes of it is
 - **refused**: an error of one sentence, and the simulation stands at its last good step. The notes
   below the table give each sentence.
 
-Numbers are the largest distance of a node from rest at any time, in sizes of the body. An asterisk:
-some steps did not meet their tolerances and said so. `!`: cells are inside out at the end, and are
-told. Explicit methods take nine tenths of their stable step (`dt: auto`) and are not run where that
-makes more than 20,000 steps; the fixed point takes the scene's step or what contracts, if that is
-smaller; implicit ones take the scene's.
+Numbers are the largest distance of a node from rest at any time, in sizes of the body. An
+asterisk: some steps did not meet their tolerances and said so. `!`: cells are inside out at the
+end, which `tissu run` prints. Explicit methods take nine tenths of their stable step (`dt: auto`)
+and are not run where that makes more than 20,000 steps; the fixed point takes the scene's step or
+what contracts, if that is smaller; implicit ones take the scene's.
 
 """
 

@@ -33,12 +33,12 @@ unsymmetric, generalised conjugate residuals work on the exact tangent, with tha
 their preconditioner, to 1e-3 where it is indefinite only. They stop after eight iterations that
 do not take nine tenths of the residual, and the definite matrix serves that step.
 
-**Unstable equilibria.** Whole steps may converge to a saddle of the energy. A report that
-has converged says so where the tangent at its state is found indefinite; a conjugate gradient
-sees this only in directions that its residual has, Cholesky's factor always. A soft cube twice
-as heavy as stiff stands on such a saddle with 8 and 12 cells an edge. With 16 its lower corners
-crease as well, the descent leaves the saddle, and the cube topples and hangs beside its support,
-which does not touch it: a minimum of the energy, after 186 iterations.
+**Unstable equilibria.** Whole steps may converge to a saddle of the energy. A converged report
+says so if the tangent there is found indefinite; a conjugate gradient sees this only in
+directions that its residual has, Cholesky's factor always. A soft cube twice as heavy as stiff
+stands on such a saddle with 8 and 12 cells an edge. With 16 its lower corners crease as well,
+the descent leaves the saddle, and the cube topples and hangs beside its support, which does not
+touch it: a minimum of the energy, after 186 iterations.
 
 **Where the load turns.** When parts of 1/4096 of the first fail too, the path is followed by
 its arc length (Riks 1979). `arc_length: true` does so from the start. Two bars with a flat top
@@ -47,7 +47,7 @@ its arc length (Riks 1979). `arc_length: true` does so from the start. Two bars 
 goes straight on: a column under an exactly central load stays straight. By parts of the load, a
 body that snaps through is found on the other side by the fall of its energy.
 
-**What gives up is named.** `total_iterations` bounds the Newton iterations of a step:
+**The message names what gave up.** `total_iterations` bounds the Newton iterations of a step:
 iterations x (load_steps + 19) unless said otherwise, which is room for twenty parts that need
 all of theirs. The message says beyond which share of the load nothing was found, and which of
 load, Newton's method and linear solver gave up. A static step that converged with cells inside

@@ -11,7 +11,7 @@ error falls with the step, what each does to the energy, and when to take it.
 
 | what you want | `step` |
 |---|---|
-| something that always goes, at a step you choose | `implicit_euler` |
+| the most robust choice, at a step you choose | `implicit_euler` |
 | the same with vibrations that last | `bdf2` |
 | no loss of energy, at a step you choose | `implicit_midpoint`, `newmark` or `energy_momentum` |
 | small steps, and no system to solve | `auto` (`symplectic_euler`) |
@@ -104,9 +104,10 @@ than half its energy in a period of 50 steps; nothing else here goes so surely t
 states. Take it for interaction, for the way to an equilibrium, and when in doubt; not to
 measure vibrations.
 
-**`implicit_midpoint`**: second order; keeps the energy of a linear body exactly and momenta of any.
-Take it for vibrations over long times. Nothing damps what the step does not resolve: give the body
-a viscosity, or start it smoothly.
+**`implicit_midpoint`**: second order; keeps the energy of a linear body exactly and the linear
+momentum of any. Angular momentum is kept with `newton`; linearised once, a spinning block of 100
+kPa loses 0.67 % of it in 500 steps of 1 ms. Take it for vibrations over long times. Nothing damps
+what the step does not resolve: give the body a viscosity, or start it smoothly.
 
 **`energy_momentum`**: the midpoint rule with a discrete gradient (Gonzalez 1996); second order;
 keeps energy and momenta of any law to Newton's tolerance, at two solves an iteration. Take it in

@@ -52,10 +52,10 @@ TAIL = """
   16 x 4 x 4, three ways of cutting into tetrahedra, sag over the converged one: nearly cell by cell
   0.35 to 0.65 and 0.41 to 0.84; patches of 6: 0.71 to 1.05 and 0.90 to 0.93; of 8: 0.70 to 0.97 and
   0.90 to 0.93; of 12: 0.79 to 1.31 and 0.93 to 0.94; of 24: 1.2 to 1.4 and 0.93 to 1.01.
-- **Crushed cells.** Below a tenth of its volume a point takes less and less part in the mean, and
-  inside out none: energy and force stay finite, and the law sees the sign of its own J. So a law
-  that takes inverted cells (stable neo-Hooke) brings them back, and neo-Hooke refuses them with the
-  same message as under `fem`.
+- **Crushed cells.** Below a tenth of its volume the weight of a point in the mean falls, to zero
+  when it is inverted: energy and force stay finite, and the law sees the sign of its own J. So a
+  law that takes inverted cells (stable neo-Hooke) brings them back, and neo-Hooke refuses them
+  with the same message as under `fem`.
 - **St-Venant-Kirchhoff.** Its lambda/2 tr(E)^2 is not a function of the volume: where bending
   strains eps are finite, one theta cannot make tr(E) small at every point, and cells stiffen again
   from lambda eps^2 > mu on. At nu = 0.49 it is cured (docs/phantom.md); at 0.4999 this bar is not.

@@ -37,7 +37,7 @@ bodies:
     density: 1050
 ```
 
-The words in this table are those of the models' classes, the figures were measured by
+The words in this table are those of the models' classes. The figures were measured by
 `python bench/model_abilities.py --write` on a cube of 162 tetrahedra with E = 20 kPa, nu = 0.3;
 [frames](frames.md) and [shells](shells.md) have their own pages.
 

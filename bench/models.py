@@ -168,9 +168,9 @@ only that the second core was not free.
 
 {times}
 
-`280 each`: the same polynomial as it is usually told, every tetrahedron with all constants of its
-own, one after the other without vector instructions. Our mass-tensor keeps them on the nodes, edges
-and faces that tetrahedra share, as Picinbono does, and works on eight at a time.
+`280 each`: the same polynomial as it is usually written, every tetrahedron with all constants of
+its own, one after the other without vector instructions. Our mass-tensor keeps them on the nodes,
+edges and faces that tetrahedra share, as Picinbono does, and works on eight at a time.
 
 {size_table(rows)}
 

@@ -70,14 +70,24 @@ Every step of an implicit method solves A x = b; a static one as well. `solver:`
 - `auto`, the default: the cheapest of these by counted work, which may change while a scene runs;
   `plan()` and `profile()` say to what it changed, and by which counts.
 
+`auto` changes by what it counts, and by what the first matrix lets it predict: cells along and
+through the body, the inertia in the rows of its points, and (lambda + 2 mu) / mu, which is read
+from the rows of inner points and multiplies iterations near Poisson's ratio 1/2. In a motion a
+trial of another way may take three solves of the present one. One that takes more, as a factor
+does, is tried only where the way costs less than 0.7 of the present one and saves its price within
+fifty solves, so that no step is delayed by a trial that may not pay. Static solves try freely.
+
 Iterations start from that combination of the latest three answers whose residual is least (after
 Fischer 1998): never worse than from zero, at the price of three products; where it does not halve
 the residual it is tried more and more seldom.
 
-Whether a preconditioner pays is told by counts (iterations, flops, bytes of the factor), never by
-a clock: runs give the same bits. A solve has converged when the residual computed from x says so. A
-matrix that turns out not to be positive definite is reported by every solver; what a step then does
-is its `indefinite:` (project, regularise, refuse).
+`profile()` says p50 and p99 of the steps, and of the longest step after the first which rows took
+its time, with its systems, iterations and preparations; the summary of a run has them too.
+
+Whether a preconditioner pays is decided by counts (iterations, flops, bytes of the factor), never
+by a clock: runs give the same bits. A solve has converged when the residual computed from x says
+so. A matrix that turns out not to be positive definite is reported by every solver; what a step
+then does is its `indefinite:` (project, regularise, refuse).
 
 A cube of tetrahedra (10 kPa, nu 0.3, 10 cm), held at its floor, bent by its weight; tolerance 1e-6;
 one thread. Each entry is iterations, time for one system, and the bytes that the solver keeps for

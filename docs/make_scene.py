@@ -25,7 +25,7 @@ problems it says what the scene switches on.
 
 Volume cells of a mesh are simulated always; its triangles and quads where the body gives a
 `thickness`, its lines where it gives a `section`. They are stiff along themselves and do not resist
-bending, but for the models `frames` and `shell`. In space they are free to thin: no stress acts
+bending, except with the models `frames` and `shell`. In space they are free to thin: no stress acts
 across a sheet, nor across a line. A body that mixes them has the regions `volumes`, `sheets` and
 `lines`, for a map of laws or a selection:
 
@@ -43,7 +43,7 @@ section: {{type: rectangle, height: 2 mm, width: 1 mm, up: [0, 0, 1]}}
 ```
 
 With `model: frames` or `shell` the nodes turn as well, and sheets bend ([frames](frames.md),
-[shells](shells.md)). A held node does not turn where all its axes are held, unless
+[shells](shells.md)). A node held on all axes cannot rotate either, unless
 `rotations: free` says so. On a plane of symmetry across x the place is held on x and the rotation
 about y and z; `axes: free` leaves the place free and holds or leads the rotation alone:
 
@@ -59,8 +59,8 @@ prescribed:
     rotation: {{axis: [0, 1, 0], angles: [0, 30 deg]}}
 ```
 
-The axes are those of space. A rotation held about two of them stays one about the third, however
-large; one held about a single axis has no angular velocity about it.
+The axes are those of space. A rotation held about two of them remains a rotation about the third,
+however large it is; one held about a single axis has no angular velocity about it.
 
 What bodies meet, and how, is said by `obstacles`, `contacts` and `contact`: [contact](contact.md).
 
@@ -83,12 +83,12 @@ with its line.
 | 3 | some steps did not converge; 0 with `--accept-unconverged` |
 | 129, 130, 143 | stopped by SIGHUP, Ctrl-C, SIGTERM, with all files complete |
 
-`status` and `why` of `summary.json` say the same. Files are written to new places and in place of
+`status` and `why` of `summary.json` say the same. Output files are created, or replace
 regular files; a device, a pipe or a link to nothing is refused before anything is opened.
 
 A region is named in the file of a mesh, or made from a shape: it has the cells whose centres (the
-means of their nodes) lie in the shape. In a map of laws or models the key `rest` means all cells
-that no other key has.
+means of their nodes) lie in the shape. In a map of laws or models the key `rest` stands for the
+remaining cells, which no other key has, and not for the rest shape.
 
 ```yaml
 mesh:

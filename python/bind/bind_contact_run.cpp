@@ -108,6 +108,15 @@ py::list crossing_list(const Simulation& simulation) {
   return found;
 }
 
+/// Both surfaces, and how far their thicknesses are inside each other.
+py::list overlap_list(const Simulation& simulation) {
+  py::list found;
+  for (const auto& [pair, depth] : overlaps(contact_of(simulation), simulation.state())) {
+    found.append(py::make_tuple(pair.first, pair.second, depth));
+  }
+  return found;
+}
+
 void lead_obstacle(Simulation& simulation, const std::string& name, const Doubles& displacement, double angle,
                    const Doubles& axis, const Doubles& center, double over) {
   const Pose pose{to_vec3(center, "center"), to_vec3(displacement, "displacement"),
@@ -159,6 +168,24 @@ py::tuple obstacle_surface(const Simulation& simulation, const std::string& name
                         py::array_t<double>(3, obstacle.origin.data()), normal);
 }
 
+/// The surface of a body that meets others, as it is now, by the numbers of its nodes: triangles (t, 3),
+/// edges (e, 2), radii (n,) or none, and whether it is closed.
+py::tuple contact_surface(const Simulation& simulation, const std::string& body) {
+  const auto& bodies = contact_of(simulation).description().bodies;
+  const auto found = std::ranges::find(bodies, body, &SurfaceDescription::name);
+  if (found == bodies.end()) throw ParameterError("found body \"" + body + "\", which meets nothing here.");
+  py::array_t<std::int32_t> triangles = rows<std::int32_t>(found->triangles.size(), 3);
+  py::array_t<std::int32_t> edges = rows<std::int32_t>(found->edges.size(), 2);
+  for (std::size_t i = 0; i < found->triangles.size(); ++i) {
+    std::ranges::copy(found->triangles[i], triangles.mutable_data() + 3 * i);
+  }
+  for (std::size_t i = 0; i < found->edges.size(); ++i) {
+    std::ranges::copy(found->edges[i], edges.mutable_data() + 2 * i);
+  }
+  const py::array_t<double> radius(static_cast<py::ssize_t>(found->radius.size()), found->radius.data());
+  return py::make_tuple(triangles, edges, radius, found->closed);
+}
+
 /// Area at rest that belongs to each node of a body, up to the last one on its surface [m2]: a third of the
 /// triangles at it.
 py::array_t<double> contact_areas(const Simulation& simulation, const std::string& body) {
@@ -182,8 +209,10 @@ void bind_contact_run(py::class_<Simulation>& simulation) {
       .def("contact_surfaces", &surface_names)
       .def("contact_force_on", &force_on, arg("name"))
       .def("crossings", &crossing_list)
+      .def("overlaps", &overlap_list)
       .def("obstacle_places", &obstacle_places, py::kw_only(), arg("name"), arg("rest"))
       .def("obstacle_surface", &obstacle_surface, arg("name"))
+      .def("contact_surface", &contact_surface, arg("body"))
       .def("contact_areas", &contact_areas, arg("body"))
       .def("lead_obstacle", &lead_obstacle, py::kw_only(), arg("name"), arg("displacement"), arg("angle"),
            arg("axis"), arg("center"), arg("over"))

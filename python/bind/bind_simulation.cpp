@@ -1,3 +1,5 @@
+#include <map>
+
 #include "bind.h"
 #include "interruption.h"
 #include "specs.h"
@@ -83,15 +85,19 @@ py::array_t<double> points(const Simulation& simulation, const std::string& name
 
 }  // namespace
 
-/// Of bind_snapshot.cpp, bind_lead.cpp, bind_contact_run.cpp, bind_point_fields.cpp and bind_matrices.cpp.
+/// Of bind_snapshot.cpp, bind_lead.cpp, bind_contact_run.cpp, bind_cut.cpp, bind_point_fields.cpp and
+/// bind_matrices.cpp.
 void bind_snapshot(py::class_<Simulation>& simulation);
 void bind_lead(py::class_<Simulation>& simulation);
 void bind_contact_run(py::class_<Simulation>& simulation);
+void bind_cut(py::class_<Simulation>& simulation);
+void bind_sweep(py::module_& m);
 void bind_point_fields(py::class_<Simulation>& simulation);
 void bind_matrices(py::class_<Simulation>& simulation);
 
 void bind_simulation(py::module_& m) {
   using py::arg;
+  bind_sweep(m);
   py::class_<Simulation> simulation(m, "Simulation");
   simulation
       .def(py::init([](const std::shared_ptr<World>& world, const IntegratorSpec& integrator,
@@ -193,6 +199,7 @@ void bind_simulation(py::module_& m) {
   bind_snapshot(simulation);
   bind_lead(simulation);
   bind_contact_run(simulation);
+  bind_cut(simulation);
   bind_point_fields(simulation);
   bind_matrices(simulation);
 }

@@ -66,6 +66,32 @@ Memory split(const std::vector<double>& numbers, const std::vector<std::int32_t>
       " numbers, which is not what its lists add up to; restore a snapshot as it was taken.");
 }
 
+/// Calls f(name, list) for every list of a body that was cut.
+template <class Body, class Function>
+void for_cut_lists(Body& body, Function&& f) {
+  f("origins_", body.origins);
+  f("nodes_", body.nodes);
+  f("copies_of_", body.copies_of);
+  f("bare_", body.bare);
+  f("rider_nodes_", body.material.rider_nodes);
+  f("material_hosts_", body.material.hosts);
+  f("material_first_", body.material.first);
+  f("material_vertices_", body.material.vertices);
+  f("material_cut_", body.material.cut);
+  f("incisions_", body.material.incisions);
+  f("first_of_incision_", body.material.first_of_incision);
+  f("on_incision_", body.material.on_incision);
+}
+
+void add_cut(const BodyTopology& body, const std::string& number, py::dict& result) {
+  for_cut_lists(body, [&](const char* name, const std::vector<std::int32_t>& list) {
+    result[py::str(name + number)] = to_array(list);
+  });
+  result[py::str("shares_" + number)] = to_array(body.shares);
+  result[py::str("rider_weights_" + number)] = to_array(body.material.rider_weights);
+  result[py::str("next_cell_" + number)] = body.next_cell;
+}
+
 py::dict to_dict(const Snapshot& snapshot) {
   py::dict result;
   const State& state = snapshot.state;
@@ -83,12 +109,13 @@ py::dict to_dict(const Snapshot& snapshot) {
   result["integrator"] = to_array(snapshot.integrator);
   result["energy_watch"] = to_array(snapshot.energy_watch);
   for (std::size_t i = 0; i < snapshot.bodies.size(); ++i) {
-    const Snapshot::BodyCells& body = snapshot.bodies[i];
+    const BodyTopology& body = snapshot.bodies[i];
     const std::string number = std::to_string(i);
     result[py::str("body_" + number)] = body.body;
     result[py::str("cells_" + number)] = to_array(body.cells);
     result[py::str("loose_nodes_" + number)] = to_array(body.loose_nodes);
     result[py::str("places_" + number)] = to_array(body.places);
+    if (body.was_cut()) add_cut(body, number, result);
   }
   return result;
 }
@@ -101,6 +128,18 @@ T value(const py::dict& from, const std::string& name) {
 
 std::vector<double> doubles(const py::dict& from, const std::string& name) {
   return to_vector(value<Doubles>(from, name));
+}
+
+std::vector<std::int32_t> integers(const py::dict& from, const std::string& name) {
+  return to_vector(value<Array<std::int32_t>>(from, name));
+}
+
+void read_cut(const py::dict& from, const std::string& number, BodyTopology& body) {
+  for_cut_lists(
+      body, [&](const char* name, std::vector<std::int32_t>& list) { list = integers(from, name + number); });
+  body.shares = doubles(from, "shares_" + number);
+  body.material.rider_weights = doubles(from, "rider_weights_" + number);
+  body.next_cell = value<std::int32_t>(from, "next_cell_" + number);
 }
 
 Snapshot from_dict(const py::dict& from) {
@@ -120,10 +159,13 @@ Snapshot from_dict(const py::dict& from) {
   snapshot.energy_watch = doubles(from, "energy_watch");
   for (std::size_t i = 0; from.contains(("body_" + std::to_string(i)).c_str()); ++i) {
     const std::string number = std::to_string(i);
-    snapshot.bodies.push_back({value<std::string>(from, "body_" + number),
-                               to_vector(value<Array<std::int32_t>>(from, "cells_" + number)),
-                               to_vector(value<Array<std::int32_t>>(from, "loose_nodes_" + number)),
-                               doubles(from, "places_" + number)});
+    BodyTopology body;
+    body.body = value<std::string>(from, "body_" + number);
+    body.cells = integers(from, "cells_" + number);
+    body.loose_nodes = integers(from, "loose_nodes_" + number);
+    body.places = doubles(from, "places_" + number);
+    if (from.contains(("origins_" + number).c_str())) read_cut(from, number, body);
+    snapshot.bodies.push_back(std::move(body));
   }
   return snapshot;
 }

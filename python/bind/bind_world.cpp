@@ -170,6 +170,12 @@ void bind_world(py::module_& m) {
             return first;
           },
           py::kw_only(), arg("name"), arg("positions"), arg("frames"))
+      .def(
+          "leave_room",
+          [](WorldDescription& world, const std::string& body, std::int32_t nodes) {
+            world.body(body).room = nodes;
+          },
+          py::kw_only(), arg("body"), arg("nodes"))
       .def("add_elastic", &add_elastic, py::kw_only(), arg("body"), arg("cell_type"), arg("cells"),
            arg("cell_numbers"), arg("law"), arg("parameters"), arg("density"), arg("quadrature"),
            arg("reinforcements"), arg("loaded").none(true), arg("cross_section"), arg("section"),

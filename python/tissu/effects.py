@@ -34,7 +34,7 @@ def effects_of(scene: SceneData, counts: Mapping[str, str] | None = None) -> lis
         effects.append(Effect("live leads", f"{path} has the name '{name}'"))
     effects += [scene.step.effect(), *scene.step.solver_effects()]
     if scene.editing:
-        effects.append(Effect("cell removal", "editing is true"))
+        effects.append(scene.editing.effect())
     if scene.grabbing:
         effects.append(Effect("grabs", "grabbing is true"))
     return effects
@@ -63,10 +63,9 @@ def absent_of(scene: SceneData) -> list[str]:
         "live leads": bool(_led_live(scene)),
         "loads": bool(scene.loads),
         "inertia": scene.step.type != "static",
-        "cell removal": scene.editing,
         "grabs": scene.grabbing,
         "contact": bool(scene.contacts),
-        "cutting": False,
+        "cutting": scene.editing is not None,
         "haptics": False,
     }
     return [name for name, on in present.items() if not on]

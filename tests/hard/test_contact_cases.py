@@ -14,6 +14,8 @@ STEADY += ("soft_on_stiff", "faces", "slope_sticks", "livers", "slivers")
 MOVING = ("slope_slides", "hollow", "livers_meet", "tool_shot", "fold_drawn")
 BY_BDF2 = tuple(name for name in (*STEADY, *MOVING) if name not in ("hollow", "light_on_heavy"))
 """BDF2 is refused in the hollow, and leaves the light block trembling."""
+BY_MIDPOINT = tuple(name for name in (*STEADY, *MOVING) if name not in ("hollow", "heavy_on_light"))
+"""So is the midpoint rule there, and it shakes the light block under the heavy one for ever."""
 
 
 def test_every_case_has_an_outcome() -> None:
@@ -29,6 +31,27 @@ def test_it_runs_to_its_end_and_nothing_crosses(name: str) -> None:
 @pytest.mark.parametrize("name", BY_BDF2)
 def test_bdf2_holds_it_too(name: str) -> None:
     held(name, "bdf2")
+
+
+@pytest.mark.parametrize("name", BY_MIDPOINT)
+def test_the_midpoint_rule_holds_it_too(name: str) -> None:
+    held(name, "implicit_midpoint")
+
+
+@pytest.mark.parametrize(
+    ("name", "method"),
+    [("hollow", "bdf2"), ("heavy_on_light", "newmark"), ("slivers", "newmark")],
+)
+def test_energy_from_nowhere_is_told_and_then_refused(name: str, method: str) -> None:
+    """Nothing crosses, and no step that gained a tenth of what the bodies had says converged."""
+    run = ran(name, method)
+    assert run.outcome.kind == "refused"
+    assert "the energy has grown" in run.outcome.message
+    assert run.outcome.crossings == 0
+    for report, energy in zip(run.reports, run.energies[1:], strict=True):
+        assert energy < 11 * max(run.energies[0], 1e-3)
+        if energy > 1.11 * run.energies[0] and name == "hollow":
+            assert not report.converged
 
 
 def held(name: str, method: str) -> None:

@@ -9,7 +9,7 @@ from typer.testing import CliRunner
 
 from tissu.cli.app import app
 from tissu.cli.bench_contact import HEAD, cells_of
-from tissu.contact_cost import CASES, measure
+from tissu.contact_cost import CASES, RESPONSES, by_response, measure
 from tissu.errors import Diverged
 from tissu.simulation import Simulation
 
@@ -29,6 +29,23 @@ def test_a_block_below_the_angle_of_friction_stays(stick):
     assert stick.deepest[1] < 3e-3
     assert (stick.crossings, stick.unconverged) == (0, 0)
     assert len(cells_of(stick)) == len(HEAD)
+
+
+@pytest.mark.parametrize("label", ["penalty, bdf2", "augmented, bdf2"])
+def test_every_response_runs_the_same_scene(label):
+    """Coulomb's acceleration within 0.5 %, the floor's force within 1 %; nothing crosses."""
+    case = by_response(CASES["slide"](), RESPONSES[label])
+    assert case.scene().contact.method == RESPONSES[label].method
+    assert case.without().contact is None
+    row = measure(case)
+    assert (row.crossings, row.unconverged, row.ended) == (0, 0, "")
+    assert row.slides == pytest.approx(1.0, abs=5e-3)
+    assert row.force_error < 1e-2
+
+
+def test_responses_in_explicit_steps_take_the_stable_one():
+    case = by_response(CASES["stick"](), RESPONSES["geometric, symplectic_euler"])
+    assert 0.0 < case.dt == case.scene().step.dt < 1e-3
 
 
 def test_a_row_says_why_it_ended(monkeypatch):
@@ -52,7 +69,7 @@ def test_the_tables_go_between_their_markers(monkeypatch):
     monkeypatch.setattr(sys, "path", [str(ROOT / "bench"), *sys.path])
     made = runpy.run_path(str(ROOT / "bench" / "contact.py"), run_name="bench")
     page = (ROOT / "docs" / "contact.md").read_text(encoding="utf-8")
-    for part in ("steps", "broad phases"):
+    for part in ("steps", "responses", "broad phases"):
         once = made["put"](page, part, "| a |")
         assert "\n\n| a |\n\n" in once
         assert made["put"](once, part, "| b |") == made["put"](page, part, "| b |")

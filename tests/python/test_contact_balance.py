@@ -33,7 +33,9 @@ def collision(step, **fields):
 
 
 @pytest.mark.parametrize("friction", [0.0, 0.4])
-@pytest.mark.parametrize("step", [ts.ImplicitEuler, ts.BDF2])
+@pytest.mark.parametrize(
+    "step", [ts.ImplicitEuler, ts.BDF2, ts.ImplicitMidpoint, ts.Newmark, ts.EnergyMomentum]
+)
 def test_a_free_collision_keeps_the_linear_momentum(step, friction):
     """To round-off with exact solves: 1e-12 of the momentum of one cube."""
     simulation = collision(step("2 ms", solver=ts.Cholesky()), friction=friction).compile()

@@ -116,6 +116,29 @@ def test_a_sheet_is_turned_over_onto_itself():
     assert end[:, 0] == pytest.approx(0.06, abs=1e-9)  # turned by half a turn about x = 13 cm
 
 
+def test_a_probe_works_its_way_into_an_organ():
+    """What presses it is gone after each removal, and it presses again deeper, for four times."""
+    made = runpy.run_path(str(EXAMPLES / "resection.py"))
+    simulation = made["scene"]().compile()
+    cells, forces = [simulation.meshes["organ"].cell_count], [[]]
+
+    def watch(report):
+        assert report.converged, report
+        assert simulation.crossings() == []
+        if simulation.meshes["organ"].cell_count < cells[-1]:
+            cells.append(simulation.meshes["organ"].cell_count)
+            forces.append([])
+        forces[-1].append(simulation.force_on("probe").force[2])
+
+    simulation.on_step(watch)
+    made["work"](simulation)
+    assert len(cells) == 5
+    assert all(max(between) > 0.5 for between in forces[:4])
+    # The probe goes on down, and meets what was uncovered: in the first step it is nearly free.
+    for before, after in itertools.pairwise(forces):
+        assert after[0] < 0.5 * before[-1]
+
+
 def test_two_organs_are_pushed_together():
     made = runpy.run_path(str(EXAMPLES / "two_organs.py"))
     simulation = run(made["scene"]())

@@ -16,6 +16,7 @@ from test_contact_rest import state, two
 from test_contact_travel import BALL, thin_slab
 
 METHODS = ("impulse", "penalty")
+ALL = (*METHODS, "geometric")
 STEPS = (ts.SymplecticEuler, ts.ExplicitEuler, ts.RK2, ts.RK4)
 GAP = 1e-3
 """[m]"""
@@ -55,6 +56,26 @@ def test_a_dropped_cube_rests_with_its_weight(name, step):
     assert report.contacts == 9
     if name == "impulse":
         assert report.least_gap == pytest.approx(1.0, abs=1e-6)
+
+
+@pytest.mark.parametrize("step", [ts.SymplecticEuler, ts.RK2, ts.RK4])
+def test_the_geometric_response_holds_a_cube_up_but_not_still(step):
+    """Its weight in the mean of 0.2 s, within 1 %; it trembles, and lies no deeper than 1 % of xi.
+
+    Velocities lead down and places are lifted: damping by the mass would take some of the weight.
+    """
+    body = block((0, 0, 0.005), young=2e4, viscosity=damped(0.0, 5e-4))
+    made = over_a_table(body, step=step(), friction=0.5, gap="4 mm", contact=method("geometric"))
+    simulation = made.compile()
+    run(simulation, 1.0)
+    forces, least = [], math.inf
+    while simulation.time < 1.2:
+        report = audited(simulation, 1)
+        forces.append(simulation.force_on("table").force)
+        least = min(least, report.least_gap)
+        assert np.abs(simulation.velocities["body"]).max() < 2e-2
+    assert np.mean(forces, axis=0) == pytest.approx([0, 0, -weight()], abs=1e-2 * weight())
+    assert least > 0.99
 
 
 LAWS = {
@@ -176,7 +197,7 @@ LENGTH = {ts.SymplecticEuler: "2e-4 s", ts.RK2: "1e-4 s", ts.RK4: "2e-4 s"}
 
 @pytest.mark.parametrize("friction", [0.0, 0.4])
 @pytest.mark.parametrize("step", LENGTH)
-@pytest.mark.parametrize("name", METHODS)
+@pytest.mark.parametrize("name", ALL)
 def test_a_free_collision_keeps_momentum_and_gains_no_energy(name, step, friction):
     """Momentum to 1e-12 of that of one cube. Energy: symplectic Euler's own swings by h omega."""
     made = collision(ts.ImplicitEuler("1 ms"), friction=friction)
@@ -221,7 +242,7 @@ def test_below_its_angle_nothing_creeps(name):
     assert np.abs(simulation.positions["body"] - start).max() < 1e-8
 
 
-@pytest.mark.parametrize("name", METHODS)
+@pytest.mark.parametrize("name", ALL)
 def test_above_its_angle_it_slides_with_the_acceleration_of_coulomb(name):
     simulation = on_a_slope(0.55, name).compile()
     run(simulation, 1.5)
@@ -237,7 +258,7 @@ def test_above_its_angle_it_slides_with_the_acceleration_of_coulomb(name):
     assert slide == pytest.approx(MU * found.forces[:, 2], rel=1e-6)
 
 
-@pytest.mark.parametrize("name", METHODS)
+@pytest.mark.parametrize("name", ALL)
 def test_a_block_slides_to_rest(name):
     """v0^2 / (2 mu g) less h v0 / 2 of the method; 0.5 %: it shears before all of it slides."""
     speed, h = 1.0, 2e-4
@@ -252,7 +273,7 @@ def test_a_block_slides_to_rest(name):
     assert way == pytest.approx(speed**2 / (2 * MU * GRAVITY) - h * speed / 2, rel=5e-3)
 
 
-@pytest.mark.parametrize("name", METHODS)
+@pytest.mark.parametrize("name", ALL)
 def test_a_belt_takes_a_block_along(name):
     """With mu g up to the speed of the belt, and no faster. 2 %: it shears and swings at first."""
     speed, h = 0.5, 2e-4
@@ -272,7 +293,7 @@ def test_a_belt_takes_a_block_along(name):
     assert speed_of(simulation) == pytest.approx(speed, rel=5e-3)
 
 
-@pytest.mark.parametrize("name", METHODS)
+@pytest.mark.parametrize("name", ALL)
 def test_a_rope_of_rods_lies_on_two_bars(name):
     """Lines have a radius and no area; 20 cm of rope weigh 0.1 N."""
     mesh = ts.BarMesh(size=(0.2, 0, 0), cells=(10, 0, 0), cell="line", origin=(0, 0, 0.02))
@@ -300,7 +321,7 @@ def test_a_rope_of_rods_lies_on_two_bars(name):
 
 
 @pytest.mark.parametrize("step", [ts.SymplecticEuler, ts.RK2, ts.RK4])
-@pytest.mark.parametrize("name", METHODS)
+@pytest.mark.parametrize("name", ALL)
 def test_a_cube_at_100_m_per_s_does_not_pass_a_sheet(name, step):
     mesh = ts.BarMesh(size=(0.3, 0.3, 0), cells=(6, 6, 0), cell="quad", origin=(-0.1, -0.1, -0.02))
     law = ts.StableNeoHooke(young=1e6, poisson=0.3)
@@ -318,7 +339,7 @@ def test_a_cube_at_100_m_per_s_does_not_pass_a_sheet(name, step):
     assert simulation.velocities["cube"][:, 2].mean() > -99.9
 
 
-@pytest.mark.parametrize("name", METHODS)
+@pytest.mark.parametrize("name", ALL)
 @pytest.mark.parametrize("speed", [10.0, 100.0])
 def test_steps_that_are_too_long_for_a_ball_pass_nothing(name, speed):
     """Through a slab of 1 cm, 10 m/s and 100 m/s in steps of 0.15 ms: 0.06 and 0.6 cells."""
@@ -337,7 +358,7 @@ def test_steps_that_are_too_long_for_a_ball_pass_nothing(name, speed):
     assert most > 5.0
 
 
-@pytest.mark.parametrize("name", METHODS)
+@pytest.mark.parametrize("name", ALL)
 def test_a_shell_is_folded_onto_itself(name):
     """The example, in explicit steps: its layers rest on each other, and no way is cut."""
     text = (Path(__file__).parents[2] / "examples/fold.yaml").read_text()
@@ -421,7 +442,7 @@ def straight(name):
     return middle, state(simulation)
 
 
-@pytest.mark.parametrize("name", METHODS)
+@pytest.mark.parametrize("name", ALL)
 @pytest.mark.parametrize("threads", [2, 4])
 def test_any_number_of_threads_gives_the_same_bits(name, threads):
     simulation = tower(name, threads=threads).compile()
@@ -429,7 +450,7 @@ def test_any_number_of_threads_gives_the_same_bits(name, threads):
     assert state(simulation) == straight(name)[0]
 
 
-@pytest.mark.parametrize("name", METHODS)
+@pytest.mark.parametrize("name", ALL)
 @pytest.mark.parametrize("search", ["sweep_and_prune", "grid", "octree"])
 def test_every_broad_phase_gives_the_same_bits(name, search):
     simulation = tower(name, contact=method(name, broad_phase=search)).compile()
@@ -437,7 +458,7 @@ def test_every_broad_phase_gives_the_same_bits(name, search):
     assert state(simulation) == straight(name)[1]
 
 
-@pytest.mark.parametrize("name", METHODS)
+@pytest.mark.parametrize("name", ALL)
 def test_a_checkpoint_amid_a_collision_goes_on_to_the_bit(name, tmp_path):
     simulation = tower(name).compile()
     go(simulation, MIDDLE)

@@ -10,6 +10,7 @@ from contact_audit import GRAVITY, audited, block, damped, weight
 
 GAP = 1e-3
 """[m]"""
+STEPS = (ts.ImplicitEuler, ts.BDF2, ts.ImplicitMidpoint, ts.Newmark, ts.EnergyMomentum)
 
 
 def dropped(step=None, **fields):
@@ -36,7 +37,7 @@ def rested(step=None):
     return simulation, low
 
 
-@pytest.mark.parametrize("step", [ts.ImplicitEuler, ts.BDF2])
+@pytest.mark.parametrize("step", STEPS)
 def test_a_dropped_cube_rests_with_its_weight(step):
     """Force to 1e-6 of the weight; an impact from 2 cm is no deeper than 1 % of an edge."""
     simulation, low = rested(step("10 ms"))

@@ -146,7 +146,7 @@ def test_the_calls_of_the_page_run():
     """The second example of docs/contact.md, with the scene of the first."""
     page = (Path(__file__).parents[2] / "docs" / "contact.md").read_text(encoding="utf-8")
     first, second = re.findall(r"```python\n(.*?)```", page, re.DOTALL)
-    names = {"ts": ts, "liver": cube(), "print": lambda check: None}
+    names = {"print": lambda check: None}
     exec(compile(first, "contact.md", "exec"), names)
     exec(compile(second, "contact.md", "exec"), names)
     assert names["report"].converged

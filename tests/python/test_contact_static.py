@@ -56,7 +56,7 @@ def test_above_it_nothing_holds_it_which_is_said():
     before = simulation.positions["cube"].copy()
     with pytest.raises(TissuError, match="no equilibrium was found") as error:
         simulation.step()
-    assert "supports alone do not hold" in str(error.value)
+    assert "neither supports nor contacts hold it" in str(error.value)
     assert "\n" not in str(error.value)
     assert np.array_equal(simulation.positions["cube"], before)
     assert simulation.time == 0.0

@@ -52,11 +52,11 @@ def test_each_effect_says_which_field_asks_for_it():
         "inertia: step is implicit_euler with dt 0.01 s",
         "linear solver: step.solver is auto: it begins with what the first matrix makes cheapest "
         "for many solves, and changes where counted work says so",
-        "cell removal: editing is true",
+        "cutting: editing leaves room for 25% of a body's nodes and 256 more",
     ]
     assert check.absent == [
         *("sheets", "lines", "frames", "connective tissue", "prescribed motion"),
-        *("live leads", "grabs", "contact", "cutting", "haptics"),
+        *("live leads", "grabs", "contact", "haptics"),
     ]
     assert "Switched on:\n  - elasticity of bar" in str(check)
     assert "Problems" not in str(check)

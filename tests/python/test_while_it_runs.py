@@ -9,7 +9,7 @@ import pytest
 import tissu as ts
 
 PAGE = (Path(__file__).parents[2] / "docs" / "while-it-runs.md").read_text(encoding="utf-8")
-EXAMPLES = re.findall(r"```python\n(.*?)```", PAGE, re.DOTALL)
+START, *EXAMPLES = re.findall(r"```python\n(.*?)```", PAGE, re.DOTALL)
 
 
 @pytest.fixture
@@ -31,6 +31,12 @@ def simulation():
 
 def test_there_are_three():
     assert len(EXAMPLES) == 3
+
+
+def test_the_page_runs_from_its_first_block_on():
+    names = {}
+    exec(compile("\n".join([START, *EXAMPLES]), "while-it-runs.md", "exec"), names)
+    assert names["simulation"].step().converged
 
 
 @pytest.mark.parametrize("example", EXAMPLES)

@@ -138,7 +138,8 @@ class Layout {
                             in_plane_, triangular_);
       if (g == 0) first = s.Q;
       good = good && !s.flat && same_side(s.Q, first, static_cast<int>(m_));
-      const double volume = s.flat ? 0.0 : volume_of_point_[g] * s.det * of_cell(cells_.cross_section, e);
+      const double size = of_cell(cells_.cross_section, e) * of_cell(cells_.share, e);
+      const double volume = s.flat ? 0.0 : volume_of_point_[g] * s.det * size;
       write(i, g, s, order_.real[i] != 0 ? volume : 0.0);
       if (order_.real[i] != 0) shape_.volumes[e] += volume;
     }

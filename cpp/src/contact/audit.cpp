@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <map>
 
+#include "overlap.h"
+#include "tissu/base/crossing.h"
 #include "tissu/base/error.h"
+#include "tissu/base/number_text.h"
 #include "tissu/contact/candidates.h"
 #include "tissu/contact/closest.h"
-#include "tissu/contact/crossing.h"
 
 namespace tissu {
 namespace {
@@ -14,7 +16,7 @@ namespace {
 std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 constexpr int kSweeps = 16;
-constexpr double kEnough = 0.5;  ///< of xi: what is nearer is moved apart, to xi
+constexpr double kEnough = 0.5;  ///< of the gap: what is nearer is moved apart, to the gap
 
 class Audit {
  public:
@@ -112,6 +114,9 @@ class Separation {
     }
   }
 
+  /// Thick and round things that remain inside each other.
+  [[nodiscard]] Depths depths() const { return deep_overlaps(contact_, candidates_, places_, start_, 1.0); }
+
   void run() {
     bool near = true;
     for (int i = 0; near && i < kSweeps; ++i) near = sweep();
@@ -129,6 +134,13 @@ class Separation {
     return row >= 0 && fixed_.masks()[at(row)] == 0;
   }
   [[nodiscard]] Vec3 place(std::int32_t v) const { return block(ConstReals(places_), v); }
+  /// Whether surfaces whose middles are `s` apart are near, and overlap by no more than their gap.
+  template <class Pair>
+  [[nodiscard]] bool is_near(const Pair& c, double s) const {
+    const double thick = std::max(0.0, c.apart - contact_.description().pairs[at(c.pair)].gap);
+    const double gap = c.apart - thick;
+    return s < thick + kEnough * gap && s >= thick - gap;
+  }
 
   bool sweep() {
     moves_.assign(places_.size(), 0.0);
@@ -152,7 +164,7 @@ class Separation {
                                           start_, start_.time);
     const Vec3 n = contact_.normal_of(c.obstacle, start_, start_.time);
     const double s = n.dot(place(c.vertex) - origin);
-    if (s >= kEnough * c.apart || s < -c.apart || !is_free(c.vertex)) return false;
+    if (!is_near(c, s) || !is_free(c.vertex)) return false;
     add(c.vertex, (c.apart - s) * n);
     return true;
   }
@@ -164,7 +176,7 @@ class Separation {
     const Vec3 n =
         (place(c.vertex[2]) - place(c.vertex[1])).cross(place(c.vertex[3]) - place(c.vertex[1])).normalized();
     const double s = n.dot(closest.r);
-    if (s >= kEnough * c.apart || s < -c.apart || !n.allFinite()) return false;
+    if (!is_near(c, s) || !n.allFinite()) return false;
     // What it touches lies before it and not beside it, as the sides of two blocks that stand on each other.
     if (closest.square > c.apart * c.apart || !(n.dot(block(ConstReals(normals_), c.vertex[0])) < 0.0)) {
       return false;
@@ -196,17 +208,24 @@ class Separation {
 
 void separate(const Contact& contact, const FixedDofs& fixed, State& start) {
   if (!contact.description().travel) return;
-  Separation(contact, fixed, start).run();
+  Separation separation(contact, fixed, start);
+  separation.run();
   std::map<std::pair<std::int32_t, std::int32_t>, int> counts;
   for (const Crossing& crossing : crossings(contact, start)) {
     ++counts[std::minmax(crossing.surface, crossing.other)];
   }
-  if (counts.empty()) return;
+  const Depths depths = separation.depths();
+  if (counts.empty() && depths.empty()) return;
   const auto& surfaces = contact.surfaces().surfaces();
   std::string text;
   for (const auto& [pair, count] : counts) {
     text += (text.empty() ? "\"" : "; \"") + surfaces[at(pair.first)].name + "\" and \"" +
-            surfaces[at(pair.second)].name + "\" in " + std::to_string(count) + " places";
+            surfaces[at(pair.second)].name + "\" in " + std::to_string(count) +
+            (count == 1 ? " place" : " places");
+  }
+  for (const auto& [pair, depth] : depths) {
+    text += (text.empty() ? "\"" : "; \"") + surfaces[at(pair.first)].name + "\" and \"" +
+            surfaces[at(pair.second)].name + "\" by " + number_text(depth) + " m of their thickness";
   }
   throw ParameterError("found surfaces that overlap at the start: " + text +
                        "; they must begin apart, or overlap by no more than their gap. Move one of them.");

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "tissu/base/error.h"
+#include "tissu/contact/surface_change.h"
 
 namespace tissu {
 
@@ -19,6 +20,10 @@ ContactNumbers ContactTable::operator[](std::size_t i) const {
 void ContactTable::write(std::span<const ContactNumbers> contacts, std::vector<double>& numbers) {
   numbers.resize(contacts.size() * kNumbers);
   if (!contacts.empty()) std::memcpy(numbers.data(), contacts.data(), contacts.size_bytes());
+}
+
+void ContactTable::write(const ContactNumbers& contact, std::size_t i, std::vector<double>& numbers) {
+  std::memcpy(numbers.data() + i * kNumbers, static_cast<const void*>(&contact), sizeof contact);
 }
 
 Mat3 stiffness_of(const ContactNumbers& contact) {
@@ -59,6 +64,10 @@ void Contact::add_force(const State& state, Scratch& /*scratch*/, Reals f) const
     const Vec3 moved = reach(c, state.positions) - vector_of(c.place);
     scatter(c, vector_of(c.push) - stiffness_of(c) * moved, f);
   });
+}
+
+void Contact::take_force(const State& state, Reals f) const {
+  for_contacts(state, [&](const ContactNumbers& c) { scatter(c, -vector_of(c.push), f); });
 }
 
 void Contact::add_product(const State& state, Scratch& /*scratch*/, StiffnessScale scale, ConstReals p,
@@ -110,10 +119,15 @@ void Contact::carry_memory(const ForceModel& before, const Memory& then, Memory&
   for (std::size_t i = 0; i < leads_.size() && i < contact->leads_.size(); ++i) {
     now[leads_[i]] = then[contact->leads_[i]];
   }
-  // Numbers of vertices, edges and triangles are those of one topology.
-  const bool same = surfaces_.vertices().size() == contact->surfaces_.vertices().size() &&
-                    surfaces_.primitives().size() == contact->surfaces_.primitives().size();
-  if (same) now[place_] = then[contact->place_];
+  // Numbers of vertices, edges and triangles are those of one topology: contacts take those of the other.
+  const SurfaceChange change(contact->surfaces_, surfaces_);
+  std::vector<ContactNumbers> kept;
+  const ContactTable all(then[contact->place_]);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    ContactNumbers c = all[i];
+    if (c.pair < static_cast<double>(description_.pairs.size()) && change.carry(c)) kept.push_back(c);
+  }
+  ContactTable::write(kept, now[place_]);
 }
 
 void Contact::check_memory(const State& state) const {

@@ -29,7 +29,7 @@ void ContactRun::detect(const State& at, const State* goal) {
 Vec3 ContactRun::led(const ContactNumbers& contact) const {
   Vec3 gone = Vec3::Zero();
   for (std::size_t k = 0; k < 4; ++k) {
-    if (contact.vertex[k] < 0.0 || row(contact.vertex[k]) >= 0) continue;
+    if (contact.vertex[k] < 0.0 || row_of(contact.vertex[k]) >= 0) continue;
     const auto v = static_cast<std::int32_t>(contact.vertex[k]);
     gone += contact.beta[k] * (block(ConstReals(from_), v) - block(ConstReals(begin_), v));
   }
@@ -44,7 +44,7 @@ Vec3 ContactRun::led(const ContactNumbers& contact) const {
 Vec3 ContactRun::rate(const ContactNumbers& contact, ConstReals velocities) const {
   Vec3 sum = Vec3::Zero();
   for (std::size_t k = 0; k < 4; ++k) {
-    const std::int32_t i = row(contact.vertex[k]);
+    const std::int32_t i = row_of(contact.vertex[k]);
     if (i >= 0) sum += contact.beta[k] * block(velocities, i);
   }
   return sum;

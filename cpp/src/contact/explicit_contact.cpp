@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "tissu/contact/geometric.h"
 #include "tissu/contact/impulse.h"
 #include "tissu/contact/penalty.h"
 
@@ -18,6 +19,9 @@ std::unique_ptr<ExplicitContact> ExplicitContact::make(const Contact& contact, c
   if (contact.description().method == ContactMethod::impulse) {
     return std::make_unique<ImpulseContact>(contact, fixed, mass);
   }
+  if (contact.description().method == ContactMethod::geometric) {
+    return std::make_unique<GeometricContact>(contact, fixed, mass);
+  }
   return std::make_unique<PenaltyContact>(contact, fixed, mass, frequency);
 }
 
@@ -27,7 +31,7 @@ ExplicitContact::ExplicitContact(const Contact& contact, const FixedDofs& fixed,
 void ExplicitContact::begin(const State& start, double end, ConstReals led) {
   h_ = end - start.time;
   start_ = &start;
-  run_.begin(start, end, led, {});
+  run_.begin(start, end, led);
   begin_response();
 }
 

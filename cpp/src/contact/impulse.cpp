@@ -142,14 +142,17 @@ double ImpulseContact::least_end_rate(const Blow& blow, double after) const {
   return -before > kBounce * std::abs(after - before) ? -blow.restitution * before : 0.0;
 }
 
+bool ImpulseContact::is_shut(const Blow& blow, const State& end) const {
+  const double d = vector_of(blow.contact.normal).dot(run_.reach_of(blow.contact, end));
+  return d - blow.apart <= kShallow * blow.apart;
+}
+
 void ImpulseContact::strike_end(ConstReals velocities, const State& end, Reals change) {
   for (Blow& blow : blows_) {
     const ContactNumbers& c = blow.contact;
     const Vec3 n = vector_of(c.normal);
-    const bool shut =
-        blow.way.normal > 0.0 || n.dot(run_.reach_of(c, end)) - blow.apart <= kShallow * blow.apart;
     blow.end.missing = kNever;
-    if (!shut) continue;
+    if (!(blow.way.normal > 0.0 || is_shut(blow, end))) continue;
     const Vec3 rate = run_.rate(c, velocities) + run_.led(c) / h_;
     blow.end.missing = least_end_rate(blow, n.dot(rate)) - n.dot(rate);
     blow.end.sliding = rate - n.dot(rate) * n;

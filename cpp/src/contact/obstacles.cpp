@@ -97,6 +97,15 @@ bool Contact::is_led_live(std::string_view name, const State& state) const {
   return !numbers.empty() && !LiveLead(numbers, 0).is_released();
 }
 
+bool Contact::is_any_led_live(const State& state) const {
+  return std::ranges::any_of(leads_, [&](std::size_t place) { return !state.memory[place].empty(); });
+}
+
+bool Contact::may_add_energy() const {
+  const auto is_led = [](const ObstacleDescription& obstacle) { return !obstacle.motion.times.empty(); };
+  return description_.method == ContactMethod::penalty || std::ranges::any_of(description_.obstacles, is_led);
+}
+
 void Contact::begin_step(State& state, Scratch& /*scratch*/, double h) const {
   for (const std::size_t place : leads_) {
     std::vector<double>& numbers = state.memory[place];

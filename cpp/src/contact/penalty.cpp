@@ -2,19 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <tuple>
-
-#include "nearest_pair.h"
 
 namespace tissu {
 namespace {
 
 constexpr double kSigma = 1.0 / 3.0;  ///< of the square of the bodies' largest frequency: s = 1
-constexpr double kZeta = 0.2;
-constexpr double kStop = 0.2;      ///< of the gap: the distance at which a spring is at its end
-constexpr double kNearStop = 0.6;  ///< of the gap: stops are looked for from here
-constexpr int kHalvings = 60;
+constexpr double kNearStop = 0.6;     ///< of the gap: stops are looked for from here
 
 std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 std::array<double, 3> numbers_of(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
@@ -31,24 +25,13 @@ double largest_area_over_mass(const SurfaceSet& surfaces, std::int32_t surface, 
 
 }  // namespace
 
-double damping_of_restitution(double e) {
-  double low = 0.0;
-  double high = 0.5 * std::numbers::pi;
-  for (int i = 0; i < kHalvings; ++i) {
-    const double theta = 0.5 * (low + high);
-    const double found = std::exp(-std::tan(theta) * (std::numbers::pi - 2.0 * theta));
-    (found > e ? low : high) = theta;
-  }
-  return std::sin(low);
-}
-
 PenaltyContact::PenaltyContact(const Contact& contact, const FixedDofs& fixed, const Mass& mass,
                                double frequency)
     : ImpulseContact(contact, fixed, mass), omega2_(kSigma * frequency * frequency) {
   shared_.assign(fixed.masks().size(), 0.0);
   const SurfaceSet& surfaces = contact.surfaces();
   for (const ContactPair& pair : contact.description().pairs) {
-    zetas_.push_back(pair.restitution ? damping_of_restitution(*pair.restitution) : kZeta);
+    zetas_.push_back(damping_of(pair));
     double square = omega2_;
     if (pair.stiffness) {
       // Two surfaces that face each other: as vertices of one and as corners of faces of the other.
@@ -70,28 +53,9 @@ void PenaltyContact::begin_response() {
   near_stop_ = false;
 }
 
-/// xi less most of the gap.
-double PenaltyContact::stop_of(const ContactNumbers& c) const {
-  return c.apart - (1.0 - kStop) * std::min(pair_of(c).gap, c.apart);
-}
-
 void PenaltyContact::begin_blow(Blow& blow, double /*pushed*/) const {
-  blow.apart = stop_of(blow.contact);
+  blow.apart = spring_stop(contact_, blow.contact);
   blow.restitution = 0.0;
-}
-
-/// d0 - xi: a gap, or what is left of the distance at rest of parts of one body.
-double PenaltyContact::range_of(const ContactNumbers& contact) const {
-  const SurfaceSet& surfaces = contact_.surfaces();
-  const ContactPair& pair = pair_of(contact);
-  if (pair.a != pair.b) return pair.gap;
-  std::array<Vec3, 4> p{};
-  const auto kind = static_cast<PairKind>(static_cast<int>(contact.kind));
-  for (std::size_t k = 0; k < 4; ++k) {
-    if (contact.vertex[k] < 0.0) continue;
-    p[k] = block(ConstReals(surfaces.rest()), static_cast<std::int32_t>(contact.vertex[k]));
-  }
-  return std::clamp(std::sqrt(nearest_of(kind, p).square) - contact.apart, 0.0, pair.gap);
 }
 
 void PenaltyContact::find_near() {
@@ -101,7 +65,7 @@ void PenaltyContact::find_near() {
     const ContactNumbers& c = looked[i];
     const double gap = pair_of(c).gap;
     if (run_.gap(i) >= gap) continue;
-    const double range = range_of(c);
+    const double range = spring_range(contact_, c);
     if (run_.gap(i) >= range) continue;
     near_stop_ = near_stop_ || -run_.gap(i) > (1.0 - kNearStop) * std::min(gap, c.apart);
     const double depth = range - run_.gap(i);
@@ -121,14 +85,6 @@ void PenaltyContact::share_rows() {
   each([](double& sum, double share) { sum += share; });
 }
 
-double PenaltyContact::law(const Near& near, double k) const {
-  if (contact_.description().penalty == PenaltyLaw::linear) return k * near.depth;
-  const double s0 = near.range;
-  const double s = std::max(s0 - near.depth, 0.5 * s0);
-  const double k1 = 0.25 * k * s0 * s0;
-  return k1 * (1.0 / s - 1.0 / s0) + k * (s - (s0 - near.depth));
-}
-
 /// Its force, whose parts go into the contact: `force`, `drag` of the start of the step, k in `stiffness`.
 Vec3 PenaltyContact::force_of(ContactNumbers& c, const Near& near, const State& at) {
   const double w = mobility(c, shared_).maxCoeff() / near.share;  // 1/a
@@ -141,7 +97,8 @@ Vec3 PenaltyContact::force_of(ContactNumbers& c, const Near& near, const State& 
   const Vec3 n = vector_of(c.normal);
   const Vec3 v = run_.rate(c, at.velocities) + run_.led(c) / h_;
   const double u = n.dot(v);
-  c.force = std::max(0.0, law(near, k) - damper * u);
+  c.force = std::max(
+      0.0, spring_force(contact_.description().penalty, k, near.depth, near.range).force - damper * u);
   c.stiffness[0] = k;
   if (!(pair.friction > 0.0)) return c.force * n;
   const Vec3 slid = run_.gone(c, at);

@@ -84,14 +84,17 @@ void SurfaceSet::add(const SurfaceDescription& description, std::int32_t first_r
   }
   for (const auto& e : description.edges) primitives_.push_back({{number(e[0]), number(e[1]), -1}, 2});
   for (const std::int32_t p : description.points) primitives_.push_back({{number(p), -1, -1}, 1});
-  add_edges(first_primitive, first_vertex);
+  const std::vector<std::int32_t> crowded = add_edges(first_primitive, first_vertex);
+  if (description.closed) part_wedges(crowded, first_primitive, first_edge);
   measure(first_primitive, first_edge);
   surfaces_.push_back({description.name, first_vertex, static_cast<std::int32_t>(vertices_.size()),
                        description.closed, obstacle});
   first_primitive_.push_back(static_cast<std::int32_t>(primitives_.size()));
 }
 
-void SurfaceSet::add_edges(std::int32_t first_primitive, std::int32_t first_vertex) {
+/// The edges that have more than two triangles, ascending.
+std::vector<std::int32_t> SurfaceSet::add_edges(std::int32_t first_primitive, std::int32_t first_vertex) {
+  std::vector<std::int32_t> crowded;
   std::unordered_map<std::uint64_t, std::int32_t> known;
   owner_.resize(vertices_.size(), -1);
   for (std::size_t v = at(first_vertex); v < vertices_.size(); ++v) vertices_[v].is_lone = true;
@@ -113,11 +116,17 @@ void SurfaceSet::add_edges(std::int32_t first_primitive, std::int32_t first_vert
       vertices_[at(a)].has_faces = vertices_[at(b)].has_faces = true;
       SurfaceEdge& edge = edges_[at(place->second)];
       const std::size_t side = edge.face[0] < 0 ? 0 : 1;
-      if (edge.face[side] >= 0) continue;  // a third triangle beside an edge
+      if (edge.face[side] >= 0) {  // a third triangle beside an edge
+        crowded.push_back(place->second);
+        continue;
+      }
       edge.face[side] = p;
       edge.across[side] = primitive.vertex[at((i + 2) % 3)];
     }
   }
+  std::ranges::sort(crowded);
+  crowded.erase(std::unique(crowded.begin(), crowded.end()), crowded.end());
+  return crowded;
 }
 
 void SurfaceSet::measure(std::int32_t first_primitive, std::int32_t first_edge) {

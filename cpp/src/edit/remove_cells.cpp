@@ -3,26 +3,15 @@
 #include <algorithm>
 #include <unordered_set>
 
+#include "body_surface.h"
+#include "debris.h"
 #include "tissu/base/error.h"
-#include "tissu/element/reference_cell.h"
+#include "tissu/edit/cut_state.h"
 
 namespace tissu {
 namespace {
 
 using Numbers = std::unordered_set<std::int32_t>;
-
-/// Cells are numbered through the blocks of a body; from the first edit on, each block keeps its own list.
-void number_cells(BodyDescription& body) {
-  std::int32_t next = 0;
-  for (ElasticBlock& block : body.elastic) {
-    const int nodes = reference_cell(block.element, block.quadrature).nodes;
-    const auto count = static_cast<std::int32_t>(block.cells.size()) / nodes;
-    if (block.cell_numbers.empty()) {
-      for (std::int32_t i = 0; i < count; ++i) block.cell_numbers.push_back(next + i);
-    }
-    next += count;
-  }
-}
 
 /// Takes the named cells out of a block, and out of `wanted`.
 void remove_from(ElasticBlock& block, Numbers& wanted) {
@@ -31,46 +20,6 @@ void remove_from(ElasticBlock& block, Numbers& wanted) {
     if (wanted.erase(block.cell_numbers[i]) == 0) kept.push_back(i);
   }
   if (kept.size() < block.cell_numbers.size()) block = part_of(block, kept);
-}
-
-/// Which nodes of the body a cell uses.
-std::vector<char> used_nodes(const BodyDescription& body) {
-  std::vector<char> used(body.positions.size() / 3, 0);
-  for (const ElasticBlock& block : body.elastic) {
-    for (const std::int32_t node : block.cells) used[static_cast<std::size_t>(node)] = 1;
-  }
-  return used;
-}
-
-/// Nodes of the body that no cell uses, held where they are.
-void hold_debris(WorldDescription& description, const BodyDescription& body, const State& state,
-                 std::int32_t first_node) {
-  const std::vector<char> used = used_nodes(body);
-  FixedNodes held;
-  held.body = body.name;
-  for (std::size_t node = 0; node < used.size(); ++node) {
-    if (used[node] != 0) continue;
-    held.nodes.push_back(static_cast<std::int32_t>(node));
-    const Vec3 x = block(ConstReals(state.positions), first_node + static_cast<std::int32_t>(node));
-    held.positions.insert(held.positions.end(), x.data(), x.data() + 3);
-  }
-  // A node is led by one motion only: debris leaves what held it before.
-  for (FixedNodes& other : description.fixed) {
-    if (other.body != body.name) continue;
-    FixedNodes rest = other;
-    rest.nodes.clear();
-    rest.positions.clear();
-    for (std::size_t i = 0; i < other.nodes.size(); ++i) {
-      if (used[static_cast<std::size_t>(other.nodes[i])] == 0) continue;
-      rest.nodes.push_back(other.nodes[i]);
-      if (!other.positions.empty()) {
-        const auto at = other.positions.begin() + static_cast<std::ptrdiff_t>(3 * i);
-        rest.positions.insert(rest.positions.end(), at, at + 3);
-      }
-    }
-    other = std::move(rest);
-  }
-  if (!held.nodes.empty()) description.fixed.push_back(std::move(held));
 }
 
 }  // namespace
@@ -90,8 +39,15 @@ std::shared_ptr<const World> remove_cells(const World& world, const State& state
     throw ParameterError("body \"" + edited.name + "\" has no cell " +
                          std::to_string(*std::ranges::min_element(wanted)) + " (any more).");
   }
+  if (edited.cut != nullptr) {
+    CutState left = *edited.cut;
+    left.hosts.remove(cells);
+    left.material.remove(cells);
+    edited.cut = std::make_shared<const CutState>(std::move(left));
+  }
   std::erase_if(edited.elastic, [](const ElasticBlock& block) { return block.cells.empty(); });
   hold_debris(description, edited, state, world.body(body).first_node);
+  renew_surface(description, edited);
   return std::make_shared<const World>(std::move(description), &world);
 }
 

@@ -32,6 +32,12 @@ void check_element(const ElasticBlock& block, const ReferenceCell& reference) {
 void check_sizes(const ElasticBlock& block, const ReferenceCell& reference, std::size_t cells) {
   check_size(block, block.density, "density", cells);
   check_size(block, block.cross_section, reference.dimension == 1 ? "section" : "thickness", cells);
+  check_size(block, block.share, "share of material", cells);
+  for (const double share : block.share) {
+    if (share > 0.0 && share <= 1.0) continue;
+    throw ParameterError("body \"" + block.body + "\" has a cell with a share of material of " +
+                         std::to_string(share) + "; it must be above 0 and at most 1.");
+  }
   for (const double size : block.cross_section) {
     if (size > 0.0 && std::isfinite(size)) continue;
     throw ParameterError("body \"" + block.body + "\" has a thickness or section of " + std::to_string(size) +
@@ -66,7 +72,8 @@ CellModel::CellModel(ElasticBlock block, Threads threads)
 
 void CellModel::lay_cells(ConstReals rest_positions, RestForm form, std::span<const std::int32_t> together) {
   order_ = order_elements(block_.cells, reference_.nodes, rest_positions, together, block_.fill);
-  shape_ = rest_shape({reference_, block_.cells, block_.cross_section, rest_positions}, order_, form);
+  shape_ = rest_shape({reference_, block_.cells, block_.cross_section, rest_positions, block_.share}, order_,
+                      form);
   if (shape_.bad.empty()) return;
   if (!block_.cell_numbers.empty()) {
     for (std::int32_t& cell : shape_.bad) cell = block_.cell_numbers[static_cast<std::size_t>(cell)];

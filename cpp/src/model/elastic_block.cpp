@@ -42,6 +42,8 @@ ElasticBlock part_of(const ElasticBlock& block, const std::vector<std::size_t>& 
   part.cells.clear();
   part.cell_numbers.clear();
   part.frames.clear();
+  part.origins.clear();
+  part.heirs_of.clear();
   for (const std::size_t i : which) {
     const auto insert = [&](const std::vector<std::int32_t>& from, std::vector<std::int32_t>& to) {
       const auto first = from.begin() + static_cast<std::ptrdiff_t>(i * nodes);
@@ -50,9 +52,12 @@ ElasticBlock part_of(const ElasticBlock& block, const std::vector<std::size_t>& 
     insert(block.cells, part.cells);
     if (!block.frames.empty()) insert(block.frames, part.frames);
     if (!block.cell_numbers.empty()) part.cell_numbers.push_back(block.cell_numbers[i]);
+    if (!block.origins.empty()) part.origins.push_back(block.origins[i]);
+    if (!block.heirs_of.empty()) part.heirs_of.push_back(block.heirs_of[i]);
   }
   part.density = chosen(block.density, which);
   part.cross_section = chosen(block.cross_section, which);
+  part.share = chosen(block.share, which);
   for (auto& [name, values] : part.parameters) values = chosen(values, which);
   for (LawUse& use : part.reinforcements) {
     for (auto& [name, values] : use.parameters) values = chosen(values, which);

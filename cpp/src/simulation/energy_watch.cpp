@@ -57,10 +57,18 @@ void EnergyWatch::restore(ConstReals reference, const State& state) {
   if (reference[3] != 0.0) set_end(state);
 }
 
-std::string EnergyWatch::say() const {
-  return "the energy has grown by " + number_text(100.0 * growth()) +
-         " % of what the bodies had, and nothing in the scene gives any; take energy_momentum, which keeps "
-         "it, a smaller dt, or a method that damps (implicit_euler, bdf2)";
+void EnergyWatch::allow_contacts(const World& world, double h) {
+  double gap = 0.0;
+  for (const ContactPair& pair : world.contact()->description().pairs) gap = std::max(gap, pair.gap);
+  allowed_ = world.mass().total() * (gap / h) * (gap / h);
+}
+
+std::string EnergyWatch::say(const World& world) const {
+  const std::string found = "the energy has grown by " + number_text(100.0 * growth()) +
+                            " % of what the bodies had, and nothing in the scene gives any; take ";
+  if (world.contact() != nullptr) return found + "a smaller dt, or implicit_euler, which damps most";
+  return found +
+         "energy_momentum, which keeps it, a smaller dt, or a method that damps (implicit_euler, bdf2)";
 }
 
 }  // namespace tissu

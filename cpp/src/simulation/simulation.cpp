@@ -81,7 +81,8 @@ Simulation::Simulation(std::shared_ptr<const World> world, std::unique_ptr<Integ
       last_good_(state_),
       held_(state_.velocities) {
   integrator_->prepare(*world_, solver_.get(), profile_);
-  if (integrator_->is_undamped() && EnergyWatch::can_watch(*world_)) watch_.emplace();
+  const bool touches = world_->contact() != nullptr && solver_ != nullptr && !integrator_->is_static();
+  if ((integrator_->is_undamped() || touches) && EnergyWatch::can_watch(*world_)) watch_.emplace();
   if (integrator_->is_static()) inverted_.emplace(*world_);
 }
 
@@ -97,6 +98,7 @@ StepReport Simulation::step(double h) {
   try {
     begin_step(*world_, state_, scratch_, h);
     if (watch_) begin_watch(*watch_);
+    if (watch_ && world_->contact() != nullptr) watch_->allow_contacts(*world_, h);
     const bool whole = world_->contact() == nullptr || integrator_->is_static();
     report = whole ? integrator_->step(state_, h) : step_in_parts(h, 0);
   } catch (...) {
@@ -115,9 +117,14 @@ StepReport Simulation::step(double h) {
   return report;
 }
 
+bool Simulation::is_led_live() const {
+  const Contact* contact = world_->contact();
+  return world_->fixed().is_led_live(state_) || (contact != nullptr && contact->is_any_led_live(state_));
+}
+
 /// A live target gives energy while it leads: the watch begins anew after it.
 void Simulation::begin_watch(EnergyWatch& watch) {
-  if (world_->fixed().is_led_live(state_)) {
+  if (is_led_live()) {
     watch = EnergyWatch();
   } else {
     watch.begin(*world_, state_);
@@ -125,17 +132,17 @@ void Simulation::begin_watch(EnergyWatch& watch) {
 }
 
 void Simulation::watch_energy(EnergyWatch& watch, StepReport& report) {
-  if (world_->fixed().is_led_live(state_)) return;
+  if (is_led_live()) return;
   watch.end(*world_, state_);
   if (watch.growth() <= EnergyWatch::kReported) return;
   if (watch.growth() <= EnergyWatch::kRefused) {
     report.converged = false;
-    report.message = watch.say();
+    report.message = watch.say(*world_);
     return;
   }
   const Culprit culprit = worst_cell(*world_, state_);
-  const std::string message = "in the step from t = " + number_text(last_good_.time) + " s " + watch.say() +
-                              ". The simulation stands at its last good step.";
+  const std::string message = "in the step from t = " + number_text(last_good_.time) + " s " +
+                              watch.say(*world_) + ". The simulation stands at its last good step.";
   state_ = last_good_;
   throw Diverged(message, culprit.body, culprit.element, state_.time);
 }
@@ -226,17 +233,52 @@ void Simulation::forget_solves() {
   if (solver_ != nullptr) solver_->forget();
 }
 
-void Simulation::replace_world(std::shared_ptr<const World> world) {
+void Simulation::replace_world(std::shared_ptr<const World> world, std::span<const RowCopy> copies) {
   if (world->blocks() != world_->blocks()) {
     throw ParameterError("the new world has other unknowns than the one that runs.");
   }
   const std::vector<double> memory = integrator_->memory();
   integrator_->prepare(*world, solver_.get(), profile_);
   integrator_->restore(memory);
+  integrator_->copy_rows(copies);
+  for (std::vector<double>* values :
+       {&state_.positions, &state_.velocities, &last_good_.positions, &last_good_.velocities, &held_})
+    copy_rows(copies, *values);
   carry_memory(*world_, *world, state_);
   world_ = std::move(world);
   if (watch_) watch_.emplace();
   if (inverted_) inverted_.emplace(*world_);
+}
+
+Simulation::Mark Simulation::mark() {
+  forget_solves();
+  hold();
+  return {.world = world_,
+          .state = state_,
+          .last_good = last_good_,
+          .held = held_,
+          .integrator = integrator_->memory(),
+          .watch = watch_ ? watch_->reference(state_) : std::vector<double>(),
+          .settled = settled_};
+}
+
+void Simulation::rewind(const Mark& mark) {
+  if (mark.state.positions.size() != state_.positions.size()) {
+    throw ParameterError("the mark has other unknowns than the simulation; rewind the one that made it.");
+  }
+  world_ = mark.world;
+  integrator_->prepare(*world_, solver_.get(), profile_);
+  integrator_->restore(mark.integrator);
+  state_ = mark.state;
+  last_good_ = mark.last_good;
+  held_ = mark.held;
+  settled_ = mark.settled;
+  if (watch_) {
+    watch_.emplace();
+    watch_->restore(mark.watch, state_);
+  }
+  if (inverted_) inverted_.emplace(*world_);
+  forget_solves();
 }
 
 }  // namespace tissu

@@ -6,6 +6,10 @@
 
 namespace tissu {
 
+void copy_rows(std::span<const RowCopy> copies, Reals values) {
+  for (const RowCopy copy : copies) block(values, copy.to) = block(ConstReals(values), copy.from);
+}
+
 Mat3 spatial_inertia(const Frame& frame, const Quaternion& rotation) {
   const Mat3 R = rotation.toRotationMatrix();
   return R * frame.inertia * R.transpose();

@@ -42,6 +42,8 @@ void EnergyMomentum::prepare(const World& world, LinearSolver* solver, Profile& 
                   &work_}) {
     v->assign(middle_.positions.size(), 0.0);
   }
+  contact_.reset();
+  if (world.contact() != nullptr) prepare_touching(profile);
 }
 
 double EnergyMomentum::stored(const State& state) {
@@ -140,13 +142,7 @@ bool EnergyMomentum::find_change(double h, StepReport& report) {
   return true;
 }
 
-bool EnergyMomentum::solve(const State& from, double h, State& state, StepReport& report) {
-  const FixedDofs& fixed = system_->world().fixed();
-  middle_ = from;  // what models remember, too
-  end_ = from;
-  mean_ = from.velocities;
-  fixed.set_velocities(from, from.time + h, h, 1.0, given_);
-  fixed.copy(given_, mean_);
+bool EnergyMomentum::iterate(const State& from, double h, StepReport& report) {
   double now = residual(from, h);
   bool found = false;
   for (int i = 0; i <= newton_.iterations && std::isfinite(now); ++i) {
@@ -167,11 +163,23 @@ bool EnergyMomentum::solve(const State& from, double h, State& state, StepReport
     if (!(next < now)) break;
     now = next;
   }
+  return found;
+}
+
+bool EnergyMomentum::solve(const State& from, double h, State& state, StepReport& report) {
+  const FixedDofs& fixed = system_->world().fixed();
+  middle_ = from;  // what models remember, too
+  end_ = from;
+  mean_ = from.velocities;
+  fixed.set_velocities(from, from.time + h, h, 1.0, given_);
+  fixed.copy(given_, mean_);
+  const bool found = contact_ == nullptr ? iterate(from, h, report) : iterate_touching(from, h, report);
   if (!found) return false;
   for (std::size_t i = 0; i < mean_.size(); ++i) {
     state.positions[i] = from.positions[i] + h * mean_[i];
     state.velocities[i] = 2.0 * mean_[i] - from.velocities[i];
   }
+  if (contact_ != nullptr) finish_touching(from, h, state, report);
   fixed.copy(mean_, state.velocities);
   state.time = from.time + h;
   return true;
@@ -197,6 +205,7 @@ StepReport EnergyMomentum::step(State& state, double h) {
         "a smaller dt, or more of Newton's iterations.",
         "", -1, start_.time);
   }
+  report.converged = !report.hasty;
   report.time = state.time;
   return report;
 }

@@ -14,6 +14,8 @@ StepReport ImplicitMidpoint::step(State& state, double h) {
   mean_ = state.velocities;
   // Half a step of backward Euler; where motion is given, its mean velocity over the whole one.
   solver_.begin(start_, start_.time + 0.5 * h, 0.5 * h);
+  solver_.stage().end = start_.time + h;
+  solver_.stage().contact = {2.0, 2.0};
   solver_.lead(start_, start_.time + h, h, 0.5);
   solver_.solve(state, mean_, report);
   // The other half goes on with the same velocity.
@@ -21,7 +23,10 @@ StepReport ImplicitMidpoint::step(State& state, double h) {
   for (std::size_t i = 0; i < mean_.size(); ++i) {
     state.velocities[i] = 2.0 * mean_[i] - start_.velocities[i];
   }
+  // The way has the whole impulse of contacts in it, so that twice the mean velocity has it twice.
+  solver_.add_contact_impulse(-h, state.velocities);
   solver_.copy_given(state.velocities);
+  solver_.end_touching(h, state);
   keep_angular_momentum(start_, solver_.world().frames(), state);
   state.time = start_.time + h;
   report.time = state.time;

@@ -23,7 +23,9 @@ void Newmark::prepare(const World& world, LinearSolver* solver, Profile& profile
 
 void Newmark::find_acceleration(const State& state) {
   if (end_.is(state)) return;
+  // Contacts of the step before are no part of it.
   solver_.system().force(state, a_);
+  if (const Contact* contact = solver_.world().contact()) contact->take_force(state, a_);
   solver_.world().mass().divide(state, a_);
 }
 
@@ -36,6 +38,7 @@ StepReport Newmark::step(State& state, double h) {
   Stage& stage = solver_.stage();
   stage.push = gamma_ * h;
   stage.move = ratio * h;
+  stage.contact.times = 1.0 / beta_;
   const double by_velocity = (1.0 - ratio) * h;
   const double by_acceleration = (0.5 - beta_ - ratio * (1.0 - gamma_)) * h * h;
   for (std::size_t i = 0; i < a_.size(); ++i) {
@@ -47,12 +50,16 @@ StepReport Newmark::step(State& state, double h) {
   solver_.lead(start_, start_.time + h, h, 1.0);
   v_ = state.velocities;
   solver_.solve(state, v_, report);
+  solver_.add_contact_impulse(-h / ratio, v_);
   for (std::size_t i = 0; i < a_.size(); ++i) {
     a_[i] = (v_[i] - stage.base.velocities[i]) / (gamma_ * h);
   }
+  solver_.add_contact_impulse(h - h / ratio, state.velocities);
+  solver_.end_touching(h, state);
   keep_angular_momentum(stage.base, solver_.world().frames(), state);
   report.time = state.time;
   end_.set(state);
+  if (report.held_back > 0) end_.forget();  // what was cut has no acceleration
   return report;
 }
 
@@ -68,6 +75,12 @@ void Newmark::restore(ConstReals memory) {
   require_memory(memory.size(), 1 + 3 * a_.size());
   const ConstReals a = end_.take_from(memory, a_.size());
   a_.assign(a.begin(), a.end());
+}
+
+void Newmark::copy_rows(std::span<const RowCopy> copies) {
+  if (end_.is_empty()) return;
+  end_.copy_rows(copies);
+  tissu::copy_rows(copies, a_);
 }
 
 }  // namespace tissu

@@ -55,7 +55,9 @@ void StageSolver::prepare(const World& world, LinearSolver* solver, Profile& pro
   }
   contact_.reset();
   if (world.contact() == nullptr) return;
-  contact_ = std::make_unique<ContactRun>(*world.contact(), world.fixed());
+  contact_ = system_->make_contact(false);
+  impulses_ = std::make_unique<EndImpulses>(*world.contact(), world.fixed(), world.mass());
+  end_ = stage_.base;
   profile_ = &profile;
   detection_row_ = profile.row("contact", "detection");
   travel_row_ = profile.row("contact", "travel");
@@ -68,6 +70,8 @@ void StageSolver::begin(const State& start, double time, double h) {
   stage_.base.time = time;
   stage_.move = h;
   stage_.push = h;
+  stage_.end = time;
+  stage_.contact = {};
 }
 
 void StageSolver::lead(const State& start, double time, double h, double share) {

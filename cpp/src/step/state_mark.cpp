@@ -19,6 +19,12 @@ void StateMark::set(const State& state) {
   velocities_ = state.velocities;
 }
 
+void StateMark::copy_rows(std::span<const RowCopy> copies) {
+  if (is_empty()) return;
+  tissu::copy_rows(copies, positions_);
+  tissu::copy_rows(copies, velocities_);
+}
+
 bool StateMark::is(const State& state) const {
   return !positions_.empty() && time_ == state.time && positions_ == state.positions &&
          velocities_ == state.velocities;

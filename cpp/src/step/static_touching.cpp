@@ -27,8 +27,8 @@ constexpr double kFarthest = 0.1;    ///< of the scene's size, which a body that
 constexpr double kLooseMass = 1e-6;  ///< of the stiffness of the node that is softest for its mass
 constexpr int kHeldNodes = 3;        ///< hold a body, on all axes together
 constexpr const char* kMovesOn =
-    "a body that supports alone do not hold moves on, as one that contacts do not hold either or whose "
-    "equilibrium is unstable; hold it with `fixed`, or by friction";
+    "a body moves on: neither supports nor contacts hold it, or its equilibrium is unstable; hold it with "
+    "`fixed`, or by friction";
 constexpr std::uint8_t kAllAxes = FixedDofs::kAllAxes;
 
 /// Whether there are bodies, or separate parts, that supports do not hold.
@@ -68,7 +68,7 @@ bool any_loose(const World& world) {
 StaticTouching::StaticTouching(Equilibrium& equilibrium, Profile& profile)
     : equilibrium_(equilibrium),
       profile_(profile),
-      contact_(*equilibrium.world().contact(), equilibrium.world().fixed()),
+      contact_(equilibrium.system().make_contact(true)),
       start_(equilibrium.world().rest_state()),
       before_(start_),
       held_(start_),
@@ -85,17 +85,17 @@ bool StaticTouching::give_up(std::string why) {
 }
 
 double StaticTouching::largest_part(const LoadPath& path, const State& start) const {
-  return 1.0 / std::max(1.0, contact_.half_edges_led(start, path.time(1.0)));
+  return 1.0 / std::max(1.0, contact_->run().half_edges_led(start, path.time(1.0)));
 }
 
 void StaticTouching::look(const State& at) {
   const Timed timed(profile_, detection_row_);
-  other_ = contact_.look(at);
+  other_ = contact_->look(at);
 }
 
 int StaticTouching::hold_back(State& to) {
   const Timed timed(profile_, travel_row_);
-  return contact_.hold_back(to);
+  return contact_->run().hold_back(to);
 }
 
 /// So much of the mass that no node feels it beside its own stiffness.
@@ -121,25 +121,25 @@ void StaticTouching::begin(const LoadPath& path, double from, double to, State& 
   move(state, world.frames(), way_, 1.0, held_);
   {
     const Timed timed(profile_, detection_row_);
-    contact_.begin(start_, path.time(to), held_.positions, {});
+    contact_->begin(start_, path.time(to), held_.positions, {});
   }
   world.contact()->numbers(state).clear();
   equilibrium_.system().assemble(state, 0.0, {-1.0, 0.0, true});
   equilibrium_.system().system_matrix().diagonal_blocks(blocks_);
-  contact_.set_matrix(blocks_, 1.0);
+  contact_->set_matrix(blocks_, 1.0, {});
   tangent_ = relaxed_ = 1.0;
   best_ = std::numeric_limits<double>::infinity();
   idle_ = 0;
-  contact_.set_stiffer(kNormal, tangent_);
-  contact_.hand_over_to_all();
+  contact_->set_stiffer(kNormal, tangent_);
+  contact_->run().hand_over_to_all();
   if (is_loose_) measure_mass();
   is_falling_ = is_loose_;
   hold_back(held_);
   look(held_);
-  depth_ = contact_.depth();
-  contact_.go_on_from(held_);
-  contact_.take();
-  contact_.write(state);
+  depth_ = contact_->depth();
+  contact_->run().go_on_from(held_);
+  contact_->take();
+  contact_->write(state);
 }
 
 bool StaticTouching::solve(const LoadPath& path, double before, double to, int most, State& state,
@@ -171,7 +171,7 @@ void StaticTouching::fall(State& state) {
   if (before_.positions != held_.positions) return;  // pushed, or held back: ways do not begin where it is
   held_ = state;
   hold_back(held_);
-  double high = contact_.least_share();
+  double high = contact_->run().least_share();
   if (high == 1.0) return;
   // What touches already may go deeper, as where a body tips over it.
   const double most = depth_ > 0.0 ? depth_ + kDeeper : kShallow;
@@ -180,8 +180,8 @@ void StaticTouching::fall(State& state) {
   for (int i = 0; i < kBisections; ++i) {
     equilibrium_.shorten(share, state);
     look(state);
-    const bool is_deep = contact_.depth() > most;
-    if (!is_deep && (i == 0 || contact_.depth() > 0.0)) return;
+    const bool is_deep = contact_->depth() > most;
+    if (!is_deep && (i == 0 || contact_->depth() > 0.0)) return;
     (is_deep ? high : low) = share;
     share = 0.5 * (low + high);
   }
@@ -190,7 +190,7 @@ void StaticTouching::fall(State& state) {
 bool StaticTouching::look_again(double share, State& state, StepReport& report) {
   if (!is_falling_) {
     const Timed timed(profile_, response_row_);
-    contact_.update(state);
+    contact_->update(state);
   }
   const bool whole = relaxed_ == 1.0 || is_falling_ || other_ <= kForce;
   if (whole) {
@@ -202,18 +202,18 @@ bool StaticTouching::look_again(double share, State& state, StepReport& report) 
   }
   held_back_ = hold_back(held_);
   look(held_);
-  depth_ = contact_.depth();
-  contact_.go_on_from(held_);
+  depth_ = contact_->depth();
+  contact_->run().go_on_from(held_);
   const bool stays =
-      whole && !is_falling_ && held_back_ == 0 && other_ <= kForce && contact_.depth() <= kDepth;
+      whole && !is_falling_ && held_back_ == 0 && other_ <= kForce && contact_->depth() <= kDepth;
   if (stays) {
     is_unstable_ = equilibrium_.is_unstable(state);
-    contact_.finish(state);
+    contact_->finish(state, state);
     if (equilibrium_.is_reached(share, state, equilibrium_.residual(state), 0.0, report)) return true;
   }
   soften();
-  contact_.take();
-  contact_.write(state);
+  contact_->take();
+  contact_->write(state);
   return false;
 }
 
@@ -231,7 +231,7 @@ void StaticTouching::soften() {
   if (equilibrium_.world().frames().empty()) relaxed_ = std::max(kLeastRelaxed, 0.5 * relaxed_);
   idle_ = 0;
   best_ = other_;
-  contact_.set_stiffer(kNormal, tangent_);
+  contact_->set_stiffer(kNormal, tangent_);
 }
 
 bool StaticTouching::find(const LoadPath& path, double from, double to, int most, State& state,
@@ -267,8 +267,8 @@ bool StaticTouching::look_until_it_stays(const LoadPath& path, double before, do
     falls_ += is_falling_ ? 1 : 0;
     if (falls_ > (start_touches_ ? kMostTouching : kMostFalls)) return give_up(kMovesOn);
     if (look_again(to, state, report)) {
-      report.contacts = static_cast<int>(contact_.size());
-      report.least_gap = contact_.least_gap();
+      report.contacts = static_cast<int>(contact_->size());
+      report.least_gap = contact_->least_gap();
       return true;
     }
   }

@@ -143,6 +143,19 @@ void System::recouple(const State& state) {
   }
 }
 
+std::unique_ptr<ImplicitContact> System::make_contact(bool is_static) {
+  const Contact& contact = *world_.contact();
+  std::vector<double> rest;
+  if (ImplicitContact::needs_rest(contact)) {
+    rest.resize(9 * static_cast<std::size_t>(world_.blocks()));
+    assemble(world_.rest_state(), 0.0, {-1.0, 0.0, true});
+    system_matrix().diagonal_blocks(rest);
+    assembled_ = false;
+  }
+  return ImplicitContact::make(contact, world_.fixed(), is_static ? nullptr : &world_.mass(),
+                               std::move(rest));
+}
+
 void System::place_rows(const State& state) {
   if (places_.point.empty()) {
     for (std::int32_t i = 0; i < world_.blocks(); ++i) places_.point.push_back(i);

@@ -38,7 +38,8 @@ double StageSolver::look(const State& at) {
 
 int StageSolver::hold_back(State& to) {
   const Timed timed(*profile_, travel_row_);
-  return contact_->hold_back(to);
+  placed_ = to.positions;
+  return contact_->run().hold_back(to);
 }
 
 void StageSolver::update_contacts(const State& end) {
@@ -53,10 +54,11 @@ void StageSolver::begin_touching(State& state, std::vector<double>& v) {
   std::ranges::copy(v, trial_.begin());
   world.fixed().copy(given_, trial_);
   place(state, trial_);
+  cut_.clear();
   {
     const Timed timed(*profile_, detection_row_);
     // work_ is the external force, as judge_by_load left it.
-    contact_->begin(*step_start_, stage_.base.time, state.positions, work_);
+    contact_->begin(*step_start_, stage_.end, end_of(state).positions, work_);
   }
   world.contact()->numbers(stage_.base).clear();
   lay_right(v);
@@ -65,7 +67,7 @@ void StageSolver::begin_touching(State& state, std::vector<double>& v) {
   assemble(stage_.base, false);
   blocks_.resize(3 * v.size());
   system_->system_matrix().diagonal_blocks(blocks_);
-  contact_->set_matrix(blocks_, stage_.move * stage_.push);
+  contact_->set_matrix(blocks_, stage_.move * stage_.push, stage_.contact);
 }
 
 void StageSolver::set_contacts(State& state) {
@@ -73,14 +75,44 @@ void StageSolver::set_contacts(State& state) {
   contact_->write(stage_.base);
 }
 
-void StageSolver::follow(const State& state, std::vector<double>& v) const {
-  const std::vector<std::uint8_t>& masks = system_->world().fixed().masks();
-  std::vector<std::uint8_t> turns(masks.size(), 0);
-  for (const Frame& frame : system_->world().frames()) turns[static_cast<std::size_t>(frame.rotation)] = 1;
+State& StageSolver::end_of(State& state) {
+  const double stretch = stage_.contact.stretch;
+  if (stretch == 1.0) return state;
+  for (std::size_t i = 0; i < end_.positions.size(); ++i) {
+    const double from = stage_.base.positions[i];
+    end_.positions[i] = from + stretch * (state.positions[i] - from);
+  }
+  return end_;
+}
+
+void StageSolver::add_contact_impulse(double seconds, Reals v) {
+  if (contact_ == nullptr) return;
+  const World& world = system_->world();
+  std::ranges::fill(work_, 0.0);
+  contact_->add_forces(work_);
+  world.fixed().clear(work_);
+  world.mass().divide(stage_.base, work_);
+  for (std::size_t i = 0; i < v.size(); ++i) v[i] += seconds * work_[i];
+}
+
+void StageSolver::end_touching(double h, State& end) {
+  if (contact_ == nullptr) return;
+  const Timed timed(*profile_, response_row_);
+  contact_->strike(*impulses_, h, end.velocities, end);
+  for (const std::int32_t row : cut_) {
+    const Vec3 way = block(ConstReals(end.positions), row) - block(ConstReals(step_start_->positions), row);
+    block(Reals(end.velocities), row) = way / h;
+  }
+}
+
+void StageSolver::follow(const State& end, std::vector<double>& v) {
+  const double move = stage_.contact.stretch * stage_.move;
+  cut_.clear();
   for (std::size_t i = 0; i < v.size(); ++i) {
-    if (turns[i / 3] != 0) continue;
-    const double moved = stage_.base.positions[i] + stage_.move * v[i];
-    if (moved != state.positions[i]) v[i] = (state.positions[i] - stage_.base.positions[i]) / stage_.move;
+    if (placed_[i] == end.positions[i]) continue;
+    v[i] = (end.positions[i] - stage_.base.positions[i]) / move;
+    const auto row = static_cast<std::int32_t>(i / 3);
+    if (cut_.empty() || cut_.back() != row) cut_.push_back(row);
   }
 }
 
@@ -89,8 +121,9 @@ bool StageSolver::solve_contacts(State& state, std::vector<double>& v, StepRepor
   const Contact& contact = *world.contact();
   const int most = contact.description().iterations;
   place(state, v);
-  hold_back(state);
-  look(state);
+  State* end = &end_of(state);
+  hold_back(*end);
+  look(*end);
   contact_->take();
   bool solved = true;
   for (int i = 1;; ++i) {
@@ -118,9 +151,10 @@ bool StageSolver::solve_contacts(State& state, std::vector<double>& v, StepRepor
     }
     world.fixed().clear(elastic_);
     place(state, v);
-    update_contacts(state);
-    report.held_back = hold_back(state);
-    const double other = look(state);
+    end = &end_of(state);
+    update_contacts(*end);
+    report.held_back = hold_back(*end);
+    const double other = look(*end);
     const bool free = report.held_back == 0;
     if (free && other <= kForce && contact_->depth() <= (i < kLater ? kDepth : kLaterDepth)) break;
     if (i == most) {
@@ -139,8 +173,9 @@ void StageSolver::iterate_contacts(State& state, std::vector<double>& v, StepRep
   const World& world = system_->world();
   const int most = newton_.iterations;
   int iterations = report.newton_iterations;
+  State* end = stage_.contact.stretch != 1.0 ? &end_ : &state;
   for (int i = 0; i < kMostLooks; ++i) {
-    look(state);
+    look(*end);
     contact_->take();
     set_contacts(state);
     first_ = v;
@@ -153,10 +188,11 @@ void StageSolver::iterate_contacts(State& state, std::vector<double>& v, StepRep
     iterations += report.newton_iterations;
     report.message = why;
     place(state, v);
-    update_contacts(state);
-    report.held_back = hold_back(state);
-    if (report.held_back > 0) follow(state, v);
-    const double other = look(state);
+    end = &end_of(state);
+    update_contacts(*end);
+    report.held_back = hold_back(*end);
+    follow(*end, v);
+    const double other = look(*end);
     if (other <= kForceNewton && report.held_back == 0 && contact_->depth() <= kDepthNewton) break;
     if (i + 1 == kMostLooks) {
       report.converged = false;
@@ -172,14 +208,17 @@ void StageSolver::solve_touching(State& state, std::vector<double>& v, StepRepor
   begin_touching(state, v);
   report.converged = solve_contacts(state, v, report);
   if (!report.converged && !report.hasty) report.message = "the linear solver stopped before its tolerance";
-  if (report.held_back > 0) follow(state, v);
+  State& end = stage_.contact.stretch != 1.0 ? end_ : state;
+  follow(end, v);
   std::ranges::copy(v, state.velocities.begin());
-  contact_->finish(state);
+  contact_->finish(end, state);
   if (newton_.iterations > 1) {
     iterate_contacts(state, v, report);
-    contact_->finish(state);
+    contact_->finish(end, state);
   } else if (report.held_back == 0 && !system_->world().is_linear()) {
+    contact_->write(state);
     report.hasty = report.hasty || !(residual(state, v) <= kWorse * start_ + kFloor * reference_);
+    contact_->finish(end, state);
   }
   report.contacts = static_cast<int>(contact_->size());
   report.least_gap = contact_->least_gap();

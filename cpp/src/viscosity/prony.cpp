@@ -134,8 +134,9 @@ void Prony::carry_memory(const ForceModel& model, const Memory& then, Memory& no
   const std::vector<double>& kept = then[before->place_];
   std::vector<double>& memory = now[place_];
   const std::size_t reals = reals_of_cell();
+  const std::vector<std::int32_t>& heirs_of = block_.heirs_of.empty() ? block_.cell_numbers : block_.heirs_of;
   for (std::size_t to = 0; to < order_.element.size(); ++to) {  // lanes that pad as well
-    const auto found = lane_of.find(block_.cell_numbers[static_cast<std::size_t>(order_.element[to])]);
+    const auto found = lane_of.find(heirs_of[static_cast<std::size_t>(order_.element[to])]);
     if (found == lane_of.end()) continue;
     const std::size_t from = found->second;
     for (std::size_t k = 0; k < reals; ++k) {

@@ -112,9 +112,11 @@ void WorldBuilder::place_bodies() {
       throw ParameterError("two bodies are called \"" + body.name + "\"; give each its own name.");
     }
     const auto nodes = static_cast<std::int32_t>(body.positions.size() / 3);
-    world_.bodies_.push_back({body.name, world_.blocks(), nodes, {}, -1});
+    world_.bodies_.push_back({body.name, world_.blocks(), nodes, {}, -1, body.room});
     std::vector<double>& positions = world_.rest_.positions;
     positions.insert(positions.end(), body.positions.begin(), body.positions.end());
+    for (std::int32_t spare = 0; spare < body.room; ++spare)
+      positions.insert(positions.end(), body.positions.begin(), body.positions.begin() + 3);
   }
 }
 

@@ -14,8 +14,14 @@ void WorldBuilder::add_contact() {
   world_.forces_.push_back(std::move(contact));
 }
 
+/// An edit goes on from where things are: surfaces that it uncovers are not moved, and nothing is refused.
 void WorldBuilder::separate_surfaces() {
-  if (world_.contact_ != nullptr) separate(*world_.contact_, world_.fixed_, world_.rest_);
+  if (world_.contact_ == nullptr) return;
+  if (before_ != nullptr) {
+    world_.rest_.positions = before_->rest_positions();
+  } else {
+    separate(*world_.contact_, world_.fixed_, world_.rest_);
+  }
 }
 
 }  // namespace tissu

@@ -1,6 +1,7 @@
 /// Degrees of freedom of a world whose motion is given.
 
 #include <algorithm>
+#include <numeric>
 #include <span>
 #include <utility>
 #include <vector>
@@ -34,7 +35,17 @@ Mass uncoupled(const Mass& mass, std::span<const std::int32_t> numbers, std::uin
 void WorldBuilder::add_supports() {
   world_.fixed_ = FixedDofs(world_.blocks());
   for (const FixedNodes& fixed : description_.fixed) hold(fixed);
+  hold_room();
   hold_eliminated();
+}
+
+void WorldBuilder::hold_room() {
+  for (const Body& body : world_.bodies_) {
+    if (body.room == 0) continue;
+    std::vector<std::int32_t> rows(static_cast<std::size_t>(body.room));
+    std::iota(rows.begin(), rows.end(), body.first_node + body.node_count);
+    world_.fixed_.add(rows, world_.rest_positions(), FixedDofs::kAllAxes, {});
+  }
 }
 
 void WorldBuilder::hold(const FixedNodes& fixed) {

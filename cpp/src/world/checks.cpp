@@ -86,6 +86,13 @@ void refuse_touched(const Body& body, const BodyModel& model, const WorldDescrip
       for (const std::int32_t node : faces.nodes) refuse(node + body.first_node, "carries " + pressure.name);
     }
   }
+  if (!description.contact) return;
+  for (const SurfaceDescription& surface : description.contact->bodies) {
+    if (surface.name != body.name) continue;
+    for (const auto& triangle : surface.triangles) {
+      for (const std::int32_t node : triangle) refuse(node + body.first_node, "lies on a surface in contact");
+    }
+  }
 }
 
 }  // namespace tissu

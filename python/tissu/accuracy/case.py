@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Annotated, Any, Literal
@@ -11,6 +12,7 @@ import yaml
 from pydantic import BaseModel, ConfigDict, Field, PrivateAttr, ValidationError
 
 from tissu.accuracy.measure import Reference
+from tissu.counted import counted
 from tissu.errors import ParameterError
 
 Preset = Literal["small", "full"]
@@ -25,7 +27,9 @@ class Choices(_Strict):
     """Runs of the scene with fields changed: every combination of the values of `vary`."""
 
     name: str
-    """what the runs have in common; {FIELD} stands for the value of a varied field"""
+    """what the runs have in common; {FIELD} stands for the value of a varied field, {FIELD:NOUN}
+    for the number and its noun: "{threads:thread}" is "1 thread", "2 threads"
+    """
     change: dict[str, Any] = {}
     """values by the path of a field: `bodies.bar.law.poisson: 0.3`"""
     vary: dict[str, list[Any]] = {}
@@ -99,7 +103,7 @@ class Case(_Strict):
             if preset == "small":
                 vary |= choices.small or {}
             along = choices.along or (list(vary)[-1] if vary else "")
-            if _place(along) in choices.name:  # a curve of its own for each value
+            if along and _place(along).search(choices.name):  # a curve of its own for each value
                 along = ""
             for values in _products(vary):
                 curve = _filled(choices.name, {k: v for k, v in values.items() if k != along})
@@ -164,14 +168,20 @@ def _products(vary: dict[str, list[Any]]) -> Iterator[dict[str, Any]]:
 
 
 def _filled(text: str, values: dict[str, Any]) -> str:
-    """The text with {last part of a field's path} replaced by its value."""
+    """The text with {last part of a field's path} replaced by its value, counted with a noun."""
     for path, value in values.items():
-        text = text.replace(_place(path), _word(value))
+        word = _word(value)
+
+        def filled(place: re.Match[str], value: Any = value, word: str = word) -> str:
+            return word if place[1] is None else counted(value, place[1])
+
+        text = _place(path).sub(filled, text)
     return text
 
 
-def _place(path: str) -> str:
-    return "{" + path.rsplit(".", 1)[-1] + "}"
+def _place(path: str) -> re.Pattern[str]:
+    """Where a text has the value of a field, and the noun that it is counted with."""
+    return re.compile(r"\{" + re.escape(path.rsplit(".", 1)[-1]) + r"(?::([^{}]+))?\}")
 
 
 def _word(value: Any) -> str:

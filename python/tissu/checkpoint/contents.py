@@ -23,6 +23,11 @@ _HEADER: dict[str, type] = {
     "build": dict,
 }
 _TIMES = ("time", "time_before", "load_factor", "memory_time")
+_OF_CUTS = (
+    *("origins", "nodes", "copies_of", "bare", "rider_nodes", "material_hosts", "material_first"),
+    *("material_vertices", "material_cut", "incisions", "first_of_incision", "on_incision"),
+)
+"""Lists of a body that was cut, as the core names them."""
 _NUMBERS = (
     "positions",
     "velocities",
@@ -81,6 +86,18 @@ def _require_body(path: Path, number: str, body: object, arrays: Mapping[str, An
         if not isinstance(values, np.ndarray) or values.dtype != np.int32:
             raise _wrong(path, name, "an array of int32")
     _require_finite(path, f"places_{number}", arrays)
+    if f"origins_{number}" in arrays:
+        _require_cuts(path, number, arrays)
+
+
+def _require_cuts(path: Path, number: str, arrays: Mapping[str, Any]) -> None:
+    """What cuts made of a body: whole numbers, and two lists of finite ones."""
+    for name in _OF_CUTS:
+        values = arrays.get(f"{name}_{number}")
+        if not isinstance(values, np.ndarray) or values.dtype != np.int32:
+            raise _wrong(path, f"{name}_{number}", "an array of int32")
+    for name in ("shares", "rider_weights"):
+        _require_finite(path, f"{name}_{number}", arrays)
 
 
 def _wrong(path: Path, name: str, accepted: str) -> CheckpointError:

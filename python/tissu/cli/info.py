@@ -7,6 +7,8 @@ from collections.abc import Mapping
 from importlib import metadata
 from typing import Any
 
+from tissu.counted import counted
+
 PYTHON_LIBRARIES = ("numpy", "pydantic", "meshio", "matplotlib", "typer", "rich", "PyYAML")
 
 
@@ -24,7 +26,7 @@ def machine_line() -> str:
     build = _core.build_info()
     return (
         f"tissu {build['version']}, {build['compiler']}, {build['instruction_set']} kernels, "
-        f"{build['threads_available']} threads available, {platform.machine()}."
+        f"{counted(int(build['threads_available']), 'thread')} available, {platform.machine()}."
     )
 
 

@@ -56,7 +56,7 @@ def view_scene(job: Job) -> None:
         speed=job.speed,
         playing=not job.paused,
     ) as view:
-        typer.echo(f"the view is at {view.url}; Ctrl-C ends it")
+        typer.echo(f"the view is at {view.url} (Ctrl-C ends it)")
         with interruption() as interrupted:
             while not interrupted.number:
                 view.wait(0.2)

@@ -32,7 +32,7 @@ _WIDE = 0.1
 
 
 class PreparedPair(NamedTuple):
-    """Two surfaces that meet, a body first, and which nodes of it; empty: all."""
+    """Two surfaces that meet, a body first, and which nodes of it alone; empty: all."""
 
     a: str
     b: str
@@ -200,7 +200,10 @@ def _met_nodes(
     contact: Contact | SelfContact,
     body: str,
 ) -> Ints | None:
-    """Nodes of a body's surface that `on` selects; empty: all; None, and maybe a problem: none."""
+    """Nodes of a body that `on` selects; empty: all; None, and maybe a problem: none.
+
+    Only those of its surface count. Where cells may be removed any of them may come to lie there.
+    """
     on = contact.on if isinstance(contact, Contact) else None
     if on is None:
         return np.empty(0, dtype=np.int32)
@@ -212,7 +215,9 @@ def _met_nodes(
         text = f"{selection_words(on)} selects {counted(len(nodes), 'node')} of body '{body}', but "
         prepared.findings.problem((*path, "on"), f"{text}none of its surface")
         return None
-    return kept
+    if not prepared.scene.editing:
+        return kept
+    return np.empty(0, dtype=np.int32) if on.type == "surface" else nodes
 
 
 def _gap_words(gaps: list[float], *, given: bool) -> str:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from tissu.compile.balance import held_axes
+from tissu.compile.inside import nested
 from tissu.compile.overlap import boxes_that_overlap
 from tissu.counted import are, counted
 from tissu.scene.law import UserLaw
@@ -98,6 +99,12 @@ def _contacts(prepared: Prepared) -> Iterator[str]:
             for name in scene.obstacles
             if prepared.contact is not None and name not in met
         )
+        if prepared.contact is not None:
+            yield from (
+                f"contacts: '{inner}' lies inside '{outer}', which is met from outside only, so "
+                "that nothing presses them apart; move it out unless it belongs there"
+                for inner, outer in nested(prepared.contact)
+            )
         return
     if scene.contact is not None or scene.obstacles:
         field = "contact" if scene.contact is not None else "obstacles"

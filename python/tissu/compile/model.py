@@ -10,6 +10,7 @@ import numpy as np
 from tissu import _core
 from tissu.counted import counted
 from tissu.mesh.cell import dimension
+from tissu.scene.contact_rules import meets_others
 from tissu.scene.generated.laws import LAWS
 from tissu.scene.model import Condensed, Frames
 from tissu.scene.part import type_name
@@ -63,7 +64,10 @@ def _nearest(law: Law, taken: list[str]) -> str | None:
 
 
 def kept_nodes(prepared: Prepared, name: str, group: Group) -> Ints:
-    """Nodes of a condensed region that stay unknowns; none for other models."""
+    """Nodes of a condensed region that stay unknowns; none for other models.
+
+    In contact the surface may be touched anywhere.
+    """
     if not isinstance(group.model, Condensed):
         return np.empty(0, dtype=np.int32)
     body = prepared.bodies[name]
@@ -76,7 +80,8 @@ def kept_nodes(prepared: Prepared, name: str, group: Group) -> Ints:
         if loaded.load.body == name
         for block in loaded.faces
     ]
-    surface = [body.mesh.surface().nodes] if group.model.keep == "surface" else []
+    whole = group.model.keep == "surface" or meets_others(prepared.scene, name)
+    surface = [body.mesh.surface().nodes] if whole else []
     every = np.concatenate([*shared, *held, *loaded, *faces, *surface, np.empty(0, dtype=np.int32)])
     return np.intersect1d(every, group.nodes).astype(np.int32)
 
@@ -177,8 +182,14 @@ def _check_held_rotations(prepared: Prepared) -> None:
 def note_condensed(
     _mesh: Mesh, body: Body, scene: SceneData, path: Path, findings: Findings
 ) -> None:
-    """Note that a condensed region has no inertia inside, where time is stepped."""
-    condensed = any(isinstance(model, Condensed) for model in body.models().values())
+    """Note what has no inertia inside, where time is stepped, and what contact makes it keep."""
+    models = [model for model in body.models().values() if isinstance(model, Condensed)]
+    condensed = len(models) > 0
+    if any(model.keep == "touched" for model in models) and meets_others(scene, str(path[1])):
+        findings.note(
+            f"{path[0]}.{path[1]}: a contact names it, so that its condensed region keeps all "
+            "nodes of its surface, as with keep: surface"
+        )
     if condensed and getattr(getattr(scene, "step", None), "type", "static") != "static":
         findings.note(
             f"{path[0]}.{path[1]}: inner nodes of a condensed region follow the others at once, "

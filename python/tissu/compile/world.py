@@ -18,6 +18,7 @@ from tissu.compile.prepared import LoadedNodes, Prepared
 from tissu.compile.start import begin
 from tissu.compile.thin import cross_section_of
 from tissu.errors import ParameterError, SceneError
+from tissu.mesh.cell import dimension
 from tissu.scene.load import Where
 from tissu.scene.model import Frames
 from tissu.scene.problem import Problem
@@ -102,7 +103,7 @@ def build_world(prepared: Prepared) -> Any:
     scene = prepared.scene
     builder = WorldBuilder(
         threads=usable_threads(scene.threads),
-        editable=scene.editing,
+        editable=scene.editing is not None,
         grabbing=scene.grabbing,
         consistent_weight=isinstance(scene.step, Static),
     )
@@ -166,8 +167,20 @@ def _add_body(builder: WorldBuilder, prepared: Prepared, name: str) -> None:
             plane=getattr(Plane, body.plane) if body.plane and group.surface else Plane.free,
             model=group.model.in_core(kept_nodes(prepared, name, group)),
         )
+    if prepared.scene.editing is not None and can_be_cut(prepared, name):
+        nodes = prepared.scene.editing.nodes(ready.mesh.node_count)
+        builder.leave_room(body=name, nodes=nodes)
     if body.viscosity is not None:
         body.viscosity.add_to(builder, name)
+
+
+def can_be_cut(prepared: Prepared, name: str) -> bool:
+    """Whether a body has volume cells alone, each carried by itself."""
+    body, ready = prepared.scene.bodies[name], prepared.bodies[name]
+    return not body.has_rotations and all(
+        not group.surface and group.model.type != "condensed" and dimension(group.cell_type) == 3
+        for group in ready.groups
+    )
 
 
 def _add_tissue(builder: WorldBuilder, prepared: Prepared, name: str) -> None:

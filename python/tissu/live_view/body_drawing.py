@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tissu.live_view.bands import Band, bands
-from tissu.live_view.colours import COUNT, EDGE, band_colours
+from tissu.live_view.colours import COUNT, EDGE, OPENED, band_colours
 
 if TYPE_CHECKING:
     import viser
@@ -60,6 +60,7 @@ class BodyDrawing:
         self._stage, self._lane, self._colour = stage, lane, colour
         self._felt, self._touchable = felt, False
         self._seen: Seen | None = None
+        self._opened: viser.MeshHandle | None = None
         self._edges: viser.MeshHandle | None = None
         self._edge_faces = np.empty((0, 3), dtype=np.uint32)
         self._edges_shown = False
@@ -90,6 +91,7 @@ class BodyDrawing:
         at = self._stage.on_page(body.positions, self._lane)
         self._show_surface(at, body.seen)
         self._show_edges(at, body.seen, shown=edges)
+        self._show_opened(at, body.seen)
         if self.surface is not None:
             # The surface stays for the pointer where its bands are painted in its place.
             self.surface.opacity = 0.0 if self._bands else None
@@ -113,16 +115,35 @@ class BodyDrawing:
         self.surface.on_click(felt)
 
     def _show_surface(self, at: Points, seen: Seen) -> None:
-        if not len(seen.triangles):
+        faces = seen.triangles if seen.cut is None else seen.triangles[~seen.cut]
+        if not len(faces):
             return
         if self.surface is None:
             self.surface = self._scene.add_mesh_simple(
-                f"/bodies/{self._name}", at, seen.triangles, color=self._colour, side="double"
+                f"/bodies/{self._name}", at, faces, color=self._colour, side="double"
             )
             return
         self.surface.vertices = at
         if seen is not self._seen:
-            self.surface.faces = seen.triangles.astype(np.uint32)
+            self.surface.faces = faces.astype(np.uint32)
+
+    def _show_opened(self, at: Points, seen: Seen) -> None:
+        """Faces that cuts opened, in a colour of their own where no field is painted."""
+        cut = np.zeros(len(seen.triangles), dtype=bool) if seen.cut is None else seen.cut
+        opened = seen.triangles[cut].astype(np.uint32)
+        if not len(opened) or self._bands:
+            if self._opened is not None:
+                self._opened.visible = False
+            return
+        if self._opened is None:
+            self._opened = self._scene.add_mesh_simple(
+                f"/opened/{self._name}", at, opened, color=OPENED, side="double"
+            )
+            return
+        self._opened.visible = True
+        self._opened.vertices = at
+        if seen is not self._seen:
+            self._opened.faces = opened
 
     def _show_edges(self, at: Points, seen: Seen, *, shown: bool) -> None:
         """Edges, and lines, which are always drawn, as triangles without area."""

@@ -21,6 +21,8 @@ BODIES: tuple[Colour, ...] = (
 )
 """Of the bodies, in turn."""
 EDGE: Colour = (70, 45, 40)
+OPENED: Colour = (150, 20, 30)
+"""Of faces that cuts opened."""
 
 
 @cache

@@ -38,15 +38,15 @@ class Field:
 
 def displacement(simulation: Simulation, body: str, seen: Seen) -> Floats:
     """How far nodes are from where they are at rest (k,) [m]."""
-    rest = {**simulation.meshes, **simulation.tissue}[body].points[seen.nodes]
-    return np.asarray(np.linalg.norm(simulation.positions[body][seen.nodes] - rest, axis=1))
+    rest = {**simulation.meshes, **simulation.tissue}[body].points
+    return np.asarray(np.linalg.norm(seen.at(simulation.positions[body] - rest), axis=1))
 
 
 def contact_pressure(simulation: Simulation, body: str, seen: Seen) -> Floats:
     """Normal force of contacts over the area of the surface (k,) [Pa]; see `contact_at_nodes`."""
     if body not in simulation.meshes:
         raise ParameterError(f"found tissue '{body}', which meets nothing")
-    return simulation.contact_at_nodes(body).pressure[seen.nodes]
+    return seen.at(simulation.contact_at_nodes(body).pressure)
 
 
 def _of_cells(name: str) -> Callable[[Simulation, str, Seen], Floats]:

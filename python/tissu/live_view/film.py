@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from tissu.live_view.body_drawing import normals
 from tissu.live_view.colours import BODIES
 from tissu.live_view.gltf import Gltf
-from tissu.live_view.surface import Seen, seen
+from tissu.live_view.surface import Seen, seen_of
 
 if TYPE_CHECKING:
     from tissu.live_view.stage import Stage
@@ -95,14 +95,14 @@ class Film:
     def _keep(self, simulations: Sequence[Simulation]) -> None:
         self.times[self._next] = self._passed
         for lane, simulation in enumerate(simulations):
-            for name, mesh in simulation.meshes.items():
-                now = seen(mesh)
+            for name in simulation.meshes:
+                now = seen_of(simulation, name)
                 if not len(now.triangles) and not len(now.lines):
                     continue
                 shots = self._shots.setdefault((lane, name), [])
                 if not shots or shots[-1].seen is not now:
                     shots.append(Shot(now))
-                places = simulation.positions[name][now.nodes].astype(np.float32)
+                places = now.at(simulation.positions[name]).astype(np.float32)
                 shots[-1].places[self._next] = places
         self._next += 1
 

@@ -14,7 +14,7 @@ from tissu.errors import ParameterError
 from tissu.live_view.fields import FIELDS
 from tissu.live_view.layers import LAYERS
 from tissu.live_view.ration import Ration
-from tissu.live_view.surface import Seen, seen
+from tissu.live_view.surface import Seen, seen_of
 
 if TYPE_CHECKING:
     from tissu.live_view.gizmo import Gizmo
@@ -125,9 +125,9 @@ class FrameTaker:
         drawn = [] if touch is None else touch.draw(simulations)
         self._look_at_profiles(simulations, now)
         found = {
-            (lane, name): (simulation, seen(mesh))
+            (lane, name): (simulation, seen_of(simulation, name))
             for lane, simulation in enumerate(simulations)
-            for name, mesh in simulation.meshes.items()
+            for name in simulation.meshes
         }
         cost = self._colour(found, wanted.field)
         frame = Frame(
@@ -135,7 +135,7 @@ class FrameTaker:
             bodies={
                 (lane, name): BodyFrame(
                     of_body,
-                    simulation.positions[name][of_body.nodes].astype(np.float32),
+                    of_body.at(simulation.positions[name]).astype(np.float32),
                     self._values.get((lane, name), (of_body, None))[1],
                 )
                 for (lane, name), (simulation, of_body) in found.items()

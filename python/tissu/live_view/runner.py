@@ -10,7 +10,7 @@ import time
 import traceback
 from collections.abc import Callable, Sequence
 from concurrent.futures import Future
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 from tissu.errors import BusyError, TissuError
 from tissu.live_view.pace import Pace
@@ -25,8 +25,16 @@ _STATIC_STEP = 1.0 / 30.0
 """Simulated time of a step of a static scene [s]: it only moves along the loads' times."""
 _IDLE = 0.05
 """How long a paused thread waits for a wish before it looks again [s]."""
+_CLOSED = "found a wish to a view that is closed; open another one, or call the simulation itself"
 _PATIENCE = 5e-4
 """How long it waits while another thread is inside a simulation [s]."""
+
+
+class _Wish(NamedTuple):
+    """What another thread asked for: how it is done, and what is said where it is not."""
+
+    grant: Callable[[], None]
+    refuse: Callable[[], None]
 
 
 class Runner:
@@ -69,7 +77,7 @@ class Runner:
         self._waited = 0.0
         self._pace = Pace(speed)
         self._between = between
-        self._wishes: queue.SimpleQueue[Callable[[], None]] = queue.SimpleQueue()
+        self._wishes: queue.SimpleQueue[_Wish] = queue.SimpleQueue()
         self._ended = threading.Event()
         self._thread = threading.Thread(target=self._run, name="tissu view", daemon=True)
         self._measured: tuple[float, float] | None = None
@@ -79,11 +87,20 @@ class Runner:
         self._thread.start()
 
     def stop(self) -> None:
-        """End after the step that it is in; wishes that are still there are dropped."""
+        """End after the step that it is in; wishes that are still there are refused."""
         self._ended.set()
-        self._wishes.put(lambda: None)
+        self._wishes.put(_Wish(lambda: None, lambda: None))
         if self._thread.is_alive() and threading.current_thread() is not self._thread:
             self._thread.join()
+        self._refuse_all()
+
+    def _refuse_all(self) -> None:
+        """What was asked for and is not done any more has an answer too."""
+        while True:
+            try:
+                self._wishes.get_nowait().refuse()
+            except queue.Empty:
+                return
 
     def ask(self, wish: Callable[[list[Simulation]], T]) -> Future[T]:
         """Have something done with the simulations between two steps.
@@ -92,6 +109,9 @@ class Runner:
         nothing.
         """
         promise: Future[T] = Future()
+        if self._ended.is_set():
+            promise.set_exception(TissuError(_CLOSED))
+            return promise
 
         def granted() -> None:
             try:
@@ -103,7 +123,12 @@ class Runner:
                 self._fail(error)
                 promise.set_exception(error)
 
-        self._wishes.put(granted)
+        def refused() -> None:
+            promise.set_exception(TissuError(_CLOSED))
+
+        self._wishes.put(_Wish(granted, refused))
+        if self._ended.is_set():
+            self._refuse_all()
         return promise
 
     @property
@@ -181,7 +206,7 @@ class Runner:
                 wish = self._wishes.get(timeout=left) if left > 0 else self._wishes.get_nowait()
             except queue.Empty:
                 return
-            wish()
+            wish.grant()
             if not self.playing or self._wishes.empty():
                 return
 

@@ -9,12 +9,15 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from tissu.cutting.material import carried
 from tissu.mesh.thin import line_pieces
 
 if TYPE_CHECKING:
     from tissu.mesh import Mesh
+    from tissu.simulation import Simulation
 
 Ints = NDArray[np.int64]
+Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -22,7 +25,8 @@ class Seen:
     """The surface of a body, and its lines.
 
     Attributes:
-        nodes: numbers (k,) of the body's nodes that are seen.
+        nodes: numbers (k,) of the body's nodes that are seen; of a body that was cut those (k, 4)
+            that carry the points that are, -1: none.
         triangles: (t, 3) places in `nodes`.
         cells: (t,) number of the cell of each triangle in the body's mesh.
         edges: (e, 2) places in `nodes`: sides of faces, without the diagonals of quads.
@@ -36,6 +40,17 @@ class Seen:
     edges: Ints
     lines: Ints
     line_cells: Ints
+    weights: Floats | None = None
+    """(k, 4) of the nodes, which are (k, 4) then, of a body that was cut: its points ride on them
+    """
+    cut: NDArray[np.bool_] | None = None
+    """(t,) whether a cut opened the triangle, of such a body"""
+
+    def at(self, values: Floats) -> Floats:
+        """Values (k, ...) at what is seen of values (n, ...) at the nodes of the body."""
+        if self.weights is None:
+            return np.asarray(values[self.nodes])
+        return carried(self.nodes.astype(np.int32), self.weights, values)
 
 
 @lru_cache(maxsize=16)  # a mesh never changes
@@ -63,4 +78,48 @@ def seen(mesh: Mesh) -> Seen:
         edges=place[edges].reshape(-1, 2),
         lines=place[lines].reshape(-1, 2),
         line_cells=np.asarray(of_lines, dtype=np.int64),
+    )
+
+
+_KEPT = 16
+_cut: dict[int, tuple[Mesh, Seen]] = {}
+"""What is seen of bodies that were cut, by their meshes, which every cut makes anew."""
+
+
+def seen_of(simulation: Simulation, body: str) -> Seen:
+    """What is seen of a body of a simulation, its cut faces too."""
+    mesh = simulation.meshes[body]
+    if not simulation.is_cut(body):
+        return seen(mesh)
+    known = _cut.get(id(mesh))
+    if known is None or known[0] is not mesh:
+        while len(_cut) >= _KEPT:
+            _cut.pop(next(iter(_cut)))
+        known = (mesh, _seen_of_cut(simulation, body))
+        _cut[id(mesh)] = known
+    return known[1]
+
+
+def _seen_of_cut(simulation: Simulation, body: str) -> Seen:
+    """The surface of the material; edges lie between triangles of different cells."""
+    surface = simulation.surface(body)
+    triangles = surface.triangles.astype(np.int64)
+    cells = np.searchsorted(simulation.remaining_cells(body), surface.cell)
+    sides = np.sort(np.concatenate([triangles[:, [k, (k + 1) % 3]] for k in range(3)]), axis=1)
+    kind = np.tile(2 * cells + surface.cut, 3)
+    order = np.lexsort((kind, sides[:, 1], sides[:, 0]))
+    sides, kind = sides[order], kind[order]
+    inner = np.zeros(len(sides), dtype=bool)
+    same = (sides[1:] == sides[:-1]).all(axis=1) & (kind[1:] == kind[:-1])
+    inner[1:] |= same
+    inner[:-1] |= same
+    return Seen(
+        nodes=surface.nodes.astype(np.int64),
+        triangles=triangles,
+        cells=cells.astype(np.int64),
+        edges=np.unique(sides[~inner], axis=0),
+        lines=np.empty((0, 2), dtype=np.int64),
+        line_cells=np.empty(0, dtype=np.int64),
+        weights=surface.weights,
+        cut=surface.cut,
     )

@@ -86,6 +86,7 @@ class View:
             TissuError: viser is not installed; the recording has no place.
         """
         simulations = [simulation] if beside is None else [simulation, beside]
+        _require_simulations(simulations)
         _require_together(simulations)
         self._record = None if record is None else recording_place(Path(record))
         self._closed = threading.Event()
@@ -235,6 +236,15 @@ class View:
         frame = self._taker.take(self._runner, self._session.touch)
         self._ration.spent(self._taker.cost + self._page.cost, begun=now)
         self._page.frames.put(frame)
+
+
+def _require_simulations(given: Sequence[object]) -> None:
+    """Refuses what was not compiled from a scene, such as the name of a model."""
+    for one in given:
+        if not hasattr(one, "allow_touch"):
+            raise ParameterError(
+                f"found {one!r} to view; a simulation is accepted, as `scene.compile()` makes it"
+            )
 
 
 def _require_together(simulations: Sequence[Simulation]) -> None:

@@ -83,8 +83,7 @@ class Series:
             elif body in simulation.obstacles:
                 write_obstacle(self._folder / name, simulation, body)
             else:
-                mesh = simulation.meshes[body]
-                write_vtu(self._folder / name, mesh, simulation, body)
+                write_body(self._folder / name, simulation, body)
                 self._look_for_inverted(body)
             self._entries.append(
                 f'    <DataSet timestep="{simulation.time:.9g}" group="" part="{part}" '
@@ -122,6 +121,66 @@ class Series:
             f"'{body}' {verb} inside out ({first}); what follows is not a deformation of the body: "
             "take smaller steps or the law stable_neo_hooke, which resists it"
         )
+
+
+def write_body(path: Path, simulation: Simulation, body: str) -> None:
+    """Writes one body at the present time: its cells, or its material where it was cut.
+
+    Raises:
+        TissuError: the file cannot be written.
+    """
+    if simulation.is_cut(body):
+        write_material(path, simulation, body)
+    else:
+        write_vtu(path, simulation.meshes[body], simulation, body)
+
+
+def write_material(path: Path, simulation: Simulation, body: str) -> None:
+    """Writes the material of a body that was cut, at the present time.
+
+    Point field `node`: the node of the body that a point is, -1: it rides on several. Cell fields
+    `cell`, `origin` (of the first day) and `piece` (by volume, from 0).
+
+    Raises:
+        TissuError: the file cannot be written.
+    """
+    from tissu.mesh.through_meshio import library
+
+    meshio = library()
+    material = simulation.material(body)
+    blocks = material.mesh.body_blocks
+    ends = np.cumsum([len(block.nodes) for block in blocks])[:-1]
+    host = np.searchsorted(simulation.remaining_cells(body), material.cell)
+    fields = simulation.cell_fields(body)
+    at_nodes = {
+        "displacement": np.array(simulation.displacements(body)),
+        "velocity": np.array(simulation.velocities[body]),
+        **node_data(simulation, body, fields),
+    }
+    own = material.nodes[:, 0].copy()
+    own[np.count_nonzero(material.weights, axis=1) > 1] = -1
+    at_cells = {name: values[host] for name, values in cell_data(simulation, body, fields).items()}
+    at_cells["cell"] = material.cell
+    at_cells["origin"] = simulation.origin(body)[host]
+    at_cells["piece"] = pieces_of(simulation, body, material.cell)
+    result = meshio.Mesh(
+        material.points,
+        [(block.type, block.nodes) for block in blocks],
+        point_data={name: material.carried(values) for name, values in at_nodes.items()}
+        | {"node": own},
+        cell_data={name: list(np.split(values, ends)) for name, values in at_cells.items()},
+    )
+    with whole_file(path) as partial:
+        meshio.write(partial, result, file_format="vtu")
+
+
+def pieces_of(simulation: Simulation, body: str, cells: NDArray[np.int32]) -> NDArray[np.int32]:
+    """For each of these cells (m,) the piece, by volume, that holds it; the larger of two."""
+    piece = np.zeros(len(cells), dtype=np.int32)
+    found = simulation.pieces(body)
+    for number in reversed(range(len(found))):
+        piece[np.isin(cells, found[number].cells)] = number
+    return piece
 
 
 def write_vtu(path: Path, mesh: Mesh, simulation: Simulation, body: str) -> dict[str, Floats]:

@@ -169,6 +169,9 @@ def shape_of(simulation: Simulation, field: Field) -> Shape:
     """The surfaces of all bodies of a simulation, and the field at their points."""
     parts = []
     for name, mesh in simulation.meshes.items():
+        if simulation.is_cut(name):
+            parts.append(_cut(simulation, name, field))
+            continue
         surface = mesh.surface()
         triangles = np.asarray(surface.triangles, dtype=np.int64)
         shift = np.asarray(simulation.displacements(name))
@@ -192,6 +195,19 @@ def shape_of(simulation: Simulation, field: Field) -> Shape:
     for name in simulation.tissue:
         parts.append(_tissue(simulation, name, field))
     return _joined(parts)
+
+
+def _cut(simulation: Simulation, name: str, field: Field) -> Shape:
+    """The surface of the material of a body that was cut."""
+    surface = simulation.surface(name)
+    shift = surface.carried(np.asarray(simulation.displacements(name)))
+    triangles = np.asarray(surface.triangles, dtype=np.int64)
+    if field == "displacement":
+        values = np.linalg.norm(shift, axis=1)
+    else:
+        host = np.searchsorted(simulation.remaining_cells(name), surface.cell)
+        values = _at_points(_stress_of(simulation, name)[host], triangles, surface.points)
+    return Shape(surface.points - shift, surface.points, triangles, values)
 
 
 def _tissue(simulation: Simulation, name: str, field: Field) -> Shape:

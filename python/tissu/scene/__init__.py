@@ -90,6 +90,9 @@ from tissu.scene.contact import (
     SelfContact,
     ContactSettings,
 )
+from tissu.scene.editing import (
+    Editing,
+)
 from tissu.scene.step import (
     ExplicitEuler,
     SymplecticEuler,
@@ -166,6 +169,7 @@ __all__ = [
     "Contact",
     "SelfContact",
     "ContactSettings",
+    "Editing",
     "ExplicitEuler",
     "SymplecticEuler",
     "RK2",

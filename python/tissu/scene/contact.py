@@ -89,7 +89,9 @@ class Contact(Meeting):
     impulse, 0.57 of penalty, whose damper has a fifth of the critical damping
     """
     stiffness: Maybe[units.StiffnessPerArea] = field(default=None, gt=0.0)
-    """of the method penalty [Pa/m]; absent: from the masses"""
+    """of the method penalty [Pa/m]; absent: from the masses in explicit steps, from the bodies'
+    stiffness at rest in others
+    """
     on: On | None = None
     """which nodes of the first body's surface meet the others; absent: all"""
 
@@ -127,7 +129,9 @@ class SelfContact(Meeting):
     impulse, 0.57 of penalty, whose damper has a fifth of the critical damping
     """
     stiffness: Maybe[units.StiffnessPerArea] = field(default=None, gt=0.0)
-    """of the method penalty [Pa/m]; absent: from the masses"""
+    """of the method penalty [Pa/m]; absent: from the masses in explicit steps, from the bodies'
+    stiffness at rest in others
+    """
 
     def effect(self, path: str, gap: str | None) -> Effect:
         """What it switches on; `gap` where it is known."""
@@ -146,14 +150,14 @@ class ContactSettings(Part):
     their distance
     """
     iterations: Annotated[int, Field(ge=1)] = 20
-    """linear systems at most in a step that is linearised once; of the method impulse, looks at
-    contacts at most where ways are cut
+    """linear systems at most in a step that is linearised once; with the method impulse, contact
+    searches at most in a step whose motion is cut short
     """
     travel: bool = True
     """whether nodes are held back where surfaces would pass through each other"""
     overlap: Literal["refuse", "separate"] = "refuse"
     """what to do with surfaces that cross at the start: refuse the scene, or push them apart first,
-    which is not there yet
+    which is not implemented
     """
 
     def words(self, method: str, step: str) -> str:

@@ -14,14 +14,16 @@ from tissu.scene.tissue import tissues_of
 from tissu.scene.unknown import Unknown
 
 _EXPLICIT = ("symplectic_euler", "explicit_euler", "rk2", "rk4")
+_IMPLICIT = ("implicit_euler", "bdf2", "implicit_midpoint", "newmark", "energy_momentum")
 STEPS_OF_METHOD: dict[str, tuple[str, ...]] = {
-    "augmented": ("implicit_euler", "bdf2", "static"),
+    "augmented": (*_IMPLICIT, "static"),
     "impulse": _EXPLICIT,
-    "penalty": _EXPLICIT,
+    "penalty": (*_EXPLICIT, "implicit_euler", "bdf2", "static"),
+    "geometric": _EXPLICIT,
 }
 """Contact method -> the steps that have it; `auto` takes the first method that the step has.
 
-The midpoint rule and Newmark's method ring after an impact and let surfaces cross.
+Contact in steps without damping ends with impulses that take all that springs would give back.
 """
 FIELDS_OF_METHOD: dict[str, tuple[str, ...]] = {
     "impulse": ("restitution",),
@@ -113,10 +115,22 @@ def surface_missing(scene: Any, name: str) -> str:
         return ""
     if body.plane is not None:
         return "a flat body: contact of its rim is not there yet, leave `plane` out of the body"
-    if any(model.type == "condensed" for model in body.models().values()):
-        text = "a body with a condensed region: contact of it is not there yet, "
-        return f"{text}take another model"
     return ""
+
+
+def meets_others(scene: Any, name: str) -> bool:
+    """Whether a contact of the scene names a body."""
+    for contact in getattr(scene, "contacts", ()):
+        with contextlib.suppress(Unknown):
+            if not isinstance(contact, Contact):
+                named = contact.self == name
+            else:
+                named = contact.between == "all" or any(
+                    name in (first, second) for _, first, _, second in contact.pairs()
+                )
+            if named:
+                return True
+    return False
 
 
 def _no_pair(scene: Any, place: Path, first: str, second: str) -> Iterator[Problem]:
@@ -176,12 +190,9 @@ def _method_problems(scene: Any) -> Iterator[Problem]:
     if getattr(scene.step, "arc_length", False):
         text = "found true beside contacts, which an arc length does not follow; leave it out"
         yield Problem(("step", "arc_length"), text)
-    if scene.editing:
-        text = "found true beside contacts, but surfaces do not follow removed cells yet; leave "
-        yield Problem(("editing",), f"{text}editing out")
     for number, contact in enumerate(scene.contacts):
         with contextlib.suppress(Unknown):
-            for problem in _field_problems(contact, method):
+            for problem in _field_problems(contact, method, step):
                 yield Problem(("contacts", number, *problem.path), problem.text)
 
 
@@ -203,7 +214,7 @@ def _has_fcl() -> bool:
     return any(str(name).lower() == "fcl" for name in build_info()["libraries"])
 
 
-def _field_problems(contact: Meeting, method: str) -> Iterator[Problem]:
+def _field_problems(contact: Meeting, method: str, step: str) -> Iterator[Problem]:
     """Fields that the method that runs does not have."""
     for name in ("restitution", "stiffness"):
         value = getattr(contact, name)
@@ -215,7 +226,11 @@ def _field_problems(contact: Meeting, method: str) -> Iterator[Problem]:
             text += f"have, but {' and '.join(having)} alone; leave it out"
             yield Problem((name,), text)
     e = contact.restitution
-    if method == "penalty" and e is not None and e < LEAST_RESTITUTION:
+    if method == "penalty" and e is not None and step == "static":
+        text = f"found {e:g} in a static step, in which nothing meets at a speed; leave it out"
+        yield Problem(("restitution",), text)
+    elif method == "penalty" and e is not None and e < LEAST_RESTITUTION:
         text = f"found {e:g}, but a damper that does not pull gives back at least "
-        text += f"{LEAST_RESTITUTION:.4f}; that to 1 is accepted: leave it out, or take impulse"
+        other = ", or take impulse" if step in _EXPLICIT else ""
+        text += f"{LEAST_RESTITUTION:.4f}; that to 1 is accepted: leave it out{other}"
         yield Problem(("restitution",), text)

@@ -36,7 +36,7 @@ class Obstacle(Part):
     motion: Motion | None = None
     """path on which it is led; absent: it stands still"""
     mass: Maybe[units.Mass] = field(default=None, gt=0.0)
-    """of an obstacle that moves freely [kg], which is not there yet: leave it out"""
+    """reserved for free obstacles [kg], which are not implemented: leave it out"""
     if TYPE_CHECKING:
         type: str
 

@@ -17,6 +17,7 @@ from tissu.scene.body import Body, PathLike
 from tissu.scene.bounds import name_problem, step_problems
 from tissu.scene.contact import Contacts, ContactSettings
 from tissu.scene.contact_rules import contact_problems
+from tissu.scene.editing import EditingField
 from tissu.scene.field import field
 from tissu.scene.load import Load, OneLoad
 from tissu.scene.obstacle import Obstacles
@@ -113,8 +114,8 @@ class SceneData(Part):
     """simulated time of a run [s]"""
     threads: Annotated[int, Field(ge=1, le=1024)] = 1
     """number of threads"""
-    editing: bool = False
-    """whether cells may be removed while it runs"""
+    editing: EditingField = field(default=None)
+    """whether cells may be removed, and bodies cut, while it runs"""
     grabbing: bool = False
     """whether points may be grabbed while it runs"""
     output: Output | None = None

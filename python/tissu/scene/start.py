@@ -27,8 +27,9 @@ class Start(Part):
     spin: MaybeVector[units.Spin] = field(default=None)
     """angular velocity about the centre of mass [rad/s]; absent: none"""
     shape: Shape = "rest"
-    """where nodes begin: at rest; all in one point, the centre of mass; pressed into the plane
-    z = 0 through it; at random within the body's box; or inside out, mirrored in that plane
+    """where nodes begin: at rest; all in one point, the centre of mass; flattened into the
+    horizontal plane through it; at random within the body's box; or inside out, mirrored in that
+    plane
     """
     seed: Annotated[int, Field(ge=0)] = 0
     """of the random places"""

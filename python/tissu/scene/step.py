@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 from pydantic import BeforeValidator, Field
 
 from tissu import units
+from tissu.counted import counted
 from tissu.errors import ParameterError
 from tissu.reading import Number, Read
 from tissu.scene.effect import Effect
@@ -160,7 +161,7 @@ class ImplicitEuler(Implicit):
 
 
 class ImplicitMidpoint(Implicit):
-    """Implicit midpoint rule: second order, keeps momenta, no damping."""
+    """Implicit midpoint rule: second order, no damping; keeps momenta, angular with `newton`."""
 
     type: Literal["implicit_midpoint"] = "implicit_midpoint"
 
@@ -226,8 +227,8 @@ class Static(Step):
     newton: Newton = field(default_factory=lambda: Newton(iterations=25))
     """Newton's method, for each part that is tried"""
     total_iterations: _Count | None = None
-    """largest number of Newton iterations in a step, half of which a descent of the energy may
-    take; absent: iterations (load_steps + 19), with contact four times that"""
+    """largest number of Newton iterations in a step, at most half of them as steps of energy
+    descent; absent: iterations (load_steps + 19), with contact four times that"""
     arc_length: bool = False
     """follow the path by its arc length from the start, as through limit points of the load; false:
     only where no part of the load is small enough"""
@@ -240,7 +241,7 @@ class Static(Step):
 
     def effect(self) -> Effect:
         """What the step switches on."""
-        return Effect("equilibrium", f"step is static, in {self.load_steps} load steps")
+        return Effect("equilibrium", f"step is static, in {counted(self.load_steps, 'load step')}")
 
 
 STEPS: tuple[type[Step], ...] = (

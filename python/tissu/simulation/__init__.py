@@ -1,5 +1,6 @@
 """A compiled scene: its state, and the loop that moves it."""
 
+from tissu.simulation.cutting import Mark
 from tissu.simulation.fields import IntegrationPoints
 from tissu.simulation.grab import Grab
 from tissu.simulation.live_load import LiveLoad
@@ -7,7 +8,7 @@ from tissu.simulation.plan import Plan
 from tissu.simulation.profile import Profile, ProfileRow, Solves, WorstStep
 from tissu.simulation.report import StepReport
 from tissu.simulation.simulation import Simulation
-from tissu.simulation.touched import Contacts, Crossing, Wrench
+from tissu.simulation.touched import Contacts, Crossing, Overlap, Wrench
 
 __all__ = [
     "Contacts",
@@ -15,6 +16,8 @@ __all__ = [
     "Grab",
     "IntegrationPoints",
     "LiveLoad",
+    "Mark",
+    "Overlap",
     "Plan",
     "Profile",
     "ProfileRow",

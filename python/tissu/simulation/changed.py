@@ -1,6 +1,6 @@
 """What of a simulation's scene may change while it runs: its numbers, by a world made anew.
 
-A constant of a cell stands in many places of a world, packed for the kernels. So another number
+A constant of a cell is in many places of a world, packed for the kernels. So another number
 makes another world, as the removal of cells does; the state goes on, with all that models and the
 method in time remember.
 """
@@ -8,8 +8,6 @@ method in time remember.
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
-
-import numpy as np
 
 from tissu.simulation.parameters import Parameters
 
@@ -39,6 +37,10 @@ class Changed:
     _loads: Sequence[tuple[Load, Where]]
     _physics_known: dict[str, Any] | None
     _steps: int
+
+    if TYPE_CHECKING:
+
+        def _follow_cells(self, body: str) -> None: ...
 
     @property
     def parameters(self) -> Parameters:
@@ -85,7 +87,8 @@ class Changed:
         self._core.restore(fresh._core.snapshot())
         self._take_over(fresh)
         self._steps = 0
-        self._meshes.update(self._rest)
+        for body in self._rest:
+            self._follow_cells(body)
 
     def _become(self, scene: Scene) -> None:
         """Go on with a scene that differs in numbers only.
@@ -93,18 +96,11 @@ class Changed:
         Raises:
             SceneError: it is not accepted; nothing has changed then.
         """
-        removed = {
-            body: np.setdiff1d(
-                np.arange(mesh.cell_count, dtype=np.int32), self._core.remaining_cells(body)
-            ).astype(np.int32)
-            for body, mesh in self._rest.items()
-            if self._meshes[body] is not mesh
-        }
         fresh = self._compiled(scene)
         self._core.settle()
-        self._core.replace_world(world=fresh._world)
-        for body, cells in removed.items():
-            self._core.remove_cells(body=body, cells=cells)
+        edited = any(self._meshes[body] is not mesh for body, mesh in self._rest.items())
+        world = self._core.edited_like_now(fresh=fresh._world) if edited else fresh._world
+        self._core.replace_world(world=world)
         self._take_over(fresh)
         self.scene = scene
         self._physics_known = None

@@ -12,6 +12,7 @@ from tissu import units
 from tissu.errors import ParameterError
 from tissu.simulation.entry import one_thread_at_a_time
 from tissu.simulation.grab_point import GrabPoint
+from tissu.simulation.known_names import known_names_only
 
 if TYPE_CHECKING:
     from tissu import _core as core
@@ -99,6 +100,7 @@ def keep(simulation: core.Simulation, grabs: dict[int, Record]) -> None:
     simulation.set_remembered(MEMORY, np.concatenate(numbers))
 
 
+@known_names_only
 @one_thread_at_a_time
 class Grab:
     """A spring of no rest length from a point of a body to a target in space.

@@ -232,7 +232,8 @@ class Handled:
         known = list(self.scene.obstacles) if self.scene.contacts else []
         if name not in known:
             raise ParameterError(
-                f"found obstacle {name!r}{_nearest(name, known)} accepted: {_listed(known)}"
+                f"found obstacle {name!r}{_nearest(name, known)} accepted: "
+                f"{', '.join(known) or 'none, since the scene has no contacts with obstacles'}"
             )
         return ObstacleLead(simulation=self._core, entry=self._entry, name=name)
 

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from tissu import units
 from tissu.errors import ParameterError
 from tissu.simulation.entry import one_thread_at_a_time
+from tissu.simulation.known_names import known_names_only
 
 if TYPE_CHECKING:
     from tissu import _core as core
@@ -25,6 +26,7 @@ _POSITION = units.Triple(units.LENGTH)
 _DIRECTION = units.Triple(units.NUMBER)
 
 
+@known_names_only
 @one_thread_at_a_time
 class Lead:
     """A support of the scene by its name, which may be given a live target from the next step on.

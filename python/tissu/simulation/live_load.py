@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from tissu import units
 from tissu.errors import ParameterError
 from tissu.simulation.entry import one_thread_at_a_time
+from tissu.simulation.known_names import known_names_only
 
 if TYPE_CHECKING:
     from tissu import _core as core
@@ -22,6 +23,7 @@ Floats = NDArray[np.float64]
 _HEAD = 2  # numbers before those that the load is made of: whether a factor is given, and which
 
 
+@known_names_only
 @one_thread_at_a_time
 class LiveLoad:
     """A load as it acts now; what is assigned to it holds from the next step on.

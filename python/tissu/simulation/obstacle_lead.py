@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from tissu import units
 from tissu.simulation.entry import one_thread_at_a_time
+from tissu.simulation.known_names import known_names_only
 from tissu.simulation.lead import pose_arguments, seconds_of
 
 if TYPE_CHECKING:
@@ -19,6 +20,7 @@ if TYPE_CHECKING:
 Floats = NDArray[np.float64]
 
 
+@known_names_only
 @one_thread_at_a_time
 class ObstacleLead:
     """An obstacle of the scene by its name, which may be given a live target from the next step on.

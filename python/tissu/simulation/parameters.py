@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, get_args
 
 from tissu.errors import ParameterError
+from tissu.simulation.known_names import known_names_only
 from tissu.units import unit_of
 
 if TYPE_CHECKING:
@@ -38,6 +39,7 @@ class Parameter:
     most: float = float("inf")
 
 
+@known_names_only
 class Parameters(MutableMapping[str, float]):
     """Names of numbers -> their values [SI]; what is assigned holds from the next step on.
 

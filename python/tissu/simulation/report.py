@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from tissu.counted import counted
+
 if TYPE_CHECKING:
     from tissu import _core
 
@@ -55,11 +57,11 @@ class StepReport:
         text = f"step {self.number}: t = {self.time:.6g} s, residual {self.residual:.1e}"
         text += f" after {iterations}, {self.milliseconds:.1f} ms"
         if self.contacts:
-            text += f", {self.contacts} contacts"
+            text += f", {counted(self.contacts, 'contact')}"
         if self.substeps > 1:
             text += f", in {self.substeps} parts"
         if self.held_back:
-            text += f", {self.held_back} nodes held back"
+            text += f", {counted(self.held_back, 'node')} held back"
         if self.converged:
             return f"{text}; {self.message}" if self.message else text
         return f"{text}; not converged: {self.message}"

@@ -16,9 +16,11 @@ from tissu.counted import counted
 from tissu.errors import CheckpointError, ParameterError, TissuError
 from tissu.simulation.by_body import ByBody
 from tissu.simulation.changed import Changed
+from tissu.simulation.cutting import Cutting, cut_mesh
 from tissu.simulation.entry import Entry, before_the_door, one_thread_at_a_time
 from tissu.simulation.handled import Handled
 from tissu.simulation.inspected import Inspected
+from tissu.simulation.known_names import known_names_only
 from tissu.simulation.plan import Plan
 from tissu.simulation.profile import Profile, profile_of
 from tissu.simulation.remaining import keep_cells, removed_cells
@@ -40,8 +42,9 @@ _SHARE_OF_STABLE = 0.9
 """of the stable step, for the step auto: room for what the body stiffens in between"""
 
 
+@known_names_only
 @one_thread_at_a_time
-class Simulation(Inspected, Handled, Touched, Changed):
+class Simulation(Inspected, Handled, Touched, Changed, Cutting):
     """A compiled scene that can be stepped; made by `Scene.compile()`.
 
     One thread at a time may call it: while one is in a method, another one gets a `BusyError`.
@@ -51,6 +54,8 @@ class Simulation(Inspected, Handled, Touched, Changed):
         meshes: body -> mesh at rest; follows the removal of cells.
         resumed_from: the checkpoint that it went on from; None: it began at rest.
     """
+
+    resumed_from: Resumed | None
 
     def __init__(
         self,
@@ -80,10 +85,8 @@ class Simulation(Inspected, Handled, Touched, Changed):
         self._physics_known: dict[str, Any] | None = None
         self._tissue = dict(tissue or {})
         self._rest_points = {name: self._core.points(name) for name in [*meshes, *self._tissue]}
-        ranges = {name: self._core.body_range(name) for name in [*meshes, *self._tissue]}
-        self._positions = ByBody(_views(self._core.positions, ranges))
-        self._velocities = ByBody(_views(self._core.velocities, ranges))
-        self.resumed_from: Resumed | None = None
+        self._lay_views()
+        self.resumed_from = None
         if checkpoint is not None:
             self._go_on_from(checkpoint)
 
@@ -377,10 +380,23 @@ class Simulation(Inspected, Handled, Touched, Changed):
         self._require_body(body)
         return np.sort(self._core.remaining_cells(body))
 
+    def _lay_views(self) -> None:
+        ranges = {name: self._core.body_range(name) for name in [*self._meshes, *self._tissue]}
+        self._positions = ByBody(_views(self._core.positions, ranges))
+        self._velocities = ByBody(_views(self._core.velocities, ranges))
+
     def _follow_cells(self, body: str) -> None:
+        """Makes the mesh and the views of a body those of its present cells and nodes."""
+        rest, nodes = self._rest[body], self._core.body_range(body)[1]
         remaining = np.sort(self._core.remaining_cells(body))
-        if len(remaining) < self._meshes[body].cell_count:
-            self._meshes[body] = keep_cells(self._rest[body], remaining)
+        if nodes > rest.node_count:
+            self._meshes[body] = cut_mesh(rest, self._core.body_cells(body), self._core.roots(body))
+        elif len(remaining) == rest.cell_count:
+            self._meshes[body] = rest
+        elif len(remaining) != self._meshes[body].cell_count:
+            self._meshes[body] = keep_cells(rest, remaining)
+        if nodes != len(self._positions[body]):
+            self._lay_views()
 
     def _go_on_from(self, checkpoint: Checkpoint) -> None:
         checkpoint.require(self._physics())

@@ -97,6 +97,20 @@ class Crossing(NamedTuple):
     triangle: tuple[int, ...]
 
 
+class Overlap(NamedTuple):
+    """Two surfaces whose thicknesses are inside each other.
+
+    Attributes:
+        surface: name of the body or obstacle.
+        other: name of the other one, or the same.
+        depth: how far, at the deepest place [m].
+    """
+
+    surface: str
+    other: str
+    depth: float
+
+
 class Touched:
     """The part of a simulation that says what touches what."""
 
@@ -203,6 +217,21 @@ class Touched:
             )
             for a, edge, b, face in self._core.crossings()
         ]
+
+    def overlaps(self) -> list[Overlap]:
+        """What is inside balls, rods, sheets and lines now, whose middles alone `crossings` sees.
+
+        Of each two surfaces that meet the deepest place, by the distance of their middles and by
+        both half thicknesses; within a body no more than 0.9 of the distance at rest counts as
+        thickness. A surface without thickness that meets a ball rises into it by at most the gap,
+        between the points that meet it.
+
+        Raises:
+            ParameterError: the scene has no contacts.
+        """
+        self._require_contact()
+        names = self._core.contact_surfaces()
+        return [Overlap(names[a], names[b], depth) for a, b, depth in self._core.overlaps()]
 
     def _require_contact(self) -> None:
         if not self.scene.contacts:

@@ -1,4 +1,4 @@
-#include "tissu/contact/crossing.h"
+#include "tissu/base/crossing.h"
 
 #include <gtest/gtest.h>
 

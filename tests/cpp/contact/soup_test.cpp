@@ -9,7 +9,7 @@
 #include "contact/hold_back.h"
 #include "contact/nearest_pair.h"
 #include "soups.h"
-#include "tissu/contact/crossing.h"
+#include "tissu/base/crossing.h"
 #ifdef TISSU_FCL_ORACLE
 #include "contact/fcl_broad_phase.h"
 #endif

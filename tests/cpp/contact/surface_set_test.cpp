@@ -52,6 +52,48 @@ TEST(SurfaceSetTest, TheBoundaryOfABoxIsCountedByEuler) {
   }
 }
 
+/// Two cells that share an edge alone, of a box of four.
+TEST(SurfaceSetTest, WedgesThatTouchAlongAnEdgeHaveOneEach) {
+  Mesh mesh = box_mesh(Vec3::Zero(), Vec3(2, 2, 1), {2, 2, 1}, Split::none);
+  for (const std::array<std::int32_t, 2> kept : {std::array{0, 3}, std::array{3, 0}, std::array{1, 2}}) {
+    Mesh two{mesh.positions, {{CellType::hexahedron, {}}}};
+    for (const std::int32_t i : kept) {
+      const auto cell = mesh.blocks[0].cell(i);
+      two.blocks[0].nodes.insert(two.blocks[0].nodes.end(), cell.begin(), cell.end());
+    }
+    ContactDescription description;
+    SurfaceDescription surface{.name = "two", .closed = true};
+    const Surface outer = boundary_surface(two);
+    std::vector<std::int32_t> cells;
+    for (std::size_t q = 0; q < outer.quads.size(); ++q) {
+      const auto& [a, b, c, d] = outer.quads[q];
+      surface.triangles.push_back({a, b, c});
+      surface.triangles.push_back({a, c, d});
+      cells.insert(cells.end(), 2, outer.quad_cell[q]);
+    }
+    description.bodies = {surface};
+    const std::vector<std::int32_t> first = {0};
+    const SurfaceSet set(description, first, mesh.positions);
+    // Of each cube 12 edges and 6 diagonals; all of both, though they share two nodes.
+    EXPECT_EQ(set.edges().size(), 36U);
+    EXPECT_EQ(set.vertices().size(), 14U);
+    int shared = 0;
+    for (const SurfaceEdge& edge : set.edges()) {
+      ASSERT_GT(edge.face[1], edge.face[0]);
+      EXPECT_EQ(cells[static_cast<std::size_t>(edge.face[0])], cells[static_cast<std::size_t>(edge.face[1])]);
+      const Vec3 a = block(ConstReals(set.rest()), edge.vertex[0]);
+      const Vec3 b = block(ConstReals(set.rest()), edge.vertex[1]);
+      if (a.head<2>() == Eigen::Vector2d(1, 1) && b.head<2>() == a.head<2>()) ++shared;
+      for (std::size_t side = 0; side < 2; ++side) {
+        const auto& corners = set.primitives()[static_cast<std::size_t>(edge.face[side])].vertex;
+        const std::set<std::int32_t> all(corners.begin(), corners.end());
+        EXPECT_EQ(all, (std::set{edge.vertex[0], edge.vertex[1], edge.across[side]}));
+      }
+    }
+    EXPECT_EQ(shared, 2);
+  }
+}
+
 TEST(SurfaceSetTest, TheAreasOfTheVerticesAreThatOfTheSurface) {
   const BoxOfTetrahedra box;
   const SurfaceSet set = box.set();

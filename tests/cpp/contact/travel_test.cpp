@@ -6,8 +6,8 @@
 #include <limits>
 
 #include "pair_samples.h"
+#include "tissu/base/crossing.h"
 #include "tissu/contact/closest.h"
-#include "tissu/contact/crossing.h"
 
 namespace tissu {
 namespace {

@@ -350,3 +350,31 @@ class TestFrames:
         second = runner.ask(lambda _: taker.take(runner)).result(10).bodies[0, "cube"]
         assert second.seen is not first.seen
         assert len(second.values) == len(second.positions) == len(second.seen.nodes)
+
+
+def test_what_is_asked_of_a_closed_runner_is_refused_and_never_waits():
+    runner = Runner([cube()], playing=False)
+    runner.start()
+    runner.stop()
+    for wish in (runner.ask(len), runner.pause(), runner.play(), runner.step_once()):
+        with pytest.raises(ts.TissuError, match="view that is closed"):
+            wish.result(10)
+
+
+def test_what_waits_when_a_runner_ends_is_refused():
+    runner = Runner([cube()], playing=False)
+    waiting = runner.ask(len)  # it has not begun
+    runner.start()
+    runner.stop()
+    try:
+        assert waiting.result(10) == 1
+    except ts.TissuError as error:
+        assert "view that is closed" in str(error)
+
+
+@pytest.mark.parametrize("given", ["corotational", 3])
+def test_a_view_of_something_else_is_refused(given):
+    with pytest.raises(ts.ParameterError, match="a simulation is accepted"):
+        ts.view(cube(), beside=given, browser=False)
+    with pytest.raises(ts.ParameterError, match="a simulation is accepted"):
+        ts.view(given, browser=False)

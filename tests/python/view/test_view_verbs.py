@@ -103,7 +103,7 @@ def test_the_command_says_where_the_page_is_and_ends_with_ctrl_c(tmp_path):
     words = ("examples/organ.yaml", "--no-browser", "--record", str(file), "--beside", "fem")
     with started(*words) as command:
         line = command.stdout.readline()
-        assert re.fullmatch(r"the view is at http://127\.0\.0\.1:\d+/; Ctrl-C ends it\n", line)
+        assert re.fullmatch(r"the view is at http://127\.0\.0\.1:\d+/ \(Ctrl-C ends it\)\n", line)
         command.send_signal(signal.SIGINT)
         out, err = command.communicate(timeout=120)
     assert (command.returncode, err) == (0, "")

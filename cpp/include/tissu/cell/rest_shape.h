@@ -31,6 +31,7 @@ struct RestCells {
   const std::vector<double>&
       cross_section;  ///< of each cell, or one: thickness [m] or area [m2]; 1 for volumes
   ConstReals X;
+  const std::vector<double>& share;  ///< of each cell, or one: how much of its volume is material
 };
 
 /// What of Q R is kept.

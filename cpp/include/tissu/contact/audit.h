@@ -4,6 +4,8 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
+#include <utility>
 #include <vector>
 
 #include "tissu/assembly/fixed_dofs.h"
@@ -22,8 +24,13 @@ struct Crossing {
 /// All crossings of pairs that the scene says meet, in the order of the features; signs are exact.
 std::vector<Crossing> crossings(const Contact& contact, const State& state);
 
+/// Of surfaces whose half thicknesses overlap: how far at most [m], by the lower number of a surface and the
+/// higher one. Of things without thickness `crossings` says all.
+using Depths = std::map<std::pair<std::int32_t, std::int32_t>, double>;
+Depths overlaps(const Contact& contact, const State& state);
+
 /// Moves apart what touches, or overlaps by no more than the gap, along outward normals, by at most the gap;
-/// obstacles and given rows stay. Refuses bodies that overlap more.
+/// obstacles and given rows stay. Refuses bodies that overlap more, by their middles or their thicknesses.
 void separate(const Contact& contact, const FixedDofs& fixed, State& start);
 
 }  // namespace tissu

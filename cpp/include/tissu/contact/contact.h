@@ -60,6 +60,8 @@ class ContactTable {
   [[nodiscard]] std::size_t size() const { return numbers_.size() / kNumbers; }
   [[nodiscard]] ContactNumbers operator[](std::size_t i) const;
   static void write(std::span<const ContactNumbers> contacts, std::vector<double>& numbers);
+  /// In the place of contact i.
+  static void write(const ContactNumbers& contact, std::size_t i, std::vector<double>& numbers);
 
  private:
   std::span<const double> numbers_;
@@ -74,8 +76,8 @@ class Contact final : public ForceModel {
 
   [[nodiscard]] std::string_view effect() const override { return "contact"; }
   [[nodiscard]] ForceKind kind() const override { return ForceKind::external; }
-  /// Obstacles are led, and friction takes.
-  [[nodiscard]] bool may_add_energy() const override { return true; }
+  /// Where an obstacle is led, or springs store what is not counted.
+  [[nodiscard]] bool may_add_energy() const override;
   void add_force(const State& state, Scratch& scratch, Reals f) const override;
   void add_product(const State& state, Scratch& scratch, StiffnessScale scale, ConstReals p,
                    Reals out) const override;
@@ -109,11 +111,14 @@ class Contact final : public ForceModel {
   /// Leads it back to its own path.
   void release(std::string_view name, double over, State& state) const;
   [[nodiscard]] bool is_led_live(std::string_view name, const State& state) const;
+  [[nodiscard]] bool is_any_led_live(const State& state) const;
   /// The pose, from rest, in which an obstacle is.
   [[nodiscard]] Pose pose_of(std::int32_t obstacle, const State& state, double time) const;
 
   /// All vertices of the surfaces, three numbers each.
   void place_vertices(const State& state, double time, Reals places) const;
+  /// f -= the forces of the contacts of a state.
+  void take_force(const State& state, Reals f) const;
   /// Force [N], and moment about its origin [N m], that the contacts of a state give to a body or obstacle.
   struct Wrench {
     Vec3 force = Vec3::Zero();

@@ -59,10 +59,13 @@ class ImpulseContact : public ExplicitContact {
   void keep(const State& end, std::vector<ContactNumbers>& kept) override;
   /// What the impulses of a contact begin with, and how near it may come.
   virtual void begin_blow(Blow& blow, double pushed) const;
+  [[nodiscard]] std::vector<Blow>& blows() { return blows_; }
+  /// Nothing is left of its gap.
+  [[nodiscard]] bool is_shut(const Blow& blow, const State& end) const;
+  void give(const ContactNumbers& contact, const Vec3& impulse, Reals change) const;
 
  private:
   [[nodiscard]] double least_end_rate(const Blow& blow, double after) const;
-  void give(const ContactNumbers& contact, const Vec3& impulse, Reals change) const;
   /// One contact, the others as they are; the change of its impulse.
   double relax(const Blow& blow, Impulse& impulse, Reals change) const;
   void solve(Impulse Blow::*of, Reals change);

@@ -1,15 +1,12 @@
 #pragma once
 
-/// Springs and dampers between near surfaces, in explicit steps (Chendeb 2007, section 4.3.2, with forces
-/// that end at a range and never pull).
+/// Springs (penalty_law.h) and dampers between near surfaces, in explicit steps.
 ///
-///     linear        f = k (d0 - d) - c u          d0 = xi + gap, both where d < d0 only, f >= 0
-///     reciprocal    f = k1 (1/s - 1/s0) - c u     s = d - r_a - r_b, s0 = s at d0, k1 = k s0^2 / 4
+///     normal        f = spring(d0 - d) - c u      f >= 0
 ///     friction      f_T = lambda_T - k u_T - c v_T on the disk of radius mu f
 ///
 /// u = n . J v; u_T is the sliding since the start of the step and lambda_T what the spring of friction held
-/// then, so that what sticks does not creep. The reciprocal law goes on along its tangent from s0/2, where
-/// its stiffness has grown to k.
+/// then, so that what sticks does not creep.
 ///
 ///     k = sigma omega^2 a      phi / a = largest of sum_r N_r beta_r^2 / m_r      sigma = 1/3
 ///
@@ -21,6 +18,7 @@
 /// pressed to the last fifth of the gap has a stop there: impulses without restitution.
 
 #include "tissu/contact/impulse.h"
+#include "tissu/contact/penalty_law.h"
 
 namespace tissu {
 
@@ -48,10 +46,7 @@ class PenaltyContact final : public ImpulseContact {
     double share;  ///< phi
   };
   void find_near();
-  [[nodiscard]] double stop_of(const ContactNumbers& contact) const;
   void share_rows();
-  [[nodiscard]] double range_of(const ContactNumbers& contact) const;
-  [[nodiscard]] double law(const Near& near, double k) const;
   Vec3 force_of(ContactNumbers& contact, const Near& near, const State& at);
 
   double omega2_;              ///< sigma omega^2 [1/s2]
@@ -64,11 +59,5 @@ class PenaltyContact final : public ImpulseContact {
   std::vector<ContactNumbers> acted_;  ///< in every stage, whose number stands in `sliding`
   double stage_ = 2.0;                 ///< after what stops have there
 };
-
-/// The damping of a spring, over the critical one, whose clamped force gives back a share e of the speed, at
-/// least exp(-2) (Schwager, Poeschel 2007, Granular Matter 9, 465-469):
-///
-///     e = exp(-tan(theta) (pi - 2 theta)),  zeta = sin(theta)
-double damping_of_restitution(double e);
 
 }  // namespace tissu

@@ -21,7 +21,8 @@ struct Primitive {
   int corners;  ///< 3, 2 or 1
 };
 
-/// Every edge and every vertex belongs to its lowest primitive, so that each pair is made once.
+/// Every edge and every vertex belongs to its lowest primitive, so that each pair is made once. Where wedges
+/// of a closed surface touch along an edge, each of them has its own.
 struct SurfaceEdge {
   std::array<std::int32_t, 2> vertex;
   std::array<std::int32_t, 2> face = {-1, -1};    ///< the first two triangles beside it
@@ -84,7 +85,10 @@ class SurfaceSet {
  private:
   void add(const SurfaceDescription& description, std::int32_t first_row, std::int32_t obstacle,
            ConstReals rest);
-  void add_edges(std::int32_t first_primitive, std::int32_t first_vertex);
+  std::vector<std::int32_t> add_edges(std::int32_t first_primitive, std::int32_t first_vertex);
+  void number_edges(std::int32_t first_primitive, std::int32_t first_edge);
+  void part_wedges(const std::vector<std::int32_t>& crowded, std::int32_t first_primitive,
+                   std::int32_t first_edge);
   void measure(std::int32_t first_primitive, std::int32_t first_edge);
   void list_neighbours();
 

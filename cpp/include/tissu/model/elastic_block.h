@@ -52,6 +52,13 @@ struct ElasticBlock {
   std::vector<double> density;                        ///< [kg/m3]
   /// Of surfaces the thickness [m], of lines the area [m2]; one, or one for each cell. Volumes have none.
   std::vector<double> cross_section = {1.0};
+  /// Share of the volume that is material: of each cell, or one for all. Every weight is multiplied by it, so
+  /// that a cell cut in parts has one copy for each part (virtual nodes: Molino et al. 2004).
+  std::vector<double> share = {1.0};
+  /// The cell of the first day that each cell comes from, by its number; empty: its own.
+  std::vector<std::int32_t> origins;
+  /// The cell of the world before an edit whose memory each cell takes over, by its number; empty: its own.
+  std::vector<std::int32_t> heirs_of;
   LineSection section;  ///< of lines that bend; others read their area only
   Plane plane = Plane::free;
   ModelOptions model;  ///< which model carries it, and what that one alone asks for

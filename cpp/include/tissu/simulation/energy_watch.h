@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -18,8 +19,9 @@ struct Energy {
 Energy energy_of(const World& world, const State& state, Scratch& scratch);
 
 /// Watches the energy of a scene in which nothing can add any: no led nodes, no links, no pressure, no load
-/// that changes with time, no material that remembers, no frames. An undamped method that gives a moving body
-/// more energy than it had is not stable there, however well its steps converge.
+/// that changes with time, no material that remembers, no frames, no obstacle that is led. A method that
+/// gives a moving body more energy than it had is not stable there, however well its steps converge. Contacts
+/// give a little: what is inside its gap comes out of it, in a step at the soonest.
 class EnergyWatch {
  public:
   /// Whether energy can only be kept or lost in that world.
@@ -29,8 +31,14 @@ class EnergyWatch {
   /// count.
   void begin(const World& world, const State& state);
   void end(const World& world, const State& state);
-  /// The energy gained since the first step over the largest kinetic and elastic energy before it grew.
-  [[nodiscard]] double growth() const { return largest_ > 0.0 ? gained_ / largest_ : 0.0; }
+  /// In steps of h contacts may give that much: M (gap / h)^2 of the whole mass and the widest gap.
+  void allow_contacts(const World& world, double h);
+  /// The energy gained since the first step, less what contacts may give, over the largest kinetic and
+  /// elastic energy before it grew, or over what contacts may give, if that is more.
+  [[nodiscard]] double growth() const {
+    const double whole = std::max(largest_, allowed_);
+    return whole > 0.0 ? (gained_ - allowed_) / whole : 0.0;
+  }
 
   /// Four numbers with which another watch goes on from `state`: the three sums, and whether the latest step
   /// ended there …
@@ -42,7 +50,7 @@ class EnergyWatch {
   static constexpr double kReported = 0.1;  ///< growth above which a step is reported as not converged, …
   static constexpr double kRefused = 10.0;  ///< … and above which the simulation has diverged
   /// A sentence for a growth above the share that is reported.
-  [[nodiscard]] std::string say() const;
+  [[nodiscard]] std::string say(const World& world) const;
 
  private:
   [[nodiscard]] bool is_end(const State& state) const;
@@ -54,6 +62,7 @@ class EnergyWatch {
   double total_ = 0.0;  ///< energy there, or at the start of this one
   double gained_ = 0.0;
   double largest_ = 0.0;
+  double allowed_ = 0.0;  ///< that contacts may give
 };
 
 }  // namespace tissu

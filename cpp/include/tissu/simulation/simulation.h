@@ -60,8 +60,24 @@ class Simulation {
   void restore(const Snapshot& snapshot);
 
   /// Goes on with another world of the same unknowns: made by an editor from this one, or of the same scene
-  /// with other numbers in it. What models remember goes along, as far as the new ones have it too.
-  void replace_world(std::shared_ptr<const World> world);
+  /// with other numbers in it. What models remember goes along, as far as the new ones have it too; rows of
+  /// nodes that an edit made take over everything of those that they copy.
+  void replace_world(std::shared_ptr<const World> world, std::span<const RowCopy> copies = {});
+
+  /// What `rewind` goes back to: the world and all that its next step depends on.
+  struct Mark {
+    std::shared_ptr<const World> world;
+    State state;
+    State last_good;
+    std::vector<double> held;
+    std::vector<double> integrator;
+    std::vector<double> watch;
+    bool settled = true;
+  };
+  /// The solver forgets what it keeps of earlier steps, as a snapshot says.
+  [[nodiscard]] Mark mark();
+  /// Goes back to a mark of this simulation, with the same bits from there on.
+  void rewind(const Mark& mark);
   /// The solver forgets what it keeps of earlier steps, as when a simulation begins or a snapshot is taken.
   void forget_solves();
 
@@ -71,6 +87,7 @@ class Simulation {
   [[nodiscard]] double farthest() const;
   [[nodiscard]] bool is_sane() const;
   [[noreturn]] void roll_back(double h);
+  [[nodiscard]] bool is_led_live() const;
   void begin_watch(EnergyWatch& watch);
   void watch_energy(EnergyWatch& watch, StepReport& report);
   /// Adds to the report of a static step which cells are inside out.
@@ -93,7 +110,8 @@ class Simulation {
   std::vector<double> held_;  ///< velocities of held rows, as the scene and the latest step left them
   std::vector<PartStart> part_starts_;  ///< of each halving that there was, where something touches
   bool settled_ = true;
-  std::optional<EnergyWatch> watch_;        ///< of undamped methods, where nothing can add energy
+  std::optional<EnergyWatch>
+      watch_;  ///< of undamped methods and where surfaces meet, if nothing can add energy
   std::optional<InversionCheck> inverted_;  ///< of static methods
 };
 

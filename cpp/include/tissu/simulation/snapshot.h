@@ -6,26 +6,19 @@
 #include <string>
 #include <vector>
 
+#include "tissu/edit/topology.h"
 #include "tissu/state/state.h"
 
 namespace tissu {
 
 struct Snapshot {
-  /// What edits left of a body; only of worlds that can be edited.
-  struct BodyCells {
-    std::string body;
-    std::vector<std::int32_t> cells;        ///< still there, by their first numbers
-    std::vector<std::int32_t> loose_nodes;  ///< that no cell uses, numbers in the body
-    std::vector<double> places;             ///< where these are held [m], three for each
-  };
-
   State state;
   bool settled = true;                    ///< eliminated nodes stand in their places
   double time_before = 0.0;               ///< the latest step began [s]
   std::vector<double> velocities_before;  ///< and had these velocities: reactions are computed from them
   std::vector<double> integrator;         ///< Integrator::memory()
   std::vector<double> energy_watch;       ///< EnergyWatch::reference(); empty where energy is not watched
-  std::vector<BodyCells> bodies;
+  std::vector<BodyTopology> bodies;       ///< what edits left of them; only of worlds that can be edited
 };
 
 }  // namespace tissu

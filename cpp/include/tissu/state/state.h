@@ -3,6 +3,7 @@
 /// What a step changes: positions, velocities, rotations of frames, what models remember, time.
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "tissu/base/vec.h"
@@ -30,6 +31,15 @@ struct State {
 
   [[nodiscard]] std::int32_t blocks() const { return static_cast<std::int32_t>(positions.size() / 3); }
 };
+
+/// A row of the unknown that takes over what another one has.
+struct RowCopy {
+  std::int32_t to = 0;
+  std::int32_t from = 0;
+};
+
+/// values[to] = values[from], three numbers each.
+void copy_rows(std::span<const RowCopy> copies, Reals values);
 
 /// exp(w), the rotation by |w| about w.
 Quaternion turn_by(const Vec3& w);

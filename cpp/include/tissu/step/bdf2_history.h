@@ -18,6 +18,7 @@ class Bdf2History {
 
   void append_memory(std::vector<double>& memory) const;
   void restore(ConstReals memory);
+  void copy_rows(std::span<const RowCopy> copies);
 
  private:
   State before_;

@@ -3,6 +3,7 @@
 #include <memory>
 #include <vector>
 
+#include "tissu/contact/implicit_contact.h"
 #include "tissu/step/integrator.h"
 #include "tissu/step/momentum_free.h"
 #include "tissu/step/system.h"
@@ -17,6 +18,8 @@ namespace tissu {
 /// d is x1 - x0 without its rigid motion in each free body (MomentumFree), so that the correction has no
 /// resultant: energy, linear and angular momentum are kept to Newton's tolerance for any step and any law. Of
 /// second order; the correction is of second order too.
+///
+/// Contacts act as in implicit Euler: their impulse moves the end as a whole, and they take energy.
 class EnergyMomentum final : public Integrator {
  public:
   explicit EnergyMomentum(NewtonSettings newton = {20, 1e-9});
@@ -29,6 +32,8 @@ class EnergyMomentum final : public Integrator {
   /// A step from start_, in halves where Newton's method does not converge.
   bool advance(const State& from, double h, int halvings, State& state, StepReport& report);
   bool solve(const State& from, double h, State& state, StepReport& report);
+  /// Newton's iteration from mean_.
+  bool iterate(const State& from, double h, StepReport& report);
   /// h / 2 (f + a M d) - M (v - v0) at the mean velocity mean_; its norm.
   double residual(const State& from, double h);
   /// W of the elastic models, and their force without velocities.
@@ -37,16 +42,36 @@ class EnergyMomentum final : public Integrator {
   /// The change of mean_, by the midpoint rule's matrix and the slope of a.
   bool find_change(double h, StepReport& report);
 
+  // energy_momentum_touching.cpp: steps of a world with contact.
+  void prepare_touching(Profile& profile);
+  void begin_touching(const State& from, double h);
+  /// Newton's iteration with the contacts of one look, and looks until they stay.
+  bool iterate_touching(const State& from, double h, StepReport& report);
+  /// Takes what the impulses of the way give twice out of the velocities at the end, which have their own.
+  void finish_touching(const State& from, double h, State& state, StepReport& report);
+  /// Where the mean velocities lead.
+  void place_end(const State& from, double h);
+  double look();
+  int hold_back();
+
   NewtonSettings newton_;
   std::unique_ptr<System> system_;
   MomentumFree momentum_free_;
   State start_;
   State middle_;
   State end_;
-  std::vector<State> halves_;  ///< of steps that are taken in halves
-  double factor_ = 0.0;        ///< a
-  double acting_ = 0.0;        ///< what the residual is judged by
-  double square_ = 0.0;        ///< d . M d
+  std::vector<State> halves_;                 ///< of steps that are taken in halves
+  double factor_ = 0.0;                       ///< a
+  double acting_ = 0.0;                       ///< what the residual is judged by
+  double square_ = 0.0;                       ///< d . M d
+  std::unique_ptr<ImplicitContact> contact_;  ///< null where nothing touches
+  std::unique_ptr<EndImpulses> impulses_;
+  Profile* profile_ = nullptr;
+  std::size_t detection_row_ = 0;  ///< of the profile; there where something touches
+  std::size_t travel_row_ = 0;
+  std::size_t response_row_ = 0;
+  std::vector<double> blocks_;  ///< diagonal of the matrix without contact
+  std::vector<double> placed_;  ///< at the end, before ways were cut
   std::vector<double> mean_, given_, right_, change_, way_, free_way_, push_, elastic_, slope_, answer_,
       work_;
 };

@@ -21,6 +21,7 @@ class Bdf2FixedPoint final : public Integrator {
   StepReport step(State& state, double h) override;
   void append_memory(std::vector<double>& memory) const override { history_.append_memory(memory); }
   void restore(ConstReals memory) override { history_.restore(memory); }
+  void copy_rows(std::span<const RowCopy> copies) override { history_.copy_rows(copies); }
 
  private:
   /// False: it does not contract.

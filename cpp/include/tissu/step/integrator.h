@@ -1,6 +1,7 @@
 #pragma once
 
 #include <limits>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -75,6 +76,8 @@ class Integrator {
   }
   /// Goes on from what was appended; an empty one starts anew.
   virtual void restore(ConstReals /*memory*/) {}
+  /// Rows that an edit made take over what is kept of others.
+  virtual void copy_rows(std::span<const RowCopy> /*copies*/) {}
 };
 
 }  // namespace tissu

@@ -22,6 +22,7 @@ class Newmark final : public Integrator {
   StepReport step(State& state, double h) override;
   void append_memory(std::vector<double>& memory) const override;
   void restore(ConstReals memory) override;
+  void copy_rows(std::span<const RowCopy> copies) override;
 
  private:
   /// The accelerations at the start: those that the last step ended with, or M^-1 f when the state is

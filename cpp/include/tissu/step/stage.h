@@ -6,19 +6,21 @@
 #include <string_view>
 #include <vector>
 
-#include "tissu/contact/contact_run.h"
+#include "tissu/contact/implicit_contact.h"
 #include "tissu/step/integrator.h"
 #include "tissu/step/system.h"
 
 namespace tissu {
 
 /// M (v - v^) = push f(x(v), v) at the time of `base`, x(v) = the positions of `base` moved by `move` v: one
-/// implicit method is one choice of `base`, v^ (the velocities of `base`), `move` and `push` [s].
-///
+/// implicit method is one choice of `base`, v^ (the velocities of `base`), `move` and `push` [s]. Contacts
+/// are looked at where the step ends, at the time `end`.
 struct Stage {
   State base;
   double move = 0.0;
   double push = 0.0;
+  double end = 0.0;
+  ContactStage contact = {};
 };
 
 class StageSolver {
@@ -39,6 +41,12 @@ class StageSolver {
   void copy_given(Reals v) const { system_->world().fixed().copy(given_, v); }
   /// Solves for v from the guess that it holds; `state` gets x(v) and v. The report is added to.
   void solve(State& state, std::vector<double>& v, StepReport& report);
+  /// v += seconds M^-1 of the contact forces of the way that the latest solve found, on free rows; nothing
+  /// where nothing touches.
+  void add_contact_impulse(double seconds, Reals v);
+  /// Contacts of a way of h change the velocities at its end, too: what was shut neither closes nor slides
+  /// on. Rows whose way was cut have the velocity of their way.
+  void end_touching(double h, State& end);
 
   /// push f - M (v - v^) at x(v), which goes into `state` with v; zero where motion is given. Its norm.
   double residual(State& state, ConstReals v);
@@ -62,8 +70,11 @@ class StageSolver {
   /// Systems that differ in contacts alone: what is elastic stays linearised at the base.
   bool solve_contacts(State& state, std::vector<double>& v, StepReport& report);
   void iterate_contacts(State& state, std::vector<double>& v, StepReport& report);
-  /// Velocities that lead to where `state` is, of rows that were held back.
-  void follow(const State& state, std::vector<double>& v) const;
+  /// Where the step ends if its equation is solved by x(v), which is where `state` is: `state` itself, or
+  /// another one.
+  State& end_of(State& state);
+  /// Velocities that lead to an end, of rows that were held back.
+  void follow(const State& end, std::vector<double>& v);
   void set_contacts(State& state);
   /// Looks at contacts, keeps ways free and updates multipliers: what each takes is a row of the profile.
   double look(const State& at);
@@ -101,7 +112,11 @@ class StageSolver {
   std::vector<double> right_;
   std::vector<double> work_;
   std::vector<double> momentum_;
-  std::unique_ptr<ContactRun> contact_;  ///< null where nothing touches
+  std::unique_ptr<ImplicitContact> contact_;  ///< null where nothing touches
+  std::unique_ptr<EndImpulses> impulses_;
+  State end_;                      ///< of a step that goes on after its equation
+  std::vector<double> placed_;     ///< at an end, before ways were cut
+  std::vector<std::int32_t> cut_;  ///< rows that were held back in the latest solve
   Profile* profile_ = nullptr;
   std::size_t detection_row_ = 0;  ///< of the profile; there where something touches
   std::size_t travel_row_ = 0;

@@ -13,6 +13,7 @@ class StateMark {
  public:
   void set(const State& state);
   void forget() { positions_.clear(); }
+  void copy_rows(std::span<const RowCopy> copies);
   [[nodiscard]] bool is_empty() const { return positions_.empty(); }
   [[nodiscard]] bool is(const State& state) const;
   /// Time, positions, velocities, …

@@ -3,10 +3,11 @@
 /// Equilibrium of bodies that touch: multipliers of contacts between Newton's iterations (Alart and Curnier
 /// 1991, Computer Methods in Applied Mechanics and Engineering 92, 353-375).
 
+#include <memory>
 #include <string>
 #include <vector>
 
-#include "tissu/contact/contact_run.h"
+#include "tissu/contact/implicit_contact.h"
 #include "tissu/step/equilibrium.h"
 
 namespace tissu {
@@ -17,7 +18,7 @@ namespace tissu {
 /// with the forces that contacts may have - none that pulls, friction within Coulomb's disk - meets the
 /// tolerance.
 ///
-/// Bodies that supports alone do not hold fall on what they meet: a share of the mass stands beside the
+/// Bodies that the supports do not hold fall onto what they meet: a share of the mass stands beside the
 /// tangent, and such a correction goes as far as the first contact. The mass changes the way, not where it
 /// ends.
 class StaticTouching {
@@ -52,7 +53,7 @@ class StaticTouching {
 
   Equilibrium& equilibrium_;
   Profile& profile_;
-  ContactRun contact_;
+  std::unique_ptr<ImplicitContact> contact_;
   State start_;   ///< of the part, at the time at which what is led stands there
   State before_;  ///< of a look
   State held_;    ///< to where no way is cut

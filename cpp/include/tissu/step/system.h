@@ -2,12 +2,14 @@
 
 /// Forces and matrix of a world, timed: what every integrator asks for.
 
+#include <memory>
 #include <optional>
 #include <vector>
 
 #include "tissu/assembly/block_matrix.h"
 #include "tissu/assembly/row_places.h"
 #include "tissu/base/profile.h"
+#include "tissu/contact/implicit_contact.h"
 #include "tissu/solve/linear_solver.h"
 #include "tissu/step/free_operator.h"
 #include "tissu/world/world.h"
@@ -38,6 +40,8 @@ class System {
   /// The mean of -df/dx and of its definite matrix, of which it takes that share, and `mass` M. A solver that
   /// asks for products only gets the definite matrix.
   void assemble_mean(const State& state, double share, double mass = 0.0);
+  /// The contact of a world that touches in implicit steps, or in static ones.
+  std::unique_ptr<ImplicitContact> make_contact(bool is_static);
   /// Solves A x = b from the first guess x.
   SolveReport solve(ConstReals b, Reals x, double floor);
 

@@ -2,6 +2,7 @@
 
 /// What a world is built from, as plain data with node numbers local to each body.
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -15,6 +16,8 @@
 #include "tissu/viscosity/viscosity.h"
 
 namespace tissu {
+
+struct CutState;
 
 struct RayleighDamping {
   double mass = 0.0;       ///< alpha [1/s]
@@ -35,6 +38,16 @@ struct BodyDescription {
   bool frames = false;  ///< its nodes are frames: they have a rotation too, none at rest
   /// Frames of other bodies that this body's cells use as well: numbers from its own node count on.
   std::vector<SharedNode> shared = {};
+  /// Rows of the unknown that follow its nodes, held and without mass: nodes that edits make take them.
+  std::int32_t room = 0;
+  /// Of the nodes that edits made, which are its last: the node of the first day that each is a copy of.
+  std::vector<std::int32_t> copies_of = {};
+  /// Nodes with cells but without material at them, which nothing holds or loads; ascending.
+  std::vector<std::int32_t> bare = {};
+  /// Its cells and their material as cuts left them; null before the first cut.
+  std::shared_ptr<const CutState> cut = nullptr;
+  /// The number that the next cell gets which an edit makes; 0: one more than the last.
+  std::int32_t next_cell = 0;
 };
 
 struct FixedNodes {

@@ -25,6 +25,7 @@ struct Body {
   std::int32_t node_count;
   std::vector<const BodyModel*> models;
   std::int32_t first_frame = -1;  ///< number of its first node's frame; -1: its nodes have no rotation
+  std::int32_t room = 0;          ///< held rows without mass after its nodes, for those that edits make
 };
 
 /// The models that have a verb of a running world (RunTime).

@@ -72,7 +72,7 @@ ModelInfo Corotational::info() {
           .laws = {"hooke"},
           .elements = {"tetra", "hexahedron", "wedge", "pyramid"},
           .poisson = {yes, "of the law"},
-          .rotation = {yes, "any, but with small"},
+          .rotation = {yes, "any rotation, except with `rotation: small`"},
           .strain = {partly, "linear in the cell's axes"},
           .inversion = {yes, "with the approximate tangent"},
           .topology = {yes, "cell by cell"}};

@@ -41,7 +41,7 @@ ModelInfo MeanDilatation::info() {
           .laws = {},
           .elements = {"tetra", "hexahedron", "wedge", "pyramid"},
           .poisson = {yes, "of the law, up to 0.5 without locking"},
-          .rotation = {yes, "exact, but for hooke"},
+          .rotation = {yes, "exact, except with hooke"},
           .strain = {yes, "the law's"},
           .inversion = {partly, "stable neo-Hooke"},
           .topology = {yes, "cell by cell, the others stay in their patches"}};

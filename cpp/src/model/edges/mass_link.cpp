@@ -95,8 +95,9 @@ void MassLink::lay_links(ConstReals rest_positions) {
     LinkCell cell;
     gradient_products(nodes, rest_positions, cell.s);
     cell.squares = squares_of(nodes, rest_positions);
-    cell.volume = shape_.volumes[static_cast<std::size_t>(e)];
-    cell.counted = order_.real[lane] != 0 ? cell.volume : 0.0;
+    const double material = shape_.volumes[static_cast<std::size_t>(e)];
+    cell.volume = material / of_cell(block_.share, e);
+    cell.counted = order_.real[lane] != 0 ? material : 0.0;
     std::array<double, 2> lame;
     cell_constants(block_, use, e, lame);
     cell.lame = {lame[0], lame[1]};
@@ -129,7 +130,9 @@ double MassLink::energy(const State& state, Scratch& scratch) const {
 
 CellFields MassLink::fields(const State& state) const {
   CellFields fields = fields_by(loops(), state.positions);
-  for (std::size_t e = 0; e < shape_.volumes.size(); ++e) fields.volume_ratio[e] /= shape_.volumes[e];
+  for (std::size_t e = 0; e < shape_.volumes.size(); ++e) {
+    fields.volume_ratio[e] /= shape_.volumes[e] / of_cell(block_.share, static_cast<std::int32_t>(e));
+  }
   return fields;
 }
 

@@ -181,7 +181,8 @@ CellFields MassSpring::fields(const State& state) const {
                    tissu::block(ConstReals(state.positions), cell[0]);
     }
     fields.energy_density.push_back(0.5 * young(e) * squares);
-    fields.volume_ratio.push_back(now.determinant() / 6.0 / shape_.volumes[e]);
+    const double whole = shape_.volumes[e] / of_cell(block_.share, static_cast<std::int32_t>(e));
+    fields.volume_ratio.push_back(now.determinant() / 6.0 / whole);
   }
   return fields;
 }

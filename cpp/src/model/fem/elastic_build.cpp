@@ -14,7 +14,7 @@ ModelInfo Elastic::info() {
           .laws = {},
           .elements = {},
           .poisson = {yes, "of the law"},
-          .rotation = {yes, "exact, but for hooke"},
+          .rotation = {yes, "exact, except with hooke"},
           .strain = {yes, "the law's"},
           .inversion = {partly, "stable neo-Hooke"},
           .topology = {yes, "cell by cell"}};

@@ -77,7 +77,7 @@ ModelInfo Frames::info() {
           .laws = {},
           .elements = {},
           .poisson = {yes, "of the law"},
-          .rotation = {yes, "exact, but for hooke"},
+          .rotation = {yes, "exact, except with hooke"},
           .strain = {yes, "the law's"},
           .inversion = {partly, "stable neo-Hooke"},
           .topology = {no, "points and frames stay"}};

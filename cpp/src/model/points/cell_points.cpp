@@ -54,8 +54,9 @@ CellPoint cell_point(const ElasticBlock& block, const ReferenceCell& reference, 
   result.Q = axes_of(J, m);
   Mat3 R = result.Q.transpose() * J;  // its last columns and rows are zero below three dimensions
   for (int k = m; k < 3; ++k) R(k, k) = 1.0;
-  const double size = m == 3 ? 1.0 : of_cell(block.cross_section, static_cast<std::int32_t>(cell));
-  result.volume = at.weight * std::abs(R.determinant()) * size;
+  const auto number = static_cast<std::int32_t>(cell);
+  const double size = m == 3 ? 1.0 : of_cell(block.cross_section, number);
+  result.volume = at.weight * std::abs(R.determinant()) * size * of_cell(block.share, number);
   result.dx = j * R.inverse();
   for (int k = m; k < 3; ++k) result.dx.col(k).setZero();
   return result;

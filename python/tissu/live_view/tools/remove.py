@@ -34,7 +34,7 @@ class Remove(Tool):
     @classmethod
     def offered(cls, simulation: Simulation) -> bool:
         """Where cells may be removed."""
-        return simulation.scene.editing
+        return simulation.scene.editing is not None
 
     def press(self, simulations: Sequence[Simulation], pointer: Pointer) -> None:
         """Remove the cells around the place; at least the one that is nearest."""

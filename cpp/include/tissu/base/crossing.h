@@ -1,6 +1,6 @@
 #pragma once
 
-/// The exact audit: which edges cross which triangles. Signs are exact (base/exact.h).
+/// Which segments cross which triangles. Signs are exact (base/exact.h).
 
 #include <array>
 

@@ -1,0 +1,26 @@
+#pragma once
+
+/// Multipliers (augmented Lagrangian: Alart and Curnier 1991, Computer Methods in Applied Mechanics and
+/// Engineering 92, 353-375).
+///
+///     normal      t = lambda_n - k g          f_n = <t> n,  H_n = k n n^T where t > 0
+///     friction    t_T = lambda_T - k u_T      F = mu <t>, f_T = t_T on the disk of radius F
+///     after each solve  lambda_n <- n . f,  lambda_T <- f_T on the disk
+
+#include "tissu/contact/implicit_contact.h"
+
+namespace tissu {
+
+class AugmentedContact final : public ImplicitContact {
+ public:
+  using ImplicitContact::ImplicitContact;
+
+ protected:
+  /// It has a multiplier, or is shut, or will be.
+  [[nodiscard]] bool may_press(std::size_t i) const override {
+    return run_.looked()[i].force > 0.0 || run_.gap(i) < 0.0 || run_.is_predicted(i);
+  }
+  std::optional<double> press(std::size_t i, ContactNumbers& contact) override;
+};
+
+}  // namespace tissu

@@ -1,0 +1,145 @@
+#pragma once
+
+/// Contact during the steps of implicit and static methods: a response that is linear in the positions while
+/// a system is solved, f = push - H (r - place), and is looked at again after it.
+///
+/// k = s a / (move push), 1/a = |sum_r N_r beta_r^2 A_rr^-1| with the blocks A_rr of the step's own matrix
+/// and the contacts N_r at a row, s = 3: the couplings never exceed three times the block diagonal of A,
+/// whatever the scene.
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "tissu/assembly/mass.h"
+#include "tissu/contact/body_forces.h"
+#include "tissu/contact/contact_run.h"
+#include "tissu/contact/end_impulses.h"
+
+namespace tissu {
+
+/// How the positions and the impulse of a step follow from those of its equation: its end lies `stretch`
+/// times as far from the start as where forces are taken, and contact counts `times` as often there, so that
+/// its impulse moves the end as in implicit Euler.
+struct ContactStage {
+  double stretch = 1.0;
+  double times = 1.0;
+};
+
+class ImplicitContact {
+ public:
+  /// `mass`: null in static steps; `rest`: diagonal blocks of the stiffness at rest, [row][9], where
+  /// `needs_rest`.
+  static std::unique_ptr<ImplicitContact> make(const Contact& contact, const FixedDofs& fixed,
+                                               const Mass* mass, std::vector<double> rest);
+  [[nodiscard]] static bool needs_rest(const Contact& contact) {
+    return contact.description().method == ContactMethod::penalty;
+  }
+  ImplicitContact(const Contact& contact, const FixedDofs& fixed);
+  virtual ~ImplicitContact() = default;
+  ImplicitContact(const ImplicitContact&) = delete;
+  ImplicitContact& operator=(const ImplicitContact&) = delete;
+
+  [[nodiscard]] ContactRun& run() { return run_; }
+  [[nodiscard]] const ContactRun& run() const { return run_; }
+
+  /// A step begins at `start`, which outlives it, and ends at the time `end`; `led` holds the places of given
+  /// rows then. Forces on a body are judged by a thousandth of its `load` [N]; it may be empty.
+  void begin(const State& start, double end, ConstReals led, ConstReals load);
+  /// The diagonal blocks of the step's matrix without contact, [row][9], which outlive the step, and the
+  /// scale of what is added to it: move times push.
+  void set_matrix(std::span<const double> blocks, double scale, const ContactStage& stage);
+  /// How many times stiffer than that multipliers are against coming nearer, and against sliding: 1, as at
+  /// first.
+  void set_stiffer(double normal, double tangent);
+  /// Contacts at the places of `at`, with the multipliers of those that were there before. By how much their
+  /// forces differ from those of the latest solve, as a share.
+  double look(const State& at);
+  /// How far contacts that act are deeper than multipliers let them, as a share of the gap, at the latest
+  /// look.
+  [[nodiscard]] double depth() const { return depth_; }
+  /// A system was solved with the contacts of the latest look, and led to `end`: multipliers become the
+  /// forces there.
+  void update(const State& end);
+  /// The part of the forces with which that system was solved that no contact can give, since it pulls or
+  /// lies beyond Coulomb's disk: on the body where it is the largest share of the rest of them.
+  [[nodiscard]] double inadmissible() const { return inadmissible_; }
+  /// The contacts of the latest look are those that act from now on.
+  void take() { run_.acting().swap(pressing_); }
+  /// The contacts that act, into the memory of a state at which the forces of the step are taken.
+  void write(State& state) const;
+  /// The step is over: contacts keep the forces with which the last system was solved.
+  void finish(const State& end, State& into);
+  /// f += the forces that contacts kept.
+  void add_forces(Reals f) const;
+  /// Impulses on the velocities at the end of a step of h, which join those forces in the memory of `into`.
+  void strike(EndImpulses& impulses, double h, Reals v, State& into);
+  [[nodiscard]] std::size_t size() const { return run_.acting().size(); }
+  /// The least distance, as a share of xi, of a pair that acts, at the end of the step; infinite for none.
+  [[nodiscard]] double least_gap() const { return least_gap_; }
+
+ protected:
+  /// It may press, so that it counts at its rows.
+  [[nodiscard]] virtual bool may_press(std::size_t i) const = 0;
+  /// Gives a contact of the latest look, number i, its normal force and stiffness. That force [N]; nothing:
+  /// it does not press.
+  virtual std::optional<double> press(std::size_t i, ContactNumbers& contact) = 0;
+
+  [[nodiscard]] const ContactPair& pair_of(const ContactNumbers& contact) const {
+    return contact_.description().pairs[static_cast<std::size_t>(contact.pair)];
+  }
+  /// A normal force [N], positive where it pushes, and its stiffness against coming nearer [N/m].
+  static void give(ContactNumbers& contact, double force, double k);
+  /// Before the contacts of a look press.
+  virtual void begin_press() {}
+  /// What k is of contacts of the latest look, of that matrix, in which contacts count by their shares.
+  void find_stiffnesses(std::span<const double> blocks, double scale, std::span<const double> shares,
+                        std::vector<double>& stiffnesses);
+  /// k of the step's own matrix against coming nearer than a multiplier allows [N/m].
+  [[nodiscard]] double hard_stiffness(std::size_t i) const { return normal_ * stiffnesses_[i]; }
+  /// A contact is so much deeper than its multiplier allows [m].
+  void note_depth(const ContactNumbers& contact, double depth);
+
+  /// Calls f(row, beta) for the unknowns that a contact has.
+  template <class Function>
+  void for_rows(const ContactNumbers& contact, Function&& f) const {
+    for (std::size_t k = 0; k < 4; ++k) {
+      const std::int32_t i = run_.row_of(contact.vertex[k]);
+      if (i >= 0 && contact.beta[k] != 0.0) f(i, contact.beta[k]);
+    }
+  }
+  /// Of the step [s].
+  [[nodiscard]] double h() const { return h_; }
+
+  const Contact& contact_;
+  ContactRun run_;
+
+ private:
+  void press_all();
+  /// Adds friction of that bound [N]; k is the stiffness against sliding [N/m].
+  void rub(ContactNumbers& contact, double bound, double k) const;
+  /// r of a contact, of rows at the places of `at`.
+  [[nodiscard]] Vec3 reach(const ContactNumbers& contact, const State& at) const;
+  [[nodiscard]] Mat3 compliance(const ContactNumbers& contact, std::span<const double> blocks) const;
+
+  const FixedDofs& fixed_;
+  BodyForces bodies_;
+  ContactStage stage_;
+  const State* start_ = nullptr;
+  double h_ = 0.0;
+  std::span<const double> blocks_;
+  double scale_ = 0.0;
+  double normal_ = 1.0;                   ///< times stiffer
+  double tangent_ = 1.0;                  ///< times stiffer
+  std::vector<ContactNumbers> pressing_;  ///< of the latest look
+  std::vector<double> stiffnesses_;       ///< of what was looked at
+  std::vector<double> shares_;            ///< of what was looked at: 1 where it may press
+  std::vector<double> counts_;            ///< contacts of each row, by their shares
+  int alternations_ = 0;                  ///< updates of this step that found much inadmissible, less others
+  double inadmissible_ = 0.0;
+  double depth_ = 0.0;
+  double least_gap_ = 0.0;
+};
+
+}  // namespace tissu

@@ -1,0 +1,94 @@
+#pragma once
+
+/// The cells of a body as a cut sees them: by numbers that live for ever, with the cells at each node.
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "tissu/base/vec.h"
+#include "tissu/mesh/mesh.h"
+
+namespace tissu {
+
+struct CutPlan;
+
+/// A host is a cell that carries material: a first-day cell, or a replica that holds a part of one. Numbers
+/// of cells and nodes are for ever: new ones follow the last, none is used twice.
+class Hosts {
+ public:
+  /// One host by itself, as a file keeps it.
+  struct Cell {
+    std::int32_t number;
+    CellType type;
+    std::int32_t origin;  ///< number of the first-day cell
+    double share;         ///< of the volume of the first-day cell's material
+    std::vector<std::int32_t> nodes;
+  };
+
+  /// The cells of a first day, numbered across the blocks.
+  explicit Hosts(const Mesh& mesh);
+  /// Hosts as a file kept them: `rest` has 3 numbers per node [m], `root` the first-day node of each, `cells`
+  /// ascend in number. Throws ParameterError where these do not fit together.
+  Hosts(std::vector<double> rest, std::vector<std::int32_t> root, std::span<const Cell> cells,
+        std::int32_t next_cell);
+
+  [[nodiscard]] std::int32_t node_count() const { return static_cast<std::int32_t>(root_.size()); }
+  [[nodiscard]] std::int32_t next_cell() const { return static_cast<std::int32_t>(cells_.size()); }
+  /// Numbers of the cells that are there, ascending.
+  [[nodiscard]] std::vector<std::int32_t> numbers() const;
+
+  [[nodiscard]] bool has(std::int32_t cell) const;
+  [[nodiscard]] CellType type(std::int32_t cell) const { return slot(cell).type; }
+  [[nodiscard]] std::int32_t origin(std::int32_t cell) const { return slot(cell).origin; }
+  [[nodiscard]] double share(std::int32_t cell) const { return slot(cell).share; }
+  [[nodiscard]] std::span<const std::int32_t> nodes(std::int32_t cell) const;
+  [[nodiscard]] std::span<const std::int32_t> corners(std::int32_t cell) const;
+
+  /// Rest places of the nodes [m], 3 numbers each.
+  [[nodiscard]] ConstReals rest() const { return rest_; }
+  /// The first-day node that a node is a copy of; itself on the first day.
+  [[nodiscard]] std::int32_t root(std::int32_t node) const { return root_[static_cast<std::size_t>(node)]; }
+  /// Numbers of the cells at a node, ascending.
+  [[nodiscard]] std::span<const std::int32_t> cells_at(std::int32_t node) const {
+    return cells_at_[static_cast<std::size_t>(node)];
+  }
+
+  /// The cells at the nodes of some cells, themselves included, ascending.
+  [[nodiscard]] std::vector<std::int32_t> with_neighbours(std::span<const std::int32_t> cells) const;
+
+  /// Cells that lie together, and every node that a corner of one of them is.
+  struct Cluster {
+    std::vector<std::int32_t> cells;
+    std::vector<std::int32_t> corners;
+  };
+  [[nodiscard]] std::span<const Cluster> clusters() const { return clusters_; }
+
+  void apply(const CutPlan& plan);
+  /// Throws ParameterError, and removes none, when one of them is not there.
+  void remove(std::span<const std::int32_t> cells);
+
+ private:
+  struct Slot {
+    std::int32_t first;  ///< place of its nodes in the pool; -1: the cell is gone
+    std::int32_t origin;
+    double share;
+    CellType type;
+    std::int32_t cluster;
+  };
+  [[nodiscard]] const Slot& slot(std::int32_t cell) const { return cells_[static_cast<std::size_t>(cell)]; }
+  void add(const Cell& cell, std::int32_t cluster);
+  void take_out(std::int32_t cell);
+  void replace_nodes(std::int32_t cell, std::span<const std::int32_t> nodes);
+  void make_clusters();
+  void join_cluster(std::int32_t cell, std::int32_t cluster);
+
+  std::vector<double> rest_;
+  std::vector<std::int32_t> root_;
+  std::vector<Slot> cells_;         ///< by number
+  std::vector<std::int32_t> pool_;  ///< the nodes of the cells
+  std::vector<std::vector<std::int32_t>> cells_at_;
+  std::vector<Cluster> clusters_;
+};
+
+}  // namespace tissu

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <memory>
+#include <string_view>
+
+#include "tissu/edit/cut/material.h"
+#include "tissu/world/world.h"
+
+namespace tissu {
+
+/// The cells of a body as a cut sees them, and what blades have left of the material of those that they met.
+struct CutState {
+  Hosts hosts;
+  Material material;
+};
+
+/// Of a body as its description has it: every cell whole, or the material given.
+CutState cut_state_of(BodyDescription body, Material material = {});
+
+/// Of a body of a world that can be edited; made anew where it was never cut.
+std::shared_ptr<const CutState> cut_state(const World& world, std::string_view body);
+
+}  // namespace tissu

@@ -1,0 +1,98 @@
+#include "tissu/contact/body_forces.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tissu {
+namespace {
+
+constexpr double kFloor = 1e-3;  ///< of the load on a body
+
+std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
+
+}  // namespace
+
+BodyForces::BodyForces(const Contact& contact, std::size_t rows) : contact_(contact) {
+  forces_.assign(3 * rows, 0.0);
+  refusals_ = forces_;
+  floors_.assign(contact.surfaces().surfaces().size(), 0.0);
+  sizes_ = others_ = changes_ = floors_;
+}
+
+std::int32_t BodyForces::row(double vertex) const {
+  return vertex < 0.0 ? -1 : contact_.surfaces().vertices()[static_cast<std::size_t>(vertex)].row;
+}
+
+void BodyForces::begin(ConstReals load) {
+  std::ranges::fill(floors_, 0.0);
+  if (!load.empty()) sum_squares(load, floors_);
+  for (double& floor : floors_) floor = kFloor * std::sqrt(floor);
+}
+
+void BodyForces::scatter(const ContactNumbers& contact, const Vec3& force, Reals f) const {
+  for (std::size_t k = 0; k < 4; ++k) {
+    const std::int32_t i = row(contact.vertex[k]);
+    if (i >= 0) block(f, i) += contact.beta[k] * force;
+  }
+}
+
+void BodyForces::sum_squares(ConstReals forces, std::vector<double>& squares) const {
+  std::ranges::fill(squares, 0.0);
+  for (const SurfaceVertex& vertex : contact_.surfaces().vertices()) {
+    if (vertex.row >= 0) squares[at(vertex.surface)] += block(forces, vertex.row).squaredNorm();
+  }
+}
+
+void BodyForces::add_squares(const ContactNumbers& contact, double square,
+                             std::vector<double>& squares) const {
+  for (std::size_t k = 0; k < 4; ++k) {
+    if (row(contact.vertex[k]) < 0) continue;
+    const auto v = static_cast<std::size_t>(contact.vertex[k]);
+    squares[at(contact_.surfaces().vertices()[v].surface)] += contact.beta[k] * contact.beta[k] * square;
+  }
+}
+
+double BodyForces::largest_share(ConstReals parts, ConstReals wholes) const {
+  double largest = 0.0;
+  for (std::size_t s = 0; s < parts.size(); ++s) {
+    if (parts[s] > 0.0)
+      largest = std::max(largest, std::sqrt(parts[s]) / std::max(floors_[s], std::sqrt(wholes[s])));
+  }
+  return largest;
+}
+
+double BodyForces::change(std::span<const ContactNumbers> solved, std::span<const ContactNumbers> looked) {
+  std::ranges::fill(forces_, 0.0);
+  std::ranges::fill(sizes_, 0.0);
+  std::ranges::fill(others_, 0.0);
+  for (const ContactNumbers& c : solved) {
+    const Vec3 force = c.force * vector_of(c.normal) + vector_of(c.drag);
+    add_squares(c, force.squaredNorm(), sizes_);
+    scatter(c, -force, forces_);
+  }
+  for (const ContactNumbers& c : looked) {
+    add_squares(c, vector_of(c.push).squaredNorm(), others_);
+    scatter(c, vector_of(c.push), forces_);
+  }
+  sum_squares(forces_, changes_);
+  for (std::size_t s = 0; s < sizes_.size(); ++s) sizes_[s] = std::max(sizes_[s], others_[s]);
+  return largest_share(changes_, sizes_);
+}
+
+void BodyForces::clear() {
+  std::ranges::fill(forces_, 0.0);
+  std::ranges::fill(refusals_, 0.0);
+}
+
+void BodyForces::add(const ContactNumbers& contact, const Vec3& given, const Vec3& taken_off) {
+  scatter(contact, given, forces_);
+  scatter(contact, taken_off, refusals_);
+}
+
+double BodyForces::taken_off() {
+  sum_squares(forces_, sizes_);
+  sum_squares(refusals_, changes_);
+  return largest_share(changes_, sizes_);
+}
+
+}  // namespace tissu

@@ -1,0 +1,133 @@
+#include "tissu/contact/implicit_contact.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "tissu/contact/augmented.h"
+#include "tissu/contact/implicit_penalty.h"
+
+namespace tissu {
+namespace {
+
+constexpr double kAlternates = 1e-2;  ///< inadmissible share of the forces
+
+std::array<double, 3> numbers_of(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
+
+}  // namespace
+
+std::unique_ptr<ImplicitContact> ImplicitContact::make(const Contact& contact, const FixedDofs& fixed,
+                                                       const Mass* mass, std::vector<double> rest) {
+  if (contact.description().method == ContactMethod::penalty) {
+    return std::make_unique<ImplicitPenalty>(contact, fixed, mass, std::move(rest));
+  }
+  return std::make_unique<AugmentedContact>(contact, fixed);
+}
+
+ImplicitContact::ImplicitContact(const Contact& contact, const FixedDofs& fixed)
+    : contact_(contact), run_(contact, fixed), fixed_(fixed), bodies_(contact, fixed.masks().size()) {
+  counts_.assign(fixed.masks().size(), 0.0);
+}
+
+void ImplicitContact::begin(const State& start, double end, ConstReals led, ConstReals load) {
+  start_ = &start;
+  h_ = end - start.time;
+  alternations_ = 0;
+  bodies_.begin(load);
+  run_.begin(start, end, led);
+}
+
+void ImplicitContact::set_matrix(std::span<const double> blocks, double scale, const ContactStage& stage) {
+  blocks_ = blocks;
+  stage_ = stage;
+  scale_ = scale * stage.stretch * stage.times;
+}
+
+void ImplicitContact::set_stiffer(double normal, double tangent) {
+  normal_ = normal;
+  tangent_ = tangent;
+}
+
+double ImplicitContact::look(const State& at) {
+  run_.look(at);
+  shares_.assign(run_.looked().size(), 0.0);
+  for (std::size_t i = 0; i < shares_.size(); ++i) shares_[i] = may_press(i) ? 1.0 : 0.0;
+  find_stiffnesses(blocks_, scale_, shares_, stiffnesses_);
+  begin_press();
+  press_all();
+  return bodies_.change(run_.acting(), pressing_);
+}
+
+void ImplicitContact::note_depth(const ContactNumbers& contact, double depth) {
+  depth_ = std::max(depth_, depth / std::min(contact.apart, pair_of(contact).gap));
+}
+
+Vec3 ImplicitContact::reach(const ContactNumbers& contact, const State& at) const {
+  Vec3 r = vector_of(contact.fixed);
+  for (std::size_t k = 0; k < 4; ++k) {
+    const std::int32_t i = run_.row_of(contact.vertex[k]);
+    if (i >= 0) r += contact.beta[k] * block(ConstReals(at.positions), i);
+  }
+  return r;
+}
+
+void ImplicitContact::update(const State& end) {
+  bodies_.clear();
+  for (ContactNumbers& c : run_.acting()) {
+    const Vec3 r = reach(c, end);
+    const Vec3 f = vector_of(c.push) - stiffness_of(c) * (r - vector_of(c.place));
+    const Vec3 n = vector_of(c.normal);
+    const double normal = n.dot(f);
+    c.force = std::max(0.0, normal);
+    Vec3 drag = f - normal * n;
+    const double bound = pair_of(c).friction * c.force;
+    if (drag.norm() > bound) drag *= bound > 0.0 ? bound / drag.norm() : 0.0;
+    c.drag = numbers_of(drag);
+    const Vec3 left = c.force * n + drag;
+    bodies_.add(c, left, f - left);
+  }
+  inadmissible_ = bodies_.taken_off();
+  alternations_ = inadmissible() > kAlternates ? alternations_ + 1 : std::max(0, alternations_ - 1);
+}
+
+/// Where forces are taken r is fixed + J x, and at the end fixed + J x0 + stretch J (x - x0).
+void ImplicitContact::write(State& state) const {
+  std::vector<double>& numbers = contact_.numbers(state);
+  ContactTable::write(run_.acting(), numbers);
+  if (stage_.stretch == 1.0 && stage_.times == 1.0) return;
+  std::size_t place = 0;
+  for (ContactNumbers c : run_.acting()) {
+    const Vec3 from = reach(c, *start_);
+    c.place = numbers_of(from + (vector_of(c.place) - from) / stage_.stretch);
+    c.push = numbers_of(stage_.times * vector_of(c.push));
+    for (double& h : c.stiffness) h *= stage_.times * stage_.stretch;
+    ContactTable::write(c, place++, numbers);
+  }
+}
+
+void ImplicitContact::finish(const State& end, State& into) {
+  least_gap_ = std::numeric_limits<double>::infinity();
+  for (ContactNumbers& c : run_.acting()) {
+    const Vec3 n = vector_of(c.normal);
+    const Vec3 r = reach(c, end);
+    c.push = numbers_of(c.force * n + vector_of(c.drag));
+    c.place = numbers_of(r);
+    c.stiffness = {};
+    least_gap_ = std::min(least_gap_, n.dot(r) / c.apart);
+  }
+  ContactTable::write(run_.acting(), contact_.numbers(into));
+}
+
+void ImplicitContact::strike(EndImpulses& impulses, double h, Reals v, State& into) {
+  impulses.strike(run_, h, run_.acting(), v);
+  ContactTable::write(run_.acting(), contact_.numbers(into));
+}
+
+void ImplicitContact::add_forces(Reals f) const {
+  for (const ContactNumbers& c : run_.acting()) {
+    for_rows(c, [&](std::int32_t row, double beta) { block(f, row) += beta * vector_of(c.push); });
+  }
+}
+
+}  // namespace tissu

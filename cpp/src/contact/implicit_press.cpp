@@ -1,0 +1,110 @@
+/// How stiff contacts are, and with which force they press and rub.
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "tissu/contact/implicit_contact.h"
+
+namespace tissu {
+namespace {
+
+constexpr double kStiff = 3.0;  ///< s: couplings over the block diagonal of the matrix
+// Contacts that alternate between sticking and sliding come to rest when they are softer against sliding.
+constexpr int kPatience = 4;     ///< so many alternations later …
+constexpr double kSofter = 0.7;  ///< … by this for each, …
+constexpr double kSoft = 0.17;   ///< … no further than here
+
+std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
+std::array<double, 3> numbers_of(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
+
+void set_stiffness(ContactNumbers& contact, const Mat3& H) {
+  contact.stiffness = {H(0, 0), H(1, 1), H(2, 2), H(1, 2), H(0, 2), H(0, 1)};
+}
+
+}  // namespace
+
+/// sum_r N_r beta_r^2 A_rr^-1, without given degrees of freedom.
+Mat3 ImplicitContact::compliance(const ContactNumbers& contact, std::span<const double> blocks) const {
+  Mat3 sum = Mat3::Zero();
+  for_rows(contact, [&](std::int32_t i, double beta) {
+    const Eigen::Map<const Mat3> A(blocks.data() + 9 * static_cast<std::ptrdiff_t>(i));
+    Mat3 inverse = A.inverse();
+    for (int axis = 0; axis < 3; ++axis) {
+      if (((fixed_.masks()[at(i)] >> axis) & 1) == 0) continue;
+      inverse.row(axis).setZero();
+      inverse.col(axis).setZero();
+    }
+    sum += counts_[at(i)] * beta * beta * inverse;
+  });
+  return sum;
+}
+
+void ImplicitContact::find_stiffnesses(std::span<const double> blocks, double scale,
+                                       std::span<const double> shares, std::vector<double>& stiffnesses) {
+  const auto looked = run_.looked();
+  const auto each = [&](auto&& f) {
+    for (std::size_t i = 0; i < looked.size(); ++i) {
+      if (!(shares[i] > 0.0)) continue;
+      for_rows(looked[i], [&](std::int32_t row, double /*beta*/) { f(counts_[at(row)], shares[i]); });
+    }
+  };
+  each([](double& sum, double /*share*/) { sum = 0.0; });
+  each([](double& sum, double share) { sum += share; });
+  stiffnesses.assign(looked.size(), 0.0);
+  for (std::size_t i = 0; i < looked.size(); ++i) {
+    if (!(shares[i] > 0.0)) continue;
+    const double largest = compliance(looked[i], blocks).cwiseAbs().rowwise().sum().maxCoeff();
+    if (largest > 0.0) stiffnesses[i] = kStiff * run_.weight(i) * shares[i] / (largest * scale);
+  }
+}
+
+/// Forces and stiffnesses at the places that were looked at; what does not press is dropped.
+void ImplicitContact::press_all() {
+  pressing_.clear();
+  depth_ = 0.0;
+  const int alternations = std::max(0, alternations_ - kPatience);
+  const double tangent = tangent_ * std::max(kSoft, std::pow(kSofter, alternations));
+  for (std::size_t i = 0; i < run_.looked().size(); ++i) {
+    ContactNumbers c = run_.looked()[i];
+    if (stiffnesses_[i] == 0.0) continue;
+    const std::optional<double> force = press(i, c);
+    if (!force) continue;
+    const double friction = pair_of(c).friction;
+    if (friction == 0.0) c.sliding = 0.0;
+    if (friction > 0.0) rub(c, friction * std::max(0.0, *force), tangent * stiffnesses_[i]);
+    pressing_.push_back(c);
+  }
+}
+
+void ImplicitContact::give(ContactNumbers& c, double force, double k) {
+  const Vec3 n = vector_of(c.normal);
+  c.push = numbers_of(force * n);
+  set_stiffness(c, k * n * n.transpose());
+}
+
+/// Coulomb's friction of bound F: it sticks as a spring, or slides with the force F.
+void ImplicitContact::rub(ContactNumbers& c, double bound, double k) const {
+  const Vec3 n = vector_of(c.normal);
+  Vec3 slid = run_.gone(c);
+  slid -= n.dot(slid) * n;
+  const Vec3 drag = vector_of(c.drag);
+  Vec3 force = drag - k * slid;
+  Mat3 H = k * (Mat3::Identity() - n * n.transpose());
+  // Where the bound alone turned the sliding round, it stops: it sticks from where the step began.
+  const bool turned = c.sliding != 0.0 && force.dot(drag) < 0.0;
+  c.sliding = 0.0;
+  const double size = force.norm();
+  if (turned) {
+    force = -k * slid;
+  } else if (size > bound) {
+    const Vec3 along = force / size;
+    force = bound * along;
+    H = bound / size * (H - k * along * along.transpose());
+    c.sliding = 1.0;
+  }
+  c.push = numbers_of(vector_of(c.push) + force);
+  set_stiffness(c, stiffness_of(c) + H);
+}
+
+}  // namespace tissu

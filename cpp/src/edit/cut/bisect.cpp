@@ -1,0 +1,137 @@
+#include "edit/cut/bisect.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+#include <utility>
+
+namespace tissu {
+namespace {
+
+constexpr int kRounds = 4;
+constexpr double kLeastT = 1e-9;     ///< nearer to an end is the end, whatever t0 is
+constexpr double kShortShare = 0.1;  ///< of the longest edge of the cell: shorter parts of edges stay whole
+
+double rest_length(const Patch& patch, std::int32_t p, std::int32_t q) {
+  return (patch.vertex(p).rest - patch.vertex(q).rest).norm();
+}
+
+class Divider {
+ public:
+  Divider(Patch& patch, const std::function<double(std::int32_t)>& t0, OnCut& known)
+      : patch_(patch), t0_(t0), known_(known) {}
+
+  LeftEdges divide(std::vector<CrossedEdge> edges) {
+    for (int round = 0; round < kRounds && !edges.empty(); ++round) edges = one_round(edges, round == 0);
+    for (const CrossedEdge& edge : edges) {
+      for (const std::int32_t t : patch_.around(edge.p, edge.q)) left_.folded.push_back(patch_.tetra(t).cell);
+    }
+    for (auto* list : {&left_.unsound, &left_.folded}) {
+      std::ranges::sort(*list);
+      list->erase(std::unique(list->begin(), list->end()), list->end());
+    }
+    return std::move(left_);
+  }
+
+ private:
+  /// An edge and which of its crossings is nearest to the middle.
+  struct Choice {
+    double length;
+    CrossedEdge edge;
+    std::size_t which;
+  };
+
+  /// Divides edges, and returns the halves that are crossed again.
+  std::vector<CrossedEdge> one_round(std::vector<CrossedEdge>& edges, bool first) {
+    std::vector<Choice> choices;
+    for (CrossedEdge& edge : edges) {
+      const auto nearest = std::ranges::min_element(
+          edge.crossings, {}, [](const Crossing& crossing) { return std::abs(crossing.t - 0.5); });
+      const auto which = static_cast<std::size_t>(nearest - edge.crossings.begin());
+      if (goes_to_end(edge, nearest->t)) continue;
+      choices.push_back({rest_length(patch_, edge.p, edge.q), std::move(edge), which});
+    }
+    std::erase_if(choices, [&](const Choice& choice) {
+      const int ends = (known_.on(choice.edge.p) ? 1 : 0) + (known_.on(choice.edge.q) ? 1 : 0);
+      return ends > (first ? 0 : 1);
+    });
+    std::ranges::sort(choices, [](const Choice& a, const Choice& b) {
+      return std::tuple(-a.length, a.edge.p, a.edge.q) < std::tuple(-b.length, b.edge.p, b.edge.q);
+    });
+    std::vector<CrossedEdge> halves;
+    for (const Choice& choice : choices) cross(choice, halves);
+    return halves;
+  }
+
+  /// Whether the cut goes to an end of the edge, which is then on the cut, or the edge has to stay.
+  bool goes_to_end(const CrossedEdge& edge, double t) {
+    double share = kLeastT;
+    double size = 0.0;
+    bool sound = true;
+    const std::vector<std::int32_t> around = patch_.around(edge.p, edge.q);
+    for (const std::int32_t tetra : around) {
+      const std::int32_t cell = patch_.tetra(tetra).cell;
+      share = std::max(share, t0_(cell));
+      size = std::max(size, patch_.cell(cell).size);
+      sound = sound && patch_.cell(cell).sound;
+    }
+    const bool first_day = patch_.vertex(edge.p).number >= 0 && patch_.vertex(edge.q).number >= 0;
+    if (!first_day && rest_length(patch_, edge.p, edge.q) < kShortShare * size) share = 0.5;
+    if (t <= share || t >= 1.0 - share) {
+      const Vec3& a = patch_.vertex(edge.p).place;
+      const Vec3& b = patch_.vertex(edge.q).place;
+      const bool to_p = t <= 0.5;
+      known_.put_on(to_p ? edge.p : edge.q, to_p ? a : b, (1.0 - t) * a + t * b);
+      return true;
+    }
+    if (sound) return false;
+    for (const std::int32_t tetra : around) {
+      const std::int32_t cell = patch_.tetra(tetra).cell;
+      if (!patch_.cell(cell).sound) left_.unsound.push_back(cell);
+    }
+    return true;
+  }
+
+  void cross(const Choice& choice, std::vector<CrossedEdge>& halves) {
+    const CrossedEdge& edge = choice.edge;
+    const double t = edge.crossings[choice.which].t;
+    const std::int32_t middle = patch_.divide(edge.p, edge.q, t);
+    known_.vertices.resize(patch_.vertices.size());
+    known_.put_on(middle, patch_.vertex(middle).place, patch_.vertex(middle).place);
+    CrossedEdge before{edge.p, middle, {}};
+    CrossedEdge after{middle, edge.q, {}};
+    for (std::size_t i = 0; i < edge.crossings.size(); ++i) {
+      const auto& [at, direction] = edge.crossings[i];
+      if (i < choice.which) before.crossings.push_back({at / t, direction});
+      if (i > choice.which) after.crossings.push_back({(at - t) / (1.0 - t), direction});
+    }
+    if (!before.crossings.empty()) halves.push_back(std::move(before));
+    if (!after.crossings.empty()) halves.push_back(std::move(after));
+  }
+
+  Patch& patch_;
+  const std::function<double(std::int32_t)>& t0_;
+  OnCut& known_;
+  LeftEdges left_;
+};
+
+}  // namespace
+
+LeftEdges divide_crossed(Patch& patch, std::vector<CrossedEdge> edges,
+                         const std::function<double(std::int32_t)>& t0, OnCut& known) {
+  return Divider(patch, t0, known).divide(std::move(edges));
+}
+
+void divide_longest(Patch& patch, std::int32_t tetra) {
+  const auto& v = patch.tetra(tetra).vertices;
+  std::tuple<double, std::int32_t, std::int32_t> longest{-1.0, 0, 0};
+  for (std::size_t i = 0; i < 4; ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      const auto [p, q] = std::minmax(v[i], v[j]);
+      longest = std::max(longest, {rest_length(patch, p, q), p, q});
+    }
+  }
+  patch.divide(std::get<1>(longest), std::get<2>(longest), 0.5);
+}
+
+}  // namespace tissu

@@ -1,0 +1,182 @@
+#include "tissu/edit/cut/hosts.h"
+
+#include <algorithm>
+#include <numeric>
+#include <string>
+
+#include "tissu/base/error.h"
+#include "tissu/edit/cut/cut_plan.h"
+
+namespace tissu {
+namespace {
+
+constexpr std::size_t kClusterSize = 64;
+
+std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
+
+/// The bits of a number below 2^10, two places apart.
+std::uint32_t spread(std::uint32_t bits) {
+  bits = (bits | (bits << 16U)) & 0x030000FFU;
+  bits = (bits | (bits << 8U)) & 0x0300F00FU;
+  bits = (bits | (bits << 4U)) & 0x030C30C3U;
+  return (bits | (bits << 2U)) & 0x09249249U;
+}
+
+/// Place on Morton's curve in a grid of 1024 x 1024 x 1024 over a box.
+std::uint32_t morton(const Vec3& p, const Eigen::AlignedBox3d& box) {
+  std::uint32_t code = 0;
+  for (int i = 0; i < 3; ++i) {
+    const double size = box.sizes()[i];
+    const double share = size > 0.0 ? (p[i] - box.min()[i]) / size : 0.0;
+    code |= spread(static_cast<std::uint32_t>(share * 1023.0)) << static_cast<unsigned>(i);
+  }
+  return code;
+}
+
+void sort_unique(std::vector<std::int32_t>& list) {
+  std::ranges::sort(list);
+  list.erase(std::unique(list.begin(), list.end()), list.end());
+}
+
+void insert_sorted(std::vector<std::int32_t>& list, std::int32_t value) {
+  const auto place = std::ranges::lower_bound(list, value);
+  if (place == list.end() || *place != value) list.insert(place, value);
+}
+
+void erase_sorted(std::vector<std::int32_t>& list, std::int32_t value) {
+  const auto place = std::ranges::lower_bound(list, value);
+  if (place != list.end() && *place == value) list.erase(place);
+}
+
+}  // namespace
+
+Hosts::Hosts(const Mesh& mesh) : rest_(mesh.positions), root_(at(mesh.node_count())) {
+  std::iota(root_.begin(), root_.end(), 0);
+  cells_at_.resize(root_.size());
+  std::int32_t number = 0;
+  for (const CellBlock& block : mesh.blocks) {
+    for (std::int32_t i = 0; i < block.size(); ++i, ++number) {
+      const auto nodes = block.cell(i);
+      add({number, block.type, number, 1.0, {nodes.begin(), nodes.end()}}, -1);
+    }
+  }
+  make_clusters();
+}
+
+Hosts::Hosts(std::vector<double> rest, std::vector<std::int32_t> root, std::span<const Cell> cells,
+             std::int32_t next_cell)
+    : rest_(std::move(rest)), root_(std::move(root)) {
+  const auto wrong = [](const std::string& what) { return ParameterError("hosts of a cut body: " + what); };
+  if (rest_.size() != 3 * root_.size()) throw wrong("3 rest numbers and one root per node are accepted.");
+  cells_at_.resize(root_.size());
+  for (const Cell& cell : cells) {
+    const bool numbered = cell.number >= this->next_cell() && cell.number < next_cell;
+    const bool complete = cell.nodes.size() == at(info(cell.type).nodes);
+    const bool known = std::ranges::all_of(cell.nodes, [&](auto n) { return n >= 0 && n < node_count(); });
+    if (!numbered || !complete || !known) {
+      throw wrong("cell " + std::to_string(cell.number) +
+                  " has a number that does not ascend, or nodes that are not there.");
+    }
+    add(cell, -1);
+  }
+  cells_.resize(at(next_cell), {-1, -1, 0.0, CellType::tetra, -1});
+  make_clusters();
+}
+
+std::vector<std::int32_t> Hosts::numbers() const {
+  std::vector<std::int32_t> there;
+  for (std::int32_t cell = 0; cell < next_cell(); ++cell) {
+    if (has(cell)) there.push_back(cell);
+  }
+  return there;
+}
+
+bool Hosts::has(std::int32_t cell) const { return cell >= 0 && cell < next_cell() && slot(cell).first >= 0; }
+
+std::span<const std::int32_t> Hosts::nodes(std::int32_t cell) const {
+  return std::span(pool_).subspan(at(slot(cell).first), at(info(type(cell)).nodes));
+}
+
+std::span<const std::int32_t> Hosts::corners(std::int32_t cell) const {
+  return std::span(pool_).subspan(at(slot(cell).first), at(info(type(cell)).corners));
+}
+
+std::vector<std::int32_t> Hosts::with_neighbours(std::span<const std::int32_t> cells) const {
+  std::vector<std::int32_t> found;
+  for (const std::int32_t cell : cells) found.insert(found.end(), nodes(cell).begin(), nodes(cell).end());
+  sort_unique(found);
+  std::vector<std::int32_t> all;
+  for (const std::int32_t node : found) all.insert(all.end(), cells_at(node).begin(), cells_at(node).end());
+  sort_unique(all);
+  return all;
+}
+
+void Hosts::add(const Cell& cell, std::int32_t cluster) {
+  cells_.resize(at(cell.number) + 1, {-1, -1, 0.0, CellType::tetra, -1});
+  cells_.back() = {static_cast<std::int32_t>(pool_.size()), cell.origin, cell.share, cell.type, -1};
+  pool_.insert(pool_.end(), cell.nodes.begin(), cell.nodes.end());
+  for (const std::int32_t node : cell.nodes) insert_sorted(cells_at_[at(node)], cell.number);
+  if (cluster >= 0) join_cluster(cell.number, cluster);
+}
+
+void Hosts::take_out(std::int32_t cell) {
+  for (const std::int32_t node : nodes(cell)) erase_sorted(cells_at_[at(node)], cell);
+  erase_sorted(clusters_[at(slot(cell).cluster)].cells, cell);
+  cells_[at(cell)].first = -1;
+}
+
+void Hosts::replace_nodes(std::int32_t cell, std::span<const std::int32_t> nodes) {
+  for (const std::int32_t node : this->nodes(cell)) erase_sorted(cells_at_[at(node)], cell);
+  std::ranges::copy(nodes, pool_.begin() + slot(cell).first);
+  for (const std::int32_t node : nodes) insert_sorted(cells_at_[at(node)], cell);
+  join_cluster(cell, slot(cell).cluster);
+}
+
+void Hosts::join_cluster(std::int32_t cell, std::int32_t cluster) {
+  Cluster& home = clusters_[at(cluster)];
+  cells_[at(cell)].cluster = cluster;
+  insert_sorted(home.cells, cell);
+  for (const std::int32_t node : corners(cell)) insert_sorted(home.corners, node);
+}
+
+void Hosts::make_clusters() {
+  Eigen::AlignedBox3d box;
+  for (std::int32_t node = 0; node < node_count(); ++node) box.extend(block(rest(), node).eval());
+  std::vector<std::pair<std::uint32_t, std::int32_t>> order;
+  for (const std::int32_t cell : numbers()) {
+    Vec3 sum = Vec3::Zero();
+    for (const std::int32_t node : corners(cell)) sum += block(rest(), node);
+    order.emplace_back(morton(sum / static_cast<double>(corners(cell).size()), box), cell);
+  }
+  std::ranges::sort(order);
+  clusters_.resize((order.size() + kClusterSize - 1) / kClusterSize);
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    join_cluster(order[i].second, static_cast<std::int32_t>(i / kClusterSize));
+  }
+}
+
+void Hosts::apply(const CutPlan& plan) {
+  for (const BornNode& node : plan.nodes) {
+    const Vec3 place = block(rest(), node.copied);
+    rest_.insert(rest_.end(), place.data(), place.data() + 3);
+    root_.push_back(root(node.copied));
+    cells_at_.emplace_back();
+  }
+  for (const ChangedCell& cell : plan.changed) replace_nodes(cell.number, cell.nodes);
+  for (const BornCell& cell : plan.born) {
+    add({cell.number, type(cell.parent), origin(cell.parent), cell.share, cell.nodes},
+        slot(cell.parent).cluster);
+  }
+  for (const std::int32_t cell : plan.gone) take_out(cell);
+}
+
+void Hosts::remove(std::span<const std::int32_t> cells) {
+  for (const std::int32_t cell : cells) {
+    if (!has(cell)) throw ParameterError("the body has no cell " + std::to_string(cell) + " (any more).");
+  }
+  for (const std::int32_t cell : cells) {
+    if (has(cell)) take_out(cell);
+  }
+}
+
+}  // namespace tissu

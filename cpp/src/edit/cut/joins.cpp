@@ -1,0 +1,75 @@
+#include "edit/cut/joins.h"
+
+#include <algorithm>
+#include <bit>
+
+namespace tissu {
+namespace {
+
+using Key = std::array<std::int32_t, 3>;
+
+Key face_key(const Patch::Tetra& tetra, std::size_t face) {
+  Key key{tetra.vertices[kOpposite[face][0]], tetra.vertices[kOpposite[face][1]],
+          tetra.vertices[kOpposite[face][2]]};
+  if (key[0] > key[1]) std::swap(key[0], key[1]);
+  if (key[1] > key[2]) std::swap(key[1], key[2]);
+  if (key[0] > key[1]) std::swap(key[0], key[1]);
+  return key;
+}
+
+std::size_t hash(const Key& key) {
+  std::uint64_t h = 0;
+  for (const std::int32_t v : key) {
+    h = (h ^ static_cast<std::uint32_t>(v)) * 0x9E3779B97F4A7C15U;
+    h ^= h >> 29U;
+  }
+  return static_cast<std::size_t>(h);
+}
+
+/// Faces that wait for the tetrahedron on their other side, in a table of open addresses.
+class Waiting {
+ public:
+  explicit Waiting(std::size_t count) : slots_(std::bit_ceil(2 * count + 1)) {}
+
+  /// The side (tetrahedron * 4 + face) that waits at this face; where none does, this one waits: -1.
+  std::int32_t meet(const Key& key, std::int32_t side) {
+    std::size_t place = hash(key) & (slots_.size() - 1);
+    while (slots_[place].side >= 0) {
+      if (slots_[place].key == key) return slots_[place].side;
+      place = (place + 1) & (slots_.size() - 1);
+    }
+    slots_[place] = {key, side};
+    return -1;
+  }
+
+ private:
+  struct Slot {
+    Key key{};
+    std::int32_t side = -1;
+  };
+  std::vector<Slot> slots_;
+};
+
+}  // namespace
+
+std::vector<std::array<std::int32_t, 4>> joins(const std::vector<Patch::Tetra>& tetrahedra,
+                                               const std::vector<char>& seen) {
+  std::vector<std::array<std::int32_t, 4>> across(tetrahedra.size(), {-1, -1, -1, -1});
+  const auto count = static_cast<std::size_t>(std::ranges::count(seen, char{1}));
+  Waiting waiting(4 * count);
+  for (std::size_t t = 0; t < tetrahedra.size(); ++t) {
+    if (seen[t] == 0) continue;
+    for (std::size_t f = 0; f < 4; ++f) {
+      if ((tetrahedra[t].cut >> f & 1U) != 0) continue;
+      const std::int32_t other =
+          waiting.meet(face_key(tetrahedra[t], f), static_cast<std::int32_t>(4 * t + f));
+      if (other < 0) continue;
+      across[t][f] = other / 4;
+      across[static_cast<std::size_t>(other) / 4][static_cast<std::size_t>(other) % 4] =
+          static_cast<std::int32_t>(t);
+    }
+  }
+  return across;
+}
+
+}  // namespace tissu

@@ -1,0 +1,80 @@
+#include "edit/cut/material_faces.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "edit/cut/patch.h"
+#include "tissu/mesh/cell_shape.h"
+
+namespace tissu {
+namespace {
+
+using Key = std::array<std::int32_t, 3>;
+
+std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
+
+void add_whole(const Hosts& hosts, std::int32_t cell, MaterialFaces& all) {
+  const auto unit = static_cast<std::int32_t>(all.units.size());
+  all.units.push_back({cell, -1});
+  const auto nodes = hosts.corners(cell);
+  for (const LocalFace& face : faces(hosts.type(cell))) {
+    const auto size = at(face.corners);
+    std::size_t low = 0;
+    for (std::size_t c = 1; size == 4 && c < size; ++c) {
+      if (hosts.root(nodes[face.node[c]]) < hosts.root(nodes[face.node[low]])) low = c;
+    }
+    for (std::size_t c = 1; c + 1 < size; ++c) {
+      const auto corner = [&](std::size_t i) { return nodes[face.node[(low + i) % size]]; };
+      all.faces.push_back({{corner(0), corner(c), corner(c + 1)}, unit, false, -1});
+    }
+  }
+}
+
+void add_list(std::int32_t cell, const std::vector<MaterialTetra>& list, MaterialFaces& all) {
+  for (std::size_t t = 0; t < list.size(); ++t) {
+    const auto unit = static_cast<std::int32_t>(all.units.size());
+    all.units.push_back({cell, static_cast<std::int32_t>(t)});
+    for (std::size_t f = 0; f < 4; ++f) {
+      const auto& v = list[t].vertices;
+      const auto& [a, b, c] = kOpposite[f];
+      all.faces.push_back({{v[a], v[b], v[c]}, unit, (list[t].cut >> f & 1U) != 0, -1});
+    }
+  }
+}
+
+/// Faces with the same vertices that no cut opened are joined.
+void join_faces(std::vector<MaterialFace>& faces) {
+  std::vector<std::pair<Key, std::int32_t>> order;
+  order.reserve(faces.size());
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    if (faces[f].cut) continue;
+    Key key = faces[f].vertices;
+    std::ranges::sort(key);
+    order.emplace_back(key, static_cast<std::int32_t>(f));
+  }
+  std::ranges::sort(order);
+  for (std::size_t i = 0; i + 1 < order.size(); ++i) {
+    if (order[i].first != order[i + 1].first) continue;
+    faces[at(order[i].second)].across = order[i + 1].second;
+    faces[at(order[i + 1].second)].across = order[i].second;
+    ++i;
+  }
+}
+
+}  // namespace
+
+MaterialFaces material_faces(const Hosts& hosts, const Material& material) {
+  MaterialFaces all;
+  for (const std::int32_t cell : hosts.numbers()) {
+    const auto stored = material.cells.find(cell);
+    if (stored == material.cells.end()) {
+      add_whole(hosts, cell, all);
+    } else {
+      add_list(cell, stored->second, all);
+    }
+  }
+  join_faces(all.faces);
+  return all;
+}
+
+}  // namespace tissu

@@ -1,0 +1,34 @@
+#pragma once
+
+/// The faces of all material of a body, and the units that they join.
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "tissu/edit/cut/hosts.h"
+#include "tissu/edit/cut/material.h"
+
+namespace tissu {
+
+/// A unit is an uncut cell or a tetrahedron of a cut one.
+struct MaterialUnit {
+  std::int32_t cell;   ///< number of the host
+  std::int32_t tetra;  ///< place in the host's list; -1: the whole cell
+};
+
+/// A triangle of the border of a unit, anticlockwise seen from outside; quads are cut at their lowest root.
+struct MaterialFace {
+  std::array<std::int32_t, 3> vertices;
+  std::int32_t unit;
+  bool cut;
+  std::int32_t across;  ///< the face of another unit that this one is joined to, -1: it is on the surface
+};
+
+struct MaterialFaces {
+  std::vector<MaterialUnit> units;  ///< by ascending cells
+  std::vector<MaterialFace> faces;  ///< unit after unit
+};
+MaterialFaces material_faces(const Hosts& hosts, const Material& material);
+
+}  // namespace tissu

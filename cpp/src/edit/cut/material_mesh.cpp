@@ -1,0 +1,123 @@
+#include "tissu/edit/cut/material_mesh.h"
+
+#include <algorithm>
+#include <map>
+
+#include "edit/cut/joins.h"
+#include "edit/cut/material_faces.h"
+
+namespace tissu {
+namespace {
+
+std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
+
+/// Numbers vertices in the order in which they are first named.
+class VertexList {
+ public:
+  VertexList(const Hosts& hosts, const Material& material)
+      : material_(material), node_(at(hosts.node_count()), -1), rider_(material.riders.size(), -1) {}
+
+  std::int32_t place(std::int32_t vertex) {
+    std::int32_t& place = vertex >= 0 ? node_[at(vertex)] : rider_[at(-1 - vertex)];
+    if (place < 0) {
+      place = static_cast<std::int32_t>(riders.size());
+      riders.push_back(vertex < 0 ? material_.riders[at(-1 - vertex)]
+                                  : Rider{{vertex, -1, -1, -1}, {1.0, 0.0, 0.0, 0.0}, 1});
+      nodes.push_back(vertex < 0 ? -1 : vertex);
+    }
+    return place;
+  }
+
+  std::vector<Rider> riders;
+  std::vector<std::int32_t> nodes;
+
+ private:
+  const Material& material_;
+  std::vector<std::int32_t> node_;
+  std::vector<std::int32_t> rider_;
+};
+
+double volume(const Hosts& hosts, const Material& material, const MaterialTetra& tetra) {
+  std::array<Vec3, 4> p;
+  for (std::size_t i = 0; i < 4; ++i) p[i] = material.at(tetra.vertices[i], hosts.rest());
+  return (p[1] - p[0]).cross(p[2] - p[0]).dot(p[3] - p[0]) / 6.0;
+}
+
+double volume(const Hosts& hosts, const Material& material, const MaterialUnit& unit) {
+  if (unit.tetra >= 0) return volume(hosts, material, material.cells.at(unit.cell)[at(unit.tetra)]);
+  double sum = 0.0;
+  for (const MaterialTetra& tetra : whole_material(hosts, unit.cell)) sum += volume(hosts, material, tetra);
+  return sum;
+}
+
+}  // namespace
+
+MaterialSurface material_surface(const Hosts& hosts, const Material& material) {
+  MaterialSurface surface;
+  VertexList vertices(hosts, material);
+  const MaterialFaces all = material_faces(hosts, material);
+  for (const MaterialFace& face : all.faces) {
+    if (face.across >= 0) continue;
+    const auto& [a, b, c] = face.vertices;
+    surface.triangles.push_back({vertices.place(a), vertices.place(b), vertices.place(c)});
+    surface.cell.push_back(all.units[at(face.unit)].cell);
+    surface.cut.push_back(face.cut ? 1 : 0);
+  }
+  surface.vertices = std::move(vertices.riders);
+  surface.vertex_node = std::move(vertices.nodes);
+  return surface;
+}
+
+MaterialMesh material_mesh(const Hosts& hosts, const Material& material) {
+  MaterialMesh mesh;
+  VertexList vertices(hosts, material);
+  std::map<CellType, std::pair<CellBlock, std::vector<std::int32_t>>> blocks;
+  for (const std::int32_t cell : hosts.numbers()) {
+    if (material.cells.contains(cell)) continue;
+    auto& [block, numbers] = blocks[hosts.type(cell)];
+    block.type = hosts.type(cell);
+    for (const std::int32_t node : hosts.nodes(cell)) block.nodes.push_back(vertices.place(node));
+    numbers.push_back(cell);
+  }
+  CellBlock cut{CellType::tetra, {}};
+  std::vector<std::int32_t> cut_cells;
+  for (const auto& [cell, list] : material.cells) {
+    for (const MaterialTetra& tetra : list) {
+      for (const std::int32_t vertex : tetra.vertices) cut.nodes.push_back(vertices.place(vertex));
+      cut_cells.push_back(cell);
+    }
+  }
+  for (auto& [type, entry] : blocks) {
+    mesh.blocks.push_back(std::move(entry.first));
+    mesh.cell.insert(mesh.cell.end(), entry.second.begin(), entry.second.end());
+  }
+  if (!cut_cells.empty()) mesh.blocks.push_back(std::move(cut));
+  mesh.cell.insert(mesh.cell.end(), cut_cells.begin(), cut_cells.end());
+  mesh.vertices = std::move(vertices.riders);
+  mesh.vertex_node = std::move(vertices.nodes);
+  return mesh;
+}
+
+std::vector<Piece> pieces(const Hosts& hosts, const Material& material) {
+  const MaterialFaces all = material_faces(hosts, material);
+  Sets sets(all.units.size());
+  for (const MaterialFace& face : all.faces) {
+    if (face.across >= 0) sets.join(face.unit, all.faces[at(face.across)].unit);
+  }
+  std::vector<std::int32_t> number(all.units.size(), -1);
+  std::vector<Piece> found;
+  for (std::size_t u = 0; u < all.units.size(); ++u) {
+    std::int32_t& own = number[at(sets.first(static_cast<std::int32_t>(u)))];
+    if (own < 0) {
+      own = static_cast<std::int32_t>(found.size());
+      found.push_back({{}, 0.0});
+    }
+    Piece& piece = found[at(own)];
+    const std::int32_t cell = all.units[u].cell;
+    if (piece.cells.empty() || piece.cells.back() != cell) piece.cells.push_back(cell);
+    piece.volume += volume(hosts, material, all.units[u]);
+  }
+  return found;
+}
+
+}  // namespace tissu

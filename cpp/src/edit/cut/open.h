@@ -1,0 +1,28 @@
+#pragma once
+
+/// Faces of the material that lie on a cut are opened.
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "edit/cut/crossings.h"
+#include "edit/cut/near.h"
+#include "edit/cut/patch.h"
+
+namespace tissu {
+
+struct OpenedFaces {
+  std::int32_t count = 0;
+  double area = 0.0;                   ///< now, one side [m2]
+  double rest_area = 0.0;              ///< [m2]
+  std::vector<std::int32_t> vertices;  ///< of the opened faces, ascending
+};
+
+/// Opens each inner face whose three vertices are on the cut, whose two tetrahedra lie on different sides of
+/// the blade, and which the blade covers: the mean of the three places where it met them lies within a fifth
+/// of their longest distance from it. A face between vertices of this sweep and of earlier ones of its
+/// incision is covered by both together.
+OpenedFaces open_faces(Patch& patch, const SweepPart& part, const NearCells& near, const OnCut& known);
+
+}  // namespace tissu

@@ -1,0 +1,36 @@
+#include <algorithm>
+#include <string>
+
+#include "edit/cut/fans.h"
+#include "edit/cut/fragments.h"
+#include "edit/cut/patch.h"
+#include "edit/cut/write_plan.h"
+#include "tissu/base/error.h"
+#include "tissu/edit/cut/cut_plan.h"
+
+namespace tissu {
+
+CutPlan plan_ablation(const Hosts& hosts, const Material& material, std::vector<std::int32_t> cells) {
+  std::ranges::sort(cells);
+  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+  for (const std::int32_t cell : cells) {
+    if (!hosts.has(cell))
+      throw ParameterError("the body has no cell " + std::to_string(cell) + " (any more).");
+  }
+  Patch patch(hosts, material, hosts.rest(), hosts.with_neighbours(cells));
+  std::vector<std::int32_t> parted;
+  for (const Patch::Tetra& tetra : patch.tetrahedra) {
+    if (!std::ranges::binary_search(cells, patch.cell(tetra.cell).number)) continue;
+    parted.insert(parted.end(), tetra.vertices.begin(), tetra.vertices.end());
+  }
+  std::ranges::sort(parted);
+  parted.erase(std::unique(parted.begin(), parted.end()), parted.end());
+  CutPlan plan;
+  plan.gone = cells;
+  const Fragments fragments(hosts, patch, cells, cells);
+  const Replicas replicas = find_replicas(hosts, patch, fragments);
+  write_plan(hosts, material, patch, fragments, replicas, Fans(patch, fragments, parted), plan);
+  return plan;
+}
+
+}  // namespace tissu

@@ -1,0 +1,279 @@
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "edit/cut/bisect.h"
+#include "edit/cut/crossings.h"
+#include "edit/cut/fans.h"
+#include "edit/cut/fragments.h"
+#include "edit/cut/near.h"
+#include "edit/cut/open.h"
+#include "edit/cut/patch.h"
+#include "edit/cut/write_plan.h"
+#include "tissu/base/error.h"
+#include "tissu/edit/cut/cut_plan.h"
+
+namespace tissu {
+namespace {
+
+using Numbers = std::vector<std::int32_t>;
+
+constexpr int kRefinements = 3;
+constexpr int kAttempts = 6;
+constexpr double kLeastShare =
+    1e-9;  ///< of a first-day cell; smaller parts send their crossings to the nodes
+constexpr double kFirstRaise = 0.02;
+constexpr double kLargestT0 = 0.45;
+
+std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
+
+void sort_unique(Numbers& numbers) {
+  std::ranges::sort(numbers);
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+}
+
+void check(const Hosts& hosts, ConstReals x, const CutOptions& options) {
+  if (!(options.t0 >= 0.0 && options.t0 <= kLargestT0)) {
+    throw ParameterError("a cut has t0 = " + std::to_string(options.t0) + "; 0 to 0.45 are accepted.");
+  }
+  if (x.size() != 3 * at(hosts.node_count())) {
+    throw ParameterError("a cut of " + std::to_string(hosts.node_count()) + " nodes got " +
+                         std::to_string(x.size()) + " numbers for places; 3 per node are accepted.");
+  }
+  if (!Eigen::Map<const Eigen::VectorXd>(x.data(), static_cast<Eigen::Index>(x.size())).allFinite()) {
+    throw ParameterError("a cut got places that are not finite; finite ones are accepted.");
+  }
+}
+
+/// Shares of edges that single cells ask for, where the plan's own would leave too small a part.
+using RaisedT0 = std::map<std::int32_t, double>;
+
+/// One attempt to cut: the patch after all parts of the sweep.
+class Attempt {
+ public:
+  Attempt(const Hosts& hosts, const Material& material, ConstReals x, const Sweep& sweep,
+          const std::vector<NearCells>& near, const CutOptions& options, const RaisedT0& raised)
+      : hosts_(hosts),
+        material_(material),
+        x_(x),
+        sweep_(sweep),
+        near_(near),
+        options_(options),
+        raised_(raised),
+        patch_(hosts, material, x, loaded()) {}
+
+  /// Divides and opens. False when the blade crossed no edge and lies in no inner face.
+  bool cut(CutPlan& plan) {
+    bool met = false;
+    for (std::size_t i = 0; i < sweep_.parts.size(); ++i) met = cut_part(i, plan) || met;
+    return met;
+  }
+
+  /// The plan's cells, nodes and material. False when a part is too small; then `raised` says of which hosts.
+  bool finish(CutPlan& plan, RaisedT0& raised, bool last) {
+    Numbers touched;
+    for (const Patch::Cell& cell : patch_.cells) {
+      plan.cells_cut += cell.divided || cell.opened ? 1 : 0;
+      if (cell.opened) touched.push_back(cell.number);
+    }
+    part_divided_edges(touched);
+    sort_unique(touched);
+    sort_unique(parted_);
+    patch_.extend(hosts_, material_, x_, hosts_.with_neighbours(touched));
+    const Fragments fragments(hosts_, patch_, touched, {});
+    const Replicas replicas = find_replicas(hosts_, patch_, fragments);
+    if (!last && !large_enough(replicas, raised)) return false;
+    const Fans fans(patch_, fragments, parted_);
+    write_plan(hosts_, material_, patch_, fragments, replicas, fans, plan);
+    write_incisions(fans, plan);
+    return true;
+  }
+
+ private:
+  [[nodiscard]] Numbers loaded() const {
+    Numbers cells;
+    for (const NearCells& near : near_) cells.insert(cells.end(), near.cells().begin(), near.cells().end());
+    sort_unique(cells);
+    return hosts_.with_neighbours(cells);
+  }
+
+  [[nodiscard]] double t0(std::int32_t cell) const {
+    const auto own = raised_.find(patch_.cell(cell).number);
+    return own == raised_.end() ? options_.t0 : own->second;
+  }
+
+  /// What is known before a part cuts: vertices of its incision are on it.
+  [[nodiscard]] OnCut known_before(const SweepPart& part) const {
+    OnCut known(patch_.vertices.size());
+    for (const Incision& incision : material_.incisions) {
+      if (incision.number != part.incision || part.incision < 0) continue;
+      for (std::size_t v = 0; v < patch_.vertices.size(); ++v) {
+        const Patch::Vertex& vertex = patch_.vertices[v];
+        if (!std::ranges::binary_search(incision.vertices, vertex.number)) continue;
+        known.put_on(static_cast<std::int32_t>(v), vertex.place, vertex.place);
+        known.vertices[v].before = true;
+      }
+    }
+    return known;
+  }
+
+  bool cut_part(std::size_t number, CutPlan& plan) {
+    const SweepPart& part = sweep_.parts[number];
+    const NearCells& near = near_[number];
+    OnCut known = known_before(part);
+    std::vector<CrossedEdge> edges = crossed_edges(patch_, part, near, options_.t0, known);
+    for (int round = 0; options_.refine && round < kRefinements; ++round) {
+      if (!refine(part, near, known, edges)) break;
+      known = known_before(part);
+      edges = crossed_edges(patch_, part, near, options_.t0, known);
+    }
+    const bool crossed = !edges.empty();
+    const LeftEdges left =
+        divide_crossed(patch_, std::move(edges), [&](std::int32_t cell) { return t0(cell); }, known);
+    const OpenedFaces opened = open_faces(patch_, part, near, known);
+    plan.faces_opened += opened.count;
+    plan.area += opened.area;
+    plan.rest_area += opened.rest_area;
+    parted_.insert(parted_.end(), opened.vertices.begin(), opened.vertices.end());
+    report(left, pierced_tetrahedra(patch_, part, near, known), plan);
+    if (part.incision >= 0) on_incision_.emplace_back(part.incision, std::move(known));
+    return crossed || opened.count > 0;
+  }
+
+  /// Divides the longest edges of the tetrahedra that the blade pierces. False when it pierces none.
+  bool refine(const SweepPart& part, const NearCells& near, OnCut known,
+              const std::vector<CrossedEdge>& edges) {
+    for (const CrossedEdge& edge : edges) {
+      for (const std::int32_t t : patch_.around(edge.p, edge.q)) {
+        for (const std::int32_t v : patch_.tetra(t).vertices) known.vertices[at(v)].on = true;
+      }
+    }
+    bool any = false;
+    const std::vector<Patch::Tetra> before = patch_.tetrahedra;
+    for (const std::int32_t t : pierced_tetrahedra(patch_, part, near, known)) {
+      const Patch::Tetra& tetra = patch_.tetra(t);
+      if (!patch_.cell(tetra.cell).sound || tetra.vertices != before[at(t)].vertices) continue;
+      divide_longest(patch_, t);
+      any = true;
+    }
+    return any;
+  }
+
+  void report(const LeftEdges& left, const Numbers& pierced, CutPlan& plan) {
+    const auto add = [&](std::int32_t cell, Unresolved reason) {
+      plan.unresolved.emplace_back(patch_.cell(cell).number, reason);
+    };
+    for (const std::int32_t cell : left.unsound) add(cell, Unresolved::shape);
+    for (const std::int32_t cell : left.folded) add(cell, Unresolved::folded);
+    for (const std::int32_t t : pierced) {
+      const std::int32_t cell = patch_.tetra(t).cell;
+      if (!patch_.cell(cell).divided && !patch_.cell(cell).opened) add(cell, Unresolved::pierced);
+    }
+    std::ranges::sort(plan.unresolved);
+    const auto same = std::unique(plan.unresolved.begin(), plan.unresolved.end(),
+                                  [](const auto& a, const auto& b) { return a.first == b.first; });
+    plan.unresolved.erase(same, plan.unresolved.end());
+  }
+
+  /// An edge on faces opened before may have two fans while its ends, at the front, have one each. A vertex
+  /// put on it parts.
+  void part_divided_edges(Numbers& touched) {
+    for (std::size_t v = 0; v < patch_.vertices.size(); ++v) {
+      if (-1 - patch_.vertices[v].number < patch_.old_riders) continue;
+      const auto vertex = static_cast<std::int32_t>(v);
+      const auto& around = patch_.tetrahedra_at(vertex);
+      const bool open = std::ranges::any_of(around, [&](std::int32_t t) {
+        const Patch::Tetra& tetra = patch_.tetra(t);
+        const auto corner = std::ranges::find(tetra.vertices, vertex) - tetra.vertices.begin();
+        return (tetra.cut & ~(1U << static_cast<unsigned>(corner))) != 0;  // a face that has the vertex
+      });
+      if (!open) continue;
+      parted_.push_back(vertex);
+      for (const std::int32_t t : around) touched.push_back(patch_.cell(patch_.tetra(t).cell).number);
+    }
+  }
+
+  bool large_enough(const Replicas& replicas, RaisedT0& raised) const {
+    bool all = true;
+    for (const Replicas::Replica& replica : replicas.all) {
+      const std::int32_t host = patch_.cell(replica.cell).number;
+      if (replica.number == host || replica.share >= kLeastShare) continue;
+      double& own = raised[host];
+      own = std::min(kLargestT0, own > 0.0 ? 2.0 * own : std::max(kFirstRaise, 2.0 * options_.t0));
+      all = false;
+    }
+    return all;
+  }
+
+  /// Vertices that the parts put on their incisions; of old ones, the copies and new numbers too.
+  void write_incisions(const Fans& fans, CutPlan& plan) const {
+    std::map<std::int32_t, Numbers> lists;
+    for (const Incision& incision : material_.incisions) {
+      for (const std::int32_t vertex : incision.vertices) {
+        const std::int32_t place = patch_.place_of(vertex);
+        const Numbers now = place < 0 ? Numbers{vertex} : fans.numbers(place);
+        Numbers& list = lists[incision.number];
+        list.insert(list.end(), now.begin(), now.end());
+      }
+    }
+    for (const auto& [number, known] : on_incision_) {
+      for (std::size_t v = 0; v < known.vertices.size(); ++v) {
+        if (!known.vertices[v].on) continue;
+        const Numbers now = fans.numbers(static_cast<std::int32_t>(v));
+        lists[number].insert(lists[number].end(), now.begin(), now.end());
+      }
+    }
+    for (auto& [number, list] : lists) {
+      sort_unique(list);
+      plan.material.incisions.push_back({number, std::move(list)});
+    }
+  }
+
+  const Hosts& hosts_;
+  const Material& material_;
+  ConstReals x_;
+  const Sweep& sweep_;
+  const std::vector<NearCells>& near_;
+  const CutOptions& options_;
+  const RaisedT0& raised_;
+  Patch patch_;
+  Numbers parted_;  ///< vertices of opened faces
+  std::vector<std::pair<std::int32_t, OnCut>> on_incision_;
+};
+
+}  // namespace
+
+std::string_view words(Unresolved reason) {
+  switch (reason) {
+    case Unresolved::pierced:
+      return "the blade is narrower than the cell there and crosses none of its edges";
+    case Unresolved::folded:
+      return "the blade crosses an edge of the cell more often than a cut follows";
+    case Unresolved::shape:
+      return "a tetrahedron between corners of the cell has no volume above zero at rest";
+  }
+  return {};
+}
+
+CutPlan plan_cut(const Hosts& hosts, const Material& material, ConstReals x, const Sweep& sweep,
+                 const CutOptions& options) {
+  check(hosts, x, options);
+  std::vector<NearCells> near;
+  near.reserve(sweep.parts.size());
+  for (const SweepPart& part : sweep.parts) near.emplace_back(hosts, x, part);
+  RaisedT0 raised;
+  for (int attempt = 1;; ++attempt) {
+    CutPlan plan;
+    plan.first_node = hosts.node_count();
+    if (std::ranges::all_of(near, [](const NearCells& n) { return n.cells().empty(); })) return plan;
+    Attempt cut(hosts, material, x, sweep, near, options, raised);
+    if (!cut.cut(plan)) return plan;
+    RaisedT0 wanted = raised;
+    if (cut.finish(plan, wanted, attempt == kAttempts)) return plan;
+    raised = std::move(wanted);
+  }
+}
+
+}  // namespace tissu

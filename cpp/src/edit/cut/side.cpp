@@ -1,0 +1,65 @@
+#include "edit/cut/side.h"
+
+#include <cmath>
+#include <limits>
+
+#include "tissu/base/exact.h"
+#include "tissu/mesh/triangle_tree.h"
+
+namespace tissu {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kEqual = 1e-9;  ///< relative difference of distances that are equal
+
+std::array<double, 9> numbers(const std::array<Vec3, 3>& t) {
+  return {t[0][0], t[0][1], t[0][2], t[1][0], t[1][1], t[1][2], t[2][0], t[2][1], t[2][2]};
+}
+
+Vec3 unit_normal(const std::array<Vec3, 3>& t) { return (t[1] - t[0]).cross(t[2] - t[0]).normalized(); }
+
+double distance(const std::array<Vec3, 3>& triangle, const Vec3& p) {
+  return (p - closest_on_triangle(p, numbers(triangle).data())).norm();
+}
+
+}  // namespace
+
+double distance(const SweepPart& part, std::span<const std::int32_t> triangles, const Vec3& p) {
+  double least = kInfinity;
+  for (const std::int32_t t : triangles) {
+    least = std::min(least, distance(part.triangles[static_cast<std::size_t>(t)], p));
+  }
+  return least;
+}
+
+double signed_height(const SweepPart& part, std::span<const std::int32_t> triangles, const Vec3& p) {
+  double least = kInfinity;
+  double height = 0.0;
+  int sign = 0;
+  for (const std::int32_t t : triangles) {
+    const auto& triangle = part.triangles[static_cast<std::size_t>(t)];
+    const double away = distance(triangle, p);
+    if (away > least * (1.0 + kEqual)) continue;
+    const double above = std::abs(unit_normal(triangle).dot(p - triangle[0]));
+    if (away >= least * (1.0 - kEqual) && above <= height) continue;
+    least = std::min(least, away);
+    height = above;
+    sign = orientation(triangle[0], triangle[1], triangle[2], p);
+  }
+  return sign * height;
+}
+
+Vec3 nearest_normal(const SweepPart& part, std::span<const std::int32_t> triangles, const Vec3& p) {
+  double least = kInfinity;
+  Vec3 normal = Vec3::Zero();
+  for (const std::int32_t t : triangles) {
+    const auto& triangle = part.triangles[static_cast<std::size_t>(t)];
+    const double away = distance(triangle, p);
+    if (away >= least) continue;
+    least = away;
+    normal = unit_normal(triangle);
+  }
+  return normal;
+}
+
+}  // namespace tissu

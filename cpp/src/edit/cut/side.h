@@ -1,0 +1,22 @@
+#pragma once
+
+/// On which side of a blade a point lies, and how far.
+
+#include <cstdint>
+#include <span>
+
+#include "tissu/edit/cut/sweep.h"
+
+namespace tissu {
+
+/// Distance to the nearest of the named triangles [m], infinite for none.
+double distance(const SweepPart& part, std::span<const std::int32_t> triangles, const Vec3& p);
+
+/// Height above the plane of the nearest triangle, negative below [m]. Of triangles equally near, at an edge
+/// or a corner, the one whose plane is farthest away counts.
+double signed_height(const SweepPart& part, std::span<const std::int32_t> triangles, const Vec3& p);
+
+/// The normal of the nearest of the named triangles, of length 1.
+Vec3 nearest_normal(const SweepPart& part, std::span<const std::int32_t> triangles, const Vec3& p);
+
+}  // namespace tissu

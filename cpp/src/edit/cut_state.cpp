@@ -1,0 +1,57 @@
+#include "tissu/edit/cut_state.h"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "debris.h"
+#include "described.h"
+#include "tissu/base/error.h"
+#include "tissu/element/reference_cell.h"
+#include "tissu/mesh/cell_shape.h"
+
+namespace tissu {
+
+const BodyDescription& described(const World& world, std::string_view name) {
+  if (world.description() == nullptr) {
+    throw ParameterError("this world cannot be edited; compile the scene with editing: true to cut.");
+  }
+  const auto& bodies = world.description()->bodies;
+  const auto found = std::ranges::find(bodies, name, &BodyDescription::name);
+  if (found == bodies.end()) throw ParameterError("there is no body \"" + std::string(name) + "\".");
+  return *found;
+}
+
+CutState cut_state_of(BodyDescription body, Material material) {
+  number_cells(body);
+  const auto nodes = static_cast<std::int32_t>(body.positions.size() / 3);
+  const auto first_day = nodes - static_cast<std::int32_t>(body.copies_of.size());
+  std::vector<std::int32_t> root(static_cast<std::size_t>(first_day));
+  for (std::int32_t node = 0; node < first_day; ++node) root[static_cast<std::size_t>(node)] = node;
+  root.insert(root.end(), body.copies_of.begin(), body.copies_of.end());
+  std::vector<Hosts::Cell> cells;
+  for (const ElasticBlock& block : body.elastic) {
+    const ElementInfo& element = *find_element(block.element);
+    const CellType type = *cell_type(block.element);
+    for (std::size_t i = 0; i < block.cell_numbers.size(); ++i) {
+      const auto own =
+          std::span(block.cells)
+              .subspan(i * static_cast<std::size_t>(element.nodes), static_cast<std::size_t>(element.nodes));
+      cells.push_back({block.cell_numbers[i],
+                       type,
+                       block.origins.empty() ? block.cell_numbers[i] : block.origins[i],
+                       of_cell(block.share, static_cast<std::int32_t>(i)),
+                       {own.begin(), own.end()}});
+    }
+  }
+  std::ranges::sort(cells, {}, &Hosts::Cell::number);
+  return {Hosts(body.positions, std::move(root), cells, body.next_cell), std::move(material)};
+}
+
+std::shared_ptr<const CutState> cut_state(const World& world, std::string_view name) {
+  const BodyDescription& body = described(world, name);
+  return body.cut != nullptr ? body.cut : std::make_shared<const CutState>(cut_state_of(body));
+}
+
+}  // namespace tissu

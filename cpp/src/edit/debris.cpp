@@ -1,0 +1,62 @@
+#include "debris.h"
+
+#include <algorithm>
+
+#include "tissu/element/reference_cell.h"
+
+namespace tissu {
+
+void number_cells(BodyDescription& body) {
+  std::int32_t next = 0;
+  for (ElasticBlock& block : body.elastic) {
+    const int nodes = reference_cell(block.element, block.quadrature).nodes;
+    const auto count = static_cast<std::int32_t>(block.cells.size()) / nodes;
+    if (block.cell_numbers.empty()) {
+      for (std::int32_t i = 0; i < count; ++i) block.cell_numbers.push_back(next + i);
+    }
+    block.heirs_of.clear();
+    next += count;
+    for (const std::int32_t number : block.cell_numbers)
+      body.next_cell = std::max(body.next_cell, number + 1);
+  }
+}
+
+std::vector<char> used_nodes(const BodyDescription& body) {
+  std::vector<char> used(body.positions.size() / 3, 0);
+  for (const ElasticBlock& block : body.elastic) {
+    for (const std::int32_t node : block.cells) used[static_cast<std::size_t>(node)] = 1;
+  }
+  return used;
+}
+
+void hold_debris(WorldDescription& description, const BodyDescription& body, const State& state,
+                 std::int32_t first_node) {
+  const std::vector<char> used = used_nodes(body);
+  FixedNodes held;
+  held.body = body.name;
+  for (std::size_t node = 0; node < used.size(); ++node) {
+    if (used[node] != 0) continue;
+    held.nodes.push_back(static_cast<std::int32_t>(node));
+    const Vec3 x = block(ConstReals(state.positions), first_node + static_cast<std::int32_t>(node));
+    held.positions.insert(held.positions.end(), x.data(), x.data() + 3);
+  }
+  // A node is led by one motion only: debris leaves what held it before.
+  for (FixedNodes& other : description.fixed) {
+    if (other.body != body.name) continue;
+    FixedNodes rest = other;
+    rest.nodes.clear();
+    rest.positions.clear();
+    for (std::size_t i = 0; i < other.nodes.size(); ++i) {
+      if (used[static_cast<std::size_t>(other.nodes[i])] == 0) continue;
+      rest.nodes.push_back(other.nodes[i]);
+      if (!other.positions.empty()) {
+        const auto at = other.positions.begin() + static_cast<std::ptrdiff_t>(3 * i);
+        rest.positions.insert(rest.positions.end(), at, at + 3);
+      }
+    }
+    other = std::move(rest);
+  }
+  if (!held.nodes.empty()) description.fixed.push_back(std::move(held));
+}
+
+}  // namespace tissu

@@ -1,0 +1,195 @@
+#include "tissu/edit/edit_body.h"
+
+#include <algorithm>
+#include <map>
+#include <string>
+#include <unordered_map>
+#include <utility>
+
+#include "debris.h"
+#include "parted_loads.h"
+#include "tissu/base/error.h"
+#include "tissu/element/reference_cell.h"
+
+namespace tissu {
+namespace {
+
+/// Where the cells of a body stand, by their numbers.
+struct CellPlace {
+  std::size_t block = 0;
+  std::size_t place = 0;
+};
+using CellPlaces = std::unordered_map<std::int32_t, CellPlace>;
+
+CellPlaces cell_places(const BodyDescription& body) {
+  CellPlaces places;
+  for (std::size_t b = 0; b < body.elastic.size(); ++b) {
+    const std::vector<std::int32_t>& numbers = body.elastic[b].cell_numbers;
+    for (std::size_t i = 0; i < numbers.size(); ++i) places[numbers[i]] = {b, i};
+  }
+  return places;
+}
+
+CellPlace place_of(const CellPlaces& places, std::int32_t number, const BodyDescription& body) {
+  const auto found = places.find(number);
+  if (found != places.end()) return found->second;
+  throw ParameterError("body \"" + body.name + "\" has no cell " + std::to_string(number) + " (any more).");
+}
+
+void add_nodes(BodyDescription& body, const std::vector<std::int32_t>& copied) {
+  const auto wanted = static_cast<std::int32_t>(copied.size());
+  if (wanted > body.room) {
+    throw ParameterError("the cut makes " + std::to_string(wanted) + " nodes of body \"" + body.name +
+                         "\" where there is room for " + std::to_string(body.room) +
+                         "; compile the scene with more, such as editing: {room: 100 %}.");
+  }
+  const auto first_day =
+      static_cast<std::int32_t>(body.positions.size() / 3) - static_cast<std::int32_t>(body.copies_of.size());
+  for (const std::int32_t node : copied) {
+    const auto at = 3 * static_cast<std::size_t>(node);
+    for (std::size_t k = 0; k < 3; ++k) body.positions.push_back(body.positions[at + k]);
+    body.copies_of.push_back(node < first_day ? node
+                                              : body.copies_of[static_cast<std::size_t>(node - first_day)]);
+  }
+  body.room -= wanted;
+}
+
+std::span<std::int32_t> nodes_of(ElasticBlock& block, std::size_t place) {
+  const auto nodes = static_cast<std::size_t>(find_element(block.element)->nodes);
+  return std::span(block.cells).subspan(place * nodes, nodes);
+}
+
+/// Values that were one for all become one for each cell.
+void spread(std::vector<double>& values, std::size_t cells) {
+  if (values.size() == 1) values.assign(cells, values.front());
+}
+
+/// The block without the cells that go and with those that are born of them, in ascending number.
+ElasticBlock edited_block(const ElasticBlock& block, const BodyEdit& edit,
+                          const std::vector<const BodyEdit::Cell*>& born, const CellPlaces& places) {
+  std::vector<std::size_t> which;
+  for (std::size_t i = 0; i < block.cell_numbers.size(); ++i) {
+    if (!std::ranges::binary_search(edit.gone, block.cell_numbers[i])) which.push_back(i);
+  }
+  const std::size_t kept = which.size();
+  for (const BodyEdit::Cell* cell : born) which.push_back(places.at(cell->parent).place);
+  ElasticBlock edited = part_of(block, which);
+  if (edited.origins.empty()) edited.origins = edited.cell_numbers;
+  if (edit.inherits) edited.heirs_of = edited.cell_numbers;
+  if (!born.empty()) spread(edited.share, which.size());
+  for (std::size_t i = 0; i < born.size(); ++i) {
+    edited.cell_numbers[kept + i] = born[i]->number;
+    edited.share[kept + i] = born[i]->share;
+    const std::span<std::int32_t> nodes = nodes_of(edited, kept + i);
+    if (nodes.size() != born[i]->nodes.size()) {
+      throw ParameterError("the edit gives cell " + std::to_string(born[i]->number) + " " +
+                           std::to_string(born[i]->nodes.size()) + " nodes where its parent has " +
+                           std::to_string(nodes.size()) + ".");
+    }
+    std::ranges::copy(born[i]->nodes, nodes.begin());
+  }
+  return edited;
+}
+
+void edit_cells(BodyDescription& body, const BodyEdit& edit) {
+  const CellPlaces places = cell_places(body);
+  for (const std::int32_t number : edit.gone) (void)place_of(places, number, body);
+  std::vector<std::vector<const BodyEdit::Cell*>> born(body.elastic.size());
+  for (const BodyEdit::Cell& cell : edit.born)
+    born[place_of(places, cell.parent, body).block].push_back(&cell);
+  for (const BodyEdit::Moved& moved : edit.moved) {
+    const CellPlace at = place_of(places, moved.number, body);
+    std::ranges::copy(moved.nodes, nodes_of(body.elastic[at.block], at.place).begin());
+  }
+  for (std::size_t b = 0; b < body.elastic.size(); ++b) {
+    body.elastic[b] = edited_block(body.elastic[b], edit, born[b], places);
+  }
+  std::erase_if(body.elastic, [](const ElasticBlock& block) { return block.cells.empty(); });
+}
+
+/// Copies of held nodes are held as those are, but for nodes without material.
+void part_supports(WorldDescription& description, const BodyDescription& body, const BodyEdit& edit) {
+  const auto first = static_cast<std::int32_t>(body.positions.size() / 3 - edit.copied.size());
+  for (FixedNodes& fixed : description.fixed) {
+    if (fixed.body != body.name || !fixed.positions.empty()) continue;  // debris has no copies
+    for (std::size_t k = 0; k < edit.copied.size(); ++k) {
+      if (std::ranges::find(fixed.nodes, edit.copied[k]) != fixed.nodes.end())
+        fixed.nodes.push_back(first + static_cast<std::int32_t>(k));
+    }
+    std::erase_if(fixed.nodes,
+                  [&](std::int32_t node) { return std::ranges::binary_search(body.bare, node); });
+  }
+}
+
+}  // namespace
+
+void refuse_unparted(const WorldDescription& description, const BodyDescription& body) {
+  const auto refuse = [&](const std::string& why) {
+    throw ParameterError("body \"" + body.name + "\" cannot be cut: " + why + ".");
+  };
+  if (body.frames || !body.shared.empty()) {
+    refuse("its nodes are frames, and bodies whose nodes have places only are accepted");
+  }
+  for (const ElasticBlock& block : body.elastic) {
+    const ElementInfo* element = find_element(block.element);
+    if (element == nullptr || element->dimension != 3) {
+      refuse("it has cells of type " + block.element + ", and volume cells are accepted");
+    }
+    if (std::holds_alternative<CondensedOptions>(block.model)) {
+      refuse("its cells are condensed, and a model that keeps each cell is accepted, such as fem");
+    }
+    if (const auto* springs = std::get_if<MassSpringOptions>(&block.model);
+        springs && springs->equal_masses) {
+      refuse("its nodes have equal masses, which copies of nodes would change; leave equal_masses out");
+    }
+  }
+  for (const PressureDescription& pressure : description.pressures) {
+    if (pressure.body == body.name) {
+      refuse("the pressure \"" + pressure.name + "\" acts on its faces, which a cut does not part yet");
+    }
+  }
+  if (!description.contact) return;
+  for (const SurfaceDescription& surface : description.contact->bodies) {
+    if (surface.name == body.name) {
+      refuse("it is in contact, whose surface a cut does not part yet; leave it out of contacts");
+    }
+  }
+}
+
+BodyDescription edited(BodyDescription body, const BodyEdit& edit) {
+  number_cells(body);
+  add_nodes(body, edit.copied);
+  edit_cells(body, edit);
+  body.bare = edit.bare;
+  body.cut = edit.cut;
+  body.next_cell = std::max(body.next_cell, edit.next_cell);
+  return body;
+}
+
+std::shared_ptr<const World> edit_body(const World& world, const State& state, std::string_view name,
+                                       const BodyEdit& edit) {
+  if (world.description() == nullptr) {
+    throw ParameterError("this world cannot be edited; compile the scene with editing: true to cut.");
+  }
+  WorldDescription description = *world.description();
+  BodyDescription& body = description.body(name);
+  refuse_unparted(description, body);
+  body = edited(std::move(body), edit);
+  part_supports(description, body, edit);
+  part_loads(description, body, edit.copied);
+  std::erase_if(description.fixed, [](const FixedNodes& fixed) { return fixed.nodes.empty(); });
+  hold_debris(description, body, state, world.body(name).first_node);
+  return std::make_shared<const World>(std::move(description), nullptr);
+}
+
+std::vector<RowCopy> row_copies(const World& world, std::string_view name, const BodyEdit& edit) {
+  const Body& body = world.body(name);
+  std::vector<RowCopy> copies;
+  for (std::size_t k = 0; k < edit.copied.size(); ++k) {
+    copies.push_back(
+        {body.first_node + body.node_count + static_cast<std::int32_t>(k), body.first_node + edit.copied[k]});
+  }
+  return copies;
+}
+
+}  // namespace tissu

@@ -1,0 +1,235 @@
+/// Cuts of a running simulation: blades, plans that are made, and what is there afterwards.
+
+#include <algorithm>
+
+#include "bind.h"
+#include "tissu/edit/body_totals.h"
+#include "tissu/edit/cut/material_mesh.h"
+#include "tissu/edit/cut_body.h"
+#include "tissu/edit/topology.h"
+#include "tissu/simulation/simulation.h"
+
+namespace tissu::bind {
+namespace {
+
+using Doubles = Array<double>;
+using Ints = Array<std::int32_t>;
+
+template <class T>
+Array<T> to_array(const std::vector<T>& values) {
+  Array<T> result(static_cast<py::ssize_t>(values.size()));
+  std::ranges::copy(values, result.mutable_data());
+  return result;
+}
+
+Array<double> to_array(const Vec3& v) { return to_array(std::vector<double>{v.x(), v.y(), v.z()}); }
+
+template <class T>
+std::span<const T> numbers(const Array<T>& array) {
+  return {array.data(), static_cast<std::size_t>(array.size())};
+}
+
+py::dict to_dict(const BodyTotals& totals) {
+  py::dict result;
+  result["volume"] = totals.volume;
+  result["mass"] = totals.mass;
+  result["momentum"] = to_array(totals.momentum);
+  result["angular_momentum"] = to_array(totals.angular_momentum);
+  result["kinetic"] = totals.kinetic;
+  result["elastic"] = totals.elastic;
+  return result;
+}
+
+py::dict to_dict(const CutPlan& plan) {
+  py::dict result;
+  result["cells_cut"] = plan.cells_cut;
+  result["cells_new"] = plan.born.size();
+  result["cells_gone"] = plan.gone.size();
+  result["nodes_new"] = plan.nodes.size();
+  result["faces_opened"] = plan.faces_opened;
+  result["area"] = plan.area;
+  result["rest_area"] = plan.rest_area;
+  std::vector<std::int32_t> copied;
+  for (const BornNode& node : plan.nodes) copied.push_back(node.copied);
+  result["copied"] = to_array(copied);
+  std::vector<std::pair<std::int32_t, std::string>> unresolved;
+  for (const auto& [cell, reason] : plan.unresolved) unresolved.emplace_back(cell, words(reason));
+  result["unresolved"] = unresolved;
+  return result;
+}
+
+/// Goes on with the world of the cut; nothing happens where the blade met nothing.
+py::dict make(Simulation& simulation, BodyCut cut) {
+  py::dict result = to_dict(cut.plan);
+  if (cut.world != nullptr) simulation.replace_world(std::move(cut.world), cut.copies);
+  return result;
+}
+
+py::dict cut(Simulation& simulation, const std::string& body, const Sweep& sweep, double t0, bool refine) {
+  return make(simulation,
+              cut_body(simulation.world(), simulation.state(), body, sweep, {.t0 = t0, .refine = refine}));
+}
+
+py::dict ablate(Simulation& simulation, const std::string& body, const Ints& cells) {
+  return make(simulation, ablate_body(simulation.world(), simulation.state(), body, to_vector(cells)));
+}
+
+/// The nodes (v, 4) of each vertex, -1 beyond the last, and their weights (v, 4).
+void add_riders(const std::vector<Rider>& vertices, py::dict& result) {
+  Ints nodes({static_cast<py::ssize_t>(vertices.size()), py::ssize_t{4}});
+  Doubles weights({static_cast<py::ssize_t>(vertices.size()), py::ssize_t{4}});
+  for (std::size_t v = 0; v < vertices.size(); ++v) {
+    for (std::size_t k = 0; k < 4; ++k) {
+      const bool rides = static_cast<std::int32_t>(k) < vertices[v].count;
+      nodes.mutable_at(static_cast<py::ssize_t>(v), static_cast<py::ssize_t>(k)) =
+          rides ? vertices[v].node[k] : -1;
+      weights.mutable_at(static_cast<py::ssize_t>(v), static_cast<py::ssize_t>(k)) =
+          rides ? vertices[v].weight[k] : 0.0;
+    }
+  }
+  result["nodes"] = nodes;
+  result["weights"] = weights;
+}
+
+py::dict surface(const Simulation& simulation, const std::string& body) {
+  const auto cut = cut_state(simulation.world(), body);
+  const MaterialSurface found = material_surface(cut->hosts, cut->material);
+  py::dict result;
+  add_riders(found.vertices, result);
+  Ints triangles({static_cast<py::ssize_t>(found.triangles.size()), py::ssize_t{3}});
+  for (std::size_t t = 0; t < found.triangles.size(); ++t)
+    std::ranges::copy(found.triangles[t], triangles.mutable_data(static_cast<py::ssize_t>(t)));
+  result["triangles"] = triangles;
+  result["cell"] = to_array(found.cell);
+  result["vertex_node"] = to_array(found.vertex_node);
+  py::array_t<bool> opened(static_cast<py::ssize_t>(found.cut.size()));
+  std::ranges::transform(found.cut, opened.mutable_data(), [](char c) { return c != 0; });
+  result["cut"] = opened;
+  return result;
+}
+
+py::dict material(const Simulation& simulation, const std::string& body) {
+  const auto cut = cut_state(simulation.world(), body);
+  const MaterialMesh found = material_mesh(cut->hosts, cut->material);
+  py::dict result;
+  add_riders(found.vertices, result);
+  result["vertex_node"] = to_array(found.vertex_node);
+  result["cell"] = to_array(found.cell);
+  py::list blocks;
+  for (const CellBlock& block : found.blocks) {
+    Ints nodes({static_cast<py::ssize_t>(block.size()), static_cast<py::ssize_t>(info(block.type).nodes)});
+    std::ranges::copy(block.nodes, nodes.mutable_data());
+    blocks.append(py::make_tuple(std::string(info(block.type).name), nodes));
+  }
+  result["blocks"] = blocks;
+  return result;
+}
+
+py::list found_pieces(const Simulation& simulation, const std::string& name) {
+  py::list result;
+  const auto cut = cut_state(simulation.world(), name);
+  for (const Piece& piece : pieces(cut->hosts, cut->material))
+    result.append(py::make_tuple(to_array(piece.cells), piece.volume));
+  return result;
+}
+
+/// Cells of the body in ascending number: (type, numbers, origins, shares, nodes (k, n)) of runs of one type.
+py::list body_cells(const Simulation& simulation, const std::string& name) {
+  const auto cut = cut_state(simulation.world(), name);
+  const Hosts& hosts = cut->hosts;
+  const std::vector<std::int32_t> all = hosts.numbers();
+  py::list runs;
+  for (std::size_t begin = 0, end = 0; begin < all.size(); begin = end) {
+    const CellType type = hosts.type(all[begin]);
+    while (end < all.size() && hosts.type(all[end]) == type) ++end;
+    std::vector<std::int32_t> numbers(all.begin() + static_cast<std::ptrdiff_t>(begin),
+                                      all.begin() + static_cast<std::ptrdiff_t>(end));
+    std::vector<std::int32_t> origins;
+    std::vector<double> shares;
+    Ints nodes({static_cast<py::ssize_t>(end - begin), static_cast<py::ssize_t>(info(type).nodes)});
+    std::int32_t* to = nodes.mutable_data();
+    for (const std::int32_t number : numbers) {
+      origins.push_back(hosts.origin(number));
+      shares.push_back(hosts.share(number));
+      to = std::ranges::copy(hosts.nodes(number), to).out;
+    }
+    runs.append(py::make_tuple(std::string(info(type).name), to_array(numbers), to_array(origins),
+                               to_array(shares), nodes));
+  }
+  return runs;
+}
+
+/// The first day's node of each node of the body.
+Ints roots(const Simulation& simulation, const std::string& name) {
+  const auto cut = cut_state(simulation.world(), name);
+  const Hosts& hosts = cut->hosts;
+  Ints result(static_cast<py::ssize_t>(hosts.node_count()));
+  for (std::int32_t node = 0; node < hosts.node_count(); ++node)
+    result.mutable_data()[node] = hosts.root(node);
+  return result;
+}
+
+std::shared_ptr<World> edited_like(const World& fresh, const Simulation& simulation) {
+  return std::const_pointer_cast<World>(with_topologies(fresh, topologies(simulation.world())));
+}
+
+}  // namespace
+
+void bind_cut(py::class_<Simulation>& simulation) {
+  using py::arg;
+  simulation.def("cut", &cut, py::kw_only(), arg("body"), arg("sweep"), arg("t0"), arg("refine"))
+      .def("ablate", &ablate, py::kw_only(), arg("body"), arg("cells"))
+      .def("material_surface", &surface, arg("body"))
+      .def("material_mesh", &material, arg("body"))
+      .def("pieces", &found_pieces, arg("body"))
+      .def("body_cells", &body_cells, arg("body"))
+      .def("roots", &roots, arg("body"))
+      .def(
+          "totals",
+          [](const Simulation& s, const std::string& body) {
+            return to_dict(totals(s.world(), s.state(), body));
+          },
+          arg("body"))
+      .def(
+          "edited_like_now", [](const Simulation& s, const World& fresh) { return edited_like(fresh, s); },
+          arg("fresh"))
+      .def("mark", &Simulation::mark)
+      .def("rewind", &Simulation::rewind, arg("mark"));
+}
+
+void bind_sweep(py::module_& m) {
+  using py::arg;
+  py::class_<Simulation::Mark>(m, "Mark");
+  py::class_<Sweep>(m, "Sweep");
+  m.def(
+       "plane_sweep",
+       [](const Doubles& point, const Doubles& normal, const Doubles& low, const Doubles& high) {
+         return plane_sweep(to_vec3(point, "point"), to_vec3(normal, "normal"), to_vec3(low, "low"),
+                            to_vec3(high, "high"));
+       },
+       py::kw_only(), arg("point"), arg("normal"), arg("low"), arg("high"))
+      .def(
+          "disc_sweep",
+          [](const Doubles& center, const Doubles& normal, double radius) {
+            return disc_sweep(to_vec3(center, "center"), to_vec3(normal, "normal"), radius);
+          },
+          py::kw_only(), arg("center"), arg("normal"), arg("radius"))
+      .def(
+          "triangles_sweep",
+          [](const Doubles& points, const Ints& triangles) {
+            const Ints& rows = with_columns(triangles, 3, "triangles");
+            std::vector<std::array<std::int32_t, 3>> corners(static_cast<std::size_t>(rows.shape(0)));
+            for (std::size_t t = 0; t < corners.size(); ++t)
+              std::copy_n(rows.data(static_cast<py::ssize_t>(t)), 3, corners[t].begin());
+            return triangle_sweep(numbers(with_columns(points, 3, "points")), corners);
+          },
+          py::kw_only(), arg("points"), arg("triangles"))
+      .def(
+          "edge_sweep",
+          [](const Doubles& places, std::int32_t moments, std::int32_t points) {
+            return edge_sweep(numbers(places), moments, points);
+          },
+          py::kw_only(), arg("places"), arg("moments"), arg("points"));
+}
+
+}  // namespace tissu::bind

@@ -1,0 +1,148 @@
+"""Blades: surfaces in present space along which a body is cut."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from tissu import _core, units
+from tissu.arrays import real_array
+from tissu.errors import ParameterError
+from tissu.scene.selection import Box, Plane, Sphere
+
+if TYPE_CHECKING:
+    from tissu._core import Sweep as CoreSweep
+
+Floats = NDArray[np.float64]
+
+__all__ = ["Disc", "Sweep", "Triangles"]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Disc:
+    """A disc across `normal`, as a polygon of 32 sides.
+
+    Attributes:
+        center: (3,) [m].
+        normal: of any length but zero (3,).
+        radius: [m], or text such as "2 cm".
+    """
+
+    center: ArrayLike
+    normal: ArrayLike
+    radius: units.Number
+
+    def _surface(self, places: Floats) -> CoreSweep:
+        return _core.disc_sweep(
+            center=_triple(self.center, "the center"),
+            normal=_triple(self.normal, "the normal"),
+            radius=units.LENGTH(self.radius),
+        )
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Triangles:
+    """A surface of triangles; those that share an edge are one blade.
+
+    Attributes:
+        points: (n, 3) [m].
+        triangles: numbers of points (t, 3).
+    """
+
+    points: ArrayLike
+    triangles: ArrayLike
+
+    def _surface(self, places: Floats) -> CoreSweep:
+        points = _rows(self.points, "points")
+        corners = real_array(self.triangles, "triangles")
+        if corners.ndim != 2 or corners.shape[1] != 3 or corners.dtype.kind not in "iu":
+            raise ParameterError(
+                f"found triangles of type {corners.dtype} and shape {corners.shape}; whole numbers "
+                "(t, 3) are accepted"
+            )
+        if corners.size and (corners.min() < 0 or corners.max() >= len(points)):
+            raise ParameterError(
+                f"found triangles of the points {corners.min()} to {corners.max()}; 0 to "
+                f"{len(points) - 1} are accepted"
+            )
+        return _core.triangles_sweep(points=points, triangles=corners.astype(np.int32))
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Sweep:
+    """The ruled surface that an edge sweeps through several moments.
+
+    Attributes:
+        edges: places (k, m, 3) of the m points of the edge at k moments [m]; both at least 2.
+    """
+
+    edges: ArrayLike
+
+    def _surface(self, places: Floats) -> CoreSweep:
+        edges = np.ascontiguousarray(real_array(self.edges, "edges"), dtype=np.float64)
+        if edges.ndim != 3 or edges.shape[2] != 3 or min(edges.shape[:2]) < 2:
+            raise ParameterError(
+                f"found edges of shape {edges.shape}; (k, m, 3) is accepted: m points of an edge "
+                "at k moments, at least two of both"
+            )
+        return _core.edge_sweep(
+            places=edges.reshape(-1, 3), moments=edges.shape[0], points=edges.shape[1]
+        )
+
+
+Blade = Plane | Disc | Triangles | Sweep
+"""What cuts."""
+
+
+def surface_of(blade: object, places: Floats) -> CoreSweep:
+    """The blade as the core has it; a plane is as large as the body, which is at `places` (n, 3).
+
+    Raises:
+        ParameterError: it is not a blade, has no area, or has numbers that are not finite.
+    """
+    if isinstance(blade, Plane):
+        return _core.plane_sweep(
+            point=np.array(blade.point),
+            normal=np.array(blade.normal),
+            low=places.min(axis=0),
+            high=places.max(axis=0),
+        )
+    if isinstance(blade, Disc | Triangles | Sweep):
+        return blade._surface(places)
+    raise ParameterError(
+        f"found {type(blade).__name__} as a blade; ts.Plane, ts.Disc, ts.Triangles and ts.Sweep "
+        "are accepted"
+    )
+
+
+Place = Sphere | Box
+"""Where cells are ablated."""
+
+
+def inside_of(place: object, points: Floats) -> NDArray[np.bool_]:
+    """Which points (e, 3) lie in a place.
+
+    Raises:
+        ParameterError: it is not a place.
+    """
+    if not isinstance(place, Sphere | Box):
+        found = type(place).__name__
+        raise ParameterError(f"found {found} to ablate; ts.Sphere and ts.Box are accepted")
+    return place._inside(points, 0.0)
+
+
+def _triple(values: ArrayLike, what: str) -> Floats:
+    found = real_array(values, what)
+    if found.shape != (3,):
+        raise ParameterError(f"found {what} of shape {found.shape}; three numbers are accepted")
+    return np.ascontiguousarray(found, dtype=np.float64)
+
+
+def _rows(values: ArrayLike, what: str) -> Any:
+    found = real_array(values, what)
+    if found.ndim != 2 or found.shape[1] != 3:
+        raise ParameterError(f"found {what} of shape {found.shape}; (n, 3) is accepted")
+    return np.ascontiguousarray(found, dtype=np.float64)

@@ -1,0 +1,118 @@
+"""The material of a body: what is there of its cells once blades have parted some of them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tissu.mesh import CellBlock, Mesh
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int32]
+
+__all__ = ["Material", "MaterialSurface"]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class MaterialSurface:
+    """The surface of a body's material as it is now, cut faces included.
+
+    Attributes:
+        points: present places (v, 3) [m].
+        triangles: numbers of points (t, 3), anticlockwise seen from outside.
+        cell: number (t,) of the cell that each triangle belongs to.
+        cut: whether (t,) a cut opened it.
+        nodes: nodes of the body (v, 4) that carry each point, -1: none.
+        weights: of these nodes (v, 4), which sum to one.
+    """
+
+    points: Floats
+    triangles: Ints
+    cell: Ints
+    cut: NDArray[np.bool_]
+    nodes: Ints
+    weights: Floats
+
+    def carried(self, values: Floats) -> Floats:
+        """Values (v, ...) at the points of values (n, ...) at the nodes of the body."""
+        return carried(self.nodes, self.weights, values)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Material:
+    """The material of a body as a conforming mesh.
+
+    Cells that no blade met are as they are; of others the mesh has the tetrahedra of their
+    material.
+
+    Attributes:
+        mesh: at rest.
+        points: where its points are now (v, 3) [m].
+        cell: number (m,) of the cell of the body that each cell of the mesh is, or is a part of.
+        nodes: nodes of the body (v, 4) that carry each point, -1: none.
+        weights: of these nodes (v, 4), which sum to one.
+    """
+
+    mesh: Mesh
+    points: Floats
+    cell: Ints
+    nodes: Ints
+    weights: Floats
+
+    def carried(self, values: Floats) -> Floats:
+        """Values (v, ...) at the points of values (n, ...) at the nodes of the body."""
+        return carried(self.nodes, self.weights, values)
+
+
+def carried(nodes: Ints, weights: Floats, values: Floats) -> Floats:
+    """sum_k w_k values_k of each point, whose nodes are (v, 4), -1: none."""
+    return np.asarray(np.einsum("vk,vk...->v...", weights, values[np.maximum(nodes, 0)]))
+
+
+def surface_now(found: Mapping[str, Any], now: Floats) -> MaterialSurface:
+    """The surface that the core found, where the nodes (n, 3) are now."""
+    return MaterialSurface(
+        points=carried(found["nodes"], found["weights"], now),
+        triangles=found["triangles"],
+        cell=found["cell"],
+        cut=found["cut"],
+        nodes=found["nodes"],
+        weights=found["weights"],
+    )
+
+
+def material_now(found: Mapping[str, Any], rest: Floats, now: Floats) -> Material:
+    """The material that the core found, where the nodes (n, 3) are at rest and now."""
+    nodes, weights = found["nodes"], found["weights"]
+    blocks = tuple(CellBlock(type=name, nodes=rows) for name, rows in found["blocks"])
+    return Material(
+        mesh=Mesh(points=carried(nodes, weights, rest), cells=blocks),
+        points=carried(nodes, weights, now),
+        cell=found["cell"],
+        nodes=nodes,
+        weights=weights,
+    )
+
+
+def centres_of(material: Material) -> tuple[Floats, Ints]:
+    """Centres (e, 3) of the material of each cell now [m], and the cells' numbers, ascending.
+
+    Of a cell that no blade met it is the mean of its nodes.
+    """
+    weights, centres = [], []
+    for block in material.mesh.body_blocks:
+        corners = material.points[block.nodes]
+        volumes = np.ones(len(corners))
+        if block.type == "tetra":
+            volumes = np.abs(np.linalg.det(corners[:, 1:] - corners[:, :1])) / 6.0
+        weights.append(np.maximum(volumes, 1e-300))
+        centres.append(corners.mean(axis=1))
+    weight, centre = np.concatenate(weights), np.concatenate(centres)
+    numbers, of_cell = np.unique(material.cell, return_inverse=True)
+    total = np.bincount(of_cell, weight)
+    moments = [np.bincount(of_cell, weight * centre[:, axis]) / total for axis in range(3)]
+    return np.stack(moments, axis=1), numbers.astype(np.int32)

@@ -1,0 +1,139 @@
+"""What a cut did."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tissu.counted import counted
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int32]
+
+__all__ = ["CutReport", "Piece"]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Piece:
+    """A connected part of a body's material.
+
+    Attributes:
+        cells: numbers (k,) of the cells that hold it, ascending; a cell may hold several pieces.
+        volume: at rest [m3].
+        mass: [kg].
+        held: whether a support holds or leads one of its nodes.
+    """
+
+    cells: Ints
+    volume: float
+    mass: float
+    held: bool
+
+    @property
+    def first_cell(self) -> int:
+        """The lowest number of its cells."""
+        return int(self.cells[0])
+
+    def __repr__(self) -> str:
+        """Where it begins, how large it is, and whether it is held."""
+        held = "held" if self.held else "free"
+        return (
+            f"Piece(from cell {self.first_cell}, {counted(len(self.cells), 'cell')}, "
+            f"{1e6 * self.volume:.4g} cm3, {self.mass:.4g} kg, {held})"
+        )
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class CutReport:
+    """One cut, ablation or tear of one body; all zero where the blade met nothing.
+
+    Attributes:
+        body: its name.
+        cells_cut: cells that the blade divided or along whose faces it ran.
+        cells_new: cells that took their places.
+        cells_gone: cells that were replaced or removed.
+        nodes_new: copies of nodes.
+        faces_opened: triangles of the material, each with two sides now.
+        area: of one side of these faces now [m2].
+        rest_area: the same at rest [m2].
+        pieces: all connected parts of the body, the largest first.
+        volume_change: of the material at rest [m3].
+        mass_change: [kg].
+        momentum_change: (3,) [kg m/s].
+        angular_momentum_change: about the origin (3,) [kg m2/s].
+        kinetic_energy_change: [J].
+        elastic_energy_change: [J].
+        unresolved: cells that the blade met and did not cut, with the reason.
+        released: numbers of the grabs that were let go, since their points were parted.
+        relaid: whether everything was laid anew, in place of what was touched only.
+        milliseconds: wall time.
+    """
+
+    body: str
+    cells_cut: int
+    cells_new: int
+    cells_gone: int
+    nodes_new: int
+    faces_opened: int
+    area: float
+    rest_area: float
+    pieces: tuple[Piece, ...]
+    volume_change: float
+    mass_change: float
+    momentum_change: Floats
+    angular_momentum_change: Floats
+    kinetic_energy_change: float
+    elastic_energy_change: float
+    unresolved: tuple[tuple[int, str], ...]
+    released: tuple[int, ...]
+    relaid: bool
+    milliseconds: float
+
+    def __str__(self) -> str:
+        """One line."""
+        if not self.cells_cut and not self.cells_gone:
+            return f"cut of '{self.body}': the blade met nothing"
+        text = f"cut of '{self.body}': {counted(self.cells_cut, 'cell')} cut, "
+        text += f"{counted(self.nodes_new, 'new node')}, {1e4 * self.area:.4g} cm2 opened, "
+        text += f"{counted(len(self.pieces), 'piece')}, {self.milliseconds:.1f} ms"
+        if self.unresolved:
+            text += f"; {counted(len(self.unresolved), 'cell')} met and not cut"
+        return text
+
+
+def cut_report(
+    body: str,
+    made: dict[str, Any],
+    *,
+    before: dict[str, Any],
+    after: dict[str, Any],
+    pieces: tuple[Piece, ...],
+    released: tuple[int, ...],
+    milliseconds: float,
+) -> CutReport:
+    """The report of what the core made, between the totals before and after it."""
+    met = bool(made["cells_cut"] or made["cells_gone"])
+    return CutReport(
+        body=body,
+        cells_cut=made["cells_cut"],
+        cells_new=made["cells_new"],
+        cells_gone=made["cells_gone"],
+        nodes_new=made["nodes_new"],
+        faces_opened=made["faces_opened"],
+        area=made["area"],
+        rest_area=made["rest_area"],
+        pieces=pieces,
+        volume_change=after["volume"] - before["volume"],
+        mass_change=after["mass"] - before["mass"],
+        momentum_change=after["momentum"] - before["momentum"],
+        angular_momentum_change=after["angular_momentum"] - before["angular_momentum"],
+        kinetic_energy_change=after["kinetic"] - before["kinetic"],
+        elastic_energy_change=after["elastic"] - before["elastic"],
+        unresolved=tuple((int(cell), str(why)) for cell, why in made["unresolved"]),
+        released=released,
+        relaid=met,
+        milliseconds=milliseconds,
+    )

@@ -1,0 +1,281 @@
+"""Cuts while a simulation runs, what is there after them, and the way back."""
+
+from __future__ import annotations
+
+import dataclasses
+import time
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tissu.cutting.blade import Blade, Place, inside_of, surface_of
+from tissu.cutting.material import (
+    Material,
+    MaterialSurface,
+    centres_of,
+    material_now,
+    surface_now,
+)
+from tissu.cutting.report import CutReport, Piece, cut_report
+from tissu.errors import ParameterError
+from tissu.mesh import CellBlock, Mesh
+from tissu.simulation import grab as kept
+
+if TYPE_CHECKING:
+    from tissu import _core as core
+    from tissu.front import Scene
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int32]
+
+__all__ = ["Mark"]
+
+_NEAREST = 0.02
+"""A crossing within this share of an edge from its end goes to the end."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Mark:
+    """A moment that `Simulation.rewind` goes back to; in memory only."""
+
+    _core: core.Mark
+    _owner: object
+    _meshes: dict[str, Mesh]
+    _steps: int
+    time: float
+    """simulated time [s]"""
+
+    def __repr__(self) -> str:
+        """When it is."""
+        return f"Mark(at t = {self.time:.6g} s)"
+
+
+class Cutting:
+    """The part of a simulation that cuts its bodies."""
+
+    scene: Scene
+    _core: core.Simulation
+    _meshes: dict[str, Mesh]
+    _rest: dict[str, Mesh]
+    _steps: int
+
+    if TYPE_CHECKING:
+
+        @property
+        def positions(self) -> Mapping[str, Floats]: ...
+        def _require_body(self, name: str) -> None: ...
+        def _follow_cells(self, body: str) -> None: ...
+
+    def cut(self, body: str, blade: Blade, *, refine: bool = False) -> CutReport:
+        """Cut a body along a surface in present space, between two steps.
+
+        Each cell that the blade parts is replaced by one copy for each part, undistorted and with
+        the share of the material that it holds (virtual nodes: Molino et al. 2004), so that mass,
+        momenta, kinetic and elastic energy stay what they were. Numbers of nodes and cells stay;
+        new ones follow the last. `surface` and `material` have the cut itself.
+
+        Args:
+            body: its name.
+            blade: `ts.Plane` (all of the body), `ts.Disc`, `ts.Triangles` or `ts.Sweep`.
+            refine: divide cells that a narrow blade pierces without crossing an edge.
+
+        Returns:
+            What was cut; empty where the blade met nothing.
+
+        Raises:
+            ParameterError: the scene was compiled without `editing: true`; no such body, or one
+                that cannot be cut, with what stands against it; a blade without area; no room for
+                the new nodes; in a static scene, pieces that nothing holds. Nothing has changed
+                then.
+        """
+        self._require_editing(body)
+        sweep = surface_of(blade, self.positions[body])
+        return self._made(
+            body,
+            lambda: self._core.cut(body=body, sweep=sweep, t0=_NEAREST, refine=refine),
+        )
+
+    def ablate(self, body: str, place: Place) -> CutReport:
+        """Take away the cells whose material has its centre in a place in present space.
+
+        Cells that hang together by an edge or a node only come apart, unlike after `remove_cells`.
+
+        Args:
+            body: its name.
+            place: a sphere or a box.
+
+        Raises:
+            ParameterError: see `cut`; that would leave no cell.
+        """
+        self._require_editing(body)
+        centres, numbers = centres_of(self.material(body))
+        inside = inside_of(place, centres)
+        if inside.all():
+            raise ParameterError(f"that would leave no cell of body '{body}'; keep at least one")
+        cells = np.unique(numbers[inside]).astype(np.int32)
+        return self._made(body, lambda: self._core.ablate(body=body, cells=cells))
+
+    def surface(self, body: str) -> MaterialSurface:
+        """The surface of the material of a body as it is now.
+
+        Raises:
+            ParameterError: no such body; the scene was compiled without `editing: true`.
+        """
+        self._require_editing(body)
+        return surface_now(self._core.material_surface(body), self.positions[body])
+
+    def material(self, body: str) -> Material:
+        """The material of a body as a conforming mesh, at rest and now.
+
+        Raises:
+            ParameterError: no such body; the scene was compiled without `editing: true`.
+        """
+        self._require_editing(body)
+        found = self._core.material_mesh(body)
+        return material_now(found, self._meshes[body].points, self.positions[body])
+
+    def is_cut(self, body: str) -> bool:
+        """Whether a blade has parted nodes of a body, so that its cells overlap.
+
+        Raises:
+            ParameterError: no body of that name.
+        """
+        self._require_body(body)
+        rest = self._rest.get(body)
+        return rest is not None and self._meshes[body].node_count > rest.node_count
+
+    def pieces(self, body: str) -> tuple[Piece, ...]:
+        """The connected parts of the material of a body, the largest first.
+
+        Raises:
+            ParameterError: no such body; the scene was compiled without `editing: true`.
+        """
+        self._require_editing(body)
+        runs = self._core.body_cells(body)
+        nodes = {int(n): row for run in runs for n, row in zip(run[1], run[4], strict=True)}
+        held = np.isin(np.arange(self._meshes[body].node_count), self._core.unfree_nodes(body)[1])
+        whole = self._core.totals(body)
+        found = [
+            Piece(
+                cells=cells,
+                volume=volume,
+                mass=whole["mass"] * volume / whole["volume"],
+                held=any(bool(held[nodes[int(cell)]].any()) for cell in cells),
+            )
+            for cells, volume in self._core.pieces(body)
+        ]
+        return tuple(sorted(found, key=lambda piece: -piece.volume))
+
+    def origin(self, body: str) -> Ints:
+        """The cell of the first day (e,) that each cell of `meshes[body]` comes from.
+
+        Raises:
+            ParameterError: no such body; the scene was compiled without `editing: true`.
+        """
+        self._require_editing(body)
+        return np.concatenate([run[2] for run in self._core.body_cells(body)])
+
+    def born(self, body: str) -> Ints:
+        """The node of the first day (n,) that each node of `meshes[body]` is a copy of, or is.
+
+        Raises:
+            ParameterError: no such body; the scene was compiled without `editing: true`.
+        """
+        self._require_editing(body)
+        return self._core.roots(body)
+
+    def mark(self) -> Mark:
+        """Remember this moment, cuts included; `rewind` goes back to it as often as asked.
+
+        The solver forgets what it keeps of earlier steps, so that a run from here and one after
+        `rewind` have the same bits.
+        """
+        return Mark(self._core.mark(), self, dict(self._meshes), self._steps, self._core.time)
+
+    def rewind(self, mark: object) -> None:
+        """Go back to a mark: state, time, cells and cuts.
+
+        Raises:
+            ParameterError: it is a mark of another simulation.
+        """
+        if not isinstance(mark, Mark) or mark._owner is not self:
+            raise ParameterError(
+                "found a mark of another simulation; one that this simulation made is accepted"
+            )
+        self._core.rewind(mark._core)
+        self._meshes.update(mark._meshes)
+        self._steps = mark._steps
+        for body in self._meshes:
+            self._follow_cells(body)
+
+    def _require_editing(self, body: str) -> None:
+        self._require_body(body)
+        if not self.scene.editing:
+            raise ParameterError(
+                "the scene was compiled without editing; write editing: true to cut its bodies"
+            )
+
+    def _made(self, body: str, make: Any) -> CutReport:
+        """Make a cut and follow it; go back where it leaves a static body with free pieces."""
+        start = time.perf_counter()
+        before = self._core.totals(body)
+        grabs = kept.records(self._core) if self.scene.grabbing else {}
+        way_back = self._core.mark() if self.scene.step.type == "static" else None
+        made = make()
+        met = bool(made["cells_cut"] or made["cells_gone"])
+        if met:
+            self._follow_cells(body)
+        pieces = self.pieces(body)
+        free = [piece for piece in pieces if not piece.held]
+        if way_back is not None and met and free:
+            self._core.rewind(way_back)
+            self._follow_cells(body)
+            raise ParameterError(
+                f"the cut would leave {len(free)} of {len(pieces)} pieces of body '{body}' without "
+                f"support ({free[0]!r}), which has no equilibrium; hold it, or take an implicit "
+                "method in time"
+            )
+        released = self._released(body, grabs, made["copied"]) if met else ()
+        return cut_report(
+            body,
+            made,
+            before=before,
+            after=self._core.totals(body),
+            pieces=pieces,
+            released=released,
+            milliseconds=1e3 * (time.perf_counter() - start),
+        )
+
+    def _released(self, body: str, grabs: dict[int, kept.Record], copied: Ints) -> tuple[int, ...]:
+        """Let go of points whose nodes part: a grab holds nodes, not material."""
+        first, _ = self._core.body_range(body)
+        rows = np.asarray(copied, dtype=np.int64) + first
+        parted = [number for number, grab in grabs.items() if np.isin(grab.nodes, rows).any()]
+        if parted:
+            kept.keep(self._core, {n: g for n, g in grabs.items() if n not in parted})
+        return tuple(parted)
+
+
+def cut_mesh(rest: Mesh, runs: list[Any], roots: Ints) -> Mesh:
+    """The mesh of the cells of a body that was cut, in ascending number, at rest.
+
+    Args:
+        rest: of the first day.
+        runs: type, numbers, origins, shares and nodes of runs of cells.
+        roots: the first day's node of each node.
+    """
+    origins = np.concatenate([run[2] for run in runs])
+    regions = {
+        name: np.flatnonzero(np.isin(origins, cells)).astype(np.int32)
+        for name, cells in rest.regions.items()
+    }
+    return dataclasses.replace(
+        rest,
+        points=rest.points[roots],
+        cells=tuple(CellBlock(type=run[0], nodes=run[4]) for run in runs),
+        regions=regions,
+        border_regions={},
+    )

@@ -1,0 +1,370 @@
+"""A body that is cut keeps what it has, and goes on as its parts would have gone on alone."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import tissu as ts
+
+ROUND_OFF = 1e-12
+"""Of sums over some thousand numbers: a few hundred times the spacing of doubles."""
+
+CELLS = ("tetra", "hexahedron", "wedge", "pyramid", "tetra10", "hexahedron20")
+MODELS = ("fem", "corotational", "mass-link", "mass-tensor", "mass-spring", "mean-dilatation")
+SLANTED = ts.Plane(point=(0.213, 0.05, 0.05), normal=(1.0, 0.31, -0.27))
+
+
+def bar(cell: str = "hexahedron", cells: tuple[int, int, int] = (8, 2, 2), **body: Any) -> ts.Body:
+    return ts.Body(
+        mesh=ts.bar_mesh(size=(0.4, 0.1, 0.1), cells=cells, cell=cell),
+        **{"law": ts.StVK(young=5e4, poisson=0.3), "density": 1000.0} | body,
+    )
+
+
+def scene(body: ts.Body | None = None, **changes: Any) -> ts.Scene:
+    return ts.Scene(
+        **{
+            "bodies": {"bar": bar() if body is None else body},
+            "fixed": [ts.Fixed("bar", on=ts.Plane(point=(0, 0, 0), normal=(1, 0, 0)))],
+            "gravity": (0.0, 0.0, -9.81),
+            "step": ts.ImplicitEuler(dt=0.005),
+            "editing": True,
+        }
+        | changes
+    )
+
+
+def shaken(simulation: ts.Simulation, seed: int = 1) -> ts.Simulation:
+    """Bodies that are deformed and move, each node in its own way."""
+    random = np.random.default_rng(seed)
+    for body in simulation.bodies:
+        places = simulation.positions[body]
+        places += 2e-3 * random.standard_normal(places.shape)
+        simulation.velocities[body][:] = random.standard_normal(places.shape)
+    return simulation
+
+
+@pytest.mark.parametrize("cell", CELLS)
+def test_a_cut_keeps_mass_momenta_and_energies(cell: str) -> None:
+    simulation = shaken(scene(bar(cell, (4, 2, 2))).compile())
+    before = simulation.energy()
+    report = simulation.cut("bar", SLANTED)
+    after = simulation.energy()
+    assert report.cells_cut > 0
+    assert len(report.pieces) == 2
+    assert abs(report.mass_change) <= ROUND_OFF * 4.0  # 4 kg
+    assert abs(report.volume_change) <= ROUND_OFF * 4e-3
+    assert np.abs(report.momentum_change).max() <= ROUND_OFF * 4.0 * 3.0
+    assert np.abs(report.angular_momentum_change).max() <= ROUND_OFF * 4.0
+    for kind in ("kinetic", "elastic", "potential"):
+        assert after[kind] == pytest.approx(before[kind], rel=ROUND_OFF)
+
+
+@pytest.mark.parametrize("model", MODELS)
+def test_a_cut_keeps_the_energy_of_every_model(model: str) -> None:
+    cell = "hexahedron" if model == "mean-dilatation" else "tetra"
+    linear = model in ("corotational", "mass-tensor", "mass-spring")
+    law = (ts.Hooke if linear else ts.StVK)(young=5e4, poisson=0.3)
+    body = bar(cell, (4, 2, 2), model=model.replace("-", "_"), law=law)
+    simulation = shaken(scene(body).compile())
+    before = simulation.energy()
+    simulation.cut("bar", SLANTED)
+    after = simulation.energy()
+    for kind in ("kinetic", "elastic"):
+        assert after[kind] == pytest.approx(before[kind], rel=ROUND_OFF)
+
+
+def test_the_pieces_are_those_of_the_blade() -> None:
+    simulation = scene(bar("tetra")).compile()
+    report = simulation.cut("bar", ts.Plane(point=(0.137, 0, 0), normal=(1, 0, 0)))
+    large, small = report.pieces
+    assert large.volume == pytest.approx(0.263 * 0.01, rel=ROUND_OFF)
+    assert small.volume == pytest.approx(0.137 * 0.01, rel=ROUND_OFF)
+    assert small.held
+    assert not large.held
+    assert report.area == pytest.approx(0.01, rel=ROUND_OFF)
+    assert report.rest_area == pytest.approx(0.01, rel=ROUND_OFF)
+
+
+def nodes_of(simulation: ts.Simulation, piece: ts.Piece) -> np.ndarray[Any, Any]:
+    """Nodes of the cells that hold a piece."""
+    mesh, numbers = simulation.meshes["bar"], simulation.remaining_cells("bar")
+    chosen, first, nodes = np.isin(numbers, piece.cells), 0, []
+    for block in mesh.body_blocks:
+        nodes.append(block.nodes[chosen[first : first + len(block)]].ravel())
+        first += len(block)
+    return np.unique(np.concatenate(nodes))
+
+
+@pytest.mark.parametrize("cell", ["tetra", "hexahedron"])
+def test_a_cut_on_faces_leaves_two_bars(cell: str) -> None:
+    """The held one goes on as a bar that was built alone, to the tolerance of the solver."""
+    step = ts.ImplicitEuler(dt=0.005, solver=ts.ConjugateGradient(tolerance=1e-12))
+    whole = scene(bar(cell), step=step).compile()
+    report = whole.cut("bar", ts.Plane(point=(0.2, 0, 0), normal=(1, 0, 0)))
+    short = bar().replace(mesh=ts.bar_mesh(size=(0.2, 0.1, 0.1), cells=(4, 2, 2), cell=cell))
+    apart = scene(short, step=step).compile()
+    for _ in range(50):
+        whole.step()
+        apart.step()
+    (held,) = [piece for piece in report.pieces if piece.held]
+    mine, rest = nodes_of(whole, held), whole.meshes["bar"].points
+    mine = mine[np.lexsort(rest[mine].T.round(9))]
+    other = np.lexsort(apart.meshes["bar"].points.T.round(9))
+    assert len(mine) == len(other) == 45
+    np.testing.assert_allclose(
+        whole.positions["bar"][mine], apart.positions["bar"][other], rtol=0, atol=1e-10 * 0.4
+    )
+
+
+def test_a_piece_that_nothing_holds_falls_freely() -> None:
+    """Backward Euler from rest: after n steps it has fallen by g h^2 n (n + 1) / 2."""
+    step = ts.ImplicitEuler(dt=0.005, solver=ts.ConjugateGradient(tolerance=1e-12))
+    simulation = scene(bar("tetra"), step=step).compile()
+    report = simulation.cut("bar", SLANTED)
+    (free,) = [piece for piece in report.pieces if not piece.held]
+    for _ in range(20):
+        simulation.step()
+    fallen = simulation.displacements("bar")[nodes_of(simulation, free)]
+    expected = [0.0, 0.0, -9.81 * 0.005**2 * 20 * 21 / 2]
+    np.testing.assert_allclose(fallen, np.broadcast_to(expected, fallen.shape), rtol=0, atol=1e-9)
+
+
+def test_a_slit_opens_and_stays_one_piece() -> None:
+    simulation = scene(bar("tetra", (12, 4, 4))).compile()
+    blade = ts.Triangles(
+        points=[(0.15, -0.1, 0.06), (0.15, 0.2, 0.06), (0.15, 0.2, 0.2), (0.15, -0.1, 0.2)],
+        triangles=[(0, 1, 2), (0, 2, 3)],
+    )
+    report = simulation.cut("bar", blade)
+    assert len(report.pieces) == 1
+    assert report.area > 0.0
+    for _ in range(40):
+        assert simulation.step().converged
+    surface = simulation.surface("bar")
+    lips = surface.points[np.unique(surface.triangles[surface.cut])]
+    top = lips[lips[:, 2] > lips[:, 2].max() - 0.02]
+    assert np.ptp(top[:, 0]) > 1e-3  # the bar hangs, so that its upper side is in tension
+
+
+def closed(triangles: np.ndarray[Any, Any]) -> bool:
+    """Whether every side of a triangle is met as often one way as the other."""
+    sides = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])
+    ways: dict[tuple[int, int], int] = {}
+    for a, b in sides.tolist():
+        ways[min(a, b), max(a, b)] = ways.get((min(a, b), max(a, b)), 0) + (1 if a < b else -1)
+    return not any(ways.values())
+
+
+def test_surface_and_material_are_whole() -> None:
+    simulation = shaken(scene(bar("hexahedron")).compile())
+    simulation.cut("bar", SLANTED)
+    surface = simulation.surface("bar")
+    assert closed(surface.triangles)
+    assert surface.cut.any()
+    np.testing.assert_allclose(surface.weights.sum(axis=1), 1.0, rtol=0, atol=ROUND_OFF)
+    material = simulation.material("bar")
+    at_rest = sum(
+        abs(np.linalg.det(material.mesh.points[row[1:]] - material.mesh.points[row[0]])) / 6
+        for block in material.mesh.volume_blocks
+        if block.type == "tetra"
+        for row in block.nodes
+    )
+    uncut = sum(len(b.nodes) for b in material.mesh.volume_blocks if b.type == "hexahedron")
+    assert at_rest + uncut * 0.05**3 == pytest.approx(4e-3, rel=ROUND_OFF)
+    assert len(material.cell) == material.mesh.cell_count
+
+
+def test_numbers_stay_and_new_ones_follow() -> None:
+    simulation = scene().compile()
+    rest = simulation.meshes["bar"]
+    places = np.array(simulation.positions["bar"])
+    simulation.cut("bar", SLANTED)
+    mesh = simulation.meshes["bar"]
+    np.testing.assert_array_equal(mesh.points[: rest.node_count], rest.points)
+    np.testing.assert_array_equal(simulation.positions["bar"][: len(places)], places)
+    numbers = simulation.remaining_cells("bar")
+    old = numbers[numbers < rest.cell_count]
+    assert len(old) < rest.cell_count
+    assert (numbers[len(old) :] >= rest.cell_count).all()
+    origin = simulation.origin("bar")
+    np.testing.assert_array_equal(origin[: len(old)], old)
+    assert set(origin.tolist()) == set(range(rest.cell_count))
+    born = simulation.born("bar")
+    np.testing.assert_array_equal(born[: rest.node_count], np.arange(rest.node_count))
+    np.testing.assert_array_equal(mesh.points, rest.points[born])
+
+
+def test_another_body_is_not_touched() -> None:
+    bodies = {"bar": bar(), "other": bar("tetra", (4, 2, 2))}
+    one, two = scene(bodies=bodies).compile(), scene(bodies=bodies).compile()
+    view = one.positions["other"]
+    one.cut("bar", SLANTED)
+    assert np.shares_memory(view, one.positions["other"])
+    np.testing.assert_array_equal(one.positions["other"], two.positions["other"])
+    assert not one.cut("other", ts.Disc((5.0, 0, 0), (1, 0, 0), "1 cm")).cells_cut
+
+
+def test_held_nodes_stay_held_and_loads_stay_whole() -> None:
+    """A blade along the bar, through its held end and its loaded one."""
+    load = ts.NodalLoad(
+        "bar", on=ts.Plane(point=(0.4, 0, 0), normal=(1, 0, 0)), force=(0.0, 3.0, 0.0)
+    )
+    simulation = scene(gravity=None, loads=[load], step=ts.Static()).compile()
+    report = simulation.cut("bar", ts.Plane(point=(0, 0, 0.037), normal=(0.0, 0.0, 1.0)))
+    assert [piece.held for piece in report.pieces] == [True, True]
+    forces = simulation.forces()[simulation.rows("bar")]
+    np.testing.assert_allclose(forces.sum(axis=0), [0.0, 3.0, 0.0], rtol=0, atol=1e-12)
+    assert simulation.step().converged
+    held = simulation.reactions("bar").sum(axis=0)
+    np.testing.assert_allclose(held, [0.0, -3.0, 0.0], rtol=0, atol=3e-5)  # of the solver
+
+
+@pytest.mark.parametrize("threads", [2, 3])
+def test_cuts_have_the_same_bits_on_any_number_of_threads(threads: int) -> None:
+    one, more = scene().compile(), scene(threads=threads).compile()
+    for simulation in (one, more):
+        simulation.cut("bar", SLANTED)
+        for _ in range(5):
+            simulation.step()
+        simulation.cut("bar", ts.Disc((0.1, 0.05, 0.05), (0, 1, 0.2), 0.04))
+        for _ in range(5):
+            simulation.step()
+    np.testing.assert_array_equal(one.positions["bar"], more.positions["bar"])
+
+
+def prony() -> ts.Body:
+    branch = ts.Prony(branches=[ts.PronyBranch(weight=0.3, time=0.05)])
+    return bar("tetra", (6, 2, 2), viscosity=branch)
+
+
+STEPS = {
+    "implicit_euler": ts.ImplicitEuler(dt=0.005),
+    "bdf2": ts.BDF2(dt=0.005),
+    "newmark": ts.Newmark(dt=0.005),
+    "symplectic_euler": ts.SymplecticEuler(dt=0.0002),
+}
+
+
+@pytest.mark.parametrize("step", STEPS.values(), ids=STEPS)
+@pytest.mark.parametrize("body", [bar(), prony()], ids=["elastic", "prony"])
+def test_checkpoint_mark_and_parameters_go_on_with_the_same_bits(
+    body: ts.Body, step: ts.Step, tmp_path: Path
+) -> None:
+    made = scene(body, step=step)
+    simulation = made.compile()
+    for _ in range(3):
+        simulation.step()
+    simulation.cut("bar", SLANTED)
+    simulation.step()
+    simulation.cut("bar", ts.Disc((0.1, 0.05, 0.05), (0.1, 1, 0.2), 0.04))
+    simulation.step()
+    simulation.remove_cells(body="bar", cells=simulation.remaining_cells("bar")[-2:])
+    simulation.step()
+    simulation.save_checkpoint(tmp_path / "cut.tissu")
+    mark = simulation.mark()
+    resumed = made.compile(checkpoint=tmp_path / "cut.tissu")
+    ends = []
+    for one in (simulation, resumed):
+        for _ in range(3):
+            one.step()
+        ends.append((np.array(one.positions["bar"]), np.array(one.velocities["bar"])))
+    simulation.cut("bar", ts.Plane(point=(0.3, 0, 0), normal=(1, 0, 0)))
+    simulation.step()
+    simulation.rewind(mark)
+    for _ in range(3):
+        simulation.step()
+    ends.append((np.array(simulation.positions["bar"]), np.array(simulation.velocities["bar"])))
+    for places, speeds in ends[1:]:
+        np.testing.assert_array_equal(places, ends[0][0])
+        np.testing.assert_array_equal(speeds, ends[0][1])
+    assert resumed.meshes["bar"].node_count == simulation.meshes["bar"].node_count
+
+
+@pytest.mark.parametrize("body", [bar("tetra", (6, 2, 2)), prony()], ids=["elastic", "prony"])
+def test_a_parameter_changes_a_body_that_was_cut(body: ts.Body) -> None:
+    """The same value written again changes nothing: cuts and what materials remember go along."""
+    step = ts.ImplicitEuler(dt=0.005, solver=ts.ConjugateGradient(tolerance=1e-12))
+    one, other = scene(body, step=step).compile(), scene(body, step=step).compile()
+    for simulation in (one, other):
+        for _ in range(3):
+            simulation.step()
+        simulation.cut("bar", SLANTED)
+        simulation.step()
+    one.parameters["gravity.z"] = -9.81
+    for simulation in (one, other):
+        for _ in range(3):
+            simulation.step()
+    np.testing.assert_allclose(
+        one.positions["bar"], other.positions["bar"], rtol=0, atol=1e-9
+    )  # the solver begins anew
+    one.reset()
+    assert one.meshes["bar"].node_count == 7 * 3 * 3
+    assert not one.surface("bar").cut.any()
+
+
+def test_a_grab_whose_point_parts_is_released() -> None:
+    simulation = scene(grabbing=True).compile()
+    near = simulation.grab("bar", 40, (0.0, 0.0, 0.0), 10.0)
+    far = simulation.grab("bar", simulation.meshes["bar"].node_count - 1, (0.5, 0, 0), 10.0)
+    node = int(np.argmin(np.abs(simulation.meshes["bar"].points[:, 0] - 0.2)))
+    parted = simulation.grab("bar", node, (0.0, 0.0, 0.0), 10.0)
+    report = simulation.cut("bar", ts.Plane(point=(0.21, 0, 0), normal=(1, 0, 0)))
+    assert parted.released
+    assert len(report.released) >= 1
+    assert not far.released
+    assert near.released == (near._number in report.released)
+
+
+def test_what_cannot_be_cut_is_refused_and_stays() -> None:
+    with pytest.raises(ts.ParameterError, match="compiled without editing"):
+        scene(editing=False).compile().cut("bar", SLANTED)
+    simulation = scene().compile()
+    before = np.array(simulation.positions["bar"])
+    for blade, words in (
+        (ts.Disc((0, 0, 0), (0, 0, 0), 0.1), "normal"),
+        (ts.Disc((0, 0, np.nan), (0, 0, 1), 0.1), "finite"),
+        (ts.Triangles([(0, 0, 0), (1, 0, 0)], [(0, 1, 2)]), "0 to 1 are accepted"),
+        (ts.Sweep([[(0, 0, 0)]]), "shape"),
+        ("knife", "as a blade"),
+    ):
+        with pytest.raises(ts.ParameterError, match=words):
+            simulation.cut("bar", blade)  # type: ignore[arg-type]
+    with pytest.raises(ts.ParameterError, match="accepted: bar"):
+        simulation.cut("liver", SLANTED)
+    np.testing.assert_array_equal(simulation.positions["bar"], before)
+    tight = scene(editing=ts.Editing(room="1 %")).compile()
+    with pytest.raises(ts.ParameterError, match="there is room for 1"):
+        tight.cut("bar", SLANTED)
+    assert tight.meshes["bar"].node_count == 81
+    assert tight.step().converged
+
+
+def test_a_static_body_keeps_its_pieces_held() -> None:
+    stiff = bar(law=ts.StVK(young=5e6, poisson=0.3))
+    simulation = scene(stiff, step=ts.Static()).compile()
+    simulation.step()
+    before = np.array(simulation.positions["bar"])
+    with pytest.raises(ts.ParameterError, match="without support"):
+        simulation.cut("bar", SLANTED)
+    np.testing.assert_array_equal(simulation.positions["bar"], before)
+    corners = [(0.13, -1, 0.06), (0.13, 1, 0.06), (0.13, 1, 1), (0.13, -1, 1)]
+    slit = ts.Triangles(corners, [(0, 1, 2), (0, 2, 3)])
+    assert simulation.cut("bar", slit).cells_cut
+    assert simulation.step().converged
+
+
+def test_ablation_takes_cells_by_their_material() -> None:
+    simulation = scene().compile()
+    report = simulation.ablate("bar", ts.Sphere((0.4, 0.1, 0.1), 0.06))
+    assert report.cells_gone == 1
+    assert report.volume_change == pytest.approx(-(0.05**3), rel=ROUND_OFF)
+    assert report.mass_change == pytest.approx(-0.125, rel=ROUND_OFF)
+    assert simulation.step().converged
+    assert not simulation.ablate("bar", ts.Sphere((2, 2, 2), 0.1)).cells_gone
+    with pytest.raises(ts.ParameterError, match="leave no cell"):
+        simulation.ablate("bar", ts.Sphere((0, 0, 0), 5.0))

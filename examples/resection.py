@@ -36,7 +36,7 @@ def near_tip(simulation: ts.Simulation) -> np.ndarray:
     blocks = simulation.meshes["organ"].volume_blocks
     middles = np.concatenate([places[block.nodes].mean(axis=1) for block in blocks])
     near = np.linalg.norm(middles - tip, axis=1) < REACH
-    return simulation.remaining_cells("organ")[near]
+    return np.asarray(simulation.remaining_cells("organ")[near])
 
 
 def work(simulation: ts.Simulation) -> None:

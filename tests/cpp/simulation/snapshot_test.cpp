@@ -233,7 +233,12 @@ TEST_F(Snapshots, OfOtherWorldsAreRefused) {
   refuse("velocities before", [](Snapshot& s) { s.velocities_before.push_back(0.0); });
   refuse("rotations", [](Snapshot& s) { s.state.rotations.push_back(Quaternion::Identity()); });
   refuse("remember", [](Snapshot& s) { s.state.memory.emplace_back(); });
-  refuse("edited bodies", [](Snapshot& s) { s.bodies.push_back({"body", {0}, {}, {}}); });
+  refuse("edited bodies", [](Snapshot& s) {
+    BodyTopology body;
+    body.body = "body";
+    body.cells = {0};
+    s.bodies.push_back(body);
+  });
   world_.editable = true;
   refuse("cells of body", [](Snapshot& s) { s.bodies[0].cells.push_back(99); });
   refuse("loose nodes", [](Snapshot& s) {

@@ -116,10 +116,13 @@ class Series:
             return
         first = ", ".join(map(str, inverted[:5])) + (", ..." if len(inverted) > 5 else "")
         verb = "is" if len(inverted) == 1 else "are"
+        laws = self._simulation.scene.bodies[body].laws().values()
+        resists = any(law.type == "stable_neo_hooke" for law in laws)
+        other = "" if resists else " or the law stable_neo_hooke, which resists it"
         self.inverted = (
             f"at t = {self._simulation.time:.4g} s {counted(len(inverted), 'cell')} of body "
             f"'{body}' {verb} inside out ({first}); what follows is not a deformation of the body: "
-            "take smaller steps or the law stable_neo_hooke, which resists it"
+            f"take smaller steps{other}"
         )
 
 

@@ -368,3 +368,33 @@ def test_ablation_takes_cells_by_their_material() -> None:
     assert not simulation.ablate("bar", ts.Sphere((2, 2, 2), 0.1)).cells_gone
     with pytest.raises(ts.ParameterError, match="leave no cell"):
         simulation.ablate("bar", ts.Sphere((0, 0, 0), 5.0))
+
+
+def test_live_supports_and_loads_keep_their_nodes_while_they_are_live() -> None:
+    """A blade through nodes of both parts them; live numbers are one for each node."""
+    root = ts.Fixed("bar", on=ts.Plane(point=(0, 0, 0), normal=(1, 0, 0)), name="root")
+    end = ts.Plane(point=(0.4, 0, 0), normal=(1, 0, 0))
+    pull = ts.NodalLoad("bar", on=end, force=(0.0, 1.0, 0.0), name="pull")
+    through_nodes = ts.Plane(point=(0, 0, 0.05), normal=(0, 0, 1))
+    made = scene(fixed=[root], loads=[pull], gravity=None)
+
+    led = made.compile()
+    led.lead("root").move((0, 0, 0.01))
+    with pytest.raises(ts.ParameterError, match=r'support "root", which is led live'):
+        led.cut("bar", through_nodes)
+    assert led.step().converged
+    assert led.meshes["bar"].node_count == 81
+
+    loaded = made.compile()
+    loaded.load("pull").force = (0.0, 5.0, 0.0)
+    with pytest.raises(ts.ParameterError, match=r"loads\[0\]\), which was changed"):
+        loaded.cut("bar", through_nodes)
+
+    after = made.compile()
+    assert len(after.cut("bar", through_nodes).pieces) == 2
+    after.load("pull").force = (0.0, 5.0, 0.0)
+    assert after.forces()[after.rows("bar")].sum(axis=0) == pytest.approx([0, 5, 0], abs=1e-12)
+    after.lead("root").move((0, 0, 0.01))
+    assert after.step().converged
+    held = np.flatnonzero(np.abs(after.meshes["bar"].points[:, 0]) < 1e-9)
+    np.testing.assert_allclose(after.displacements("bar")[held, 2], 0.01, rtol=0, atol=1e-12)

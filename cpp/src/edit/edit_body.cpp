@@ -121,6 +121,24 @@ void part_supports(WorldDescription& description, const BodyDescription& body, c
   }
 }
 
+/// Live numbers of a support or load are one for each of its nodes, so that it keeps its nodes meanwhile.
+void refuse_live_changes(const World& world, const State& state, const WorldDescription& before,
+                         const WorldDescription& after) {
+  for (std::size_t i = 0; i < before.fixed.size(); ++i) {
+    const FixedNodes& support = before.fixed[i];
+    if (support.name.empty() || !world.fixed().is_led_live(support.name, state)) continue;
+    if (support.nodes == after.fixed[i].nodes) continue;
+    throw ParameterError("the cut parts nodes of the support \"" + support.name +
+                         "\", which is led live; release it first, or lead it after the cut.");
+  }
+  for (std::size_t i = 0; i < before.loads.size(); ++i) {
+    const LoadDescription& load = before.loads[i];
+    if (load.nodes == after.loads[i].nodes || state.memory[world.memory().find(load.name)].empty()) continue;
+    throw ParameterError("the cut parts nodes of the " + load.name +
+                         ", which was changed while it runs; cut first, and change it then.");
+  }
+}
+
 }  // namespace
 
 void refuse_unparted(const WorldDescription& description, const BodyDescription& body) {
@@ -177,6 +195,7 @@ std::shared_ptr<const World> edit_body(const World& world, const State& state, s
   body = edited(std::move(body), edit);
   part_supports(description, body, edit);
   part_loads(description, body, edit.copied);
+  refuse_live_changes(world, state, *world.description(), description);
   std::erase_if(description.fixed, [](const FixedNodes& fixed) { return fixed.nodes.empty(); });
   hold_debris(description, body, state, world.body(name).first_node);
   return std::make_shared<const World>(std::move(description), nullptr);

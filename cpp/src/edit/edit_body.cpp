@@ -135,7 +135,7 @@ void refuse_live_changes(const World& world, const State& state, const WorldDesc
     const LoadDescription& load = before.loads[i];
     if (load.nodes == after.loads[i].nodes || state.memory[world.memory().find(load.name)].empty()) continue;
     throw ParameterError("the cut parts nodes of the " + load.name +
-                         ", which was changed while it runs; cut first, and change it then.");
+                         ", which was changed while it runs; reset it first.");
   }
 }
 

@@ -99,7 +99,7 @@ class LiveLoad:
         numbers = self._numbers()
         given = value is not None
         numbers[:_HEAD] = [float(given), units.NUMBER(value) if given else 0.0]
-        self._core.set_remembered(self._place, numbers)
+        self._keep(numbers)
 
     def reset(self) -> None:
         """Make it what the scene has."""
@@ -127,7 +127,17 @@ class LiveLoad:
         self._require(quantity)
         other = self._load.replace(**{quantity: value})
         head = self._numbers()[:_HEAD]
-        self._core.set_remembered(self._place, np.concatenate([head, other.made_of(self._where)]))
+        self._keep(np.concatenate([head, other.made_of(self._where)]))
+
+    def _keep(self, numbers: Floats) -> None:
+        """Give the core its numbers, which are one for each node that the load had at first."""
+        try:
+            self._core.set_remembered(self._place, numbers)
+        except ParameterError:
+            raise ParameterError(
+                f"found the {self._place}, whose nodes a cut has parted; it keeps the value that it "
+                "had then"
+            ) from None
 
     def _require(self, quantity: str) -> None:
         if quantity != self._load.quantity:

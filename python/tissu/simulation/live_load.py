@@ -135,7 +135,7 @@ class LiveLoad:
             self._core.set_remembered(self._place, numbers)
         except ParameterError:
             raise ParameterError(
-                f"found the {self._place}, whose nodes a cut has parted; it keeps the value that it "
+                f"found the {self._place}, whose nodes a cut has parted; it keeps the value it "
                 "had then"
             ) from None
 

@@ -56,7 +56,7 @@ ROWS = (
     Row("run-time spring", "link", r"\b(Links|Couplings)\b"),
     Row("grab", "grab", r"\b(Grabs|Couplings)\b"),
     Row("contact with an obstacle", "touch-plane", CONTACT),
-    Row("friction", "rub-plane", r"\bContactRun::rub\b", "touch-plane"),
+    Row("friction", "rub-plane", r"\bImplicitContact::rub\b", "touch-plane"),
     Row("contact of two bodies", "touch-bar", CONTACT, "two-bars"),
     Row("self-contact", "touch-itself", CONTACT),
     Row("editing allowed, nothing removed", "editable", None),

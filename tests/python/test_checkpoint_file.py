@@ -99,7 +99,7 @@ def test_numpy_opens_it_and_equal_states_are_equal_bytes(file, tmp_path):
         ({"gravity": (0, 0, -1.0)}, "gravity is [0.0, 0.0, -9.81] there and [0.0, 0.0, -1.0] here"),
         ({"gravity": None}, "gravity is [0.0, 0.0, -9.81] there and absent here"),
         ({"step": ts.ImplicitEuler(0.02)}, "step.dt is 0.01 there and 0.02 here"),
-        ({"editing": True}, "editing is False there and True here"),
+        ({"editing": True}, "editing is absent there and given here"),
         (
             {"step": ts.ImplicitEuler(0.01, solver=ts.Cholesky())},
             "step.solver.type is auto there and cholesky here",

@@ -1,6 +1,7 @@
 #include "tissu/edit/cut_state.h"
 
 #include <algorithm>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -33,13 +34,17 @@ CutState cut_state_of(BodyDescription body, Material material) {
   std::vector<Hosts::Cell> cells;
   for (const ElasticBlock& block : body.elastic) {
     const ElementInfo& element = *find_element(block.element);
-    const CellType type = *cell_type(block.element);
+    const std::optional<CellType> type = cell_type(block.element);
+    if (!type) {
+      throw ParameterError("body \"" + body.name + "\" has cells of type " + block.element +
+                           "; only bodies of volume cells have a material that can be cut.");
+    }
     for (std::size_t i = 0; i < block.cell_numbers.size(); ++i) {
       const auto own =
           std::span(block.cells)
               .subspan(i * static_cast<std::size_t>(element.nodes), static_cast<std::size_t>(element.nodes));
       cells.push_back({block.cell_numbers[i],
-                       type,
+                       *type,
                        block.origins.empty() ? block.cell_numbers[i] : block.origins[i],
                        of_cell(block.share, static_cast<std::int32_t>(i)),
                        {own.begin(), own.end()}});

@@ -50,9 +50,11 @@ py::dict to_dict(const CutPlan& plan) {
   result["area"] = plan.area;
   result["rest_area"] = plan.rest_area;
   std::vector<std::int32_t> copied;
+  copied.reserve(plan.nodes.size());
   for (const BornNode& node : plan.nodes) copied.push_back(node.copied);
   result["copied"] = to_array(copied);
   std::vector<std::pair<std::int32_t, std::string>> unresolved;
+  unresolved.reserve(plan.unresolved.size());
   for (const auto& [cell, reason] : plan.unresolved) unresolved.emplace_back(cell, words(reason));
   result["unresolved"] = unresolved;
   return result;

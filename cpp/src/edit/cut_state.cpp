@@ -34,17 +34,18 @@ CutState cut_state_of(BodyDescription body, Material material) {
   std::vector<Hosts::Cell> cells;
   for (const ElasticBlock& block : body.elastic) {
     const ElementInfo& element = *find_element(block.element);
-    const std::optional<CellType> type = cell_type(block.element);
-    if (!type) {
+    const std::optional<CellType> known = cell_type(block.element);
+    if (!known) {
       throw ParameterError("body \"" + body.name + "\" has cells of type " + block.element +
                            "; only bodies of volume cells have a material that can be cut.");
     }
+    const CellType type = *known;
     for (std::size_t i = 0; i < block.cell_numbers.size(); ++i) {
       const auto own =
           std::span(block.cells)
               .subspan(i * static_cast<std::size_t>(element.nodes), static_cast<std::size_t>(element.nodes));
       cells.push_back({block.cell_numbers[i],
-                       *type,
+                       type,
                        block.origins.empty() ? block.cell_numbers[i] : block.origins[i],
                        of_cell(block.share, static_cast<std::int32_t>(i)),
                        {own.begin(), own.end()}});

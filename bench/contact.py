@@ -123,13 +123,16 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
     parser.add_argument("names", nargs="*", metavar="CASE")
     parser.add_argument("--write", action="store_true", help="write docs/contact.md")
+    parser.add_argument("--responses", action="store_true", help="that table alone")
     asked = parser.parse_args()
-    if not PROGRAM.exists() and not asked.names:
+    alone = asked.names or asked.responses
+    if not PROGRAM.exists() and not alone:
         print(f"contact: {PROGRAM} is not built", file=sys.stderr)
         return 1
-    parts = {"steps": steps_text(asked.names)}
+    parts = {} if asked.responses else {"steps": steps_text(asked.names)}
     if not asked.names:
         parts["responses"] = responses_text()
+    if not alone:
         parts["broad phases"] = broad_text()
     page = PAGE.read_text(encoding="utf-8")
     for part, text in parts.items():

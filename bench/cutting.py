@@ -48,7 +48,7 @@ def discs(side: int) -> list[ts.Disc]:
     return [
         ts.Disc(
             random.uniform((0.1, 0.03, 0.03), (0.3, 0.07, 0.07)),
-            (*random.standard_normal(3), 2.0, 0.0, 0.0),
+            random.standard_normal(3) + np.array([2.0, 0.0, 0.0]),
             radius,
         )
         for _ in range(CUTS)

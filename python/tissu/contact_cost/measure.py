@@ -53,9 +53,14 @@ class Row:
     ended: str = ""
 
 
-def measure(case: Case) -> Row:
-    """Runs it. A run that an error ends is a row that says why."""
-    bare = _times(case.without(), case.dt)
+def measure(case: Case, *, beside: bool = True) -> Row:
+    """Runs it. A run that an error ends is a row that says why.
+
+    Args:
+        case: what is run.
+        beside: whether the same bodies are timed without contact; else that time is nan.
+    """
+    bare = _times(case.without(), case.dt)[SETTLED:] if beside else [float("nan")]
     simulation = case.scene().compile()
     watch = _Watch(simulation, case)
     steps = _count(simulation.scene, case.dt)
@@ -66,7 +71,7 @@ def measure(case: Case) -> Row:
         except TissuError as error:
             ended = str(error).splitlines()[0]
             break
-    return watch.row(float(np.median(bare[SETTLED:])), ended)
+    return watch.row(float(np.median(bare)), ended)
 
 
 def _count(scene: Scene, dt: float) -> int:

@@ -78,4 +78,4 @@ def measured_responses(names: tuple[str, ...] = SCENES) -> Iterator[tuple[str, f
     for name in names:
         for label, response in RESPONSES.items():
             case = by_response(CASES[name](), response)
-            yield label, case.dt, measure(case)
+            yield label, case.dt, measure(case, beside=False)

@@ -11,6 +11,7 @@ from __future__ import annotations
 import argparse
 import datetime
 import json
+import math
 import os
 import subprocess
 import sys
@@ -60,8 +61,7 @@ def response_cells(label: str, dt: float, row: Row) -> list[str]:
     return [
         label,
         digits(1e3 * dt),
-        digits(row.steps[0]),
-        digits(row.steps[0] / dt),
+        *("-" if math.isnan(ms) else digits(ms) for ms in (row.steps[0], row.steps[0] / dt)),
         *(f"{100.0 * depth:.2g} %" for depth in row.deepest),
         "" if row.force_error is None else f"{100.0 * row.force_error:.2g} %",
         str(row.unconverged),

@@ -68,7 +68,7 @@ def test_in_steps_of_time_it_comes_to_the_same_rest():
 
 
 def test_its_own_cells_stay_where_it_is_in_contact():
-    """What they would uncover is no unknown: nothing changes, and a sentence says why."""
+    """The nodes that they would uncover are not unknowns: nothing changes; a sentence says why."""
     simulation = pressed(ts.Condensed(), editing=True).compile()
     simulation.step()
     before = simulation.contacts().forces

@@ -415,3 +415,19 @@ def test_a_sheet_has_no_material_to_cut() -> None:
     with pytest.raises(ts.ParameterError, match="volume cells are accepted"):
         simulation.cut("bar", SLANTED)
     assert simulation.step().converged
+
+
+def test_rewind_brings_the_parameters_back() -> None:
+    simulation = scene().compile()
+    simulation.step()
+    mark = simulation.mark()
+    ends = []
+    for young in (5e4, 9e4):
+        simulation.parameters["bodies.bar.law.young"] = young
+        simulation.step()
+        simulation.rewind(mark)
+        assert simulation.parameters["bodies.bar.law.young"] == 5e4
+        simulation.step()
+        ends.append(np.array(simulation.positions["bar"]))
+        simulation.rewind(mark)
+    np.testing.assert_array_equal(ends[0], ends[1])

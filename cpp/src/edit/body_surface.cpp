@@ -183,7 +183,7 @@ void add_halves(ConstReals points, const std::vector<Corners<4>>& quads, std::ve
   }
 }
 
-/// Pieces of lines outside the volume, those that are no edge of a triangle each once, with their radius.
+/// Pieces of lines outside the volume that are not an edge of a triangle, each once, with their radius.
 void add_lines(const std::vector<Piece<2>>& lines, const VolumeCells& volume, SurfaceDescription& surface) {
   std::set<Corners<2>> known;
   for (const Corners<3>& t : surface.triangles) {

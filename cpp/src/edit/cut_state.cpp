@@ -20,7 +20,8 @@ const BodyDescription& described(const World& world, std::string_view name) {
   }
   const auto& bodies = world.description()->bodies;
   const auto found = std::ranges::find(bodies, name, &BodyDescription::name);
-  if (found == bodies.end()) throw ParameterError("there is no body \"" + std::string(name) + "\".");
+  if (found == bodies.end())
+    throw ParameterError("the scene does not have the body \"" + std::string(name) + "\".");
   return *found;
 }
 

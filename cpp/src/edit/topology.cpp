@@ -89,7 +89,7 @@ class Replay {
     for (std::size_t i = 0; i < topology_.cells.size(); ++i) {
       const auto found = nodes_.find(topology_.origins[i]);
       if (found == nodes_.end())
-        refuse(topology_, "there is no cell " + std::to_string(topology_.origins[i]));
+        refuse(topology_, "the scene does not have cell " + std::to_string(topology_.origins[i]));
       const std::size_t count = found->second.size();
       if (node + count > topology_.nodes.size()) refuse(topology_, "cells lack nodes");
       add(i, std::span(topology_.nodes).subspan(node, count));
@@ -170,7 +170,7 @@ std::shared_ptr<const World> with_topology(const World& world, const BodyTopolog
   if (world.description() == nullptr) refuse(topology, "the scene was compiled without editing");
   const auto& all = world.description()->bodies;
   const auto found = std::ranges::find(all, topology.body, &BodyDescription::name);
-  if (found == all.end()) refuse(topology, "there is no such body");
+  if (found == all.end()) refuse(topology, "the scene has no body of this name");
   BodyDescription body = *found;
   number_cells(body);
   return edit_body(world, with_loose_nodes(world, topology), topology.body, Replay(body, topology).edit());

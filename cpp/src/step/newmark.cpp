@@ -23,7 +23,7 @@ void Newmark::prepare(const World& world, LinearSolver* solver, Profile& profile
 
 void Newmark::find_acceleration(const State& state) {
   if (end_.is(state)) return;
-  // Contacts of the step before are no part of it.
+  // It leaves out the contacts of the step before.
   solver_.system().force(state, a_);
   if (const Contact* contact = solver_.world().contact()) contact->take_force(state, a_);
   solver_.world().mass().divide(state, a_);

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import time
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -26,7 +26,9 @@ from tissu.simulation import grab as kept
 
 if TYPE_CHECKING:
     from tissu import _core as core
+    from tissu.compile import Check
     from tissu.front import Scene
+    from tissu.scene.load import Load, Where
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int32]
@@ -45,6 +47,7 @@ class Mark:
     _owner: object
     _meshes: dict[str, Mesh]
     _steps: int
+    _compiled: tuple[Any, ...]
     time: float
     """simulated time [s]"""
 
@@ -61,6 +64,10 @@ class Cutting:
     _meshes: dict[str, Mesh]
     _rest: dict[str, Mesh]
     _steps: int
+    _world: core.World
+    _check: Check
+    _loads: Sequence[tuple[Load, Where]]
+    _physics_known: dict[str, Any] | None
 
     if TYPE_CHECKING:
 
@@ -193,10 +200,13 @@ class Cutting:
         The solver forgets what it keeps of earlier steps, so that a run from here and one after
         `rewind` have the same bits.
         """
-        return Mark(self._core.mark(), self, dict(self._meshes), self._steps, self._core.time)
+        compiled = (self.scene, self._world, self._check, self._loads)
+        return Mark(
+            self._core.mark(), self, dict(self._meshes), self._steps, compiled, self._core.time
+        )
 
     def rewind(self, mark: object) -> None:
-        """Go back to a mark: state, time, cells and cuts.
+        """Go back to a mark: state, time, cells, cuts, and the parameters of that moment.
 
         Raises:
             ParameterError: it is a mark of another simulation.
@@ -208,6 +218,8 @@ class Cutting:
         self._core.rewind(mark._core)
         self._meshes.update(mark._meshes)
         self._steps = mark._steps
+        self.scene, self._world, self._check, self._loads = mark._compiled
+        self._physics_known = None
         for body in self._meshes:
             self._follow_cells(body)
 

@@ -235,7 +235,7 @@ TEST(PartialCutTest, CellsOfACutBodyAreTakenOut) {
   EXPECT_EQ(next.born[0].number, cut.born.back().number + 1);  // no number is used twice
 }
 
-/// The order of a blade's triangles is no part of the cut.
+/// A cut does not depend on the order of the blade's triangles.
 TEST(PartialCutTest, TheOrderOfTrianglesDoesNotMatter) {
   test::CutBody body = bar();
   Sweep sweep = disc_sweep(Vec3(1.01, 0.52, 0.49), Vec3(1, 0.2, 0.1), 0.45);

@@ -431,3 +431,34 @@ def test_rewind_brings_the_parameters_back() -> None:
         ends.append(np.array(simulation.positions["bar"]))
         simulation.rewind(mark)
     np.testing.assert_array_equal(ends[0], ends[1])
+
+
+@pytest.mark.parametrize(
+    "body", [bar("tetra", (6, 2, 2)), bar(), prony()], ids=["tetra", "hexahedron", "prony"]
+)
+def test_forces_of_copies_add_up_to_those_of_their_nodes(body: ts.Body) -> None:
+    """What a viscous material remembers is in them: it has been sheared for a while."""
+    simulation = shaken(scene(body, step=ts.ImplicitEuler(dt=0.001)).compile())
+    for _ in range(3):
+        simulation.step()
+    before = simulation.forces()[simulation.rows("bar")]
+    simulation.cut("bar", SLANTED)
+    after = np.zeros_like(before)
+    np.add.at(after, simulation.born("bar"), simulation.forces()[simulation.rows("bar")])
+    np.testing.assert_allclose(after, before, rtol=0, atol=1e-11 * np.abs(before).max())
+
+
+@pytest.mark.parametrize("step", STEPS.values(), ids=STEPS)
+def test_a_body_that_falls_goes_on_falling_as_it_is_cut(step: ts.Step) -> None:
+    """Nothing strains it, so that its parts move as it would have: histories are carried too."""
+    if hasattr(step, "solver"):
+        step = step.replace(solver=ts.ConjugateGradient(tolerance=1e-12))
+    one, other = (scene(fixed=[], step=step).compile() for _ in range(2))
+    for number in range(8):
+        if number == 4:
+            assert len(one.cut("bar", SLANTED).pieces) == 2
+        one.step()
+        other.step()
+    expected = other.displacements("bar")[one.born("bar")]
+    np.testing.assert_allclose(one.displacements("bar"), expected, rtol=0, atol=1e-12)
+    assert np.abs(expected).max() > 1e-6

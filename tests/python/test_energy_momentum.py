@@ -83,3 +83,18 @@ def test_an_end_sets_off_from_rest_and_stops():
         return given
 
     assert energies(1) == pytest.approx(energies(2), rel=0.1)
+
+
+@pytest.mark.parametrize("law", [ts.StableNeoHooke, ts.NeoHooke, ts.StVK])
+def test_a_free_body_falls_by_every_law(law):
+    """The midpoint rule of constant gravity: z = -g t^2 / 2 exactly, of every node."""
+    mesh = ts.bar_mesh(size=(0.05, 0.05, 0.05), cells=(4, 4, 4))
+    body = ts.Body(mesh=mesh, law=law(young="50 kPa", poisson=0.3), density=1000)
+    scene = ts.Scene(bodies={"b": body}, gravity=(0, 0, -9.81), step=ts.EnergyMomentum("10 ms"))
+    simulation = scene.compile()
+    before = simulation.energy()["total"]
+    for _ in range(20):
+        assert simulation.step().converged
+    fallen = simulation.displacements("b")
+    np.testing.assert_allclose(fallen[:, 2], -0.5 * 9.81 * 0.2**2, rtol=1e-8)
+    assert simulation.energy()["total"] == pytest.approx(before, abs=1e-8 * 0.125 * 9.81 * 0.2)

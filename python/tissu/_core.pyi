@@ -238,6 +238,7 @@ class WorldBuilder:
         closed: bool,
         origin: Floats,
         motion: MotionPath | None,
+        rigid: tuple[float, Floats, Floats, Floats] | None,
     ) -> None: ...
     def add_plane(
         self, *, name: str, normal: Floats, origin: Floats, motion: MotionPath | None

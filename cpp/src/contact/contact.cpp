@@ -33,8 +33,9 @@ Mat3 stiffness_of(const ContactNumbers& contact) {
   return H;
 }
 
-Contact::Contact(ContactDescription description, std::span<const std::int32_t> first_node, ConstReals rest)
-    : description_(std::move(description)), surfaces_(description_, first_node, rest) {}
+Contact::Contact(ContactDescription description, std::span<const std::int32_t> first_node,
+                 std::span<const Frame> frames, ConstReals rest)
+    : description_(std::move(description)), surfaces_(description_, first_node, frames, rest) {}
 
 template <class Function>
 void Contact::for_contacts(const State& state, Function&& f) const {
@@ -42,40 +43,62 @@ void Contact::for_contacts(const State& state, Function&& f) const {
   for (std::size_t i = 0; i < all.size(); ++i) f(all[i]);
 }
 
-/// r of a contact.
-Vec3 Contact::reach(const ContactNumbers& contact, ConstReals positions) const {
+Vec3 Contact::carried_place(std::int32_t vertex, const State& state) const {
+  const auto number = static_cast<std::size_t>(surfaces_.vertices()[static_cast<std::size_t>(vertex)].carrier);
+  const SurfaceCarrier& carrier = surfaces_.carriers()[number];
+  return block(ConstReals(state.positions), carrier.row) + arm(vertex, carrier, state);
+}
+
+Vec3 Contact::reach(const ContactNumbers& contact, const State& state) const {
   Vec3 r = vector_of(contact.fixed);
   for (std::size_t k = 0; k < 4; ++k) {
-    const std::int32_t i = row(contact.vertex[k]);
-    if (i >= 0) r += contact.beta[k] * block(positions, i);
+    if (contact.vertex[k] < 0.0) continue;
+    const auto v = static_cast<std::size_t>(contact.vertex[k]);
+    if (surfaces_.vertices()[v].is_free()) r += contact.beta[k] * place(contact, k, state);
   }
   return r;
 }
 
-void Contact::scatter(const ContactNumbers& contact, const Vec3& force, Reals f) const {
+Vec3 Contact::turned(const ContactNumbers& contact, const State& from, const State& to) const {
+  Vec3 sum = Vec3::Zero();
+  if (surfaces_.carriers().empty()) return sum;
   for (std::size_t k = 0; k < 4; ++k) {
-    const std::int32_t i = row(contact.vertex[k]);
-    if (i >= 0) block(f, i) += contact.beta[k] * force;
+    if (contact.vertex[k] < 0.0) continue;
+    const auto v = static_cast<std::int32_t>(contact.vertex[k]);
+    if (surfaces_.vertices()[static_cast<std::size_t>(v)].carrier < 0) continue;
+    for (const auto& [sign, state] : {std::pair(1.0, &to), std::pair(-1.0, &from)}) {
+      sum += sign * contact.beta[k] * (place(contact, k, *state) - place(v, *state));
+    }
   }
+  return sum;
+}
+
+Vec3 Contact::motion(const ContactNumbers& contact, const State& state, ConstReals p) const {
+  Vec3 sum = Vec3::Zero();
+  for_parts(contact, state, [&](const CarriedPart& part) { sum += part.motion(block(p, part.row)); });
+  return sum;
+}
+
+void Contact::scatter(const ContactNumbers& contact, const State& state, const Vec3& force, Reals f) const {
+  for_parts(contact, state, [&](const CarriedPart& part) { block(f, part.row) += part.load(force); });
 }
 
 void Contact::add_force(const State& state, Scratch& /*scratch*/, Reals f) const {
   for_contacts(state, [&](const ContactNumbers& c) {
-    const Vec3 moved = reach(c, state.positions) - vector_of(c.place);
-    scatter(c, vector_of(c.push) - stiffness_of(c) * moved, f);
+    const Vec3 moved = reach(c, state) - vector_of(c.place);
+    scatter(c, state, vector_of(c.push) - stiffness_of(c) * moved, f);
   });
 }
 
 void Contact::take_force(const State& state, Reals f) const {
-  for_contacts(state, [&](const ContactNumbers& c) { scatter(c, -vector_of(c.push), f); });
+  for_contacts(state, [&](const ContactNumbers& c) { scatter(c, state, -vector_of(c.push), f); });
 }
 
 void Contact::add_product(const State& state, Scratch& /*scratch*/, StiffnessScale scale, ConstReals p,
                           Reals out) const {
   if (scale.position == 0.0) return;
   for_contacts(state, [&](const ContactNumbers& c) {
-    const Vec3 moved = reach(c, p) - vector_of(c.fixed);
-    scatter(c, -scale.position * (stiffness_of(c) * moved), out);
+    scatter(c, state, -scale.position * (stiffness_of(c) * motion(c, state, p)), out);
   });
 }
 
@@ -84,7 +107,7 @@ double Contact::energy(const State& state, Scratch& /*scratch*/) const {
   for_contacts(state, [&](const ContactNumbers& c) {
     const Mat3 H = stiffness_of(c);
     if (H.isZero(0.0)) return;
-    const Vec3 moved = reach(c, state.positions) - vector_of(c.place);
+    const Vec3 moved = reach(c, state) - vector_of(c.place);
     sum += 0.5 * moved.dot(H * moved) - vector_of(c.push).dot(moved);
   });
   return sum;
@@ -104,10 +127,16 @@ void Contact::add_couplings(const State& state, StiffnessScale scale, Couplings&
     if (H.isZero(0.0)) return;
     Coupling coupling{{0, 0, 0, 0}, {0.0, 0.0, 0.0, 0.0}, -scale.position * H, true};
     for (std::size_t k = 0; k < 4; ++k) {
-      const std::int32_t i = row(c.vertex[k]);
-      if (i < 0) continue;
-      coupling.vertex[k] = i;
+      if (c.vertex[k] < 0.0) continue;
+      const auto v = static_cast<std::int32_t>(c.vertex[k]);
+      const SurfaceVertex& vertex = surfaces_.vertices()[static_cast<std::size_t>(v)];
+      if (!vertex.is_free()) continue;
+      coupling.vertex[k] = vertex.row;
       coupling.beta[k] = c.beta[k];
+      if (vertex.row >= 0) continue;
+      const SurfaceCarrier& carrier = surfaces_.carriers()[static_cast<std::size_t>(vertex.carrier)];
+      coupling.vertex[k] = couplings.carry(std::array{
+          CarriedPart{carrier.row, 1.0}, CarriedPart{carrier.rotation, 1.0, arm(c, k, carrier, state), true}});
     }
     couplings.add(coupling);
   });
@@ -180,7 +209,7 @@ Contact::Wrench Contact::force_on(std::int32_t surface, const State& state) cons
   for_contacts(state, [&](const ContactNumbers& c) {
     const Vec3 force = vector_of(c.push);
     if (c.kind == ContactNumbers::kPlane && static_cast<std::int32_t>(c.b) + bodies == surface) {
-      add(-force, -vector_of(c.fixed));
+      add(-force, plane_point(c, state));
     }
     for (std::size_t k = 0; k < 4; ++k) {
       if (c.vertex[k] < 0.0) continue;
@@ -188,8 +217,8 @@ Contact::Wrench Contact::force_on(std::int32_t surface, const State& state) cons
       const SurfaceVertex& vertex = surfaces_.vertices()[v];
       if (vertex.surface != surface) continue;
       const Vec3 rest = block(ConstReals(surfaces_.rest()), static_cast<std::int32_t>(v));
-      add(c.beta[k] * force, vertex.row >= 0 ? Vec3(block(ConstReals(state.positions), vertex.row))
-                                             : place_of(surface - bodies, rest, state, state.time));
+      add(c.beta[k] * force, vertex.is_free() ? place(c, k, state)
+                                              : place_of(surface - bodies, rest, state, state.time));
     }
   });
   return wrench;

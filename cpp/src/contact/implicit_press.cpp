@@ -10,6 +10,7 @@ namespace tissu {
 namespace {
 
 constexpr double kStiff = 3.0;  ///< s: couplings over the block diagonal of the matrix
+constexpr double kStiffRigid = 30.0;  ///< the same between rigid bodies, whose blocks are few
 // Contacts that alternate between sticking and sliding come to rest when they are softer against sliding.
 constexpr int kPatience = 4;     ///< so many alternations later …
 constexpr double kSofter = 0.7;  ///< … by this for each, …
@@ -24,10 +25,11 @@ void set_stiffness(ContactNumbers& contact, const Mat3& H) {
 
 }  // namespace
 
-/// sum_r N_r beta_r^2 A_rr^-1, without given degrees of freedom.
+/// sum_r N_r B_r A_rr^-1 B_r^T, without given degrees of freedom; B is beta of nodes.
 Mat3 ImplicitContact::compliance(const ContactNumbers& contact, std::span<const double> blocks) const {
   Mat3 sum = Mat3::Zero();
-  for_rows(contact, [&](std::int32_t i, double beta) {
+  run_.for_parts(contact, [&](const CarriedPart& part) {
+    const std::int32_t i = part.row;
     const Eigen::Map<const Mat3> A(blocks.data() + 9 * static_cast<std::ptrdiff_t>(i));
     Mat3 inverse = A.inverse();
     for (int axis = 0; axis < 3; ++axis) {
@@ -35,9 +37,18 @@ Mat3 ImplicitContact::compliance(const ContactNumbers& contact, std::span<const 
       inverse.row(axis).setZero();
       inverse.col(axis).setZero();
     }
-    sum += counts_[at(i)] * beta * beta * inverse;
+    sum += counts_[at(i)] * part.carried(inverse);
   });
   return sum;
+}
+
+/// Nothing that it moves is deformed.
+bool ImplicitContact::is_rigid(const ContactNumbers& contact) const {
+  const SurfaceSet& surfaces = contact_.surfaces();
+  if (surfaces.carriers().empty()) return false;
+  return std::ranges::all_of(contact.vertex, [&](double vertex) {
+    return vertex < 0.0 || surfaces.vertices()[static_cast<std::size_t>(vertex)].row < 0;
+  });
 }
 
 void ImplicitContact::find_stiffnesses(std::span<const double> blocks, double scale,
@@ -46,7 +57,7 @@ void ImplicitContact::find_stiffnesses(std::span<const double> blocks, double sc
   const auto each = [&](auto&& f) {
     for (std::size_t i = 0; i < looked.size(); ++i) {
       if (!(shares[i] > 0.0)) continue;
-      for_rows(looked[i], [&](std::int32_t row, double /*beta*/) { f(counts_[at(row)], shares[i]); });
+      run_.for_parts(looked[i], [&](const CarriedPart& part) { f(counts_[at(part.row)], shares[i]); });
     }
   };
   each([](double& sum, double /*share*/) { sum = 0.0; });
@@ -55,7 +66,8 @@ void ImplicitContact::find_stiffnesses(std::span<const double> blocks, double sc
   for (std::size_t i = 0; i < looked.size(); ++i) {
     if (!(shares[i] > 0.0)) continue;
     const double largest = compliance(looked[i], blocks).cwiseAbs().rowwise().sum().maxCoeff();
-    if (largest > 0.0) stiffnesses[i] = kStiff * run_.weight(i) * shares[i] / (largest * scale);
+    const double stiff = is_rigid(looked[i]) ? kStiffRigid : kStiff;
+    if (largest > 0.0) stiffnesses[i] = stiff * run_.weight(i) * shares[i] / (largest * scale);
   }
 }
 

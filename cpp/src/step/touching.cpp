@@ -18,6 +18,7 @@ constexpr double kLaterDepth = 0.1;  ///< … this is deep enough: the next step
 constexpr double kTooDeep = 0.5;
 constexpr double kDepthNewton = 1e-3;
 constexpr double kForce = 1e-2;  ///< of the contacts' forces: a smaller change needs no other system
+constexpr double kForceRigid = 1e-3;  ///< the same where a rigid body is free, which has no other forces
 constexpr double kForceNewton = 1e-3;
 constexpr int kMostLooks = 20;  ///< of a step whose equation is solved to its tolerance
 constexpr double kWorse = 2.0;
@@ -39,6 +40,7 @@ double StageSolver::look(const State& at) {
 int StageSolver::hold_back(State& to) {
   const Timed timed(*profile_, travel_row_);
   placed_ = to.positions;
+  placed_rotations_ = to.rotations;
   return contact_->run().hold_back(to);
 }
 
@@ -114,12 +116,19 @@ void StageSolver::follow(const State& end, std::vector<double>& v) {
     const auto row = static_cast<std::int32_t>(i / 3);
     if (cut_.empty() || cut_.back() != row) cut_.push_back(row);
   }
+  const std::vector<Frame>& frames = system_->world().frames();
+  for (std::size_t k = 0; k < frames.size(); ++k) {
+    if (placed_rotations_[k].coeffs() == end.rotations[k].coeffs()) continue;
+    const Quaternion turn = end.rotations[k] * stage_.base.rotations[k].conjugate();
+    block(Reals(v), frames[k].rotation) = nearest_turn(turn, Vec3::Zero()) / move;
+  }
 }
 
 bool StageSolver::solve_contacts(State& state, std::vector<double>& v, StepReport& report) {
   const World& world = system_->world();
   const Contact& contact = *world.contact();
   const int most = contact.description().iterations;
+  const double enough = contact.surfaces().carriers().empty() ? kForce : kForceRigid;
   place(state, v);
   State* end = &end_of(state);
   hold_back(*end);
@@ -156,7 +165,7 @@ bool StageSolver::solve_contacts(State& state, std::vector<double>& v, StepRepor
     report.held_back = hold_back(*end);
     const double other = look(*end);
     const bool free = report.held_back == 0;
-    if (free && other <= kForce && contact_->depth() <= (i < kLater ? kDepth : kLaterDepth)) break;
+    if (free && other <= enough && contact_->depth() <= (i < kLater ? kDepth : kLaterDepth)) break;
     if (i == most) {
       report.hasty = contact_->inadmissible() > kForce || contact_->depth() > kTooDeep;
       if (report.hasty) report.message = unsettled(most);

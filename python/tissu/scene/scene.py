@@ -16,7 +16,7 @@ from tissu.reading import Maybe, MaybeVector, Read
 from tissu.scene.body import Body, PathLike
 from tissu.scene.bounds import name_problem, step_problems
 from tissu.scene.contact import Contacts, ContactSettings
-from tissu.scene.contact_rules import contact_problems
+from tissu.scene.contact_rules import contact_problems, has_free
 from tissu.scene.editing import EditingField
 from tissu.scene.field import field
 from tissu.scene.load import Load, OneLoad
@@ -140,8 +140,9 @@ class SceneData(Part):
     @rule("bodies", "tissue")
     def _has_bodies(self) -> Iterator[Problem]:
         """Something to simulate, each by one name; tissue lies between bodies that there are."""
-        if not self.bodies and not self.tissue:
-            yield Problem(("bodies",), "found no body and no tissue; at least one is accepted")
+        if not self.bodies and not self.tissue and not has_free(self):
+            text = "found no body, no tissue and no obstacle with a mass; at least one is accepted"
+            yield Problem(("bodies",), text)
         for name, tissue in self.tissue.items():
             if name in self.bodies:
                 yield Problem(("tissue", name), f"found '{name}' as a body too; names are unique")

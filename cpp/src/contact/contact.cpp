@@ -53,24 +53,27 @@ Vec3 Contact::reach(const ContactNumbers& contact, const State& state) const {
   Vec3 r = vector_of(contact.fixed);
   for (std::size_t k = 0; k < 4; ++k) {
     if (contact.vertex[k] < 0.0) continue;
-    const auto v = static_cast<std::size_t>(contact.vertex[k]);
-    if (surfaces_.vertices()[v].is_free()) r += contact.beta[k] * place(contact, k, state);
+    const auto v = static_cast<std::int32_t>(contact.vertex[k]);
+    if (surfaces_.vertices()[static_cast<std::size_t>(v)].is_free()) r += contact.beta[k] * place(v, state);
   }
+  if (!surfaces_.carriers().empty()) r += rolled(contact, state);
   return r;
 }
 
-Vec3 Contact::turned(const ContactNumbers& contact, const State& from, const State& to) const {
+Vec3 Contact::rolled(const ContactNumbers& contact, const State& state) const {
   Vec3 sum = Vec3::Zero();
-  if (surfaces_.carriers().empty()) return sum;
   for (std::size_t k = 0; k < 4; ++k) {
     if (contact.vertex[k] < 0.0) continue;
     const auto v = static_cast<std::int32_t>(contact.vertex[k]);
-    if (surfaces_.vertices()[static_cast<std::size_t>(v)].carrier < 0) continue;
-    for (const auto& [sign, state] : {std::pair(1.0, &to), std::pair(-1.0, &from)}) {
-      sum += sign * contact.beta[k] * (place(contact, k, *state) - place(v, *state));
-    }
+    const std::int32_t number = surfaces_.vertices()[static_cast<std::size_t>(v)].carrier;
+    if (number < 0) continue;
+    const SurfaceCarrier& carrier = surfaces_.carriers()[static_cast<std::size_t>(number)];
+    const std::size_t side = contact.is_of_first(k) ? 0 : 3;
+    const Vec3 offset(contact.offset[side], contact.offset[side + 1], contact.offset[side + 2]);
+    sum += contact.beta[k] * (state.rotations[static_cast<std::size_t>(carrier.frame)] * offset);
   }
-  return sum;
+  const Vec3 n = vector_of(contact.normal);
+  return sum - n.dot(sum) * n;
 }
 
 Vec3 Contact::motion(const ContactNumbers& contact, const State& state, ConstReals p) const {
@@ -194,6 +197,15 @@ void Contact::check_memory(const State& state) const {
   }
 }
 
+/// Where vertex number k of a contact touches: on the surface of what is round.
+Vec3 Contact::touched(const ContactNumbers& contact, std::size_t k, const State& state) const {
+  const auto v = static_cast<std::int32_t>(contact.vertex[k]);
+  const std::int32_t number = surfaces_.vertices()[static_cast<std::size_t>(v)].carrier;
+  if (number < 0) return place(v, state);
+  const SurfaceCarrier& carrier = surfaces_.carriers()[static_cast<std::size_t>(number)];
+  return block(ConstReals(state.positions), carrier.row) + arm(contact, k, carrier, state);
+}
+
 Contact::Wrench Contact::force_on(std::int32_t surface, const State& state) const {
   Wrench wrench;
   const auto bodies = static_cast<std::int32_t>(description_.bodies.size());
@@ -209,7 +221,7 @@ Contact::Wrench Contact::force_on(std::int32_t surface, const State& state) cons
   for_contacts(state, [&](const ContactNumbers& c) {
     const Vec3 force = vector_of(c.push);
     if (c.kind == ContactNumbers::kPlane && static_cast<std::int32_t>(c.b) + bodies == surface) {
-      add(-force, plane_point(c, state));
+      add(-force, -vector_of(c.fixed));
     }
     for (std::size_t k = 0; k < 4; ++k) {
       if (c.vertex[k] < 0.0) continue;
@@ -217,7 +229,7 @@ Contact::Wrench Contact::force_on(std::int32_t surface, const State& state) cons
       const SurfaceVertex& vertex = surfaces_.vertices()[v];
       if (vertex.surface != surface) continue;
       const Vec3 rest = block(ConstReals(surfaces_.rest()), static_cast<std::int32_t>(v));
-      add(c.beta[k] * force, vertex.is_free() ? place(c, k, state)
+      add(c.beta[k] * force, vertex.is_free() ? touched(c, k, state)
                                               : place_of(surface - bodies, rest, state, state.time));
     }
   });

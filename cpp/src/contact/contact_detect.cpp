@@ -36,7 +36,7 @@ Vec3 ContactRun::led(const ContactNumbers& contact) const {
     gone += contact.beta[k] * (block(ConstReals(from_), v) - block(ConstReals(begin_), v));
   }
   if (contact.kind == ContactNumbers::kPlane) {
-    const Vec3 point = contact_.plane_point(contact, *looked_at_);
+    const Vec3 point = -vector_of(contact.fixed);
     gone -=
         point - contact_.carried(static_cast<std::int32_t>(contact.b), point, *start_, end_, start_->time);
   }

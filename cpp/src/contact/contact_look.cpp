@@ -125,7 +125,8 @@ void ContactRun::add(const Candidate& candidate, const Found& found, std::int32_
     fixed += c.beta[k] * block(ConstReals(now_), found.vertex[k]);
   }
   c.normal = numbers_of(found.r / found.distance);
-  c.fixed = numbers_of(fixed - set_offsets(c));
+  c.fixed = numbers_of(fixed);
+  set_offsets(c);
   c.place = numbers_of(found.r);
   c.apart = candidate.apart;
   c.area = found.area;
@@ -135,26 +136,20 @@ void ContactRun::add(const Candidate& candidate, const Found& found, std::int32_
   weights_.push_back(found.weight);
 }
 
-/// Where round things that rigid bodies carry touch; the sum of these offsets, with the signs of their sides.
-Vec3 ContactRun::set_offsets(ContactNumbers& c) const {
+/// Where round things that rigid bodies carry touch.
+void ContactRun::set_offsets(ContactNumbers& c) const {
   const SurfaceSet& surfaces = contact_.surfaces();
-  Vec3 sum = Vec3::Zero();
-  if (surfaces.carriers().empty()) return sum;
-  std::array<bool, 2> known = {};
+  if (surfaces.carriers().empty()) return;
   for (std::size_t k = 0; k < 4; ++k) {
     if (c.vertex[k] < 0.0) continue;
     const SurfaceVertex& vertex = surfaces.vertices()[static_cast<std::size_t>(c.vertex[k])];
-    const std::size_t side = c.is_of_first(k) ? 0 : 1;
-    if (vertex.carrier < 0 || vertex.radius == 0.0 || known[side]) continue;
-    known[side] = true;
-    const double sign = side == 0 ? 1.0 : -1.0;
-    const Vec3 offset = -sign * vertex.radius * vector_of(c.normal);
-    sum += sign * offset;
+    if (vertex.carrier < 0 || vertex.radius == 0.0) continue;
+    const bool first = c.is_of_first(k);
     const auto frame = at(surfaces.carriers()[at(vertex.carrier)].frame);
-    const Vec3 own = looked_at_->rotations[frame].conjugate() * offset;
-    std::ranges::copy(numbers_of(own), c.offset.begin() + static_cast<std::ptrdiff_t>(3 * side));
+    const Vec3 out = (first ? -vertex.radius : vertex.radius) * vector_of(c.normal);
+    const Vec3 own = looked_at_->rotations[frame].conjugate() * out;
+    std::ranges::copy(numbers_of(own), c.offset.begin() + (first ? 0 : 3));
   }
-  return sum;
 }
 
 void ContactRun::find_planes() {
@@ -175,7 +170,8 @@ void ContactRun::find_planes() {
     c.beta[0] = 1.0;
     const Vec3 r = distance * plane.normal;
     c.normal = numbers_of(plane.normal);
-    c.fixed = numbers_of(r - place - set_offsets(c));
+    c.fixed = numbers_of(r - place);
+    set_offsets(c);
     c.place = numbers_of(r);
     c.apart = candidate.apart;
     c.area = vertices[at(candidate.vertex)].area;

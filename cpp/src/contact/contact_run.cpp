@@ -142,14 +142,12 @@ Vec3 ContactRun::gone(const ContactNumbers& contact) const {
   Vec3 before = reach(contact, begin_);
   if (contact.kind == ContactNumbers::kPlane) {
     const auto obstacle = static_cast<std::int32_t>(contact.b);
-    const Vec3 point = contact_.plane_point(contact, *looked_at_);
-    before -= contact_.carried(obstacle, point, *start_, end_, start_->time);
-    const auto vertex = static_cast<std::int32_t>(contact.a);
-    if (contact_.surfaces().vertices()[at(vertex)].carrier >= 0) {  // not the point below the vertex
-      before += point - (contact_.place(vertex, *looked_at_) - vector_of(contact.place));
-    }
+    before -= contact_.carried(obstacle, -vector_of(contact.fixed), *start_, end_, start_->time);
   }
-  return vector_of(contact.place) - before + contact_.turned(contact, *start_, *looked_at_);
+  if (!contact_.surfaces().carriers().empty()) {
+    before += contact_.rolled(contact, *start_) - contact_.rolled(contact, *looked_at_);
+  }
+  return vector_of(contact.place) - before;
 }
 
 std::size_t ContactRun::bytes() const {

@@ -75,10 +75,6 @@ std::int32_t Contact::obstacle_named(std::string_view name) const {
 
 std::int32_t Contact::required(std::string_view name) const {
   const std::int32_t obstacle = obstacle_named(name);
-  if (obstacle >= 0 && carrier_of(obstacle) != nullptr) {
-    throw ParameterError("found obstacle \"" + std::string(name) +
-                         "\", which has a mass and moves freely; an obstacle without mass is led.");
-  }
   if (obstacle >= 0) return obstacle;
   throw ParameterError(
       "found obstacle \"" + std::string(name) +
@@ -87,6 +83,10 @@ std::int32_t Contact::required(std::string_view name) const {
 
 void Contact::begin_way(std::int32_t obstacle, bool released, const Pose& target, double over,
                         State& state) const {
+  if (carrier_of(obstacle) != nullptr) {
+    throw ParameterError("found obstacle \"" + description_.obstacles[at(obstacle)].surface.name +
+                         "\", which has a mass and moves freely; one without a mass is led.");
+  }
   if (!(over >= 0.0) || !std::isfinite(over)) {
     throw ParameterError("the way to a live target takes " + number_text(over) +
                          " s; it must be finite and not negative.");

@@ -134,6 +134,8 @@ bool StageSolver::solve_contacts(State& state, std::vector<double>& v, StepRepor
   hold_back(*end);
   look(*end);
   contact_->take();
+  // Levers of what is rigid are those of the latest places: the step is one of Newton's for contact.
+  const State& levers = contact.surfaces().carriers().empty() ? stage_.base : state;
   bool solved = true;
   for (int i = 1;; ++i) {
     set_contacts(state);
@@ -145,7 +147,7 @@ bool StageSolver::solve_contacts(State& state, std::vector<double>& v, StepRepor
     }
     for (std::size_t k = 0; k < work_.size(); ++k) right_[k] = elastic_[k] + stage_.push * work_[k];
     world.fixed().clear(right_);
-    system_->recouple(stage_.base);
+    system_->recouple(levers);
     std::ranges::fill(change_, 0.0);
     const SolveReport found = solve_linear(stage_.base, kFloor * reference_, false, report);
     solved = solved && found.converged;
@@ -153,7 +155,7 @@ bool StageSolver::solve_contacts(State& state, std::vector<double>& v, StepRepor
     report.residual = found.residual;
     // Without contact: A change - C change.
     system_->system_matrix().multiply(change_, work_);
-    contact.add_product(stage_.base, scratch_, {stage_.move * stage_.push, 0.0}, change_, work_);
+    contact.add_product(levers, scratch_, {stage_.move * stage_.push, 0.0}, change_, work_);
     for (std::size_t k = 0; k < v.size(); ++k) {
       elastic_[k] -= work_[k];
       v[k] += change_[k];

@@ -116,6 +116,8 @@ class Contact final : public ForceModel {
   [[nodiscard]] Vec3 normal_of(std::int32_t obstacle, const State& state, double time) const;
   /// Of the obstacle with that name; -1: none.
   [[nodiscard]] std::int32_t obstacle_named(std::string_view name) const;
+  /// Of a free obstacle; null: it is led or at rest.
+  [[nodiscard]] const SurfaceCarrier* carrier_of(std::int32_t obstacle) const;
   /// Leads an obstacle from where it is to a pose, over so many seconds from the next step on; 0: in that
   /// step. Refuses an unknown name.
   void lead_to(std::string_view name, const Pose& pose, double over, State& state) const;
@@ -130,14 +132,6 @@ class Contact final : public ForceModel {
   [[nodiscard]] Vec3 place(std::int32_t vertex, const State& state) const {
     const SurfaceVertex& v = surfaces_.vertices()[static_cast<std::size_t>(vertex)];
     return v.row >= 0 ? Vec3(block(ConstReals(state.positions), v.row)) : carried_place(vertex, state);
-  }
-  /// The same, of where it touches in that contact: `k` is the vertex's number in it.
-  [[nodiscard]] Vec3 place(const ContactNumbers& contact, std::size_t k, const State& state) const {
-    const auto vertex = static_cast<std::int32_t>(contact.vertex[k]);
-    const SurfaceVertex& v = surfaces_.vertices()[static_cast<std::size_t>(vertex)];
-    if (v.row >= 0) return block(ConstReals(state.positions), v.row);
-    const SurfaceCarrier& carrier = surfaces_.carriers()[static_cast<std::size_t>(v.carrier)];
-    return block(ConstReals(state.positions), carrier.row) + arm(contact, k, carrier, state);
   }
   /// Calls f(part) for every row that a contact moves with, with its weight: motion = sum part.motion(p).
   template <class Function>
@@ -157,14 +151,9 @@ class Contact final : public ForceModel {
   }
   /// r of a contact in a state.
   [[nodiscard]] Vec3 reach(const ContactNumbers& contact, const State& state) const;
-  /// Where a contact with a plane touches it.
-  [[nodiscard]] Vec3 plane_point(const ContactNumbers& contact, const State& state) const {
-    const SurfaceVertex& v = surfaces_.vertices()[static_cast<std::size_t>(contact.a)];
-    return v.carrier < 0 ? Vec3(-Vec3(contact.fixed[0], contact.fixed[1], contact.fixed[2]))
-                         : place(contact, 0, state);
-  }
-  /// How where it touches went from state to state beside its vertices: zero where nothing round turns.
-  [[nodiscard]] Vec3 turned(const ContactNumbers& contact, const State& from, const State& to) const;
+  /// What of r comes from the turning of round things since the contact was looked at. What is round touches
+  /// elsewhere when it turns, so that only the part along the surfaces counts.
+  [[nodiscard]] Vec3 rolled(const ContactNumbers& contact, const State& state) const;
   /// How r of a contact changes by motions p of the rows, of arms as a state has them.
   [[nodiscard]] Vec3 motion(const ContactNumbers& contact, const State& state, ConstReals p) const;
 
@@ -187,16 +176,16 @@ class Contact final : public ForceModel {
   [[nodiscard]] Vec3 arm(std::int32_t vertex, const SurfaceCarrier& carrier, const State& state) const {
     return state.rotations[static_cast<std::size_t>(carrier.frame)] * surfaces_.arm(vertex);
   }
+  /// From there to where a contact's vertex number k touches.
   [[nodiscard]] Vec3 arm(const ContactNumbers& contact, std::size_t k, const SurfaceCarrier& carrier,
                          const State& state) const {
-    const std::size_t side = contact.is_of_first(k) ? 0 : 3;
     const auto vertex = static_cast<std::int32_t>(contact.vertex[k]);
-    const Vec3 offset(contact.offset[side], contact.offset[side + 1], contact.offset[side + 2]);
-    return state.rotations[static_cast<std::size_t>(carrier.frame)] * (surfaces_.arm(vertex) + offset);
+    const double radius = surfaces_.vertices()[static_cast<std::size_t>(vertex)].radius;
+    const Vec3 n(contact.normal[0], contact.normal[1], contact.normal[2]);
+    return arm(vertex, carrier, state) + (contact.is_of_first(k) ? -radius : radius) * n;
   }
+  [[nodiscard]] Vec3 touched(const ContactNumbers& contact, std::size_t k, const State& state) const;
   void scatter(const ContactNumbers& contact, const State& state, const Vec3& force, Reals f) const;
-  /// Of a free obstacle; null: it is led or at rest.
-  [[nodiscard]] const SurfaceCarrier* carrier_of(std::int32_t obstacle) const;
   [[nodiscard]] LivePlace live_place(std::int32_t obstacle, const State& state, double time) const;
   void begin_way(std::int32_t obstacle, bool released, const Pose& target, double over, State& state) const;
   [[nodiscard]] std::int32_t required(std::string_view name) const;

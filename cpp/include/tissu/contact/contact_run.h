@@ -82,7 +82,7 @@ class ContactRun {
   void bend(const State& to);
   [[nodiscard]] Vec3 way_turned(const SurfaceCarrier& carrier, const State& to) const;
   int hold_back_carriers(State& to);
-  Vec3 set_offsets(ContactNumbers& c) const;
+  void set_offsets(ContactNumbers& c) const;
   bool find_plainly(const Candidate& candidate, double reach, Found& found) const;
   [[nodiscard]] const ContactNumbers* acting(const ContactNumbers& c) const;
   void keep_multipliers();

@@ -219,7 +219,15 @@ def test_nothing_passes_a_thin_slab(step: Any) -> None:
     scene = ts.Scene(
         bodies={"slab": slab},
         gravity=(0, 0, -G),
-        fixed=[ts.Fixed("slab", on=ts.Plane((0, 0, 0), (1, 0, 0)))],
+        fixed=[
+            ts.Fixed("slab", on=ts.Plane(point, normal))
+            for point, normal in (
+                ((0, 0, 0), (1, 0, 0)),
+                ((0, 0, 0), (0, 1, 0)),
+                ((0.1, 0, 0), (1, 0, 0)),
+                ((0, 0.1, 0), (0, 1, 0)),
+            )
+        ],
         obstacles={"box": box},
         contacts=[ts.Contact(("slab", "box"), friction=0.2)],
         step=step,

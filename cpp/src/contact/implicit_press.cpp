@@ -37,9 +37,17 @@ Mat3 ImplicitContact::compliance(const ContactNumbers& contact, std::span<const 
       inverse.row(axis).setZero();
       inverse.col(axis).setZero();
     }
-    sum += counts_[at(i)] * part.carried(inverse);
+    const double count = counts_[at(i)];
+    sum += (is_carrier(i) ? std::sqrt(count) : count) * part.carried(inverse);
   });
   return sum;
+}
+
+/// A rigid body has many contacts at its two rows, and few rows.
+bool ImplicitContact::is_carrier(std::int32_t row) const {
+  const auto& carriers = contact_.surfaces().carriers();
+  return std::ranges::any_of(
+      carriers, [&](const SurfaceCarrier& of) { return of.row == row || of.rotation == row; });
 }
 
 /// Nothing that it moves is deformed.

@@ -27,7 +27,7 @@ struct BoxOfTetrahedra {
   }
   [[nodiscard]] SurfaceSet set() const {
     const std::vector<std::int32_t> first = {0};
-    return {description, first, mesh.positions};
+    return {description, first, {}, mesh.positions};
   }
 };
 

@@ -108,6 +108,7 @@ class ImplicitContact {
   ContactRun run_;
 
  private:
+  [[nodiscard]] bool is_carrier(std::int32_t row) const;
   [[nodiscard]] bool is_rigid(const ContactNumbers& contact) const;
   void press_all();
   /// Adds friction of that bound [N]; k is the stiffness against sliding [N/m].

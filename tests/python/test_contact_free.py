@@ -128,7 +128,7 @@ def test_the_last_ball_of_a_cradle_leaves(dt: str) -> None:
     ]
     scene = ts.Scene(bodies={}, obstacles=balls, contacts=contacts, step=ts.SymplecticEuler(dt))
     simulation = scene.compile()
-    settled(simulation, int(round(0.012 / float(scene.step.dt))))  # type: ignore[arg-type]
+    settled(simulation, round(0.012 / float(scene.step.dt)))  # type: ignore[arg-type]
     speeds = [simulation.rigid(name).velocity[0] for name in balls]
     np.testing.assert_allclose(speeds, (0, 0, 0, 0, 1), atol=1e-9)
 
@@ -214,7 +214,11 @@ def test_nothing_passes_a_thin_slab(step: Any) -> None:
     slab = ts.Body(mesh=mesh, law=ts.NeoHooke(young="50 kPa", poisson=0.3), density=1000)
     speed = 10 if step.type == "implicit_euler" else 5
     box = ts.BoxObstacle(
-        (0.04, 0.04, 0.04), (0.07, 0.055, 0.05), mass=0.02, velocity=(0, 0, -speed), spin=(40, 90, 20)
+        (0.04, 0.04, 0.04),
+        (0.07, 0.055, 0.05),
+        mass=0.02,
+        velocity=(0, 0, -speed),
+        spin=(40, 90, 20),
     )
     scene = ts.Scene(
         bodies={"slab": slab},
@@ -320,7 +324,9 @@ def test_same_bits_on_any_number_of_threads_and_after_a_checkpoint(tmp_path: Any
 
 def test_its_motion_may_be_set() -> None:
     """Between steps, as that of a body's nodes."""
-    simulation = on_table(ts.SphereObstacle((0, 0, 1), radius=0.01, mass=1), STEPS["implicit_euler"])
+    simulation = on_table(
+        ts.SphereObstacle((0, 0, 1), radius=0.01, mass=1), STEPS["implicit_euler"]
+    )
     thing = simulation.rigid("thing")
     thing.velocity, thing.spin = (1, 2, 3), ("1 rad/s", 0, 0)
     np.testing.assert_array_equal(thing.velocity, (1, 2, 3))
@@ -332,29 +338,40 @@ def test_its_motion_may_be_set() -> None:
 
 REFUSED: dict[str, tuple[Any, str]] = {
     "led and free": (
-        lambda: on_table(ball(motion=ts.Motion(times=(0, 1), displacements=((0, 0, 0), (1, 0, 0)))),
-                         STEPS["implicit_euler"]),
+        lambda: on_table(
+            ball(motion=ts.Motion(times=(0, 1), displacements=((0, 0, 0), (1, 0, 0)))),
+            STEPS["implicit_euler"],
+        ),
         "beside `motion`",
     ),
     "a plane": (
         lambda: ts.PlaneObstacle((0, 0, 0), (0, 0, 1), mass=1),
         "a plane, which has no end",
     ),
-    "no mass": (lambda: ts.SphereObstacle((0, 0, 0), radius=1, velocity=(1, 0, 0)), "without a mass"),
+    "no mass": (
+        lambda: ts.SphereObstacle((0, 0, 0), radius=1, velocity=(1, 0, 0)),
+        "without a mass",
+    ),
     "static": (lambda: on_table(ball(), ts.Static()), "moves no free obstacle; accepted:"),
     "midpoint": (
         lambda: on_table(ball(), ts.ImplicitMidpoint("1 ms")),
         "moves no free obstacle; accepted:",
     ),
     "no contact": (
-        lambda: ts.Scene(bodies={}, obstacles={"thing": ball()}, step=STEPS["implicit_euler"]).compile(),
+        lambda: ts.Scene(
+            bodies={}, obstacles={"thing": ball()}, step=STEPS["implicit_euler"]
+        ).compile(),
         "no contacts, without which nothing moves it",
     ),
     "two led": (
         lambda: ts.Scene(
-            bodies={}, step=STEPS["implicit_euler"],
-            obstacles={"table": TABLE, "thing": ball(),
-                       "wall": ts.BoxObstacle((0, 0, 1), (1, 1, 2))},
+            bodies={},
+            step=STEPS["implicit_euler"],
+            obstacles={
+                "table": TABLE,
+                "thing": ball(),
+                "wall": ts.BoxObstacle((0, 0, 1), (1, 1, 2)),
+            },
             contacts=[ts.Contact(("wall", "table"))],
         ).compile(),
         "or give one of them a mass",
@@ -370,8 +387,11 @@ REFUSED: dict[str, tuple[Any, str]] = {
         lambda: on_table(ball(), STEPS["implicit_euler"]).obstacle("thing").move((0, 0, 1)),
         "has a mass and moves freely",
     ),
-    "a led one": (lambda: on_table(ball(), STEPS["implicit_euler"]).rigid("table"), "with a mass: thing"),
-}  # fmt: skip
+    "a led one": (
+        lambda: on_table(ball(), STEPS["implicit_euler"]).rigid("table"),
+        "with a mass: thing",
+    ),
+}
 
 
 @pytest.mark.parametrize("case", REFUSED)

@@ -44,7 +44,8 @@ void Contact::for_contacts(const State& state, Function&& f) const {
 }
 
 Vec3 Contact::carried_place(std::int32_t vertex, const State& state) const {
-  const auto number = static_cast<std::size_t>(surfaces_.vertices()[static_cast<std::size_t>(vertex)].carrier);
+  const auto number =
+      static_cast<std::size_t>(surfaces_.vertices()[static_cast<std::size_t>(vertex)].carrier);
   const SurfaceCarrier& carrier = surfaces_.carriers()[number];
   return block(ConstReals(state.positions), carrier.row) + arm(vertex, carrier, state);
 }
@@ -138,8 +139,9 @@ void Contact::add_couplings(const State& state, StiffnessScale scale, Couplings&
       coupling.beta[k] = c.beta[k];
       if (vertex.row >= 0) continue;
       const SurfaceCarrier& carrier = surfaces_.carriers()[static_cast<std::size_t>(vertex.carrier)];
-      coupling.vertex[k] = couplings.carry(std::array{
-          CarriedPart{carrier.row, 1.0}, CarriedPart{carrier.rotation, 1.0, arm(c, k, carrier, state), true}});
+      coupling.vertex[k] =
+          couplings.carry(std::array{CarriedPart{carrier.row, 1.0},
+                                     CarriedPart{carrier.rotation, 1.0, arm(c, k, carrier, state), true}});
     }
     couplings.add(coupling);
   });
@@ -229,8 +231,8 @@ Contact::Wrench Contact::force_on(std::int32_t surface, const State& state) cons
       const SurfaceVertex& vertex = surfaces_.vertices()[v];
       if (vertex.surface != surface) continue;
       const Vec3 rest = block(ConstReals(surfaces_.rest()), static_cast<std::int32_t>(v));
-      add(c.beta[k] * force, vertex.is_free() ? touched(c, k, state)
-                                              : place_of(surface - bodies, rest, state, state.time));
+      add(c.beta[k] * force,
+          vertex.is_free() ? touched(c, k, state) : place_of(surface - bodies, rest, state, state.time));
     }
   });
   return wrench;

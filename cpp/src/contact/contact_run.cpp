@@ -117,8 +117,8 @@ int ContactRun::hold_back_carriers(State& to) {
     least_share_ = std::min(least_share_, share);
     ++rows;
     const SurfaceCarrier& carrier = contact_.surfaces().carriers()[at(surface.carrier)];
-    const Vec3 pushed = block(ConstReals(from_), surface.first_vertex) -
-                        block(ConstReals(begin_), surface.first_vertex);
+    const Vec3 pushed =
+        block(ConstReals(from_), surface.first_vertex) - block(ConstReals(begin_), surface.first_vertex);
     const Vec3 from = block(ConstReals(start_->positions), carrier.row) + pushed;
     auto place = block(Reals(to.positions), carrier.row);
     place = Vec3(from + share * (place - from));

@@ -9,7 +9,7 @@
 namespace tissu {
 namespace {
 
-constexpr double kStiff = 3.0;  ///< s: couplings over the block diagonal of the matrix
+constexpr double kStiff = 3.0;        ///< s: couplings over the block diagonal of the matrix
 constexpr double kStiffRigid = 30.0;  ///< the same between rigid bodies, whose blocks are few
 // Contacts that alternate between sticking and sliding come to rest when they are softer against sliding.
 constexpr int kPatience = 4;     ///< so many alternations later …
@@ -46,8 +46,8 @@ Mat3 ImplicitContact::compliance(const ContactNumbers& contact, std::span<const 
 /// A rigid body has many contacts at its two rows, and few rows.
 bool ImplicitContact::is_carrier(std::int32_t row) const {
   const auto& carriers = contact_.surfaces().carriers();
-  return std::ranges::any_of(
-      carriers, [&](const SurfaceCarrier& of) { return of.row == row || of.rotation == row; });
+  return std::ranges::any_of(carriers,
+                             [&](const SurfaceCarrier& of) { return of.row == row || of.rotation == row; });
 }
 
 /// Nothing that it moves is deformed.

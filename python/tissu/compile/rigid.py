@@ -58,7 +58,7 @@ def _volumes(corners: Floats) -> Floats:
 
 
 def _capsule(mass: float, ends: Floats, radius: float) -> Floats:
-    """A cylinder between two halves of a ball, whose own axis is 3/8 of a radius from their face."""
+    """A cylinder between two halves of a ball, whose centres are 3/8 of a radius from it."""
     way = ends[1] - ends[0]
     length = float(np.linalg.norm(way))
     cylinder, balls = math.pi * radius**2 * length, 4.0 / 3.0 * math.pi * radius**3
@@ -71,7 +71,7 @@ def _capsule(mass: float, ends: Floats, radius: float) -> Floats:
 
 
 def _solid(mass: float, vertices: Floats, triangles: Ints) -> Floats:
-    """Of tetrahedra between the triangles and the centre: 1/20 (sum x x^T + S S^T), S = sum x."""
+    """Of tetrahedra between the triangles and the centre: (sum x x^T + S S^T) / 20, S = sum x."""
     corners = (vertices - centre_of(vertices, triangles))[triangles]
     volumes = _volumes(corners)
     sums = corners.sum(axis=1)

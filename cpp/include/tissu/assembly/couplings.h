@@ -31,7 +31,9 @@ struct CarriedPart {
   bool turns = false;       ///< the row is a rotation
 
   /// What of the vertex's motion is the row's, …
-  [[nodiscard]] Vec3 motion(const Vec3& p) const { return turns ? Vec3(weight * p.cross(arm)) : Vec3(weight * p); }
+  [[nodiscard]] Vec3 motion(const Vec3& p) const {
+    return turns ? Vec3(weight * p.cross(arm)) : Vec3(weight * p);
+  }
   /// … and what of a force on the vertex: a moment for a rotation.
   [[nodiscard]] Vec3 load(const Vec3& force) const {
     return turns ? Vec3(weight * arm.cross(force)) : Vec3(weight * force);

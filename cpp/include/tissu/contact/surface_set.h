@@ -74,7 +74,9 @@ class SurfaceSet {
   /// Rigid bodies that carry free obstacles.
   [[nodiscard]] const std::vector<SurfaceCarrier>& carriers() const { return carriers_; }
   /// From the origin of the rigid body that carries a vertex, in its own axes [m].
-  [[nodiscard]] const Vec3& arm(std::int32_t vertex) const { return arms_[static_cast<std::size_t>(vertex - first_carried_)]; }
+  [[nodiscard]] const Vec3& arm(std::int32_t vertex) const {
+    return arms_[static_cast<std::size_t>(vertex - first_carried_)];
+  }
   /// The first primitive of each surface, and the end.
   [[nodiscard]] const std::vector<std::int32_t>& first_primitive() const { return first_primitive_; }
 
@@ -121,7 +123,7 @@ class SurfaceSet {
   std::vector<std::int32_t> neighbour_, neighbour_begin_;
   std::vector<double> mean_edge_;
   std::vector<SurfaceCarrier> carriers_;
-  std::vector<Vec3> arms_;           ///< of vertices from the first that is carried on
+  std::vector<Vec3> arms_;  ///< of vertices from the first that is carried on
   std::int32_t first_carried_ = 0;
 };
 

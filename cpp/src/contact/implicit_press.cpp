@@ -28,6 +28,7 @@ void set_stiffness(ContactNumbers& contact, const Mat3& H) {
 /// sum_r N_r B_r A_rr^-1 B_r^T, without given degrees of freedom; B is beta of nodes.
 Mat3 ImplicitContact::compliance(const ContactNumbers& contact, std::span<const double> blocks) const {
   Mat3 sum = Mat3::Zero();
+  const bool soft_on_rigid = !contact_.surfaces().carriers().empty() && !is_rigid(contact);
   run_.for_parts(contact, [&](const CarriedPart& part) {
     const std::int32_t i = part.row;
     const Eigen::Map<const Mat3> A(blocks.data() + 9 * static_cast<std::ptrdiff_t>(i));
@@ -37,13 +38,14 @@ Mat3 ImplicitContact::compliance(const ContactNumbers& contact, std::span<const 
       inverse.row(axis).setZero();
       inverse.col(axis).setZero();
     }
-    const double count = counts_[at(i)];
-    sum += (is_carrier(i) ? std::sqrt(count) : count) * part.carried(inverse);
+    const double count = soft_on_rigid && is_carrier(i) ? std::sqrt(counts_[at(i)]) : counts_[at(i)];
+    sum += count * part.carried(inverse);
   });
   return sum;
 }
 
-/// A rigid body has many contacts at its two rows, and few rows.
+/// A rigid body: what is soft presses on it in many contacts at the same two rows, of which each takes a
+/// part.
 bool ImplicitContact::is_carrier(std::int32_t row) const {
   const auto& carriers = contact_.surfaces().carriers();
   return std::ranges::any_of(carriers,

@@ -33,9 +33,9 @@ Mat3 stiffness_of(const ContactNumbers& contact) {
   return H;
 }
 
-Contact::Contact(ContactDescription description, std::span<const std::int32_t> first_node,
-                 std::span<const Frame> frames, ConstReals rest)
-    : description_(std::move(description)), surfaces_(description_, first_node, frames, rest) {}
+Contact::Contact(ContactDescription description, std::span<const std::int32_t> first_node, ConstReals rest,
+                 std::span<const Frame> frames)
+    : description_(std::move(description)), surfaces_(description_, first_node, rest, frames) {}
 
 template <class Function>
 void Contact::for_contacts(const State& state, Function&& f) const {

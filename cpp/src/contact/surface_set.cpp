@@ -34,7 +34,7 @@ std::span<const std::int32_t> listed(const std::vector<std::int32_t>& begin,
 }  // namespace
 
 SurfaceSet::SurfaceSet(const ContactDescription& description, std::span<const std::int32_t> first_node,
-                       std::span<const Frame> frames, ConstReals rest) {
+                       ConstReals rest, std::span<const Frame> frames) {
   for (std::size_t i = 0; i < description.bodies.size(); ++i) {
     add(description.bodies[i], first_node[i], -1, rest);
   }

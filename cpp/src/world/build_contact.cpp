@@ -10,7 +10,7 @@ void WorldBuilder::add_contact() {
     first.push_back(world_.body(surface.name).first_node);
   }
   auto contact =
-      std::make_unique<Contact>(*description_.contact, first, world_.frames(), world_.rest_.positions);
+      std::make_unique<Contact>(*description_.contact, first, world_.rest_.positions, world_.frames());
   world_.contact_ = contact.get();
   world_.forces_.push_back(std::move(contact));
 }

@@ -43,7 +43,7 @@ struct Boxes {
     other.triangles = boundary_surface(left).triangles;
     description.bodies = {one, other};
     const std::vector<std::int32_t> first = {0, mesh.node_count()};
-    return {description, first, {}, positions};
+    return {description, first, positions};
   }
 };
 

@@ -27,7 +27,7 @@ struct BoxOfTetrahedra {
   }
   [[nodiscard]] SurfaceSet set() const {
     const std::vector<std::int32_t> first = {0};
-    return {description, first, {}, mesh.positions};
+    return {description, first, mesh.positions};
   }
 };
 
@@ -73,7 +73,7 @@ TEST(SurfaceSetTest, WedgesThatTouchAlongAnEdgeHaveOneEach) {
     }
     description.bodies = {surface};
     const std::vector<std::int32_t> first = {0};
-    const SurfaceSet set(description, first, {}, mesh.positions);
+    const SurfaceSet set(description, first, mesh.positions);
     // Of each cube 12 edges and 6 diagonals; all of both, though they share two nodes.
     EXPECT_EQ(set.edges().size(), 36U);
     EXPECT_EQ(set.vertices().size(), 14U);
@@ -166,7 +166,7 @@ TEST(SurfaceSetTest, SheetsLinesAndPointsStandBesideEachOther) {
   const std::vector<std::int32_t> first = {2};
   const std::vector<double> rest = {9, 9, 9, 9, 9, 9, 0, 0, 0, 1, 0, 0, 1, 1, 0,
                                     0, 1, 0, 2, 0, 0, 3, 0, 0, 5, 0, 0, 7, 0, 0};
-  const SurfaceSet set(description, first, {}, rest);
+  const SurfaceSet set(description, first, rest);
 
   ASSERT_EQ(set.surfaces().size(), 2U);
   ASSERT_EQ(set.vertices().size(), 10U);

@@ -82,8 +82,8 @@ class Contact final : public ForceModel {
 
   /// `first_node`: the row of the first node of each of the description's bodies; `frames`: of the world;
   /// `rest`: all positions.
-  Contact(ContactDescription description, std::span<const std::int32_t> first_node,
-          std::span<const Frame> frames, ConstReals rest);
+  Contact(ContactDescription description, std::span<const std::int32_t> first_node, ConstReals rest,
+          std::span<const Frame> frames = {});
 
   [[nodiscard]] std::string_view effect() const override { return "contact"; }
   [[nodiscard]] ForceKind kind() const override { return ForceKind::external; }

@@ -54,8 +54,8 @@ struct SurfaceVertex {
 class SurfaceSet {
  public:
   /// `first_node`: the row of each body's first node; `frames`: of the world; `rest`: positions of all rows.
-  SurfaceSet(const ContactDescription& description, std::span<const std::int32_t> first_node,
-             std::span<const Frame> frames, ConstReals rest);
+  SurfaceSet(const ContactDescription& description, std::span<const std::int32_t> first_node, ConstReals rest,
+             std::span<const Frame> frames = {});
 
   struct Surface {
     std::string name;

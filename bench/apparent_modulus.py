@@ -1,7 +1,7 @@
-"""The apparent modulus of mass-spring cubes (Chendeb 2007, 2.3.4): prints docs/apparent-modulus.md.
+"""Prints docs/measured/apparent-modulus.md: that of mass-spring cubes (Chendeb 2007, 2.3.4).
 
     python bench/apparent_modulus.py --picture docs/pictures/apparent-modulus.png \
-        > docs/apparent-modulus.md
+        > docs/measured/apparent-modulus.md
 
 Four meshes of a cube of 50 mm with springs by the rule k = E sum V / l0^2 are compressed by 12 mm;
 the force gives the modulus back. And a mesh of uneven cells under gravity, with equal masses
@@ -72,7 +72,7 @@ cube sinks evenly:
 """
 
 LAST = """
-![Shapes under gravity, displacements enlarged](pictures/apparent-modulus.png)
+![Shapes under gravity, displacements enlarged](../pictures/apparent-modulus.png)
 
 With equal masses the crowded side carries most of the weight and sinks deeper (figure 2.5). With
 the masses of the volumes (figure 2.6) the weight is right, and what is left is the springs' own:

@@ -1,6 +1,7 @@
-"""Measured orders of convergence: prints docs/convergence.md and draws its picture.
+"""Measured orders of convergence: prints docs/measured/convergence.md and draws its picture.
 
-    python bench/convergence.py --picture docs/pictures/convergence.png > docs/convergence.md
+    python bench/convergence.py --picture docs/pictures/convergence.png \
+        > docs/measured/convergence.md
 
 The machinery is that of tests/convergence: manufactured solutions, with loads and error integrals
 by shape functions and quadrature that are not the library's.
@@ -45,7 +46,7 @@ Newton to 1e-11.
 
 Theory: displacement p + 1, strain p; p = 1 for straight elements, 2 for those with middle nodes.
 
-![Errors against the number of cells](pictures/convergence.png)
+![Errors against the number of cells](../pictures/convergence.png)
 
 Drawn for St-Venant-Kirchhoff, surfaces under plane stress, and for the lost order for Hooke.
 

@@ -1,4 +1,4 @@
-"""What an effect costs where it is absent, and where it is present: prints docs/absent-effects.md.
+"""Prints docs/measured/absent-effects.md: what an effect costs where it is absent or present.
 
     python bench/effects.py [--write] [--rounds 30]
 
@@ -21,7 +21,7 @@ from effect_rows import Measured
 from instruction_counts import ROOT, Counts
 from kernels import commit, processor, table
 
-PAGE = ROOT / "docs/absent-effects.md"
+PAGE = ROOT / "docs/measured/absent-effects.md"
 COUNTED, STEPS = 1, 2  # size of the bar and steps that are counted
 TIMED, TIMED_STEPS = 2, 5
 SIZES = (1, 2, 3)
@@ -115,7 +115,7 @@ def page(
     rounds: int,
     timed: dict[str, Any],
 ) -> str:
-    """The whole of docs/absent-effects.md."""
+    """The whole of docs/measured/absent-effects.md."""
     counted = measured[0].without.scene
     return f"""{TITLE}
 

@@ -1,4 +1,4 @@
-"""Prints docs/frames.md, the figures and tables of bosman2014 beside ours.
+"""Prints docs/measured/frames.md, the figures and tables of bosman2014 beside ours.
 
     python bench/frames.py [--write] [--speed]
 
@@ -29,7 +29,7 @@ from frames_text import (
     TENSION,
 )
 
-PAGE = Path(__file__).resolve().parents[1] / "docs" / "frames.md"
+PAGE = Path(__file__).resolve().parents[1] / "docs" / "measured" / "frames.md"
 STEEL_TIP, BEAM = 0.150174, 0.147185  # m: converged (CalculiX); rho g L^4 / (8 E I)
 NEWTON = ts.Newton(iterations=60, tolerance=1e-8)
 SECTIONS = ((25, 2), (25, 3), (25, 4), (25, 6))  # cells along, cells across: figure 6

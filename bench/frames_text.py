@@ -1,4 +1,4 @@
-"""The words of docs/frames.md; bench/frames.py prints the numbers."""
+"""The words of docs/measured/frames.md; bench/frames.py prints the numbers."""
 
 HEAD = """# Frames and connective tissue
 
@@ -123,12 +123,12 @@ moves with x_j + F l, F the cell's, so that the node b of the cell has the weigh
 l . grad N_b). Forces and stiffness go back the same way, any resolution to any resolution, and
 both bodies and the tissue are one system.
 
-![two sheets and a block](pictures/tissue-sheets.png)
+![two sheets and a block](../pictures/tissue-sheets.png)
 
 *Figure 11 of the paper: two sheets of shells and a block of tissue between their middles, the
 upper sheet held on two edges. The lower one hangs on it by the tissue alone.*
 
-![uterus and bladder](pictures/tissue-organs.png)
+![uterus and bladder](../pictures/tissue-organs.png)
 
 *Like figure 12: two hollow organs of shells tied by about 22 frames. The bladder is held below,
 the top of the uterus is led aside.*

@@ -1,4 +1,4 @@
-"""Prints docs/hard-cases.md: every hard case with every method, by running them: --write.
+"""Prints docs/measured/hard-cases.md: every hard case with every method, by running them: --write.
 
 --contact prints, or writes, the chapter on contact alone.
 """
@@ -26,7 +26,7 @@ from outcome import (  # noqa: E402
 
 import tissu as ts  # noqa: E402
 
-PAGE = ROOT / "docs" / "hard-cases.md"
+PAGE = ROOT / "docs" / "measured" / "hard-cases.md"
 HEAD = """# Hard cases
 
 Each row is a scene in `tests/hard/cases` that you can open and run with `tissu run`; each column a
@@ -52,7 +52,7 @@ CONTACT_HEAD = """## Contact
 Scenes in `tests/hard/contact`, with the methods that contact has. The exact audit is asked after
 every step; an entry that says nothing of crossings had none. `tests/hard/test_contact_*.py` states
 what each case comes to: forces by closed form, momenta to round-off, the same bits on 1, 2 and 4
-threads. What contact cannot hold yet is said in [contact.md](contact.md).
+threads. What contact cannot hold yet is said in [contact.md](../guide/contact.md).
 
 """
 TAIL = "This page is printed by `python bench/hard.py --write`.\n"

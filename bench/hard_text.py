@@ -1,4 +1,4 @@
-"""The chapters of docs/hard-cases.md on statics and on energy; bench/hard.py prints them."""
+"""Statics and energy in docs/measured/hard-cases.md; bench/hard.py prints them."""
 
 CHAPTERS = """## Statics
 

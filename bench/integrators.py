@@ -1,4 +1,4 @@
-"""Prints docs/integrators.md: orders and energies of every method, and when to take it: --write."""
+"""Prints docs/measured/integrators.md: orders and energies of every method: --write."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from integrators_text import HEAD, METHODS_TEXT, TAIL
 
 Floats = NDArray[np.float64]
 DOCS = Path(__file__).resolve().parents[1] / "docs"
-PAGE, PICTURE = DOCS / "integrators.md", DOCS / "pictures" / "integrators.png"
+PAGE, PICTURE = DOCS / "measured" / "integrators.md", DOCS / "pictures" / "integrators.png"
 SOLVED = {"newton": ts.Newton(iterations=40, tolerance=1e-10), "solver": ts.Cholesky()}
 ONCE = {"solver": ts.Cholesky()}
 METHODS: dict[str, Callable[[float], Any]] = {

@@ -1,11 +1,11 @@
-"""Words of docs/integrators.md; bench/integrators.py puts its numbers in."""
+"""Words of docs/measured/integrators.md; bench/integrators.py puts its numbers in."""
 
 HEAD = """# Methods in time, measured
 
 A scene's `step` names one of nine methods in time, or `static`. This page says how fast each one's
 error falls with the step, what each does to the energy, and when to take it.
 
-![Errors against the step, energy against time](pictures/integrators.png)
+![Errors against the step, energy against time](../pictures/integrators.png)
 
 ## Which one
 

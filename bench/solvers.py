@@ -1,4 +1,4 @@
-"""Prints docs/solvers.md: what every linear solver costs from 1e3 to 1e6 unknowns.
+"""Prints docs/measured/solvers.md: what every linear solver costs from 1e3 to 1e6 unknowns.
 
     python bench/solvers.py [--small] [--write]
 
@@ -241,7 +241,7 @@ def page(sizes: tuple[int, ...]) -> tuple[str, dict[str, list[list[Row]]]]:
         "## A step of 10 ms with inertia\n\nIterations, seconds, bytes.\n\n" + table(inertia),
         "\n\n## Static, Hooke's law\n\nThe first system, with all that is made for it.\n\n"
         + table(still),
-        "\n\n![Seconds against unknowns](pictures/solvers.png)\n",
+        "\n\n![Seconds against unknowns](../pictures/solvers.png)\n",
         TAIL.format(matrix=matrix, machine=machine_line()),
     ]
     return "".join(parts), {"10 ms, with inertia": inertia, "static": still}
@@ -250,7 +250,7 @@ def page(sizes: tuple[int, ...]) -> tuple[str, dict[str, list[list[Row]]]]:
 if __name__ == "__main__":
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
     parser.add_argument("--small", action="store_true", help="up to 1e4 unknowns")
-    parser.add_argument("--write", action="store_true", help="to docs/solvers.md and its picture")
+    parser.add_argument("--write", action="store_true", help="to its page and its picture")
     asked = parser.parse_args()
     text, studies = page(SIZES[:2] if asked.small else SIZES)
     if asked.write:

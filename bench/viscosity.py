@@ -1,6 +1,6 @@
-"""What viscosity does to a compressed cube and to a turning one: prints docs/viscosity.md.
+"""What viscosity does to a compressed cube and to a turning one: prints docs/measured/viscosity.md.
 
-    python bench/viscosity.py --picture docs/pictures/viscosity.png > docs/viscosity.md
+    python bench/viscosity.py --picture docs/pictures/viscosity.png > docs/measured/viscosity.md
 
 The compression of Chendeb 2007, sections 3.5 and 3.6: a cube of 50 mm between sliding planes,
 St-Venant-Kirchhoff, E = 0.02 MPa, its force beside the closed form. Figure 3.8 shows the
@@ -59,7 +59,7 @@ Of the pressure from 5 % of compression on: **oscillation**, the root mean squar
 straight trend beside the closed form; **bias**, the mean distance from it; both in percent of the
 closed form's mean. A positive bias is too stiff.
 
-![Pressure against compression](pictures/viscosity.png)
+![Pressure against compression](../pictures/viscosity.png)
 
 """
 

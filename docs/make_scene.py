@@ -1,4 +1,4 @@
-"""Writes docs/scene.md from the classes of a scene: python docs/make_scene.py [--check]."""
+"""Writes docs/reference/scene.md from the classes of a scene; --check compares."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import tissu
 from tissu.codegen.names import HEADINGS, part_names
 from tissu.scene.law import Law
 
-PAGE = Path(__file__).with_name("scene.md")
+PAGE = Path(__file__).parent / "reference" / "scene.md"
 HEAD = """# Scene files
 
 A scene is the same thing in YAML and in Python: the class named in each heading, or a mapping with
@@ -42,10 +42,11 @@ A `section` is an area, of a circle, or a shape, which rods (`model: frames`) be
 section: {{type: rectangle, height: 2 mm, width: 1 mm, up: [0, 0, 1]}}
 ```
 
-With `model: frames` or `shell` the nodes turn as well, and sheets bend ([frames](frames.md),
-[shells](shells.md)). A node held on all axes cannot rotate either, unless
-`rotations: free` says so. On a plane of symmetry across x the place is held on x and the rotation
-about y and z; `axes: free` leaves the place free and holds or leads the rotation alone:
+With `model: frames` or `shell` the nodes turn as well, and sheets bend
+([frames](../measured/frames.md), [shells](../guide/shells.md)). A node held on all axes cannot
+rotate either, unless `rotations: free` says so. On a plane of symmetry across
+x the place is held on x and the rotation about y and z; `axes: free` leaves the place free and
+holds or leads the rotation alone:
 
 ```yaml
 fixed:
@@ -62,11 +63,11 @@ prescribed:
 The axes are those of space. A rotation held about two of them remains a rotation about the third,
 however large it is; one held about a single axis has no angular velocity about it.
 
-What bodies meet, and how, is said by `obstacles`, `contacts` and `contact`: [contact](contact.md).
+`obstacles`, `contacts` and `contact` say what bodies meet, and how: [contact](../guide/contact.md).
 
 Files of `laws` are programs. They run only with `--trust-laws` (`trust_laws=True` in Python), only
 from the scene's folder or below it, links followed, and only when nothing else is wrong with the
-scene ([laws](laws.md)).
+scene ([laws](../guide/own-laws.md)).
 
 Units are names of a table with `*`, `/`, `^` and brackets ("N s/m^4", "kgf/cm^2", "16 cmH2O");
 no text is evaluated. The words are those of YAML 1.2: 010 is ten. A scene has at most 16 MiB,
@@ -152,7 +153,7 @@ def table(name: str) -> str:
 
 def page() -> str:
     """The whole page."""
-    example = (PAGE.parent.parent / "examples" / "organ.yaml").read_text(encoding="utf-8")
+    example = (Path(__file__).parent.parent / "examples" / "organ.yaml").read_text(encoding="utf-8")
     parts = [HEAD.format(example=example)]
     for title, modules in HEADINGS.items():
         names = ["Scene"] * (modules == ("scene",))
@@ -163,7 +164,5 @@ def page() -> str:
 
 if __name__ == "__main__":
     if "--check" in sys.argv[1:]:
-        sys.exit(
-            0 if PAGE.read_text(encoding="utf-8") == page() else "docs/scene.md is not current"
-        )
+        sys.exit(0 if PAGE.read_text(encoding="utf-8") == page() else f"{PAGE.name} is not current")
     PAGE.write_text(page(), encoding="utf-8")

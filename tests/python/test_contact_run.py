@@ -143,8 +143,8 @@ def test_what_is_refused(resting):
 
 
 def test_the_calls_of_the_page_run():
-    """The second example of docs/contact.md, with the scene of the first."""
-    page = (Path(__file__).parents[2] / "docs" / "contact.md").read_text(encoding="utf-8")
+    """The second example of docs/guide/contact.md, with the scene of the first."""
+    page = (Path(__file__).parents[2] / "docs" / "guide" / "contact.md").read_text(encoding="utf-8")
     first, second = re.findall(r"```python\n(.*?)```", page, re.DOTALL)
     names = {"print": lambda check: None}
     exec(compile(first, "contact.md", "exec"), names)

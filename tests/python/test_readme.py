@@ -40,17 +40,17 @@ def test_the_example_of_contact_runs(monkeypatch):
 
 def test_the_page_of_scene_files_is_current():
     made = runpy.run_path(str(ROOT / "docs" / "make_scene.py"), run_name="docs")
-    assert (ROOT / "docs" / "scene.md").read_text(encoding="utf-8") == made["page"]()
+    assert (ROOT / "docs" / "reference" / "scene.md").read_text(encoding="utf-8") == made["page"]()
 
 
 def test_links_of_the_documents_lead_somewhere():
-    for page in [ROOT / "README.md", *(ROOT / "docs").glob("*.md")]:
+    for page in [ROOT / "README.md", *(ROOT / "docs").rglob("*.md")]:
         for target in re.findall(r"\]\(([^)#:]+)\)", page.read_text(encoding="utf-8")):
             assert (page.parent / target).exists(), f"{page.name}: {target}"
 
 
 def test_the_page_of_models_is_current():
     made = runpy.run_path(str(ROOT / "bench" / "model_abilities.py"), run_name="docs")
-    page = (ROOT / "docs" / "models.md").read_text(encoding="utf-8")
+    page = (ROOT / "docs" / "measured" / "models.md").read_text(encoding="utf-8")
     for name in made["models"]():
         assert made["words"](name) in page

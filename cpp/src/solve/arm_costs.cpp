@@ -12,7 +12,7 @@ namespace {
 
 /// Of D^-1 A with the blocks D on the diagonal, for cells of four to eight nodes.
 constexpr double kLargest = 3.0;
-/// Iterations for each cell along a cube that one side holds, to 1e-6: docs/solvers.md.
+/// Iterations for each cell along a cube that one side holds, to 1e-6: docs/measured/solvers.md.
 constexpr double kForACell = 12.8;
 constexpr double kOfTolerance = 14.5;  ///< ln(2 / 1e-6), at which the numbers here were found
 /// Iterations of block-Jacobi for one of incomplete Cholesky.

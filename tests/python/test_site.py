@@ -1,0 +1,41 @@
+"""The site builds without a warning or a dead link, and fetches nothing from elsewhere."""
+
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[2]
+FETCHED = re.compile(r"<(?:script|img|iframe|link)\b[^>]*\b(?:src|href)=[\"']?(?:https?:)?//[^>]*>")
+
+
+@pytest.fixture(scope="module")
+def site(tmp_path_factory):
+    """The built site; a warning of MkDocs is an error."""
+    folder = tmp_path_factory.mktemp("site")
+    done = subprocess.run(
+        [sys.executable, "-m", "mkdocs", "build", "--strict", "--site-dir", str(folder)],
+        cwd=ROOT,
+        env={**os.environ, "NO_MKDOCS_2_WARNING": "1"},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 0, done.stderr
+    return folder
+
+
+def test_nothing_is_fetched(site):
+    for page in site.rglob("*.html"):
+        if "recordings" in page.parts:
+            continue  # test_view_film.py opens a recording without a network
+        found = FETCHED.search(page.read_text(encoding="utf-8"))
+        assert found is None, f"{page.relative_to(site)}: {found[0]}"
+
+
+def test_what_pages_link_to_outside_docs_comes_along(site):
+    assert (site / "source/examples/resection.py").is_file()
+    assert (site / "source/CONTRIBUTING.html").is_file()

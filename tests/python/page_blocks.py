@@ -1,7 +1,7 @@
 """The blocks of a page of docs, and a page as the program that its reader types.
 
 Python blocks run one after the other in one namespace, in a folder of their own. A block with a
-title is a file of that name. Lines of `sh` blocks that begin with `tissu` run. A block of `text`
+title is a file of that name; a scene has no problems. Lines of `sh` blocks that begin with `tissu` run. A block of `text`
 after any of them is what it prints, where an ellipsis stands for anything.
 """
 
@@ -15,6 +15,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from typer.testing import CliRunner
+
+from tissu import Scene
 
 DOCS = Path(__file__).parents[2] / "docs"
 BLOCK = re.compile(r"^( *)```(\w+)([^\n]*)\n(.*?)^\1```", re.DOTALL | re.MULTILINE)
@@ -47,6 +49,9 @@ def run(block: Block, names: dict[str, object], page: Path) -> str | None:
     """Runs a block; what it prints, or None of one that is not run."""
     if block.title:
         Path(block.title).write_text(block.text, encoding="utf-8")
+        if block.title.endswith(".yaml"):
+            problems = Scene.from_yaml(Path(block.title)).check().problems
+            assert not problems, f"{page.name}: {block.title}: {problems}"
         return None
     with contextlib.redirect_stdout(io.StringIO()) as out:
         if block.kind == "python":

@@ -1,5 +1,7 @@
 """Pages run as they stand there: what a reader types, and what is printed then."""
 
+import json
+import runpy
 from pathlib import Path
 
 import matplotlib
@@ -37,25 +39,21 @@ def test_the_page_runs(page, tmp_path, monkeypatch):
     run_page(page)
 
 
-SCENES = [
-    (page, block.title)
-    for page in DOCS.rglob("*.md")
-    for block in blocks_of(page)
-    if block.kind == "yaml" and block.title
-]
-
-
-@pytest.mark.parametrize(("page", "title"), SCENES, ids=lambda value: str(value).split("/")[-1])
-def test_the_scene_of_the_page_has_no_problem(page, title, tmp_path):
-    from tissu import examples
-
-    examples.copy("organ", tmp_path)
-    text = next(block.text for block in blocks_of(page) if block.title == title)
-    (tmp_path / title).write_text(text, encoding="utf-8")
-    assert Scene.from_yaml(tmp_path / title).check().problems == ()
-
-
 def test_pages_that_run_elsewhere_are_there():
     for page, test in ELSEWHERE.items():
         assert has_python(DOCS / page)
         assert (Path(__file__).parent / test).is_file()
+
+
+MADE = runpy.run_path(str(DOCS / "make_notebook.py"), run_name="docs")
+
+
+@pytest.mark.parametrize("path", MADE["NOTEBOOKS"], ids=lambda path: path.stem)
+def test_the_notebook_prints_what_it_holds(path):
+    matplotlib.use("agg")
+    names = {}
+    for cell in json.loads(path.read_text(encoding="utf-8"))["cells"]:
+        if cell["cell_type"] == "code":
+            found, _ = MADE["run"]("".join(cell["source"]), names)
+            held = [output.get("text", []) for output in cell["outputs"]]
+            assert found == "".join(line for lines in held for line in lines)

@@ -1,8 +1,9 @@
 """The blocks of a page of docs, and a page as the program that its reader types.
 
 Python blocks run one after the other in one namespace, in a folder of their own. A block with a
-title is a file of that name; a scene has no problems. Lines of `sh` blocks that begin with `tissu` run. A block of `text`
-after any of them is what it prints, where an ellipsis stands for anything.
+title is a file of that name; a scene has no problems. Lines of `sh` blocks that begin with `tissu`
+run. A block of `text` after any of them is what it prints, where an ellipsis stands for
+anything.
 """
 
 from __future__ import annotations

@@ -7,8 +7,7 @@ from pathlib import Path
 import matplotlib
 import pytest
 
-from page_blocks import DOCS, blocks_of, has_python, run_page
-from tissu import Scene
+from page_blocks import DOCS, has_python, run_page
 
 ELSEWHERE = {
     "guide/advise.md": "test_advise.py",

@@ -19,7 +19,6 @@ from tissu.cli.info import machine_line
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 from frames_text import (
-    COUPLING,
     HEAD,
     NEAR,
     SOFT_TEXT,
@@ -289,7 +288,7 @@ def untimed() -> str:
 def main() -> None:
     """Prints the page, or writes it."""
     timed = [SPEED, speed(2), NEAR, neighbours(), f"Times on this page: {machine_line()}\n"]
-    page = "\n".join([HEAD, STEEL_TEXT, steel(), untimed(), *timed, COUPLING])
+    page = "\n".join([HEAD, STEEL_TEXT, steel(), untimed(), *timed])
     if "--write" in sys.argv:
         PAGE.write_text(page, encoding="utf-8")
     else:

@@ -12,7 +12,6 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT / "tests" / "hard"))
 
-from hard_text import CHAPTERS  # noqa: E402
 from outcome import (  # noqa: E402
     CASES,
     CONTACT,
@@ -115,7 +114,7 @@ def contact() -> str:
 
 def page() -> str:
     """The whole page."""
-    return "\n".join([HEAD + table(CASES, methods()), "", contact(), CHAPTERS, TAIL])
+    return "\n".join([HEAD + table(CASES, methods()), "", contact(), TAIL])
 
 
 def with_contact(text: str) -> str:

@@ -17,7 +17,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parent))
 import itertools
 
 from integrators_picture import draw
-from integrators_text import HEAD, METHODS_TEXT, TAIL
+from integrators_text import END, HEAD, TAIL
 
 Floats = NDArray[np.float64]
 DOCS = Path(__file__).resolve().parents[1] / "docs"
@@ -265,7 +265,7 @@ def page() -> str:
         "bar_omega": f"{bar(METHODS['rk4']('auto')).largest_frequency():.0f}",  # type: ignore[arg-type]
     }
     numbers = refusal()
-    return HEAD.format(**parts) + TAIL.format(**numbers) + METHODS_TEXT
+    return HEAD.format(**parts) + TAIL.format(**numbers) + END
 
 
 if __name__ == "__main__":

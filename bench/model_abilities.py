@@ -20,26 +20,13 @@ YOUNG = 20e3  # Pa
 SIDE = 0.05  # m
 CAN = {"yes": "yes", "partly": "partly", "no": "no"}
 
-HEAD = """# Models
+HEAD = """# Models, measured
 
-What computes the forces of a body's cells is chosen by `model:` of a body, and nothing else of the
-scene changes. A law that a model does not take is an error that names those it takes, unless the
-body says `law_for_model: nearest`: then the nearest of them is computed, with the same Young's
-modulus and Poisson's ratio, and `tissu check` says so. `tissu compare SCENE --models
-mass_spring,mass_link,mass_tensor,corotational,fem` runs a scene with each, and the nearest laws.
-
-```yaml
-bodies:
-  liver:
-    mesh: liver.vtu
-    law: {type: stvk, young: 4 kPa, poisson: 0.45}
-    model: mass_link               # or {type: corotational, tangent: exact}, or a map from regions
-    density: 1050
-```
+What each model is, and when to take it: [the guide](../guide/models.md).
 
 The words in this table are those of the models' classes. The figures were measured by
 `python bench/model_abilities.py --write` on a cube of 162 tetrahedra with E = 20 kPa, nu = 0.3;
-[frames](frames.md) and [shells](../guide/shells.md) have their own pages.
+[frames](frames.md) and [shells](shells.md) have their own pages.
 
 ![Error against time of examples/beam.yaml](../pictures/compare.png)
 

@@ -45,49 +45,9 @@ SOLVERS = {
     ),
     "cholesky": ts.Cholesky(),
 }
-HEAD = """# Linear solvers
+HEAD = """# Linear solvers, measured
 
-Every step of an implicit method solves A x = b; a static one as well. `solver:` of a step says how:
-
-- `conjugate_gradient` with `preconditioner: jacobi` or `block_jacobi`: the inverse of the diagonal,
-  or of its 3x3 blocks; nothing to make, many iterations;
-- … `incomplete_cholesky`: a factor of 3x3 blocks in the pattern of the matrix, shifted where it
-  breaks down (Manteuffel 1980); rows of its triangular solves that do not need
-  each other run on all threads;
-- … `stale_cholesky`: the factor of an earlier matrix (CHOLMOD), made anew when the iterations
-  beyond those of its first solve have cost as much as a factor;
-- … `multigrid`: a cycle through coarser and coarser levels, made from the matrix and the places of
-  its nodes by smoothed aggregation (Vanek, Mandel and Brezina 1996). Every level consists of rigid
-  frames: an aggregate of nodes that hang together strongly moves by a translation and a rotation
-  about its centre, so that bending passes through the levels and each is a matrix of 3x3 blocks as
-  the first. Levels are smoothed by a Chebyshev polynomial, which threads share; aggregates are
-  found once, the rest is made anew when that pays, in parts over several steps, so that no step
-  waits for all of it. Iterations do not grow as a mesh is refined;
-- … `precision: single`: iterations in single precision, half the bytes; residuals in double
-  correct them to the tolerance, and where they do not fall the solve goes on in double;
-- … `matrix: free`: no matrix at all, the products of the forces themselves;
-- `cholesky`: a sparse factor (CHOLMOD); its symbolic part is kept while the mesh is;
-- `auto`, the default: the cheapest of these by counted work, which may change while a scene runs;
-  `plan()` and `profile()` say to what it changed, and by which counts.
-
-`auto` changes by what it counts, and by what the first matrix lets it predict: cells along and
-through the body, the inertia in the rows of its points, and (lambda + 2 mu) / mu, which is read
-from the rows of inner points and multiplies iterations near Poisson's ratio 1/2. In a motion a
-trial of another way may take three solves of the present one. One that takes more, as a factor
-does, is tried only where the way costs less than 0.7 of the present one and saves its price within
-fifty solves, so that no step is delayed by a trial that may not pay. Static solves try freely.
-
-Iterations start from that combination of the latest three answers whose residual is least (after
-Fischer 1998): never worse than from zero, at the price of three products; where it does not halve
-the residual it is tried more and more seldom.
-
-`profile()` says p50 and p99 of the steps, and of the longest step after the first which rows took
-its time, with its systems, iterations and preparations; the summary of a run has them too.
-
-Whether a preconditioner pays is decided by counts (iterations, flops, bytes of the factor), never
-by a clock: runs give the same bits. A solve has converged when the residual computed from x says
-so. A matrix that turns out not to be positive definite is reported by every solver; what a step
-then does is its `indefinite:` (project, regularise, refuse).
+What each solver is, and when to take it: [the guide](../guide/solvers.md).
 
 A cube of tetrahedra (10 kPa, nu 0.3, 10 cm), held at its floor, bent by its weight; tolerance 1e-6;
 one thread. Each entry is iterations, time for one system, and the bytes that the solver keeps for

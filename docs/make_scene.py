@@ -48,7 +48,7 @@ section: {{type: rectangle, height: 2 mm, width: 1 mm, up: [0, 0, 1]}}
 ## Nodes that turn
 
 With `model: frames` or `shell` nodes have rotations as well, and sheets bend
-([frames](../guide/frames.md), [shells](../guide/shells.md)). A node that is held on all axes cannot
+([frames](../guide/tissue.md), [shells](../guide/shells.md)). A node that is held on all axes cannot
 rotate either, unless the support has `rotations: free`. On a plane of symmetry across x, hold the
 place on x and the rotation about y and z. `axes: free` holds or leads the rotation alone:
 

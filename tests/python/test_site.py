@@ -8,6 +8,8 @@ from pathlib import Path
 
 import pytest
 
+import tissu
+
 ROOT = Path(__file__).parents[2]
 FETCHED = re.compile(r"<(?:script|img|iframe|link)\b[^>]*\b(?:src|href)=[\"']?(?:https?:)?//[^>]*>")
 
@@ -39,3 +41,11 @@ def test_nothing_is_fetched(site):
 def test_what_pages_link_to_outside_docs_comes_along(site):
     assert (site / "source/examples/resection.py").is_file()
     assert (site / "source/CONTRIBUTING.html").is_file()
+
+
+def test_every_public_name_is_on_a_page_of_the_api(site):
+    pages = [path.read_text(encoding="utf-8") for path in (site / "reference/api").glob("*.html")]
+    text = "\n".join(pages)
+    for name in tissu.__all__:
+        if name != "__version__":
+            assert re.search(rf'id="tissu\.{name}"', text), name

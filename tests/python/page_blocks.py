@@ -1,9 +1,9 @@
 """The blocks of a page of docs, and a page as the program that its reader types.
 
 Python blocks run one after the other in one namespace, in a folder of their own. A block with a
-title is a file of that name; a scene has no problems. Lines of `sh` blocks that begin with `tissu`
-run. A block of `text` after any of them is what it prints, where an ellipsis stands for
-anything.
+title is a file of that name; a scene has no problems; C++ stands in that file of the sources.
+Lines of `sh` blocks that begin with `tissu` run. A block of `text` after any of them is what it
+prints, where an ellipsis stands for anything.
 """
 
 from __future__ import annotations
@@ -48,6 +48,10 @@ def has_python(page: Path) -> bool:
 
 def run(block: Block, names: dict[str, object], page: Path) -> str | None:
     """Runs a block; what it prints, or None of one that is not run."""
+    if block.kind == "cpp":
+        source = (DOCS.parent / block.title).read_text(encoding="utf-8")
+        assert block.text in source, f"{page.name} shows what {block.title} has not"
+        return None
     if block.title:
         Path(block.title).write_text(block.text, encoding="utf-8")
         if block.title.endswith(".yaml"):

@@ -12,6 +12,8 @@ from pathlib import Path
 from tissu.codegen.names import HEADINGS, MODULES, NAMES, part_names
 
 FOLDER = Path(__file__).parent / "reference" / "api"
+FIRST = "Simulation"
+"""The name that stands first on its page."""
 
 
 @dataclass(frozen=True)
@@ -107,7 +109,7 @@ def part_page(heading: str, modules: tuple[str, ...]) -> str:
 def room_page(page: Page) -> str:
     """The page of rooms and modules."""
     inherited = "inherited_members: true"
-    names = [name for room in page.rooms for name in NAMES[room] if name != "Scene"]
+    names = sorted((name for room in page.rooms for name in NAMES[room]), key=FIRST.__ne__)
     blocks = [block(name, inherited) for name in names]
     blocks += [block(name) for name in page.modules]
     if page.returned:

@@ -26,12 +26,16 @@ def place_of(page: str) -> str:
     return page.removeprefix(SOURCE) if page.startswith(SOURCE) else f"docs/{page}"
 
 
-def uri_of(path: str) -> str:
-    """Where a file of the repository stands on the site."""
-    if path.startswith("docs/"):
-        path = path.removeprefix("docs/")
-        return f"{path.removesuffix('.ipynb')}.md" if path.endswith(".ipynb") else path
-    return SOURCE + path
+def uri_of(path: str, page: str = "") -> str:
+    """Where a file of the repository stands on the site, seen from a page.
+
+    A notebook is its page, but on that page itself, which gives the file.
+    """
+    if not path.startswith("docs/"):
+        return SOURCE + path
+    path = path.removeprefix("docs/")
+    its_page = f"{path.removesuffix('.ipynb')}.md"
+    return its_page if path.endswith(".ipynb") and page != its_page else path
 
 
 def target_of(link: str, page: str) -> str | None:
@@ -75,7 +79,7 @@ def on_page_markdown(markdown: str, page: Page, **_: object) -> str:
         path = target_of(found[1], here)
         if path is None:
             return found[0]
-        link = posixpath.relpath(uri_of(path), posixpath.dirname(here) or ".")
+        link = posixpath.relpath(uri_of(path, here), posixpath.dirname(here) or ".")
         return f"]({link}{found[2] or ''})"
 
     return LINK.sub(turned, markdown)

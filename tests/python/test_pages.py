@@ -1,6 +1,7 @@
 """Pages run as they stand there: what a reader types, and what is printed then."""
 
 import json
+import re
 import runpy
 from pathlib import Path
 
@@ -11,9 +12,7 @@ from page_blocks import DOCS, has_python, run_page
 
 ELSEWHERE = {
     "guide/advise.md": "test_advise.py",
-    "guide/checkpoint.md": "test_pages.py",
     "guide/contact.md": "test_contact_run.py",
-    "guide/cutting.md": "test_cutting.py",
     "guide/fields.md": "test_fields.py",
     "guide/live-view.md": "view/test_view_verbs.py",
     "guide/own-laws.md": "test_docs_laws.py",
@@ -56,3 +55,14 @@ def test_the_notebook_prints_what_it_holds(path):
             found, _ = MADE["run"]("".join(cell["source"]), names)
             held = [output.get("text", []) for output in cell["outputs"]]
             assert found == "".join(line for lines in held for line in lines)
+
+
+def test_each_measured_page_says_when_and_by_what():
+    rows = runpy.run_path(str(DOCS / "site_measured.py"), run_name="docs")["rows"]()
+    pages = {path.name for path in (DOCS / "measured").glob("*.md")} - {"index.md"}
+    assert set(rows) == pages
+    for script, day, machine in rows.values():
+        scripts = re.findall(r"`(?:bench/)?([\w.]+\.py)`", script)
+        assert all((DOCS.parent / "bench" / name).is_file() for name in scripts)
+        assert re.fullmatch(r"20\d\d-\d\d-\d\d", day)
+        assert machine

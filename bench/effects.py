@@ -131,7 +131,8 @@ named) with that effect, and runs between two runs of the scene without it.
 
 ## Instructions
 
-Of a step, and of what is done between two steps, by valgrind's callgrind; kernels for
+Instructions of a step, and of the work between two steps, counted by valgrind's callgrind with
+kernels for
 {counted["isa"]}, {counted["cells"]:,} tetrahedra. "Its own" are those of functions that run for the
 effect alone, known by their names (`bench/effect_rows.py`).
 

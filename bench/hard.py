@@ -28,19 +28,19 @@ import tissu as ts  # noqa: E402
 PAGE = ROOT / "docs" / "measured" / "hard-cases.md"
 HEAD = """# Hard cases
 
-Each row is a scene in `tests/hard/cases` that you can open and run with `tissu run`; each column a
-method that is put in place of the scene's own. What comes of it is
+Each row is a scene in `tests/hard/cases`, which `tissu run` opens. Each column is a method, which
+takes the place of the scene's own. There are three outcomes:
 
 - **steady**: in the last tenth of the run no node moves by more than a thousandth of the body;
-- **bounded**: it still moves, and no node was ever farther from rest than the number says;
+- **bounded**: the body still moves, and the number says how far a node was ever from rest;
 - **refused**: an error of one sentence, and the simulation stands at its last good step. The notes
   below the table give each sentence.
 
-Numbers are the largest distance of a node from rest at any time, in sizes of the body. An
-asterisk: some steps did not meet their tolerances and said so. `!`: cells are inside out at the
-end, which `tissu run` prints. Explicit methods take nine tenths of their stable step (`dt: auto`)
-and are not run where that makes more than 20,000 steps; the fixed point takes the scene's step or
-what contracts, if that is smaller; implicit ones take the scene's.
+Numbers are the largest distance of a node from rest at any time, in sizes of the body. An asterisk:
+some steps did not meet their tolerances, and their reports say so. `!`: cells are inside out at the
+end, which `tissu run` prints. Explicit methods take nine tenths of their stable step (`dt: auto`).
+They are not run where that makes more than 20,000 steps. The fixed point takes the scene's step, or
+the longest that contracts. Implicit methods take the scene's step.
 
 """
 

@@ -56,20 +56,23 @@ is that of the growth of the time between the last two sizes.
 
 """
 TAIL = """
-What bounds them: products read the matrix once, {matrix:.0f} bytes for each unknown, half in
-single precision, and run at the bandwidth of the memory once it leaves the caches; triangles
-read as much and wait for each other; a factor of a three-dimensional mesh takes work that grows as
-n^2 and memory with n^(4/3). Inertia halves the iterations of this soft cube at 10 ms; with it and
-without, their number grows with the number of cells along the cube, but for a multigrid's: one of
-its iterations multiplies with the matrix four times more and pays for that from some ten thousand
-unknowns on. Its first system includes finding the aggregates, as a cut does; later ones do not.
+What bounds them: products read the matrix once, {matrix:.0f} bytes for each unknown, half in single
+precision, and run at the bandwidth of the memory once it leaves the caches. Triangular solves read
+as much, and their rows wait for each other. A factor of a three-dimensional mesh takes work that
+grows as n^2, and memory with n^(4/3).
 
-Tried and dropped, on the bar of 10,368 and 48,000 tetrahedra with a multigrid in single
-precision: a register of sixteen numbers for a block in single precision (within 3 % of the time,
-for the product waits for its blocks and not for its instructions); one step of the polynomial on
-every level (40 % more iterations, within 4 % of the time) or on the finest alone (35 % more
-iterations, 2 to 7 % less time, most with hexahedra); a fourth answer for the first guess (one
-iteration in eight less, the same time).
+Inertia halves the iterations of this soft cube at 10 ms. With it and without, their number grows
+with the number of cells along the cube. That of a multigrid does not: one of its iterations costs
+four more products with the matrix, which pays from some ten thousand unknowns on. Its first system
+includes finding the aggregates, as a cut does. Later ones do not.
+
+Tried and dropped, on the bar of 10,368 and 48,000 tetrahedra with a multigrid in single precision:
+
+- a register of sixteen numbers for a block in single precision: within 3 % of the time, because the
+  product waits for its blocks and not for its instructions;
+- one step of the polynomial on every level: 40 % more iterations, within 4 % of the time;
+- one step on the finest level alone: 35 % more iterations, 2 to 7 % less time, most with hexahedra;
+- a fourth answer for the first guess: one iteration in eight less, the same time.
 
 Printed by `python bench/solvers.py --write`; {machine}
 """

@@ -13,7 +13,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 LONGEST = 45  # words of a sentence
 PATTERNS = {
-    "'is no N' for 'is not an N'": r"(?<!here )\b(?:is|are|was|were) no (?!longer|more\b|less\b)[a-z]+",
+    "'is no N'": r"(?<!here )\b(?:is|are|was|were) no (?!longer|more\b|less\b)[a-z]+",
     "who, whom or nobody for a thing": r"\b(?:who|whom|nobody|somebody)\b",
     "code does not tell": r"\b(?:tells?|told)\b",
     "a clause for a noun": r"(?:^|[.:;] )(?:What|Where|Whether) [a-z]+ (?:has|have|is|are|does)\b",

@@ -48,7 +48,7 @@ class Solver(Part):
         return made
 
     def _of_step(self, *, equilibrium: bool) -> dict[str, bool]:
-        """What it is told of its step."""
+        """What its step gives it to know."""
         return {}
 
     def words(self, _solves: str) -> str:

@@ -38,6 +38,13 @@ def test_nothing_is_fetched(site):
         assert found is None, f"{page.relative_to(site)}: {found[0]}"
 
 
+def test_the_recording_plays_where_the_page_says(site):
+    page = site / "guide" / "live-view.html"
+    frame = re.search(r'<iframe src="([^"]+)"', page.read_text(encoding="utf-8"))
+    assert frame is not None
+    assert (page.parent / frame[1]).is_file()
+
+
 def test_what_pages_link_to_outside_docs_comes_along(site):
     assert (site / "source/examples/resection.py").is_file()
     assert (site / "source/CONTRIBUTING.html").is_file()

@@ -1,7 +1,7 @@
 """Writes the pages of the Python API from the list of public names: docs/reference/api/*.md.
 
-mkdocstrings puts the docstrings in when the site is built. A public name that has no page is an
-error here, so that the list and the pages cannot part.
+mkdocstrings puts the docstrings in when the site is built. A room that no page below names gets a
+page of its own, so that each public name has a page.
 """
 
 from __future__ import annotations
@@ -138,26 +138,32 @@ def index() -> str:
         names += [name for module in modules for name in part_names(module)]
         listed = " ".join(f"`{name}`" for name in names)
         lines.append(f"| [{heading}]({slug(heading)}.md) | {listed} |")
-    for name, page in PAGES.items():
+    for name, page in all_pages().items():
         listed = " ".join(f"`{public}`" for public in names_of(page))
         lines.append(f"| [{page.title}]({name}.md) | {listed} |")
     return "\n".join([*lines, "", "This page is printed by `make codegen`.", ""])
 
 
-def pages() -> dict[Path, str]:
-    """Every page with its text.
-
-    Raises:
-        KeyError: a room or a module of public names has no page.
-    """
+def all_pages() -> dict[str, Page]:
+    """The pages above, and one for each room or public module that none of them has."""
     rooms = {room for page in PAGES.values() for room in page.rooms} | {"front"}
     modules = {module for page in PAGES.values() for module in page.modules}
-    missing = {*NAMES, *MODULES} - rooms - modules
-    if missing:
-        raise KeyError(f"docs/make_api.py has no page for {sorted(missing)}")
+    found = dict(PAGES)
+    for name in [*(room for room in NAMES if room not in rooms), *MODULES]:
+        if name not in modules:
+            title = name.replace("_", " ").capitalize()
+            own = ((name,), (), ()) if name in NAMES else ((), (), (name,))
+            found[name.replace("_", "-")] = Page(
+                title, f"The public names of `tissu.{name}`.", *own
+            )
+    return found
+
+
+def pages() -> dict[Path, str]:
+    """Every page with its text."""
     found = {"index": index()}
     found |= {slug(heading): part_page(heading, some) for heading, some in HEADINGS.items()}
-    found |= {name: room_page(page) for name, page in PAGES.items()}
+    found |= {name: room_page(page) for name, page in all_pages().items()}
     return {FOLDER / f"{name}.md": text for name, text in found.items()}
 
 

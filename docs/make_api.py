@@ -101,8 +101,11 @@ def part_page(heading: str, modules: tuple[str, ...]) -> str:
     names += [name for module in modules for name in part_names(module)]
     anchor = heading.lower().replace(":", "").replace(" ", "-")
     where = f"[Scene files](../scene.md#{anchor})"
-    head = f"# {heading}\n\n{where} has the fields of these classes with their defaults.\n"
-    blocks = [block(name, "inherited_members: [replace, to_yaml, save]") for name in names]
+    head = (
+        f"# {heading}\n\n{where} has the fields of these classes with their defaults. Each part\n"
+        "has `replace(**changes)`: the part with some fields changed, and checked again.\n"
+    )
+    blocks = [block(name) for name in names]
     return "\n".join([head, *(f"{text}\n" for text in blocks)])
 
 

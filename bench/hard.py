@@ -36,6 +36,9 @@ takes the place of the scene's own. There are three outcomes:
 - **refused**: an error of one sentence, and the simulation stands at its last good step. The notes
   below the table give each sentence.
 
+How static steps and energies are judged: [statics](../guide/statics.md),
+[energy that grows](../guide/integrators.md#energy-that-grows).
+
 Numbers are the largest distance of a node from rest at any time, in sizes of the body. An asterisk:
 some steps did not meet their tolerances, and their reports say so. `!`: cells are inside out at the
 end, which `tissu run` prints. Explicit methods take nine tenths of their stable step (`dt: auto`).

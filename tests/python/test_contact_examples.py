@@ -66,7 +66,7 @@ def test_a_block_is_pressed_statically():
 
 def test_a_die_and_a_ball_tumble_on_a_pad():
     """They come to rest on it with their weights, the die flat on a face."""
-    simulation = example("tumble")
+    simulation = example("dice")
     for name, weight in (("die", 0.008 * G), ("ball", 0.012 * G)):
         thing = simulation.rigid(name)
         assert thing.force[2] == pytest.approx(weight, rel=2e-2)

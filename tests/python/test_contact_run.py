@@ -143,8 +143,8 @@ def test_what_is_refused(resting):
 
 
 def test_the_calls_of_the_page_run():
-    """The third example of docs/contact.md, with the scene of the first; the second alone."""
-    page = (Path(__file__).parents[2] / "docs" / "contact.md").read_text(encoding="utf-8")
+    """The third example of docs/guide/contact.md, with the scene of the first; the second alone."""
+    page = (Path(__file__).parents[2] / "docs" / "guide" / "contact.md").read_text(encoding="utf-8")
     first, free, second = re.findall(r"```python\n(.*?)```", page, re.DOTALL)
     alone = {"print": lambda *found: None}
     exec(compile(free, "contact.md", "exec"), alone)

@@ -402,7 +402,7 @@ bodies:
     density: 1 g/cm^3
 step: {type: implicit_euler, dt: 10 ms}
 """
-PAGE = (Path(__file__).parents[2] / "docs" / "contact.md").read_text(encoding="utf-8")
+PAGE = (Path(__file__).parents[2] / "docs" / "guide" / "contact.md").read_text(encoding="utf-8")
 
 
 def test_the_examples_of_the_page_run_as_printed_and_are_the_same_scene():

@@ -13,7 +13,8 @@ namespace {
 /// Of D^-1 A with the blocks D on the diagonal, for cells of four to eight nodes.
 constexpr double kLargest = 3.0;
 /// Iterations for each cell along a cube that one side holds, to 1e-6, where its weight pulls along the cells
-/// (docs/solvers.md); where it bends them 18 to 21 were counted, of which an equilibrium expects the less.
+/// (docs/measured/solvers.md); where it bends them 18 to 21 were counted, of which an equilibrium expects the
+/// less.
 constexpr double kForACell = 12.8;
 constexpr double kForACellBent = 15.0;
 constexpr double kOfTolerance = 14.5;  ///< ln(2 / 1e-6), at which the numbers here were found

@@ -1,6 +1,6 @@
 #pragma once
 
-/// What each arm will cost, as far as the matrix tells before any of them was used.
+/// What each arm will cost, as far as the matrix shows before any of them was used.
 
 #include "arm.h"
 #include "matrix_shape.h"

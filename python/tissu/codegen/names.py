@@ -85,7 +85,7 @@ HEADINGS: dict[str, tuple[str, ...]] = {
     "Steps": ("step",),
     "Linear solvers": ("solver",),
 }
-"""Heading of docs/scene.md -> the modules of tissu.scene whose parts stand below it."""
+"""Heading of docs/reference/scene.md -> the modules of tissu.scene whose parts stand below it."""
 
 
 def part_names(module: str, root: Path = TISSU) -> list[str]:

@@ -1,4 +1,4 @@
-"""What a scene may ask of its contacts: whom it names, which method runs with which step."""
+"""What a scene may ask of its contacts: names, and which method runs with which step."""
 
 from __future__ import annotations
 

@@ -402,7 +402,7 @@ class Simulation(Inspected, Handled, Touched, Changed, Cutting):
         checkpoint.require(self._physics())
         try:
             self._core.restore(dict(checkpoint.snapshot))
-        except TissuError as error:  # of a file that was made up: of another scene is told above
+        except TissuError as error:  # of a forged file: another scene is refused above
             raise CheckpointError(f"checkpoint {checkpoint.file}: {error}") from None
         self._steps = checkpoint.steps
         for body in self._rest:

@@ -42,40 +42,43 @@ def cuts(made: ts.Scene, steps: int) -> tuple[ts.Simulation, list[list[ts.CutRep
     return simulation, [list(simulation.step().cuts) for _ in range(steps)]
 
 
-@pytest.mark.parametrize("cells", [(12, 4, 2), (18, 6, 3)])
+@pytest.mark.parametrize("cells", [(12, 4, 2), (18, 4, 2)])
 def test_a_strip_tears_at_its_strength(cells: tuple[int, int, int]) -> None:
     """Sigma = E e, whatever the mesh: it bears strain below strength / E, and none above."""
     strain = STRENGTH / 1e5
     whole, none = cuts(strip(0.98 * strain * 0.3, cells), 20)
     assert not any(none)
     assert not whole.surface("strip").cut.any()
-    torn, found = cuts(strip(1.1 * strain * 0.3, cells), 20)
+    torn, found = cuts(strip(1.1 * strain * 0.3, cells), 19)
     when = [number for number, some in enumerate(found) if some]
     # The stress reaches the strength at 1 / 1.1 of the way, 18.2 of 20 steps.
-    assert when[0] == 18
-    assert all(report.by == "tear" for some in found for report in some)
+    assert when == [18]
+    assert all(report.by == "tear" for report in found[18])
     assert torn.surface("strip").cut.any()
 
 
 def test_a_notch_tears_through() -> None:
-    """The tear goes on from its front, across the pull, until the strip is in two pieces."""
-    made = strip(0.85 * STRENGTH / 1e5 * 0.3, (18, 6, 3))
+    """The tear goes on from its front, straight across the pull, until the strip is in two."""
+    made = strip(1.6 * STRENGTH / 1e5 * 0.3, (18, 6, 3), step=ts.ImplicitEuler(dt=0.02))
     simulation = made.compile()
     corners = [(0.15, -0.01, -1), (0.15, 0.036, -1), (0.15, 0.036, 1), (0.15, -0.01, 1)]
     simulation.cut("strip", ts.Triangles(corners, [(0, 1, 2), (0, 2, 3)]))
-    reports = [cut for _ in range(25) for cut in simulation.step().cuts]
-    assert reports
+    reports: list[ts.CutReport] = []
+    for _ in range(40):
+        reports += simulation.step().cuts
+        if len(simulation.pieces("strip")) > 1:
+            break
+    assert len(reports) > 2  # 1.5 lengths at most go at once
     for report in reports:
         assert abs(report.mass_change) <= 1e-12 * 0.0015
         assert report.elastic_energy_change == pytest.approx(0.0, abs=1e-9)
-    pieces = [piece for piece in simulation.pieces("strip") if piece.volume > 1e-2 * 1.5e-3]
-    assert len(pieces) == 2
+    large, small = simulation.pieces("strip")
+    assert large.volume == pytest.approx(0.75e-3, rel=1e-6)
+    assert small.volume == pytest.approx(0.75e-3, rel=1e-6)
     surface = simulation.surface("strip")
     rest = surface.carried(simulation.meshes["strip"].points)
     torn = rest[np.unique(surface.triangles[surface.cut])]
-    assert np.abs(torn[:, 0] - 0.15).max() < LENGTH  # straight across, within the length
-    stress = simulation.field("cauchy_stress", "cells", "strip")
-    assert np.abs(stress[:, 0, 0]).max() < 4.0 * STRENGTH
+    np.testing.assert_allclose(torn[:, 0], 0.15, rtol=0, atol=1e-3 * LENGTH)
 
 
 def test_the_mean_stress_is_that_of_the_cells_around() -> None:
@@ -87,15 +90,17 @@ def test_the_mean_stress_is_that_of_the_cells_around() -> None:
     stress[7] = np.nan
     volumes = random.uniform(0.5, 1.5, 200)
     known = np.isfinite(stress).all(axis=(1, 2))
-    expected = []
+    expected, peaks = [], []
+    own = np.array([np.linalg.eigvalsh(s)[2] if np.isfinite(s).all() else 0.0 for s in stress])
     for centre in centres:
         near = (np.linalg.norm(centres - centre, axis=1) <= 0.2) & known
         mean = np.einsum("m,mij->ij", volumes[near], stress[near]) / volumes[near].sum()
         expected.append(np.linalg.eigvalsh(mean)[2])
+        peaks.append(np.flatnonzero(near)[np.argmax(own[near])])
     found = overstressed(centres, stress, volumes, strength=60.0, length=0.2, apart=0.0, most=200)
     order = np.argsort(-np.array(expected), kind="stable")
     worst = [i for i in order if expected[i] > 60.0]
-    np.testing.assert_array_equal([one.place for one in found], centres[worst])
+    np.testing.assert_array_equal([one.place for one in found], centres[np.array(peaks)[worst]])
     np.testing.assert_allclose(
         [one.ratio for one in found], np.array(expected)[worst] / 60.0, rtol=1e-12
     )
@@ -113,7 +118,8 @@ def test_the_front_of_a_slit_is_found() -> None:
     simulation.cut("strip", ts.Triangles(corners, [(0, 1, 2), (0, 2, 3)]))
     surface = simulation.surface("strip")
     rest = surface.carried(simulation.meshes["strip"].points)
-    front = rest[front_of(surface.triangles.astype(np.int64), surface.cut, rest)]
+    found = front_of(surface.triangles.astype(np.int64), surface.cut, rest)
+    front = rest[found[:, :2]]
     lengths = np.linalg.norm(front[:, 1] - front[:, 0], axis=1)
     assert lengths.sum() == pytest.approx(0.05, rel=1e-9)  # once across the thickness
     np.testing.assert_allclose(front[..., :2], np.broadcast_to((0.15, 0.05), (*front.shape[:2], 2)))

@@ -119,12 +119,18 @@ class Cutting(Remains):
         return self._made(body, lambda: self._core.ablate(body=body, cells=gone), by=by)
 
     def _cut_along(
-        self, body: str, sweep: core.Sweep, *, refine: bool = False, by: str = ""
+        self,
+        body: str,
+        sweep: core.Sweep,
+        *,
+        refine: bool = False,
+        by: str = "",
+        nearest: float = _NEAREST,
     ) -> CutReport:
-        """Cut along a surface of the core."""
+        """Cut along a surface of the core; `nearest`: share of an edge from its end to go there."""
         return self._made(
             body,
-            lambda: self._core.cut(body=body, sweep=sweep, t0=_NEAREST, refine=refine),
+            lambda: self._core.cut(body=body, sweep=sweep, t0=nearest, refine=refine),
             by=by,
         )
 

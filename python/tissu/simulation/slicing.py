@@ -95,7 +95,7 @@ def cut_rows(
         incision=number,
     )
     report = simulation._cut_along(body, sweep, by=name)
-    goes_on = bool(kept[-1].inside.any() or (len(kept) > 1 and kept[0].inside.any()))
+    goes_on = bool(kept[-1].inside.any())
     after = replace(ended, rows=kept, incision=number) if goes_on else ended
     met = report.cells_cut or report.unresolved
     return (report if met else None), after

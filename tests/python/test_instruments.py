@@ -290,6 +290,42 @@ def test_a_capsule_is_a_ball_that_is_swept() -> None:
         one.ablate("bar", ts.Capsule([(0, 0, 0), (1, 0, 0)], 0.0))
 
 
+def test_parameters_and_reset_in_the_middle_of_an_incision() -> None:
+    """A value written again changes nothing; a reset begins again, with the same bits."""
+    step = ts.ImplicitEuler(dt=0.01, solver=ts.ConjugateGradient(tolerance=1e-12))
+    one, other = hanging(step=step).compile(), hanging(step=step).compile()
+    for simulation in (one, other):
+        for _ in range(5):
+            simulation.step()
+    one.parameters["gravity.z"] = -9.81
+    for simulation in (one, other):
+        for _ in range(5):
+            simulation.step()
+    np.testing.assert_allclose(
+        one.positions["bar"], other.positions["bar"], rtol=0, atol=1e-9
+    )  # the solver begins anew
+    end = np.array(other.positions["bar"])
+    other.reset()
+    assert not other.surface("bar").cut.any()
+    for _ in range(10):
+        other.step()
+    np.testing.assert_array_equal(other.positions["bar"], end)
+
+
+def test_what_instruments_remember_is_refused_where_it_cannot_be_read() -> None:
+    simulation = scene(down(10)).compile()
+    simulation.step()
+    known = simulation._core.remembered("instruments")
+    for place, value in ((1, 7.0), (4, 0.5), (6 + 3, 2.0), (6 + 7 + 1, 1e9), (0, -1.0)):
+        broken = known.copy()
+        broken[place] = value
+        with pytest.raises(ts.ParameterError, match="the track of an instrument"):
+            simulation._core.set_remembered("instruments", broken)
+    with pytest.raises(ts.ParameterError, match="another length"):
+        simulation._core.set_remembered("instruments", known[:-1])
+    np.testing.assert_array_equal(simulation._core.remembered("instruments"), known)
+
+
 def refused(make: Callable[[], object], words: str) -> None:
     with pytest.raises(ts.SceneError, match=words):
         make()

@@ -78,6 +78,15 @@ def test_the_number_of_steps_does_not_matter() -> None:
         assert other == pytest.approx(areas[0], abs=CELL * CELL)
 
 
+def test_a_knife_along_faces_opens_them_however_short_its_steps_are() -> None:
+    """It crosses no edge: a face opens when the last of its nodes is met."""
+    areas = []
+    for parts in (1, 10, 100):
+        path = ts.ToolPath(times=(0, 0.01 * parts), positions=[(0.2, 0, 0.11), (0.2, 0, 0.03)])
+        areas.append(cut_area(run(scene(ts.Knife(EDGE, cuts=["bar"], path=path)), parts)[0]))
+    np.testing.assert_allclose(areas, 0.1 * 2 * CELL, rtol=1e-9)  # two rows of cells deep
+
+
 def led(organ: bool, turn: float, way: tuple[float, float, float], steps: int) -> ts.Simulation:
     """A way of a knife in a rigid organ, made by the knife or, the other way round, by the organ.
 

@@ -128,8 +128,7 @@ class Search {
       }
     }
     if (nearest < 0) return {{}, point(i), false};
-    return {
-        {{nearest, -1, -1, -1}, {1.0, 0.0, 0.0, 0.0}, 1}, point(i) - Vec3(block(x_, nearest)), false};
+    return {{{nearest, -1, -1, -1}, {1.0, 0.0, 0.0, 0.0}, 1}, point(i) - Vec3(block(x_, nearest)), false};
   }
 
   const Hosts& hosts_;

@@ -93,6 +93,14 @@ from tissu.scene.contact import (
 from tissu.scene.editing import (
     Editing,
 )
+from tissu.scene.instrument import (
+    Ablator,
+    Knife,
+    ToolPath,
+)
+from tissu.scene.tear import (
+    Tear,
+)
 from tissu.scene.step import (
     ExplicitEuler,
     SymplecticEuler,
@@ -170,6 +178,10 @@ __all__ = [
     "SelfContact",
     "ContactSettings",
     "Editing",
+    "Ablator",
+    "Knife",
+    "ToolPath",
+    "Tear",
     "ExplicitEuler",
     "SymplecticEuler",
     "RK2",

@@ -19,12 +19,15 @@ from tissu.scene.contact import Contacts, ContactSettings
 from tissu.scene.contact_rules import contact_problems, has_free
 from tissu.scene.editing import EditingField
 from tissu.scene.field import field
+from tissu.scene.instrument import AllInstruments
+from tissu.scene.instrument_rules import instrument_problems
 from tissu.scene.load import Load, OneLoad
 from tissu.scene.obstacle import Obstacles
 from tissu.scene.part import Part, problems_in
 from tissu.scene.problem import Problem, Source, nearest, one_of_words
 from tissu.scene.step import OneStep
 from tissu.scene.support import Fixed, Prescribed
+from tissu.scene.tear import Tear
 from tissu.scene.tissue import Tissue, tissues_of
 from tissu.scene.unknown import Unknown, below, rule
 
@@ -116,6 +119,10 @@ class SceneData(Part):
     """number of threads"""
     editing: EditingField = field(default=None)
     """whether cells may be removed, and bodies cut, while it runs"""
+    instruments: Annotated[AllInstruments, BeforeValidator(_by_name)] = field(default_factory=dict)
+    """what cuts and takes away by name, at the end of each step; needs `editing`"""
+    tear: Read[tuple[Tear, ...], Sequence[Tear]] = field(default=())
+    """which bodies tear, and when; needs `editing`"""
     grabbing: bool = False
     """whether points may be grabbed while it runs"""
     output: Output | None = None
@@ -169,6 +176,11 @@ class SceneData(Part):
         """Contacts of what there is, with a method that the step has."""
         yield from contact_problems(self)
 
+    @rule()
+    def _instruments_can_be(self) -> Iterator[Problem]:
+        """Instruments and tears of bodies that there are, in a scene that may be edited."""
+        yield from instrument_problems(self)
+
     @rule("loads")
     def _names_loads_once(self) -> Iterator[Problem]:
         """A name finds one load."""
@@ -208,7 +220,7 @@ class SceneData(Part):
     def _has_names_to_write(self) -> Iterator[Problem]:
         """Names that can stand in files and messages."""
         named = [(("name",), getattr(self, "name", ""))]
-        for group in ("bodies", "tissue", "obstacles"):
+        for group in ("bodies", "tissue", "obstacles", "instruments"):
             named += [((group,), name) for name in getattr(self, group, {})]
         for path, name in named:
             text = name_problem(name)

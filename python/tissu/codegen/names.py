@@ -81,6 +81,13 @@ HEADINGS: dict[str, tuple[str, ...]] = {
     "Supports and motion": ("support",),
     "Loads": ("load",),
     "Obstacles and contacts": ("motion", "obstacle", "contact"),
+    "Trocars": (
+        "trocar.trocar",
+        "trocar.port",
+        "trocar.device",
+        "trocar.hand",
+        "trocar.limits",
+    ),
     "Editing": ("editing",),
     "Steps": ("step",),
     "Linear solvers": ("solver",),

@@ -134,10 +134,7 @@ std::int64_t Loop::wait_until(std::int64_t deadline) const noexcept {
 std::int64_t Loop::missed_by(std::int64_t late) noexcept {
   const std::int64_t periods = late / period_;
   if (periods > 0) missed_.fetch_add(periods, std::memory_order_relaxed);
-  if (periods > kInARow) {
-    held_.fetch_add(1, std::memory_order_relaxed);
-    ticked_.hold();
-  }
+  if (periods > kInARow) held_.fetch_add(1, std::memory_order_relaxed);
   return periods;
 }
 

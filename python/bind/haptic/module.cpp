@@ -25,4 +25,6 @@ void translate(std::exception_ptr pointer) {  // NOLINT(performance-unnecessary-
 PYBIND11_MODULE(_haptic, m) {
   pybind11::register_local_exception_translator(&tissu::haptic::bind::translate);
   tissu::haptic::bind::bind_kinematics(m);
+  tissu::haptic::bind::bind_devices(m);
+  tissu::haptic::bind::bind_run(m);
 }

@@ -24,8 +24,6 @@ class Ticked {
 
   /// `number` counts periods from the start, those that were missed too.
   virtual void tick(std::int64_t number) noexcept = 0;
-  /// More than five ticks in a row were missed. Called before the tick that comes then.
-  virtual void hold() noexcept = 0;
   /// The loop has ended: what is last sent to the device.
   virtual void end() noexcept = 0;
 };

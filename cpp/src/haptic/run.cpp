@@ -1,0 +1,72 @@
+#include "tissu/haptic/run.h"
+
+#include <chrono>
+#include <cmath>
+#include <utility>
+
+namespace tissu::haptic {
+namespace {
+
+std::int64_t now() noexcept {
+  const auto time = std::chrono::steady_clock::now().time_since_epoch();
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(time).count();
+}
+
+}  // namespace
+
+Run::Run(std::shared_ptr<Device> device, const Settings& settings, std::size_t room)
+    : device_(std::move(device)),
+      kinematics_(settings.joints),
+      settings_(settings),
+      records_(room),
+      memory_(start(settings)) {}
+
+std::uint64_t Run::publish(const LocalModel& model) noexcept {
+  LocalModel& next = models_.to_write();
+  next = model;
+  next.stamp = ++stamp_;
+  next.time_ns = now_ns_.load(std::memory_order_relaxed);
+  models_.publish();
+  return stamp_;
+}
+
+void Run::set(const Settings& settings) noexcept { settings_.publish(settings); }
+
+const TickReport& Run::report() noexcept {
+  reports_.take();
+  return reports_.value();
+}
+
+void Run::tick(std::int64_t number) noexcept {
+  number += base_;
+  const std::int64_t began = now();
+  if (settings_.take()) ++record_.settings;
+  models_.take();
+  const Settings& settings = settings_.value();
+  const LocalModel& model = models_.value();
+  record_.read = device_->read(record_.sample);
+  const std::int64_t read = now();
+  TickInput input;
+  input.read = record_.read;
+  input.written = record_.written;
+  input.sample = record_.sample;
+  input.now_ns = std::llround(static_cast<double>(number) * settings.period * 1e9);
+  input.late = static_cast<std::int32_t>(number - next_);
+  input.model = &model;
+  record_.command = haptic::tick(kinematics_, settings, input, memory_, record_.report);
+  const std::int64_t computed = now();
+  record_.written = device_->write(record_.command);
+  record_.number = number;
+  record_.offered = model.stamp;
+  records_.put(record_);
+  reports_.publish(record_.report);
+  now_ns_.store(input.now_ns, std::memory_order_relaxed);
+  next_ = number + 1;
+  read_.add(read - began);
+  write_.add(now() - computed);
+  if (model.stamp > 0) age_.add(std::llround(1e9 * record_.report.model_age));
+}
+
+void Run::end() noexcept { device_->write({}); }
+
+}  // namespace tissu::haptic

@@ -50,6 +50,7 @@ void Run::tick(std::int64_t number) noexcept {
   input.read = record_.read;
   input.written = record_.written;
   input.sample = record_.sample;
+  if (settings.tag == kAnyTool) input.sample.tag = kAnyTool;
   input.now_ns = std::llround(static_cast<double>(number) * settings.period * 1e9);
   input.late = static_cast<std::int32_t>(number - next_);
   input.model = &model;

@@ -53,6 +53,7 @@ py::array_t<double> to_array(const Eigen::MatrixBase<Matrix>& matrix) {
 
 void bind_kinematics(py::module_& m);
 void bind_devices(py::module_& m);
+void bind_simulated(py::module_& m);
 void bind_run(py::module_& m);
 
 }  // namespace tissu::haptic::bind

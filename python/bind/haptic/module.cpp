@@ -26,5 +26,6 @@ PYBIND11_MODULE(_haptic, m) {
   pybind11::register_local_exception_translator(&tissu::haptic::bind::translate);
   tissu::haptic::bind::bind_kinematics(m);
   tissu::haptic::bind::bind_devices(m);
+  tissu::haptic::bind::bind_simulated(m);
   tissu::haptic::bind::bind_run(m);
 }

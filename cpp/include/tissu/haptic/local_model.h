@@ -56,7 +56,7 @@ struct LocalModel {
 
 /// Whether every number that a tick reads is finite, and the counts are in their bounds.
 bool is_finite(const LocalModel& model) noexcept;
-/// Makes W symmetric and adds 1e-9 of its mean diagonal to the diagonal, so that round-off cannot make it
+/// Makes W symmetric and adds 1e-9 of its trace to the diagonal, so that round-off cannot make it
 /// indefinite.
 void settle_compliance(LocalModel& model) noexcept;
 /// One sentence for what is wrong with a model, or nothing: throws ParameterError. For what publishes it, not

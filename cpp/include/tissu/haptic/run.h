@@ -31,6 +31,9 @@ struct TickRecord {
   TickReport report{};
 };
 
+/// Of `Settings::tag`: every tool is taken, and no tag is looked at.
+inline constexpr std::uint64_t kAnyTool = ~std::uint64_t{0};
+
 class Run final : public Ticked {
  public:
   /// `room`: ticks that are kept until `take_records` is called. The device is not shared with another run. Settings

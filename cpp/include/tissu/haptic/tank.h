@@ -26,6 +26,7 @@ struct Tank {
   double credited = 0.0;   ///< of the device's dissipation since the start [J]
   double models = 0.0;     ///< what adopted models stored more than those before, since the start [J]
   double stiffness = 1.0;  ///< share of K_c that the observer leaves, from 1/8 to 1
+  double debt = 0.0;       ///< E_t at the last trip [J]
   int trips = 0;
 
   void fill(const TankSettings& settings) noexcept { *this = Tank{.energy = settings.start}; }
@@ -34,7 +35,8 @@ struct Tank {
   void settle(const TankSettings& settings, double work, double stored, double dissipated) noexcept;
   /// The share of `more` = S_new(q_k) - S_old(q_k) that the tank pays: 1 where more <= 0, which is credited.
   double pay(const TankSettings& settings, double more) noexcept;
-  /// After `settle`: halves the stiffness where E_t < 0, lets it recover by 10 % a second otherwise.
+  /// After `settle`: halves the stiffness where E_t < 0 and deeper than at the last trip; without a debt it
+  /// recovers by 10 % a second.
   void observe(const TankSettings& settings, double period) noexcept;
   /// Damping torques that pay a debt: -beta b v, beta = min(1, -E_t / (T sum b v^2)), only of joints above
   /// `slow` = 2 counts a tick.

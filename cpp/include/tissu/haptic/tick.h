@@ -58,13 +58,16 @@ struct Settings {
   Transmission transmission{};
   TankSettings tank{};
   SweepLimits sweeps{};
-  double tool_mass = 0.0;                 ///< carried by the motors, 0: the device is balanced [kg]
-  double tool_centre = 0.15;              ///< its centre above the tip [m]
-  Vec3 gravity = Vec3::Zero();            ///< port's frame [m/s^2]
-  double ramp = 0.3;                      ///< K_c from 0 to its value on every entry [s]
-  double stale = 0.1;                     ///< a model older than max(2 h, 100 ms) is reported [s]
-  double stall = 0.5;                     ///< older: K_c fades [s]
-  double fade = 0.5;                      ///< in this time [s]
+  double tool_mass = 0.0;       ///< carried by the motors, 0: the device is balanced [kg]
+  double tool_centre = 0.15;    ///< its centre above the tip [m]
+  Vec3 gravity = Vec3::Zero();  ///< port's frame [m/s^2]
+  double ramp = 0.3;            ///< K_c from 0 to its value on every entry [s]
+  double stale = 0.1;           ///< a model older than max(2 h, 100 ms) is reported [s]
+  double stall = 0.5;           ///< older: K_c fades [s]
+  double fade = 0.5;            ///< in this time [s]
+  JointLimits ends{
+      {-0.87266462599716477, -0.87266462599716477, -1e300, 0.0},
+      {0.87266462599716477, 0.87266462599716477, 1e300, 0.31}};  ///< where homing comes to a stop
   Joints homing_torque = Joints::Zero();  ///< its sign says which end; 0: the hand drives
   double homing_still = 0.1;              ///< an axis that stood still so long under it is at its end [s]
 };
@@ -121,9 +124,9 @@ struct Memory {
   // samples
   Sample sample{};
   bool has_sample = false;
-  std::int32_t failed_reads = 0, failed_writes = 0, not_finite = 0, other_tag = 0;
+  std::int32_t failed_reads = 0, failed_writes = 0, bad_models = 0, bad_torques = 0, other_tag = 0;
   std::uint64_t tag = 0;         ///< of the tool that is in
-  std::int32_t turn_base = 0;    ///< added to counts of own rotation that started again
+  std::int64_t turn = 0;         ///< counts of own rotation that go on where the device's start again
   Joints zero = Joints::Zero();  ///< q of count 0
   bool homed = false;
   std::array<std::int32_t, kJoints> still{};
@@ -133,8 +136,8 @@ struct Memory {
   LocalModel model{};
   ModelRows rows{};
   Rows lambda = Rows::Zero();
+  Rows slip = Rows::Zero();   ///< added to b: contacts that slipped, and open ones, which go along
   Rows shift = Rows::Zero();  ///< added to b: slip, and what the tank has not paid
-  Rows slip = Rows::Zero();
   std::uint64_t refused = 0;  ///< stamp of the newest model that was not finite
   double scale = 0.0;         ///< share of K_c in use
   double ramp = 0.0;          ///< from 0 to 1 after an entry
@@ -142,8 +145,8 @@ struct Memory {
   double share = 1.0;
   Tank tank{};
   // torques
-  Joints torque = Joints::Zero();  ///< after all limits, without gravity and compensation
-  Joints paid = Joints::Zero();    ///< what the joints were given on purpose: counted as work
+  Joints torque = Joints::Zero();  ///< after all limits, without weight and compensation
+  Joints paid = Joints::Zero();    ///< the same with compensation: what counts as work
   // agreement of fast and slow
   Vec3 force_sum = Vec3::Zero();
   std::int64_t force_ticks = 0;

@@ -19,6 +19,8 @@ struct Transmission {
 
   /// Throws ParameterError where a number is outside its bounds.
   void check() const;
+  /// share f_c sigma(v): part of `motor`, and of the work that is given out.
+  [[nodiscard]] Joints compensation(const Joints& v, const Joints& slow) const noexcept;
   /// The motors' torques for joint torques tau at joint speeds v; `slow` = 2 Delta / T.
   [[nodiscard]] Joints motor(const Joints& tau, const Joints& v, const Joints& slow) const noexcept;
 };

@@ -8,6 +8,7 @@ Rows stand in blocks: a cone has three (normal and two tangents), a push one, an
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Literal
 
@@ -17,6 +18,8 @@ from tissu.trocar.kinematics import Array
 
 _STEEPEST = 0.05
 """Least share of its own compliance that a slipping contact gives way by."""
+_ROUND_OFF = 1e-15
+"""rad"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -111,17 +114,33 @@ def _slipping(A: Array, rest: Array, mu: float, angle: float) -> Array:
     def slip(at: float) -> tuple[float, float]:
         """Slip across the force, and along it: negative where friction takes energy."""
         g = (rest + A @ force(at))[1:]
-        return float(g[1] * np.cos(at) - g[0] * np.sin(at)), float(
-            g[0] * np.cos(at) + g[1] * np.sin(at)
-        )
+        c, s = np.cos(at), np.sin(at)
+        return float(g[1] * c - g[0] * s), float(g[0] * c + g[1] * s)
 
-    for root in _roots(lambda at: slip(at)[0], angle):
-        if slip(root)[1] <= 0.0:
-            return force(root)
-    return force(angle)
+    def across(at: float) -> float:
+        return slip(at)[0]
+
+    near = _root_near(across, angle)
+    if near is None or slip(near)[1] > 0.0:
+        near = next((at for at in _roots(across, angle) if slip(at)[1] <= 0.0), angle)
+    return force(near)
 
 
-def _roots(function, angle: float) -> list[float]:  # type: ignore[no-untyped-def]
+def _root_near(function: Callable[[float], float], start: float) -> float | None:
+    """A root by secants from a start; None where they do not find one."""
+    last, at = start, start + 1e-4
+    value, before = function(at), function(last)
+    for _ in range(30):
+        if value == before:
+            return at if abs(at - last) < _ROUND_OFF else None
+        last, at = at, at - value * (at - last) / (value - before)
+        before, value = value, function(at)
+        if abs(at - last) <= _ROUND_OFF:
+            return at
+    return None
+
+
+def _roots(function: Callable[[float], float], angle: float) -> list[float]:
     """Roots over a turn, the nearest to an angle first."""
     from scipy.optimize import brentq
 
@@ -132,5 +151,5 @@ def _roots(function, angle: float) -> list[float]:  # type: ignore[no-untyped-de
         if f_low == 0.0:
             found.append(float(low))
         elif f_low * f_high < 0.0:
-            found.append(float(brentq(function, low, high, xtol=1e-15, rtol=1e-15)))
+            found.append(float(brentq(function, low, high, xtol=_ROUND_OFF, rtol=_ROUND_OFF)))
     return sorted(found, key=lambda at: abs(at - angle))

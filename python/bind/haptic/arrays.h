@@ -52,5 +52,10 @@ py::array_t<double> to_array(const Eigen::MatrixBase<Matrix>& matrix) {
 }
 
 void bind_kinematics(py::module_& m);
+void bind_settings(py::module_& m);
+void bind_local_model(py::module_& m);
+void bind_parts(py::module_& m);
+void bind_device(py::module_& m);
+void bind_loop(py::module_& m);
 
 }  // namespace tissu::haptic::bind

@@ -15,9 +15,11 @@ namespace tissu::haptic {
 
 DeviceClaim::DeviceClaim(const std::string& name) : socket_(socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0)) {
   if (socket_ < 0) {
-    throw Error("the device " + name + " cannot be claimed (" + std::strerror(errno) + "); close other files.");
+    throw Error("the device " + name + " cannot be claimed (" + std::strerror(errno) +
+                "); close other files.");
   }
-  // The first byte of an abstract name is zero. A name that is too long keeps its end, which tells devices apart.
+  // The first byte of an abstract name is zero. A name that is too long keeps its end, which tells devices
+  // apart.
   sockaddr_un address{};
   address.sun_family = AF_UNIX;
   const std::string held = "tissu-trocar/" + name;

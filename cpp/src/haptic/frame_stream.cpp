@@ -22,8 +22,8 @@ bool FrameStream::take(std::size_t count, Sample& sample) noexcept {
     sample = read;
     found = true;
   }
-  std::copy(bytes_.begin() + static_cast<std::ptrdiff_t>(at), bytes_.begin() + static_cast<std::ptrdiff_t>(count_),
-            bytes_.begin());
+  std::copy(bytes_.begin() + static_cast<std::ptrdiff_t>(at),
+            bytes_.begin() + static_cast<std::ptrdiff_t>(count_), bytes_.begin());
   count_ -= at;
   return found;
 }

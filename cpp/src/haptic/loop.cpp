@@ -39,10 +39,12 @@ Grant ask_priority(int priority) {
 }
 
 Grant ask_memory() {
-  // Pages are locked as they are first touched: the whole of a large process is not brought into memory for it.
+  // Pages are locked as they are first touched: the whole of a large process is not brought into memory for
+  // it.
   const int error = mlockall(MCL_CURRENT | MCL_FUTURE | MCL_ONFAULT) == 0 ? 0 : errno;
   return ask("locked memory", error,
-             "raise RLIMIT_MEMLOCK: a line '@realtime - memlock unlimited' in /etc/security/limits.conf, the user in "
+             "raise RLIMIT_MEMLOCK: a line '@realtime - memlock unlimited' in /etc/security/limits.conf, the "
+             "user in "
              "that group, a new login");
 }
 
@@ -55,7 +57,8 @@ Grant ask_core() {
     CPU_SET(static_cast<std::size_t>(core), &only);
     error = pthread_setaffinity_np(pthread_self(), sizeof only, &only);
   }
-  return ask("core " + std::to_string(core), error, "let the process run on a fixed set of processors (taskset)");
+  return ask("core " + std::to_string(core), error,
+             "let the process run on a fixed set of processors (taskset)");
 }
 
 /// Touches the stack that ticks will use, so that none of its pages is missing later.

@@ -22,7 +22,8 @@ using Library = std::unique_ptr<void, Close>;
 Library load(const std::string& file) {
   Library library(dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL));
   if (library == nullptr) {
-    throw Error("the plug-in " + file + " cannot be loaded (" + dlerror() + "); check its path, and build it here.");
+    throw Error("the plug-in " + file + " cannot be loaded (" + dlerror() +
+                "); check its path, and build it here.");
   }
   return library;
 }
@@ -32,7 +33,8 @@ F* entry(const Library& library, const std::string& file, const char* name) {
   // The only way from what dlsym finds to a function.
   auto* const found = reinterpret_cast<F*>(dlsym(library.get(), name));
   if (found == nullptr) {
-    throw Error("the plug-in " + file + " has no function " + name + "; build it with tissu/haptic/device_plugin.h.");
+    throw Error("the plug-in " + file + " has no function " + name +
+                "; build it with tissu/haptic/device_plugin.h.");
   }
   return found;
 }
@@ -47,8 +49,9 @@ struct Entries {
         write(entry<decltype(tissu_device_write)>(library, file, "tissu_device_write")),
         close(entry<decltype(tissu_device_close)>(library, file, "tissu_device_close")) {
     if (abi() != TISSU_DEVICE_ABI) {
-      throw Error("the plug-in " + file + " has version " + std::to_string(abi()) + " of the interface; version " +
-                  std::to_string(TISSU_DEVICE_ABI) + " is accepted: build it again.");
+      throw Error("the plug-in " + file + " has version " + std::to_string(abi()) +
+                  " of the interface; version " + std::to_string(TISSU_DEVICE_ABI) +
+                  " is accepted: build it again.");
     }
   }
 

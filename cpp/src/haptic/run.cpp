@@ -2,7 +2,6 @@
 
 #include <chrono>
 #include <cmath>
-#include <utility>
 
 namespace tissu::haptic {
 namespace {
@@ -14,8 +13,8 @@ std::int64_t now() noexcept {
 
 }  // namespace
 
-Run::Run(std::shared_ptr<Device> device, const Settings& settings, std::size_t room)
-    : device_(std::move(device)),
+Run::Run(Device& device, const Settings& settings, std::size_t room)
+    : device_(device),
       kinematics_(settings.joints),
       settings_(settings),
       records_(room),
@@ -44,7 +43,7 @@ void Run::tick(std::int64_t number) noexcept {
   models_.take();
   const Settings& settings = settings_.value();
   const LocalModel& model = models_.value();
-  record_.read = device_->read(record_.sample);
+  record_.read = device_.read(record_.sample);
   const std::int64_t read = now();
   TickInput input;
   input.read = record_.read;
@@ -56,7 +55,7 @@ void Run::tick(std::int64_t number) noexcept {
   input.model = &model;
   record_.command = haptic::tick(kinematics_, settings, input, memory_, record_.report);
   const std::int64_t computed = now();
-  record_.written = device_->write(record_.command);
+  record_.written = device_.write(record_.command);
   record_.number = number;
   record_.offered = model.stamp;
   records_.put(record_);
@@ -68,6 +67,6 @@ void Run::tick(std::int64_t number) noexcept {
   if (model.stamp > 0) age_.add(std::llround(1e9 * record_.report.model_age));
 }
 
-void Run::end() noexcept { device_->write({}); }
+void Run::end() noexcept { device_.write({}); }
 
 }  // namespace tissu::haptic

@@ -77,7 +77,8 @@ class SerialDevice final : public Device {
     for (int k = 0; k < kMostReads; ++k) {
       const std::span<std::uint8_t> room = stream_.room();
       const ssize_t length = ::read(line_, room.data(), room.size());
-      if (length < 0 && errno != EAGAIN && errno != EINTR) return found ? DeviceStatus::ok : DeviceStatus::gone;
+      if (length < 0 && errno != EAGAIN && errno != EINTR)
+        return found ? DeviceStatus::ok : DeviceStatus::gone;
       if (length <= 0) break;
       found = stream_.take(static_cast<std::size_t>(length), sample) || found;
     }
@@ -103,11 +104,13 @@ class SerialDevice final : public Device {
                   "); plug it in, or check the path and who may open it.");
     }
     if (ioctl(line_, TIOCEXCL) != 0 || !make_raw(line_, speed_of(options.baud))) {
-      throw Error(options.path + " is not a serial line (" + std::strerror(errno) + "); name one, such as /dev/ttyACM0.");
+      throw Error(options.path + " is not a serial line (" + std::strerror(errno) +
+                  "); name one, such as /dev/ttyACM0.");
     }
     if (!meet(options.wait)) {
       throw Error("the device at " + options.path + " gives no frame within " + std::to_string(options.wait) +
-                  " s; switch it on, and check that both sides have " + std::to_string(options.baud) + " baud.");
+                  " s; switch it on, and check that both sides have " + std::to_string(options.baud) +
+                  " baud.");
     }
   }
 

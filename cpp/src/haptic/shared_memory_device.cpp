@@ -33,7 +33,8 @@ class Mapping {
     }
     struct stat found {};
     const bool large = fstat(file, &found) == 0 && found.st_size >= static_cast<off_t>(kBytes);
-    void* const memory = large ? mmap(nullptr, kBytes, PROT_READ | PROT_WRITE, MAP_SHARED, file, 0) : MAP_FAILED;
+    void* const memory =
+        large ? mmap(nullptr, kBytes, PROT_READ | PROT_WRITE, MAP_SHARED, file, 0) : MAP_FAILED;
     close(file);
     if (memory == MAP_FAILED) {
       throw Error("the shared memory " + name + " has " + std::to_string(found.st_size) +

@@ -27,8 +27,9 @@ sockaddr_in address_of(const UdpOptions& options) {
   address.sin_port = htons(static_cast<std::uint16_t>(options.port));
   if (options.port < 1 || options.port > 65535 ||
       inet_pton(AF_INET, options.host.c_str(), &address.sin_addr) != 1) {
-    throw ParameterError("found the device " + place_of(options) +
-                         "; an address in numbers and a port of 1 to 65535 are accepted, such as 192.168.1.20:7001.");
+    throw ParameterError(
+        "found the device " + place_of(options) +
+        "; an address in numbers and a port of 1 to 65535 are accepted, such as 192.168.1.20:7001.");
   }
   return address;
 }
@@ -42,7 +43,8 @@ class UdpDevice final : public Device {
     if (socket_ < 0 || connect(socket_, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0) {
       const std::string reason = std::strerror(errno);
       if (socket_ >= 0) close(socket_);
-      throw Error("the device " + place_of(options) + " cannot be reached (" + reason + "); check its network.");
+      throw Error("the device " + place_of(options) + " cannot be reached (" + reason +
+                  "); check its network.");
     }
     if (!meet(options.wait)) {
       close(socket_);

@@ -52,8 +52,12 @@ py::array_t<double> to_array(const Eigen::MatrixBase<Matrix>& matrix) {
 }
 
 void bind_kinematics(py::module_& m);
-void bind_devices(py::module_& m);
-void bind_simulated(py::module_& m);
+void bind_settings(py::module_& m);
+void bind_local_model(py::module_& m);
+void bind_parts(py::module_& m);
+void bind_device(py::module_& m);
+void bind_loop(py::module_& m);
+void bind_wire(py::module_& m);
 void bind_run(py::module_& m);
 
 }  // namespace tissu::haptic::bind

@@ -24,8 +24,13 @@ void translate(std::exception_ptr pointer) {  // NOLINT(performance-unnecessary-
 
 PYBIND11_MODULE(_haptic, m) {
   pybind11::register_local_exception_translator(&tissu::haptic::bind::translate);
-  tissu::haptic::bind::bind_kinematics(m);
-  tissu::haptic::bind::bind_devices(m);
-  tissu::haptic::bind::bind_simulated(m);
-  tissu::haptic::bind::bind_run(m);
+  namespace bind = tissu::haptic::bind;
+  bind::bind_kinematics(m);
+  bind::bind_settings(m);
+  bind::bind_local_model(m);
+  bind::bind_parts(m);
+  bind::bind_device(m);
+  bind::bind_loop(m);  // after what it takes
+  bind::bind_wire(m);
+  bind::bind_run(m);
 }

@@ -79,7 +79,8 @@ TEST(HapticFrame, SequencesWrapAndBeginAgain) {
 }
 
 /// Puts bytes into a stream, at most `most` at a time; the sequences of the samples that it gave.
-std::vector<std::uint32_t> read_all(FrameStream& stream, const std::vector<std::uint8_t>& bytes, std::size_t most) {
+std::vector<std::uint32_t> read_all(FrameStream& stream, const std::vector<std::uint8_t>& bytes,
+                                    std::size_t most) {
   std::vector<std::uint32_t> found;
   for (std::size_t at = 0; at < bytes.size();) {
     const auto room = stream.room();

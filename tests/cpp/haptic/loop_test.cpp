@@ -28,7 +28,9 @@ class Counting final : public Ticked {
 };
 
 /// A plain thread: what a test may ask of a machine that others use.
-LoopOptions plain() { return {.period = 1e-3, .priority = 0, .lock_memory = false, .pin = false, .spin = 0.0}; }
+LoopOptions plain() {
+  return {.period = 1e-3, .priority = 0, .lock_memory = false, .pin = false, .spin = 0.0};
+}
 
 void wait_for(const Counting& counting, int ticks) {
   while (counting.ticks < ticks) std::this_thread::sleep_for(std::chrono::milliseconds(1));

@@ -1,8 +1,9 @@
 #ifndef TISSU_HAPTIC_DEVICE_PLUGIN_H
 #define TISSU_HAPTIC_DEVICE_PLUGIN_H
 
-/* What a device plug-in has: a shared library with five functions, in C, that includes this header alone. Proprietary
-   kits so never enter the build of tissu. All are called by one thread; read and write at the rate of the ticks. */
+/* What a device plug-in has: a shared library with five functions, in C, that includes this header alone.
+   Proprietary kits so never enter the build of tissu. All are called by one thread; read and write at the
+   rate of the ticks. */
 
 #include <stddef.h>
 #include <stdint.h>
@@ -46,10 +47,12 @@ enum { TISSU_DEVICE_OK = 0, TISSU_DEVICE_NONE = 1, TISSU_DEVICE_BROKEN = 2, TISS
 
 /* TISSU_DEVICE_ABI of the header that the plug-in was made with. */
 TISSU_DEVICE_EXPORT int tissu_device_abi(void);
-/* Opens the device that the address names (a text of the plug-in's own; empty: the first) and fills info. NULL: it
-   could not be opened, and `why` holds one sentence of at most `size` bytes, a zero at its end. */
-TISSU_DEVICE_EXPORT void* tissu_device_open(const char* address, tissu_device_info* info, char* why, size_t size);
-/* The newest sample, within less than a tick. The sample is unchanged where the answer is not TISSU_DEVICE_OK. */
+/* Opens the device that the address names (a text of the plug-in's own; empty: the first) and fills info.
+   NULL: it could not be opened, and `why` holds one sentence of at most `size` bytes, a zero at its end. */
+TISSU_DEVICE_EXPORT void* tissu_device_open(const char* address, tissu_device_info* info, char* why,
+                                            size_t size);
+/* The newest sample, within less than a tick. The sample is unchanged where the answer is not
+ * TISSU_DEVICE_OK. */
 TISSU_DEVICE_EXPORT int tissu_device_read(void* device, tissu_device_sample* sample);
 TISSU_DEVICE_EXPORT int tissu_device_write(void* device, const tissu_device_command* command);
 /* Switches the motors off and ends. */

@@ -2,10 +2,10 @@
 
 /// The newest value from one thread for another, without a lock and without waiting on either side.
 ///
-/// There are three slots: one that the writer fills, one that the reader reads, and one between them. Publishing swaps
-/// the writer's slot with the one between, taking swaps it with the reader's; each swap is one atomic exchange of the
-/// index of the slot between, in which a bit says whether it holds something that was not taken. What is published
-/// before the last is overwritten, never read in part.
+/// There are three slots: one that the writer fills, one that the reader reads, and one between them.
+/// Publishing swaps the writer's slot with the one between, taking swaps it with the reader's; each swap is
+/// one atomic exchange of the index of the slot between, in which a bit says whether it holds something that
+/// was not taken. What is published before the last is overwritten, never read in part.
 
 #include <array>
 #include <atomic>

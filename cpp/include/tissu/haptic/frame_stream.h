@@ -14,11 +14,9 @@ namespace tissu::haptic {
 class FrameStream {
  public:
   /// The place for bytes that come next; never empty.
-  [[nodiscard]] std::span<std::uint8_t> room() noexcept {
-    return std::span(bytes_).subspan(count_);
-  }
-  /// Takes `count` bytes that were written into `room()`. Whether a whole frame came that is newer than the one before;
-  /// the newest of them is then in `sample`.
+  [[nodiscard]] std::span<std::uint8_t> room() noexcept { return std::span(bytes_).subspan(count_); }
+  /// Takes `count` bytes that were written into `room()`. Whether a whole frame came that is newer than the
+  /// one before; the newest of them is then in `sample`.
   bool take(std::size_t count, Sample& sample) noexcept;
   /// Bytes that belonged to no frame, since the beginning.
   [[nodiscard]] std::int64_t skipped() const noexcept { return skipped_; }

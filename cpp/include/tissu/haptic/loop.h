@@ -38,7 +38,7 @@ struct LoopOptions {
 
 /// Something that was asked of the machine. Refused is no error.
 struct Grant {
-  std::string what;    ///< "SCHED_FIFO 60"
+  std::string what;  ///< "SCHED_FIFO 60"
   bool granted = false;
   int error = 0;       ///< errno where it was refused
   std::string remedy;  ///< what to do about it; empty where it was granted
@@ -68,8 +68,8 @@ class Loop {
   Loop& operator=(Loop&&) = delete;
   ~Loop();
 
-  /// Returns when the thread has what it was granted, and before its first tick. Throws `Error` where the machine
-  /// gives no thread.
+  /// Returns when the thread has what it was granted, and before its first tick. Throws `Error` where the
+  /// machine gives no thread.
   void start();
   /// Returns when the last tick is done. Nothing where it does not run.
   void stop();

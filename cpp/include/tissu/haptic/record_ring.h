@@ -1,6 +1,7 @@
 #pragma once
 
-/// Values that one thread writes at a fixed rate and another takes in their order, as many as there is room for.
+/// Values that one thread writes at a fixed rate and another takes in their order, as many as there is room
+/// for.
 
 #include <algorithm>
 #include <atomic>

@@ -1,12 +1,11 @@
 #pragma once
 
-/// A trocar that runs: its device, what the controller decides, the newest model, and what each tick did. The same ticks
-/// are taken one by one (`step`, simulated time) or by the thread of a `Loop` (real time).
+/// A trocar that runs: its device, what the controller decides, the newest model, and what each tick did. The
+/// same ticks are taken one by one (`step`, simulated time) or by the thread of a `Loop` (real time).
 
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <vector>
 
 #include "tissu/haptic/device.h"
@@ -21,9 +20,9 @@ namespace tissu::haptic {
 
 /// Everything that came into a tick and out of it: what a replay needs, and what it has to give again.
 struct TickRecord {
-  std::int64_t number = 0;       ///< of the period, those that were missed counted
-  std::uint64_t offered = 0;     ///< stamp of the newest model
-  std::uint32_t settings = 0;    ///< how many changes of settings there were
+  std::int64_t number = 0;     ///< of the period, those that were missed counted
+  std::uint64_t offered = 0;   ///< stamp of the newest model
+  std::uint32_t settings = 0;  ///< how many changes of settings there were
   DeviceStatus read = DeviceStatus::ok;
   DeviceStatus written = DeviceStatus::ok;  ///< of this tick's command
   Sample sample{};
@@ -36,9 +35,9 @@ inline constexpr std::uint64_t kAnyTool = ~std::uint64_t{0};
 
 class Run final : public Ticked {
  public:
-  /// `room`: ticks that are kept until `take_records` is called. The device is not shared with another run. Settings
-  /// are those of `check`.
-  Run(std::shared_ptr<Device> device, const Settings& settings, std::size_t room = 4096);
+  /// `room`: ticks that are kept until `take_records` is called. The device outlives the run, and has no
+  /// other. Settings are those of `check`.
+  Run(Device& device, const Settings& settings, std::size_t room = 4096);
 
   // ---- the slow side: one thread
   /// The newest model. Its stamp is counted up here, and its time is that of the newest tick. The stamp.
@@ -63,7 +62,7 @@ class Run final : public Ticked {
   [[nodiscard]] TimingReport model_age() const noexcept { return age_.report(); }
 
  private:
-  std::shared_ptr<Device> device_;
+  Device& device_;
   TrocarKinematics kinematics_;
   Exchange<LocalModel> models_;
   Exchange<Settings> settings_;
@@ -72,7 +71,7 @@ class Run final : public Ticked {
   Memory memory_;
   TickRecord record_;
   std::uint64_t stamp_ = 0;
-  std::int64_t base_ = 0;   // number of the loop's first period
+  std::int64_t base_ = 0;  // number of the loop's first period
   std::int64_t next_ = 0;
   std::atomic<std::int64_t> now_ns_{0};
   Timing read_, write_, age_;

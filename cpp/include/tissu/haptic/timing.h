@@ -1,6 +1,7 @@
 #pragma once
 
-/// How long something takes, of millions of times: a histogram of durations, written by one thread, read by others.
+/// How long something takes, of millions of times: a histogram of durations, written by one thread, read by
+/// others.
 
 #include <array>
 #include <atomic>
@@ -9,7 +10,8 @@
 
 namespace tissu::haptic {
 
-/// What a histogram says. Durations are upper ends of its classes, so that none is told too small; the largest is exact.
+/// What a histogram says. Durations are upper ends of its classes, so that none is told too small; the
+/// largest is exact.
 struct TimingReport {
   std::int64_t count = 0;
   double p50 = 0.0;   ///< [s], 0 where nothing was counted
@@ -18,7 +20,8 @@ struct TimingReport {
   double max = 0.0;   ///< [s]
 };
 
-/// Sixteen classes for each factor of two, from 1 ns to hundreds of years: a percentile is at most 1/16 too large.
+/// Sixteen classes for each factor of two, from 1 ns to hundreds of years: a percentile is at most 1/16 too
+/// large.
 class Timing {
  public:
   /// Counts a duration; one below zero counts as zero. Called by one thread.

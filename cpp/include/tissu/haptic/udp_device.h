@@ -16,9 +16,9 @@ struct UdpOptions {
   DeviceInfo info;
 };
 
-/// Sends an answer that switches the motors off, takes the first frame, and has the device from then on. Frames of other
-/// senders are not taken. Throws `Error` where nothing answers, or another controller has the device, `ParameterError`
-/// for an address that is none.
+/// Sends an answer that switches the motors off, takes the first frame, and has the device from then on.
+/// Frames of other senders are not taken. Throws `Error` where nothing answers, or another controller has the
+/// device, `ParameterError` for an address that is none.
 std::unique_ptr<Device> open_udp_device(const UdpOptions& options);
 
 }  // namespace tissu::haptic

@@ -1,4 +1,9 @@
-#include "haptic/settings.h"
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "haptic/arrays.h"
+#include "tissu/haptic/device.h"
 #include "tissu/haptic/frame.h"
 #include "tissu/haptic/plugin_device.h"
 #include "tissu/haptic/replay_device.h"
@@ -16,18 +21,6 @@ py::dict to_dict(const Sample& sample) {
   made["sequence"] = sample.sequence;
   made["flags"] = sample.flags;
   made["tag"] = sample.tag;
-  return made;
-}
-
-py::dict to_dict(const DeviceInfo& info) {
-  py::dict made;
-  made["axes"] = info.axes;
-  made["count_size"] = info.count_size;
-  made["torque_limit"] = info.torque_limit;
-  made["turn_counts"] = info.turn_counts;
-  made["rate"] = info.rate;
-  made["delay"] = info.delay;
-  made["torque_confirmed"] = info.torque_confirmed;
   return made;
 }
 
@@ -59,7 +52,7 @@ class Column {
 };
 
 /// A device out of columns of records, as `take_records` of a run gives them.
-std::shared_ptr<Device> replayed(const py::dict& columns) {
+std::unique_ptr<Device> replayed(const py::dict& columns) {
   const std::size_t rows = py::len(columns["read"]);
   const Column<std::uint8_t> read(columns, "read", rows), written(columns, "written", rows);
   const Column<std::int32_t> counts(columns, "counts", rows, kChannels);
@@ -78,7 +71,7 @@ std::shared_ptr<Device> replayed(const py::dict& columns) {
     one.sample.flags = flags(k);
     one.sample.tag = tag(k);
   }
-  return std::make_shared<ReplayDevice>(std::move(answers));
+  return std::make_unique<ReplayDevice>(std::move(answers));
 }
 
 py::tuple read(Device& device) {
@@ -88,8 +81,7 @@ py::tuple read(Device& device) {
 }
 
 int write(Device& device, const Channels& torque, bool enable, std::uint32_t sequence, int watchdog_ms) {
-  return static_cast<int>(
-      device.write({torque, sequence, static_cast<std::uint16_t>(watchdog_ms), enable}));
+  return static_cast<int>(device.write({torque, sequence, static_cast<std::uint16_t>(watchdog_ms), enable}));
 }
 
 void bind_openers(py::module_& m) {
@@ -98,30 +90,30 @@ void bind_openers(py::module_& m) {
   m.def(
       "open_udp",
       [](const std::string& host, int port, double wait, const Channels& count_size,
-         const Channels& torque_limit, double rate, double delay) -> std::shared_ptr<Device> {
+         const Channels& torque_limit, double rate, double delay) -> std::unique_ptr<Device> {
         return open_udp_device({host, port, wait, info_of(count_size, torque_limit, rate, delay)});
       },
-      py::kw_only(), arg("host"), arg("port"), arg("wait"), arg("count_size"), arg("torque_limit"), arg("rate"),
-      arg("delay"), unlocked);
+      py::kw_only(), arg("host"), arg("port"), arg("wait"), arg("count_size"), arg("torque_limit"),
+      arg("rate"), arg("delay"), unlocked);
   m.def(
       "open_serial",
       [](const std::string& path, int baud, double wait, const Channels& count_size,
-         const Channels& torque_limit, double rate, double delay) -> std::shared_ptr<Device> {
+         const Channels& torque_limit, double rate, double delay) -> std::unique_ptr<Device> {
         return open_serial_device({path, baud, wait, info_of(count_size, torque_limit, rate, delay)});
       },
-      py::kw_only(), arg("path"), arg("baud"), arg("wait"), arg("count_size"), arg("torque_limit"), arg("rate"),
-      arg("delay"), unlocked);
+      py::kw_only(), arg("path"), arg("baud"), arg("wait"), arg("count_size"), arg("torque_limit"),
+      arg("rate"), arg("delay"), unlocked);
   m.def(
       "open_shared_memory",
       [](const std::string& name, double wait, const Channels& count_size, const Channels& torque_limit,
-         double rate, double delay) -> std::shared_ptr<Device> {
+         double rate, double delay) -> std::unique_ptr<Device> {
         return open_shared_memory_device({name, wait, info_of(count_size, torque_limit, rate, delay)});
       },
-      py::kw_only(), arg("name"), arg("wait"), arg("count_size"), arg("torque_limit"), arg("rate"), arg("delay"),
-      unlocked);
+      py::kw_only(), arg("name"), arg("wait"), arg("count_size"), arg("torque_limit"), arg("rate"),
+      arg("delay"), unlocked);
   m.def(
       "open_plugin",
-      [](const std::string& library, const std::string& address) -> std::shared_ptr<Device> {
+      [](const std::string& library, const std::string& address) -> std::unique_ptr<Device> {
         return open_plugin_device(library, address);
       },
       py::kw_only(), arg("library"), arg("address"), unlocked);
@@ -130,13 +122,11 @@ void bind_openers(py::module_& m) {
 
 }  // namespace
 
-void bind_devices(py::module_& m) {
+void bind_wire(py::module_& m) {
   using py::arg;
-  py::class_<Device, std::shared_ptr<Device>>(m, "Device")
-      .def("read", &read)
-      .def("write", &write, arg("torque"), py::kw_only(), arg("enable") = true, arg("sequence") = 0,
-           arg("watchdog_ms") = 20)
-      .def("info", [](const Device& device) { return to_dict(device.info()); });
+  m.def("read", &read, arg("device"));
+  m.def("write", &write, arg("device"), arg("torque"), py::kw_only(), arg("enable") = true,
+        arg("sequence") = 0, arg("watchdog_ms") = 20);
   bind_openers(m);
   m.def(
       "crc32",

@@ -71,7 +71,7 @@ def _has_tool(law: Law, below: float) -> bool:
     sample = law.sample
     if sample is None or not (sample.has(Flag.tool_in) and sample.has(Flag.enabled)):
         return False
-    return bool(law.q[3] >= law.settings["low"][3] + below)
+    return bool(law.q[3] >= law.settings["joint_low"][3] + below)
 
 
 def _go_on(law: Law, motion: Motion, age: float, late: int) -> None:

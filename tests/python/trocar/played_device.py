@@ -46,7 +46,7 @@ def play(port):
                 on = bool(told[2])
         if who is not None:
             sequence += 1
-            further = min(sequence, 400) // 2  # 20 mm in 0.4 s, in counts of 0.1 mm
+            further = min(sequence, 280) // 2  # 14 mm in 0.28 s, in counts of 0.1 mm
             line.sendto(frame(sequence, [0, 0, 0, 1000 + further, 0]), who)
     print(f"frames {sequence} largest {largest:.3f} off {not on or not told[2]}", flush=True)
 

@@ -54,7 +54,7 @@ def wait_for(condition):
 
 
 def test_a_second_process_plays_the_device_over_udp():
-    """In real time: its tool goes 20 mm deeper, and a wall of 400 N/m at 110 mm is felt there."""
+    """In real time: its tool goes 14 mm deeper, and a wall of 400 N/m at 110 mm is felt there."""
     script = Path(played_device.__file__)
     player = subprocess.Popen([sys.executable, str(script), "0"], stdout=subprocess.PIPE, text=True)
     port = int(player.stdout.readline())
@@ -66,9 +66,11 @@ def test_a_second_process_plays_the_device_over_udp():
     controller.publish(LocalModel.plane(found().q, **wall))
 
     def pressed():
+        if found().state is State.held:  # a machine that others use misses ticks
+            controller.acknowledge()
         controller.publish(LocalModel.plane(found().q, **wall))
-        # 10 mm deep, springs of 400 and 500 N/m behind each other: 2.22 N.
-        return found().force[2] == pytest.approx(400 * 500 / 900 * 0.01, rel=1e-3)
+        # 4 mm deep, springs of 400 and 500 N/m behind each other: 0.889 N.
+        return found().force[2] == pytest.approx(400 * 500 / 900 * 0.004, rel=1e-3)
 
     wait_for(pressed)
     with pytest.raises(ts.TissuError, match="has a controller already"):
@@ -77,7 +79,7 @@ def test_a_second_process_plays_the_device_over_udp():
     out, _ = player.communicate(timeout=60)
     assert "off True" in out  # the motors were switched off at the end
     largest = float(out.split("largest ")[1].split()[0])
-    assert largest == pytest.approx(2.222, rel=2e-2)
+    assert largest == pytest.approx(0.889, rel=2e-2)
 
 
 def test_udp_devices_that_are_not_there_are_refused():
@@ -186,25 +188,24 @@ def test_a_device_in_shared_memory():
 
             player = threading.Thread(target=play)
             player.start()
-            device = _haptic.open_shared_memory(name=name, **INFO)
-            while _haptic.read(device)[0] != 0:
+            opened = [_haptic.open_shared_memory(name=name, **INFO)]  # held by this list alone
+            while _haptic.read(opened[0])[0] != 0:
                 time.sleep(0.001)
             with pytest.raises(ts.TissuError, match="has a controller already"):
                 _haptic.open_shared_memory(name=name, **INFO)
-            _haptic.write(device, [0, 0, 0, 2.5, 0], sequence=77)
+            _haptic.write(opened[0], [0, 0, 0, 2.5, 0], sequence=77)
             done.set()
             player.join()
             told = played_device.answer(file.read_bytes()[192:228])
             assert told[0] == 77
             assert told[1][3] == 2.5
-            _haptic.read(device)
-            assert _haptic.read(device)[0] == 1  # nothing new
+            _haptic.read(opened[0])
+            assert _haptic.read(opened[0])[0] == 1  # nothing new
             with pytest.raises(ts.TissuError, match="has a controller already"):
                 Controller(trocar(ts.SharedMemoryDevice(name)))
-            del device
-            with pytest.raises(
-                ts.TissuError, match="gets no new frame"
-            ):  # left behind by its player
+            opened.clear()
+            # Memory that its player has left behind.
+            with pytest.raises(ts.TissuError, match="gets no new frame"):
                 _haptic.open_shared_memory(name=name, **INFO)
         file.write_bytes(bytes(10))
         with pytest.raises(ts.TissuError, match="has 10 bytes"):

@@ -20,6 +20,9 @@ class Running {
     run_.set(settings_, ++changes_);
   }
 
+  /// Of a recording, which has the number.
+  void set_numbered(const Settings& settings, std::uint32_t number) { run_.set(settings, number); }
+
   py::dict step(std::int64_t ticks, std::int64_t late) {
     if (loop_ && loop_->report().running) {
       throw Error("the trocar runs in real time; stop it before it is stepped.");
@@ -89,6 +92,7 @@ void bind_run(py::module_& m) {
       .def(py::init<Device&, const Settings&, std::size_t>(), arg("device"), arg("settings"), py::kw_only(),
            arg("room") = 4096, py::keep_alive<1, 2>())
       .def("set", &Running::set, arg("settings"), py::kw_only(), arg("delay"))
+      .def("set_numbered", &Running::set_numbered, arg("settings"), arg("number"))
       .def("step", &Running::step, arg("ticks") = 1, py::kw_only(), arg("late") = 0)
       .def("start", &Running::start, py::kw_only(), arg("priority"), arg("lock_memory"), arg("pin"),
            arg("spin"), unlocked)

@@ -25,10 +25,11 @@ from tissu.scene.trocar.tool import tag_of, tag_text
 from tissu.trocar import kinematics
 from tissu.trocar.model import LocalModel
 from tissu.trocar.opened import open_device
+from tissu.trocar.recording import Recording
 from tissu.trocar.report import Report, Timing
 from tissu.trocar.settings import ANY_TOOL, settings_of
 from tissu.trocar.states import Reason, State
-from tissu.trocar.ticking import Ticking, ticking_of
+from tissu.trocar.ticking import CompiledTicking, Ticking, ticking_of
 
 if TYPE_CHECKING:
     from tissu import _haptic
@@ -51,7 +52,12 @@ class Controller:
     """
 
     def __init__(
-        self, trocar: Trocar, *, mode: Mode = "stepped", device: _haptic.Device | None = None
+        self,
+        trocar: Trocar,
+        *,
+        mode: Mode = "stepped",
+        device: _haptic.Device | None = None,
+        record: bool = False,
     ) -> None:
         """Open the device; the trocar is off.
 
@@ -59,6 +65,7 @@ class Controller:
             trocar: a part of a scene.
             mode: how ticks are run.
             device: an open device; absent: the one that the trocar names.
+            record: whether all ticks are kept for `recording`; not in the mode python.
 
         Raises:
             TissuError: the device is not there, does not answer, or has another controller.
@@ -72,6 +79,11 @@ class Controller:
         self._settings = settings_of(trocar)
         self._settings.check(self._delay)
         self._ticking: Ticking = ticking_of(mode, self.device, self._settings)
+        if record:
+            if not isinstance(self._ticking, CompiledTicking):
+                text = "found record beside the mode python; stepped and threaded record"
+                raise ParameterError(text)
+            self._ticking.record(self._settings)
         self._port = (trocar.port.frame(), np.array(trocar.port.at))
         self.tool: str | None = None
 
@@ -225,6 +237,17 @@ class Controller:
         `enable` what it was told; `number` counts periods.
         """
         return self._ticking.records()
+
+    def recording(self) -> Recording:
+        """Everything since the start, of a controller that records.
+
+        Raises:
+            ParameterError: it does not record, or ticks were lost because no report was asked for.
+        """
+        ticking = self._ticking
+        if not isinstance(ticking, CompiledTicking) or ticking.recorder is None:
+            raise ParameterError("nothing was recorded; make the controller with record=True")
+        return ticking.recorder.recording()
 
     # ---- the port
 

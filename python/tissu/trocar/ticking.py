@@ -10,6 +10,7 @@ import numpy as np
 from tissu import _haptic
 from tissu.errors import ParameterError
 from tissu.trocar.law import Law
+from tissu.trocar.recording import Recorder
 from tissu.trocar.report import Grant, Spread, Timing
 from tissu.trocar.sample import Offered, Sample
 from tissu.trocar.settings import ANY_TOOL, fields_of
@@ -113,6 +114,11 @@ class CompiledTicking:
     ) -> None:
         """Begin, off."""
         self._run, self._threaded = _haptic.Run(device, settings), threaded
+        self.recorder: Recorder | None = None
+
+    def record(self, settings: _haptic.Settings) -> None:
+        """Record from now on, before the first tick."""
+        self.recorder = Recorder(self._run, settings)
 
     def start(self, *, priority: int, lock_memory: bool, pin: bool, spin: float) -> None:
         """Start the thread, if there is one."""
@@ -134,15 +140,21 @@ class CompiledTicking:
     def set(self, settings: _haptic.Settings, delay: float) -> None:
         """Change the settings from the next tick on."""
         self._run.set(settings, delay=delay)
+        if self.recorder is not None:
+            self.recorder.changed(settings)
 
     def publish(self, model: LocalModel, tag: int) -> int:
         """Hand over a model; its stamp."""
         made = in_core(model, tag)
         self._run.publish(made)
+        if self.recorder is not None:
+            self.recorder.published(model, made)
         return made.stamp
 
     def report(self) -> dict[str, Any]:
         """The newest tick."""
+        if self.recorder is not None:
+            self.recorder.gather()
         return self._run.report()
 
     def records(self) -> dict[str, Array]:

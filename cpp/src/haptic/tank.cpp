@@ -23,7 +23,8 @@ double Tank::pay(const TankSettings& settings, double more) noexcept {
 void Tank::observe(const TankSettings& settings, double period) noexcept {
   if (!settings.gate) return;
   if (energy < 0.0) {
-    if (energy < debt) {
+    constexpr double kRoundOff = 1e-9;  // [J]: a tank that has paid all it had is empty, and has no debt
+    if (energy < debt - kRoundOff) {
       stiffness = std::max(0.125, 0.5 * stiffness);
       debt = energy;
       ++trips;

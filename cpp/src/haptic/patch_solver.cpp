@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "haptic/active_rows.h"
 #include "haptic/cone_block.h"
 
 namespace tissu::haptic {
@@ -30,25 +31,57 @@ void solve_single(const Patch& patch, const Block& block, Rows& lambda) noexcept
       block.kind == BlockKind::push ? std::max(0.0, wanted) : std::clamp(wanted, -block.bound, block.bound);
 }
 
+/// One sweep over all blocks; how much it changed, relative to the largest |lambda|.
+double sweep(const Patch& patch, Rows& lambda) noexcept {
+  const Rows before = lambda;
+  for (int k = 0; k < patch.blocks; ++k) {
+    const Block& block = patch.block[static_cast<std::size_t>(k)];
+    if (block.kind == BlockKind::cone) {
+      solve_cone_block(patch, block, lambda);
+    } else {
+      solve_single(patch, block, lambda);
+    }
+  }
+  const double change = (lambda - before).head(patch.rows).cwiseAbs().maxCoeff();
+  return change > 0.0 ? change / lambda.head(patch.rows).cwiseAbs().maxCoeff() : 0.0;
+}
+
+/// How far a sequence still is from its end when its last two steps were these: sweeps that change little may
+/// have far to go.
+double way_left(double change, double before) noexcept {
+  const double rate = before > 0.0 ? change / before : 1.0;
+  return rate < 1.0 ? change * std::max(1.0, rate / (1.0 - rate)) : 1e300;
+}
+
 }  // namespace
 
 PatchReport solve_patch(const Patch& patch, const SweepLimits& limits, Rows& lambda) noexcept {
+  constexpr int kBetween = 3;  // sweeps before the rows that bear are solved together
   PatchReport report;
-  for (report.sweeps = 0; report.sweeps < limits.sweeps;) {
-    const Rows before = lambda;
-    for (int k = 0; k < patch.blocks; ++k) {
-      const Block& block = patch.block[static_cast<std::size_t>(k)];
-      if (block.kind == BlockKind::cone) {
-        solve_cone_block(patch, block, lambda);
-      } else {
-        solve_single(patch, block, lambda);
-      }
-    }
+  Rows swept = lambda;  // before they were
+  double swept_change = 0.0;
+  bool together = false;
+  double before = 0.0;
+  int wait = kBetween;
+  while (report.sweeps < limits.sweeps) {
+    report.change = sweep(patch, lambda);
     ++report.sweeps;
-    const double largest = lambda.head(patch.rows).cwiseAbs().maxCoeff();
-    const double change = (lambda - before).head(patch.rows).cwiseAbs().maxCoeff();
-    report.change = change > 0.0 ? change / largest : 0.0;
-    if (!(report.change > limits.tolerance)) break;
+    if (together && report.change > swept_change) {  // the wrong rows: sweeps go on from where they were
+      lambda = swept;
+      report.change = swept_change;
+      wait = 2 * kBetween;
+    } else if (report.change == 0.0 ||
+               (together ? report.change : way_left(report.change, before)) <= limits.tolerance) {
+      break;
+    }
+    together = false;
+    before = report.change;
+    if (--wait > 0) continue;
+    swept = lambda;
+    swept_change = report.change;
+    solve_active_rows(patch, lambda);
+    together = true;
+    wait = kBetween;
   }
   return report;
 }

@@ -187,8 +187,10 @@ Joints model_torques(const Kinematics& kinematics, const Settings& settings, con
   m.force_sum += report.force;
   ++m.force_ticks;
   m.state = (m.lambda.head(m.rows.rows + kStops).array() != 0.0).any() ? State::contact : State::free;
-  const Joints damping = m.tank.damping(settings.friction.viscous, motion.speed, slow, settings.period) -
-                         settings.damping.cwiseProduct(motion.speed);
+  Joints damping = -settings.damping.cwiseProduct(motion.speed);
+  if (settings.tank.gate) {
+    damping += m.tank.damping(settings.friction.viscous, motion.speed, slow, settings.period);
+  }
   return patch_torques(m.rows, m.q, settings.joints, m.lambda) + damping;
 }
 

@@ -60,7 +60,9 @@ Motion take_sample(const Kinematics& kinematics, const Settings& settings, const
       m.has_sample ? m.turn + turned(settings, input.sample.counts[2], before[2]) : input.sample.counts[2];
   m.sample = input.sample;
   const bool was_homed = m.homed;
-  if (m.sample.has(Flag::homed)) m.homed = true;
+  // A device that knew its zero and does not any more has lost it: it was switched off and on, say.
+  if (m.sample.has(Flag::homed) || m.device_homed) m.homed = m.sample.has(Flag::homed);
+  m.device_homed = m.sample.has(Flag::homed);
   if (m.state == State::homing && !m.homed) watch_homing(settings, before, m);
   Joints q;
   for (int i = 0; i < kJoints; ++i) q[i] = position(settings, m, i);

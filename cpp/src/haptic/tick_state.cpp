@@ -105,6 +105,9 @@ void change_state(const Settings& settings, const TickInput& input, const Motion
     m.state = State::fault;
     m.reason = reason;
     m.homed = false;  // what is plugged in again has to say where it is
+  } else if (!m.homed && m.state != State::fault) {
+    m.state = State::homing;
+    m.reason = Reason::none;
   } else {
     go_on(settings, input, motion, m);
   }

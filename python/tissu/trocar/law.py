@@ -45,7 +45,8 @@ class Law:
         self.acknowledged = self.settings["acknowledged"]
         self.sample: Sample | None = None
         self.failed_reads = self.failed_writes = self.other_tag = self.bad_models = 0
-        self.tag, self.turn, self.homed = 0, 0, False
+        self.tag, self.turn = 0, 0
+        self.homed = self.device_homed = False
         self.q: Array = np.zeros(AXES)
         self.window: list[Array] = []
         self.model: Offered | None = None
@@ -142,7 +143,10 @@ class Law:
         self.turn = sample.counts[2] if before is None else self.turn + turned
         counts = np.array([*sample.counts[:2], self.turn, sample.counts[3]], dtype=float)
         self.sample, motion.fresh = sample, True
-        self.homed = self.homed or sample.has(Flag.homed)
+        # A device that knew its zero and does not any more has lost it.
+        if sample.has(Flag.homed) or self.device_homed:
+            self.homed = sample.has(Flag.homed)
+        self.device_homed = sample.has(Flag.homed)
         q = counts * s["count_size"]
         gap, self.failed_reads = self.failed_reads + late, 0
         if before is None or self.homed != was_homed:

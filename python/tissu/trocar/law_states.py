@@ -41,6 +41,8 @@ def change_state(
     elif law.state is not State.fault and _fault(law, read, written) is not Reason.none:
         law.reason = _fault(law, read, written)
         law.state, law.homed = State.fault, False
+    elif not law.homed and law.state is not State.fault:
+        law.state, law.reason = State.homing, Reason.none
     else:
         _go_on(law, motion, age, late)
     law.acknowledged = law.settings["acknowledged"]

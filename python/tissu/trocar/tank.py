@@ -69,7 +69,7 @@ class Tank:
         """Torques (4,) of dampers that pay a debt, of joints that move by two counts a tick."""
         moving = np.abs(speed) > slow
         power = float(np.sum(viscous * speed**2 * moving))
-        if self.energy >= 0.0 or power <= 0.0:
+        if not self.gate or self.energy >= 0.0 or power <= 0.0:
             return np.zeros(AXES)
         share = min(1.0, -self.energy / (period * power))
         return np.asarray(-share * viscous * speed * moving)

@@ -1,6 +1,7 @@
 #pragma once
 
-/// Contact forces of a few rows with Coulomb friction: block Gauss-Seidel, the same bits for the same input.
+/// Contact forces of a few rows with Coulomb friction: block Gauss-Seidel, and every few sweeps the rows that
+/// bear all at once. The same bits for the same input.
 
 #include <Eigen/Core>
 #include <array>

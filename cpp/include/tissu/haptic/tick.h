@@ -129,6 +129,7 @@ struct Memory {
   std::int64_t turn = 0;         ///< counts of own rotation that go on where the device's start again
   Joints zero = Joints::Zero();  ///< q of count 0
   bool homed = false;
+  bool device_homed = false;  ///< the device said so in the last sample
   std::array<std::int32_t, kJoints> still{};
   Joints q = Joints::Zero();
   VelocityWindows window{};

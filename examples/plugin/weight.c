@@ -1,10 +1,10 @@
 /* A device plug-in that needs no device: a tool in a port that a weight pulls down and motors hold.
 
-   cc -shared -fPIC -I$(python -c "import tissu, pathlib; print(pathlib.Path(tissu.__file__).parent / 'include')") \
-      weight.c -o weight.so
+   cc -shared -fPIC -I$(python -c "import tissu, pathlib; print(pathlib.Path(tissu.__file__).parent /
+   'include')") \ weight.c -o weight.so
 
-   The address is the mass in kilogrammes: "0.2"; empty: 0.1. Its depth follows m r'' = m g + f - b r', one millisecond
-   with each read; the other axes do not move. */
+   The address is the mass in kilogrammes: "0.2"; empty: 0.1. Its depth follows m r'' = m g + f - b r', one
+   millisecond with each read; the other axes do not move. */
 
 #include <math.h>
 #include <stdio.h>

@@ -14,7 +14,7 @@ from tissu.errors import ParameterError, SceneError
 if TYPE_CHECKING:
     from tissu.scene.trocar.passive import Bound
     from tissu.scene.trocar.trocar import Trocar
-    from tissu.trocar.controller import Controller
+    from tissu.trocar.controller import Controller, Mode
 
 _LOOK = 0.04
 """s between two reports: the rate of a display."""
@@ -57,13 +57,14 @@ def one_trocar(scene: Path, name: str | None) -> tuple[str, Trocar]:
     return next(iter(found.items()))
 
 
-def check_trocars(scene: Path, name: str | None) -> None:
+def check_trocars(scene: Path, name: str | None, *, trusted: bool) -> None:
     """Opens each device, takes some samples, and says what it is."""
     from tissu.trocar.controller import Controller
 
     for key, trocar in trocars_of(scene, name).items():
         real = trocar.device.type != "simulated"
-        with Controller(trocar, mode="threaded" if real else "stepped") as controller:
+        mode: Mode = "threaded" if real else "stepped"
+        with Controller(trocar, mode=mode, trust_plugins=trusted) as controller:
             if real:
                 time.sleep(0.3)
                 report = controller.report()
@@ -91,7 +92,7 @@ def _couplings(trocar: Trocar) -> list[tuple[str, str, str]]:
     return rows
 
 
-def identify_trocar(scene: Path, name: str | None) -> None:
+def identify_trocar(scene: Path, name: str | None, *, trusted: bool) -> None:
     """Drives each axis to and fro, and prints its damping and friction as a scene has them."""
     from tissu.trocar.identify import identify
     from tissu.trocar.opened import open_device
@@ -99,7 +100,7 @@ def identify_trocar(scene: Path, name: str | None) -> None:
     key, trocar = one_trocar(scene, name)
     real = trocar.device.type != "simulated"
     free = trocar if real else trocar.replace(device=trocar.device.replace(hand=None))
-    axes = identify(free, open_device(free, 1), realtime=real)
+    axes = identify(free, open_device(free, 1, trust_plugins=trusted), realtime=real)
     print(f"trocar {key}:")
     for axis in axes:
         text = f"  {axis.name}: inertia {axis.inertia:.3g}, damping {axis.damping:.3g}, "
@@ -110,12 +111,14 @@ def identify_trocar(scene: Path, name: str | None) -> None:
     print(f"  damping: [{damping}]\n  friction: [{friction}]")
 
 
-def jitter_trocar(scene: Path, name: str | None, seconds: float, spin: float) -> None:
+def jitter_trocar(
+    scene: Path, name: str | None, seconds: float, spin: float, *, trusted: bool
+) -> None:
     """Ticks in real time, and prints how late they were."""
     from tissu.trocar.controller import Controller
 
     for key, trocar in trocars_of(scene, name).items():
-        controller = Controller(trocar, mode="threaded")
+        controller = Controller(trocar, mode="threaded", trust_plugins=trusted)
         controller.start(spin=spin)
         try:
             time.sleep(seconds)
@@ -137,6 +140,7 @@ class Recorded:
         realtime: whether by the thread; else stepped, in simulated time.
         wall: depth of a wall across the port that is felt meanwhile [m]; None: none.
         stiffness: of the wall [N/m].
+        trusted: whether a plug-in may run.
     """
 
     scene: Path
@@ -146,6 +150,7 @@ class Recorded:
     realtime: bool
     wall: float | None
     stiffness: float
+    trusted: bool
 
 
 def record_trocar(job: Recorded) -> None:
@@ -153,7 +158,8 @@ def record_trocar(job: Recorded) -> None:
     from tissu.trocar.controller import Controller
 
     key, trocar = one_trocar(job.scene, job.name)
-    controller = Controller(trocar, mode="threaded" if job.realtime else "stepped", record=True)
+    mode: Mode = "threaded" if job.realtime else "stepped"
+    controller = Controller(trocar, mode=mode, record=True, trust_plugins=job.trusted)
     with controller:
         looks = max(1, round(job.seconds / _LOOK))
         for _ in range(looks):

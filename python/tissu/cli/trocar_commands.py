@@ -18,25 +18,33 @@ SceneFile = Annotated[Path, typer.Argument(metavar="SCENE", help="A scene (YAML)
 Name = Annotated[
     str | None, typer.Option("--trocar", metavar="NAME", help="Which one; default: all, or it.")
 ]
+TrustPlugins = Annotated[
+    bool,
+    typer.Option("--trust-plugins", help="Run the scene's plug-in of a device, a program."),
+]
 Seconds = Annotated[str, typer.Option(metavar="TIME", help="How long, such as '5 s'.")]
 
 
 @trocar_app.command("check")
-def check_command(scene: SceneFile, trocar: Name = None, debug: Debug = False) -> None:
+def check_command(
+    scene: SceneFile, trocar: Name = None, trust_plugins: TrustPlugins = False, debug: Debug = False
+) -> None:
     """Open the devices, and say what they are and what bounds their coupling."""
     from tissu.cli.trocar import check_trocars
 
     with reported(debug=debug):
-        check_trocars(scene, trocar)
+        check_trocars(scene, trocar, trusted=trust_plugins)
 
 
 @trocar_app.command("identify")
-def identify_command(scene: SceneFile, trocar: Name = None, debug: Debug = False) -> None:
+def identify_command(
+    scene: SceneFile, trocar: Name = None, trust_plugins: TrustPlugins = False, debug: Debug = False
+) -> None:
     """Drive each axis to and fro, and find its damping and friction; nothing may hold the tool."""
     from tissu.cli.trocar import identify_trocar
 
     with reported(debug=debug):
-        identify_trocar(scene, trocar)
+        identify_trocar(scene, trocar, trusted=trust_plugins)
 
 
 @trocar_app.command("jitter")
@@ -47,6 +55,7 @@ def jitter_command(
     spin: Annotated[
         str, typer.Option(metavar="TIME", help="Last part of each wait that is spent awake.")
     ] = "0 s",
+    trust_plugins: TrustPlugins = False,
     debug: Debug = False,
 ) -> None:
     """Tick in real time, and say how late ticks were and what the machine granted."""
@@ -54,7 +63,7 @@ def jitter_command(
     from tissu.units import TIME
 
     with reported(debug=debug):
-        jitter_trocar(scene, trocar, TIME(seconds), TIME(spin))
+        jitter_trocar(scene, trocar, TIME(seconds), TIME(spin), trusted=trust_plugins)
 
 
 @trocar_app.command("record")
@@ -70,6 +79,7 @@ def record_command(
         str | None, typer.Option(metavar="DEPTH", help="A wall that is felt there: '110 mm'.")
     ] = None,
     stiffness: Annotated[str, typer.Option(help="Of the wall.")] = "500 N/m",
+    trust_plugins: TrustPlugins = False,
     debug: Debug = False,
 ) -> None:
     """Record all ticks: what the device gave, the models, the torques."""
@@ -78,7 +88,8 @@ def record_command(
 
     with reported(debug=debug):
         depth = None if wall is None else LENGTH(wall)
-        job = Recorded(scene, trocar, out, TIME(seconds), realtime, depth, STIFFNESS(stiffness))
+        numbers = (TIME(seconds), realtime, depth, STIFFNESS(stiffness))
+        job = Recorded(scene, trocar, out, *numbers, trust_plugins)
         record_trocar(job)
 
 

@@ -58,6 +58,7 @@ class Controller:
         mode: Mode = "stepped",
         device: _haptic.Device | None = None,
         record: bool = False,
+        trust_plugins: bool = False,
     ) -> None:
         """Open the device; the trocar is off.
 
@@ -65,6 +66,7 @@ class Controller:
             trocar: a part of a scene.
             mode: how ticks are run.
             device: an open device; absent: the one that the trocar names.
+            trust_plugins: whether the file of a plug-in, which is a program, may run.
             record: whether all ticks are kept for `recording`; not in the mode python.
 
         Raises:
@@ -74,7 +76,9 @@ class Controller:
         self.trocar, self.mode = trocar, mode
         self._tools = {tag_of(tag): name for tag, name in trocar.tools.items()}
         first = next(iter(self._tools), 1)
-        self.device = open_device(trocar, first) if device is None else device
+        if device is None:
+            device = open_device(trocar, first, trust_plugins=trust_plugins)
+        self.device = device
         self._delay = max(trocar.device.loop_delay(), float(self.device.info()["delay"]))
         self._settings = settings_of(trocar)
         self._settings.check(self._delay)

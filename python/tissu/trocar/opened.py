@@ -29,12 +29,13 @@ _WAIT = 1.0
 """Longest wait for the first frame [s]."""
 
 
-def open_device(trocar: Trocar, tag: int) -> _haptic.Device:
+def open_device(trocar: Trocar, tag: int, *, trust_plugins: bool = False) -> _haptic.Device:
     """The device of a trocar.
 
     Args:
         trocar: the part of the scene.
         tag: of the tool that is in a simulated device at the start.
+        trust_plugins: whether the file of a plug-in, which is a program, may run.
 
     Raises:
         TissuError: it is not there, does not answer, or has another controller.
@@ -56,7 +57,11 @@ def open_device(trocar: Trocar, tag: int) -> _haptic.Device:
     if isinstance(device, SharedMemoryDevice):
         return _haptic.open_shared_memory(name=device.name, wait=_WAIT, **info)
     assert isinstance(device, PluginDevice)
-    return _haptic.open_plugin(library=str(device.library.resolve()), address=device.address)
+    library = device.library.resolve()
+    if not trust_plugins:
+        text = f"the plug-in {library} is a program, and was not run; where you trust it, take "
+        raise ParameterError(f"{text}--trust-plugins, in Python trust_plugins=True")
+    return _haptic.open_plugin(library=str(library), address=device.address or "")
 
 
 def _simulated(trocar: Trocar, device: SimulatedDevice, tag: int) -> _haptic.Device:

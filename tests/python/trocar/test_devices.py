@@ -233,7 +233,9 @@ def test_the_example_plug_in_is_built_opened_and_held(tmp_path):
     library = built(ROOT / "examples" / "plugin" / "weight.c", tmp_path / "weight.so")
     known = {"damping": [1, 1, 1, 1], "friction": [0.1, 0.1, 0.1, 0.1]}
     device = ts.PluginDevice(library, address="0.2", delay=0.0, **known)
-    with Controller(trocar(device)) as controller:
+    with pytest.raises(ts.ParameterError, match="is a program, and was not run"):
+        Controller(trocar(device))
+    with Controller(trocar(device), trust_plugins=True) as controller:
         for _ in range(500):
             q = controller.step(10).q
             wall = {"through": (0, 0, 0.11), "normal": (0, 0, -1), "stiffness": 1e4}
@@ -243,7 +245,7 @@ def test_the_example_plug_in_is_built_opened_and_held(tmp_path):
         # The scene's z is against the port's; the coupling gives way by counts of 0.1 mm.
         assert report.force[2] == pytest.approx(0.2 * 9.81, abs=500 * 1e-4)
         with pytest.raises(ts.TissuError, match="has a controller already"):
-            Controller(trocar(device))
+            Controller(trocar(device), trust_plugins=True)
 
 
 def test_plug_ins_that_are_none_are_refused(tmp_path):

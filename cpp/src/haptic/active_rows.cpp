@@ -8,6 +8,16 @@ namespace tissu::haptic {
 namespace {
 
 constexpr double kFull = 1.0 - 1e-9;  // of Coulomb's bound: more is slip
+constexpr int kPivots = 10;
+
+/// What a block does: nothing, g = 0, or the force at its bound along `along`, a unit vector (a bounded row:
+/// its sign).
+enum class Role : unsigned char { open, bears, slips };
+struct Acting {
+  Role role = Role::open;
+  Eigen::Vector2d along = Eigen::Vector2d::Zero();
+};
+using Roles = std::array<Acting, kMaxBlocks>;
 
 /// Unknown j is the force of row `row[j]`; those of a slipping contact's tangents follow its normal's.
 struct Active {
@@ -22,35 +32,63 @@ struct Active {
   }
 };
 
-void add_cone(const Block& block, const Rows& lambda, Active& active) noexcept {
-  const int i = block.row;
-  if (!(lambda[i] > 0.0)) return;
-  const double size = lambda.segment<2>(i + 1).norm();
-  if (size < kFull * block.bound * lambda[i]) {
-    for (int k = 0; k < 3; ++k) active.add(i + k);
-    return;
+/// The role that a force says.
+Acting acting(const Block& block, const Rows& lambda) noexcept {
+  const double force = lambda[block.row];
+  if (block.kind == BlockKind::bounded) {
+    if (std::abs(force) < kFull * block.bound) return {Role::bears, {}};
+    return {Role::slips, {force < 0.0 ? -1.0 : 1.0, 0.0}};
   }
-  active.add(i);
-  if (!(size > 0.0)) return;
-  for (int k = 1; k < 3; ++k) active.share(i + k, active.count - 1) = block.bound * lambda[i + k] / size;
+  if (!(force > 0.0)) return {};
+  if (block.kind == BlockKind::push) return {Role::bears, {}};
+  const Eigen::Vector2d across = lambda.segment<2>(block.row + 1);
+  const double size = across.norm();
+  if (size < kFull * block.bound * force) return {Role::bears, {}};
+  return {Role::slips, size > 0.0 ? Eigen::Vector2d(across / size) : Eigen::Vector2d(0.0, 0.0)};
 }
 
-Active active_rows(const Patch& patch, const Rows& lambda) noexcept {
+Active active_rows(const Patch& patch, const Roles& roles) noexcept {
   Active active;
   for (int k = 0; k < patch.blocks; ++k) {
     const Block& block = patch.block[static_cast<std::size_t>(k)];
-    const double force = lambda[block.row];
-    if (block.kind == BlockKind::cone) {
-      add_cone(block, lambda, active);
-    } else if (block.kind == BlockKind::push) {
-      if (force > 0.0) active.add(block.row);
-    } else if (std::abs(force) < kFull * block.bound) {
-      active.add(block.row);
-    } else {
-      active.fixed[block.row] = force;
+    const Acting& acts = roles[static_cast<std::size_t>(k)];
+    if (acts.role == Role::open) continue;
+    if (block.kind == BlockKind::bounded && acts.role == Role::slips) {
+      active.fixed[block.row] = acts.along[0] * block.bound;
+      continue;
+    }
+    active.add(block.row);
+    if (block.kind != BlockKind::cone) continue;
+    for (int i = 1; i < 3; ++i) {
+      if (acts.role == Role::bears) {
+        active.add(block.row + i);
+      } else {
+        active.share(block.row + i, active.count - 1) = block.bound * acts.along[i - 1];
+      }
     }
   }
   return active;
+}
+
+/// The role after a solve: what pulls opens, what is inside closes, what asks for too much friction slips,
+/// what slips with its force sticks. `close` [m]: gaps that are round-off.
+Acting next_role(const Patch& patch, const Block& block, const Acting& acts, const Rows& lambda,
+                 const Rows& g, double close) noexcept {
+  const int i = block.row;
+  if (block.kind == BlockKind::bounded) {
+    if (acts.role == Role::bears) return acting(block, lambda);
+    return acts.along[0] * g[i] > close ? Acting{Role::bears, {}} : acts;
+  }
+  if (acts.role == Role::open) return g[i] < -close ? Acting{Role::bears, {}} : acts;
+  if (!(lambda[i] > 0.0)) return {};
+  if (block.kind == BlockKind::push) return acts;
+  if (acts.role == Role::bears) return acting(block, lambda);
+  const Eigen::Vector2d slip = g.segment<2>(i + 1);
+  if (!(block.bound > 0.0) || slip.norm() <= close) return acts;
+  if (slip.dot(acts.along) > 0.0) return {Role::bears, {}};
+  const double soft = std::max(patch.A(i + 1, i + 1), patch.A(i + 2, i + 2));
+  const Eigen::Vector2d towards = soft * lambda.segment<2>(i + 1) - slip;
+  return {Role::slips, towards.normalized()};
 }
 
 /// Gauss's elimination with the largest pivot of the column; false where there is none.
@@ -97,12 +135,10 @@ void bring_back(const Patch& patch, Rows& lambda) noexcept {
   }
 }
 
-}  // namespace
-
-void solve_active_rows(const Patch& patch, Rows& lambda) noexcept {
-  const Active active = active_rows(patch, lambda);
+/// The forces at which g = 0 of all that bears; false where there are none.
+bool solve_roles(const Patch& patch, const Roles& roles, Rows& lambda) noexcept {
+  const Active active = active_rows(patch, roles);
   const int n = active.count;
-  if (n < 2) return;  // a sweep is exact
   const double more = 1e-11 * patch.A.topLeftCorner(patch.rows, patch.rows).trace();
   RowMatrix M;
   Rows x;
@@ -119,10 +155,40 @@ void solve_active_rows(const Patch& patch, Rows& lambda) noexcept {
       M(i, j) = sum;
     }
   }
-  if (!eliminate(n, M, x)) return;
-  Rows solved = active.fixed;
-  solved.head(patch.rows) += active.share.topLeftCorner(patch.rows, n) * x.head(n);
-  for (int i = 0; i < patch.rows; ++i) lambda[i] = solved[i];
+  if (!eliminate(n, M, x)) return false;
+  for (int i = 0; i < patch.rows; ++i) {
+    double force = active.fixed[i];
+    for (int j = 0; j < n; ++j) force += active.share(i, j) * x[j];
+    lambda[i] = force;
+  }
+  return true;
+}
+
+}  // namespace
+
+void solve_active_rows(const Patch& patch, Rows& lambda) noexcept {
+  Roles roles;
+  for (int k = 0; k < patch.blocks; ++k) {
+    roles[static_cast<std::size_t>(k)] = acting(patch.block[static_cast<std::size_t>(k)], lambda);
+  }
+  const double close = 1e-10 * patch.b.head(patch.rows).cwiseAbs().minCoeff() +
+                       1e-12 * patch.A.topLeftCorner(patch.rows, patch.rows).diagonal().maxCoeff() *
+                           lambda.head(patch.rows).cwiseAbs().sum();
+  Rows solved = lambda;
+  for (int pivot = 0; pivot < kPivots; ++pivot) {
+    if (!solve_roles(patch, roles, solved)) return;
+    const Rows g = gaps(patch, solved);
+    bool settled = true;
+    for (int k = 0; k < patch.blocks; ++k) {
+      const Block& block = patch.block[static_cast<std::size_t>(k)];
+      Acting& acts = roles[static_cast<std::size_t>(k)];
+      const Acting next = next_role(patch, block, acts, solved, g, close);
+      settled = settled && next.role == acts.role && (next.along - acts.along).norm() < 1e-12;
+      acts = next;
+    }
+    if (settled) break;
+  }
+  lambda.head(patch.rows) = solved.head(patch.rows);
   bring_back(patch, lambda);
 }
 

@@ -13,7 +13,7 @@ Joints SimulatedDevice::motors(double h) noexcept {
   const double share = line_.motor_lag > 0.0 ? -std::expm1(-h / line_.motor_lag) : 1.0;
   const Joints before = torque_;
   torque_ += share * (target_ - torque_);
-  Joints middle = 0.5 * (before + torque_);
+  Joints middle = line_.motor_lag > 0.0 ? Joints(0.5 * (before + torque_)) : torque_;
   const double most = mechanism_.roller_force;
   const double force = middle[3];
   if (slip_rate_ != 0.0 || std::abs(force) > most) {

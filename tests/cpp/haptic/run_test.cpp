@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <thread>
@@ -58,7 +59,7 @@ void expect_equal(const std::vector<TickRecord>& a, const std::vector<TickRecord
 TEST(HapticRun, ThreadTakesModelsAndSettingsAndItsRecordsReplayToTheBit) {
   constexpr std::size_t kTicks = 2000;
   ReplayDevice device = wobbling(kTicks);
-  Run run(device, running(), kTicks);
+  haptic::Run run(device, running(), kTicks);
   LoopOptions plain{.period = 1e-3, .priority = 0, .lock_memory = false, .pin = false, .spin = 0.0};
   Loop loop(run, plain);
   loop.start();
@@ -83,7 +84,7 @@ TEST(HapticRun, ThreadTakesModelsAndSettingsAndItsRecordsReplayToTheBit) {
   EXPECT_GT(felt, 0.0);
 
   ReplayDevice again = wobbling(kTicks);
-  Run replay(again, running(), kTicks);
+  haptic::Run replay(again, running(), kTicks);
   std::uint64_t offered = 0;
   std::uint32_t change = 0;
   std::int64_t next = 0;
@@ -100,7 +101,7 @@ TEST(HapticRun, EveryToolIsTakenWhereNoTagIsLookedAt) {
   ReplayDevice device = wobbling(10);
   Settings settings = running();
   settings.tag = kAnyTool;
-  Run run(device, settings);
+  haptic::Run run(device, settings);
   for (int k = 0; k < 5; ++k) run.step();
   EXPECT_EQ(run.report().state, State::free);
 }
@@ -122,7 +123,7 @@ TEST(HapticRun, WhatALoopDoesAfterItsLastTickSwitchesTheMotorsOff) {
     bool enabled = false;
   };
   Watched device;
-  Run run(device, running());
+  haptic::Run run(device, running());
   for (int k = 0; k < 5; ++k) run.step();
   EXPECT_TRUE(device.enabled);
   run.end();

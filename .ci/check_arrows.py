@@ -122,6 +122,8 @@ PYTHON: dict[str, set[str]] = {
     "advice": {"errors", "counted", "pareto", "units", "mesh", "scene", "picture"},
     "output": {"errors", "counted", "field_names", "files", "mesh", "_core"},
 }
+# The active trocar. A scene without one imports none of it.
+PYTHON["trocar"] = {"errors", "files", "scene", "_haptic"}
 PYTHON["examples"] = {"errors", "files", "front"}
 PYTHON["cli"] = set(PYTHON)
 PYTHON["__main__"] = {"cli"}

@@ -63,6 +63,7 @@ The axes are those of space. A rotation held about two of them remains a rotatio
 however large it is; one held about a single axis has no angular velocity about it.
 
 What bodies meet, and how, is said by `obstacles`, `contacts` and `contact`: [contact](contact.md).
+Driven ports through which a hand feels a tool are `trocars`: [trocar](trocar.md).
 
 Files of `laws` are programs. They run only with `--trust-laws` (`trust_laws=True` in Python), only
 from the scene's folder or below it, links followed, and only when nothing else is wrong with the

@@ -587,3 +587,83 @@ class SteppedLoop:
     def state(self) -> str: ...
     @property
     def reason(self) -> str: ...
+
+ANY_TOOL: int
+
+def read(device: Device) -> tuple[int, dict[str, Any]]:
+    """Status (0 ok, 1 none, 2 broken, 3 gone) and the newest sample of a device."""
+
+def write(
+    device: Device,
+    torque: Sequence[float],
+    *,
+    enable: bool = True,
+    sequence: int = 0,
+    watchdog_ms: int = 20,
+) -> int:
+    """Status of a command: torques of the five channels."""
+
+def open_udp(
+    *,
+    host: str,
+    port: int,
+    wait: float,
+    count_size: Sequence[float],
+    torque_limit: Sequence[float],
+    rate: float,
+    delay: float,
+) -> Device:
+    """A device over UDP; TissuError where nothing answers, or it has another controller."""
+
+def open_serial(
+    *,
+    path: str,
+    baud: int,
+    wait: float,
+    count_size: Sequence[float],
+    torque_limit: Sequence[float],
+    rate: float,
+    delay: float,
+) -> Device:
+    """A device at a serial line; TissuError where it is not there, or gives no frame."""
+
+def open_shared_memory(
+    *,
+    name: str,
+    wait: float,
+    count_size: Sequence[float],
+    torque_limit: Sequence[float],
+    rate: float,
+    delay: float,
+) -> Device:
+    """A device in shared memory; TissuError where no program plays one."""
+
+def open_plugin(*, library: str, address: str) -> Device:
+    """A device by a plug-in; TissuError where it cannot be loaded, or opens none."""
+
+def replayed(columns: dict[str, Any]) -> Device:
+    """A device that gives what columns of records say, and is gone after the last."""
+
+def crc32(bytes: bytes) -> int:
+    """The checksum of frames."""
+
+class Run:
+    """A trocar that runs: ticks one by one, or by the thread of a loop; the device is the caller's."""
+
+    def __init__(self, device: Device, settings: Settings, *, room: int = 4096) -> None: ...
+    def set(self, settings: Settings, *, delay: float) -> None: ...
+    def set_numbered(self, settings: Settings, number: int) -> None: ...
+    def step(self, ticks: int = 1, *, late: int = 0) -> dict[str, Any]: ...
+    def start(self, *, priority: int, lock_memory: bool, pin: bool, spin: float) -> None: ...
+    def stop(self) -> None: ...
+    def end(self) -> None: ...
+    def publish(self, model: LocalModel) -> None:
+        """Stamp and time are written into the model."""
+
+    def offer(self, model: LocalModel) -> None:
+        """A model with a stamp and a time of its own."""
+
+    def report(self) -> dict[str, Any]: ...
+    def records(self) -> dict[str, NDArray[Any]]: ...
+    def lost_records(self) -> int: ...
+    def timing(self) -> dict[str, Any]: ...

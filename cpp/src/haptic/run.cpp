@@ -16,20 +16,15 @@ std::int64_t now() noexcept {
 Run::Run(Device& device, const Settings& settings, std::size_t room)
     : device_(device),
       kinematics_(settings.joints),
-      settings_(settings),
+      settings_(Numbered{settings, 0}),
       records_(room),
       memory_(start(settings)) {}
 
-std::uint64_t Run::publish(const LocalModel& model) noexcept {
-  LocalModel& next = models_.to_write();
-  next = model;
-  next.stamp = ++stamp_;
-  next.time_ns = now_ns_.load(std::memory_order_relaxed);
-  models_.publish();
-  return stamp_;
+void Run::publish(LocalModel& model) noexcept {
+  model.stamp = ++stamp_;
+  model.time_ns = now_ns_.load(std::memory_order_relaxed);
+  models_.publish(model);
 }
-
-void Run::set(const Settings& settings) noexcept { settings_.publish(settings); }
 
 const TickReport& Run::report() noexcept {
   reports_.take();
@@ -39,9 +34,10 @@ const TickReport& Run::report() noexcept {
 void Run::tick(std::int64_t number) noexcept {
   number += base_;
   const std::int64_t began = now();
-  if (settings_.take()) ++record_.settings;
+  settings_.take();
   models_.take();
-  const Settings& settings = settings_.value();
+  const Settings& settings = settings_.value().settings;
+  record_.settings = settings_.value().number;
   const LocalModel& model = models_.value();
   record_.read = device_.read(record_.sample);
   const std::int64_t read = now();

@@ -83,7 +83,8 @@ class SerialDevice final : public Device {
       found = stream_.take(static_cast<std::size_t>(length), sample) || found;
     }
     if (found) return DeviceStatus::ok;
-    return stream_.skipped() > before ? DeviceStatus::broken : DeviceStatus::none;
+    if (stream_.skipped() > before) return DeviceStatus::broken;
+    return is_gone() ? DeviceStatus::gone : DeviceStatus::none;
   }
 
   DeviceStatus write(const Command& command) noexcept override {
@@ -112,6 +113,12 @@ class SerialDevice final : public Device {
                   " s; switch it on, and check that both sides have " + std::to_string(options.baud) +
                   " baud.");
     }
+  }
+
+  /// A line without bytes and one that was unplugged read alike.
+  [[nodiscard]] bool is_gone() const noexcept {
+    pollfd question{.fd = line_, .events = POLLIN, .revents = 0};
+    return poll(&question, 1, 0) > 0 && (question.revents & (POLLHUP | POLLERR | POLLNVAL)) != 0;
   }
 
   /// Waits for the first frame, which is kept for `read`.

@@ -22,14 +22,12 @@ double Tank::pay(const TankSettings& settings, double more) noexcept {
 
 void Tank::observe(const TankSettings& settings, double period) noexcept {
   if (!settings.gate) return;
-  if (energy < 0.0) {
-    constexpr double kRoundOff = 1e-9;  // [J]: a tank that has paid all it had is empty, and has no debt
-    if (energy < debt - kRoundOff) {
-      stiffness = std::max(0.125, 0.5 * stiffness);
-      debt = energy;
-      ++trips;
-    }
-  } else {
+  constexpr double kRoundOff = 1e-9;  // [J]: a tank that has paid all it had is empty, and has no debt
+  if (energy < debt - kRoundOff) {
+    stiffness = std::max(0.125, 0.5 * stiffness);
+    debt = energy;
+    ++trips;
+  } else if (energy >= -kRoundOff) {
     debt = 0.0;
     stiffness = std::min(1.0, stiffness * (1.0 + 0.1 * period));
   }

@@ -17,16 +17,19 @@ class Running {
 
   void set(const Settings& settings, double delay) {
     settings_ = checked(settings, delay);
-    run_.set(settings_);
+    run_.set(settings_, ++changes_);
   }
 
-  py::dict step(std::int64_t ticks) {
+  /// Of a recording, which has the number.
+  void set_numbered(const Settings& settings, std::uint32_t number) { run_.set(settings, number); }
+
+  py::dict step(std::int64_t ticks, std::int64_t late) {
     if (loop_ && loop_->report().running) {
       throw Error("the trocar runs in real time; stop it before it is stepped.");
     }
     {
       const py::gil_scoped_release unlocked;
-      for (std::int64_t k = 0; k < ticks; ++k) run_.step();
+      for (std::int64_t k = 0; k < ticks; ++k) run_.step(k == 0 ? late : 0);
     }
     return report();
   }
@@ -42,7 +45,8 @@ class Running {
   }
   void end() noexcept { run_.end(); }
 
-  std::uint64_t publish(const LocalModel& model) noexcept { return run_.publish(model); }
+  void publish(LocalModel& model) noexcept { run_.publish(model); }
+  void offer(const LocalModel& model) noexcept { run_.offer(model); }
   py::dict report() { return to_dict(run_.report(), {}); }
   py::dict records() { return to_columns(run_.take_records()); }
   [[nodiscard]] std::int64_t lost_records() const { return run_.lost_records(); }
@@ -74,6 +78,7 @@ class Running {
   }
 
   Settings settings_;
+  std::uint32_t changes_ = 0;
   Run run_;
   std::unique_ptr<Loop> loop_;
 };
@@ -87,12 +92,14 @@ void bind_run(py::module_& m) {
       .def(py::init<Device&, const Settings&, std::size_t>(), arg("device"), arg("settings"), py::kw_only(),
            arg("room") = 4096, py::keep_alive<1, 2>())
       .def("set", &Running::set, arg("settings"), py::kw_only(), arg("delay"))
-      .def("step", &Running::step, arg("ticks") = 1)
+      .def("set_numbered", &Running::set_numbered, arg("settings"), arg("number"))
+      .def("step", &Running::step, arg("ticks") = 1, py::kw_only(), arg("late") = 0)
       .def("start", &Running::start, py::kw_only(), arg("priority"), arg("lock_memory"), arg("pin"),
            arg("spin"), unlocked)
       .def("stop", &Running::stop, unlocked)
       .def("end", &Running::end)
       .def("publish", &Running::publish, arg("model"))
+      .def("offer", &Running::offer, arg("model"))
       .def("report", &Running::report)
       .def("records", &Running::records)
       .def("lost_records", &Running::lost_records)

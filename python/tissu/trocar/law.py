@@ -45,7 +45,8 @@ class Law:
         self.acknowledged = self.settings["acknowledged"]
         self.sample: Sample | None = None
         self.failed_reads = self.failed_writes = self.other_tag = self.bad_models = 0
-        self.tag, self.turn, self.homed = 0, 0, False
+        self.tag, self.turn = 0, 0
+        self.homed = self.device_homed = False
         self.q: Array = np.zeros(AXES)
         self.window: list[Array] = []
         self.model: Offered | None = None
@@ -58,7 +59,7 @@ class Law:
             self.settings["tank_credit"],
             self.settings["tank_gate"],
         )
-        self.ramp = 0.0
+        self.ramp = self.age = 0.0
         self.torque: Array = np.zeros(AXES)
         self.paid: Array = np.zeros(AXES)
         self._drop()
@@ -95,7 +96,7 @@ class Law:
             The torques (4,) of the motors [N m, N m, N m, N].
         """
         motion = self._take(sample if read is Status.ok else None, late, written)
-        age = model_age(offered or self.model, now_ns)
+        age = self.age = model_age(offered or self.model, now_ns)
         change_state(self, motion, age, late, read, written)
         wanted = self._model_torques(motion, offered, age)
         if self.state in (State.off, State.fault):
@@ -105,6 +106,25 @@ class Law:
         command, self.paid = motors.command(self.settings, self.q, slewed, motion.speed)
         self.torque = slewed
         return command
+
+    def felt(self) -> dict[str, Any]:
+        """What the tissue does to the tool: its force (3,) in the port [N], contacts, age."""
+        model, force, borne = self.model, np.zeros(3), 0
+        if model is not None:
+            for D, own in zip(model.model.directions(), self._cones(), strict=True):
+                force, borne = force + D.T @ own, borne + int(own[0] > 0.0)
+        return {
+            "force": force,
+            "contacts": borne,
+            "model_age": self.age,
+            "limited": bool(np.any(np.abs(self.torque) >= self.settings["torque_limit"])),
+            "disagreement": 0.0,
+        }
+
+    def _cones(self) -> Array:
+        """Forces (m, 3) of the contacts along their directions [N]."""
+        count = 0 if self.model is None else len(self.model.model.friction)
+        return np.reshape(self.forces[: 3 * count], (-1, 3))
 
     # ---- sample
 
@@ -123,7 +143,10 @@ class Law:
         self.turn = sample.counts[2] if before is None else self.turn + turned
         counts = np.array([*sample.counts[:2], self.turn, sample.counts[3]], dtype=float)
         self.sample, motion.fresh = sample, True
-        self.homed = self.homed or sample.has(Flag.homed)
+        # A device that knew its zero and does not any more has lost it.
+        if sample.has(Flag.homed) or self.device_homed:
+            self.homed = sample.has(Flag.homed)
+        self.device_homed = sample.has(Flag.homed)
         q = counts * s["count_size"]
         gap, self.failed_reads = self.failed_reads + late, 0
         if before is None or self.homed != was_homed:
@@ -166,7 +189,7 @@ class Law:
     def _stops(self) -> tuple[Array, Array]:
         """Rows (3, 4) of the end stops and their gaps (3,), at the end that is nearer."""
         G, gaps = np.zeros((len(_STOPPED), AXES)), np.zeros(len(_STOPPED))
-        low, high = self.settings["low"], self.settings["high"]
+        low, high = self.settings["joint_low"], self.settings["joint_high"]
         for row, axis in enumerate(_STOPPED):
             at_low = axis != 3 and self.q[axis] < 0.5 * (low[axis] + high[axis])
             G[row, axis] = 1.0 if at_low else -1.0

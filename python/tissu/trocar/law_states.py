@@ -41,6 +41,8 @@ def change_state(
     elif law.state is not State.fault and _fault(law, read, written) is not Reason.none:
         law.reason = _fault(law, read, written)
         law.state, law.homed = State.fault, False
+    elif not law.homed and law.state is not State.fault:
+        law.state, law.reason = State.homing, Reason.none
     else:
         _go_on(law, motion, age, late)
     law.acknowledged = law.settings["acknowledged"]
@@ -71,7 +73,7 @@ def _has_tool(law: Law, below: float) -> bool:
     sample = law.sample
     if sample is None or not (sample.has(Flag.tool_in) and sample.has(Flag.enabled)):
         return False
-    return bool(law.q[3] >= law.settings["low"][3] + below)
+    return bool(law.q[3] >= law.settings["joint_low"][3] + below)
 
 
 def _go_on(law: Law, motion: Motion, age: float, late: int) -> None:

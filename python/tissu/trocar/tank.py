@@ -14,6 +14,8 @@ from tissu.trocar.kinematics import AXES, Array
 
 _FLOOR = 0.125
 """Share of the coupling's stiffness that the observer leaves at least."""
+_ROUND_OFF = 1e-9
+"""J: a tank that has paid all it had is empty, and has no debt."""
 _RECOVERY = 0.1
 """By which it recovers in a second."""
 
@@ -57,9 +59,9 @@ class Tank:
         """Halves the stiffness at a debt deeper than at the last trip; else it recovers."""
         if not self.gate:
             return
-        if self.energy < self.debt:
+        if self.energy < self.debt - _ROUND_OFF:
             self.stiffness, self.debt = max(_FLOOR, 0.5 * self.stiffness), self.energy
-        elif self.energy >= 0.0:
+        elif self.energy >= -_ROUND_OFF:
             self.stiffness = min(1.0, self.stiffness * (1.0 + _RECOVERY * period))
             self.debt = 0.0
 
@@ -67,7 +69,7 @@ class Tank:
         """Torques (4,) of dampers that pay a debt, of joints that move by two counts a tick."""
         moving = np.abs(speed) > slow
         power = float(np.sum(viscous * speed**2 * moving))
-        if self.energy >= 0.0 or power <= 0.0:
+        if not self.gate or self.energy >= 0.0 or power <= 0.0:
             return np.zeros(AXES)
         share = min(1.0, -self.energy / (period * power))
         return np.asarray(-share * viscous * speed * moving)

@@ -1,12 +1,15 @@
-"""Runs of a trocar for tests: settings, counts of a path, the C++ tick and the NumPy law on them."""
+"""Runs of a trocar for tests: settings, counts of a path, the C++ tick and the NumPy law."""
 
 import numpy as np
 
 from tissu import _haptic
+from tissu.trocar import kinematics
 from tissu.trocar.law import Law
 from tissu.trocar.model import LocalModel
 from tissu.trocar.sample import Offered, Sample
+from tissu.trocar.settings import fields_of, settings_from
 from tissu.trocar.states import Status
+from tissu.trocar.ticking import in_core
 
 COUNTS = np.array([np.radians(0.01), np.radians(0.01), np.radians(0.05), 1e-4])
 HOMED_IN = 1 | 2 | 4
@@ -15,10 +18,9 @@ PERIOD = 1e-3
 
 
 def settings(**changes):
-    """Of the tick: its defaults, with forces that are solved for to the last bit."""
-    device = replayed(np.zeros((1, 4)))
-    made = _haptic.Run(device, {"sweeps": 400, "tolerance": 1e-15, "run": True, "tag": 1}).settings()
-    return {**made, **changes}
+    """Of the tick: its defaults, with forces that are solved for to round-off."""
+    tight = {"sweeps": 400, "tolerance": 1e-15, "run": True, "tag": 1}
+    return fields_of(settings_from({**tight, **changes}))
 
 
 def replayed(q, flags=None, tags=None, status=None):
@@ -39,33 +41,21 @@ def replayed(q, flags=None, tags=None, status=None):
     )
 
 
-def publish(run, model, **more):
-    """Hands a model to the C++ run."""
-    blade = model.blade
-    return run.publish(
-        points=model.points,
-        anchors=model.anchors,
-        normals=model.normals,
-        tangents=model.tangents,
-        friction=model.friction,
-        forces=model.forces,
-        compliance=model.compliance,
-        joints=model.joints,
-        tag=1 if model.tag is None else model.tag,
-        blade=None
-        if blade is None
-        else (blade.point, blade.way, blade.anchor, blade.compliance, blade.limit),
-        **more,
-    )
+def publish(run, model):
+    """Hands a model to the C++ run; its stamp."""
+    made = in_core(model, 1)
+    run.publish(made)
+    return made.stamp
 
 
 def both(q, models, given, **columns):
-    """Records of the C++ run, and commands (n, 4) and tanks (n,) of the law, on the same path.
+    """Commands, reports, states and tanks of both at each tick of a path; the law at its end.
 
     models: number of a tick -> the model that is published before it.
     """
-    run, law = _haptic.Run(replayed(q, **columns), given, room=len(q) + 1), Law(given)
-    offered, commands, tanks = None, [], []
+    device = replayed(q, **columns)
+    run, law = _haptic.Run(device, settings_from(given), room=len(q) + 1), Law(given)
+    offered, commands = None, []
     for k in range(len(q)):
         if k in models:
             stamp = publish(run, models[k])
@@ -83,7 +73,7 @@ def both(q, models, given, **columns):
             sample if status is Status.ok else None, offered, now_ns=k * 1_000_000, read=status
         )
         commands.append(
-            (records["command"][0, :4], command, run.report(), law.state, law.tank.energy)
+            (records["command"][0, :4], command, run.report(), law.state.name, law.tank.energy)
         )
     return commands, law
 
@@ -95,9 +85,7 @@ def walls(random, q, contacts, stiffness=(30.0, 300.0)):
     tangents = np.cross(normals, random.normal(size=(contacts, 3)))
     tangents /= np.linalg.norm(tangents, axis=1)[:, None]
     points = random.uniform(-3e-3, 3e-3, (contacts, 3))
-    from tissu.trocar import kinematics
-
-    x = np.array([kinematics.position(q, l) for l in points]).reshape(-1, 3)
+    x = np.array([kinematics.position(q, point) for point in points]).reshape(-1, 3)
     depth = random.uniform(-1e-3, 2e-3, contacts)
     B = random.normal(size=(3 * contacts, 3 * contacts))
     soft = 1.0 / random.uniform(*stiffness, contacts)

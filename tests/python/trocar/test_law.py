@@ -1,7 +1,7 @@
 """The NumPy law of a tick against the C++ tick, and against closed forms.
 
-Forces are solved for to round-off on both sides (tolerance 1e-15), so that the two agree to 1e-12 of
-torques of about 1 N m, though they solve for the direction of slip in different ways.
+Forces are solved for to round-off on both sides (tolerance 1e-15), so that the two agree to 1e-12
+of torques of about 1 N m, though they solve for the direction of slip in different ways.
 """
 
 import numpy as np
@@ -103,7 +103,7 @@ def test_law_is_the_tick_with_a_blade():
 
 
 def test_law_is_the_tick_through_faults_of_the_device():
-    """Reads that fail, another tag, a jump of counts, a tool that is pulled out, a device that goes."""
+    """Reads that fail, another tag, a jump of counts, a tool that is out, a device that is gone."""
     n = 300
     q = palpation(n)
     q[120:, 0] += 0.2  # a jump: faster than the limit
@@ -119,7 +119,7 @@ def test_law_is_the_tick_through_faults_of_the_device():
         q, models, runs.settings(ramp=0.02), flags=flags, tags=tags, status=status
     )
     worst(rows)
-    states = [State(report["state"]) for _, _, report, *_ in rows]
+    states = [State[report["state"]] for _, _, report, *_ in rows]
     assert {State.empty, State.contact, State.held, State.fault} <= set(states)
     assert law.reason is Reason.reads_failed
     assert not rows[-1][0].any()  # no torque stays on

@@ -22,7 +22,7 @@ namespace tissu::haptic {
 struct TickRecord {
   std::int64_t number = 0;     ///< of the period, those that were missed counted
   std::uint64_t offered = 0;   ///< stamp of the newest model
-  std::uint32_t settings = 0;  ///< how many changes of settings there were
+  std::uint32_t settings = 0;  ///< which change of settings
   DeviceStatus read = DeviceStatus::ok;
   DeviceStatus written = DeviceStatus::ok;  ///< of this tick's command
   Sample sample{};
@@ -40,11 +40,15 @@ class Run final : public Ticked {
   Run(Device& device, const Settings& settings, std::size_t room = 4096);
 
   // ---- the slow side: one thread
-  /// The newest model. Its stamp is counted up here, and its time is that of the newest tick. The stamp.
-  std::uint64_t publish(const LocalModel& model) noexcept;
-  void set(const Settings& settings) noexcept;
-  /// One tick in simulated time; not while a loop runs it.
-  void step() noexcept { tick(next_); }
+  /// The newest model. Its stamp is counted up here, and its time is that of the newest tick; both are
+  /// written into it.
+  void publish(LocalModel& model) noexcept;
+  /// A model with a stamp and a time of its own: of a recording.
+  void offer(const LocalModel& model) noexcept { models_.publish(model); }
+  /// `number`: which change it is; ticks write it down.
+  void set(const Settings& settings, std::uint32_t number) noexcept { settings_.publish({settings, number}); }
+  /// One tick in simulated time, late by so many; not while a loop runs it.
+  void step(std::int64_t late = 0) noexcept { tick(next_ + late - base_); }
   /// The newest report.
   const TickReport& report() noexcept;
   [[nodiscard]] std::vector<TickRecord> take_records() { return records_.take(); }
@@ -65,7 +69,11 @@ class Run final : public Ticked {
   Device& device_;
   TrocarKinematics kinematics_;
   Exchange<LocalModel> models_;
-  Exchange<Settings> settings_;
+  struct Numbered {
+    Settings settings{};
+    std::uint32_t number = 0;
+  };
+  Exchange<Numbered> settings_;
   Exchange<TickReport> reports_;
   RecordRing<TickRecord> records_;
   Memory memory_;

@@ -36,14 +36,18 @@ class PerAxis:
     """each is at least this"""
     above: bool = False
     """or above it"""
+    absent: bool = False
+    """whether none at all is accepted too"""
 
-    def __call__(self, value: object) -> tuple[float, ...]:
+    def __call__(self, value: object) -> tuple[float, ...] | None:
         """Four values in SI.
 
         Raises:
             ParameterError: not four numbers, one of another dimension, or one that is too small.
         """
         value = listed(value)
+        if value is None and self.absent:
+            return None
         if not isinstance(value, (list, tuple)) or len(value) != 4:
             text = "four numbers are accepted, of pitch, roll, rotation and depth"
             raise ParameterError(f"found {written(value)}; {text}: {self._example()}")
@@ -67,8 +71,11 @@ class PerAxis:
 
 _Four = Read[tuple[float, float, float, float], Sequence[Number]]
 Counts = Annotated[_Four, BeforeValidator(PerAxis(units.ANGLE, units.LENGTH, above=True))]
-Damping = Annotated[_Four, BeforeValidator(PerAxis(TURN_DAMPING, DAMPING))]
-Friction = Annotated[_Four, BeforeValidator(PerAxis(units.MOMENT, units.FORCE))]
+_MaybeFour = Read[tuple[float, float, float, float] | None, Sequence[Number] | None]
+MaybeDamping = Annotated[_MaybeFour, BeforeValidator(PerAxis(TURN_DAMPING, DAMPING, absent=True))]
+MaybeFriction = Annotated[
+    _MaybeFour, BeforeValidator(PerAxis(units.MOMENT, units.FORCE, absent=True))
+]
 Stiffness = Annotated[_Four, BeforeValidator(PerAxis(TURN_STIFFNESS, units.STIFFNESS, above=True))]
 OneForce = Annotated[Read[float, Number], BeforeValidator(units.FORCE)]
 OneMoment = Annotated[Read[float, Number], BeforeValidator(units.MOMENT)]

@@ -6,7 +6,7 @@ import ipaddress
 import math
 from collections.abc import Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Literal
 
 from pydantic import AfterValidator, Field, ValidationInfo
 
@@ -17,7 +17,7 @@ from tissu.scene.body import PathLike
 from tissu.scene.field import field
 from tissu.scene.part import Part, one_of
 from tissu.scene.problem import Problem
-from tissu.scene.trocar.axes import Counts, Damping, Friction
+from tissu.scene.trocar.axes import Counts, MaybeDamping, MaybeFriction
 from tissu.scene.trocar.hand import Hand
 from tissu.scene.unknown import rule
 
@@ -114,12 +114,14 @@ class RealDevice(TrocarDevice):
     """What devices share that are not computed."""
 
     delay: units.Time = field(default=1e-3, ge=0.0, le=0.1)
-    """from reading to the torque on the joint [s], as measured by `tissu trocar jitter`"""
-    damping: Annotated[Read[Four | None, Any], Damping] | None = field(default=None)
+    """from reading to the torque on the joint [s], of the device's data sheet; 1 ms at least of one
+    that has its own clock at 1 kHz
+    """
+    damping: MaybeDamping = field(default=None)
     """viscous damping of pitch, roll, rotation [N m s/rad] and depth [N s/m], as
     `tissu trocar identify` finds it; absent: not known, so that `coupling` has to be given
     """
-    friction: Annotated[Read[Four | None, Any], Friction] | None = field(default=None)
+    friction: MaybeFriction = field(default=None)
     """Coulomb friction of pitch, roll, rotation [N m] and depth [N]; absent: as for `damping`"""
     counts: Counts = field(default=TABLE_COUNTS)
     """position of one count of pitch, roll, rotation [rad] and depth [m]"""
@@ -234,13 +236,13 @@ class PluginDevice(RealDevice):
 
     type: Literal["plugin"] = "plugin"
     library: Annotated[Read[Path, PathLike], AfterValidator(_from_base)] = field(kw_only=False)
-    """file of the plug-in; it is a program, and runs when the trocar is opened"""
-    address: str = ""
-    """which device, in the plug-in's own words"""
+    """file of the plug-in; it is a program, and is opened only where plug-ins are trusted"""
+    address: Read[str | None, str | None] = field(default=None)
+    """which device, in the plug-in's own words; absent: its first"""
 
     def identity(self) -> str | None:
         """Its library and address."""
-        return f"plugin {self.library} {self.address}".strip()
+        return f"plugin {self.library} {self.address or ''}".strip()
 
     def absent(self) -> str | None:
         """Where no such library is."""

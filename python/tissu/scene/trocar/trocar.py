@@ -69,7 +69,7 @@ class Trocar(Part):
         PlainValidator(_coupling),
     ] = field(default="automatic")
     """automatic: 0.8 of the largest passive stiffness of each axis; or a stiffness"""
-    limits: TrocarLimits = field(default=TrocarLimits())
+    limits: TrocarLimits = field(default_factory=TrocarLimits)
     """what is never exceeded, and where the end stops are"""
 
     @rule("rate")

@@ -171,9 +171,9 @@ void solve_active_rows(const Patch& patch, Rows& lambda) noexcept {
   for (int k = 0; k < patch.blocks; ++k) {
     roles[static_cast<std::size_t>(k)] = acting(patch.block[static_cast<std::size_t>(k)], lambda);
   }
-  const double close = 1e-10 * patch.b.head(patch.rows).cwiseAbs().minCoeff() +
-                       1e-12 * patch.A.topLeftCorner(patch.rows, patch.rows).diagonal().maxCoeff() *
-                           lambda.head(patch.rows).cwiseAbs().sum();
+  // Round-off of gaps: of the terms that they are sums of.
+  const double close = 1e-12 * patch.A.topLeftCorner(patch.rows, patch.rows).diagonal().maxCoeff() *
+                       lambda.head(patch.rows).cwiseAbs().sum();
   Rows solved = lambda;
   for (int pivot = 0; pivot < kPivots; ++pivot) {
     if (!solve_roles(patch, roles, solved)) return;

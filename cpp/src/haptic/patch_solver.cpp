@@ -57,12 +57,14 @@ double way_left(double change, double before) noexcept {
 
 PatchReport solve_patch(const Patch& patch, const SweepLimits& limits, Rows& lambda) noexcept {
   constexpr int kBetween = 3;  // sweeps before the rows that bear are solved together
+  constexpr int kMost = 3;     // times that they are
   PatchReport report;
   Rows swept = lambda;  // before they were
   double swept_change = 0.0;
   bool together = false;
   double before = 0.0;
   int wait = kBetween;
+  int times = 0;
   while (report.sweeps < limits.sweeps) {
     report.change = sweep(patch, lambda);
     ++report.sweeps;
@@ -76,7 +78,8 @@ PatchReport solve_patch(const Patch& patch, const SweepLimits& limits, Rows& lam
     }
     together = false;
     before = report.change;
-    if (--wait > 0) continue;
+    if (--wait > 0 || times == kMost) continue;
+    ++times;
     swept = lambda;
     swept_change = report.change;
     solve_active_rows(patch, lambda);

@@ -112,6 +112,16 @@ from tissu.scene import MeshObstacle as MeshObstacle
 from tissu.scene import Contact as Contact
 from tissu.scene import SelfContact as SelfContact
 from tissu.scene import ContactSettings as ContactSettings
+from tissu.scene import Trocar as Trocar
+from tissu.scene import Coupling as Coupling
+from tissu.scene import Port as Port
+from tissu.scene import SimulatedDevice as SimulatedDevice
+from tissu.scene import UdpDevice as UdpDevice
+from tissu.scene import SerialDevice as SerialDevice
+from tissu.scene import SharedMemoryDevice as SharedMemoryDevice
+from tissu.scene import PluginDevice as PluginDevice
+from tissu.scene import Hand as Hand
+from tissu.scene import TrocarLimits as TrocarLimits
 from tissu.scene import Editing as Editing
 from tissu.scene import Ablator as Ablator
 from tissu.scene import Knife as Knife

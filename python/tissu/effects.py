@@ -30,6 +30,7 @@ def effects_of(scene: SceneData, counts: Mapping[str, str] | None = None) -> lis
             effects.append(part.effect(path, counts.get(path)))
     effects += [obstacle.effect(name) for name, obstacle in scene.obstacles.items()]
     effects += _contact_effects(scene, counts)
+    effects += [trocar.effect(name) for name, trocar in scene.trocars.items()]
     for path, name in _led_live(scene).items():
         effects.append(Effect("live leads", f"{path} has the name '{name}'"))
     effects += [scene.step.effect(), *scene.step.solver_effects()]
@@ -70,7 +71,7 @@ def absent_of(scene: SceneData) -> list[str]:
         "cutting": scene.editing is not None,
         "instruments": bool(scene.instruments),
         "tears": bool(scene.tear),
-        "haptics": False,
+        "haptics": bool(scene.trocars),
     }
     return [name for name, on in present.items() if not on]
 

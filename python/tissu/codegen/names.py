@@ -84,6 +84,13 @@ HEADINGS: dict[str, tuple[str, ...]] = {
     "Supports and motion": ("support",),
     "Loads": ("load",),
     "Obstacles and contacts": ("motion", "obstacle", "contact"),
+    "Trocars": (
+        "trocar.trocar",
+        "trocar.port",
+        "trocar.device",
+        "trocar.hand",
+        "trocar.limits",
+    ),
     "Editing and instruments": ("editing", "instrument", "tear"),
     "Steps": ("step",),
     "Linear solvers": ("solver",),

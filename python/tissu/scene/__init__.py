@@ -90,6 +90,26 @@ from tissu.scene.contact import (
     SelfContact,
     ContactSettings,
 )
+from tissu.scene.trocar.trocar import (
+    Trocar,
+    Coupling,
+)
+from tissu.scene.trocar.port import (
+    Port,
+)
+from tissu.scene.trocar.device import (
+    SimulatedDevice,
+    UdpDevice,
+    SerialDevice,
+    SharedMemoryDevice,
+    PluginDevice,
+)
+from tissu.scene.trocar.hand import (
+    Hand,
+)
+from tissu.scene.trocar.limits import (
+    TrocarLimits,
+)
 from tissu.scene.editing import (
     Editing,
 )
@@ -177,6 +197,16 @@ __all__ = [
     "Contact",
     "SelfContact",
     "ContactSettings",
+    "Trocar",
+    "Coupling",
+    "Port",
+    "SimulatedDevice",
+    "UdpDevice",
+    "SerialDevice",
+    "SharedMemoryDevice",
+    "PluginDevice",
+    "Hand",
+    "TrocarLimits",
     "Editing",
     "Ablator",
     "Knife",

@@ -29,6 +29,7 @@ from tissu.scene.step import OneStep
 from tissu.scene.support import Fixed, Prescribed
 from tissu.scene.tear import Tear
 from tissu.scene.tissue import Tissue, tissues_of
+from tissu.scene.trocar.trocar import Trocars, trocar_problems
 from tissu.scene.unknown import Unknown, below, rule
 
 if TYPE_CHECKING:
@@ -111,6 +112,8 @@ class SceneData(Part):
     """what meets what; absent: bodies pass through each other"""
     contact: ContactSettings | None = None
     """how contacts are found and answered, of all of them"""
+    trocars: Annotated[Trocars, BeforeValidator(_by_name)] = field(default_factory=dict)
+    """driven ports by name, through which a hand feels what a tool meets; absent: none"""
     step: OneStep
     """how time is stepped, such as {type: implicit_euler, dt: 10 ms}"""
     duration: Maybe[units.Time] = field(default=None, gt=0.0)
@@ -181,6 +184,11 @@ class SceneData(Part):
         """Instruments and tears of bodies that there are, in a scene that may be edited."""
         yield from instrument_problems(self)
 
+    @rule()
+    def _trocars_can_be(self) -> Iterator[Problem]:
+        """Trocars with tools that there are, each with its own port and device."""
+        yield from trocar_problems(self)
+
     @rule("loads")
     def _names_loads_once(self) -> Iterator[Problem]:
         """A name finds one load."""
@@ -220,7 +228,7 @@ class SceneData(Part):
     def _has_names_to_write(self) -> Iterator[Problem]:
         """Names that can stand in files and messages."""
         named = [(("name",), getattr(self, "name", ""))]
-        for group in ("bodies", "tissue", "obstacles", "instruments"):
+        for group in ("bodies", "tissue", "obstacles", "instruments", "trocars"):
             named += [((group,), name) for name in getattr(self, group, {})]
         for path, name in named:
             text = name_problem(name)

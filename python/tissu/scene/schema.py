@@ -29,6 +29,8 @@ from tissu.scene.selection import SELECTIONS, Region, Selection
 from tissu.scene.solver import SOLVERS, Solver
 from tissu.scene.step import STEPS, Step
 from tissu.scene.tissue import Tissue
+from tissu.scene.trocar.device import DEVICES, TrocarDevice
+from tissu.scene.trocar.trocar import Coupling, Trocar
 from tissu.scene.viscosity import VISCOSITIES, Viscosity
 
 Schema = dict[str, Any]
@@ -45,6 +47,7 @@ _FAMILIES: dict[Any, tuple[type[Part], ...]] = {
     Selection: SELECTIONS,
     Solver: SOLVERS,
     Step: STEPS,
+    TrocarDevice: DEVICES,
     Viscosity: VISCOSITIES,
 }
 _READ_AS: dict[tuple[type[Part], str], Any] = {  # fields that read more than they keep
@@ -52,6 +55,7 @@ _READ_AS: dict[tuple[type[Part], str], Any] = {  # fields that read more than th
     (MeshObstacle, "mesh"): _MESH,
     (SceneData, "editing"): Editing | bool | None,
     (Tissue, "inside"): _MESH | None,
+    (Trocar, "coupling"): Coupling | Literal["automatic"],
     (Region, "name"): str | int,  # YAML reads the name 7 as a number
 }
 _DIALECT = "https://json-schema.org/draft/2020-12/schema"

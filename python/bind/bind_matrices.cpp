@@ -43,12 +43,31 @@ std::int32_t first_rotation(const Simulation& simulation, const std::string& nam
   return simulation.world().frames()[static_cast<std::size_t>(body.first_frame)].rotation;
 }
 
+/// Which axes of the rows are unknowns (r, 3): not held, not led, not eliminated by a condensed region.
+py::array_t<bool> free_axes(const Simulation& simulation) {
+  const World& world = simulation.world();
+  const std::vector<std::uint8_t>& masks = world.fixed().masks();
+  py::array_t<bool> free({static_cast<py::ssize_t>(masks.size()), py::ssize_t{3}});
+  for (std::size_t row = 0; row < masks.size(); ++row) {
+    for (int axis = 0; axis < 3; ++axis) free.mutable_at(row, axis) = ((masks[row] >> axis) & 1) == 0;
+  }
+  for (const Body& body : world.bodies()) {
+    for (const BodyModel* model : body.models) {
+      for (const std::int32_t row : model->eliminated()) {
+        for (int axis = 0; axis < 3; ++axis) free.mutable_at(row, axis) = false;
+      }
+    }
+  }
+  return free;
+}
+
 }  // namespace
 
 void bind_matrices(py::class_<Simulation>& simulation) {
   using py::arg;
   simulation.def("forces", &forces)
       .def("first_rotation", &first_rotation, arg("body"))
+      .def("free_axes", &free_axes)
       .def("stiffness", [](const Simulation& s) { return to_blocks(stiffness_matrix(s.world(), s.state())); })
       .def("damping", [](const Simulation& s) { return to_blocks(damping_matrix(s.world(), s.state())); })
       .def("mass_matrix", [](const Simulation& s) { return to_blocks(mass_matrix(s.world(), s.state())); });

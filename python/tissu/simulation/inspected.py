@@ -197,6 +197,14 @@ class Inspected:
         self._core.settle()
         return sparse(self._core.stiffness(), 3 * self._world.blocks)
 
+    def free_axes(self) -> NDArray[np.bool_]:
+        """Which axes of all rows are unknowns (r, 3): not held, not led and not eliminated.
+
+        `simulation.stiffness()[free][:, free]` with `free = simulation.free_axes().ravel()` is the
+        matrix that a solver meets.
+        """
+        return self._core.free_axes()
+
     def damping(self) -> Any:
         """-df/dv at the present state as a sparse array (3 r, 3 r) of SciPy [N s/m]."""
         self._core.settle()

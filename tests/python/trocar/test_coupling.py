@@ -11,7 +11,13 @@ VISCOUS, COULOMB = [0.03, 0.03, 1e-3, 1.0], [6e-3, 6e-3, 1e-3, 0.3]
 
 
 def passive(**changes):
-    fields = {"viscous": VISCOUS, "coulomb": COULOMB, "count_size": COUNT, "period": 1e-3, "delay": 0.0}
+    fields = {
+        "viscous": VISCOUS,
+        "coulomb": COULOMB,
+        "count_size": COUNT,
+        "period": 1e-3,
+        "delay": 0.0,
+    }
     return haptic.passive_stiffness(**(fields | changes))
 
 
@@ -101,7 +107,9 @@ def test_one_contact_is_a_spring_in_series(w):
         driver = Driver(free_settings())
         G = n @ haptic.jacobian(AT, np.zeros(3))
         depth = random.uniform(1e-4, 2e-3)
-        report = driver.at(AT, model(1, anchor=[np.array([0, 0, 0.2]) + depth * n], normal=[n], W=w))
+        report = driver.at(
+            AT, model(1, anchor=[np.array([0, 0, 0.2]) + depth * n], normal=[n], W=w)
+        )
         expected = depth / (w + G @ (G / STIFFNESS))
         assert report["force"] @ n == pytest.approx(expected, rel=1e-12)
         assert report["torque"] == pytest.approx(expected * G, rel=1e-11, abs=1e-13)

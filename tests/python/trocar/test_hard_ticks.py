@@ -86,7 +86,9 @@ def test_models_that_are_not_finite(place):
     good = driver.at(AT, floor(1, 0.199))
     for stamp in (2, 3):
         bad = {"W": np.full((3, 3), np.nan), "force": [[np.nan, 0, 0]], "anchor": [0, 0, np.nan]}
-        made = floor(stamp, 0.1, **{place: bad[place]}) if place != "anchor" else floor(stamp, np.nan)
+        made = (
+            floor(stamp, 0.1, **{place: bad[place]}) if place != "anchor" else floor(stamp, np.nan)
+        )
         for _ in range(5):
             report = driver.at(AT, made)
             assert report["state"] == "contact"
@@ -114,7 +116,11 @@ def test_a_device_that_reports_a_fault():
 
 
 def test_tool_pulled_out_fast():
-    driver = Driver(free_settings(slew=0.2, tank_gate=True, tank_start=5e-3, speed_limit=2.0, torque_limit=LIMIT))
+    driver = Driver(
+        free_settings(
+            slew=0.2, tank_gate=True, tank_start=5e-3, speed_limit=2.0, torque_limit=LIMIT
+        )
+    )
     depth = 0.04
     for k in range(80):
         driver.at([0, 0, 0, 0.2 - 2e-3 * k], None)
@@ -260,7 +266,13 @@ def test_eight_contacts_in_one_plane():
 
 
 @pytest.mark.parametrize(
-    "q", [[0, 0, 0, 0.0205], [0.785, 0.785, 0, 0.3], [-0.785, 0.785, 3.0, 0.021], [0.785, -0.785, 0, 0.15]]
+    "q",
+    [
+        [0, 0, 0, 0.0205],
+        [0.785, 0.785, 0, 0.3],
+        [-0.785, 0.785, 3.0, 0.021],
+        [0.785, -0.785, 0, 0.15],
+    ],
 )
 def test_the_corners_of_the_workspace(q):
     q = np.rint(np.array(q) / COUNT) * COUNT
@@ -297,7 +309,7 @@ def test_a_clock_that_steps_back_changes_nothing():
         return np.concatenate([first["torque"], second["torque"]]), second["clock_back"]
 
     plain, none = torques(0)
-    back, said = torques(-10**9)
+    back, said = torques(-(10**9))
     assert np.array_equal(plain, back)
     assert not none.any()
     assert said.sum() == 1

@@ -120,7 +120,10 @@ def test_what_is_given_out_is_paid(friction):
             made = model(
                 stamp,
                 q_ref=q,
-                anchor=[[0, 0, 0.2 + random.uniform(-2e-3, 1e-3)], [2e-3, 0, 0.2 + random.uniform(-2e-3, 1e-3)]],
+                anchor=[
+                    [0, 0, 0.2 + random.uniform(-2e-3, 1e-3)],
+                    [2e-3, 0, 0.2 + random.uniform(-2e-3, 1e-3)],
+                ],
                 normal=[[0, 0, -1], [0.3, 0, -np.sqrt(1 - 0.09)]],
                 friction=friction,
                 W=10.0 ** random.uniform(-5, -2),
@@ -176,7 +179,9 @@ def test_states_come_in_their_order():
     ticks.set(settings(tag=0))
     assert ticks.tick(counts=counts, flags=2 | 4, tag=7)["state"] == "homing"
     assert ticks.tick(counts=counts, flags=READY, tag=7)["state"] == "empty"
-    assert ticks.tick(counts=counts, flags=READY, tag=7)["state"] == "empty"  # not a tool of the settings
+    assert (
+        ticks.tick(counts=counts, flags=READY, tag=7)["state"] == "empty"
+    )  # not a tool of the settings
     ticks.set(settings())
     assert ticks.tick(counts=counts, flags=READY, tag=8)["state"] == "empty"
     assert ticks.tick(counts=counts, flags=1 | 4, tag=7)["state"] == "empty"  # no power yet
@@ -263,7 +268,9 @@ def test_windowed_speed_is_that_of_a_line():
     # Exact for a straight line; of a line rounded to counts within a count over the window, and never a
     # count in a tick (0.1 m/s) as count / T would say.
     line = [0.03 * k * 1e-3 for k in range(40)]
-    assert haptic.windowed_speed(line, count_size=1e-4, period=1e-3) == pytest.approx(0.03, rel=1e-9)
+    assert haptic.windowed_speed(line, count_size=1e-4, period=1e-3) == pytest.approx(
+        0.03, rel=1e-9
+    )
     rounded = [1e-4 * np.floor(x / 1e-4) for x in line]
     found = haptic.windowed_speed(rounded, count_size=1e-4, period=1e-3)
     assert abs(found - 0.03) <= 1e-4 / 31e-3

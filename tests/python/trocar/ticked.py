@@ -99,7 +99,9 @@ class Driver:
         for _ in range(3):
             self.at(AT)
 
-    def at(self, q: ArrayLike, made: haptic.LocalModel | None = None, **changes: Any) -> dict[str, Any]:
+    def at(
+        self, q: ArrayLike, made: haptic.LocalModel | None = None, **changes: Any
+    ) -> dict[str, Any]:
         """One tick with the device at joints q."""
         return self.counts(counts_of(q), made, **changes)
 

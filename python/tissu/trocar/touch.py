@@ -1,0 +1,205 @@
+"""The slow side of a trocar: tissue moves its tool, and is handed to the ticks.
+
+    simulation = scene.compile()
+    with Controller(scene.trocars["right"]) as controller:
+        touch = Touch(simulation, controller)
+        for _ in range(100):
+            felt = touch.step()
+            print(felt.time, felt.force, felt.fast)
+
+In each step the tool goes to where the ticks have their proxy, the scene takes its step, and its
+contacts become the model that the ticks feel until the next one:
+
+    x = anchor - W lambda,   W = h^2 H (M + h C + h^2 K)^-1 H^T
+
+with the rows H of the contacts' points of the tissue, of the matrices at the end of the step. The
+proxy is that of Zilles and Salisbury 1995.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from tissu.errors import ParameterError
+from tissu.trocar import kinematics
+from tissu.trocar.model import MOST_CONTACTS, Blade, LocalModel, across
+from tissu.trocar.touched import Factor, compliance, merged, nearest, pressing
+
+if TYPE_CHECKING:
+    from tissu.simulation import Simulation
+    from tissu.trocar.controller import Controller
+    from tissu.trocar.kinematics import Array
+
+
+@dataclass(frozen=True, slots=True)
+class Felt:
+    """What a step of the scene and its ticks felt.
+
+    Attributes:
+        time: of the scene at the end [s].
+        joints: (4,) of the proxy that the tool was led to.
+        tip: (3,) where the tip of the tool is in the scene [m].
+        force: (3,) on the tool by the contacts of the slow step [N].
+        fast: (3,) on the tool, as the last tick had it [N].
+        contacts: how many the ticks were given.
+        tool: name of the obstacle; None: none that the scene knows was in.
+    """
+
+    time: float
+    joints: Array
+    tip: Array
+    force: Array
+    fast: Array
+    contacts: int
+    tool: str | None
+
+
+class Touch:
+    """One trocar in one simulation; its obstacles are drawn with the tool straight in the port.
+
+    The tip is the point of an obstacle that lies deepest along the port's axis. Ticks are taken
+    between the steps where the controller is stepped; a threaded controller goes on by itself.
+    """
+
+    def __init__(self, simulation: Simulation, controller: Controller) -> None:
+        """Find the tools of the trocar among the obstacles of the scene.
+
+        Raises:
+            ParameterError: a tool is an obstacle that moves freely or along a path, or meets
+                nothing; none of the tools is in the scene.
+        """
+        self.simulation, self.controller = simulation, controller
+        port = controller.trocar.port
+        self._turn, self._at = port.frame(), np.array(port.at)
+        self._depths: dict[str, float] = {}
+        scene = simulation.scene
+        self._instruments = [
+            name for name in controller.trocar.tools.values() if name in scene.instruments
+        ]
+        for name in controller.trocar.tools.values():
+            obstacle = scene.obstacles.get(name)
+            if obstacle is None:
+                continue
+            if obstacle.mass is not None or obstacle.motion is not None or obstacle.type == "plane":
+                text = f"found the tool '{name}', an obstacle with a mass or a motion, or a plane; "
+                raise ParameterError(text + "a tool of a trocar is led by its hand alone")
+            if name not in simulation.touching:
+                text = f"found the tool '{name}', which no contact of the scene names; add one, "
+                raise ParameterError(text + f"such as {{between: [liver, {name}]}}")
+            places = simulation.obstacle_surface(name).points
+            self._depths[name] = float(((places - self._at) @ self._turn[:, 2]).max())
+        if not self._depths and not self._instruments:
+            names = ", ".join(controller.trocar.tools.values()) or "none"
+            text = f"found no obstacle and no instrument among the tools of the trocar ({names}); "
+            raise ParameterError(text + "name one of the scene in `tools`")
+        self._dt = simulation.dt
+        self._led: str | None = None
+        self._factor = Factor()
+
+    def step(self) -> Felt:
+        """One step of the scene with the tool where the ticks have it, a new model, and its ticks.
+
+        Raises:
+            Diverged: the scene's step failed.
+        """
+        joints, tool = self._proxy()
+        if tool in self._depths:
+            self._lead(tool, joints)
+        elif tool is not None:
+            turn = self._turn @ kinematics.rotation(joints)
+            tip = self._at + self._turn @ kinematics.position(joints)
+            instrument = self.simulation.instruments[tool]
+            (instrument.move if tool == self._led else instrument.place)(tip, turn)
+        self._led = tool
+        self.simulation.step()
+        model, force = self._model(tool, joints)
+        self.controller.publish(model)
+        rate = self.controller.trocar.rate
+        if self.controller.mode != "threaded":
+            self.controller.step(max(1, round(rate * self._dt)))
+        return Felt(
+            time=self.simulation.time,
+            joints=joints,
+            tip=self._at + self._turn @ kinematics.position(joints),
+            force=force,
+            fast=self.controller.report().force,
+            contacts=len(model.points),
+            tool=tool,
+        )
+
+    def _proxy(self) -> tuple[Array, str | None]:
+        """Joints of the proxy, and the tool that is in."""
+        report = self.controller.report()
+        known = report.tool in self._depths or report.tool in self._instruments
+        tool = report.tool if known else None
+        return report.q + report.torque / self.controller.stiffness(), tool
+
+    def _lead(self, tool: str, joints: Array) -> None:
+        """The obstacle goes to the tool's pose: x = at + Q (X - at) + R (r - r0)."""
+        own = kinematics.rotation(joints)
+        Q = self._turn @ own @ self._turn.T
+        way = self._turn @ own @ np.array([0.0, 0.0, joints[3] - self._depths[tool]])
+        angle, axis = _angle_axis(Q)
+        self.simulation.obstacle(tool).move(way, angle=angle, axis=axis, center=self._at)
+
+    def _model(self, tool: str | None, joints: Array) -> tuple[LocalModel, Array]:
+        """The contacts of the tool at the end of the step, and the force on the tool [N]."""
+        if tool is None:
+            return LocalModel(joints), np.zeros(3)
+        if tool in self._instruments:
+            return self._bladed(tool, joints)
+        touched = pressing(self.simulation, tool) or nearest(self.simulation, tool)
+        if not touched:
+            return LocalModel(joints), np.zeros(3)
+        kept = merged(touched, MOST_CONTACTS)
+        normals = self.controller.turned_into_port(np.array([one.normal for one in kept]))
+        tangents = np.array([across(n) for n in normals])
+        axes = np.stack([normals, tangents, np.cross(normals, tangents)], axis=1)
+        directions = np.einsum("mij,kj->mik", axes, self._turn)
+        W = compliance(self.simulation, kept, directions, self._factor)
+        forces = self.controller.turned_into_port(np.array([one.force for one in kept]))
+        local = np.einsum("mij,mj->mi", axes, forces)
+        places = self.controller.into_port(np.array([one.point for one in kept]))
+        given = np.einsum("mi,mij->mj", (W @ local.ravel()).reshape(-1, 3), axes)
+        own = kinematics.rotation(joints)
+        model = LocalModel(
+            joints=joints,
+            points=places @ own - np.array([0.0, 0.0, joints[3]]),
+            anchors=places - np.array([o.gap for o in kept])[:, None] * normals + given,
+            normals=normals,
+            tangents=tangents,
+            friction=np.array([one.friction for one in kept]),
+            forces=local,
+            compliance=W,
+        )
+        return model, np.sum([one.force for one in kept], axis=0)
+
+    def _bladed(self, tool: str, joints: Array) -> tuple[LocalModel, Array]:
+        """What a blade has to overcome: at most its force of the slow step, against its way."""
+        instrument = self.simulation.scene.instruments[tool]
+        if getattr(instrument, "toughness", None) is None:
+            return LocalModel(joints), np.zeros(3)
+        force = self.simulation.instruments[tool].force
+        size = float(np.linalg.norm(force))
+        if not size > 0.0:
+            return LocalModel(joints), np.zeros(3)
+        way = self._turn.T @ (-force / size)
+        place = kinematics.position(joints)
+        blade = Blade((0.0, 0.0, 0.0), way, place, 0.0, size)
+        return LocalModel(joints, blade=blade), np.asarray(force)
+
+
+def _angle_axis(Q: Array) -> tuple[float, Array]:
+    """Of a rotation matrix."""
+    axis = np.array([Q[2, 1] - Q[1, 2], Q[0, 2] - Q[2, 0], Q[1, 0] - Q[0, 1]])
+    sine = 0.5 * float(np.linalg.norm(axis))
+    angle = float(np.arctan2(sine, 0.5 * (np.trace(Q) - 1.0)))
+    if sine > 1e-12:
+        return angle, axis / (2.0 * sine)
+    if angle < 1.0:
+        return 0.0, np.array([0.0, 0.0, 1.0])
+    values, vectors = np.linalg.eigh(0.5 * (Q + Q.T))
+    return angle, np.asarray(vectors[:, np.argmax(values)])

@@ -1,0 +1,173 @@
+"""A trocar in a scene: what the hand feels of the tissue, and what the tissue feels of the hand."""
+
+from __future__ import annotations
+
+import runpy
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from scipy.sparse import identity
+
+import tissu as ts
+from tissu.trocar.controller import Controller
+from tissu.trocar.touch import Felt, Touch
+
+EXAMPLES = Path(__file__).parents[3] / "examples"
+DEPTH = 0.13
+
+
+def scene(**changes: Any) -> ts.Scene:
+    """A sphere through a port 12 cm above a block; the hand goes 1 cm into it and stays."""
+    block = ts.Body(
+        mesh=ts.BarMesh(size=(0.08, 0.08, 0.04), cells=(4, 4, 2)),
+        law=ts.NeoHooke(young="5 kPa", poisson=0.3),
+        density=1050,
+        viscosity=ts.Rayleigh(mass=5, stiffness="10 ms"),
+    )
+    hand = ts.Hand(times=(0, "0.3 s", "1 s"), points=((0, 0, 0.1), (0, 0, DEPTH), (0, 0, DEPTH)))
+    trocar = ts.Trocar(
+        port=ts.Port(at=(0.04, 0.04, 0.16), axis=(0, 0, -1)),
+        device=ts.SimulatedDevice(hand=hand),
+        tools={1: "probe"},
+    )
+    made = ts.Scene(
+        bodies={"block": block},
+        fixed=[ts.Fixed("block", on=ts.Plane((0, 0, 0), (0, 0, 1)))],
+        obstacles={"probe": ts.SphereObstacle((0.04, 0.04, 0.065), radius=0.005)},
+        contacts=[ts.Contact(("block", "probe"), friction=0.2)],
+        trocars={"right": trocar},
+        step=ts.ImplicitEuler("10 ms"),
+    )
+    return made.replace(**changes)
+
+
+def palpated(steps: int = 100, **changes: Any) -> tuple[ts.Simulation, list[Felt]]:
+    """What every step felt; none leaves a crossing."""
+    simulation = scene(**changes).compile()
+    with Controller(simulation.scene.trocars["right"]) as controller:
+        touch = Touch(simulation, controller)
+        found = []
+        for _ in range(steps):
+            found.append(touch.step())
+            assert not simulation.scene.contacts or len(simulation.crossings()) == 0
+    return simulation, found
+
+
+def test_the_hand_and_the_tissue_feel_one_force() -> None:
+    """At rest the ticks' force is the tissue's, and the tissue gives it back at its support.
+
+    An axis of the device has steps of 0.1 mm, of which K_c = 1600 N/m makes 0.16 N; the hand is
+    still, and the proxy follows to within one of them.
+    """
+    simulation, found = palpated()
+    late = found[-10:]
+    slow = np.mean([one.force for one in late], axis=0)
+    fast = np.mean([one.fast for one in late], axis=0)
+    assert slow[2] > 0.3
+    np.testing.assert_allclose(fast, slow, atol=0.02 * slow[2])
+    support = simulation.reactions("block").sum(axis=0)
+    np.testing.assert_allclose(support, simulation.force_on("probe").force, atol=0.02 * slow[2])
+
+
+def test_the_hand_is_the_spring_of_the_device_deeper_than_the_tool() -> None:
+    """The coupling's force is K_c times what the device is ahead of the proxy (depth axis)."""
+    simulation = scene().compile()
+    with Controller(simulation.scene.trocars["right"]) as controller:
+        touch = Touch(simulation, controller)
+        for _ in range(100):
+            felt = touch.step()
+        report = controller.report()
+        ahead = report.q[3] - (report.q + report.torque / controller.stiffness())[3]
+        assert ahead > 0.0
+        assert controller.stiffness()[3] * ahead == pytest.approx(-report.torque[3], rel=1e-12)
+        assert -report.torque[3] == pytest.approx(felt.fast[2], rel=2e-2)
+
+
+def test_a_model_knows_how_far_the_tissue_gives() -> None:
+    """W of one node against the displacement of a step under a unit force, by an own solve."""
+    simulation, _ = palpated(60)
+    from tissu.trocar.touched import Factor, compliance, nearest, pressing
+
+    (one, *_) = pressing(simulation, "probe") or nearest(simulation, "probe")
+    factor = Factor()
+    factor.solve(1.1 * identity(3), np.eye(3))  # of another matrix
+    W = compliance(simulation, [one], np.eye(3)[None], factor)
+    again = compliance(simulation, [one], np.eye(3)[None], factor)
+    assert factor.made == 2
+    np.testing.assert_allclose(again, W, rtol=1e-12)
+    free = simulation.free_axes().ravel()
+    h = simulation.dt
+    A = (
+        simulation.mass_matrix() + h * simulation.damping() + h**2 * simulation.stiffness()
+    ).toarray()
+    A = A[np.ix_(free, free)]
+    H = np.zeros((3, len(free)))
+    for node, weight in zip(one.nodes, one.weights, strict=True):
+        H[:, 3 * node : 3 * node + 3] += weight * np.eye(3)
+    H = H[:, free]
+    np.testing.assert_allclose(W, h**2 * H @ np.linalg.solve(A, H.T), rtol=1e-7, atol=1e-12)
+    assert np.linalg.eigvalsh(W).min() > 0.0
+
+
+def test_the_same_bits_twice() -> None:
+    """Stepped ticks and the scene, forty steps."""
+    first, second = palpated(40)[1], palpated(40)[1]
+    for one, other in zip(first, second, strict=True):
+        assert one.force.tobytes() == other.force.tobytes()
+        assert one.fast.tobytes() == other.fast.tobytes()
+
+
+def test_a_knife_is_led_through_the_port() -> None:
+    """Its edge goes 1 cm deep, and to the side: it cuts, and the block has an incision."""
+    hand = ts.Hand(
+        times=(0, "0.2 s", "0.5 s"),
+        points=((-0.03, 0, 0.11), (-0.03, 0, 0.13), (0.03, 0, 0.13)),
+    )
+    base = scene().trocars["right"]
+    trocar = base.replace(device=ts.SimulatedDevice(hand=hand), tools={1: "scalpel"})
+    knife = ts.Knife(edge=((0, 0, 0), (0, 0, -0.03)), cuts=("block",))
+    simulation, found = palpated(
+        60,
+        obstacles={},
+        contacts=(),
+        instruments={"scalpel": knife},
+        editing=True,
+        trocars={"right": trocar},
+    )
+    assert found[-1].tool == "scalpel"
+    assert simulation.surface("block").cut.any()
+
+
+REFUSED = {
+    "no contact": ({"contacts": ()}, "which no contact of the scene names"),
+    "free": (
+        {"obstacles": {"probe": ts.SphereObstacle((0.04, 0.04, 0.065), radius=0.005, mass=1)}},
+        "is led by its hand alone",
+    ),
+}
+
+
+@pytest.mark.parametrize("case", REFUSED)
+def test_what_is_refused(case: str) -> None:
+    """Before anything moves."""
+    changes, words = REFUSED[case]
+    simulation = scene(**changes).compile()  # type: ignore[arg-type]
+    with (
+        Controller(simulation.scene.trocars["right"]) as controller,
+        pytest.raises(ts.ParameterError, match=words),
+    ):
+        Touch(simulation, controller)
+
+
+def test_the_example_palpates() -> None:
+    """It feels about a newton, and nothing when the tool is out again."""
+    found = runpy.run_path(str(EXAMPLES / "palpate.py"))
+    simulation = found["scene"]().compile()
+    felt = found["felt"](simulation, 170)
+    deep = [np.linalg.norm(one.force) for one in felt[80:140]]
+    assert 0.5 < np.mean(deep) < 2.0
+    fast = [np.linalg.norm(one.fast) for one in felt[80:140]]
+    assert np.mean(fast) == pytest.approx(np.mean(deep), rel=0.05)
+    assert np.linalg.norm(felt[-1].fast) == 0.0

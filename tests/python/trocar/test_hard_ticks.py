@@ -1,4 +1,4 @@
-"""What happens to a trocar when things go wrong, each with its outcome. Stepped: the same bits each time."""
+"""What happens to a trocar when things go wrong, each with its outcome; stepped."""
 
 import numpy as np
 import pytest
@@ -86,7 +86,9 @@ def test_models_that_are_not_finite(place):
     good = driver.at(AT, floor(1, 0.199))
     for stamp in (2, 3):
         bad = {"W": np.full((3, 3), np.nan), "force": [[np.nan, 0, 0]], "anchor": [0, 0, np.nan]}
-        made = floor(stamp, 0.1, **{place: bad[place]}) if place != "anchor" else floor(stamp, np.nan)
+        made = (
+            floor(stamp, 0.1, **{place: bad[place]}) if place != "anchor" else floor(stamp, np.nan)
+        )
         for _ in range(5):
             report = driver.at(AT, made)
             assert report["state"] == "contact"
@@ -114,7 +116,11 @@ def test_a_device_that_reports_a_fault():
 
 
 def test_tool_pulled_out_fast():
-    driver = Driver(free_settings(slew=0.2, tank_gate=True, tank_start=5e-3, speed_limit=2.0, torque_limit=LIMIT))
+    driver = Driver(
+        free_settings(
+            slew=0.2, tank_gate=True, tank_start=5e-3, speed_limit=2.0, torque_limit=LIMIT
+        )
+    )
     depth = 0.04
     for k in range(80):
         driver.at([0, 0, 0, 0.2 - 2e-3 * k], None)
@@ -167,7 +173,7 @@ def test_five_milliseconds_of_delay():
         delay=5e-3,
     )
     made = device(hand([(0, 0, 0, 0.2), (0.3, 0, 0, 0.206)]), line={"delay": 5e-3})
-    with pytest.raises(ts.ParameterError, match="a delay of 0.005 s"):
+    with pytest.raises(ts.ParameterError, match=r"a delay of 0\.005 s"):
         haptic.SteppedLoop(made, settings())
     loop = haptic.SteppedLoop(made, settings(stiffness=stiffness))
     loop.publish(floor(1, 0.2))
@@ -246,12 +252,14 @@ def test_a_tool_between_two_walls():
 def test_eight_contacts_in_one_plane():
     # A is singular in the forces: they are not unique, the torques are.
     angle = 2 * np.pi * np.arange(8) / 8
-    l = 2e-3 * np.column_stack([np.cos(angle), np.sin(angle), np.zeros(8)])
-    anchor = l + [0, 0, 0.199]
+    points = 2e-3 * np.column_stack([np.cos(angle), np.sin(angle), np.zeros(8)])
+    anchor = points + np.array([0, 0, 0.199])
     torques = []
     for order in (np.arange(8), np.roll(np.arange(8), 3), np.arange(8)[::-1]):
         driver = Driver(free_settings())
-        made = model(1, anchor=anchor[order], normal=np.tile([0, 0, -1.0], (8, 1)), l=l[order])
+        made = model(
+            1, anchor=anchor[order], normal=np.tile([0, 0, -1.0], (8, 1)), points=points[order]
+        )
         report = [driver.at(AT, made) for _ in range(20)][-1]
         torques.append(report["torque"])
         assert report["state"] == "contact"
@@ -260,7 +268,13 @@ def test_eight_contacts_in_one_plane():
 
 
 @pytest.mark.parametrize(
-    "q", [[0, 0, 0, 0.0205], [0.785, 0.785, 0, 0.3], [-0.785, 0.785, 3.0, 0.021], [0.785, -0.785, 0, 0.15]]
+    "q",
+    [
+        [0, 0, 0, 0.0205],
+        [0.785, 0.785, 0, 0.3],
+        [-0.785, 0.785, 3.0, 0.021],
+        [0.785, -0.785, 0, 0.15],
+    ],
 )
 def test_the_corners_of_the_workspace(q):
     q = np.rint(np.array(q) / COUNT) * COUNT
@@ -297,7 +311,7 @@ def test_a_clock_that_steps_back_changes_nothing():
         return np.concatenate([first["torque"], second["torque"]]), second["clock_back"]
 
     plain, none = torques(0)
-    back, said = torques(-10**9)
+    back, said = torques(-(10**9))
     assert np.array_equal(plain, back)
     assert not none.any()
     assert said.sum() == 1
@@ -315,10 +329,8 @@ def test_the_slowest_and_the_fastest_rate(rate):
     )
     made = device(hand([(0, 0, 0, 0.2), (0.3, 0, 0, 0.206)]), line={"period": period})
     loop = haptic.SteppedLoop(made, settings(period=period, stiffness=stiffness))
-    stamp = 0
     row = {}
-    for _ in range(100):
-        stamp += 1
+    for stamp in range(1, 101):
         loop.publish(floor(stamp, 0.2, W=1e-3))
         row = loop.run(round(0.02 * rate))
     assert state(row) == ("contact", "none")
@@ -338,7 +350,7 @@ def test_lost_frames_and_late_ticks():
 
 
 def test_a_tissue_that_changes_all_the_time():
-    # Stiffness +-30 % every 40 ms under a steady push: with the tank the tool is stiller than without.
+    # Stiffness +-30 % every 40 ms under a steady push: the tool is stiller with the tank.
     def swing(gate):
         made = device(hand([(0, 0, 0, 0.2), (0.3, 0, 0, 0.204)]))
         loop = haptic.SteppedLoop(made, settings(tank_gate=gate))

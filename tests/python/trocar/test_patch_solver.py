@@ -1,4 +1,4 @@
-"""The patch solver against solvers of another kind: pivots for rows that push, projection for cones."""
+"""The patch solver against others: pivots for rows that push, projection for cones."""
 
 from itertools import product
 
@@ -59,7 +59,9 @@ def by_projection(A, b, mu, iterations=60_000):
         on_cone = (normal + mu * size) / (1 + mu**2)
         inside, polar = size <= mu * normal, mu * size <= -normal
         scale = np.where(inside, 1.0, mu * on_cone / np.maximum(size, 1e-300))
-        made = np.column_stack([np.where(inside, normal, on_cone), tried[:, 1] * scale, tried[:, 2] * scale])
+        made = np.column_stack(
+            [np.where(inside, normal, on_cone), tried[:, 1] * scale, tried[:, 2] * scale]
+        )
         made[polar] = 0.0
         new = made.ravel()
         if np.abs(new - force).max() <= 1e-13 * np.abs(new).max():

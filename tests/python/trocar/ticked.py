@@ -45,10 +45,10 @@ def model(
     friction: float = 0.0,
     W: ArrayLike | float = 0.0,
     force: ArrayLike | None = None,
-    l: ArrayLike | None = None,
+    points: ArrayLike | None = None,
     tag: int = TAG,
 ) -> haptic.LocalModel:
-    """A local model of contacts at the tip, or at the tool's points l; W a matrix, or of each row."""
+    """A local model of contacts at the tip or at points of the tool; W a matrix, or of each row."""
     anchors = np.reshape(np.asarray(anchor, float), (-1, 3))
     n = len(anchors)
     normals = np.reshape(np.asarray(normal, float), (-1, 3))
@@ -58,7 +58,7 @@ def model(
         stamp=stamp,
         tag=tag,
         q_ref=q_ref,
-        l=np.zeros((n, 3)) if l is None else l,
+        l=np.zeros((n, 3)) if points is None else points,
         anchor=anchors,
         normal=normals,
         tangent=tangents,
@@ -99,7 +99,9 @@ class Driver:
         for _ in range(3):
             self.at(AT)
 
-    def at(self, q: ArrayLike, made: haptic.LocalModel | None = None, **changes: Any) -> dict[str, Any]:
+    def at(
+        self, q: ArrayLike, made: haptic.LocalModel | None = None, **changes: Any
+    ) -> dict[str, Any]:
         """One tick with the device at joints q."""
         return self.counts(counts_of(q), made, **changes)
 

@@ -1,6 +1,6 @@
 # Everything a newcomer types. The work is done by the scripts in .ci/, each of which runs by hand too.
 .DEFAULT_GOAL := help
-.PHONY: help demo test lint bench fuzz sanitize format codegen clean
+.PHONY: help demo test lint docs bench fuzz sanitize format codegen clean
 
 help: ## this list
 	@sed -n 's/^\([a-z]*\):.*## \(.*\)/  make \1\t\2/p' Makefile | expand -t 16
@@ -13,6 +13,9 @@ test: ## set up, then the C++ and the Python tests
 
 lint: ## formatting, types, clang-tidy, allowed edges between rooms
 	@.ci/lint
+
+docs: ## set up, build the site into build/site; a warning or a dead link is an error
+	@.ci/docs
 
 bench: ## build tissu-bench and run it
 	@.ci/bench

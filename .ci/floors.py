@@ -1,7 +1,7 @@
 """Prints the lines, files and floors of every C++ room as a table in Markdown.
 
 The floors of a room are the files in the longest chain of includes inside it: a room of which no
-file includes another has one. `--out docs/rooms.md` writes the page.
+file includes another has one. `--out docs/reference/rooms.md` writes the page.
 """
 
 import argparse
@@ -14,9 +14,9 @@ from check_arrows import CPP, INCLUDE, TOPS, cpp_files, included_path
 
 HEAD = """# The rooms of the core
 
-Printed by `python .ci/floors.py --out docs/rooms.md`, not written by hand. The floors of a room are
-the files in the longest chain of includes inside it. Rooms stand in the order in which they may
-include each other; the table of what may include what is in `.ci/check_arrows.py`.
+Printed by `python .ci/floors.py --out docs/reference/rooms.md`, not written by hand. The floors of
+a room are the files in the longest chain of includes inside it. Rooms stand in the order in which
+they may include each other; the table of what may include what is in `.ci/check_arrows.py`.
 
 | room | lines | files | floors |
 |---|---:|---:|---:|

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# .ci/setup.sh demo|test|lint|bench: makes the machine, .venv and build/ ready. Quiet when nothing is to do; the log is
+# .ci/setup.sh demo|test|lint|docs|bench: makes the machine, .venv and build/ ready. Quiet when nothing is to do; the log is
 # build/setup.log. Does again only what its input changed since: a stamp per step holds the checksum of that input.
 #   TISSU_NO_APT=1    touch no Debian package: CMake, Ninja, Eigen come from PyPI, the rest from pinned sources
 #   TISSU_WERROR=ON   warnings of the C++ compiler are errors

@@ -117,8 +117,9 @@ step_packages() {
   local extras wanted key
   case $1 in
     demo | bench) extras= ;;
-    test) extras=test ;;
-    *) extras="test lint" ;;
+    test) extras="test docs" ;;
+    docs) extras=docs ;;
+    *) extras="test lint docs" ;;
   esac
   # shellcheck disable=SC2086
   wanted=$("$python" .ci/requirements.py build $extras) || fail "could not read the requirements in pyproject.toml."

@@ -1,4 +1,4 @@
-"""Writes docs/accuracy.md and its pictures: every case of `tissu bench accuracy`, measured.
+"""Writes docs/measured/accuracy.md and its pictures: the cases of `tissu bench accuracy`.
 
     python bench/accuracy.py --write [--preset full] [--meshes FOLDER] [CASE …]
 
@@ -23,7 +23,7 @@ from tissu.cli.bench import missing
 from tissu.cli.info import machine_line
 
 ROOT = Path(__file__).resolve().parents[1]
-PAGE = ROOT / "docs" / "accuracy.md"
+PAGE = ROOT / "docs" / "measured" / "accuracy.md"
 HEAD = """# What accuracy costs in time
 
 `tissu bench accuracy` runs cases whose answer is known with every element, law, model, method of
@@ -103,7 +103,7 @@ def section(one: Study) -> str:
         f"## {case.title}",
         case.about,
         f"**{sentence(one)}**",
-        f"![Error against time](pictures/accuracy-{case.name}.png)",
+        f"![Error against time](../pictures/accuracy-{case.name}.png)",
         f"The front, of {len(one.runs)} runs ({one.preset} preset):",
         best(one),
         rows_of(*curves(one)),

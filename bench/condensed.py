@@ -1,4 +1,4 @@
-"""Prints docs/condensed.md: a linear body under a changing load, whole and condensed: --write."""
+"""Prints docs/measured/condensed.md: a linear body, whole and condensed: --write."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ import numpy as np
 
 import tissu as ts
 
-PAGE = Path(__file__).resolve().parents[1] / "docs" / "condensed.md"
+PAGE = Path(__file__).resolve().parents[1] / "docs" / "measured" / "condensed.md"
 SIZES = ((8, 4, 4), (16, 8, 8), (24, 12, 12))
 STEPS = 30
 HEAD = """# Linear bodies, prefactored and condensed

@@ -1,4 +1,4 @@
-"""Prints the tables of docs/contact.md: steps of bodies that touch, responses, broad phases.
+"""Prints the tables of docs/measured/contact.md: steps with contact, responses, broad phases.
 
     python bench/contact.py [--write] [CASE …]
 
@@ -25,7 +25,7 @@ from tissu.cli.info import machine_line
 from tissu.contact_cost import Row, measured_responses
 
 ROOT = Path(__file__).resolve().parents[1]
-PAGE = ROOT / "docs" / "contact.md"
+PAGE = ROOT / "docs" / "measured" / "contact.md"
 PROGRAM = Path(os.environ.get("TISSU_BENCH", ROOT / "build/main/bench/tissu-bench"))
 BEGIN, END = "<!-- bench/contact.py: {} -->", "<!-- end of bench/contact.py: {} -->"
 
@@ -122,7 +122,7 @@ def main() -> int:
     """Runs, prints or writes."""
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
     parser.add_argument("names", nargs="*", metavar="CASE")
-    parser.add_argument("--write", action="store_true", help="write docs/contact.md")
+    parser.add_argument("--write", action="store_true", help="write docs/measured/contact.md")
     parser.add_argument("--responses", action="store_true", help="that table alone")
     asked = parser.parse_args()
     alone = asked.names or asked.responses

@@ -1,6 +1,7 @@
-"""Measured orders of convergence: prints docs/convergence.md and draws its picture.
+"""Measured orders of convergence: prints docs/measured/convergence.md and draws its picture.
 
-    python bench/convergence.py --picture docs/pictures/convergence.png > docs/convergence.md
+    python bench/convergence.py --picture docs/pictures/convergence.png \
+        > docs/measured/convergence.md
 
 The machinery is that of tests/convergence: manufactured solutions, with loads and error integrals
 by shape functions and quadrature that are not the library's.
@@ -33,26 +34,30 @@ FLAT = {"plane strain": SURFACES, "plane stress": SURFACES, "uniaxial stress": L
 
 HEAD = """# Orders of convergence, measured
 
-A displacement field u(X) is chosen, the body force that makes it an equilibrium is derived by
-SymPy, and the cube of one metre is solved with that force and u on its whole boundary; for elements
-below three dimensions the square of one metre under plane strain and plane stress, and the line of
-one metre under uniaxial stress. The field is smooth, without symmetry, with strains of up to 0.2;
-lambda = 1.2 Pa, mu = 0.8 Pa. Errors are L2 norms over the cube, square or line: of the
-displacement, and of the strain (small for Hooke, Green-Lagrange's for St-Venant-Kirchhoff). Loads
-and errors are integrated by shape functions and quadrature of the tests' own (`tests/convergence`),
-so that the library is not measured with itself. Quadrature of the library: `full`. Direct solver,
-Newton to 1e-11.
+How fast does the error of each element fall as cells shrink? A displacement field u(X) is chosen,
+and SymPy derives the body force that makes it an equilibrium. Then the cube of one metre is solved
+with that force, and with u on its whole boundary. Surfaces are the square of one metre under plane
+strain and plane stress, and lines the line of one metre under uniaxial stress.
+
+The field is smooth, without symmetry, with strains of up to 0.2. lambda = 1.2 Pa, mu = 0.8 Pa.
+Errors are L2 norms of the displacement and of the strain (small for Hooke, Green-Lagrange's for
+St-Venant-Kirchhoff). The tests integrate loads and errors by shape functions and quadratures of
+their own (`tests/convergence`), so that the library is not measured with itself. Quadrature of the
+library: `full`. Direct solver, Newton to 1e-11.
 
 Theory: displacement p + 1, strain p; p = 1 for straight elements, 2 for those with middle nodes.
 
-![Errors against the number of cells](pictures/convergence.png)
+![Errors against the number of cells](../pictures/convergence.png)
 
 Drawn for St-Venant-Kirchhoff, surfaces under plane stress, and for the lost order for Hooke.
 
-Meshes: **regular**; **smooth**: all nodes moved by one smooth map, cells stay curved and distorted
-as they shrink; **jittered**: corners moved at random by a fifth of a cell (a tenth where cells are
-thinner), edges straight; **trapezoids**: every second layer of corners tilted to and fro, of one
-shape at every size.
+There are four kinds of mesh:
+
+- **regular**;
+- **smooth**: one smooth map moves all nodes, and cells stay curved and distorted as they shrink;
+- **jittered**: corners are moved at random by a fifth of a cell (a tenth where cells are thinner),
+  and edges stay straight;
+- **trapezoids**: every second layer of corners is tilted to and fro, in one shape at every size.
 
 ## Volumes
 

@@ -1,4 +1,4 @@
-"""The picture of docs/convergence.md: errors against the number of cells along an edge."""
+"""The picture of docs/measured/convergence.md: errors against the number of cells along an edge."""
 
 from __future__ import annotations
 

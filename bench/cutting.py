@@ -17,7 +17,7 @@ from kernels import table
 import tissu as ts
 from tissu.cli.info import machine_line
 
-PAGE = Path(__file__).resolve().parent.parent / "docs" / "cutting.md"
+PAGE = Path(__file__).resolve().parent.parent / "docs" / "measured" / "cutting.md"
 BEGIN, END = "<!-- bench/cutting.py -->\n", "<!-- end of bench/cutting.py -->\n"
 SIDES = (6, 12, 20)
 """Cells along the two short sides of a bar that is four times as long."""
@@ -115,7 +115,7 @@ def section() -> str:
 def main() -> None:
     """Prints the section, or writes it."""
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
-    parser.add_argument("--write", action="store_true", help="to docs/cutting.md")
+    parser.add_argument("--write", action="store_true", help="to docs/measured/cutting.md")
     text = section()
     if parser.parse_args().write:
         page = PAGE.read_text(encoding="utf-8")

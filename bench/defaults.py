@@ -1,4 +1,4 @@
-"""Prints the section of docs/solvers.md that holds `solver: auto` against every fixed choice.
+"""Prints a section of docs/measured/solvers.md: `solver: auto` against every fixed choice.
 
     python bench/defaults.py [--rows 'TEXT; TEXT'] [--minutes 8] [--meshes FOLDER] [--write]
     python bench/defaults.py --counts [--rows 'TEXT; TEXT'] [--write]
@@ -218,7 +218,7 @@ if __name__ == "__main__":
     parser.add_argument("--rows", help="beginnings of rows, such as 'bar, 1e+04; cube'")
     parser.add_argument("--minutes", type=float, default=8.0, help="for all rows")
     parser.add_argument("--meshes", type=Path, help="folder of the liver's and the phantom's mesh")
-    parser.add_argument("--write", action="store_true", help="to docs/solvers.md")
+    parser.add_argument("--write", action="store_true", help="to docs/measured/solvers.md")
     arguments = parser.parse_args()
     text = section(arguments)
     if arguments.write:

@@ -1,4 +1,4 @@
-"""What an effect costs where it is absent, and where it is present: prints docs/absent-effects.md.
+"""Prints docs/measured/absent-effects.md: what an effect costs where it is absent or present.
 
     python bench/effects.py [--write] [--rounds 30]
 
@@ -21,7 +21,7 @@ from effect_rows import Measured
 from instruction_counts import ROOT, Counts
 from kernels import commit, processor, table
 
-PAGE = ROOT / "docs/absent-effects.md"
+PAGE = ROOT / "docs/measured/absent-effects.md"
 COUNTED, STEPS = 1, 2  # size of the bar and steps that are counted
 TIMED, TIMED_STEPS = 2, 5
 SIZES = (1, 2, 3)
@@ -115,7 +115,7 @@ def page(
     rounds: int,
     timed: dict[str, Any],
 ) -> str:
-    """The whole of docs/absent-effects.md."""
+    """The whole of docs/measured/absent-effects.md."""
     counted = measured[0].without.scene
     return f"""{TITLE}
 
@@ -131,7 +131,8 @@ named) with that effect, and runs between two runs of the scene without it.
 
 ## Instructions
 
-Of a step, and of what is done between two steps, by valgrind's callgrind; kernels for
+Instructions of a step, and of the work between two steps, counted by valgrind's callgrind with
+kernels for
 {counted["isa"]}, {counted["cells"]:,} tetrahedra. "Its own" are those of functions that run for the
 effect alone, known by their names (`bench/effect_rows.py`).
 

@@ -1,4 +1,4 @@
-"""Prints docs/explicit-implicit.md: explicit and implicit steps, and the fixed point: --write."""
+"""Prints docs/measured/explicit-implicit.md: explicit, implicit and fixed point: --write."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ from explicit_implicit_text import (
 from faure_tables import PAPER_EXPLICIT, PAPER_IMPLICIT
 from fixed_point import fixed_point_table
 
-PAGE = Path(__file__).resolve().parents[1] / "docs" / "explicit-implicit.md"
+PAGE = Path(__file__).resolve().parents[1] / "docs" / "measured" / "explicit-implicit.md"
 TIME, LEAD = 0.9, 0.05  # s, m
 PAIRS = ((1e3, 1e5), (1e4, 1e5), (1e3, 1e4), (1e4, 1e4))  # kg/m3, Pa
 LOST = 0.1  # m from the even stretch: the run has blown up

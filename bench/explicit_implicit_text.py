@@ -1,4 +1,4 @@
-"""Words of docs/explicit-implicit.md; bench/explicit_implicit.py puts its numbers in."""
+"""Words of docs/measured/explicit-implicit.md; bench/explicit_implicit.py puts its numbers in."""
 
 HEAD = """# Explicit against implicit, and the fixed point
 

@@ -1,4 +1,4 @@
-"""Prints docs/frames.md, the figures and tables of bosman2014 beside ours.
+"""Prints docs/measured/frames.md, the figures and tables of bosman2014 beside ours.
 
     python bench/frames.py [--write] [--speed]
 
@@ -19,7 +19,6 @@ from tissu.cli.info import machine_line
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 from frames_text import (
-    COUPLING,
     HEAD,
     NEAR,
     SOFT_TEXT,
@@ -29,7 +28,7 @@ from frames_text import (
     TENSION,
 )
 
-PAGE = Path(__file__).resolve().parents[1] / "docs" / "frames.md"
+PAGE = Path(__file__).resolve().parents[1] / "docs" / "measured" / "frames.md"
 STEEL_TIP, BEAM = 0.150174, 0.147185  # m: converged (CalculiX); rho g L^4 / (8 E I)
 NEWTON = ts.Newton(iterations=60, tolerance=1e-8)
 SECTIONS = ((25, 2), (25, 3), (25, 4), (25, 6))  # cells along, cells across: figure 6
@@ -289,7 +288,7 @@ def untimed() -> str:
 def main() -> None:
     """Prints the page, or writes it."""
     timed = [SPEED, speed(2), NEAR, neighbours(), f"Times on this page: {machine_line()}\n"]
-    page = "\n".join([HEAD, STEEL_TEXT, steel(), untimed(), *timed, COUPLING])
+    page = "\n".join([HEAD, STEEL_TEXT, steel(), untimed(), *timed])
     if "--write" in sys.argv:
         PAGE.write_text(page, encoding="utf-8")
     else:

@@ -1,4 +1,4 @@
-"""Prints docs/hard-cases.md: every hard case with every method, by running them: --write.
+"""Prints docs/measured/hard-cases.md: every hard case with every method, by running them: --write.
 
 --contact prints, or writes, the chapter on contact alone.
 """
@@ -12,7 +12,6 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT / "tests" / "hard"))
 
-from hard_text import CHAPTERS  # noqa: E402
 from outcome import (  # noqa: E402
     CASES,
     CONTACT,
@@ -26,22 +25,25 @@ from outcome import (  # noqa: E402
 
 import tissu as ts  # noqa: E402
 
-PAGE = ROOT / "docs" / "hard-cases.md"
+PAGE = ROOT / "docs" / "measured" / "hard-cases.md"
 HEAD = """# Hard cases
 
-Each row is a scene in `tests/hard/cases` that you can open and run with `tissu run`; each column a
-method that is put in place of the scene's own. What comes of it is
+Each row is a scene in `tests/hard/cases`, which `tissu run` opens. Each column is a method, which
+takes the place of the scene's own. There are three outcomes:
 
 - **steady**: in the last tenth of the run no node moves by more than a thousandth of the body;
-- **bounded**: it still moves, and no node was ever farther from rest than the number says;
+- **bounded**: the body still moves, and the number says how far a node was ever from rest;
 - **refused**: an error of one sentence, and the simulation stands at its last good step. The notes
   below the table give each sentence.
 
-Numbers are the largest distance of a node from rest at any time, in sizes of the body. An
-asterisk: some steps did not meet their tolerances and said so. `!`: cells are inside out at the
-end, which `tissu run` prints. Explicit methods take nine tenths of their stable step (`dt: auto`)
-and are not run where that makes more than 20,000 steps; the fixed point takes the scene's step or
-what contracts, if that is smaller; implicit ones take the scene's.
+How static steps and energies are judged: [statics](../guide/statics.md),
+[energy that grows](../guide/integrators.md#energy-that-grows).
+
+Numbers are the largest distance of a node from rest at any time, in sizes of the body. An asterisk:
+some steps did not meet their tolerances, and their reports say so. `!`: cells are inside out at the
+end, which `tissu run` prints. Explicit methods take nine tenths of their stable step (`dt: auto`).
+They are not run where that makes more than 20,000 steps. The fixed point takes the scene's step, or
+the longest that contracts. Implicit methods take the scene's step.
 
 """
 
@@ -52,7 +54,7 @@ CONTACT_HEAD = """## Contact
 Scenes in `tests/hard/contact`, with the methods that contact has. The exact audit is asked after
 every step; an entry that says nothing of crossings had none. `tests/hard/test_contact_*.py` states
 what each case comes to: forces by closed form, momenta to round-off, the same bits on 1, 2 and 4
-threads. What contact cannot hold yet is said in [contact.md](contact.md).
+threads. What contact cannot hold yet is said in [contact.md](../guide/contact.md).
 
 """
 TAIL = "This page is printed by `python bench/hard.py --write`.\n"
@@ -115,7 +117,7 @@ def contact() -> str:
 
 def page() -> str:
     """The whole page."""
-    return "\n".join([HEAD + table(CASES, methods()), "", contact(), CHAPTERS, TAIL])
+    return "\n".join([HEAD + table(CASES, methods()), "", contact(), TAIL])
 
 
 def with_contact(text: str) -> str:

@@ -1,4 +1,4 @@
-"""Prints docs/integrators.md: orders and energies of every method, and when to take it: --write."""
+"""Prints docs/measured/integrators.md: orders and energies of every method: --write."""
 
 from __future__ import annotations
 
@@ -17,11 +17,11 @@ sys.path.insert(0, str(Path(__file__).resolve().parent))
 import itertools
 
 from integrators_picture import draw
-from integrators_text import HEAD, METHODS_TEXT, TAIL
+from integrators_text import END, HEAD, TAIL
 
 Floats = NDArray[np.float64]
 DOCS = Path(__file__).resolve().parents[1] / "docs"
-PAGE, PICTURE = DOCS / "integrators.md", DOCS / "pictures" / "integrators.png"
+PAGE, PICTURE = DOCS / "measured" / "integrators.md", DOCS / "pictures" / "integrators.png"
 SOLVED = {"newton": ts.Newton(iterations=40, tolerance=1e-10), "solver": ts.Cholesky()}
 ONCE = {"solver": ts.Cholesky()}
 METHODS: dict[str, Callable[[float], Any]] = {
@@ -265,7 +265,7 @@ def page() -> str:
         "bar_omega": f"{bar(METHODS['rk4']('auto')).largest_frequency():.0f}",  # type: ignore[arg-type]
     }
     numbers = refusal()
-    return HEAD.format(**parts) + TAIL.format(**numbers) + METHODS_TEXT
+    return HEAD.format(**parts) + TAIL.format(**numbers) + END
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-"""The picture of docs/integrators.md: errors against the step, energy against time."""
+"""The picture of docs/measured/integrators.md: errors against the step, energy against time."""
 
 from __future__ import annotations
 

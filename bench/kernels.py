@@ -3,7 +3,8 @@
     python bench/kernels.py [--json FILE] [--binary build/main/bench/tissu-bench] [--repetitions 3]
 
 Runs `tissu-bench` (or reads what it wrote with `--benchmark_format=json`), prints tables in
-Markdown and writes them to docs/kernels.md. Times are the processor time of the fastest repetition.
+Markdown and writes them to docs/measured/kernels.md. Times are the processor time of the fastest
+repetition.
 """
 
 from __future__ import annotations
@@ -228,7 +229,7 @@ def machine(report: dict[str, Any]) -> str:
 
 
 def page(report: dict[str, Any]) -> str:
-    """The whole of docs/kernels.md."""
+    """The whole of docs/measured/kernels.md."""
     rows = rows_of(report)
     return f"""# What an element costs
 
@@ -271,7 +272,7 @@ then pyramids, hexahedra and wedges, which are alike.
 
 Every cell is squeezed to 0.6 of its height and more or less indefinite. Continuum elements clamp
 dP/dF at every point, isotropic laws in the axes of F, others by the eigenvalues of all nine rows;
-the other models clamp the matrix of each cell, or of each spring (`docs/tour.md`).
+the other models clamp the matrix of each cell, or of each spring (`docs/reference/tour.md`).
 
 ## Every element, every law
 
@@ -291,7 +292,7 @@ def main() -> None:
     )
     parser.add_argument("--binary", type=Path, default=ROOT / "build/main/bench/tissu-bench")
     parser.add_argument("--repetitions", type=int, default=3)
-    parser.add_argument("--out", type=Path, default=ROOT / "docs/kernels.md")
+    parser.add_argument("--out", type=Path, default=ROOT / "docs/measured/kernels.md")
     arguments = parser.parse_args()
     if arguments.json is not None:
         report = dict(json.loads(arguments.json.read_text(encoding="utf-8")))

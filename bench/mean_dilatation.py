@@ -1,4 +1,4 @@
-"""Prints docs/mean-dilatation.md: a cantilever that locks, and its cure: --write."""
+"""Prints docs/measured/mean-dilatation.md: a cantilever that locks, and its cure: --write."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from pathlib import Path
 
 import tissu as ts
 
-PAGE = Path(__file__).resolve().parents[1] / "docs" / "mean-dilatation.md"
+PAGE = Path(__file__).resolve().parents[1] / "docs" / "measured" / "mean-dilatation.md"
 SIZE = (0.4, 0.1, 0.1)  # m
 CELLS = ("hexahedron", "tetra", "wedge", "pyramid")
 GRIDS = ((8, 2, 2), (12, 3, 3), (16, 4, 4))
@@ -58,8 +58,8 @@ TAIL = """
   with the same message as under `fem`.
 - **St-Venant-Kirchhoff.** Its lambda/2 tr(E)^2 is not a function of the volume: where bending
   strains eps are finite, one theta cannot make tr(E) small at every point, and cells stiffen again
-  from lambda eps^2 > mu on. At nu = 0.49 it is cured (docs/phantom.md); at 0.4999 this bar is not.
-  Take a law with a volume term, such as neo-Hooke.
+  from lambda eps^2 > mu on. At nu = 0.49 it is cured ([phantom](phantom.md)); at 0.4999 this
+  bar is not. Take a law with a volume term, such as neo-Hooke.
 - **Removed cells** leave the others in their patches.
 - **Quadratic cells** need no cure: take `hexahedron20` with `quadrature: reduced` in a static scene
   where bending has to be right.

@@ -1,4 +1,4 @@
-"""Prints docs/models.md: what each model says it can represent, and what it does: --write, --check.
+"""Prints docs/measured/models.md: what models say and what they do: --write, --check.
 
 The words come from the models' classes (`_core.models`), the figures are measured here on a cube of
 tetrahedra. `--check` compares the words only: figures of time differ from machine to machine.
@@ -15,33 +15,20 @@ import numpy as np
 import tissu as ts
 from tissu.compile.model import models
 
-PAGE = Path(__file__).resolve().parents[1] / "docs" / "models.md"
+PAGE = Path(__file__).resolve().parents[1] / "docs" / "measured" / "models.md"
 YOUNG = 20e3  # Pa
 SIDE = 0.05  # m
 CAN = {"yes": "yes", "partly": "partly", "no": "no"}
 
-HEAD = """# Models
+HEAD = """# Models, measured
 
-What computes the forces of a body's cells is chosen by `model:` of a body, and nothing else of the
-scene changes. A law that a model does not take is an error that names those it takes, unless the
-body says `law_for_model: nearest`: then the nearest of them is computed, with the same Young's
-modulus and Poisson's ratio, and `tissu check` says so. `tissu compare SCENE --models
-mass_spring,mass_link,mass_tensor,corotational,fem` runs a scene with each, and the nearest laws.
-
-```yaml
-bodies:
-  liver:
-    mesh: liver.vtu
-    law: {type: stvk, young: 4 kPa, poisson: 0.45}
-    model: mass_link               # or {type: corotational, tangent: exact}, or a map from regions
-    density: 1050
-```
+What each model is, and when to take it: [the guide](../guide/models.md).
 
 The words in this table are those of the models' classes. The figures were measured by
 `python bench/model_abilities.py --write` on a cube of 162 tetrahedra with E = 20 kPa, nu = 0.3;
 [frames](frames.md) and [shells](shells.md) have their own pages.
 
-![Error against time of examples/beam.yaml](pictures/compare.png)
+![Error against time of examples/beam.yaml](../pictures/compare.png)
 
 `tissu compare examples/beam.yaml`: cells of this size are too coarse for bending, and that error
 is the same for all forms of one energy; springs err by another stiffness.
@@ -243,7 +230,9 @@ if __name__ == "__main__":
     if "--check" in sys.argv[1:]:
         text = PAGE.read_text(encoding="utf-8")
         missing = [name for name in models() if words(name) not in text]
-        sys.exit(f"docs/models.md is not current for {', '.join(missing)}" if missing else 0)
+        sys.exit(
+            f"docs/measured/models.md is not current for {', '.join(missing)}" if missing else 0
+        )
     if "--write" in sys.argv[1:]:
         PAGE.write_text(page(), encoding="utf-8")
     else:

@@ -1,4 +1,4 @@
-"""Prints docs/model-bars.md: bending and torsion of the bar of 8 m, every model: --write."""
+"""Prints docs/measured/model-bars.md: bending and torsion of a bar, every model: --write."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ import numpy as np
 import tissu as ts
 
 ROOT = Path(__file__).resolve().parents[1]
-PAGE = ROOT / "docs" / "model-bars.md"
+PAGE = ROOT / "docs" / "measured" / "model-bars.md"
 YOUNG = 1e8  # Pa
 NEWTON = ts.Newton(iterations=60, tolerance=1e-9)
 HELD = ts.Box((None, None, None), (1e-9, None, None))

@@ -3,8 +3,8 @@
     python bench/models.py [--json FILE] [--binary build/main/bench/tissu-bench-models] [--passes 3]
 
 Runs `tissu-bench-models` several times (or reads what that gave, a list of its JSON reports),
-prints tables in Markdown and writes them to docs/models-cost.md. Times are those of the fastest of
-all repetitions of all passes, which on a shared machine is the one that was disturbed least:
+prints tables in Markdown and writes them to docs/measured/models-cost.md. Times are those of the
+fastest of all repetitions of all passes, the one that a shared machine disturbed least:
 processor time on one thread, time by the clock on two.
 """
 
@@ -146,7 +146,7 @@ def conclusion(rows: Rows) -> str:
 
 
 def page(reports: list[Any]) -> str:
-    """The whole of docs/models-cost.md."""
+    """The whole of docs/measured/models-cost.md."""
     rows = rows_of(reports)
     whole = sum(any("/1/min" in b["name"] for b in report["benchmarks"]) for report in reports)
     load = max(report["context"]["load_avg"][0] for report in reports)
@@ -209,7 +209,7 @@ def main() -> None:
     parser.add_argument("--binary", type=Path, default=ROOT / "build/main/bench/tissu-bench-models")
     parser.add_argument("--passes", type=int, default=3)
     parser.add_argument("--repetitions", type=int, default=3)
-    parser.add_argument("--output", type=Path, default=ROOT / "docs/models-cost.md")
+    parser.add_argument("--output", type=Path, default=ROOT / "docs/measured/models-cost.md")
     given = parser.parse_args()
     if given.json:
         reports = json.loads(given.json.read_text(encoding="utf-8"))

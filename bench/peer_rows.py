@@ -1,4 +1,4 @@
-"""Lines of docs/peers.md, from what the programs took."""
+"""Lines of docs/measured/peers.md, from what the programs took."""
 
 from __future__ import annotations
 

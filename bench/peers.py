@@ -1,4 +1,4 @@
-"""Prints docs/peers.md: programs from the package index beside tissu, on the same work.
+"""Prints docs/measured/peers.md: programs from the package index beside tissu, on the same work.
 
     python bench/peers.py [--python PATH] [--steps N] [--write]
     python bench/peers.py --reference
@@ -45,7 +45,7 @@ from peer_turns import Subject, Taken, side_by_side
 from peer_work import CUBE, GRAVITY, HEIGHT, SIDE, SIZE, Work
 
 ROOT = Path(__file__).resolve().parents[1]
-PAGE, REFERENCE = ROOT / "docs" / "peers.md", ROOT / "bench" / "peers_reference.json"
+PAGE, REFERENCE = ROOT / "docs" / "measured" / "peers.md", ROOT / "bench" / "peers_reference.json"
 BEGIN, END = "<!-- bench/peers.py -->", "<!-- end of bench/peers.py -->"
 PEERS = ("mujoco", "rapier", "taichi")
 SIZES = {"10,368 tetrahedra": (48, 6, 6), "48,000 tetrahedra": (80, 10, 10)}
@@ -198,7 +198,7 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
     parser.add_argument("--python", default=sys.executable, help="in which the peers are installed")
     parser.add_argument("--steps", type=int, default=STEPS, help="implicit ones of each")
-    parser.add_argument("--write", action="store_true", help="to docs/peers.md")
+    parser.add_argument("--write", action="store_true", help="to docs/measured/peers.md")
     parser.add_argument("--reference", action="store_true", help="computes the reference anew")
     asked = parser.parse_args()
     if asked.reference:

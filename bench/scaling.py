@@ -1,4 +1,4 @@
-"""What a step costs from a thousand elements to a million, and the targets: docs/scaling.md.
+"""Prints docs/measured/scaling.md: steps of a thousand elements to a million, and targets.
 
     python bench/scaling.py [--json FILE] [--save FILE] [--binary build/main/bench/tissu-bench]
 
@@ -159,7 +159,7 @@ def load_text(reports: list[dict[str, Any]]) -> str:
 
 
 def page(reports: list[dict[str, Any]]) -> str:
-    """The whole of docs/scaling.md."""
+    """The whole of docs/measured/scaling.md."""
     rows = rows_of(reports)
     parts = "\n\n".join(part_table(rows, part) for part in PARTS)
     steps = "\n\n".join(step_table(rows, solver) for solver in SOLVERS)
@@ -231,7 +231,7 @@ def main() -> None:
     parser.add_argument("--threads", type=int, default=2, choices=(1, 2), help="at most")
     parser.add_argument("--passes", type=int, default=2)
     parser.add_argument("--repetitions", type=int, default=3)
-    parser.add_argument("--out", type=Path, default=ROOT / "docs/scaling.md")
+    parser.add_argument("--out", type=Path, default=ROOT / "docs/measured/scaling.md")
     given = parser.parse_args()
     if given.json is not None:
         reports = json.loads(given.json.read_text(encoding="utf-8"))

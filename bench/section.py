@@ -1,10 +1,10 @@
-"""Sections of docs/solvers.md that scripts of their own print."""
+"""Sections of docs/measured/solvers.md that scripts of their own print."""
 
 from __future__ import annotations
 
 from pathlib import Path
 
-PAGE = Path(__file__).resolve().parents[1] / "docs" / "solvers.md"
+PAGE = Path(__file__).resolve().parents[1] / "docs" / "measured" / "solvers.md"
 
 
 def marks(name: str) -> tuple[str, str]:

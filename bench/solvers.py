@@ -1,4 +1,4 @@
-"""Prints docs/solvers.md: what every linear solver costs from 1e3 to 1e6 unknowns.
+"""Prints docs/measured/solvers.md: what every linear solver costs from 1e3 to 1e6 unknowns.
 
     python bench/solvers.py [--small] [--write]
 
@@ -45,49 +45,9 @@ SOLVERS = {
     ),
     "cholesky": ts.Cholesky(),
 }
-HEAD = """# Linear solvers
+HEAD = """# Linear solvers, measured
 
-Every step of an implicit method solves A x = b; a static one as well. `solver:` of a step says how:
-
-- `conjugate_gradient` with `preconditioner: jacobi` or `block_jacobi`: the inverse of the diagonal,
-  or of its 3x3 blocks; nothing to make, many iterations;
-- … `incomplete_cholesky`: a factor of 3x3 blocks in the pattern of the matrix, shifted where it
-  breaks down (Manteuffel 1980); rows of its triangular solves that do not need
-  each other run on all threads;
-- … `stale_cholesky`: the factor of an earlier matrix (CHOLMOD), made anew when the iterations
-  beyond those of its first solve have cost as much as a factor;
-- … `multigrid`: a cycle through coarser and coarser levels, made from the matrix and the places of
-  its nodes by smoothed aggregation (Vanek, Mandel and Brezina 1996). Every level consists of rigid
-  frames: an aggregate of nodes that hang together strongly moves by a translation and a rotation
-  about its centre, so that bending passes through the levels and each is a matrix of 3x3 blocks as
-  the first. Levels are smoothed by a Chebyshev polynomial, which threads share; aggregates are
-  found once, the rest is made anew when that pays, in parts over several steps, so that no step
-  waits for all of it. Iterations do not grow as a mesh is refined;
-- … `precision: single`: iterations in single precision, half the bytes; residuals in double
-  correct them to the tolerance, and where they do not fall the solve goes on in double;
-- … `matrix: free`: no matrix at all, the products of the forces themselves;
-- `cholesky`: a sparse factor (CHOLMOD); its symbolic part is kept while the mesh is;
-- `auto`, the default: the cheapest of these by counted work, which may change while a scene runs;
-  `plan()` and `profile()` say to what it changed, and by which counts.
-
-`auto` changes by what it counts, and by what the first matrix lets it predict: cells along and
-through the body, the inertia in the rows of its points, and (lambda + 2 mu) / mu, which is read
-from the rows of inner points and multiplies iterations near Poisson's ratio 1/2. In a motion a
-trial of another way may take three solves of the present one. One that takes more, as a factor
-does, is tried only where the way costs less than 0.7 of the present one and saves its price within
-fifty solves, so that no step is delayed by a trial that may not pay. Static solves try freely.
-
-Iterations start from that combination of the latest three answers whose residual is least (after
-Fischer 1998): never worse than from zero, at the price of three products; where it does not halve
-the residual it is tried more and more seldom.
-
-`profile()` says p50 and p99 of the steps, and of the longest step after the first which rows took
-its time, with its systems, iterations and preparations; the summary of a run has them too.
-
-Whether a preconditioner pays is decided by counts (iterations, flops, bytes of the factor), never
-by a clock: runs give the same bits. A solve has converged when the residual computed from x says
-so. A matrix that turns out not to be positive definite is reported by every solver; what a step
-then does is its `indefinite:` (project, regularise, refuse).
+What each solver is, and when to take it: [the guide](../guide/solvers.md).
 
 A cube of tetrahedra (10 kPa, nu 0.3, 10 cm), held at its floor, bent by its weight; tolerance 1e-6;
 one thread. Each entry is iterations, time for one system, and the bytes that the solver keeps for
@@ -96,20 +56,23 @@ is that of the growth of the time between the last two sizes.
 
 """
 TAIL = """
-What bounds them: products read the matrix once, {matrix:.0f} bytes for each unknown, half in
-single precision, and run at the bandwidth of the memory once it leaves the caches; triangles
-read as much and wait for each other; a factor of a three-dimensional mesh takes work that grows as
-n^2 and memory with n^(4/3). Inertia halves the iterations of this soft cube at 10 ms; with it and
-without, their number grows with the number of cells along the cube, but for a multigrid's: one of
-its iterations multiplies with the matrix four times more and pays for that from some ten thousand
-unknowns on. Its first system includes finding the aggregates, as a cut does; later ones do not.
+What bounds them: products read the matrix once, {matrix:.0f} bytes for each unknown, half in single
+precision, and run at the bandwidth of the memory once it leaves the caches. Triangular solves read
+as much, and their rows wait for each other. A factor of a three-dimensional mesh takes work that
+grows as n^2, and memory with n^(4/3).
 
-Tried and dropped, on the bar of 10,368 and 48,000 tetrahedra with a multigrid in single
-precision: a register of sixteen numbers for a block in single precision (within 3 % of the time,
-for the product waits for its blocks and not for its instructions); one step of the polynomial on
-every level (40 % more iterations, within 4 % of the time) or on the finest alone (35 % more
-iterations, 2 to 7 % less time, most with hexahedra); a fourth answer for the first guess (one
-iteration in eight less, the same time).
+Inertia halves the iterations of this soft cube at 10 ms. With it and without, their number grows
+with the number of cells along the cube. That of a multigrid does not: one of its iterations costs
+four more products with the matrix, which pays from some ten thousand unknowns on. Its first system
+includes finding the aggregates, as a cut does. Later ones do not.
+
+Tried and dropped, on the bar of 10,368 and 48,000 tetrahedra with a multigrid in single precision:
+
+- a register of sixteen numbers for a block in single precision: within 3 % of the time, because the
+  product waits for its blocks and not for its instructions;
+- one step of the polynomial on every level: 40 % more iterations, within 4 % of the time;
+- one step on the finest level alone: 35 % more iterations, 2 to 7 % less time, most with hexahedra;
+- a fourth answer for the first guess: one iteration in eight less, the same time.
 
 Printed by `python bench/solvers.py --write`; {machine}
 """
@@ -241,7 +204,7 @@ def page(sizes: tuple[int, ...]) -> tuple[str, dict[str, list[list[Row]]]]:
         "## A step of 10 ms with inertia\n\nIterations, seconds, bytes.\n\n" + table(inertia),
         "\n\n## Static, Hooke's law\n\nThe first system, with all that is made for it.\n\n"
         + table(still),
-        "\n\n![Seconds against unknowns](pictures/solvers.png)\n",
+        "\n\n![Seconds against unknowns](../pictures/solvers.png)\n",
         TAIL.format(matrix=matrix, machine=machine_line()),
     ]
     return "".join(parts), {"10 ms, with inertia": inertia, "static": still}
@@ -250,7 +213,7 @@ def page(sizes: tuple[int, ...]) -> tuple[str, dict[str, list[list[Row]]]]:
 if __name__ == "__main__":
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
     parser.add_argument("--small", action="store_true", help="up to 1e4 unknowns")
-    parser.add_argument("--write", action="store_true", help="to docs/solvers.md and its picture")
+    parser.add_argument("--write", action="store_true", help="to its page and its picture")
     asked = parser.parse_args()
     text, studies = page(SIZES[:2] if asked.small else SIZES)
     if asked.write:

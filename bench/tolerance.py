@@ -1,4 +1,4 @@
-"""Prints the section of docs/solvers.md on the tolerance: --write, --full for 10,000 steps.
+"""Prints the tolerance in docs/measured/solvers.md: --write, --full for 10,000 steps.
 
 What a tolerance of the linear solver does to the answer, beside what the time step does to it.
 """
@@ -150,7 +150,7 @@ def section(*, full: bool) -> str:
 if __name__ == "__main__":
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
     parser.add_argument("--full", action="store_true", help="10,000 steps of the smallest as well")
-    parser.add_argument("--write", action="store_true", help="to docs/solvers.md")
+    parser.add_argument("--write", action="store_true", help="to docs/measured/solvers.md")
     asked = parser.parse_args()
     text = section(full=asked.full)
     if asked.write:

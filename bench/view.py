@@ -1,4 +1,4 @@
-"""What the live view costs and how fast it answers: `python bench/view.py [--out docs/view.md]`.
+"""What the live view costs and how fast it answers: `python bench/view.py [--out PAGE]`.
 
 On plates of hexahedra with so many triangles on their surface:
 
@@ -32,7 +32,7 @@ import numpy as np
 import tissu as ts
 from tissu.live_view import View
 
-PAGE = Path(__file__).resolve().parent.parent / "docs" / "view.md"
+PAGE = Path(__file__).resolve().parent.parent / "docs" / "measured" / "live-view.md"
 BEGIN, END = "<!-- bench/view.py -->\n", "<!-- end of bench/view.py -->\n"
 SIDES = {10_000: 49, 100_000: 157}
 """Triangles of the surface -> hexahedra along the two long sides of a plate, 4 s^2 + 8 s."""

@@ -1,6 +1,6 @@
-"""What viscosity does to a compressed cube and to a turning one: prints docs/viscosity.md.
+"""What viscosity does to a compressed cube and to a turning one: prints docs/measured/viscosity.md.
 
-    python bench/viscosity.py --picture docs/pictures/viscosity.png > docs/viscosity.md
+    python bench/viscosity.py --picture docs/pictures/viscosity.png > docs/measured/viscosity.md
 
 The compression of Chendeb 2007, sections 3.5 and 3.6: a cube of 50 mm between sliding planes,
 St-Venant-Kirchhoff, E = 0.02 MPa, its force beside the closed form. Figure 3.8 shows the
@@ -29,22 +29,7 @@ SMALL, LARGE = 2, 4  # which of the coefficients the picture shows
 
 HEAD = """# Viscosity, measured
 
-`viscosity:` of a body is one of four; each is an object beside the elastic model, and where a
-body has none, none is there.
-
-| `type` | force | turning of the whole body | where |
-|---|---|---|---|
-| `kelvin_voigt` | S = 2 eta dE/dt + zeta tr(dE/dt) I at every point | free | \
-any cell; `mass_spring`: a damper beside each spring |
-| `centroid` | f = -c V (v - mean v) of each cell (Chendeb 2007, 3.6.2) | braked | any cell |
-| `rayleigh` | f = -mass M v + stiffness K v | \
-braked by the share of the mass; by that of the stiffness under stress | any cell |
-| `prony` | S = g C : q, dq/dt = dE/dt - q / tau for each branch | free \
-| cells with a volume, in time |
-
-The derivative by the velocities is exact for all four. That of `kelvin_voigt` and `rayleigh` by
-the positions leaves out how the damping itself changes with the shape; it vanishes with the
-speed. `prony` is exact for a strain that goes evenly through a step; its tangent is complete.
+What each viscosity is, and when to take it: [the guide](../guide/viscosity.md).
 
 ## A cube under compression
 
@@ -59,7 +44,7 @@ Of the pressure from 5 % of compression on: **oscillation**, the root mean squar
 straight trend beside the closed form; **bias**, the mean distance from it; both in percent of the
 closed form's mean. A positive bias is too stiff.
 
-![Pressure against compression](pictures/viscosity.png)
+![Pressure against compression](../pictures/viscosity.png)
 
 """
 

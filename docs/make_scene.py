@@ -1,4 +1,4 @@
-"""Writes docs/scene.md from the classes of a scene: python docs/make_scene.py [--check]."""
+"""Writes docs/reference/scene.md from the classes of a scene; --check compares."""
 
 from __future__ import annotations
 
@@ -9,25 +9,28 @@ import tissu
 from tissu.codegen.names import HEADINGS, part_names
 from tissu.scene.law import Law
 
-PAGE = Path(__file__).with_name("scene.md")
+PAGE = Path(__file__).parent / "reference" / "scene.md"
 HEAD = """# Scene files
 
-A scene is the same thing in YAML and in Python: the class named in each heading, or a mapping with
-its fields. A class that stands where several are possible is chosen by `type` in YAML, where a
-hyphen may stand for an underscore. Numbers are SI; a text with a unit is converted ("4 kPa",
-"10 ms", "1.05 g/cm^3"), and one of the wrong dimension is an error. Unknown keys are errors that
-name the nearest known one. `tissu check FILE` lists every problem at once, with its line: wrong
-fields, fields that contradict each other, faults of meshes, selections that select nothing. Without
-problems it says what the scene switches on.
+A scene is the same in YAML and in Python. Each heading below names a class. In YAML the same part
+is a mapping with the fields of the class. Where several classes are possible, `type` chooses one.
+
+- Numbers are SI. A text with a unit is converted: "4 kPa", "10 ms", "1.05 g/cm^3"
+  ([units](units.md)).
+- An unknown key is an error that names the nearest known key. A hyphen may replace an underscore.
+- `tissu check FILE` lists every problem at once, each with its line. Without problems it says what
+  the scene switches on, and why.
 
 ```yaml
 {example}```
 
-Volume cells of a mesh are simulated always; its triangles and quads where the body gives a
-`thickness`, its lines where it gives a `section`. They are stiff along themselves and do not resist
-bending, except with the models `frames` and `shell`. In space they are free to thin: no stress acts
-across a sheet, nor across a line. A body that mixes them has the regions `volumes`, `sheets` and
-`lines`, for a map of laws or a selection:
+## Volumes, sheets and lines
+
+Volume cells of a mesh are always simulated. Triangles and quads are simulated if the body has a
+`thickness`, and lines if it has a `section`. Sheets and lines are stiff along themselves. They
+resist bending only with the models `frames` and `shell`. In space they are free to thin: no stress
+acts across a sheet or across a line. A body that mixes them has the regions `volumes`, `sheets` and
+`lines`:
 
 ```yaml
 law:
@@ -36,16 +39,18 @@ law:
 thickness: 0.1 mm
 ```
 
-A `section` is an area, of a circle, or a shape, which rods (`model: frames`) bend and twist by:
+A `section` is the area of a circle, or a shape. Rods (`model: frames`) bend and twist by its shape:
 
 ```yaml
 section: {{type: rectangle, height: 2 mm, width: 1 mm, up: [0, 0, 1]}}
 ```
 
-With `model: frames` or `shell` the nodes turn as well, and sheets bend ([frames](frames.md),
-[shells](shells.md)). A node held on all axes cannot rotate either, unless
-`rotations: free` says so. On a plane of symmetry across x the place is held on x and the rotation
-about y and z; `axes: free` leaves the place free and holds or leads the rotation alone:
+## Nodes that turn
+
+With `model: frames` or `shell` nodes have rotations as well, and sheets bend
+([frames](../guide/tissue.md), [shells](../guide/shells.md)). A node that is held on all axes cannot
+rotate either, unless the support has `rotations: free`. On a plane of symmetry across x, hold the
+place on x and the rotation about y and z. `axes: free` holds or leads the rotation alone:
 
 ```yaml
 fixed:
@@ -59,37 +64,16 @@ prescribed:
     rotation: {{axis: [0, 1, 0], angles: [0, 30 deg]}}
 ```
 
-The axes are those of space. A rotation held about two of them remains a rotation about the third,
-however large it is; one held about a single axis has no angular velocity about it.
+The axes are those of space. A rotation that is held about two axes remains a rotation about the
+third, however large it is. A rotation that is held about one axis has no angular velocity about it.
 
-What bodies meet, and how, is said by `obstacles`, `contacts` and `contact`: [contact](contact.md).
-Driven ports through which a hand feels a tool are `trocars`: [trocar](trocar.md).
+Driven ports through which a hand feels a tool are `trocars`: [trocar](../guide/trocar.md).
 
-Files of `laws` are programs. They run only with `--trust-laws` (`trust_laws=True` in Python), only
-from the scene's folder or below it, links followed, and only when nothing else is wrong with the
-scene ([laws](laws.md)).
+## Regions
 
-Units are names of a table with `*`, `/`, `^` and brackets ("N s/m^4", "kgf/cm^2", "16 cmH2O");
-no text is evaluated. The words are those of YAML 1.2: 010 is ten. A scene has at most 16 MiB,
-40 levels of nesting, 1,000,000,000 steps and names of 200 characters; what is beyond is refused
-with its line.
-
-`tissu run` prints on stderr, once, what `tissu check` notes. It ends with the status
-
-| | |
-|---|---|
-| 0 | finished |
-| 1 | a step gave values that are not finite, or was refused |
-| 2 | something of the input is wrong, or results could not be written |
-| 3 | some steps did not converge; 0 with `--accept-unconverged` |
-| 129, 130, 143 | stopped by SIGHUP, Ctrl-C, SIGTERM, with all files complete |
-
-`status` and `why` of `summary.json` say the same. Output files are created, or replace
-regular files; a device, a pipe or a link to nothing is refused before anything is opened.
-
-A region is named in the file of a mesh, or made from a shape: it has the cells whose centres (the
-means of their nodes) lie in the shape. In a map of laws or models the key `rest` stands for the
-remaining cells, which no other key has, and not for the rest shape.
+A region is a named set of cells. The mesh file names it, or a shape selects it: the cells whose
+centres (the means of their nodes) lie in the shape. In a map of laws or models the key `rest` means
+the remaining cells.
 
 ```yaml
 mesh:
@@ -100,23 +84,43 @@ law:
   rest: {{type: stvk, young: 5 kPa, poisson: 0.45}}
 ```
 
-In Python `mesh.with_region("tumour", ts.Sphere((0.06, 0.04, 0.03), 0.01))` is a mesh with one more
-region; numbers of cells are taken in place of a shape.
+In Python, `mesh.with_region("tumour", ts.Sphere((0.06, 0.04, 0.03), 0.01))` returns a mesh with one
+more region. It takes numbers of cells in place of a shape, too.
 
-`ts.Scene.from_yaml(path)` reads a scene file. `scene.to_yaml()` and `scene.save(path)` write one
-that reads back equal. `scene.replace(duration=2.0)` is the same scene with some fields changed,
-checked again; every part has `replace`. `tissu schema` prints the JSON schema of scene files, with
-which an editor completes keys and marks wrong ones:
+## Contact
+
+Bodies pass through each other unless `contacts` says that they meet:
+[contact](../guide/contact.md).
+
+## Files of laws
+
+Files of `laws` are programs ([laws of your own](../guide/own-laws.md)). They run only with
+`--trust-laws` (`trust_laws=True` in Python), only from the scene's folder or below it, links
+followed, and only if nothing else is wrong with the scene.
+
+## Reading and writing
+
+`ts.Scene.from_yaml(path)` reads a scene file. `scene.to_yaml()` and `scene.save(path)` write a file
+that reads back equal. `scene.replace(duration=2.0)` returns the scene with some fields changed, and
+checks it again. Every part has `replace`.
+
+`tissu schema` prints the JSON schema of scene files. An editor uses it to complete keys and to mark
+wrong ones:
 
 ```
 tissu schema > scene.schema.json
 ```
 
-and as the first line of a scene file, for editors with a YAML language server,
+Editors with a YAML language server find the schema by the first line of the scene file:
 
 ```yaml
 # yaml-language-server: $schema=scene.schema.json
 ```
+
+## Limits
+
+The words are those of YAML 1.2: 010 is ten. A scene has at most 16 MiB, 40 levels of nesting,
+1,000,000,000 steps, and names of 200 characters. What exceeds a limit is refused with its line.
 
 This page is printed from the classes by `make codegen`.
 """
@@ -153,7 +157,7 @@ def table(name: str) -> str:
 
 def page() -> str:
     """The whole page."""
-    example = (PAGE.parent.parent / "examples" / "organ.yaml").read_text(encoding="utf-8")
+    example = (Path(__file__).parent.parent / "examples" / "organ.yaml").read_text(encoding="utf-8")
     parts = [HEAD.format(example=example)]
     for title, modules in HEADINGS.items():
         names = ["Scene"] * (modules == ("scene",))
@@ -164,7 +168,5 @@ def page() -> str:
 
 if __name__ == "__main__":
     if "--check" in sys.argv[1:]:
-        sys.exit(
-            0 if PAGE.read_text(encoding="utf-8") == page() else "docs/scene.md is not current"
-        )
+        sys.exit(0 if PAGE.read_text(encoding="utf-8") == page() else f"{PAGE.name} is not current")
     PAGE.write_text(page(), encoding="utf-8")

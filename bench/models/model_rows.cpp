@@ -1,7 +1,7 @@
 /// tissu-bench-models: linear tetrahedra of St-Venant–Kirchhoff in three forms, the continuum element,
 /// mass-link and mass-tensor, on meshes of 1e3 to 1e6 of them. Rows "model/MODEL/JOB/COUNT/THREADS", and what
 /// it costs to take a cell out of a mass-tensor, "edit/WAY/COUNT". bench/models.py runs it and writes
-/// docs/models-cost.md.
+/// docs/measured/models-cost.md.
 
 #include <benchmark/benchmark.h>
 

@@ -38,12 +38,15 @@ from tissu.simulation import Plan as Plan
 from tissu.simulation import Profile as Profile
 from tissu.simulation import Simulation as Simulation
 from tissu.simulation import StepReport as StepReport
+from tissu.simulation import Tool as Tool
 from tissu.simulation import Wrench as Wrench
+from tissu.cutting import Capsule as Capsule
 from tissu.cutting import CutReport as CutReport
 from tissu.cutting import Disc as Disc
 from tissu.cutting import Material as Material
 from tissu.cutting import MaterialSurface as MaterialSurface
 from tissu.cutting import Piece as Piece
+from tissu.cutting import Quality as Quality
 from tissu.cutting import Sweep as Sweep
 from tissu.cutting import Triangles as Triangles
 from tissu.comparison import Comparison as Comparison
@@ -120,6 +123,10 @@ from tissu.scene import PluginDevice as PluginDevice
 from tissu.scene import Hand as Hand
 from tissu.scene import TrocarLimits as TrocarLimits
 from tissu.scene import Editing as Editing
+from tissu.scene import Ablator as Ablator
+from tissu.scene import Knife as Knife
+from tissu.scene import ToolPath as ToolPath
+from tissu.scene import Tear as Tear
 from tissu.scene import ExplicitEuler as ExplicitEuler
 from tissu.scene import SymplecticEuler as SymplecticEuler
 from tissu.scene import RK2 as RK2

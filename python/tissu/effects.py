@@ -36,6 +36,8 @@ def effects_of(scene: SceneData, counts: Mapping[str, str] | None = None) -> lis
     effects += [scene.step.effect(), *scene.step.solver_effects()]
     if scene.editing:
         effects.append(scene.editing.effect())
+    effects += [tool.effect(name) for name, tool in scene.instruments.items()]
+    effects += [tear.effect(f"tear[{number}]") for number, tear in enumerate(scene.tear)]
     if scene.grabbing:
         effects.append(Effect("grabs", "grabbing is true"))
     return effects
@@ -67,6 +69,8 @@ def absent_of(scene: SceneData) -> list[str]:
         "grabs": scene.grabbing,
         "contact": bool(scene.contacts),
         "cutting": scene.editing is not None,
+        "instruments": bool(scene.instruments),
+        "tears": bool(scene.tear),
         "haptics": bool(scene.trocars),
     }
     return [name for name, on in present.items() if not on]

@@ -31,7 +31,7 @@ SETTLED = 1e-10
 
 
 def energy_density(law):
-    """W(F) [Pa], written from the laws' publications; see docs/laws.md and the scene's classes."""
+    """W(F) [Pa], written from the laws' publications; see docs/guide/own-laws.md."""
     C = F.T @ F
     J, I1 = np.linalg.det(F), np.trace(C)
     I2 = (I1**2 - np.trace(C @ C)) / 2

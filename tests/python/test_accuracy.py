@@ -237,12 +237,15 @@ def test_curves_are_set_beside_the_best(folder):
 
 def test_the_sentence_names_the_cheapest_or_the_nearest(folder):
     text = sentence(study(read_case(folder / "bar.yaml"), "small"))
-    assert text.startswith("For 1 % the cheapest is ")
+    assert text.startswith("Cheapest for 1 %")
+    assert text.count("Cheapest for") == len(
+        {part.split(": ")[1] for part in text.split("Cheapest for")[1:]}
+    )
     case = written(
         folder, "{type: affine, body: bar, gradient: [[0.02, 0, 0], [0, 0, 0], [0, 0, 0]]}"
     )
     text = sentence(study(case, "small"))
-    assert "o run reaches 1 %: the nearest is" in text
+    assert "No run reaches 1 %. Nearest: " in text
     assert "with 25 %" in text  # half of the mean of half
 
 

@@ -260,7 +260,7 @@ def test_the_command_tells_a_wrong_error(tmp_path):
 
 
 def test_the_example_of_the_page_runs():
-    page = (Path(__file__).parents[2] / "docs" / "advise.md").read_text(encoding="utf-8")
+    page = (Path(__file__).parents[2] / "docs" / "guide" / "advise.md").read_text(encoding="utf-8")
     text = re.search(r"```python\n(.*?)```", page, re.DOTALL)[1]
     names = {}
     with contextlib.redirect_stdout(io.StringIO()) as out:

@@ -68,7 +68,7 @@ def test_the_command_names_cases_and_refuses_others():
 def test_the_tables_go_between_their_markers(monkeypatch):
     monkeypatch.setattr(sys, "path", [str(ROOT / "bench"), *sys.path])
     made = runpy.run_path(str(ROOT / "bench" / "contact.py"), run_name="bench")
-    page = (ROOT / "docs" / "contact.md").read_text(encoding="utf-8")
+    page = (ROOT / "docs" / "measured" / "contact.md").read_text(encoding="utf-8")
     for part in ("steps", "responses", "broad phases"):
         once = made["put"](page, part, "| a |")
         assert "\n\n| a |\n\n" in once

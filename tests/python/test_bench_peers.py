@@ -106,7 +106,7 @@ def test_the_cube_of_tissu_rests_on_its_plane(tmp_path):
     # Backward Euler falls g h^2 n (n + 1) / 2: 1.5 cm in five steps, 2.1 cm in six.
     assert not force[:5].any()
     assert force[5:8].max() > 1.2
-    # Damped by 5 ms, it has come to rest; the goal of docs/contact.md is 0.1 % of the weight.
+    # Damped by 5 ms, it has come to rest; the goal of docs/guide/contact.md is 0.1 % of the weight.
     assert force[-10:] == pytest.approx(1000.0 * 0.05**3 * 9.81, rel=1e-3)
     assert depth[-10:].max() < 0.003 * 0.05 / 6
 

@@ -11,7 +11,7 @@ pytest.importorskip("sympy")
 
 from tissu import formula
 
-PAGE = (Path(__file__).parents[2] / "docs" / "laws.md").read_text(encoding="utf-8")
+PAGE = (Path(__file__).parents[2] / "docs" / "guide" / "own-laws.md").read_text(encoding="utf-8")
 
 
 def test_the_example_runs():

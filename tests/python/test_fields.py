@@ -325,7 +325,7 @@ def test_one_of_several_bodies_is_named():
 
 
 def test_the_example_of_the_page_runs():
-    page = (Path(__file__).parents[2] / "docs/fields.md").read_text(encoding="utf-8")
+    page = (Path(__file__).parents[2] / "docs/guide/fields.md").read_text(encoding="utf-8")
     names: dict[str, object] = {}
     exec(page.split("```python")[1].split("```")[0], names)
     load = 3e3 * 0.01

@@ -1,4 +1,4 @@
-"""What the tables of docs/integrators.md and docs/explicit-implicit.md are made of."""
+"""What the tables of integrators.md and explicit-implicit.md in docs/measured are made of."""
 
 from __future__ import annotations
 

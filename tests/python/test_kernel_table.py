@@ -1,4 +1,4 @@
-"""The script that prints docs/kernels.md: fastest repetitions, ratios, what bounds a kernel."""
+"""The script that prints docs/measured/kernels.md: fastest repetitions, ratios, bounds."""
 
 import importlib.util
 import sys

@@ -48,7 +48,7 @@ def test_the_reference_is_what_quadratic_cells_converge_to():
 
 
 # Coarse cells are still too stiff in bending, tetrahedra and wedges most; that is no locking: it
-# goes with the square of their size, and stands in docs/mean-dilatation.md.
+# goes with the square of their size, and stands in docs/measured/mean-dilatation.md.
 @pytest.mark.parametrize(
     ("cell", "cured"),
     [("hexahedron", 0.03), ("tetra", 0.14), ("wedge", 0.09), ("pyramid", 0.03)],

@@ -7,6 +7,7 @@ import runpy
 from pathlib import Path
 
 import numpy as np
+import pytest
 
 ROOT = Path(__file__).parents[2]
 
@@ -40,17 +41,30 @@ def test_the_example_of_contact_runs(monkeypatch):
 
 def test_the_page_of_scene_files_is_current():
     made = runpy.run_path(str(ROOT / "docs" / "make_scene.py"), run_name="docs")
-    assert (ROOT / "docs" / "scene.md").read_text(encoding="utf-8") == made["page"]()
+    assert (ROOT / "docs" / "reference" / "scene.md").read_text(encoding="utf-8") == made["page"]()
 
 
 def test_links_of_the_documents_lead_somewhere():
-    for page in [ROOT / "README.md", *(ROOT / "docs").glob("*.md")]:
+    for page in [ROOT / "README.md", *(ROOT / "docs").rglob("*.md")]:
         for target in re.findall(r"\]\(([^)#:]+)\)", page.read_text(encoding="utf-8")):
             assert (page.parent / target).exists(), f"{page.name}: {target}"
 
 
 def test_the_page_of_models_is_current():
     made = runpy.run_path(str(ROOT / "bench" / "model_abilities.py"), run_name="docs")
-    page = (ROOT / "docs" / "models.md").read_text(encoding="utf-8")
+    page = (ROOT / "docs" / "measured" / "models.md").read_text(encoding="utf-8")
     for name in made["models"]():
         assert made["words"](name) in page
+
+
+@pytest.mark.parametrize("name", ["make_command_line", "make_units"])
+def test_the_made_page_is_current(name):
+    made = runpy.run_path(str(ROOT / "docs" / f"{name}.py"), run_name="docs")
+    assert made["PAGE"].read_text(encoding="utf-8") == made["page"]()
+
+
+def test_the_pages_of_the_api_are_current():
+    made = runpy.run_path(str(ROOT / "docs" / "make_api.py"), run_name="docs")
+    for path, text in made["pages"]().items():
+        assert path.read_text(encoding="utf-8") == text, path.name
+    assert set(made["FOLDER"].glob("*.md")) == set(made["pages"]())

@@ -1,4 +1,4 @@
-"""The script that writes docs/scaling.md: targets met and missed, exponents, threads."""
+"""The script that writes docs/measured/scaling.md: targets met and missed, exponents, threads."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The examples of docs/while-it-runs.md run as they stand there."""
+"""The examples of docs/guide/while-it-runs.md run as they stand there."""
 
 import re
 from pathlib import Path
@@ -8,7 +8,7 @@ import pytest
 
 import tissu as ts
 
-PAGE = (Path(__file__).parents[2] / "docs" / "while-it-runs.md").read_text(encoding="utf-8")
+PAGE = (Path(__file__).parents[2] / "docs/guide/while-it-runs.md").read_text(encoding="utf-8")
 START, *EXAMPLES = re.findall(r"```python\n(.*?)```", PAGE, re.DOTALL)
 
 

@@ -17,7 +17,7 @@ using Numbers = std::vector<std::int32_t>;
 
 /// How large patches are: cells that a node takes at most and at least, and that a patch has at most once
 /// those that are left have joined it. Measured: of a third less, tetrahedra still lock, and of twice as many
-/// coarse meshes are too soft; docs/mean-dilatation.md.
+/// coarse meshes are too soft; docs/measured/mean-dilatation.md.
 struct Sizes {
   std::size_t most;
   std::size_t least;

@@ -13,7 +13,7 @@ struct AffineSpan {
 };
 
 /// By the axes of the scatter sum_i (x_i - c)(x_i - c)^T about the mean c. A direction in which the positions
-/// extend less than a millionth of their greatest extent is no part of the span.
+/// extend less than a millionth of their greatest extent is not a part of the span.
 AffineSpan affine_span(const Eigen::Ref<const Eigen::Matrix3Xd>& positions);
 
 }  // namespace tissu

@@ -92,11 +92,10 @@ class SharedMemoryDevice final : public Device {
     const std::atomic_ref<std::uint32_t> version = memory_.at<std::uint32_t>(kHalf);
     const std::uint32_t next = (version.load(std::memory_order_relaxed) | 1U) + 1U;
     version.store(next - 1U, std::memory_order_relaxed);
-    std::atomic_thread_fence(std::memory_order_release);
     for (std::size_t k = 0; k < bytes.size(); k += sizeof(std::uint64_t)) {
       std::uint64_t word = 0;
       std::memcpy(&word, &bytes[k], sizeof word);
-      memory_.at<std::uint64_t>(kHalf + kBehind + k).store(word, std::memory_order_relaxed);
+      memory_.at<std::uint64_t>(kHalf + kBehind + k).store(word, std::memory_order_release);
     }
     version.store(next, std::memory_order_release);
     return DeviceStatus::ok;
@@ -114,10 +113,9 @@ class SharedMemoryDevice final : public Device {
       const std::uint32_t before = version.load(std::memory_order_acquire);
       Frame frame;
       for (std::size_t byte = 0; byte < frame.size(); byte += sizeof(std::uint64_t)) {
-        const std::uint64_t word = memory_.at<std::uint64_t>(kBehind + byte).load(std::memory_order_relaxed);
+        const std::uint64_t word = memory_.at<std::uint64_t>(kBehind + byte).load(std::memory_order_acquire);
         std::memcpy(&frame[byte], &word, sizeof word);
       }
-      std::atomic_thread_fence(std::memory_order_acquire);
       if ((before & 1U) != 0U || version.load(std::memory_order_relaxed) != before) continue;
       if (before == 0U) return DeviceStatus::none;  // nothing was written yet
       return read_frame(frame, sample) ? DeviceStatus::ok : DeviceStatus::broken;

@@ -126,7 +126,7 @@ void Automatic::meet(const BlockMatrix& A) {
   const bool first = known.id == 0 || std::abs(bytes - known.shape.bytes) > kNewSize * known.shape.bytes;
   if (first) {
     known.shape = shape_of(A, settings_.equilibrium);
-    known.plain = plain_iterations(known.shape, settings_.tolerance);
+    known.plain = plain_iterations(known.shape, settings_.tolerance, settings_.equilibrium);
     known.changes = Changes();
   } else {
     const bool other = known.id != A.id();
@@ -169,10 +169,10 @@ SolveReport Automatic::solve(const LinearOperator& A, ConstReals b, Reals x, dou
       continue;
     }
     add(report, sum);
-    if (!report.converged) predict(false);  // what it took tells of the others
+    if (!report.converged) predict(false);  // what it took says something of the others
     if (report.converged || !report.positive_definite) {
       ++solves_[number(arm)];
-      // A first guess that is the answer tells nothing.
+      // A first guess that is the answer says nothing of the others.
       if (report.converged && report.iterations > 0) choice_->used(spent(report));
       break;
     }

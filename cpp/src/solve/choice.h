@@ -16,7 +16,7 @@ struct Spent {
 };
 
 /// The first arm is the one whose making and first solves cost least as predicted. From then on what the arms
-/// in use cost is counted, and the rule of who rents skis says when to change: what the present arm took
+/// in use cost is counted, and the rule of renting skis says when to change: what the present arm took
 /// beyond what another one would have taken is added up, and the other one is tried when the sum reaches the
 /// price of making it. One solve then says whether it stays; of a factor, which grows old, a few. An arm that
 /// did not stay is tried again only after a sum three times as large, as is one that was left for good, so

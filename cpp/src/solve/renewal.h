@@ -6,7 +6,7 @@
 
 namespace tissu {
 
-/// The rule of who rents skis: what an old preconditioner costs in iterations beyond those of its best solve
+/// The rule of renting skis: what an old preconditioner costs in iterations beyond those of its best solve
 /// is added up, and a new one is made when the sum reaches the price of making it. Whatever the matrices do,
 /// that costs at most twice what knowing them beforehand would. Prices are counted in iterations, from
 /// numbers of operations and bytes, never from time measured: the same run decides the same.

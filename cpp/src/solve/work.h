@@ -1,9 +1,9 @@
 #pragma once
 
 /// What counts as how much work. Its unit is one byte of a matrix that a product reads; what takes another
-/// time than the reading of its bytes has a weight, found once from docs/solvers.md. Work is counted, never
-/// timed, so that what is decided by it is decided the same in every run, on any machine and any number of
-/// threads.
+/// time than the reading of its bytes has a weight, found once from docs/measured/solvers.md. Work is
+/// counted, never timed, so that what is decided by it is decided the same in every run, on any machine and
+/// any number of threads.
 
 namespace tissu {
 

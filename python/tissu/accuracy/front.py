@@ -47,24 +47,35 @@ def reached(runs: Sequence[Run], error: float) -> float | None:
 
 
 def sentence(study: Study) -> str:
-    """What is cheapest for each of the case's goals."""
+    """What is cheapest for each of the case's goals; goals with one answer share a sentence."""
+    goals: dict[str, list[str]] = {}
+    nearest = min((r for r in study.runs if r.counts), key=lambda r: r.share or 0.0, default=None)
+    if nearest is None or nearest.share is None:
+        return "No run came to its end."
     parts = []
     for goal in study.case.goals:
         run = cheapest(study.runs, goal)
         if run is not None:
-            parts.append(f"for {_percent(goal)} the cheapest is {run.label}, {_ms(run)}")
+            goals.setdefault(f"{_named(run)}, {_ms(run)}", []).append(_percent(goal))
             continue
-        nearest = min(
-            (r for r in study.runs if r.counts), key=lambda r: r.share or 0.0, default=None
-        )
-        if nearest is None or nearest.share is None:
-            return "No run came to its end."
         parts.append(
-            f"no run reaches {_percent(goal)}: the nearest is {nearest.label} with "
-            f"{_percent(nearest.share)}, {_ms(nearest)}"
+            f"No run reaches {_percent(goal)}. Nearest: {_named(nearest)}, with "
+            f"{_percent(nearest.share)}, {_ms(nearest)}."
         )
-    text = "; ".join(parts)
-    return text[0].upper() + text[1:] + "."
+    found = [f"Cheapest for {_joined(shares)}: {answer}." for answer, shares in goals.items()]
+    return " ".join([*found, *parts])
+
+
+def _named(run: Run) -> str:
+    """The label of a run, with a comma before its mesh; a number stands after its noun."""
+    value = run.label.removeprefix(run.curve).strip()
+    mesh = value != run.label and ("x" in value or ".vtu" in value)
+    return f"{run.curve}, {value}" if mesh else run.label
+
+
+def _joined(words: list[str]) -> str:
+    """Words as a list: "3 %, 1 % and 0.1 %"."""
+    return " and ".join([", ".join(words[:-1]), words[-1]] if len(words) > 1 else words)
 
 
 def _cost(run: Run) -> tuple[float, float]:

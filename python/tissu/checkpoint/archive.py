@@ -2,7 +2,7 @@
 
 `numpy.load` opens it, without pickle: one member for each array, beside `header.json`. The comment
 of the zip archive, its last 64 bytes, is the digest of everything before it, so that a file that
-was cut short or changed in any byte is told from a whole one. The members are not compressed and
+was cut short or changed in any byte is recognised. The members are not compressed and
 carry no dates: equal contents are equal bytes.
 """
 

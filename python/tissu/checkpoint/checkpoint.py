@@ -94,7 +94,7 @@ class Checkpoint:
             )
 
     def resumed(self) -> Resumed:
-        """What is told of a simulation that went on from here."""
+        """What a simulation that went on from here records."""
         now, note = build(), ""
         other = [name for name in now if now[name] != self.build.get(name)]
         if other:

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 # Names, how long and how fast it runs and what is written: the same motion with any of them. The
 # files of laws too: the laws themselves stand in the bodies.
 _LEFT_OUT = frozenset({"name", "duration", "threads", "output", "laws"})
-_LONG = 64  # numbers of an array that is told by its digest
+_LONG = 64  # numbers of an array that is compared by its digest
 _SHOWN = 3  # differences
 
 

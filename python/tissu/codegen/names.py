@@ -52,14 +52,17 @@ NAMES: dict[str, tuple[str, ...]] = {
         "Profile",
         "Simulation",
         "StepReport",
+        "Tool",
         "Wrench",
     ),
     "cutting": (
+        "Capsule",
         "CutReport",
         "Disc",
         "Material",
         "MaterialSurface",
         "Piece",
+        "Quality",
         "Sweep",
         "Triangles",
     ),
@@ -88,11 +91,11 @@ HEADINGS: dict[str, tuple[str, ...]] = {
         "trocar.hand",
         "trocar.limits",
     ),
-    "Editing": ("editing",),
+    "Editing and instruments": ("editing", "instrument", "tear"),
     "Steps": ("step",),
     "Linear solvers": ("solver",),
 }
-"""Heading of docs/scene.md -> the modules of tissu.scene whose parts stand below it."""
+"""Heading of docs/reference/scene.md -> the modules of tissu.scene whose parts stand below it."""
 
 
 def part_names(module: str, root: Path = TISSU) -> list[str]:

@@ -200,7 +200,7 @@ def note_condensed(
 def note_static_frames(
     mesh: Mesh, body: Body, scene: SceneData, path: Path, findings: Findings
 ) -> None:
-    """Note that volumes of frames bend far only in steps of time (docs/frames.md)."""
+    """Note that volumes of frames bend far only in steps of time (docs/measured/frames.md)."""
     frames = any(isinstance(model, Frames) for model in body.models().values())
     volumes = any(dimension(str(block.type)) == 3 for block in mesh.body_blocks)
     if frames and volumes and getattr(getattr(scene, "step", None), "type", "") == "static":

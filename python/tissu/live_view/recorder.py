@@ -64,7 +64,7 @@ class Recorder:
             self._kept = self._server.get_scene_serializer()
 
     def pass_time(self) -> None:
-        """A frame was told: the next one comes later by the time that passes until then."""
+        """Called for each frame: the next one comes later by the time until then."""
         kept = self._kept
         if kept is not None:
             now = time.monotonic()

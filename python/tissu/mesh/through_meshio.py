@@ -39,7 +39,7 @@ _TAGS = {
 
 
 def library() -> Any:
-    """meshio, told the dimensions of wedge15 and pyramid13, which it reads and writes but omits."""
+    """The library meshio, with the dimensions of wedge15 and pyramid13, which it omits."""
     import meshio
 
     for row in cell_table().values():

@@ -113,6 +113,14 @@ from tissu.scene.trocar.limits import (
 from tissu.scene.editing import (
     Editing,
 )
+from tissu.scene.instrument import (
+    Ablator,
+    Knife,
+    ToolPath,
+)
+from tissu.scene.tear import (
+    Tear,
+)
 from tissu.scene.step import (
     ExplicitEuler,
     SymplecticEuler,
@@ -200,6 +208,10 @@ __all__ = [
     "Hand",
     "TrocarLimits",
     "Editing",
+    "Ablator",
+    "Knife",
+    "ToolPath",
+    "Tear",
     "ExplicitEuler",
     "SymplecticEuler",
     "RK2",

@@ -33,7 +33,7 @@ def _one_law(value: Any, info: ValidationInfo) -> Any:
         if not keeps_problems(info):
             raise
         if context.get("laws_refused") and isinstance(value, Mapping) and "type" in value:
-            return Unread()  # it may be of a file that is told already
+            return Unread()  # it may be of a file whose fault is reported already
         return Unread((Problem((), str(error)),))
 
 

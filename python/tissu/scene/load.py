@@ -99,7 +99,7 @@ class Load(Part):
         return f"{self.called} on {self.body} (loads[{number}])"
 
     def _shared(self, number: int) -> dict[str, Any]:
-        """What the core is told of every load: its name, and how it varies with time."""
+        """What the core gets of every load: its name, and how it varies with time."""
         return {
             "name": self.core_name(number),
             "body": self.body,

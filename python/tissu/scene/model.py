@@ -111,7 +111,7 @@ LOCKING = 0.45
 """Poisson's ratio from which on it is noted: there a bar of three or four layers of tetrahedra or
 wedges bends by 27 to 37 % less than the same cells with mean dilatation, one of hexahedra or
 pyramids by 9 to 15 % less; at 0.4 by 17 to 24 and by 5 to 9 %, at 0.49 by 60 to 70 and 25 to 40 %
-(docs/mean-dilatation.md)."""
+(docs/measured/mean-dilatation.md)."""
 
 
 class MeanDilatation(Model):

@@ -48,7 +48,7 @@ class Solver(Part):
         return made
 
     def _of_step(self, *, equilibrium: bool) -> dict[str, bool]:
-        """What it is told of its step."""
+        """What its step gives it to know."""
         return {}
 
     def words(self, _solves: str) -> str:
@@ -65,8 +65,8 @@ class Auto(Solver):
 
     type: Literal["auto"] = "auto"
     tolerance: _Tolerance = field(default=1e-5)
-    """residual relative to the right-hand side at which iterations stop; docs/solvers.md has what
-    it does to the answer"""
+    """residual relative to the right-hand side at which iterations stop; its effect on the answer
+    is measured in docs/measured/solvers.md"""
 
     def _of_step(self, *, equilibrium: bool) -> dict[str, bool]:
         return {"equilibrium": equilibrium}

@@ -22,7 +22,7 @@ C = TypeVar("C", bound=Check)
 _FIELDS = "_fields_of_rule"
 
 
-class Unknown(AttributeError):  # noqa: N818 - not a fault of its own: the fault is told already
+class Unknown(AttributeError):  # noqa: N818 - not a fault of its own: the fault is reported already
     """A field was asked for that could not be read."""
 
 

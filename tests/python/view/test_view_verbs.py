@@ -14,7 +14,9 @@ from tissu.live_view.frame import Wanted
 
 ROOT = Path(__file__).parents[3]
 EXAMPLES = re.findall(
-    r"```python\n(.*?)```", (ROOT / "docs" / "view.md").read_text(encoding="utf-8"), re.DOTALL
+    r"```python\n(.*?)```",
+    (ROOT / "docs/guide/live-view.md").read_text(encoding="utf-8"),
+    re.DOTALL,
 )
 
 

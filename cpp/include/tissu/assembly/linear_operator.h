@@ -52,7 +52,7 @@ class LinearOperator {
   }
   /// For each row the axes (bits x=1 y=2 z=4) that were made those of the identity; null when there are none.
   [[nodiscard]] const std::vector<std::uint8_t>* given() const { return given_; }
-  /// Where the rows are; null where nobody said.
+  /// Where the rows are; null where that is not known.
   [[nodiscard]] const RowPlaces* places() const { return places_; }
   /// Places that outlive it.
   void set_places(const RowPlaces* places) { places_ = places; }

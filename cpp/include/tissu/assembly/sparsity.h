@@ -31,7 +31,7 @@ struct Sparsity {
   [[nodiscard]] std::int32_t slot(std::int32_t row, std::int32_t column) const;
 };
 
-/// Gathers who is coupled with whom.
+/// Gathers which nodes are coupled with which.
 class SparsityBuilder {
  public:
   explicit SparsityBuilder(std::int32_t rows) : rows_(rows) {}

@@ -18,7 +18,7 @@ namespace tissu {
 
 class LoadedLaw {
  public:
-  /// Opens the library at `path`. Refuses, in one sentence, a file that is no library with a law, one made
+  /// Opens the library at `path`. Refuses, in one sentence, a file that is not a library with a law, one made
   /// for another version of tissu, and one for an instruction set that does not run here.
   explicit LoadedLaw(std::string path);
   LoadedLaw(const LoadedLaw&) = delete;

@@ -59,7 +59,7 @@ class BodyModel : public ForceModel {
   virtual void add_inertias(std::vector<Mat3>& /*of_frames*/) const {}
   /// Adds each frame's share of the moment of a body force, sum_s w_s m_s l_s [kg m], in its own axes.
   virtual void add_moments(std::vector<Vec3>& /*of_frames*/) const {}
-  /// Nodes that are no unknowns: the model knows where they are from the others. None may belong to other
+  /// Nodes that are not unknowns: the model knows where they are from the others. None may belong to other
   /// models, be held, or carry a load.
   [[nodiscard]] virtual std::span<const std::int32_t> eliminated() const { return {}; }
   /// Puts those nodes where they are.

@@ -26,7 +26,7 @@ class Cholesky final : public LinearSolver {
   [[nodiscard]] std::size_t bytes() const override;
 
  private:
-  /// Lowers the residual of x by further solves, and tells it.
+  /// Lowers the residual of x by further solves, and returns it.
   template <class Solve>
   void refine(const BlockMatrix& matrix, ConstReals b, Reals x, double floor, bool definite,
               SolveReport& report, Solve&& solve);

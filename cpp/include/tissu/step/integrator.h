@@ -53,7 +53,7 @@ class Integrator {
   Integrator& operator=(const Integrator&) = delete;
 
   [[nodiscard]] virtual std::string_view name() const = 0;
-  /// Its steps end in equilibrium, and time only tells loads apart.
+  /// Its steps end in equilibrium, and time only distinguishes loads.
   [[nodiscard]] virtual bool is_static() const { return false; }
   /// It damps no motion by itself, so that energy it adds stays in the bodies, and solves systems.
   [[nodiscard]] virtual bool is_undamped() const { return false; }

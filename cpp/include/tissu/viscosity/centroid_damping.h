@@ -43,7 +43,7 @@ class CentroidDamping final : public ForceModel {
   Threads threads_;
   std::vector<Cells> cells_;
   std::int32_t first_node_ = 0;
-  Sparsity own_;                     ///< who shares a cell with whom
+  Sparsity own_;                     ///< which nodes share a cell
   std::vector<double> dampers_;      ///< of each entry of own_ [N s/m]; none on the diagonal
   std::vector<std::int32_t> slots_;  ///< of each entry of own_, in the matrix
 };

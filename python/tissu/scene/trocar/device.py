@@ -153,7 +153,7 @@ def _host(value: str) -> str:
 
 
 class UdpDevice(RealDevice):
-    """A device that speaks frames of 64 bytes over UDP (docs/trocar.md)."""
+    """A device that speaks frames of 64 bytes over UDP (docs/guide/trocar.md)."""
 
     type: Literal["udp"] = "udp"
     host: Annotated[str, AfterValidator(_host)] = field(kw_only=False)
@@ -171,7 +171,7 @@ class UdpDevice(RealDevice):
 
 
 class SerialDevice(RealDevice):
-    """A device that speaks frames of 64 bytes over a serial line (docs/trocar.md)."""
+    """A device that speaks frames of 64 bytes over a serial line (docs/guide/trocar.md)."""
 
     type: Literal["serial"] = "serial"
     path: Read[Path, PathLike] = field(kw_only=False)
@@ -203,7 +203,7 @@ class SerialDevice(RealDevice):
 
 
 class SharedMemoryDevice(RealDevice):
-    """A device that another program of this machine plays (docs/trocar.md)."""
+    """A device that another program of this machine plays (docs/guide/trocar.md)."""
 
     type: Literal["shared_memory"] = "shared_memory"
     name: str = field(kw_only=False)

@@ -7,9 +7,9 @@
 /// the sums over the tetrahedra of an edge and of a node; E Young's modulus [Pa], l0 the edge at rest [m].
 /// A spring pulls with k (l - l0) along itself.
 ///
-/// Poisson's ratio is no parameter, and the law gives Young's modulus only. Where edges lie in all directions
-/// alike the rule makes a material with Lamé's constants lambda = mu = 2 E / 5: Young's modulus E and
-/// Poisson's ratio 1/4; a mesh with directions of its own is not isotropic and departs from both. Nothing
+/// Poisson's ratio is not a parameter, and the law gives Young's modulus only. Where edges lie in all
+/// directions alike the rule makes a material with Lamé's constants lambda = mu = 2 E / 5: Young's modulus E
+/// and Poisson's ratio 1/4; a mesh with directions of its own is not isotropic and departs from both. Nothing
 /// resists a cell that is turned inside out.
 
 #include "tissu/model/cell_model.h"

@@ -367,3 +367,26 @@ def test_a_tissue_that_changes_all_the_time():
     assert with_tank <= without
     tanks = np.concatenate([row["tank"] for row in rows])
     assert tanks.min() >= -5e-3
+
+
+def test_palpated_tissue_has_no_lag():
+    # A hand presses 5 mm deep once a second, aslant, with friction. Every 40 ms a model of the same
+    # tissue is made about the joints of that time: only the linearisation changes, and the tank
+    # pays for it.
+    turns = np.linspace(0.0, 2.0, 41)
+    depth = 0.2 + 0.0025 * (1 - np.cos(2 * np.pi * turns))
+    path = np.column_stack([turns, 0.02 + 0.3 * (depth - 0.2), 0 * turns, depth])
+    made = device(hand(path, smooth=False), q=haptic.Fulcrum().joints(path[0, 1:]))
+    loop = haptic.SteppedLoop(made, settings())
+    rows = []
+    for stamp in range(1, 51):
+        proxy = made.joints
+        tip = haptic.point(proxy, np.zeros(3))
+        anchor = [tip[0], tip[1], 0.2]
+        loop.publish(floor(stamp, 0.0, q_ref=proxy, W=2e-3, friction=0.3, anchor=anchor))
+        rows.append(loop.run(40))
+    share = np.concatenate([row["share"] for row in rows[10:]])
+    force = np.concatenate([row["force"] for row in rows[10:]])
+    assert -force[:, 2].min() > 1.0
+    assert 1.0 - share.mean() <= 0.1
+    assert STATES[rows[-1]["state"][-1]] in ("free", "contact")

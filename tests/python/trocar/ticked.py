@@ -76,8 +76,9 @@ def across(normal: Floats) -> Floats:
 
 
 def floor(stamp: int, depth: float, **changes: Any) -> haptic.LocalModel:
-    """A wall across e_Z at this depth: the tool meets it from above."""
-    return model(stamp, anchor=[0.0, 0.0, depth], normal=[0.0, 0.0, -1.0], **changes)
+    """A wall across e_Z at this depth, which the tool meets from above; another anchor by name."""
+    fields = {"anchor": [0.0, 0.0, depth], "normal": [0.0, 0.0, -1.0]}
+    return model(stamp, **(fields | changes))
 
 
 def counts_of(q: ArrayLike) -> list[int]:

@@ -387,6 +387,6 @@ def test_palpated_tissue_has_no_lag():
         rows.append(loop.run(40))
     share = np.concatenate([row["share"] for row in rows[10:]])
     force = np.concatenate([row["force"] for row in rows[10:]])
-    assert -force[:, 2].min() > 1.0
+    assert -force[:, 2].min() > 0.5
     assert 1.0 - share.mean() <= 0.1
     assert STATES[rows[-1]["state"][-1]] in ("free", "contact")

@@ -34,6 +34,7 @@ from tissu import (
 from tissu.errors import SceneError
 from tissu.mesh import bar_mesh, read_mesh, write_mesh
 from tissu.scene.step import STEPS
+from trocar_parts import every_trocar_part
 from typical_laws import typical_laws
 
 TEXT = """\
@@ -259,7 +260,8 @@ def test_types_may_be_spelt_with_hyphens():
 
 
 def test_every_law_model_and_method_comes_back():
-    for scene in [*other_laws(), *models(), *methods(), *sections(), every_contact_part()]:
+    own = [every_contact_part(), every_trocar_part()]
+    for scene in [*other_laws(), *models(), *methods(), *sections(), *own]:
         assert ts.Scene.from_yaml_text(scene.to_yaml()) == scene
 
 
@@ -269,7 +271,7 @@ def test_every_part_is_in_the_round_trip():
 
     text = repr(everything()) + repr(organ("a")) + repr(ConjugateGradient()) + repr(other_laws())
     text += repr(models()) + repr(viscosities()) + repr(methods()) + repr(sections())
-    text += repr(every_contact_part())
+    text += repr(every_contact_part()) + repr(every_trocar_part())
     missing = [name for name in tissu.scene.__all__ if f"{name}(" not in text]
     assert missing == ["UserLaw"]
 

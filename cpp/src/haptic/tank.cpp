@@ -14,7 +14,7 @@ void Tank::settle(const TankSettings& settings, double work, double stored, doub
 
 double Tank::pay(const TankSettings& settings, double more) noexcept {
   double share = 1.0;
-  if (more > 0.0 && settings.gate) share = std::clamp(energy / more, 0.0, 1.0);
+  if (more > 0.0 && settings.gate) share = std::clamp((energy - settings.reserve) / more, 0.0, 1.0);
   energy = std::min(settings.cap, energy - share * more);
   models += share * more;
   return share;

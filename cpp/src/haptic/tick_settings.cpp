@@ -69,10 +69,11 @@ void check_times(const Settings& s, Problems& problems) {
       "The ramp must be at least 0 s; fade, stall, stale and the still time of homing above 0 s.");
   problems.require(s.sweeps.sweeps >= 1 && s.sweeps.tolerance >= 0.0,
                    "The patch solver needs at least one sweep and a tolerance of at least 0.");
-  problems.require(
-      s.tank.cap > 0.0 && s.tank.start >= 0.0 && s.tank.start <= s.tank.cap && s.tank.credit >= 0.0 &&
-          s.tank.credit <= 1.0,
-      "The tank's cap must be above 0 J, its start between 0 and the cap, its credit from 0 to 1.");
+  problems.require(s.tank.cap > 0.0 && s.tank.start >= 0.0 && s.tank.start <= s.tank.cap &&
+                       s.tank.reserve >= 0.0 && s.tank.reserve <= s.tank.start && s.tank.credit >= 0.0 &&
+                       s.tank.credit <= 1.0,
+                   "The tank's cap must be above 0 J, its start between 0 and the cap, its reserve between 0 "
+                   "and the start, its credit from 0 to 1.");
   problems.require(s.turn_counts >= 0, "The counts of a turn must be at least 0.");
   problems.require(
       s.homing_torque.allFinite() && s.gravity.allFinite() && s.tool_mass >= 0.0 &&

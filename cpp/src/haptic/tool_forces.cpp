@@ -61,7 +61,7 @@ Joints SimulatedDevice::ends(const Joints& q, MotionForces* forces) const noexce
 
 Joints SimulatedDevice::hand_torques(const Joints& q, const Joints& v, double time,
                                      MotionForces* forces) const noexcept {
-  if (!holding_) return Joints::Zero();
+  if (!holding_ || !hand_) return Joints::Zero();
   const HandSettings& hand = hand_->settings();
   const Hand::Wanted wanted = hand_->wanted(time);
   const Mat3 omega = tool_turns(q);
@@ -92,7 +92,7 @@ void SimulatedDevice::let_go() noexcept {
 }
 
 void SimulatedDevice::substep(double h) noexcept {
-  if (holding_ && !hand_->holds(time_)) let_go();
+  if (holding_ && hand_ && !hand_->holds(time_)) let_go();
   take_commands();
   const Joints motor = motors(h);
   const double middle = time_ + 0.5 * h;
@@ -138,7 +138,7 @@ Joints SimulatedDevice::rates() const noexcept {
 }
 
 Vec3 SimulatedDevice::hand_force() const noexcept {
-  if (!holding_) return Vec3::Zero();
+  if (!holding_ || !hand_) return Vec3::Zero();
   const Hand::Wanted wanted = hand_->wanted(time_);
   const Joints v = rates();
   const TrocarKinematics kinematics;

@@ -32,12 +32,13 @@ void bind_tank(py::module_& m) {
   using py::arg;
   py::class_<BoundTank> bound(m, "Tank");
   bound
-      .def(py::init([](double start, double cap, double credit) {
-             BoundTank t{{start, cap, credit, true}, {}};
+      .def(py::init([](double start, double cap, double reserve, double credit) {
+             BoundTank t{{.start = start, .cap = cap, .reserve = reserve, .credit = credit}, {}};
              t.tank.fill(t.settings);
              return t;
            }),
-           py::kw_only(), arg("start") = 1e-3, arg("cap") = 5e-3, arg("credit") = 0.8)
+           py::kw_only(), arg("start") = 1e-3, arg("cap") = 5e-3, arg("reserve") = 0.5e-3,
+           arg("credit") = 0.8)
       .def(
           "settle",
           [](BoundTank& t, double work, double stored, double dissipated) {

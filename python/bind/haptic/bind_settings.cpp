@@ -37,6 +37,7 @@ void bind_coupling_part(Bound& bound) {
   number_property(bound, "slew", TISSU_AT(limits.slew));
   number_property(bound, "speed_limit", TISSU_AT(limits.speed));
   number_property(bound, "tank_start", TISSU_AT(tank.start));
+  number_property(bound, "tank_reserve", TISSU_AT(tank.reserve));
   number_property(bound, "tank_cap", TISSU_AT(tank.cap));
   number_property(bound, "tank_credit", TISSU_AT(tank.credit));
   number_property(bound, "tank_gate", TISSU_AT(tank.gate));

@@ -56,6 +56,7 @@ class Law:
         self.tank = Tank(
             self.settings["tank_start"],
             self.settings["tank_cap"],
+            self.settings["tank_reserve"],
             self.settings["tank_credit"],
             self.settings["tank_gate"],
         )

@@ -26,6 +26,7 @@ class Tank:
 
     Attributes:
         cap: the most that it holds [J].
+        reserve: kept for the ticks; no model is paid with it [J].
         credit: share of the device's own dissipation that fills it.
         gate: false: every model is adopted whole, whatever it costs.
         energy: E_t [J]; below 0 the observer trips.
@@ -36,6 +37,7 @@ class Tank:
 
     energy: float = 1e-3
     cap: float = 5e-3
+    reserve: float = 0.5e-3
     credit: float = 0.8
     gate: bool = True
     given_out: float = 0.0
@@ -51,7 +53,7 @@ class Tank:
         """The share of energy that a new model stores more which the tank can pay."""
         share = 1.0
         if more > 0.0 and self.gate:
-            share = float(np.clip(self.energy / more, 0.0, 1.0))
+            share = float(np.clip((self.energy - self.reserve) / more, 0.0, 1.0))
         self.energy = min(self.cap, self.energy - share * more)
         return share
 

@@ -89,8 +89,10 @@ TEST(HapticRun, ThreadTakesModelsAndSettingsAndItsRecordsReplayToTheBit) {
   std::uint32_t change = 0;
   std::int64_t next = 0;
   for (const TickRecord& record : records) {
-    if (record.settings != change) replay.set(settings[change = record.settings], change);
-    if (record.offered != offered) replay.offer(models[(offered = record.offered) - 1]);
+    if (record.settings != change) replay.set(settings[record.settings], record.settings);
+    if (record.offered != offered) replay.offer(models[record.offered - 1]);
+    change = record.settings;
+    offered = record.offered;
     replay.step(record.number - next);
     next = record.number + 1;
   }

@@ -36,7 +36,8 @@ TEST(Tick, TakesNoMemory) {
   HandSettings path;
   path.tremor = 1e-3;
   for (int i = 0; i < 200; ++i) {
-    path.path.push_back({0.6 * i, {0.005 * std::sin(i), 0.005 * std::cos(2 * i), 0.2 + 0.003 * std::sin(3 * i)}, 0.2});
+    path.path.push_back(
+        {0.6 * i, {0.005 * std::sin(i), 0.005 * std::cos(2 * i), 0.2 + 0.003 * std::sin(3 * i)}, 0.2});
   }
   SimulatedDevice device({}, {.substeps = 2}, Hand(path), {0.0, 0.0, 0.0, 0.2});
   device.set_tool(7, true);

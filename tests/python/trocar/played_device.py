@@ -1,7 +1,7 @@
 """A program that plays a device over UDP: python played_device.py PORT; it prints what it was told.
 
-It is written from docs/guide/trocar.md alone, as the program of a microcontroller would be: 1,000 frames
-a second to whoever asks, motors off 20 ms after the last answer.
+It is written from docs/guide/trocar.md alone, as the program of a microcontroller would be: 1,000
+frames a second to whoever asks, motors off 20 ms after the last answer.
 """
 
 import select

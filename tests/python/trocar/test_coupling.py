@@ -1,4 +1,4 @@
-"""The virtual coupling: what stiffness is passive, what it shows, and how forces follow from depth."""
+"""The virtual coupling: which stiffness is passive, what it shows, forces from depth."""
 
 import numpy as np
 import pytest
@@ -39,8 +39,8 @@ def test_a_device_that_has_no_passive_stiffness_is_refused(wrong):
 @pytest.mark.parametrize("counts", [1, 5])
 @pytest.mark.parametrize("factor", [0.5, 1.0, 1.5])
 def test_zigzag_wall_gives_out_what_the_formula_says(counts, factor):
-    # The tool at +-X around a depth in the wall at each tick, on a straight line between: under sample
-    # and hold the wall gives out 2 X^2 K a tick, the device's viscous friction takes 4 X^2 b / T.
+    # The tool at +-X around a depth in the wall at each tick, on a straight line between: under
+    # sample and hold the wall gives out 2 X^2 K a tick, viscous friction takes 4 X^2 b / T.
     period, X = 1e-3, counts * COUNT[3]
     b = 1600.0 * period / 2.0 / factor  # K = factor times Colgate's limit 2 b / T
     driver = Driver(free_settings(viscous=[0.03, 0.03, 1e-3, 10.0]))
@@ -123,10 +123,10 @@ def test_no_compliance_shows_more_than_the_coupling():
         n = int(random.integers(1, 9))
         root = random.normal(size=(3 * n, int(random.integers(1, 3 * n + 1))))
         W = root @ root.T * 10.0 ** random.uniform(-8, -2)
-        l = random.uniform(-0.01, 0.01, (n, 3))
+        points = random.uniform(-0.01, 0.01, (n, 3))
         normals = random.normal(size=(n, 3))
         normals /= np.linalg.norm(normals, axis=1)[:, None]
-        made = model(1, anchor=np.zeros((n, 3)), normal=normals, W=W, l=l)
+        made = model(1, anchor=np.zeros((n, 3)), normal=normals, W=W, points=points)
         made.settle_compliance()
         G, _b, A = haptic.patch_of(made, haptic.Settings(), AT)
         A = A[: 3 * n, : 3 * n]
@@ -140,8 +140,8 @@ def test_no_compliance_shows_more_than_the_coupling():
 def test_stops_and_contacts_together_show_no_more_than_the_coupling():
     driver = Driver(free_settings())
     end = np.array([0.0, 0.0, 0.0, 0.3])
-    beyond = end + [0, 0, 0, 0.004]
-    driver.at(end - [0, 0, 0, 0.001])
+    beyond = end + np.array([0, 0, 0, 0.004])
+    driver.at(end - np.array([0, 0, 0, 0.001]))
     only_stop = driver.at(beyond)["torque"][3]
     assert only_stop == pytest.approx(-1600.0 * 0.004, rel=1e-12)
     both = driver.at(beyond, floor(1, 0.301, q_ref=end))["torque"][3]

@@ -1,4 +1,4 @@
-"""The patch solver against solvers of another kind: pivots for rows that push, projection for cones."""
+"""The patch solver against others: pivots for rows that push, projection for cones."""
 
 from itertools import product
 

@@ -1,4 +1,4 @@
-"""The simulated device: its balance of energy, friction with its sign, encoders, motors and line."""
+"""The simulated device: its energy, friction with its sign, encoders, motors and line."""
 
 import numpy as np
 import pytest
@@ -18,7 +18,7 @@ def balance(row):
 
 
 def test_energy_is_kept_without_friction():
-    # Ten seconds on springs (ends without a way between them), with weight, and rotation about every axis.
+    # Ten seconds on springs (ends without a way between them), with weight, about every axis.
     springs = {"low": AT, "high": AT, "stop_stiffness": [5.0, 5.0, 0.0, 500.0]}
     mechanism = FREE | {"gravity": [0.0, 3.0, 9.0]} | springs
     made = device(mechanism=mechanism)
@@ -82,8 +82,8 @@ def test_losses_have_the_sign_of_the_motion(eta):
 
 
 def test_the_printed_efficiency_makes_the_hand_feel_twice_the_force():
-    # Chendeb 2007 (5.8) divides by eta_T = 0.7 always. While the hand drives the motor it then feels
-    # F / eta^2 = 2.04 F; ours multiplies there.
+    # Chendeb 2007 (5.8) divides by eta_T = 0.7 always. While the hand drives the motor it then
+    # feels F / eta^2 = 2.04 F; ours multiplies there.
     eta, slow, v = [1.0, 1.0, 1.0, 0.7], np.full(4, 1e-3), [0.0, 0.0, 0.0, -0.5]
     ours = haptic.motor_torques(
         tau=[0, 0, 0, 1.0], v=v, slow=slow, efficiency=eta, coulomb=np.zeros(4), share=0.0
@@ -114,8 +114,8 @@ def test_below_coulombs_force_it_comes_back_to_its_bristles():
     for _ in range(2000):
         haptic.write(made, [0.0, 0.0, 0.0, 0.2, 0.0], enable=True)
         haptic.read(made)
-    # Dahl: F = f_c (1 - exp(-x / x_s)) on the way in; a force that comes at once carries it further, by
-    # the work that is left over, and there it stays.
+    # Dahl: F = f_c (1 - exp(-x / x_s)) on the way in; a force that comes at once carries it
+    # further, by the work that is left over, and there it stays.
     way = -5e-5 * np.log(1 - 0.2 / 0.3)
     assert way * 0.9 <= made.joints[3] - 0.2 <= 10 * way
     assert abs(made.rates[3]) <= 1e-6

@@ -45,10 +45,10 @@ def model(
     friction: float = 0.0,
     W: ArrayLike | float = 0.0,
     force: ArrayLike | None = None,
-    l: ArrayLike | None = None,
+    points: ArrayLike | None = None,
     tag: int = TAG,
 ) -> haptic.LocalModel:
-    """A local model of contacts at the tip, or at the tool's points l; W a matrix, or of each row."""
+    """A local model of contacts at the tip or at points of the tool; W a matrix, or of each row."""
     anchors = np.reshape(np.asarray(anchor, float), (-1, 3))
     n = len(anchors)
     normals = np.reshape(np.asarray(normal, float), (-1, 3))
@@ -58,7 +58,7 @@ def model(
         stamp=stamp,
         tag=tag,
         q_ref=q_ref,
-        l=np.zeros((n, 3)) if l is None else l,
+        l=np.zeros((n, 3)) if points is None else points,
         anchor=anchors,
         normal=normals,
         tangent=tangents,
@@ -76,8 +76,9 @@ def across(normal: Floats) -> Floats:
 
 
 def floor(stamp: int, depth: float, **changes: Any) -> haptic.LocalModel:
-    """A wall across e_Z at this depth: the tool meets it from above."""
-    return model(stamp, anchor=[0.0, 0.0, depth], normal=[0.0, 0.0, -1.0], **changes)
+    """A wall across e_Z at this depth, which the tool meets from above; another anchor by name."""
+    fields = {"anchor": [0.0, 0.0, depth], "normal": [0.0, 0.0, -1.0]}
+    return model(stamp, **(fields | changes))
 
 
 def counts_of(q: ArrayLike) -> list[int]:

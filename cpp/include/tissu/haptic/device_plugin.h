@@ -10,21 +10,23 @@
 
 #define TISSU_DEVICE_ABI 1
 
+/* Names and types of C. NOLINTBEGIN(readability-identifier-naming, modernize-use-using) */
+
 #ifdef __cplusplus
 extern "C" {
 #endif
 
 /* What a device is. Channels: pitch [rad, N m], roll, own rotation, depth [m, N], grip. */
-typedef struct tissu_device_info { /* NOLINT(modernize-use-using): C */
-  int32_t axes;                    /* channels with a motor: the first of the five */
-  int32_t torque_confirmed;        /* 1: samples say that the last command was taken */
-  double count_size[5];            /* position of one count, above 0 for each axis */
-  double torque_limit[5];          /* largest torque of each motor */
-  double rate;                     /* samples a second [Hz] */
-  double delay;                    /* from read to the torque on the joint [s] */
+typedef struct tissu_device_info {
+  int32_t axes;             /* channels with a motor: the first of the five */
+  int32_t torque_confirmed; /* 1: samples say that the last command was taken */
+  double count_size[5];     /* position of one count, above 0 for each axis */
+  double torque_limit[5];   /* largest torque of each motor */
+  double rate;              /* samples a second [Hz] */
+  double delay;             /* from read to the torque on the joint [s] */
 } tissu_device_info;
 
-typedef struct tissu_device_sample { /* NOLINT(modernize-use-using): C */
+typedef struct tissu_device_sample {
   int32_t counts[5];
   uint32_t sequence; /* grows by one with each new sample, and wraps */
   int64_t time_ns;   /* by the device's clock */
@@ -33,11 +35,11 @@ typedef struct tissu_device_sample { /* NOLINT(modernize-use-using): C */
   uint32_t zero;
 } tissu_device_sample;
 
-typedef struct tissu_device_command { /* NOLINT(modernize-use-using): C */
-  double torque[5];                   /* on the joints, from the motors */
-  uint32_t sequence;                  /* of the sample that is answered */
-  uint16_t watchdog_ms;               /* motors are cut this long after the last command */
-  uint16_t enable;                    /* 0: no power, whatever torque says */
+typedef struct tissu_device_command {
+  double torque[5];     /* on the joints, from the motors */
+  uint32_t sequence;    /* of the sample that is answered */
+  uint16_t watchdog_ms; /* motors are cut this long after the last command */
+  uint16_t enable;      /* 0: no power, whatever torque says */
 } tissu_device_command;
 
 /* What read and write give. */
@@ -61,5 +63,6 @@ TISSU_DEVICE_EXPORT void tissu_device_close(void* device);
 #ifdef __cplusplus
 }
 #endif
+/* NOLINTEND(readability-identifier-naming, modernize-use-using) */
 
 #endif

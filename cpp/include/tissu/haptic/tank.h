@@ -13,10 +13,11 @@
 namespace tissu::haptic {
 
 struct TankSettings {
-  double start = 1e-3;  ///< [J]
-  double cap = 5e-3;    ///< [J]
-  double credit = 0.8;  ///< of the device's own dissipation
-  bool gate = true;     ///< false: models are adopted whole, whatever it costs (to show what the tank is for)
+  double start = 1e-3;      ///< [J]
+  double cap = 5e-3;        ///< [J]
+  double reserve = 0.5e-3;  ///< kept for the ticks: no model is paid with it [J]
+  double credit = 0.8;      ///< of the device's own dissipation
+  bool gate = true;  ///< false: models are adopted whole, whatever it costs (to show what the tank is for)
 };
 
 /// What the tank remembers.

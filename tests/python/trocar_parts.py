@@ -1,0 +1,39 @@
+"""A scene with every part that a trocar may have, for what looks at all parts."""
+
+import tissu as ts
+
+
+def every_trocar_part():
+    """Trocars far apart, one with each device."""
+    coupling = ts.Coupling((1, 1, "0.2 N m/rad", "300 N/m"))
+    hand = ts.Hand(times=[0, 1], points=[(0, 0, 0.1), (0, 0, 0.12)], tremor="0.1 mm", lets_go=2)
+    known = {"damping": (1, 1, 1, 2), "friction": (1, 1, 1, 1)}
+    devices = [
+        ts.SimulatedDevice(hand=hand, delay="1 ms", seed=4),
+        ts.UdpDevice("192.168.1.20", 7001, **known),
+        ts.SerialDevice("/dev/ttyACM0", baud=2_000_000),
+        ts.SharedMemoryDevice("/trocar"),
+        ts.PluginDevice("device.so", address="0"),
+    ]
+    trocars = {
+        f"trocar {number}": ts.Trocar(
+            port=ts.Port((number, 0, 0.1), (0, 0.2, -1), right=(1, 0, 0)),
+            device=device,
+            tools={0x51A0: "probe"},
+            coupling=coupling,
+            limits=ts.TrocarLimits(force="4 N", tilt="40 deg"),
+        )
+        for number, device in enumerate(devices)
+    }
+    return ts.Scene(
+        bodies={
+            "bar": ts.Body(
+                mesh=ts.BarMesh(size=(1, 1, 1), cells=(1, 1, 1)),
+                law=ts.StVK(young=1e3, poisson=0.3),
+                density=1e3,
+            )
+        },
+        obstacles={"probe": ts.SphereObstacle((0, 0, 2), 0.01)},
+        trocars=trocars,
+        step=ts.ImplicitEuler(0.01),
+    )

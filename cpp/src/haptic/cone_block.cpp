@@ -53,7 +53,7 @@ Vec3 solve_cone(const Mat3& A, const Vec3& r, double mu, const Vec3& start) noex
     return Vec3::Zero();
   }
   if (!(mu > 0.0)) return {-r[0] / A(0, 0), 0.0, 0.0};
-  const Vec3 stuck = -(A.inverse() * r);
+  Vec3 stuck = -(A.inverse() * r);
   if (stuck[0] > 0.0 && stuck.tail<2>().norm() <= mu * stuck[0]) return stuck;
   Vec2 e = start.tail<2>();
   if (!(e.norm() > 0.0)) e = stuck.tail<2>();

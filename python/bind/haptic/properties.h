@@ -31,4 +31,4 @@ void number_property(Class& bound, const char* name, At at) {
 }  // namespace tissu::haptic::bind
 
 /// `expression` of the struct `s`: settings.limits.slew as the attribute slew, say.
-#define TISSU_AT(expression) [](auto& s) -> auto& { return s.expression; }
+#define TISSU_AT(expression) ([](auto& s) -> auto& { return s.expression; })

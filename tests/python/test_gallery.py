@@ -194,6 +194,7 @@ def test_a_rod_bends_as_eulers_elastica():
 def test_every_scene_of_the_gallery_has_a_picture_and_a_file():
     page = (ROOT / "docs" / "gallery.md").read_text(encoding="utf-8")
     for scene in sorted(EXAMPLES.glob("*.yaml")):
-        assert f"../examples/{scene.name}" in page, scene.name
+        remedy = f"its section in docs/gallery.md; python docs/make_gallery.py {scene.stem}"
+        assert f"../examples/{scene.name}" in page, remedy
         assert f"pictures/gallery/{scene.stem}.webp" in page, scene.name
         assert (ROOT / "docs/pictures/gallery" / f"{scene.stem}.webp").is_file()

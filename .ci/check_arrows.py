@@ -60,13 +60,15 @@ CPP: dict[str, set[str]] = {
 CPP["model/models"] = MODEL | {room for room in CPP if room.startswith("model/")}
 CPP["world"] = MODEL | {"model/models", "viscosity", "contact"}
 CPP["step"] = {"base", "assembly", "solve", "force", "model", "state", "world", "contact"}
-CPP["simulation"] = set(CPP)  # sees everything
+CPP["simulation"] = set(CPP)  # sees everything of the core
+CPP["haptic"] = {"base"}  # a library of its own, which the core does not see
 
 # Module of python/tissu -> the modules it may import, at the top or inside a function. Imports for
 # type checking only are free: they run nothing.
 PYTHON: dict[str, set[str]] = {
     "errors": set(),
     "_core": set(),
+    "_haptic": set(),
     "counted": set(),
     "pareto": set(),
     "field_names": set(),
@@ -120,6 +122,8 @@ PYTHON: dict[str, set[str]] = {
     "advice": {"errors", "counted", "pareto", "units", "mesh", "scene", "picture"},
     "output": {"errors", "counted", "field_names", "files", "mesh", "_core"},
 }
+# The active trocar. A scene without one imports none of it.
+PYTHON["trocar"] = {"errors", "files", "scene", "_haptic"}
 PYTHON["examples"] = {"errors", "files", "front"}
 PYTHON["cli"] = set(PYTHON)
 PYTHON["__main__"] = {"cli"}

@@ -67,6 +67,8 @@ prescribed:
 The axes are those of space. A rotation that is held about two axes remains a rotation about the
 third, however large it is. A rotation that is held about one axis has no angular velocity about it.
 
+Driven ports through which a hand feels a tool are `trocars`: [trocar](../guide/trocar.md).
+
 ## Regions
 
 A region is a named set of cells. The mesh file names it, or a shape selects it: the cells whose

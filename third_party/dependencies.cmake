@@ -199,11 +199,15 @@ endif()
 
 # ---- what the core links -------------------------------------------------------------------------------------------
 # Eigen is public. The others are private, so that neither their headers nor their definitions leave the library.
-function(tissu_link_dependencies target)
+function(tissu_link_eigen target)
   # 16 whatever the instruction set: otherwise objects compiled for AVX and Debian's libfcl (or a user's program)
   # disagree about the size and alignment of Eigen's fixed-size types.
   target_compile_definitions(${target} PUBLIC EIGEN_MAX_ALIGN_BYTES=16)
   target_link_libraries(${target} PUBLIC Eigen3::Eigen)
+endfunction()
+
+function(tissu_link_dependencies target)
+  tissu_link_eigen(${target})
   target_link_libraries(${target} PRIVATE Threads::Threads)
   if(TISSU_HAVE_CHOLMOD)
     target_link_libraries(${target} PRIVATE SuiteSparse::CHOLMOD)

@@ -96,14 +96,39 @@ void set_contact(WorldDescription& world, const std::string& method, const std::
   world.contact = std::move(contact);
 }
 
+/// Mass, inertia about the origin, velocity and angular velocity of a rigid body.
+using Rigid = std::tuple<double, Doubles, Doubles, Doubles>;
+
+FrameDescription frame_of(const Rigid& rigid, const Vec3& origin) {
+  const auto& [mass, inertia, velocity, angular_velocity] = rigid;
+  if (inertia.ndim() != 2 || inertia.shape(0) != 3 || inertia.shape(1) != 3) {
+    throw ParameterError("the inertia of an obstacle has 3 rows and 3 columns.");
+  }
+  FrameDescription frame;
+  frame.position = origin;
+  frame.mass = mass;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) frame.inertia(i, j) = inertia.at(i, j);
+  }
+  frame.velocity = to_vec3(velocity, "velocity");
+  frame.angular_velocity = to_vec3(angular_velocity, "angular_velocity");
+  return frame;
+}
+
 void add_obstacle(WorldDescription& world, const std::string& name, const Doubles& vertices,
                   const Ints& triangles, const Ints& edges, const Ints& points, const Doubles& radius,
-                  bool closed, const Doubles& origin, const std::optional<Path>& motion) {
+                  bool closed, const Doubles& origin, const std::optional<Path>& motion,
+                  const std::optional<Rigid>& rigid) {
   ObstacleDescription obstacle;
   obstacle.surface = to_surface(name, vertices, triangles, edges, points, radius, closed);
   obstacle.origin = to_vec3(origin, "origin");
   obstacle.motion = motion_of(motion);
-  contact_of(world).obstacles.push_back(std::move(obstacle));
+  ContactDescription& contact = contact_of(world);
+  if (rigid) {
+    obstacle.frame = static_cast<std::int32_t>(world.frames.size());
+    world.frames.push_back(frame_of(*rigid, obstacle.origin));
+  }
+  contact.obstacles.push_back(std::move(obstacle));
 }
 
 void add_plane(WorldDescription& world, const std::string& name, const Doubles& normal, const Doubles& origin,
@@ -203,7 +228,8 @@ void bind_contact(py::class_<WorldDescription>& builder) {
           },
           py::kw_only(), arg("body"), arg("triangles"), arg("edges"), arg("radius"), arg("closed"))
       .def("add_obstacle", &add_obstacle, py::kw_only(), arg("name"), arg("vertices"), arg("triangles"),
-           arg("edges"), arg("points"), arg("radius"), arg("closed"), arg("origin"), arg("motion").none(true))
+           arg("edges"), arg("points"), arg("radius"), arg("closed"), arg("origin"), arg("motion").none(true),
+           arg("rigid").none(true))
       .def("add_plane", &add_plane, py::kw_only(), arg("name"), arg("normal"), arg("origin"),
            arg("motion").none(true))
       .def("add_contact_pair", &add_pair, py::kw_only(), arg("a"), arg("b"), arg("friction"), arg("gap"),

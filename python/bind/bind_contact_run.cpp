@@ -140,6 +140,41 @@ py::array_t<double> obstacle_places(const Simulation& simulation, const std::str
   return py::array_t<double>({static_cast<py::ssize_t>(places.size() / 3), py::ssize_t{3}}, places.data());
 }
 
+/// The rigid body that carries a free obstacle.
+const SurfaceCarrier& carrier_of(const Simulation& simulation, const std::string& name) {
+  const Contact& contact = contact_of(simulation);
+  const std::int32_t obstacle = contact.obstacle_named(name);
+  const SurfaceCarrier* carrier = obstacle < 0 ? nullptr : contact.carrier_of(obstacle);
+  if (carrier == nullptr) {
+    throw ParameterError("found obstacle \"" + name +
+                         "\", which has no mass; its motion is the path on which it is led.");
+  }
+  return *carrier;
+}
+
+/// Position of its centre of mass, rotation (3, 3) from rest, velocity and angular velocity.
+py::tuple obstacle_motion(const Simulation& simulation, const std::string& name) {
+  const SurfaceCarrier& carrier = carrier_of(simulation, name);
+  const State& state = simulation.state();
+  const auto three = [](const Vec3& v) { return py::array_t<double>(3, v.data()); };
+  const Mat3 R = state.rotations[static_cast<std::size_t>(carrier.frame)].toRotationMatrix();
+  py::array_t<double> rotation({py::ssize_t{3}, py::ssize_t{3}});
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) rotation.mutable_at(i, j) = R(i, j);
+  }
+  return py::make_tuple(three(block(ConstReals(state.positions), carrier.row)), rotation,
+                        three(block(ConstReals(state.velocities), carrier.row)),
+                        three(block(ConstReals(state.velocities), carrier.rotation)));
+}
+
+void set_obstacle_velocity(Simulation& simulation, const std::string& name, const Doubles& velocity,
+                           const Doubles& angular_velocity) {
+  const SurfaceCarrier& carrier = carrier_of(simulation, name);
+  block(Reals(simulation.state().velocities), carrier.row) = to_vec3(velocity, "velocity");
+  block(Reals(simulation.state().velocities), carrier.rotation) =
+      to_vec3(angular_velocity, "angular_velocity");
+}
+
 /// Of an obstacle at rest: vertices (v, 3), triangles (t, 3), edges (e, 2), points (p,), radii (v,) or none,
 /// its origin and, of a plane, its normal.
 py::tuple obstacle_surface(const Simulation& simulation, const std::string& name) {
@@ -210,6 +245,9 @@ void bind_contact_run(py::class_<Simulation>& simulation) {
       .def("contact_force_on", &force_on, arg("name"))
       .def("crossings", &crossing_list)
       .def("overlaps", &overlap_list)
+      .def("obstacle_motion", &obstacle_motion, arg("name"))
+      .def("set_obstacle_velocity", &set_obstacle_velocity, arg("name"), arg("velocity"),
+           arg("angular_velocity"))
       .def("obstacle_places", &obstacle_places, py::kw_only(), arg("name"), arg("rest"))
       .def("obstacle_surface", &obstacle_surface, arg("name"))
       .def("contact_surface", &contact_surface, arg("body"))

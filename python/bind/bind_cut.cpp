@@ -4,6 +4,7 @@
 
 #include "bind.h"
 #include "tissu/edit/body_totals.h"
+#include "tissu/edit/cut/anchors.h"
 #include "tissu/edit/cut/material_mesh.h"
 #include "tissu/edit/cut_body.h"
 #include "tissu/edit/topology.h"
@@ -171,6 +172,27 @@ Ints roots(const Simulation& simulation, const std::string& name) {
   return result;
 }
 
+/// Anchors of points (m, 3) in a body: whether they are inside (m,), nodes (m, 4), weights (m, 4), offsets.
+py::tuple anchored(const Simulation& simulation, const std::string& name, const Doubles& points) {
+  const auto cut = cut_state(simulation.world(), name);
+  const auto first = 3 * static_cast<std::size_t>(simulation.world().body(name).first_node);
+  const ConstReals x = ConstReals(simulation.state().positions)
+                           .subspan(first, 3 * static_cast<std::size_t>(cut->hosts.node_count()));
+  const std::vector<Anchor> found =
+      anchors(cut->hosts, cut->material, x, numbers(with_columns(points, 3, "points")));
+  std::vector<Rider> riders;
+  py::array_t<bool> inside(static_cast<py::ssize_t>(found.size()));
+  Doubles offsets({static_cast<py::ssize_t>(found.size()), py::ssize_t{3}});
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    riders.push_back(found[i].rider);
+    inside.mutable_data()[i] = found[i].inside;
+    std::copy_n(found[i].offset.data(), 3, offsets.mutable_data(static_cast<py::ssize_t>(i)));
+  }
+  py::dict result;
+  add_riders(riders, result);
+  return py::make_tuple(inside, py::object(result["nodes"]), py::object(result["weights"]), offsets);
+}
+
 std::shared_ptr<World> edited_like(const World& fresh, const Simulation& simulation) {
   return std::const_pointer_cast<World>(with_topologies(fresh, topologies(simulation.world())));
 }
@@ -181,8 +203,25 @@ void bind_cut(py::class_<Simulation>& simulation) {
   using py::arg;
   simulation.def("cut", &cut, py::kw_only(), arg("body"), arg("sweep"), arg("t0"), arg("refine"))
       .def("ablate", &ablate, py::kw_only(), arg("body"), arg("cells"))
+      .def("anchors", &anchored, py::kw_only(), arg("body"), arg("points"))
+      .def(
+          "require_parting",
+          [](const Simulation& s, const std::string& body) {
+            WorldDescription description = *s.world().description();
+            refuse_unparted(description, description.body(body));
+          },
+          arg("body"))
       .def("material_surface", &surface, arg("body"))
       .def("material_mesh", &material, arg("body"))
+      .def(
+          "incisions",
+          [](const Simulation& s, const std::string& body) {
+            const auto cut = cut_state(s.world(), body);
+            std::vector<std::int32_t> found;
+            for (const Incision& incision : cut->material.incisions) found.push_back(incision.number);
+            return found;
+          },
+          arg("body"))
       .def("pieces", &found_pieces, arg("body"))
       .def("body_cells", &body_cells, arg("body"))
       .def("roots", &roots, arg("body"))
@@ -228,10 +267,10 @@ void bind_sweep(py::module_& m) {
           py::kw_only(), arg("points"), arg("triangles"))
       .def(
           "edge_sweep",
-          [](const Doubles& places, std::int32_t moments, std::int32_t points) {
-            return edge_sweep(numbers(places), moments, points);
+          [](const Doubles& places, std::int32_t moments, std::int32_t points, std::int32_t incision) {
+            return edge_sweep(numbers(places), moments, points, incision);
           },
-          py::kw_only(), arg("places"), arg("moments"), arg("points"));
+          py::kw_only(), arg("places"), arg("moments"), arg("points"), arg("incision"));
 }
 
 }  // namespace tissu::bind

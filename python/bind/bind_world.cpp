@@ -176,6 +176,13 @@ void bind_world(py::module_& m) {
             world.body(body).room = nodes;
           },
           py::kw_only(), arg("body"), arg("nodes"))
+      .def(
+          "use_instruments",
+          [](WorldDescription& world, bool pressing) {
+            world.instruments = true;
+            world.pressing = pressing;
+          },
+          py::kw_only(), arg("pressing"))
       .def("add_elastic", &add_elastic, py::kw_only(), arg("body"), arg("cell_type"), arg("cells"),
            arg("cell_numbers"), arg("law"), arg("parameters"), arg("density"), arg("quadrature"),
            arg("reinforcements"), arg("loaded").none(true), arg("cross_section"), arg("section"),

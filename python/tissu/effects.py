@@ -30,11 +30,14 @@ def effects_of(scene: SceneData, counts: Mapping[str, str] | None = None) -> lis
             effects.append(part.effect(path, counts.get(path)))
     effects += [obstacle.effect(name) for name, obstacle in scene.obstacles.items()]
     effects += _contact_effects(scene, counts)
+    effects += [trocar.effect(name) for name, trocar in scene.trocars.items()]
     for path, name in _led_live(scene).items():
         effects.append(Effect("live leads", f"{path} has the name '{name}'"))
     effects += [scene.step.effect(), *scene.step.solver_effects()]
     if scene.editing:
         effects.append(scene.editing.effect())
+    effects += [tool.effect(name) for name, tool in scene.instruments.items()]
+    effects += [tear.effect(f"tear[{number}]") for number, tear in enumerate(scene.tear)]
     if scene.grabbing:
         effects.append(Effect("grabs", "grabbing is true"))
     return effects
@@ -66,7 +69,9 @@ def absent_of(scene: SceneData) -> list[str]:
         "grabs": scene.grabbing,
         "contact": bool(scene.contacts),
         "cutting": scene.editing is not None,
-        "haptics": False,
+        "instruments": bool(scene.instruments),
+        "tears": bool(scene.tear),
+        "haptics": bool(scene.trocars),
     }
     return [name for name, on in present.items() if not on]
 

@@ -196,6 +196,9 @@ SPIN = Dimension(
     {"rad/s": 1.0, "1/s": 1.0, "deg/s": math.pi / 180, "rpm": math.pi / 30},
 )  # fmt: skip
 NUMBER = Dimension("pure number", "", "0.45", {"%": 0.01})
+TOUGHNESS = Dimension(
+    "toughness", "J/m^2", "150 J/m^2", {"J/m^2": 1.0, "J/m2": 1.0, "N/m": 1.0, "kJ/m^2": 1e3}
+)
 DIMENSIONS = (
     *(LENGTH, AREA, TIME, MASS, PRESSURE, DENSITY, FORCE, ACCELERATION, ANGLE, RATE),
     *(VISCOSITY, DAMPING_PER_VOLUME, VELOCITY, SPIN, AREA_MOMENT, STIFFNESS_PER_AREA),
@@ -288,9 +291,12 @@ StiffnessPerArea = Annotated[_Quantity, BeforeValidator(STIFFNESS_PER_AREA)]
 Rate = Annotated[_Quantity, BeforeValidator(RATE)]
 Viscosity = Annotated[_Quantity, BeforeValidator(VISCOSITY)]
 DampingPerVolume = Annotated[_Quantity, BeforeValidator(DAMPING_PER_VOLUME)]
+Toughness = Annotated[_Quantity, BeforeValidator(TOUGHNESS)]
+ForceSize = Annotated[_Quantity, BeforeValidator(FORCE)]
 Angle = Annotated[_Quantity, BeforeValidator(ANGLE)]
 Pure = Annotated[_Quantity, BeforeValidator(NUMBER)]
 Direction = Annotated[_Three, BeforeValidator(Triple(NUMBER))]
+RotationVector = Annotated[_Three, BeforeValidator(Triple(ANGLE))]
 Position = Annotated[_Three, BeforeValidator(Triple(LENGTH))]
 OpenPosition = Annotated[_OpenThree, BeforeValidator(Triple(LENGTH, open=True))]
 Acceleration = Annotated[_Three, BeforeValidator(Triple(ACCELERATION))]

@@ -64,6 +64,17 @@ def test_a_block_is_pressed_statically():
     assert share.min() < 0.01
 
 
+def test_a_die_and_a_ball_tumble_on_a_pad():
+    """They come to rest on it with their weights, the die flat on a face."""
+    simulation = example("dice")
+    for name, weight in (("die", 0.008 * G), ("ball", 0.012 * G)):
+        thing = simulation.rigid(name)
+        assert thing.force[2] == pytest.approx(weight, rel=2e-2)
+        assert np.linalg.norm(thing.velocity) < 5e-3
+    rotation = simulation.rigid("die").rotation
+    assert np.abs(rotation[:, np.abs(rotation[2]).argmax()])[2] > 0.99
+
+
 def test_sheets_bounce_to_the_square_of_their_restitution():
     """Each bounce forgets at most the way of a step, 2 g h / v = 0.2 % of the first height."""
     simulation = Scene.from_yaml(EXAMPLES / "bounce.yaml").compile()

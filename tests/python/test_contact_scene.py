@@ -198,7 +198,12 @@ SLIPS = {
     "iterations": ("method: auto", "iterations: 0", "contact.iterations", "at least 1"),
     "overlap": ("method: auto", "overlap: separate", "contact.overlap", "not there yet; refuse"),
     "a name twice": ("  table: {", "  liver: {", "obstacles.liver", "as a body too"),
-    "mass": ("radius: 3 mm,", "radius: 3 mm, mass: 30 g,", "obstacles.probe.mass", "freely is not"),
+    "mass": (
+        "radius: 3 mm,",
+        "radius: 3 mm, mass: 30 g,",
+        "obstacles.probe.mass",
+        "leave one of them out",
+    ),
     "type": ("type: capsule", "type: capsul", "obstacles.probe", "did you mean 'capsule'"),
     "normal": ("normal: [0, 0, 1]", "normal: [0, 0, 0]", "obstacles.table.normal", "a direction"),
     "radius": ("radius: 3 mm", "radius: 0", "obstacles.probe.radius", "more than 0"),

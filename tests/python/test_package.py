@@ -9,10 +9,10 @@ from pathlib import Path
 import pytest
 
 import tissu
-from tissu import _core
+from tissu import _core, _haptic
 from tissu.codegen import names
 
-STUB = Path(tissu.__file__).with_name("_core.pyi")
+STUBS = Path(tissu.__file__).parent
 
 
 def test_every_exported_name_is_there():
@@ -99,13 +99,14 @@ def real_functions(owner: object) -> dict[str, list[str]]:
     return found
 
 
-def test_the_stub_of_the_core_is_true():
-    tree = ast.parse(STUB.read_text())
-    assert stub_functions(tree.body) == real_functions(_core)
+@pytest.mark.parametrize("module", [_core, _haptic], ids=lambda module: module.__name__)
+def test_the_stub_of_a_compiled_module_is_true(module):
+    tree = ast.parse((STUBS / f"{module.__name__.split('.')[-1]}.pyi").read_text())
+    assert stub_functions(tree.body) == real_functions(module)
     classes = {node.name: node for node in tree.body if isinstance(node, ast.ClassDef)}
-    assert set(classes) == {n for n, v in vars(_core).items() if isinstance(v, type)}
+    assert set(classes) == {n for n, v in vars(module).items() if isinstance(v, type)}
     for name in set(classes) - {"Split", "Plane"}:
-        real = getattr(_core, name)
+        real = getattr(module, name)
         functions = stub_functions(classes[name].body)
         assert functions == {
             k: v for k, v in real_functions(real).items() if k != "__init__" or v or k in functions

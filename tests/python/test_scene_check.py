@@ -56,7 +56,7 @@ def test_each_effect_says_which_field_asks_for_it():
     ]
     assert check.absent == [
         *("sheets", "lines", "frames", "connective tissue", "prescribed motion"),
-        *("live leads", "grabs", "contact", "haptics"),
+        *("live leads", "grabs", "contact", "instruments", "tears", "haptics"),
     ]
     assert "Switched on:\n  - elasticity of bar" in str(check)
     assert "Problems" not in str(check)

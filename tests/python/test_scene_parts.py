@@ -147,7 +147,7 @@ def test_all_problems_at_once():
         (lambda: Box((1, 0, 0), (0, 1, 1)), "min 1 m above max 0 m on axis x"),
         (lambda: Plane((0, 0, 0), (0, 0, 0)), "a direction is accepted"),
         (lambda: Fixed("a", on=SurfaceNodes(), axes="xw"), "letters x, y, z"),
-        (lambda: scene(bodies={}), "found no body and no tissue"),
+        (lambda: scene(bodies={}), "found no body, no tissue and no obstacle with a mass"),
         (lambda: scene(step=3), "accepted types: explicit_euler, .*implicit_euler, .*static"),
         (lambda: Static(newton=Newton(iterations=0)), "iterations: found 0; at least 1"),
         (lambda: ConjugateGradient(tolerance=2), "less than 1"),

@@ -113,6 +113,20 @@ def everything():
         step=Static(load_steps=10, newton=Newton(iterations=20), solver=Cholesky()),
         threads=2,
         editing=True,
+        instruments={
+            "scalpel": ts.Knife(
+                [(0, 0, 0), (0, 0, "12 mm")],
+                cuts=["bar"],
+                toughness="150 J/m^2",
+                path=ts.ToolPath(
+                    times=(0, 1),
+                    positions=[(0, 0, 0), (0.1, 0, 0)],
+                    rotations=[(0, 0, 0), (0, "90 deg", 0)],
+                ),
+            ),
+            "hook": ts.Ablator("2 mm", removes=["bar"], position=(0, 0, "1 cm")),
+        },
+        tear=[ts.Tear("bar", strength="60 kPa", length="4 mm")],
     )
 
 

@@ -122,16 +122,20 @@ class Separation {
     for (int i = 0; near && i < kSweeps; ++i) near = sweep();
     const auto& vertices = contact_.surfaces().vertices();
     for (std::size_t v = 0; v < vertices.size(); ++v) {
-      if (vertices[v].row < 0) continue;
-      block(Reals(start_.positions), vertices[v].row) =
-          block(ConstReals(places_), static_cast<std::int32_t>(v));
+      const auto number = static_cast<std::int32_t>(v);
+      if (vertices[v].row >= 0) block(Reals(start_.positions), vertices[v].row) = place(number);
+    }
+    for (const auto& surface : contact_.surfaces().surfaces()) {
+      if (surface.carrier < 0) continue;
+      const Vec3 moved = place(surface.first_vertex) - contact_.place(surface.first_vertex, start_);
+      block(Reals(start_.positions), contact_.surfaces().carriers()[at(surface.carrier)].row) += moved;
     }
   }
 
  private:
   [[nodiscard]] bool is_free(std::int32_t v) const {
-    const std::int32_t row = contact_.surfaces().vertices()[at(v)].row;
-    return row >= 0 && fixed_.masks()[at(row)] == 0;
+    const SurfaceVertex& vertex = contact_.surfaces().vertices()[at(v)];
+    return vertex.carrier >= 0 || (vertex.row >= 0 && fixed_.masks()[at(vertex.row)] == 0);
   }
   [[nodiscard]] Vec3 place(std::int32_t v) const { return block(ConstReals(places_), v); }
   /// Whether surfaces whose middles are `s` apart are near, and overlap by no more than their gap.
@@ -151,12 +155,29 @@ class Separation {
       if (c.kind == PairKind::vertex_face) near = push_off_face(c) || near;
     }
     for (const PlaneCandidate& c : candidates_.planes()) near = push_off_plane(c) || near;
+    for (const auto& surface : contact_.surfaces().surfaces()) {
+      if (surface.carrier >= 0) move_rigidly(surface);
+    }
     for (std::size_t v = 0; v < counts_.size(); ++v) {
       if (counts_[v] == 0) continue;
       const auto number = static_cast<std::int32_t>(v);
       block(Reals(places_), number) += block(ConstReals(moves_), number) / counts_[v];
     }
     return near;
+  }
+
+  /// All vertices go by the mean of what any of them is asked to.
+  void move_rigidly(const SurfaceSet::Surface& surface) {
+    Vec3 sum = Vec3::Zero();
+    int count = 0;
+    for (std::int32_t v = surface.first_vertex; v < surface.last_vertex; ++v) {
+      sum += block(ConstReals(moves_), v);
+      count += counts_[at(v)];
+    }
+    for (std::int32_t v = surface.first_vertex; count > 0 && v < surface.last_vertex; ++v) {
+      block(Reals(moves_), v) = sum;
+      counts_[at(v)] = count;
+    }
   }
 
   bool push_off_plane(const PlaneCandidate& c) {

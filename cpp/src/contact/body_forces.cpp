@@ -17,38 +17,51 @@ BodyForces::BodyForces(const Contact& contact, std::size_t rows) : contact_(cont
   refusals_ = forces_;
   floors_.assign(contact.surfaces().surfaces().size(), 0.0);
   sizes_ = others_ = changes_ = floors_;
+  const SurfaceSet& surfaces = contact.surfaces();
+  for (const auto& surface : surfaces.surfaces()) {
+    if (surface.carrier < 0) continue;
+    double lever = 0.0;
+    for (std::int32_t v = surface.first_vertex; v < surface.last_vertex; ++v) {
+      lever = std::max(lever, surfaces.arm(v).norm() + surfaces.vertices()[at(v)].radius);
+    }
+    levers_.push_back(lever);
+  }
 }
 
-std::int32_t BodyForces::row(double vertex) const {
-  return vertex < 0.0 ? -1 : contact_.surfaces().vertices()[static_cast<std::size_t>(vertex)].row;
-}
-
-void BodyForces::begin(ConstReals load) {
+void BodyForces::begin(const State& start, ConstReals load) {
+  start_ = &start;
   std::ranges::fill(floors_, 0.0);
   if (!load.empty()) sum_squares(load, floors_);
   for (double& floor : floors_) floor = kFloor * std::sqrt(floor);
 }
 
 void BodyForces::scatter(const ContactNumbers& contact, const Vec3& force, Reals f) const {
-  for (std::size_t k = 0; k < 4; ++k) {
-    const std::int32_t i = row(contact.vertex[k]);
-    if (i >= 0) block(f, i) += contact.beta[k] * force;
-  }
+  contact_.for_parts(contact, *start_,
+                     [&](const CarriedPart& part) { block(f, part.row) += part.load(force); });
 }
 
+/// Moments count as the forces that have them at the longest lever.
 void BodyForces::sum_squares(ConstReals forces, std::vector<double>& squares) const {
   std::ranges::fill(squares, 0.0);
   for (const SurfaceVertex& vertex : contact_.surfaces().vertices()) {
     if (vertex.row >= 0) squares[at(vertex.surface)] += block(forces, vertex.row).squaredNorm();
+  }
+  const auto& surfaces = contact_.surfaces().surfaces();
+  for (std::size_t s = 0; s < surfaces.size(); ++s) {
+    if (surfaces[s].carrier < 0) continue;
+    const SurfaceCarrier& carrier = contact_.surfaces().carriers()[at(surfaces[s].carrier)];
+    const double lever = levers_[at(surfaces[s].carrier)];
+    squares[s] += block(forces, carrier.row).squaredNorm();
+    if (lever > 0.0) squares[s] += block(forces, carrier.rotation).squaredNorm() / (lever * lever);
   }
 }
 
 void BodyForces::add_squares(const ContactNumbers& contact, double square,
                              std::vector<double>& squares) const {
   for (std::size_t k = 0; k < 4; ++k) {
-    if (row(contact.vertex[k]) < 0) continue;
-    const auto v = static_cast<std::size_t>(contact.vertex[k]);
-    squares[at(contact_.surfaces().vertices()[v].surface)] += contact.beta[k] * contact.beta[k] * square;
+    if (contact.vertex[k] < 0.0) continue;
+    const SurfaceVertex& vertex = contact_.surfaces().vertices()[static_cast<std::size_t>(contact.vertex[k])];
+    if (vertex.is_free()) squares[at(vertex.surface)] += contact.beta[k] * contact.beta[k] * square;
   }
 }
 

@@ -184,7 +184,7 @@ void Candidates::add(PairKind kind, std::int32_t a, std::int32_t b, std::array<s
   double other_radius = 0.0;
   for (int i = 0; i < all; ++i) {
     const SurfaceVertex& v = vertices[at(vertex[at(i)])];
-    free = free || v.row >= 0;
+    free = free || v.is_free();
     double& of = i < first ? radius : other_radius;
     of = std::max(of, v.radius);
     for (int j = first; i < first && j < all; ++j) {

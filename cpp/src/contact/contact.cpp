@@ -33,8 +33,9 @@ Mat3 stiffness_of(const ContactNumbers& contact) {
   return H;
 }
 
-Contact::Contact(ContactDescription description, std::span<const std::int32_t> first_node, ConstReals rest)
-    : description_(std::move(description)), surfaces_(description_, first_node, rest) {}
+Contact::Contact(ContactDescription description, std::span<const std::int32_t> first_node, ConstReals rest,
+                 std::span<const Frame> frames)
+    : description_(std::move(description)), surfaces_(description_, first_node, rest, frames) {}
 
 template <class Function>
 void Contact::for_contacts(const State& state, Function&& f) const {
@@ -42,40 +43,66 @@ void Contact::for_contacts(const State& state, Function&& f) const {
   for (std::size_t i = 0; i < all.size(); ++i) f(all[i]);
 }
 
-/// r of a contact.
-Vec3 Contact::reach(const ContactNumbers& contact, ConstReals positions) const {
+Vec3 Contact::carried_place(std::int32_t vertex, const State& state) const {
+  const auto number =
+      static_cast<std::size_t>(surfaces_.vertices()[static_cast<std::size_t>(vertex)].carrier);
+  const SurfaceCarrier& carrier = surfaces_.carriers()[number];
+  return block(ConstReals(state.positions), carrier.row) + arm(vertex, carrier, state);
+}
+
+Vec3 Contact::reach(const ContactNumbers& contact, const State& state) const {
   Vec3 r = vector_of(contact.fixed);
   for (std::size_t k = 0; k < 4; ++k) {
-    const std::int32_t i = row(contact.vertex[k]);
-    if (i >= 0) r += contact.beta[k] * block(positions, i);
+    if (contact.vertex[k] < 0.0) continue;
+    const auto v = static_cast<std::int32_t>(contact.vertex[k]);
+    if (surfaces_.vertices()[static_cast<std::size_t>(v)].is_free()) r += contact.beta[k] * place(v, state);
   }
+  if (!surfaces_.carriers().empty()) r += rolled(contact, state);
   return r;
 }
 
-void Contact::scatter(const ContactNumbers& contact, const Vec3& force, Reals f) const {
+Vec3 Contact::rolled(const ContactNumbers& contact, const State& state) const {
+  Vec3 sum = Vec3::Zero();
   for (std::size_t k = 0; k < 4; ++k) {
-    const std::int32_t i = row(contact.vertex[k]);
-    if (i >= 0) block(f, i) += contact.beta[k] * force;
+    if (contact.vertex[k] < 0.0) continue;
+    const auto v = static_cast<std::int32_t>(contact.vertex[k]);
+    const std::int32_t number = surfaces_.vertices()[static_cast<std::size_t>(v)].carrier;
+    if (number < 0) continue;
+    const SurfaceCarrier& carrier = surfaces_.carriers()[static_cast<std::size_t>(number)];
+    const std::size_t side = contact.is_of_first(k) ? 0 : 3;
+    const Vec3 offset(contact.offset[side], contact.offset[side + 1], contact.offset[side + 2]);
+    sum += contact.beta[k] * (state.rotations[static_cast<std::size_t>(carrier.frame)] * offset);
   }
+  const Vec3 n = vector_of(contact.normal);
+  return sum - n.dot(sum) * n;
+}
+
+Vec3 Contact::motion(const ContactNumbers& contact, const State& state, ConstReals p) const {
+  Vec3 sum = Vec3::Zero();
+  for_parts(contact, state, [&](const CarriedPart& part) { sum += part.motion(block(p, part.row)); });
+  return sum;
+}
+
+void Contact::scatter(const ContactNumbers& contact, const State& state, const Vec3& force, Reals f) const {
+  for_parts(contact, state, [&](const CarriedPart& part) { block(f, part.row) += part.load(force); });
 }
 
 void Contact::add_force(const State& state, Scratch& /*scratch*/, Reals f) const {
   for_contacts(state, [&](const ContactNumbers& c) {
-    const Vec3 moved = reach(c, state.positions) - vector_of(c.place);
-    scatter(c, vector_of(c.push) - stiffness_of(c) * moved, f);
+    const Vec3 moved = reach(c, state) - vector_of(c.place);
+    scatter(c, state, vector_of(c.push) - stiffness_of(c) * moved, f);
   });
 }
 
 void Contact::take_force(const State& state, Reals f) const {
-  for_contacts(state, [&](const ContactNumbers& c) { scatter(c, -vector_of(c.push), f); });
+  for_contacts(state, [&](const ContactNumbers& c) { scatter(c, state, -vector_of(c.push), f); });
 }
 
 void Contact::add_product(const State& state, Scratch& /*scratch*/, StiffnessScale scale, ConstReals p,
                           Reals out) const {
   if (scale.position == 0.0) return;
   for_contacts(state, [&](const ContactNumbers& c) {
-    const Vec3 moved = reach(c, p) - vector_of(c.fixed);
-    scatter(c, -scale.position * (stiffness_of(c) * moved), out);
+    scatter(c, state, -scale.position * (stiffness_of(c) * motion(c, state, p)), out);
   });
 }
 
@@ -84,7 +111,7 @@ double Contact::energy(const State& state, Scratch& /*scratch*/) const {
   for_contacts(state, [&](const ContactNumbers& c) {
     const Mat3 H = stiffness_of(c);
     if (H.isZero(0.0)) return;
-    const Vec3 moved = reach(c, state.positions) - vector_of(c.place);
+    const Vec3 moved = reach(c, state) - vector_of(c.place);
     sum += 0.5 * moved.dot(H * moved) - vector_of(c.push).dot(moved);
   });
   return sum;
@@ -104,10 +131,17 @@ void Contact::add_couplings(const State& state, StiffnessScale scale, Couplings&
     if (H.isZero(0.0)) return;
     Coupling coupling{{0, 0, 0, 0}, {0.0, 0.0, 0.0, 0.0}, -scale.position * H, true};
     for (std::size_t k = 0; k < 4; ++k) {
-      const std::int32_t i = row(c.vertex[k]);
-      if (i < 0) continue;
-      coupling.vertex[k] = i;
+      if (c.vertex[k] < 0.0) continue;
+      const auto v = static_cast<std::int32_t>(c.vertex[k]);
+      const SurfaceVertex& vertex = surfaces_.vertices()[static_cast<std::size_t>(v)];
+      if (!vertex.is_free()) continue;
+      coupling.vertex[k] = vertex.row;
       coupling.beta[k] = c.beta[k];
+      if (vertex.row >= 0) continue;
+      const SurfaceCarrier& carrier = surfaces_.carriers()[static_cast<std::size_t>(vertex.carrier)];
+      coupling.vertex[k] =
+          couplings.carry(std::array{CarriedPart{carrier.row, 1.0},
+                                     CarriedPart{carrier.rotation, 1.0, arm(c, k, carrier, state), true}});
     }
     couplings.add(coupling);
   });
@@ -165,6 +199,15 @@ void Contact::check_memory(const State& state) const {
   }
 }
 
+/// Where vertex number k of a contact touches: on the surface of what is round.
+Vec3 Contact::touched(const ContactNumbers& contact, std::size_t k, const State& state) const {
+  const auto v = static_cast<std::int32_t>(contact.vertex[k]);
+  const std::int32_t number = surfaces_.vertices()[static_cast<std::size_t>(v)].carrier;
+  if (number < 0) return place(v, state);
+  const SurfaceCarrier& carrier = surfaces_.carriers()[static_cast<std::size_t>(number)];
+  return block(ConstReals(state.positions), carrier.row) + arm(contact, k, carrier, state);
+}
+
 Contact::Wrench Contact::force_on(std::int32_t surface, const State& state) const {
   Wrench wrench;
   const auto bodies = static_cast<std::int32_t>(description_.bodies.size());
@@ -188,8 +231,8 @@ Contact::Wrench Contact::force_on(std::int32_t surface, const State& state) cons
       const SurfaceVertex& vertex = surfaces_.vertices()[v];
       if (vertex.surface != surface) continue;
       const Vec3 rest = block(ConstReals(surfaces_.rest()), static_cast<std::int32_t>(v));
-      add(c.beta[k] * force, vertex.row >= 0 ? Vec3(block(ConstReals(state.positions), vertex.row))
-                                             : place_of(surface - bodies, rest, state, state.time));
+      add(c.beta[k] * force,
+          vertex.is_free() ? touched(c, k, state) : place_of(surface - bodies, rest, state, state.time));
     }
   });
   return wrench;

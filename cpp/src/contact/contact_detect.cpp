@@ -8,6 +8,7 @@
 namespace tissu {
 
 void ContactRun::detect(const State& at, const State* goal) {
+  looked_at_ = &at;
   gather(at, now_);
   plainly_ = goal == nullptr;
   if (goal != nullptr) {
@@ -16,7 +17,7 @@ void ContactRun::detect(const State& at, const State* goal) {
     // What a led obstacle pushed is looked at where it was pushed to.
     const auto& vertices = contact_.surfaces().vertices();
     for (std::size_t v = 0; v < vertices.size(); ++v) {
-      if (vertices[v].row < 0) continue;
+      if (!vertices[v].is_free()) continue;
       for (std::size_t i = 3 * v; i < 3 * v + 3; ++i) now_[i] += from_[i] - begin_[i];
     }
   }
@@ -29,8 +30,9 @@ void ContactRun::detect(const State& at, const State* goal) {
 Vec3 ContactRun::led(const ContactNumbers& contact) const {
   Vec3 gone = Vec3::Zero();
   for (std::size_t k = 0; k < 4; ++k) {
-    if (contact.vertex[k] < 0.0 || row_of(contact.vertex[k]) >= 0) continue;
+    if (contact.vertex[k] < 0.0) continue;
     const auto v = static_cast<std::int32_t>(contact.vertex[k]);
+    if (contact_.surfaces().vertices()[static_cast<std::size_t>(v)].is_free()) continue;
     gone += contact.beta[k] * (block(ConstReals(from_), v) - block(ConstReals(begin_), v));
   }
   if (contact.kind == ContactNumbers::kPlane) {
@@ -42,21 +44,12 @@ Vec3 ContactRun::led(const ContactNumbers& contact) const {
 }
 
 Vec3 ContactRun::rate(const ContactNumbers& contact, ConstReals velocities) const {
-  Vec3 sum = Vec3::Zero();
-  for (std::size_t k = 0; k < 4; ++k) {
-    const std::int32_t i = row_of(contact.vertex[k]);
-    if (i >= 0) sum += contact.beta[k] * block(velocities, i);
-  }
-  return sum;
+  return contact_.motion(contact, *start_, velocities);
 }
 
 Vec3 ContactRun::gone(const ContactNumbers& contact, const State& at) const {
   const double share = (at.time - start_->time) / (end_ - start_->time);
-  return share * led(contact) + rate(contact, at.positions) - rate(contact, start_->positions);
-}
-
-Vec3 ContactRun::reach_of(const ContactNumbers& contact, const State& at) const {
-  return vector_of(contact.fixed) + rate(contact, at.positions);
+  return share * led(contact) + contact_.reach(contact, at) - contact_.reach(contact, *start_);
 }
 
 }  // namespace tissu

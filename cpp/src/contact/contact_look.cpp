@@ -121,11 +121,12 @@ void ContactRun::add(const Candidate& candidate, const Found& found, std::int32_
   for (std::size_t k = 0; k < 4; ++k) {
     c.vertex[k] = found.vertex[k];
     c.beta[k] = found.vertex[k] < 0 ? 0.0 : found.beta[k];
-    if (found.vertex[k] < 0 || vertices[at(found.vertex[k])].row >= 0) continue;
+    if (found.vertex[k] < 0 || vertices[at(found.vertex[k])].is_free()) continue;
     fixed += c.beta[k] * block(ConstReals(now_), found.vertex[k]);
   }
-  c.fixed = numbers_of(fixed);
   c.normal = numbers_of(found.r / found.distance);
+  c.fixed = numbers_of(fixed);
+  set_offsets(c);
   c.place = numbers_of(found.r);
   c.apart = candidate.apart;
   c.area = found.area;
@@ -133,6 +134,22 @@ void ContactRun::add(const Candidate& candidate, const Found& found, std::int32_
   predicted_.push_back(vector_of(c.normal).dot(reach(c, goal_)) < candidate.apart ? 1 : 0);
   gaps_.push_back(found.distance - candidate.apart);
   weights_.push_back(found.weight);
+}
+
+/// Where round things that rigid bodies carry touch.
+void ContactRun::set_offsets(ContactNumbers& c) const {
+  const SurfaceSet& surfaces = contact_.surfaces();
+  if (surfaces.carriers().empty()) return;
+  for (std::size_t k = 0; k < 4; ++k) {
+    if (c.vertex[k] < 0.0) continue;
+    const SurfaceVertex& vertex = surfaces.vertices()[static_cast<std::size_t>(c.vertex[k])];
+    if (vertex.carrier < 0 || vertex.radius == 0.0) continue;
+    const bool first = c.is_of_first(k);
+    const auto frame = at(surfaces.carriers()[at(vertex.carrier)].frame);
+    const Vec3 out = (first ? -vertex.radius : vertex.radius) * vector_of(c.normal);
+    const Vec3 own = looked_at_->rotations[frame].conjugate() * out;
+    std::ranges::copy(numbers_of(own), c.offset.begin() + (first ? 0 : 3));
+  }
 }
 
 void ContactRun::find_planes() {
@@ -152,8 +169,9 @@ void ContactRun::find_planes() {
     c.vertex[0] = candidate.vertex;
     c.beta[0] = 1.0;
     const Vec3 r = distance * plane.normal;
-    c.fixed = numbers_of(r - place);
     c.normal = numbers_of(plane.normal);
+    c.fixed = numbers_of(r - place);
+    set_offsets(c);
     c.place = numbers_of(r);
     c.apart = candidate.apart;
     c.area = vertices[at(candidate.vertex)].area;

@@ -26,31 +26,14 @@ std::unique_ptr<ExplicitContact> ExplicitContact::make(const Contact& contact, c
 }
 
 ExplicitContact::ExplicitContact(const Contact& contact, const FixedDofs& fixed, const Mass& mass)
-    : contact_(contact), fixed_(fixed), mass_(mass), run_(contact, fixed) {}
+    : contact_(contact), mass_(contact, fixed, mass), run_(contact, fixed) {}
 
 void ExplicitContact::begin(const State& start, double end, ConstReals led) {
   h_ = end - start.time;
   start_ = &start;
+  mass_.begin(start);
   run_.begin(start, end, led);
   begin_response();
-}
-
-Vec3 ExplicitContact::inverse_mass(std::int32_t row) const {
-  const auto i = static_cast<std::size_t>(row);
-  Vec3 inverse = Vec3::Constant(1.0 / mass_.nodal()[i]);
-  for (int axis = 0; axis < 3; ++axis) {
-    if (((fixed_.masks()[i] >> axis) & 1) != 0) inverse(axis) = 0.0;
-  }
-  return inverse;
-}
-
-Vec3 ExplicitContact::mobility(const ContactNumbers& contact, ConstReals shared) const {
-  Vec3 sum = Vec3::Zero();
-  for_rows(contact, [&](std::int32_t row, double beta) {
-    const double n = shared.empty() ? 1.0 : shared[static_cast<std::size_t>(row)];
-    sum += n * beta * beta * inverse_mass(row);
-  });
-  return sum;
 }
 
 void ExplicitContact::finish(State& end) {
@@ -58,7 +41,7 @@ void ExplicitContact::finish(State& end) {
   keep(end, kept_);
   least_gap_ = std::numeric_limits<double>::infinity();
   for (ContactNumbers& c : kept_) {
-    const Vec3 r = run_.reach_of(c, end);
+    const Vec3 r = contact_.reach(c, end);
     c.place = {r.x(), r.y(), r.z()};
     c.stiffness = {};
     least_gap_ = std::min(least_gap_, vector_of(c.normal).dot(r) / c.apart);

@@ -25,7 +25,7 @@ void GeometricContact::strike_end(ConstReals velocities, const State& end, Reals
     if (!(u < 0.0)) continue;
     blow.end.normal = -u / blow.weight;
     blow.end.along = on_disk(-(rate - u * n) / blow.tangent, blow.friction * blow.end.normal);
-    give(c, blow.end.sum(n), change);
+    mass_.give(c, blow.end.sum(n), change);
   }
 }
 

@@ -16,11 +16,21 @@ constexpr double kKept = 0.9;     ///< of the way to a plane
 
 std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
+/// Of both sides together.
+double bend_of(const Candidate& candidate, ConstReals bends) {
+  std::array<double, 2> sides = {};
+  for (int i = 0; i < vertices_of(candidate.kind); ++i) {
+    double& side = sides[i < vertices_of_first(candidate.kind) ? 0 : 1];
+    side = std::max(side, bends[at(candidate.vertex[at(i)])]);
+  }
+  return sides[0] + sides[1];
+}
+
 }  // namespace
 
 double HoldBack::least(double apart, double start) { return std::min(kLeast * apart, kOfStart * start); }
 
-FreeWay free_way(const Candidate& candidate, ConstReals from, ConstReals to) {
+FreeWay free_way(const Candidate& candidate, ConstReals from, ConstReals to, ConstReals bends) {
   PairWay pair{candidate.kind, {}, {}};
   double longest = 0.0;
   for (int i = 0; i < vertices_of(candidate.kind); ++i) {
@@ -29,12 +39,22 @@ FreeWay free_way(const Candidate& candidate, ConstReals from, ConstReals to) {
     pair.way[at(i)] = block(to, v) - block(from, v);
     longest = std::max(longest, pair.way[at(i)].squaredNorm());
   }
-  if (longest == 0.0) return {1.0, true};
+  const double bend = bends.empty() ? 0.0 : bend_of(candidate, bends);
+  if (longest == 0.0 && bend == 0.0) return {1.0, true};
   const double distance = std::sqrt(nearest_of(candidate.kind, pair.from).square);
   const double least = HoldBack::least(candidate.apart, distance);
-  if (std::sqrt(longest) <= kBall * (distance - least)) return {1.0, true};
-  if (is_kept_apart(pair, least)) return {1.0, true};
-  return {free_share(pair, least), false};
+  const double room = distance - least;
+  // What arcs leave their chords by up to a share of the way: half of the room at most.
+  const double most = bend > room ? std::max(0.0, room / bend) : 1.0;
+  const double off = (most < 1.0 ? 0.5 * most : 0.125) * bend;
+  if (most < 1.0) {
+    for (Vec3& way : pair.way) way *= most;
+    longest *= most * most;
+  }
+  if (std::sqrt(longest) <= kBall * (room - off) || is_kept_apart(pair, least + off)) {
+    return {most, most == 1.0};
+  }
+  return {most * free_share(pair, least + off), false};
 }
 
 std::size_t HoldBack::root(std::int32_t vertex) const {
@@ -67,10 +87,15 @@ void HoldBack::join(const Candidate& candidate, double share) {
 }
 
 bool HoldBack::find(const Candidates& candidates, std::span<const PlacedPlane> planes, ConstReals from,
-                    ConstReals to) {
+                    ConstReals to, ConstReals bends) {
   const std::size_t count = surfaces_.vertices().size();
   parent_.resize(count);
   std::iota(parent_.begin(), parent_.end(), 0);
+  for (const auto& surface : surfaces_.surfaces()) {
+    if (surface.carrier < 0) continue;
+    std::fill(parent_.begin() + surface.first_vertex, parent_.begin() + surface.last_vertex,
+              surface.first_vertex);
+  }
   shares_.assign(count, 1.0);
   stopped_.clear();
   stopped_at_planes_.clear();
@@ -78,7 +103,7 @@ bool HoldBack::find(const Candidates& candidates, std::span<const PlacedPlane> p
   const auto& list = candidates.list();
   for (std::size_t i = 0; i < list.size(); ++i) {
     if (candidates.is_far(i, list[i].apart)) continue;
-    const FreeWay way = free_way(list[i], from, to);
+    const FreeWay way = free_way(list[i], from, to, bends);
     if (way.whatever) continue;
     join(list[i], way.share);
     if (way.share == 1.0) continue;
@@ -90,7 +115,8 @@ bool HoldBack::find(const Candidates& candidates, std::span<const PlacedPlane> p
     const PlaneCandidate& c = before_planes[i];
     const PlacedPlane& plane = planes[at(c.obstacle)];
     const double start = plane.normal.dot(block(from, c.vertex) - plane.point);
-    const double end = plane.normal.dot(block(to, c.vertex) - plane.point);
+    const double bend = bends.empty() ? 0.0 : 0.125 * bends[at(c.vertex)];
+    const double end = plane.normal.dot(block(to, c.vertex) - plane.point) - bend;
     const double least = HoldBack::least(c.apart, std::max(start, 0.0));
     if (end >= least || end >= start || given_[at(c.vertex)] != 0) continue;
     lower(c.vertex, std::max(0.0, kKept * (start - least) / (start - end)));

@@ -27,9 +27,10 @@ class HoldBack {
   HoldBack(const SurfaceSet& surfaces, const std::vector<std::uint8_t>& given)
       : surfaces_(surfaces), given_(given) {}
 
-  /// Shares of the ways, in [0, 1], for every vertex; true when one is below 1. `planes`: of each obstacle.
-  bool find(const Candidates& candidates, std::span<const PlacedPlane> planes, ConstReals from,
-            ConstReals to);
+  /// Shares of the ways, in [0, 1], for every vertex; true when one is below 1. `planes`: of each obstacle;
+  /// `bends`: as `free_way` has them. The vertices of a rigid body go one share.
+  bool find(const Candidates& candidates, std::span<const PlacedPlane> planes, ConstReals from, ConstReals to,
+            ConstReals bends = {});
   [[nodiscard]] double share(std::int32_t vertex) const { return shares_[root(vertex)]; }
   /// Contacts of the pairs whose whole way is not free, in the order of the list.
   [[nodiscard]] const std::vector<std::int32_t>& stopped() const { return stopped_; }
@@ -62,6 +63,8 @@ struct FreeWay {
   double share;
   bool whatever;
 };
-FreeWay free_way(const Candidate& candidate, ConstReals from, ConstReals to);
+/// `bends`: of each vertex, |arm| theta^2 of the rigid body that turns by theta while it carries it: the arc
+/// up to a share s of the way leaves the chord by no more than s (1 - s) / 2 of that [m]. Empty for none.
+FreeWay free_way(const Candidate& candidate, ConstReals from, ConstReals to, ConstReals bends = {});
 
 }  // namespace tissu

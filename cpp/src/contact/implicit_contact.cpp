@@ -34,7 +34,7 @@ void ImplicitContact::begin(const State& start, double end, ConstReals led, Cons
   start_ = &start;
   h_ = end - start.time;
   alternations_ = 0;
-  bodies_.begin(load);
+  bodies_.begin(start, load);
   run_.begin(start, end, led);
 }
 
@@ -63,19 +63,10 @@ void ImplicitContact::note_depth(const ContactNumbers& contact, double depth) {
   depth_ = std::max(depth_, depth / std::min(contact.apart, pair_of(contact).gap));
 }
 
-Vec3 ImplicitContact::reach(const ContactNumbers& contact, const State& at) const {
-  Vec3 r = vector_of(contact.fixed);
-  for (std::size_t k = 0; k < 4; ++k) {
-    const std::int32_t i = run_.row_of(contact.vertex[k]);
-    if (i >= 0) r += contact.beta[k] * block(ConstReals(at.positions), i);
-  }
-  return r;
-}
-
 void ImplicitContact::update(const State& end) {
   bodies_.clear();
   for (ContactNumbers& c : run_.acting()) {
-    const Vec3 r = reach(c, end);
+    const Vec3 r = contact_.reach(c, end);
     const Vec3 f = vector_of(c.push) - stiffness_of(c) * (r - vector_of(c.place));
     const Vec3 n = vector_of(c.normal);
     const double normal = n.dot(f);
@@ -98,7 +89,7 @@ void ImplicitContact::write(State& state) const {
   if (stage_.stretch == 1.0 && stage_.times == 1.0) return;
   std::size_t place = 0;
   for (ContactNumbers c : run_.acting()) {
-    const Vec3 from = reach(c, *start_);
+    const Vec3 from = contact_.reach(c, *start_);
     c.place = numbers_of(from + (vector_of(c.place) - from) / stage_.stretch);
     c.push = numbers_of(stage_.times * vector_of(c.push));
     for (double& h : c.stiffness) h *= stage_.times * stage_.stretch;
@@ -110,7 +101,7 @@ void ImplicitContact::finish(const State& end, State& into) {
   least_gap_ = std::numeric_limits<double>::infinity();
   for (ContactNumbers& c : run_.acting()) {
     const Vec3 n = vector_of(c.normal);
-    const Vec3 r = reach(c, end);
+    const Vec3 r = contact_.reach(c, end);
     c.push = numbers_of(c.force * n + vector_of(c.drag));
     c.place = numbers_of(r);
     c.stiffness = {};
@@ -120,13 +111,13 @@ void ImplicitContact::finish(const State& end, State& into) {
 }
 
 void ImplicitContact::strike(EndImpulses& impulses, double h, Reals v, State& into) {
-  impulses.strike(run_, h, run_.acting(), v);
+  impulses.strike(run_, *start_, h, run_.acting(), v);
   ContactTable::write(run_.acting(), contact_.numbers(into));
 }
 
 void ImplicitContact::add_forces(Reals f) const {
   for (const ContactNumbers& c : run_.acting()) {
-    for_rows(c, [&](std::int32_t row, double beta) { block(f, row) += beta * vector_of(c.push); });
+    run_.for_parts(c, [&](const CarriedPart& part) { block(f, part.row) += part.load(vector_of(c.push)); });
   }
 }
 

@@ -20,8 +20,9 @@ bool ImplicitPenalty::may_press(std::size_t i) const {
 double ImplicitPenalty::damper_over_step(const ContactNumbers& contact, double k) const {
   if (mass_ == nullptr) return 0.0;
   double inverse = 0.0;
-  for_rows(contact, [&](std::int32_t row, double beta) {
-    inverse += beta * beta / mass_->nodal()[static_cast<std::size_t>(row)];
+  run_.for_parts(contact, [&](const CarriedPart& part) {
+    if (part.turns) return;  // damped less than what turns
+    inverse += part.weight * part.weight / mass_->nodal()[static_cast<std::size_t>(part.row)];
   });
   const double zeta = zetas_[static_cast<std::size_t>(contact.pair)];
   return inverse > 0.0 ? 2.0 * zeta * std::sqrt(k / inverse) / h() : 0.0;

@@ -9,7 +9,8 @@
 namespace tissu {
 namespace {
 
-constexpr double kStiff = 3.0;  ///< s: couplings over the block diagonal of the matrix
+constexpr double kStiff = 3.0;        ///< s: couplings over the block diagonal of the matrix
+constexpr double kStiffRigid = 30.0;  ///< the same between rigid bodies, whose blocks are few
 // Contacts that alternate between sticking and sliding come to rest when they are softer against sliding.
 constexpr int kPatience = 4;     ///< so many alternations later …
 constexpr double kSofter = 0.7;  ///< … by this for each, …
@@ -24,10 +25,12 @@ void set_stiffness(ContactNumbers& contact, const Mat3& H) {
 
 }  // namespace
 
-/// sum_r N_r beta_r^2 A_rr^-1, without given degrees of freedom.
+/// sum_r N_r B_r A_rr^-1 B_r^T, without given degrees of freedom; B is beta of nodes.
 Mat3 ImplicitContact::compliance(const ContactNumbers& contact, std::span<const double> blocks) const {
   Mat3 sum = Mat3::Zero();
-  for_rows(contact, [&](std::int32_t i, double beta) {
+  const bool soft_on_rigid = !contact_.surfaces().carriers().empty() && !is_rigid(contact);
+  run_.for_parts(contact, [&](const CarriedPart& part) {
+    const std::int32_t i = part.row;
     const Eigen::Map<const Mat3> A(blocks.data() + 9 * static_cast<std::ptrdiff_t>(i));
     Mat3 inverse = A.inverse();
     for (int axis = 0; axis < 3; ++axis) {
@@ -35,9 +38,27 @@ Mat3 ImplicitContact::compliance(const ContactNumbers& contact, std::span<const 
       inverse.row(axis).setZero();
       inverse.col(axis).setZero();
     }
-    sum += counts_[at(i)] * beta * beta * inverse;
+    const double count = soft_on_rigid && is_carrier(i) ? std::sqrt(counts_[at(i)]) : counts_[at(i)];
+    sum += count * part.carried(inverse);
   });
   return sum;
+}
+
+/// A rigid body: what is soft presses on it in many contacts at the same two rows, of which each takes a
+/// part.
+bool ImplicitContact::is_carrier(std::int32_t row) const {
+  const auto& carriers = contact_.surfaces().carriers();
+  return std::ranges::any_of(carriers,
+                             [&](const SurfaceCarrier& of) { return of.row == row || of.rotation == row; });
+}
+
+/// Nothing that it moves is deformed.
+bool ImplicitContact::is_rigid(const ContactNumbers& contact) const {
+  const SurfaceSet& surfaces = contact_.surfaces();
+  if (surfaces.carriers().empty()) return false;
+  return std::ranges::all_of(contact.vertex, [&](double vertex) {
+    return vertex < 0.0 || surfaces.vertices()[static_cast<std::size_t>(vertex)].row < 0;
+  });
 }
 
 void ImplicitContact::find_stiffnesses(std::span<const double> blocks, double scale,
@@ -46,7 +67,7 @@ void ImplicitContact::find_stiffnesses(std::span<const double> blocks, double sc
   const auto each = [&](auto&& f) {
     for (std::size_t i = 0; i < looked.size(); ++i) {
       if (!(shares[i] > 0.0)) continue;
-      for_rows(looked[i], [&](std::int32_t row, double /*beta*/) { f(counts_[at(row)], shares[i]); });
+      run_.for_parts(looked[i], [&](const CarriedPart& part) { f(counts_[at(part.row)], shares[i]); });
     }
   };
   each([](double& sum, double /*share*/) { sum = 0.0; });
@@ -55,7 +76,8 @@ void ImplicitContact::find_stiffnesses(std::span<const double> blocks, double sc
   for (std::size_t i = 0; i < looked.size(); ++i) {
     if (!(shares[i] > 0.0)) continue;
     const double largest = compliance(looked[i], blocks).cwiseAbs().rowwise().sum().maxCoeff();
-    if (largest > 0.0) stiffnesses[i] = kStiff * run_.weight(i) * shares[i] / (largest * scale);
+    const double stiff = is_rigid(looked[i]) ? kStiffRigid : kStiff;
+    if (largest > 0.0) stiffnesses[i] = stiff * run_.weight(i) * shares[i] / (largest * scale);
   }
 }
 

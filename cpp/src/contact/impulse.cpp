@@ -34,7 +34,7 @@ void ImpulseContact::begin_response() {
 void ImpulseContact::add_force(const State& /*at*/, double /*share*/, Reals f) {
   for (const ContactNumbers& c : run_.looked()) {
     const Vec3 force = c.force * vector_of(c.normal) + vector_of(c.drag);
-    for_rows(c, [&](std::int32_t row, double beta) { block(f, row) += beta * force; });
+    run_.for_parts(c, [&](const CarriedPart& part) { block(f, part.row) += part.load(force); });
   }
 }
 
@@ -50,21 +50,15 @@ void ImpulseContact::find_blows(double pushed) {
   blows_.clear();
   for (const ContactNumbers& c : run_.looked()) {
     const ContactPair& pair = pair_of(c);
-    const Vec3 W = mobility(c, {});
+    const Mat3 W = mass_.mobility(c, {});
     const Vec3 n = vector_of(c.normal);
-    const double weight = n.dot(W.cwiseProduct(n));
+    const double weight = n.dot(W * n);
     if (!(weight > 0.0)) continue;
-    Blow blow{c, c.apart, pair.restitution.value_or(0.0), pair.friction, weight, W.maxCoeff(), {}, {}};
+    Blow blow{c, c.apart, pair.restitution.value_or(0.0), pair.friction, weight, largest_of(W), {}, {}};
     begin_blow(blow, pushed);
     blows_.push_back(blow);
   }
   std::ranges::sort(blows_, {}, [](const Blow& blow) { return blow.contact.key(); });
-}
-
-void ImpulseContact::give(const ContactNumbers& contact, const Vec3& impulse, Reals change) const {
-  for_rows(contact, [&](std::int32_t row, double beta) {
-    block(change, row) += beta * inverse_mass(row).cwiseProduct(impulse);
-  });
 }
 
 void ImpulseContact::take_back(double pushed, Reals way, Reals end) {
@@ -73,8 +67,8 @@ void ImpulseContact::take_back(double pushed, Reals way, Reals end) {
   for (Blow& blow : blows_) {
     const Vec3 n = vector_of(blow.contact.normal);
     begin_blow(blow, pushed);
-    give(blow.contact, -blow.way.sum(n), way);
-    give(blow.contact, -blow.end.sum(n), end);
+    mass_.give(blow.contact, -blow.way.sum(n), way);
+    mass_.give(blow.contact, -blow.end.sum(n), end);
   }
 }
 
@@ -85,14 +79,14 @@ double ImpulseContact::relax(const Blow& blow, Impulse& impulse, Reals change) c
   const double normal = std::max(0.0, impulse.normal + (impulse.missing - rate) / blow.weight);
   const double more = normal - impulse.normal;
   impulse.normal = normal;
-  give(c, more * n, change);
+  mass_.give(c, more * n, change);
   if (!(blow.friction > 0.0)) return std::abs(more);
   Vec3 sliding = run_.rate(c, change);
   sliding = impulse.sliding + sliding - n.dot(sliding) * n;
   const Vec3 along = on_disk(impulse.along - sliding / blow.tangent, blow.friction * normal);
   const Vec3 drag = along - impulse.along;
   impulse.along = along;
-  give(c, drag, change);
+  mass_.give(c, drag, change);
   return std::max(std::abs(more), drag.norm());
 }
 
@@ -102,9 +96,9 @@ void ImpulseContact::solve(Impulse Blow::*of, Reals change) {
     Impulse& impulse = blow.*of;
     const bool never = impulse.missing == kNever;
     const Vec3 begun = impulse.sum(vector_of(blow.contact.normal));
-    if (!given_ && !never) give(blow.contact, begun, change);
+    if (!given_ && !never) mass_.give(blow.contact, begun, change);
     if (!never) continue;
-    if (given_) give(blow.contact, -begun, change);
+    if (given_) mass_.give(blow.contact, -begun, change);
     impulse.normal = 0.0;
     impulse.along.setZero();
   }
@@ -127,7 +121,7 @@ void ImpulseContact::strike_way(ConstReals way, Reals change) {
     const Vec3 n = vector_of(c.normal);
     const Vec3 rate = run_.rate(c, way) + run_.led(c) / h_;
     // Where a way was cut the contact is looked at there: its gap at the start is that along the same normal.
-    const double gap = n.dot(run_.reach_of(c, start()) - run_.led(c)) - blow.apart;
+    const double gap = n.dot(contact_.reach(c, start()) - run_.led(c)) - blow.apart;
     blow.way.missing = -std::max(gap, 0.0) / h_ - n.dot(rate);
     blow.way.sliding = rate - n.dot(rate) * n;
   }
@@ -143,7 +137,7 @@ double ImpulseContact::least_end_rate(const Blow& blow, double after) const {
 }
 
 bool ImpulseContact::is_shut(const Blow& blow, const State& end) const {
-  const double d = vector_of(blow.contact.normal).dot(run_.reach_of(blow.contact, end));
+  const double d = vector_of(blow.contact.normal).dot(contact_.reach(blow.contact, end));
   return d - blow.apart <= kShallow * blow.apart;
 }
 
@@ -171,15 +165,22 @@ bool ImpulseContact::lift_once(State& end) {
   for (const Blow& blow : blows_) {
     const ContactNumbers& c = blow.contact;
     const Vec3 n = vector_of(c.normal);
-    const double depth = blow.apart - n.dot(run_.reach_of(c, end));
+    const double depth = blow.apart - n.dot(contact_.reach(c, end));
     if (!(depth > kShallow * blow.apart)) continue;
-    for_rows(c, [&](std::int32_t row, double beta) {
-      if (counts_[at(row)]++ == 0) {
-        rows_.push_back(row);
-        block(Reals(moves_), row).setZero();
+    run_.for_parts(c, [&](const CarriedPart& part) {
+      if (counts_[at(part.row)]++ == 0) {
+        rows_.push_back(part.row);
+        block(Reals(moves_), part.row).setZero();
       }
-      block(Reals(moves_), row) += depth * beta / blow.weight * inverse_mass(row).cwiseProduct(n);
+      block(Reals(moves_), part.row) += mass_.change(part, depth / blow.weight * n);
     });
+  }
+  for (const SurfaceCarrier& carrier : contact_.surfaces().carriers()) {
+    const int count = counts_[at(carrier.rotation)];
+    if (count == 0) continue;
+    Quaternion& rotation = end.rotations[at(carrier.frame)];
+    rotation = (turn_by(block(ConstReals(moves_), carrier.rotation) / count) * rotation).normalized();
+    block(Reals(moves_), carrier.rotation).setZero();
   }
   for (const std::int32_t row : rows_) {
     block(Reals(end.positions), row) += block(ConstReals(moves_), row) / counts_[at(row)];

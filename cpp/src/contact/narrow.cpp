@@ -187,7 +187,7 @@ class Narrow {
   }
   [[nodiscard]] double shared_area(std::int32_t v, std::int32_t other) const {
     const double area = surfaces_.vertices()[at(v)].area;
-    return surfaces_.vertices()[at(other)].row >= 0 ? 0.5 * area : area;
+    return surfaces_.vertices()[at(other)].is_free() ? 0.5 * area : area;
   }
   [[nodiscard]] double edge_area(const SurfaceEdge& e) const {
     double sum = 0.0;

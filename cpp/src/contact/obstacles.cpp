@@ -20,7 +20,16 @@ LivePlace Contact::live_place(std::int32_t obstacle, const State& state, double 
                  lead.is_released() ? description_.obstacles[at(obstacle)].motion.pose(time) : lead.target());
 }
 
+const SurfaceCarrier* Contact::carrier_of(std::int32_t obstacle) const {
+  const std::int32_t number = surfaces_.surfaces()[description_.bodies.size() + at(obstacle)].carrier;
+  return number < 0 ? nullptr : &surfaces_.carriers()[at(number)];
+}
+
 Vec3 Contact::place_of(std::int32_t obstacle, const Vec3& rest, const State& state, double time) const {
+  if (const SurfaceCarrier* carrier = carrier_of(obstacle); carrier != nullptr) {
+    const Vec3 arm = rest - description_.obstacles[at(obstacle)].origin;
+    return block(ConstReals(state.positions), carrier->row) + state.rotations[at(carrier->frame)] * arm;
+  }
   if (state.memory[leads_[at(obstacle)]].empty()) {
     return description_.obstacles[at(obstacle)].motion.position(rest, time);
   }
@@ -43,6 +52,11 @@ Vec3 Contact::carried(std::int32_t obstacle, const Vec3& place, const State& sta
 }
 
 Pose Contact::pose_of(std::int32_t obstacle, const State& state, double time) const {
+  if (const SurfaceCarrier* carrier = carrier_of(obstacle); carrier != nullptr) {
+    const Vec3 origin = description_.obstacles[at(obstacle)].origin;
+    const Eigen::AngleAxisd turn(state.rotations[at(carrier->frame)]);
+    return {origin, block(ConstReals(state.positions), carrier->row) - origin, turn.axis(), turn.angle()};
+  }
   if (state.memory[leads_[at(obstacle)]].empty()) {
     return description_.obstacles[at(obstacle)].motion.pose(time);
   }
@@ -69,6 +83,10 @@ std::int32_t Contact::required(std::string_view name) const {
 
 void Contact::begin_way(std::int32_t obstacle, bool released, const Pose& target, double over,
                         State& state) const {
+  if (carrier_of(obstacle) != nullptr) {
+    throw ParameterError("found obstacle \"" + description_.obstacles[at(obstacle)].surface.name +
+                         "\", which has a mass and moves freely; one without a mass is led.");
+  }
   if (!(over >= 0.0) || !std::isfinite(over)) {
     throw ParameterError("the way to a live target takes " + number_text(over) +
                          " s; it must be finite and not negative.");
@@ -123,8 +141,8 @@ void Contact::place_vertices(const State& state, double time, Reals places) cons
   const auto& vertices = surfaces_.vertices();
   for (std::size_t v = 0; v < vertices.size(); ++v) {
     const auto number = static_cast<std::int32_t>(v);
-    if (vertices[v].row >= 0) {
-      block(places, number) = block(ConstReals(state.positions), vertices[v].row);
+    if (vertices[v].is_free()) {
+      block(places, number) = place(number, state);
     } else {
       const std::int32_t obstacle = surfaces_.surfaces()[at(vertices[v].surface)].obstacle;
       block(places, number) = place_of(obstacle, block(ConstReals(surfaces_.rest()), number), state, time);

@@ -1,5 +1,6 @@
 #include "tissu/contact/penalty.h"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <tuple>
@@ -16,9 +17,14 @@ std::array<double, 3> numbers_of(const Vec3& v) { return {v.x(), v.y(), v.z()}; 
 /// The largest area over mass of the free vertices of a surface [m2/kg].
 double largest_area_over_mass(const SurfaceSet& surfaces, std::int32_t surface, const Mass& mass) {
   double largest = 0.0;
-  for (const SurfaceVertex& vertex : surfaces.vertices()) {
-    if (vertex.surface != surface || vertex.row < 0) continue;
-    largest = std::max(largest, vertex.area / mass.nodal()[at(vertex.row)]);
+  const auto& of = surfaces.surfaces()[at(surface)];
+  for (std::int32_t v = of.first_vertex; v < of.last_vertex; ++v) {
+    const SurfaceVertex& vertex = surfaces.vertices()[at(v)];
+    if (vertex.row >= 0) largest = std::max(largest, vertex.area / mass.nodal()[at(vertex.row)]);
+    if (vertex.carrier < 0) continue;
+    const Frame& frame = mass.frames()[at(surfaces.carriers()[at(vertex.carrier)].frame)];
+    const double turning = surfaces.arm(v).squaredNorm() * largest_of(frame.inertia.inverse());
+    largest = std::max(largest, vertex.area * (1.0 / frame.mass + turning));
   }
   return largest;
 }
@@ -77,8 +83,8 @@ void PenaltyContact::find_near() {
 void PenaltyContact::share_rows() {
   const auto each = [&](auto&& f) {
     for (const Near& near : near_) {
-      for_rows(run_.looked()[near.looked],
-               [&](std::int32_t row, double /*beta*/) { f(shared_[at(row)], near.share); });
+      run_.for_parts(run_.looked()[near.looked],
+                     [&](const CarriedPart& part) { f(shared_[at(part.row)], near.share); });
     }
   };
   each([](double& sum, double /*share*/) { sum = 0.0; });
@@ -87,7 +93,7 @@ void PenaltyContact::share_rows() {
 
 /// Its force, whose parts go into the contact: `force`, `drag` of the start of the step, k in `stiffness`.
 Vec3 PenaltyContact::force_of(ContactNumbers& c, const Near& near, const State& at) {
-  const double w = mobility(c, shared_).maxCoeff() / near.share;  // 1/a
+  const double w = largest_of(mass_.mobility(c, shared_)) / near.share;  // 1/a
   if (!(w > 0.0)) return Vec3::Zero();
   const ContactPair& pair = pair_of(c);
   const bool own = pair.stiffness && c.area > 0.0;
@@ -112,7 +118,7 @@ void PenaltyContact::add_force(const State& state, double share, Reals f) {
   for (const Near& near : near_) {
     ContactNumbers c = run_.looked()[near.looked];
     const Vec3 force = force_of(c, near, state);
-    for_rows(c, [&](std::int32_t row, double beta) { block(f, row) += beta * force; });
+    run_.for_parts(c, [&](const CarriedPart& part) { block(f, part.row) += part.load(force); });
     if (share == 0.0) continue;
     c.push = numbers_of(share * force);
     c.sliding = stage_;

@@ -25,8 +25,10 @@ PushAhead::PushAhead(const Contact& contact, const std::vector<std::uint8_t>& gi
   part_ = std::numeric_limits<double>::infinity();
   const SurfaceSet& surfaces = contact.surfaces();
   for (std::size_t s = 0; s < surfaces.surfaces().size(); ++s) {
-    if (surfaces.surfaces()[s].obstacle >= 0) continue;
-    const double edge = surfaces.mean_edge(static_cast<std::int32_t>(s));
+    const SurfaceSet::Surface& of = surfaces.surfaces()[s];
+    if (of.obstacle >= 0 && of.carrier < 0) continue;
+    double edge = surfaces.mean_edge(static_cast<std::int32_t>(s));
+    if (edge == 0.0 && of.carrier >= 0) edge = 2.0 * surfaces.vertices()[at(of.first_vertex)].radius;
     if (edge > 0.0) part_ = std::min(part_, kPartOfEdge * edge);
   }
 }
@@ -67,7 +69,7 @@ double PushAhead::parts_of(const LedMotion& motion) const {
   double way = 0.0;
   for (std::size_t v = 0; v < given_.size(); ++v) {
     const SurfaceVertex& vertex = surfaces.vertices()[v];
-    if (vertex.row >= 0) continue;
+    if (vertex.is_free()) continue;
     const std::int32_t obstacle = surfaces.surfaces()[at(vertex.surface)].obstacle;
     const Vec3 rest = block(ConstReals(surfaces.rest()), static_cast<std::int32_t>(v));
     way = std::max(way, (contact_.place_of(obstacle, rest, motion.state, motion.to) -
@@ -140,13 +142,25 @@ bool PushAhead::go(const LedMotion& motion, double before, double after, Candida
   return false;
 }
 
+/// A rigid body goes as a whole.
+void PushAhead::move(std::int32_t vertex, const Vec3& by) {
+  const SurfaceSet& surfaces = contact_.surfaces();
+  const SurfaceVertex& of = surfaces.vertices()[at(vertex)];
+  if (of.carrier < 0) {
+    block(Reals(to_), vertex) += by;
+    return;
+  }
+  const auto& surface = surfaces.surfaces()[at(of.surface)];
+  for (std::int32_t v = surface.first_vertex; v < surface.last_vertex; ++v) block(Reals(to_), v) += by;
+}
+
 /// True when all pairs keep apart; else `pushed` says whether something was moved out of the way.
 bool PushAhead::push_pairs(const Candidates& candidates, ConstReals from, bool& pushed) {
   bool clear = true;
   for (std::size_t i = 0; i < candidates.list().size(); ++i) {
     const Candidate& candidate = candidates.list()[i];
     if (candidates.is_far(i, candidate.apart)) continue;
-    const FreeWay way = free_way(candidate, from, to_);
+    const FreeWay way = free_way(candidate, from, to_, {});
     if (way.share == 1.0) continue;
     clear = false;
     culprit_ = candidate.vertex[0];
@@ -168,7 +182,7 @@ bool PushAhead::push_pairs(const Candidates& candidates, ConstReals from, bool& 
       if ((k < first ? 0 : 1) == pusher || given_[at(v)] != 0) continue;
       const Vec3 now = block(ConstReals(to_), v) - block(from, v);
       if (now.squaredNorm() >= moved[at(pusher)].squaredNorm()) continue;
-      block(Reals(to_), v) = block(from, v) + moved[at(pusher)];
+      move(v, block(from, v) + moved[at(pusher)] - block(ConstReals(to_), v));
       pushed = true;
     }
   }
@@ -194,7 +208,7 @@ bool PushAhead::push_before_planes(const LedMotion& motion, double before, doubl
     other_ = -1;
     clear = false;
     if (given_[at(c.vertex)] != 0) continue;
-    block(Reals(to_), c.vertex) += (start - end) * is.normal;
+    move(c.vertex, (start - end) * is.normal);
     pushed = true;
   }
   return clear;

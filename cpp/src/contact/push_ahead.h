@@ -38,6 +38,7 @@ class PushAhead {
   /// One part; false: something is still in the way.
   bool go(const LedMotion& motion, double before, double after, Candidates& candidates,
           std::vector<double>& places);
+  void move(std::int32_t vertex, const Vec3& by);
   bool push_pairs(const Candidates& candidates, ConstReals from, bool& pushed);
   bool push_before_planes(const LedMotion& motion, double before, double after, const Candidates& candidates,
                           ConstReals from, bool& pushed);

@@ -34,12 +34,14 @@ std::span<const std::int32_t> listed(const std::vector<std::int32_t>& begin,
 }  // namespace
 
 SurfaceSet::SurfaceSet(const ContactDescription& description, std::span<const std::int32_t> first_node,
-                       ConstReals rest) {
+                       ConstReals rest, std::span<const Frame> frames) {
   for (std::size_t i = 0; i < description.bodies.size(); ++i) {
     add(description.bodies[i], first_node[i], -1, rest);
   }
   for (std::size_t i = 0; i < description.obstacles.size(); ++i) {
-    add(description.obstacles[i].surface, -1, static_cast<std::int32_t>(i), rest);
+    const ObstacleDescription& obstacle = description.obstacles[i];
+    add(obstacle.surface, -1, static_cast<std::int32_t>(i), rest);
+    if (obstacle.frame >= 0) carry(frames[at(obstacle.frame)], obstacle.frame, obstacle.origin);
   }
   list_by(owner_, primitives_.size(), own_vertex_begin_, own_vertex_);
   std::vector<std::int32_t> edge_owner(edges_.size());
@@ -90,6 +92,17 @@ void SurfaceSet::add(const SurfaceDescription& description, std::int32_t first_r
   surfaces_.push_back({description.name, first_vertex, static_cast<std::int32_t>(vertices_.size()),
                        description.closed, obstacle});
   first_primitive_.push_back(static_cast<std::int32_t>(primitives_.size()));
+}
+
+void SurfaceSet::carry(const Frame& frame, std::int32_t number, const Vec3& origin) {
+  if (carriers_.empty()) first_carried_ = surfaces_.back().first_vertex;
+  arms_.resize(vertices_.size() - at(first_carried_), Vec3::Zero());
+  for (std::int32_t v = surfaces_.back().first_vertex; v < surfaces_.back().last_vertex; ++v) {
+    vertices_[at(v)].carrier = static_cast<std::int32_t>(carriers_.size());
+    arms_[at(v - first_carried_)] = Vec3(block(ConstReals(rest_), v)) - origin;
+  }
+  surfaces_.back().carrier = static_cast<std::int32_t>(carriers_.size());
+  carriers_.push_back({number, frame.block, frame.rotation});
 }
 
 /// The edges that have more than two triangles, ascending.
@@ -183,7 +196,7 @@ std::size_t SurfaceSet::bytes() const {
   const auto of = [](const auto& list) { return list.size() * sizeof(list[0]); };
   return of(vertices_) + of(edges_) + of(primitives_) + of(triangle_edges_) + of(rest_) + of(owner_) +
          of(own_vertex_) + of(own_edge_) + of(own_vertex_begin_) + of(own_edge_begin_) + of(neighbour_) +
-         of(neighbour_begin_);
+         of(neighbour_begin_) + of(carriers_) + of(arms_);
 }
 
 }  // namespace tissu

@@ -37,7 +37,10 @@ BodyEdit edit_of(const BodyDescription& body, const CutState& before, const CutP
 
 void make(const World& world, const State& state, std::string_view name, const CutState& before,
           BodyCut& cut) {
-  if (cut.plan.gone.empty() && cut.plan.changed.empty() && cut.plan.material.cells.empty()) return;
+  const CutPlan& plan = cut.plan;
+  if (plan.gone.empty() && plan.changed.empty() && plan.material.cells.empty() &&
+      plan.material.incisions.empty())
+    return;
   const BodyEdit edit = edit_of(described(world, name), before, cut.plan);
   cut.world = edit_body(world, state, name, edit);
   cut.copies = row_copies(world, name, edit);

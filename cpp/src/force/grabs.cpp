@@ -142,10 +142,11 @@ std::size_t GrabTable::required(std::int32_t number) const {
   throw ParameterError("grab number " + std::to_string(number) + " does not exist; it was let go.");
 }
 
-void Grabs::claim_memory(MemoryPlaces& places) { place_ = places.claim(std::string(kMemory), 0); }
+void Grabs::claim_memory(MemoryPlaces& places) { place_ = places.claim(std::string(name_), 0); }
 
 void Grabs::carry_memory(const ForceModel& before, const Memory& then, Memory& now) const {
-  if (const auto* grabs = dynamic_cast<const Grabs*>(&before)) now[place_] = then[grabs->place_];
+  const auto* grabs = dynamic_cast<const Grabs*>(&before);
+  if (grabs != nullptr && grabs->name_ == name_) now[place_] = then[grabs->place_];
 }
 
 void Grabs::check_memory(const State& state) const {

@@ -12,8 +12,11 @@ namespace {
 
 /// Of D^-1 A with the blocks D on the diagonal, for cells of four to eight nodes.
 constexpr double kLargest = 3.0;
-/// Iterations for each cell along a cube that one side holds, to 1e-6: docs/measured/solvers.md.
+/// Iterations for each cell along a cube that one side holds, to 1e-6, where its weight pulls along the cells
+/// (docs/measured/solvers.md); where it bends them 18 to 21 were counted, of which an equilibrium expects the
+/// less.
 constexpr double kForACell = 12.8;
+constexpr double kForACellBent = 15.0;
 constexpr double kOfTolerance = 14.5;  ///< ln(2 / 1e-6), at which the numbers here were found
 /// Iterations of block-Jacobi for one of incomplete Cholesky.
 constexpr double kSaved = 3.2;
@@ -48,10 +51,11 @@ std::string_view name_of(Arm arm) {
   return kNames[number(arm)];
 }
 
-double plain_iterations(const MatrixShape& shape, double tolerance) {
+double plain_iterations(const MatrixShape& shape, double tolerance, bool equilibrium) {
   const double digits = std::log(2.0 / tolerance);
   const double bending = shape.along * std::max(1.0, shape.along / shape.through);
-  const double still = kForACell * std::cbrt(stiffer(shape)) * bending * digits / kOfTolerance;
+  const double still =
+      (equilibrium ? kForACellBent : kForACell) * std::cbrt(stiffer(shape)) * bending * digits / kOfTolerance;
   const double moving = 0.5 * std::sqrt(kLargest / std::max(shape.inertia, 1e-12)) * digits;
   return std::max(1.0, std::min({still, moving, 3.0 * shape.rows}));
 }

@@ -10,7 +10,7 @@ namespace tissu {
 /// Iterations that block-Jacobi takes to lower a residual by `tolerance`: those of the condition number
 /// (Saad, Iterative Methods for Sparse Linear Systems, 2nd edition, 6.11.3), which inertia bounds, and
 /// without it the bending of the longest direction.
-double plain_iterations(const MatrixShape& shape, double tolerance);
+double plain_iterations(const MatrixShape& shape, double tolerance, bool equilibrium);
 
 /// Shares of the solves that have a matrix of other values than the one before, or of another pattern.
 struct Changes {

@@ -126,7 +126,7 @@ void Automatic::meet(const BlockMatrix& A) {
   const bool first = known.id == 0 || std::abs(bytes - known.shape.bytes) > kNewSize * known.shape.bytes;
   if (first) {
     known.shape = shape_of(A, settings_.equilibrium);
-    known.plain = plain_iterations(known.shape, settings_.tolerance);
+    known.plain = plain_iterations(known.shape, settings_.tolerance, settings_.equilibrium);
     known.changes = Changes();
   } else {
     const bool other = known.id != A.id();

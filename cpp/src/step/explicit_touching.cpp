@@ -99,11 +99,18 @@ void ExplicitMethod::place(ConstReals way, double h, State& state) {
 int ExplicitMethod::hold_back(double h, State& state) {
   const Timed timed(*profile_, travel_row_);
   placed_ = state.positions;
+  placed_rotations_ = state.rotations;
   const int rows = contact_->hold_back(state);
   if (rows == 0) return 0;
   for (std::size_t i = 0; i < placed_.size(); ++i) {
     if (placed_[i] == state.positions[i]) continue;
     state.velocities[i] = (state.positions[i] - start_.positions[i]) / h;
+  }
+  const std::vector<Frame>& frames = world().frames();
+  for (std::size_t k = 0; k < frames.size(); ++k) {
+    if (placed_rotations_[k].coeffs() == state.rotations[k].coeffs()) continue;
+    const Quaternion turn = state.rotations[k] * start_.rotations[k].conjugate();
+    block(Reals(state.velocities), frames[k].rotation) = nearest_turn(turn, Vec3::Zero()) / h;
   }
   return rows;
 }

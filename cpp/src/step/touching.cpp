@@ -17,7 +17,8 @@ constexpr int kLater = 8;            ///< after so many systems …
 constexpr double kLaterDepth = 0.1;  ///< … this is deep enough: the next step goes on from its forces
 constexpr double kTooDeep = 0.5;
 constexpr double kDepthNewton = 1e-3;
-constexpr double kForce = 1e-2;  ///< of the contacts' forces: a smaller change needs no other system
+constexpr double kForce = 1e-2;       ///< of the contacts' forces: a smaller change needs no other system
+constexpr double kForceRigid = 1e-3;  ///< the same where a rigid body is free, which has no other forces
 constexpr double kForceNewton = 1e-3;
 constexpr int kMostLooks = 20;  ///< of a step whose equation is solved to its tolerance
 constexpr double kWorse = 2.0;
@@ -39,6 +40,7 @@ double StageSolver::look(const State& at) {
 int StageSolver::hold_back(State& to) {
   const Timed timed(*profile_, travel_row_);
   placed_ = to.positions;
+  placed_rotations_ = to.rotations;
   return contact_->run().hold_back(to);
 }
 
@@ -114,17 +116,26 @@ void StageSolver::follow(const State& end, std::vector<double>& v) {
     const auto row = static_cast<std::int32_t>(i / 3);
     if (cut_.empty() || cut_.back() != row) cut_.push_back(row);
   }
+  const std::vector<Frame>& frames = system_->world().frames();
+  for (std::size_t k = 0; k < frames.size(); ++k) {
+    if (placed_rotations_[k].coeffs() == end.rotations[k].coeffs()) continue;
+    const Quaternion turn = end.rotations[k] * stage_.base.rotations[k].conjugate();
+    block(Reals(v), frames[k].rotation) = nearest_turn(turn, Vec3::Zero()) / move;
+  }
 }
 
 bool StageSolver::solve_contacts(State& state, std::vector<double>& v, StepReport& report) {
   const World& world = system_->world();
   const Contact& contact = *world.contact();
   const int most = contact.description().iterations;
+  const double enough = contact.surfaces().carriers().empty() ? kForce : kForceRigid;
   place(state, v);
   State* end = &end_of(state);
   hold_back(*end);
   look(*end);
   contact_->take();
+  // Levers of what is rigid are those of the latest places: the step is one of Newton's for contact.
+  const State& levers = contact.surfaces().carriers().empty() ? stage_.base : state;
   bool solved = true;
   for (int i = 1;; ++i) {
     set_contacts(state);
@@ -136,7 +147,7 @@ bool StageSolver::solve_contacts(State& state, std::vector<double>& v, StepRepor
     }
     for (std::size_t k = 0; k < work_.size(); ++k) right_[k] = elastic_[k] + stage_.push * work_[k];
     world.fixed().clear(right_);
-    system_->recouple(stage_.base);
+    system_->recouple(levers);
     std::ranges::fill(change_, 0.0);
     const SolveReport found = solve_linear(stage_.base, kFloor * reference_, false, report);
     solved = solved && found.converged;
@@ -144,7 +155,7 @@ bool StageSolver::solve_contacts(State& state, std::vector<double>& v, StepRepor
     report.residual = found.residual;
     // Without contact: A change - C change.
     system_->system_matrix().multiply(change_, work_);
-    contact.add_product(stage_.base, scratch_, {stage_.move * stage_.push, 0.0}, change_, work_);
+    contact.add_product(levers, scratch_, {stage_.move * stage_.push, 0.0}, change_, work_);
     for (std::size_t k = 0; k < v.size(); ++k) {
       elastic_[k] -= work_[k];
       v[k] += change_[k];
@@ -156,7 +167,7 @@ bool StageSolver::solve_contacts(State& state, std::vector<double>& v, StepRepor
     report.held_back = hold_back(*end);
     const double other = look(*end);
     const bool free = report.held_back == 0;
-    if (free && other <= kForce && contact_->depth() <= (i < kLater ? kDepth : kLaterDepth)) break;
+    if (free && other <= enough && contact_->depth() <= (i < kLater ? kDepth : kLaterDepth)) break;
     if (i == most) {
       report.hasty = contact_->inadmissible() > kForce || contact_->depth() > kTooDeep;
       if (report.hasty) report.message = unsettled(most);

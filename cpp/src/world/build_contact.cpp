@@ -9,7 +9,8 @@ void WorldBuilder::add_contact() {
   for (const SurfaceDescription& surface : description_.contact->bodies) {
     first.push_back(world_.body(surface.name).first_node);
   }
-  auto contact = std::make_unique<Contact>(*description_.contact, first, world_.rest_.positions);
+  auto contact =
+      std::make_unique<Contact>(*description_.contact, first, world_.rest_.positions, world_.frames());
   world_.contact_ = contact.get();
   world_.forces_.push_back(std::move(contact));
 }

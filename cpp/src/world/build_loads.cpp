@@ -5,6 +5,7 @@
 #include "tissu/force/frame_weight.h"
 #include "tissu/force/grabs.h"
 #include "tissu/force/gravity.h"
+#include "tissu/force/instruments.h"
 #include "tissu/force/links.h"
 #include "tissu/force/load.h"
 
@@ -23,6 +24,8 @@ void WorldBuilder::add_loads() {
   for (const PressureDescription& pressure : description_.pressures) add_pressure(pressure);
   if (description_.links) forces.push_back(std::make_unique<Links>());
   if (description_.grabbing) forces.push_back(std::make_unique<Grabs>());
+  if (description_.instruments) forces.push_back(std::make_unique<Instruments>());
+  if (description_.pressing) forces.push_back(std::make_unique<Grabs>(Grabs::kPresses));
 }
 
 void WorldBuilder::add_load(const LoadDescription& load) {

@@ -9,6 +9,7 @@ import typer
 
 from tissu.cli.mesh_commands import Debug, mesh_app
 from tissu.cli.outcome import reported
+from tissu.cli.trocar_commands import trocar_app
 
 app = typer.Typer(
     help="Deforming soft tissue: a scene file goes in, a deforming organ comes out.",
@@ -18,6 +19,7 @@ app = typer.Typer(
     context_settings={"help_option_names": ["-h", "--help"]},
 )
 app.add_typer(mesh_app, name="mesh")
+app.add_typer(trocar_app, name="trocar")
 bench_app = typer.Typer(help="Measure what accuracy and contact cost.", no_args_is_help=True)
 app.add_typer(bench_app, name="bench")
 

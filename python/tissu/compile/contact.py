@@ -151,13 +151,15 @@ def _prepare_pairs(
     gaps, finest = [], 0.0
     for a, b in pairs_of(prepared, contact):
         first, second = (a, b) if a in surfaces else (b, a)
-        if first not in surfaces or (second not in surfaces and second not in made.obstacles):
+        known = {**surfaces, **made.obstacles}
+        if first not in known or second not in known:
             continue  # told already
-        nodes = _met_nodes(prepared, surfaces[first], path, contact, first)
+        nodes: Ints | None = np.empty(0, dtype=np.int32)
+        if first in surfaces:
+            nodes = _met_nodes(prepared, surfaces[first], path, contact, first)
         if nodes is None:
             return
-        sides = [surfaces[name].mean_edge for name in {first, second} if name in surfaces]
-        edge = min(sides)
+        edge = _finest_edge(made, surfaces, first, second)
         gaps.append(GAP * edge if contact.gap is None else contact.gap)
         finest = edge if not finest else min(finest, edge)
         made.pairs.append(PreparedPair(first, second, contact, gaps[-1], nodes))
@@ -170,6 +172,15 @@ def _prepare_pairs(
             f"edge, {finest:.4g} m, so that surfaces rest visibly apart; {GAP * finest:.2g} m is "
             "the default"
         )
+
+
+def _finest_edge(
+    made: PreparedContact, surfaces: dict[str, ContactSurface], first: str, second: str
+) -> float:
+    """Mean surface edge of the finer body; of two obstacles of the finer free one."""
+    bodies = [surfaces[name].mean_edge for name in {first, second} if name in surfaces]
+    free = [made.obstacles[name] for name in {first, second} if name in made.obstacles]
+    return min(bodies or [one.size for one in free if one.rigid is not None])
 
 
 def pairs_of(prepared: Prepared, contact: Contact | SelfContact) -> Iterator[tuple[str, str]]:
@@ -186,9 +197,11 @@ def pairs_of(prepared: Prepared, contact: Contact | SelfContact) -> Iterator[tup
         if getattr(other, "between", None) != "all":
             named |= {frozenset(pair) for pair in pairs_of(prepared, other)}
     bodies = list(scene.bodies)
+    free = {name for name, one in scene.obstacles.items() if one.mass is not None}
     every = [
         *itertools.combinations_with_replacement(bodies, 2),
         *itertools.product(bodies, scene.obstacles),
+        *(two for two in itertools.combinations(scene.obstacles, 2) if free & {*two}),
     ]
     yield from (pair for pair in every if frozenset(pair) not in named)
 

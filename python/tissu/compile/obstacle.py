@@ -10,6 +10,7 @@ import numpy as np
 from tissu.compile.contact_surface import ContactSurface, halves_of
 from tissu.compile.meshes import mesh_of
 from tissu.compile.prepared import Findings, Floats, Ints
+from tissu.compile.rigid import Rigid, centre_of, rigid_of
 from tissu.errors import TissuError
 from tissu.mesh.surface import edge_faults, enclosed_volume
 from tissu.scene.direction import unit_vector
@@ -40,7 +41,9 @@ class PreparedObstacle(NamedTuple):
     """An obstacle with its surface, or with the normal (3,) of length 1 of its plane.
 
     Attributes:
-        origin: (3,) what is led, and what moments are taken about [m].
+        origin: (3,) what is led, and what moments are taken about [m]; of one with a mass its
+            centre.
+        rigid: its mass and inertia where it moves freely.
     """
 
     name: str
@@ -48,6 +51,16 @@ class PreparedObstacle(NamedTuple):
     surface: ContactSurface | None
     normal: Floats | None
     motion: Motion | None
+    rigid: Rigid | None = None
+
+    @property
+    def size(self) -> float:
+        """Mean edge of its surface, or radius where it has none [m]; 0 of a plane."""
+        if self.surface is None:
+            return 0.0
+        if not len(self.surface.triangles):
+            return float(self.surface.radius[0])
+        return self.surface.mean_edge
 
     def add_to(self, builder: WorldBuilder) -> None:
         """Put it into the world."""
@@ -57,7 +70,11 @@ class PreparedObstacle(NamedTuple):
             builder.add_plane(name=self.name, normal=self.normal, origin=self.origin, motion=motion)
             return
         builder.add_obstacle(
-            name=self.name, origin=self.origin, motion=motion, **self.surface._asdict()
+            name=self.name,
+            origin=self.origin,
+            motion=motion,
+            rigid=self.rigid,
+            **self.surface._asdict(),
         )
 
 
@@ -87,7 +104,16 @@ def prepared_obstacle(name: str, obstacle: Obstacle, findings: Findings) -> Prep
         if surface is None:
             return None
         origin = (surface.vertices.min(axis=0) + surface.vertices.max(axis=0)) / 2.0
-    return PreparedObstacle(name, origin, surface, normal, motion)
+        if obstacle.mass is not None:
+            if not surface.closed:
+                text = f"found {obstacle.mass:g} kg for a surface that is not closed, which has no "
+                findings.problem(("obstacles", name, "mass"), f"{text}centre of mass; close it")
+                return None
+            origin = centre_of(surface.vertices, surface.triangles)
+    rigid = None
+    if obstacle.mass is not None and surface is not None:
+        rigid = rigid_of(obstacle, surface.vertices, surface.triangles)
+    return PreparedObstacle(name, origin, surface, normal, motion, rigid)
 
 
 def _made(

@@ -30,6 +30,7 @@ if TYPE_CHECKING:
     from tissu.scene.problem import Path
     from tissu.scene.scene import SceneData
     from tissu.scene.support import Support
+    from tissu.scene.trocar.trocar import Trocar
 
 
 def prepare(scene: SceneData) -> Prepared:
@@ -55,7 +56,17 @@ def prepare(scene: SceneData) -> Prepared:
     check_supports(prepared)
     with contextlib.suppress(Unknown):
         prepare_contact(prepared)
+    for name, trocar in getattr(scene, "trocars", {}).items():
+        with contextlib.suppress(Unknown):
+            _check_device(prepared, name, trocar)
     return prepared
+
+
+def _check_device(prepared: Prepared, name: str, trocar: Trocar) -> None:
+    """A device that is not there, and a path of a hand that cannot be read."""
+    absent = trocar.device.absent()
+    if absent is not None:
+        prepared.findings.problem(("trocars", name, "device"), absent)
 
 
 def _prepare_body(prepared: Prepared, name: str) -> None:

@@ -21,6 +21,7 @@ from tissu.errors import ParameterError, SceneError
 from tissu.mesh.cell import dimension
 from tissu.scene.load import Where
 from tissu.scene.model import Frames
+from tissu.scene.problem import Path as Place
 from tissu.scene.problem import Problem
 from tissu.scene.section import section_in_core
 from tissu.scene.step import Static
@@ -28,6 +29,7 @@ from tissu.scene.step import Static
 if TYPE_CHECKING:
     from tissu._core import WorldBuilder
     from tissu.front import Scene
+    from tissu.scene.tear import Tear
     from tissu.simulation import Simulation
 
 
@@ -58,6 +60,7 @@ def compile_scene(scene: Scene, checkpoint: Path | None = None) -> Simulation:
         loads=[(loaded.load, _where(prepared, loaded)) for loaded in prepared.loaded],
         checkpoint=saved,
     )
+    refuse_uncuttable(simulation)
     if saved is not None:
         return simulation
     begin(simulation, prepared)
@@ -81,6 +84,46 @@ def world_of(prepared: Prepared) -> Any:
         build_world(dataclasses.replace(prepared, contact=None))  # raises what else is wrong
         problem = Problem(("contacts",), str(error))
         raise SceneError([problem.sentence(prepared.scene.source)]) from None
+
+
+def refuse_uncuttable(simulation: Simulation) -> None:
+    """Refuse instruments and tears of bodies that cannot be cut.
+
+    Raises:
+        SceneError: they cannot, with what stands against it.
+    """
+    scene, problems = simulation.scene, list[Problem]()
+    named: list[tuple[Place, str]] = [
+        (("instruments", name, tool.bodies_field, number), body)
+        for name, tool in scene.instruments.items()
+        for number, body in enumerate(tool.bodies)
+    ]
+    named += [(("tear", number, "body"), tear.body) for number, tear in enumerate(scene.tear)]
+    for path, body in named:
+        try:
+            simulation._core.require_parting(body)
+        except ParameterError as error:
+            problems.append(Problem(path, str(error).rstrip(".")))
+    for number, tear in enumerate(scene.tear):
+        problems += [] if problems else too_short(simulation, number, tear)
+    if problems:
+        raise SceneError([problem.sentence(scene.source) for problem in problems])
+
+
+def too_short(simulation: Simulation, number: int, tear: Tear) -> list[Problem]:
+    """A tear whose length the cells do not resolve, or of a body that has no stress."""
+    from tissu.simulation.slicing import cell_size
+
+    try:
+        simulation.field("cauchy_stress", "cells", tear.body)
+    except ParameterError as error:
+        return [Problem(("tear", number, "body"), str(error))]
+    size = cell_size(simulation, tear.body)
+    if tear.length >= size:
+        return []
+    text = f"found {tear.length:g} m, below {size:.3g} m, the mean edge of the cells of "
+    text += f"'{tear.body}'; at least that is accepted, or a finer mesh"
+    return [Problem(("tear", number, "length"), text)]
 
 
 def unstable_step(simulation: Simulation) -> Problem | None:
@@ -107,6 +150,9 @@ def build_world(prepared: Prepared) -> Any:
         grabbing=scene.grabbing,
         consistent_weight=isinstance(scene.step, Static),
     )
+    if scene.instruments:
+        tools = scene.instruments.values()
+        builder.use_instruments(pressing=any(getattr(tool, "toughness", None) for tool in tools))
     for name in prepared.bodies:
         _add_body(builder, prepared, name)
     for name in prepared.tissue:

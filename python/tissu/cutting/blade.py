@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 Floats = NDArray[np.float64]
 
-__all__ = ["Disc", "Sweep", "Triangles"]
+__all__ = ["Capsule", "Disc", "Sweep", "Triangles"]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -89,7 +89,10 @@ class Sweep:
                 "at k moments, at least two of both"
             )
         return _core.edge_sweep(
-            places=edges.reshape(-1, 3), moments=edges.shape[0], points=edges.shape[1]
+            places=edges.reshape(-1, 3),
+            moments=edges.shape[0],
+            points=edges.shape[1],
+            incision=-1,
         )
 
 
@@ -118,7 +121,45 @@ def surface_of(blade: object, places: Floats) -> CoreSweep:
     )
 
 
-Place = Sphere | Box
+@dataclass(frozen=True, slots=True, eq=False)
+class Capsule:
+    """All points no farther than `radius` from the line between two ends: a ball that is swept.
+
+    Attributes:
+        ends: both ends (2, 3) [m]; of one and the same place it is a ball.
+        radius: [m], or text such as "2 mm".
+    """
+
+    ends: ArrayLike
+    radius: units.Number
+
+    def box(self) -> tuple[Floats, Floats]:
+        """Its smallest and its largest corner (3,) [m]."""
+        a, b, radius = self._read()
+        return np.minimum(a, b) - radius, np.maximum(a, b) + radius
+
+    def holds(self, points: Floats) -> NDArray[np.bool_]:
+        """Which points (n, 3) lie in it [m]."""
+        a, b, radius = self._read()
+        axis = b - a
+        square = float(axis @ axis)
+        share = np.zeros(len(points))
+        if square > 0.0:
+            share = np.clip((points - a) @ axis / square, 0.0, 1.0)
+        return np.asarray(np.linalg.norm(points - a - share[:, None] * axis, axis=1) <= radius)
+
+    def _read(self) -> tuple[Floats, Floats, float]:
+        ends, radius = _rows(self.ends, "ends"), units.LENGTH(self.radius)
+        if ends.shape != (2, 3) or not np.isfinite(ends).all():
+            raise ParameterError(
+                f"found ends of shape {ends.shape} of a capsule; two finite points are accepted"
+            )
+        if not radius > 0.0:
+            raise ParameterError(f"found a capsule of radius {radius:g} m; above 0 is accepted")
+        return ends[0], ends[1], radius
+
+
+Place = Sphere | Box | Capsule
 """Where cells are ablated."""
 
 
@@ -128,9 +169,12 @@ def inside_of(place: object, points: Floats) -> NDArray[np.bool_]:
     Raises:
         ParameterError: it is not a place.
     """
+    if isinstance(place, Capsule):
+        return place.holds(points)
     if not isinstance(place, Sphere | Box):
         found = type(place).__name__
-        raise ParameterError(f"found {found} to ablate; ts.Sphere and ts.Box are accepted")
+        accepted = "ts.Sphere, ts.Capsule and ts.Box are accepted"
+        raise ParameterError(f"found {found} to ablate; {accepted}")
     return place._inside(points, 0.0)
 
 

@@ -52,6 +52,7 @@ class CutReport:
 
     Attributes:
         body: its name.
+        by: name of the instrument that made it, "tear" of a tear; empty: a call of the program.
         cells_cut: cells that the blade divided or along whose faces it ran.
         cells_new: cells that took their places.
         cells_gone: cells that were replaced or removed.
@@ -66,6 +67,7 @@ class CutReport:
         angular_momentum_change: about the origin (3,) [kg m2/s].
         kinetic_energy_change: [J].
         elastic_energy_change: [J].
+        work: of a blade with a toughness, toughness times area [J]; else 0.
         unresolved: cells that the blade met and did not cut, with the reason.
         released: numbers of the grabs that were let go, since their points were parted.
         relaid: whether everything was laid anew, in place of what was touched only.
@@ -73,6 +75,7 @@ class CutReport:
     """
 
     body: str
+    by: str
     cells_cut: int
     cells_new: int
     cells_gone: int
@@ -87,6 +90,7 @@ class CutReport:
     angular_momentum_change: Floats
     kinetic_energy_change: float
     elastic_energy_change: float
+    work: float
     unresolved: tuple[tuple[int, str], ...]
     released: tuple[int, ...]
     relaid: bool
@@ -94,9 +98,12 @@ class CutReport:
 
     def __str__(self) -> str:
         """One line."""
+        by = f" by {self.by}" if self.by else ""
         if not self.cells_cut and not self.cells_gone:
-            return f"cut of '{self.body}': the blade met nothing"
-        text = f"cut of '{self.body}': {counted(self.cells_cut, 'cell')} cut, "
+            return f"cut of '{self.body}'{by}: the blade met nothing"
+        text = f"cut of '{self.body}'{by}: {counted(self.cells_cut, 'cell')} cut, "
+        if not self.cells_cut:
+            text = f"ablation of '{self.body}'{by}: {counted(self.cells_gone, 'cell')} gone, "
         text += f"{counted(self.nodes_new, 'new node')}, {1e4 * self.area:.4g} cm2 opened, "
         text += f"{counted(len(self.pieces), 'piece')}, {self.milliseconds:.1f} ms"
         if self.unresolved:
@@ -108,6 +115,7 @@ def cut_report(
     body: str,
     made: dict[str, Any],
     *,
+    by: str,
     before: dict[str, Any],
     after: dict[str, Any],
     pieces: tuple[Piece, ...],
@@ -118,6 +126,7 @@ def cut_report(
     met = bool(made["cells_cut"] or made["cells_gone"])
     return CutReport(
         body=body,
+        by=by,
         cells_cut=made["cells_cut"],
         cells_new=made["cells_new"],
         cells_gone=made["cells_gone"],
@@ -132,6 +141,7 @@ def cut_report(
         angular_momentum_change=after["angular_momentum"] - before["angular_momentum"],
         kinetic_energy_change=after["kinetic"] - before["kinetic"],
         elastic_energy_change=after["elastic"] - before["elastic"],
+        work=0.0,
         unresolved=tuple((int(cell), str(why)) for cell, why in made["unresolved"]),
         released=released,
         relaid=met,

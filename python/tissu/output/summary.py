@@ -16,6 +16,7 @@ from pydantic import BaseModel
 from tissu.files import whole_file
 
 if TYPE_CHECKING:
+    from tissu.cutting.report import CutReport
     from tissu.mesh import Mesh
     from tissu.output.contact_tally import ContactTally
     from tissu.simulation import Simulation, StepReport
@@ -33,6 +34,7 @@ class StepTally:
         indefinite: systems whose matrix was not positive definite, and was made so.
         largest_residual: of all steps.
         first_unconverged: what the first step that did not converge said; empty: all did.
+        cuts: what instruments and tears did, one after the other; see `cut_record`.
     """
 
     steps: int = 0
@@ -42,6 +44,7 @@ class StepTally:
     indefinite: int = 0
     largest_residual: float = 0.0
     first_unconverged: str = ""
+    cuts: list[dict[str, Any]] = dataclasses.field(default_factory=list)
 
     def add(self, report: StepReport) -> None:
         """Takes one more step into account."""
@@ -50,6 +53,7 @@ class StepTally:
         self.solver_iterations += report.solver_iterations
         self.indefinite += report.indefinite
         self.largest_residual = max(self.largest_residual, report.residual)
+        self.cuts += [cut_record(report.time, cut) for cut in report.cuts]
         if not report.converged:
             self.unconverged += 1
             self.first_unconverged = self.first_unconverged or str(report)
@@ -84,6 +88,8 @@ def summarise(
     build, resumed = dict(_core.build_info()), simulation.resumed_from
     every_note = [*(note for mesh in simulation.meshes.values() for note in mesh.notes), *notes]
     touched = None if contacts is None else contacts.record()
+    steps = dataclasses.asdict(tally)
+    cuts = steps.pop("cuts")
     return {
         "tissu": build.pop("version", ""),
         "status": status,
@@ -98,14 +104,31 @@ def summarise(
         "simulated_seconds": simulation.time,
         "resumed_from": None if resumed is None else dataclasses.asdict(resumed),
         "stable_step_seconds": simulation.stable_step,
-        "steps": dataclasses.asdict(tally),
+        "steps": steps,
         "timings": profile_data(simulation),
         "wall_seconds": dict(wall_seconds),
         "energy_joules": dict(simulation.energy()),
         **({} if touched is None else {"contacts": touched}),
+        **({"cuts": cuts} if simulation.scene.editing else {}),
         "files": dict(files),
         "notes": every_note,
     }
+
+
+def cut_record(time: float, report: CutReport) -> dict[str, Any]:
+    """A cut, ablation or tear at a time [s] as data; of its pieces how large they are."""
+    names = [one.name for one in dataclasses.fields(report) if one.name != "pieces"]
+    pieces = [
+        {
+            "first_cell": piece.first_cell,
+            "cells": len(piece.cells),
+            "volume": piece.volume,
+            "mass": piece.mass,
+            "held": piece.held,
+        }
+        for piece in report.pieces
+    ]
+    return {"time": time, **{name: getattr(report, name) for name in names}, "pieces": pieces}
 
 
 def write_summary(path: Path, summary: Mapping[str, Any]) -> None:

@@ -90,8 +90,36 @@ from tissu.scene.contact import (
     SelfContact,
     ContactSettings,
 )
+from tissu.scene.trocar.trocar import (
+    Trocar,
+    Coupling,
+)
+from tissu.scene.trocar.port import (
+    Port,
+)
+from tissu.scene.trocar.device import (
+    SimulatedDevice,
+    UdpDevice,
+    SerialDevice,
+    SharedMemoryDevice,
+    PluginDevice,
+)
+from tissu.scene.trocar.hand import (
+    Hand,
+)
+from tissu.scene.trocar.limits import (
+    TrocarLimits,
+)
 from tissu.scene.editing import (
     Editing,
+)
+from tissu.scene.instrument import (
+    Ablator,
+    Knife,
+    ToolPath,
+)
+from tissu.scene.tear import (
+    Tear,
 )
 from tissu.scene.step import (
     ExplicitEuler,
@@ -169,7 +197,21 @@ __all__ = [
     "Contact",
     "SelfContact",
     "ContactSettings",
+    "Trocar",
+    "Coupling",
+    "Port",
+    "SimulatedDevice",
+    "UdpDevice",
+    "SerialDevice",
+    "SharedMemoryDevice",
+    "PluginDevice",
+    "Hand",
+    "TrocarLimits",
     "Editing",
+    "Ablator",
+    "Knife",
+    "ToolPath",
+    "Tear",
     "ExplicitEuler",
     "SymplecticEuler",
     "RK2",

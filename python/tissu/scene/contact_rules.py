@@ -25,6 +25,10 @@ STEPS_OF_METHOD: dict[str, tuple[str, ...]] = {
 
 Contact in steps without damping ends with impulses that take all that springs would give back.
 """
+STEPS_OF_FREE: tuple[str, ...] = ("implicit_euler", *_EXPLICIT)
+"""the steps that move obstacles with a mass; BDF2 goes on from velocities before a blow, so that
+what is rigid is thrown back
+"""
 FIELDS_OF_METHOD: dict[str, tuple[str, ...]] = {
     "impulse": ("restitution",),
     "penalty": ("restitution", "stiffness"),
@@ -32,6 +36,16 @@ FIELDS_OF_METHOD: dict[str, tuple[str, ...]] = {
 """Contact method -> the fields of a contact that it alone has."""
 LEAST_RESTITUTION = math.exp(-2.0)
 """what a damper that does not pull gives back at least (Schwager, Poeschel 2007)"""
+
+
+def has_free(scene: Any) -> bool:
+    """Whether an obstacle has a mass, as far as that is known."""
+    with contextlib.suppress(Unknown):
+        for obstacle in scene.obstacles.values():
+            with contextlib.suppress(Unknown):
+                if obstacle.mass is not None:
+                    return True
+    return False
 
 
 def method_of(scene: Any) -> str | None:
@@ -51,6 +65,9 @@ def contact_problems(scene: Any) -> Iterator[Problem]:
         with contextlib.suppress(Unknown):
             for problem in _named(scene, contact, number, met):
                 yield Problem(("contacts", number, *problem.path), problem.text)
+    if not contacts and has_free(scene):
+        text = "found an obstacle with a mass and no contacts, without which nothing moves it; add "
+        yield Problem(("contacts",), f"{text}a contact of it, such as {{between: all}}")
     alls = [n for n, contact in enumerate(contacts) if getattr(contact, "between", "") == "all"]
     for number in alls[1:]:
         text = f"found all a second time, beside contacts[{alls[0]}]; once is accepted"
@@ -138,8 +155,10 @@ def _no_pair(scene: Any, place: Path, first: str, second: str) -> Iterator[Probl
         text = f"found '{first}' twice; a body that meets itself is written {{self: {first}}}"
         yield Problem(place, text)
     elif first in _obstacles(scene) and second in _obstacles(scene):
+        if any(_obstacles(scene)[name].mass is not None for name in (first, second)):
+            return
         text = f"found the obstacles '{first}' and '{second}', of which a contact moves neither; "
-        yield Problem(place, f"{text}a pair with a body is accepted")
+        yield Problem(place, f"{text}a pair with a body is accepted, or give one of them a mass")
 
 
 def _once(
@@ -186,6 +205,7 @@ def _method_problems(scene: Any) -> Iterator[Problem]:
         text = f"found {step} with {count}{asked}; accepted with contact: {one_of_words(steps)}"
         yield Problem(("step",), text)
         return
+    yield from _free_problems(scene, step)
     yield from _settings_problems(settings, method)
     if getattr(scene.step, "arc_length", False):
         text = "found true beside contacts, which an arc length does not follow; leave it out"
@@ -194,6 +214,18 @@ def _method_problems(scene: Any) -> Iterator[Problem]:
         with contextlib.suppress(Unknown):
             for problem in _field_problems(contact, method, step):
                 yield Problem(("contacts", number, *problem.path), problem.text)
+
+
+def _free_problems(scene: Any, step: str) -> Iterator[Problem]:
+    """Obstacles with a mass: which steps move them."""
+    if step in STEPS_OF_FREE:
+        return
+    for name, obstacle in scene.obstacles.items():
+        with contextlib.suppress(Unknown):
+            if obstacle.mass is not None:
+                text = f"found {obstacle.mass:g} kg with the step {step}, which moves no free "
+                steps = one_of_words(STEPS_OF_FREE)
+                yield Problem(("obstacles", name, "mass"), f"{text}obstacle; accepted: {steps}")
 
 
 def _settings_problems(settings: ContactSettings, method: str) -> Iterator[Problem]:

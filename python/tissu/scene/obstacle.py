@@ -1,4 +1,4 @@
-"""Obstacles: rigid things that bodies meet, at rest or led along a path."""
+"""Obstacles: rigid things that bodies meet, at rest, led along a path, or free."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from pydantic import BeforeValidator, PlainValidator, ValidationInfo
 
 from tissu import units
 from tissu.errors import ParameterError
-from tissu.reading import Maybe, Read, VectorLike, listed, written
+from tissu.reading import Maybe, MaybeVector, Read, VectorLike, listed, written
 from tissu.scene.body import MeshFile, MeshLike, mesh_source
 from tissu.scene.effect import Effect, vector_in_words
 from tissu.scene.field import field
@@ -36,19 +36,33 @@ class Obstacle(Part):
     motion: Motion | None = None
     """path on which it is led; absent: it stands still"""
     mass: Maybe[units.Mass] = field(default=None, gt=0.0)
-    """reserved for free obstacles [kg], which are not implemented: leave it out"""
+    """mass [kg] of an obstacle that moves freely, of even density; absent: it is led, or at rest"""
+    velocity: MaybeVector[units.Velocity] = field(default=None)
+    """velocity at the start [m/s], of one with a mass; absent: none"""
+    spin: MaybeVector[units.Spin] = field(default=None)
+    """angular velocity at the start about the centre of mass [rad/s], of one with a mass; absent:
+    none
+    """
     if TYPE_CHECKING:
         type: str
 
-    @rule("mass")
-    def _is_led(self) -> Iterator[Problem]:
-        if self.mass is not None:
-            text = f"found {self.mass:g} kg, but an obstacle that moves freely is not there yet; "
-            yield Problem(("mass",), f"{text}leave mass out: it stands still, or `motion` leads it")
+    @rule("mass", "motion")
+    def _is_led_or_free(self) -> Iterator[Problem]:
+        if self.mass is not None and self.motion is not None:
+            text = f"found {self.mass:g} kg beside `motion`; an obstacle with a mass moves freely, "
+            yield Problem(("mass",), f"{text}one that is led has none: leave one of them out")
+
+    @rule("mass", "velocity", "spin")
+    def _moves(self) -> Iterator[Problem]:
+        for name in ("velocity", "spin"):
+            if getattr(self, name) is not None and self.mass is None:
+                text = f"found a {name} without a mass; give the obstacle a mass, so that it moves "
+                yield Problem((name,), f"{text}freely, or lead it by `motion`")
 
     def effect(self, name: str) -> Effect:
         """What an obstacle of this name switches on."""
         led = "" if self.motion is None else f", {self.motion.words()}"
+        led += "" if self.mass is None else f", free, mass {self.mass:g} kg"
         return Effect(f"obstacle {name}", f"obstacles.{name} is a {self.words()}{led}")
 
     def words(self) -> str:
@@ -70,6 +84,12 @@ class PlaneObstacle(Obstacle):
         if not any(self.normal):
             text = "found the normal (0, 0, 0); a direction is accepted, such as [0, 0, 1]"
             yield Problem(("normal",), text)
+
+    @rule("mass")
+    def _has_no_mass(self) -> Iterator[Problem]:
+        if self.mass is not None:
+            text = f"found {self.mass:g} kg for a plane, which has no end; leave mass out, or take "
+            yield Problem(("mass",), f"{text}a box")
 
     def words(self) -> str:
         """Its shape and numbers, as `check` says them."""

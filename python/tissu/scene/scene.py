@@ -16,16 +16,20 @@ from tissu.reading import Maybe, MaybeVector, Read
 from tissu.scene.body import Body, PathLike
 from tissu.scene.bounds import name_problem, step_problems
 from tissu.scene.contact import Contacts, ContactSettings
-from tissu.scene.contact_rules import contact_problems
+from tissu.scene.contact_rules import contact_problems, has_free
 from tissu.scene.editing import EditingField
 from tissu.scene.field import field
+from tissu.scene.instrument import AllInstruments
+from tissu.scene.instrument_rules import instrument_problems
 from tissu.scene.load import Load, OneLoad
 from tissu.scene.obstacle import Obstacles
 from tissu.scene.part import Part, problems_in
 from tissu.scene.problem import Problem, Source, nearest, one_of_words
 from tissu.scene.step import OneStep
 from tissu.scene.support import Fixed, Prescribed
+from tissu.scene.tear import Tear
 from tissu.scene.tissue import Tissue, tissues_of
+from tissu.scene.trocar.trocar import Trocars, trocar_problems
 from tissu.scene.unknown import Unknown, below, rule
 
 if TYPE_CHECKING:
@@ -108,6 +112,8 @@ class SceneData(Part):
     """what meets what; absent: bodies pass through each other"""
     contact: ContactSettings | None = None
     """how contacts are found and answered, of all of them"""
+    trocars: Annotated[Trocars, BeforeValidator(_by_name)] = field(default_factory=dict)
+    """driven ports by name, through which a hand feels what a tool meets; absent: none"""
     step: OneStep
     """how time is stepped, such as {type: implicit_euler, dt: 10 ms}"""
     duration: Maybe[units.Time] = field(default=None, gt=0.0)
@@ -116,6 +122,10 @@ class SceneData(Part):
     """number of threads"""
     editing: EditingField = field(default=None)
     """whether cells may be removed, and bodies cut, while it runs"""
+    instruments: Annotated[AllInstruments, BeforeValidator(_by_name)] = field(default_factory=dict)
+    """what cuts and takes away by name, at the end of each step; needs `editing`"""
+    tear: Read[tuple[Tear, ...], Sequence[Tear]] = field(default=())
+    """which bodies tear, and when; needs `editing`"""
     grabbing: bool = False
     """whether points may be grabbed while it runs"""
     output: Output | None = None
@@ -140,8 +150,9 @@ class SceneData(Part):
     @rule("bodies", "tissue")
     def _has_bodies(self) -> Iterator[Problem]:
         """Something to simulate, each by one name; tissue lies between bodies that there are."""
-        if not self.bodies and not self.tissue:
-            yield Problem(("bodies",), "found no body and no tissue; at least one is accepted")
+        if not self.bodies and not self.tissue and not has_free(self):
+            text = "found no body, no tissue and no obstacle with a mass; at least one is accepted"
+            yield Problem(("bodies",), text)
         for name, tissue in self.tissue.items():
             if name in self.bodies:
                 yield Problem(("tissue", name), f"found '{name}' as a body too; names are unique")
@@ -167,6 +178,16 @@ class SceneData(Part):
     def _contacts_can_be(self) -> Iterator[Problem]:
         """Contacts of what there is, with a method that the step has."""
         yield from contact_problems(self)
+
+    @rule()
+    def _instruments_can_be(self) -> Iterator[Problem]:
+        """Instruments and tears of bodies that there are, in a scene that may be edited."""
+        yield from instrument_problems(self)
+
+    @rule()
+    def _trocars_can_be(self) -> Iterator[Problem]:
+        """Trocars with tools that there are, each with its own port and device."""
+        yield from trocar_problems(self)
 
     @rule("loads")
     def _names_loads_once(self) -> Iterator[Problem]:
@@ -207,7 +228,7 @@ class SceneData(Part):
     def _has_names_to_write(self) -> Iterator[Problem]:
         """Names that can stand in files and messages."""
         named = [(("name",), getattr(self, "name", ""))]
-        for group in ("bodies", "tissue", "obstacles"):
+        for group in ("bodies", "tissue", "obstacles", "instruments", "trocars"):
             named += [((group,), name) for name in getattr(self, group, {})]
         for path, name in named:
             text = name_problem(name)

@@ -15,7 +15,9 @@ from pydantic.fields import FieldInfo
 
 from tissu.scene.bar import BarMesh
 from tissu.scene.body import Body, MeshFile
+from tissu.scene.editing import Editing
 from tissu.scene.generated.laws import LAWS
+from tissu.scene.instrument import INSTRUMENTS, Instrument
 from tissu.scene.law import Law
 from tissu.scene.load import LOADS, Load
 from tissu.scene.model import MODELS, Model
@@ -27,6 +29,8 @@ from tissu.scene.selection import SELECTIONS, Region, Selection
 from tissu.scene.solver import SOLVERS, Solver
 from tissu.scene.step import STEPS, Step
 from tissu.scene.tissue import Tissue
+from tissu.scene.trocar.device import DEVICES, TrocarDevice
+from tissu.scene.trocar.trocar import Coupling, Trocar
 from tissu.scene.viscosity import VISCOSITIES, Viscosity
 
 Schema = dict[str, Any]
@@ -34,6 +38,7 @@ Schema = dict[str, Any]
 _NUMBER = [{"type": "number"}, {"type": "string"}]  # a text carries a unit, such as "4 kPa"
 _MESH = MeshFile | BarMesh | Path
 _FAMILIES: dict[Any, tuple[type[Part], ...]] = {
+    Instrument: INSTRUMENTS,
     Law: LAWS,
     Load: LOADS,
     Model: MODELS,
@@ -42,12 +47,15 @@ _FAMILIES: dict[Any, tuple[type[Part], ...]] = {
     Selection: SELECTIONS,
     Solver: SOLVERS,
     Step: STEPS,
+    TrocarDevice: DEVICES,
     Viscosity: VISCOSITIES,
 }
 _READ_AS: dict[tuple[type[Part], str], Any] = {  # fields that read more than they keep
     (Body, "mesh"): _MESH,
     (MeshObstacle, "mesh"): _MESH,
+    (SceneData, "editing"): Editing | bool | None,
     (Tissue, "inside"): _MESH | None,
+    (Trocar, "coupling"): Coupling | Literal["automatic"],
     (Region, "name"): str | int,  # YAML reads the name 7 as a number
 }
 _DIALECT = "https://json-schema.org/draft/2020-12/schema"

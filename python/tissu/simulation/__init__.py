@@ -3,6 +3,7 @@
 from tissu.simulation.cutting import Mark
 from tissu.simulation.fields import IntegrationPoints
 from tissu.simulation.grab import Grab
+from tissu.simulation.instruments import Tool
 from tissu.simulation.live_load import LiveLoad
 from tissu.simulation.plan import Plan
 from tissu.simulation.profile import Profile, ProfileRow, Solves, WorstStep
@@ -24,6 +25,7 @@ __all__ = [
     "Simulation",
     "Solves",
     "StepReport",
+    "Tool",
     "WorstStep",
     "Wrench",
 ]

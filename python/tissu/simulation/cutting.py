@@ -12,17 +12,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tissu.cutting.blade import Blade, Place, inside_of, surface_of
-from tissu.cutting.material import (
-    Material,
-    MaterialSurface,
-    centres_of,
-    material_now,
-    surface_now,
-)
-from tissu.cutting.report import CutReport, Piece, cut_report
+from tissu.cutting.material import centres_of
+from tissu.cutting.report import CutReport, cut_report
 from tissu.errors import ParameterError
 from tissu.mesh import CellBlock, Mesh
 from tissu.simulation import grab as kept
+from tissu.simulation.remains import Remains
 
 if TYPE_CHECKING:
     from tissu import _core as core
@@ -56,13 +51,11 @@ class Mark:
         return f"Mark(at t = {self.time:.6g} s)"
 
 
-class Cutting:
+class Cutting(Remains):
     """The part of a simulation that cuts its bodies."""
 
     scene: Scene
     _core: core.Simulation
-    _meshes: dict[str, Mesh]
-    _rest: dict[str, Mesh]
     _steps: int
     _world: core.World
     _check: Check
@@ -100,10 +93,7 @@ class Cutting:
         """
         self._require_editing(body)
         sweep = surface_of(blade, self.positions[body])
-        return self._made(
-            body,
-            lambda: self._core.cut(body=body, sweep=sweep, t0=_NEAREST, refine=refine),
-        )
+        return self._cut_along(body, sweep, refine=refine)
 
     def ablate(self, body: str, place: Place) -> CutReport:
         """Take away the cells whose material has its centre in a place in present space.
@@ -112,87 +102,37 @@ class Cutting:
 
         Args:
             body: its name.
-            place: a sphere or a box.
+            place: a sphere, a capsule or a box.
 
         Raises:
             ParameterError: see `cut`; that would leave no cell.
         """
         self._require_editing(body)
         centres, numbers = centres_of(self.material(body))
-        inside = inside_of(place, centres)
-        if inside.all():
+        return self._ablate_cells(body, numbers[inside_of(place, centres)], len(numbers))
+
+    def _ablate_cells(self, body: str, cells: Ints, count: int, *, by: str = "") -> CutReport:
+        """Take away cells out of `count` that there are."""
+        if len(cells) == count:
             raise ParameterError(f"that would leave no cell of body '{body}'; keep at least one")
-        cells = np.unique(numbers[inside]).astype(np.int32)
-        return self._made(body, lambda: self._core.ablate(body=body, cells=cells))
+        gone = np.unique(cells).astype(np.int32)
+        return self._made(body, lambda: self._core.ablate(body=body, cells=gone), by=by)
 
-    def surface(self, body: str) -> MaterialSurface:
-        """The surface of the material of a body as it is now.
-
-        Raises:
-            ParameterError: no such body; the scene was compiled without `editing: true`.
-        """
-        self._require_editing(body)
-        return surface_now(self._core.material_surface(body), self.positions[body])
-
-    def material(self, body: str) -> Material:
-        """The material of a body as a conforming mesh, at rest and now.
-
-        Raises:
-            ParameterError: no such body; the scene was compiled without `editing: true`.
-        """
-        self._require_editing(body)
-        found = self._core.material_mesh(body)
-        return material_now(found, self._meshes[body].points, self.positions[body])
-
-    def is_cut(self, body: str) -> bool:
-        """Whether a blade has parted nodes of a body, so that its cells overlap.
-
-        Raises:
-            ParameterError: no body of that name.
-        """
-        self._require_body(body)
-        rest = self._rest.get(body)
-        return rest is not None and self._meshes[body].node_count > rest.node_count
-
-    def pieces(self, body: str) -> tuple[Piece, ...]:
-        """The connected parts of the material of a body, the largest first.
-
-        Raises:
-            ParameterError: no such body; the scene was compiled without `editing: true`.
-        """
-        self._require_editing(body)
-        runs = self._core.body_cells(body)
-        nodes = {int(n): row for run in runs for n, row in zip(run[1], run[4], strict=True)}
-        held = np.isin(np.arange(self._meshes[body].node_count), self._core.unfree_nodes(body)[1])
-        whole = self._core.totals(body)
-        found = [
-            Piece(
-                cells=cells,
-                volume=volume,
-                mass=whole["mass"] * volume / whole["volume"],
-                held=any(bool(held[nodes[int(cell)]].any()) for cell in cells),
-            )
-            for cells, volume in self._core.pieces(body)
-        ]
-        return tuple(sorted(found, key=lambda piece: -piece.volume))
-
-    def origin(self, body: str) -> Ints:
-        """The cell of the first day (e,) that each cell of `meshes[body]` comes from.
-
-        Raises:
-            ParameterError: no such body; the scene was compiled without `editing: true`.
-        """
-        self._require_editing(body)
-        return np.concatenate([run[2] for run in self._core.body_cells(body)])
-
-    def born(self, body: str) -> Ints:
-        """The node of the first day (n,) that each node of `meshes[body]` is a copy of, or is.
-
-        Raises:
-            ParameterError: no such body; the scene was compiled without `editing: true`.
-        """
-        self._require_editing(body)
-        return self._core.roots(body)
+    def _cut_along(
+        self,
+        body: str,
+        sweep: core.Sweep,
+        *,
+        refine: bool = False,
+        by: str = "",
+        nearest: float = _NEAREST,
+    ) -> CutReport:
+        """Cut along a surface of the core; `nearest`: share of an edge from its end to go there."""
+        return self._made(
+            body,
+            lambda: self._core.cut(body=body, sweep=sweep, t0=nearest, refine=refine),
+            by=by,
+        )
 
     def mark(self) -> Mark:
         """Remember this moment, cuts included; `rewind` goes back to it as often as asked.
@@ -223,14 +163,7 @@ class Cutting:
         for body in self._meshes:
             self._follow_cells(body)
 
-    def _require_editing(self, body: str) -> None:
-        self._require_body(body)
-        if not self.scene.editing:
-            raise ParameterError(
-                "the scene was compiled without editing; write editing: true to cut its bodies"
-            )
-
-    def _made(self, body: str, make: Any) -> CutReport:
+    def _made(self, body: str, make: Any, *, by: str) -> CutReport:
         """Make a cut and follow it; go back where it leaves a static body with free pieces."""
         start = time.perf_counter()
         before = self._core.totals(body)
@@ -254,6 +187,7 @@ class Cutting:
         return cut_report(
             body,
             made,
+            by=by,
             before=before,
             after=self._core.totals(body),
             pieces=pieces,

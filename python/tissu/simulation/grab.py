@@ -74,9 +74,9 @@ class Record:
         return np.concatenate([np.array([*head, len(self.nodes)], dtype=float), parts])
 
 
-def records(simulation: core.Simulation) -> dict[int, Record]:
+def records(simulation: core.Simulation, memory: str = MEMORY) -> dict[int, Record]:
     """The grabs of the present state by their numbers, in their order."""
-    numbers, found = simulation.remembered(MEMORY), {}
+    numbers, found = simulation.remembered(memory), {}
     while len(numbers):
         end = _HEAD + 2 * int(numbers[10])
         parts = numbers[_HEAD:end].reshape(-1, 2)
@@ -94,10 +94,10 @@ def records(simulation: core.Simulation) -> dict[int, Record]:
     return found
 
 
-def keep(simulation: core.Simulation, grabs: dict[int, Record]) -> None:
+def keep(simulation: core.Simulation, grabs: dict[int, Record], memory: str = MEMORY) -> None:
     """Make these the grabs of the present state."""
     numbers = [np.empty(0), *(grab.numbers() for grab in grabs.values())]
-    simulation.set_remembered(MEMORY, np.concatenate(numbers))
+    simulation.set_remembered(memory, np.concatenate(numbers))
 
 
 @known_names_only

@@ -18,6 +18,7 @@ from tissu.simulation.grab_point import GrabPoint, grab_point, require_free
 from tissu.simulation.lead import Lead
 from tissu.simulation.live_load import LiveLoad
 from tissu.simulation.obstacle_lead import ObstacleLead
+from tissu.simulation.rigid import Rigid
 
 if TYPE_CHECKING:
     from tissu import _core as core
@@ -236,6 +237,20 @@ class Handled:
                 f"{', '.join(known) or 'none, since the scene has no contacts with obstacles'}"
             )
         return ObstacleLead(simulation=self._core, entry=self._entry, name=name)
+
+    def rigid(self, name: str) -> Rigid:
+        """An obstacle of the scene that has a mass: where it is, and how it moves.
+
+        Raises:
+            ParameterError: no obstacle of that name has a mass.
+        """
+        known = [key for key, one in self.scene.obstacles.items() if one.mass is not None]
+        if name not in known:
+            raise ParameterError(
+                f"found obstacle {name!r}{_nearest(name, known)} accepted, with a mass: "
+                f"{', '.join(known) or 'none of this scene'}"
+            )
+        return Rigid(simulation=self._core, entry=self._entry, name=name)
 
     def _support(self, which: str | Support) -> Support:
         supports = [*self.scene.fixed, *self.scene.prescribed]

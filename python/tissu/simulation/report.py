@@ -9,6 +9,7 @@ from tissu.counted import counted
 
 if TYPE_CHECKING:
     from tissu import _core
+    from tissu.cutting.report import CutReport
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,6 +34,7 @@ class StepReport:
         milliseconds: wall time.
         message: why it did not converge; where a static step did, the cells that are inside out,
             and that round-off left more than the tolerance of the load.
+        cuts: what instruments and tears did at its end, in the order of the scene.
     """
 
     number: int
@@ -48,6 +50,7 @@ class StepReport:
     substeps: int
     milliseconds: float
     message: str
+    cuts: tuple[CutReport, ...] = ()
 
     def __str__(self) -> str:
         """One line."""
@@ -62,13 +65,17 @@ class StepReport:
             text += f", in {self.substeps} parts"
         if self.held_back:
             text += f", {counted(self.held_back, 'node')} held back"
+        if self.cuts:
+            text += f", {counted(len(self.cuts), 'cut')}"
         if self.converged:
             return f"{text}; {self.message}" if self.message else text
         return f"{text}; not converged: {self.message}"
 
 
-def report_of(report: _core.StepReport, *, number: int) -> StepReport:
-    """The core's report of the step with this number."""
+def report_of(
+    report: _core.StepReport, *, number: int, cuts: tuple[CutReport, ...] = ()
+) -> StepReport:
+    """The core's report of the step with this number, and what was cut at its end."""
     return StepReport(
         number=number,
         time=report.time,
@@ -83,4 +90,5 @@ def report_of(report: _core.StepReport, *, number: int) -> StepReport:
         substeps=report.substeps,
         milliseconds=report.milliseconds,
         message=report.message,
+        cuts=cuts,
     )

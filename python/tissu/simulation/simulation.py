@@ -20,12 +20,14 @@ from tissu.simulation.cutting import Cutting, cut_mesh
 from tissu.simulation.entry import Entry, before_the_door, one_thread_at_a_time
 from tissu.simulation.handled import Handled
 from tissu.simulation.inspected import Inspected
+from tissu.simulation.instruments import Instrumented
 from tissu.simulation.known_names import known_names_only
 from tissu.simulation.plan import Plan
 from tissu.simulation.profile import Profile, profile_of
 from tissu.simulation.remaining import keep_cells, removed_cells
 from tissu.simulation.report import StepReport, report_of
 from tissu.simulation.schedule import stable_steps, steps_of, steps_until
+from tissu.simulation.tearing import tear_after_step
 from tissu.simulation.touched import Touched
 
 if TYPE_CHECKING:
@@ -44,7 +46,7 @@ _SHARE_OF_STABLE = 0.9
 
 @known_names_only
 @one_thread_at_a_time
-class Simulation(Inspected, Handled, Touched, Changed, Cutting):
+class Simulation(Inspected, Handled, Touched, Changed, Cutting, Instrumented):
     """A compiled scene that can be stepped; made by `Scene.compile()`.
 
     One thread at a time may call it: while one is in a method, another one gets a `BusyError`.
@@ -83,6 +85,7 @@ class Simulation(Inspected, Handled, Touched, Changed, Cutting):
         self._steps = 0
         self._simulated = 0.0
         self._physics_known: dict[str, Any] | None = None
+        self._cell_sizes: dict[str, float] = {}
         self._tissue = dict(tissue or {})
         self._rest_points = {name: self._core.points(name) for name in [*meshes, *self._tissue]}
         self._lay_views()
@@ -195,14 +198,21 @@ class Simulation(Inspected, Handled, Touched, Changed, Cutting):
             dt: another time step than the scene's [s], or text such as "5 ms".
 
         Raises:
-            ParameterError: dt is not positive and finite.
+            ParameterError: dt is not positive and finite; the step was taken, and what an
+                instrument would cut, or what would tear, at its end is refused.
             Diverged: the step gave a value that is not finite; the state is that before it.
         """
         h = self.dt if dt is None else units.TIME(dt)
+        begin, works = self._core.time, bool(self.scene.instruments)
+        if works:
+            self._lead_instruments(begin + h)
         report = self._core.step(h)
         self._steps += 1
         self._simulated += h
-        told = report_of(report, number=self._steps)
+        cuts = self._use_instruments(begin) if works else ()
+        if self.scene.tear:
+            cuts += tear_after_step(self)
+        told = report_of(report, number=self._steps, cuts=cuts)
         for observer in self._observers:
             observer(told)
         return told

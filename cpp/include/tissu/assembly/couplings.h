@@ -29,6 +29,22 @@ struct CarriedPart {
   double weight;
   Vec3 arm = Vec3::Zero();  ///< from the frame's origin to the vertex [m]
   bool turns = false;       ///< the row is a rotation
+
+  /// What of the vertex's motion is the row's, …
+  [[nodiscard]] Vec3 motion(const Vec3& p) const {
+    return turns ? Vec3(weight * p.cross(arm)) : Vec3(weight * p);
+  }
+  /// … and what of a force on the vertex: a moment for a rotation.
+  [[nodiscard]] Vec3 load(const Vec3& force) const {
+    return turns ? Vec3(weight * arm.cross(force)) : Vec3(weight * force);
+  }
+  /// B X B^T, where B p is that motion.
+  [[nodiscard]] Mat3 carried(const Mat3& X) const {
+    if (!turns) return weight * weight * X;
+    Mat3 arms;
+    arms << 0.0, -arm.z(), arm.y(), arm.z(), 0.0, -arm.x(), -arm.y(), arm.x(), 0.0;
+    return weight * weight * arms * X * arms.transpose();
+  }
 };
 
 struct Coupling {

@@ -15,8 +15,9 @@ class BodyForces {
   /// `rows`: of the world.
   BodyForces(const Contact& contact, std::size_t rows);
 
-  /// Forces on a body are judged by a thousandth of its `load` [N] where they are smaller; it may be empty.
-  void begin(ConstReals load);
+  /// A step begins at `start`, which outlives it. Forces on a body are judged by a thousandth of its `load`
+  /// [N] where they are smaller; it may be empty.
+  void begin(const State& start, ConstReals load);
   /// By how much the forces `push` of contacts that were looked at differ from those of contacts with which a
   /// system was solved, on the body where it is most: |change of the forces on rows| / |forces|.
   double change(std::span<const ContactNumbers> solved, std::span<const ContactNumbers> looked);
@@ -27,7 +28,6 @@ class BodyForces {
   [[nodiscard]] double taken_off();
 
  private:
-  [[nodiscard]] std::int32_t row(double vertex) const;
   void scatter(const ContactNumbers& contact, const Vec3& force, Reals f) const;
   /// Squares of forces on rows, summed for each body.
   void sum_squares(ConstReals forces, std::vector<double>& squares) const;
@@ -36,6 +36,8 @@ class BodyForces {
   [[nodiscard]] double largest_share(ConstReals parts, ConstReals wholes) const;
 
   const Contact& contact_;
+  const State* start_ = nullptr;
+  std::vector<double> levers_;    ///< of each carrier, to where it touches at most [m]
   std::vector<double> forces_;    ///< on rows
   std::vector<double> refusals_;  ///< on rows
   std::vector<double> floors_;    ///< of each body [N]

@@ -18,9 +18,11 @@
 #include <tuple>
 #include <vector>
 
+#include "tissu/assembly/couplings.h"
 #include "tissu/assembly/live_lead.h"
 #include "tissu/contact/description.h"
 #include "tissu/contact/surface_set.h"
+#include "tissu/contact/travel.h"
 #include "tissu/force/force_model.h"
 
 namespace tissu {
@@ -47,7 +49,14 @@ struct ContactNumbers {
   std::array<double, 3> drag = {};       ///< lambda_T [N]
   double sliding = 0.0;                  ///< 1: friction gave way
   double area = 0.0;                     ///< on which it acts [m2]
+  /// From the vertices of either side to where they touch, in the axes of the rigid body that carries them
+  /// [m]: what is round rolls. Zero for others.
+  std::array<double, 6> offset = {};
 
+  /// Its vertex number k is on the side of the vertex, or of the first edge.
+  [[nodiscard]] bool is_of_first(std::size_t k) const {
+    return k < (kind == static_cast<double>(PairKind::edge_edge) ? 2U : 1U);
+  }
   /// What it is between: contacts of two looks with the same key are one contact.
   [[nodiscard]] std::tuple<double, double, double, double> key() const { return {kind, a, b, point}; }
 };
@@ -71,8 +80,10 @@ class Contact final : public ForceModel {
  public:
   static constexpr std::string_view kMemory = "contact";  ///< name of their place in the memory
 
-  /// `first_node`: the row of the first node of each of the description's bodies; `rest`: all positions.
-  Contact(ContactDescription description, std::span<const std::int32_t> first_node, ConstReals rest);
+  /// `first_node`: the row of the first node of each of the description's bodies; `frames`: of the world;
+  /// `rest`: all positions.
+  Contact(ContactDescription description, std::span<const std::int32_t> first_node, ConstReals rest,
+          std::span<const Frame> frames = {});
 
   [[nodiscard]] std::string_view effect() const override { return "contact"; }
   [[nodiscard]] ForceKind kind() const override { return ForceKind::external; }
@@ -105,6 +116,8 @@ class Contact final : public ForceModel {
   [[nodiscard]] Vec3 normal_of(std::int32_t obstacle, const State& state, double time) const;
   /// Of the obstacle with that name; -1: none.
   [[nodiscard]] std::int32_t obstacle_named(std::string_view name) const;
+  /// Of a free obstacle; null: it is led or at rest.
+  [[nodiscard]] const SurfaceCarrier* carrier_of(std::int32_t obstacle) const;
   /// Leads an obstacle from where it is to a pose, over so many seconds from the next step on; 0: in that
   /// step. Refuses an unknown name.
   void lead_to(std::string_view name, const Pose& pose, double over, State& state) const;
@@ -114,6 +127,35 @@ class Contact final : public ForceModel {
   [[nodiscard]] bool is_any_led_live(const State& state) const;
   /// The pose, from rest, in which an obstacle is.
   [[nodiscard]] Pose pose_of(std::int32_t obstacle, const State& state, double time) const;
+
+  /// Where a state has a vertex that unknowns move.
+  [[nodiscard]] Vec3 place(std::int32_t vertex, const State& state) const {
+    const SurfaceVertex& v = surfaces_.vertices()[static_cast<std::size_t>(vertex)];
+    return v.row >= 0 ? Vec3(block(ConstReals(state.positions), v.row)) : carried_place(vertex, state);
+  }
+  /// Calls f(part) for every row that a contact moves with, with its weight: motion = sum part.motion(p).
+  template <class Function>
+  void for_parts(const ContactNumbers& contact, const State& state, Function&& f) const {
+    for (std::size_t k = 0; k < 4; ++k) {
+      if (contact.vertex[k] < 0.0 || contact.beta[k] == 0.0) continue;
+      const auto vertex = static_cast<std::int32_t>(contact.vertex[k]);
+      const SurfaceVertex& v = surfaces_.vertices()[static_cast<std::size_t>(vertex)];
+      if (v.row >= 0) {
+        f(CarriedPart{v.row, contact.beta[k]});
+      } else if (v.carrier >= 0) {
+        const SurfaceCarrier& carrier = surfaces_.carriers()[static_cast<std::size_t>(v.carrier)];
+        f(CarriedPart{carrier.row, contact.beta[k]});
+        f(CarriedPart{carrier.rotation, contact.beta[k], arm(contact, k, carrier, state), true});
+      }
+    }
+  }
+  /// r of a contact in a state.
+  [[nodiscard]] Vec3 reach(const ContactNumbers& contact, const State& state) const;
+  /// What of r comes from the turning of round things since the contact was looked at. What is round touches
+  /// elsewhere when it turns, so that only the part along the surfaces counts.
+  [[nodiscard]] Vec3 rolled(const ContactNumbers& contact, const State& state) const;
+  /// How r of a contact changes by motions p of the rows, of arms as a state has them.
+  [[nodiscard]] Vec3 motion(const ContactNumbers& contact, const State& state, ConstReals p) const;
 
   /// All vertices of the surfaces, three numbers each.
   void place_vertices(const State& state, double time, Reals places) const;
@@ -129,11 +171,21 @@ class Contact final : public ForceModel {
  private:
   template <class Function>
   void for_contacts(const State& state, Function&& f) const;
-  [[nodiscard]] std::int32_t row(double vertex) const {
-    return vertex < 0.0 ? -1 : surfaces_.vertices()[static_cast<std::size_t>(vertex)].row;
+  [[nodiscard]] Vec3 carried_place(std::int32_t vertex, const State& state) const;
+  /// From the origin of the rigid body that carries the vertex, in space [m].
+  [[nodiscard]] Vec3 arm(std::int32_t vertex, const SurfaceCarrier& carrier, const State& state) const {
+    return state.rotations[static_cast<std::size_t>(carrier.frame)] * surfaces_.arm(vertex);
   }
-  [[nodiscard]] Vec3 reach(const ContactNumbers& contact, ConstReals positions) const;
-  void scatter(const ContactNumbers& contact, const Vec3& force, Reals f) const;
+  /// From there to where a contact's vertex number k touches.
+  [[nodiscard]] Vec3 arm(const ContactNumbers& contact, std::size_t k, const SurfaceCarrier& carrier,
+                         const State& state) const {
+    const auto vertex = static_cast<std::int32_t>(contact.vertex[k]);
+    const double radius = surfaces_.vertices()[static_cast<std::size_t>(vertex)].radius;
+    const Vec3 n(contact.normal[0], contact.normal[1], contact.normal[2]);
+    return arm(vertex, carrier, state) + (contact.is_of_first(k) ? -radius : radius) * n;
+  }
+  [[nodiscard]] Vec3 touched(const ContactNumbers& contact, std::size_t k, const State& state) const;
+  void scatter(const ContactNumbers& contact, const State& state, const Vec3& force, Reals f) const;
   [[nodiscard]] LivePlace live_place(std::int32_t obstacle, const State& state, double time) const;
   void begin_way(std::int32_t obstacle, bool released, const Pose& target, double over, State& state) const;
   [[nodiscard]] std::int32_t required(std::string_view name) const;

@@ -64,11 +64,13 @@ class ContactRun {
   [[nodiscard]] Vec3 gone(const ContactNumbers& contact, const State& at) const;
   /// … what obstacles alone have of it at the end, …
   [[nodiscard]] Vec3 led(const ContactNumbers& contact) const;
-  /// … and how fast it changes by the velocities of rows.
+  /// … and how fast it changes by the velocities of rows at the start.
   [[nodiscard]] Vec3 rate(const ContactNumbers& contact, ConstReals velocities) const;
-  /// r of a contact, of rows at the places of `at`.
-  [[nodiscard]] Vec3 reach_of(const ContactNumbers& contact, const State& at) const;
-  [[nodiscard]] std::int32_t row_of(double vertex) const;
+  /// Calls f(part) for every row that a contact moves with, of arms as the start of the step has them.
+  template <class Function>
+  void for_parts(const ContactNumbers& contact, Function&& f) const {
+    contact_.for_parts(contact, *start_, f);
+  }
   [[nodiscard]] std::size_t bytes() const;
 
  private:
@@ -77,6 +79,10 @@ class ContactRun {
   void find_pairs();
   void find_planes();
   void add(const Candidate& candidate, const Found& found, std::int32_t point);
+  void bend(const State& to);
+  [[nodiscard]] Vec3 way_turned(const SurfaceCarrier& carrier, const State& to) const;
+  int hold_back_carriers(State& to);
+  void set_offsets(ContactNumbers& c) const;
   bool find_plainly(const Candidate& candidate, double reach, Found& found) const;
   [[nodiscard]] const ContactNumbers* acting(const ContactNumbers& c) const;
   void keep_multipliers();
@@ -93,8 +99,10 @@ class ContactRun {
   std::vector<double> begin_;  ///< places of all vertices at the start of the step, …
   std::vector<double> from_;   ///< … after what is led went ahead, …
   std::vector<double> now_;    ///< … and where they are looked at
+  std::vector<double> bends_;  ///< of each vertex, as HoldBack takes them; empty: nothing free is rigid
   std::vector<double> goal_;   ///< where the latest system led them, before they were held back
   const State* start_ = nullptr;
+  const State* looked_at_ = nullptr;
   double end_ = 0.0;
   bool plainly_ = true;
   bool hands_to_all_ = false;

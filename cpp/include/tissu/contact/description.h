@@ -34,6 +34,9 @@ struct ObstacleDescription {
   Vec3 normal = Vec3::UnitZ();  ///< of length 1
   Vec3 origin = Vec3::Zero();   ///< what `motion` moves, and what moments are taken about [m]
   Motion motion = {};           ///< the path on which it is led; at rest when empty
+  /// Number among the world's rigid bodies of the one that carries it, whose origin is `origin`: it moves
+  /// freely. -1: it is led, or at rest.
+  std::int32_t frame = -1;
 };
 
 enum class ContactMethod { augmented, barrier, penalty, impulse, geometric };

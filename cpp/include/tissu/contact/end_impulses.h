@@ -13,6 +13,7 @@
 
 #include "tissu/assembly/fixed_dofs.h"
 #include "tissu/assembly/mass.h"
+#include "tissu/contact/contact_mass.h"
 #include "tissu/contact/contact_run.h"
 
 namespace tissu {
@@ -20,10 +21,11 @@ namespace tissu {
 class EndImpulses {
  public:
   EndImpulses(const Contact& contact, const FixedDofs& fixed, const Mass& mass)
-      : contact_(contact), fixed_(fixed), mass_(mass) {}
+      : contact_(contact), mass_(contact, fixed, mass) {}
 
-  /// v += M^-1 J^T p, and p / h joins the forces `push` of the contacts, of a step of h.
-  void strike(const ContactRun& run, double h, std::span<ContactNumbers> contacts, Reals v);
+  /// v += M^-1 J^T p, and p / h joins the forces `push` of the contacts, of a step of h from `start`.
+  void strike(const ContactRun& run, const State& start, double h, std::span<ContactNumbers> contacts,
+              Reals v);
 
  private:
   struct Blow {
@@ -35,14 +37,11 @@ class EndImpulses {
     double normal = 0.0;        ///< p_n [N s]
     Vec3 along = Vec3::Zero();  ///< p_T [N s]
   };
-  [[nodiscard]] Vec3 inverse_mass(std::int32_t row) const;
-  void give(const ContactRun& run, const ContactNumbers& contact, const Vec3& impulse, Reals v) const;
   /// One contact, the others as they are; the change of its impulse.
   double relax(const ContactRun& run, const ContactNumbers& contact, Blow& blow, Reals v) const;
 
   const Contact& contact_;
-  const FixedDofs& fixed_;
-  const Mass& mass_;
+  ContactMass mass_;
   std::vector<Blow> blows_;
 };
 

@@ -8,6 +8,7 @@
 
 #include "tissu/assembly/fixed_dofs.h"
 #include "tissu/assembly/mass.h"
+#include "tissu/contact/contact_mass.h"
 #include "tissu/contact/contact_run.h"
 
 namespace tissu {
@@ -71,26 +72,13 @@ class ExplicitContact {
   /// Puts what acted into `kept`, with the forces `push` and what the next step takes over.
   virtual void keep(const State& end, std::vector<ContactNumbers>& kept) = 0;
 
-  /// sum_r n_r beta_r^2 M_rr^-1 without given axes: what a contact's acceleration is over its force [1/kg].
-  /// `shared`: n_r, empty for ones.
-  [[nodiscard]] Vec3 mobility(const ContactNumbers& contact, ConstReals shared) const;
-  /// Calls f(row, beta) for the unknowns that a contact has.
-  template <class Function>
-  void for_rows(const ContactNumbers& contact, Function&& f) const {
-    for (std::size_t k = 0; k < 4; ++k) {
-      const std::int32_t i = run_.row_of(contact.vertex[k]);
-      if (i >= 0 && contact.beta[k] != 0.0) f(i, contact.beta[k]);
-    }
-  }
   [[nodiscard]] const ContactPair& pair_of(const ContactNumbers& contact) const {
     return contact_.description().pairs[static_cast<std::size_t>(contact.pair)];
   }
-  [[nodiscard]] Vec3 inverse_mass(std::int32_t row) const;
   [[nodiscard]] const State& start() const { return *start_; }
 
   const Contact& contact_;
-  const FixedDofs& fixed_;
-  const Mass& mass_;
+  ContactMass mass_;
   ContactRun run_;
   double h_ = 0.0;
 

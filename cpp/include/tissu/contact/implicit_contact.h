@@ -101,14 +101,6 @@ class ImplicitContact {
   /// A contact is so much deeper than its multiplier allows [m].
   void note_depth(const ContactNumbers& contact, double depth);
 
-  /// Calls f(row, beta) for the unknowns that a contact has.
-  template <class Function>
-  void for_rows(const ContactNumbers& contact, Function&& f) const {
-    for (std::size_t k = 0; k < 4; ++k) {
-      const std::int32_t i = run_.row_of(contact.vertex[k]);
-      if (i >= 0 && contact.beta[k] != 0.0) f(i, contact.beta[k]);
-    }
-  }
   /// Of the step [s].
   [[nodiscard]] double h() const { return h_; }
 
@@ -116,11 +108,11 @@ class ImplicitContact {
   ContactRun run_;
 
  private:
+  [[nodiscard]] bool is_carrier(std::int32_t row) const;
+  [[nodiscard]] bool is_rigid(const ContactNumbers& contact) const;
   void press_all();
   /// Adds friction of that bound [N]; k is the stiffness against sliding [N/m].
   void rub(ContactNumbers& contact, double bound, double k) const;
-  /// r of a contact, of rows at the places of `at`.
-  [[nodiscard]] Vec3 reach(const ContactNumbers& contact, const State& at) const;
   [[nodiscard]] Mat3 compliance(const ContactNumbers& contact, std::span<const double> blocks) const;
 
   const FixedDofs& fixed_;

@@ -62,7 +62,6 @@ class ImpulseContact : public ExplicitContact {
   [[nodiscard]] std::vector<Blow>& blows() { return blows_; }
   /// Nothing is left of its gap.
   [[nodiscard]] bool is_shut(const Blow& blow, const State& end) const;
-  void give(const ContactNumbers& contact, const Vec3& impulse, Reals change) const;
 
  private:
   [[nodiscard]] double least_end_rate(const Blow& blow, double after) const;

@@ -31,28 +31,39 @@ struct SurfaceEdge {
   [[nodiscard]] bool is_lone() const { return face[0] < 0; }
 };
 
+/// A rigid body that carries a vertex: p = x + R arm.
+struct SurfaceCarrier {
+  std::int32_t frame = -1;     ///< number in State::rotations
+  std::int32_t row = -1;       ///< of its origin
+  std::int32_t rotation = -1;  ///< the row of its rotation
+};
+
 struct SurfaceVertex {
-  std::int32_t row = -1;  ///< of the unknown; -1: of an obstacle
-  std::int32_t node = 0;  ///< number in its body or obstacle
+  std::int32_t row = -1;      ///< of the unknown; -1: of an obstacle
+  std::int32_t carrier = -1;  ///< of a free obstacle: number among the carriers
+  std::int32_t node = 0;      ///< number in its body or obstacle
   std::int32_t surface = 0;
   double radius = 0.0;  ///< [m]
   double area = 0.0;    ///< a third of its triangles' at rest [m2]
   bool has_faces = false;
   bool is_lone = false;  ///< it has no edge
+  /// Unknowns move it; else it is at rest or led.
+  [[nodiscard]] bool is_free() const { return row >= 0 || carrier >= 0; }
 };
 
 class SurfaceSet {
  public:
-  /// `first_node`: the row of each body's first node; `rest`: positions of all rows.
-  SurfaceSet(const ContactDescription& description, std::span<const std::int32_t> first_node,
-             ConstReals rest);
+  /// `first_node`: the row of each body's first node; `frames`: of the world; `rest`: positions of all rows.
+  SurfaceSet(const ContactDescription& description, std::span<const std::int32_t> first_node, ConstReals rest,
+             std::span<const Frame> frames = {});
 
   struct Surface {
     std::string name;
     std::int32_t first_vertex;
     std::int32_t last_vertex;
     bool closed;
-    std::int32_t obstacle;  ///< -1: a body
+    std::int32_t obstacle;      ///< -1: a body
+    std::int32_t carrier = -1;  ///< of a free obstacle: number among the carriers
   };
   [[nodiscard]] const std::vector<Surface>& surfaces() const { return surfaces_; }
   [[nodiscard]] const std::vector<SurfaceVertex>& vertices() const { return vertices_; }
@@ -60,6 +71,12 @@ class SurfaceSet {
   [[nodiscard]] const std::vector<Primitive>& primitives() const { return primitives_; }
   /// Of vertices at rest [m]; those of obstacles before their motion.
   [[nodiscard]] const std::vector<double>& rest() const { return rest_; }
+  /// Rigid bodies that carry free obstacles.
+  [[nodiscard]] const std::vector<SurfaceCarrier>& carriers() const { return carriers_; }
+  /// From the origin of the rigid body that carries a vertex, in its own axes [m].
+  [[nodiscard]] const Vec3& arm(std::int32_t vertex) const {
+    return arms_[static_cast<std::size_t>(vertex - first_carried_)];
+  }
   /// The first primitive of each surface, and the end.
   [[nodiscard]] const std::vector<std::int32_t>& first_primitive() const { return first_primitive_; }
 
@@ -85,6 +102,8 @@ class SurfaceSet {
  private:
   void add(const SurfaceDescription& description, std::int32_t first_row, std::int32_t obstacle,
            ConstReals rest);
+  /// The vertices of the latest surface are those of a free obstacle about `origin`.
+  void carry(const Frame& frame, std::int32_t number, const Vec3& origin);
   std::vector<std::int32_t> add_edges(std::int32_t first_primitive, std::int32_t first_vertex);
   void number_edges(std::int32_t first_primitive, std::int32_t first_edge);
   void part_wedges(const std::vector<std::int32_t>& crowded, std::int32_t first_primitive,
@@ -103,6 +122,9 @@ class SurfaceSet {
   std::vector<std::int32_t> own_vertex_, own_vertex_begin_, own_edge_, own_edge_begin_;
   std::vector<std::int32_t> neighbour_, neighbour_begin_;
   std::vector<double> mean_edge_;
+  std::vector<SurfaceCarrier> carriers_;
+  std::vector<Vec3> arms_;  ///< of vertices from the first that is carried on
+  std::int32_t first_carried_ = 0;
 };
 
 }  // namespace tissu

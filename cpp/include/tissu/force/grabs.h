@@ -55,9 +55,11 @@ class GrabTable {
 /// load; it is always semi-definite. The matrix gets it as couplings of one vertex.
 class Grabs final : public ForceModel {
  public:
-  static constexpr std::string_view kMemory = "grabs";  ///< name of their place in the memory
+  static constexpr std::string_view kMemory = "grabs";     ///< name of their place in the memory
+  static constexpr std::string_view kPresses = "presses";  ///< of those by which edges of blades press
 
-  [[nodiscard]] std::string_view effect() const override { return "grabs"; }
+  explicit Grabs(std::string_view name = kMemory) : name_(name) {}
+  [[nodiscard]] std::string_view effect() const override { return name_; }
   [[nodiscard]] ForceKind kind() const override { return ForceKind::external; }
   /// Its targets are moved.
   [[nodiscard]] bool may_add_energy() const override { return true; }
@@ -75,6 +77,7 @@ class Grabs final : public ForceModel {
   void check_memory(const State& state) const override;
 
  private:
+  std::string_view name_;  ///< one of those above
   std::size_t place_ = 0;  ///< in State::memory
 };
 

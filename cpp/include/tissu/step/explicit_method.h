@@ -66,6 +66,7 @@ class ExplicitMethod : public Integrator {
   std::vector<double> change_;     ///< … and what these change
   std::vector<double> way_;
   std::vector<double> placed_;  ///< before ways were cut
+  std::vector<Quaternion> placed_rotations_;
   int held_back_ = 0;
   bool looked_ = false;  ///< in this step
 };

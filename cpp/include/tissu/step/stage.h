@@ -114,8 +114,9 @@ class StageSolver {
   std::vector<double> momentum_;
   std::unique_ptr<ImplicitContact> contact_;  ///< null where nothing touches
   std::unique_ptr<EndImpulses> impulses_;
-  State end_;                      ///< of a step that goes on after its equation
-  std::vector<double> placed_;     ///< at an end, before ways were cut
+  State end_;                   ///< of a step that goes on after its equation
+  std::vector<double> placed_;  ///< at an end, before ways were cut
+  std::vector<Quaternion> placed_rotations_;
   std::vector<std::int32_t> cut_;  ///< rows that were held back in the latest solve
   Profile* profile_ = nullptr;
   std::size_t detection_row_ = 0;  ///< of the profile; there where something touches

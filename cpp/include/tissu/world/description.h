@@ -100,9 +100,11 @@ struct WorldDescription {
   std::vector<LoadDescription> loads;
   std::vector<PressureDescription> pressures;
   std::optional<ContactDescription> contact;
-  bool links = false;     ///< springs between points may be made and unmade while it runs
-  bool grabbing = false;  ///< points may be pulled to targets while it runs
-  bool editable = false;  ///< cells may be removed while it runs
+  bool links = false;        ///< springs between points may be made and unmade while it runs
+  bool grabbing = false;     ///< points may be pulled to targets while it runs
+  bool instruments = false;  ///< instruments remember where they were
+  bool pressing = false;     ///< edges of blades press on the material until it gives way
+  bool editable = false;     ///< cells may be removed while it runs
   int threads = 1;
   std::optional<Isa> isa;  ///< absent: the best there is
 

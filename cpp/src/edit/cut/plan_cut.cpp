@@ -22,8 +22,8 @@ using Numbers = std::vector<std::int32_t>;
 
 constexpr int kRefinements = 3;
 constexpr int kAttempts = 6;
-constexpr double kLeastShare =
-    1e-9;  ///< of a first-day cell; smaller parts send their crossings to the nodes
+/// Of a first-day cell; smaller parts send their crossings to the nodes.
+constexpr double kLeastShare = 1e-9;
 constexpr double kFirstRaise = 0.02;
 constexpr double kLargestT0 = 0.45;
 
@@ -89,6 +89,24 @@ class Attempt {
     write_plan(hosts_, material_, patch_, fragments, replicas, fans, plan);
     write_incisions(fans, plan);
     return true;
+  }
+
+  /// Vertices that a blade met which opened nothing: along faces one opens when its last vertex is met.
+  void remember(CutPlan& plan) const {
+    std::map<std::int32_t, Numbers> lists;
+    for (const auto& [number, known] : on_incision_) {
+      for (std::size_t v = 0; v < known.vertices.size(); ++v) {
+        if (known.vertices[v].on) lists[number].push_back(patch_.vertices[v].number);
+      }
+    }
+    for (auto& [number, list] : lists) {
+      const auto before = std::ranges::find(material_.incisions, number, &Incision::number);
+      if (before != material_.incisions.end())
+        list.insert(list.end(), before->vertices.begin(), before->vertices.end());
+      sort_unique(list);
+      if (before == material_.incisions.end() || list != before->vertices)
+        plan.material.incisions.push_back({number, std::move(list)});
+    }
   }
 
  private:
@@ -269,7 +287,10 @@ CutPlan plan_cut(const Hosts& hosts, const Material& material, ConstReals x, con
     plan.first_node = hosts.node_count();
     if (std::ranges::all_of(near, [](const NearCells& n) { return n.cells().empty(); })) return plan;
     Attempt cut(hosts, material, x, sweep, near, options, raised);
-    if (!cut.cut(plan)) return plan;
+    if (!cut.cut(plan)) {
+      cut.remember(plan);
+      return plan;
+    }
     RaisedT0 wanted = raised;
     if (cut.finish(plan, wanted, attempt == kAttempts)) return plan;
     raised = std::move(wanted);

@@ -23,6 +23,12 @@ _OVER = 50.0
 """Simulated time in which an obstacle follows the hand [ms]."""
 
 
+def _led(simulation: Simulation) -> list[str]:
+    """Names of the obstacles without a mass, which may be led."""
+    scene = simulation.scene
+    return [name for name in simulation.obstacles if scene.obstacles[name].mass is None]
+
+
 class MoveObstacle(Tool):
     """Leads an obstacle of every simulation that is shown; see `Simulation.obstacle`."""
 
@@ -38,13 +44,13 @@ class MoveObstacle(Tool):
         self._origins = {
             name: simulation.obstacle(name).origin
             for simulation in simulations
-            for name in simulation.obstacles
+            for name in _led(simulation)
         }
 
     @classmethod
     def offered(cls, simulation: Simulation) -> bool:
-        """Where bodies meet obstacles."""
-        return bool(simulation.obstacles)
+        """Where bodies meet obstacles that do not move freely."""
+        return bool(_led(simulation))
 
     def press(self, simulations: Sequence[Simulation], pointer: Pointer) -> None:
         """A press beside the gizmos does nothing."""
@@ -53,7 +59,7 @@ class MoveObstacle(Tool):
         """One at the origin of each obstacle, turned as the obstacle is."""
         found = []
         for lane, simulation in enumerate(simulations):
-            for name in simulation.obstacles:
+            for name in _led(simulation):
                 obstacle = simulation.obstacle(name)
                 origin = self._origins[name]
                 place = obstacle.place_of(origin)
@@ -65,7 +71,7 @@ class MoveObstacle(Tool):
         """Lead the obstacle to where the gizmo is, by its rotation and displacement from rest."""
         over = self.numbers[0].value
         for simulation in simulations:
-            if gizmo.name not in simulation.obstacles:
+            if gizmo.name not in _led(simulation):
                 continue
             obstacle = simulation.obstacle(gizmo.name)
             center = self._origins[gizmo.name]

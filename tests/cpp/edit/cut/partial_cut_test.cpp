@@ -106,6 +106,29 @@ TEST(PartialCutTest, AnIncisionGoesOnFromSweepToSweep) {
   }
 }
 
+/// A blade that runs along faces divides nothing, and meets the vertices of a face one after the other.
+TEST(PartialCutTest, AnIncisionAlongFacesGoesOnFromSweepToSweep) {
+  for (const Split split : {Split::six, Split::none}) {
+    for (const int parts : {1, 7, 50}) {
+      test::CutBody body(box_mesh(Vec3::Zero(), kSize, kCells, split));
+      std::vector<double> places;
+      for (int k = 0; k <= parts; ++k) {
+        const double z = 1.2 - 0.75 * k / parts;
+        places.insert(places.end(), {1.0, -0.1, z, 1.0, 1.1, z});
+      }
+      double area = 0.0;
+      for (int k = 1; k <= parts; ++k) {
+        const int first = std::max(0, k - 2);
+        const std::span<const double> way = std::span(places).subspan(
+            static_cast<std::size_t>(6 * first), static_cast<std::size_t>(6 * (k - first + 1)));
+        area += body.cut(edge_sweep(way, k - first + 1, 2, 5)).rest_area;
+      }
+      EXPECT_EQ(body.fault(), "") << parts;
+      EXPECT_NEAR(area, 0.5, 1e-12) << parts;  // down to the nodes at z = 0.5
+    }
+  }
+}
+
 /// A bent blade through the bar, in one sweep and in steps that go on: two pieces, and dust where the blade
 /// bends across an edge twice (flat parts below a hundredth of the mean cell).
 TEST(PartialCutTest, ABentBladeThroughGivesTwoPieces) {

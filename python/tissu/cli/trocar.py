@@ -1,0 +1,201 @@
+"""Trocars from the command line: is the device there, what is its friction, how late are ticks."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from tissu.cli.outcome import DIVERGED, FINISHED
+from tissu.errors import ParameterError, SceneError
+
+if TYPE_CHECKING:
+    from tissu.scene.trocar.passive import Bound
+    from tissu.scene.trocar.trocar import Trocar
+    from tissu.trocar.controller import Controller, Mode
+
+_LOOK = 0.04
+"""s between two reports: the rate of a display."""
+
+
+def trocars_of(scene: Path, name: str | None) -> dict[str, Trocar]:
+    """The trocars of a scene, or the one that is named.
+
+    Raises:
+        SceneError: the scene has problems, or no trocar of this name.
+    """
+    from tissu.front import Scene
+    from tissu.scene.problem import nearest
+
+    found = Scene.from_yaml(scene)
+    problems = found.check().problems
+    if problems:
+        raise SceneError(problems)
+    trocars = dict(found.trocars)
+    if not trocars:
+        raise SceneError([f"{scene}: found no trocars; at least one is accepted, as `trocars:`"])
+    if name is None:
+        return trocars
+    if name not in trocars:
+        text = f"{scene}: no trocar is named '{name}'{nearest(name, trocars)}"
+        raise SceneError([f"{text} Trocars: {', '.join(trocars)}"])
+    return {name: trocars[name]}
+
+
+def one_trocar(scene: Path, name: str | None) -> tuple[str, Trocar]:
+    """The trocar that is named, or the only one.
+
+    Raises:
+        SceneError: there are several, and none is named.
+    """
+    found = trocars_of(scene, name)
+    if len(found) > 1:
+        text = f"{scene}: found the trocars {', '.join(found)}; name one of them by --trocar"
+        raise SceneError([text])
+    return next(iter(found.items()))
+
+
+def check_trocars(scene: Path, name: str | None, *, trusted: bool) -> None:
+    """Opens each device, takes some samples, and says what it is."""
+    from tissu.trocar.controller import Controller
+
+    for key, trocar in trocars_of(scene, name).items():
+        real = trocar.device.type != "simulated"
+        mode: Mode = "threaded" if real else "stepped"
+        with Controller(trocar, mode=mode, trust_plugins=trusted) as controller:
+            if real:
+                time.sleep(0.3)
+                report = controller.report()
+            else:
+                report = controller.step(300)
+            print(f"trocar {key}: {trocar.device.words()}")
+            print(f"  now: {report}")
+            for axis, felt, bound in _couplings(trocar):
+                print(f"  {axis}: coupling {felt}, {bound}")
+
+
+def _couplings(trocar: Trocar) -> list[tuple[str, str, str]]:
+    """Of each axis: its name, its coupling and what bounds it."""
+    from tissu.scene.trocar.axes import AXIS_NAMES
+
+    rows = []
+    known = trocar.bounds()
+    bounds: Sequence[Bound | None] = [None] * len(AXIS_NAMES) if known is None else known
+    for axis, stiffness, bound in zip(AXIS_NAMES, trocar.stiffness(), bounds, strict=True):
+        unit = "N/m" if axis == "depth" else "N m/rad"
+        text = "whose passive bound is not known: tissu trocar identify"
+        if bound is not None:
+            text = f"passive up to {bound.stiffness:.4g} {unit}, {bound.why}"
+        rows.append((axis, f"{stiffness:.4g} {unit}", text))
+    return rows
+
+
+def identify_trocar(scene: Path, name: str | None, *, trusted: bool) -> None:
+    """Drives each axis to and fro, and prints its damping and friction as a scene has them."""
+    from tissu.trocar.identify import identify
+    from tissu.trocar.opened import open_device
+
+    key, trocar = one_trocar(scene, name)
+    real = trocar.device.type != "simulated"
+    free = trocar if real else trocar.replace(device=trocar.device.replace(hand=None))
+    axes = identify(free, open_device(free, 1, trust_plugins=trusted), realtime=real)
+    print(f"trocar {key}:")
+    for axis in axes:
+        text = f"  {axis.name}: inertia {axis.inertia:.3g}, damping {axis.damping:.3g}, "
+        print(f"{text}friction {axis.friction:.3g} (SI); rest {axis.rest:.1%}")
+    damping = ", ".join(f"{max(axis.damping, 0.0):.3g}" for axis in axes)
+    friction = ", ".join(f"{max(axis.friction, 0.0):.3g}" for axis in axes)
+    print("for the device of the scene:")
+    print(f"  damping: [{damping}]\n  friction: [{friction}]")
+
+
+def jitter_trocar(
+    scene: Path, name: str | None, seconds: float, spin: float, *, trusted: bool
+) -> None:
+    """Ticks in real time, and prints how late they were."""
+    from tissu.trocar.controller import Controller
+
+    for key, trocar in trocars_of(scene, name).items():
+        controller = Controller(trocar, mode="threaded", trust_plugins=trusted)
+        controller.start(spin=spin)
+        try:
+            time.sleep(seconds)
+        finally:
+            controller.stop()
+        print(f"trocar {key}, {trocar.rate:g} Hz for {seconds:g} s")
+        print("\n".join(f"  {line}" for line in str(controller.timing()).splitlines()))
+
+
+@dataclass(frozen=True, slots=True)
+class Recorded:
+    """What is recorded.
+
+    Attributes:
+        scene: file of the scene.
+        name: of the trocar; None: the only one.
+        out: file of the recording.
+        seconds: how long.
+        realtime: whether by the thread; else stepped, in simulated time.
+        wall: depth of a wall across the port that is felt meanwhile [m]; None: none.
+        stiffness: of the wall [N/m].
+        trusted: whether a plug-in may run.
+    """
+
+    scene: Path
+    name: str | None
+    out: Path
+    seconds: float
+    realtime: bool
+    wall: float | None
+    stiffness: float
+    trusted: bool
+
+
+def record_trocar(job: Recorded) -> None:
+    """Ticks for a while, with a wall that is felt or without, and writes what happened."""
+    from tissu.trocar.controller import Controller
+
+    key, trocar = one_trocar(job.scene, job.name)
+    mode: Mode = "threaded" if job.realtime else "stepped"
+    controller = Controller(trocar, mode=mode, record=True, trust_plugins=job.trusted)
+    with controller:
+        looks = max(1, round(job.seconds / _LOOK))
+        for _ in range(looks):
+            _look(controller, job, trocar)
+        print(f"trocar {key}: {controller.report()}")
+    recording = controller.recording()
+    recording.save(job.out)
+    print(f"recorded: {job.out} ({recording.ticks} ticks, {len(recording.models)} models)")
+
+
+def _look(controller: Controller, job: Recorded, trocar: Trocar) -> None:
+    """One period of a display: the wall is published anew where the tool is now."""
+    from tissu.trocar.model import LocalModel
+
+    if job.realtime:
+        time.sleep(_LOOK)
+        report = controller.report()
+    else:
+        report = controller.step(max(1, round(_LOOK * trocar.rate)))
+    if job.wall is not None:
+        through, out = (0.0, 0.0, job.wall), (0.0, 0.0, -1.0)
+        controller.publish(
+            LocalModel.plane(report.q, through=through, normal=out, stiffness=job.stiffness)
+        )
+
+
+def replay_recording(file: Path) -> int:
+    """Takes the ticks of a recording again; the exit code: 0 where all bits are the same."""
+    from tissu.trocar.recording import Recording
+
+    if not file.exists():
+        raise ParameterError(f"found no file {file}; one of `tissu trocar record` is accepted")
+    recording = Recording.read(file)
+    different = recording.difference(recording.replay())
+    if different:
+        print(f"{file}: {different}")
+        return DIVERGED
+    print(f"{file}: {recording.ticks} ticks, {len(recording.models)} models, the same bits")
+    return FINISHED

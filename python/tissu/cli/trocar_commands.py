@@ -1,0 +1,105 @@
+"""The commands `tissu trocar …` and their options."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from tissu.cli.mesh_commands import Debug
+from tissu.cli.outcome import reported
+
+trocar_app = typer.Typer(
+    help="Trocars of a scene: their devices, friction, timing and recordings.",
+    no_args_is_help=True,
+)
+SceneFile = Annotated[Path, typer.Argument(metavar="SCENE", help="A scene (YAML) with trocars.")]
+Name = Annotated[
+    str | None, typer.Option("--trocar", metavar="NAME", help="Which one; default: all, or it.")
+]
+TrustPlugins = Annotated[
+    bool,
+    typer.Option("--trust-plugins", help="Run the scene's plug-in of a device, a program."),
+]
+Seconds = Annotated[str, typer.Option(metavar="TIME", help="How long, such as '5 s'.")]
+
+
+@trocar_app.command("check")
+def check_command(
+    scene: SceneFile, trocar: Name = None, trust_plugins: TrustPlugins = False, debug: Debug = False
+) -> None:
+    """Open the devices, and say what they are and what bounds their coupling."""
+    from tissu.cli.trocar import check_trocars
+
+    with reported(debug=debug):
+        check_trocars(scene, trocar, trusted=trust_plugins)
+
+
+@trocar_app.command("identify")
+def identify_command(
+    scene: SceneFile, trocar: Name = None, trust_plugins: TrustPlugins = False, debug: Debug = False
+) -> None:
+    """Drive each axis to and fro, and find its damping and friction; nothing may hold the tool."""
+    from tissu.cli.trocar import identify_trocar
+
+    with reported(debug=debug):
+        identify_trocar(scene, trocar, trusted=trust_plugins)
+
+
+@trocar_app.command("jitter")
+def jitter_command(
+    scene: SceneFile,
+    trocar: Name = None,
+    seconds: Seconds = "5 s",
+    spin: Annotated[
+        str, typer.Option(metavar="TIME", help="Last part of each wait that is spent awake.")
+    ] = "0 s",
+    trust_plugins: TrustPlugins = False,
+    debug: Debug = False,
+) -> None:
+    """Tick in real time, and say how late ticks were and what the machine granted."""
+    from tissu.cli.trocar import jitter_trocar
+    from tissu.units import TIME
+
+    with reported(debug=debug):
+        jitter_trocar(scene, trocar, TIME(seconds), TIME(spin), trusted=trust_plugins)
+
+
+@trocar_app.command("record")
+def record_command(
+    scene: SceneFile,
+    out: Annotated[Path, typer.Argument(metavar="FILE", help="The recording (.npz).")],
+    trocar: Name = None,
+    seconds: Seconds = "2 s",
+    realtime: Annotated[
+        bool, typer.Option("--realtime", help="By the thread; default: stepped.")
+    ] = False,
+    wall: Annotated[
+        str | None, typer.Option(metavar="DEPTH", help="A wall that is felt there: '110 mm'.")
+    ] = None,
+    stiffness: Annotated[str, typer.Option(help="Of the wall.")] = "500 N/m",
+    trust_plugins: TrustPlugins = False,
+    debug: Debug = False,
+) -> None:
+    """Record all ticks: what the device gave, the models, the torques."""
+    from tissu.cli.trocar import Recorded, record_trocar
+    from tissu.units import LENGTH, STIFFNESS, TIME
+
+    with reported(debug=debug):
+        depth = None if wall is None else LENGTH(wall)
+        numbers = (TIME(seconds), realtime, depth, STIFFNESS(stiffness))
+        job = Recorded(scene, trocar, out, *numbers, trust_plugins)
+        record_trocar(job)
+
+
+@trocar_app.command("replay")
+def replay_command(
+    file: Annotated[Path, typer.Argument(metavar="FILE", help="A recording.")],
+    debug: Debug = False,
+) -> None:
+    """Take the ticks of a recording again, and compare every bit of the torques."""
+    from tissu.cli.trocar import replay_recording
+
+    with reported(debug=debug):
+        raise typer.Exit(replay_recording(file))

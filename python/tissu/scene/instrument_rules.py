@@ -1,0 +1,46 @@
+"""What a scene may ask of its instruments and tears: bodies that there are, and editing."""
+
+from __future__ import annotations
+
+import contextlib
+from collections.abc import Iterator
+from typing import Any
+
+from tissu.scene.problem import Path, Problem, nearest, one_of_words
+from tissu.scene.unknown import Unknown
+
+_EXPLICIT = ("symplectic_euler", "explicit_euler", "rk2", "rk4")
+
+
+def instrument_problems(scene: Any) -> Iterator[Problem]:
+    """What is wrong with the instruments and tears of a scene, whose other fields may be too."""
+    for name, instrument in getattr(scene, "instruments", {}).items():
+        with contextlib.suppress(Unknown):
+            path: Path = ("instruments", name)
+            for number, body in enumerate(instrument.bodies):
+                yield from _of_body(scene, body, (*path, instrument.bodies_field, number))
+            yield from _edited(scene, path, "an instrument")
+            yield from _pressing(scene, instrument, path)
+    for number, tear in enumerate(getattr(scene, "tear", ())):
+        with contextlib.suppress(Unknown):
+            yield from _of_body(scene, tear.body, ("tear", number, "body"))
+            yield from _edited(scene, ("tear", number), "a tear")
+
+
+def _of_body(scene: Any, body: str, path: Path) -> Iterator[Problem]:
+    if body not in scene.bodies:
+        text = f"no body is named '{body}'{nearest(body, scene.bodies)} "
+        yield Problem(path, f"{text}Bodies: {one_of_words(scene.bodies)}")
+
+
+def _edited(scene: Any, path: Path, what: str) -> Iterator[Problem]:
+    if scene.editing is None:
+        yield Problem(path, f"found {what} in a scene without editing; write editing: true")
+
+
+def _pressing(scene: Any, instrument: Any, path: Path) -> Iterator[Problem]:
+    """Springs of an edge would make explicit steps unstable without a word."""
+    if getattr(instrument, "toughness", None) is None or scene.step.type not in _EXPLICIT:
+        return
+    text = f"found a toughness with the explicit step {scene.step.type}; an implicit method is "
+    yield Problem((*path, "toughness"), f"{text}accepted, or a knife without toughness")

@@ -1,0 +1,34 @@
+"""Tears: material that opens where it is pulled too much."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from pydantic import Field
+
+from tissu import units
+from tissu.scene.effect import Effect
+from tissu.scene.field import field
+from tissu.scene.part import Part
+
+__all__ = ["Tear"]
+
+
+class Tear(Part):
+    """A body tears where its largest principal stress, averaged around a place, is too large."""
+
+    body: str = field(kw_only=False)
+    """name of a body of the scene"""
+    strength: units.Pressure = field(gt=0.0)
+    """largest principal Cauchy stress that it bears [Pa]"""
+    length: units.Length = field(gt=0.0)
+    """the stress is a mean over the cells within this distance [m], and a tear opens 1.5 times as
+    far: above the edge of a cell, and the same for every mesh"""
+    per_step: Annotated[int, Field(ge=1, le=1000)] = 8
+    """places at most that tear at the end of one step, the most overstressed ones"""
+
+    def effect(self, path: str) -> Effect:
+        """What it switches on."""
+        mean = f"{self.strength:g} Pa, averaged over {self.length:g} m"
+        why = f"{path} opens {self.body} above {mean}"
+        return Effect(f"tear of {self.body}", why)

@@ -1,0 +1,1 @@
+"""Trocars of a scene: port, device, tools, hand, limits; what a device and its coupling may be."""

@@ -1,0 +1,159 @@
+"""A trocar of a scene: a port, the device that is in it, its tools, and what the hand may feel."""
+
+from __future__ import annotations
+
+import contextlib
+import math
+from collections.abc import Iterator, Mapping
+from typing import Annotated, Any, Literal
+
+import numpy as np
+from pydantic import PlainValidator, ValidationInfo
+
+from tissu import units
+from tissu.errors import ParameterError
+from tissu.reading import Read, written
+from tissu.scene.effect import Effect
+from tissu.scene.field import field
+from tissu.scene.part import Part, keeps_problems
+from tissu.scene.problem import Path, Problem, nearest, one_of_words
+from tissu.scene.trocar.axes import AXIS_NAMES, Stiffness
+from tissu.scene.trocar.device import OneDevice
+from tissu.scene.trocar.limits import TrocarLimits
+from tissu.scene.trocar.passive import MARGIN, Bound, passive_bounds
+from tissu.scene.trocar.port import Port
+from tissu.scene.trocar.tool import Tools
+from tissu.scene.unknown import Unknown, Unread, below, rule
+
+__all__ = ["Trocar", "Coupling"]
+
+LEAST_RATE, LARGEST_RATE = 300.0, 10_000.0
+LEAST_APART = 0.1
+"""m between two ports: a cradle is a sphere of 100 mm (thesis, table 5.4.5)."""
+
+
+class Coupling(Part):
+    """How stiff the spring is between the device and the tool that the tissue sees."""
+
+    stiffness: Stiffness = field(kw_only=False)
+    """of pitch, roll, rotation [N m/rad] and depth [N/m]; at most what the device keeps passive"""
+
+
+def _coupling(value: Any, info: ValidationInfo) -> Any:
+    if value == "automatic" or isinstance(value, Coupling):
+        return value
+    if not isinstance(value, Mapping):
+        text = "automatic is accepted, or {stiffness: [48, 48, 1.6, 1600]}"
+        problem = Problem((), f"found {written(value)}; {text}")
+        if keeps_problems(info):
+            return Unread((problem,))
+        raise ParameterError(problem.text)
+    return Coupling.model_validate(value, context=info.context)
+
+
+class Trocar(Part):
+    """A driven port: its device reads where the tool is, and gives its force to the hand."""
+
+    port: Port
+    """where its pivot is, and its axes"""
+    device: OneDevice
+    """what reads the hand and drives it"""
+    tools: Tools = field(default_factory=dict)
+    """tag of a tool -> name of an obstacle or instrument; absent: every tool is taken, and no tag
+    is looked at
+    """
+    rate: units.Rate = field(default=1000.0)
+    """ticks a second, 300 Hz to 10 kHz"""
+    coupling: Annotated[
+        Read[Coupling | Literal["automatic"], Coupling | Literal["automatic"]],
+        PlainValidator(_coupling),
+    ] = field(default="automatic")
+    """automatic: 0.8 of the largest passive stiffness of each axis; or a stiffness"""
+    limits: TrocarLimits = field(default_factory=TrocarLimits)
+    """what is never exceeded, and where the end stops are"""
+
+    @rule("rate")
+    def _is_fast_enough(self) -> Iterator[Problem]:
+        if not LEAST_RATE <= self.rate <= LARGEST_RATE:
+            text = f"found {self.rate:g} Hz; {LEAST_RATE:g} Hz to {LARGEST_RATE / 1000:g} kHz are "
+            text += "accepted: slower ticks are felt, and 1 kHz is usual"
+            yield Problem(("rate",), text)
+
+    @rule("coupling")
+    def _is_passive(self) -> Iterator[Problem]:
+        bounds = self.bounds()
+        if bounds is None:
+            text = "is automatic, and the damping and friction of the device are not known; measure"
+            text += " them with `tissu trocar identify`, or give a stiffness"
+            if self.coupling == "automatic":
+                yield Problem(("coupling",), text)
+            return
+        if isinstance(self.coupling, Coupling):
+            rows = zip(AXIS_NAMES, self.coupling.stiffness, bounds, strict=True)
+            for number, (name, stiffness, bound) in enumerate(rows):
+                if stiffness > bound.stiffness:
+                    unit = "N/m" if name == "depth" else "N m/rad"
+                    text = f"found {stiffness:g} {unit} on {name}, above the passive bound of "
+                    text += f"{bound.stiffness:.4g} {unit}, {bound.why}; at most that is accepted"
+                    yield Problem(("coupling", "stiffness", number), text)
+
+    def bounds(self) -> list[Bound] | None:
+        """The largest passive stiffness of each axis; None where the device is not known enough."""
+        known = self.device.dissipation()
+        if known is None:
+            return None
+        delay = self.device.loop_delay()
+        return passive_bounds(*known, self.device.counts, 1.0 / self.rate, delay)
+
+    def stiffness(self) -> tuple[float, ...]:
+        """K_c of each axis [N m/rad, N m/rad, N m/rad, N/m]."""
+        if isinstance(self.coupling, Coupling):
+            return self.coupling.stiffness
+        return tuple(MARGIN * bound.stiffness for bound in self.bounds() or ())
+
+    def effect(self, name: str) -> Effect:
+        """What it switches on."""
+        felt = ", ".join(f"{value:.4g}" for value in self.stiffness())
+        text = f"trocars.{name} is {self.device.words()}, {self.port.words()}, {self.rate:g} Hz, "
+        kind = "automatic" if self.coupling == "automatic" else "given"
+        return Effect(f"trocar {name}", f"{text}coupling {kind}: {felt} N m/rad and N/m")
+
+
+Trocars = Read[dict[str, Trocar], Mapping[str, Trocar]]
+
+
+def trocar_problems(scene: Any) -> Iterator[Problem]:
+    """What is wrong between the trocars of a scene, and with the tools that they name."""
+    trocars = getattr(scene, "trocars", {})
+    known = {**getattr(scene, "obstacles", {}), **getattr(scene, "instruments", {})}
+    for name, trocar in trocars.items():
+        with contextlib.suppress(Unknown):
+            yield from below("trocars", below(name, _tool_problems(trocar, known)))
+    names = list(trocars)
+    for second in range(len(names)):
+        for first in range(second):
+            with contextlib.suppress(Unknown):
+                yield from _pair_problems(trocars, names[first], names[second])
+
+
+def _tool_problems(trocar: Trocar, known: Mapping[str, Any]) -> Iterator[Problem]:
+    """Tools that the scene does not have."""
+    for tag, tool in trocar.tools.items():
+        if tool not in known:
+            text = f"no obstacle or instrument is named '{tool}'{nearest(tool, known)}"
+            there = one_of_words(known) or "none: the scene has no obstacle and no instrument"
+            yield Problem(("tools", tag), f"{text} Accepted: {there}")
+
+
+def _pair_problems(trocars: Mapping[str, Trocar], first: str, second: str) -> Iterator[Problem]:
+    """Two trocars that stand in each other's way, or have one device."""
+    one, other = trocars[first], trocars[second]
+    identity = other.device.identity()
+    path: Path = ("trocars", second)
+    if identity is not None and identity == one.device.identity():
+        text = f"found {identity}, which trocars.{first} has too; a device has one controller"
+        yield Problem((*path, "device"), text)
+    apart = float(np.linalg.norm(np.subtract(one.port.at, other.port.at)))
+    if apart < LEAST_APART * (1.0 - 1e-9) and not math.isnan(apart):
+        text = f"found {apart:.4g} m to the port of trocars.{first}; at least {LEAST_APART:g} m "
+        yield Problem((*path, "port", "at"), f"{text}is accepted: their cradles would collide")

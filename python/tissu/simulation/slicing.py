@@ -1,0 +1,116 @@
+"""A knife at the end of a step: it cuts along the way of its edge through the material."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tissu import _core
+from tissu.cutting.way import area_of, resampled, rows_of
+from tissu.simulation.track import Track, anchored
+
+if TYPE_CHECKING:
+    from tissu.cutting.report import CutReport
+    from tissu.mesh import Mesh
+    from tissu.scene.instrument import Knife
+    from tissu.simulation.simulation import Simulation
+
+Floats = NDArray[np.float64]
+
+LEAST_WAY = 0.02
+"""of an edge through the material before it cuts on, as a share of a cell's mean edge"""
+LONGEST_WAY = 0.5
+"""of a point of an edge between two rows, as a share of a cell's mean edge"""
+_NO_AREA = 1e-12
+
+
+def cell_size(simulation: Simulation, body: str) -> float:
+    """Mean distance of the first three corners of a cell of a body on the first day [m]."""
+    found = simulation._cell_sizes.get(body)
+    if found is None:
+        found = simulation._cell_sizes[body] = _mean_edge(simulation._rest[body])
+    return found
+
+
+def _mean_edge(mesh: Mesh) -> float:
+    lengths = [
+        np.linalg.norm(np.diff(mesh.points[block.nodes[:, [0, 1, 2, 0]]], axis=1), axis=2).ravel()
+        for block in mesh.body_blocks
+    ]
+    return float(np.concatenate(lengths).mean())
+
+
+def edge_of(simulation: Simulation, knife: Knife) -> Floats:
+    """The points (m, 3) of its edge in its own axes, no farther apart than half a cell [m]."""
+    size = min(cell_size(simulation, body) for body in knife.cuts)
+    return resampled(knife.points(), LONGEST_WAY * size)
+
+
+def cut_with(
+    simulation: Simulation, name: str, knife: Knife, body: str, track: Track
+) -> tuple[CutReport | None, Track]:
+    """Cut a body along the way that the edge took in its material since its last place.
+
+    Returns:
+        What was cut, None where the blade met nothing; and the track from here on.
+
+    Raises:
+        ParameterError: the cut is refused.
+    """
+    edge, size = edge_of(simulation, knife), cell_size(simulation, body)
+    start = track.rows[-1].places(simulation._core.positions)
+    rows = rows_of(edge, track.poses, start, LONGEST_WAY * size)
+    if np.linalg.norm(rows - start, axis=2).max() < LEAST_WAY * size:
+        return None, track
+    return cut_rows(simulation, name, body, track, rows)
+
+
+def cut_rows(
+    simulation: Simulation, name: str, body: str, track: Track, rows: Floats
+) -> tuple[CutReport | None, Track]:
+    """Cut a body along rows (k, m, 3) of places of an edge, the first where the last cut ended.
+
+    Raises:
+        ParameterError: the cut is refused.
+    """
+    # Where the material is now, before it parts: the last two rows go on from both its sides.
+    kept = tuple(anchored(simulation._core, body, row) for row in rows[-2:])
+    ended = replace(track, incision=-1, poses=track.poses[-1:], rows=kept[-1:])
+    if not _near(simulation, body, rows):
+        return None, ended
+    way = rows
+    if len(track.rows) == 2:
+        way = np.concatenate([track.rows[0].places(simulation._core.positions)[None], rows])
+    if not area_of(way) > _NO_AREA * np.square(np.ptp(way.reshape(-1, 3), axis=0).max()):
+        return None, ended
+    number = track.incision if track.incision >= 0 else _next_incision(simulation, body, track)
+    count, points, _ = way.shape
+    sweep = _core.edge_sweep(
+        places=np.ascontiguousarray(way.reshape(-1, 3)),
+        moments=count,
+        points=points,
+        incision=number,
+    )
+    report = simulation._cut_along(body, sweep, by=name)
+    goes_on = bool(kept[-1].inside.any())
+    after = replace(ended, rows=kept, incision=number) if goes_on else ended
+    met = report.cells_cut or report.unresolved
+    return (report if met else None), after
+
+
+def _next_incision(simulation: Simulation, body: str, track: Track) -> int:
+    """A number that no incision of the body has, and that no other track takes."""
+    lanes, used = len(simulation._tracks()), simulation._core.incisions(body)
+    return int(max(used, default=-1)) // lanes * lanes + lanes + track.number
+
+
+def _near(simulation: Simulation, body: str, rows: Floats) -> bool:
+    """Whether the box of the rows meets that of the body."""
+    first, count = simulation._core.body_range(body)
+    nodes = simulation._core.positions[first : first + count]
+    places = rows.reshape(-1, 3)
+    apart = (places.max(axis=0) < nodes.min(axis=0)) | (places.min(axis=0) > nodes.max(axis=0))
+    return not apart.any()

@@ -1,0 +1,119 @@
+"""Devices, opened: from the part of a scene to what ticks read and write."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from tissu import _haptic
+from tissu.errors import ParameterError
+from tissu.scene.trocar.device import (
+    PluginDevice,
+    SerialDevice,
+    SharedMemoryDevice,
+    SimulatedDevice,
+    UdpDevice,
+)
+from tissu.trocar.kinematics import Array
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from tissu.scene.trocar.hand import Hand
+    from tissu.scene.trocar.trocar import Trocar
+
+_GRIP = np.radians(0.05)
+"""Count of the grip [rad]."""
+_WAIT = 1.0
+"""Longest wait for the first frame [s]."""
+
+
+def open_device(trocar: Trocar, tag: int, *, trust_plugins: bool = False) -> _haptic.Device:
+    """The device of a trocar.
+
+    Args:
+        trocar: the part of the scene.
+        tag: of the tool that is in a simulated device at the start.
+        trust_plugins: whether the file of a plug-in, which is a program, may run.
+
+    Raises:
+        TissuError: it is not there, does not answer, or has another controller.
+        ParameterError: the path of a hand cannot be read.
+    """
+    device = trocar.device
+    if isinstance(device, SimulatedDevice):
+        return _simulated(trocar, device, tag)
+    info: dict[str, Any] = {
+        "count_size": [*device.counts, _GRIP],
+        "torque_limit": [*trocar.limits.torques(), 0.0],
+        "rate": trocar.rate,
+        "delay": device.loop_delay(),
+    }
+    if isinstance(device, UdpDevice):
+        return _haptic.open_udp(host=device.host, port=device.port, wait=_WAIT, **info)
+    if isinstance(device, SerialDevice):
+        return _haptic.open_serial(path=str(device.path), baud=device.baud, wait=_WAIT, **info)
+    if isinstance(device, SharedMemoryDevice):
+        return _haptic.open_shared_memory(name=device.name, wait=_WAIT, **info)
+    assert isinstance(device, PluginDevice)
+    library = device.library.resolve()
+    if not trust_plugins:
+        text = f"the plug-in {library} is a program, and was not run; where you trust it, take "
+        raise ParameterError(f"{text}--trust-plugins, in Python trust_plugins=True")
+    return _haptic.open_plugin(library=str(library), address=device.address or "")
+
+
+def _simulated(trocar: Trocar, device: SimulatedDevice, tag: int) -> _haptic.Device:
+    line = _haptic.Line()
+    line.period = 1.0 / trocar.rate
+    line.count_size = [*device.counts, _GRIP]
+    line.torque_limit = [*trocar.limits.torques(), 0.0]
+    line.delay, line.jitter, line.lost = device.delay, device.jitter, device.lost
+    line.unknown_zero, line.seed = not device.homed, device.seed
+    hand, first = None, np.array([0.0, 0.0, 0.1])
+    if device.hand is not None:
+        hand = hand_of(device.hand, device.seed)
+        first = hand.wanted(0.0)[0]
+    q = _haptic.Fulcrum().joints(first)
+    made = _haptic.SimulatedDevice(q, _haptic.Mechanism(), line, hand)
+    made.set_tool(tag, True)
+    return made
+
+
+def hand_of(hand: Hand, seed: int) -> _haptic.Hand:
+    """The hand of a simulated device.
+
+    Raises:
+        ParameterError: the file of its path cannot be read, or is none.
+    """
+    rows = (
+        read_path(hand.path)
+        if hand.path is not None
+        else np.column_stack([hand.times, np.array(hand.points)])
+    )
+    made = _haptic.Hand(list(rows[:, 0]), rows[:, 1:4], [0.0] * len(rows))
+    made.smooth = hand.path is None  # a recorded path is followed as it is
+    made.mass, made.stiffness, made.damping = hand.mass, hand.stiffness, hand.damping
+    made.tremor, made.seed = hand.tremor, seed
+    if hand.lets_go is not None:
+        made.lets_go = hand.lets_go
+    made.check()
+    return made
+
+
+def read_path(path: Path) -> Array:
+    """The rows (n, 4) of a recorded path: time [s] and place of the tip in the port's axes [m].
+
+    Raises:
+        ParameterError: it cannot be read, is no table of four numbers, or its times do not grow.
+    """
+    accepted = "lines 't, x, y, z' of numbers are accepted, their times growing"
+    try:
+        rows = np.loadtxt(path, delimiter=",", comments="#", ndmin=2, dtype=np.float64)
+    except (OSError, ValueError) as error:
+        said = " ".join(str(error).split())
+        raise ParameterError(f"the path {path} cannot be read ({said}); {accepted}") from None
+    if rows.shape[1:] != (4,) or not np.isfinite(rows).all() or (np.diff(rows[:, 0]) <= 0).any():
+        raise ParameterError(f"the path {path} has lines that do not fit; {accepted}")
+    return rows

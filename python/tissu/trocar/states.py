@@ -1,0 +1,75 @@
+"""What a trocar is doing, and why it gives no force."""
+
+from __future__ import annotations
+
+from enum import IntEnum
+
+
+class State(IntEnum):
+    """What a trocar is doing. Only `free` and `contact` give force."""
+
+    off = 0
+    homing = 1
+    empty = 2
+    free = 3
+    contact = 4
+    held = 5
+    fault = 6
+
+    @property
+    def gives_force(self) -> bool:
+        """Whether the tissue is felt."""
+        return self in (State.free, State.contact)
+
+
+class Reason(IntEnum):
+    """Why a trocar is held or in fault."""
+
+    none = 0
+    reads_failed = 1
+    writes_failed = 2
+    device_fault = 3
+    not_finite = 4
+    model_stalled = 5
+    too_fast = 6
+    tag_changed = 7
+    late = 8
+
+    @property
+    def words(self) -> str:
+        """The reason, and what to do."""
+        return _WORDS[self]
+
+
+class Status(IntEnum):
+    """What reading or writing a device gave."""
+
+    ok = 0
+    none = 1
+    broken = 2
+    gone = 3
+
+
+class Flag(IntEnum):
+    """Bits of the flags of a sample."""
+
+    homed = 1
+    enabled = 2
+    tool_in = 4
+    fault = 8
+
+
+_AGAIN = "then stop the trocar and start it again"
+_WORDS = {
+    Reason.none: "",
+    Reason.reads_failed: f"the device gave no sample five times in a row; check it, {_AGAIN}",
+    Reason.writes_failed: f"the device took no command five times in a row; check it, {_AGAIN}",
+    Reason.device_fault: f"the device reports a fault of its own; clear it there, {_AGAIN}",
+    Reason.not_finite: f"a model or a torque was not finite three times in a row; {_AGAIN}",
+    Reason.model_stalled: "no model of the tissue came for longer than a second; the next one ends "
+    "it",
+    Reason.too_fast: "the tip moved faster than its limit; acknowledge it when the device is well",
+    Reason.tag_changed: "the tag changed while the tool was in; take the tool out",
+    Reason.late: "more than five ticks in a row were missed; acknowledge it when the machine has "
+    "time",
+}

@@ -1,0 +1,43 @@
+"""The examples with instruments: what they cut, and what the summary of a run says of it."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+import tissu as ts
+from tissu.cli.run import Job, run_scene
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
+
+
+def test_the_scalpel_leaves_one_incision(tmp_path: Path) -> None:
+    job = Job(EXAMPLES / "scalpel.yaml", tmp_path, None, None, quiet=True, picture=False)
+    assert run_scene(job) == 0
+    summary = json.loads((tmp_path / "summary.json").read_text(encoding="utf-8"))
+    cuts = summary["cuts"]
+    assert {cut["by"] for cut in cuts} == {"scalpel"}
+    assert all(0.3 < cut["time"] <= 1.0 + 1e-9 for cut in cuts)
+    assert len(cuts[-1]["pieces"]) == 1
+    # 3.7 cm along and 1.4 cm deep, in material that is drawn out across: front a cell behind.
+    area = sum(cut["area"] for cut in cuts)
+    assert area == pytest.approx(0.037 * 0.014, rel=0.25)
+    assert abs(sum(cut["mass_change"] for cut in cuts)) < 1e-12
+
+
+def test_the_strip_tears_from_its_notch() -> None:
+    simulation = ts.Scene.from_yaml(EXAMPLES / "tear.yaml").compile()
+    cuts: list[tuple[float, ts.CutReport]] = []
+    for report in simulation.run():
+        assert report.converged
+        cuts += [(report.time, cut) for cut in report.cuts]
+        if len(simulation.pieces("strip")) > 1:
+            break
+    assert {cut.by for time, cut in cuts if time < 0.2} == {"blade"}
+    assert {cut.by for time, cut in cuts if time > 0.2} == {"tear"}
+    pieces = simulation.pieces("strip")
+    assert [piece.held for piece in pieces] == [True, True]
+    for piece in pieces:
+        assert piece.volume == pytest.approx(24e-6, rel=0.1)

@@ -1,0 +1,59 @@
+"""tissu trocar check, identify, jitter, record and replay, as a user types them."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+import yaml
+
+ROOT = Path(__file__).resolve().parents[3]
+SCENE = ROOT / "examples" / "trocar.yaml"
+
+
+def tissu(*arguments, code=0):
+    command = [sys.executable, "-m", "tissu", "trocar", *map(str, arguments)]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert done.returncode == code, done.stderr
+    return done.stdout + done.stderr
+
+
+def test_check_says_what_is_there_and_what_bounds_it():
+    said = tissu("check", SCENE)
+    assert "trocar right: a simulated device" in said
+    assert "free, probe" in said
+    assert "depth: coupling 1600 N/m, passive up to 2000 N/m" in said
+
+
+def test_a_recording_replays_with_the_same_bits(tmp_path):
+    file = tmp_path / "palpation.npz"
+    said = tissu("record", SCENE, file, "--wall", "110 mm", "--seconds", "1.2 s")
+    assert "1201 ticks, 30 models" in said
+    assert "the same bits" in tissu("replay", file)
+    assert "no recording" in tissu("replay", SCENE, code=2).replace("not a", "no")
+    assert "found no file" in tissu("replay", tmp_path / "none.npz", code=2)
+
+
+def test_identify_prints_what_a_scene_takes():
+    said = tissu("identify", SCENE)
+    damping, friction = (line for line in said.splitlines() if line.startswith("  damping") or
+                         line.startswith("  friction"))  # fmt: skip
+    assert len(yaml.safe_load(damping)["damping"]) == 4
+    assert yaml.safe_load(friction)["friction"][3] == pytest.approx(0.3, rel=0.1)
+
+
+def test_jitter_says_how_late_and_what_was_granted():
+    said = tissu("jitter", SCENE, "--seconds", "0.3 s")
+    assert "ticks, " in said
+    assert "lateness: p50 " in said
+    for asked in ("SCHED_FIFO 60", "locked memory", "core "):
+        line = next(line for line in said.splitlines() if line.strip().startswith(asked))
+        assert "granted" in line or "refused (errno" in line
+
+
+def test_what_is_asked_in_vain_is_refused():
+    assert "no trocar is named 'rigth'; did you mean 'right'?" in tissu(
+        "check", SCENE, "--trocar", "rigth", code=2
+    )
+    beam = ROOT / "examples" / "beam.yaml"
+    assert "found no trocars" in tissu("jitter", beam, code=2)

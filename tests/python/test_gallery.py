@@ -5,6 +5,7 @@ itself; else what its cells and steps leave, halved by halving them.
 """
 
 import math
+import re
 from pathlib import Path
 
 import numpy as np
@@ -198,3 +199,9 @@ def test_every_scene_of_the_gallery_has_a_picture_and_a_file():
         assert f"../examples/{scene.name}" in page, remedy
         assert f"pictures/gallery/{scene.stem}.webp" in page, scene.name
         assert (ROOT / "docs/pictures/gallery" / f"{scene.stem}.webp").is_file()
+
+
+def test_the_tests_that_the_gallery_names_are_there():
+    page = (ROOT / "docs" / "gallery.md").read_text(encoding="utf-8")
+    for name in re.findall(r"tested in `([^`]+)`", page):
+        assert (ROOT / "tests/python" / name).is_file(), name

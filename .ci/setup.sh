@@ -16,9 +16,10 @@ if command -v flock >/dev/null; then flock 9; fi   # two at once would spoil eac
 : >build/setup.log
 
 step_python
-step_system "$purpose"
+[ "$purpose" = docs ] || step_system "$purpose"
 step_venv
 step_optional "$purpose"
 step_packages "$purpose"
+[ "$purpose" = docs ] && exit   # the site is made from the sources: nothing is compiled
 step_build "$purpose"
 step_configure "$purpose"

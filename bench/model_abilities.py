@@ -191,12 +191,13 @@ def measured(name: str, key: str) -> str:
 def words(name: str) -> str:
     """What a class says: laws, cells, and whether it can."""
     info = models()[name]
-    laws = ", ".join(info.laws) or "any"
-    cells = ", ".join(info.elements) or "any"
-    told = "; ".join(
-        f"{MEASURES[key][0]}: {CAN[can]}, {how}" for key, (can, how) in info.abilities.items()
+    laws = f"the laws {', '.join(info.laws)}" if info.laws else "any law"
+    cells = f"the cells {', '.join(info.elements)}" if info.elements else "any cell"
+    said = " ".join(
+        f"{MEASURES[key][0][:1].upper()}{MEASURES[key][0][1:]}: {CAN[can]} ({how})."
+        for key, (can, how) in info.abilities.items()
     )
-    return f"`{name}`: {info.form}. Laws: {laws}. Cells: {cells}. {told}"
+    return f"**`{name}`**: {info.form}. It takes {laws} and {cells}. {said}"
 
 
 def cell_bytes(name: str) -> str:

@@ -75,6 +75,12 @@ PAGES = {
         (),
         ("examples", "sampling"),
     ),
+    "trocar": Page(
+        "The controller of a trocar",
+        "These are loaded from their modules: `from tissu.trocar.controller import Controller`.",
+        (),
+        ("trocar.controller.Controller", "trocar.model.LocalModel"),
+    ),
     "errors": Page(
         "Errors",
         "Every error is a `TissuError`. [Errors](../errors.md) says what to do about them.",
@@ -116,7 +122,8 @@ def room_page(page: Page) -> str:
     blocks = [block(name, inherited) for name in names]
     blocks += [block(name) for name in page.modules]
     if page.returned:
-        blocks += ["## What methods return", *(block(name, inherited) for name in page.returned)]
+        blocks += ["## What methods return"] * bool(names)
+        blocks += [block(name, inherited) for name in page.returned]
     return "\n".join([f"# {page.title}\n\n{page.words}\n", *(f"{text}\n" for text in blocks)])
 
 
@@ -142,6 +149,9 @@ def index() -> str:
         listed = " ".join(f"`{name}`" for name in names)
         lines.append(f"| [{heading}]({slug(heading)}.md) | {listed} |")
     for name, page in all_pages().items():
+        if not names_of(page):
+            lines.append(f"| [{page.title}]({name}.md) | {page.words} |")
+            continue
         listed = " ".join(f"`{public}`" for public in names_of(page))
         lines.append(f"| [{page.title}]({name}.md) | {listed} |")
     return "\n".join([*lines, "", "This page is printed by `make codegen`.", ""])

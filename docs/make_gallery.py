@@ -26,7 +26,7 @@ ROOT = Path(__file__).resolve().parent
 EXAMPLES = ROOT.parent / "examples"
 FOLDER = ROOT / "pictures" / "gallery"
 WIDTH = 1000  # pixels
-UNTIL = {"bounce": 0.1, "beam": 0.35, "organ": 2.0, "slide": 0.2, "tear": 0.88, "tumble": 0.3}
+UNTIL = {"bounce": 0.1, "beam": 0.35, "organ": 2.0, "slide": 0.2, "tumble": 0.3, "tear": 0.88}
 """Time at which a scene shows most [s], where it is not the end."""
 STRESS = ("slice", "pressed", "tissue", "twist")
 """Scenes that are coloured by von Mises stress."""
@@ -117,6 +117,25 @@ def two_organs(path: Path) -> None:
     ts.draw(simulation, path)
 
 
+def trocar(path: Path) -> None:
+    """The force that the simulated hand feels from a wall that gives way."""
+    from tissu.trocar.controller import Controller
+    from tissu.trocar.model import LocalModel
+
+    times, forces = [], []
+    with Controller(ts.Scene.from_yaml(EXAMPLES / "trocar.yaml").trocars["right"]) as controller:
+        for _ in range(180):
+            report = controller.step(10)
+            wall = LocalModel.plane(
+                report.q, through=(0, 0, 0.11), normal=(0, 0, -1), stiffness=500.0
+            )
+            controller.publish(wall)
+            times.append(report.time)
+            forces.append(float(np.linalg.norm(report.force)))
+    labels = ("time [s]", "force on the tool [N]")
+    curve(times, forces, labels, "trocar: a hand presses a tool on a wall that gives way", path)
+
+
 PROGRAMS: dict[str, Callable[[Path], None]] = {
     "relax": relax,
     "snap": snap,
@@ -124,6 +143,7 @@ PROGRAMS: dict[str, Callable[[Path], None]] = {
     "incision": incision,
     "resection": resection,
     "two_organs": two_organs,
+    "trocar": trocar,
 }
 
 

@@ -5,6 +5,7 @@ itself; else what its cells and steps leave, halved by halving them.
 """
 
 import math
+import re
 from pathlib import Path
 
 import numpy as np
@@ -194,6 +195,13 @@ def test_a_rod_bends_as_eulers_elastica():
 def test_every_scene_of_the_gallery_has_a_picture_and_a_file():
     page = (ROOT / "docs" / "gallery.md").read_text(encoding="utf-8")
     for scene in sorted(EXAMPLES.glob("*.yaml")):
-        assert f"../examples/{scene.name}" in page, scene.name
+        remedy = f"its section in docs/gallery.md; python docs/make_gallery.py {scene.stem}"
+        assert f"../examples/{scene.name}" in page, remedy
         assert f"pictures/gallery/{scene.stem}.webp" in page, scene.name
         assert (ROOT / "docs/pictures/gallery" / f"{scene.stem}.webp").is_file()
+
+
+def test_the_tests_that_the_gallery_names_are_there():
+    page = (ROOT / "docs" / "gallery.md").read_text(encoding="utf-8")
+    for name in re.findall(r"tested in `([^`]+)`", page):
+        assert (ROOT / "tests/python" / name).is_file(), name

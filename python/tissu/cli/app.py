@@ -71,6 +71,9 @@ def run(
     picture: Annotated[
         bool, typer.Option("--picture/--no-picture", help="Whether a picture is drawn at the end.")
     ] = True,
+    realtime: Annotated[
+        bool, typer.Option("--realtime", help="Whether trocars and steps keep pace with the clock.")
+    ] = False,
     trust_laws: TrustLaws = False,
     accept_unconverged: AcceptUnconverged = False,
     quiet: Annotated[bool, typer.Option("--quiet", "-q", help="Print errors only.")] = False,
@@ -82,7 +85,9 @@ def run(
     with reported(debug=debug):
         more = (resume, checkpoint, checkpoint_every, trust_laws, accept_unconverged)
         folder = out or Path("results") / scene.stem
-        job = Job(scene, folder, duration, threads, quiet, *more, picture=picture)
+        job = Job(
+            scene, folder, duration, threads, quiet, *more, picture=picture, realtime=realtime
+        )
         raise typer.Exit(run_scene(job, debug=debug))
 
 

@@ -16,7 +16,7 @@ from tissu.cli.outcome import BAD_INPUT, DIVERGED, FINISHED, UNCONVERGED, compla
 from tissu.cli.progress import RunProgress
 from tissu.cli.timetable import Timetable
 from tissu.counted import counted
-from tissu.errors import CheckpointError, Diverged, TissuError
+from tissu.errors import CheckpointError, Diverged, ParameterError, TissuError
 from tissu.output import (
     ContactTally,
     Series,
@@ -30,6 +30,7 @@ if TYPE_CHECKING:
     from tissu.checkpoint import Resumed
     from tissu.front import Scene
     from tissu.simulation import Simulation
+    from tissu.trocar.run import Trocars
 
 T = TypeVar("T")
 
@@ -49,6 +50,7 @@ class Job:
     trust_laws: bool = False
     accept_unconverged: bool = False
     picture: bool = True
+    realtime: bool = False
 
 
 @dataclass(slots=True)
@@ -107,15 +109,15 @@ def run_scene(job: Job, *, debug: bool = False) -> int:
     if not job.quiet:
         for note in worth_knowing(simulation):
             complain(f"note: {note}")
-    with interruption() as interrupted:
+    with interruption() as interrupted, beside(simulation, realtime=job.realtime) as trocars:
         series, contacts = Series(simulation, folder), ContactTally(simulation)
         files = Files(series, checkpoints, Timetable(span(scene)[1]), clock)
-        ending = advance(simulation, files, tally, interrupted, quiet=job.quiet)
+        ending = advance(simulation, files, tally, interrupted, trocars, quiet=job.quiet)
         ending = judged(ending, tally, accepted=job.accept_unconverged)
         picture = None
         if not files.lost:
             picture = drawn(simulation, series, clock) if job.picture else None
-            conclude(simulation, series, tally, clock, ending, picture, contacts)
+            conclude(simulation, series, tally, clock, ending, picture, contacts, trocars)
     if not job.quiet and not files.lost:
         with contextlib.suppress(BrokenPipeError):  # its reader has left; the run ends as it did
             report(simulation, series, tally, clock, picture)
@@ -124,6 +126,25 @@ def run_scene(job: Job, *, debug: bool = False) -> int:
     if ending.message:
         complain(ending.message)
     return ending.code
+
+
+@contextlib.contextmanager
+def beside(simulation: Simulation, *, realtime: bool) -> Iterator[Trocars | None]:
+    """The trocars of the scene while it runs; None, with nothing loaded, where it has none.
+
+    Raises:
+        TissuError: a device that is not there, or a tool that cannot be led.
+    """
+    if not simulation.scene.trocars:
+        if realtime:
+            text = "found --realtime and no trocars in the scene; without them a run is as fast as "
+            raise ParameterError(f"{text}it can, leave it out")
+        yield None
+        return
+    from tissu.trocar.run import Trocars
+
+    with Trocars(simulation, realtime=realtime) as trocars:
+        yield trocars
 
 
 def worth_knowing(simulation: Simulation) -> list[str]:
@@ -208,6 +229,7 @@ def advance(
     files: Files,
     tally: StepTally,
     interrupted: Interruption,
+    trocars: Trocars | None = None,
     *,
     quiet: bool,
 ) -> Ending:
@@ -217,6 +239,8 @@ def advance(
     files.begin(simulation)
     with RunProgress(duration, quiet=quiet, start=simulation.time) as progress:
         steps = iter(simulation.run(until=duration))
+        if trocars is not None:
+            steps = trocars.along(steps)
         try:
             while (step := files.clock.timed("steps", steps)) is not None:
                 tally.add(step)
@@ -274,9 +298,15 @@ def conclude(
     ending: Ending,
     picture: Path | None,
     contacts: ContactTally,
+    trocars: Trocars | None,
 ) -> None:
     """Writes the summary."""
     files = {"series": series.index.name}
+    if trocars is not None:
+        written = trocars.write(series.index.parent)
+        files |= {
+            f"trocar {name}": path.name for name, path in zip(trocars.felt, written, strict=True)
+        }
     if picture is not None:
         files["picture"] = picture.name
     summary = summarise(
@@ -289,6 +319,8 @@ def conclude(
         notes=[*worth_knowing(simulation), *filter(None, (ending.message, series.inverted))],
         contacts=contacts,
     )
+    if trocars is not None:
+        summary = {**summary, "trocars": trocars.summary()}
     write_summary(series.index.with_name("summary.json"), summary)
 
 

@@ -63,10 +63,7 @@ def prepare(scene: SceneData) -> Prepared:
 
 
 def _check_device(prepared: Prepared, name: str, trocar: Trocar) -> None:
-    """A device that is not there; and that a run does not hold it."""
-    if not any("tissu.trocar.controller" in note for note in prepared.findings.notes):
-        text = "trocars: a run of the scene does not tick them; tissu.trocar.controller holds one, "
-        prepared.findings.note(f"{text}and takes models of the tissue by publish")
+    """A device that is not there."""
     absent = trocar.device.absent()
     if absent is not None:
         prepared.findings.problem(("trocars", name, "device"), absent)

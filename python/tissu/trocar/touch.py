@@ -45,7 +45,8 @@ class Felt:
         force: (3,) on the tool by the contacts of the slow step [N].
         fast: (3,) on the tool, as the last tick had it [N].
         contacts: how many the ticks were given.
-        tool: name of the obstacle; None: none that the scene knows was in.
+        tool: name of the obstacle or instrument; None: none that the scene knows was in.
+        state: of the trocar, by name.
     """
 
     time: float
@@ -55,6 +56,7 @@ class Felt:
     fast: Array
     contacts: int
     tool: str | None
+    state: str
 
 
 class Touch:
@@ -97,6 +99,8 @@ class Touch:
             raise ParameterError(text + "name one of the scene in `tools`")
         self._dt = simulation.dt
         self._led: str | None = None
+        self._tool: str | None = None
+        self._joints: Array = np.zeros(4)
         self._factor = Factor()
 
     def step(self) -> Felt:
@@ -105,7 +109,13 @@ class Touch:
         Raises:
             Diverged: the scene's step failed.
         """
-        joints, tool = self._proxy()
+        self.lead()
+        self.simulation.step()
+        return self.hand_on()
+
+    def lead(self) -> None:
+        """Before a step of the scene: the tool goes to where the ticks have their proxy."""
+        self._joints, self._tool = joints, tool = self._proxy()
         if tool in self._depths:
             self._lead(tool, joints)
         elif tool is not None:
@@ -114,20 +124,25 @@ class Touch:
             instrument = self.simulation.instruments[tool]
             (instrument.move if tool == self._led else instrument.place)(tip, turn)
         self._led = tool
-        self.simulation.step()
+
+    def hand_on(self) -> Felt:
+        """After a step of the scene: its contacts go to the ticks, which run if they are stepped."""
+        joints, tool = self._joints, self._tool
         model, force = self._model(tool, joints)
         self.controller.publish(model)
         rate = self.controller.trocar.rate
         if self.controller.mode != "threaded":
             self.controller.step(max(1, round(rate * self._dt)))
+        report = self.controller.report()
         return Felt(
             time=self.simulation.time,
             joints=joints,
             tip=self._at + self._turn @ kinematics.position(joints),
             force=force,
-            fast=self.controller.report().force,
+            fast=report.force,
             contacts=len(model.points),
             tool=tool,
+            state=report.state.name,
         )
 
     def _proxy(self) -> tuple[Array, str | None]:

@@ -126,7 +126,7 @@ class Touch:
         self._led = tool
 
     def hand_on(self) -> Felt:
-        """After a step of the scene: its contacts go to the ticks, which run if they are stepped."""
+        """After a step of the scene: its contacts go to the ticks, which run where stepped."""
         joints, tool = self._joints, self._tool
         model, force = self._model(tool, joints)
         self.controller.publish(model)

@@ -93,7 +93,7 @@ def lateness(seconds: float, others: int) -> tuple[list[str], list[str]]:
 
 
 def workspace() -> tuple[float, float]:
-    """Largest relative error of the tip's force over +-45 degrees: of ours, and of the printed one."""
+    """Largest relative error of the force at the tip: of ours, and of the printed one."""
     worst = 0.0
     for pitch in np.radians((-45, -20, 0, 20, 45)):
         for roll in np.radians((-45, 0, 45)):

@@ -61,6 +61,21 @@ Vec3 Contact::reach(const ContactNumbers& contact, const State& state) const {
   return r;
 }
 
+namespace {
+
+/// The way along the surface that what is round has rolled: as long as the arc between the normal, at which
+/// it touched, and where that point of it is now.
+Vec3 arc(const ContactNumbers& contact, bool is_of_first, const Vec3& offset) {
+  const Vec3 n = vector_of(contact.normal);
+  const Vec3 along = offset - n.dot(offset) * n;
+  const double sine = along.norm();
+  const double cosine = is_of_first ? -n.dot(offset) : n.dot(offset);
+  if (sine == 0.0) return Vec3::Zero();
+  return std::hypot(sine, cosine) * std::atan2(sine, cosine) / sine * along;
+}
+
+}  // namespace
+
 Vec3 Contact::rolled(const ContactNumbers& contact, const State& state) const {
   Vec3 sum = Vec3::Zero();
   for (std::size_t k = 0; k < 4; ++k) {
@@ -71,10 +86,10 @@ Vec3 Contact::rolled(const ContactNumbers& contact, const State& state) const {
     const SurfaceCarrier& carrier = surfaces_.carriers()[static_cast<std::size_t>(number)];
     const std::size_t side = contact.is_of_first(k) ? 0 : 3;
     const Vec3 offset(contact.offset[side], contact.offset[side + 1], contact.offset[side + 2]);
-    sum += contact.beta[k] * (state.rotations[static_cast<std::size_t>(carrier.frame)] * offset);
+    sum += contact.beta[k] *
+           arc(contact, side == 0, state.rotations[static_cast<std::size_t>(carrier.frame)] * offset);
   }
-  const Vec3 n = vector_of(contact.normal);
-  return sum - n.dot(sum) * n;
+  return sum;
 }
 
 Vec3 Contact::motion(const ContactNumbers& contact, const State& state, ConstReals p) const {
@@ -119,6 +134,7 @@ double Contact::energy(const State& state, Scratch& /*scratch*/) const {
 
 void Contact::claim_memory(MemoryPlaces& places) {
   place_ = places.claim(std::string(kMemory), 0);
+  parts_ = places.claim("contact in parts", 0);
   for (const ObstacleDescription& obstacle : description_.obstacles) {
     leads_.push_back(places.claim("obstacle " + obstacle.surface.name, 0));
   }
@@ -170,6 +186,11 @@ void Contact::check_memory(const State& state) const {
     throw ParameterError("found " + std::to_string(numbers.size()) +
                          " numbers of contacts, which are not those of whole contacts.");
   }
+  const std::size_t sums = state.memory[parts_].size();
+  if (sums != 0 && sums != 6 * surfaces_.surfaces().size()) {
+    throw ParameterError("found " + std::to_string(sums) +
+                         " numbers of forces in the parts of a step, which are not six for each surface.");
+  }
   const auto vertices = static_cast<double>(surfaces_.vertices().size());
   const auto edges = static_cast<double>(surfaces_.edges().size());
   const auto primitives = static_cast<double>(surfaces_.primitives().size());
@@ -208,7 +229,23 @@ Vec3 Contact::touched(const ContactNumbers& contact, std::size_t k, const State&
   return block(ConstReals(state.positions), carrier.row) + arm(contact, k, carrier, state);
 }
 
+void Contact::add_part(double share, State& state) const {
+  std::vector<double>& sums = state.memory[parts_];
+  sums.resize(6 * surfaces_.surfaces().size(), 0.0);
+  for (std::size_t s = 0; s < surfaces_.surfaces().size(); ++s) {
+    const Wrench wrench = force_now(static_cast<std::int32_t>(s), state);
+    block(Reals(sums), static_cast<std::int32_t>(2 * s)) += share * wrench.force;
+    block(Reals(sums), static_cast<std::int32_t>(2 * s + 1)) += share * wrench.moment;
+  }
+}
+
 Contact::Wrench Contact::force_on(std::int32_t surface, const State& state) const {
+  const ConstReals sums(state.memory[parts_]);
+  if (sums.empty()) return force_now(surface, state);
+  return {block(sums, 2 * surface), block(sums, 2 * surface + 1)};
+}
+
+Contact::Wrench Contact::force_now(std::int32_t surface, const State& state) const {
   Wrench wrench;
   const auto bodies = static_cast<std::int32_t>(description_.bodies.size());
   Vec3 origin = Vec3::Zero();

@@ -125,6 +125,7 @@ bool Contact::may_add_energy() const {
 }
 
 void Contact::begin_step(State& state, Scratch& /*scratch*/, double h) const {
+  state.memory[parts_].clear();
   for (const std::size_t place : leads_) {
     std::vector<double>& numbers = state.memory[place];
     if (numbers.empty()) continue;

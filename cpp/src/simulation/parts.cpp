@@ -7,6 +7,7 @@
 #include "tissu/base/error.h"
 #include "tissu/base/interruption.h"
 #include "tissu/base/number_text.h"
+#include "tissu/contact/contact.h"
 #include "tissu/simulation/simulation.h"
 
 namespace tissu {
@@ -73,10 +74,14 @@ StepReport Simulation::step_in_parts(double h, int halvings) {
   }
   const bool finite = report && std::isfinite(report->residual) && is_sane();
   const bool good = finite && report->held_back == 0 && !report->hasty;
-  if (good) return *report;
+  const auto end = [&] {
+    if (halvings > 0) world_->contact()->add_part(std::ldexp(1.0, -halvings), state_);
+    return *report;
+  };
+  if (good) return end();
   if (finite && halvings >= kHalvings) {
     if (report->held_back > 0) say_held_back(*report);
-    return *report;
+    return end();
   }
   if (last) roll_back(h);
   state_ = start.state;

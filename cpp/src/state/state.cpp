@@ -31,12 +31,34 @@ Vec3 nearest_turn(const Quaternion& q, const Vec3& expected) {
   return (angle + 2.0 * std::numbers::pi * turns) * axis;
 }
 
+namespace {
+
+constexpr int kMiddles = 12;
+constexpr double kSameSpin = 1e-14;
+
+/// The angular velocity in the middle of a free turn.
+Vec3 middle_spin(const Frame& frame, const Quaternion& rotation, const Vec3& omega, double h) {
+  const Vec3 momentum = spatial_inertia(frame, rotation) * omega;
+  Vec3 w = omega;
+  for (int i = 0; i < kMiddles; ++i) {
+    const Vec3 next = spatial_inertia(frame, turn_by(0.5 * h * w) * rotation).inverse() * momentum;
+    const bool same = (next - w).squaredNorm() <= kSameSpin * kSameSpin * next.squaredNorm();
+    w = next;
+    if (same) break;
+  }
+  return w;
+}
+
+}  // namespace
+
 void move(const State& from, const std::vector<Frame>& frames, ConstReals v, double h, State& to) {
   for (std::size_t i = 0; i < from.positions.size(); ++i) to.positions[i] = from.positions[i] + h * v[i];
   for (std::size_t k = 0; k < frames.size(); ++k) {
     const std::int32_t rotation_block = frames[k].rotation;
     block(Reals(to.positions), rotation_block).setZero();
-    to.rotations[k] = (turn_by(h * block(v, rotation_block)) * from.rotations[k]).normalized();
+    const Vec3 omega = block(v, rotation_block);
+    const Vec3 spin = frames[k].alone ? middle_spin(frames[k], from.rotations[k], omega, h) : omega;
+    to.rotations[k] = (turn_by(h * spin) * from.rotations[k]).normalized();
   }
 }
 

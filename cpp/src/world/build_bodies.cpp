@@ -162,7 +162,7 @@ std::vector<Frame> WorldBuilder::add_frames() {
   for (const FrameDescription& frame : description_.frames) {
     check_frame(frame, frames.size());
     const auto at = first + 2 * static_cast<std::int32_t>(frames.size());
-    frames.push_back({at, at + 1, frame.mass, frame.inertia});
+    frames.push_back({at, at + 1, frame.mass, frame.inertia, true});
     block(Reals(positions), frames.back().block) = frame.position;
     world_.rest_.rotations.push_back(frame.rotation.normalized());
     speeds_.push_back(frame.velocity);

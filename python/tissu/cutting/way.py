@@ -73,7 +73,7 @@ def rows_of(edge: Floats, poses: Sequence[Pose], start: Floats, longest: float) 
         turn = a.angle_to(b)
         reach = turn * float(np.linalg.norm(edge, axis=1).max(initial=0.0))
         needed = max((chord + reach) / longest, turn / LONGEST_TURN, 1.0)
-        parts = min(_MOST_PARTS, 2 ** math.ceil(math.log2(needed) - 1e-9))
+        parts = min(_MOST_PARTS, 2 ** math.ceil(math.log2(min(needed, _MOST_PARTS)) - 1e-9))
         for part in range(1, parts + 1):
             share = part / parts
             left = 1.0 - (number + share) / ways

@@ -24,6 +24,8 @@ __all__ = ["Ablator", "Knife", "ToolPath"]
 
 _Points = tuple[tuple[float, float, float], ...]
 _POSITION = units.Triple(units.LENGTH)
+_LONGEST_EDGE = 1.0
+"""m: above it, a number in millimetres was read as metres"""
 _LONGEST_TURN = math.pi * (1.0 + 1e-12)
 
 
@@ -131,8 +133,15 @@ class Knife(Instrument):
 
     @rule("edge")
     def _has_a_length(self) -> Iterator[Problem]:
+        length = sum(math.dist(a, b) for a, b in itertools.pairwise(self.edge))
+        if not length <= _LONGEST_EDGE:
+            text = (
+                f"found an edge of {length:g} m; at most {_LONGEST_EDGE:g} m is accepted, so say "
+            )
+            yield Problem(("edge",), f"{text}its unit, such as 12 mm")
         if len(self.edge) < 2:
-            text = f"found {len(self.edge)} points; two or more are accepted, such as [[0, 0, 0], "
+            points = "1 point" if len(self.edge) == 1 else "no point"
+            text = f"found {points}; two or more are accepted, such as [[0, 0, 0], "
             yield Problem(("edge",), f"{text}[0, 0, 12 mm]]")
         for number, (a, b) in enumerate(itertools.pairwise(self.edge)):
             if a == b:

@@ -18,12 +18,22 @@ def instrument_problems(scene: Any) -> Iterator[Problem]:
         with contextlib.suppress(Unknown):
             path: Path = ("instruments", name)
             for number, body in enumerate(instrument.bodies):
-                yield from _of_body(scene, body, (*path, instrument.bodies_field, number))
+                place = (*path, instrument.bodies_field, number)
+                yield from _of_body(scene, body, place)
+                if body in instrument.bodies[:number]:
+                    yield Problem(place, f"found '{body}' twice; each body once is accepted")
+            for group in ("bodies", "tissue", "obstacles"):
+                if name in getattr(scene, group, {}):
+                    text = f"found '{name}' in {group} too; names are unique"
+                    yield Problem(path, text)
             yield from _edited(scene, path, "an instrument")
             yield from _pressing(scene, instrument, path)
     for number, tear in enumerate(getattr(scene, "tear", ())):
         with contextlib.suppress(Unknown):
             yield from _of_body(scene, tear.body, ("tear", number, "body"))
+            if tear.body in [other.body for other in scene.tear[:number]]:
+                text = f"found a second tear of '{tear.body}'; one for each body is accepted"
+                yield Problem(("tear", number, "body"), text)
             yield from _edited(scene, ("tear", number), "a tear")
 
 

@@ -30,6 +30,9 @@ if TYPE_CHECKING:
 
 Floats = NDArray[np.float64]
 
+_FARTHEST = 1e3
+"""m: an instrument is nearer to the origin of the scene"""
+
 
 @known_names_only
 @one_thread_at_a_time
@@ -129,7 +132,20 @@ class Tool:
                 "path is accepted"
             )
         pose = pose_of(position, rotation)
+        if not np.abs(pose.position).max() <= _FARTHEST:
+            raise ParameterError(
+                f"found a place {np.abs(pose.position).max():g} m from the origin for "
+                f"'{self._name}'; at most {_FARTHEST:g} m is accepted"
+            )
         return pose if rotation is not None else Pose(pose.position, self._pose().turn)
+
+
+class _ByName(dict[str, Tool]):
+    """Instruments by name; another name is refused in a sentence."""
+
+    def __missing__(self, name: str) -> Tool:
+        known = ", ".join(self) or "none, since the scene has no instruments"
+        raise ParameterError(f"found instrument {name!r}; accepted: {known}")
 
 
 class Instrumented:
@@ -138,7 +154,7 @@ class Instrumented:
     @property
     def instruments(self: Simulation) -> Mapping[str, Tool]:  # type: ignore[misc]
         """The instruments of the scene by their names."""
-        found = {name: Tool(simulation=self, name=name) for name in self.scene.instruments}
+        found = _ByName({name: Tool(simulation=self, name=name) for name in self.scene.instruments})
         return MappingProxyType(found)
 
     def _instrument_pairs(self: Simulation) -> list[tuple[str, str]]:  # type: ignore[misc]

@@ -105,8 +105,15 @@ class Recording:
         """The columns that the same ticks give now, one by one.
 
         Raises:
-            ParameterError: settings or models are not accepted by this version.
+            ParameterError: settings or models are not accepted by this version, or are missing.
         """
+        try:
+            return self._replayed()
+        except KeyError as error:
+            text = f"the recording has no {error.args[0]!r}, which its ticks refer to; it is not "
+            raise ParameterError(f"{text}whole: record again") from None
+
+    def _replayed(self) -> dict[str, Array]:
         device = _haptic.replayed(self.columns)
         run = _haptic.Run(device, settings_from(self.settings[0]), room=max(1, self.ticks))
         models = {published.stamp: published for published in self.models}

@@ -32,6 +32,10 @@ if TYPE_CHECKING:
     from tissu.simulation import Simulation
     from tissu.trocar.controller import Controller
     from tissu.trocar.kinematics import Array
+    from tissu.trocar.report import Report
+
+OUT = 0.1
+"""s in which the obstacle of a tool that was taken out goes back to where the scene has it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -99,6 +103,7 @@ class Touch:
             raise ParameterError(text + "name one of the scene in `tools`")
         self._dt = simulation.dt
         self._led: str | None = None
+        self._due = 0.0
         self._tool: str | None = None
         self._joints: Array = np.zeros(4)
         self._factor = Factor()
@@ -116,6 +121,8 @@ class Touch:
     def lead(self) -> None:
         """Before a step of the scene: the tool goes to where the ticks have their proxy."""
         self._joints, self._tool = joints, tool = self._proxy()
+        if self._led in self._depths and tool != self._led:
+            self.simulation.obstacle(self._led).release(over=OUT)
         if tool in self._depths:
             self._lead(tool, joints)
         elif tool is not None:
@@ -130,27 +137,44 @@ class Touch:
         joints, tool = self._joints, self._tool
         model, force = self._model(tool, joints)
         self.controller.publish(model)
-        rate = self.controller.trocar.rate
         if self.controller.mode != "threaded":
-            self.controller.step(max(1, round(rate * self._dt)))
+            # What is left of a tick counts in the next step, so that both clocks go on together.
+            self._due += self.controller.trocar.rate * self._dt
+            ticks = int(self._due + 1e-9)
+            self._due -= ticks
+            if ticks > 0:
+                self.controller.step(ticks)
         report = self.controller.report()
         return Felt(
             time=self.simulation.time,
             joints=joints,
             tip=self._at + self._turn @ kinematics.position(joints),
             force=force,
-            fast=report.force,
+            fast=report.force if model.blade is None else self._of_torque(report),
             contacts=len(model.points),
             tool=tool,
             state=report.state.name,
         )
 
     def _proxy(self) -> tuple[Array, str | None]:
-        """Joints of the proxy, and the tool that is in."""
+        """Joints of the proxy, and the tool that is led: one that is in, while the tissue is felt.
+
+        Where a limit cut the torque the proxy is farther from the device than the torque says; at
+        end stops it stands there.
+        """
         report = self.controller.report()
         known = report.tool in self._depths or report.tool in self._instruments
-        tool = report.tool if known else None
-        return report.q + report.torque / self.controller.stiffness(), tool
+        tool = report.tool if known and report.state.gives_force else None
+        joints = report.q + report.torque / self.controller.stiffness()
+        limits = self.controller.trocar.limits
+        joints[:2] = np.clip(joints[:2], -limits.tilt, limits.tilt)
+        joints[3] = min(joints[3], limits.depth)
+        return joints, tool
+
+    def _of_torque(self, report: Report) -> Array:
+        """The force at the tip that has the torques of a tick (3,) [N]."""
+        J = kinematics.jacobian(report.q, kinematics.position(report.q))
+        return np.asarray(self._turn @ np.linalg.lstsq(J.T, report.torque, rcond=None)[0])
 
     def _lead(self, tool: str, joints: Array) -> None:
         """The obstacle goes to the tool's pose: x = at + Q (X - at) + R (r - r0)."""

@@ -140,6 +140,18 @@ def test_a_knife_is_led_through_the_port() -> None:
     assert simulation.surface("block").cut.any()
 
 
+@pytest.mark.parametrize("dt", ["0.3 ms", "1.5 ms", "2.5 ms"])
+def test_both_clocks_go_on_together(dt: str) -> None:
+    """Ticks of 1 ms in steps that are no multiple of it: what is left counts in the next step."""
+    simulation = scene(step=ts.ImplicitEuler(dt)).compile()
+    with Controller(simulation.scene.trocars["right"]) as controller:
+        touch = Touch(simulation, controller)
+        first = controller.report().time
+        for _ in range(40):
+            touch.step()
+        assert controller.report().time - first == pytest.approx(simulation.time, abs=1.001e-3)
+
+
 REFUSED = {
     "no contact": ({"contacts": ()}, "which no contact of the scene names"),
     "free": (

@@ -166,7 +166,10 @@ class Contact final : public ForceModel {
     Vec3 force = Vec3::Zero();
     Vec3 moment = Vec3::Zero();
   };
+  /// Of a step that was taken in parts the mean over the step.
   [[nodiscard]] Wrench force_on(std::int32_t surface, const State& state) const;
+  /// `state` is the end of a part of a step that counts for so much of it.
+  void add_part(double share, State& state) const;
 
  private:
   template <class Function>
@@ -192,7 +195,10 @@ class Contact final : public ForceModel {
 
   ContactDescription description_;
   SurfaceSet surfaces_;
+  [[nodiscard]] Wrench force_now(std::int32_t surface, const State& state) const;
+
   std::size_t place_ = 0;           ///< in State::memory
+  std::size_t parts_ = 0;           ///< in State::memory: wrenches of the parts of a step, by surface
   std::vector<std::size_t> leads_;  ///< of each obstacle, its live lead's
 };
 

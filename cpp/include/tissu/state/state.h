@@ -17,6 +17,7 @@ struct Frame {
   std::int32_t rotation;  ///< of its rotation
   double mass;            ///< [kg]
   Mat3 inertia;           ///< about its origin, in its own axes [kg m2]
+  bool alone = false;     ///< no model holds it to others: it turns freely
 };
 
 struct State {
@@ -47,6 +48,9 @@ Quaternion turn_by(const Vec3& w);
 Vec3 nearest_turn(const Quaternion& q, const Vec3& expected);
 
 /// to = from moved by h v: x + h v for translations, exp(h omega) R for rotations. Velocities are left.
+/// A frame that is alone turns by exp(h w), w = I(R_m)^-1 I(R) omega with I in space and R_m = exp(h w / 2) R
+/// in the middle (the midpoint rule on the group of rotations, for the momentum of omega): its energy is
+/// bounded.
 void move(const State& from, const std::vector<Frame>& frames, ConstReals v, double h, State& to);
 
 /// Angular velocities at the end of a step whose angular momentum in space was R0 I R0^T omega: the momentum

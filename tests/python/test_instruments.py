@@ -359,6 +359,11 @@ def test_what_cannot_be_is_refused_when_the_scene_is_read() -> None:
     refused(lambda: ts.ToolPath(times=(0, 1), positions=[(0, 0, 0)]), "one for each time")
     path = ts.ToolPath(times=(0, 1), positions=places)
     refused(lambda: knife.replace(path=path, position=(1, 0, 0)), "beside a path")
+    refused(lambda: scene(ts.Knife(EDGE, cuts=["bar", "bar"])), "found 'bar' twice")
+    refused(lambda: scene(knife, instruments={"bar": knife}), "names are unique")
+    refused(lambda: ts.Knife([(0, 0, 0), (0, 0, 1e300)], cuts=["bar"]), "at most 1 m is accepted")
+    tear = ts.Tear("bar", strength=1e4, length=0.02)
+    refused(lambda: scene(knife, tear=[tear, tear]), "found a second tear of 'bar'")
     sheet = ts.Body(
         mesh=ts.bar_mesh(size=(0.2, 0.1, 0.0), cells=(4, 2, 0), cell="triangle"),
         law=ts.Hooke(young=1e5, poisson=0.3),
@@ -378,8 +383,10 @@ def test_what_cannot_be_is_refused_while_it_runs() -> None:
     free = scene(ts.Knife(EDGE, cuts=["bar"])).compile()
     with pytest.raises(ts.ParameterError, match="not a rotation"):
         free.instruments["scalpel"].move((0, 0, 0), 2.0 * np.eye(3))
-    with pytest.raises(KeyError):
+    with pytest.raises(ts.ParameterError, match="accepted: scalpel"):
         free.instruments["saw"]
+    with pytest.raises(ts.ParameterError, match="at most 1000 m is accepted"):
+        free.instruments["scalpel"].move((1e300, 0, 0))
 
 
 def test_a_scene_file_has_instruments(tmp_path: Path) -> None:

@@ -19,6 +19,7 @@ constexpr double kTooDeep = 0.5;
 constexpr double kDepthNewton = 1e-3;
 constexpr double kForce = 1e-2;       ///< of the contacts' forces: a smaller change needs no other system
 constexpr double kForceRigid = 1e-3;  ///< the same where a rigid body is free, which has no other forces
+constexpr int kPulled = 3;            ///< systems more for forces that pulled on something rigid
 constexpr double kForceNewton = 1e-3;
 constexpr int kMostLooks = 20;  ///< of a step whose equation is solved to its tolerance
 constexpr double kWorse = 2.0;
@@ -166,7 +167,9 @@ bool StageSolver::solve_contacts(State& state, std::vector<double>& v, StepRepor
     update_contacts(*end);
     report.held_back = hold_back(*end);
     const double other = look(*end);
-    const bool free = report.held_back == 0;
+    // A force that pulled is gone in the next look, and with it what it did to a rigid body.
+    const bool pulled = enough < kForce && i <= kPulled && contact_->inadmissible() > kForce;
+    const bool free = report.held_back == 0 && !pulled;
     if (free && other <= enough && contact_->depth() <= (i < kLater ? kDepth : kLaterDepth)) break;
     if (i == most) {
       report.hasty = contact_->inadmissible() > kForce || contact_->depth() > kTooDeep;

@@ -199,10 +199,13 @@ def page(seconds: float) -> str:
     text += (
         "The same, in real time: ticks in their thread, steps of the tissue with their compliance, "
     )
-    text += "and a report after each of them.\n\n"
+    text += (
+        "and a report after each of them. The compliance bounds a step: SciPy reads the matrices "
+    )
+    text += "and solves with them.\n\n"
     head = ("step", "steps that were late", "missed ticks", "ticks late [us], p99")
     text += table(head, [together(dt) for dt in ("10 ms", "20 ms", "40 ms")]) + "\n"
-    return text + THESIS + f"Printed by `python bench/trocar.py --write`; {machine_line()}.\n"
+    return text + THESIS + f"Printed by `python bench/trocar.py --write`; {machine_line()}\n"
 
 
 THESIS = """## What the thesis asked and reached

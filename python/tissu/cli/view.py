@@ -56,8 +56,8 @@ def view_scene(job: Job) -> None:
         speed=job.speed,
         playing=not job.paused,
     ) as view:
-        typer.echo(f"the view is at {view.url} (Ctrl-C ends it)")
         with interruption() as interrupted:
+            typer.echo(f"the view is at {view.url} (Ctrl-C ends it)")
             while not interrupted.number:
                 view.wait(0.2)
     if job.record is not None:

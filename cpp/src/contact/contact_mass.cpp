@@ -11,7 +11,7 @@ void ContactMass::begin(const State& start) {
   inertias_.clear();
   for (const SurfaceCarrier& carrier : contact_.surfaces().carriers()) {
     const auto frame = static_cast<std::size_t>(carrier.frame);
-    inertias_.push_back(spatial_inertia(mass_.frames()[frame], start.rotations[frame]).inverse());
+    inertias_.emplace_back(spatial_inertia(mass_.frames()[frame], start.rotations[frame]).inverse());
   }
 }
 

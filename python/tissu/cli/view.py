@@ -44,7 +44,7 @@ def view_scene(job: Job) -> None:
 
     scene = Scene.from_yaml(job.scene, trust_laws=job.trust_laws)
     beside = None if not job.beside else scene_beside(scene, job.beside, trust_laws=job.trust_laws)
-    with View(
+    view_of = View(
         scene.compile(),
         beside=None if beside is None else beside.compile(),
         port=job.port,
@@ -55,11 +55,11 @@ def view_scene(job: Job) -> None:
         shared=job.shared,
         speed=job.speed,
         playing=not job.paused,
-    ) as view:
-        with interruption() as interrupted:
-            typer.echo(f"the view is at {view.url} (Ctrl-C ends it)")
-            while not interrupted.number:
-                view.wait(0.2)
+    )
+    with view_of as view, interruption() as interrupted:
+        typer.echo(f"the view is at {view.url} (Ctrl-C ends it)")
+        while not interrupted.number:
+            view.wait(0.2)
     if job.record is not None:
         typer.echo(f"written: {job.record}")
 

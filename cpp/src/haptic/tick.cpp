@@ -37,7 +37,7 @@ void fill_report(const Settings& settings, const TickInput& input, const Motion&
   report.tag = m.sample.tag;
 }
 
-/// From what the joints should feel to what the motors are told: limits, slew, transmission, weight.
+/// From what the joints should feel to the command of the motors: limits, slew, transmission, weight.
 Command to_motors(const Settings& settings, const Joints& wanted, const Motion& motion, Memory& m,
                   TickReport& report) noexcept {
   const Joints within = saturated(settings.limits, m.q, wanted);

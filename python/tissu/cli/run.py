@@ -118,6 +118,8 @@ def run_scene(job: Job, *, debug: bool = False) -> int:
         if not files.lost:
             picture = drawn(simulation, series, clock) if job.picture else None
             conclude(simulation, series, tally, clock, ending, picture, contacts, trocars)
+        for text in trocars.problems() if trocars is not None else ():
+            complain(text)
     if not job.quiet and not files.lost:
         with contextlib.suppress(BrokenPipeError):  # its reader has left; the run ends as it did
             report(simulation, series, tally, clock, picture)

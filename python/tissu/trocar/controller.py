@@ -173,7 +173,8 @@ class Controller:
     def supervise(self) -> None:
         """Look which tool is in, and take it where the scene knows it.
 
-        Called by `step`; who runs threaded calls it, or `report`, at the rate of a display.
+        Called by `step`; in the mode threaded a program calls it, or `report`,
+        at the rate of a display.
         """
         self._look(self._ticking.report())
 

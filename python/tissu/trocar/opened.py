@@ -106,7 +106,7 @@ def read_path(path: Path) -> Array:
     """The rows (n, 4) of a recorded path: time [s] and place of the tip in the port's axes [m].
 
     Raises:
-        ParameterError: it cannot be read, is no table of four numbers, or its times do not grow.
+        ParameterError: it cannot be read, is not a table of four numbers, or its times do not grow.
     """
     accepted = "lines 't, x, y, z' of numbers are accepted, their times growing"
     try:

@@ -85,7 +85,7 @@ class Recording:
         """Read one.
 
         Raises:
-            ParameterError: the file cannot be read, or is no recording of this version.
+            ParameterError: the file cannot be read, or is not a recording of this version.
         """
         try:
             with np.load(path, allow_pickle=False) as file:

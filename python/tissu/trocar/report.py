@@ -33,7 +33,7 @@ class Spread:
 
 @dataclass(frozen=True, slots=True)
 class Grant:
-    """Something that was asked of the machine; refused is no error.
+    """Something that was asked of the machine; a refusal is not an error.
 
     Attributes:
         what: such as "SCHED_FIFO 60".

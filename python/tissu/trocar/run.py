@@ -13,6 +13,7 @@ from typing_extensions import Self
 
 from tissu.errors import ParameterError
 from tissu.trocar.controller import Controller
+from tissu.trocar.states import State
 from tissu.trocar.touch import Felt, Touch
 
 if TYPE_CHECKING:
@@ -117,6 +118,16 @@ class Trocars:
                     "missed_ticks": timing.missed,
                     "lateness_p99": timing.lateness.p99,
                 }
+        return found
+
+    def problems(self) -> list[str]:
+        """What is to be done about trocars that give no force any more, a sentence for each."""
+        found = []
+        for name, touch in self._touches.items():
+            report = touch.controller.report()
+            if report.state in (State.held, State.fault):
+                why = report.problem or "its tissue is not felt"
+                found.append(f"trocars.{name} ended {report.state.name}: {why}")
         return found
 
     def write(self, folder: Path) -> list[Path]:

@@ -68,6 +68,17 @@ def test_a_run_in_real_time_takes_its_time(tmp_path: Path) -> None:
     assert len(table(tmp_path)) == 20
 
 
+def test_a_trocar_that_ends_held_is_said(tmp_path: Path) -> None:
+    """A hand faster than the limit: the run has its results, and a sentence."""
+    found = run(
+        tmp_path,
+        DEEPER.replace("speed: 2 m/s", "speed: 0.2 m/s").replace("0.7 s, 1.2", "0.22 s, 1.2"),
+    )
+    assert found.exit_code == 0
+    assert "trocars.right ended held" in found.output
+    assert len(table(tmp_path)) == 80
+
+
 REFUSED = {
     "a device that is not simulated": (
         TEXT.replace(

@@ -152,6 +152,23 @@ def test_both_clocks_go_on_together(dt: str) -> None:
         assert controller.report().time - first == pytest.approx(simulation.time, abs=1.001e-3)
 
 
+def test_a_tool_that_is_taken_out_leaves_the_tissue() -> None:
+    """Its obstacle goes back to where the scene has it, and presses on nothing."""
+    simulation = scene().compile()
+    with Controller(simulation.scene.trocars["right"]) as controller:
+        touch = Touch(simulation, controller)
+        for _ in range(60):
+            felt = touch.step()
+        assert felt.force[2] > 0.3
+        controller.device.set_tool(0, False)
+        for _ in range(30):
+            felt = touch.step()
+    assert felt.tool is None
+    assert not simulation.force_on("probe").force.any()
+    at_rest = (0.04, 0.04, 0.065)
+    np.testing.assert_allclose(simulation.obstacle("probe").place_of(at_rest), at_rest, atol=1e-12)
+
+
 REFUSED = {
     "no contact": ({"contacts": ()}, "which no contact of the scene names"),
     "free": (

@@ -13,7 +13,7 @@
 
 namespace tissu::haptic {
 
-/// One thread publishes and one takes. T is copied by the caller, who may so avoid the heap.
+/// One thread publishes and one takes. T is copied by the caller, which can avoid the heap.
 template <class T>
 class Exchange {
  public:

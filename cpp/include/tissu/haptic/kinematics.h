@@ -18,7 +18,7 @@ inline constexpr int kJoints = 4;
 using Joints = Eigen::Vector4d;  ///< a, b, psi [rad], r [m], or what belongs to them
 using Jacobian = Eigen::Matrix<double, 3, 4>;
 
-/// Where the joints may be; stops stand at the ends. Of own rotation there is no end.
+/// Where the joints may be; stops stand at the ends. The own rotation has no end.
 struct JointLimits {
   Joints low{-0.78539816339744831, -0.78539816339744831, -1e300, 0.02};
   Joints high{0.78539816339744831, 0.78539816339744831, 1e300, 0.3};

@@ -36,7 +36,7 @@ struct LoopOptions {
   double spin = 0.0;        ///< the last part of each wait that is spent awake [s]
 };
 
-/// Something that was asked of the machine. Refused is no error.
+/// Something that was asked of the machine. A refusal is not an error.
 struct Grant {
   std::string what;  ///< "SCHED_FIFO 60"
   bool granted = false;

@@ -16,8 +16,8 @@ struct SerialOptions {
   DeviceInfo info;
 };
 
-/// Throws `Error` where the line is not there, is no terminal, or gives no frame, or where another controller
-/// has it, `ParameterError` for another speed.
+/// Throws `Error` where the line is not there, is not a terminal, or gives no frame, or where another
+/// controller has it, `ParameterError` for another speed.
 std::unique_ptr<Device> open_serial_device(const SerialOptions& options);
 
 }  // namespace tissu::haptic

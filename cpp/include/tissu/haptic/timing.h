@@ -10,7 +10,7 @@
 
 namespace tissu::haptic {
 
-/// What a histogram says. Durations are upper ends of its classes, so that none is told too small; the
+/// What a histogram says. Durations are upper ends of its classes, so that none is understated; the
 /// largest is exact.
 struct TimingReport {
   std::int64_t count = 0;

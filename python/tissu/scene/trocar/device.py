@@ -50,7 +50,7 @@ class TrocarDevice(Part):
         counts: Counts
 
     def identity(self) -> str | None:
-        """Which device it is: one controller has it at a time; None: nobody else can have it."""
+        """Which device it is: one controller has it at a time; None: no other one can open it."""
         raise NotImplementedError
 
     def absent(self) -> str | None:

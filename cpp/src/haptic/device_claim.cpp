@@ -18,8 +18,8 @@ DeviceClaim::DeviceClaim(const std::string& name) : socket_(socket(AF_UNIX, SOCK
     throw Error("the device " + name + " cannot be claimed (" + std::strerror(errno) +
                 "); close other files.");
   }
-  // The first byte of an abstract name is zero. A name that is too long keeps its end, which distinguishes devices
-  // apart.
+  // The first byte of an abstract name is zero. A name that is too long keeps its end, in which
+  // devices differ.
   sockaddr_un address{};
   address.sun_family = AF_UNIX;
   const std::string held = "tissu-trocar/" + name;

@@ -11,6 +11,8 @@ import numpy as np
 import tissu as ts
 
 ROOT = Path(__file__).resolve().parents[1]
+PERIOD, SWINGS, SHARE = 16, 800, 2e-3
+"""steps in which supports go up and down, half periods of it, and the way as a share of the body"""
 STVK = {"young": "50 kPa", "poisson": 0.3}
 
 
@@ -32,15 +34,36 @@ def cells_for(unknowns: float, shape: tuple[float, float, float]) -> tuple[int, 
     return first, second, third
 
 
-def held(mesh: Any, step: Any, *, law: Any = None, pull: float = 0.0, **body: Any) -> ts.Scene:
-    """A body held at x = 0 that hangs by its weight."""
+def shaken(scene: ts.Scene, extent: float) -> ts.Scene:
+    """The scene with supports that go up and down in steps of time, so that it comes to no rest.
+
+    What is at rest needs no iteration, and the times of its solves say nothing about a solver.
+    """
+    if isinstance(scene.step, ts.Static):
+        return scene
+    times = 0.5 * PERIOD * scene.step.dt * np.arange(SWINGS)
+    heights = SHARE * extent * (np.arange(SWINGS) % 2)
+    path = [(0.0, 0.0, height) for height in heights]
+    moved = [
+        ts.Prescribed(
+            support.body, on=support.on, axes=support.axes, times=times, displacements=path
+        )
+        for support in scene.fixed
+    ]
+    return scene.replace(fixed=[], prescribed=[*scene.prescribed, *moved])
+
+
+def held(mesh: Any, step: Any, *, law: Any = None, **body: Any) -> ts.Scene:
+    """A body held at x = 0 that hangs by its weight, and is shaken in steps of time."""
     fields = {"law": law or ts.StVK(**STVK), "density": 1000.0, **body}  # type: ignore[arg-type]
-    return ts.Scene(
+    extent = max(mesh.size) if isinstance(mesh, ts.BarMesh) else float(np.ptp(mesh.points))
+    scene = ts.Scene(
         bodies={"body": ts.Body(mesh=mesh, **fields)},
         gravity=(0, 0, -9.81),
         fixed=[ts.Fixed("body", on=ts.Plane((0, 0, 0), (1, 0, 0)))],
         step=step,
     )
+    return shaken(scene, extent)
 
 
 def bar(unknowns: float, step: Any, **body: Any) -> ts.Scene:
@@ -133,7 +156,7 @@ def mixed(unknowns: float, step: Any) -> ts.Scene:
 def organ(_: float, step: Any) -> ts.Scene:
     """The organ of the examples: one size."""
     scene = ts.Scene.from_yaml(ROOT / "examples" / "organ.yaml")
-    return scene.replace(step=step, output=None)
+    return shaken(scene.replace(step=step, output=None), 0.1)
 
 
 def cut(unknowns: float, step: Any) -> ts.Scene:
@@ -152,8 +175,8 @@ def read_scenes(folder: Path | None) -> dict[str, Callable[[float, Any], ts.Scen
     hexahedra = ts.read_mesh(folder / "cylinder_Hexa.msh", unit="m")
     silicone = phantom.scene_of(hexahedra, "stvk")
     return {
-        "liver": lambda _, step: organ_of.replace(step=step, output=None),
-        "phantom": lambda _, step: silicone.replace(step=step),
+        "liver": lambda _, step: shaken(organ_of.replace(step=step, output=None), 0.2),
+        "phantom": lambda _, step: shaken(silicone.replace(step=step), 0.06),
     }
 
 

@@ -30,7 +30,7 @@ constexpr double kLevelsMade = 110.0;   ///< products that making all levels cos
 constexpr double kFewRows = 300.0;  ///< … of a matrix of many more rows, whose inner ones have all neighbours
 /// Products that an incomplete factor costs, for each byte of a row: it multiplies pairs of its blocks.
 constexpr double kTriangleMade = 0.011;
-constexpr double kStale = 4.0;  ///< iterations with the factor of an earlier matrix
+constexpr double kStale = 6.0;  ///< iterations with the factor of an earlier matrix, of a body in motion
 /// Solves that a preconditioner serves while a body moves, and in Newton's iterations.
 constexpr double kServesSteps = 20.0;
 constexpr double kServesNewton = 2.0;

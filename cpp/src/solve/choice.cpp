@@ -14,14 +14,16 @@ constexpr double kExpected = 3.0;  ///< of its own rate, which an arm may spend 
 /// of which the 99th percentile leaves one out.
 constexpr double kSoon = 50.0;
 /// Of the rate of the present arm: above it a rate may be the lower one only as far as predictions err.
-constexpr double kClear = 0.7;
+constexpr double kClear = 0.5;
 constexpr int kFactorTrial = 4;    ///< solves of a trial of a factor, which the first ones flatter
+constexpr int kCheapTrial = 3;     ///< solves of a trial of what costs less to make than to use
 constexpr int kMemory = 8;         ///< solves over which a cost is averaged, …
 constexpr int kLongMemory = 32;    ///< … and the share of those with makings
 constexpr double kHoping = 0.997;  ///< by which the cost of an arm is doubted with every solve of another one
-constexpr double kAfterTrial = 3.0;    ///< times the patience of the arm that did not stay
-constexpr double kAfterFailure = 4.0;  ///< times the patience of an arm that failed
-constexpr double kUnfinished = 2.0;    ///< times what it spent: the price of a solve that was left
+constexpr double kAfterTrial = 3.0;       ///< times the patience of the arm that did not stay
+constexpr double kAfterCheapTrial = 1.5;  ///< the same where the trial cost little
+constexpr double kAfterFailure = 4.0;     ///< times the patience of an arm that failed
+constexpr double kUnfinished = 2.0;       ///< times what it spent: the price of a solve that was left
 constexpr double kMostPatience = 1e6;
 
 }  // namespace
@@ -96,12 +98,17 @@ bool Choice::fits(Arm arm, double rate) const {
   return frame_ == kNever || (soon && other.rate() < kClear * rate);
 }
 
+bool Choice::is_cheap(Arm arm) const {
+  const Cost& cost = at(arm).cost;
+  return cost.making + cost.once < cost.solving;
+}
+
 void Choice::change(Arm to, bool trial) {
   before_ = current_;
   current_ = to;
   on_trial_ = trial;
   fresh_ = true;
-  trial_left_ = to == Arm::stale_cholesky ? kFactorTrial : 1;
+  trial_left_ = to == Arm::stale_cholesky ? kFactorTrial : is_cheap(to) ? kCheapTrial : 1;
   ++changes_;
 }
 
@@ -149,7 +156,7 @@ void Choice::end_trial(double rate) {
     wait_longer(before_, kAfterTrial);
     return;
   }
-  wait_longer(current_, kAfterTrial);
+  wait_longer(current_, is_cheap(current_) ? kAfterCheapTrial : kAfterTrial);
   change(before_, false);
 }
 

@@ -13,6 +13,7 @@ namespace {
 
 /// A residual this many times the first: the matrix is singular, and x runs off along its kernel.
 constexpr double kLost = 1e8;
+constexpr double kDear = 2.0;  ///< times the iterations that are allowed: a price that no solve may pay
 
 }  // namespace
 
@@ -159,8 +160,10 @@ End Iteration<T>::run(const LinearOperator& A, std::span<T> r, std::span<T> d, d
   q_.assign(r.size(), T(0));
   if (!goes_on_) std::ranges::fill(p_, T(0));
   std::ranges::fill(d, T(0));
-  const double left = version_ == A.version() || in_parts_ ? Renewal::kUnlimited
-                                                           : std::min(0.5 * most, renewal_.left() - spent_);
+  // A new one is made when half of what is allowed is gone, unless it costs far more than all of that.
+  const double half = renewal_.price() < kDear * most ? 0.5 * most : Renewal::kUnlimited;
+  const double left =
+      version_ == A.version() || in_parts_ ? Renewal::kUnlimited : std::min(half, renewal_.left() - spent_);
   iterations_ = 0;
   work_ += M_->application();
   double square = 0.0;

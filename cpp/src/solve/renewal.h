@@ -28,6 +28,9 @@ class Renewal {
     return best_ < 0 ? kUnlimited : 2.0 * best_ + std::max(price_ - excess_, 0.0);
   }
 
+  /// Of the preconditioner, in iterations.
+  [[nodiscard]] double price() const { return price_; }
+
   static constexpr double kUnlimited = 1e30;
 
   Renewal() = default;

@@ -159,3 +159,14 @@ def test_two_organs_are_pushed_together():
     # The lower one still sways a little, 0.2 s after the upper one stopped.
     held = simulation.reactions("lower").sum(axis=0)
     assert held == pytest.approx(-on_lower, abs=0.05 * -on_lower[2])
+
+
+def test_a_lobe_falls_and_the_table_bears_its_weight():
+    """examples/lobe.py: nothing crosses in any step, and the force is the weight to 1 %."""
+    names = runpy.run_path(str(EXAMPLES / "lobe.py"))
+    simulation = names["scene"]().compile()
+    report = names["operate"](simulation)
+    assert simulation.crossings() == []
+    (lobe,) = (piece for piece in report.pieces if not piece.held)
+    weight = names["GRAVITY"] * lobe.mass
+    assert -simulation.force_on("table").force[2] == pytest.approx(weight, rel=1e-2)

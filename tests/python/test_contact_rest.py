@@ -141,6 +141,17 @@ def test_a_checkpoint_amid_a_collision_goes_on_to_the_bit(tmp_path):
     assert state(other) == state(simulation)
 
 
+def test_reset_begins_anew_also_where_points_may_be_grabbed_since():
+    """As on a page: a grab may give energy, which is not watched from then on."""
+    simulation = two().compile()
+    simulation.allow_touch()
+    audited(simulation, 25)
+    simulation.reset()
+    assert simulation.time == 0.0
+    audited(simulation, 25)
+    assert state(simulation) == straight()[0]
+
+
 def test_reset_begins_anew():
     simulation = two().compile()
     audited(simulation, 25)

@@ -187,7 +187,12 @@ SLIPS = {
         "step.arc_length",
         "found true beside contacts",
     ),
-    "method": ("method: auto", "method: barrier", "contact.method", "not there yet; accepted"),
+    "barrier and ways": (
+        "method: auto",
+        "method: barrier, travel: false",
+        "contact.travel",
+        "found false beside the method barrier",
+    ),
     "method's name": ("method: auto", "method: augment", "contact.method", "mean 'augmented'"),
     "method and step": (
         "auto, broad_phase: hierarchy}\nstep: {type: implicit_euler, dt: 10 ms}",
@@ -269,7 +274,12 @@ EXPLICIT_SLIPS = {
         "contact.penalty",
         "found reciprocal beside the method impulse",
     ),
-    "barrier": ("method: barrier", "friction: 0.2", "contact.method", "which is not there yet"),
+    "barrier": (
+        "method: barrier",
+        "friction: 0.2",
+        "step",
+        "of the method barrier; accepted with contact: implicit_euler, bdf2",
+    ),
     "bounce of geometric": (
         "method: geometric",
         "restitution: 0.5",

@@ -18,6 +18,9 @@ std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 constexpr int kSweeps = 16;
 constexpr double kEnough = 0.5;  ///< of the gap: what is nearer is moved apart, to the gap
 
+/// The number of a vertex: -1 is none.
+std::int32_t numbered(std::int32_t node) { return node < 0 ? node - 1 : node; }
+
 class Audit {
  public:
   Audit(const Contact& contact, ConstReals places) : surfaces_(contact.surfaces()), places_(places) {}
@@ -36,7 +39,7 @@ class Audit {
                      {place(face.vertex[0]), place(face.vertex[1]), place(face.vertex[2])})) {
           continue;
         }
-        const auto node = [&](std::int32_t v) { return surfaces_.vertices()[at(v)].node; };
+        const auto node = [&](std::int32_t v) { return numbered(surfaces_.vertices()[at(v)].node); };
         found.push_back({surfaces_.vertices()[at(a)].surface,
                          surfaces_.vertices()[at(face.vertex[0])].surface,
                          {node(a), node(b)},
@@ -73,9 +76,9 @@ std::vector<Crossing> crossings(const Contact& contact, const State& state) {
       const auto& of = surfaces.surfaces()[at(body)];
       for (std::int32_t v = of.first_vertex; v < of.last_vertex; ++v) {
         const std::int32_t node = surfaces.vertices()[at(v)].node;
-        if (!pair.nodes.empty() && !std::ranges::binary_search(pair.nodes, node)) continue;
+        if (!pair.nodes.empty() && !surfaces.is_among(pair.nodes, v)) continue;
         if (normal.dot(block(ConstReals(places), v) - origin) > 0.0) continue;
-        found.push_back({body, obstacle, {node, -1}, {-1, -1, -1}});
+        found.push_back({body, obstacle, {numbered(node), -1}, {-1, -1, -1}});
       }
     }
   }
@@ -135,6 +138,7 @@ class Separation {
  private:
   [[nodiscard]] bool is_free(std::int32_t v) const {
     const SurfaceVertex& vertex = contact_.surfaces().vertices()[at(v)];
+    // What rows carry stays: it begins apart, or is refused.
     return vertex.carrier >= 0 || (vertex.row >= 0 && fixed_.masks()[at(vertex.row)] == 0);
   }
   [[nodiscard]] Vec3 place(std::int32_t v) const { return block(ConstReals(places_), v); }

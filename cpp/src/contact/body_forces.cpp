@@ -46,6 +46,9 @@ void BodyForces::sum_squares(ConstReals forces, std::vector<double>& squares) co
   for (const SurfaceVertex& vertex : contact_.surfaces().vertices()) {
     if (vertex.row >= 0) squares[at(vertex.surface)] += block(forces, vertex.row).squaredNorm();
   }
+  for (const auto& inner : contact_.surfaces().inner_rows()) {
+    squares[at(inner.surface)] += block(forces, inner.row).squaredNorm();
+  }
   const auto& surfaces = contact_.surfaces().surfaces();
   for (std::size_t s = 0; s < surfaces.size(); ++s) {
     if (surfaces[s].carrier < 0) continue;

@@ -10,7 +10,8 @@ namespace {
 
 std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
-constexpr double kOfRest = 0.9;       ///< of the distance at rest: where such pairs are held apart
+constexpr double kOfRest = 0.9;       ///< of the distance at rest: where such pairs are held apart, …
+constexpr double kOfJoined = 0.1;     ///< … if material that is not parted holds them apart by itself
 constexpr double kSkin = 0.1;         ///< of the mean edge
 constexpr double kSure = 1.0 - 1e-9;  ///< of a distance: round-off is less
 constexpr double kGapSkin = 0.5;      ///< of the gap
@@ -33,7 +34,7 @@ Candidates::Candidates(const ContactDescription& description, const SurfaceSet& 
       const auto& of = surfaces.surfaces()[at(pair.a)];
       std::fill(on_[k].begin() + of.first_vertex, on_[k].begin() + of.last_vertex, std::uint8_t{0});
       for (std::int32_t v = of.first_vertex; v < of.last_vertex; ++v) {
-        if (std::ranges::binary_search(pair.nodes, surfaces.vertices()[at(v)].node)) on_[k][at(v)] = 1;
+        if (surfaces.is_among(pair.nodes, v)) on_[k][at(v)] = 1;
       }
     }
     const auto [low, high] = std::minmax(pair.a, pair.b);
@@ -69,7 +70,7 @@ void Candidates::list_planes() {
   }
 }
 
-void Candidates::box(ConstReals from, ConstReals to) {
+void Candidates::box(ConstReals from, ConstReals to, ConstReals sways) {
   const auto& primitives = surfaces_.primitives();
   needed_.resize(primitives.size());
   for (std::size_t p = 0; p < primitives.size(); ++p) {
@@ -79,15 +80,15 @@ void Candidates::box(ConstReals from, ConstReals to) {
       const std::int32_t v = primitives[p].vertex[at(i)];
       box.add(Vec3(block(from, v)));
       box.add(Vec3(block(to, v)));
-      radius = std::max(radius, surfaces_.vertices()[at(v)].radius);
+      radius = std::max(radius, surfaces_.vertices()[at(v)].radius + (sways.empty() ? 0.0 : sways[at(v)]));
     }
     box.grow(radius + reach_[at(surfaces_.surface_of_primitive(static_cast<std::int32_t>(p)))]);
     needed_[p] = box;
   }
 }
 
-bool Candidates::cover(ConstReals from, ConstReals to) {
-  box(from, to);
+bool Candidates::cover(ConstReals from, ConstReals to, ConstReals sways) {
+  box(from, to, sways);
   const auto is_inside = [](const Box& inner, const Box& outer) {
     for (std::size_t k = 0; k < 3; ++k) {
       if (inner.low[k] < outer.low[k] || inner.high[k] > outer.high[k]) return false;
@@ -97,7 +98,7 @@ bool Candidates::cover(ConstReals from, ConstReals to) {
   bool covered = searched_.size() == needed_.size();
   for (std::size_t p = 0; covered && p < needed_.size(); ++p) covered = is_inside(needed_[p], searched_[p]);
   if (covered) {
-    follow(from, to);
+    follow(from, to, sways);
     return false;
   }
   searched_ = needed_;
@@ -108,12 +109,12 @@ bool Candidates::cover(ConstReals from, ConstReals to) {
   list_.clear();
   for (const BoxPair& pair : found_) list_features(pair);
   measure(from);
-  follow(from, to);
+  follow(from, to, sways);
   return true;
 }
 
 void Candidates::measure(ConstReals places) {
-  made_.assign(places.begin(), places.end());
+  made_.assign(places.begin(), places.begin() + static_cast<std::ptrdiff_t>(surfaces_.rest().size()));
   distance_.resize(list_.size());
   for (std::size_t i = 0; i < list_.size(); ++i) {
     std::array<Vec3, 4> p{};
@@ -122,13 +123,14 @@ void Candidates::measure(ConstReals places) {
   }
 }
 
-void Candidates::follow(ConstReals from, ConstReals to) {
+void Candidates::follow(ConstReals from, ConstReals to, ConstReals sways) {
   gone_.resize(made_.size() / 3);
   for (std::size_t v = 0; v < gone_.size(); ++v) {
     const auto number = static_cast<std::int32_t>(v);
     const Vec3 was = block(ConstReals(made_), number);
     gone_[v] = std::sqrt(
         std::max((block(from, number) - was).squaredNorm(), (block(to, number) - was).squaredNorm()));
+    if (!sways.empty()) gone_[v] += sways[v];
   }
 }
 
@@ -209,7 +211,17 @@ double Candidates::apart_at_rest(PairKind kind, const std::array<std::int32_t, 4
   for (int i = 0; i < vertices_of(kind); ++i) {
     p[at(i)] = block(ConstReals(surfaces_.rest()), vertex[at(i)]);
   }
-  return std::min(apart, kOfRest * std::sqrt(nearest_of(kind, p).square));
+  double share = kOfRest;
+  if (surfaces_.has_riders()) {
+    const std::span<const std::int32_t> all(vertex);
+    const auto first = at(vertices_of_first(kind));
+    const auto rest = all.subspan(first, at(vertices_of(kind)) - first);
+    const auto rides = [&](std::int32_t v) { return v >= 0 && surfaces_.vertices()[at(v)].rider >= 0; };
+    if (std::ranges::any_of(all, rides)) {
+      share = surfaces_.is_joined(all.first(first), rest) ? kOfJoined : kOfWalls;
+    }
+  }
+  return std::min(apart, share * std::sqrt(nearest_of(kind, p).square));
 }
 
 std::size_t Candidates::bytes() const {

@@ -44,9 +44,15 @@ void Contact::for_contacts(const State& state, Function&& f) const {
 }
 
 Vec3 Contact::carried_place(std::int32_t vertex, const State& state) const {
-  const auto number =
-      static_cast<std::size_t>(surfaces_.vertices()[static_cast<std::size_t>(vertex)].carrier);
-  const SurfaceCarrier& carrier = surfaces_.carriers()[number];
+  const SurfaceVertex& v = surfaces_.vertices()[static_cast<std::size_t>(vertex)];
+  if (v.rider >= 0) {
+    Vec3 sum = Vec3::Zero();
+    for (const RiderPart& part : surfaces_.parts(v)) {
+      sum += part.weight * block(ConstReals(state.positions), part.row);
+    }
+    return sum;
+  }
+  const SurfaceCarrier& carrier = surfaces_.carriers()[static_cast<std::size_t>(v.carrier)];
   return block(ConstReals(state.positions), carrier.row) + arm(vertex, carrier, state);
 }
 
@@ -140,6 +146,17 @@ void Contact::claim_memory(MemoryPlaces& places) {
   }
 }
 
+namespace {
+
+/// A vertex that rows carry, among the couplings.
+std::int32_t carry_rider(std::span<const RiderPart> rows, Couplings& couplings) {
+  MergedParts parts;
+  for (const RiderPart& part : rows) parts.add({part.row, part.weight});
+  return couplings.carry(parts.all());
+}
+
+}  // namespace
+
 void Contact::add_couplings(const State& state, StiffnessScale scale, Couplings& couplings) const {
   if (scale.position == 0.0) return;
   for_contacts(state, [&](const ContactNumbers& c) {
@@ -154,6 +171,10 @@ void Contact::add_couplings(const State& state, StiffnessScale scale, Couplings&
       coupling.vertex[k] = vertex.row;
       coupling.beta[k] = c.beta[k];
       if (vertex.row >= 0) continue;
+      if (vertex.rider >= 0) {
+        coupling.vertex[k] = carry_rider(surfaces_.parts(vertex), couplings);
+        continue;
+      }
       const SurfaceCarrier& carrier = surfaces_.carriers()[static_cast<std::size_t>(vertex.carrier)];
       coupling.vertex[k] =
           couplings.carry(std::array{CarriedPart{carrier.row, 1.0},

@@ -43,14 +43,16 @@ bool ContactRun::find_plainly(const Candidate& candidate, double reach, Found& f
   }
   const Closest closest = nearest_of(candidate.kind, p);
   if (!(closest.square < reach * reach) || !(closest.square > 0.0)) return false;
-  // The ends of edges and the corners and edges of faces are parts of their own.
+  // The ends of edges and the corners and edges of faces are parts of their own, by those rules.
   const auto count = static_cast<std::size_t>(vertices_of(candidate.kind));
-  if (std::any_of(closest.beta.begin(), closest.beta.begin() + count, [](double b) { return b == 0.0; })) {
+  const bool at_end =
+      std::any_of(closest.beta.begin(), closest.beta.begin() + count, [](double b) { return b == 0.0; });
+  if (at_end && !every_pair_) {
     return false;
   }
   double weight = 1.0;
   if (candidate.kind == PairKind::edge_edge) {
-    weight = weight_of_edges(contact_.surfaces(), now_, candidate.a, candidate.b);
+    weight = weight_of_edges(contact_.surfaces(), every_pair_ ? from_ : now_, candidate.a, candidate.b);
   }
   found = {candidate.kind,
            candidate.a,
@@ -91,6 +93,10 @@ void ContactRun::find_pairs() {
       ++stopped;
     }
     if (candidates_->is_far(i, reach)) continue;
+    if (every_pair_) {
+      if (find_plainly(candidate, reach, found)) add(candidate, found, 0);
+      continue;
+    }
     const int parts = parts_before_round(contact_.surfaces(), candidate);
     if (parts > 0 && !stops) {
       RoundPoints points(contact_.surfaces(), now_, candidate, parts);

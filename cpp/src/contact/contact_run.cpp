@@ -1,6 +1,7 @@
 #include "tissu/contact/contact_run.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "hold_back.h"
 #include "push_ahead.h"
@@ -14,16 +15,21 @@ std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 }  // namespace
 
 ContactRun::ContactRun(const Contact& contact, const FixedDofs& fixed) : contact_(contact) {
-  const auto& vertices = contact.surfaces().vertices();
-  for (const SurfaceVertex& vertex : vertices) {
-    const bool given =
-        vertex.carrier < 0 && (vertex.row < 0 || fixed.masks()[at(vertex.row)] == FixedDofs::kAllAxes);
+  const SurfaceSet& surfaces = contact.surfaces();
+  const auto is_given = [&](std::int32_t row) { return fixed.masks()[at(row)] == FixedDofs::kAllAxes; };
+  for (const SurfaceVertex& vertex : surfaces.vertices()) {
+    bool given = vertex.carrier < 0 && (vertex.row < 0 || is_given(vertex.row));
+    if (vertex.rider >= 0) {
+      given = std::ranges::all_of(surfaces.parts(vertex),
+                                  [&](const RiderPart& part) { return is_given(part.row); });
+    }
     given_.push_back(given ? 1 : 0);
   }
+  for (const auto& inner : surfaces.inner_rows()) given_.push_back(is_given(inner.row) ? 1 : 0);
   candidates_ = std::make_unique<Candidates>(contact.description(), contact.surfaces());
   held_ = std::make_unique<HoldBack>(contact.surfaces(), given_);
   ahead_ = std::make_unique<PushAhead>(contact, given_);
-  begin_.resize(3 * vertices.size());
+  begin_.resize(3 * surfaces.mover_count());
   from_ = now_ = begin_;
 }
 
@@ -47,6 +53,7 @@ void ContactRun::begin(const State& start, double end, ConstReals led) {
   contacts_.resize(before.size());
   for (std::size_t i = 0; i < before.size(); ++i) contacts_[i] = before[i];
   contact_.place_vertices(start, start.time, begin_);
+  gather_inner_rows(start, begin_);
   from_ = begin_;
   held_->forget();
   ahead_->push({start, start.time, end, led}, *candidates_, from_, planes_);
@@ -65,36 +72,72 @@ void ContactRun::gather(const State& state, std::vector<double>& places) const {
     block(Reals(places), number) =
         vertices[v].is_free() ? contact_.place(number, state) : Vec3(block(ConstReals(from_), number));
   }
+  gather_inner_rows(state, places);
+}
+
+void ContactRun::gather_inner_rows(const State& state, std::vector<double>& places) const {
+  auto number = static_cast<std::int32_t>(contact_.surfaces().vertices().size());
+  for (const auto& inner : contact_.surfaces().inner_rows()) {
+    block(Reals(places), number++) = block(ConstReals(state.positions), inner.row);
+  }
 }
 
 int ContactRun::hold_back(State& to) {
   gather(to, now_);
   least_share_ = 1.0;
   goal_ = now_;
-  candidates_->cover(from_, now_);
+  sway();
+  candidates_->cover(from_, now_, sways_);
   if (!contact_.description().travel) return 0;
   bend(to);
-  if (!held_->find(*candidates_, planes_, from_, now_, bends_)) return 0;
+  if (!held_->find(*candidates_, planes_, from_, now_, bends_, sways_)) return 0;
   int rows = hold_back_carriers(to);
-  const auto& vertices = contact_.surfaces().vertices();
-  for (std::size_t v = 0; v < vertices.size(); ++v) {
-    const auto number = static_cast<std::int32_t>(v);
-    if (given_[v] != 0 || vertices[v].row < 0) continue;
+  const auto hold = [&](std::size_t mover, std::int32_t row) {
+    const auto number = static_cast<std::int32_t>(mover);
     const double share = held_->share(number);
-    if (share == 1.0) continue;
+    if (given_[mover] != 0 || share == 1.0) return;
     least_share_ = std::min(least_share_, share);
     ++rows;
     const Vec3 from = block(ConstReals(from_), number);
-    block(Reals(to.positions), vertices[v].row) = from + share * (block(ConstReals(now_), number) - from);
+    block(Reals(to.positions), row) = from + share * (block(ConstReals(now_), number) - from);
+  };
+  const auto& vertices = contact_.surfaces().vertices();
+  for (std::size_t v = 0; v < vertices.size(); ++v) {
+    if (vertices[v].row >= 0) hold(v, vertices[v].row);
   }
+  const auto& inner = contact_.surfaces().inner_rows();
+  for (std::size_t i = 0; i < inner.size(); ++i) hold(vertices.size() + i, inner[i].row);
   return rows;
+}
+
+/// A vertex at sum w x whose rows go shares s of their ways d is off its own way, which is sum w d, by
+/// |sum w (s - 1/2) (d - sum w d)| <= sum |w| |d - sum w d| / 2, and more where weights below zero let shares
+/// of it exceed 0 to 1.
+void ContactRun::sway() {
+  const SurfaceSet& surfaces = contact_.surfaces();
+  if (!surfaces.has_riders()) return;
+  const auto& vertices = surfaces.vertices();
+  sways_.assign(vertices.size(), 0.0);
+  const auto way_of = [&](std::int32_t mover) {
+    return Vec3(block(ConstReals(now_), mover) - block(ConstReals(from_), mover));
+  };
+  for (std::size_t v = 0; v < vertices.size(); ++v) {
+    if (vertices[v].rider < 0) continue;
+    const Vec3 way = way_of(static_cast<std::int32_t>(v));
+    double weights = 0.0;
+    for (const RiderPart& part : surfaces.parts(vertices[v])) {
+      weights += std::abs(part.weight);
+      sways_[v] += 0.5 * std::abs(part.weight) * (way_of(part.mover) - way).norm();
+    }
+    sways_[v] += 0.5 * std::max(0.0, weights - 1.0) * way.norm();
+  }
 }
 
 /// |arm| theta^2 of what rigid bodies carry.
 void ContactRun::bend(const State& to) {
   const SurfaceSet& surfaces = contact_.surfaces();
   if (surfaces.carriers().empty()) return;
-  bends_.assign(given_.size(), 0.0);
+  bends_.assign(surfaces.vertices().size(), 0.0);
   for (std::size_t v = 0; v < bends_.size(); ++v) {
     const std::int32_t carrier = surfaces.vertices()[v].carrier;
     if (carrier < 0) continue;
@@ -127,6 +170,24 @@ int ContactRun::hold_back_carriers(State& to) {
     to.rotations[frame] = (turn_by(turn) * start_->rotations[frame]).normalized();
   }
   return rows;
+}
+
+void ContactRun::stand(State& at) const {
+  const SurfaceSet& surfaces = contact_.surfaces();
+  for (std::size_t v = 0; v < surfaces.vertices().size(); ++v) {
+    const std::int32_t row = surfaces.vertices()[v].row;
+    if (row >= 0) block(Reals(at.positions), row) = block(ConstReals(from_), static_cast<std::int32_t>(v));
+  }
+  auto mover = static_cast<std::int32_t>(surfaces.vertices().size());
+  for (const auto& inner : surfaces.inner_rows()) {
+    block(Reals(at.positions), inner.row) = block(ConstReals(from_), mover++);
+  }
+  for (const auto& surface : surfaces.surfaces()) {
+    if (surface.carrier < 0) continue;
+    const Vec3 pushed =
+        block(ConstReals(from_), surface.first_vertex) - block(ConstReals(begin_), surface.first_vertex);
+    block(Reals(at.positions), surfaces.carriers()[static_cast<std::size_t>(surface.carrier)].row) += pushed;
+  }
 }
 
 void ContactRun::look(const State& at) {

@@ -30,7 +30,8 @@ double bend_of(const Candidate& candidate, ConstReals bends) {
 
 double HoldBack::least(double apart, double start) { return std::min(kLeast * apart, kOfStart * start); }
 
-FreeWay free_way(const Candidate& candidate, ConstReals from, ConstReals to, ConstReals bends) {
+FreeWay free_way(const Candidate& candidate, ConstReals from, ConstReals to, ConstReals bends,
+                 ConstReals sways) {
   PairWay pair{candidate.kind, {}, {}};
   double longest = 0.0;
   for (int i = 0; i < vertices_of(candidate.kind); ++i) {
@@ -40,7 +41,8 @@ FreeWay free_way(const Candidate& candidate, ConstReals from, ConstReals to, Con
     longest = std::max(longest, pair.way[at(i)].squaredNorm());
   }
   const double bend = bends.empty() ? 0.0 : bend_of(candidate, bends);
-  if (longest == 0.0 && bend == 0.0) return {1.0, true};
+  const double sway = sways.empty() ? 0.0 : bend_of(candidate, sways);
+  if (longest == 0.0 && bend == 0.0 && sway == 0.0) return {1.0, true};
   const double distance = std::sqrt(nearest_of(candidate.kind, pair.from).square);
   const double least = HoldBack::least(candidate.apart, distance);
   const double room = distance - least;
@@ -51,44 +53,52 @@ FreeWay free_way(const Candidate& candidate, ConstReals from, ConstReals to, Con
     for (Vec3& way : pair.way) way *= most;
     longest *= most * most;
   }
-  if (std::sqrt(longest) <= kBall * (room - off) || is_kept_apart(pair, least + off)) {
+  if (std::sqrt(longest) <= kBall * (room - off - sway) || is_kept_apart(pair, least + off + sway)) {
     return {most, most == 1.0};
   }
   return {most * free_share(pair, least + off), false};
 }
 
-std::size_t HoldBack::root(std::int32_t vertex) const {
-  std::int32_t v = vertex;
-  while (parent_[at(v)] != v) v = parent_[at(v)] = parent_[at(parent_[at(v)])];
-  return at(v);
+std::size_t HoldBack::root(std::int32_t mover) const {
+  std::int32_t m = mover;
+  while (parent_[at(m)] != m) m = parent_[at(m)] = parent_[at(parent_[at(m)])];
+  return at(m);
 }
 
-void HoldBack::lower(std::int32_t vertex, double share) {
-  double& of = shares_[root(vertex)];
+/// `first`: a mover of the island; -1: none yet.
+void HoldBack::join(std::int32_t& first, std::int32_t mover) {
+  if (given_[at(mover)] != 0) return;
+  if (first < 0) {
+    first = mover;
+    return;
+  }
+  const std::size_t a = root(first);
+  const std::size_t b = root(mover);
+  if (a == b) return;
+  const auto [low, high] = std::minmax(a, b);
+  parent_[high] = static_cast<std::int32_t>(low);
+  shares_[low] = std::min(shares_[low], shares_[high]);
+}
+
+void HoldBack::join(std::span<const std::int32_t> vertices, double share) {
+  std::int32_t first = -1;
+  for (const std::int32_t v : vertices) {
+    if (v < 0) continue;
+    const SurfaceVertex& vertex = surfaces_.vertices()[at(v)];
+    if (vertex.rider < 0) {
+      join(first, v);
+      continue;
+    }
+    for (const RiderPart& part : surfaces_.parts(vertex)) join(first, part.mover);
+  }
+  if (first < 0) return;
+  double& of = shares_[root(first)];
   of = std::min(of, share);
 }
 
-void HoldBack::join(const Candidate& candidate, double share) {
-  std::int32_t first = -1;
-  for (const std::int32_t v : candidate.vertex) {
-    if (v < 0 || given_[at(v)] != 0) continue;
-    if (first < 0) {
-      first = v;
-      continue;
-    }
-    const std::size_t a = root(first);
-    const std::size_t b = root(v);
-    if (a == b) continue;
-    const auto [low, high] = std::minmax(a, b);
-    parent_[high] = static_cast<std::int32_t>(low);
-    shares_[low] = std::min(shares_[low], shares_[high]);
-  }
-  if (first >= 0) lower(first, share);
-}
-
 bool HoldBack::find(const Candidates& candidates, std::span<const PlacedPlane> planes, ConstReals from,
-                    ConstReals to, ConstReals bends) {
-  const std::size_t count = surfaces_.vertices().size();
+                    ConstReals to, ConstReals bends, ConstReals sways) {
+  const std::size_t count = surfaces_.mover_count();
   parent_.resize(count);
   std::iota(parent_.begin(), parent_.end(), 0);
   for (const auto& surface : surfaces_.surfaces()) {
@@ -103,27 +113,35 @@ bool HoldBack::find(const Candidates& candidates, std::span<const PlacedPlane> p
   const auto& list = candidates.list();
   for (std::size_t i = 0; i < list.size(); ++i) {
     if (candidates.is_far(i, list[i].apart)) continue;
-    const FreeWay way = free_way(list[i], from, to, bends);
+    const FreeWay way = free_way(list[i], from, to, bends, sways);
     if (way.whatever) continue;
-    join(list[i], way.share);
+    join(list[i].vertex, way.share);
     if (way.share == 1.0) continue;
     held = true;
     stopped_.push_back(static_cast<std::int32_t>(i));
   }
   const auto& before_planes = candidates.planes();
   for (std::size_t i = 0; i < before_planes.size(); ++i) {
-    const PlaneCandidate& c = before_planes[i];
-    const PlacedPlane& plane = planes[at(c.obstacle)];
-    const double start = plane.normal.dot(block(from, c.vertex) - plane.point);
-    const double bend = bends.empty() ? 0.0 : 0.125 * bends[at(c.vertex)];
-    const double end = plane.normal.dot(block(to, c.vertex) - plane.point) - bend;
-    const double least = HoldBack::least(c.apart, std::max(start, 0.0));
-    if (end >= least || end >= start || given_[at(c.vertex)] != 0) continue;
-    lower(c.vertex, std::max(0.0, kKept * (start - least) / (start - end)));
+    const PlacedPlane& plane = planes[at(before_planes[i].obstacle)];
+    if (!stops_at_plane(before_planes[i], plane, from, to, bends, sways)) continue;
     held = true;
     stopped_at_planes_.push_back(static_cast<std::int32_t>(i));
   }
   return held;
+}
+
+bool HoldBack::stops_at_plane(const PlaneCandidate& c, const PlacedPlane& plane, ConstReals from,
+                              ConstReals to, ConstReals bends, ConstReals sways) {
+  const double start = plane.normal.dot(block(from, c.vertex) - plane.point);
+  const double bend = bends.empty() ? 0.0 : 0.125 * bends[at(c.vertex)];
+  const double end = plane.normal.dot(block(to, c.vertex) - plane.point) - bend;
+  const double least = HoldBack::least(c.apart, std::max(start, 0.0));
+  const double sway = sways.empty() ? 0.0 : sways[at(c.vertex)];
+  if (given_[at(c.vertex)] != 0 || std::min(start, end) - sway >= least) return false;
+  const bool stops = end < least && end < start;
+  if (!stops && sway == 0.0) return false;
+  join({&c.vertex, 1}, stops ? std::max(0.0, kKept * (start - least) / (start - end)) : 1.0);
+  return stops;
 }
 
 }  // namespace tissu

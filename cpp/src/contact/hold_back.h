@@ -20,18 +20,19 @@ struct PlacedPlane {
 /// none of its vertices goes as far as 0.45 of the distance that is left; one plane keeps its sides apart at
 /// both ends; additive conservative advancement along the whole way. The first two hold however ways are
 /// shortened. The vertices of pairs that pass by the third form islands, which go the least share of their
-/// pairs together, for apart from each other their ways would be others than those that were tested.
+/// pairs together, for apart from each other their ways would be others than those that were tested. What is
+/// shortened are the ways of movers: of a vertex that rows carry those of its rows.
 class HoldBack {
  public:
-  /// `given`: of each vertex, whether its way is given, so that it is never shortened.
+  /// `given`: of each mover, whether its way is given, so that it is never shortened.
   HoldBack(const SurfaceSet& surfaces, const std::vector<std::uint8_t>& given)
       : surfaces_(surfaces), given_(given) {}
 
-  /// Shares of the ways, in [0, 1], for every vertex; true when one is below 1. `planes`: of each obstacle;
+  /// Shares of the ways, in [0, 1], for every mover; true when one is below 1. `planes`: of each obstacle;
   /// `bends`: as `free_way` has them. The vertices of a rigid body go one share.
   bool find(const Candidates& candidates, std::span<const PlacedPlane> planes, ConstReals from, ConstReals to,
-            ConstReals bends = {});
-  [[nodiscard]] double share(std::int32_t vertex) const { return shares_[root(vertex)]; }
+            ConstReals bends = {}, ConstReals sways = {});
+  [[nodiscard]] double share(std::int32_t mover) const { return shares_[root(mover)]; }
   /// Contacts of the pairs whose whole way is not free, in the order of the list.
   [[nodiscard]] const std::vector<std::int32_t>& stopped() const { return stopped_; }
   [[nodiscard]] const std::vector<std::int32_t>& stopped_at_planes() const { return stopped_at_planes_; }
@@ -46,9 +47,11 @@ class HoldBack {
   static double least(double apart, double start);
 
  private:
-  [[nodiscard]] std::size_t root(std::int32_t vertex) const;
-  void join(const Candidate& candidate, double share);
-  void lower(std::int32_t vertex, double share);
+  [[nodiscard]] std::size_t root(std::int32_t mover) const;
+  void join(std::span<const std::int32_t> vertices, double share);
+  void join(std::int32_t& first, std::int32_t mover);
+  bool stops_at_plane(const PlaneCandidate& candidate, const PlacedPlane& plane, ConstReals from,
+                      ConstReals to, ConstReals bends, ConstReals sways);
 
   const SurfaceSet& surfaces_;
   const std::vector<std::uint8_t>& given_;
@@ -65,6 +68,9 @@ struct FreeWay {
 };
 /// `bends`: of each vertex, |arm| theta^2 of the rigid body that turns by theta while it carries it: the arc
 /// up to a share s of the way leaves the chord by no more than s (1 - s) / 2 of that [m]. Empty for none.
-FreeWay free_way(const Candidate& candidate, ConstReals from, ConstReals to, ConstReals bends = {});
+/// `sways`: of each vertex that rows carry, how far it may leave its straight way when those go different
+/// shares of theirs [m]. Empty for none.
+FreeWay free_way(const Candidate& candidate, ConstReals from, ConstReals to, ConstReals bends = {},
+                 ConstReals sways = {});
 
 }  // namespace tissu

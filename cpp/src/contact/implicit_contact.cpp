@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "tissu/contact/augmented.h"
+#include "tissu/contact/barrier.h"
 #include "tissu/contact/implicit_penalty.h"
 
 namespace tissu {
@@ -18,9 +19,13 @@ std::array<double, 3> numbers_of(const Vec3& v) { return {v.x(), v.y(), v.z()}; 
 }  // namespace
 
 std::unique_ptr<ImplicitContact> ImplicitContact::make(const Contact& contact, const FixedDofs& fixed,
-                                                       const Mass* mass, std::vector<double> rest) {
+                                                       const Mass* mass, std::vector<double> rest,
+                                                       double extent) {
   if (contact.description().method == ContactMethod::penalty) {
     return std::make_unique<ImplicitPenalty>(contact, fixed, mass, std::move(rest));
+  }
+  if (contact.description().method == ContactMethod::barrier) {
+    return std::make_unique<BarrierContact>(contact, fixed, extent);
   }
   return std::make_unique<AugmentedContact>(contact, fixed);
 }

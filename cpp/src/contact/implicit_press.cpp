@@ -57,7 +57,7 @@ bool ImplicitContact::is_rigid(const ContactNumbers& contact) const {
   const SurfaceSet& surfaces = contact_.surfaces();
   if (surfaces.carriers().empty()) return false;
   return std::ranges::all_of(contact.vertex, [&](double vertex) {
-    return vertex < 0.0 || surfaces.vertices()[static_cast<std::size_t>(vertex)].row < 0;
+    return vertex < 0.0 || !surfaces.vertices()[static_cast<std::size_t>(vertex)].is_soft();
   });
 }
 
@@ -106,7 +106,7 @@ void ImplicitContact::give(ContactNumbers& c, double force, double k) {
 }
 
 /// Coulomb's friction of bound F: it sticks as a spring, or slides with the force F.
-void ImplicitContact::rub(ContactNumbers& c, double bound, double k) const {
+void ImplicitContact::rub(ContactNumbers& c, double bound, double k) {
   const Vec3 n = vector_of(c.normal);
   Vec3 slid = run_.gone(c);
   slid -= n.dot(slid) * n;
@@ -125,6 +125,10 @@ void ImplicitContact::rub(ContactNumbers& c, double bound, double k) const {
     H = bound / size * (H - k * along * along.transpose());
     c.sliding = 1.0;
   }
+  add(c, force, H);
+}
+
+void ImplicitContact::add(ContactNumbers& c, const Vec3& force, const Mat3& H) {
   c.push = numbers_of(vector_of(c.push) + force);
   set_stiffness(c, stiffness_of(c) + H);
 }

@@ -21,6 +21,13 @@ double largest_area_over_mass(const SurfaceSet& surfaces, std::int32_t surface, 
   for (std::int32_t v = of.first_vertex; v < of.last_vertex; ++v) {
     const SurfaceVertex& vertex = surfaces.vertices()[at(v)];
     if (vertex.row >= 0) largest = std::max(largest, vertex.area / mass.nodal()[at(vertex.row)]);
+    if (vertex.rider >= 0) {
+      double inverse = 0.0;
+      for (const RiderPart& part : surfaces.parts(vertex)) {
+        inverse += part.weight * part.weight / mass.nodal()[at(part.row)];
+      }
+      largest = std::max(largest, vertex.area * inverse);
+    }
     if (vertex.carrier < 0) continue;
     const Frame& frame = mass.frames()[at(surfaces.carriers()[at(vertex.carrier)].frame)];
     const double turning = surfaces.arm(v).squaredNorm() * largest_of(frame.inertia.inverse());

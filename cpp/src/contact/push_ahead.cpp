@@ -15,6 +15,7 @@ namespace {
 constexpr int kRounds = 32;
 constexpr int kMostParts = 64;
 constexpr double kPartOfEdge = 0.5;
+constexpr double kLeastFree = 0.1;  ///< of the weights of a vertex: less of it does not move it
 
 std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
@@ -36,20 +37,30 @@ PushAhead::PushAhead(const Contact& contact, const std::vector<std::uint8_t>& gi
 void PushAhead::lead(const LedMotion& motion, double share, Reals places) const {
   const SurfaceSet& surfaces = contact_.surfaces();
   const double time = share == 1.0 ? motion.to : motion.from + share * (motion.to - motion.from);
-  for (std::size_t v = 0; v < given_.size(); ++v) {
+  const auto lead_row = [&](std::size_t mover, std::int32_t row) {
+    const Vec3 from = block(ConstReals(motion.state.positions), row);
+    const Vec3 to = block(motion.end, row);
+    block(places, static_cast<std::int32_t>(mover)) = share == 1.0 ? to : Vec3(from + share * (to - from));
+  };
+  const auto& vertices = surfaces.vertices();
+  for (std::size_t v = 0; v < vertices.size(); ++v) {
     if (given_[v] == 0) continue;
     const auto number = static_cast<std::int32_t>(v);
-    const SurfaceVertex& vertex = surfaces.vertices()[v];
+    const SurfaceVertex& vertex = vertices[v];
     if (vertex.row >= 0) {
-      const Vec3 from = block(ConstReals(motion.state.positions), vertex.row);
-      const Vec3 to = block(motion.end, vertex.row);
-      block(places, number) = share == 1.0 ? to : Vec3(from + share * (to - from));
-    } else {
+      lead_row(v, vertex.row);
+    } else if (vertex.rider < 0) {
       const std::int32_t obstacle = surfaces.surfaces()[at(vertex.surface)].obstacle;
       block(places, number) =
           contact_.place_of(obstacle, block(ConstReals(surfaces.rest()), number), motion.state, time);
     }
   }
+  if (!surfaces.has_riders()) return;
+  const auto& inner = surfaces.inner_rows();
+  for (std::size_t i = 0; i < inner.size(); ++i) {
+    if (given_[vertices.size() + i] != 0) lead_row(vertices.size() + i, inner[i].row);
+  }
+  surfaces.place_riders(places);
 }
 
 void PushAhead::place_planes(const LedMotion& motion, double share, std::vector<PlacedPlane>& planes) const {
@@ -67,7 +78,7 @@ void PushAhead::place_planes(const LedMotion& motion, double share, std::vector<
 double PushAhead::parts_of(const LedMotion& motion) const {
   const SurfaceSet& surfaces = contact_.surfaces();
   double way = 0.0;
-  for (std::size_t v = 0; v < given_.size(); ++v) {
+  for (std::size_t v = 0; v < surfaces.vertices().size(); ++v) {
     const SurfaceVertex& vertex = surfaces.vertices()[v];
     if (vertex.is_free()) continue;
     const std::int32_t obstacle = surfaces.surfaces()[at(vertex.surface)].obstacle;
@@ -142,16 +153,35 @@ bool PushAhead::go(const LedMotion& motion, double before, double after, Candida
   return false;
 }
 
-/// A rigid body goes as a whole.
+/// A rigid body goes as a whole, and what rows carry goes with them.
 void PushAhead::move(std::int32_t vertex, const Vec3& by) {
   const SurfaceSet& surfaces = contact_.surfaces();
   const SurfaceVertex& of = surfaces.vertices()[at(vertex)];
+  if (of.rider >= 0) {
+    double free = 0.0;
+    for (const RiderPart& part : surfaces.parts(of)) {
+      if (given_[at(part.mover)] == 0) free += part.weight;
+    }
+    if (free < kLeastFree) return;
+    for (const RiderPart& part : surfaces.parts(of)) {
+      if (given_[at(part.mover)] == 0) move_row(part.mover, by / free);
+    }
+    return;
+  }
   if (of.carrier < 0) {
-    block(Reals(to_), vertex) += by;
+    move_row(vertex, by);
     return;
   }
   const auto& surface = surfaces.surfaces()[at(of.surface)];
   for (std::int32_t v = surface.first_vertex; v < surface.last_vertex; ++v) block(Reals(to_), v) += by;
+}
+
+void PushAhead::move_row(std::int32_t mover, const Vec3& by) {
+  block(Reals(to_), mover) += by;
+  if (!contact_.surfaces().has_riders()) return;
+  for (const auto& carried : contact_.surfaces().carried_by(mover)) {
+    block(Reals(to_), carried.vertex) += carried.weight * by;
+  }
 }
 
 /// True when all pairs keep apart; else `pushed` says whether something was moved out of the way.

@@ -25,7 +25,7 @@ class PushAhead {
  public:
   PushAhead(const Contact& contact, const std::vector<std::uint8_t>& given);
 
-  /// `places` of all vertices at the start become those from which the step goes on; `planes` those at its
+  /// `places` of all movers at the start become those from which the step goes on; `planes` those at its
   /// end. Throws Diverged where things that are led close on a body.
   void push(const LedMotion& motion, Candidates& candidates, std::vector<double>& places,
             std::vector<PlacedPlane>& planes);
@@ -39,6 +39,7 @@ class PushAhead {
   bool go(const LedMotion& motion, double before, double after, Candidates& candidates,
           std::vector<double>& places);
   void move(std::int32_t vertex, const Vec3& by);
+  void move_row(std::int32_t mover, const Vec3& by);
   bool push_pairs(const Candidates& candidates, ConstReals from, bool& pushed);
   bool push_before_planes(const LedMotion& motion, double before, double after, const Candidates& candidates,
                           ConstReals from, bool& pushed);

@@ -52,6 +52,7 @@ SurfaceSet::SurfaceSet(const ContactDescription& description, std::span<const st
   }
   list_by(edge_owner, primitives_.size(), own_edge_begin_, own_edge_);
   list_neighbours();
+  if (has_riders()) list_movers(description, first_node);
 }
 
 /// Vertices are those that a primitive has, in the order of the nodes.
@@ -70,15 +71,24 @@ void SurfaceSet::add(const SurfaceDescription& description, std::int32_t first_r
   const auto number = [&](std::int32_t node) {
     return first_vertex + static_cast<std::int32_t>(std::ranges::lower_bound(nodes, node) - nodes.begin());
   };
+  const std::vector<std::int32_t>& riders = description.riders.vertex;
   for (const std::int32_t node : nodes) {
     SurfaceVertex vertex;
-    vertex.row = obstacle < 0 ? first_row + node : -1;
     vertex.node = node;
     vertex.surface = surface;
-    if (!description.radius.empty()) vertex.radius = description.radius[at(node)];
+    if (!description.radius.empty() && node >= 0) vertex.radius = description.radius[at(node)];
+    Vec3 place;
+    const auto found = std::ranges::lower_bound(riders, node);
+    if (found != riders.end() && *found == node) {
+      const auto number = static_cast<std::size_t>(found - riders.begin());
+      place = ride(description.riders, number, first_row, vertex, rest);
+    } else if (obstacle < 0) {
+      vertex.row = first_row + node;
+      place = block(rest, vertex.row);
+    } else {
+      place = block(ConstReals(description.vertices), node);
+    }
     vertices_.push_back(vertex);
-    const Vec3 place =
-        obstacle < 0 ? Vec3(block(rest, vertex.row)) : Vec3(block(ConstReals(description.vertices), node));
     rest_.insert(rest_.end(), place.begin(), place.end());
   }
   for (const auto& t : description.triangles) {
@@ -90,7 +100,7 @@ void SurfaceSet::add(const SurfaceDescription& description, std::int32_t first_r
   if (description.closed) part_wedges(crowded, first_primitive, first_edge);
   measure(first_primitive, first_edge);
   surfaces_.push_back({description.name, first_vertex, static_cast<std::int32_t>(vertices_.size()),
-                       description.closed, obstacle});
+                       description.closed, obstacle, -1, first_row});
   first_primitive_.push_back(static_cast<std::int32_t>(primitives_.size()));
 }
 
@@ -196,7 +206,8 @@ std::size_t SurfaceSet::bytes() const {
   const auto of = [](const auto& list) { return list.size() * sizeof(list[0]); };
   return of(vertices_) + of(edges_) + of(primitives_) + of(triangle_edges_) + of(rest_) + of(owner_) +
          of(own_vertex_) + of(own_edge_) + of(own_vertex_begin_) + of(own_edge_begin_) + of(neighbour_) +
-         of(neighbour_begin_) + of(carriers_) + of(arms_);
+         of(neighbour_begin_) + of(carriers_) + of(arms_) + of(rider_part_) + of(rider_begin_) +
+         of(inner_rows_) + of(root_) + of(carried_) + of(carried_begin_);
 }
 
 }  // namespace tissu

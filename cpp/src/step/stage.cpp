@@ -64,6 +64,12 @@ void StageSolver::prepare(const World& world, LinearSolver* solver, Profile& pro
   response_row_ = profile.row("contact", "response");
 }
 
+bool StageSolver::follow_edit(std::span<const std::int32_t> rows) {
+  if (contact_ != nullptr) return false;
+  system_->follow_edit(rows);
+  return true;
+}
+
 void StageSolver::begin(const State& start, double time, double h) {
   step_start_ = &start;
   stage_.base = start;
@@ -297,19 +303,21 @@ bool StageSolver::advance(State& state, std::vector<double>& v, Search search, d
   return true;
 }
 
-bool StageSolver::descend(State& state, std::vector<double>& v, double& now) {
-  const double slope = -std::inner_product(right_.begin(), right_.end(), change_.begin(), 0.0);
-  // Damping has no energy: what it takes is added with df/dv as it is at v, 1/2 push v . D v. One that gives,
-  // as Rayleigh's does where the stiffness is not positive, has none to be lowered.
+StageSolver::DampingWork StageSolver::damping_work(const State& state, ConstReals v) {
   std::ranges::fill(first_, 0.0);
   system_->add_product(state, {0.0, -stage_.push}, change_, first_);
-  double linear = std::inner_product(v.begin(), v.end(), first_.begin(), 0.0);
-  double square = 0.5 * std::inner_product(change_.begin(), change_.end(), first_.begin(), 0.0);
-  if (square < 0.0) linear = square = 0.0;
+  const double linear = std::inner_product(v.begin(), v.end(), first_.begin(), 0.0);
+  const double square = 0.5 * std::inner_product(change_.begin(), change_.end(), first_.begin(), 0.0);
+  return square < 0.0 ? DampingWork{} : DampingWork{linear, square};
+}
+
+bool StageSolver::descend(State& state, std::vector<double>& v, double& now) {
+  const double slope = -std::inner_product(right_.begin(), right_.end(), change_.begin(), 0.0);
+  const DampingWork damping = damping_work(state, v);
   const double from = potential(state, v);
   for (double share = 1.0; share > kShortestDown; share *= 0.5) {
     go(v, share);
-    const double to = potential(state, trial_) + share * (linear + share * square);
+    const double to = potential(state, trial_) + damping.at(share);
     if (!(to <= from + kArmijo * share * slope)) continue;
     now = residual(state, trial_);
     std::swap(v, trial_);

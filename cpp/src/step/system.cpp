@@ -38,6 +38,13 @@ System::System(const World& world, LinearSolver* solver, Profile& profile)
   solve_row_ = profile.row("linear solver", "solve");
 }
 
+void System::follow_edit(std::span<const std::int32_t> rows) {
+  if (matrix_) matrix_->follow_pattern(rows);
+  free_.reset();
+  assembled_ = false;
+  for (const auto& model : world_.forces()) scratch_.reserve(model->scratch_size());
+}
+
 const BlockMatrix& System::matrix() const {
   if (!matrix_) throw Error("a matrix is asked for where products alone are made.");
   return *matrix_;
@@ -152,8 +159,8 @@ std::unique_ptr<ImplicitContact> System::make_contact(bool is_static) {
     system_matrix().diagonal_blocks(rest);
     assembled_ = false;
   }
-  return ImplicitContact::make(contact, world_.fixed(), is_static ? nullptr : &world_.mass(),
-                               std::move(rest));
+  return ImplicitContact::make(contact, world_.fixed(), is_static ? nullptr : &world_.mass(), std::move(rest),
+                               world_.extent());
 }
 
 void System::place_rows(const State& state) {

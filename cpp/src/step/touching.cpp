@@ -220,6 +220,10 @@ void StageSolver::iterate_contacts(State& state, std::vector<double>& v, StepRep
 
 void StageSolver::solve_touching(State& state, std::vector<double>& v, StepReport& report) {
   begin_touching(state, v);
+  if (BarrierContact* barrier = contact_->barrier()) {
+    solve_barrier(*barrier, state, v, report);
+    return;
+  }
   report.converged = solve_contacts(state, v, report);
   if (!report.converged && !report.hasty) report.message = "the linear solver stopped before its tolerance";
   State& end = stage_.contact.stretch != 1.0 ? end_ : state;

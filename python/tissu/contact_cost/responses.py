@@ -49,6 +49,7 @@ RESPONSES: dict[str, Response] = {
         "penalty", parts.ImplicitEuler, 0.01, "reciprocal"
     ),
     "penalty, bdf2": Response("penalty", parts.BDF2, 0.01),
+    "barrier, implicit_euler": Response("barrier", parts.ImplicitEuler, 0.01),
     "impulse, symplectic_euler": Response("impulse", parts.SymplecticEuler),
     "penalty, symplectic_euler": Response("penalty", parts.SymplecticEuler),
     "geometric, symplectic_euler": Response("geometric", parts.SymplecticEuler),

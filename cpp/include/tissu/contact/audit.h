@@ -13,7 +13,8 @@
 
 namespace tissu {
 
-/// An edge that goes through a triangle, or a vertex behind a plane.
+/// An edge that goes through a triangle, or a vertex behind a plane. Numbers below -1 are points that nodes
+/// carry: -2 - r is the vertex -1 - r of the surface.
 struct Crossing {
   std::int32_t surface;                  ///< of the edge, of the vertex
   std::int32_t other;                    ///< of the triangle, of the plane

@@ -38,10 +38,14 @@ struct PlaneCandidate {
 /// nothing of what follows from it.
 class Candidates {
  public:
+  /// Of the distance at rest: where the walls of a cut are held apart that began nearer than they would rest.
+  static constexpr double kOfWalls = 0.99;
+
   Candidates(const ContactDescription& description, const SurfaceSet& surfaces);
 
-  /// Covers the ways of all vertices between two states. True when the list was made anew.
-  bool cover(ConstReals from, ConstReals to);
+  /// Covers the ways of all vertices between two states. True when the list was made anew. `sways`: of each
+  /// vertex, how far it may leave its straight way [m]; empty: not at all.
+  bool cover(ConstReals from, ConstReals to, ConstReals sways = {});
   [[nodiscard]] const std::vector<Candidate>& list() const { return list_; }
   /// The pair stays farther apart than `reach` all along the ways that were covered last, and on shorter
   /// ones: its distance when the list was made, less what its vertices may have gone since.
@@ -62,7 +66,7 @@ class Candidates {
  private:
   /// Of surfaces a and b, a <= b: the number of their pair; -1: they do not meet.
   [[nodiscard]] std::int32_t pair_of(std::int32_t a, std::int32_t b) const;
-  void box(ConstReals from, ConstReals to);
+  void box(ConstReals from, ConstReals to, ConstReals sways);
   void list_features(const BoxPair& pair);
   void add(PairKind kind, std::int32_t a, std::int32_t b, std::array<std::int32_t, 4> vertex);
   [[nodiscard]] bool may_meet(const ContactPair& pair, const std::array<std::int32_t, 4>& vertex) const;
@@ -71,7 +75,7 @@ class Candidates {
                                      double apart) const;
   void list_planes();
   void measure(ConstReals places);
-  void follow(ConstReals from, ConstReals to);
+  void follow(ConstReals from, ConstReals to, ConstReals sways);
 
   const ContactDescription& description_;
   const SurfaceSet& surfaces_;

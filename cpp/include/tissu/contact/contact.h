@@ -21,6 +21,7 @@
 #include "tissu/assembly/couplings.h"
 #include "tissu/assembly/live_lead.h"
 #include "tissu/contact/description.h"
+#include "tissu/contact/merged_parts.h"
 #include "tissu/contact/surface_set.h"
 #include "tissu/contact/travel.h"
 #include "tissu/force/force_model.h"
@@ -136,17 +137,12 @@ class Contact final : public ForceModel {
   /// Calls f(part) for every row that a contact moves with, with its weight: motion = sum part.motion(p).
   template <class Function>
   void for_parts(const ContactNumbers& contact, const State& state, Function&& f) const {
-    for (std::size_t k = 0; k < 4; ++k) {
-      if (contact.vertex[k] < 0.0 || contact.beta[k] == 0.0) continue;
-      const auto vertex = static_cast<std::int32_t>(contact.vertex[k]);
-      const SurfaceVertex& v = surfaces_.vertices()[static_cast<std::size_t>(vertex)];
-      if (v.row >= 0) {
-        f(CarriedPart{v.row, contact.beta[k]});
-      } else if (v.carrier >= 0) {
-        const SurfaceCarrier& carrier = surfaces_.carriers()[static_cast<std::size_t>(v.carrier)];
-        f(CarriedPart{carrier.row, contact.beta[k]});
-        f(CarriedPart{carrier.rotation, contact.beta[k], arm(contact, k, carrier, state), true});
-      }
+    if (surfaces_.has_riders() && rides(contact)) {
+      MergedParts merged;
+      for_each_part(contact, state, [&](const CarriedPart& part) { merged.add(part); });
+      for (const CarriedPart& part : merged.all()) f(part);
+    } else {
+      for_each_part(contact, state, f);
     }
   }
   /// r of a contact in a state.
@@ -174,6 +170,32 @@ class Contact final : public ForceModel {
  private:
   template <class Function>
   void for_contacts(const State& state, Function&& f) const;
+  /// Several rows carry a vertex of it.
+  [[nodiscard]] bool rides(const ContactNumbers& contact) const {
+    for (const double vertex : contact.vertex) {
+      if (vertex >= 0.0 && surfaces_.vertices()[static_cast<std::size_t>(vertex)].rider >= 0) return true;
+    }
+    return false;
+  }
+  template <class Function>
+  void for_each_part(const ContactNumbers& contact, const State& state, Function&& f) const {
+    for (std::size_t k = 0; k < 4; ++k) {
+      if (contact.vertex[k] < 0.0 || contact.beta[k] == 0.0) continue;
+      const auto vertex = static_cast<std::int32_t>(contact.vertex[k]);
+      const SurfaceVertex& v = surfaces_.vertices()[static_cast<std::size_t>(vertex)];
+      if (v.row >= 0) {
+        f(CarriedPart{v.row, contact.beta[k]});
+      } else if (v.carrier >= 0) {
+        const SurfaceCarrier& carrier = surfaces_.carriers()[static_cast<std::size_t>(v.carrier)];
+        f(CarriedPart{carrier.row, contact.beta[k]});
+        f(CarriedPart{carrier.rotation, contact.beta[k], arm(contact, k, carrier, state), true});
+      } else if (v.rider >= 0) {
+        for (const RiderPart& part : surfaces_.parts(v)) {
+          f(CarriedPart{part.row, contact.beta[k] * part.weight});
+        }
+      }
+    }
+  }
   [[nodiscard]] Vec3 carried_place(std::int32_t vertex, const State& state) const;
   /// From the origin of the rigid body that carries the vertex, in space [m].
   [[nodiscard]] Vec3 arm(std::int32_t vertex, const SurfaceCarrier& carrier, const State& state) const {

@@ -33,6 +33,11 @@ class ContactRun {
   [[nodiscard]] double half_edges_led(const State& start, double end) const;
   /// A multiplier whose vertex has no contact any more goes to those of the vertices that it was shared with.
   void hand_over_to_all() { hands_to_all_ = true; }
+  /// Every near vertex and face, and every two near edges, are a contact, wherever on them they are nearest:
+  /// the square of such a distance has no kinks. Two edges count by the angle between them where ways begin.
+  void take_every_pair() { every_pair_ = true; }
+  /// Puts rows where ways begin: at the start of the step, or where what is led pushed them.
+  void stand(State& at) const;
   /// Shortens the ways from the start to `to` until nothing passes through anything. The number of rows that
   /// were held back.
   int hold_back(State& to);
@@ -80,6 +85,8 @@ class ContactRun {
   void find_planes();
   void add(const Candidate& candidate, const Found& found, std::int32_t point);
   void bend(const State& to);
+  void sway();
+  void gather_inner_rows(const State& state, std::vector<double>& places) const;
   [[nodiscard]] Vec3 way_turned(const SurfaceCarrier& carrier, const State& to) const;
   int hold_back_carriers(State& to);
   void set_offsets(ContactNumbers& c) const;
@@ -91,20 +98,23 @@ class ContactRun {
   [[nodiscard]] Vec3 reach(const ContactNumbers& contact, ConstReals places) const;
 
   const Contact& contact_;
-  std::vector<std::uint8_t> given_;  ///< of each vertex
+  std::vector<std::uint8_t> given_;  ///< of each mover, and of vertices that rows carry
   std::unique_ptr<Candidates> candidates_;
   std::unique_ptr<HoldBack> held_;
   std::unique_ptr<PushAhead> ahead_;
   std::vector<PlacedPlane> planes_;
-  std::vector<double> begin_;  ///< places of all vertices at the start of the step, …
+  // Places of all vertices, then of rows that carry some and are none:
+  std::vector<double> begin_;  ///< at the start of the step, …
   std::vector<double> from_;   ///< … after what is led went ahead, …
   std::vector<double> now_;    ///< … and where they are looked at
   std::vector<double> bends_;  ///< of each vertex, as HoldBack takes them; empty: nothing free is rigid
+  std::vector<double> sways_;  ///< of each vertex, as HoldBack takes them; empty: rows carry none
   std::vector<double> goal_;   ///< where the latest system led them, before they were held back
   const State* start_ = nullptr;
   const State* looked_at_ = nullptr;
   double end_ = 0.0;
   bool plainly_ = true;
+  bool every_pair_ = false;
   bool hands_to_all_ = false;
   double least_share_ = 1.0;
   std::vector<ContactNumbers> contacts_;

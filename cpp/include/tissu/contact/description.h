@@ -13,11 +13,20 @@
 
 namespace tissu {
 
+/// Vertices of a body's surface that nodes carry: p = sum w x.
+struct SurfaceRiders {
+  std::vector<std::int32_t> vertex = {};  ///< numbers as the primitives have them, ascending
+  std::vector<std::int32_t> begin = {0};  ///< of each in `node` and `weight`, and the end
+  std::vector<std::int32_t> node = {};    ///< of the body
+  std::vector<double> weight = {};        ///< those of a vertex sum to 1
+};
+
 /// The surface of a body or of an obstacle. It is made of triangles, of edges that belong to no triangle
 /// (lines, a capsule) and of vertices that belong to no edge (a sphere).
 struct SurfaceDescription {
   std::string name;  ///< of the body or obstacle
-  /// Of an obstacle: its vertices where it stands at rest [m], three numbers each. A body's are its nodes.
+  /// Of an obstacle: its vertices where it stands at rest [m], three numbers each. A body's are its nodes, or
+  /// what `riders` lists; a negative number is not a node.
   std::vector<double> vertices = {};
   std::vector<std::array<std::int32_t, 3>> triangles = {};  ///< anticlockwise seen from outside
   std::vector<std::array<std::int32_t, 2>> edges = {};
@@ -25,6 +34,9 @@ struct SurfaceDescription {
   /// Half the thickness of what the primitives stand for [m], one number for each vertex; empty: none.
   std::vector<double> radius = {};
   bool closed = false;  ///< its triangles enclose a volume: they are met from outside only
+  SurfaceRiders riders = {};
+  /// Of each node of a body whose nodes cuts parted: the node of the first day that it is a copy of.
+  std::vector<std::int32_t> roots = {};
 };
 
 /// A thing that is not deformed: a plane, or a surface.

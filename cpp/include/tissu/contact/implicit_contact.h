@@ -27,12 +27,14 @@ struct ContactStage {
   double times = 1.0;
 };
 
+class BarrierContact;
+
 class ImplicitContact {
  public:
   /// `mass`: null in static steps; `rest`: diagonal blocks of the stiffness at rest, [row][9], where
-  /// `needs_rest`.
+  /// `needs_rest`; `extent` of the scene [m].
   static std::unique_ptr<ImplicitContact> make(const Contact& contact, const FixedDofs& fixed,
-                                               const Mass* mass, std::vector<double> rest);
+                                               const Mass* mass, std::vector<double> rest, double extent);
   [[nodiscard]] static bool needs_rest(const Contact& contact) {
     return contact.description().method == ContactMethod::penalty;
   }
@@ -41,6 +43,8 @@ class ImplicitContact {
   ImplicitContact(const ImplicitContact&) = delete;
   ImplicitContact& operator=(const ImplicitContact&) = delete;
 
+  /// This, if its forces have a potential along which steps descend; else null.
+  [[nodiscard]] virtual BarrierContact* barrier() { return nullptr; }
   [[nodiscard]] ContactRun& run() { return run_; }
   [[nodiscard]] const ContactRun& run() const { return run_; }
 
@@ -49,7 +53,7 @@ class ImplicitContact {
   void begin(const State& start, double end, ConstReals led, ConstReals load);
   /// The diagonal blocks of the step's matrix without contact, [row][9], which outlive the step, and the
   /// scale of what is added to it: move times push.
-  void set_matrix(std::span<const double> blocks, double scale, const ContactStage& stage);
+  virtual void set_matrix(std::span<const double> blocks, double scale, const ContactStage& stage);
   /// How many times stiffer than that multipliers are against coming nearer, and against sliding: 1, as at
   /// first.
   void set_stiffer(double normal, double tangent);
@@ -85,6 +89,8 @@ class ImplicitContact {
   /// Gives a contact of the latest look, number i, its normal force and stiffness. That force [N]; nothing:
   /// it does not press.
   virtual std::optional<double> press(std::size_t i, ContactNumbers& contact) = 0;
+  /// Adds friction of that bound [N]; k is the stiffness against sliding [N/m].
+  virtual void rub(ContactNumbers& contact, double bound, double k);
 
   [[nodiscard]] const ContactPair& pair_of(const ContactNumbers& contact) const {
     return contact_.description().pairs[static_cast<std::size_t>(contact.pair)];
@@ -103,6 +109,8 @@ class ImplicitContact {
 
   /// Of the step [s].
   [[nodiscard]] double h() const { return h_; }
+  /// Adds to a force and its stiffness.
+  static void add(ContactNumbers& contact, const Vec3& force, const Mat3& H);
 
   const Contact& contact_;
   ContactRun run_;
@@ -111,8 +119,6 @@ class ImplicitContact {
   [[nodiscard]] bool is_carrier(std::int32_t row) const;
   [[nodiscard]] bool is_rigid(const ContactNumbers& contact) const;
   void press_all();
-  /// Adds friction of that bound [N]; k is the stiffness against sliding [N/m].
-  void rub(ContactNumbers& contact, double bound, double k) const;
   [[nodiscard]] Mat3 compliance(const ContactNumbers& contact, std::span<const double> blocks) const;
 
   const FixedDofs& fixed_;

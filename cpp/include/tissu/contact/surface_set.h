@@ -38,17 +38,27 @@ struct SurfaceCarrier {
   std::int32_t rotation = -1;  ///< the row of its rotation
 };
 
+/// A row that carries a vertex of a body, beside others: p = sum weight x.
+struct RiderPart {
+  std::int32_t row;
+  double weight;
+  std::int32_t mover;  ///< number among the movers
+};
+
 struct SurfaceVertex {
-  std::int32_t row = -1;      ///< of the unknown; -1: of an obstacle
+  std::int32_t row = -1;      ///< of the unknown that it is; -1: of an obstacle, or several carry it
   std::int32_t carrier = -1;  ///< of a free obstacle: number among the carriers
-  std::int32_t node = 0;      ///< number in its body or obstacle
+  std::int32_t rider = -1;    ///< number among the vertices that rows carry
+  std::int32_t node = 0;      ///< number in its body or obstacle; negative: the vertex is not a node
   std::int32_t surface = 0;
   double radius = 0.0;  ///< [m]
   double area = 0.0;    ///< a third of its triangles' at rest [m2]
   bool has_faces = false;
   bool is_lone = false;  ///< it has no edge
   /// Unknowns move it; else it is at rest or led.
-  [[nodiscard]] bool is_free() const { return row >= 0 || carrier >= 0; }
+  [[nodiscard]] bool is_free() const { return row >= 0 || carrier >= 0 || rider >= 0; }
+  /// What moves it is deformed.
+  [[nodiscard]] bool is_soft() const { return row >= 0 || rider >= 0; }
 };
 
 class SurfaceSet {
@@ -62,8 +72,9 @@ class SurfaceSet {
     std::int32_t first_vertex;
     std::int32_t last_vertex;
     bool closed;
-    std::int32_t obstacle;      ///< -1: a body
-    std::int32_t carrier = -1;  ///< of a free obstacle: number among the carriers
+    std::int32_t obstacle;        ///< -1: a body
+    std::int32_t carrier = -1;    ///< of a free obstacle: number among the carriers
+    std::int32_t first_row = -1;  ///< of a body: that of its first node
   };
   [[nodiscard]] const std::vector<Surface>& surfaces() const { return surfaces_; }
   [[nodiscard]] const std::vector<SurfaceVertex>& vertices() const { return vertices_; }
@@ -77,6 +88,36 @@ class SurfaceSet {
   [[nodiscard]] const Vec3& arm(std::int32_t vertex) const {
     return arms_[static_cast<std::size_t>(vertex - first_carried_)];
   }
+
+  /// Whether rows carry any vertex.
+  [[nodiscard]] bool has_riders() const { return !rider_part_.empty(); }
+  /// The rows that carry a vertex, which has to be a rider.
+  [[nodiscard]] std::span<const RiderPart> parts(const SurfaceVertex& vertex) const {
+    const auto first = static_cast<std::size_t>(rider_begin_[static_cast<std::size_t>(vertex.rider)]);
+    const auto last = static_cast<std::size_t>(rider_begin_[static_cast<std::size_t>(vertex.rider) + 1]);
+    return std::span(rider_part_).subspan(first, last - first);
+  }
+  /// A row that carries vertices and is not a vertex itself. Movers are numbered: the vertices, then these.
+  struct InnerRow {
+    std::int32_t row;
+    std::int32_t surface;
+  };
+  [[nodiscard]] const std::vector<InnerRow>& inner_rows() const { return inner_rows_; }
+  [[nodiscard]] std::size_t mover_count() const { return vertices_.size() + inner_rows_.size(); }
+  /// The vertices that a mover carries, with its weight.
+  struct Carried {
+    std::int32_t vertex;
+    double weight;
+  };
+  [[nodiscard]] std::span<const Carried> carried_by(std::int32_t mover) const;
+  /// Whether a vertex is one of these nodes of its body, ascending, or all that carry it are.
+  [[nodiscard]] bool is_among(const std::vector<std::int32_t>& nodes, std::int32_t vertex) const;
+  /// Of vertices that rows carry: the same place of material that no cut parted carries both sides of a pair.
+  [[nodiscard]] bool is_joined(std::span<const std::int32_t> first,
+                               std::span<const std::int32_t> second) const;
+  /// Where riders are, of the places of all movers, three numbers each.
+  void place_riders(Reals places) const;
+
   /// The first primitive of each surface, and the end.
   [[nodiscard]] const std::vector<std::int32_t>& first_primitive() const { return first_primitive_; }
 
@@ -110,6 +151,11 @@ class SurfaceSet {
                    std::int32_t first_edge);
   void measure(std::int32_t first_primitive, std::int32_t first_edge);
   void list_neighbours();
+  // surface_riders.cpp
+  /// A vertex of the latest body that nodes carry; its place at rest.
+  Vec3 ride(const SurfaceRiders& riders, std::size_t number, std::int32_t first_row, SurfaceVertex& vertex,
+            ConstReals rest);
+  void list_movers(const ContactDescription& description, std::span<const std::int32_t> first_node);
 
   std::vector<Surface> surfaces_;
   std::vector<SurfaceVertex> vertices_;
@@ -125,6 +171,12 @@ class SurfaceSet {
   std::vector<SurfaceCarrier> carriers_;
   std::vector<Vec3> arms_;  ///< of vertices from the first that is carried on
   std::int32_t first_carried_ = 0;
+  std::vector<RiderPart> rider_part_;
+  std::vector<std::int32_t> rider_begin_ = {0};
+  std::vector<InnerRow> inner_rows_;
+  std::vector<std::int32_t> root_;  ///< of each mover: rows that are copies of one node have one
+  std::vector<Carried> carried_;
+  std::vector<std::int32_t> carried_begin_;  ///< of each mover, and the end; empty: no riders
 };
 
 }  // namespace tissu

@@ -1,0 +1,127 @@
+#include "tissu/contact/barrier.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "tissu/contact/penalty_law.h"
+
+namespace tissu {
+namespace {
+
+constexpr double kLeast = 0.1;      ///< of the gap, beside the radii: d_m
+constexpr double kUsual = 0.25;     ///< sigma at which the stiffness is k
+constexpr double kSteepest = 1e-4;  ///< sigma below which b is a quadratic
+constexpr double kSpeed = 1e-3;     ///< extents a second: slower sliding sticks
+constexpr double kStiff = 3.0;      ///< times as stiff as the surfaces' mean node
+
+std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
+std::array<double, 3> numbers_of(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
+
+/// b, b' and b'' where it has them all.
+BarrierValue plain_value(double sigma) {
+  const double s = sigma - 1.0;
+  const double log = std::log(sigma);
+  return {-s * s * log, -2.0 * s * log - s * s / sigma,
+          -2.0 * log - 4.0 * s / sigma + s * s / (sigma * sigma)};
+}
+
+}  // namespace
+
+BarrierValue barrier_value(double sigma) {
+  if (sigma >= 1.0) return {};
+  if (sigma >= kSteepest) return plain_value(sigma);
+  const BarrierValue end = plain_value(kSteepest);
+  const double more = sigma - kSteepest;
+  return {end.energy + more * (end.slope + 0.5 * more * end.curvature), end.slope + more * end.curvature,
+          end.curvature};
+}
+
+BarrierContact::BarrierContact(const Contact& contact, const FixedDofs& fixed, double extent)
+    : ImplicitContact(contact, fixed), extent_(extent) {
+  run_.take_every_pair();
+  stiffnesses_.assign(contact.description().pairs.size(), 0.0);
+}
+
+/// The mean node's share of a compliance, of both sides.
+void BarrierContact::set_matrix(std::span<const double> blocks, double scale, const ContactStage& stage) {
+  ImplicitContact::set_matrix(blocks, scale, stage);
+  const SurfaceSet& surfaces = contact_.surfaces();
+  std::vector<double> compliances(surfaces.surfaces().size(), 0.0);
+  std::vector<double> counts(compliances.size(), 0.0);
+  const auto count = [&](std::int32_t row, std::int32_t surface) {
+    if (row < 0) return;
+    const double* A = blocks.data() + 9 * static_cast<std::ptrdiff_t>(row);
+    const double trace = A[0] + A[4] + A[8];
+    if (!(trace > 0.0)) return;
+    compliances[at(surface)] += 3.0 / trace;
+    counts[at(surface)] += 1.0;
+  };
+  for (const SurfaceVertex& vertex : surfaces.vertices()) count(vertex.row, vertex.surface);
+  for (const auto& inner : surfaces.inner_rows()) count(inner.row, inner.surface);
+  for (const auto& surface : surfaces.surfaces()) {
+    if (surface.carrier < 0) continue;
+    const auto number = static_cast<std::int32_t>(&surface - surfaces.surfaces().data());
+    count(surfaces.carriers()[at(surface.carrier)].row, number);
+  }
+  for (std::size_t s = 0; s < counts.size(); ++s) compliances[s] /= std::max(1.0, counts[s]);
+  for (std::size_t k = 0; k < stiffnesses_.size(); ++k) {
+    const ContactPair& pair = contact_.description().pairs[k];
+    const double sum = compliances[at(pair.a)] + (pair.b == pair.a ? 0.0 : compliances[at(pair.b)]);
+    stiffnesses_[k] = sum > 0.0 ? kStiff / (sum * scale) : 0.0;
+  }
+}
+
+bool BarrierContact::may_press(std::size_t i) const { return run_.gap(i) < pair_of(run_.looked()[i]).gap; }
+
+std::optional<double> BarrierContact::press(std::size_t i, ContactNumbers& c) {
+  const double range = spring_range(contact_, c);
+  const double gap = std::min(pair_of(c).gap, c.apart);
+  const double least = c.apart - (1.0 - kLeast) * gap;
+  const double d = c.apart + run_.gap(i);
+  const double far = c.apart + range;
+  const double whole = far * far - least * least;
+  const double sigma = (d * d - least * least) / whole;
+  if (!(sigma < 1.0)) return std::nullopt;
+  const double usual = least * least + kUsual * whole;
+  const double k = stiffnesses_[static_cast<std::size_t>(c.pair)];
+  const double B = run_.weight(i) * k * whole * whole / (4.0 * usual * barrier_value(kUsual).curvature);
+  const BarrierValue b = barrier_value(sigma);
+  energy_ += B * b.energy;
+  const double force = -B * b.slope * 2.0 * d / whole;
+  give(c, force, B * b.curvature * 4.0 * d * d / (whole * whole));
+  c.drag = {};
+  c.sliding = 0.0;
+  return force;
+}
+
+void BarrierContact::rub(ContactNumbers& c, double /*bound*/, double /*k*/) {
+  const double F = pair_of(c).friction * c.force;
+  const Vec3 n = vector_of(c.normal);
+  Vec3 slid = run_.gone(c);
+  slid -= n.dot(slid) * n;
+  const double y = slid.norm();
+  const double e = kSpeed * extent_ * (h() > 0.0 ? h() : 1.0);
+  const bool slides = y >= e;
+  energy_ += F * (slides ? y - e / 3.0 : y * y / e - y * y * y / (3.0 * e * e));
+  const double along = slides ? 1.0 / y : 2.0 / e - y / (e * e);  // f1 / y
+  const double steep = slides ? 0.0 : 2.0 / e - 2.0 * y / (e * e);
+  Mat3 H = F * along * (Mat3::Identity() - n * n.transpose());
+  if (y > 0.0) H += F * (steep - along) / (y * y) * slid * slid.transpose();
+  c.sliding = slides ? 1.0 : 0.0;
+  c.drag = numbers_of(-F * along * slid);
+  add(c, vector_of(c.drag), H);
+}
+
+double BarrierContact::lag() {
+  double change = 0.0;
+  double size = 0.0;
+  for (ContactNumbers& c : run_.acting()) {
+    const double force = vector_of(c.normal).dot(vector_of(c.push));
+    change += pair_of(c).friction * std::abs(force - c.force);
+    size += pair_of(c).friction * force;
+    c.force = force;
+  }
+  return size > 0.0 ? change / size : 0.0;
+}
+
+}  // namespace tissu

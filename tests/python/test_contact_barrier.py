@@ -1,0 +1,161 @@
+"""Steps in which contact has a potential that grows without bound as surfaces close."""
+
+import math
+
+import numpy as np
+import pytest
+
+import tissu as ts
+from contact_audit import GRAVITY, audited, block, damped, weight
+from contact_explicit import PER_AREA, THICKNESS, flat, over_a_table
+from test_contact_balance import collision, masses, momentum
+from test_contact_explicit import GAP
+from test_contact_friction import MU, mean_velocity, on_a_slope
+from test_contact_rest import state, two
+
+BARRIER = ts.ContactSettings(method="barrier")
+LEAST = 0.1
+"""Of the gap: what the barrier leaves at least between surfaces."""
+
+
+def slope_of(sigma):
+    """b' of b = -(sigma - 1)^2 ln sigma, as the design states it."""
+    return -2 * (sigma - 1) * math.log(sigma) - (sigma - 1) ** 2 / sigma
+
+
+def force_over_stiffness(height):
+    """Of a vertex of a sheet over a plane, up to a factor that is the same at every height."""
+    radius = 0.5 * THICKNESS
+    least, far = radius + LEAST * GAP, radius + 2 * GAP
+    sigma = (height**2 - least**2) / (far**2 - least**2)
+    assert 0.0 < sigma < 1.0
+    return -slope_of(sigma) * height
+
+
+def test_a_sheet_lies_where_the_law_bears_it():
+    """Each node of a membrane bears its own weight: the law's force goes with its mass.
+
+    Newton's iteration leaves 1e-6 of the load, and what still moves after 1.5 s is damped as far.
+    """
+    found = []
+    for gravity in (GRAVITY, 2 * GRAVITY):
+        body = flat(0.0025, viscosity=damped(40.0, 0.0))
+        scene = over_a_table(body, step=ts.ImplicitEuler("5 ms"), gap=GAP, contact=BARRIER)
+        simulation = scene.replace(gravity=(0, 0, -gravity)).compile()
+        audited(simulation, 300)
+        load = PER_AREA * 0.01 * gravity
+        assert simulation.force_on("table").force[2] == pytest.approx(-load, rel=1e-5)
+        weights = gravity * masses(simulation, "body")
+        assert np.ptp(weights) > weights.min()
+        forces = [force_over_stiffness(z) for z in simulation.positions["body"][:, 2]]
+        found.append(np.array(forces) / weights)
+    assert np.ptp(found) / np.mean(found) < 1e-3
+
+
+@pytest.mark.parametrize("step", [ts.ImplicitEuler, ts.BDF2])
+def test_what_a_report_calls_converged_balances(step):
+    """The change of momentum of a falling cube is its weight and the force of the table.
+
+    Newton's iteration ends at 1e-6 of what acts on the rows; their sum adds the errors of a face.
+    """
+    scene = on_a_slope(0.0).replace(step=step("10 ms"), contact=BARRIER)
+    simulation = scene.compile()
+    mass = masses(simulation, "cube")
+    pressed = 0
+    before = [simulation.velocities["cube"].copy()] * 2
+    for k in range(40):
+        audited(simulation, 1)
+        now = simulation.velocities["cube"].copy()
+        change = (now - before[-1]) if step is ts.ImplicitEuler or k == 0 else (
+            1.5 * now - 2.0 * before[-1] + 0.5 * before[-2]
+        )  # fmt: skip
+        force = mass @ change / 0.01 - np.array([0, 0, -weight()])
+        # Rayleigh's stiffness damping adds no force on the body as a whole.
+        assert force == pytest.approx(simulation.force_on("cube").force, abs=1e-4 * weight())
+        pressed += simulation.force_on("cube").force[2] > 0.1 * weight()
+        before = [before[-1], now]
+    assert pressed > 10
+
+
+def test_below_its_angle_it_creeps_no_faster_than_friction_needs():
+    """Friction reaches its bound at 1e-3 extents a second; 0.9 of the bound acts at 0.69 of it."""
+    simulation = on_a_slope(0.9 * MU, contact=BARRIER).compile()
+    audited(simulation, 100)
+    extent = 0.1 * math.sqrt(3)
+    expected = (1 - math.sqrt(1 - 0.9)) * 1e-3 * extent
+    assert mean_velocity(simulation) == pytest.approx(expected, rel=0.05)
+
+
+def test_above_its_angle_it_slides_by_coulomb_s_law():
+    simulation = on_a_slope(1.1 * MU, contact=BARRIER).compile()
+    audited(simulation, 50)
+    before = mean_velocity(simulation)
+    audited(simulation, 50)
+    phi = math.atan(1.1 * MU)
+    ideal = GRAVITY * (math.sin(phi) - MU * math.cos(phi))
+    assert mean_velocity(simulation) - before == pytest.approx(0.5 * ideal, rel=5e-3)
+
+
+@pytest.mark.parametrize("friction", [0.0, 0.4])
+def test_a_free_collision_keeps_the_linear_momentum(friction):
+    """To the tolerance of Newton's iteration, 1e-6 of the momentum that changes, in 40 steps."""
+    scene = collision(ts.ImplicitEuler("2 ms", solver=ts.Cholesky()), friction=friction)
+    simulation = scene.replace(contact=BARRIER).compile()
+    start = momentum(simulation)
+    felt = 0.0
+    for _ in range(40):
+        audited(simulation, 1)
+        force = simulation.force_on("a").force
+        size = np.abs(force).max()
+        assert np.abs(force + simulation.force_on("b").force).max() <= 1e-12 * max(size, 1e-12)
+        felt = max(felt, size)
+    assert felt > 10.0
+    assert np.abs(momentum(simulation) - start).max() <= 4e-5
+
+
+def test_thickness_is_not_entered_at_any_speed():
+    """A cube meets a fixed ball at 20 m/s in steps of 10 ms: four times its edge in a step."""
+    cube = block(young=1e5, start=ts.Start(velocity=(0, 0, -20)), law=ts.StableNeoHooke(
+        young=1e5, poisson=0.3))  # fmt: skip
+    scene = ts.Scene(
+        bodies={"cube": cube},
+        obstacles={"ball": ts.SphereObstacle((0.05, 0.05, -0.1), 0.05)},
+        contacts=[ts.Contact(("cube", "ball"))],
+        contact=BARRIER,
+        step=ts.ImplicitEuler("10 ms"),
+    )
+    simulation = scene.compile()
+    for _ in range(6):
+        simulation.step()
+        assert simulation.crossings() == []
+        assert simulation.overlaps() == []
+
+
+def test_threads_and_a_run_that_is_resumed_change_no_bit(tmp_path):
+    """Two cubes fall on each other, a table and a ball; resumed in the middle of it."""
+    found = []
+    for threads in (1, 2):
+        scene = two(threads=threads, contact=BARRIER)
+        simulation = scene.compile()
+        for _ in range(16):
+            simulation.step()
+            assert simulation.crossings() == []
+        simulation.save_checkpoint(tmp_path / "middle.ckpt")
+        for _ in range(6):
+            simulation.step()
+        found.append(state(simulation))
+    again = scene.compile(checkpoint=tmp_path / "middle.ckpt")
+    for _ in range(6):
+        again.step()
+    assert found[0] == found[1] == state(again)
+
+
+def test_steps_that_have_no_barrier_are_refused():
+    scene = on_a_slope(0.0, contact=BARRIER)
+    for step in (ts.Static(), ts.ImplicitMidpoint("10 ms"), ts.SymplecticEuler()):
+        with pytest.raises(
+            ts.errors.SceneError, match="of the method barrier; accepted with contact"
+        ):
+            scene.replace(step=step).compile()
+    with pytest.raises(ts.errors.SceneError, match="found false beside the method barrier"):
+        on_a_slope(0.0, contact=BARRIER.replace(travel=False)).compile()

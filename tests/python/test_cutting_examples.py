@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import json
+import runpy
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import tissu as ts
@@ -25,6 +27,24 @@ def test_the_scalpel_leaves_one_incision(tmp_path: Path) -> None:
     area = sum(cut["area"] for cut in cuts)
     assert area == pytest.approx(0.037 * 0.014, rel=0.25)
     assert abs(sum(cut["mass_change"] for cut in cuts)) < 1e-12
+
+
+def test_the_incision_opens_in_a_folder_that_is_not_there_yet(tmp_path: Path) -> None:
+    program = runpy.run_path(str(EXAMPLES / "incision.py"))
+    simulation = program["main"](tmp_path / "results")
+    assert (tmp_path / "results" / "incision.pvd").is_file()
+    assert (tmp_path / "results" / "incision.png").is_file()
+    (piece,) = simulation.pieces("tissue")
+    assert piece.volume == pytest.approx(0.12 * 0.06 * 0.024, rel=1e-12)
+    # 13 mm deep along a bow over 36 mm that is 6 mm high, so 38.5 mm long; its front a cell behind.
+    surface = simulation.surface("tissue")
+    a, b, c = surface.points[surface.triangles[surface.cut]].swapaxes(0, 1)
+    walls = np.linalg.norm(np.cross(b - a, c - a), axis=1).sum() / 2
+    assert walls == pytest.approx(2 * 0.013 * 0.0385, rel=0.25)
+    # The walls part, by less than the 24 mm by which the block was drawn out.
+    positions = simulation.positions["tissue"]
+    parted = np.linalg.norm(positions - positions[simulation.born("tissue")], axis=1)
+    assert 3e-3 < parted.max() < 24e-3
 
 
 def test_the_strip_tears_from_its_notch() -> None:

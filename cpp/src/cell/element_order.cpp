@@ -3,6 +3,10 @@
 #include <algorithm>
 #include <bit>
 #include <numeric>
+#include <tuple>
+
+#include "chunk_lanes.h"
+#include "tissu/cell/chunk_plan.h"
 
 namespace tissu {
 namespace {
@@ -64,19 +68,12 @@ std::size_t end_between(std::span<const std::int32_t> together, const std::vecto
   return last > begin ? last : end;
 }
 
-/// Lanes of a group take elements far apart in their chunk, so that they seldom share a node and the sums of
-/// one lane do not wait for those of the lane before.
 void lay_chunk(std::span<const std::int32_t> elements, ElementOrder& order) {
-  const auto count = static_cast<std::int32_t>(elements.size());
-  const std::int32_t groups = (count + ElementOrder::kLanes - 1) / ElementOrder::kLanes;
   const std::int32_t first = order.groups();
-  for (std::int32_t g = 0; g < groups; ++g) {
-    for (std::int32_t lane = 0; lane < ElementOrder::kLanes; ++lane) {
-      const std::int32_t i = lane * groups + g;
-      order.element.push_back(elements[static_cast<std::size_t>(std::min(i, count - 1))]);
-      order.real.push_back(i < count ? 1 : 0);
-    }
-  }
+  const std::int32_t groups = groups_for(elements.size());
+  order.element.resize(order.element.size() + static_cast<std::size_t>(groups * ElementOrder::kLanes));
+  order.real.resize(order.element.size());
+  lay_lanes(elements, first, order);
   order.chunks.push_back({first, first + groups, nullptr, 0});
 }
 
@@ -108,52 +105,6 @@ std::vector<std::int32_t> colour_chunks(const ElementOrder& order, std::span<con
   return colour;
 }
 
-void sort_by_colour(const std::vector<std::int32_t>& colour, ElementOrder& order) {
-  std::vector<std::size_t> index(colour.size());
-  std::iota(index.begin(), index.end(), std::size_t{0});
-  std::ranges::stable_sort(index, {}, [&](std::size_t c) { return colour[c]; });
-  std::vector<Chunk> chunks;
-  order.colour_begin.assign(1, 0);
-  for (std::size_t i = 0; i < index.size(); ++i) {
-    if (i > 0 && colour[index[i]] != colour[index[i - 1]])
-      order.colour_begin.push_back(static_cast<std::int32_t>(i));
-    chunks.push_back(order.chunks[index[i]]);
-  }
-  order.colour_begin.push_back(static_cast<std::int32_t>(chunks.size()));
-  order.chunks = std::move(chunks);
-}
-
-/// Lists the nodes of each chunk, and gives each element its nodes' places among them.
-void pack_nodes(std::span<const std::int32_t> cells, int size, ElementOrder& order) {
-  std::vector<std::size_t> first;
-  order.places.resize(order.element.size() * static_cast<std::size_t>(size));
-  for (Chunk& chunk : order.chunks) {
-    const auto begin = static_cast<std::size_t>(chunk.begin) * ElementOrder::kLanes;
-    const auto end = static_cast<std::size_t>(chunk.end) * ElementOrder::kLanes;
-    std::vector<std::int32_t> nodes;
-    for (std::size_t i = begin; i < end; ++i) {
-      const auto cell =
-          cells.subspan(static_cast<std::size_t>(order.element[i] * size), static_cast<std::size_t>(size));
-      nodes.insert(nodes.end(), cell.begin(), cell.end());
-    }
-    std::ranges::sort(nodes);
-    nodes.erase(std::ranges::unique(nodes).begin(), nodes.end());
-    for (std::size_t i = begin; i < end; ++i) {
-      for (std::size_t a = 0; a < static_cast<std::size_t>(size); ++a) {
-        const std::int32_t node = cells[static_cast<std::size_t>(order.element[i] * size) + a];
-        const auto place = std::ranges::lower_bound(nodes, node) - nodes.begin();
-        const std::size_t group = i / ElementOrder::kLanes;
-        order.places[(group * static_cast<std::size_t>(size) + a) * ElementOrder::kLanes +
-                     i % ElementOrder::kLanes] = static_cast<std::uint16_t>(4 * place);
-      }
-    }
-    first.push_back(order.nodes.size());
-    chunk.node_count = static_cast<std::int32_t>(nodes.size());
-    order.nodes.insert(order.nodes.end(), nodes.begin(), nodes.end());
-  }
-  for (std::size_t c = 0; c < first.size(); ++c) order.chunks[c].nodes = order.nodes.data() + first[c];
-}
-
 }  // namespace
 
 ElementOrder order_elements(std::span<const std::int32_t> cells, int size, ConstReals positions,
@@ -170,6 +121,35 @@ ElementOrder order_elements(std::span<const std::int32_t> cells, int size, Const
   }
   sort_by_colour(colour_chunks(order, cells, size, positions.size() / 3), order);
   pack_nodes(cells, size, order);
+  return order;
+}
+
+ElementOrder order_by(const ChunkPlan& plan, const PlannedCells& cells) {
+  const auto origin = [&](std::int32_t e) {
+    return static_cast<std::size_t>(cells.origins[static_cast<std::size_t>(e)]);
+  };
+  std::vector<std::int32_t> curve(cells.numbers.size());
+  std::iota(curve.begin(), curve.end(), 0);
+  std::ranges::sort(curve, {}, [&](std::int32_t e) {
+    return std::tuple(plan.chunk[origin(e)], plan.place[origin(e)],
+                      cells.numbers[static_cast<std::size_t>(e)]);
+  });
+  ElementOrder order;
+  std::vector<std::int32_t> colour;
+  std::int32_t alone = plan.colour.empty() ? 0 : std::ranges::max(plan.colour) + 1;
+  for (std::size_t begin = 0, end = 0; begin < curve.size(); begin = end) {
+    const std::int32_t chunk = plan.chunk[origin(curve[begin])];
+    while (end < curve.size() && plan.chunk[origin(curve[end])] == chunk) ++end;
+    const std::int32_t parts = chunk_parts(end - begin, cells.size);
+    for (std::int32_t p = 0; p < parts; ++p) {
+      const std::size_t first = first_of_part(end - begin, p, parts);
+      lay_chunk(std::span(curve).subspan(begin + first, first_of_part(end - begin, p + 1, parts) - first),
+                order);
+      colour.push_back(p == 0 ? plan.colour[static_cast<std::size_t>(chunk)] : alone++);
+    }
+  }
+  sort_by_colour(colour, order);
+  pack_nodes(cells.nodes, cells.size, order);
   return order;
 }
 

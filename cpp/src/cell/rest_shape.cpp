@@ -4,6 +4,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace tissu {
 namespace {
@@ -118,6 +119,35 @@ class Layout {
     shape_.volumes.assign(affine.size(), 0.0);
   }
 
+  /// To lay volume cells anew in a shape that is there.
+  Layout(const RestCells& cells, const ElementOrder& order, RestShape shape)
+      : cells_(cells),
+        order_(order),
+        m_(static_cast<std::size_t>(cells.reference.dimension)),
+        triangular_(shape.reals == 7),
+        in_plane_(false),
+        shape_(std::move(shape)) {
+    const auto& points = cells.reference.points;
+    double total = 0.0;
+    for (const auto& point : points) total += point.weight;
+    for (const auto& point : points)
+      volume_of_point_.push_back(shape_.rest_points == 1 ? total : point.weight);
+    const std::size_t entries = order.element.size() * static_cast<std::size_t>(shape_.rest_points);
+    shape_.rest.resize(entries * shape_.reals);
+    shape_.volumes.resize(cells.nodes.size() / static_cast<std::size_t>(cells.reference.nodes), 0.0);
+  }
+
+  RestShape lay(std::span<const ElementOrder::Run> runs) {
+    for (const ElementOrder::Run run : runs) {
+      const auto end = static_cast<std::size_t>(run.end) * kLanes;
+      for (std::size_t i = static_cast<std::size_t>(run.begin) * kLanes; i < end; ++i) {
+        if (order_.real[i] != 0) shape_.volumes[static_cast<std::size_t>(order_.element[i])] = 0.0;
+        lay_cell(i);
+      }
+    }
+    return std::move(shape_);
+  }
+
   RestShape lay() {
     for (std::size_t i = 0; i < order_.element.size(); ++i) {
       const bool good = lay_cell(i);
@@ -191,6 +221,11 @@ std::vector<char> affine_cells(const ReferenceCell& reference, const std::vector
 
 RestShape rest_shape(const RestCells& cells, const ElementOrder& order, RestForm form) {
   return Layout(cells, order, form).lay();
+}
+
+void lay_rest(const RestCells& cells, const ElementOrder& order, std::span<const ElementOrder::Run> runs,
+              RestShape& shape) {
+  shape = Layout(cells, order, std::move(shape)).lay(runs);
 }
 
 }  // namespace tissu

@@ -3,19 +3,20 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <optional>
 #include <set>
 #include <span>
 #include <string_view>
 
+#include "cut_surface.h"
+#include "edit/cut/quad_halves.h"
 #include "tissu/element/reference_cell.h"
 #include "tissu/mesh/topology.h"
 
 namespace tissu {
 namespace {
-
-constexpr double kSame = 1e-9;  ///< share by which the diagonals of a quad may differ and count as equal
 
 std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
@@ -171,18 +172,6 @@ void thicken(const std::vector<Piece<n>>& sheets, const std::vector<Corners<n>>&
   }
 }
 
-void add_halves(ConstReals points, const std::vector<Corners<4>>& quads, std::vector<Corners<3>>& triangles) {
-  for (const Corners<4>& q : quads) {
-    const double first = (block(points, q[2]) - block(points, q[0])).norm();
-    const double second = (block(points, q[3]) - block(points, q[1])).norm();
-    const bool equal = std::abs(first - second) <= kSame * (first + second);
-    const bool lowest = (std::ranges::min_element(q) - q.begin()) % 2 == 0;
-    const bool along_first = equal ? lowest : first < second;
-    triangles.push_back({q[0], q[1], along_first ? q[2] : q[3]});
-    triangles.push_back({along_first ? q[0] : q[1], q[2], q[3]});
-  }
-}
-
 /// Pieces of lines outside the volume that are not an edge of a triangle, each once, with their radius.
 void add_lines(const std::vector<Piece<2>>& lines, const VolumeCells& volume, SurfaceDescription& surface) {
   std::set<Corners<2>> known;
@@ -215,7 +204,9 @@ SurfaceDescription body_surface(const BodyDescription& body) {
   thicken(triangles, outer.triangles, surface.radius);
   thicken(quads, outer.quads, surface.radius);
   surface.triangles = std::move(outer.triangles);
-  add_halves(body.positions, outer.quads, surface.triangles);
+  for (const Corners<4>& quad : outer.quads) {
+    add_halves(body.positions, quad, std::identity(), surface.triangles);
+  }
   add_lines(pieces_of(runs, &Pieces::lines), volume, surface);
   surface.closed = !open && !open_too && !surface.triangles.empty();
   if (std::ranges::all_of(surface.radius, [](double r) { return r == 0.0; })) surface.radius.clear();
@@ -225,7 +216,8 @@ SurfaceDescription body_surface(const BodyDescription& body) {
 void renew_surface(WorldDescription& description, const BodyDescription& body) {
   if (!description.contact) return;
   for (SurfaceDescription& surface : description.contact->bodies) {
-    if (surface.name == body.name) surface = body_surface(body);
+    if (surface.name != body.name) continue;
+    surface = body.cut == nullptr ? body_surface(body) : cut_surface(body, *description.contact);
   }
 }
 

@@ -14,8 +14,8 @@ namespace tissu {
 SurfaceDescription body_surface(const BodyDescription& body);
 
 /// After any edit of a body: its surface in the contacts of the description, if it has one, becomes that of
-/// its cells. What contacts remember stays with the vertices, edges and triangles that are still there
-/// (tissu/contact/surface_change.h).
+/// its cells, or of its material where blades met it (cut_surface.h). What contacts remember stays with the
+/// vertices, edges and triangles that are still there (tissu/contact/surface_change.h).
 void renew_surface(WorldDescription& description, const BodyDescription& body);
 
 }  // namespace tissu

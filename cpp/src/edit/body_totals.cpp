@@ -4,10 +4,9 @@
 
 namespace tissu {
 
-BodyTotals totals(const World& world, const State& state, std::string_view name) {
+BodyTotals totals(const World& world, const State& state, std::span<const std::int32_t> rows) {
   BodyTotals result;
-  const Body& body = world.body(name);
-  for (std::int32_t row = body.first_node; row < body.first_node + body.node_count; ++row) {
+  for (const std::int32_t row : rows) {
     const double m = world.mass().nodal()[static_cast<std::size_t>(row)];
     const Vec3 p = m * block(ConstReals(state.velocities), row);
     const Vec3 x = block(ConstReals(state.positions), row);
@@ -16,6 +15,14 @@ BodyTotals totals(const World& world, const State& state, std::string_view name)
     result.angular_momentum += x.cross(p);
     if (m > 0.0) result.kinetic += 0.5 * p.squaredNorm() / m;
   }
+  return result;
+}
+
+BodyTotals totals(const World& world, const State& state, std::string_view name) {
+  const Body& body = world.body(name);
+  std::vector<std::int32_t> rows(static_cast<std::size_t>(body.node_count));
+  std::iota(rows.begin(), rows.end(), body.first_node);
+  BodyTotals result = totals(world, state, rows);
   Scratch scratch;
   for (const BodyModel* model : body.models) {
     result.elastic += model->energy(state, scratch);

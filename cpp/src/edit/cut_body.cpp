@@ -1,33 +1,20 @@
 #include "tissu/edit/cut_body.h"
 
-#include <algorithm>
 #include <utility>
 
+#include "cut_edit.h"
 #include "described.h"
+#include "tissu/base/error.h"
+#include "tissu/contact/audit.h"
 
 namespace tissu {
 namespace {
 
-/// Nodes without material: those from before, old ones that lose it, and new ones that never have any.
-std::vector<std::int32_t> bare_after(const BodyDescription& body, const CutPlan& plan) {
-  std::vector<std::int32_t> bare = body.bare;
-  bare.insert(bare.end(), plan.emptied.begin(), plan.emptied.end());
-  for (std::size_t i = 0; i < plan.nodes.size(); ++i) {
-    if (!plan.nodes[i].material) bare.push_back(plan.first_node + static_cast<std::int32_t>(i));
-  }
-  std::ranges::sort(bare);
-  bare.erase(std::ranges::unique(bare).begin(), bare.end());
-  return bare;
-}
-
 BodyEdit edit_of(const BodyDescription& body, const CutState& before, const CutPlan& plan) {
   BodyEdit edit;
-  edit.gone = plan.gone;
-  for (const BornCell& cell : plan.born)
-    edit.born.push_back({cell.number, cell.parent, cell.share, cell.nodes});
-  for (const ChangedCell& cell : plan.changed) edit.moved.push_back({cell.number, cell.nodes});
+  set_cells(plan, edit);
   for (const BornNode& node : plan.nodes) edit.copied.push_back(node.copied);
-  edit.bare = bare_after(body, plan);
+  edit.bare = bare_after(body.bare, plan);
   CutState after = before;
   after.hosts.apply(plan);
   after.material.apply(plan);
@@ -35,41 +22,50 @@ BodyEdit edit_of(const BodyDescription& body, const CutState& before, const CutP
   return edit;
 }
 
-void make(const World& world, const State& state, std::string_view name, const CutState& before,
-          BodyCut& cut) {
-  const CutPlan& plan = cut.plan;
-  if (plan.gone.empty() && plan.changed.empty() && plan.material.cells.empty() &&
-      plan.material.incisions.empty())
-    return;
-  const BodyEdit edit = edit_of(described(world, name), before, cut.plan);
-  cut.world = edit_body(world, state, name, edit);
-  cut.copies = row_copies(world, name, edit);
+/// Walls of a cut begin apart in sound material. Where walls of an earlier one are pressed into each other by
+/// a share of their gap, thin parts of a new one may not.
+void refuse_crossings(const World& world, const State& state, std::string_view name, const CutWorld& cut) {
+  if (world.contact() == nullptr || !world.contact()->description().travel) return;
+  State after = state;
+  copy_rows(cut.copies, after.positions);
+  const auto many = crossings(*cut.world->contact(), after).size();
+  if (many == 0 || many <= crossings(*world.contact(), state).size()) return;
+  throw ParameterError(
+      "the cut would leave body \"" + std::string(name) + "\" crossing itself in " + std::to_string(many) +
+      (many == 1 ? " place" : " places") +
+      ", where walls of an earlier cut press on each other or cells are inside out; let them "
+      "part or settle first, and cut then.");
 }
 
 }  // namespace
 
-BodyCut cut_body(const World& world, const State& state, std::string_view name, const Sweep& sweep,
-                 const CutOptions& options) {
+bool changes(const CutPlan& plan) {
+  return !plan.gone.empty() || !plan.changed.empty() || !plan.material.cells.empty() ||
+         !plan.material.incisions.empty();
+}
+
+CutPlan plan_body_cut(const World& world, const State& state, std::string_view name, const Sweep& sweep,
+                      const CutOptions& options) {
   const BodyDescription& body = described(world, name);
   refuse_unparted(*world.description(), body);
   const auto first = 3 * static_cast<std::size_t>(world.body(name).first_node);
   const std::shared_ptr<const CutState> before = cut_state(world, name);
-  BodyCut result;
-  result.plan = plan_cut(before->hosts, before->material,
-                         ConstReals(state.positions).subspan(first, body.positions.size()), sweep, options);
-  make(world, state, name, *before, result);
-  return result;
+  return plan_cut(before->hosts, before->material,
+                  ConstReals(state.positions).subspan(first, body.positions.size()), sweep, options);
 }
 
-BodyCut ablate_body(const World& world, const State& state, std::string_view name,
-                    std::vector<std::int32_t> cells) {
+CutPlan plan_body_ablation(const World& world, std::string_view name, std::vector<std::int32_t> cells) {
   const BodyDescription& body = described(world, name);
   refuse_unparted(*world.description(), body);
   const std::shared_ptr<const CutState> before = cut_state(world, name);
-  BodyCut result;
-  result.plan = plan_ablation(before->hosts, before->material, std::move(cells));
-  make(world, state, name, *before, result);
-  return result;
+  return plan_ablation(before->hosts, before->material, std::move(cells));
+}
+
+CutWorld cut_world(const World& world, const State& state, std::string_view name, const CutPlan& plan) {
+  const BodyEdit edit = edit_of(described(world, name), *cut_state(world, name), plan);
+  CutWorld made = {edit_body(world, state, name, edit), row_copies(world, name, edit)};
+  refuse_crossings(world, state, name, made);
+  return made;
 }
 
 }  // namespace tissu

@@ -58,7 +58,8 @@ CutState cut_state_of(BodyDescription body, Material material) {
 
 std::shared_ptr<const CutState> cut_state(const World& world, std::string_view name) {
   const BodyDescription& body = described(world, name);
-  return body.cut != nullptr ? body.cut : std::make_shared<const CutState>(cut_state_of(body));
+  if (body.cut != nullptr) return body.cut;
+  return body.uncut != nullptr ? body.uncut : std::make_shared<const CutState>(cut_state_of(body));
 }
 
 }  // namespace tissu

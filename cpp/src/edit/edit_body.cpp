@@ -6,6 +6,8 @@
 #include <unordered_map>
 #include <utility>
 
+#include "body_surface.h"
+#include "cut_surface.h"
 #include "debris.h"
 #include "parted_loads.h"
 #include "tissu/base/error.h"
@@ -167,11 +169,10 @@ void refuse_unparted(const WorldDescription& description, const BodyDescription&
     }
   }
   if (!description.contact) return;
-  for (const SurfaceDescription& surface : description.contact->bodies) {
-    if (surface.name == body.name) {
-      refuse("it is in contact, whose surface a cut does not part yet; leave it out of contacts");
-    }
-  }
+  const bool meets = std::ranges::any_of(description.contact->bodies, [&](const SurfaceDescription& surface) {
+    return surface.name == body.name;
+  });
+  if (meets) refuse_curved(body);
 }
 
 BodyDescription edited(BodyDescription body, const BodyEdit& edit) {
@@ -180,6 +181,7 @@ BodyDescription edited(BodyDescription body, const BodyEdit& edit) {
   edit_cells(body, edit);
   body.bare = edit.bare;
   body.cut = edit.cut;
+  body.uncut = nullptr;
   body.next_cell = std::max(body.next_cell, edit.next_cell);
   return body;
 }
@@ -194,11 +196,13 @@ std::shared_ptr<const World> edit_body(const World& world, const State& state, s
   refuse_unparted(description, body);
   body = edited(std::move(body), edit);
   part_supports(description, body, edit);
-  part_loads(description, body, edit.copied);
+  part_loads(description, body);
   refuse_live_changes(world, state, *world.description(), description);
   std::erase_if(description.fixed, [](const FixedNodes& fixed) { return fixed.nodes.empty(); });
   hold_debris(description, body, state, world.body(name).first_node);
-  return std::make_shared<const World>(std::move(description), nullptr);
+  if (description.contact) part_pairs(*description.contact, body, edit.copied);
+  renew_surface(description, body);
+  return std::make_shared<World>(std::move(description), &world, true);
 }
 
 std::vector<RowCopy> row_copies(const World& world, std::string_view name, const BodyEdit& edit) {

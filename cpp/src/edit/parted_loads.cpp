@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <unordered_map>
+#include <unordered_set>
 
 #include "tissu/element/reference_cell.h"
 
@@ -46,62 +47,93 @@ void add_masses(const BodyDescription& body, Masses& masses) {
   }
 }
 
-/// The nodes among which the load of each parted node is shared, itself among them where it keeps some.
-std::unordered_map<std::int32_t, std::vector<std::int32_t>> copies_with_material(
-    const BodyDescription& body, const std::vector<std::int32_t>& copied) {
-  const auto first = static_cast<std::int32_t>(body.positions.size() / 3 - copied.size());
-  const auto is_bare = [&](std::int32_t node) { return std::ranges::binary_search(body.bare, node); };
-  std::unordered_map<std::int32_t, std::vector<std::int32_t>> result;
-  for (std::size_t k = 0; k < copied.size(); ++k) {
-    std::vector<std::int32_t>& sharers = result[copied[k]];
-    const auto copy = first + static_cast<std::int32_t>(k);
-    if (sharers.empty() && !is_bare(copied[k])) sharers.push_back(copied[k]);
-    if (!is_bare(copy)) sharers.push_back(copy);
+/// The nodes of a body by the node of the first day that they come from.
+struct Family {
+  const BodyDescription& body;
+  std::int32_t first_day = static_cast<std::int32_t>(body.positions.size() / 3 - body.copies_of.size());
+
+  [[nodiscard]] std::int32_t root(std::int32_t node) const {
+    return node < first_day ? node : body.copies_of[static_cast<std::size_t>(node - first_day)];
   }
-  return result;
+  /// Those with material of each node that has copies, ascending.
+  [[nodiscard]] std::unordered_map<std::int32_t, std::vector<std::int32_t>> sharers() const {
+    const auto is_bare = [&](std::int32_t node) { return std::ranges::binary_search(body.bare, node); };
+    std::unordered_map<std::int32_t, std::vector<std::int32_t>> result;
+    for (std::size_t k = 0; k < body.copies_of.size(); ++k) {
+      const std::int32_t root = body.copies_of[k];
+      const auto [found, is_new] = result.try_emplace(root);
+      if (is_new && !is_bare(root)) found->second.push_back(root);
+      const auto copy = first_day + static_cast<std::int32_t>(k);
+      if (!is_bare(copy)) found->second.push_back(copy);
+    }
+    return result;
+  }
+};
+
+using Sharers = std::unordered_map<std::int32_t, std::vector<std::int32_t>>;
+
+/// Collects the load of each first-day node from its copies, and shares it among the copies that have
+/// material now. Shares of earlier edits leave no trace.
+LoadDescription shared(const LoadDescription& load, const Family& family, const Sharers& sharers,
+                       const Masses& masses) {
+  LoadDescription parted = load;
+  parted.nodes.clear();
+  parted.forces.clear();
+  const auto add = [&](std::int32_t node, const Vec3& force) {
+    parted.nodes.push_back(node);
+    parted.forces.insert(parted.forces.end(), force.data(), force.data() + 3);
+  };
+  std::unordered_map<std::int32_t, Vec3> whole;  // of each node of the first day that has copies
+  for (std::size_t i = 0; i < load.nodes.size(); ++i) {
+    const std::int32_t root = family.root(load.nodes[i]);
+    if (!sharers.contains(root)) continue;
+    whole.try_emplace(root, Vec3::Zero()).first->second +=
+        block(ConstReals(load.forces), static_cast<std::int32_t>(i));
+  }
+  std::unordered_set<std::int32_t> done;
+  for (std::size_t i = 0; i < load.nodes.size(); ++i) {
+    const std::int32_t root = family.root(load.nodes[i]);
+    const auto found = sharers.find(root);
+    double mass = 0.0;
+    if (found != sharers.end()) {
+      for (const std::int32_t one : found->second) mass += masses.at(one);
+    }
+    if (found == sharers.end()) {
+      add(load.nodes[i], block(ConstReals(load.forces), static_cast<std::int32_t>(i)));
+      continue;
+    }
+    if (!done.insert(root).second) continue;
+    if (!(mass > 0.0)) {  // no material is left there
+      add(root, whole.at(root));
+      continue;
+    }
+    for (const std::int32_t one : found->second) {
+      const double share = masses.at(one) / mass;
+      if (share > 0.0) add(one, share * whole.at(root));
+    }
+  }
+  return parted;
 }
 
 }  // namespace
 
-void part_loads(WorldDescription& description, const BodyDescription& body,
-                const std::vector<std::int32_t>& copied) {
-  if (copied.empty()) return;
-  const auto sharers = copies_with_material(body, copied);
+void part_loads(WorldDescription& description, const BodyDescription& body) {
+  if (body.copies_of.empty()) return;
+  const Family family{body};
+  const auto sharers = family.sharers();
   Masses masses;
   for (const LoadDescription& load : description.loads) {
     if (load.body != body.name) continue;
     for (const std::int32_t node : load.nodes) {
-      const auto found = sharers.find(node);
+      const auto found = sharers.find(family.root(node));
       if (found == sharers.end()) continue;
       for (const std::int32_t one : found->second) masses[one] = 0.0;
     }
   }
+  if (masses.empty()) return;
   add_masses(body, masses);
   for (LoadDescription& load : description.loads) {
-    if (load.body != body.name) continue;
-    LoadDescription parted = load;
-    parted.nodes.clear();
-    parted.forces.clear();
-    const auto add = [&](std::int32_t node, const Vec3& force) {
-      parted.nodes.push_back(node);
-      parted.forces.insert(parted.forces.end(), force.data(), force.data() + 3);
-    };
-    for (std::size_t i = 0; i < load.nodes.size(); ++i) {
-      const Vec3 force = block(ConstReals(load.forces), static_cast<std::int32_t>(i));
-      const auto found = sharers.find(load.nodes[i]);
-      double whole = 0.0;
-      if (found != sharers.end()) {
-        for (const std::int32_t one : found->second) whole += masses[one];
-      }
-      if (!(whole > 0.0)) {
-        add(load.nodes[i], force);
-        continue;
-      }
-      for (const std::int32_t one : found->second) {
-        if (masses[one] > 0.0) add(one, masses[one] / whole * force);
-      }
-    }
-    load = std::move(parted);
+    if (load.body == body.name) load = shared(load, family, sharers, masses);
   }
 }
 

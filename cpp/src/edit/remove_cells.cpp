@@ -5,6 +5,7 @@
 
 #include "body_surface.h"
 #include "debris.h"
+#include "parted_loads.h"
 #include "tissu/base/error.h"
 #include "tissu/edit/cut_state.h"
 
@@ -39,6 +40,7 @@ std::shared_ptr<const World> remove_cells(const World& world, const State& state
     throw ParameterError("body \"" + edited.name + "\" has no cell " +
                          std::to_string(*std::ranges::min_element(wanted)) + " (any more).");
   }
+  edited.uncut = nullptr;
   if (edited.cut != nullptr) {
     CutState left = *edited.cut;
     left.hosts.remove(cells);
@@ -46,9 +48,10 @@ std::shared_ptr<const World> remove_cells(const World& world, const State& state
     edited.cut = std::make_shared<const CutState>(std::move(left));
   }
   std::erase_if(edited.elastic, [](const ElasticBlock& block) { return block.cells.empty(); });
+  part_loads(description, edited);
   hold_debris(description, edited, state, world.body(body).first_node);
   renew_surface(description, edited);
-  return std::make_shared<const World>(std::move(description), &world);
+  return std::make_shared<World>(std::move(description), &world);
 }
 
 std::vector<std::int32_t> remaining_cells(const World& world, std::string_view body) {

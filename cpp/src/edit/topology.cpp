@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <numeric>
 #include <unordered_map>
 #include <utility>
 
@@ -14,21 +15,48 @@
 namespace tissu {
 namespace {
 
-void add_cut(const BodyDescription& body, BodyTopology& to) {
-  to.cells.clear();
+/// A cell of a description, with what it is made of.
+struct Listed {
+  std::int32_t number;
+  const ElasticBlock* block;
+  std::size_t place;
+};
+
+/// All cells of a body by ascending number: edits in place leave them in the order in which they were made.
+std::vector<Listed> listed(const BodyDescription& body) {
+  std::vector<Listed> cells;
   for (const ElasticBlock& block : body.elastic) {
-    const std::vector<std::int32_t>& numbers = block.cell_numbers;
-    to.cells.insert(to.cells.end(), numbers.begin(), numbers.end());
-    const std::vector<std::int32_t>& origins = block.origins.empty() ? numbers : block.origins;
-    to.origins.insert(to.origins.end(), origins.begin(), origins.end());
-    to.nodes.insert(to.nodes.end(), block.cells.begin(), block.cells.end());
-    for (std::size_t i = 0; i < numbers.size(); ++i)
-      to.shares.push_back(of_cell(block.share, static_cast<std::int32_t>(i)));
+    for (std::size_t i = 0; i < block.cell_numbers.size(); ++i)
+      cells.push_back({block.cell_numbers[i], &block, i});
+  }
+  std::ranges::sort(cells, {}, &Listed::number);
+  return cells;
+}
+
+void add_cut(const BodyDescription& body, BodyTopology& to) {
+  for (const auto& [number, block, place] : listed(body)) {
+    to.origins.push_back(block->origins.empty() ? number : block->origins[place]);
+    to.shares.push_back(of_cell(block->share, static_cast<std::int32_t>(place)));
+    const std::size_t nodes = block->cells.size() / block->cell_numbers.size();
+    const auto first = block->cells.begin() + static_cast<std::ptrdiff_t>(place * nodes);
+    to.nodes.insert(to.nodes.end(), first, first + static_cast<std::ptrdiff_t>(nodes));
   }
   to.copies_of = body.copies_of;
   to.bare = body.bare;
   to.next_cell = body.next_cell;
   to.material = pack(body.cut->material);
+}
+
+/// Loose nodes ascend, whatever the order in which they came loose.
+void add_loose(const LooseNodes& loose, BodyTopology& to) {
+  std::vector<std::size_t> order(loose.nodes.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::sort(order, {}, [&](std::size_t i) { return loose.nodes[i]; });
+  for (const std::size_t i : order) {
+    to.loose_nodes.push_back(loose.nodes[i]);
+    const auto place = loose.places.begin() + static_cast<std::ptrdiff_t>(3 * i);
+    to.places.insert(to.places.end(), place, place + 3);
+  }
 }
 
 std::vector<std::int32_t> ascending(std::vector<std::int32_t> numbers) {
@@ -182,12 +210,10 @@ std::vector<BodyTopology> topologies(const World& world) {
   std::vector<BodyTopology> result;
   if (world.description() == nullptr) return result;
   for (BodyDescription body : world.description()->bodies) {
-    LooseNodes loose = loose_nodes(world, body.name);
     BodyTopology topology;
     topology.body = body.name;
-    topology.cells = remaining_cells(world, body.name);
-    topology.loose_nodes = std::move(loose.nodes);
-    topology.places = std::move(loose.places);
+    topology.cells = ascending(remaining_cells(world, body.name));
+    add_loose(loose_nodes(world, body.name), topology);
     if (body.cut != nullptr) {
       number_cells(body);
       add_cut(body, topology);

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "tissu/base/error.h"
+#include "tissu/cell/chunk_plan.h"
 
 namespace tissu {
 namespace {
@@ -72,6 +73,24 @@ CellModel::CellModel(ElasticBlock block, Threads threads)
 
 void CellModel::lay_cells(ConstReals rest_positions, RestForm form, std::span<const std::int32_t> together) {
   order_ = order_elements(block_.cells, reference_.nodes, rest_positions, together, block_.fill);
+  lay_rest_shape(rest_positions, form);
+}
+
+void CellModel::lay_planned_cells(ConstReals rest_positions, RestForm form) {
+  const std::vector<std::int32_t>& origins = block_.origins.empty() ? block_.cell_numbers : block_.origins;
+  const auto plan =
+      std::ranges::find_if(block_.plans, [&](const auto& p) { return p->has(origins.front()); });
+  if (plan != block_.plans.end()) {
+    order_ = order_by(**plan, {block_.cells, reference_.nodes, block_.cell_numbers, origins});
+    block_.plans = {*plan};
+  } else {
+    order_ = order_elements(block_.cells, reference_.nodes, rest_positions, {}, block_.fill);
+    block_.plans = {std::make_shared<const ChunkPlan>(plan_of(order_, block_.cell_numbers))};
+  }
+  lay_rest_shape(rest_positions, form);
+}
+
+void CellModel::lay_rest_shape(ConstReals rest_positions, RestForm form) {
   shape_ = rest_shape({reference_, block_.cells, block_.cross_section, rest_positions, block_.share}, order_,
                       form);
   if (shape_.bad.empty()) return;
@@ -129,33 +148,9 @@ void CellModel::lay_slots(const ElementOrder& order, const std::vector<std::int3
 /// Calls f(node, mass of the cell, sum_g w_g rho N_a, share of the node in sum_g w_g N_a^2).
 template <class Function>
 void CellModel::for_nodes(Function&& f) const {
-  const auto nodes = static_cast<std::size_t>(reference_.nodes);
-  const std::size_t points = reference_.points.size();
-  const auto rest_points = static_cast<std::size_t>(shape_.rest_points);
-  const std::size_t rest = shape_.reals;
-  std::vector<double> first(nodes);
-  std::vector<double> second(nodes);
+  std::vector<double> scratch;
   for (std::size_t i = 0; i < order_.element.size(); ++i) {
-    if (order_.real[i] == 0) continue;
-    const auto e = static_cast<std::size_t>(order_.element[i]);
-    const double density = of_cell(block_.density, order_.element[i]);
-    std::ranges::fill(first, 0.0);
-    std::ranges::fill(second, 0.0);
-    double squares = 0.0;
-    for (std::size_t g = 0; g < points; ++g) {
-      const std::size_t at = i / kLanes * rest_points + (rest_points == 1 ? 0 : g);
-      const double w = shape_.rest[(at * rest + rest - 1) * kLanes + i % kLanes] * shape_.weights[g];
-      for (std::size_t a = 0; a < nodes; ++a) {
-        const double N = reference_.points[g].values[a];
-        first[a] += w * density * N;
-        second[a] += w * N * N;
-        squares += w * N * N;
-      }
-    }
-    for (std::size_t a = 0; a < nodes; ++a) {
-      const auto node = static_cast<std::size_t>(block_.cells[e * nodes + a]);
-      f(node, density * shape_.volumes[e], first[a], second[a] / squares);
-    }
+    if (order_.real[i] != 0) for_lane_nodes(i, scratch, f);
   }
 }
 

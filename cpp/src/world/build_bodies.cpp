@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 #include "builder.h"
@@ -40,6 +41,14 @@ std::vector<std::int32_t> frames_at_blocks(const std::vector<Frame>& frames, std
   return result;
 }
 
+/// Cells with numbers, and chunks with room.
+void make_editable(ElasticBlock& block, std::int32_t first_cell, std::int32_t cells) {
+  block.fill = kEditableFill;
+  if (!block.cell_numbers.empty()) return;
+  block.cell_numbers.resize(static_cast<std::size_t>(cells));
+  std::iota(block.cell_numbers.begin(), block.cell_numbers.end(), first_cell);
+}
+
 /// A model works on its body's cells as one: their affine cells are not set apart.
 bool keeps_cells_together(const ElasticBlock& block) {
   return std::holds_alternative<CondensedOptions>(block.model) ||
@@ -67,7 +76,6 @@ std::vector<ElasticBlock> WorldBuilder::blocks_of(const BodyDescription& body, c
   std::int32_t first_cell = 0;
   for (ElasticBlock elastic : body.elastic) {
     elastic.body = body.name;
-    if (description_.editable) elastic.fill = kEditableFill;
     elastic.cells = with_shared(std::move(elastic.cells), made, shared);
     if (auto* condensed = std::get_if<CondensedOptions>(&elastic.model)) {
       condensed->kept = shifted(std::move(condensed->kept), made.first_node, made.node_count,
@@ -77,6 +85,7 @@ std::vector<ElasticBlock> WorldBuilder::blocks_of(const BodyDescription& body, c
     const ElementInfo* element = find_element(elastic.element);
     const auto cells =
         element == nullptr ? 0 : static_cast<std::int32_t>(elastic.cells.size()) / element->nodes;
+    if (description_.editable) make_editable(elastic, first_cell, cells);
     if (keeps_cells_together(elastic)) {
       blocks.push_back(std::move(elastic));
       first_cell += cells;
@@ -133,7 +142,10 @@ void WorldBuilder::add_models(const BodyDescription& description, Body& made,
       for (const std::int32_t node : elastic.cells)
         elastic.frames.push_back(frame_at[static_cast<std::size_t>(node)]);
     }
-    auto model = before_ == nullptr ? nullptr : edited_model(before_->body(description.name).models, elastic);
+    std::unique_ptr<BodyModel> model;
+    if (before_ != nullptr && !cells_are_new_) {
+      model = edited_model(before_->body(description.name).models, elastic);
+    }
     if (model == nullptr) {
       model = make_model(std::move(elastic), world_.rest_positions(), world_.isa_, world_.threads_);
     }

@@ -18,10 +18,18 @@ void WorldBuilder::add_contact() {
 /// An edit goes on from where things are: surfaces that it uncovers are not moved, and nothing is refused.
 void WorldBuilder::separate_surfaces() {
   if (world_.contact_ == nullptr) return;
-  if (before_ != nullptr) {
-    world_.rest_.positions = before_->rest_positions();
-  } else {
+  if (before_ == nullptr) {
     separate(*world_.contact_, world_.fixed_, world_.rest_);
+    return;
+  }
+  world_.rest_.positions = before_->rest_positions();
+  for (const BodyDescription& body : description_.bodies) {
+    const std::int32_t first = world_.body(body.name).first_node;
+    auto copy = first + static_cast<std::int32_t>(body.positions.size() / 3 - body.copies_of.size());
+    for (const std::int32_t node : body.copies_of) {
+      block(Reals(world_.rest_.positions), copy++) =
+          block(ConstReals(before_->rest_positions()), first + node);
+    }
   }
 }
 

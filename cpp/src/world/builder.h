@@ -13,7 +13,7 @@ namespace tissu {
 class WorldBuilder {
  public:
   /// `before`: null, or a world whose models hand over what stays as it is.
-  WorldBuilder(World& world, const WorldDescription& description, const World* before);
+  WorldBuilder(World& world, const WorldDescription& description, const World* before, bool cells_are_new);
   void build();
 
  private:
@@ -53,6 +53,7 @@ class WorldBuilder {
   World& world_;
   const WorldDescription& description_;
   const World* before_;
+  bool cells_are_new_;
   std::vector<double> masses_;   ///< of each 3-vector of the unknown [kg]
   std::vector<double> weights_;  ///< sum_g w_g rho N_a of each node [kg]; the mass for linear elements
   std::vector<Mat3> inertias_;   ///< that models give to each frame

@@ -1,11 +1,14 @@
 #include "tissu/world/world.h"
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 #include "builder.h"
 #include "checks.h"
 #include "tissu/base/error.h"
+#include "tissu/cell/chunk_plan.h"
+#include "tissu/element/reference_cell.h"
 
 namespace tissu {
 namespace {
@@ -45,6 +48,32 @@ Threads threads_of(const WorldDescription& description) {
                        std::to_string(available_threads()) + " are of no use.");
 }
 
+/// The numbers of the cells of a block; `next` is the first of a block whose cells have none.
+std::vector<std::int32_t> numbers_of(const ElasticBlock& block, std::int32_t next) {
+  if (!block.cell_numbers.empty()) return block.cell_numbers;
+  std::vector<std::int32_t> numbers(block.cells.size() /
+                                    static_cast<std::size_t>(find_element(block.element)->nodes));
+  std::iota(numbers.begin(), numbers.end(), next);
+  return numbers;
+}
+
+/// Numbers the cells of a body, and on the first day keeps what its blocks are edited by. A block has become
+/// one model, or two.
+void keep_plans(const std::vector<const BodyModel*>& models, BodyDescription& body) {
+  std::int32_t next = 0;
+  for (ElasticBlock& block : body.elastic) {
+    block.cell_numbers = numbers_of(block, next);
+    next += static_cast<std::int32_t>(block.cell_numbers.size());
+    if (!block.plans.empty()) continue;
+    for (const BodyModel* model : models) {
+      for (const auto& plan : model->block().plans) {
+        if (std::ranges::any_of(block.cell_numbers, [&](std::int32_t number) { return plan->has(number); }))
+          block.plans.push_back(plan);
+      }
+    }
+  }
+}
+
 }  // namespace
 
 BodyDescription& WorldDescription::body(std::string_view name) {
@@ -55,13 +84,16 @@ BodyDescription& WorldDescription::body(std::string_view name) {
 
 World::World(WorldDescription description) : World(std::move(description), nullptr) {}
 
-World::World(WorldDescription description, const World* before) {
-  WorldBuilder(*this, description, before).build();
-  if (description.editable) description_ = std::move(description);
+World::World(WorldDescription description, const World* before, bool cells_are_new) {
+  WorldBuilder(*this, description, before, cells_are_new).build();
+  if (!description.editable) return;
+  for (std::size_t i = 0; i < bodies_.size(); ++i) keep_plans(bodies_[i].models, description.bodies[i]);
+  description_ = std::move(description);
 }
 
-WorldBuilder::WorldBuilder(World& world, const WorldDescription& description, const World* before)
-    : world_(world), description_(description), before_(before) {}
+WorldBuilder::WorldBuilder(World& world, const WorldDescription& description, const World* before,
+                           bool cells_are_new)
+    : world_(world), description_(description), before_(before), cells_are_new_(cells_are_new) {}
 
 void WorldBuilder::build() {
   world_.isa_ = isa_of(description_);

@@ -139,7 +139,7 @@ class Capsule:
         return np.minimum(a, b) - radius, np.maximum(a, b) + radius
 
     def holds(self, points: Floats) -> NDArray[np.bool_]:
-        """Which points (n, 3) lie in it [m]."""
+        """Whether each of the points (n, 3) [m] lies in it."""
         a, b, radius = self._read()
         axis = b - a
         square = float(axis @ axis)

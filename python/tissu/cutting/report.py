@@ -116,14 +116,12 @@ def cut_report(
     made: dict[str, Any],
     *,
     by: str,
-    before: dict[str, Any],
-    after: dict[str, Any],
     pieces: tuple[Piece, ...],
     released: tuple[int, ...],
     milliseconds: float,
 ) -> CutReport:
-    """The report of what the core made, between the totals before and after it."""
-    met = bool(made["cells_cut"] or made["cells_gone"])
+    """The report of what the core made, between totals of what it touched."""
+    before, after = made["before"], made["after"]
     return CutReport(
         body=body,
         by=by,
@@ -144,6 +142,6 @@ def cut_report(
         work=0.0,
         unresolved=tuple((int(cell), str(why)) for cell, why in made["unresolved"]),
         released=released,
-        relaid=met,
+        relaid=made["relaid"],
         milliseconds=milliseconds,
     )

@@ -19,12 +19,19 @@ struct ElementOrder {
   /// Elements of a chunk: few enough for the nodes of its elements to fit a kernel's copy.
   static constexpr std::int32_t chunk_size(int nodes) { return nodes <= 10 ? 256 : 128; }
 
+  /// Groups from `begin` to before `end`.
+  struct Run {
+    std::int32_t begin;
+    std::int32_t end;
+  };
+
   std::vector<std::int32_t> element;       ///< [group][lane]: number of the element
   std::vector<std::uint8_t> real;          ///< [group][lane]: 0 for a lane that only pads
   std::vector<Chunk> chunks;               ///< sorted by colour
   std::vector<std::int32_t> colour_begin;  ///< colours + 1, first chunk of each colour
   std::vector<std::int32_t> nodes;         ///< of all chunks, ascending in each
-  AlignedVector<std::uint16_t> places;     ///< [group][node][lane]: 4 times its number in its chunk
+  std::vector<Run> runs;                ///< groups in the order of sums over all cells; empty: as they stand
+  AlignedVector<std::uint16_t> places;  ///< [group][node][lane]: 4 times its number in its chunk
 
   ElementOrder() = default;
   ElementOrder(ElementOrder&&) = default;

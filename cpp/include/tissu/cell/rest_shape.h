@@ -2,6 +2,7 @@
 
 /// What elements keep of their rest shape, in the order and the lanes of the kernels.
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -41,6 +42,10 @@ struct RestForm {
 };
 
 RestShape rest_shape(const RestCells& cells, const ElementOrder& order, RestForm form);
+
+/// Lays some groups of volume cells anew, which are affine if the shape has one J for each cell.
+void lay_rest(const RestCells& cells, const ElementOrder& order, std::span<const ElementOrder::Run> runs,
+              RestShape& shape);
 
 /// Which cells are affine, to round-off.
 std::vector<char> affine_cells(const ReferenceCell& reference, const std::vector<std::int32_t>& cells,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <string_view>
 
 #include "tissu/state/state.h"
@@ -17,5 +18,7 @@ struct BodyTotals {
   double elastic = 0.0;                  ///< [J]
 };
 BodyTotals totals(const World& world, const State& state, std::string_view body);
+/// Those of the masses of some rows: no volume, and no elastic energy.
+BodyTotals totals(const World& world, const State& state, std::span<const std::int32_t> rows);
 
 }  // namespace tissu

@@ -1,6 +1,7 @@
 #pragma once
 
-/// A cut through a body of a world: planned on its material, then made in a new world.
+/// A cut through a body of a world: planned on its material, then made in a new world or in place
+/// (world_editor.h).
 
 #include <memory>
 #include <string_view>
@@ -12,19 +13,23 @@
 
 namespace tissu {
 
-struct BodyCut {
-  CutPlan plan;
-  std::shared_ptr<const World> world;  ///< null: the blade met nothing
-  std::vector<RowCopy> copies;         ///< rows of the state that take over others
+/// Nothing is changed. Refuses what refuse_unparted and plan_cut refuse. A static or condensed body that
+/// comes apart is the caller's to refuse: pieces() names the parts.
+CutPlan plan_body_cut(const World& world, const State& state, std::string_view body, const Sweep& sweep,
+                      const CutOptions& options = {});
+
+/// Of taking cells out of a body; what hangs by an edge or a node only comes apart.
+CutPlan plan_body_ablation(const World& world, std::string_view body, std::vector<std::int32_t> cells);
+
+/// False where the blade met nothing.
+bool changes(const CutPlan& plan);
+
+struct CutWorld {
+  std::shared_ptr<const World> world;
+  std::vector<RowCopy> copies;  ///< rows of the state that take over others
 };
 
-/// Nothing is changed when it throws. Refuses what edit_body and plan_cut refuse, and a static or condensed
-/// body that comes apart is the caller's to refuse: pieces() names the parts.
-BodyCut cut_body(const World& world, const State& state, std::string_view body, const Sweep& sweep,
-                 const CutOptions& options = {});
-
-/// Takes cells out of a body; what hangs by an edge or a node only comes apart.
-BodyCut ablate_body(const World& world, const State& state, std::string_view body,
-                    std::vector<std::int32_t> cells);
+/// A new world in which the plan is made. Refuses what edit_body refuses.
+CutWorld cut_world(const World& world, const State& state, std::string_view body, const CutPlan& plan);
 
 }  // namespace tissu

@@ -9,26 +9,13 @@
 #include <string_view>
 #include <vector>
 
+#include "tissu/model/cell_edit.h"
 #include "tissu/state/state.h"
 #include "tissu/world/world.h"
 
 namespace tissu {
 
-struct BodyEdit {
-  struct Cell {
-    std::int32_t number = 0;          ///< in the body
-    std::int32_t parent = 0;          ///< the cell, of those that go, that it takes everything from
-    double share = 1.0;               ///< how much of the parent's whole volume is its material
-    std::vector<std::int32_t> nodes;  ///< of the body, in the parent's order
-  };
-  /// A cell that stays, whose nodes part from those of its neighbours.
-  struct Moved {
-    std::int32_t number = 0;
-    std::vector<std::int32_t> nodes;
-  };
-  std::vector<std::int32_t> gone;    ///< cells, ascending
-  std::vector<Cell> born;            ///< ascending in their numbers
-  std::vector<Moved> moved;          ///< ascending
+struct BodyEdit : CellEdit {
   std::vector<std::int32_t> copied;  ///< of each new node, which follow the last: the node that it copies
   std::vector<std::int32_t> bare;    ///< nodes with cells but without material at them, ascending
   /// New cells take over what their parents remember; else every cell is there already in the world whose

@@ -14,6 +14,8 @@
 
 namespace tissu {
 
+class CellEditor;
+
 /// Mean values over each cell, in the order of the block's cells; empty where the model does not know them.
 struct CellFields {
   std::vector<double> von_mises;       ///< of the Cauchy stress [Pa]
@@ -79,6 +81,8 @@ class BodyModel : public ForceModel {
   /// Numbers kept of each cell's rest shape and law; those that all cells share are kept once.
   [[nodiscard]] virtual std::size_t reals_per_cell() const = 0;
 
+  /// What edits its cells in place; null: it is made anew after an edit.
+  [[nodiscard]] virtual std::unique_ptr<CellEditor> make_editor();
   /// Itself without some of its cells, their numbers in its block ascending; `left` is the block of the
   /// others. Null: it has nothing to take over, and is made anew.
   [[nodiscard]] virtual std::unique_ptr<BodyModel> without(

@@ -39,6 +39,8 @@ class CellModel : public BodyModel {
   void add_weights(std::vector<double>& nodal) const override;
   /// Node and matrix places.
   [[nodiscard]] std::size_t bytes() const override;
+  /// Of a model that is edited in place: adds the energy of each lane of a chunk [J], [group][8] of all.
+  virtual void add_energies(const Chunk& /*chunk*/, ConstReals /*x*/, Reals /*lanes*/) const {}
 
  protected:
   static constexpr std::size_t kLanes = ElementOrder::kLanes;
@@ -49,6 +51,9 @@ class CellModel : public BodyModel {
   /// Gives the cells their order and rest shape; refuses cells that are inverted or have no volume.
   /// Cells of one number in `together` stand in one chunk (element_order.h).
   void lay_cells(ConstReals rest_positions, RestForm form, std::span<const std::int32_t> together = {});
+  /// The same for numbered cells that may be edited in place: their order is that of the first day's plan
+  /// (chunk_plan.h), which they make if this is the first day.
+  void lay_planned_cells(ConstReals rest_positions, RestForm form);
 
   /// Keeps of the rest shape only the volumes: for models that have constants of their own.
   void keep_volumes();
@@ -117,7 +122,12 @@ class CellModel : public BodyModel {
   template <class L>
   [[nodiscard]] double energy_by(const L& loops, ConstReals x, Scratch& scratch) const {
     const ConstReals energies = energies_by(loops, x, scratch);
-    return std::accumulate(energies.begin(), energies.end(), 0.0);
+    if (loops.order.runs.empty()) return std::accumulate(energies.begin(), energies.end(), 0.0);
+    double sum = 0.0;
+    for (const ElementOrder::Run run : loops.order.runs)
+      sum = std::accumulate(energies.begin() + run.begin * ElementOrder::kLanes,
+                            energies.begin() + run.end * ElementOrder::kLanes, sum);
+    return sum;
   }
   /// `volume_ratio` holds what the kernels write beside their stresses.
   template <class L>
@@ -159,10 +169,39 @@ class CellModel : public BodyModel {
   std::ptrdiff_t constants_stride_ = 0;
 
  private:
+  friend class CellEditor;
+  void lay_rest_shape(ConstReals rest_positions, RestForm form);
   [[nodiscard]] CellFields cell_fields(const std::vector<double>& stresses, const std::vector<double>& ratios,
                                        ConstReals energies) const;
   template <class Function>
   void for_nodes(Function&& f) const;
+  /// For the nodes of one lane.
+  template <class Function>
+  void for_lane_nodes(std::size_t i, std::vector<double>& scratch, Function&& f) const {
+    const auto nodes = static_cast<std::size_t>(reference_.nodes);
+    const auto rest_points = static_cast<std::size_t>(shape_.rest_points);
+    const std::size_t rest = shape_.reals;
+    const auto e = static_cast<std::size_t>(order_.element[i]);
+    const double density = of_cell(block_.density, order_.element[i]);
+    scratch.assign(2 * nodes, 0.0);
+    double* first = scratch.data();
+    double* second = first + nodes;
+    double squares = 0.0;
+    for (std::size_t g = 0; g < reference_.points.size(); ++g) {
+      const std::size_t at = i / kLanes * rest_points + (rest_points == 1 ? 0 : g);
+      const double w = shape_.rest[(at * rest + rest - 1) * kLanes + i % kLanes] * shape_.weights[g];
+      for (std::size_t a = 0; a < nodes; ++a) {
+        const double N = reference_.points[g].values[a];
+        first[a] += w * density * N;
+        second[a] += w * N * N;
+        squares += w * N * N;
+      }
+    }
+    for (std::size_t a = 0; a < nodes; ++a) {
+      const auto node = static_cast<std::size_t>(block_.cells[e * nodes + a]);
+      f(node, density * shape_.volumes[e], first[a], second[a] / squares);
+    }
+  }
 };
 
 }  // namespace tissu

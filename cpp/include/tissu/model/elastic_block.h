@@ -18,6 +18,8 @@
 
 namespace tissu {
 
+struct ChunkPlan;
+
 /// Parameters of a law by name, in SI units: one number, or one for each cell.
 using LawParameters = std::map<std::string, std::vector<double>>;
 
@@ -63,6 +65,9 @@ struct ElasticBlock {
   Plane plane = Plane::free;
   ModelOptions model;  ///< which model carries it, and what that one alone asks for
   double fill = 1.0;   ///< share of its chunks that is laid full; the rest is room for cells that edits add
+  /// Of a block that was edited: where its cells stood on the first day, one plan for each of the models that
+  /// it became; empty: this is the first day.
+  std::vector<std::shared_ptr<const ChunkPlan>> plans = {};
 };
 
 /// The value of a cell, where there is one for all or one for each.

@@ -46,6 +46,8 @@ struct BodyDescription {
   std::vector<std::int32_t> bare = {};
   /// Its cells and their material as cuts left them; null before the first cut.
   std::shared_ptr<const CutState> cut = nullptr;
+  /// The same of a body that was never cut, where it is at hand.
+  std::shared_ptr<const CutState> uncut = nullptr;
   /// The number that the next cell gets which an edit makes; 0: one more than the last.
   std::int32_t next_cell = 0;
 };

@@ -39,8 +39,9 @@ class World {
  public:
   /// Builds everything that a step needs; refuses a description that cannot be simulated.
   explicit World(WorldDescription description);
-  /// The world that comes of removing cells from `before`, whose models hand over what stays as it is.
-  World(WorldDescription description, const World* before);
+  /// The world that comes of an edit of `before`: of removing cells, where its models hand over what stays as
+  /// it is, or of one after which cells are new.
+  World(WorldDescription description, const World* before, bool cells_are_new = false);
 
   [[nodiscard]] std::int32_t blocks() const { return static_cast<std::int32_t>(rest_.positions.size() / 3); }
   [[nodiscard]] const std::vector<Body>& bodies() const { return bodies_; }
@@ -71,6 +72,7 @@ class World {
 
  private:
   friend class WorldBuilder;
+  friend class WorldEdit;
   std::vector<Body> bodies_;
   State rest_;
   Isa isa_{};

@@ -38,6 +38,11 @@ double Elastic::energy(const State& state, Scratch& scratch) const {
   return energy_by(loops(), state.positions, scratch);
 }
 
+void Elastic::add_energies(const Chunk& chunk, ConstReals x, Reals lanes) const {
+  const auto with = loops();
+  with.kernels.energy(with.view, chunk, x.data(), lanes.data());
+}
+
 /// What the kernels of sheets and lines do not compute, how they thin, the points do.
 CellFields Elastic::fields(const State& state) const {
   CellFields fields = fields_by(loops(), state.positions);

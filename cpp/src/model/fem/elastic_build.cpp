@@ -2,6 +2,7 @@
 #include <utility>
 
 #include "tissu/base/error.h"
+#include "tissu/model/cell_editor.h"
 #include "tissu/model/fem/elastic.h"
 #include "tissu/model/fem/fused_kernels.h"
 
@@ -26,10 +27,16 @@ Elastic::Elastic(ElasticBlock block, ConstReals rest_positions, Isa isa, Threads
   check_laws(block_, static_cast<std::size_t>(cell_count()));
   const bool blind = std::ranges::all_of(
       laws_of(block_), [&](const LawUse& use) { return law_info(block_, use).frame_invariant; });
-  lay_cells(rest_positions, {.frames = !blind, .triangular = kernels_->triangular});
+  const RestForm form{.frames = !blind, .triangular = kernels_->triangular};
+  const bool planned = block_.fill < 1.0 && reference_.dimension == 3 && !block_.cell_numbers.empty();
+  planned ? lay_planned_cells(rest_positions, form) : lay_cells(rest_positions, form);
   const bool thins = reference_.dimension < 3 && block_.plane != Plane::strain;
   take_constants(lay_law_constants(block_, order_.element, thins ? reference_.dimension : 3));
   if (reference_.dimension < 3) X_.assign(rest_positions.begin(), rest_positions.end());
+}
+
+std::unique_ptr<CellEditor> Elastic::make_editor() {
+  return block_.plans.empty() ? nullptr : std::make_unique<CellEditor>(*this);
 }
 
 void Elastic::choose_kernels(Isa isa) {

@@ -29,6 +29,8 @@ class Elastic final : public CellModel {
   [[nodiscard]] PointFields point_fields(const PointQuery& query) const override;
   [[nodiscard]] std::size_t bytes() const override;
   [[nodiscard]] std::size_t reals_per_cell() const override;
+  [[nodiscard]] std::unique_ptr<CellEditor> make_editor() override;
+  void add_energies(const Chunk& chunk, ConstReals x, Reals lanes) const override;
 
  private:
   void choose_kernels(Isa isa);

@@ -1,0 +1,25 @@
+#include "cut_edit.h"
+
+#include <algorithm>
+
+namespace tissu {
+
+std::vector<std::int32_t> bare_after(const std::vector<std::int32_t>& before, const CutPlan& plan) {
+  std::vector<std::int32_t> bare = before;
+  bare.insert(bare.end(), plan.emptied.begin(), plan.emptied.end());
+  for (std::size_t i = 0; i < plan.nodes.size(); ++i) {
+    if (!plan.nodes[i].material) bare.push_back(plan.first_node + static_cast<std::int32_t>(i));
+  }
+  std::ranges::sort(bare);
+  bare.erase(std::ranges::unique(bare).begin(), bare.end());
+  return bare;
+}
+
+void set_cells(const CutPlan& plan, CellEdit& edit) {
+  edit.gone = plan.gone;
+  for (const BornCell& cell : plan.born)
+    edit.born.push_back({cell.number, cell.parent, cell.share, cell.nodes});
+  for (const ChangedCell& cell : plan.changed) edit.moved.push_back({cell.number, cell.nodes});
+}
+
+}  // namespace tissu

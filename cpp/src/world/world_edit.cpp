@@ -1,0 +1,271 @@
+#include "tissu/world/world_edit.h"
+
+#include <algorithm>
+#include <iterator>
+#include <limits>
+#include <utility>
+
+#include "tissu/base/error.h"
+#include "tissu/force/grabs.h"
+#include "tissu/force/gravity.h"
+#include "tissu/force/instruments.h"
+#include "tissu/force/links.h"
+#include "tissu/force/load.h"
+#include "tissu/viscosity/rayleigh.h"
+
+namespace tissu {
+namespace {
+
+/// Of the places of the matrix on the first day: beyond that everything is laid anew.
+constexpr std::int64_t kMostBlocks = 2;
+
+std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
+
+void sort_unique(std::vector<std::int32_t>& list) {
+  std::ranges::sort(list);
+  list.erase(std::unique(list.begin(), list.end()), list.end());
+}
+
+/// Of a world that was made for editing.
+template <class Held>
+auto& editable(Held& held) {
+  if (!held)
+    throw ParameterError("this world cannot be edited; compile the scene with editing: true to cut.");
+  return *held;
+}
+
+/// Forces that know nothing of cells, or follow them here.
+bool follows_edits(const ForceModel& force) {
+  const auto is = [&]<class... Forces>() {
+    return (... || (dynamic_cast<const Forces*>(&force) != nullptr));
+  };
+  return is.operator()<BodyModel, Rayleigh, Gravity, NodalLoad, Links, Grabs, Instruments>();
+}
+
+bool follows_edits(const World& world) {
+  const auto shares = [](const BodyDescription& body) { return !body.shared.empty(); };
+  return world.contact() == nullptr && std::ranges::none_of(world.description()->bodies, shares) &&
+         std::ranges::all_of(world.forces(), [](const auto& force) { return follows_edits(*force); });
+}
+
+bool follows_edits(const BodyDescription& described, const Body& body) {
+  return !described.frames && !described.viscosity.any() && !body.models.empty() &&
+         std::ranges::none_of(body.models,
+                              [](const BodyModel* model) { return model->block().plans.empty(); });
+}
+
+}  // namespace
+
+bool WorldEdit::serves(const World& world) {
+  if (!follows_edits(world)) return false;
+  for (std::size_t i = 0; i < world.bodies().size(); ++i) {
+    if (follows_edits(world.description()->bodies[i], world.bodies()[i])) return true;
+  }
+  return false;
+}
+
+WorldEdit::WorldEdit(World& world)
+    : world_(world), bodies_(world.bodies().size()), first_blocks_(world.sparsity().blocks()) {
+  if (!follows_edits(world)) return;
+  for (std::size_t i = 0; i < bodies_.size(); ++i) prepare(i);
+}
+
+void WorldEdit::prepare(std::size_t number) {
+  BodyDescription& body = editable(world_.description_).bodies[number];
+  if (!follows_edits(body, world_.bodies_[number])) return;
+  EditedBody& edited = bodies_[number];
+  for (const BodyModel* model : world_.bodies_[number].models) {
+    // The world owns its models, and this its edits.
+    std::unique_ptr<CellEditor> editor = const_cast<BodyModel*>(model)->make_editor();
+    if (editor == nullptr) {
+      edited.editors.clear();
+      return;
+    }
+    edited.editors.push_back(std::move(editor));
+  }
+  for (ElasticBlock& block : body.elastic) edited.tables.emplace_back(block);
+  edited.bound.assign(body.positions.size() / 3, 0);
+  for (const FixedNodes& fixed : editable(world_.description_).fixed) {
+    if (fixed.body != body.name) continue;
+    for (const std::int32_t node : fixed.nodes) edited.bound[at(node)] = 1;
+  }
+  for (const LoadDescription& load : editable(world_.description_).loads) {
+    if (load.body != body.name) continue;
+    for (const std::int32_t node : load.nodes) edited.bound[at(node)] = 1;
+  }
+}
+
+std::size_t WorldEdit::number_of(std::string_view body) const {
+  return static_cast<std::size_t>(&world_.body(body) - world_.bodies().data());
+}
+
+double WorldEdit::volume(std::string_view body, std::span<const std::int32_t> cells) const {
+  double sum = 0.0;
+  for (const std::int32_t cell : cells) {
+    for (const auto& editor : bodies_[number_of(body)].editors) {
+      if (editor->has(cell)) sum += editor->volume(cell);
+    }
+  }
+  return sum;
+}
+
+double WorldEdit::energy(std::string_view body, std::span<const std::int32_t> cells, ConstReals x) const {
+  double sum = 0.0;
+  for (const auto& editor : bodies_[number_of(body)].editors) sum += editor->energy(cells, x);
+  return sum;
+}
+
+BodyDescription& WorldEdit::description(std::string_view body) {
+  return editable(world_.description_).bodies[number_of(body)];
+}
+
+bool WorldEdit::can(std::string_view body, const BodyChange& change) const {
+  const std::size_t number = number_of(body);
+  const EditedBody& edited = bodies_[number];
+  const auto room = at(world_.bodies_[number].room);
+  if (edited.editors.empty() || change.copied.size() > room) return false;
+  const Sparsity& pattern = world_.sparsity_;
+  if (pattern.blocks() > kMostBlocks * first_blocks_ ||
+      pattern.blocks() > std::numeric_limits<std::int32_t>::max() / 2)
+    return false;
+  const auto bound = [&](std::int32_t node) {
+    return at(node) < edited.bound.size() && edited.bound[at(node)] != 0;
+  };
+  if (std::ranges::any_of(change.copied, bound) || std::ranges::any_of(change.loose, bound)) return false;
+  // The copies of a loaded node share its load as they share its mass.
+  const BodyDescription& described = editable(world_.description_).bodies[number];
+  const auto first_day = described.positions.size() / 3 - described.copies_of.size();
+  const auto is_parted = [&](std::int32_t node) {
+    return at(node) >= first_day || std::ranges::find(described.copies_of, node) != described.copies_of.end();
+  };
+  if (std::ranges::any_of(change.nodes, [&](std::int32_t node) { return bound(node) && is_parted(node); })) {
+    return false;
+  }
+  std::vector<std::int32_t> emptied;
+  std::ranges::set_difference(change.bare, editable(world_.description_).bodies[number].bare,
+                              std::back_inserter(emptied));
+  if (std::ranges::any_of(emptied, bound)) return false;
+  return std::ranges::all_of(edited.editors, [&](const auto& editor) {
+    const auto gone =
+        std::ranges::count_if(change.cells.gone, [&](std::int32_t cell) { return editor->has(cell); });
+    return static_cast<std::size_t>(gone) < editor->cells();
+  });
+}
+
+std::vector<std::int32_t> WorldEdit::apply(std::string_view name, const BodyChange& change,
+                                           const CellsAt& cells_at) {
+  const std::size_t number = number_of(name);
+  add_nodes(number, change);
+  const Body& body = world_.bodies_[number];
+  for (const auto& editor : bodies_[number].editors)
+    editor->edit(change.cells, body.first_node, world_.rest_.positions);
+  edit_description(number, change);
+  std::vector<std::int32_t> rows = change.nodes;
+  for (std::int32_t& row : rows) row += body.first_node;
+  lay_rows(number, rows, cells_at);
+  std::vector<std::int32_t> weighed = rows;
+  for (const auto& editor : bodies_[number].editors) {
+    const std::vector<std::int32_t> laid = editor->laid_nodes();
+    weighed.insert(weighed.end(), laid.begin(), laid.end());
+  }
+  sort_unique(weighed);
+  weigh(number, weighed, cells_at);
+  loosen(number, change);
+  return rows;
+}
+
+/// Room becomes nodes: at rest where those are that they copy, and free.
+void WorldEdit::add_nodes(std::size_t number, const BodyChange& change) {
+  Body& body = world_.bodies_[number];
+  const auto count = static_cast<std::int32_t>(change.copied.size());
+  if (count == 0) return;
+  const Reals X = world_.rest_.positions;
+  for (std::int32_t i = 0; i < count; ++i)
+    block(X, body.first_node + body.node_count + i) = block(X, body.first_node + change.copied[at(i)]);
+  world_.fixed_.free_rows(body.first_node + body.node_count, count);
+  body.node_count += count;
+  body.room -= count;
+}
+
+void WorldEdit::edit_description(std::size_t number, const BodyChange& change) {
+  BodyDescription& body = editable(world_.description_).bodies[number];
+  const auto first_day = static_cast<std::int32_t>(body.positions.size() / 3 - body.copies_of.size());
+  for (const std::int32_t node : change.copied) {
+    for (std::size_t k = 0; k < 3; ++k) body.positions.push_back(body.positions[3 * at(node) + k]);
+    body.copies_of.push_back(node < first_day ? node : body.copies_of[at(node - first_day)]);
+  }
+  body.room -= static_cast<std::int32_t>(change.copied.size());
+  for (std::size_t b = 0; b < body.elastic.size(); ++b)
+    bodies_[number].tables[b].apply(change.cells, 0, body.elastic[b]);
+  body.bare = change.bare;
+  body.next_cell = std::max(body.next_cell, change.next_cell);
+}
+
+/// The columns of rows are the nodes of their cells.
+void WorldEdit::lay_rows(std::size_t number, std::span<const std::int32_t> rows, const CellsAt& cells_at) {
+  const std::int32_t first = world_.bodies_[number].first_node;
+  std::vector<std::int32_t> columns;
+  std::vector<std::int32_t> cells;
+  for (const std::int32_t row : rows) {
+    columns.assign(1, row);
+    for (const std::int32_t cell : cells_at(row - first)) {
+      cells.push_back(cell);
+      for (const auto& editor : bodies_[number].editors) {
+        if (!editor->has(cell)) continue;
+        const auto nodes = editor->nodes(cell);
+        columns.insert(columns.end(), nodes.begin(), nodes.end());
+      }
+    }
+    sort_unique(columns);
+    world_.sparsity_.set_row(row, columns);
+  }
+  sort_unique(cells);
+  for (const auto& editor : bodies_[number].editors) editor->bind(world_.sparsity_, cells);
+}
+
+void WorldEdit::weigh(std::size_t number, std::span<const std::int32_t> rows, const CellsAt& cells_at) {
+  const Body& body = world_.bodies_[number];
+  Gravity* gravity = nullptr;
+  Rayleigh* damping = nullptr;
+  for (const auto& force : world_.forces_) {
+    if (auto* found = dynamic_cast<Gravity*>(force.get())) gravity = found;
+    auto* found = dynamic_cast<Rayleigh*>(force.get());
+    if (found != nullptr && found->damps(body.models.front())) damping = found;
+  }
+  for (const std::int32_t row : rows) {
+    double mass = 0.0;
+    double weight = 0.0;
+    const auto cells = cells_at(row - body.first_node);
+    for (const auto& editor : bodies_[number].editors) editor->add_node(row, cells, mass, weight);
+    world_.mass_.set_nodal(row, mass);
+    if (gravity != nullptr)
+      gravity->set_mass(row, editable(world_.description_).consistent_weight ? weight : mass);
+    if (damping != nullptr) damping->set_mass(row, mass);
+  }
+}
+
+/// Nodes that no cell uses any more are held where they are.
+void WorldEdit::loosen(std::size_t number, const BodyChange& change) {
+  if (change.loose.empty()) return;
+  const Body& body = world_.bodies_[number];
+  std::vector<FixedNodes>& all = editable(world_.description_).fixed;
+  const auto is_loose = [&](const FixedNodes& fixed) {
+    return fixed.body == body.name && !fixed.positions.empty();
+  };
+  auto held = std::ranges::find_if(all, is_loose);
+  if (held == all.end()) {
+    all.emplace_back();
+    held = all.end() - 1;
+    held->body = body.name;
+  }
+  held->nodes.insert(held->nodes.end(), change.loose.begin(), change.loose.end());
+  held->positions.insert(held->positions.end(), change.places.begin(), change.places.end());
+  std::vector<std::int32_t> rows = change.loose;
+  for (std::int32_t& row : rows) row += body.first_node;
+  world_.fixed_.hold_at(rows, change.places);
+  std::vector<char>& bound = bodies_[number].bound;
+  bound.resize(at(body.node_count), 0);
+  for (const std::int32_t node : change.loose) bound[at(node)] = 1;
+}
+
+}  // namespace tissu

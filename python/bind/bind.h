@@ -49,6 +49,7 @@ void bind_law(py::module_& m);
 void bind_model(py::module_& m);
 void bind_world(py::module_& m);
 void bind_simulation(py::module_& m);
+void bind_compliance(py::module_& m);
 void bind_solver(py::module_& m);
 void bind_step(py::module_& m);
 void bind_field(py::module_& m);

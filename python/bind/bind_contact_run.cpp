@@ -29,7 +29,8 @@ py::array_t<T> rows(std::size_t count, py::ssize_t columns) {
   return py::array_t<T>({static_cast<py::ssize_t>(count), columns});
 }
 
-/// Surfaces (m, 2), nodes (m, 4), weights (m, 4), point, normal, gap, force, sliding, area.
+/// Surfaces (m, 2), nodes (m, 4) where -1 is none and lower ones are points that nodes carry, weights (m, 4),
+/// point, normal, gap, force, sliding, area.
 py::tuple contacts(const Simulation& simulation) {
   const Contact& contact = contact_of(simulation);
   const ContactTable table = contact.table(simulation.state());
@@ -58,7 +59,7 @@ py::tuple contacts(const Simulation& simulation) {
       weights.mutable_at(row, at) = c.beta[k];
       if (c.vertex[k] < 0.0) continue;
       const auto& vertex = vertices[static_cast<std::size_t>(c.vertex[k])];
-      nodes.mutable_at(row, at) = vertex.node;
+      nodes.mutable_at(row, at) = vertex.node < 0 ? vertex.node - 1 : vertex.node;
       if (k == 0) surfaces.mutable_at(row, 0) = vertex.surface;
       if (c.beta[k] < 0.0) other = vertex.surface;
       if (c.beta[k] <= 0.0) continue;
@@ -67,8 +68,8 @@ py::tuple contacts(const Simulation& simulation) {
       const std::int32_t obstacle =
           contact.surfaces().surfaces()[static_cast<std::size_t>(vertex.surface)].obstacle;
       point +=
-          c.beta[k] * (vertex.row >= 0
-                           ? Vec3(block(ConstReals(simulation.state().positions), vertex.row))
+          c.beta[k] * (vertex.is_soft()
+                           ? contact.place(static_cast<std::int32_t>(c.vertex[k]), simulation.state())
                            : contact.place_of(obstacle, rest, simulation.state(), simulation.state().time));
     }
     if (c.kind == ContactNumbers::kPlane) other = bodies + static_cast<std::int32_t>(c.b);
@@ -221,19 +222,45 @@ py::tuple contact_surface(const Simulation& simulation, const std::string& body)
   return py::make_tuple(triangles, edges, radius, found->closed);
 }
 
-/// Area at rest that belongs to each node of a body, up to the last one on its surface [m2]: a third of the
-/// triangles at it.
+/// Area at rest that belongs to each node of a body, up to the last one of its surface [m2]: a third of the
+/// triangles at it. What nodes carry gives them its own by their weights.
 py::array_t<double> contact_areas(const Simulation& simulation, const std::string& body) {
   const Contact& contact = contact_of(simulation);
   const std::int32_t number = surface_named(contact, body);
+  const SurfaceSet& surfaces = contact.surfaces();
   std::vector<double> areas;
-  for (const SurfaceVertex& vertex : contact.surfaces().vertices()) {
-    if (vertex.surface != number) continue;
-    const auto node = static_cast<std::size_t>(vertex.node);
+  const auto add = [&](std::int32_t n, double area) {
+    const auto node = static_cast<std::size_t>(n);
     if (node >= areas.size()) areas.resize(node + 1, 0.0);
-    areas[node] += vertex.area;
+    areas[node] += area;
+  };
+  const std::int32_t first = surfaces.surfaces()[static_cast<std::size_t>(number)].first_row;
+  for (const SurfaceVertex& vertex : surfaces.vertices()) {
+    if (vertex.surface != number) continue;
+    if (vertex.rider < 0) {
+      add(vertex.node, vertex.area);
+    } else {
+      for (const RiderPart& part : surfaces.parts(vertex)) add(part.row - first, part.weight * vertex.area);
+    }
   }
   return py::array_t<double>(static_cast<py::ssize_t>(areas.size()), areas.data());
+}
+
+/// Points of a body's surface that nodes carry: their numbers as `contacts` has them (p,), ascending, the
+/// first of each in the lists (p + 1,), nodes and weights.
+py::tuple contact_riders(const Simulation& simulation, const std::string& body) {
+  const auto& bodies = contact_of(simulation).description().bodies;
+  const auto found = std::ranges::find(bodies, body, &SurfaceDescription::name);
+  if (found == bodies.end()) throw ParameterError("found body \"" + body + "\", which meets nothing here.");
+  const SurfaceRiders& riders = found->riders;
+  std::vector<std::int32_t> numbers = riders.vertex;
+  for (std::int32_t& number : numbers) number -= number < 0 ? 1 : 0;
+  const auto ints = [](const std::vector<std::int32_t>& list) {
+    return py::array_t<std::int32_t>(static_cast<py::ssize_t>(list.size()), list.data());
+  };
+  return py::make_tuple(
+      ints(numbers), ints(riders.begin), ints(riders.node),
+      py::array_t<double>(static_cast<py::ssize_t>(riders.weight.size()), riders.weight.data()));
 }
 
 }  // namespace
@@ -252,6 +279,7 @@ void bind_contact_run(py::class_<Simulation>& simulation) {
       .def("obstacle_surface", &obstacle_surface, arg("name"))
       .def("contact_surface", &contact_surface, arg("body"))
       .def("contact_areas", &contact_areas, arg("body"))
+      .def("contact_riders", &contact_riders, arg("body"))
       .def("lead_obstacle", &lead_obstacle, py::kw_only(), arg("name"), arg("displacement"), arg("angle"),
            arg("axis"), arg("center"), arg("over"))
       .def(

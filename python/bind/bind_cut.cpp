@@ -1,6 +1,7 @@
 /// Cuts of a running simulation: blades, plans that are made, and what is there afterwards.
 
 #include <algorithm>
+#include <numeric>
 
 #include "bind.h"
 #include "tissu/edit/body_totals.h"
@@ -61,20 +62,20 @@ py::dict to_dict(const CutPlan& plan) {
   return result;
 }
 
-/// Goes on with the world of the cut; nothing happens where the blade met nothing.
-py::dict make(Simulation& simulation, BodyCut cut) {
-  py::dict result = to_dict(cut.plan);
-  if (cut.world != nullptr) simulation.replace_world(std::move(cut.world), cut.copies);
+py::dict to_dict(const Simulation::Edited& edited) {
+  py::dict result = to_dict(edited.plan);
+  result["relaid"] = edited.relaid;
+  result["before"] = to_dict(edited.before);
+  result["after"] = to_dict(edited.after);
   return result;
 }
 
 py::dict cut(Simulation& simulation, const std::string& body, const Sweep& sweep, double t0, bool refine) {
-  return make(simulation,
-              cut_body(simulation.world(), simulation.state(), body, sweep, {.t0 = t0, .refine = refine}));
+  return to_dict(simulation.cut(body, sweep, {.t0 = t0, .refine = refine}));
 }
 
 py::dict ablate(Simulation& simulation, const std::string& body, const Ints& cells) {
-  return make(simulation, ablate_body(simulation.world(), simulation.state(), body, to_vector(cells)));
+  return to_dict(simulation.ablate(body, to_vector(cells)));
 }
 
 /// The nodes (v, 4) of each vertex, -1 beyond the last, and their weights (v, 4).
@@ -128,11 +129,26 @@ py::dict material(const Simulation& simulation, const std::string& body) {
   return result;
 }
 
+/// Cells, volume, and whether a support holds one of the nodes, of each connected part.
 py::list found_pieces(const Simulation& simulation, const std::string& name) {
-  py::list result;
+  const Body& body = simulation.world().body(name);
   const auto cut = cut_state(simulation.world(), name);
-  for (const Piece& piece : pieces(cut->hosts, cut->material))
-    result.append(py::make_tuple(to_array(piece.cells), piece.volume));
+  const std::vector<std::int32_t>& rows = simulation.world().fixed().rows();
+  const std::vector<std::uint8_t>& masks = simulation.world().fixed().masks();
+  std::vector<std::int32_t> held;  // cells with a held node
+  for (auto row = std::ranges::lower_bound(rows, body.first_node);
+       row != rows.end() && *row < body.first_node + body.node_count; ++row) {
+    if (masks[static_cast<std::size_t>(*row)] != FixedDofs::kAllAxes) continue;
+    const auto cells = cut->hosts.cells_at(*row - body.first_node);
+    held.insert(held.end(), cells.begin(), cells.end());
+  }
+  std::ranges::sort(held);
+  py::list result;
+  for (const Piece& piece : simulation.pieces(name)) {
+    const bool any = std::ranges::any_of(
+        held, [&](std::int32_t cell) { return std::ranges::binary_search(piece.cells, cell); });
+    result.append(py::make_tuple(to_array(piece.cells), piece.volume, any));
+  }
   return result;
 }
 
@@ -207,8 +223,9 @@ void bind_cut(py::class_<Simulation>& simulation) {
       .def(
           "require_parting",
           [](const Simulation& s, const std::string& body) {
-            WorldDescription description = *s.world().description();
-            refuse_unparted(description, description.body(body));
+            const WorldDescription& description = *s.world().description();
+            refuse_unparted(description,
+                            *std::ranges::find(description.bodies, body, &BodyDescription::name));
           },
           arg("body"))
       .def("material_surface", &surface, arg("body"))
@@ -226,6 +243,22 @@ void bind_cut(py::class_<Simulation>& simulation) {
       .def("body_cells", &body_cells, arg("body"))
       .def("roots", &roots, arg("body"))
       .def(
+          "mass",
+          [](const Simulation& s, const std::string& name) {
+            const Body& body = s.world().body(name);
+            const auto first = s.world().mass().nodal().begin() + body.first_node;
+            return std::accumulate(first, first + body.node_count, 0.0);
+          },
+          arg("body"))
+      .def(
+          "cell_count",
+          [](const Simulation& s, const std::string& name) {
+            std::int32_t count = 0;
+            for (const BodyModel* model : s.world().body(name).models) count += model->cell_count();
+            return count;
+          },
+          arg("body"))
+      .def(
           "totals",
           [](const Simulation& s, const std::string& body) {
             return to_dict(totals(s.world(), s.state(), body));
@@ -234,43 +267,9 @@ void bind_cut(py::class_<Simulation>& simulation) {
       .def(
           "edited_like_now", [](const Simulation& s, const World& fresh) { return edited_like(fresh, s); },
           arg("fresh"))
+      .def("prepare_edits", &Simulation::prepare_edits)
       .def("mark", &Simulation::mark)
       .def("rewind", &Simulation::rewind, arg("mark"));
-}
-
-void bind_sweep(py::module_& m) {
-  using py::arg;
-  py::class_<Simulation::Mark>(m, "Mark");
-  py::class_<Sweep>(m, "Sweep");
-  m.def(
-       "plane_sweep",
-       [](const Doubles& point, const Doubles& normal, const Doubles& low, const Doubles& high) {
-         return plane_sweep(to_vec3(point, "point"), to_vec3(normal, "normal"), to_vec3(low, "low"),
-                            to_vec3(high, "high"));
-       },
-       py::kw_only(), arg("point"), arg("normal"), arg("low"), arg("high"))
-      .def(
-          "disc_sweep",
-          [](const Doubles& center, const Doubles& normal, double radius) {
-            return disc_sweep(to_vec3(center, "center"), to_vec3(normal, "normal"), radius);
-          },
-          py::kw_only(), arg("center"), arg("normal"), arg("radius"))
-      .def(
-          "triangles_sweep",
-          [](const Doubles& points, const Ints& triangles) {
-            const Ints& rows = with_columns(triangles, 3, "triangles");
-            std::vector<std::array<std::int32_t, 3>> corners(static_cast<std::size_t>(rows.shape(0)));
-            for (std::size_t t = 0; t < corners.size(); ++t)
-              std::copy_n(rows.data(static_cast<py::ssize_t>(t)), 3, corners[t].begin());
-            return triangle_sweep(numbers(with_columns(points, 3, "points")), corners);
-          },
-          py::kw_only(), arg("points"), arg("triangles"))
-      .def(
-          "edge_sweep",
-          [](const Doubles& places, std::int32_t moments, std::int32_t points, std::int32_t incision) {
-            return edge_sweep(numbers(places), moments, points, incision);
-          },
-          py::kw_only(), arg("places"), arg("moments"), arg("points"), arg("incision"));
 }
 
 }  // namespace tissu::bind

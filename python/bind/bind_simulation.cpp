@@ -166,7 +166,7 @@ void bind_simulation(py::module_& m) {
           "remove_cells",
           [](Simulation& s, const std::string& body, const Array<std::int32_t>& cells) {
             const std::vector<std::int32_t> numbers = to_vector(cells);
-            s.replace_world(remove_cells(s.world(), s.state(), body, numbers));
+            s.remove_cells(body, numbers);
           },
           py::kw_only(), arg("body"), arg("cells"))
       .def(

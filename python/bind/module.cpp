@@ -61,5 +61,6 @@ PYBIND11_MODULE(_core, m) {
   bind::bind_solver(m);
   bind::bind_step(m);
   bind::bind_simulation(m);
+  bind::bind_compliance(m);
   bind::bind_interruption(m);
 }

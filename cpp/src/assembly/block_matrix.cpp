@@ -23,10 +23,19 @@ void clear_masked(double* block, unsigned row_mask, unsigned column_mask) {
 
 BlockMatrix::BlockMatrix(const Sparsity& sparsity, Isa isa, Threads threads)
     : sparsity_(&sparsity), isa_(isa), threads_(threads), multiply_rows_(multiply_rows_of<double>(isa)) {
+  constexpr double kSpare = 1.25;  // rows of an open pattern that outgrow their room go behind the others
+  if (!sparsity.open_end.empty())
+    values_.reserve(static_cast<std::size_t>(kSpare * 9.0 * static_cast<double>(sparsity.blocks())));
   // One number more than needed: a register of four read at the last column of the last block stays inside.
   values_.assign(static_cast<std::size_t>(9 * sparsity.blocks() + 1), 0.0);
   diagonal_.reserve(static_cast<std::size_t>(sparsity.rows()));
   for (std::int32_t r = 0; r < sparsity.rows(); ++r) diagonal_.push_back(sparsity.slot(r, r));
+}
+
+void BlockMatrix::follow_pattern(std::span<const std::int32_t> rows) {
+  values_.resize(static_cast<std::size_t>(9 * sparsity_->blocks() + 1), 0.0);
+  for (const std::int32_t row : rows) diagonal_[static_cast<std::size_t>(row)] = sparsity_->slot(row, row);
+  renew_id();
 }
 
 void BlockMatrix::clear() {

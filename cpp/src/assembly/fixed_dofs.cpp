@@ -47,6 +47,21 @@ void FixedDofs::add(std::span<const std::int32_t> nodes, ConstReals rest_positio
   lead(nodes, mask);
 }
 
+void FixedDofs::free_rows(std::int32_t first, std::int32_t count) {
+  const auto is_among = [&](std::int32_t row) { return row >= first && row < first + count; };
+  std::erase_if(led_, [&](const Led& led) { return is_among(led.node); });
+  std::erase_if(rows_, is_among);
+  std::fill_n(masks_.begin() + first, count, std::uint8_t{0});
+}
+
+void FixedDofs::hold_at(std::span<const std::int32_t> rows, ConstReals places) {
+  motions_.emplace_back();
+  const auto motion = static_cast<std::int32_t>(motions_.size() - 1);
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    led_.push_back({rows[i], kAllAxes, motion, block(places, static_cast<std::int32_t>(i))});
+  lead(rows, kAllAxes);
+}
+
 void FixedDofs::add_rotations(std::span<const std::int32_t> blocks, std::span<const std::int32_t> frames,
                               std::span<const Quaternion> rest, const Motion& motion, std::string_view name) {
   motions_.push_back(motion);

@@ -11,14 +11,30 @@ namespace {
 
 /// In the room behind a row: above every column, so that a row and its room ascend.
 constexpr std::int32_t kNoColumn = std::numeric_limits<std::int32_t>::max();
+/// Of a row that moves: a share of its blocks.
+constexpr double kMovedRoom = 0.25;
 
 }  // namespace
 
 std::int32_t Sparsity::slot(std::int32_t row, std::int32_t col) const {
-  const auto begin = column.begin() + row_begin[static_cast<std::size_t>(row)];
-  const auto end = column.begin() + row_begin[static_cast<std::size_t>(row) + 1];
+  const auto begin = column.begin() + begin_of(row);
+  const auto end = column.begin() + end_of(row);
   const auto found = std::lower_bound(begin, end, col);
   return found != end && *found == col ? static_cast<std::int32_t>(found - column.begin()) : -1;
+}
+
+void Sparsity::set_row(std::int32_t row, std::span<const std::int32_t> columns) {
+  const auto r = static_cast<std::size_t>(row);
+  const auto count = static_cast<std::int64_t>(columns.size());
+  std::fill(column.begin() + row_begin[r], column.begin() + open_end[r], kNoColumn);
+  if (row_begin[r] + count > room_end[r]) {
+    const auto room = static_cast<std::size_t>(std::ceil(kMovedRoom * static_cast<double>(count)));
+    row_begin[r] = static_cast<std::int64_t>(column.size());
+    column.resize(column.size() + columns.size() + room, kNoColumn);
+    room_end[r] = row_begin.back() = static_cast<std::int64_t>(column.size());
+  }
+  std::ranges::copy(columns, column.begin() + row_begin[r]);
+  open_end[r] = row_begin[r] + count;
 }
 
 void SparsityBuilder::add_cells(std::span<const std::int32_t> nodes, int size) {
@@ -61,6 +77,7 @@ Sparsity SparsityBuilder::build(double room) const {
       result.open_end.push_back(static_cast<std::int64_t>(result.column.size()));
       const double spare = std::ceil(room * static_cast<double>(row.size()));
       result.column.insert(result.column.end(), static_cast<std::size_t>(spare), kNoColumn);
+      result.room_end.push_back(static_cast<std::int64_t>(result.column.size()));
     }
     result.row_begin[i + 1] = static_cast<std::int64_t>(result.column.size());
   }

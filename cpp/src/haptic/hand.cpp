@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <span>
 #include <utility>
 
 #include "tissu/base/error.h"
@@ -44,15 +45,23 @@ Hand::Hand(HandSettings settings) : settings_(std::move(settings)) {
   }
 }
 
-Hand::Wanted Hand::wanted(double time) const noexcept {
-  const std::vector<PathPoint>& path = settings_.path;
+void Hand::aim(double time, const Vec3& tip, double psi, double over) noexcept {
+  const Wanted now = steady(time);
+  aim_ = {PathPoint{time, now.tip, now.psi}, PathPoint{time + over, tip, psi}};
+  aimed_ = true;
+}
+
+Hand::Wanted Hand::steady(double time) const noexcept {
+  const std::span<const PathPoint> path =
+      aimed_ ? std::span<const PathPoint>(aim_) : std::span<const PathPoint>(settings_.path);
+  const bool smooth = settings_.smooth && !aimed_;
   Wanted w;
-  if (time <= path.front().time || path.size() == 1) {
-    w.tip = path.front().tip;
-    w.psi = path.front().psi;
-  } else if (time >= path.back().time) {
+  if (time >= path.back().time) {
     w.tip = path.back().tip;
     w.psi = path.back().psi;
+  } else if (time <= path.front().time) {
+    w.tip = path.front().tip;
+    w.psi = path.front().psi;
   } else {
     const auto next = std::ranges::upper_bound(path, time, {}, &PathPoint::time);
     const PathPoint& to = *next;
@@ -60,13 +69,18 @@ Hand::Wanted Hand::wanted(double time) const noexcept {
     const double span = to.time - from.time;
     const double s = (time - from.time) / span;
     // Minimum jerk, Flash and Hogan 1985: 10 s^3 - 15 s^4 + 6 s^5.
-    const double share = settings_.smooth ? s * s * s * (10.0 + s * (6.0 * s - 15.0)) : s;
-    const double rate = (settings_.smooth ? 30.0 * s * s * (1.0 - s) * (1.0 - s) : 1.0) / span;
+    const double share = smooth ? s * s * s * (10.0 + s * (6.0 * s - 15.0)) : s;
+    const double rate = (smooth ? 30.0 * s * s * (1.0 - s) * (1.0 - s) : 1.0) / span;
     w.tip = from.tip + share * (to.tip - from.tip);
     w.velocity = rate * (to.tip - from.tip);
     w.psi = from.psi + share * (to.psi - from.psi);
     w.rate = rate * (to.psi - from.psi);
   }
+  return w;
+}
+
+Hand::Wanted Hand::wanted(double time) const noexcept {
+  Wanted w = steady(time);
   if (settings_.tremor > 0.0) {
     for (std::size_t wave = 0; wave < 3; ++wave) {
       const Vec3 angle = frequency_[wave] * time + phase_[wave];

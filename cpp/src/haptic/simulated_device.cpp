@@ -84,6 +84,15 @@ void SimulatedDevice::set_tool(std::uint64_t tag, bool in) noexcept {
   tool_in_ = in;
 }
 
+void SimulatedDevice::plan_tools(std::vector<ToolChange> changes) {
+  for (std::size_t i = 0; i < changes.size(); ++i) {
+    require(changes[i].time >= 0.0 && (i == 0 || changes[i].time > changes[i - 1].time),
+            "tools change at times from 0 s on that grow.");
+  }
+  changes_ = std::move(changes);
+  changed_ = 0;
+}
+
 void SimulatedDevice::plug_in() noexcept {
   plugged_ = true;
   homed_ = false;
@@ -99,6 +108,18 @@ void SimulatedDevice::push(const Joints& q, const Joints& v) noexcept {
   v_ = v;
 }
 
+void SimulatedDevice::aim(const Vec3& tip, double psi, double over) {
+  if (!hand_) throw ParameterError("The simulated device has no hand that could be aimed; give it one.");
+  if (!tip.allFinite() || !std::isfinite(psi) || !std::isfinite(over) || over < 0.0) {
+    throw ParameterError("A hand is aimed at a place and in a time that are finite, the time at least 0.");
+  }
+  hand_->aim(time_, tip, psi, over);
+}
+
+void SimulatedDevice::follow() noexcept {
+  if (hand_) hand_->follow();
+}
+
 std::int32_t SimulatedDevice::count(std::size_t channel) const noexcept {
   if (channel >= kJoints) return jumped_[channel];
   const auto i = static_cast<int>(channel);
@@ -111,6 +132,9 @@ std::int32_t SimulatedDevice::count(std::size_t channel) const noexcept {
 
 DeviceStatus SimulatedDevice::read(Sample& sample) noexcept {
   advance();
+  for (; changed_ < changes_.size() && changes_[changed_].time <= time_; ++changed_) {
+    set_tool(changes_[changed_].tag, changes_[changed_].tag != 0);
+  }
   ++sequence_;
   const bool lost = random_.happens(line_.lost);
   const bool misread = random_.happens(line_.misread_tag);

@@ -185,6 +185,7 @@ Joints model_torques(const Kinematics& kinematics, const Settings& settings, con
   for (std::int32_t i = 0; i < m.model.contacts; ++i) report.contacts += m.lambda[3 * i] > 0.0 ? 1 : 0;
   report.force = total_force(m.model, m.lambda);
   m.force_sum += report.force;
+  if (m.model.blade.present) report.force += m.model.blade.way * m.lambda[3 * m.model.contacts];
   ++m.force_ticks;
   m.state = (m.lambda.head(m.rows.rows + kStops).array() != 0.0).any() ? State::contact : State::free;
   Joints damping = -settings.damping.cwiseProduct(motion.speed);

@@ -70,6 +70,12 @@ Culprit worst_cell(const World& world, const State& state) {
   return worst;
 }
 
+/// Whether energy can only be kept or lost, where a method or contacts could add some.
+bool is_watched(const World& world, const Integrator& integrator, bool solves) {
+  const bool touches = world.contact() != nullptr && solves && !integrator.is_static();
+  return (integrator.is_undamped() || touches) && EnergyWatch::can_watch(world);
+}
+
 }  // namespace
 
 Simulation::Simulation(std::shared_ptr<const World> world, std::unique_ptr<Integrator> integrator,
@@ -81,9 +87,13 @@ Simulation::Simulation(std::shared_ptr<const World> world, std::unique_ptr<Integ
       last_good_(state_),
       held_(state_.velocities) {
   integrator_->prepare(*world_, solver_.get(), profile_);
-  const bool touches = world_->contact() != nullptr && solver_ != nullptr && !integrator_->is_static();
-  if ((integrator_->is_undamped() || touches) && EnergyWatch::can_watch(*world_)) watch_.emplace();
+  renew_watch();
   if (integrator_->is_static()) inverted_.emplace(*world_);
+}
+
+void Simulation::renew_watch() {
+  watch_.reset();
+  if (is_watched(*world_, *integrator_, solver_ != nullptr)) watch_.emplace();
 }
 
 StepReport Simulation::step(double h) {
@@ -231,54 +241,6 @@ Energy Simulation::energy() const {
 
 void Simulation::forget_solves() {
   if (solver_ != nullptr) solver_->forget();
-}
-
-void Simulation::replace_world(std::shared_ptr<const World> world, std::span<const RowCopy> copies) {
-  if (world->blocks() != world_->blocks()) {
-    throw ParameterError("the new world has other unknowns than the one that runs.");
-  }
-  const std::vector<double> memory = integrator_->memory();
-  integrator_->prepare(*world, solver_.get(), profile_);
-  integrator_->restore(memory);
-  integrator_->copy_rows(copies);
-  for (std::vector<double>* values :
-       {&state_.positions, &state_.velocities, &last_good_.positions, &last_good_.velocities, &held_})
-    copy_rows(copies, *values);
-  carry_memory(*world_, *world, state_);
-  world_ = std::move(world);
-  if (watch_) watch_.emplace();
-  if (inverted_) inverted_.emplace(*world_);
-}
-
-Simulation::Mark Simulation::mark() {
-  forget_solves();
-  hold();
-  return {.world = world_,
-          .state = state_,
-          .last_good = last_good_,
-          .held = held_,
-          .integrator = integrator_->memory(),
-          .watch = watch_ ? watch_->reference(state_) : std::vector<double>(),
-          .settled = settled_};
-}
-
-void Simulation::rewind(const Mark& mark) {
-  if (mark.state.positions.size() != state_.positions.size()) {
-    throw ParameterError("the mark has other unknowns than the simulation; rewind the one that made it.");
-  }
-  world_ = mark.world;
-  integrator_->prepare(*world_, solver_.get(), profile_);
-  integrator_->restore(mark.integrator);
-  state_ = mark.state;
-  last_good_ = mark.last_good;
-  held_ = mark.held;
-  settled_ = mark.settled;
-  if (watch_) {
-    watch_.emplace();
-    watch_->restore(mark.watch, state_);
-  }
-  if (inverted_) inverted_.emplace(*world_);
-  forget_solves();
 }
 
 }  // namespace tissu

@@ -16,6 +16,10 @@ Rayleigh::Rayleigh(std::vector<std::unique_ptr<ForceModel>> elastic, std::vector
   }
 }
 
+bool Rayleigh::damps(const ForceModel* model) const {
+  return std::ranges::any_of(elastic_, [&](const auto& own) { return own.get() == model; });
+}
+
 bool Rayleigh::has_constant_stiffness() const {
   return std::ranges::all_of(elastic_, [](const auto& model) { return model->has_constant_stiffness(); });
 }

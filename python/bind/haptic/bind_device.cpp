@@ -105,6 +105,15 @@ void bind_simulated(py::class_<SimulatedDevice, Device>& bound) {
            arg("q"), arg("mechanism") = MechanismSettings{}, arg("line") = LineSettings{},
            arg("hand") = std::nullopt)
       .def("set_tool", &SimulatedDevice::set_tool, arg("tag"), arg("tool_in"))
+      .def(
+          "plan_tools",
+          [](SimulatedDevice& d, const std::vector<std::pair<double, std::uint64_t>>& changes) {
+            std::vector<ToolChange> planned;
+            planned.reserve(changes.size());
+            for (const auto& [time, tag] : changes) planned.push_back({time, tag});
+            d.plan_tools(std::move(planned));
+          },
+          arg("changes"))
       .def("set_fault", &SimulatedDevice::set_fault, arg("fault"))
       .def("unplug", &SimulatedDevice::unplug)
       .def("plug_in", &SimulatedDevice::plug_in)
@@ -116,6 +125,13 @@ void bind_simulated(py::class_<SimulatedDevice, Device>& bound) {
             d.push(to_matrix<Joints>(q, "q"), to_matrix<Joints>(v, "v"));
           },
           arg("q"), arg("v"))
+      .def(
+          "aim",
+          [](SimulatedDevice& d, const Doubles& tip, double psi, double over) {
+            d.aim(to_matrix<Vec3>(tip, "tip"), psi, over);
+          },
+          arg("tip"), arg("psi"), arg("over"))
+      .def("follow", &SimulatedDevice::follow)
       .def_property_readonly("time", &SimulatedDevice::time)
       .def_property_readonly("joints", [](const SimulatedDevice& d) { return to_array(d.joints()); })
       .def_property_readonly("rates", [](const SimulatedDevice& d) { return to_array(d.rates()); })

@@ -4,6 +4,7 @@
 /// beside it (couplings.h), so that it never changes the pattern.
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "tissu/assembly/couplings.h"
@@ -29,6 +30,8 @@ class BlockMatrix final : public LinearOperator {
   [[nodiscard]] std::int64_t diagonal_slot(std::int32_t row) const {
     return diagonal_[static_cast<std::size_t>(row)];
   }
+  /// Follows its pattern, of which some rows have other columns or stand elsewhere. It has another id then.
+  void follow_pattern(std::span<const std::int32_t> rows);
   /// All values zero, couplings gone, a new version.
   void clear();
   /// Adds to a block; refuses one that is not in the pattern.

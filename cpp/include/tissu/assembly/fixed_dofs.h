@@ -58,6 +58,12 @@ class FixedDofs {
   /// Holds the rotation of some frames about the axes of space in `mask`: they do not turn about these.
   void hold_turning(std::span<const std::int32_t> blocks, std::uint8_t mask);
 
+  // After an edit in place. The rows belong to no support that has a name.
+  /// Rows that follow each other are free from now on.
+  void free_rows(std::int32_t first, std::int32_t count);
+  /// Holds free rows at given places, three numbers each.
+  void hold_at(std::span<const std::int32_t> rows, ConstReals places);
+
   [[nodiscard]] bool empty() const { return rows_.empty(); }
   [[nodiscard]] const std::vector<std::int32_t>& rows() const { return rows_; }
   [[nodiscard]] const std::vector<std::uint8_t>& masks() const { return masks_; }

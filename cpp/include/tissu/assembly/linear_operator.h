@@ -37,7 +37,7 @@ class LinearOperator {
   /// Its blocks, null when it has none.
   [[nodiscard]] virtual const BlockMatrix* matrix() const { return nullptr; }
 
-  /// No two operators have the same, and one keeps its own as long as it lives: so does its pattern.
+  /// No two operators have the same, and one keeps its own as long as it keeps its pattern.
   [[nodiscard]] std::uint64_t id() const { return id_; }
   /// Grows with every change of the values, …
   [[nodiscard]] std::uint64_t version() const { return version_; }
@@ -66,6 +66,11 @@ class LinearOperator {
     ++values_version_;
   }
   void set_given(const std::vector<std::uint8_t>* masks) { given_ = masks; }
+  /// Of an operator whose pattern has changed.
+  void renew_id() {
+    id_ = next_id();
+    count_change();
+  }
 
  private:
   static std::uint64_t next_id();

@@ -18,6 +18,8 @@ class Mass {
   [[nodiscard]] const std::vector<double>& nodal() const { return nodal_; }
   [[nodiscard]] const std::vector<Frame>& frames() const { return frames_; }
   [[nodiscard]] double total() const;
+  /// After an edit in place: the mass of a node [kg].
+  void set_nodal(std::int32_t row, double mass) { nodal_[static_cast<std::size_t>(row)] = mass; }
 
   /// out += scale M v
   void add_product(const State& state, double scale, ConstReals v, Reals out) const;

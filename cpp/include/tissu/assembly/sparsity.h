@@ -10,11 +10,12 @@ namespace tissu {
 
 /// Compressed rows of 3x3 blocks; columns ascend in each row and every diagonal block is there. A row of a
 /// closed pattern ends where the next one begins; a row of an open pattern ends before that, with room for
-/// more blocks.
+/// more blocks, and stands behind all others once it has outgrown its room.
 struct Sparsity {
   std::vector<std::int64_t> row_begin;  ///< rows + 1
   std::vector<std::int32_t> column;
   std::vector<std::int64_t> open_end;  ///< of each row of an open pattern; empty: the pattern is closed
+  std::vector<std::int64_t> room_end;  ///< where the room of each row of an open pattern ends
 
   [[nodiscard]] std::int32_t rows() const { return static_cast<std::int32_t>(row_begin.size()) - 1; }
   /// Places for blocks, those in the room of an open pattern included.
@@ -29,6 +30,9 @@ struct Sparsity {
   [[nodiscard]] std::int64_t end_of(std::int32_t row) const { return row_end()[row]; }
   /// Number of the block (row, column), -1 when it is not in the pattern.
   [[nodiscard]] std::int32_t slot(std::int32_t row, std::int32_t column) const;
+  /// Gives a row of an open pattern other columns, ascending, its own among them: in its room, or behind all
+  /// others with new room.
+  void set_row(std::int32_t row, std::span<const std::int32_t> columns);
 };
 
 /// Gathers which nodes are coupled with which.

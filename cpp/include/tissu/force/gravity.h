@@ -17,6 +17,8 @@ class Gravity final : public ForceModel {
   void add_force(const State& state, Scratch& scratch, Reals f) const override;
   /// -sum f . x, zero for a body at the origin [J]
   [[nodiscard]] double energy(const State& state, Scratch& scratch) const override;
+  /// After an edit in place: what it pulls at [kg].
+  void set_mass(std::int32_t row, double mass) { masses_[static_cast<std::size_t>(row)] = mass; }
   [[nodiscard]] const Vec3& acceleration() const { return acceleration_; }
 
  private:

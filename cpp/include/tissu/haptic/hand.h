@@ -44,11 +44,20 @@ class Hand {
     double rate = 0.0;
   };
   [[nodiscard]] Wanted wanted(double time) const noexcept;
+  /// From a time on it goes straight from where it is to a place, which it reaches after `over` [s], and
+  /// stays there; the path is left until `follow`.
+  void aim(double time, const Vec3& tip, double psi, double over) noexcept;
+  /// It follows the path of the settings again.
+  void follow() noexcept { aimed_ = false; }
   [[nodiscard]] bool holds(double time) const noexcept { return time < settings_.lets_go; }
   [[nodiscard]] const HandSettings& settings() const noexcept { return settings_; }
 
  private:
+  [[nodiscard]] Wanted steady(double time) const noexcept;  ///< without the tremor
+
   HandSettings settings_;
+  std::array<PathPoint, 2> aim_{};  ///< straight from the first to the second
+  bool aimed_ = false;
   std::array<Vec3, 3> frequency_{};  ///< of three waves in each direction [rad/s]
   std::array<Vec3, 3> phase_{};
 };

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "tissu/haptic/coupling.h"
 #include "tissu/haptic/device.h"
@@ -58,6 +59,12 @@ struct DeviceEnergy {
   double friction = 0.0;   ///< lost, or stored in the bristles
 };
 
+/// From `time` on [s] this tool is in; tag 0: none.
+struct ToolChange {
+  double time = 0.0;
+  std::uint64_t tag = 0;
+};
+
 class SimulatedDevice final : public Device {
  public:
   /// `q` is where the tool starts. Throws ParameterError where a number is outside what the mechanism can be.
@@ -81,12 +88,18 @@ class SimulatedDevice final : public Device {
 
   // What happens to a device, between two reads.
   void set_tool(std::uint64_t tag, bool in) noexcept;
+  /// The same by script, from the device's own start on. Throws ParameterError where times do not grow.
+  void plan_tools(std::vector<ToolChange> changes);
   void set_fault(bool fault) noexcept { fault_ = fault; }
   void unplug() noexcept { plugged_ = false; }
   void plug_in() noexcept;  ///< counts start again from 0, not homed
   void jump(std::size_t channel, std::int32_t counts) noexcept { jumped_[channel] += counts; }
   void step_clock(std::int64_t ns) noexcept { clock_ns_ += ns; }
   void push(const Joints& q, const Joints& v) noexcept;  ///< puts the tool there, at that rate
+  /// The hand leaves its path for a place, which it reaches after `over` [s]; see `Hand::aim`. Throws
+  /// ParameterError if the device has no hand, a number is not finite, or `over` is negative.
+  void aim(const Vec3& tip, double psi, double over);
+  void follow() noexcept;  ///< the hand goes on along its path
 
  private:
   struct Waiting {
@@ -133,6 +146,8 @@ class SimulatedDevice final : public Device {
   double cut_at_ = 0.0;   // the watchdog ends
   bool enabled_ = false, plugged_ = true, homed_ = true, fault_ = false, tool_in_ = true;
   std::uint64_t tag_ = 1;
+  std::vector<ToolChange> changes_;
+  std::size_t changed_ = 0;  // of them, so far
   std::uint32_t sequence_ = 0;
   std::int64_t clock_ns_ = 0;
 };

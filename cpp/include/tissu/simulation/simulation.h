@@ -2,6 +2,7 @@
 
 /// A world, its state, and the loop that moves it.
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
@@ -9,6 +10,8 @@
 #include <vector>
 
 #include "tissu/base/profile.h"
+#include "tissu/edit/cut_body.h"
+#include "tissu/edit/world_editor.h"
 #include "tissu/simulation/energy_watch.h"
 #include "tissu/simulation/inverted_cells.h"
 #include "tissu/simulation/snapshot.h"
@@ -34,6 +37,10 @@ class Simulation {
   [[nodiscard]] double stable_step() { return integrator_->stable_step(state_); }
 
   [[nodiscard]] const World& world() const { return *world_; }
+  /// The same, for what goes on using it when an edit has made another one.
+  [[nodiscard]] const std::shared_ptr<const World>& shared_world() const { return world_; }
+  /// How often the world was edited or replaced: what is kept of one holds until this changes.
+  [[nodiscard]] std::uint64_t edits() const { return edits_; }
   [[nodiscard]] const State& state() const { return state_; }
   [[nodiscard]] State& state() { return state_; }
   /// What the state remembers under a name, to be changed between two steps; refuses unknown names.
@@ -58,6 +65,22 @@ class Simulation {
   /// Goes on from a snapshot of a simulation of the same scene; this one has all its cells still. Refuses
   /// what does not fit the world.
   void restore(const Snapshot& snapshot);
+
+  /// From now on edits are made in place where they can: the simulation goes on with a world of its own.
+  void prepare_edits();
+  /// An edit that was made.
+  struct Edited {
+    CutPlan plan;
+    bool relaid = false;  ///< everything was laid anew, in place of what was touched only
+    BodyTotals before;    ///< of the body, or of what was touched of it
+    BodyTotals after;
+  };
+  /// Cuts a body, or takes cells out of it, between two steps. Nothing has changed where they throw.
+  Edited cut(std::string_view body, const Sweep& sweep, const CutOptions& options);
+  Edited ablate(std::string_view body, std::vector<std::int32_t> cells);
+  void remove_cells(std::string_view body, std::span<const std::int32_t> cells);
+  /// The connected parts of the material of a body of a world that can be edited.
+  [[nodiscard]] std::vector<Piece> pieces(std::string_view body) const;
 
   /// Goes on with another world of the same unknowns: made by an editor from this one, or of the same scene
   /// with other numbers in it. What models remember goes along, as far as the new ones have it too; rows of
@@ -84,10 +107,17 @@ class Simulation {
  private:
   /// A step of a world with contact: in halves of halves where surfaces would have to be held back.
   StepReport step_in_parts(double h, int halvings);
+  Edited make(std::string_view body, CutPlan plan);
+  void follow(const WorldEditor::Made& made);
+  void take_over(std::span<const RowCopy> copies);
+  /// The world as it is now, which no edit in place reaches.
+  [[nodiscard]] std::shared_ptr<const World> kept_world();
   [[nodiscard]] double farthest() const;
   [[nodiscard]] bool is_sane() const;
   [[noreturn]] void roll_back(double h);
   [[nodiscard]] bool is_led_live() const;
+  /// Of the world as it is: one that may be grabbed, say, is not watched.
+  void renew_watch();
   void begin_watch(EnergyWatch& watch);
   void watch_energy(EnergyWatch& watch, StepReport& report);
   /// Adds to the report of a static step which cells are inside out.
@@ -101,6 +131,10 @@ class Simulation {
   void hold() { world_->fixed().copy(held_, state_.velocities); }
 
   std::shared_ptr<const World> world_;
+  std::unique_ptr<WorldEditor> editor_;  ///< of the world; null: edits lay everything anew
+  std::shared_ptr<const World> kept_;    ///< the same as the world, until an edit in place
+  std::uint64_t edits_ = 0;
+  bool edits_in_place_ = false;
   std::unique_ptr<Integrator> integrator_;
   std::unique_ptr<LinearSolver> solver_;
   Profile profile_;

@@ -13,6 +13,7 @@ class ImplicitEuler final : public Integrator {
   explicit ImplicitEuler(NewtonSettings newton = {}) : solver_(newton) {}
   [[nodiscard]] std::string_view name() const override { return "implicit Euler"; }
   void prepare(const World& world, LinearSolver* solver, Profile& profile) override;
+  bool follow_edit(std::span<const std::int32_t> rows) override { return solver_.follow_edit(rows); }
   StepReport step(State& state, double h) override;
 
  private:

@@ -12,6 +12,7 @@ class ImplicitMidpoint final : public Integrator {
   [[nodiscard]] std::string_view name() const override { return "implicit midpoint"; }
   [[nodiscard]] bool is_undamped() const override { return true; }
   void prepare(const World& world, LinearSolver* solver, Profile& profile) override;
+  bool follow_edit(std::span<const std::int32_t> rows) override { return solver_.follow_edit(rows); }
   StepReport step(State& state, double h) override;
 
  private:

@@ -76,6 +76,9 @@ class Integrator {
   }
   /// Goes on from what was appended; an empty one starts anew.
   virtual void restore(ConstReals /*memory*/) {}
+  /// Follows an edit of its world in place, after which some rows of the pattern have other columns. False:
+  /// it is to be prepared again.
+  virtual bool follow_edit(std::span<const std::int32_t> /*rows*/) { return false; }
   /// Rows that an edit made take over what is kept of others.
   virtual void copy_rows(std::span<const RowCopy> /*copies*/) {}
 };

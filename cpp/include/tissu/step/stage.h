@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "tissu/contact/implicit_contact.h"
+#include "tissu/contact/barrier.h"
 #include "tissu/step/integrator.h"
 #include "tissu/step/system.h"
 
@@ -27,6 +27,8 @@ class StageSolver {
  public:
   explicit StageSolver(NewtonSettings newton);
   void prepare(const World& world, LinearSolver* solver, Profile& profile);
+  /// Follows an edit of the world in place; false where something touches.
+  bool follow_edit(std::span<const std::int32_t> rows);
   /// The stage, to be filled before `solve`.
   [[nodiscard]] Stage& stage() { return stage_; }
   [[nodiscard]] System& system() { return *system_; }
@@ -76,6 +78,19 @@ class StageSolver {
   /// Velocities that lead to an end, of rows that were held back.
   void follow(const State& end, std::vector<double>& v);
   void set_contacts(State& state);
+
+  // barrier_touching.cpp: steps in which contact has a potential.
+  void solve_barrier(BarrierContact& barrier, State& state, std::vector<double>& v, StepReport& report);
+  /// v leads to where ways begin: what is led is at its end, all else at the start or where it was pushed.
+  void stand(State& state, std::vector<double>& v);
+  /// Newton's iteration along which the energy falls; why it did not converge, or nothing.
+  std::string_view descend_barrier(BarrierContact& barrier, State& state, std::vector<double>& v,
+                                   StepReport& report);
+  /// Goes a share of change_ that leads through nothing and lowers the energy from `from`; false: none.
+  bool search_barrier(BarrierContact& barrier, double from, State& state, std::vector<double>& v);
+  /// The potential at x(v) with that of contact.
+  double potential(BarrierContact& barrier, State& state, ConstReals v);
+
   /// Looks at contacts, keeps ways free and updates multipliers: what each takes is a row of the profile.
   double look(const State& at);
   int hold_back(State& to);
@@ -92,6 +107,15 @@ class StageSolver {
   void go(ConstReals v, double share);
   bool advance(State& state, std::vector<double>& v, Search search, double& now);
   bool descend(State& state, std::vector<double>& v, double& now);
+  /// What damping takes on a share s of change_, s (linear + s square), which has no potential: with df/dv as
+  /// it is at v, 1/2 push v . D v. Zero for damping that gives, as Rayleigh's does where the stiffness is not
+  /// positive. It writes to first_.
+  struct DampingWork {
+    double linear = 0.0;
+    double square = 0.0;
+    [[nodiscard]] double at(double share) const { return share * (linear + share * square); }
+  };
+  DampingWork damping_work(const State& state, ConstReals v);
   /// The matrix of the equation: mass M - push D - push move K.
   void assemble(const State& state, bool definite, double mass = 1.0);
   /// Solves A change_ = right_ with that matrix at `state`; it is made definite where it is not.
@@ -115,6 +139,7 @@ class StageSolver {
   std::unique_ptr<ImplicitContact> contact_;  ///< null where nothing touches
   std::unique_ptr<EndImpulses> impulses_;
   State end_;                   ///< of a step that goes on after its equation
+  State way_end_;               ///< of a way that is tested
   std::vector<double> placed_;  ///< at an end, before ways were cut
   std::vector<Quaternion> placed_rotations_;
   std::vector<std::int32_t> cut_;  ///< rows that were held back in the latest solve

@@ -22,6 +22,8 @@ class System {
   System(const World& world, LinearSolver* solver, Profile& profile);
 
   [[nodiscard]] const World& world() const { return world_; }
+  /// Follows an edit of the world in place, after which some rows of the pattern have other columns.
+  void follow_edit(std::span<const std::int32_t> rows);
   /// Scratch of the models, for calls to them beside the verbs below.
   [[nodiscard]] Scratch& scratch() { return scratch_; }
   /// f = all forces

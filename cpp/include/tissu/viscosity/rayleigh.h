@@ -38,6 +38,11 @@ class Rayleigh final : public ForceModel {
   void carry_memory(const ForceModel& before, const Memory& then, Memory& now) const override;
   void check_memory(const State& state) const override;
 
+  /// Whether it damps this model; it holds all of one body.
+  [[nodiscard]] bool damps(const ForceModel* model) const;
+  /// After an edit in place: the mass that the body gives to a node [kg].
+  void set_mass(std::int32_t row, double mass) { masses_[static_cast<std::size_t>(row)] = mass; }
+
  private:
   std::vector<std::unique_ptr<ForceModel>> elastic_;
   std::vector<double> masses_;

@@ -1,0 +1,152 @@
+/// A simulation whose world changes: edits, other worlds of the same unknowns, and the way back.
+
+#include <utility>
+
+#include "tissu/base/error.h"
+#include "tissu/edit/cut/material_mesh.h"
+#include "tissu/edit/remove_cells.h"
+#include "tissu/simulation/simulation.h"
+
+namespace tissu {
+
+void Simulation::prepare_edits() {
+  edits_in_place_ = true;
+  replace_world(world_);
+}
+
+void Simulation::replace_world(std::shared_ptr<const World> world, std::span<const RowCopy> copies) {
+  if (world->blocks() != world_->blocks()) {
+    throw ParameterError("the new world has other unknowns than the one that runs.");
+  }
+  std::unique_ptr<WorldEditor> editor;
+  std::shared_ptr<const World> kept;
+  if (edits_in_place_ && WorldEditor::serves(*world)) {
+    if (world.use_count() > 1) kept = world;
+    editor = std::make_unique<WorldEditor>(std::move(world));
+    world = editor->world();
+  }
+  const std::vector<double> memory = integrator_->memory();
+  integrator_->prepare(*world, solver_.get(), profile_);
+  integrator_->restore(memory);
+  take_over(copies);
+  carry_memory(*world_, *world, state_);
+  world_ = std::move(world);
+  editor_ = std::move(editor);
+  kept_ = std::move(kept);
+  ++edits_;
+  renew_watch();
+  if (inverted_) inverted_.emplace(*world_);
+}
+
+/// Rows that an edit made take over everything of others.
+void Simulation::take_over(std::span<const RowCopy> copies) {
+  integrator_->copy_rows(copies);
+  for (std::vector<double>* values :
+       {&state_.positions, &state_.velocities, &last_good_.positions, &last_good_.velocities, &held_})
+    copy_rows(copies, *values);
+}
+
+void Simulation::follow(const WorldEditor::Made& made) {
+  kept_.reset();
+  ++edits_;
+  if (!integrator_->follow_edit(made.rows)) {
+    const std::vector<double> memory = integrator_->memory();
+    integrator_->prepare(*world_, solver_.get(), profile_);
+    integrator_->restore(memory);
+  }
+  take_over(made.copies);
+  if (watch_) watch_.emplace();
+  if (inverted_) inverted_.emplace(*world_);
+}
+
+Simulation::Edited Simulation::cut(std::string_view body, const Sweep& sweep, const CutOptions& options) {
+  return make(body, plan_body_cut(*world_, state_, body, sweep, options));
+}
+
+Simulation::Edited Simulation::ablate(std::string_view body, std::vector<std::int32_t> cells) {
+  return make(body, plan_body_ablation(*world_, body, std::move(cells)));
+}
+
+Simulation::Edited Simulation::make(std::string_view body, CutPlan plan) {
+  Edited edited;
+  edited.plan = std::move(plan);
+  if (!changes(edited.plan)) return edited;
+  if (editor_ != nullptr) {
+    if (const auto made = editor_->cut(body, edited.plan, state_)) {
+      follow(*made);
+      std::vector<std::int32_t> born;
+      born.reserve(edited.plan.born.size());
+      for (const BornCell& cell : edited.plan.born) born.push_back(cell.number);
+      edited.before = made->before;
+      edited.after = editor_->totals(body, born, made->rows, state_);
+      return edited;
+    }
+  }
+  CutWorld made = cut_world(*world_, state_, body, edited.plan);
+  edited.before = totals(*world_, state_, body);
+  replace_world(std::move(made.world), made.copies);
+  edited.after = totals(*world_, state_, body);
+  edited.relaid = true;
+  return edited;
+}
+
+std::vector<Piece> Simulation::pieces(std::string_view body) const {
+  if (editor_ != nullptr) return editor_->pieces(body);
+  const auto cut = cut_state(*world_, body);
+  return tissu::pieces(cut->hosts, cut->material);
+}
+
+void Simulation::remove_cells(std::string_view body, std::span<const std::int32_t> cells) {
+  if (editor_ != nullptr) {
+    if (const auto made = editor_->remove(body, cells, state_)) {
+      follow(*made);
+      return;
+    }
+  }
+  replace_world(tissu::remove_cells(*world_, state_, body, cells));
+}
+
+std::shared_ptr<const World> Simulation::kept_world() {
+  if (editor_ == nullptr) return world_;
+  if (kept_ == nullptr) kept_ = laid_anew(*world_);
+  return kept_;
+}
+
+Simulation::Mark Simulation::mark() {
+  forget_solves();
+  hold();
+  return {.world = kept_world(),
+          .state = state_,
+          .last_good = last_good_,
+          .held = held_,
+          .integrator = integrator_->memory(),
+          .watch = watch_ ? watch_->reference(state_) : std::vector<double>(),
+          .settled = settled_};
+}
+
+void Simulation::rewind(const Mark& mark) {
+  if (mark.state.positions.size() != state_.positions.size()) {
+    throw ParameterError("the mark has other unknowns than the simulation; rewind the one that made it.");
+  }
+  if (mark.world != (editor_ == nullptr ? world_ : kept_)) {
+    world_ = kept_ = mark.world;
+    editor_.reset();
+    if (edits_in_place_ && WorldEditor::serves(*world_)) {
+      editor_ = std::make_unique<WorldEditor>(mark.world);
+      world_ = editor_->world();
+    }
+  }
+  ++edits_;
+  integrator_->prepare(*world_, solver_.get(), profile_);
+  integrator_->restore(mark.integrator);
+  state_ = mark.state;
+  last_good_ = mark.last_good;
+  held_ = mark.held;
+  settled_ = mark.settled;
+  watch_.reset();
+  if (!mark.watch.empty()) watch_.emplace().restore(mark.watch, state_);
+  if (inverted_) inverted_.emplace(*world_);
+  forget_solves();
+}
+
+}  // namespace tissu

@@ -26,8 +26,9 @@ ROOT = Path(__file__).resolve().parents[1]
 PAGE = ROOT / "docs" / "measured" / "accuracy.md"
 HEAD = """# What accuracy costs in time
 
-`tissu bench accuracy` runs cases whose answer is known with every element, law, model, method of
-steps, solver and resolution that they name, and writes for each run its error and its time:
+This page compares elements, laws, models, methods in time and solvers by the time that they take to
+reach an error. `tissu bench accuracy` runs cases with known answers, with all the settings that
+each case names, and writes the error and the time of each run:
 
 ```
 tissu bench accuracy                     # all cases, about two minutes
@@ -36,21 +37,22 @@ tissu bench accuracy --preset full       # all runs of all cases
 tissu bench accuracy --list              # what cases there are
 ```
 
-`results/accuracy/accuracy.html` is one page with the diagrams, the tables and the answers, and
-needs no other file; `accuracy.csv` holds the same runs (`accuracy.parquet` too, where
-`pip install tissu[parquet]` was said), a PNG each diagram.
+`results/accuracy/accuracy.html` is a single page with the diagrams, the tables and the answers.
+`accuracy.csv` holds the same runs, as does `accuracy.parquet` with `tissu[parquet]`. Each diagram
+is a PNG.
 
-**Error**: distance from the reference, the mean over its places (a deflection curve, points, a
-whole field), as a share of the largest displacement; never from a beam formula, except in the
-column "as in the paper". **Time**: wall time from the scene to the result, with everything that is
-made on the way; runs under 0.2 s are taken three times, and the fastest counts. **Front**: runs
-that no other run beats in both error and time. **To reach** an error, a curve of runs takes the
-time between its runs at which a power law through them comes to it. **As in the paper**: measured
-against what the paper measured against.
+- **Error**: the mean distance from the reference over its places (a deflection curve, points, a
+  whole field), as a share of the largest displacement. It is never a distance from a beam formula,
+  except in the column "as in the paper".
+- **Time**: the wall time from the scene to the result, with all preparations. Runs under 0.2 s are
+  taken three times, and the fastest counts.
+- **Front**: the runs that no other run beats in both error and time.
+- **To reach** an error: the time at which a power law between two runs of a curve comes to it.
+- **As in the paper**: the error against the paper's own reference.
 
 ## A case of your own
 
-A case is a scene, `NAME.yaml`, which `tissu run` takes as well, and beside it `NAME.study.yaml`:
+A case is a scene, `NAME.yaml`, which `tissu run` takes as well, and a study, `NAME.study.yaml`:
 
 ```yaml
 title: A bar that is pulled
@@ -63,10 +65,11 @@ choices:
     small: {bodies.bar.mesh.cells: [[4, 2, 2]]}        # instead, in the small preset
 ```
 
-`tissu bench accuracy --cases FOLDER` runs what is there. References are `points` (arrays `points`
-and `displacements` of an .npz; nodes elsewhere are not compared), `curve` (stations along a line, a
-cubic between them), `affine` (u = G X) and `place` (where one place goes). The cases of tissu stand
-in `bench/cases`; `make_references.py` there makes the references that are our own.
+`tissu bench accuracy --cases FOLDER` runs the cases of a folder. References are `points` (arrays
+`points` and `displacements` of an .npz; nodes elsewhere are not compared), `curve` (stations along
+a line, a cubic between them), `affine` (u = G X) and `place` (the displacement of one place). The
+cases of tissu are in `bench/cases`. `make_references.py` there computes the references that are
+tissu's own.
 
 """
 TAIL = "Written by `python bench/accuracy.py --write`;"

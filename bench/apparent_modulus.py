@@ -27,18 +27,19 @@ LEANING = "cut into six"
 
 HEAD = """# The apparent modulus of springs
 
-Springs on edges have no Young's modulus of their own. This page measures which modulus a cube of
-them has, in the experiment of Chendeb (2007, section 2.3.4) with the model `mass_spring`. Four
-meshes of a cube of 50 mm, E = 0.02 MPa, are compressed by a plane by 12 mm. The modulus is stress
-over strain, (force / 25 cm^2) / (12 mm / 50 mm). Equilibrium is found by Newton's method in twelve
-steps, without gravity.
+Springs on edges have no Young's modulus of their own. This page measures the modulus of a cube
+made of them, in the experiment of Chendeb (2007, section 2.3.4) with the model `mass_spring`. A
+plane compresses four meshes of a cube of 50 mm, E = 0.02 MPa, by 12 mm. The modulus is stress
+over strain, (force / 25 cm^2) / (12 mm / 50 mm). Equilibrium is found by Newton's method in
+twelve steps, without gravity.
 
-The paper's regular meshes are cubes cut into five tetrahedra: 125 points with 540 springs and 320
-tetrahedra, and 1000 points with 5130 springs, which are 3645 tetrahedra (the paper prints 5645).
-Its irregular mesh came from commercial software (151 points, 688 springs, 407 tetrahedra). Ours has
-cubes cut into twelve around their centres, with points moved at random. The paper does not say
-whether points slide on the planes. **Sliding**: they do, between three planes of symmetry, so that
-the cube may get thicker. **Glued**: they do not.
+The paper's regular meshes are cubes cut into five tetrahedra: 125 points with 540 springs and
+320 tetrahedra, and 1000 points with 5130 springs, which are 3645 tetrahedra (the paper prints
+5645). Its irregular mesh came from commercial software (151 points, 688 springs, 407
+tetrahedra). Ours has cubes cut into twelve around their centres, with points moved at random.
+The paper does not say whether points slide on the planes. In the columns **sliding** they do,
+between three planes of symmetry, so the cube may get thicker. In the columns **glued** they do
+not.
 
 """
 
@@ -46,41 +47,42 @@ MIDDLE = """
 Chendeb reproduces the modulus within 12 %. With sliding we are within 27 %. The mesh makes the
 difference: the smallest has no inner point, and glued no free one at all.
 
-The last row is not the paper's. Where all diagonals lean one way, only slanted springs resist a
-shear of the planes. Past 10 mm of compression that cube lies down, with cells inside out, at a
-modulus of 2.3 kPa. Springs do not resist inversion (`inverted cells: no` in the table of models).
-Newton's method did converge.
+The last row is not in the paper. If all diagonals lean one way, only slanted springs resist a
+shear of the planes. Beyond 10 mm of compression this cube collapses sideways, with cells inside
+out, at a modulus of 2.3 kPa: springs do not resist inversion (`inverted cells: no` in the table
+of models). Newton's method did converge.
 
 ## What the springs are made of
 
-The same meshes, compressed by 0.1 % between sliding planes along each axis of the cube (the least
-and the largest): Young's modulus, and the strain across beside that along.
+The same meshes are compressed by 0.1 % between sliding planes along each axis of the cube.
+Entries are the least and the largest Young's modulus, and the ratio of the strain across to that
+along.
 
 """
 
 REASON = """
-Poisson's ratio is not a parameter. Where springs lie in all directions alike, the rule makes Lamé's
+Poisson's ratio is not a parameter. If springs lie in all directions alike, the rule gives Lamé's
 constants lambda = mu = 2 E / 5: Young's modulus E and Poisson's ratio 1/4, as
-`tests/cpp/model/edges/mass_spring_test.cpp` derives by hand; the irregular mesh comes near. Meshes
-with directions of their own depart: cubes cut into five have most springs along their axes, so they
-are stiffer along these, and thicken less. The paper says that its cubes did not get thicker at
-all; ours do. At 12 mm (24 %) springs that turn away from the load add the rest.
+`tests/cpp/model/edges/mass_spring_test.cpp` derives by hand. The irregular mesh comes near to this.
+Meshes with preferred directions depart from it. Cubes cut into five have most springs along their
+axes, so they are stiffer along these, and thicken less. The paper says that its cubes did not get
+thicker at all; ours do. At 12 mm (24 %) springs that turn away from the load add the rest.
 
 ## Equal masses and masses of the volumes
 
-A cube of {points} points crowded towards x = 0 is glued to the ground and sinks under its weight.
-The springs are those of the rule; all that changes are the masses, of the same sum. A homogeneous
-cube sinks evenly:
+A cube of {points} points crowded towards x = 0 is glued to the ground and sinks under its
+weight. The springs are those of the rule. Only the masses change, with the same sum. A
+homogeneous cube would sink evenly:
 
 """
 
 LAST = """
 ![Shapes under gravity, displacements enlarged](../pictures/apparent-modulus.png)
 
-With equal masses the crowded side carries most of the weight and sinks deeper (figure 2.5). With
-the masses of the volumes (figure 2.6) the weight is right, and what is left is the springs' own:
-flat cells are stiffer by the rule than long ones. The paper's figures show the first and not the
-second. Continuum elements of the same mesh know neither.
+With equal masses, the crowded side carries most of the weight and sinks deeper (figure 2.5).
+With the masses of the volumes (figure 2.6) the weight is right, but the springs still err: by
+the rule, flat cells are stiffer than long ones. The paper's figures show the first error and not
+the second. Continuum elements on the same mesh have neither.
 """
 
 

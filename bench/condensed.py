@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 
 import tissu as ts
+from tissu.cli.info import machine_line
 
 PAGE = Path(__file__).resolve().parents[1] / "docs" / "measured" / "condensed.md"
 SIZES = ((8, 4, 4), (16, 8, 8), (24, 12, 12))
@@ -16,29 +17,31 @@ STEPS = 30
 HEAD = """# Linear bodies, prefactored and condensed
 
 A body of Hooke's law under `step: {type: static, solver: {type: cholesky}}` has one constant
-matrix: its factor is made in the first step and kept, and every later step costs one solve.
-`model: condensed` goes further (Bro-Nielsen and Cotin 1996): inner nodes are eliminated once, and
-the unknowns are the nodes that are touched (held, led, loaded, shared with other cells), or the
-surface as well. Where the other nodes are is computed on demand: a solve with the factor of
-the inside.
+matrix. Its factor is made in the first step and kept, and every later step costs one solve.
+`model: condensed` goes further (Bro-Nielsen and Cotin 1996): inner nodes are eliminated once. The
+unknowns are the touched nodes (held, led, loaded, shared with other cells), or the surface as
+well. The positions of the other nodes are computed on demand, by a solve with the factor of the
+inside. In [contact](../guide/contact.md) any node of the surface may be touched, so all of them
+are kept, whatever `keep` says.
 
-A region may be condensed beside others with their own models (Cotin, Delingette, Ayache 2000):
+One region may be condensed while others have models of their own (Cotin, Delingette, Ayache 2000):
 
 ```yaml
 model: {far: condensed, near: fem}   # regions of the mesh
 editing: true                        # cells of `near` may go; `far` is not condensed again
 ```
 
-A bar of hexahedra, held at one end, pulled at four nodes of the other by a force that changes in
-each step; medians of 30 steps, one thread. The answers agree to 1e-9 of the largest displacement.
+A bar of hexahedra is held at one end and pulled at four nodes of the other, by a force that
+changes in each step. Times are medians of 30 steps on one thread. The answers agree to 1e-9 of
+the largest displacement.
 
 """
 TAIL = """
-What bounds a step: the sparse solve reads its factor twice; the condensed one reads a dense matrix
-of (3 n)^2 numbers, n the nodes that are kept. So a few touched nodes make a step that costs next to
-nothing, and a whole surface of some thousand nodes costs more than the sparse solve of the whole
-body: keep the surface only where something may touch it anywhere. What is made once is a solve for
-each degree of freedom that is kept.
+What bounds a step: the sparse solve reads its factor twice; the condensed one reads a
+dense matrix of (3 n)^2 numbers, with n the number of kept nodes. So a step with a few touched
+nodes costs next to nothing, and one with a whole surface of some thousand nodes costs more than
+the sparse solve of the whole body. Keep the surface only if something may touch it anywhere. The
+preparation is one solve for each kept degree of freedom.
 """
 
 
@@ -101,7 +104,8 @@ def page() -> str:
             lines.append(row)
             whole = moved if whole is None else whole
             assert np.abs(moved - whole).max() < 1e-9 * np.abs(whole).max()
-    return HEAD + "\n".join(lines) + "\n" + TAIL
+    printed = f"\nPrinted by `python bench/condensed.py --write`; {machine_line()}\n"
+    return HEAD + "\n".join(lines) + "\n" + TAIL + printed
 
 
 if __name__ == "__main__":

@@ -18,7 +18,7 @@ import sys
 from pathlib import Path
 from typing import Any
 
-from kernels import commit, digits, processor, table
+from kernels import commit, digits, table
 
 from tissu.cli.bench_contact import HEAD, cells_of, measured
 from tissu.cli.info import machine_line
@@ -38,7 +38,7 @@ def steps_text(names: list[str]) -> str:
         rows.append(row)
     early = [f"- {row.name}: ended early. {row.ended}" for row in rows if row.ended]
     found = table(HEAD, [cells_of(row) for row in rows])
-    where = f"{machine_line()} {processor()}, commit {commit()}, {datetime.date.today()}."
+    where = f"{machine_line()} Commit {commit()}, {datetime.date.today()}."
     return "\n\n".join([found, *(["\n".join(early)] if early else []), where])
 
 
@@ -79,7 +79,7 @@ def responses_text() -> str:
         tables.setdefault(row.name, []).append(response_cells(label, dt, row))
         early += [f"- {label}, {row.name}: ended early. {row.ended}"] if row.ended else []
     parts = [f"{name}:\n\n{table(RESPONSE_HEAD, rows)}" for name, rows in tables.items()]
-    where = f"{machine_line()} {processor()}, commit {commit()}, {datetime.date.today()}."
+    where = f"{machine_line()} Commit {commit()}, {datetime.date.today()}."
     return "\n\n".join([*parts, *(["\n".join(early)] if early else []), where])
 
 

@@ -19,7 +19,9 @@ import effect_rows
 import instruction_counts
 from effect_rows import Measured
 from instruction_counts import ROOT, Counts
-from kernels import commit, processor, table
+from kernels import commit, table
+
+from tissu.cli.info import processor
 
 PAGE = ROOT / "docs/measured/absent-effects.md"
 COUNTED, STEPS = 1, 2  # size of the bar and steps that are counted
@@ -119,22 +121,22 @@ def page(
     counted = measured[0].without.scene
     return f"""{TITLE}
 
-Printed by `python bench/effects.py --write`, not written by hand;
-`tests/python/test_absent_effects.py` holds what it says. An effect that a scene does not ask for is
-not in the world: no object, no flag that is read for each node or cell. So its functions take no
-instruction of a step.
+An effect that a scene does not ask for costs nothing. It is not in the world: there is no
+object, and no flag that is read for each node or cell. So its functions take no instruction of a
+step. This page counts the instructions; `tests/python/test_absent_effects.py` tests the result.
+It is printed by `python bench/effects.py --write`, not written by hand.
 
-The bare scene is a bar of StVK tetrahedra that was set off with a velocity and then left alone: no
-gravity, no load, nothing held. Implicit Euler, linearised once, ten iterations of conjugate
-gradient whatever the residual, one thread. Each scene with an effect is the bare one (or the one
-named) with that effect, and runs between two runs of the scene without it.
+The bare scene is a bar of StVK tetrahedra with an initial velocity, without gravity, loads or
+supports. It takes implicit Euler, linearised once, with ten iterations of conjugate gradients
+whatever the residual, on one thread. Each scene with an effect is the bare one (or the named
+one) with that effect. It runs between two runs of the scene without it.
 
 ## Instructions
 
-Instructions of a step, and of the work between two steps, counted by valgrind's callgrind with
+Instructions of a step, and of the work between two steps, are counted by valgrind's callgrind with
 kernels for
 {counted["isa"]}, {counted["cells"]:,} tetrahedra. "Its own" are those of functions that run for the
-effect alone, known by their names (`bench/effect_rows.py`).
+effect alone, identified by their names (`bench/effect_rows.py`).
 
 {counted_table(measured)}
 
@@ -142,8 +144,8 @@ effect alone, known by their names (`bench/effect_rows.py`).
 
 ## Questions
 
-What a step asks of the world to find that there is nothing to do: loops over empty lists. It takes
-the same on every mesh.
+A step has to find that there is nothing to do. It does so by loops over empty lists, whose cost
+is the same on every mesh:
 
 {asked_table(bare)}
 

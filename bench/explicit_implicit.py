@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 import tissu as ts
+from tissu.cli.info import machine_line
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 from explicit_implicit_text import (
@@ -262,7 +263,7 @@ def page() -> str:
         ),
         EQUILIBRIUM + equilibrium_table(),
         FIXED_POINT + fixed_point_table(lambda step, **c: cube(*PAIRS[0], step, **c)),
-        END,
+        END + machine_line() + "\n",
     ]
     return "\n\n".join(parts)
 

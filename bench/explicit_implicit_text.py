@@ -15,64 +15,67 @@ omega the largest eigenfrequency of M^-1 K:
 
 """
 
-EXPLICIT = """Explicit Euler itself has no limit without damping: a vibration grows by (1 + h^2
-omega^2)^(1/2) in each step, and the paper's runs last because 0.9 s are short. tissu refuses it
-above {limit:.2g} s here (growth by e in 100 s). **Symplectic Euler, at the same cost of one force a
-step, holds steps {ratio:.0f} times as large as the paper's 5e-5 s** (bold: nine tenths of its
-limit), and all that are listed:
+EXPLICIT = """Explicit Euler is not stable at any step without damping: a vibration grows by (1 +
+h^2 omega^2)^(1/2) in each step. The paper's runs survive because 0.9 s are short. tissu refuses
+steps above {limit:.2g} s here (growth by e in 100 s). **Symplectic Euler takes one force in a
+step too, and is stable with steps {ratio:.0f} times as long as the paper's 5e-5 s** (bold: nine
+tenths of its limit). It is stable with all steps of the table:
 
 """
 
-BY_HAND = """Explicit Euler run on regardless, to see where it is lost within the 0.9 s: the paper's
-largest step of each pair, and twice as large until a node is more than 100 mm from the even stretch
-(12 to 15 mm are what the cross contraction and the waves of the pull make):
+BY_HAND = """The next table shows which steps of explicit Euler fail within the 0.9 s. Each pair
+starts with the paper's largest step, which is doubled until a node is more than 100 mm from the
+even stretch. (The cross contraction and the waves of the pull alone make 12 to 15 mm.)
 
 """
 
-IMPLICIT = """Every step that the paper calls not stable lasts the 0.9 s here, and its limits do not
-follow omega^2 either: it has the same ones for E = 100 kPa and 10 kPa. Nor can a step's cost fall
-to a tenth with the modulus, as in its table, when the cells are the same thousand. What was
-different in the paper's runs is not known; that explicit Euler is lost in the end, and at which
-growth, is seen here.
+IMPLICIT = """Every step that the paper calls not stable survives the 0.9 s here. Its limits do
+not follow omega^2 either: they are the same for E = 100 kPa and 10 kPa. Nor can the cost of a
+step fall to a tenth with the modulus, as in its table, for the same thousand cells. The reason
+for these differences is not known. The table shows that explicit Euler fails in the end, and at
+which growth.
 
 ## Implicit Euler
 
-Linearised once, conjugate gradient to 1e-6. Steps: of 0.9 s, the last one shorter; the paper counts
-one more for some.
+Steps are linearised once, with conjugate gradients to 1e-6. The last step to 0.9 s is shorter; the
+paper counts one step more in some rows.
 
 """
 
 TAIL = """An implicit step costs {implicit:.1f} ms and an explicit one {explicit:.2f} ms,
 **{ratio:.0f} times as much; the paper has 66**. The paper concludes that the explicit method is
-the slower one but for soft and dense bodies, because it must take steps of 5e-5 s. With symplectic
-Euler at its own limit the whole pull costs about what a few implicit steps cost, and
-follows the waves as well. Implicit steps pay where cells are small or stiff (omega large)
-and the motion is slow: their cost does not know omega."""
+slower except for soft and dense bodies, because it must take steps of 5e-5 s. With symplectic Euler
+at its own limit, the whole pull costs about as much as a few implicit steps, and it follows the
+waves as well. Implicit steps pay if cells are small or stiff (omega large) and the motion is slow,
+since their cost does not depend on omega."""
 
 EQUILIBRIUM = """## Where they come to rest
 
-With a damping of 10/s (`rayleigh: mass`) both reach the equilibrium; 6 s, E = 100 kPa, 1000 kg/m3;
-symplectic Euler with its own step beside implicit Euler with 0.1 s. Both have the same
-equilibrium; the paper's 6 and 1 um may be what its runs had left to move.
+With a damping of 10/s (`rayleigh: mass`), both methods come to rest within 6 s, at the same
+equilibrium: symplectic Euler with its own step, and implicit Euler with 0.1 s. E = 100 kPa,
+1000 kg/m3. The paper's 6 and 1 um may be the motion that its runs had left.
 
 """
 
 FIXED_POINT = """## Chendeb's fixed point
 
-Chendeb (2007, section 2.4.4) solves BDF2 by iteration, v <- v^ + a M^-1 f(x(v)): no matrix, and in
-each iteration the share (2/3 h omega)^2 of the fastest vibration's error is left, (h omega)^2 in
-the first step, which is implicit Euler. Measured: the residual after n + 1 iterations over that
-after n, the cube moving in its fastest vibration (found by power iteration on accelerations). Then
-the cube falls under gravity: iterations of a step to 1e-6, mean of 20 steps after one of at most
-0.9 / omega, without and with Anderson's acceleration (five differences); beside `bdf2`
-with Newton's method and conjugate gradient. E = 100 kPa, 1000 kg/m3, x = 0 held.
+Chendeb (2007, section 2.4.4) solves BDF2 by iteration, v <- v^ + a M^-1 f(x(v)), without a matrix.
+Each iteration leaves the share (2/3 h omega)^2 of the fastest vibration's error, or (h omega)^2 in
+the first step, which is implicit Euler.
+
+The table has two measurements. In the first, the cube moves in its fastest vibration, found by
+power iteration on accelerations; the entry is the residual after n + 1 iterations over that
+after n. In the second, the cube falls under gravity; the entries are the iterations of a step to
+1e-6, the mean of 20 steps after one of at most 0.9 / omega: without and with Anderson's
+acceleration (five differences), and for `bdf2` with Newton's method and conjugate gradients. E =
+100 kPa, 1000 kg/m3, x = 0 held.
 
 """
 
-END = """Plain iteration ends where it is predicted to, at h omega = 3/2, and is slow before: a step
-is then shorter than what symplectic Euler takes with one force. Anderson's acceleration goes on
-beyond it, as a Krylov method would, with iterations about in proportion to h omega; its step then
-costs no more than Newton's as long as h omega is below about 4.
+END = """Plain iteration stops converging at h omega = 3/2, as predicted, and is slow before:
+such a step is shorter than one that symplectic Euler takes with a single force. With Anderson's
+acceleration it converges beyond this limit, as a Krylov method would, and the number of
+iterations grows in proportion to h omega. A step then costs no more than Newton's as long as h
+omega is below about 4.
 
-This page is printed by `python bench/explicit_implicit.py --write`.
-"""
+Printed by `python bench/explicit_implicit.py --write`; """

@@ -2,51 +2,52 @@
 
 HEAD = """# Frames, measured
 
-Written by `python bench/frames.py --write`. Bosman, Duriez and Cotin 2014 in `bosman2014`. What
-frames are, and when to take them: [the guide](../guide/tissue.md).
+This page compares frames with the tables and figures of Bosman, Duriez and Cotin (2014). What
+frames are, and when to take them: [the guide](../guide/tissue.md). Printed by `python
+bench/frames.py --write`.
 """
 
 STEEL_TEXT = """
 ## Figures 6 and 7: the steel cantilever, 16 x 0.5 x 0.5 m
 
-The paper measures against the beam formula, 147.19 mm. That is not what a mesh converges to:
-150.17 mm (CalculiX, `B` of the reference). Full quadrature; time of one static step from rest.
+The paper compares with the beam formula, 147.19 mm. A mesh converges to another value, 150.17 mm
+(CalculiX, `B` of the reference). Quadrature is full. Times are those of one static step from rest.
 """
 
 SOFT_TEXT = """
 ## Figures 8 and 13: the soft cantilever, 16 x 1 x 1 m, 5 kg, 40 kPa
 
-The end sinks by two fifths of the length; a swing damped to rest, for static steps of frames with
-whole levers are slow here (below). The paper: 21 x 3 x 3 frames within 2 % of 64 x 4 x 4
-hexahedra; ours are 0.1 % apart, with a quarter of the unknowns.
+The end sinks by two fifths of the length. The bar swings and is damped to rest, because static
+steps of frames with whole levers are slow here (next section). In the paper, 21 x 3 x 3 frames
+come within 2 % of 64 x 4 x 4 hexahedra. Ours are 0.1 % apart, with a quarter of the unknowns.
 """
 
 STATIC_TEXT = """
 ## The soft cantilever in one static step
 
-The same bar from rest by `static` with `cholesky`, under a share of its weight and under all of
-it: sag of the end and Newton iterations, to a residual of 1e-8 of the load. Quadratic hexahedra,
-24 x 2 x 2 cells, are what it is measured against.
+The same bar from rest by `static` with `cholesky`, under a share of its weight and under all of it.
+Entries are the sag of the end and the Newton iterations to a residual of 1e-8 of the load. The
+reference is a mesh of 24 x 2 x 2 quadratic hexahedra.
 """
 
 TENSION = """
 ## Table 1: the cylinder in tension
 
-The end face held along x only, as the closed form wants. The paper is within 0.7 %.
+The end face is held along x only, as in the closed form. The paper is within 0.7 %.
 """
 
 SPEED = """
 ## Table 3: a step with 60 iterations of conjugate gradients, two threads
 
-Points on a grid inside a box, four neighbours, implicit Euler linearised once: the tangent is
+Points on a grid inside a box, four neighbours, implicit Euler linearised once. The tangent is
 assembled into blocks once a step (SIMD over points), and the 60 products are those of a sparse
-matrix. Grids hold a few more points than the paper's: "at the paper's points" is our time less
-what they are more, in proportion.
+matrix. Our grids have a few more points than the paper's. "At the paper's points" is our time,
+reduced in proportion.
 """
 
 NEAR = """
 ## Table 2: the same against frames, points and neighbours, one thread
 
-Poisson samplings, Shepard's weights. The article prints 45.42 and 55.15 ms for 6 and 8 neighbours,
-in an order that its print does not make clear.
+Poisson samplings, Shepard's weights. The article prints 45.42 and 55.15 ms for 6 and 8 neighbours;
+which is which is not clear from its print.
 """

@@ -28,22 +28,24 @@ import tissu as ts  # noqa: E402
 PAGE = ROOT / "docs" / "measured" / "hard-cases.md"
 HEAD = """# Hard cases
 
-Each row is a scene in `tests/hard/cases`, which `tissu run` opens. Each column is a method, which
-takes the place of the scene's own. There are three outcomes:
+This page shows how every method in time copes with scenes that are known to break simulators.
+Each row is a scene in `tests/hard/cases`, which `tissu run` opens. Each column is a method in
+the place of the scene's own. There are three outcomes:
 
 - **steady**: in the last tenth of the run no node moves by more than a thousandth of the body;
-- **bounded**: the body still moves, and the number says how far a node was ever from rest;
+- **bounded**: the body still moves. The number is the largest distance of a node from rest;
 - **refused**: an error of one sentence, and the simulation stands at its last good step. The notes
   below the table give each sentence.
 
 How static steps and energies are judged: [statics](../guide/statics.md),
 [energy that grows](../guide/integrators.md#energy-that-grows).
 
-Numbers are the largest distance of a node from rest at any time, in sizes of the body. An asterisk:
-some steps did not meet their tolerances, and their reports say so. `!`: cells are inside out at the
-end, which `tissu run` prints. Explicit methods take nine tenths of their stable step (`dt: auto`).
-They are not run where that makes more than 20,000 steps. The fixed point takes the scene's step, or
-the longest that contracts. Implicit methods take the scene's step.
+Numbers are the largest distance of a node from rest at any time, in sizes of the body. An
+asterisk means that some steps did not meet their tolerances, and that their reports say so. `!`
+means that cells are inside out at the end, which `tissu run` prints. Explicit methods take nine
+tenths of their stable step (`dt: auto`). They are not run if that makes more than 20,000 steps.
+The fixed point takes the scene's step, or the longest one that contracts. Implicit methods take
+the scene's step.
 
 """
 
@@ -51,10 +53,11 @@ the longest that contracts. Implicit methods take the scene's step.
 BEGIN, END = "<!-- contact -->", "<!-- end of contact -->"
 CONTACT_HEAD = """## Contact
 
-Scenes in `tests/hard/contact`, with the methods that contact has. The exact audit is asked after
-every step; an entry that says nothing of crossings had none. `tests/hard/test_contact_*.py` states
-what each case comes to: forces by closed form, momenta to round-off, the same bits on 1, 2 and 4
-threads. What contact cannot hold yet is said in [contact.md](../guide/contact.md).
+These scenes are in `tests/hard/contact`, with the methods that contact has. The exact audit runs
+after every step. An entry that does not mention crossings had none.
+`tests/hard/test_contact_*.py` states the outcome of each case: forces by closed form, momenta to
+round-off, the same bits on 1, 2 and 4 threads. [The limits of
+contact](../guide/contact.md#limits) are in the guide.
 
 """
 TAIL = "This page is printed by `python bench/hard.py --write`.\n"

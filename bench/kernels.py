@@ -17,6 +17,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from tissu.cli.info import processor
+
 ROOT = Path(__file__).resolve().parent.parent
 JOBS = ("force", "product", "assembly")
 # The rows that are set against each other are measured before and after the others, so that a busy
@@ -192,14 +194,6 @@ def definite_table(rows: dict[str, Row]) -> str:
     return table(["assembly, ns an element", "exact", "definite", "definite / exact"], lines)
 
 
-def processor() -> str:
-    """The processor's name, where the system gives it."""
-    path = Path("/proc/cpuinfo")
-    text = path.read_text(encoding="utf-8") if path.exists() else ""
-    found = re.search(r"model name\s*:\s*(.+)", text)
-    return found.group(1).strip() if found else "unnamed processor"
-
-
 def commit() -> str:
     """The commit of this checkout."""
     done = subprocess.run(
@@ -233,8 +227,10 @@ def page(report: dict[str, Any]) -> str:
     rows = rows_of(report)
     return f"""# What an element costs
 
-Printed by `python bench/kernels.py`, not written by hand. One thread, about 20,000 elements of each
-type, quadrature `full`, processor time of the fastest repetition.
+This page gives the time of a force, a tangent product and a matrix for every element and law,
+and the limits of the machine beside them. It is printed by `python bench/kernels.py`, not
+written by hand: one thread, about 20,000 elements of each type, quadrature `full`, processor
+time of the fastest repetition.
 
 {machine(report)}
 
@@ -242,45 +238,47 @@ type, quadrature `full`, processor time of the fastest repetition.
 
 {limits_table(rows)}
 
-A multiply-add counts two, the triad `a = b + s c` three numbers of eight bytes.
+A multiply-add counts as two operations. The triad `a = b + s c` moves three numbers of eight bytes.
 
 ## Against two baselines
 
 {baseline_table(rows)}
 
-`textbook`: 3x3 products, E, S, P, one element after the other, portable flags
-(`bench/baseline/textbook.h`). `expanded`: Picinbono's mass-tensor, the energy as a quartic
-polynomial of the displacements with 280 constants a tetrahedron, and six that he does not count
+`textbook` computes 3x3 products, E, S and P, one element after the other, with portable flags
+(`bench/baseline/textbook.h`). `expanded` is Picinbono's mass-tensor: the energy as a quartic
+polynomial of the displacements, with 280 constants a tetrahedron, and six that he does not count
 (`bench/baseline/expanded.h`). Both equal the core's forces to round-off: `tests/cpp/bench`.
 
 ## What bounds the force of StVK on tetrahedra
 
 {ablation_table(rows)}
 
-A kernel of the benchmark's own, with parts left out, on the mesh in the order of the core.
+The rows are a kernel of the benchmark's own, with parts left out, on the mesh in the order of
+the core.
 
 ## By element, beside figure 6.11 of Faure 2014
 
 {product_table(rows)}
 
-The thesis, on a graphics processor, whose figure prints no numbers: tetrahedra by far the fastest,
-then pyramids, hexahedra and wedges, which are alike.
+The figure of the thesis, for a graphics processor, prints no numbers. Tetrahedra are by far the
+fastest there; pyramids, hexahedra and wedges follow and are alike.
 
 ## Definite matrices
 
 {definite_table(rows)}
 
-Every cell is squeezed to 0.6 of its height and more or less indefinite. Continuum elements clamp
-dP/dF at every point, isotropic laws in the axes of F, others by the eigenvalues of all nine rows;
-the other models clamp the matrix of each cell, or of each spring (`docs/reference/tour.md`).
+Every cell is squeezed to 0.6 of its height, and its matrix is more or less indefinite. Continuum
+elements clamp dP/dF at every point: isotropic laws in the axes of F, others by the eigenvalues
+of all nine rows. The other models clamp the matrix of each cell, or of each spring
+(`docs/reference/tour.md`).
 
 ## Every element, every law
 
 {kernel_table(rows)}
 
-"of peak": arithmetic by formula (`bench/kernels/operations.h`), as a share of the multiply-add
-limit. "of bandwidth": what the force reads of the element's own
-constants ("bytes"), as a share of the triad from the level that holds the mesh.
+"Of peak" is the arithmetic by formula (`bench/kernels/operations.h`), as a share of the
+multiply-add limit. "Of bandwidth" is the traffic of the element's own constants ("bytes") that
+the force reads, as a share of the triad from the level that holds the mesh.
 """
 
 

@@ -16,53 +16,57 @@ RATIOS = (0.3, 0.4, 0.45, 0.47, 0.48, 0.49, 0.499, 0.4999)
 
 HEAD = """# Locking, and mean dilatation
 
-Where a material hardly changes its volume, cells of first order lock: a bending cell would have to
-change the volume at its points, and does not bend. `tissu check` notes it from Poisson's ratio 0.45
-on. The model `mean_dilatation` gives each *patch* of cells one volume ratio:
+If a material hardly changes its volume, cells of first order lock: a bending cell would have to
+change the volume at its points, and so it does not bend. `tissu check` notes it from a Poisson's
+ratio of 0.45 on. This page measures the locking, and its cure. The model `mean_dilatation` gives
+each *patch* of cells one volume ratio:
 
     E = sum_g w_g W((theta / J_g)^(1/3) F_g),   theta = sum_g w_g J_g / sum_g w_g  of the patch
 
-A patch is one hexahedron (Nagtegaal, Parks and Rice 1974; Simo, Taylor and Pister 1985), or about
-eight tetrahedra, or six wedges or pyramids around a node (after de Souza Neto, Andrade Pires and
-Owen 2005). Force and tangent are those of this energy: momentum and energy are kept, the matrix is
-symmetric. Where F is the same everywhere it is `fem` to round-off. Any law and fibres are taken; no
-patch reaches from one region or material to another. The price is a matrix that couples all nodes
-of a patch, and about three passes over the cells in place of one.
+A patch is one hexahedron (Nagtegaal, Parks and Rice 1974; Simo, Taylor and Pister 1985), or
+about eight tetrahedra, or six wedges or pyramids around a node (after de Souza Neto, Andrade
+Pires and Owen 2005). Force and tangent are derivatives of this energy, so momentum and energy
+are kept, and the matrix is symmetric. If F is the same everywhere, the model equals `fem` to
+round-off. It takes any law and fibres. Patches do not reach from one region or material to
+another. The price is a matrix that couples all nodes of a patch, and about three passes over the
+cells in place of one.
 
 ```yaml
 model: mean_dilatation
 ```
 
-A bar of 40 x 10 x 10 cm, held at one end, under its own weight: neo-Hooke, E = 300 kPa,
-1000 kg/m3; the end goes down by a quarter of the length.
+The bar of 40 x 10 x 10 cm is held at one end and bends under its own weight: neo-Hooke, E = 300
+kPa, 1000 kg/m3. The end sinks by a quarter of the length.
 
 """
 TAIL = """
-## What it does not do
+## Limits
 
 - **Coarse cells stay too stiff in bending** for another reason than volume (tetrahedra and wedges
   most): that error goes with the square of the cells' size, at any Poisson's ratio.
-- **The pressure is that of a patch**, as coarse as the patches. For a cube held all around the
-  inf-sup constant of the tetrahedra's patches is 0.05 to 0.08 on 3 to 6 cells a side and a few
-  pressures (at most 7) are felt by no displacement, of wedges 0.26 to 0.35 and of pyramids 0.25 to
-  0.39 with none; a regular grid of hexahedra has 3 n - 2 such pressures (7 to 16), the well-known
-  chessboard (`tests/cpp/model/dilatation/cell_pressure_test.cpp`). Displacements do not suffer;
-  stress of a single cell may.
-- **Size of patches.** Measured on this bar with neo-Hooke and nu = 0.4999, grids of 8 x 2 x 2 and
-  16 x 4 x 4, three ways of cutting into tetrahedra, sag over the converged one: nearly cell by cell
-  0.35 to 0.65 and 0.41 to 0.84; patches of 6: 0.71 to 1.05 and 0.90 to 0.93; of 8: 0.70 to 0.97 and
-  0.90 to 0.93; of 12: 0.79 to 1.31 and 0.93 to 0.94; of 24: 1.2 to 1.4 and 0.93 to 1.01.
-- **Crushed cells.** Below a tenth of its volume the weight of a point in the mean falls, to zero
-  when it is inverted: energy and force stay finite, and the law sees the sign of its own J. So a
-  law that takes inverted cells (stable neo-Hooke) brings them back, and neo-Hooke refuses them
-  with the same message as under `fem`.
-- **St-Venant-Kirchhoff.** Its lambda/2 tr(E)^2 is not a function of the volume: where bending
-  strains eps are finite, one theta cannot make tr(E) small at every point, and cells stiffen again
-  from lambda eps^2 > mu on. At nu = 0.49 it is cured ([phantom](phantom.md)); at 0.4999 this
-  bar is not. Take a law with a volume term, such as neo-Hooke.
+- **The pressure is that of a patch**, and as coarse as the patches. For a cube held all around
+  with 3 to 6 cells a side, the inf-sup constant is 0.05 to 0.08 for tetrahedra, 0.26 to 0.35 for
+  wedges and 0.25 to 0.39 for pyramids. Some pressures of tetrahedra (at most 7) affect no
+  displacement; wedges and pyramids have none of these. A regular grid of hexahedra has 3 n - 2
+  of them (7 to 16), the well-known chessboard
+  (`tests/cpp/model/dilatation/cell_pressure_test.cpp`). Displacements do not suffer; the stress
+  of a single cell may.
+- **Size of patches.** Sag over the converged sag of this bar with neo-Hooke and nu = 0.4999, for
+  grids of 8 x 2 x 2 and 16 x 4 x 4 and three ways of cutting into tetrahedra: nearly cell by
+  cell 0.35 to 0.65 and 0.41 to 0.84; patches of 6: 0.71 to 1.05 and 0.90 to 0.93; of 8: 0.70 to
+  0.97 and 0.90 to 0.93; of 12: 0.79 to 1.31 and 0.93 to 0.94; of 24: 1.2 to 1.4 and 0.93 to
+  1.01.
+- **Crushed cells.** Below a tenth of its volume, the weight of a point in the mean falls, to
+  zero when the point is inverted. So energy and force stay finite, and the law sees the sign of
+  its own J. A law that accepts inverted cells (stable neo-Hooke) brings them back. Neo-Hooke
+  refuses them with the same message as under `fem`.
+- **St-Venant-Kirchhoff.** Its lambda/2 tr(E)^2 is not a function of the volume. If bending
+  strains eps are finite, one theta cannot make tr(E) small at every point, and cells stiffen
+  again from lambda eps^2 > mu on. At nu = 0.49 locking is cured ([phantom](phantom.md)); at
+  0.4999 it is not in this bar. Take a law with a volume term, such as neo-Hooke.
 - **Removed cells** leave the others in their patches.
-- **Quadratic cells** need no cure: take `hexahedron20` with `quadrature: reduced` in a static scene
-  where bending has to be right.
+- **Quadratic cells** need no cure: take `hexahedron20` with `quadrature: reduced` in a static
+  scene in which bending has to be right.
 """
 
 

@@ -155,9 +155,8 @@ def page(reports: list[Any]) -> str:
 
 Linear tetrahedra of St-Venant–Kirchhoff as continuum element (`fem`, 7 constants), in squared
 lengths of edges (`mass_link`, 27) and as a polynomial in displacements (`mass_tensor`, 280 and 6).
-All three give the same forces and tangents, to 1e-12 (the mass-tensor where displacements are no
-larger than a cell or so, its round-off grows with their cube):
-`tests/cpp/model/edges/tetra_models_test.cpp`.
+All three give the same forces and tangents to 1e-12: `tests/cpp/model/edges/tetra_models_test.cpp`.
+(The mass-tensor does so up to displacements of about a cell; its round-off grows with their cube.)
 Printed by `bench/models.py`; run it for your machine.
 {machine(reports[0])}
 
@@ -174,30 +173,32 @@ edges and faces that tetrahedra share, as Picinbono does, and works on eight at 
 
 {size_table(rows)}
 
-Constants alone: of a single tetrahedron, as the papers count. Bytes hold constants, node places and
-what a model keeps beside them.
+"Constants alone" are those of a single tetrahedron, as the papers count. Bytes include
+constants, node positions and everything else that a model keeps.
 
 ## Which wins
 
 {conclusion(rows)}
 
 For forces and products the continuum element wins on today's processors, because it reads least and
-computes no more: 7 numbers and about 160 operations for a force, counted in the source, where the
-mass-link has 27 numbers for about as many operations, and the mass-tensor some 75 for about 600. In
-the time that a core waits for one number from memory it does dozens of operations, so what is cheap
-to compute again is better not stored. The mass-link is close while its constants fit the caches
-easily, 2 MB of 10,000, and falls behind beyond. Its matrix needs fewer operations than the
-element's: it is ahead on small meshes, and on large ones, where writing the matrix costs more than
-computing it, the two are even. Stored constants do not pay for the mass-tensor anywhere; that
-neighbours share them, 286 down to some 75, is what makes it bearable.
+computes no more. A force takes 7 numbers and about 160 operations, counted in the source. The
+mass-link takes 27 numbers for about as many operations, and the mass-tensor about 75 for about 600.
+While a core waits for one number from memory, it could do dozens of operations. So a value that is
+cheap to compute again is better not stored.
+
+The mass-link is close as long as its constants fit the caches easily (2 MB for 10,000
+tetrahedra), and falls behind beyond that. Its matrix needs fewer operations than the element's.
+It is ahead on small meshes; on large ones, where writing the matrix costs more than computing
+it, the two are even. Stored constants never pay for the mass-tensor. It is bearable only because
+neighbours share them, which brings 286 down to about 75.
 
 ## Cells that go
 
 {edit_table(rows)}
 
-Only constants on the nodes, edges and faces of the removed cell are summed up again; the others are
-copied, because the world before the edit stays as it is. Processor time of the model alone: a world
-also finds its pattern anew. A continuum element has no sums to mend.
+Only constants on the nodes, edges and faces of the removed cell are summed up again. The others
+are copied, because the world before the edit stays as it is. Times are processor time of the
+model alone; a world also finds its pattern anew. A continuum element has no sums to update.
 """
 
 

@@ -26,7 +26,7 @@ import tissu as ts
 from tissu.cli.info import machine_line
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
-from kernels import commit, processor, table
+from kernels import commit, table
 from peer_rows import (
     DROPPED_HEAD,
     EXPLICIT_HEAD,
@@ -138,7 +138,7 @@ def section(found: dict[str, dict[Subject, Taken]], references: dict[str, Any], 
             tissu = taken[Subject("tissu", "explicit")]
             rows = [explicit_row(s, t, tissu) for s, t in taken.items()]
             tables.append(f"### {size}, an explicit step of 0.2 ms\n\n{table(EXPLICIT_HEAD, rows)}")
-    where = f"{machine_line()} {processor()}, commit {commit()}, {datetime.date.today()}."
+    where = f"{machine_line()} Commit {commit()}, {datetime.date.today()}."
     return TEXT.format(
         turn=TURN,
         many=10 * TURN,

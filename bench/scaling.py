@@ -165,8 +165,9 @@ def page(reports: list[dict[str, Any]]) -> str:
     steps = "\n\n".join(step_table(rows, solver) for solver in SOLVERS)
     return f"""# From a thousand elements to a million
 
-Printed by `python bench/scaling.py`, not written by hand; every number is that of the fastest
-repetition, of processor time on one thread and by the clock on two.
+This page shows how the time and memory of a step grow with the number of elements. It is printed by
+`python bench/scaling.py`, not written by hand. Every number is that of the fastest repetition:
+processor time on one thread, time by the clock on two.
 
 {machine(reports[-1])}
 {load_text(reports)}
@@ -179,29 +180,30 @@ repetition, of processor time on one thread and by the clock on two.
 
 {limit_table(rows)}
 
-The triad `a = b + s c` counts three numbers of eight bytes, L2 of two threads is that of both. A
-product that only reads may come out above it, and so may data of somewhat more than 12 MB, for
-which the memory's limit is taken, in a cache that has room for them.
+The triad `a = b + s c` counts three numbers of eight bytes. The L2 of two threads is that of
+both. A product may exceed the triad because it only reads. So may data of slightly more than 12
+MB if they fit a cache, since they are compared with the limit of the memory.
 
 ## A cube of tetrahedra
 
-10 cm of soft tissue (10 kPa, nu 0.3, 1000 kg/m3) of St-Venant–Kirchhoff, held at one face, bent by
-its weight: `bench/scale/cube.h`. It is the same cube at every size. `assembly` is all that makes
-the matrix of a step, inertia and held nodes included; bytes are those of what a part reads.
+The cube has 10 cm of soft tissue (10 kPa, nu 0.3, 1000 kg/m3) of St-Venant–Kirchhoff. It is held
+at one face and bent by its weight: `bench/scale/cube.h`. It is the same cube at every size.
+`assembly` is all the work that makes the matrix of a step, inertia and held nodes included.
+Bytes are those that a part reads.
 
 {parts}
 
 ## Whole steps
 
-Implicit Euler, 10 ms, linearised once, conjugate gradient to 1e-6: from the third step from rest
-three steps (four with a multigrid, which keeps what it made for several), again and again, with a
-solver that forgets what it knew before and makes everything anew. Shares are of the time of a
-step; "solve of triad" is what the iterations must move (`bench/solve/traffic.h`) as a share of
-the triad from the level that holds it. Bytes are those of model, matrix and solver, "resident"
-what the whole process grew by.
+Implicit Euler, 10 ms, linearised once, conjugate gradient to 1e-6. Three steps are timed again
+and again, from the third step from rest on; four with a multigrid, which keeps its levels for
+several steps. Each time the solver forgets everything and makes it anew. Shares are of the time
+of a step. "Solve of triad" is the traffic that the iterations need (`bench/solve/traffic.h`), as
+a share of the triad from the level that holds it. Bytes are those of model, matrix and solver;
+"resident" is the growth of the whole process.
 
-A multigrid's window of four steps keeps clear of harder ones: from the 8th step on (105,456
-elements) the swing takes ten Newton iterations a step with any solver.
+The four steps with a multigrid come before harder ones: from the 8th step on (105,456 elements),
+the swing takes ten Newton iterations a step with any solver.
 
 {best_table(rows)}
 
@@ -209,14 +211,14 @@ elements) the swing takes ten Newton iterations a step with any solver.
 
 ## Products and preconditioners
 
-The matrix of the cube's first step. "MB": what a product moves, or what a preconditioner keeps.
-Set-ups take the values of a matrix whose pattern they have seen.
+The matrix is that of the cube's first step. "MB" are those that a product moves, or that a
+preconditioner keeps. A set-up takes the values of a matrix whose pattern it has seen.
 
 {solve_table(rows)}
 
 ## Rotations
 
-One thread, 20,000 gradients turned any way; "flat" ones take the way by the eigenvector.
+One thread, 20,000 gradients with random rotations. "Flat" ones take the branch by the eigenvector.
 
 {rotation_table(rows)}
 """

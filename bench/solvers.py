@@ -49,22 +49,24 @@ HEAD = """# Linear solvers, measured
 
 What each solver is, and when to take it: [the guide](../guide/solvers.md).
 
-A cube of tetrahedra (10 kPa, nu 0.3, 10 cm), held at its floor, bent by its weight; tolerance 1e-6;
-one thread. Each entry is iterations, time for one system, and the bytes that the solver keeps for
-each unknown beside the matrix ({matrix:.0f} bytes for each unknown, none without one). The exponent
-is that of the growth of the time between the last two sizes.
+A cube of tetrahedra (10 kPa, nu 0.3, 10 cm) is held at its floor and bent by its weight. The
+tolerance is 1e-6, on one thread. Each entry has the iterations, the time of one system, and the
+bytes that the solver keeps for each unknown in addition to the matrix, which has {matrix:.0f}
+bytes for each unknown if there is one. The exponent is that of the growth of the time between
+the last two sizes.
 
 """
 TAIL = """
-What bounds them: products read the matrix once, {matrix:.0f} bytes for each unknown, half in single
-precision, and run at the bandwidth of the memory once it leaves the caches. Triangular solves read
-as much, and their rows wait for each other. A factor of a three-dimensional mesh takes work that
-grows as n^2, and memory with n^(4/3).
+What bounds them: a product reads the matrix once, {matrix:.0f} bytes for each unknown,
+or half of it in single precision. Products run at the bandwidth of the memory once the matrix
+leaves the caches. Triangular solves read as much, and their rows wait for each other. A factor
+of a three-dimensional mesh takes work that grows as n^2, and memory that grows as n^(4/3).
 
-Inertia halves the iterations of this soft cube at 10 ms. With it and without, their number grows
-with the number of cells along the cube. That of a multigrid does not: one of its iterations costs
-four more products with the matrix, which pays from some ten thousand unknowns on. Its first system
-includes finding the aggregates, as a cut does. Later ones do not.
+Inertia halves the iterations of this soft cube at 10 ms. With and without inertia, their number
+grows with the number of cells along the cube. The number of iterations of a multigrid does not
+grow. One of its iterations costs four more products with the matrix, which pays from about ten
+thousand unknowns on. Its first system, and the first one after a cut, includes finding the
+aggregates.
 
 Tried and dropped, on the bar of 10,368 and 48,000 tetrahedra with a multigrid in single precision:
 

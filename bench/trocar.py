@@ -23,14 +23,18 @@ from tissu.trocar import kinematics
 from tissu.trocar.controller import Controller
 from tissu.trocar.model import LocalModel, across
 from tissu.trocar.run import Trocars
+from tissu.trocar.touch import Touch
 
+PRESSED = (-0.046, 0.006, 0.075)
+"""m: where the organ is palpated"""
 ROOT = Path(__file__).resolve().parents[1]
 PAGE = ROOT / "docs" / "measured" / "trocar.md"
 US = 1e6
 HEAD = """# The active trocar
 
-What is meant by the words stands in [the guide](../guide/trocar.md). Ticks are those of the
-simulated device, at 1 kHz.
+This page measures whether the ticks of a trocar are in time, and whether the hand feels the
+force of the tissue. The words are explained in [the guide](../guide/trocar.md). Ticks are those
+of the simulated device, at 1 kHz.
 
 """
 
@@ -160,6 +164,40 @@ def together(dt: str) -> list[str]:
     ]
 
 
+def give(contacts: int) -> list[str]:
+    """What the compliance of so many contacts takes, while the organ is pressed deeper."""
+    example = runpy.run_path(str(ROOT / "examples" / "palpate.py"))
+    row = [str(contacts)]
+    for way in ("factor", "cg"):
+        simulation = example["scene"]().compile()
+        found = simulation.compliance(by=way)
+        near = np.linalg.norm(simulation.positions["organ"] - PRESSED, axis=1)
+        nodes = [[node] for node in np.argsort(near)[:contacts]]
+        axes = np.tile(np.eye(3), (contacts, 1, 1))
+        steps, kept, made, errors = [], [], [], []
+        with Controller(simulation.scene.trocars["right"]) as controller:
+            touch = Touch(simulation, controller)
+            for number in range(70):
+                touch.lead()
+                begin = time.perf_counter()
+                simulation.step()
+                steps.append(time.perf_counter() - begin)
+                before = found.factors
+                begin = time.perf_counter()
+                found.of(["organ"] * contacts, nodes, [[1.0]] * contacts, axes)
+                spent = time.perf_counter() - begin
+                if number:
+                    (kept if found.factors == before else made).append(spent)
+                    errors.append(found.error)
+                touch.hand_on()
+        row.append(f"{1e3 * np.median(kept):.2f}" if kept else "none")
+        if way == "factor":
+            row.append(f"{1e3 * np.median(made):.1f}, {len(made)} of 69" if made else "none of 69")
+            row.append(f"{max(errors):.1e}")
+            row.append(f"{1e3 * np.median(steps):.1f}")
+    return row
+
+
 def table(head: tuple[str, ...], rows: list[list[str]]) -> str:
     """In Markdown."""
     lines = [head, tuple("---" for _ in head), *rows]
@@ -195,14 +233,18 @@ def page(seconds: float) -> str:
         "ms a step and its ticks",
     )
     text += table(head, [felt(dt) for dt in ("10 ms", "20 ms", "40 ms")]) + "\n"
+    text += "## The compliance of the tissue\n\n"
+    text += "The same organ while it is pressed deeper, steps of 10 ms. The compliance of so many "
+    text += "contacts after each of them: the factor as it is kept and corrected, the factor made "
+    text += "anew, the largest bound of its error, and beside them a step and the conjugate "
+    text += "gradient, in milliseconds.\n\n"
+    head = ("contacts", "kept", "made anew, how often", "error", "a step", "cg")
+    text += table(head, [give(contacts) for contacts in (1, 3, 8)]) + "\n"
     text += "## All together in real time\n\n"
     text += (
         "The same, in real time: ticks in their thread, steps of the tissue with their compliance, "
     )
-    text += (
-        "and a report after each of them. The compliance bounds a step: SciPy reads the matrices "
-    )
-    text += "and solves with them.\n\n"
+    text += "and a report after each of them.\n\n"
     head = ("step", "steps that were late", "missed ticks", "ticks late [us], p99")
     text += table(head, [together(dt) for dt in ("10 ms", "20 ms", "40 ms")]) + "\n"
     return text + THESIS + f"Printed by `python bench/trocar.py --write`; {machine_line()}\n"

@@ -15,7 +15,6 @@ from __future__ import annotations
 
 import argparse
 import asyncio
-import platform
 import shutil
 import statistics
 import subprocess
@@ -30,6 +29,7 @@ from typing import Any
 import numpy as np
 
 import tissu as ts
+from tissu.cli.info import machine_line
 from tissu.live_view import View
 
 PAGE = Path(__file__).resolve().parent.parent / "docs" / "measured" / "live-view.md"
@@ -224,8 +224,7 @@ def memory(frames: int) -> tuple[float, float]:
 
 def rows(given: argparse.Namespace) -> Iterator[str]:
     """The lines of the table."""
-    yield f"On {platform.machine()}, {ts._core.build_info()['threads_available']} threads; "
-    yield "`python bench/view.py` prints it.\n\n"
+    yield f"Printed by `python bench/view.py`; {machine_line()}\n\n"
     yield "| triangles of the surface | frames a second, sent | drawn by software | steps a second "
     yield "alone | watched | cost of viewing |\n|---:|---:|---:|---:|---:|---:|\n"
     for triangles, side in SIDES.items():

@@ -33,16 +33,16 @@ What each viscosity is, and when to take it: [the guide](../guide/viscosity.md).
 
 ## A cube under compression
 
-A cube of 50 mm, St-Venant-Kirchhoff with E = 0.02 MPa and nu = 0.3, 1000 kg/m3, 625 tetrahedra,
-three planes of symmetry, is pressed by 15 mm at 150 mm/s: the planes slide, so that the closed
-form P = E/2 F (F^2 - 1) holds once the cube is at rest. Implicit Euler with 0.1 ms and Newton's
-method. The paper presses at 1 mm/s; then the blow at the start is 150 times smaller, and so is
-what a given viscosity adds: rho c v = 4.5 Pa there, {blow:.0f} Pa here, of {largest:.0f} Pa at
-the end.
+A cube of 50 mm is pressed by 15 mm at 150 mm/s: St-Venant-Kirchhoff with E = 0.02 MPa and nu =
+0.3, 1000 kg/m3, 625 tetrahedra, three planes of symmetry. The planes slide, so the closed form P
+= E/2 F (F^2 - 1) holds once the cube is at rest. Implicit Euler with 0.1 ms and Newton's method.
+The paper presses at 1 mm/s. Its impact at the start is therefore 150 times weaker, and so is the
+stress that a given viscosity adds: rho c v = 4.5 Pa there, {blow:.0f} Pa here, of {largest:.0f}
+Pa at the end.
 
-Of the pressure from 5 % of compression on: **oscillation**, the root mean square about its
-straight trend beside the closed form; **bias**, the mean distance from it; both in percent of the
-closed form's mean. A positive bias is too stiff.
+The tables compare the pressure from 5 % of compression on with the closed form. **Oscillation** is
+the root mean square of the difference about its straight trend, and **bias** is its mean. Both are
+in percent of the closed form's mean. A positive bias is too stiff.
 
 ![Pressure against compression](../pictures/viscosity.png)
 
@@ -51,15 +51,15 @@ closed form's mean. A positive bias is too stiff.
 TAIL = """
 ## What to read from it
 
-- Without viscosity the cube rings ({none:.1f} %): the steps' own damping, omega^2 dt / 2, hardly
-  touches it.
+- Without viscosity the cube rings ({none:.1f} %): the damping of the steps, omega^2 dt / 2, hardly
+  changes that.
 - Figure 3.8: `centroid` with c = {good_c:g} N s/m^4 takes the oscillation to
   {good_oscillation:.1f} % at a bias of {good_bias:.1f} %; `kelvin_voigt` does as much with eta =
   {good_eta:g} Pa s.
 - Figure 3.9: with c = {bad_c:g} N s/m^4 the bias is {bad_bias:.0f} %. It is the viscosity's
   stress, in proportion to the speed and to the coefficient.
-- The window between them is that of damping ratios around 0.1 to 0.5 of the slowest mode: eta =
-  10 to 30 Pa s here.
+- Between the two, the slowest mode has a damping ratio of about 0.1 to 0.5: eta = 10 to 30 Pa s
+  here.
 - c of `centroid` is not a property of a material: the damper that it makes grows with the square of
   the cells' size. On cells of half the size c must be four times as large: {coarse:.1f} % and
   {fine:.1f} % of oscillation with the same c on cells of 10 mm and 5 mm. eta of `kelvin_voigt` is
@@ -70,8 +70,8 @@ TAIL = """
 TURNING = """
 ## A body that turns
 
-The same cube, free, spun at one turn a second; what is left of its angular momentum after half a
-second, beside the same without viscosity (the steps' own loss):
+The same cube is free and spins at one turn a second. Entries are the share of its angular momentum
+that is left after half a second, and the same without viscosity, which is the loss by the steps:
 
 | viscosity | left |
 |---|---|

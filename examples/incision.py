@@ -44,19 +44,20 @@ def knife() -> ts.Sweep:
     return ts.Sweep([[(x, y, 0.009), (x, y, 0.039)] for x, y in across])
 
 
-def main(folder: Path) -> ts.CutReport:
+def main(folder: Path) -> ts.Simulation:
     """Draw the block out, cut it, let the incision open."""
     simulation = block().compile()
-    for _ in simulation.run(0.7):
-        pass
-    report = simulation.cut("tissue", knife())
-    print(report)
+    for report in simulation.run(0.7):
+        assert report.converged
+    print(simulation.cut("tissue", knife()))
+    folder.mkdir(parents=True, exist_ok=True)
     series = Series(simulation, folder)
-    for number, _ in enumerate(simulation.run(0.6)):
+    for number, report in enumerate(simulation.run(0.6)):
+        assert report.converged
         if number % 10 == 0:
             series.write()
     ts.draw(simulation, folder / "incision.png")
-    return report
+    return simulation
 
 
 if __name__ == "__main__":

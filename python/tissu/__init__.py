@@ -54,6 +54,7 @@ _HOMES = {
         "FIELD_NAMES",
     ),
     "tissu.simulation": (
+        "Compliance",
         "Contacts",
         "Crossing",
         "IntegrationPoints",
@@ -158,6 +159,7 @@ _HOMES = {
         "SharedMemoryDevice",
         "PluginDevice",
         "Hand",
+        "ToolChanges",
         "TrocarLimits",
         "Editing",
         "Ablator",

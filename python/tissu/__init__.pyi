@@ -29,6 +29,7 @@ from tissu.mesh import refined as refined
 from tissu.user_law import law as law
 from tissu.user_law import read_law as read_law
 from tissu.field_names import FIELD_NAMES as FIELD_NAMES
+from tissu.simulation import Compliance as Compliance
 from tissu.simulation import Contacts as Contacts
 from tissu.simulation import Crossing as Crossing
 from tissu.simulation import IntegrationPoints as IntegrationPoints
@@ -121,6 +122,7 @@ from tissu.scene import SerialDevice as SerialDevice
 from tissu.scene import SharedMemoryDevice as SharedMemoryDevice
 from tissu.scene import PluginDevice as PluginDevice
 from tissu.scene import Hand as Hand
+from tissu.scene import ToolChanges as ToolChanges
 from tissu.scene import TrocarLimits as TrocarLimits
 from tissu.scene import Editing as Editing
 from tissu.scene import Ablator as Ablator

@@ -77,7 +77,7 @@ class Scene(SceneData):
         return scene_text(self)
 
     def to_dict(self) -> dict[str, Any]:
-        """What to_yaml() writes, as mappings, lists and numbers in SI.
+        """The content of to_yaml() as mappings, lists and numbers in SI.
 
         Raises:
             SceneError: a mesh was made in memory; `save` writes it to a file.

@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 
 import tissu
+from tissu.cli import info
 
 SCENE = """\
 name: bar
@@ -256,3 +257,26 @@ def test_a_signal_leaves_complete_files(scene, tmp_path, number, code, word):
     assert len(written) == index.count("<DataSet")
     assert all(f"frames/{name}" in index for name in written)
     assert len(meshio.read(frames / written[-1]).points) == 81
+
+
+def test_mesh_info_doubts_an_organ_of_many_metres(tmp_path):
+    tissu.write_mesh(tissu.bar_mesh(size=(200, 60, 60), cells=(2, 1, 1)), tmp_path / "liver.vtu")
+    metres = tissu_command("mesh", "info", "liver.vtu", cwd=tmp_path).stdout
+    assert "200 m is more than any organ; in millimetres? --unit mm" in metres
+    said = tissu_command("mesh", "info", "liver.vtu", "--unit", "mm", cwd=tmp_path).stdout
+    assert "0.2 x 0.06 x 0.06 m" in said
+    assert "any organ" not in said
+
+
+def test_measured_pages_and_info_name_the_processor(tmp_path, monkeypatch):
+    monkeypatch.setattr(info.platform, "machine", lambda: "riscv64")
+    listed = tmp_path / "cpuinfo"
+    listed.write_text(
+        "processor\t: 0\nmodel\t\t: 106\nmodel name\t: A Chip (TM) @ 2 GHz \n\nprocessor\t: 1\n"
+    )
+    assert info.processor(listed) == "A Chip (TM) @ 2 GHz"
+    listed.write_text("processor\t: 0\nmodel name\t:\nhart\t: 1\n")  # named by no text
+    assert info.processor(listed) == "unnamed riscv64 processor"
+    assert info.processor(tmp_path / "absent") == "unnamed riscv64 processor"
+    assert info.machine_line().endswith(f" available, {info.processor()}.")
+    assert f"processor          {info.processor()}" in info.info_text()

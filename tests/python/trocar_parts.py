@@ -9,7 +9,12 @@ def every_trocar_part():
     hand = ts.Hand(times=[0, 1], points=[(0, 0, 0.1), (0, 0, 0.12)], tremor="0.1 mm", lets_go=2)
     known = {"damping": (1, 1, 1, 2), "friction": (1, 1, 1, 1)}
     devices = [
-        ts.SimulatedDevice(hand=hand, delay="1 ms", seed=4),
+        ts.SimulatedDevice(
+            hand=hand,
+            changes=ts.ToolChanges(times=[1, 2], tags=[None, 0x51A0]),
+            delay="1 ms",
+            seed=4,
+        ),
         ts.UdpDevice("192.168.1.20", 7001, **known),
         ts.SerialDevice("/dev/ttyACM0", baud=2_000_000),
         ts.SharedMemoryDevice("/trocar"),
@@ -34,6 +39,7 @@ def every_trocar_part():
             )
         },
         obstacles={"probe": ts.SphereObstacle((0, 0, 2), 0.01)},
+        contacts=[ts.Contact(("bar", "probe"))],
         trocars=trocars,
         step=ts.ImplicitEuler(0.01),
     )

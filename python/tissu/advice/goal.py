@@ -47,7 +47,7 @@ class Goal:
 
 
 def goal(error: units.Number, rate: units.Number, *, dynamic: bool) -> Goal:
-    """Read what is asked for.
+    """Read the two demands.
 
     Raises:
         ParameterError: not a positive error (a share, a percentage or a length) or rate.

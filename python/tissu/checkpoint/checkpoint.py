@@ -23,7 +23,7 @@ _COLUMNS = {"positions": 3, "velocities": 3, "velocities_before": 3, "rotations"
 
 @dataclass(frozen=True, slots=True)
 class Resumed:
-    """Where a simulation went on from.
+    """The checkpoint from which a simulation went on.
 
     Attributes:
         file: the checkpoint.

@@ -24,6 +24,10 @@ bench_app = typer.Typer(help="Measure what accuracy and contact cost.", no_args_
 app.add_typer(bench_app, name="bench")
 
 SceneFile = Annotated[Path, typer.Argument(metavar="SCENE", help="A scene (YAML).")]
+TrustPlugins = Annotated[
+    bool,
+    typer.Option("--trust-plugins", help="Whether the plug-in of a trocar, a program, may run."),
+]
 TrustLaws = Annotated[
     bool,
     typer.Option(
@@ -122,15 +126,19 @@ def view_command(
         float, typer.Option(help="Simulated seconds for each second; inf: as fast as it goes.")
     ] = 1.0,
     paused: Annotated[bool, typer.Option("--paused", help="Begin paused.")] = False,
+    hand: Annotated[
+        str, typer.Option(metavar="scene|browser", help="What holds simulated trocars at first.")
+    ] = "scene",
     trust_laws: TrustLaws = False,
+    trust_plugins: TrustPlugins = False,
     debug: Debug = False,
 ) -> None:
     """Run a scene live in the browser, to be seen and touched."""
     from tissu.cli.view import Job, view_scene
 
     with reported(debug=debug):
-        more = (port, host, token, browser, beside, record, shared, speed, paused, trust_laws)
-        view_scene(Job(scene, *more))
+        more = (port, host, token, browser, beside, record, shared, speed, paused)
+        view_scene(Job(scene, *more, hand, trust_laws, trust_plugins))
 
 
 @app.command()

@@ -17,6 +17,8 @@ if TYPE_CHECKING:
     from tissu.mesh.bar import Split
 
 Three = tuple[float, float, float]
+LONGEST_ORGAN = 1.0
+"""m: a mesh above it, read as metres, may be in millimetres"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,6 +60,15 @@ def made_bar(bar: Bar, *, cell: str | None, split: str | None, segments: str | N
         )
     pairs = parse_segments(segments)
     return mixed_bar_mesh(size=size, cells=cells, segments=pairs, origin=origin)
+
+
+def described(mesh: Mesh, *, in_metres: bool) -> str:
+    """Size, quality and faults of a mesh; a doubt where its lengths were taken as metres."""
+    low, high = mesh.bounds
+    size, text = float((high - low).max()), str(mesh.quality())
+    if in_metres and size > LONGEST_ORGAN:
+        text += f"\n  note           {size:.4g} m is more than any organ; in millimetres? --unit mm"
+    return text
 
 
 def written(mesh: Mesh, output: Path) -> None:

@@ -24,9 +24,11 @@ def mesh_info(
 ) -> None:
     """Counts, size, quality and faults of a mesh."""
     with reported(debug=debug):
+        from tissu.cli.mesh import described
         from tissu.mesh import read_mesh
 
-        typer.echo(str(read_mesh(file, unit=unit, scale=scale).quality()))
+        in_metres = unit == "m" and scale == 1.0
+        typer.echo(described(read_mesh(file, unit=unit, scale=scale), in_metres=in_metres))
 
 
 @mesh_app.command("bar")

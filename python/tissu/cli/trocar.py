@@ -153,6 +153,21 @@ class Recorded:
     trusted: bool
 
 
+def check_writable(out: Path) -> None:
+    """Before anything is recorded: the file can be written.
+
+    Raises:
+        ParameterError: it is a folder, or in a folder that is not there.
+    """
+    if out.is_dir():
+        raise ParameterError(f"found the folder {out}; a file is accepted, such as ticks.npz")
+    if not out.resolve().parent.is_dir():
+        text = (
+            f"found no folder {out.resolve().parent}; one that is there is accepted: make it first"
+        )
+        raise ParameterError(text)
+
+
 def record_trocar(job: Recorded) -> None:
     """Ticks for a while, with a wall that is felt or without, and writes what happened."""
     from tissu.trocar.controller import Controller
@@ -190,8 +205,9 @@ def replay_recording(file: Path) -> int:
     """Takes the ticks of a recording again; the exit code: 0 where all bits are the same."""
     from tissu.trocar.recording import Recording
 
-    if not file.exists():
-        raise ParameterError(f"found no file {file}; one of `tissu trocar record` is accepted")
+    if not file.is_file():
+        what = "the folder" if file.is_dir() else "no file"
+        raise ParameterError(f"found {what} {file}; a file of `tissu trocar record` is accepted")
     recording = Recording.read(file)
     different = recording.difference(recording.replay())
     if different:

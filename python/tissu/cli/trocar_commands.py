@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Callable
 from pathlib import Path
 from typing import Annotated
 
@@ -23,6 +25,37 @@ TrustPlugins = Annotated[
     typer.Option("--trust-plugins", help="Run the scene's plug-in of a device, a program."),
 ]
 Seconds = Annotated[str, typer.Option(metavar="TIME", help="How long, such as '5 s'.")]
+
+
+_TINY = 1e-9
+_LONGEST = 86_400.0
+"""s: a day of ticks"""
+
+
+def number_of(
+    option: str, read: Callable[[str], float], given: str, unit: str, least: float, most: float
+) -> float:
+    """A number of an option, with its unit.
+
+    Raises:
+        ParameterError: it cannot be read, is not a number, or is not between the two.
+    """
+    from tissu.errors import ParameterError
+
+    value = read(given)
+    if not least <= value <= most:
+        accepted = (
+            f"at least {least:g} {unit}" if most == math.inf else f"{least:g} to {most:g} {unit}"
+        )
+        raise ParameterError(f"{option}: found {given!r}; {accepted} is accepted")
+    return value
+
+
+def seconds_of(option: str, given: str, least: float = 1e-3) -> float:
+    """A time of an option [s]."""
+    from tissu.units import TIME
+
+    return number_of(option, TIME, given, "s", least, _LONGEST)
 
 
 @trocar_app.command("check")
@@ -60,10 +93,10 @@ def jitter_command(
 ) -> None:
     """Tick in real time, and say how late ticks were and what the machine granted."""
     from tissu.cli.trocar import jitter_trocar
-    from tissu.units import TIME
 
     with reported(debug=debug):
-        jitter_trocar(scene, trocar, TIME(seconds), TIME(spin), trusted=trust_plugins)
+        lasts, awake = seconds_of("--seconds", seconds), seconds_of("--spin", spin, least=0.0)
+        jitter_trocar(scene, trocar, lasts, awake, trusted=trust_plugins)
 
 
 @trocar_app.command("record")
@@ -83,12 +116,14 @@ def record_command(
     debug: Debug = False,
 ) -> None:
     """Record all ticks: what the device gave, the models, the torques."""
-    from tissu.cli.trocar import Recorded, record_trocar
-    from tissu.units import LENGTH, STIFFNESS, TIME
+    from tissu.cli.trocar import Recorded, check_writable, record_trocar
+    from tissu.units import LENGTH, STIFFNESS
 
     with reported(debug=debug):
-        depth = None if wall is None else LENGTH(wall)
-        numbers = (TIME(seconds), realtime, depth, STIFFNESS(stiffness))
+        check_writable(out)
+        depth = None if wall is None else number_of("--wall", LENGTH, wall, "m", 0.0, 1.0)
+        felt = number_of("--stiffness", STIFFNESS, stiffness, "N/m", _TINY, math.inf)
+        numbers = (seconds_of("--seconds", seconds), realtime, depth, felt)
         job = Recorded(scene, trocar, out, *numbers, trust_plugins)
         record_trocar(job)
 

@@ -28,7 +28,9 @@ class Job:
     shared: bool
     speed: float
     paused: bool
+    hand: str
     trust_laws: bool
+    trust_plugins: bool
 
 
 def view_scene(job: Job) -> None:
@@ -55,6 +57,8 @@ def view_scene(job: Job) -> None:
         shared=job.shared,
         speed=job.speed,
         playing=not job.paused,
+        hand=job.hand,
+        trust_plugins=job.trust_plugins,
     )
     with view_of as view, interruption() as interrupted:
         typer.echo(f"the view is at {view.url} (Ctrl-C ends it)")

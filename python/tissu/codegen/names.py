@@ -43,6 +43,7 @@ NAMES: dict[str, tuple[str, ...]] = {
     "user_law": ("law", "read_law"),
     "field_names": ("FIELD_NAMES",),
     "simulation": (
+        "Compliance",
         "Contacts",
         "Crossing",
         "IntegrationPoints",
@@ -89,6 +90,7 @@ HEADINGS: dict[str, tuple[str, ...]] = {
         "trocar.port",
         "trocar.device",
         "trocar.hand",
+        "trocar.changes",
         "trocar.limits",
     ),
     "Editing and instruments": ("editing", "instrument", "tear"),

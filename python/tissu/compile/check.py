@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class Check:
-    """What a scene would run, and what stops it.
+    """The effects that a scene would run, and its problems.
 
     Attributes:
         problems: what compile() refuses, one sentence each, with its place.

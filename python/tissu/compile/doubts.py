@@ -51,8 +51,8 @@ def _sizes(prepared: Prepared) -> Iterator[str]:
         size = float((high - low).max())
         if known.positions and size > _LONGEST:
             yield (
-                f"bodies.{name}: is {size:.4g} m long, more than any organ; where the mesh is "
-                "written in another unit, say so: mesh: {file: ..., unit: mm}"
+                f"bodies.{name}: is {size:.4g} m long, more than any organ; if the mesh is in "
+                "millimetres, write so: mesh: {file: ..., unit: mm}"
             )
 
 

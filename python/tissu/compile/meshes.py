@@ -22,7 +22,6 @@ if TYPE_CHECKING:
     from tissu.scene.body import Body
     from tissu.scene.problem import Path
 
-_LONG = 20.0  # length [m] that is remarkable for a body
 _TOO_LONG = 50.0  # length [m] that is refused unless the unit is given
 _SLIVER = 0.05  # shape quality below which a cell spoils accuracy and convergence
 
@@ -105,7 +104,7 @@ def _repeated(mesh: Mesh) -> list[str]:
         if len(folded):
             verb = "names" if len(folded) == 1 else "name"
             text = f"{counted(len(folded), f'{block.type} cell')} {verb} a node twice"
-            found.append(f"{text} (first: {first_five(folded)}); mend the mesh")
+            found.append(f"{text} (first: {first_five(folded)}); repair the mesh")
         _, first, count = np.unique(rows, axis=0, return_index=True, return_counts=True)
         if (count > 1).any():
             twice = np.sort(first[count > 1])
@@ -120,16 +119,13 @@ def _check_length(mesh: Mesh, body: Body, place: Path, findings: Findings) -> bo
     if not _unit_is_known(body):
         return False
     length = float((mesh.bounds[1] - mesh.bounds[0]).max())
-    if length <= _LONG:
-        return True
+    if length <= _TOO_LONG or _unit_is_explicit(mesh, body):
+        return True  # `doubts` notes a length above that of any organ
     text = f"the body is {length:.4g} m long (a mesh in millimetres?)"
-    if length > _TOO_LONG and not _unit_is_explicit(mesh, body):
-        findings.problem(
-            place, f"{text}; say its unit, such as unit: mm, or unit: m when it is so long"
-        )
-        return False
-    findings.note(f"{field_path(place)}: {text}")
-    return True
+    findings.problem(
+        place, f"{text}; say its unit, such as unit: mm, or unit: m when it is so long"
+    )
+    return False
 
 
 def _unit_is_known(body: Body) -> bool:
@@ -158,7 +154,7 @@ def _check_shapes(mesh: Mesh, place: Path, findings: Findings) -> None:
             findings.problem(
                 place,
                 f"{share} (first: {first_five(wrong)}); cells of positive volume are accepted: "
-                "mend the mesh",
+                "repair the mesh",
             )
     slivers = np.setdiff1d(np.flatnonzero(report.shapes < _SLIVER), report.zero_volume)
     if slivers.size and not len(report.inverted):

@@ -145,5 +145,5 @@ def check_sizes(mesh: Mesh, place: Path, findings: Findings) -> None:
         if len(flat):
             share = f"{len(flat)} of {counted(len(block), f'{block.type} cell')} {are(len(flat))}"
             size = {2: "area", 1: "length"}[m]
-            text = f"{share} without {size} (first: {first_five(flat)}); mend the mesh"
+            text = f"{share} without {size} (first: {first_five(flat)}); repair the mesh"
             findings.problem(place, text)

@@ -69,7 +69,7 @@ def stiffness(simulation: Simulation, body: str, seen: Seen) -> Floats:
     of_cells = np.full(mesh.cell_count, np.nan)
     for region, law in simulation.scene.bodies[body].laws().items():
         if type(law).made is not None:
-            raise ParameterError(f"found a law of '{body}' whose moduli nothing is known of")
+            raise ParameterError(f"found a law of '{body}' without known moduli")
         lame, mu = law.small_strain()
         young = mu * (3.0 * lame + 2.0 * mu) / (lame + mu)
         if region is None:

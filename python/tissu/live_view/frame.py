@@ -22,6 +22,8 @@ if TYPE_CHECKING:
     from tissu.live_view.marks import Marks
     from tissu.live_view.runner import Runner
     from tissu.live_view.touch import Touch
+    from tissu.live_view.trocars.frame import TrocarFrame
+    from tissu.live_view.trocars.trocars import LiveTrocars
     from tissu.simulation import Profile, Simulation
 
 SHARE = 0.015
@@ -63,6 +65,7 @@ class Frame:
         achieved: simulated time for wall time then.
         said: what the tool in hand feels.
         gizmos: of the tool in hand.
+        trocars: of all simulations.
     """
 
     time: float
@@ -76,6 +79,7 @@ class Frame:
     achieved: float
     said: str
     gizmos: list[Gizmo]
+    trocars: Sequence[TrocarFrame] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -98,10 +102,13 @@ class FrameTaker:
         wanted: what the page shows now; another thread may put another one there.
         ration: of the time for the field that is coloured.
         cost: processor time of the latest frame without that field [s].
+        layers: that can be shown.
     """
 
-    def __init__(self) -> None:
-        """Nothing was taken yet."""
+    def __init__(self, trocars: LiveTrocars | None = None) -> None:
+        """Nothing was taken yet; `trocars`: of the simulations, where they have any."""
+        self._trocars = trocars
+        self.layers = LAYERS if trocars is None else (*LAYERS, trocars.layer)
         self.wanted = Wanted()
         self.ration = Ration(SHARE, longest=_LONGEST)
         self.cost = 0.0
@@ -144,7 +151,7 @@ class FrameTaker:
             marks={
                 (lane, layer.name): self._drawn(lane, layer, simulation)()
                 for lane, simulation in enumerate(simulations)
-                for layer in LAYERS
+                for layer in self.layers
                 if layer.name in wanted.layers and layer.offered(simulation)
             }
             | {(lane, "tool"): marks for lane, marks in enumerate(drawn)},
@@ -155,6 +162,7 @@ class FrameTaker:
             achieved=runner.achieved,
             said="" if touch is None else touch.say(simulations),
             gizmos=[] if touch is None else touch.gizmos(simulations),
+            trocars=() if self._trocars is None else self._trocars.frames(),
         )
         return frame, cost
 

@@ -17,7 +17,7 @@ from tissu.live_view.colours import BODIES
 from tissu.live_view.gizmo import Gizmo, GizmoDrawing
 from tissu.live_view.latest import Latest
 from tissu.live_view.marks_drawing import MarksDrawing
-from tissu.live_view.panels import PANELS
+from tissu.live_view.panels import panels_of
 from tissu.live_view.pointer import Pointer
 from tissu.live_view.ration import processor_time
 from tissu.live_view.server import open_server
@@ -65,7 +65,7 @@ class Page:
         self.server = open_server(title, word)
         session.recorder.of(self.server)
         self._prepare_scene()
-        self._panels = [panel(self.server.gui, session) for panel in PANELS]
+        self._panels = panels_of(self.server.gui, session)
         self._bodies: dict[tuple[int, str], BodyDrawing] = {}
         self._gizmos = GizmoDrawing(self.server.scene, session.stage, self._moved)
         self._marks: dict[tuple[int, str], MarksDrawing] = {}

@@ -13,7 +13,7 @@ class Rights:
 
     @property
     def count(self) -> int:
-        """How many pages are open."""
+        """Number of open pages."""
         return len(self._open)
 
     def come(self, client: int) -> None:

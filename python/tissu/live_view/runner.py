@@ -25,7 +25,7 @@ _STATIC_STEP = 1.0 / 30.0
 """Simulated time of a step of a static scene [s]: it only moves along the loads' times."""
 _IDLE = 0.05
 """How long a paused thread waits for a wish before it looks again [s]."""
-_CLOSED = "found a wish to a view that is closed; open another one, or call the simulation itself"
+_CLOSED = "found a call to a view that is closed; open another one, or call the simulation itself"
 _PATIENCE = 5e-4
 """How long it waits while another thread is inside a simulation [s]."""
 
@@ -59,6 +59,7 @@ class Runner:
         speed: float = 1.0,
         playing: bool = True,
         between: Callable[[], object] = lambda: None,
+        step: Callable[[Simulation], StepReport] | None = None,
     ) -> None:
         """Take them over.
 
@@ -67,6 +68,7 @@ class Runner:
             speed: simulated seconds for each second of wall time; infinite: as fast as it goes.
             playing: whether it begins to step at once.
             between: called in the thread after each step, and while paused.
+            step: takes a step of a simulation; absent: its own.
         """
         self.simulations = list(simulations)
         self.reports: list[StepReport] = []
@@ -77,6 +79,7 @@ class Runner:
         self._waited = 0.0
         self._pace = Pace(speed)
         self._between = between
+        self._advance = own_step if step is None else step
         self._wishes: queue.SimpleQueue[_Wish] = queue.SimpleQueue()
         self._ended = threading.Event()
         self._thread = threading.Thread(target=self._run, name="tissu view", daemon=True)
@@ -224,7 +227,7 @@ class Runner:
         """A step, after the program's own thread has left the simulation that it looks at."""
         while True:
             try:
-                return simulation.step(step_of(simulation))
+                return self._advance(simulation)
             except BusyError:
                 if self._ended.wait(_PATIENCE):
                     raise
@@ -246,6 +249,11 @@ class Runner:
         self._set_playing(False)
         self.error = f"{type(error).__name__}: {error}"
         traceback.print_exception(error, file=sys.stderr)
+
+
+def own_step(simulation: Simulation) -> StepReport:
+    """A step of a simulation by itself."""
+    return simulation.step(step_of(simulation))
 
 
 def step_of(simulation: Simulation) -> float | None:

@@ -15,6 +15,8 @@ if TYPE_CHECKING:
     from tissu.live_view.runner import Runner
     from tissu.live_view.stage import Stage
     from tissu.live_view.touch import Touch
+    from tissu.live_view.trocars.trocars import LiveTrocars
+    from tissu.live_view.undo import Undo
     from tissu.simulation import Simulation
 
 T = TypeVar("T")
@@ -35,8 +37,11 @@ class Session:
         stage: where things stand on the page.
         recorder: of what the page shows.
         begin_again: puts the simulations back to their beginning.
+        undo: puts them back to a moment before something was done to them.
         show_edges: whether edges are drawn; at first not those of a very fine surface.
         limits: of the field that is coloured; they grow with its values, and `fit` forgets them.
+        trocars: of the simulations; None: they have none.
+        on_tool: called with the name of a tool that is taken in hand.
         after_reset: called in the simulations' thread when they have begun again.
     """
 
@@ -47,9 +52,17 @@ class Session:
     stage: Stage
     recorder: Recorder
     begin_again: Callable[[], object]
+    undo: Undo
     show_edges: bool = True
     limits: tuple[float, float] | None = None
+    trocars: LiveTrocars | None = None
+    on_tool: list[Callable[[str], object]] = field(default_factory=list)
     after_reset: list[Callable[[Sequence[Simulation]], object]] = field(default_factory=list)
+
+    def take_in_hand(self, tool: str) -> None:
+        """Take another tool in hand, on the page too."""
+        for choose in self.on_tool:
+            choose(tool)
 
     def share(self, least: float) -> float:
         """Of a processor, that work for the page may take.

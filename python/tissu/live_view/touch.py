@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Literal
 
 from tissu.errors import ParameterError
@@ -28,11 +28,26 @@ class Touch:
         chosen: name of the one in hand; empty: none, and the pointer turns the view.
     """
 
-    def __init__(self, runner: Runner, tools: Sequence[type[Tool]] = TOOLS) -> None:
-        """Take the first tool that is offered in hand."""
-        self._runner = runner
+    def __init__(
+        self,
+        runner: Runner,
+        tools: Sequence[type[Tool]] = TOOLS,
+        *,
+        more: Sequence[Tool] = (),
+        before: Callable[[Sequence[Simulation]], object] = lambda simulations: None,
+    ) -> None:
+        """Take the first tool that is offered in hand.
+
+        Args:
+            runner: the thread that owns the simulations.
+            tools: each is made where a simulation offers it.
+            more: tools that are there already.
+            before: called in that thread before a tool that edits is pressed.
+        """
+        self._runner, self._before = runner, before
         first = runner.simulations[0]
-        self.tools = {tool.name: tool(runner.simulations) for tool in tools if tool.offered(first)}
+        made = [tool(runner.simulations) for tool in tools if tool.offered(first)]
+        self.tools = {tool.name: tool for tool in (*made, *more)}
         self.chosen = next(iter(self.tools), "")
         self._pressed: dict[int, Tool] = {}
         self._moved: dict[int, Pointer] = {}
@@ -97,6 +112,7 @@ class Touch:
     def _click(self, simulations: Sequence[Simulation], pointer: Pointer) -> None:
         tool = self.tools.get(self.chosen)
         if tool is not None:
+            self._remember(tool, simulations)
             tool.click(simulations, pointer)
 
     def _press(self, simulations: Sequence[Simulation], pointer: Pointer) -> None:
@@ -104,7 +120,12 @@ class Touch:
         if tool is None:
             return
         self._pressed[pointer.client] = tool
+        self._remember(tool, simulations)
         tool.press(simulations, pointer)
+
+    def _remember(self, tool: Tool, simulations: Sequence[Simulation]) -> None:
+        if tool.edits:
+            self._before(simulations)
 
     def _move(self, simulations: Sequence[Simulation], client: int) -> None:
         pointer = self._moved.pop(client, None)

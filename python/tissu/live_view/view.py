@@ -6,7 +6,7 @@ import os
 import threading
 import time
 import webbrowser
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from concurrent.futures import Future
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeVar
@@ -25,9 +25,13 @@ from tissu.live_view.session import Session
 from tissu.live_view.stage import stage_of
 from tissu.live_view.surface import seen
 from tissu.live_view.touch import Touch
+from tissu.live_view.undo import Undo
+from tissu.live_view.viewed import holding, require_simulations, require_together, trocars_of
 from tissu.picture.draw import up_of
 
 if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+
     from tissu.simulation import Simulation
 
 T = TypeVar("T")
@@ -63,6 +67,8 @@ class View:
         record: str | os.PathLike[str] | None = None,
         speed: float = 1.0,
         playing: bool = True,
+        hand: str = "scene",
+        trust_plugins: bool = False,
     ) -> None:
         """Open the page, and begin to run.
 
@@ -79,48 +85,35 @@ class View:
                 to 30 moments of each simulated second.
             speed: simulated seconds for each second of wall time; infinite: as fast as it goes.
             playing: whether it runs at once.
+            hand: what holds simulated trocars at first: `scene`, the hand that the scene gives
+                them, or `browser`, that of the page.
+            trust_plugins: whether the plug-in of a trocar, which is a program, may run.
 
         Raises:
             ParameterError: the port is taken; the simulations have other time steps; a recording
-                that is neither an .html nor a .glb file.
-            TissuError: viser is not installed; the recording has no place.
+                that is neither an .html nor a .glb file; what a trocar of the scene refuses.
+            TissuError: viser is not installed; the recording has no place; the device of a trocar
+                does not answer.
         """
         simulations = [simulation] if beside is None else [simulation, beside]
-        _require_simulations(simulations)
-        _require_together(simulations)
+        require_simulations(simulations)
+        require_together(simulations)
         self._record = None if record is None else recording_place(Path(record))
         self._closed = threading.Event()
         if not speed > 0.0:
             raise ParameterError(f"found a speed of {speed:g}; a positive one is accepted")
         for one in simulations:
             one.allow_touch()
-        self._taker = FrameTaker()
-        self._ration = Ration(_SHARE, shortest=1.0 / RATE, longest=_LONGEST)
-        self._runner = Runner(simulations, speed=speed, playing=playing, between=self._between)
-        rest = [mesh.points for mesh in {**simulation.meshes, **simulation.tissue}.values()]
-        self._session = Session(
-            runner=self._runner,
-            taker=self._taker,
-            touch=Touch(self._runner),
-            rights=Rights(shared=shared),
-            stage=stage_of(rest, up_of(simulation), lanes=len(simulations)),
-            recorder=Recorder(),
-            begin_again=self.reset,
-            show_edges=all(
-                len(seen(mesh).triangles) <= MOST_CUT for mesh in simulation.meshes.values()
-            ),
-        )
-        word = new_token()
-        self._page = Page(self._session, title=simulation.scene.name, word=word)
-        if token is None:
-            token = "" if host in _HERE else new_token()
+        self._trocars = trocars_of(simulations, hand=hand, trust_plugins=trust_plugins)
         try:
-            self._door = Door(host=host, port=port, behind=self._page.port, token=token, word=word)
+            self._open(simulations, speed=speed, playing=playing, shared=shared)
+            if hand == "browser":
+                self._session.touch.choose("hold trocar")
+            self._open_door(host=host, port=port, token=token)
         except BaseException:
-            self._page.stop()
+            if self._trocars is not None:
+                self._trocars.close()
             raise
-        self.url = self._door.url
-        self._page.senders.add(self._door.thread)
         self._film: Film | None = None
         if self._record is not None and self._record.suffix == ".glb":
             self._film = Film(self._session.stage)
@@ -131,6 +124,57 @@ class View:
         self._runner.start()
         if browser:
             webbrowser.open(self.url)
+
+    def _open(
+        self, simulations: list[Simulation], *, speed: float, playing: bool, shared: bool
+    ) -> None:
+        """What the page shows and how it runs."""
+        first, trocars = simulations[0], self._trocars
+        self._taker = FrameTaker(trocars)
+        self._ration = Ration(_SHARE, shortest=1.0 / RATE, longest=_LONGEST)
+        self._runner = Runner(
+            simulations,
+            speed=speed,
+            playing=playing,
+            between=self._between,
+            step=None if trocars is None else trocars.step,
+        )
+        undo = Undo(trocars)
+        if trocars is not None:
+            trocars.before_touch.append(undo.remember)
+        rest: list[ArrayLike] = [m.points for m in {**first.meshes, **first.tissue}.values()]
+        rest += [] if trocars is None else [trocars.points()]
+        self._session = Session(
+            runner=self._runner,
+            taker=self._taker,
+            touch=Touch(
+                self._runner,
+                more=[] if trocars is None else [holding(simulations, trocars)],
+                before=undo.remember,
+            ),
+            rights=Rights(shared=shared),
+            stage=stage_of(rest, up_of(first), lanes=len(simulations)),
+            recorder=Recorder(),
+            begin_again=self.reset,
+            undo=undo,
+            trocars=trocars,
+            show_edges=all(len(seen(mesh).triangles) <= MOST_CUT for mesh in first.meshes.values()),
+        )
+
+    def _open_door(self, *, host: str, port: int | None, token: str | None) -> None:
+        """The page itself, and the door before it."""
+        word = new_token()
+        title = self._runner.simulations[0].scene.name
+        self._page = Page(self._session, title=title, word=word)
+        if token is None:
+            token = "" if host in _HERE else new_token()
+        try:
+            self._door = Door(host=host, port=port, behind=self._page.port, token=token, word=word)
+        except BaseException:
+            self._page.stop()
+            raise
+        self.url = self._door.url
+        self._page.senders.add(self._door.thread)
 
     def __repr__(self) -> str:
         """Scene and address."""
@@ -164,12 +208,19 @@ class View:
         """Pause, and take one step."""
         self._runner.step_once().result()
 
+    def undo(self) -> Future[None]:
+        """Go back to before the latest press of a tool, or the latest touch of a trocar."""
+        return self._runner.ask(self._session.undo.back)
+
     def reset(self) -> Future[None]:
         """Begin again: every simulation as it began, with the parameters that it has now."""
 
         def begin(simulations: list[Simulation]) -> None:
             for simulation in simulations:
                 simulation.reset()
+            if self._trocars is not None:
+                self._trocars.reset(simulations)
+            self._session.undo.forget()
             self._runner.error = ""
             self._runner.restart_clock()
             for look in self._session.after_reset:
@@ -179,17 +230,17 @@ class View:
 
     @property
     def message(self) -> str:
-        """What went wrong last; empty: nothing."""
+        """The latest error; empty: none."""
         return self._runner.error
 
     @property
     def pages(self) -> int:
-        """How many pages are open."""
+        """Number of open pages."""
         return self._session.rights.count
 
     @property
     def frames_sent(self) -> int:
-        """How many frames the page was given."""
+        """Number of frames that the page was given."""
         return self._page.sent
 
     def wait(self, seconds: float | None = None) -> None:
@@ -206,6 +257,8 @@ class View:
             return
         self._closed.set()
         self._runner.stop()
+        if self._trocars is not None:
+            self._trocars.close()
         self._page.halt()
         self._door.close()
         try:
@@ -236,23 +289,3 @@ class View:
         frame = self._taker.take(self._runner, self._session.touch)
         self._ration.spent(self._taker.cost + self._page.cost, begun=now)
         self._page.frames.put(frame)
-
-
-def _require_simulations(given: Sequence[object]) -> None:
-    """Refuses what was not compiled from a scene, such as the name of a model."""
-    for one in given:
-        if not hasattr(one, "allow_touch"):
-            raise ParameterError(
-                f"found {one!r} to view; a simulation is accepted, as `scene.compile()` makes it"
-            )
-
-
-def _require_together(simulations: Sequence[Simulation]) -> None:
-    """Refuse simulations that cannot be stepped by the same time."""
-    steps = [getattr(simulation.scene.step, "dt", None) for simulation in simulations]
-    if len({*steps}) > 1 or (len(steps) > 1 and steps[0] == "auto"):
-        shown = " and ".join("none" if dt is None else str(dt) for dt in steps)
-        raise ParameterError(
-            f"found simulations side by side with the time steps {shown}; the same step, in "
-            "seconds, is accepted"
-        )

@@ -228,7 +228,7 @@ class Mesh:
         if len(wrong):
             raise MeshError(
                 f"found {len(wrong)} of {self.node_count} nodes whose position is not finite "
-                f"(first: {first_five(wrong)}); finite numbers are accepted: mend the mesh"
+                f"(first: {first_five(wrong)}); finite numbers are accepted: repair the mesh"
             )
 
     def _require_nodes(self) -> None:

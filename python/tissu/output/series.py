@@ -142,7 +142,7 @@ def write_material(path: Path, simulation: Simulation, body: str) -> None:
     """Writes the material of a body that was cut, at the present time.
 
     Point field `node`: the node of the body that a point is, -1: it rides on several. Cell fields
-    `cell`, `origin` (of the first day) and `piece` (by volume, from 0).
+    `cell`, `origin` (the original cell) and `piece` (by volume, from 0).
 
     Raises:
         TissuError: the file cannot be written.

@@ -34,7 +34,7 @@ def require_triangles(points: Floats, triangles: Ints) -> None:
     if len(wrong):
         raise MeshError(
             f"found {counted(len(wrong), 'node')} whose position is not finite (first: "
-            f"{wrong[0]}); finite numbers are accepted: mend the surface"
+            f"{wrong[0]}); finite numbers are accepted: repair the surface"
         )
 
 
@@ -64,10 +64,16 @@ def require_closed(points: Floats, triangles: Ints) -> None:
         )
     volume, size = enclosed_volume(points, triangles), np.ptp(points[triangles], axis=(0, 1))
     if volume <= 1e-12 * float(np.linalg.norm(size)) ** 3:
-        what = "wound inwards" if volume < 0.0 else "that is flat"
+        what, remedy = "that is flat", "take one that encloses something"
+        if volume < 0.0:
+            what = "wound inwards"
+            remedy = (
+                "reverse the nodes of each, ts.Mesh(points=mesh.points, "
+                "cells=[(block.type, block.nodes[:, ::-1]) for block in mesh.cells])"
+            )
         raise MeshError(
             f"found a surface {what} (its volume is {volume:.3g} m3); triangles that are "
-            "anticlockwise seen from outside around a volume are accepted: swap two nodes of each"
+            f"anticlockwise seen from outside around a volume are accepted: {remedy}"
         )
 
 

@@ -62,7 +62,8 @@ def _inside(region: Region, spacing: float, counts: Floats) -> Floats:
     found = points[region.inside(points)]
     if not len(found):
         raise ParameterError(
-            f"found no point of the grid inside with spacing {spacing:g} m; a spacing that the "
-            "region is several times as thick as is accepted: take a smaller one"
+            f"found no point of the grid inside with spacing {spacing:g} m, in a region of "
+            f"{' x '.join(f'{size:.3g}' for size in np.ptp(region.bounds, axis=0))} m; a fraction "
+            "of its thickness is accepted: take a smaller spacing, or look at the mesh's unit"
         )
     return found

@@ -36,7 +36,7 @@ class Region(Protocol):
         """Volume [m3]."""
 
     def inside(self, points: ArrayLike) -> Bools:
-        """Which of the points (n, 3) [m] are inside: (n,)."""
+        """Whether each of the points (n, 3) [m] is inside: (n,)."""
 
 
 def positions(points: ArrayLike) -> Floats:

@@ -79,7 +79,7 @@ class Surface:
         return TriangleTree(self.points[self.triangles])
 
     def inside(self, points: ArrayLike) -> Bools:
-        """Which of the points (n, 3) [m] are inside: (n,).
+        """Whether each of the points (n, 3) [m] is inside: (n,).
 
         Points on the surface, to 1e-9 of the diagonal of its bounds, are inside.
 

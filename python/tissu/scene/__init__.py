@@ -107,6 +107,9 @@ from tissu.scene.trocar.device import (
 from tissu.scene.trocar.hand import (
     Hand,
 )
+from tissu.scene.trocar.changes import (
+    ToolChanges,
+)
 from tissu.scene.trocar.limits import (
     TrocarLimits,
 )
@@ -206,6 +209,7 @@ __all__ = [
     "SharedMemoryDevice",
     "PluginDevice",
     "Hand",
+    "ToolChanges",
     "TrocarLimits",
     "Editing",
     "Ablator",

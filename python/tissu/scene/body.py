@@ -90,7 +90,7 @@ def mesh_source(value: Any, info: ValidationInfo) -> Any:
 
 
 class Body(Part):
-    """Something soft: a mesh with a law, a density or a total mass, and maybe viscosity."""
+    """A soft body: a mesh with a law, a density or a total mass, and perhaps a viscosity."""
 
     mesh: Annotated[Read[Any, MeshLike], PlainValidator(mesh_source)]
     """a mesh file, a bar, or (in Python) a Mesh"""
@@ -102,8 +102,9 @@ class Body(Part):
     models
     """
     law_for_model: Literal["exact", "nearest"] = "exact"
-    """what is computed where a model does not take the law: `exact` refuses it; `nearest` is the
-    nearest law that the model takes, with the same young and poisson, equal at small strain only
+    """the law that is computed if the model does not take the body's: `exact` refuses it; `nearest`
+    is the nearest law that the model takes, with the same young and poisson, equal at small strain
+    only
     """
     density: Maybe[units.Density] = field(default=None, gt=0.0)
     """density [kg/m^3]; this or `mass`"""
@@ -117,7 +118,7 @@ class Body(Part):
     """thickness [m] of sheets: the triangles and quads of the mesh; absent: they only mark faces"""
     section: AreaOrSection = field(default=None)
     """section of fibres, cables and rods, the lines of the mesh: an area [m^2] (round), or round,
-    rectangle, tube or general, of which only frames see more than the area; absent: lines only mark
+    rectangle, tube or general, of which only frames use more than the area; absent: lines only mark
     edges
     """
     plane: Literal["strain", "stress"] | None = None

@@ -67,7 +67,7 @@ class Meeting(Part):
         return ", ".join(found)
 
     def effect(self, path: str, gap: str | None) -> Effect:
-        """What it switches on; `gap` where it is known."""
+        """The effect that it switches on; `gap` where it is known."""
         raise NotImplementedError
 
 
@@ -106,7 +106,7 @@ class Contact(Meeting):
         return [(at, first, ("between", 1, k), name) for k, name in enumerate(second)]
 
     def effect(self, path: str, gap: str | None) -> Effect:
-        """What it switches on; `gap` where it is known."""
+        """The effect that it switches on; `gap` where it is known."""
         if self.between == "all":
             return Effect("contact of all", f"{path} has {self.words(gap)}")
         first, second = self.between
@@ -134,12 +134,12 @@ class SelfContact(Meeting):
     """
 
     def effect(self, path: str, gap: str | None) -> Effect:
-        """What it switches on; `gap` where it is known."""
+        """The effect that it switches on; `gap` where it is known."""
         return Effect(f"contact of {self.self} with itself", f"{path} has {self.words(gap)}")
 
 
 class ContactSettings(Part):
-    """What all contacts of a scene share."""
+    """Settings that all contacts of a scene share."""
 
     method: Literal["auto", "augmented", "barrier", "penalty", "impulse", "geometric"] = "auto"
     """how contacts become forces; auto: the first that the step takes"""
@@ -156,8 +156,8 @@ class ContactSettings(Part):
     travel: bool = True
     """whether nodes are held back where surfaces would pass through each other"""
     overlap: Literal["refuse", "separate"] = "refuse"
-    """what to do with surfaces that cross at the start: refuse the scene, or push them apart first,
-    which is not implemented
+    """what to do with surfaces that cross at the start: refuse the scene; separate, which would
+    push them apart first, is refused itself so far
     """
 
     def words(self, method: str, step: str) -> str:

@@ -19,6 +19,7 @@ STEPS_OF_METHOD: dict[str, tuple[str, ...]] = {
     "augmented": (*_IMPLICIT, "static"),
     "impulse": _EXPLICIT,
     "penalty": (*_EXPLICIT, "implicit_euler", "bdf2", "static"),
+    "barrier": ("implicit_euler", "bdf2"),
     "geometric": _EXPLICIT,
 }
 """Contact method -> the steps that have it; `auto` takes the first method that the step has.
@@ -232,6 +233,9 @@ def _settings_problems(settings: ContactSettings, method: str) -> Iterator[Probl
     if settings.penalty != "linear" and method != "penalty":
         text = f"found {settings.penalty} beside the method {method}, which has no such law; "
         yield Problem(("contact", "penalty"), f"{text}leave it out, or take the method penalty")
+    if method == "barrier" and not settings.travel:
+        text = "found false beside the method barrier, which holds surfaces apart on free ways "
+        yield Problem(("contact", "travel"), f"{text}alone; leave it out")
     if settings.overlap == "separate":
         text = "found separate, which is not there yet; refuse is accepted: move the bodies apart"
         yield Problem(("contact", "overlap"), text)

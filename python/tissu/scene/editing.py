@@ -28,13 +28,13 @@ class Editing(Part):
     256 more; a cut that needs more is refused"""
 
     def nodes(self, count: int) -> int:
-        """How many nodes cuts may make in a body of `count` nodes."""
+        """Number of nodes that cuts may make in a body of `count` nodes."""
         if self.room is None:
             return math.ceil(_SHARE * count) + _LEAST
         return math.ceil(self.room * count)
 
     def effect(self) -> Effect:
-        """What it switches on."""
+        """The effect that it switches on."""
         room = f"{_SHARE:.0%} of a body's nodes and {_LEAST} more"
         if self.room is not None:
             room = f"{self.room:.0%} of a body's nodes"

@@ -46,15 +46,14 @@ _Names = Read[tuple[str, ...], Sequence[str]]
 
 
 class ToolPath(Part):
-    """A path of an instrument: places and turns, between the times on straight and even ways."""
+    """A path of an instrument: straight lines and even rotations between the given times."""
 
     times: IncreasingTimes
     """strictly increasing times [s]; before the first and after the last it stands still"""
     positions: _Places
     """place of the tool's origin at each time [m]"""
     rotations: MaybeVectors[Many[units.RotationVector]] = field(default=None)
-    """how it is turned at each time: vectors along the axis, as long as the angle [rad]; absent:
-    not at all"""
+    """rotation at each time: vectors along the axis, as long as the angle [rad]; absent: none"""
 
     @rule("positions", "times")
     def _placed_at_each_time(self) -> Iterator[Problem]:
@@ -80,8 +79,9 @@ class Instrument(Part):
     position: units.Position = field(default=(0.0, 0.0, 0.0))
     """place of its origin before it is moved [m]; without a path only"""
     rotation: units.RotationVector = field(default=(0.0, 0.0, 0.0))
-    """how it is turned before it is moved: a vector along the axis, as long as the angle [rad];
-    without a path only"""
+    """rotation before it is moved: a vector along the axis, as long as the angle [rad]; without a
+    path only
+    """
     if TYPE_CHECKING:
         type: str
 
@@ -120,7 +120,7 @@ class Instrument(Part):
 
 
 class Knife(Instrument):
-    """A blade: at the end of each step it cuts along the way of its edge through the material."""
+    """A blade: at the end of each step it cuts along the path of its edge in the material."""
 
     type: Literal["knife"] = "knife"
     edge: _Places = field(kw_only=False)
@@ -170,7 +170,7 @@ class Knife(Instrument):
 
 
 class Ablator(Instrument):
-    """A tip that takes away the cells whose material has its centre in it, or in its way."""
+    """A tip that takes away the cells whose material has its centre in it, or on its path."""
 
     type: Literal["ablator"] = "ablator"
     radius: units.Length = field(gt=0.0, kw_only=False)

@@ -44,7 +44,7 @@ class Fibres(Part):
 
 
 class Law(Part):
-    """What all laws share.
+    """The common part of all laws.
 
     Attributes:
         made: what a law of one's own is made of: formula, C++, kernels; None: the library's law.

@@ -41,7 +41,7 @@ class Where(NamedTuple):
 
 
 class Load(Part):
-    """What loads share: where they act and how they vary with time.
+    """The common part of loads: where they act, and how they vary with time.
 
     Attributes:
         called: what it is called in words.
@@ -76,7 +76,7 @@ class Load(Part):
             yield from same_length("factor", self.factors, self.times)
 
     def effect(self, path: str, count: str | None) -> Effect:
-        """What it switches on; `count` where it is known ("42 nodes")."""
+        """The effect that it switches on; `count` where it is known ("42 nodes")."""
         why = f"{path} acts on {self.on.words(count)}"
         return Effect(f"{self.called} on {self.body}", why)
 

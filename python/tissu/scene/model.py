@@ -34,7 +34,7 @@ __all__ = [
 
 
 class Model(Part):
-    """What all models share.
+    """The common part of all models.
 
     Attributes:
         with_rotations: whether its nodes have a rotation beside their place.
@@ -69,7 +69,7 @@ class Model(Part):
 
 
 class FEM(Model):
-    """Continuum elements: any law, any element; what is computed where no model is named."""
+    """Continuum elements: any law, any element; the default."""
 
     type: Literal["fem"] = "fem"
 
@@ -125,7 +125,7 @@ class Condensed(Model):
 
     type: Literal["condensed"] = "condensed"
     keep: Literal["touched", "surface"] = "touched"
-    """what stays unknown: nodes held, led, loaded or shared with others, or the surface too"""
+    """nodes that stay unknown: those held, led, loaded or shared with others, or the surface too"""
 
     def _options(self, kept: Ints) -> dict[str, Any]:
         return {"kept": kept}

@@ -31,7 +31,7 @@ _POSITION = units.Triple(units.LENGTH)
 
 
 class Obstacle(Part):
-    """What all obstacles share."""
+    """The common part of all obstacles."""
 
     motion: Motion | None = None
     """path on which it is led; absent: it stands still"""
@@ -75,7 +75,7 @@ class PlaneObstacle(Obstacle):
 
     type: Literal["plane"] = "plane"
     point: units.Position = field(kw_only=False)
-    """a point of the plane [m]; what is led, and what moments are taken about"""
+    """a point of the plane [m]; it is led, and moments are taken about it"""
     normal: units.Direction = field(kw_only=False)
     """direction out of the solid half, of any length but zero"""
 

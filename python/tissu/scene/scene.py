@@ -47,7 +47,7 @@ LawFile = Annotated[Path, AfterValidator(_from_base)]
 
 
 class Output(Part):
-    """What is written while the scene runs."""
+    """Results that are written while the scene runs."""
 
     every: units.Time = field(gt=0.0)
     """simulated time between two written results [s]"""
@@ -111,9 +111,9 @@ class SceneData(Part):
     contacts: Contacts = field(default=())
     """what meets what; absent: bodies pass through each other"""
     contact: ContactSettings | None = None
-    """how contacts are found and answered, of all of them"""
+    """settings that all contacts share"""
     trocars: Annotated[Trocars, BeforeValidator(_by_name)] = field(default_factory=dict)
-    """driven ports by name, through which a hand feels what a tool meets; absent: none"""
+    """driven ports by name, through which a hand feels the tissue; absent: none"""
     step: OneStep
     """how time is stepped, such as {type: implicit_euler, dt: 10 ms}"""
     duration: Maybe[units.Time] = field(default=None, gt=0.0)
@@ -123,7 +123,7 @@ class SceneData(Part):
     editing: EditingField = field(default=None)
     """whether cells may be removed, and bodies cut, while it runs"""
     instruments: Annotated[AllInstruments, BeforeValidator(_by_name)] = field(default_factory=dict)
-    """what cuts and takes away by name, at the end of each step; needs `editing`"""
+    """knives and ablators by name, which work at the end of each step; need `editing`"""
     tear: Read[tuple[Tear, ...], Sequence[Tear]] = field(default=())
     """which bodies tear, and when; needs `editing`"""
     grabbing: bool = False

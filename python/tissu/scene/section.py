@@ -26,7 +26,7 @@ _ANY = (0.0, 0.0, 0.0)
 
 
 class Section(Part):
-    """What all sections share."""
+    """The common part of all sections."""
 
     if TYPE_CHECKING:
         type: str

@@ -32,7 +32,7 @@ _SLACK = 1e-9
 
 
 class Selection(Part):
-    """What all selections share.
+    """The common part of all selections.
 
     Attributes:
         by_place: whether nodes are selected by their positions, so that the unit of lengths counts.

@@ -57,7 +57,7 @@ class Solver(Part):
 
 
 class Auto(Solver):
-    """The way that counted work makes cheapest, for each system anew.
+    """The cheapest solver by counted work, chosen anew while a scene runs.
 
     Block-Jacobi, incomplete Cholesky, multigrid, a stale factor or a new one. It may change while
     the scene runs; `plan()` and `profile()` say to which, and by which counts.

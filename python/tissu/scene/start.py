@@ -32,7 +32,7 @@ class Start(Part):
     plane
     """
     seed: Annotated[int, Field(ge=0)] = 0
-    """of the random places"""
+    """seed of the random places"""
 
     def words(self) -> str:
         """How it begins, as `check` says it."""

@@ -68,7 +68,7 @@ class Newton(Part):
 
 
 class Step(Part):
-    """What all methods share."""
+    """The common part of all methods."""
 
     if TYPE_CHECKING:
         type: str
@@ -91,7 +91,7 @@ class Step(Part):
         return found
 
     def effect(self) -> Effect:
-        """What the step switches on."""
+        """The effect that the step switches on."""
         dt = getattr(self, "dt", None)
         shown = dt if isinstance(dt, str) else f"{dt:g} s"
         return Effect("inertia", f"step is {self.type} with dt {shown}")
@@ -240,7 +240,7 @@ class Static(Step):
         return super().settings() | {"total_iterations": self.total_iterations or 0}
 
     def effect(self) -> Effect:
-        """What the step switches on."""
+        """The effect that the step switches on."""
         return Effect("equilibrium", f"step is static, in {counted(self.load_steps, 'load step')}")
 
 

@@ -81,7 +81,7 @@ _OfNodes = Annotated[
 
 
 class Support(Part):
-    """What supports share: the nodes of a body that they give a motion."""
+    """The common part of supports: the nodes of a body that they give a motion."""
 
     body: str = field(kw_only=False)
     """name of a body of the scene"""
@@ -128,7 +128,7 @@ class Support(Part):
         return f"{words}{' and' if words else ''} in rotation{about}"
 
     def effect(self, path: str, count: str | None) -> Effect:
-        """What it switches on; `count` where it is known ("42 nodes")."""
+        """The effect that it switches on; `count` where it is known ("42 nodes")."""
         raise NotImplementedError
 
     def misfit(self, nodes: Ints) -> str | None:
@@ -151,7 +151,7 @@ class Fixed(Support):
     """
 
     def effect(self, path: str, count: str | None) -> Effect:
-        """What it switches on; `count` where it is known ("42 nodes")."""
+        """The effect that it switches on; `count` where it is known ("42 nodes")."""
         why = f"{path} holds {self.on.words(count)}{self.on_words}"
         return Effect(f"fixed nodes of {self.body}", why)
 
@@ -244,7 +244,7 @@ class Prescribed(Support):
             yield from same_length("rotation angle", self.rotation.angles, self.times)
 
     def effect(self, path: str, count: str | None) -> Effect:
-        """What it switches on; `count` where it is known ("42 nodes")."""
+        """The effect that it switches on; `count` where it is known ("42 nodes")."""
         end = f"until {self.times[-1]:g} s"
         why = f"{path} moves {self.on.words(count)}{self.on_words} {end}"
         return Effect(f"prescribed motion of {self.body}", why)

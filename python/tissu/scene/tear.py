@@ -28,7 +28,7 @@ class Tear(Part):
     """places at most that tear at the end of one step, the most overstressed ones"""
 
     def effect(self, path: str) -> Effect:
-        """What it switches on."""
+        """The effect that it switches on."""
         mean = f"{self.strength:g} Pa, averaged over {self.length:g} m"
         why = f"{path} opens {self.body} above {mean}"
         return Effect(f"tear of {self.body}", why)

@@ -49,17 +49,17 @@ class Tissue(Part):
     on: tuple[On, On] | None = None
     """which nodes of the two bodies it may hold; absent: all within reach"""
     frames: Count
-    """number of its own frames, about"""
+    """approximate number of its own frames"""
     points: Count
-    """number of its integration points, about"""
+    """approximate number of its integration points"""
     sampling: Literal["poisson", "grid"] = "poisson"
     """how frames and points are laid: as far from each other as can be, or on a regular grid"""
     seed: Annotated[int, Field(ge=0)] = 0
     """of the Poisson sampling"""
     shape: ShapeName = "shepard"
-    """shape function: how the points listen to the frames"""
+    """shape function, which gives the points their weights of frames"""
     neighbours: Count | None = None
-    """frames that a point listens to; absent: as many as the shape function wants"""
+    """frames that a point follows; absent: the number of the shape function"""
     law: OneLaw
     """the material's law"""
     density: Maybe[units.Density] = field(default=None, gt=0.0)

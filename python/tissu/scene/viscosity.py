@@ -62,9 +62,9 @@ class Rayleigh(Viscosity):
 
 
 class KelvinVoigt(Viscosity):
-    """A damper beside the law at every point: S = 2 eta dE/dt + zeta tr(dE/dt) I; turning is free.
+    """A damper beside the law at every point: S = 2 eta dE/dt + zeta tr(dE/dt) I.
 
-    With the model mass_spring it is a damper beside each spring.
+    A rigid rotation is not damped. With the model mass_spring it is a damper beside each spring.
     """
 
     type: Literal["kelvin_voigt"] = "kelvin_voigt"
@@ -84,7 +84,7 @@ class KelvinVoigt(Viscosity):
 
 
 class Centroid(Viscosity):
-    """Each node of a cell damped against the cell's centroid (Chendeb 2007); turning is braked."""
+    """Nodes of a cell damped against its centroid (Chendeb 2007); a rigid rotation is damped."""
 
     type: Literal["centroid"] = "centroid"
     coefficient: units.DampingPerVolume = field(gt=0.0)

@@ -1,5 +1,6 @@
 """A compiled scene: its state, and the loop that moves it."""
 
+from tissu.simulation.compliance import Compliance
 from tissu.simulation.cutting import Mark
 from tissu.simulation.fields import IntegrationPoints
 from tissu.simulation.grab import Grab
@@ -12,6 +13,7 @@ from tissu.simulation.simulation import Simulation
 from tissu.simulation.touched import Contacts, Crossing, Overlap, Wrench
 
 __all__ = [
+    "Compliance",
     "Contacts",
     "Crossing",
     "Grab",

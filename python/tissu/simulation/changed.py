@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from tissu.scene.load import Load, Where
     from tissu.scene.support import Support
     from tissu.simulation.entry import Entry
+    from tissu.simulation.meshes import Meshes
 
 
 class Changed:
@@ -32,7 +33,7 @@ class Changed:
     _entry: Entry
     _world: core.World
     _check: Check
-    _meshes: dict[str, Mesh]
+    _meshes: Meshes
     _rest: dict[str, Mesh]
     _loads: Sequence[tuple[Load, Where]]
     _physics_known: dict[str, Any] | None

@@ -11,13 +11,14 @@ if TYPE_CHECKING:
     from tissu.simulation.touched import Contacts
 
 Floats = NDArray[np.float64]
+Ints = NDArray[np.int32]
 
 FAR = 1e30
 """m: the gap of a node that no contact has."""
 
 
 class ContactAtNodes(NamedTuple):
-    """What contacts do at the nodes of a body.
+    """Pressure and gap of the contacts at the nodes of a body.
 
     Attributes:
         pressure: normal force on the node over its area of the surface at rest (n,) [Pa]; 0 where
@@ -30,15 +31,51 @@ class ContactAtNodes(NamedTuple):
     gap: Floats
 
 
-def contact_at_nodes(contacts: Contacts, body: str, areas: Floats) -> ContactAtNodes:
+class Riders(NamedTuple):
+    """Points of a surface that nodes carry.
+
+    Attributes:
+        numbers: as contacts have them (p,), ascending.
+        begin: first of each in the lists (p + 1,).
+        nodes: that carry it.
+        weights: of these, which sum to one for each point.
+    """
+
+    numbers: Ints
+    begin: Ints
+    nodes: Ints
+    weights: Floats
+
+    def shared(self, points: Ints, shares: Floats) -> tuple[Ints, Ints, Floats]:
+        """The place of each share, its node, and its part: of points (k,) with shares (k,)."""
+        place = np.searchsorted(self.numbers, points)
+        rides = place < len(self.numbers)
+        rides[rides] = self.numbers[place[rides]] == points[rides]
+        own = np.flatnonzero(~rides).astype(np.int32)
+        counts = np.diff(self.begin)[place[rides]]
+        of = np.repeat(np.flatnonzero(rides), counts).astype(np.int32)
+        first = np.repeat(self.begin[place[rides]] - np.cumsum(counts) + counts, counts)
+        item = first + np.arange(len(of))
+        return (
+            np.concatenate([own, of]),
+            np.concatenate([points[own], self.nodes[item]]),
+            np.concatenate([shares[own], self.weights[item] * shares[of]]),
+        )
+
+
+def contact_at_nodes(
+    contacts: Contacts, body: str, areas: Floats, riders: Riders
+) -> ContactAtNodes:
     """Shares of all contacts with a body at its nodes.
 
-    A contact gives each of its nodes the share |weight| of its normal force.
+    A contact gives each of its nodes the share |weight| of its normal force. A point that nodes
+    carry gives them its share by their weights.
 
     Args:
         contacts: as `Simulation.contacts` gives them.
         body: name of the body.
         areas: of the surface at rest, at each node (n,) [m2].
+        riders: points of the surface that nodes carry.
     """
     force, gap = np.zeros(len(areas)), np.full(len(areas), FAR)
     number = contacts.surfaces.index(body)
@@ -46,10 +83,11 @@ def contact_at_nodes(contacts: Contacts, body: str, areas: Floats) -> ContactAtN
     # Nodes of a positive weight belong to the first of the pair, others to the other one.
     of_first = contacts.pairs[:, [0]] == number
     of_other = contacts.pairs[:, [1]] == number
-    mine = np.where(contacts.weights > 0.0, of_first, of_other) & (contacts.nodes >= 0)
+    mine = np.where(contacts.weights > 0.0, of_first, of_other) & (contacts.nodes != -1)
     mine &= contacts.weights != 0.0
     row, _ = np.nonzero(mine)
-    nodes, shares = contacts.nodes[mine], np.abs(contacts.weights[mine])
+    of, nodes, shares = riders.shared(contacts.nodes[mine], np.abs(contacts.weights[mine]))
+    row = row[of]
     np.add.at(force, nodes, shares * normal[row])
     np.minimum.at(gap, nodes, contacts.gaps[row])
     pressure = np.zeros(len(areas))

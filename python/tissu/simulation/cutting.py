@@ -36,7 +36,7 @@ _NEAREST = 0.02
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Mark:
-    """A moment that `Simulation.rewind` goes back to; in memory only."""
+    """A moment to which `Simulation.rewind` goes back; kept in memory only."""
 
     _core: core.Mark
     _owner: object
@@ -68,6 +68,7 @@ class Cutting(Remains):
         def positions(self) -> Mapping[str, Floats]: ...
         def _require_body(self, name: str) -> None: ...
         def _follow_cells(self, body: str) -> None: ...
+        def _lay_views(self) -> None: ...
 
     def cut(self, body: str, blade: Blade, *, refine: bool = False) -> CutReport:
         """Cut a body along a surface in present space, between two steps.
@@ -98,7 +99,7 @@ class Cutting(Remains):
     def ablate(self, body: str, place: Place) -> CutReport:
         """Take away the cells whose material has its centre in a place in present space.
 
-        Cells that hang together by an edge or a node only come apart, unlike after `remove_cells`.
+        Cells that share only an edge or a node come apart, unlike after `remove_cells`.
 
         Args:
             body: its name.
@@ -135,7 +136,7 @@ class Cutting(Remains):
         )
 
     def mark(self) -> Mark:
-        """Remember this moment, cuts included; `rewind` goes back to it as often as asked.
+        """Remember this moment, cuts included; `rewind` goes back to it any number of times.
 
         The solver forgets what it keeps of earlier steps, so that a run from here and one after
         `rewind` have the same bits.
@@ -156,17 +157,15 @@ class Cutting(Remains):
                 "found a mark of another simulation; one that this simulation made is accepted"
             )
         self._core.rewind(mark._core)
-        self._meshes.update(mark._meshes)
+        self._meshes.become(mark._meshes)
         self._steps = mark._steps
         self.scene, self._world, self._check, self._loads = mark._compiled
         self._physics_known = None
-        for body in self._meshes:
-            self._follow_cells(body)
+        self._lay_views()
 
     def _made(self, body: str, make: Any, *, by: str) -> CutReport:
         """Make a cut and follow it; go back where it leaves a static body with free pieces."""
         start = time.perf_counter()
-        before = self._core.totals(body)
         grabs = kept.records(self._core) if self.scene.grabbing else {}
         way_back = self._core.mark() if self.scene.step.type == "static" else None
         made = make()
@@ -188,8 +187,6 @@ class Cutting(Remains):
             body,
             made,
             by=by,
-            before=before,
-            after=self._core.totals(body),
             pieces=pieces,
             released=released,
             milliseconds=1e3 * (time.perf_counter() - start),

@@ -41,7 +41,7 @@ _OF_TENSORS: Mapping[str, tuple[str, Callable[[Floats], Floats]]] = {
 
 @dataclass(frozen=True, slots=True)
 class IntegrationPoints:
-    """Where a body is integrated, in the order of its fields at points.
+    """The integration points of a body, in the order of its fields at points.
 
     Attributes:
         cells: number (p,) int32 of the cell of each point in the body's mesh.

@@ -103,7 +103,7 @@ def keep(simulation: core.Simulation, grabs: dict[int, Record], memory: str = ME
 @known_names_only
 @one_thread_at_a_time
 class Grab:
-    """A spring of no rest length from a point of a body to a target in space.
+    """A spring of zero rest length from a point of a body to a target in space.
 
     It pulls with f = stiffness (target - position). Made by `Simulation.grab`, and found again by
     `Simulation.grabs`, in a simulation that goes on from a checkpoint too.
@@ -133,12 +133,12 @@ class Grab:
 
     @property
     def released(self) -> bool:
-        """Whether it has been let go."""
+        """Whether it was released."""
         return self._number not in records(self._core)
 
     @property
     def target(self) -> Floats:
-        """Where the point is pulled to (3,) [m]; a copy: assign another one to move it."""
+        """The place that the point is pulled to (3,) [m]; a copy: assign another one to move it."""
         return self._record().target
 
     @target.setter
@@ -147,7 +147,7 @@ class Grab:
 
     @property
     def stiffness(self) -> float:
-        """How stiff the spring is [N/m]."""
+        """Stiffness of the spring [N/m]."""
         return self._record().stiffness
 
     @stiffness.setter
@@ -156,7 +156,7 @@ class Grab:
 
     @property
     def position(self) -> Floats:
-        """Where the point is now (3,) [m]."""
+        """Present place of the point (3,) [m]."""
         record = self._record()
         self._core.settle()
         place = record.weights @ self._core.positions[record.nodes]
@@ -167,7 +167,7 @@ class Grab:
 
     @property
     def force(self) -> Floats:
-        """What it pulls the body with now (3,), stiffness (target - position) [N]."""
+        """Its present force on the body (3,), stiffness (target - position) [N]."""
         record = self._record()
         return np.asarray(record.stiffness * (record.target - self.position))
 
@@ -180,7 +180,7 @@ class Grab:
         return GrabPoint(record.nodes - first, record.weights.copy(), offset)
 
     def release(self) -> None:
-        """Let go; once more does nothing."""
+        """Release the point; a second call does nothing."""
         grabs = records(self._core)
         if grabs.pop(self._number, None) is not None:
             keep(self._core, grabs)

@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     from tissu.scene.load import Load, Where
     from tissu.scene.support import Support
     from tissu.simulation.entry import Entry
+    from tissu.simulation.meshes import Meshes
 
 Floats = NDArray[np.float64]
 
@@ -38,7 +39,7 @@ class Handled:
     scene: Scene
     _core: core.Simulation
     _entry: Entry
-    _meshes: dict[str, Mesh]
+    _meshes: Meshes
     _tissue: dict[str, Mesh]
     _positions: Mapping[str, Floats]
     _loads: Sequence[tuple[Load, Where]]
@@ -101,9 +102,9 @@ class Handled:
         *,
         stiffness: Number | str | None = None,
     ) -> Grab:
-        """Take hold of the surface where it is nearest to a point, as a hand or a mouse does.
+        """Grab the surface at its place nearest to a point, as a hand or a mouse does.
 
-        The grab pulls with nothing yet: its target is where the point is. Move it by
+        The grab does not pull yet: its target is the place of the point. Move it by
         `grab.target`, let go by `grab.release()`.
 
         Args:
@@ -142,7 +143,7 @@ class Handled:
         return drag_stiffness(self.scene, body, {**self._meshes, **self._tissue}[body])
 
     def drag_as(self, other: Grab) -> Grab:
-        """Take hold of the same point of the same body as a grab of another simulation does.
+        """Grab the same point of the same body as a grab of another simulation.
 
         Its stiffness and its target are those of the other one. Of two simulations of one mesh.
 

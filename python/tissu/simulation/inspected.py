@@ -10,12 +10,15 @@ from numpy.typing import NDArray
 
 from tissu.errors import ParameterError
 from tissu.field_names import FIELD_NAMES, PLACES, FieldName, Place
+from tissu.simulation.compliance import WAYS, Compliance, Way
 from tissu.simulation.fields import BodyFields, IntegrationPoints
 from tissu.simulation.matrices import sparse
 
 if TYPE_CHECKING:
     from tissu import _core as core
     from tissu.mesh import Mesh
+    from tissu.simulation.meshes import Meshes
+    from tissu.simulation.simulation import Simulation
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int32]
@@ -29,7 +32,7 @@ class Inspected:
 
     _core: core.Simulation
     _world: core.World
-    _meshes: dict[str, Mesh]
+    _meshes: Meshes
     _tissue: dict[str, Mesh]
     _positions: Mapping[str, Floats]
 
@@ -213,6 +216,36 @@ class Inspected:
     def mass_matrix(self) -> Any:
         """The lumped mass as a sparse array (3 r, 3 r) of SciPy [kg]; of rotations [kg m^2]."""
         return sparse(self._core.mass_matrix(), 3 * self._world.blocks)
+
+    def compliance(  # type: ignore[misc]
+        self: Simulation,
+        *,
+        by: Way = "factor",
+        tolerance: float = 0.01,
+        bodies: Sequence[str] | None = None,
+    ) -> Compliance:
+        """What finds how far points of the bodies give way to forces on them, step after step.
+
+        Args:
+            by: "factor": a factor of the step's matrix, which is kept, corrected, and made anew
+                where that does not do; "cg": by the conjugate gradient, without a factor;
+                "condensed": a table of the surface's nodes, made once, where the stiffness does not
+                change with the shape; "warped": that of the rest shape, turned as its nodes have
+                turned.
+            tolerance: largest relative error of a direction's own compliance, of factor and cg.
+            bodies: whose surfaces condensed and warped have in their table; absent: all.
+
+        Raises:
+            ParameterError: another way; a tolerance that is not above 0; more than 1,000 nodes on
+                the surfaces for condensed and warped; no body of that name.
+        """
+        if by not in WAYS:
+            raise ParameterError(f"found the way {by!r}; accepted: {', '.join(WAYS)}")
+        if not tolerance > 0.0:
+            raise ParameterError(f"found a tolerance of {tolerance:g}; one above 0 is accepted")
+        for body in bodies or ():
+            self._require_body(body)
+        return Compliance(simulation=self, by=by, tolerance=tolerance, bodies=bodies)
 
     def _require_body(self, name: str) -> None:
         if name not in self._positions:

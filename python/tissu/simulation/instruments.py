@@ -61,22 +61,22 @@ class Tool:
 
     @property
     def position(self) -> Floats:
-        """Where its origin is, or is going to in the next step (3,) [m]."""
+        """Place of its origin, or the place that it goes to in the next step (3,) [m]."""
         return np.array(self._pose().position)
 
     @property
     def rotation(self) -> Floats:
-        """How it is turned, as a rotation matrix (3, 3)."""
+        """Its rotation, as a matrix (3, 3)."""
         return self._pose().matrix()
 
     @property
     def edge(self) -> Floats:
-        """Where the points of its edge, or the ends of its axis, are (m, 3) [m]."""
+        """Places of the points of its edge, or of the ends of its axis (m, 3) [m]."""
         return self._pose().place(self._simulation.scene.instruments[self._name].points())
 
     @property
     def force(self) -> Floats:
-        """What the tissue gives to it (3,) [N], of the latest step.
+        """Force of the tissue on it in the latest step (3,) [N].
 
         Raises:
             ParameterError: it is not a knife with a toughness.
@@ -109,7 +109,7 @@ class Tool:
         keep(self._simulation._core, known)
 
     def place(self, position: VectorLike, rotation: VectorLike | ArrayLike | None = None) -> None:
-        """Put it somewhere at once: it cuts nothing on the way, and begins anew there.
+        """Put it somewhere at once: it cuts nothing on the way, and a new incision begins there.
 
         Raises:
             ParameterError: see `move`.

@@ -71,12 +71,12 @@ class Lead:
 
     @property
     def positions(self) -> Floats:
-        """Where its nodes are now (k, 3) [m]; a copy."""
+        """Present positions of its nodes (k, 3) [m]; a copy."""
         return np.asarray(self._core.positions[self._core.led_nodes(self._name)])
 
     @property
     def target(self) -> Floats:
-        """Where its nodes are led to (k, 3) [m]: by the live target, else by its own path now.
+        """Places to which its nodes are led (k, 3) [m]: the live target, else its own path now.
 
         Only the axes of the support are led.
         """
@@ -88,13 +88,13 @@ class Lead:
 
     @property
     def reactions(self) -> Floats:
-        """What it gives to each of its nodes (k, 3) [N], of the latest step."""
+        """Its forces on each of its nodes in the latest step (k, 3) [N]."""
         self._core.settle()
         return np.asarray(self._core.reactions()[self._core.led_nodes(self._name)])
 
     @property
     def force(self) -> Floats:
-        """What it gives to the body (3,) [N]: the sum of its reactions."""
+        """Its force on the body (3,) [N]: the sum of its reactions."""
         return np.asarray(self.reactions.sum(axis=0))
 
     def move(

@@ -85,7 +85,7 @@ class LiveLoad:
 
     @property
     def factor(self) -> float:
-        """What the load is multiplied by now: what was assigned, else by its times and factors."""
+        """Present factor of the load: the assigned one, else that of its times and factors."""
         numbers = self._core.remembered(self._place)
         if len(numbers) and numbers[0] != 0.0:
             return float(numbers[1])
@@ -102,7 +102,7 @@ class LiveLoad:
         self._keep(numbers)
 
     def reset(self) -> None:
-        """Make it what the scene has."""
+        """Give it back the value that it has in the scene."""
         self._core.set_remembered(self._place, np.empty(0))
 
     def _numbers(self) -> Floats:

@@ -57,16 +57,16 @@ class ObstacleLead:
 
     @property
     def force(self) -> Floats:
-        """What the bodies give to it (3,) [N], of the latest step: what a hand would feel."""
+        """Force of the bodies on it in the latest step (3,) [N]: that which a hand would feel."""
         return self._core.contact_force_on(self._name)[0]
 
     @property
     def moment(self) -> Floats:
-        """What the bodies give to it about its origin (3,) [N m], of the latest step."""
+        """Moment of the bodies on it about its origin in the latest step (3,) [N m]."""
         return self._core.contact_force_on(self._name)[1]
 
     def place_of(self, rest: VectorLike) -> Floats:
-        """Where a point of it is now (3,) [m], given where it is at rest (3,) [m]."""
+        """Present place of a point of it (3,) [m], given its place at rest (3,) [m]."""
         point = np.array(units.Triple(units.LENGTH)(rest), dtype=float)
         return np.asarray(self._core.obstacle_places(name=self._name, rest=point[None])[0])
 

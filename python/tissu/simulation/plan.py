@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class Plan:
-    """What will run.
+    """The effects, the method and the solver of a run.
 
     Attributes:
         effects: each with the field of the scene that asks for it.
@@ -42,7 +42,7 @@ class Plan:
 
     @property
     def matrix_bytes(self) -> int:
-        """What the system matrix takes: nine numbers and a column for each block."""
+        """Bytes of the system matrix: nine numbers and a column for each block."""
         return self.matrix_blocks * (9 * 8 + 4)
 
     def __str__(self) -> str:

@@ -34,7 +34,7 @@ class ProfileRow:
 
 @dataclass(frozen=True, slots=True)
 class Solves:
-    """What the linear solver did in all steps.
+    """The work of the linear solver in all steps.
 
     Attributes:
         solves: linear systems.
@@ -110,7 +110,7 @@ class Profile:
         p95_ms: 95 % of them were shorter.
         p99_ms: 99 % of them were shorter.
         max_ms: the longest of them.
-        real_time_factor: simulated time for wall time; above 1 is faster than life.
+        real_time_factor: simulated time over wall time; above 1 is faster than real time.
         solves: what the linear solver did.
         worst: the longest step after the first of all that were taken, and what it did.
     """

@@ -17,8 +17,13 @@ if TYPE_CHECKING:
     from tissu.mesh import Mesh
 
 
-def removed_cells(meshes: Mapping[str, Mesh], body: str, cells: ArrayLike) -> NDArray[np.int32]:
+def removed_cells(counts: Mapping[str, int], body: str, cells: ArrayLike) -> NDArray[np.int32]:
     """The numbers of cells to take out of a body, each once, increasing.
+
+    Args:
+        counts: body -> number of its cells.
+        body: its name.
+        cells: to take out.
 
     Raises:
         ParameterError: they are not whole numbers, no body has that name, or no cell would be left.
@@ -26,13 +31,13 @@ def removed_cells(meshes: Mapping[str, Mesh], body: str, cells: ArrayLike) -> ND
     given = np.atleast_1d(real_array(cells, "cells"))
     if given.size and not np.issubdtype(given.dtype, np.integer):
         raise ParameterError(f"found cells of type {given.dtype}; whole numbers are accepted")
-    if body not in meshes:
-        raise ParameterError(f"no body is named '{body}'; there are {', '.join(meshes)}")
+    if body not in counts:
+        raise ParameterError(f"no body is named '{body}'; there are {', '.join(counts)}")
     beyond = given[(given < 0) | (given > np.iinfo(np.int32).max)]
     if beyond.size:
         raise ParameterError(f"body '{body}' has no cell {beyond.flat[0]}")
     numbers = np.unique(given).astype(np.int32)
-    if len(numbers) >= meshes[body].cell_count:
+    if len(numbers) >= counts[body]:
         raise ParameterError(f"that would leave no cell of body '{body}'; keep at least one")
     return numbers
 

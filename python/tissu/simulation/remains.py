@@ -18,6 +18,7 @@ from tissu.mesh import Mesh, into_tetrahedra
 if TYPE_CHECKING:
     from tissu import _core as core
     from tissu.front import Scene
+    from tissu.simulation.meshes import Meshes
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int32]
@@ -30,7 +31,7 @@ class Remains:
 
     scene: Scene
     _core: core.Simulation
-    _meshes: dict[str, Mesh]
+    _meshes: Meshes
     _rest: dict[str, Mesh]
 
     if TYPE_CHECKING:
@@ -66,7 +67,7 @@ class Remains:
         """
         self._require_body(body)
         rest = self._rest.get(body)
-        return rest is not None and self._meshes[body].node_count > rest.node_count
+        return rest is not None and self._core.body_range(body)[1] > rest.node_count
 
     def pieces(self, body: str) -> tuple[Piece, ...]:
         """The connected parts of the material of a body, the largest first.
@@ -75,26 +76,16 @@ class Remains:
             ParameterError: no such body; the scene was compiled without `editing: true`.
         """
         self._require_editing(body)
-        runs = self._core.body_cells(body)
-        held_nodes = np.zeros(self._meshes[body].node_count, dtype=bool)
-        held_nodes[self._core.unfree_nodes(body)[1]] = True
-        held = np.zeros(1 + max(int(run[1][-1]) for run in runs), dtype=bool)
-        for run in runs:
-            held[run[1]] = held_nodes[run[4]].any(axis=1)
-        whole = self._core.totals(body)
-        found = [
-            Piece(
-                cells=cells,
-                volume=volume,
-                mass=whole["mass"] * volume / whole["volume"],
-                held=bool(held[cells].any()),
-            )
-            for cells, volume in self._core.pieces(body)
+        found = self._core.pieces(body)
+        mass, whole = self._core.mass(body), sum(volume for _, volume, _ in found)
+        pieces = [
+            Piece(cells=cells, volume=volume, mass=mass * volume / whole, held=held)
+            for cells, volume, held in found
         ]
-        return tuple(sorted(found, key=lambda piece: -piece.volume))
+        return tuple(sorted(pieces, key=lambda piece: -piece.volume))
 
     def origin(self, body: str) -> Ints:
-        """The cell of the first day (e,) that each cell of `meshes[body]` comes from.
+        """The original cell (e,) that each cell of `meshes[body]` comes from.
 
         Raises:
             ParameterError: no such body; the scene was compiled without `editing: true`.
@@ -103,7 +94,7 @@ class Remains:
         return np.concatenate([run[2] for run in self._core.body_cells(body)])
 
     def born(self, body: str) -> Ints:
-        """The node of the first day (n,) that each node of `meshes[body]` is a copy of, or is.
+        """The original node (n,) that each node of `meshes[body]` is, or is a copy of.
 
         Raises:
             ParameterError: no such body; the scene was compiled without `editing: true`.
@@ -112,7 +103,7 @@ class Remains:
         return self._core.roots(body)
 
     def quality(self, body: str, *, rest: bool = False) -> Quality:
-        """How far the tetrahedra of the material of a body are from the regular one.
+        """Measures of the shape of the material's tetrahedra, each 1 for the regular one.
 
         Cells of other types count as the tetrahedra between their corners.
 

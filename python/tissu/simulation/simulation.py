@@ -22,6 +22,7 @@ from tissu.simulation.handled import Handled
 from tissu.simulation.inspected import Inspected
 from tissu.simulation.instruments import Instrumented
 from tissu.simulation.known_names import known_names_only
+from tissu.simulation.meshes import Meshes
 from tissu.simulation.plan import Plan
 from tissu.simulation.profile import Profile, profile_of
 from tissu.simulation.remaining import keep_cells, removed_cells
@@ -80,7 +81,9 @@ class Simulation(Inspected, Handled, Touched, Changed, Cutting, Instrumented):
         self._observers: tuple[Callable[[StepReport], object], ...] = ()
         self._world = world
         self._core = _core.Simulation(world=world, integrator=integrator, solver=solver)
-        self._meshes = dict(meshes)
+        if scene.editing:
+            self._core.prepare_edits()
+        self._meshes = Meshes(meshes, self._mesh_now)
         self._rest = {name: mesh for name, mesh in meshes.items()}
         self._steps = 0
         self._simulated = 0.0
@@ -329,11 +332,11 @@ class Simulation(Inspected, Handled, Touched, Changed, Cutting, Instrumented):
         return float(self._core.largest_frequency())
 
     def model_bytes(self) -> int:
-        """What the models of all bodies keep of their cells, places in the matrix included."""
+        """Bytes that the models of all bodies keep of their cells, with places in the matrix."""
         return sum(int(block[4]) for block in self._world.elastic_blocks)
 
     def solver_bytes(self) -> int:
-        """What the linear solver keeps: vectors, preconditioners, factors; not the matrix."""
+        """Bytes of the linear solver: vectors, preconditioners, factors; not the matrix."""
         return int(self._core.solver_bytes())
 
     def profile(self) -> Profile:
@@ -346,7 +349,7 @@ class Simulation(Inspected, Handled, Touched, Changed, Cutting, Instrumented):
         self._simulated = 0.0
 
     def plan(self) -> Plan:
-        """What will run and why, and what is absent."""
+        """The effects that will run, with their reasons, and those that are absent."""
         return Plan(
             effects=tuple(self._check.effects),
             absent=tuple(self._check.absent),
@@ -378,7 +381,8 @@ class Simulation(Inspected, Handled, Touched, Changed, Cutting, Instrumented):
         Raises:
             ParameterError: the scene was compiled without `editing: true`, or has no such cell.
         """
-        self._core.remove_cells(body=body, cells=removed_cells(self._meshes, body, cells))
+        counts = {name: self._core.cell_count(name) for name in self._meshes}
+        self._core.remove_cells(body=body, cells=removed_cells(counts, body, cells))
         self._follow_cells(body)
 
     def remaining_cells(self, body: str) -> NDArray[np.int32]:
@@ -397,16 +401,18 @@ class Simulation(Inspected, Handled, Touched, Changed, Cutting, Instrumented):
 
     def _follow_cells(self, body: str) -> None:
         """Makes the mesh and the views of a body those of its present cells and nodes."""
-        rest, nodes = self._rest[body], self._core.body_range(body)[1]
-        remaining = np.sort(self._core.remaining_cells(body))
-        if nodes > rest.node_count:
-            self._meshes[body] = cut_mesh(rest, self._core.body_cells(body), self._core.roots(body))
-        elif len(remaining) == rest.cell_count:
-            self._meshes[body] = rest
-        elif len(remaining) != self._meshes[body].cell_count:
-            self._meshes[body] = keep_cells(rest, remaining)
-        if nodes != len(self._positions[body]):
+        self._meshes.follow(body)
+        if self._core.body_range(body)[1] != len(self._positions[body]):
             self._lay_views()
+
+    def _mesh_now(self, body: str) -> Mesh:
+        """The mesh of the present cells of a body."""
+        rest = self._rest[body]
+        if self._core.body_range(body)[1] > rest.node_count:
+            return cut_mesh(rest, self._core.body_cells(body), self._core.roots(body))
+        if self._core.cell_count(body) == rest.cell_count:
+            return rest
+        return keep_cells(rest, self.remaining_cells(body))
 
     def _go_on_from(self, checkpoint: Checkpoint) -> None:
         checkpoint.require(self._physics())

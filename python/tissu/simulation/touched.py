@@ -3,19 +3,20 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from tissu.errors import ParameterError
-from tissu.simulation.contact_at_nodes import ContactAtNodes, contact_at_nodes
+from tissu.simulation.contact_at_nodes import ContactAtNodes, Riders, contact_at_nodes
 from tissu.simulation.obstacle_surface import ObstacleSurface, plane_square, round_surface
 
 if TYPE_CHECKING:
     from tissu import _core as core
     from tissu.front import Scene
     from tissu.mesh import Mesh
+    from tissu.simulation.meshes import Meshes
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int32]
@@ -30,8 +31,8 @@ class Contacts:
         surfaces: names of the bodies and obstacles that `pairs` numbers.
         pairs: which two meet (m, 2): the one that `forces` act on, and the other one.
         nodes: whose places the contact joins, numbers in their own body or obstacle (m, 4); -1:
-            none.
-        weights: of the nodes (m, 4). The distance vector is the sum of weight times place.
+            none; -2 - r: point r of the material of a body that was cut, which nodes carry.
+        weights: of these (m, 4). The distance vector is the sum of weight times place.
         points: where the forces act (m, 3) [m], on the first of the pair.
         normals: from the other one to the first (m, 3).
         gaps: distance beyond that at which the surfaces rest (m,) [m]; negative: inside the gap.
@@ -86,7 +87,8 @@ class Crossing(NamedTuple):
 
     Attributes:
         surface: name of the body or obstacle of the edge.
-        edge: its two nodes; one alone for a vertex behind a plane.
+        edge: its two nodes; one alone for a vertex behind a plane. Point r of cut material is
+            -2 - r.
         other: name of the body or obstacle of the triangle, or of the plane.
         triangle: its three nodes; empty for a plane.
     """
@@ -117,6 +119,7 @@ class Touched:
     scene: Scene
     _core: core.Simulation
     _rest: dict[str, Mesh]
+    _meshes: Meshes
 
     def contacts(self) -> Contacts:
         """The contacts that press, as the latest step left them; none before the first step.
@@ -148,10 +151,18 @@ class Touched:
         if body not in bodies:
             hint = f"a body that meets something is accepted: {', '.join(bodies)}"
             raise ParameterError(f"found {body!r}; {hint}")
-        areas = np.zeros(self._rest[body].node_count)
+        areas = np.zeros(self._meshes[body].node_count)
         found = self._core.contact_areas(body)
         areas[: len(found)] = found
-        return contact_at_nodes(self.contacts(), body, areas)
+        riders = Riders(*self._core.contact_riders(body))
+        return contact_at_nodes(self.contacts(), body, areas, riders)
+
+    def _spread_over_nodes(self, body: str, points: Ints, shares: Floats) -> tuple[Any, Any]:
+        """The nodes, each once, that carry points of a surface, and their parts of the shares."""
+        riders = Riders(*self._core.contact_riders(body))
+        _, nodes, parts = riders.shared(points, shares)
+        found, place = np.unique(nodes, return_inverse=True)
+        return found.astype(np.int64), np.bincount(place, parts)
 
     def obstacle_surface(self, name: str) -> ObstacleSurface:
         """The surface of an obstacle as triangles, at rest and now.
@@ -178,7 +189,7 @@ class Touched:
         return ObstacleSurface(rest, now, faces, normal is not None)
 
     def force_on(self, name: str) -> Wrench:
-        """What all contacts give to a body or obstacle, of the latest step.
+        """The force and the moment that all contacts gave to a body or obstacle in the latest step.
 
         Args:
             name: of the body or obstacle.
@@ -198,7 +209,7 @@ class Touched:
         return Wrench(*self._core.contact_force_on(name))
 
     def crossings(self) -> list[Crossing]:
-        """What crosses now, of the surfaces that meet; with `travel: true` nothing ever does.
+        """Present crossings of the surfaces that meet; with `travel: true` nothing ever does.
 
         The answer is exact for the positions as they are: it uses exact signs, and counts what
         touches as crossing.
@@ -211,15 +222,15 @@ class Touched:
         return [
             Crossing(
                 names[a],
-                tuple(n for n in edge if n >= 0),
+                tuple(n for n in edge if n != -1),
                 names[b],
-                tuple(t for t in face if t >= 0),
+                tuple(t for t in face if t != -1),
             )
             for a, edge, b, face in self._core.crossings()
         ]
 
     def overlaps(self) -> list[Overlap]:
-        """What is inside balls, rods, sheets and lines now, whose middles alone `crossings` sees.
+        """Present depths inside balls, rods, sheets and lines; `crossings` sees their middles only.
 
         Of each two surfaces that meet the deepest place, by the distance of their middles and by
         both half thicknesses; within a body no more than 0.9 of the distance at rest counts as

@@ -232,7 +232,7 @@ class Controller:
         return reason.words
 
     def timing(self) -> Timing:
-        """How the machine let the ticks run."""
+        """Lateness of the ticks, and the rights that the machine granted."""
         return self._ticking.timing()
 
     def records(self) -> dict[str, Array]:

@@ -114,6 +114,9 @@ class Law:
         if model is not None:
             for D, own in zip(model.model.directions(), self._cones(), strict=True):
                 force, borne = force + D.T @ own, borne + int(own[0] > 0.0)
+            blade = model.model.blade
+            if blade is not None:
+                force = force + np.asarray(blade.way) * self.forces[3 * len(model.model.friction)]
         return {
             "force": force,
             "contacts": borne,

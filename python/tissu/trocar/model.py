@@ -20,7 +20,7 @@ MOST_CONTACTS = 8
 
 @dataclass(frozen=True, slots=True)
 class Blade:
-    """What a blade overcomes along its way: |force| <= limit.
+    """The resistance of a blade along its path: |force| <= limit.
 
     Attributes:
         point: (3,) of the tool, in its axes [m].

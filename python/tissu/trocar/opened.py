@@ -15,6 +15,7 @@ from tissu.scene.trocar.device import (
     SimulatedDevice,
     UdpDevice,
 )
+from tissu.scene.trocar.tool import tag_of
 from tissu.trocar.kinematics import Array
 
 if TYPE_CHECKING:
@@ -43,7 +44,7 @@ def open_device(trocar: Trocar, tag: int, *, trust_plugins: bool = False) -> _ha
     """
     device = trocar.device
     if isinstance(device, SimulatedDevice):
-        return _simulated(trocar, device, tag)
+        return simulated(trocar, device, tag)
     info: dict[str, Any] = {
         "count_size": [*device.counts, _GRIP],
         "torque_limit": [*trocar.limits.torques(), 0.0],
@@ -64,25 +65,50 @@ def open_device(trocar: Trocar, tag: int, *, trust_plugins: bool = False) -> _ha
     return _haptic.open_plugin(library=str(library), address=device.address or "")
 
 
-def _simulated(trocar: Trocar, device: SimulatedDevice, tag: int) -> _haptic.Device:
+def simulated(
+    trocar: Trocar,
+    device: SimulatedDevice,
+    tag: int,
+    *,
+    joints: Array | None = None,
+    since: float = 0.0,
+    hand: Hand | None = None,
+) -> _haptic.SimulatedDevice:
+    """A simulated device of a trocar.
+
+    Args:
+        trocar: the part of the scene.
+        device: its device, whose hand holds it.
+        tag: of the tool that is in.
+        joints: (4,) where the tool begins; absent: at the first place of the hand's path.
+        since: time of the hand's path at which it begins [s].
+        hand: in place of the device's.
+
+    Raises:
+        ParameterError: the path of a hand cannot be read.
+    """
     line = _haptic.Line()
     line.period = 1.0 / trocar.rate
     line.count_size = [*device.counts, _GRIP]
     line.torque_limit = [*trocar.limits.torques(), 0.0]
     line.delay, line.jitter, line.lost = device.delay, device.jitter, device.lost
     line.unknown_zero, line.seed = not device.homed, device.seed
-    hand, first = None, np.array([0.0, 0.0, 0.1])
-    if device.hand is not None:
-        hand = hand_of(device.hand, device.seed)
-        first = hand.wanted(0.0)[0]
-    q = _haptic.Fulcrum().joints(first)
-    made = _haptic.SimulatedDevice(q, _haptic.Mechanism(), line, hand)
+    held = hand or device.hand
+    made_hand, first = None, np.array([0.0, 0.0, 0.1])
+    if held is not None:
+        made_hand = hand_of(held, device.seed, since=since)
+        first = made_hand.wanted(0.0)[0]
+    q = _haptic.Fulcrum().joints(first) if joints is None else joints
+    made = _haptic.SimulatedDevice(q, _haptic.Mechanism(), line, made_hand)
     made.set_tool(tag, True)
+    if device.changes is not None:
+        tags = (0 if one is None else tag_of(one) for one in device.changes.tags)
+        made.plan_tools(list(zip(device.changes.times, tags, strict=True)))
     return made
 
 
-def hand_of(hand: Hand, seed: int) -> _haptic.Hand:
-    """The hand of a simulated device.
+def hand_of(hand: Hand, seed: int, *, since: float = 0.0) -> _haptic.Hand:
+    """The hand of a simulated device, with its path from a time `since` [s] on.
 
     Raises:
         ParameterError: the file of its path cannot be read, or is none.
@@ -92,12 +118,12 @@ def hand_of(hand: Hand, seed: int) -> _haptic.Hand:
         if hand.path is not None
         else np.column_stack([hand.times, np.array(hand.points)])
     )
-    made = _haptic.Hand(list(rows[:, 0]), rows[:, 1:4], [0.0] * len(rows))
+    made = _haptic.Hand(list(rows[:, 0] - since), rows[:, 1:4], [0.0] * len(rows))
     made.smooth = hand.path is None  # a recorded path is followed as it is
     made.mass, made.stiffness, made.damping = hand.mass, hand.stiffness, hand.damping
     made.tremor, made.seed = hand.tremor, seed
     if hand.lets_go is not None:
-        made.lets_go = hand.lets_go
+        made.lets_go = max(0.0, hand.lets_go - since)
     made.check()
     return made
 

@@ -110,6 +110,11 @@ class Trocars:
                 "largest_force_of_steps": largest["force"],
                 "largest_force_of_ticks": largest["fast"],
                 "energy_given_out": report.given_out,
+                "compliance": touch.compliance.by,
+                "largest_error_of_compliance": None
+                if touch.compliance.by == "warped"
+                else touch.largest_error,
+                "factors_of_compliance": touch.compliance.factors,
             }
             if self.realtime:
                 timing = report.timing

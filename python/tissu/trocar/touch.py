@@ -26,13 +26,13 @@ import numpy as np
 from tissu.errors import ParameterError
 from tissu.trocar import kinematics
 from tissu.trocar.model import MOST_CONTACTS, Blade, LocalModel, across
-from tissu.trocar.touched import Factor, compliance, merged, nearest, pressing
+from tissu.trocar.pressed import Pressing
+from tissu.trocar.touched import compliance, merged, met_by, nearest, pressing
 
 if TYPE_CHECKING:
     from tissu.simulation import Simulation
     from tissu.trocar.controller import Controller
     from tissu.trocar.kinematics import Array
-    from tissu.trocar.report import Report
 
 OUT = 0.1
 """s in which the obstacle of a tool that was taken out goes back to where the scene has it."""
@@ -47,10 +47,11 @@ class Felt:
         joints: (4,) of the proxy that the tool was led to.
         tip: (3,) where the tip of the tool is in the scene [m].
         force: (3,) on the tool by the contacts of the slow step [N].
-        fast: (3,) on the tool, as the last tick had it [N].
+        fast: (3,) on the tool by contacts and blade, as the last tick had it, before limits [N].
         contacts: how many the ticks were given.
         tool: name of the obstacle or instrument; None: none that the scene knows was in.
         state: of the trocar, by name.
+        limited: whether a limit cut the torques of the last tick.
     """
 
     time: float
@@ -61,6 +62,7 @@ class Felt:
     contacts: int
     tool: str | None
     state: str
+    limited: bool = False
 
 
 class Touch:
@@ -68,37 +70,33 @@ class Touch:
 
     The tip is the point of an obstacle that lies deepest along the port's axis. Ticks are taken
     between the steps where the controller is stepped; a threaded controller goes on by itself.
+
+    Attributes:
+        simulation: of the scene.
+        controller: of the trocar.
+        compliance: how the tissue's compliance is found, and how well.
+        largest_error: of the compliance so far, as its bound says.
     """
 
     def __init__(self, simulation: Simulation, controller: Controller) -> None:
-        """Find the tools of the trocar among the obstacles of the scene.
+        """Find the tools of the trocar among the obstacles and instruments of the scene.
 
         Raises:
-            ParameterError: a tool is an obstacle that moves freely or along a path, or meets
-                nothing; none of the tools is in the scene.
+            ParameterError: none of the tools is in the scene; a way of compliance that the scene
+                does not allow.
         """
         self.simulation, self.controller = simulation, controller
         port = controller.trocar.port
         self._turn, self._at = port.frame(), np.array(port.at)
+        scene, tools = simulation.scene, controller.trocar.tools.values()
+        self._instruments = [name for name in tools if name in scene.instruments]
         self._depths: dict[str, float] = {}
-        scene = simulation.scene
-        self._instruments = [
-            name for name in controller.trocar.tools.values() if name in scene.instruments
-        ]
-        for name in controller.trocar.tools.values():
-            obstacle = scene.obstacles.get(name)
-            if obstacle is None:
-                continue
-            if obstacle.mass is not None or obstacle.motion is not None or obstacle.type == "plane":
-                text = f"found the tool '{name}', an obstacle with a mass or a motion, or a plane; "
-                raise ParameterError(text + "a tool of a trocar is led by its hand alone")
-            if name not in simulation.touching:
-                text = f"found the tool '{name}', which no contact of the scene names; add one, "
-                raise ParameterError(text + f"such as {{between: [liver, {name}]}}")
-            places = simulation.obstacle_surface(name).points
-            self._depths[name] = float(((places - self._at) @ self._turn[:, 2]).max())
+        for name in tools:
+            if name in scene.obstacles:
+                places = simulation.obstacle_surface(name).points
+                self._depths[name] = float(((places - self._at) @ self._turn[:, 2]).max())
         if not self._depths and not self._instruments:
-            names = ", ".join(controller.trocar.tools.values()) or "none"
+            names = ", ".join(tools) or "none"
             text = f"found no obstacle and no instrument among the tools of the trocar ({names}); "
             raise ParameterError(text + "name one of the scene in `tools`")
         self._dt = simulation.dt
@@ -106,7 +104,11 @@ class Touch:
         self._due = 0.0
         self._tool: str | None = None
         self._joints: Array = np.zeros(4)
-        self._factor = Factor()
+        self._given: LocalModel | None = None
+        self._held = False
+        self.largest_error = 0.0
+        met = met_by(simulation, list(self._depths))
+        self.compliance = simulation.compliance(by=controller.trocar.compliance, bodies=met)
 
     def step(self) -> Felt:
         """One step of the scene with the tool where the ticks have it, a new model, and its ticks.
@@ -123,6 +125,8 @@ class Touch:
         self._joints, self._tool = joints, tool = self._proxy()
         if self._led in self._depths and tool != self._led:
             self.simulation.obstacle(self._led).release(over=OUT)
+        elif self._led is not None and tool != self._led:
+            self.simulation.instruments[self._led].place(self._at, self._turn)
         if tool in self._depths:
             self._lead(tool, joints)
         elif tool is not None:
@@ -136,6 +140,7 @@ class Touch:
         """After a step of the scene: its contacts go to the ticks, which run where stepped."""
         joints, tool = self._joints, self._tool
         model, force = self._model(tool, joints)
+        self._given = model if tool in self._depths else None
         self.controller.publish(model)
         if self.controller.mode != "threaded":
             # What is left of a tick counts in the next step, so that both clocks go on together.
@@ -150,31 +155,33 @@ class Touch:
             joints=joints,
             tip=self._at + self._turn @ kinematics.position(joints),
             force=force,
-            fast=report.force if model.blade is None else self._of_torque(report),
+            fast=report.force,
             contacts=len(model.points),
             tool=tool,
             state=report.state.name,
+            limited=report.limited,
         )
 
     def _proxy(self) -> tuple[Array, str | None]:
         """Joints of the proxy, and the tool that is led: one that is in, while the tissue is felt.
 
-        Where a limit cut the torque the proxy is farther from the device than the torque says; at
-        end stops it stands there.
+        At end stops it stands there. Where a limit cuts the torque the hand is stronger than the
+        device and goes on; the tool stays where the tissue gives the limit's force back.
         """
         report = self.controller.report()
         known = report.tool in self._depths or report.tool in self._instruments
         tool = report.tool if known and report.state.gives_force else None
-        joints = report.q + report.torque / self.controller.stiffness()
-        limits = self.controller.trocar.limits
+        stiffness, limits = self.controller.stiffness(), self.controller.trocar.limits
+        joints = report.q + report.torque / stiffness
         joints[:2] = np.clip(joints[:2], -limits.tilt, limits.tilt)
         joints[3] = min(joints[3], limits.depth)
+        held = report.limited or self._held
+        self._held = False
+        if held and self._given is not None and tool == self._led:
+            wanted = joints
+            joints = Pressing(self._given, stiffness, limits).held(self._joints, wanted)
+            self._held = joints is not wanted
         return joints, tool
-
-    def _of_torque(self, report: Report) -> Array:
-        """The force at the tip that has the torques of a tick (3,) [N]."""
-        J = kinematics.jacobian(report.q, kinematics.position(report.q))
-        return np.asarray(self._turn @ np.linalg.lstsq(J.T, report.torque, rcond=None)[0])
 
     def _lead(self, tool: str, joints: Array) -> None:
         """The obstacle goes to the tool's pose: x = at + Q (X - at) + R (r - r0)."""
@@ -198,7 +205,8 @@ class Touch:
         tangents = np.array([across(n) for n in normals])
         axes = np.stack([normals, tangents, np.cross(normals, tangents)], axis=1)
         directions = np.einsum("mij,kj->mik", axes, self._turn)
-        W = compliance(self.simulation, kept, directions, self._factor)
+        W = compliance(self.compliance, kept, directions)
+        self.largest_error = max(self.largest_error, self.compliance.error)
         forces = self.controller.turned_into_port(np.array([one.force for one in kept]))
         local = np.einsum("mij,mj->mi", axes, forces)
         places = self.controller.into_port(np.array([one.point for one in kept]))

@@ -6,6 +6,9 @@ from pathlib import Path
 
 import pytest
 import yaml
+from typer.testing import CliRunner
+
+from tissu.cli.app import app
 
 ROOT = Path(__file__).resolve().parents[3]
 SCENE = ROOT / "examples" / "trocar.yaml"
@@ -57,3 +60,38 @@ def test_what_is_asked_in_vain_is_refused():
     )
     beam = ROOT / "examples" / "beam.yaml"
     assert "found no trocars" in tissu("jitter", beam, code=2)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (("jitter", SCENE, "--seconds", "-1 s"), "--seconds: found '-1 s'; 0.001 to 86400 s is"),
+        (("jitter", SCENE, "--seconds", "0"), "--seconds: found '0'; 0.001 to 86400 s is accepted"),
+        (("jitter", SCENE, "--seconds", "nan"), "not finite"),
+        (("jitter", SCENE, "--spin", "-1 ms"), "--spin: found '-1 ms'; 0 to 86400 s is accepted"),
+        (("record", SCENE, "out.npz", "--seconds", "inf"), "not finite"),
+        (("record", SCENE, "out.npz", "--wall", "-5 mm"), "--wall: found '-5 mm'; 0 to 1 m is"),
+        (
+            ("record", SCENE, "out.npz", "--stiffness", "0 N/m"),
+            "--stiffness: found '0 N/m'; at least",
+        ),
+        (("record", SCENE, "out.npz", "--stiffness", "-3"), "--stiffness: found '-3'; at least"),
+        (("record", SCENE, "."), "found the folder .; a file is accepted"),
+        (("record", SCENE, "none/out.npz"), "one that is there is accepted: make it first"),
+        (("record", "none.yaml", "out.npz"), "none.yaml"),
+        (("check", "none.yaml"), "none.yaml"),
+        (("check", "."), "."),
+        (("identify", "."), "."),
+        (("replay", "."), "found the folder .; a file of `tissu trocar record` is accepted"),
+    ],
+)
+def test_odd_input_is_refused_in_one_sentence(arguments, said, tmp_path, monkeypatch, capsys):
+    """In this process, since each would load the package anew."""
+    monkeypatch.chdir(tmp_path)
+    result = CliRunner().invoke(app, ["trocar", *map(str, arguments)])
+    assert result.exit_code == 2, result.output
+    told = capsys.readouterr().err or result.stderr
+    assert said in told
+    assert "Traceback" not in told
+    assert len(told.replace("1 problem in the scene:\n- ", "").strip().splitlines()) == 1
+    assert not list(tmp_path.iterdir())

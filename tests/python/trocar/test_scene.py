@@ -18,6 +18,7 @@ bodies:
     law: {type: stvk, young: 3 kPa, poisson: 0.3}
     density: 1000
 obstacles: {probe: {type: sphere, center: [0, 0, 5 cm], radius: 2 mm}}
+contacts: [{between: [bar, probe]}]
 step: {type: implicit_euler, dt: 10 ms}
 trocars:
 """
@@ -103,6 +104,22 @@ def test_the_passive_bound_is_the_smaller_of_both():
         ("points: [[0, 0, 0.1], [0, 0, 0.12]]", "points: [[0, 0, 0.1]]", "one for each time"),
         ("times: [0, 1], points: [[0, 0, 0.1], [0, 0, 0.12]]", "mass: 1 kg", "neither points nor"),
         ("type: simulated,", "type: simulated, delay: 1 s,", "delay"),
+        (
+            "type: simulated,",
+            "type: simulated, changes: {times: [0, 1], tags: [0x51A0]},",
+            "found 1 tag for 2 times",
+        ),
+        (
+            "type: simulated,",
+            "type: simulated, changes: {times: [0, 1], tags: [0x51A0, 7]},",
+            "found 0x7 right after 0x51A0; none between them is accepted",
+        ),
+        (
+            "type: simulated,",
+            "type: simulated, changes: {times: [1, 2], tags: [none, 7]},",
+            "found the tag 0x7, which no tool of the trocar has; accepted: 0x51A0, or none",
+        ),
+        ("rate: 1 kHz", "compliance: exact", "compliance"),
         ("type: simulated,", "type: falcon,", "accepted types: simulated, udp, serial"),
         ("device: {type: simulated,", "devise: {type: simulated,", "did you mean 'device'"),
     ],
@@ -113,6 +130,26 @@ def test_bad_input_is_refused_in_one_sentence(old, new, said):
     assert len(found) == 1
     assert said in found[0].replace("Accepted", "accepted")
     assert "trocars.right" in found[0]
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "said"),
+    [
+        (
+            "radius: 2 mm}",
+            "radius: 2 mm, mass: 60 g}",
+            "a tool of a trocar is led by its hand alone",
+        ),
+        ("between: [bar, probe]", "between: [bar, bar]", "found 'probe', which no contact"),
+    ],
+)
+def test_a_tool_that_the_hand_cannot_lead_is_refused(old, new, said):
+    assert old in HEAD
+    try:
+        found = ts.Scene.from_yaml_text(HEAD.replace(old, new) + RIGHT).check().problems
+    except ts.SceneError as refused:
+        found = refused.problems
+    assert any(said in one and "trocars.right.tools" in one for one in found)
 
 
 DEVICE = "device: {type: simulated, hand: {times: [0, 1], points: [[0, 0, 0.1], [0, 0, 0.12]]}}"

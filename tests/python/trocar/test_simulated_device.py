@@ -212,3 +212,30 @@ def test_force_at_the_tip_is_the_contacts_force():
         report = driver.at(q, model(1, q_ref=q, anchor=[tip + 1e-3 * n], normal=[n], W=1e-3))
         made = haptic.Fulcrum().force(q, report["command"][:4])
         assert np.linalg.norm(made - report["force"]) <= 1e-3 * np.linalg.norm(report["force"])
+
+
+def test_a_hand_that_is_aimed_goes_as_one_along_that_path():
+    """Aimed after 0.1 s at a place, which it reaches 50 ms later: the path of the other hand."""
+    there = (0.004, -0.002, 0.203)
+    path = hand([(0.0, 0, 0, 0.2), (0.1, 0, 0, 0.2), (0.15, *there), (0.3, *there)], smooth=False)
+    one, other = device(path), device(hand([(0.0, 0, 0, 0.2)]))
+    for tick in range(300):
+        if tick == 100:
+            other.aim(there, 0.0, 0.05)
+        haptic.read(one)
+        haptic.read(other)
+        np.testing.assert_allclose(other.joints, one.joints, rtol=0, atol=1e-12)
+    assert np.abs(other.joints - AT).max() > 1e-3
+    other.follow()  # back to its own path, which stands still where it began
+    for _ in range(2000):
+        haptic.read(other)
+    assert other.joints[3] < 0.2005 < one.joints[3]
+
+
+def test_only_a_hand_that_is_there_is_aimed_at_numbers():
+    with pytest.raises(ts.ParameterError, match="has no hand that could be aimed"):
+        device().aim((0, 0, 0.2), 0.0, 0.05)
+    held = device(hand([(0.0, 0, 0, 0.2)]))
+    for tip, over in (((0, 0, np.nan), 0.05), ((0, 0, 0.2), -1.0)):
+        with pytest.raises(ts.ParameterError, match="finite, the time at least 0"):
+            held.aim(tip, 0.0, over)

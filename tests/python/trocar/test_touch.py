@@ -8,7 +8,6 @@ from typing import Any
 
 import numpy as np
 import pytest
-from scipy.sparse import identity
 
 import tissu as ts
 from tissu.trocar.controller import Controller
@@ -86,17 +85,12 @@ def test_the_hand_is_the_spring_of_the_device_deeper_than_the_tool() -> None:
 
 
 def test_a_model_knows_how_far_the_tissue_gives() -> None:
-    """W of one node against the displacement of a step under a unit force, by an own solve."""
+    """W of one contact against the displacement of a step under a unit force, by an own solve."""
     simulation, _ = palpated(60)
-    from tissu.trocar.touched import Factor, compliance, nearest, pressing
+    from tissu.trocar.touched import compliance, nearest, pressing
 
     (one, *_) = pressing(simulation, "probe") or nearest(simulation, "probe")
-    factor = Factor()
-    factor.solve(1.1 * identity(3), np.eye(3))  # of another matrix
-    W = compliance(simulation, [one], np.eye(3)[None], factor)
-    again = compliance(simulation, [one], np.eye(3)[None], factor)
-    assert factor.made == 2
-    np.testing.assert_allclose(again, W, rtol=1e-12)
+    W = compliance(simulation.compliance(), [one], np.eye(3)[None])
     free = simulation.free_axes().ravel()
     h = simulation.dt
     A = (
@@ -107,8 +101,46 @@ def test_a_model_knows_how_far_the_tissue_gives() -> None:
     for node, weight in zip(one.nodes, one.weights, strict=True):
         H[:, 3 * node : 3 * node + 3] += weight * np.eye(3)
     H = H[:, free]
-    np.testing.assert_allclose(W, h**2 * H @ np.linalg.solve(A, H.T), rtol=1e-7, atol=1e-12)
+    np.testing.assert_allclose(W, h**2 * H @ np.linalg.solve(A, H.T), rtol=1e-10, atol=1e-16)
     assert np.linalg.eigvalsh(W).min() > 0.0
+
+
+@pytest.mark.parametrize("way", ["factor", "cg", "warped"])
+def test_every_way_of_compliance_ends_at_one_force(way: str) -> None:
+    """At rest anchor + W lambda is the tissue's place, whatever W is."""
+    trocar = scene().trocars["right"].replace(compliance=way)
+    simulation, found = palpated(trocars={"right": trocar})
+    slow = np.mean([one.force[2] for one in found[-10:]])
+    fast = np.mean([one.fast[2] for one in found[-10:]])
+    assert slow > 0.3
+    assert fast == pytest.approx(slow, rel=0.03)
+    assert f"compliance {'by the conjugate' if way == 'cg' else ''}" in str(simulation.plan())
+
+
+def test_condensed_compliance_needs_a_stiffness_that_stays() -> None:
+    """Refused in one sentence where the law is not linear."""
+    trocar = scene().trocars["right"].replace(compliance="condensed")
+    with pytest.raises(ts.ParameterError, match="take the way factor, or warped"):
+        palpated(trocars={"right": trocar})
+
+
+def test_a_hand_stronger_than_the_limit_goes_on_alone() -> None:
+    """The tool stays where the tissue gives 0.4 N back; the device is centimetres deeper."""
+    hand = ts.Hand(times=(0, "0.8 s"), points=((0, 0, 0.1), (0, 0, 0.15)))
+    base = scene().trocars["right"]
+    trocar = base.replace(
+        device=ts.SimulatedDevice(hand=hand), limits=base.limits.replace(force=0.4)
+    )
+    simulation = scene(trocars={"right": trocar}).compile()
+    with Controller(simulation.scene.trocars["right"]) as controller:
+        touch = Touch(simulation, controller)
+        felt = [touch.step() for _ in range(150)]
+        deep = controller.report().q[3]
+    late = felt[-20:]
+    assert all(one.limited for one in late)
+    assert np.mean([one.force[2] for one in late]) == pytest.approx(0.4, rel=0.03)
+    assert max(one.force[2] for one in felt) < 1.5 * 0.4  # the step that meets the tissue
+    assert deep - late[-1].joints[3] > 0.01
 
 
 def test_the_same_bits_twice() -> None:
@@ -142,7 +174,7 @@ def test_a_knife_is_led_through_the_port() -> None:
 
 @pytest.mark.parametrize("dt", ["0.3 ms", "1.5 ms", "2.5 ms"])
 def test_both_clocks_go_on_together(dt: str) -> None:
-    """Ticks of 1 ms in steps that are no multiple of it: what is left counts in the next step."""
+    """Steps that are not a multiple of a 1 ms tick: the remainder counts in the next step."""
     simulation = scene(step=ts.ImplicitEuler(dt)).compile()
     with Controller(simulation.scene.trocars["right"]) as controller:
         touch = Touch(simulation, controller)
@@ -170,7 +202,7 @@ def test_a_tool_that_is_taken_out_leaves_the_tissue() -> None:
 
 
 REFUSED = {
-    "no contact": ({"contacts": ()}, "which no contact of the scene names"),
+    "no contact": ({"contacts": []}, "which no contact of the scene names"),
     "free": (
         {"obstacles": {"probe": ts.SphereObstacle((0.04, 0.04, 0.065), radius=0.005, mass=1)}},
         "is led by its hand alone",
@@ -180,14 +212,46 @@ REFUSED = {
 
 @pytest.mark.parametrize("case", REFUSED)
 def test_what_is_refused(case: str) -> None:
-    """Before anything moves."""
+    """By the check of the scene, before anything runs."""
     changes, words = REFUSED[case]
-    simulation = scene(**changes).compile()  # type: ignore[arg-type]
+    with pytest.raises(ts.SceneError, match=words):
+        scene(**changes)  # type: ignore[arg-type]
+
+
+def test_a_trocar_without_tools_of_the_scene_is_refused() -> None:
+    """Ticks run with any tool; tissue is touched by one that the scene has."""
+    simulation = scene(trocars={"right": scene().trocars["right"].replace(tools={})}).compile()
     with (
         Controller(simulation.scene.trocars["right"]) as controller,
-        pytest.raises(ts.ParameterError, match=words),
+        pytest.raises(ts.ParameterError, match="found no obstacle and no instrument"),
     ):
         Touch(simulation, controller)
+
+
+def test_end_stops_are_no_force_of_the_tissue() -> None:
+    """A blade at the end stop of the depth: `fast` has the blade alone."""
+    hand = ts.Hand(times=(0, "0.3 s"), points=((0, 0, 0.1), (0, 0, 0.14)))
+    base = scene().trocars["right"]
+    trocar = base.replace(
+        device=ts.SimulatedDevice(hand=hand),
+        tools={1: "scalpel"},
+        limits=base.limits.replace(depth=0.11),
+    )
+    knife = ts.Knife(edge=((0, 0, 0), (0, 0, -0.03)), cuts=("block",), toughness="50 J/m^2")
+    simulation = scene(
+        obstacles={},
+        contacts=(),
+        instruments={"scalpel": knife},
+        editing=True,
+        trocars={"right": trocar},
+    ).compile()
+    with Controller(simulation.scene.trocars["right"]) as controller:
+        touch = Touch(simulation, controller)
+        for _ in range(60):
+            felt = touch.step()
+        report = controller.report()
+    assert report.torque[3] < -1.0  # of the stop, towards the hand
+    assert not felt.fast.any()
 
 
 def test_the_example_palpates() -> None:

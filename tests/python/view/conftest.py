@@ -3,6 +3,7 @@
 import shutil
 
 import pytest
+from trocar_scenes import stepped, tissue
 
 import tissu as ts
 
@@ -54,3 +55,21 @@ def pages(browser):
     yield make
     for visitor in visitors:
         visitor.close()
+
+
+@pytest.fixture
+def live():
+    """Makes the trocars of a scene, steps them, and switches them off."""
+    from tissu.live_view.trocars.trocars import LiveTrocars
+
+    opened = []
+
+    def make(scene=None, *, steps=0, **options):
+        simulation = (tissue() if scene is None else scene).compile()
+        opened.append(LiveTrocars([simulation], **options))
+        stepped(opened[-1], steps)
+        return opened[-1]
+
+    yield make
+    for one in opened:
+        one.close()

@@ -8,7 +8,6 @@ from tissu.live_view.cameras import PRESETS, look_from
 from tissu.live_view.colours import legend
 from tissu.live_view.fields import FIELDS, offered
 from tissu.live_view.frame import Wanted
-from tissu.live_view.layers import LAYERS
 from tissu.live_view.panels.panel import Panel
 from tissu.live_view.surface import seen
 
@@ -40,7 +39,7 @@ class LookPanel(Panel):
             edges = gui.add_checkbox("edges", session.show_edges)
             self._layers = {
                 layer.name: gui.add_checkbox(layer.name, layer.on)
-                for layer in LAYERS
+                for layer in session.taker.layers
                 if any(layer.offered(simulation) for simulation in simulations)
             }
             cameras: Any = gui.add_dropdown("view from", ["…", *PRESETS], initial_value="…")

@@ -1,4 +1,4 @@
-"""Pause, step, reset, speed; time and how fast it passes; what went wrong."""
+"""Pause, step, undo, reset, speed; time and how fast it passes; what went wrong."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ class RunPanel(Panel):
         self._numbers = gui.add_html(text("…"))
         self._message = gui.add_html("", visible=False)
         self._pause = gui.add_button("Pause" if runner.playing else "Play")
-        step = gui.add_button_group("", ("Step", "Reset"))
+        step = gui.add_button_group("", ("Step", "Undo", "Reset"))
         speeds = list(SPEEDS)
         now = next((s for s in speeds if speed_of(s) == runner.speed), None)
         if now is None:
@@ -34,9 +34,12 @@ class RunPanel(Panel):
             speeds.insert(0, now)
         self._speed = gui.add_dropdown("speed", speeds, initial_value=now)
         session.on_press(self._pause, lambda _: runner.pause() if runner.playing else runner.play())
-        session.on_press(
-            step, lambda word: runner.step_once() if word == "Step" else session.begin_again()
-        )
+        acts = {
+            "Step": runner.step_once,
+            "Undo": lambda: runner.ask(session.undo.back),
+            "Reset": session.begin_again,
+        }
+        session.on_press(step, lambda word: acts[word]())
         session.on_change(self._speed, self._set_speed)
 
     def _set_speed(self, word: str) -> None:

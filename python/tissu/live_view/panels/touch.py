@@ -48,6 +48,7 @@ class TouchPanel(Panel):
 
         choose(chosen.value)
         session.on_change(chosen, choose)
+        session.on_tool.append(lambda name: setattr(chosen, "value", name))
 
     def show(self, frame: Frame) -> None:
         """What the tool feels."""

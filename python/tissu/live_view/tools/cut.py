@@ -32,6 +32,8 @@ class Cut(Tool):
     name = "cut"
     hint = "Draw a line over a body: when the pointer is released, the body is cut along it."
 
+    edits = True
+
     def __init__(self, simulations: Sequence[Simulation]) -> None:
         """No line is drawn yet."""
         super().__init__(simulations)

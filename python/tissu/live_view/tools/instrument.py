@@ -11,7 +11,7 @@ from tissu.cutting.kinds import tough_knife_of
 from tissu.live_view.gizmo import Gizmo
 from tissu.live_view.layers.grabs import force_text
 from tissu.live_view.marks import Marks
-from tissu.live_view.tools.obstacle import quaternion
+from tissu.live_view.tools.obstacle import quaternion, tools_of_trocars
 from tissu.live_view.tools.tool import Tool
 
 if TYPE_CHECKING:
@@ -76,5 +76,10 @@ class MoveInstrument(Tool):
 
 
 def free_instruments(simulation: Simulation) -> list[str]:
-    """The instruments that no path leads."""
-    return [name for name, one in simulation.scene.instruments.items() if one.path is None]
+    """The instruments that no path and no trocar leads."""
+    taken = tools_of_trocars(simulation)
+    return [
+        name
+        for name, one in simulation.scene.instruments.items()
+        if one.path is None and name not in taken
+    ]

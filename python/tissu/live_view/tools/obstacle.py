@@ -24,9 +24,18 @@ _OVER = 50.0
 
 
 def _led(simulation: Simulation) -> list[str]:
-    """Names of the obstacles without a mass, which may be led."""
-    scene = simulation.scene
-    return [name for name in simulation.obstacles if scene.obstacles[name].mass is None]
+    """Names of the obstacles without a mass, which may be led; trocars lead their own."""
+    scene, taken = simulation.scene, tools_of_trocars(simulation)
+    return [
+        name
+        for name in simulation.obstacles
+        if scene.obstacles[name].mass is None and name not in taken
+    ]
+
+
+def tools_of_trocars(simulation: Simulation) -> set[str]:
+    """Names of the obstacles and instruments that a trocar of the scene leads."""
+    return {name for one in simulation.scene.trocars.values() for name in one.tools.values()}
 
 
 class MoveObstacle(Tool):

@@ -25,6 +25,8 @@ class Remove(Tool):
     name = "remove cells"
     hint = "Press on a body, or draw over it: cells whose centre is within the radius are removed."
 
+    edits = True
+
     def __init__(self, simulations: Sequence[Simulation]) -> None:
         """Choose a radius that suits the scene."""
         super().__init__(simulations)

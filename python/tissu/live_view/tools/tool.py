@@ -41,12 +41,14 @@ class Tool(ABC):
         name: on the page.
         hint: one sentence: what a press does.
         on_bodies: whether a press on a body is its own; else it turns the view, or meets a gizmo.
+        edits: whether a press changes cells, so that the moment before it is kept to go back to.
         numbers: that the page lets be changed.
     """
 
     name: ClassVar[str]
     hint: ClassVar[str]
     on_bodies: ClassVar[bool] = True
+    edits: ClassVar[bool] = False
 
     def __init__(self, simulations: Sequence[Simulation]) -> None:
         """Look at the simulations that it will work on."""

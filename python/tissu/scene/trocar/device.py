@@ -18,6 +18,7 @@ from tissu.scene.field import field
 from tissu.scene.part import Part, one_of
 from tissu.scene.problem import Problem
 from tissu.scene.trocar.axes import Counts, MaybeDamping, MaybeFriction
+from tissu.scene.trocar.changes import ToolChanges
 from tissu.scene.trocar.hand import Hand
 from tissu.scene.unknown import rule
 
@@ -79,6 +80,8 @@ class SimulatedDevice(TrocarDevice):
     type: Literal["simulated"] = "simulated"
     hand: Hand | None = None
     """what holds it; absent: nothing does"""
+    changes: ToolChanges | None = None
+    """which tool is in from when on; absent: the first tool of the trocar, all the time"""
     delay: units.Time = field(default=0.0, ge=0.0, le=0.1)
     """from reading to the torque on the joint [s]"""
     jitter: units.Time = field(default=0.0, ge=0.0, le=0.1)

@@ -27,7 +27,7 @@ def _from_base(file: Path | None, info: ValidationInfo) -> Path | None:
 
 
 class Hand(Part):
-    """What holds a simulated device: a path of the tip in the port's axes, or a recorded one."""
+    """The hand on a simulated device: a path of the tip in the port's axes, or a recorded one."""
 
     times: IncreasingTimes = field(default=())
     """strictly increasing times of the path [s]; before the first and after the last it rests"""
@@ -38,7 +38,7 @@ class Hand(Part):
     )
     """a CSV file in place of `times` and `points`: a line `t, x, y, z` [s, m] for each time"""
     mass: units.Mass = field(default=0.3, gt=0.0)
-    """that moves with the tip [kg]"""
+    """mass that moves with the tip [kg]"""
     stiffness: OneStiffness = field(default=400.0, gt=0.0)
     """of the spring to the path [N/m]"""
     damping: OneDamping = field(default=6.0, ge=0.0)

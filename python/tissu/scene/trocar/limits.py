@@ -18,7 +18,7 @@ _STEEPEST = math.radians(75.0)
 
 
 class TrocarLimits(Part):
-    """What torques and speeds are never exceeded; where the end stops are."""
+    """Limits of torques and speeds, and the places of the end stops."""
 
     force: OneForce = field(default=5.0, gt=0.0)
     """along the tool [N]"""
@@ -29,11 +29,11 @@ class TrocarLimits(Part):
     speed: OneSpeed = field(default=2.0, gt=0.0)
     """of the tip [m/s]: beyond it, the trocar gives no force until it is enabled again"""
     tilt: units.Angle = field(default=math.radians(45.0), gt=0.0, le=_STEEPEST)
-    """of pitch and of roll [rad], up to 75 degrees; end stops stand there"""
+    """of pitch and of roll [rad], up to 75 degrees; the place of the end stops"""
     least_depth: units.Length = field(default=0.02, gt=0.0)
     """smallest depth at which there is a force [m]"""
     depth: units.Length = field(default=0.3, gt=0.0)
-    """largest depth [m]; an end stop stands there"""
+    """largest depth [m]; the place of an end stop"""
 
     @rule("least_depth", "depth")
     def _has_a_way(self) -> Iterator[Problem]:

@@ -10,30 +10,32 @@ from typing import Annotated, Any, Literal
 import numpy as np
 from pydantic import PlainValidator, ValidationInfo
 
-from tissu import units
+from tissu import _core, units
 from tissu.errors import ParameterError
 from tissu.reading import Read, written
 from tissu.scene.effect import Effect
 from tissu.scene.field import field
 from tissu.scene.part import Part, keeps_problems
-from tissu.scene.problem import Path, Problem, nearest, one_of_words
+from tissu.scene.problem import Path, Problem
 from tissu.scene.trocar.axes import AXIS_NAMES, Stiffness
 from tissu.scene.trocar.device import OneDevice
 from tissu.scene.trocar.limits import TrocarLimits
 from tissu.scene.trocar.passive import MARGIN, Bound, passive_bounds
 from tissu.scene.trocar.port import Port
 from tissu.scene.trocar.tool import Tools
+from tissu.scene.trocar.tool_rules import tool_problems
 from tissu.scene.unknown import Unknown, Unread, below, rule
 
 __all__ = ["Trocar", "Coupling"]
 
+ComplianceWay = Literal["factor", "cg", "condensed", "warped"]
 LEAST_RATE, LARGEST_RATE = 300.0, 10_000.0
 LEAST_APART = 0.1
 """m between two ports: a cradle is a sphere of 100 mm (thesis, table 5.4.5)."""
 
 
 class Coupling(Part):
-    """How stiff the spring is between the device and the tool that the tissue sees."""
+    """Stiffness of the spring between the device and the tool that the tissue sees."""
 
     stiffness: Stiffness = field(kw_only=False)
     """of pitch, roll, rotation [N m/rad] and depth [N/m]; at most what the device keeps passive"""
@@ -59,8 +61,8 @@ class Trocar(Part):
     device: OneDevice
     """what reads the hand and drives it"""
     tools: Tools = field(default_factory=dict)
-    """tag of a tool -> name of an obstacle or instrument; absent: every tool is taken, and no tag
-    is looked at
+    """tag of a tool -> name of an obstacle or instrument; absent: every tool is accepted, whatever
+    its tag
     """
     rate: units.Rate = field(default=1000.0)
     """ticks a second, 300 Hz to 10 kHz"""
@@ -70,7 +72,12 @@ class Trocar(Part):
     ] = field(default="automatic")
     """automatic: 0.8 of the largest passive stiffness of each axis; or a stiffness"""
     limits: TrocarLimits = field(default_factory=TrocarLimits)
-    """what is never exceeded, and where the end stops are"""
+    """limits of force, torque, speed and travel"""
+    compliance: ComplianceWay = field(default="factor")
+    """how ticks know how far the tissue gives way. factor: of the step's matrix, corrected;
+    cg: the conjugate gradient; condensed: a table, of stiffness that does not change; warped: the
+    table of the rest shape, turned with the nodes
+    """
 
     @rule("rate")
     def _is_fast_enough(self) -> Iterator[Problem]:
@@ -112,11 +119,22 @@ class Trocar(Part):
         return tuple(MARGIN * bound.stiffness for bound in self.bounds() or ())
 
     def effect(self, name: str) -> Effect:
-        """What it switches on."""
+        """The effect that it switches on."""
         felt = ", ".join(f"{value:.4g}" for value in self.stiffness())
         text = f"trocars.{name} is {self.device.words()}, {self.port.words()}, {self.rate:g} Hz, "
         kind = "automatic" if self.coupling == "automatic" else "given"
-        return Effect(f"trocar {name}", f"{text}coupling {kind}: {felt} N m/rad and N/m")
+        text += f"coupling {kind}: {felt} N m/rad and N/m, compliance {self._compliance()}"
+        return Effect(f"trocar {name}", text)
+
+    def _compliance(self) -> str:
+        """How it is found, and with what."""
+        if self.compliance == "cg":
+            return "by the conjugate gradient"
+        library = _core.factor_library()
+        slower = "" if library == "CHOLMOD" else ", which is slower than CHOLMOD's"
+        if self.compliance == "factor":
+            return f"by a factor that is kept ({library}{slower})"
+        return f"{self.compliance}, from a table made once ({library}{slower})"
 
 
 Trocars = Read[dict[str, Trocar], Mapping[str, Trocar]]
@@ -125,24 +143,14 @@ Trocars = Read[dict[str, Trocar], Mapping[str, Trocar]]
 def trocar_problems(scene: Any) -> Iterator[Problem]:
     """What is wrong between the trocars of a scene, and with the tools that they name."""
     trocars = getattr(scene, "trocars", {})
-    known = {**getattr(scene, "obstacles", {}), **getattr(scene, "instruments", {})}
     for name, trocar in trocars.items():
         with contextlib.suppress(Unknown):
-            yield from below("trocars", below(name, _tool_problems(trocar, known)))
+            yield from below("trocars", below(name, tool_problems(trocar, scene)))
     names = list(trocars)
     for second in range(len(names)):
         for first in range(second):
             with contextlib.suppress(Unknown):
                 yield from _pair_problems(trocars, names[first], names[second])
-
-
-def _tool_problems(trocar: Trocar, known: Mapping[str, Any]) -> Iterator[Problem]:
-    """Tools that the scene does not have."""
-    for tag, tool in trocar.tools.items():
-        if tool not in known:
-            text = f"no obstacle or instrument is named '{tool}'{nearest(tool, known)}"
-            there = one_of_words(known) or "none: the scene has no obstacle and no instrument"
-            yield Problem(("tools", tag), f"{text} Accepted: {there}")
 
 
 def _pair_problems(trocars: Mapping[str, Trocar], first: str, second: str) -> Iterator[Problem]:

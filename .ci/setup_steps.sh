@@ -116,7 +116,8 @@ step_venv() {
 step_packages() {
   local extras wanted key
   case $1 in
-    demo | bench) extras= ;;
+    demo) extras=view ;;   # a first look is in the browser
+    bench) extras= ;;
     test) extras="test docs" ;;
     docs) extras=docs ;;
     *) extras="test lint docs" ;;

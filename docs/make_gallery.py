@@ -109,6 +109,14 @@ def resection(path: Path) -> None:
     ts.draw(simulation, path)
 
 
+def lobe(path: Path) -> None:
+    """The organ after its operation."""
+    names = runpy.run_path(str(EXAMPLES / "lobe.py"))
+    simulation = names["scene"]().compile()
+    names["operate"](simulation)
+    ts.draw(simulation, path)
+
+
 def two_organs(path: Path) -> None:
     """The organs as the example leaves them."""
     simulation = runpy.run_path(str(EXAMPLES / "two_organs.py"))["scene"]().compile()
@@ -136,14 +144,22 @@ def trocar(path: Path) -> None:
     curve(times, forces, labels, "trocar: a hand presses a tool on a wall that gives way", path)
 
 
+def three_tools(path: Path) -> None:
+    """The scene with each tool, and the force on the hand."""
+    names = runpy.run_path(str(EXAMPLES / "three_tools.py"))
+    names["draw"](names["scene"]().compile(), path)
+
+
 PROGRAMS: dict[str, Callable[[Path], None]] = {
     "relax": relax,
     "snap": snap,
     "wave": wave,
     "incision": incision,
     "resection": resection,
+    "lobe": lobe,
     "two_organs": two_organs,
     "trocar": trocar,
+    "three_tools": three_tools,
 }
 
 

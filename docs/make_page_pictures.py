@@ -18,6 +18,7 @@ DRAWN = {
     "first-scene": ("learn/first-scene.md", "results/liver/liver.png"),
     "own-organ": ("learn/own-organ.md", "liver.png"),
     "touch-and-cut": ("learn/touch-and-cut.md", "cut.png"),
+    "organ-cut": ("learn/touch-and-cut.md", "organ.png"),
 }
 """Name of the picture -> the page, and what its blocks draw."""
 

@@ -99,12 +99,18 @@ class Changed:
         """
         fresh = self._compiled(scene)
         self._core.settle()
-        edited = any(self._meshes[body] is not mesh for body, mesh in self._rest.items())
-        world = self._core.edited_like_now(fresh=fresh._world) if edited else fresh._world
+        world = self._core.edited_like_now(fresh=fresh._world) if self._edited() else fresh._world
         self._core.replace_world(world=world)
         self._take_over(fresh)
         self.scene = scene
         self._physics_known = None
+
+    def _edited(self) -> bool:
+        """Whether a body has other cells, or material that is divided though no cell has parted."""
+        return any(
+            self._meshes[body] is not mesh or (self.scene.editing and self._core.divided(body))
+            for body, mesh in self._rest.items()
+        )
 
     def _compiled(self, scene: Scene) -> Changed:
         """A simulation of the scene, with the meshes that are in memory already."""

@@ -93,8 +93,10 @@ class Cutting(Remains):
                 then.
         """
         self._require_editing(body)
+        if not isinstance(refine, bool | np.bool_):
+            raise ParameterError(f"found refine={refine!r} of a cut; True and False are accepted")
         sweep = surface_of(blade, self.positions[body])
-        return self._cut_along(body, sweep, refine=refine)
+        return self._cut_along(body, sweep, refine=bool(refine))
 
     def ablate(self, body: str, place: Place) -> CutReport:
         """Take away the cells whose material has its centre in a place in present space.

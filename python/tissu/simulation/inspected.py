@@ -248,8 +248,9 @@ class Inspected:
         return Compliance(simulation=self, by=by, tolerance=tolerance, bodies=bodies)
 
     def _require_body(self, name: str) -> None:
-        if name not in self._positions:
-            raise ParameterError(f"found body '{name}'; accepted: {', '.join(self._positions)}")
+        if not isinstance(name, str) or name not in self._positions:
+            found = f"'{name}'" if isinstance(name, str) else repr(name)
+            raise ParameterError(f"found body {found}; accepted: {', '.join(self._positions)}")
 
     def _the_body(self, name: str | None) -> str:
         """A body or tissue by its name, or the only one."""

@@ -31,7 +31,11 @@ def removed_cells(counts: Mapping[str, int], body: str, cells: ArrayLike) -> NDA
     given = np.atleast_1d(real_array(cells, "cells"))
     if given.size and not np.issubdtype(given.dtype, np.integer):
         raise ParameterError(f"found cells of type {given.dtype}; whole numbers are accepted")
-    if body not in counts:
+    if given.ndim != 1:
+        raise ParameterError(
+            f"found cells of shape {given.shape}; numbers of cells in one row (n,) are accepted"
+        )
+    if not isinstance(body, str) or body not in counts:
         raise ParameterError(f"no body is named '{body}'; there are {', '.join(counts)}")
     beyond = given[(given < 0) | (given > np.iinfo(np.int32).max)]
     if beyond.size:

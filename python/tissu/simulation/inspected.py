@@ -248,9 +248,8 @@ class Inspected:
         return Compliance(simulation=self, by=by, tolerance=tolerance, bodies=bodies)
 
     def _require_body(self, name: str) -> None:
-        if not isinstance(name, str) or name not in self._positions:
-            found = f"'{name}'" if isinstance(name, str) else repr(name)
-            raise ParameterError(f"found body {found}; accepted: {', '.join(self._positions)}")
+        if name not in list(self._positions):  # of a list, which cannot be a key, too
+            raise ParameterError(f"found body {name!r}; accepted: {', '.join(self._positions)}")
 
     def _the_body(self, name: str | None) -> str:
         """A body or tissue by its name, or the only one."""

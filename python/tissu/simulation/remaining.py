@@ -35,8 +35,8 @@ def removed_cells(counts: Mapping[str, int], body: str, cells: ArrayLike) -> NDA
         raise ParameterError(
             f"found cells of shape {given.shape}; numbers of cells in one row (n,) are accepted"
         )
-    if not isinstance(body, str) or body not in counts:
-        raise ParameterError(f"no body is named '{body}'; there are {', '.join(counts)}")
+    if body not in list(counts):  # of a list, which cannot be a key, too
+        raise ParameterError(f"no body is named {body!r}; there are {', '.join(counts)}")
     beyond = given[(given < 0) | (given > np.iinfo(np.int32).max)]
     if beyond.size:
         raise ParameterError(f"body '{body}' has no cell {beyond.flat[0]}")

@@ -23,8 +23,8 @@ Floats = NDArray[np.float64]
 LEAST_WAY = 0.25
 """of an edge through the material before it cuts on, as a share of a cell's mean edge
 
-In shorter parts the sides of the faces between them are round-off's: of 24 random slow cuts through a moving
-bar two stayed joined at 0.02, one at 0.1, none at 0.2, 0.3 and 0.5 (tests/python/test_instruments.py).
+Shorter parts are too narrow to say on which side of them a cell lies: of 24 random slow cuts
+through a moving bar two stayed joined at 0.02, one at 0.1, none at 0.2, 0.3 and 0.5.
 """
 LONGEST_WAY = 0.5
 """of a point of an edge between two rows, as a share of a cell's mean edge"""

@@ -20,7 +20,7 @@ __all__ = ["Scene"]
 
 
 class Scene(SceneData):
-    """Bodies, what holds and moves them, and how time is stepped; frozen and validated.
+    """Bodies, supports, loads, contacts and a method in time; frozen and validated.
 
     An effect that is absent (no viscosity, no gravity, no loads) is absent from the simulation too.
     """

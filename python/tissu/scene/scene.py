@@ -265,6 +265,6 @@ class SceneData(Part):
         return other
 
     def own_laws(self) -> list[MadeLaw]:
-        """The laws of one's own that the bodies are made of, each once, in their order."""
+        """The user-defined laws of the bodies, each once, in their order."""
         laws = [type(law).made for body in self.bodies.values() for law in body.laws().values()]
         return list(dict.fromkeys(made for made in laws if made is not None))

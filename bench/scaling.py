@@ -199,8 +199,8 @@ Steps are those of implicit Euler, 10 ms, linearised once, with conjugate gradie
 Three steps are timed repeatedly, beginning with the third step from rest. With a multigrid, which
 keeps its levels for several steps, four steps are timed. Each repetition starts with an empty
 solver. Shares are of the time of a step. "Solve of triad" is the traffic that the iterations need
-(`bench/solve/traffic.h`), as a share of the triad from the level that holds it. Bytes are those of model, matrix and solver;
-"resident" is the growth of the whole process.
+(`bench/solve/traffic.h`), as a share of the triad from the level that holds it. Bytes are those of
+model, matrix and solver; "resident" is the growth of the whole process.
 
 Harder steps follow after the four steps with a multigrid: from the 8th step on (105,456 elements),
 the swing takes ten Newton iterations a step with any solver.

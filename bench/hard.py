@@ -69,7 +69,7 @@ def cell(found: Outcome, notes: list[str]) -> str:
         if said not in notes:
             notes.append(said)
         return f"refused ({notes.index(said) + 1})"
-    marks = ("*" if found.unconverged else "") + ("!" if found.inverted else "")
+    marks = (r"\*" if found.unconverged else "") + ("!" if found.inverted else "")
     crossings = f", {found.crossings} cross" if found.crossings else ""
     return f"{found.kind} {found.bound:.3g}{marks}{crossings}"
 

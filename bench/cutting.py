@@ -106,7 +106,7 @@ def section() -> str:
     head += ["later", "iterations", "after"]
     rows = [row(side) for side in SIDES]
     return (
-        "## What a cut costs\n\n"
+        "## The time of a cut\n\n"
         "The table gives the time of a cut, and of the steps after it, for meshes of several\n"
         f"sizes. A bar of StVK under its weight is cut by {CUTS} discs, each from the same state,\n"
         "with implicit Euler of 10 ms on one thread. The time of a cut includes the report with\n"

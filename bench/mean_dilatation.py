@@ -14,7 +14,7 @@ GRIDS = ((8, 2, 2), (12, 3, 3), (16, 4, 4))
 MODELS = ("fem", "mean-dilatation")
 RATIOS = (0.3, 0.4, 0.45, 0.47, 0.48, 0.49, 0.499, 0.4999)
 
-HEAD = """# Locking, and mean dilatation
+HEAD = """# Mean dilatation
 
 If a material hardly changes its volume, cells of first order lock: a bending cell would have to
 change the volume at its integration points, so it hardly bends. `tissu check` prints a note for

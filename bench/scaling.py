@@ -163,7 +163,7 @@ def page(reports: list[dict[str, Any]]) -> str:
     rows = rows_of(reports)
     parts = "\n\n".join(part_table(rows, part) for part in PARTS)
     steps = "\n\n".join(step_table(rows, solver) for solver in SOLVERS)
-    return f"""# From a thousand elements to a million
+    return f"""# Scaling
 
 This page shows how the time and memory of a step grow with the number of elements, from a thousand
 to a million. It is printed by `python bench/scaling.py`, not written by hand. Every time is that

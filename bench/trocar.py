@@ -32,9 +32,8 @@ PAGE = ROOT / "docs" / "measured" / "trocar.md"
 US = 1e6
 HEAD = """# The active trocar
 
-This page measures whether the ticks of a trocar are in time, and whether the hand feels the
-force of the tissue. The words are explained in [the guide](../guide/trocar.md). Ticks are those
-of the simulated device, at 1 kHz.
+Are the ticks of a trocar in time, and does the hand feel the force of the tissue? [The
+guide](../guide/trocar.md) explains the terms. Ticks are those of the simulated device, at 1 kHz.
 
 """
 

@@ -89,7 +89,7 @@ class Instrument(Part):
     def _begins_once(self) -> Iterator[Problem]:
         for name in ("position", "rotation"):
             if self.path is not None and any(getattr(self, name)):
-                text = "found it beside a path, which says where the tool is; leave it out"
+                text = "found it with a path, which gives the place of the tool; leave it out"
                 yield Problem((name,), text)
 
     @property

@@ -51,7 +51,7 @@ class Obstacle(Part):
     @rule("mass", "motion")
     def _is_led_or_free(self) -> Iterator[Problem]:
         if self.mass is not None and self.motion is not None:
-            text = f"found {self.mass:g} kg beside `motion`; an obstacle with a mass moves freely, "
+            text = f"found {self.mass:g} kg with `motion`; an obstacle with a mass moves freely, "
             yield Problem(("mass",), f"{text}one that is led has none: leave one of them out")
 
     @rule("mass", "velocity", "spin")

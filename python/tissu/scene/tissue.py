@@ -74,7 +74,7 @@ class Tissue(Part):
         if self.between is None and self.inside is None:
             yield Problem((), "found neither between nor inside; one of them or both are accepted")
         if self.between is None and not (self.reach is None and self.on is None):
-            yield Problem((), "found reach or on without between; they are accepted beside it")
+            yield Problem((), "found reach or on without between; they are accepted with it")
         if self.between is not None and (self.reach is None) == (self.inside is None):
             found = "neither" if self.reach is None else "both"
             text = f"found between with {found} of reach (the longest way from one body to the "

@@ -57,7 +57,7 @@ class Hand(Part):
         elif self.points is not None:
             yield from same_length("point", self.points, self.times)
         elif self.times:
-            text = "found times beside a path, whose file has them; leave them out"
+            text = "found times with a path, whose file has them; leave them out"
             yield Problem(("times",), text)
 
     def words(self) -> str:

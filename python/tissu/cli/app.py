@@ -292,7 +292,7 @@ def advise_command(
     ] = "60 s",
     models: Annotated[
         str,
-        typer.Option(help="More models to try than those that keep the scene's laws, with commas."),
+        typer.Option(help="Models to try besides those that keep the scene's laws, with commas."),
     ] = "",
     out: Annotated[
         Path | None,

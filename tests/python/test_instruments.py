@@ -393,7 +393,7 @@ def test_what_cannot_be_is_refused_when_the_scene_is_read() -> None:
     )
     refused(lambda: ts.ToolPath(times=(0, 1), positions=[(0, 0, 0)]), "one for each time")
     path = ts.ToolPath(times=(0, 1), positions=places)
-    refused(lambda: knife.replace(path=path, position=(1, 0, 0)), "beside a path")
+    refused(lambda: knife.replace(path=path, position=(1, 0, 0)), "with a path")
     refused(lambda: scene(ts.Knife(EDGE, cuts=["bar", "bar"])), "found 'bar' twice")
     refused(lambda: scene(knife, instruments={"bar": knife}), "names are unique")
     refused(lambda: ts.Knife([(0, 0, 0), (0, 0, 1e300)], cuts=["bar"]), "at most 1 m is accepted")

@@ -1,6 +1,7 @@
 #include "tissu/contact/audit.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "overlap.h"
@@ -106,8 +107,13 @@ class Separation {
         fixed_(fixed),
         start_(start),
         candidates_(contact.description(), contact.surfaces()),
-        places_(3 * contact.surfaces().vertices().size()) {
+        places_(3 * contact.surfaces().mover_count()) {
+    const SurfaceSet& surfaces = contact.surfaces();
     contact.place_vertices(start, start.time, places_);
+    for (std::size_t i = 0; i < surfaces.inner_rows().size(); ++i) {
+      block(Reals(places_), static_cast<std::int32_t>(surfaces.vertices().size() + i)) =
+          block(ConstReals(start.positions), surfaces.inner_rows()[i].row);
+    }
     normals_.assign(places_.size(), 0.0);
     for (const Primitive& face : contact.surfaces().primitives()) {
       if (face.corners < 3) continue;
@@ -128,6 +134,10 @@ class Separation {
       const auto number = static_cast<std::int32_t>(v);
       if (vertices[v].row >= 0) block(Reals(start_.positions), vertices[v].row) = place(number);
     }
+    auto mover = static_cast<std::int32_t>(vertices.size());
+    for (const auto& inner : contact_.surfaces().inner_rows()) {
+      block(Reals(start_.positions), inner.row) = place(mover++);
+    }
     for (const auto& surface : contact_.surfaces().surfaces()) {
       if (surface.carrier < 0) continue;
       const Vec3 moved = place(surface.first_vertex) - contact_.place(surface.first_vertex, start_);
@@ -138,9 +148,13 @@ class Separation {
  private:
   [[nodiscard]] bool is_free(std::int32_t v) const {
     const SurfaceVertex& vertex = contact_.surfaces().vertices()[at(v)];
-    // What rows carry stays: it begins apart, or is refused.
-    return vertex.carrier >= 0 || (vertex.row >= 0 && fixed_.masks()[at(vertex.row)] == 0);
+    if (vertex.rider >= 0) {
+      return std::ranges::any_of(contact_.surfaces().parts(vertex),
+                                 [&](const RiderPart& part) { return is_row_free(part.row); });
+    }
+    return vertex.carrier >= 0 || (vertex.row >= 0 && is_row_free(vertex.row));
   }
+  [[nodiscard]] bool is_row_free(std::int32_t row) const { return fixed_.masks()[at(row)] == 0; }
   [[nodiscard]] Vec3 place(std::int32_t v) const { return block(ConstReals(places_), v); }
   /// Whether surfaces whose middles are `s` apart are near, and overlap by no more than their gap.
   template <class Pair>
@@ -152,7 +166,7 @@ class Separation {
 
   bool sweep() {
     moves_.assign(places_.size(), 0.0);
-    counts_.assign(places_.size() / 3, 0);
+    counts_.assign(places_.size() / 3, 0.0);
     candidates_.cover(places_, places_);
     bool near = false;
     for (const Candidate& c : candidates_.list()) {
@@ -162,23 +176,46 @@ class Separation {
     for (const auto& surface : contact_.surfaces().surfaces()) {
       if (surface.carrier >= 0) move_rigidly(surface);
     }
+    if (contact_.surfaces().has_riders()) move_rows();
     for (std::size_t v = 0; v < counts_.size(); ++v) {
-      if (counts_[v] == 0) continue;
+      if (counts_[v] == 0.0) continue;
       const auto number = static_cast<std::int32_t>(v);
       block(Reals(places_), number) += block(ConstReals(moves_), number) / counts_[v];
     }
+    if (contact_.surfaces().has_riders()) contact_.surfaces().place_riders(places_);
     return near;
+  }
+
+  /// What rows carry goes by the least motion of its free rows, of which each takes the mean, by weight, of
+  /// what is asked of it.
+  void move_rows() {
+    const auto& vertices = contact_.surfaces().vertices();
+    for (std::size_t v = 0; v < vertices.size(); ++v) {
+      if (vertices[v].rider < 0 || counts_[v] == 0.0) continue;
+      const Vec3 move = block(ConstReals(moves_), static_cast<std::int32_t>(v)) / counts_[v];
+      counts_[v] = 0.0;
+      double squares = 0.0;
+      for (const RiderPart& part : contact_.surfaces().parts(vertices[v])) {
+        if (is_row_free(part.row)) squares += part.weight * part.weight;
+      }
+      for (const RiderPart& part : contact_.surfaces().parts(vertices[v])) {
+        if (!is_row_free(part.row) || part.weight == 0.0) continue;
+        const double count = std::abs(part.weight);
+        block(Reals(moves_), part.mover) += count * part.weight / squares * move;
+        counts_[at(part.mover)] += count;
+      }
+    }
   }
 
   /// All vertices go by the mean of what any of them is asked to.
   void move_rigidly(const SurfaceSet::Surface& surface) {
     Vec3 sum = Vec3::Zero();
-    int count = 0;
+    double count = 0.0;
     for (std::int32_t v = surface.first_vertex; v < surface.last_vertex; ++v) {
       sum += block(ConstReals(moves_), v);
       count += counts_[at(v)];
     }
-    for (std::int32_t v = surface.first_vertex; count > 0 && v < surface.last_vertex; ++v) {
+    for (std::int32_t v = surface.first_vertex; count > 0.0 && v < surface.last_vertex; ++v) {
       block(Reals(moves_), v) = sum;
       counts_[at(v)] = count;
     }
@@ -217,7 +254,7 @@ class Separation {
 
   void add(std::int32_t v, const Vec3& move) {
     block(Reals(moves_), v) += move;
-    ++counts_[at(v)];
+    counts_[at(v)] += 1.0;
   }
 
   const Contact& contact_;
@@ -226,7 +263,7 @@ class Separation {
   Candidates candidates_;
   std::vector<double> places_, moves_;
   std::vector<double> normals_;  ///< of vertices, of any length
-  std::vector<int> counts_;
+  std::vector<double> counts_;   ///< of what was asked of each mover
 };
 
 }  // namespace

@@ -19,6 +19,41 @@ _SAME = 1e-9
 """share by which the diagonals of a quad may differ and count as equal: round-off in coordinates"""
 
 
+class Riders(NamedTuple):
+    """The nodes of a body that carry the vertices of a surface.
+
+    Attributes:
+        begin: first of each vertex in the lists (n + 1,).
+        nodes: of the body (k,).
+        weights: of these (k,), which sum to one for each vertex.
+    """
+
+    begin: Ints
+    nodes: Ints
+    weights: Floats
+
+    def in_core(self) -> tuple[Ints, Ints, Ints, Floats]:
+        """Numbers of the vertices as the core has them, ascending, and the lists in that order."""
+        count = len(self.begin) - 1
+        last = np.repeat(self.begin[1:][::-1], np.diff(self.begin)[::-1])
+        lengths = np.diff(self.begin)[::-1]
+        begin = np.concatenate([[0], np.cumsum(lengths)]).astype(np.int32)
+        order = last - np.repeat(lengths, lengths) + np.arange(len(last))
+        order = order - np.repeat(begin[:-1], lengths)
+        vertices = numbered(np.arange(count, dtype=np.int32))[::-1]
+        return np.ascontiguousarray(vertices), begin, self.nodes[order], self.weights[order]
+
+    def carried_by(self, nodes: Ints) -> Ints:
+        """The vertices whose nodes are all among these."""
+        there = np.isin(self.nodes, nodes)
+        return np.flatnonzero(np.logical_and.reduceat(there, self.begin[:-1])).astype(np.int32)
+
+    def values(self, of_nodes: Floats) -> Floats:
+        """Values (n, ...) at the vertices of values at the nodes."""
+        weights = self.weights.reshape(-1, *(1,) * (of_nodes.ndim - 1))
+        return np.asarray(np.add.reduceat(weights * of_nodes[self.nodes], self.begin[:-1]))
+
+
 class ContactSurface(NamedTuple):
     """What of a body or obstacle meets others.
 
@@ -29,6 +64,8 @@ class ContactSurface(NamedTuple):
         points: (p,) vertices that belong to no edge.
         radius: (n,) half the thickness at each vertex [m]; empty: none.
         closed: whether the triangles enclose a volume.
+        riders: nodes of the body that carry the vertices; None: each vertex is the node of its
+            number.
     """
 
     vertices: Floats
@@ -37,12 +74,19 @@ class ContactSurface(NamedTuple):
     points: Ints
     radius: Floats
     closed: bool
+    riders: Riders | None = None
 
     @property
     def nodes(self) -> Ints:
         """Numbers of all vertices on it, increasing."""
         parts = (self.triangles.ravel(), self.edges.ravel(), self.points)
         return np.unique(np.concatenate(parts)).astype(np.int32)
+
+    def as_mesh(self) -> Mesh:
+        """Its triangles as a mesh at rest."""
+        from tissu.mesh import CellBlock, Mesh
+
+        return Mesh(points=self.vertices, cells=(CellBlock("triangle", self.triangles),))
 
     @property
     def mean_edge(self) -> float:
@@ -52,6 +96,11 @@ class ContactSurface(NamedTuple):
             return 0.0
         ends = self.vertices[np.unique(np.sort(edges, axis=1), axis=0)]
         return float(np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1).mean())
+
+
+def numbered(vertices: Ints) -> Ints:
+    """Vertices that nodes carry, as the core numbers them: below zero, which no node is."""
+    return np.asarray(-1 - vertices, dtype=np.int32)
 
 
 def edges_of(triangles: Ints) -> Ints:

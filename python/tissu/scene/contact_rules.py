@@ -76,6 +76,24 @@ def contact_problems(scene: Any) -> Iterator[Problem]:
     if contacts:
         with contextlib.suppress(Unknown):
             yield from _method_problems(scene)
+    with contextlib.suppress(Unknown):
+        yield from _surface_of_problems(scene)
+
+
+def _surface_of_problems(scene: Any) -> Iterator[Problem]:
+    """Meshes for the surfaces of bodies that are not there, or whose nodes are frames."""
+    for name in scene.contact.surface_of if scene.contact is not None else ():
+        place: Path = ("contact", "surface_of", name)
+        if name in tissues_of(scene):
+            yield Problem(place, f"found '{name}', a tissue; a body is accepted")
+        elif name not in scene.bodies:
+            text = f"no body is named '{name}'{nearest(name, scene.bodies)} Accepted: "
+            yield Problem(place, f"{text}{one_of_words(scene.bodies)}")
+        else:
+            with contextlib.suppress(Unknown):
+                if scene.bodies[name].has_rotations:
+                    text = f"found '{name}', whose nodes are frames; a body whose nodes have "
+                    yield Problem(place, f"{text}places only is accepted")
 
 
 def _named(

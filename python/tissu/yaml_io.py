@@ -162,7 +162,7 @@ def scene_data(
     problems += [
         f"contact.surface_of.{name}: made in memory, so it has no file to name; "
         "scene.save(path) writes it beside the scene"
-        for name in _made_in_memory(_own_surfaces(scene))
+        for name in _unwritten(_own_surfaces(scene))
     ]
     problems += [
         f"the law {law.name} was made in memory, so it has no file to name; write its formula to a "
@@ -182,7 +182,11 @@ def scene_data(
 
 def _made_in_memory(parts: Mapping[str, Part]) -> list[str]:
     """The names of the bodies, or obstacles, whose mesh came from no file."""
-    meshes = {name: getattr(part, "mesh", part) for name, part in parts.items()}
+    return _unwritten({name: getattr(part, "mesh", part) for name, part in parts.items()})
+
+
+def _unwritten(meshes: Mapping[str, Any]) -> list[str]:
+    """The names of the meshes that came from no file."""
     return [n for n, m in meshes.items() if not isinstance(m, Part) and m.source is None]
 
 
@@ -224,7 +228,7 @@ def write_scene(scene: SceneData, path: Path) -> None:
             parts[name] = parts[name].replace(mesh=MeshFile(file))
             changes[group] = parts
     surfaces = _own_surfaces(scene)
-    for name in _made_in_memory(surfaces):
+    for name in _unwritten(surfaces):
         from tissu.mesh import write_mesh
 
         file = path.with_name(f"{path.stem}-{files[name]}-surface.vtu")

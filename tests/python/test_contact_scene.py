@@ -67,6 +67,7 @@ def test_defaults():
         "iterations": 20,
         "travel": True,
         "overlap": "refuse",
+        "surface_of": {},
     }
     assert scene().contacts == ()
     assert scene().contact is None

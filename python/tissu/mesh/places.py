@@ -71,7 +71,7 @@ def nearest_places(points: Floats, mesh: Mesh) -> Places:
     leaves least, of those nearby.
 
     Raises:
-        ParameterError: a point is farther from all cells than half the length of the longest.
+        ParameterError: a point is farther from all cells than the length of the longest.
     """
     blocks = [_as_shape(block.type, block.nodes) for block in mesh.volume_blocks]
     width = max(nodes.shape[1] for _, nodes in blocks)
@@ -79,7 +79,7 @@ def nearest_places(points: Floats, mesh: Mesh) -> Places:
     beyond = np.full(len(points), np.inf)
     slack = _SLACK * float(np.ptp(mesh.points, axis=0).max())
     longest = max(float(np.ptp(mesh.points[nodes], axis=1).max()) for _, nodes in blocks)
-    for reach in (slack, longest / 8.0, longest / 4.0, longest / 2.0):
+    for reach in (slack, longest / 8.0, longest / 4.0, longest / 2.0, longest):
         lost = np.flatnonzero(beyond == np.inf) if reach > slack else np.arange(len(points))
         for start in range(0, len(lost), _AT_ONCE):
             some = lost[start : start + _AT_ONCE]
@@ -91,7 +91,7 @@ def nearest_places(points: Floats, mesh: Mesh) -> Places:
     if far:
         raise ParameterError(
             f"found {counted(far, 'point')} of {len(points)} farther from all cells than "
-            f"{longest / 2.0:.3g} m, half of the longest; points in the mesh, or near it, are "
+            f"{longest:.3g} m, the length of the longest; points in the mesh, or near it, are "
             "accepted: look at their place and their unit"
         )
     return found

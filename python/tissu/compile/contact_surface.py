@@ -9,6 +9,7 @@ import numpy as np
 
 from tissu.compile.prepared import Floats, Ints
 from tissu.mesh import thin
+from tissu.mesh.flat_edges import flat_edges
 from tissu.scene.section import area_of
 
 if TYPE_CHECKING:
@@ -63,7 +64,8 @@ class ContactSurface(NamedTuple):
         edges: (k, 2) vertices of edges that belong to no triangle.
         points: (p,) vertices that belong to no edge.
         radius: (n,) half the thickness at each vertex [m]; empty: none.
-        closed: whether the triangles enclose a volume.
+        closed: whether the triangles enclose a volume, or the edges an area, on their left seen
+            from +z.
         riders: nodes of the body that carry the vertices; None: each vertex is the node of its
             number.
     """
@@ -111,8 +113,11 @@ def edges_of(triangles: Ints) -> Ints:
 def body_surface(mesh: Mesh, body: Body) -> ContactSurface:
     """The boundary of the volume cells, the sheets and the lines of a body, by its nodes.
 
-    Sheets on the boundary take its place; what lies inside the volume meets nothing.
+    Sheets on the boundary take its place; what lies inside the volume meets nothing. A flat body
+    has its rim.
     """
+    if body.plane is not None:
+        return _rim(mesh)
     whole, quads, loose = _faces(mesh)
     triangles = np.concatenate([whole, halves_of(mesh.points, quads)]).astype(np.int32)
     volume = np.zeros(mesh.node_count, dtype=bool)
@@ -127,6 +132,22 @@ def body_surface(mesh: Mesh, body: Body) -> ContactSurface:
         points=np.empty(0, dtype=np.int32),
         radius=_radius(mesh, body, (whole, quads), pieces),
         closed=not loose and len(triangles) > 0,
+    )
+
+
+def _rim(mesh: Mesh) -> ContactSurface:
+    """The edges that one sheet alone has, which lies on the left of them seen from +z."""
+    ends = [np.asarray(block.nodes) for block in flat_edges(mesh)]
+    halves = [
+        nodes if nodes.shape[1] == 2 else nodes[:, [0, 2, 2, 1]].reshape(-1, 2) for nodes in ends
+    ]
+    return ContactSurface(
+        vertices=mesh.points,
+        triangles=np.empty((0, 3), dtype=np.int32),
+        edges=np.concatenate([np.empty((0, 2), np.int32), *halves]).astype(np.int32),
+        points=np.empty(0, dtype=np.int32),
+        radius=np.empty(0),
+        closed=True,
     )
 
 

@@ -76,8 +76,9 @@ def contact_problems(scene: Any) -> Iterator[Problem]:
     if contacts:
         with contextlib.suppress(Unknown):
             yield from _method_problems(scene)
-    with contextlib.suppress(Unknown):
-        yield from _surface_of_problems(scene)
+    for check in (_surface_of_problems, _flat_problems):
+        with contextlib.suppress(Unknown):
+            yield from check(scene)
 
 
 def _surface_of_problems(scene: Any) -> Iterator[Problem]:
@@ -146,12 +147,32 @@ def surface_missing(scene: Any, name: str) -> str:
     """Why a body or tissue has no surface for contact yet; empty: it has one."""
     if name in tissues_of(scene):
         return "a tissue, whose surface frames carry: contact of it is not there yet, name bodies"
-    body = scene.bodies.get(name)
-    if body is None:
-        return ""
-    if body.plane is not None:
-        return "a flat body: contact of its rim is not there yet, leave `plane` out of the body"
     return ""
+
+
+def _flat_problems(scene: Any) -> Iterator[Problem]:
+    """What the rims of flat bodies do not have: areas, and rims after edits."""
+    flat = {name for name, body in scene.bodies.items() if body.plane is not None}
+    for number, contact in enumerate(scene.contacts):
+        with contextlib.suppress(Unknown):
+            names = flat & _names_of(contact, scene)
+            if names and contact.stiffness is not None:
+                text = f"found {contact.stiffness:g} Pa/m for '{min(names)}', a flat body, whose rim "
+                text += "has no area; leave it out: the stiffness then comes from the body"
+                yield Problem(("contacts", number, "stiffness"), text)
+            if names and scene.editing is not None:
+                text = f"found true with contacts of '{min(names)}', a flat body, whose rim follows "
+                yield Problem(("editing",), f"{text}no edit; leave it out")
+                return
+
+
+def _names_of(contact: Any, scene: Any) -> set[str]:
+    """The names that a contact has, of bodies and obstacles."""
+    if not isinstance(contact, Contact):
+        return {contact.self}
+    if contact.between == "all":
+        return set(scene.bodies)
+    return {name for _, first, _, second in contact.pairs() for name in (first, second)}
 
 
 def meets_others(scene: Any, name: str) -> bool:

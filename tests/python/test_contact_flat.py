@@ -6,8 +6,8 @@ import pytest
 import tissu as ts
 from contact_audit import GRAVITY, audited, damped
 from contact_static import pushed
-from tissu.errors import SceneError
 from test_contact_balance import momentum
+from tissu.errors import SceneError
 
 THICK = 0.02
 """of the bodies [m]"""
@@ -18,6 +18,7 @@ WEIGHT = 1000.0 * GRAVITY * SIDE * SIDE * THICK
 IMPLICIT = ("augmented", "barrier", "penalty")
 EXPLICIT = ("impulse", "penalty", "geometric")
 FLOOR = ts.PlaneObstacle((0, 0, 0), (0, 1, 0))
+BLOCK = ts.BarMesh(size=(1, 1, 1), cells=(1, 1, 1))
 
 
 def flat(origin=(0, 0), *, cells=(4, 4), cell="quad", size=(SIDE, SIDE), **fields):
@@ -244,7 +245,7 @@ def test_squares_that_overlap_are_refused():
         ),
         ({"editing": True}, "whose rim follows no edit"),
         (
-            {"contact": ts.ContactSettings(surface_of={"square": ts.BarMesh(size=(1, 1, 1), cells=(1, 1, 1))})},
+            {"contact": ts.ContactSettings(surface_of={"square": BLOCK})},
             "no volume cells to carry a surface",
         ),
     ],

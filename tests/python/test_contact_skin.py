@@ -129,8 +129,8 @@ def test_a_collision_keeps_momentum(step, name, tolerance):
 
 
 def test_a_pressed_block_bears_the_homogeneous_force():
-    """Without friction F = E A (1 - h / L) of linear elasticity, whatever the meshes: hexahedra hold
-    the homogeneous state exactly, and the gap between surfaces is that which positions show."""
+    """Without friction F = E A (1 - h / L) of linear elasticity, whatever the meshes: hexahedra
+    hold the homogeneous state exactly, and h is the height that positions show."""
     law = ts.Hooke(young=1e4, poisson=0.3)
     press = ts.Motion(times=(0, 1), displacements=((0, 0, 0), (0, 0, -0.0055)))
     scene = ts.Scene(
@@ -261,7 +261,7 @@ def test_springs_and_condensed_regions_carry_surfaces():
 
 
 def test_a_selection_takes_vertices_of_the_surface():
-    """Of 36 vertices below, those with x < 3 cm; nodes of the body: vertices that they alone carry."""
+    """Vertices with x < 3 cm; of nodes of the body the vertices that they alone carry."""
     low = ts.Box(max=(0.03, None, 1e-6))
     of_body = ts.Nodes((0, 1, 3, 4))
     for on, width in ((low, 0.03), (of_body, 0.051)):
@@ -382,6 +382,4 @@ def test_bodies_that_carry_no_surface_are_refused():
         with pytest.raises(SceneError, match=words):
             over_a_table(body=body).compile()
     with pytest.raises(SceneError, match="overlap at the start"):
-        over_a_table(
-            obstacles={"table": ts.PlaneObstacle((0, 0, 0.01), (0, 0, 1))}
-        ).compile()
+        over_a_table(obstacles={"table": ts.PlaneObstacle((0, 0, 0.01), (0, 0, 1))}).compile()

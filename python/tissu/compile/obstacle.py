@@ -9,7 +9,7 @@ import numpy as np
 
 from tissu.compile.contact_surface import ContactSurface, halves_of
 from tissu.compile.mesh_surface import solid_surface, surface_of_mesh
-from tissu.compile.prepared import Findings, Floats, Ints
+from tissu.compile.prepared import Findings, Floats
 from tissu.compile.rigid import Rigid, centre_of, rigid_of
 from tissu.scene.direction import unit_vector
 from tissu.scene.obstacle import (

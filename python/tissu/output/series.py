@@ -33,8 +33,8 @@ class Series:
     [m/s]; cell fields: strain_energy_density [J/m^3], and von_mises [Pa] of models that know it,
     or those that the scene's `output` names; of bodies with contacts the point fields
     contact_pressure [Pa] and contact_gap [m] too. Of connective tissue its integration points, of
-    obstacles that bodies meet their surface; of bodies with a `surface_of` that mesh too. After each call all files are complete and the index
-    lists all of them.
+    obstacles that bodies meet their surface; of bodies with a `surface_of` that mesh too. After
+    each call all files are complete and the index lists all of them.
 
     Attributes:
         index: the PVD file.

@@ -157,11 +157,15 @@ def _flat_problems(scene: Any) -> Iterator[Problem]:
         with contextlib.suppress(Unknown):
             names = flat & _names_of(contact, scene)
             if names and contact.stiffness is not None:
-                text = f"found {contact.stiffness:g} Pa/m for '{min(names)}', a flat body, whose rim "
+                text = (
+                    f"found {contact.stiffness:g} Pa/m for '{min(names)}', a flat body, whose rim "
+                )
                 text += "has no area; leave it out: the stiffness then comes from the body"
                 yield Problem(("contacts", number, "stiffness"), text)
             if names and scene.editing is not None:
-                text = f"found true with contacts of '{min(names)}', a flat body, whose rim follows "
+                text = (
+                    f"found true with contacts of '{min(names)}', a flat body, whose rim follows "
+                )
                 yield Problem(("editing",), f"{text}no edit; leave it out")
                 return
 

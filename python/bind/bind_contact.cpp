@@ -255,8 +255,7 @@ void bind_contact(py::class_<WorldDescription>& builder) {
             const Doubles none(std::vector<py::ssize_t>{0, 3});
             const BodyDescription& of = world.body(body);
             const auto nodes = static_cast<std::int32_t>(of.positions.size() / 3);
-            SurfaceDescription surface =
-                to_surface(of.name, none, triangles, edges, Ints(0), radius, closed);
+            SurfaceDescription surface = to_surface(of.name, none, triangles, edges, Ints(0), radius, closed);
             if (riders) surface.riders = to_riders(*riders, nodes);
             require_vertices(surface, nodes);
             contact_of(world).bodies.push_back(std::move(surface));

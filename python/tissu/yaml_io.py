@@ -216,7 +216,7 @@ def write_scene(scene: SceneData, path: Path) -> None:
         SceneError: the file or a mesh cannot be written.
     """
     require_file_place(path, "scene", error=_scene_error)
-    changes = {}
+    changes: dict[str, Any] = {}
     files = distinct_names([*scene.bodies, *scene.obstacles])
     for group in ("bodies", "obstacles"):
         parts = dict(getattr(scene, group))

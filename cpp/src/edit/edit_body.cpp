@@ -172,8 +172,9 @@ void refuse_unparted(const WorldDescription& description, const BodyDescription&
   for (const SurfaceDescription& surface : description.contact->bodies) {
     if (surface.name != body.name) continue;
     if (has_own_mesh(surface)) {
-      refuse("its surface in contact is a mesh of its own, which a cut does not part; leave it out of "
-             "surface_of");
+      refuse(
+          "its surface in contact is a mesh of its own, which a cut does not part; leave it out of "
+          "surface_of");
     }
     refuse_curved(body);
   }

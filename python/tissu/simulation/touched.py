@@ -145,7 +145,11 @@ class Touched:
     _core: core.Simulation
     _rest: dict[str, Mesh]
     _meshes: Meshes
-    positions: Mapping[str, Floats]
+
+    if TYPE_CHECKING:
+
+        @property
+        def positions(self) -> Mapping[str, Floats]: ...
 
     def contacts(self) -> Contacts:
         """The contacts that press, as the latest step left them; none before the first step.

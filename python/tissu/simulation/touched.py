@@ -149,7 +149,9 @@ class Touched:
     if TYPE_CHECKING:
 
         @property
-        def positions(self) -> Mapping[str, Floats]: ...
+        def positions(self) -> Mapping[str, Floats]:
+            """Body -> where its nodes are (n, 3) [m]."""
+            raise NotImplementedError
 
     def contacts(self) -> Contacts:
         """The contacts that press, as the latest step left them; none before the first step.

@@ -227,14 +227,15 @@ def write_scene(scene: SceneData, path: Path) -> None:
             write_mesh(parts[name].mesh, file)
             parts[name] = parts[name].replace(mesh=MeshFile(file))
             changes[group] = parts
-    contact, surfaces = scene.contact, _own_surfaces(scene)
-    for name in _unwritten(surfaces) if contact is not None else ():
+    surfaces = _own_surfaces(scene)
+    for name in _unwritten(surfaces):
         from tissu.mesh import write_mesh
 
         file = path.with_name(f"{path.stem}-{files[name]}-surface.vtu")
         write_mesh(surfaces[name], file)
         surfaces[name] = MeshFile(file)
-        changes["contact"] = contact.replace(surface_of=surfaces)
+    if scene.contact is not None:
+        changes["contact"] = scene.contact.replace(surface_of=surfaces)
     moved = laws_beside(scene, path.parent)
     text = scene_text(scene.replace(**changes), folder=path.parent, moved=moved)
     with whole_file(path, error=_scene_error) as partial:

@@ -76,6 +76,36 @@ SurfaceDescription to_surface(const std::string& name, const Doubles& vertices, 
   return surface;
 }
 
+/// Numbers of the vertices that nodes carry, ascending; of each the first in the lists, and the end; nodes;
+/// weights.
+using Riders = std::tuple<Ints, Ints, Ints, Doubles>;
+
+SurfaceRiders to_riders(const Riders& given, std::int32_t nodes) {
+  const auto& [vertex, begin, node, weight] = given;
+  SurfaceRiders riders{to_vector(vertex), to_vector(begin), to_vector(node), to_vector(weight)};
+  const auto ends = static_cast<std::int32_t>(riders.node.size());
+  const bool whole = riders.begin.size() == riders.vertex.size() + 1 && riders.begin.front() == 0 &&
+                     riders.begin.back() == ends && riders.weight.size() == riders.node.size();
+  if (!whole || !std::ranges::is_sorted(riders.begin) || !std::ranges::is_sorted(riders.vertex)) {
+    throw ParameterError("found lists of riders whose lengths do not fit together.");
+  }
+  if (std::ranges::any_of(riders.node, [&](std::int32_t n) { return n < 0 || n >= nodes; })) {
+    throw ParameterError("found riders on nodes that are not there.");
+  }
+  return riders;
+}
+
+/// A number that no rider has is a node.
+void require_vertices(const SurfaceDescription& surface, std::int32_t nodes) {
+  for (const auto& triangle : surface.triangles) {
+    for (const std::int32_t v : triangle) {
+      if (v < nodes && (v >= 0 || std::ranges::binary_search(surface.riders.vertex, v))) continue;
+      throw ParameterError("found vertex " + std::to_string(v) + " in a triangle of the surface of \"" +
+                           surface.name + "\", which is not there.");
+    }
+  }
+}
+
 /// Times, displacements, angles, center and axis of a motion.
 using Path = std::tuple<Doubles, Doubles, Doubles, Doubles, Doubles>;
 
@@ -221,12 +251,17 @@ void bind_contact(py::class_<WorldDescription>& builder) {
       .def(
           "add_contact_surface",
           [](WorldDescription& world, const std::string& body, const Ints& triangles, const Ints& edges,
-             const Doubles& radius, bool closed) {
+             const Doubles& radius, bool closed, const std::optional<Riders>& riders) {
             const Doubles none(std::vector<py::ssize_t>{0, 3});
-            contact_of(world).bodies.push_back(
-                to_surface(world.body(body).name, none, triangles, edges, Ints(0), radius, closed));
+            const BodyDescription& of = world.body(body);
+            const auto nodes = static_cast<std::int32_t>(of.positions.size() / 3);
+            SurfaceDescription surface = to_surface(of.name, none, triangles, edges, Ints(0), radius, closed);
+            if (riders) surface.riders = to_riders(*riders, nodes);
+            require_vertices(surface, nodes);
+            contact_of(world).bodies.push_back(std::move(surface));
           },
-          py::kw_only(), arg("body"), arg("triangles"), arg("edges"), arg("radius"), arg("closed"))
+          py::kw_only(), arg("body"), arg("triangles"), arg("edges"), arg("radius"), arg("closed"),
+          arg("riders").none(true))
       .def("add_obstacle", &add_obstacle, py::kw_only(), arg("name"), arg("vertices"), arg("triangles"),
            arg("edges"), arg("points"), arg("radius"), arg("closed"), arg("origin"), arg("motion").none(true),
            arg("rigid").none(true))

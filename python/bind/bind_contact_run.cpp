@@ -1,6 +1,7 @@
 /// Contact while a simulation runs: what presses, with which force, what crosses, and obstacles that are led.
 
 #include <algorithm>
+#include <cmath>
 
 #include "bind.h"
 #include "tissu/contact/audit.h"
@@ -223,7 +224,7 @@ py::tuple contact_surface(const Simulation& simulation, const std::string& body)
 }
 
 /// Area at rest that belongs to each node of a body, up to the last one of its surface [m2]: a third of the
-/// triangles at it. What nodes carry gives them its own by their weights.
+/// triangles at it. What nodes carry gives them its own by the sizes of their weights.
 py::array_t<double> contact_areas(const Simulation& simulation, const std::string& body) {
   const Contact& contact = contact_of(simulation);
   const std::int32_t number = surface_named(contact, body);
@@ -240,7 +241,9 @@ py::array_t<double> contact_areas(const Simulation& simulation, const std::strin
     if (vertex.rider < 0) {
       add(vertex.node, vertex.area);
     } else {
-      for (const RiderPart& part : surfaces.parts(vertex)) add(part.row - first, part.weight * vertex.area);
+      for (const RiderPart& part : surfaces.parts(vertex)) {
+        add(part.row - first, std::abs(part.weight) * vertex.area);
+      }
     }
   }
   return py::array_t<double>(static_cast<py::ssize_t>(areas.size()), areas.data());

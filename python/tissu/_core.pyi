@@ -225,7 +225,14 @@ class WorldBuilder:
         self, *, method: str, broad_phase: str, penalty: str, iterations: int, travel: bool
     ) -> None: ...
     def add_contact_surface(
-        self, *, body: str, triangles: Ints, edges: Ints, radius: Floats, closed: bool
+        self,
+        *,
+        body: str,
+        triangles: Ints,
+        edges: Ints,
+        radius: Floats,
+        closed: bool,
+        riders: tuple[Ints, Ints, Ints, Floats] | None,
     ) -> None: ...
     def add_obstacle(
         self,

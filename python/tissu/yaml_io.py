@@ -160,6 +160,11 @@ def scene_data(
         for name in _made_in_memory(getattr(scene, group))
     ]
     problems += [
+        f"contact.surface_of.{name}: made in memory, so it has no file to name; "
+        "scene.save(path) writes it beside the scene"
+        for name in _unwritten(_own_surfaces(scene))
+    ]
+    problems += [
         f"the law {law.name} was made in memory, so it has no file to name; write its formula to a "
         "file and take tissu.read_law(file)"
         for law in scene.own_laws()
@@ -177,8 +182,17 @@ def scene_data(
 
 def _made_in_memory(parts: Mapping[str, Part]) -> list[str]:
     """The names of the bodies, or obstacles, whose mesh came from no file."""
-    meshes = {name: getattr(part, "mesh", part) for name, part in parts.items()}
+    return _unwritten({name: getattr(part, "mesh", part) for name, part in parts.items()})
+
+
+def _unwritten(meshes: Mapping[str, Any]) -> list[str]:
+    """The names of the meshes that came from no file."""
     return [n for n, m in meshes.items() if not isinstance(m, Part) and m.source is None]
+
+
+def _own_surfaces(scene: SceneData) -> dict[str, Any]:
+    """Body -> mesh of `surface_of`."""
+    return {} if scene.contact is None else dict(scene.contact.surface_of)
 
 
 def scene_text(
@@ -202,7 +216,7 @@ def write_scene(scene: SceneData, path: Path) -> None:
         SceneError: the file or a mesh cannot be written.
     """
     require_file_place(path, "scene", error=_scene_error)
-    changes = {}
+    changes: dict[str, Any] = {}
     files = distinct_names([*scene.bodies, *scene.obstacles])
     for group in ("bodies", "obstacles"):
         parts = dict(getattr(scene, group))
@@ -213,6 +227,15 @@ def write_scene(scene: SceneData, path: Path) -> None:
             write_mesh(parts[name].mesh, file)
             parts[name] = parts[name].replace(mesh=MeshFile(file))
             changes[group] = parts
+    surfaces = _own_surfaces(scene)
+    for name in _unwritten(surfaces):
+        from tissu.mesh import write_mesh
+
+        file = path.with_name(f"{path.stem}-{files[name]}-surface.vtu")
+        write_mesh(surfaces[name], file)
+        surfaces[name] = MeshFile(file)
+    if scene.contact is not None:
+        changes["contact"] = scene.contact.replace(surface_of=surfaces)
     moved = laws_beside(scene, path.parent)
     text = scene_text(scene.replace(**changes), folder=path.parent, moved=moved)
     with whole_file(path, error=_scene_error) as partial:

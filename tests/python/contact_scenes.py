@@ -45,6 +45,11 @@ def every_contact_part():
         ts.Contact("all"),
     ]
     settings = ts.ContactSettings(
-        method="augmented", broad_phase="grid", iterations=5, travel=False, overlap="refuse"
+        method="augmented",
+        broad_phase="grid",
+        iterations=5,
+        travel=False,
+        overlap="refuse",
+        surface_of={"gut": ts.BarMesh(size=(0.1, 0.1, 0.1), cells=(2, 2, 2), origin=(0, 0, 0.11))},
     )
     return scene(obstacles=obstacles, contacts=contacts, contact=settings)

@@ -52,6 +52,21 @@ def test_a_probe_palpates():
     assert simulation.displacements("organ")[:, 2].min() < -0.02
 
 
+def test_a_probe_presses_a_surface_that_coarse_cells_carry():
+    """Action is reaction through the cells, and the surface lies under the probe to its gap."""
+    simulation = example("embedded")
+    force = simulation.force_on("probe").force
+    assert 0.5 < force[2] < 20.0
+    assert np.abs(simulation.force_on("organ").force + force).max() <= 1e-12 * force[2]
+    support = simulation.reactions("organ").sum(axis=0)
+    assert support == pytest.approx(force, abs=0.02 * force[2])
+    surface = simulation.contact_surface("organ")
+    beside = surface.points - [-0.046, 0.006, 0.082 - 0.026]
+    beside[:, 2] = np.minimum(beside[:, 2], 0.0)  # the axis goes up from there
+    assert np.linalg.norm(beside, axis=1).min() > 0.012
+    assert (surface.points - surface.rest)[:, 2].min() < -0.02
+
+
 def test_a_block_is_pressed_statically():
     """Plates' forces are opposite, to the step's tolerance; the rim slides, the middle sticks."""
     simulation = example("pressed")

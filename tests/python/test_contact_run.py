@@ -143,13 +143,16 @@ def test_what_is_refused(resting):
 
 
 def test_the_calls_of_the_page_run():
-    """The third example of docs/guide/contact.md, with the scene of the first; the second alone."""
+    """The last example of docs/guide/contact.md, with the scene of the first; the others alone."""
     page = (Path(__file__).parents[2] / "docs" / "guide" / "contact.md").read_text(encoding="utf-8")
-    first, free, second = re.findall(r"```python\n(.*?)```", page, re.DOTALL)
+    first, free, own, second = re.findall(r"```python\n(.*?)```", page, re.DOTALL)
     alone = {"print": lambda *found: None}
     exec(compile(free, "contact.md", "exec"), alone)
     ball = alone["ball"]
     assert ball.velocity[0] == pytest.approx(0.01 * ball.spin[1], rel=1e-2)  # it rolls by now
+    printed = []
+    exec(compile(own, "contact.md", "exec"), {"print": printed.append})
+    assert f"```text\n{printed[0]}\n```" in page
     names = {"print": lambda check: None}
     exec(compile(first, "contact.md", "exec"), names)
     exec(compile(second, "contact.md", "exec"), names)

@@ -67,6 +67,7 @@ def test_defaults():
         "iterations": 20,
         "travel": True,
         "overlap": "refuse",
+        "surface_of": {},
     }
     assert scene().contacts == ()
     assert scene().contact is None
@@ -322,13 +323,6 @@ def test_a_selection_is_no_obstacle():
     ]
 
 
-FLAT = ts.Body(
-    mesh=ts.BarMesh(size=(1, 1, 0), cells=(1, 1, 0), cell="quad"),
-    law=SOFT,
-    density=1000.0,
-    thickness=1.0,
-    plane="strain",
-)
 FILLED = ts.BarMesh(size=(1, 1, 1), cells=(1, 1, 1))
 FAT = ts.Tissue(inside=FILLED, frames=8, points=40, law=SOFT, density=1000.0)
 
@@ -336,7 +330,6 @@ FAT = ts.Tissue(inside=FILLED, frames=8, points=40, law=SOFT, density=1000.0)
 @pytest.mark.parametrize(
     ("fields", "name", "words"),
     [
-        ({"bodies": {"liver": cube(), "slice": FLAT}}, "slice", "a flat body"),
         ({"bodies": {"liver": cube()}, "tissue": {"fat": FAT}}, "fat", "a tissue"),
     ],
 )

@@ -70,7 +70,8 @@ std::span<const SurfaceSet::Carried> SurfaceSet::carried_by(std::int32_t mover) 
 
 bool SurfaceSet::is_among(const std::vector<std::int32_t>& nodes, std::int32_t vertex) const {
   const SurfaceVertex& v = vertices_[at(vertex)];
-  if (v.rider < 0) return std::ranges::binary_search(nodes, v.node);
+  if (std::ranges::binary_search(nodes, v.node)) return true;
+  if (v.rider < 0) return false;
   const std::int32_t first = surfaces_[at(v.surface)].first_row;
   return std::ranges::all_of(
       parts(v), [&](const RiderPart& part) { return std::ranges::binary_search(nodes, part.row - first); });

@@ -12,6 +12,7 @@
 
 #include "cut_surface.h"
 #include "edit/cut/quad_halves.h"
+#include "tissu/base/error.h"
 #include "tissu/element/reference_cell.h"
 #include "tissu/mesh/topology.h"
 
@@ -213,10 +214,40 @@ SurfaceDescription body_surface(const BodyDescription& body) {
   return surface;
 }
 
+bool has_own_mesh(const SurfaceDescription& surface) {
+  return !surface.riders.vertex.empty() && surface.roots.empty();
+}
+
+namespace {
+
+/// A surface that is a mesh of its own stays, so that each vertex needs a cell that has all its nodes.
+void require_carried(const SurfaceDescription& surface, const BodyDescription& body) {
+  const std::vector<Run> runs = runs_of(body);
+  const VolumeCells volume(runs, body.positions.size() / 3);
+  const SurfaceRiders& riders = surface.riders;
+  std::size_t lost = 0;
+  for (std::size_t i = 0; i < riders.vertex.size(); ++i) {
+    const auto first = at(riders.begin[i]);
+    if (!volume.any_has(std::span(riders.node).subspan(first, at(riders.begin[i + 1]) - first))) ++lost;
+  }
+  if (lost == 0) return;
+  throw ParameterError("the cells that are removed carry " + std::to_string(lost) +
+                       (lost == 1 ? " vertex" : " vertices") + " of the surface that surface_of gives \"" +
+                       body.name +
+                       "\" in contact, which cannot be opened; cells that carry none are accepted, or leave "
+                       "the body out of surface_of.");
+}
+
+}  // namespace
+
 void renew_surface(WorldDescription& description, const BodyDescription& body) {
   if (!description.contact) return;
   for (SurfaceDescription& surface : description.contact->bodies) {
     if (surface.name != body.name) continue;
+    if (has_own_mesh(surface)) {
+      require_carried(surface, body);
+      continue;
+    }
     surface = body.cut == nullptr ? body_surface(body) : cut_surface(body, *description.contact);
   }
 }

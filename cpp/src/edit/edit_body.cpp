@@ -169,10 +169,15 @@ void refuse_unparted(const WorldDescription& description, const BodyDescription&
     }
   }
   if (!description.contact) return;
-  const bool meets = std::ranges::any_of(description.contact->bodies, [&](const SurfaceDescription& surface) {
-    return surface.name == body.name;
-  });
-  if (meets) refuse_curved(body);
+  for (const SurfaceDescription& surface : description.contact->bodies) {
+    if (surface.name != body.name) continue;
+    if (has_own_mesh(surface)) {
+      refuse(
+          "its surface in contact is a mesh of its own, which a cut does not part; leave it out of "
+          "surface_of");
+    }
+    refuse_curved(body);
+  }
 }
 
 BodyDescription edited(BodyDescription body, const BodyEdit& edit) {

@@ -89,8 +89,13 @@ void refuse_touched(const Body& body, const BodyModel& model, const WorldDescrip
   if (!description.contact) return;
   for (const SurfaceDescription& surface : description.contact->bodies) {
     if (surface.name != body.name) continue;
+    for (const std::int32_t node : surface.riders.node) {
+      refuse(node + body.first_node, "carries a surface in contact");
+    }
     for (const auto& triangle : surface.triangles) {
-      for (const std::int32_t node : triangle) refuse(node + body.first_node, "lies on a surface in contact");
+      for (const std::int32_t node : triangle) {
+        if (node >= 0) refuse(node + body.first_node, "lies on a surface in contact");
+      }
     }
   }
 }

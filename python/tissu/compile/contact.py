@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from tissu.compile.contact_surface import ContactSurface, body_surface
+from tissu.compile.contact_skin import skin_surface
+from tissu.compile.contact_surface import ContactSurface, body_surface, numbered
 from tissu.compile.obstacle import PreparedObstacle, prepared_obstacle
 from tissu.compile.select import selected_nodes, selection_words
 from tissu.counted import counted
@@ -82,8 +83,11 @@ class PreparedContact:
         )
         for name, surface in self.bodies.items():
             fields = surface._asdict()
-            rest = {key: fields[key] for key in ("triangles", "edges", "radius", "closed")}
-            builder.add_contact_surface(body=name, **rest)
+            rest = {key: fields[key] for key in ("edges", "radius", "closed")}
+            riders = surface.riders
+            of_core = None if riders is None else riders.in_core()
+            triangles = surface.triangles if riders is None else numbered(surface.triangles)
+            builder.add_contact_surface(body=name, triangles=triangles, riders=of_core, **rest)
         for obstacle in self.obstacles.values():
             obstacle.add_to(builder)
         numbers = {name: number for number, name in enumerate([*self.bodies, *self.obstacles])}
@@ -118,8 +122,7 @@ def prepare_contact(prepared: Prepared) -> None:
     method = method_of(scene)
     made = PreparedContact(method or "", scene.step.type, scene.contact or ContactSettings())
     made.obstacles = obstacles
-    surfaces = {name: body_surface(prepared.meshes[name].mesh, body)
-                for name, body in scene.bodies.items() if _has_surface(prepared, name)}  # fmt: skip
+    surfaces = _surfaces(prepared)
     wrong = {problem.path[:2] for problem in findings.problems}
     for number, contact in enumerate(scene.contacts):
         path: Path = ("contacts", number)
@@ -130,6 +133,25 @@ def prepare_contact(prepared: Prepared) -> None:
     met = {name for pair in made.pairs for name in (pair.a, pair.b)}
     made.bodies = {name: surface for name, surface in surfaces.items() if name in met}
     prepared.contact = made
+
+
+def _surfaces(prepared: Prepared) -> dict[str, ContactSurface]:
+    """The surfaces of all bodies that have one that is known."""
+    scene = prepared.scene
+    own = scene.contact.surface_of if scene.contact is not None else {}
+    wrong = {problem.path for problem in prepared.findings.problems}
+    surfaces = {}
+    for name, body in scene.bodies.items():
+        if not _has_surface(prepared, name) or ("contact", "surface_of", name) in wrong:
+            continue
+        mesh = prepared.meshes[name].mesh
+        if name not in own:
+            surfaces[name] = body_surface(mesh, body)
+            continue
+        skin = skin_surface(name, own[name], mesh, prepared.findings)
+        if skin is not None:
+            surfaces[name] = skin
+    return surfaces
 
 
 def _has_surface(prepared: Prepared, name: str) -> bool:
@@ -220,17 +242,27 @@ def _met_nodes(
     on = contact.on if isinstance(contact, Contact) else None
     if on is None:
         return np.empty(0, dtype=np.int32)
-    nodes = selected_nodes(prepared, path, body, on)
-    if nodes is None:
+    if surface.riders is not None and on.by_place:
+        selected: Ints | None = np.asarray(on.nodes(surface.as_mesh()))
+    else:
+        selected = selected_nodes(prepared, path, body, on)
+    if selected is None:
         return None
-    kept = np.intersect1d(nodes, surface.nodes).astype(np.int32)
-    if not len(kept):
-        text = f"{selection_words(on)} selects {counted(len(nodes), 'node')} of body '{body}', but "
-        prepared.findings.problem((*path, "on"), f"{text}none of its surface")
+    if surface.riders is not None:
+        whole = on.type == "surface"
+        kept = selected if on.by_place else surface.riders.carried_by(selected)
+        kept = np.empty(0, dtype=np.int32) if whole else np.sort(numbered(kept))
+    else:
+        kept = np.intersect1d(selected, surface.nodes).astype(np.int32)
+        whole = False
+    if not len(kept) and not whole:
+        what = counted(len(selected), "node")
+        text = f"{selection_words(on)} selects {what} of body '{body}', but none of its surface"
+        prepared.findings.problem((*path, "on"), text)
         return None
-    if not prepared.scene.editing:
+    if not prepared.scene.editing or surface.riders is not None:
         return kept
-    return np.empty(0, dtype=np.int32) if on.type == "surface" else nodes
+    return np.empty(0, dtype=np.int32) if on.type == "surface" else selected
 
 
 def _gap_words(gaps: list[float], *, given: bool) -> str:

@@ -9,6 +9,7 @@ import numpy as np
 
 from tissu.compile.prepared import Floats, Ints
 from tissu.mesh import thin
+from tissu.mesh.flat_edges import flat_edges
 from tissu.scene.section import area_of
 
 if TYPE_CHECKING:
@@ -17,6 +18,41 @@ if TYPE_CHECKING:
 
 _SAME = 1e-9
 """share by which the diagonals of a quad may differ and count as equal: round-off in coordinates"""
+
+
+class Riders(NamedTuple):
+    """The nodes of a body that carry the vertices of a surface.
+
+    Attributes:
+        begin: first of each vertex in the lists (n + 1,).
+        nodes: of the body (k,).
+        weights: of these (k,), which sum to one for each vertex.
+    """
+
+    begin: Ints
+    nodes: Ints
+    weights: Floats
+
+    def in_core(self) -> tuple[Ints, Ints, Ints, Floats]:
+        """Numbers of the vertices as the core has them, ascending, and the lists in that order."""
+        count = len(self.begin) - 1
+        last = np.repeat(self.begin[1:][::-1], np.diff(self.begin)[::-1])
+        lengths = np.diff(self.begin)[::-1]
+        begin = np.concatenate([[0], np.cumsum(lengths)]).astype(np.int32)
+        order = last - np.repeat(lengths, lengths) + np.arange(len(last))
+        order = order - np.repeat(begin[:-1], lengths)
+        vertices = numbered(np.arange(count, dtype=np.int32))[::-1]
+        return np.ascontiguousarray(vertices), begin, self.nodes[order], self.weights[order]
+
+    def carried_by(self, nodes: Ints) -> Ints:
+        """The vertices whose nodes are all among these."""
+        there = np.isin(self.nodes, nodes)
+        return np.flatnonzero(np.logical_and.reduceat(there, self.begin[:-1])).astype(np.int32)
+
+    def values(self, of_nodes: Floats) -> Floats:
+        """Values (n, ...) at the vertices of values at the nodes."""
+        weights = self.weights.reshape(-1, *(1,) * (of_nodes.ndim - 1))
+        return np.asarray(np.add.reduceat(weights * of_nodes[self.nodes], self.begin[:-1]))
 
 
 class ContactSurface(NamedTuple):
@@ -28,7 +64,10 @@ class ContactSurface(NamedTuple):
         edges: (k, 2) vertices of edges that belong to no triangle.
         points: (p,) vertices that belong to no edge.
         radius: (n,) half the thickness at each vertex [m]; empty: none.
-        closed: whether the triangles enclose a volume.
+        closed: whether the triangles enclose a volume, or the edges an area, on their left seen
+            from +z.
+        riders: nodes of the body that carry the vertices; None: each vertex is the node of its
+            number.
     """
 
     vertices: Floats
@@ -37,12 +76,19 @@ class ContactSurface(NamedTuple):
     points: Ints
     radius: Floats
     closed: bool
+    riders: Riders | None = None
 
     @property
     def nodes(self) -> Ints:
         """Numbers of all vertices on it, increasing."""
         parts = (self.triangles.ravel(), self.edges.ravel(), self.points)
         return np.unique(np.concatenate(parts)).astype(np.int32)
+
+    def as_mesh(self) -> Mesh:
+        """Its triangles as a mesh at rest."""
+        from tissu.mesh import CellBlock, Mesh
+
+        return Mesh(points=self.vertices, cells=(CellBlock("triangle", self.triangles),))
 
     @property
     def mean_edge(self) -> float:
@@ -54,6 +100,11 @@ class ContactSurface(NamedTuple):
         return float(np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1).mean())
 
 
+def numbered(vertices: Ints) -> Ints:
+    """Vertices that nodes carry, as the core numbers them: below zero, which no node is."""
+    return np.asarray(-1 - vertices, dtype=np.int32)
+
+
 def edges_of(triangles: Ints) -> Ints:
     """The three edges of each triangle (3 t, 2)."""
     return np.asarray(triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2))
@@ -62,8 +113,11 @@ def edges_of(triangles: Ints) -> Ints:
 def body_surface(mesh: Mesh, body: Body) -> ContactSurface:
     """The boundary of the volume cells, the sheets and the lines of a body, by its nodes.
 
-    Sheets on the boundary take its place; what lies inside the volume meets nothing.
+    Sheets on the boundary take its place; what lies inside the volume meets nothing. A flat body
+    has its rim.
     """
+    if body.plane is not None:
+        return _rim(mesh)
     whole, quads, loose = _faces(mesh)
     triangles = np.concatenate([whole, halves_of(mesh.points, quads)]).astype(np.int32)
     volume = np.zeros(mesh.node_count, dtype=bool)
@@ -78,6 +132,22 @@ def body_surface(mesh: Mesh, body: Body) -> ContactSurface:
         points=np.empty(0, dtype=np.int32),
         radius=_radius(mesh, body, (whole, quads), pieces),
         closed=not loose and len(triangles) > 0,
+    )
+
+
+def _rim(mesh: Mesh) -> ContactSurface:
+    """The edges that one sheet alone has, which lies on the left of them seen from +z."""
+    ends = [np.asarray(block.nodes) for block in flat_edges(mesh)]
+    halves = [
+        nodes if nodes.shape[1] == 2 else nodes[:, [0, 2, 2, 1]].reshape(-1, 2) for nodes in ends
+    ]
+    return ContactSurface(
+        vertices=mesh.points,
+        triangles=np.empty((0, 3), dtype=np.int32),
+        edges=np.concatenate([np.empty((0, 2), np.int32), *halves]).astype(np.int32),
+        points=np.empty(0, dtype=np.int32),
+        radius=np.empty(0),
+        closed=True,
     )
 
 

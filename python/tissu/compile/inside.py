@@ -24,7 +24,11 @@ def nested(contact: PreparedContact) -> Iterator[tuple[str, str]]:
         if a == b or a not in surfaces or b not in surfaces:
             continue
         for inner, outer in ((a, b), (b, a)):
-            if surfaces[outer].closed and _any_inside(surfaces[inner], surfaces[outer]):
+            if (
+                len(surfaces[outer].triangles)
+                and surfaces[outer].closed
+                and _any_inside(surfaces[inner], surfaces[outer])
+            ):
                 yield inner, outer
 
 

@@ -66,7 +66,7 @@ def _nearest(law: Law, taken: list[str]) -> str | None:
 def kept_nodes(prepared: Prepared, name: str, group: Group) -> Ints:
     """Nodes of a condensed region that stay unknowns; none for other models.
 
-    In contact the surface may be touched anywhere.
+    In contact the surface may be touched anywhere; a surface of its own keeps what carries it.
     """
     if not isinstance(group.model, Condensed):
         return np.empty(0, dtype=np.int32)
@@ -82,6 +82,8 @@ def kept_nodes(prepared: Prepared, name: str, group: Group) -> Ints:
     ]
     whole = group.model.keep == "surface" or meets_others(prepared.scene, name)
     surface = [body.mesh.surface().nodes] if whole else []
+    skin = None if prepared.contact is None else prepared.contact.bodies.get(name)
+    surface += [] if skin is None or skin.riders is None else [skin.riders.nodes]
     every = np.concatenate([*shared, *held, *loaded, *faces, *surface, np.empty(0, dtype=np.int32)])
     return np.intersect1d(every, group.nodes).astype(np.int32)
 

@@ -8,11 +8,9 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from tissu.compile.contact_surface import ContactSurface, halves_of
-from tissu.compile.meshes import mesh_of
-from tissu.compile.prepared import Findings, Floats, Ints
+from tissu.compile.mesh_surface import solid_surface, surface_of_mesh
+from tissu.compile.prepared import Findings, Floats
 from tissu.compile.rigid import Rigid, centre_of, rigid_of
-from tissu.errors import TissuError
-from tissu.mesh.surface import edge_faults, enclosed_volume
 from tissu.scene.direction import unit_vector
 from tissu.scene.obstacle import (
     BoxObstacle,
@@ -74,7 +72,7 @@ class PreparedObstacle(NamedTuple):
             origin=self.origin,
             motion=motion,
             rigid=self.rigid,
-            **self.surface._asdict(),
+            **{key: value for key, value in self.surface._asdict().items() if key != "riders"},
         )
 
 
@@ -131,55 +129,28 @@ def _made(
     )
 
 
-def _solid(vertices: Floats, triangles: Ints, *, closed: bool) -> ContactSurface:
-    return ContactSurface(
-        vertices=vertices,
-        triangles=triangles.astype(np.int32),
-        edges=np.empty((0, 2), dtype=np.int32),
-        points=np.empty(0, dtype=np.int32),
-        radius=np.empty(0),
-        closed=closed,
-    )
-
-
 def _box(box: BoxObstacle) -> ContactSurface:
     """Twelve triangles."""
     sides = [(a, b) for a, b in zip(box.min, box.max, strict=True)]
     corners = np.array([(x, y, z) for z, y, x in itertools.product(*reversed(sides))])
     quads = np.array(_BOX, dtype=np.int32)
-    return _solid(corners, halves_of(corners, quads), closed=True)
+    return solid_surface(corners, halves_of(corners, quads), closed=True)
 
 
 def _of_mesh(name: str, obstacle: MeshObstacle, findings: Findings) -> ContactSurface | None:
     """The boundary of the mesh's volume, or its faces; a closed one is turned outward."""
-    place = ("obstacles", name, "mesh")
-    try:
-        mesh = mesh_of(obstacle.mesh)
-        outer = mesh.surface()
-    except TissuError as error:
-        findings.problem(place, str(error))
+    surface = surface_of_mesh(obstacle.mesh, ("obstacles", name, "mesh"), findings)
+    if surface is None:
         return None
-    whole = outer.triangles[: len(outer.triangles) - 2 * len(outer.quads)]
-    faces = np.concatenate([whole, halves_of(mesh.points, outer.quads)])
-    if not len(faces):
-        text = "found no triangle, quad or volume cell; a mesh with one of them is accepted"
-        findings.problem(place, text)
-        return None
-    used, numbers = np.unique(faces, return_inverse=True)
-    vertices, triangles = mesh.points[used], numbers.reshape(-1, 3).astype(np.int32)
-    closed = edge_faults(triangles) == (0, 0)
-    if closed and enclosed_volume(vertices, triangles) < 0.0:
-        triangles = triangles[:, [0, 2, 1]]
-        findings.note(f"obstacles.{name}.mesh: its faces look inward; they are turned outward")
-    if not closed:
+    if not surface.closed:
         findings.note(
             f"obstacles.{name}.mesh: its surface is not closed or its faces look both ways, so "
             "that bodies meet it from both sides"
         )
-    size = float(np.ptp(vertices, axis=0).max())
+    size = float(np.ptp(surface.vertices, axis=0).max())
     if size > _LONG:
         findings.note(
             f"obstacles.{name}.mesh: is {size:.4g} m long; where the file is written in another "
             "unit, say so: mesh: {file: ..., unit: mm}"
         )
-    return _solid(vertices, triangles, closed=closed)
+    return surface

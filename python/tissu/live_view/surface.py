@@ -25,8 +25,8 @@ class Seen:
     """The surface of a body, and its lines.
 
     Attributes:
-        nodes: numbers (k,) of the body's nodes that are seen; of a body that was cut those (k, 4)
-            that carry the points that are, -1: none.
+        nodes: numbers (k,) of the body's nodes that are seen; of a body that was cut, or whose
+            surface is a mesh of its own, those (k, m) that carry the points that are, -1: none.
         triangles: (t, 3) places in `nodes`.
         cells: (t,) number of the cell of each triangle in the body's mesh.
         edges: (e, 2) places in `nodes`: sides of faces, without the diagonals of quads.
@@ -41,8 +41,7 @@ class Seen:
     lines: Ints
     line_cells: Ints
     weights: Floats | None = None
-    """(k, 4) of the nodes, which are (k, 4) then, of a body that was cut: its points ride on them
-    """
+    """(k, m) of the nodes, which are (k, m) then: the points ride on them"""
     cut: NDArray[np.bool_] | None = None
     """(t,) whether a cut opened the triangle, of such a body"""
 
@@ -83,21 +82,45 @@ def seen(mesh: Mesh) -> Seen:
 
 _KEPT = 16
 _cut: dict[int, tuple[Mesh, Seen]] = {}
-"""What is seen of bodies that were cut, by their meshes, which every cut makes anew."""
+"""What is seen of bodies that were cut, by their meshes, which every cut makes anew; and of bodies
+whose surface is a mesh of its own.
+"""
 
 
 def seen_of(simulation: Simulation, body: str) -> Seen:
     """What is seen of a body of a simulation, its cut faces too."""
     mesh = simulation.meshes[body]
-    if not simulation.is_cut(body):
+    is_own = body in simulation.own_surfaces
+    if not (is_own or simulation.is_cut(body)):
         return seen(mesh)
     known = _cut.get(id(mesh))
     if known is None or known[0] is not mesh:
         while len(_cut) >= _KEPT:
             _cut.pop(next(iter(_cut)))
-        known = (mesh, _seen_of_cut(simulation, body))
+        made = _seen_of_own(simulation, body) if is_own else _seen_of_cut(simulation, body)
+        known = (mesh, made)
         _cut[id(mesh)] = known
     return known[1]
+
+
+def _seen_of_own(simulation: Simulation, body: str) -> Seen:
+    """The mesh with which a body meets others; a triangle has the fields of the nearest cell."""
+    from scipy.spatial import cKDTree
+
+    surface, mesh = simulation.contact_surface(body), simulation.meshes[body]
+    triangles = surface.triangles.astype(np.int64)
+    middles = [mesh.points[block.nodes].mean(axis=1) for block in mesh.body_blocks]
+    cells = cKDTree(np.concatenate(middles)).query(surface.rest[triangles].mean(axis=1))[1]
+    sides = np.sort(np.concatenate([triangles[:, [k, (k + 1) % 3]] for k in range(3)]), axis=1)
+    return Seen(
+        nodes=surface.nodes.astype(np.int64),
+        triangles=triangles,
+        cells=np.asarray(cells, dtype=np.int64),
+        edges=np.unique(sides, axis=0),
+        lines=np.empty((0, 2), dtype=np.int64),
+        line_cells=np.empty(0, dtype=np.int64),
+        weights=surface.weights,
+    )
 
 
 def _seen_of_cut(simulation: Simulation, body: str) -> Seen:

@@ -19,6 +19,7 @@ Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
 _SLACK = 1e-6  # of the extent: a point no farther than this from a cell is in it
+_AT_ONCE = 4096  # points that are looked for together
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,6 +64,39 @@ def places(points: Floats, mesh: Mesh) -> Places:
     return found
 
 
+def nearest_places(points: Floats, mesh: Mesh) -> Places:
+    """The volume cell that holds each point (k, 3) [m], or the nearest one, and its weights there.
+
+    Outside all cells the shape functions go on beyond the cell whose local coordinates the point
+    leaves least, of those nearby.
+
+    Raises:
+        ParameterError: a point is farther from all cells than the length of the longest.
+    """
+    blocks = [_as_shape(block.type, block.nodes) for block in mesh.volume_blocks]
+    width = max(nodes.shape[1] for _, nodes in blocks)
+    found = Places(np.zeros((len(points), width), dtype=np.int64), np.zeros((len(points), width)))
+    beyond = np.full(len(points), np.inf)
+    slack = _SLACK * float(np.ptp(mesh.points, axis=0).max())
+    longest = max(float(np.ptp(mesh.points[nodes], axis=1).max()) for _, nodes in blocks)
+    for reach in (slack, longest / 8.0, longest / 4.0, longest / 2.0, longest):
+        lost = np.flatnonzero(beyond == np.inf) if reach > slack else np.arange(len(points))
+        for start in range(0, len(lost), _AT_ONCE):
+            some = lost[start : start + _AT_ONCE]
+            part, least = Places(found.nodes[some], found.weights[some]), beyond[some]
+            for shape, nodes in blocks:
+                _improve(part, least, shape, nodes, points[some], mesh.points, slack, reach)
+            found.nodes[some], found.weights[some], beyond[some] = part.nodes, part.weights, least
+    far = int((beyond == np.inf).sum())
+    if far:
+        raise ParameterError(
+            f"found {counted(far, 'point')} of {len(points)} farther from all cells than "
+            f"{longest:.3g} m, the length of the longest; points in the mesh, or near it, are "
+            "accepted: look at their place and their unit"
+        )
+    return found
+
+
 def _as_shape(cell_type: str, nodes: NDArray[np.int32]) -> tuple[Shape, Ints]:
     if cell_type.startswith("pyramid"):
         halves = np.concatenate([nodes[:, [0, 1, 2, 4]], nodes[:, [0, 2, 3, 4]]])
@@ -78,10 +112,14 @@ def _improve(
     points: Floats,
     rest: Floats,
     slack: float,
+    reach: float | None = None,
 ) -> None:
-    """Put points into cells of one block where they are farther inside than so far."""
+    """Put points into cells of one block where they are farther inside than so far.
+
+    Only cells whose boxes a point is no farther from than `reach`; absent: than `slack`.
+    """
     corners = rest[nodes[:, : len(shape.corners)]]
-    point, cell = _near(points, corners, slack)
+    point, cell = _near(points, corners, slack if reach is None else reach)
     if not len(point):
         return
     local, apart = shape.local(points[point], corners[cell])

@@ -15,7 +15,7 @@ from tissu.counted import counted
 from tissu.files import distinct_names, file_name, require_folder_place, whole_file
 from tissu.files.whole import clear_unfinished
 from tissu.output.folder import inner_folder
-from tissu.output.obstacle_file import write_obstacle
+from tissu.output.obstacle_file import write_contact_surface, write_obstacle
 from tissu.output.vtu_fields import cell_data, node_data
 
 if TYPE_CHECKING:
@@ -33,8 +33,8 @@ class Series:
     [m/s]; cell fields: strain_energy_density [J/m^3], and von_mises [Pa] of models that know it,
     or those that the scene's `output` names; of bodies with contacts the point fields
     contact_pressure [Pa] and contact_gap [m] too. Of connective tissue its integration points, of
-    obstacles that bodies meet their surface. After each call all files are complete and the index
-    lists all of them.
+    obstacles that bodies meet their surface; of bodies with a `surface_of` that mesh too. After
+    each call all files are complete and the index lists all of them.
 
     Attributes:
         index: the PVD file.
@@ -57,6 +57,8 @@ class Series:
         self._entries: list[str] = []
         require_folder_place(self._folder / FRAMES, "output folder", within=True)
         self._parts = [*simulation.meshes, *simulation.tissue, *simulation.obstacles]
+        self._surfaces = _surface_names(simulation, self._parts)
+        self._parts += self._surfaces
         self._names = distinct_names(self._parts)
         self.index = self._folder / f"{file_name(simulation.scene.name)}.pvd"
         self.count = 0
@@ -80,6 +82,8 @@ class Series:
             name = f"{FRAMES}/{self._names[body]}_{self.count:05d}.vtu"
             if body in simulation.tissue:
                 write_points(self._folder / name, simulation, body)
+            elif body in self._surfaces:
+                write_contact_surface(self._folder / name, simulation, self._surfaces[body])
             elif body in simulation.obstacles:
                 write_obstacle(self._folder / name, simulation, body)
             else:
@@ -124,6 +128,17 @@ class Series:
             f"'{body}' {verb} inside out ({first}); what follows is not a deformation of the body: "
             f"take smaller steps{other}"
         )
+
+
+def _surface_names(simulation: Simulation, taken: list[str]) -> dict[str, str]:
+    """Name of the part -> body whose surface in contact is a mesh of its own."""
+    names: dict[str, str] = {}
+    for body in simulation.own_surfaces:
+        name = f"{body}-surface"
+        while name in taken or name in names:
+            name += "-"
+        names[name] = body
+    return names
 
 
 def write_body(path: Path, simulation: Simulation, body: str) -> None:

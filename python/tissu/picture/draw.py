@@ -65,6 +65,7 @@ def draw(
         path: the PNG file; its folder is made.
         size: width and height [pixels], at least 200 x 100.
         field: "displacement" [m] or "von_mises" [Pa], the latter averaged at the surface's points.
+            A body with a `surface_of` is drawn by that mesh.
 
     Raises:
         ParameterError: an unknown field, von_mises of a model without stress, or a picture too
@@ -172,6 +173,9 @@ def shape_of(simulation: Simulation, field: Field) -> Shape:
         if simulation.is_cut(name):
             parts.append(_cut(simulation, name, field))
             continue
+        if name in simulation.own_surfaces:
+            parts.append(_own_surface(simulation, name, field))
+            continue
         surface = mesh.surface()
         triangles = np.asarray(surface.triangles, dtype=np.int64)
         shift = np.asarray(simulation.displacements(name))
@@ -208,6 +212,24 @@ def _cut(simulation: Simulation, name: str, field: Field) -> Shape:
         host = np.searchsorted(simulation.remaining_cells(name), surface.cell)
         values = _at_points(_stress_of(simulation, name)[host], triangles, surface.points)
     return Shape(surface.points - shift, surface.points, triangles, values)
+
+
+def _own_surface(simulation: Simulation, name: str, field: Field) -> Shape:
+    """The mesh with which a body meets others, which its cells carry."""
+    surface, mesh = simulation.contact_surface(name), simulation.meshes[name]
+    if field == "displacement":
+        values = np.linalg.norm(surface.points - surface.rest, axis=1)
+    else:
+        every, count = np.zeros(mesh.node_count), np.zeros(mesh.node_count)
+        stress = _stress_of(simulation, name)
+        first = 0
+        for block in mesh.body_blocks:
+            of_cells = stress[first : first + len(block.nodes)]
+            np.add.at(every, block.nodes, of_cells[:, None])
+            np.add.at(count, block.nodes, 1.0)
+            first += len(block.nodes)
+        values = surface.carried(every / np.maximum(count, 1.0))
+    return Shape(surface.rest, surface.points, surface.triangles.astype(np.int64), values)
 
 
 def _tissue(simulation: Simulation, name: str, field: Field) -> Shape:

@@ -10,6 +10,7 @@ from pydantic import BeforeValidator, Field, PlainValidator, ValidationInfo
 from tissu import units
 from tissu.errors import ParameterError
 from tissu.reading import Maybe, Read, listed, written
+from tissu.scene.body import MeshLike, mesh_source
 from tissu.scene.effect import Effect
 from tissu.scene.field import field
 from tissu.scene.part import Part, keeps_problems
@@ -139,6 +140,10 @@ class SelfContact(Meeting):
         return Effect(f"contact of {self.self} with itself", f"{path} has {self.words(gap)}")
 
 
+_OneMesh = Annotated[Any, PlainValidator(mesh_source)]
+_SurfaceOf = Read[dict[str, _OneMesh], Mapping[str, MeshLike]]
+
+
 class ContactSettings(Part):
     """Settings that all contacts of a scene share."""
 
@@ -160,13 +165,19 @@ class ContactSettings(Part):
     """what to do with surfaces that cross at the start: refuse the scene; separate (push them apart
     first) is not supported yet
     """
+    surface_of: _SurfaceOf = field(default_factory=dict)
+    """body -> mesh that is its surface in contact, in place of the boundary of its cells, which
+    carry its vertices: a mesh file, a bar, or (in Python) a Mesh; its triangles and quads, or the
+    boundary of its volume cells
+    """
 
     def words(self, method: str, step: str) -> str:
         """What a plan says of it; `method`: the one that runs."""
         chosen = f"auto: {method}, for the step {step}" if self.method == "auto" else method
         chosen += f" with a {self.penalty} law" if method == "penalty" else ""
         travel = "" if self.travel else "; travel is false, so that surfaces may cross"
-        return f"contact.method is {chosen}; broad phase {self.broad_phase}{travel}"
+        own = f"; surface_of {', '.join(self.surface_of)}" if self.surface_of else ""
+        return f"contact.method is {chosen}; broad phase {self.broad_phase}{travel}{own}"
 
 
 def _one_contact(value: Any, info: ValidationInfo) -> Any:

@@ -76,6 +76,25 @@ def contact_problems(scene: Any) -> Iterator[Problem]:
     if contacts:
         with contextlib.suppress(Unknown):
             yield from _method_problems(scene)
+    for check in (_surface_of_problems, _flat_problems):
+        with contextlib.suppress(Unknown):
+            yield from check(scene)
+
+
+def _surface_of_problems(scene: Any) -> Iterator[Problem]:
+    """Meshes for the surfaces of bodies that are not there, or whose nodes are frames."""
+    for name in scene.contact.surface_of if scene.contact is not None else ():
+        place: Path = ("contact", "surface_of", name)
+        if name in tissues_of(scene):
+            yield Problem(place, f"found '{name}', a tissue; a body is accepted")
+        elif name not in scene.bodies:
+            text = f"no body is named '{name}'{nearest(name, scene.bodies)} Accepted: "
+            yield Problem(place, f"{text}{one_of_words(scene.bodies)}")
+        else:
+            with contextlib.suppress(Unknown):
+                if scene.bodies[name].has_rotations:
+                    text = f"found '{name}', whose nodes are frames; a body whose nodes have "
+                    yield Problem(place, f"{text}places only is accepted")
 
 
 def _named(
@@ -128,12 +147,36 @@ def surface_missing(scene: Any, name: str) -> str:
     """Why a body or tissue has no surface for contact yet; empty: it has one."""
     if name in tissues_of(scene):
         return "a tissue, whose surface frames carry: contact of it is not there yet, name bodies"
-    body = scene.bodies.get(name)
-    if body is None:
-        return ""
-    if body.plane is not None:
-        return "a flat body: contact of its rim is not there yet, leave `plane` out of the body"
     return ""
+
+
+def _flat_problems(scene: Any) -> Iterator[Problem]:
+    """What the rims of flat bodies do not have: areas, and rims after edits."""
+    flat = {name for name, body in scene.bodies.items() if body.plane is not None}
+    for number, contact in enumerate(scene.contacts):
+        with contextlib.suppress(Unknown):
+            names = flat & _names_of(contact, scene)
+            if names and contact.stiffness is not None:
+                text = (
+                    f"found {contact.stiffness:g} Pa/m for '{min(names)}', a flat body, whose rim "
+                )
+                text += "has no area; leave it out: the stiffness then comes from the body"
+                yield Problem(("contacts", number, "stiffness"), text)
+            if names and scene.editing is not None:
+                text = (
+                    f"found true with contacts of '{min(names)}', a flat body, whose rim follows "
+                )
+                yield Problem(("editing",), f"{text}no edit; leave it out")
+                return
+
+
+def _names_of(contact: Any, scene: Any) -> set[str]:
+    """The names that a contact has, of bodies and obstacles."""
+    if not isinstance(contact, Contact):
+        return {contact.self}
+    if contact.between == "all":
+        return set(scene.bodies)
+    return {name for _, first, _, second in contact.pairs() for name in (first, second)}
 
 
 def meets_others(scene: Any, name: str) -> bool:

@@ -69,7 +69,7 @@ def contact_at_nodes(
     """Shares of all contacts with a body at its nodes.
 
     A contact gives each of its nodes the share |weight| of its normal force. A point that nodes
-    carry gives them its share by their weights.
+    carry gives them its share by the sizes of their weights, as it gives them its area.
 
     Args:
         contacts: as `Simulation.contacts` gives them.
@@ -86,7 +86,8 @@ def contact_at_nodes(
     mine = np.where(contacts.weights > 0.0, of_first, of_other) & (contacts.nodes != -1)
     mine &= contacts.weights != 0.0
     row, _ = np.nonzero(mine)
-    of, nodes, shares = riders.shared(contacts.nodes[mine], np.abs(contacts.weights[mine]))
+    sizes = riders._replace(weights=np.abs(riders.weights))
+    of, nodes, shares = sizes.shared(contacts.nodes[mine], np.abs(contacts.weights[mine]))
     row = row[of]
     np.add.at(force, nodes, shares * normal[row])
     np.minimum.at(gap, nodes, contacts.gaps[row])

@@ -13,6 +13,8 @@ from tissu.simulation.contact_at_nodes import ContactAtNodes, Riders, contact_at
 from tissu.simulation.obstacle_surface import ObstacleSurface, plane_square, round_surface
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from tissu import _core as core
     from tissu.front import Scene
     from tissu.mesh import Mesh
@@ -32,7 +34,8 @@ class Contacts:
         pairs: the two surfaces of each contact (m, 2): the one on which `forces` act, and the other
             one.
         nodes: whose places the contact joins, numbers in their own body or obstacle (m, 4); -1:
-            none; -2 - r: point r of the material of a body that was cut, which nodes carry.
+            none; -2 - r: point r of the material of a body that was cut, or vertex r of the mesh
+            that `surface_of` gives it, which nodes carry.
         weights: of these (m, 4). The distance vector is the sum of weight times place.
         points: where the forces act (m, 3) [m], on the first of the pair.
         normals: from the other one to the first (m, 3).
@@ -71,6 +74,28 @@ class Contacts:
         return np.asarray(pressed)
 
 
+class BodySurface(NamedTuple):
+    """The surface with which a body meets others.
+
+    Attributes:
+        rest: its vertices at rest (n, 3) [m].
+        points: where they are now (n, 3) [m].
+        triangles: numbers of vertices (t, 3).
+        nodes: nodes of the body (n, m) that carry each vertex; 0 beyond the last.
+        weights: of these (n, m), which sum to one for each vertex; 0 beyond the last.
+    """
+
+    rest: Floats
+    points: Floats
+    triangles: Ints
+    nodes: Ints
+    weights: Floats
+
+    def carried(self, values: Floats) -> Floats:
+        """Values (n, ...) at the vertices of values at the nodes of the body."""
+        return np.asarray(np.einsum("vk,vk...->v...", self.weights, values[self.nodes]))
+
+
 class Wrench(NamedTuple):
     """A force and a moment.
 
@@ -88,8 +113,8 @@ class Crossing(NamedTuple):
 
     Attributes:
         surface: name of the body or obstacle of the edge.
-        edge: its two nodes; one alone for a vertex behind a plane. Point r of cut material is
-            -2 - r.
+        edge: its two nodes; one alone for a vertex behind a plane. Point r of cut material, or
+            of a mesh of `surface_of`, is -2 - r.
         other: name of the body or obstacle of the triangle, or of the plane.
         triangle: its three nodes; empty for a plane.
     """
@@ -122,6 +147,13 @@ class Touched:
     _rest: dict[str, Mesh]
     _meshes: Meshes
 
+    if TYPE_CHECKING:
+
+        @property
+        def positions(self) -> Mapping[str, Floats]:
+            """Body -> where its nodes are (n, 3) [m]."""
+            raise NotImplementedError
+
     def contacts(self) -> Contacts:
         """The contacts that press, as the latest step left them; none before the first step.
 
@@ -148,15 +180,61 @@ class Touched:
             ParameterError: the scene has no contacts; the body meets nothing.
         """
         self._require_contact()
-        bodies = [name for name in self.touching if name not in self.scene.obstacles]
-        if body not in bodies:
-            hint = f"a body that meets something is accepted: {', '.join(bodies)}"
-            raise ParameterError(f"found {body!r}; {hint}")
+        self._require_meeting(body)
         areas = np.zeros(self._meshes[body].node_count)
         found = self._core.contact_areas(body)
         areas[: len(found)] = found
         riders = Riders(*self._core.contact_riders(body))
         return contact_at_nodes(self.contacts(), body, areas, riders)
+
+    @property
+    def own_surfaces(self) -> tuple[str, ...]:
+        """Names of the bodies whose surface is a mesh of its own (`surface_of`)."""
+        own = self.scene.contact.surface_of if self.scene.contact is not None else {}
+        return tuple(name for name in self.touching if name in own)
+
+    def contact_surface(self, body: str) -> BodySurface:
+        """The triangles with which a body meets others, at rest and now.
+
+        Raises:
+            ParameterError: the scene has no contacts; the body meets nothing.
+        """
+        self._require_contact()
+        self._require_meeting(body)
+        triangles = self._core.contact_surface(body)[0]
+        numbers, begin, of_nodes, of_weights = self._core.contact_riders(body)
+        names, places = np.unique(triangles, return_inverse=True)
+        if body in self.own_surfaces:
+            names = names[::-1]  # as the mesh has them
+            places = len(names) - 1 - places
+        # A vertex is a node, but for what `contact_riders` lists: number - 1 below zero.
+        listed = np.searchsorted(numbers, names - (names < 0))
+        rides = np.isin(names - (names < 0), numbers)
+        widest = max(1, int(np.diff(begin).max(initial=0)))
+        nodes = np.zeros((len(names), widest), dtype=np.int32)
+        weights = np.zeros((len(names), widest))
+        nodes[~rides, 0], weights[~rides, 0] = names[~rides], 1.0
+        for k in range(widest):
+            item = begin[listed[rides]] + k
+            there = np.flatnonzero(rides)[item < begin[listed[rides] + 1]]
+            item = item[item < begin[listed[rides] + 1]]
+            nodes[there, k], weights[there, k] = of_nodes[item], of_weights[item]
+        found = BodySurface(
+            rest=np.empty(0),
+            points=np.empty(0),
+            triangles=places.reshape(-1, 3).astype(np.int32),
+            nodes=nodes,
+            weights=weights,
+        )
+        rest = np.asarray(self._meshes[body].points)
+        now = np.array(self.positions[body])
+        return found._replace(rest=found.carried(rest), points=found.carried(now))
+
+    def _require_meeting(self, body: str) -> None:
+        bodies = [name for name in self.touching if name not in self.scene.obstacles]
+        if body not in bodies:
+            hint = f"a body that meets something is accepted: {', '.join(bodies)}"
+            raise ParameterError(f"found {body!r}; {hint}")
 
     def _spread_over_nodes(self, body: str, points: Ints, shares: Floats) -> tuple[Any, Any]:
         """The nodes, each once, that carry points of a surface, and their parts of the shares."""

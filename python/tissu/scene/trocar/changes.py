@@ -34,9 +34,17 @@ class ToolChanges(Part):
     """Which tool is in a simulated device from which time on."""
 
     times: IncreasingTimes
-    """strictly increasing times [s]; before the first the first tool of the trocar is in"""
+    """strictly increasing times from 0 on [s]; before the first the first tool of the trocar is in"""
     tags: _Tags
     """tag of the tool that is in from each time on, or none: a tool is taken out before the next"""
+
+    @rule("times")
+    def _begins_with_the_device(self) -> Iterator[Problem]:
+        if self.times[0] < 0.0:
+            text = (
+                f"found {self.times[0]:g} s; times from 0 s on are accepted, for a device begins "
+            )
+            yield Problem(("times", 0), f"{text}at 0 s")
 
     @rule("tags", "times")
     def _one_at_each_time(self) -> Iterator[Problem]:

@@ -253,7 +253,7 @@ class Inspected:
         return Compliance(simulation=self, by=by, tolerance=share, bodies=names)
 
     def _require_body(self, name: str) -> None:
-        if not isinstance(name, str) or name not in self._positions:
+        if name not in tuple(self._positions):  # compared: a list, which has no hash, is refused
             raise ParameterError(f"found body '{name}'; accepted: {', '.join(self._positions)}")
 
     def _the_body(self, name: str | None) -> str:

@@ -151,7 +151,9 @@ class Controller:
             TissuError: the trocar runs in real time.
             ParameterError: fewer than one tick, or not a whole number.
         """
-        if isinstance(ticks, bool) or not isinstance(ticks, (int, np.integer)) or ticks < 1:
+        given: object = ticks
+        whole = isinstance(given, (int, np.integer)) and not isinstance(given, bool)
+        if not whole or ticks < 1:
             raise ParameterError(f"found {written(ticks)} ticks; one or more are accepted")
         most = max(1, round(SUPERVISED / self._settings.period))
         while ticks > 0:

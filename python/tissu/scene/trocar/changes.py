@@ -34,7 +34,7 @@ class ToolChanges(Part):
     """Which tool is in a simulated device from which time on."""
 
     times: IncreasingTimes
-    """strictly increasing times from 0 on [s]; before the first the first tool of the trocar is in"""
+    """strictly increasing times from 0 on [s]; before the first the trocar's first tool is in"""
     tags: _Tags
     """tag of the tool that is in from each time on, or none: a tool is taken out before the next"""
 

@@ -55,6 +55,8 @@ PATH: dict[str, Place] = {
     "5.1 s": HIGH,
 }
 """Where the hand leads the tip, in the port: the third number is the depth."""
+DURATION = 5.1
+"""s"""
 SHOTS = (0.7, 2.3, 3.3, 4.8)
 """s at which the tools are drawn."""
 COLOURS = {"probe": "#1b7a78", "knife": "#20406e", "ablator": "#6a5acd"}
@@ -91,7 +93,7 @@ def scene() -> ts.Scene:
         trocars={"right": trocar},
         editing=True,
         step=ts.ImplicitEuler("10 ms"),
-        duration=5.1,
+        duration=DURATION,
     )
 
 
@@ -100,7 +102,7 @@ def felt(simulation: ts.Simulation, look: Callable[[Felt], None] | None = None) 
     found = []
     with Controller(simulation.scene.trocars["right"]) as controller:
         touch = Touch(simulation, controller)
-        for _ in range(round(float(simulation.scene.duration) / simulation.dt)):
+        for _ in range(round(DURATION / simulation.dt)):
             found.append(touch.step())
             if look is not None:
                 look(found[-1])
@@ -109,7 +111,7 @@ def felt(simulation: ts.Simulation, look: Callable[[Felt], None] | None = None) 
 
 def show(axes: Any, simulation: ts.Simulation, one: Felt) -> None:
     """The organ from above, what was cut in red, and the tool from its tip towards the port."""
-    from mpl_toolkits.mplot3d.art3d import Poly3DCollection
+    from mpl_toolkits.mplot3d.art3d import Poly3DCollection  # type: ignore[import-untyped]
 
     surface = simulation.surface("organ")
     corners = surface.points[surface.triangles]

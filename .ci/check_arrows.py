@@ -75,7 +75,7 @@ PYTHON: dict[str, set[str]] = {
     "files": {"errors"},
     "arrays": {"errors"},
     "unit_table": set(),
-    "reading": {"arrays"},
+    "reading": {"arrays", "errors"},
     "units": {"arrays", "errors", "reading", "unit_table"},
     "codegen": {"errors"},
     "formula": {"errors", "codegen"},
@@ -100,6 +100,7 @@ PYTHON: dict[str, set[str]] = {
         "field_names",
         "units",
         "mesh",
+        "reading",
         "checkpoint",
         "live_view",
         "_core",
@@ -123,7 +124,7 @@ PYTHON: dict[str, set[str]] = {
     "output": {"errors", "counted", "field_names", "files", "mesh", "_core"},
 }
 # The active trocar. A scene without one imports none of it.
-PYTHON["trocar"] = {"errors", "files", "scene", "_haptic"}
+PYTHON["trocar"] = {"arrays", "errors", "files", "reading", "scene", "units", "_haptic"}
 PYTHON["examples"] = {"errors", "files", "front"}
 PYTHON["cli"] = set(PYTHON)
 PYTHON["__main__"] = {"cli"}

@@ -259,9 +259,13 @@ counts of that table. No device was at hand.
 
 | | asked | table 5.4.5 | here |
 | --- | --- | --- | --- |
-| translation step | 0.05 mm | 0.1 mm | 0.1 mm, by scene |
+| translation, step | 0.05 mm | 0.1 mm | 0.1 mm, by scene |
+| translation, travel and force | 400 mm | 300 mm, 5 N | 300 mm, 5 N, by scene |
 | own rotation, step | 0.05 degrees | 0.05 degrees | 0.05 degrees, by scene |
+| own rotation, range and torque | 360 degrees | 360 degrees, 0.2 N m | any, 0.2 N m, by scene |
 | pitch and roll | 70 degrees, step 0.05 | 45 degrees, step 0.01 | 45 degrees, up to 75 by scene |
+| pitch and roll, torque | | 6 N m: 20 N at 0.3 m, 60 N at 0.1 m | 6 N m, by scene |
+| cradle, between axes | 100 mm | 100 mm | 100 mm at least |
 | rate | 300 Hz to 10 kHz | 1000 Hz | 300 Hz to 10 kHz |
 | forces felt | all axes | pitch and roll, qualitatively | all four axes, to the figures above |
 | tool recognition | wanted | not built | by tag |

@@ -145,7 +145,7 @@ def trocar(path: Path) -> None:
 
 
 def three_tools(path: Path) -> None:
-    """The scene with each tool, and the force on the hand."""
+    """The organ with each tool, and the force on the hand."""
     names = runpy.run_path(str(EXAMPLES / "three_tools.py"))
     names["draw"](names["scene"]().compile(), path)
 

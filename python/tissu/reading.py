@@ -18,6 +18,7 @@ from pydantic import BeforeValidator
 from typing_extensions import Self
 
 from tissu.arrays import refuse_masked
+from tissu.errors import ParameterError
 
 Number = float | str
 """What a quantity may be written as in Python: a number in SI, or a text with its unit."""
@@ -38,6 +39,21 @@ def listed(value: object) -> object:
     """
     refuse_masked(value, "values")
     return value.tolist() if isinstance(value, np.ndarray) else value
+
+
+def names_of(value: object, what: str) -> tuple[str, ...]:
+    """The names of a list; a single text would be taken for a list of its letters.
+
+    Raises:
+        ParameterError: not a list of texts.
+    """
+    found = listed(value)
+    if isinstance(found, (list, tuple)) and all(isinstance(name, str) for name in found):
+        return tuple(found)
+    example = f"['{value}']" if isinstance(value, str) else "['liver']"
+    raise ParameterError(
+        f"found the {what} {written(value)}; a list of names is accepted, such as {example}"
+    )
 
 
 def written(value: object) -> str:

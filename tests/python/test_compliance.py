@@ -214,6 +214,53 @@ def test_what_is_refused() -> None:
         large.compliance(by="warped")
 
 
+WRONG: dict[str, tuple[dict[str, Any], str]] = {
+    "tolerance inf": ({"tolerance": np.inf}, "found inf, which is not finite; a number"),
+    "tolerance nan": ({"tolerance": np.nan}, "found nan, which is not finite; a number"),
+    "tolerance a text": ({"tolerance": "small"}, "found 'small', which does not begin with a n"),
+    "tolerance a list": ({"tolerance": [0.1]}, r"found \[0.1\]; a number is accepted"),
+    "a body as text": ({"bodies": "block"}, r"a list of names is accepted, such as \['block'\]"),
+    "a number as body": ({"bodies": [3]}, r"found the bodies \[3\]; a list of names"),
+    "another body": ({"bodies": ["b"]}, "found body 'b'; accepted: block"),
+}
+POINT: dict[str, Any] = {
+    "bodies": ["block"],
+    "nodes": [[0]],
+    "weights": [[1.0]],
+    "axes": [np.eye(3)],
+}
+WRONG_POINT: dict[str, tuple[dict[str, Any], str]] = {
+    "a body as text": ({"bodies": "b"}, "found the bodies 'b'; a list of names is accepted"),
+    "no list of nodes": ({"nodes": 3}, "0 nodes, 1 weights and 1 axes; as many of each"),
+    "a node as text": ({"nodes": [["a"]]}, "found nodes of type"),
+    "half a node": ({"nodes": [[0.5]]}, "a list of whole numbers is accepted"),
+    "two weights": ({"weights": [[1.0, 2.0]]}, "for 1 node; a finite one for each node"),
+    "a weight nan": ({"weights": [[np.nan]]}, "for 1 node; a finite one for each node"),
+    "axes of a plane": ({"axes": np.eye(2)}, r"axes of shape \(2, 2\); \(m, 3, 3\) is accepted"),
+}
+
+
+@pytest.mark.parametrize("case", WRONG)
+def test_what_is_not_a_tolerance_or_a_list_of_bodies(case: str) -> None:
+    """Each in one sentence; a text is not taken for its letters."""
+    given, said = WRONG[case]
+    with pytest.raises(ts.ParameterError, match=said):
+        scene().compile().compliance(**given)
+
+
+@pytest.mark.parametrize("case", WRONG_POINT)
+def test_what_is_not_a_point(case: str) -> None:
+    """The same of bodies, nodes, weights and axes."""
+    given, said = WRONG_POINT[case]
+    with pytest.raises(ts.ParameterError, match=said):
+        scene().compile().compliance().of(**{**POINT, **given})
+
+
+def test_a_tolerance_may_be_a_share() -> None:
+    """As every number of a scene."""
+    assert scene().compile().compliance(tolerance="1 %").error == 0.0
+
+
 def test_the_gradient_serves_a_static_scene() -> None:
     """Without inertia its error is estimated by a further solve, and no factor is made."""
     simulation = scene(step=ts.Static()).compile()

@@ -100,7 +100,7 @@ bool read_answer(std::span<const std::uint8_t, kAnswerBytes> answer, Command& co
 }
 
 bool comes_after(std::uint32_t sequence, std::uint32_t before) noexcept {
-  constexpr std::int32_t kBegunAgain = 1000;
+  constexpr std::int32_t kBegunAgain = 64;  // frames: none is overtaken by so many
   const auto ahead = static_cast<std::int32_t>(sequence - before);
   return ahead > 0 || ahead < -kBegunAgain;
 }

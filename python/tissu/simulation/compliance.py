@@ -9,7 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tissu import _core
+from tissu.arrays import real_array
+from tissu.counted import counted
 from tissu.errors import ParameterError
+from tissu.reading import names_of, written
 from tissu.simulation.entry import one_thread_at_a_time
 from tissu.simulation.known_names import known_names_only
 
@@ -71,15 +74,21 @@ class Compliance:
             ParameterError: no body of that name or no node of that number; a method that this scene
                 does not allow; lengths that differ.
         """
-        if not len(bodies) == len(nodes) == len(weights) == len(np.reshape(axes, (-1, 9))):
+        names = names_of(bodies, "bodies")
+        directions = real_array(axes, "axes")
+        if directions.size % 9:
+            text = f"found axes of shape {directions.shape}; (m, 3, 3) is accepted"
+            raise ParameterError(text)
+        count = directions.size // 9
+        if not len(names) == _length(nodes) == _length(weights) == count:
             raise ParameterError(
-                f"found {len(bodies)} bodies, {len(nodes)} nodes, {len(weights)} weights and "
-                f"{len(np.reshape(axes, (-1, 9)))} axes; as many of each are accepted"
+                f"found {len(names)} bodies, {_length(nodes)} nodes, {_length(weights)} weights "
+                f"and {count} axes; as many of each are accepted"
             )
         rows, shares, begin = [_NONE], [np.empty(0)], [0]
-        for body, numbers, weight in zip(bodies, nodes, weights, strict=True):
+        for body, numbers, weight in zip(names, nodes, weights, strict=True):
             rows.append(_rows_of(self._simulation, body, numbers))
-            shares.append(np.asarray(weight, dtype=float))
+            shares.append(_one_for_each(weight, len(rows[-1])))
             begin.append(begin[-1] + len(rows[-1]))
         found = self._found.find(
             simulation=self._simulation._core,
@@ -87,7 +96,7 @@ class Compliance:
             begin=np.array(begin, dtype=np.int32),
             rows=np.concatenate(rows),
             weights=np.concatenate(shares),
-            axes=np.asarray(axes, dtype=float),
+            axes=directions.astype(float).reshape(-1, 3, 3),
         )
         self._made += self._found.made
         return found
@@ -126,10 +135,29 @@ class Compliance:
 _NONE = np.empty(0, dtype=np.int32)
 
 
+def _length(values: object) -> int:
+    """How many; 0 of what is no list."""
+    if isinstance(values, np.ndarray):
+        return len(values) if values.ndim else 0
+    return len(values) if isinstance(values, Sequence) else 0
+
+
+def _one_for_each(weights: ArrayLike, nodes: int) -> Floats:
+    """Weights as numbers, one for each node of a point."""
+    found = real_array(weights, "weights").astype(float)
+    if found.shape != (nodes,) or not np.isfinite(found).all():
+        text = f"found the weights {written(weights)} for {counted(nodes, 'node')}; a finite one "
+        raise ParameterError(f"{text}for each node is accepted")
+    return found
+
+
 def _rows_of(simulation: Simulation, body: str, nodes: ArrayLike) -> Ints:
     """Rows of the unknowns of nodes of a body."""
     rows = simulation.rows(body)
-    numbers = np.asarray(nodes)
+    numbers = real_array(nodes, "nodes")
+    if numbers.ndim != 1 or numbers.dtype.kind not in "iu":
+        text = f"found nodes {written(nodes)} of '{body}'; a list of whole numbers is accepted"
+        raise ParameterError(text)
     if len(numbers) and not (numbers.min() >= 0 and numbers.max() < rows.stop - rows.start):
         worst = int(numbers[(numbers < 0) | (numbers >= rows.stop - rows.start)][0])
         text = f"found node {worst} of '{body}', which has {rows.stop - rows.start} nodes; "

@@ -8,8 +8,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from tissu import units
 from tissu.errors import ParameterError
 from tissu.field_names import FIELD_NAMES, PLACES, FieldName, Place
+from tissu.reading import names_of
 from tissu.simulation.compliance import WAYS, Compliance, Way
 from tissu.simulation.fields import BodyFields, IntegrationPoints
 from tissu.simulation.matrices import sparse
@@ -17,6 +19,7 @@ from tissu.simulation.matrices import sparse
 if TYPE_CHECKING:
     from tissu import _core as core
     from tissu.mesh import Mesh
+    from tissu.reading import Number
     from tissu.simulation.meshes import Meshes
     from tissu.simulation.simulation import Simulation
 
@@ -77,7 +80,7 @@ class Inspected:
         Raises:
             ParameterError: see `field`.
         """
-        body = self._the_body(body)
+        body, names = self._the_body(body), names_of(names, "fields")
         for what, given, words in (
             *(("field", name, FIELD_NAMES) for name in names),
             ("place", at, PLACES),
@@ -224,7 +227,7 @@ class Inspected:
         self: Simulation,
         *,
         by: Way = "factor",
-        tolerance: float = 0.01,
+        tolerance: Number = 0.01,
         bodies: Sequence[str] | None = None,
     ) -> Compliance:
         """An object that computes the compliance of points of the bodies, step after step.
@@ -244,11 +247,13 @@ class Inspected:
         """
         if by not in WAYS:
             raise ParameterError(f"found the way {by!r}; accepted: {', '.join(WAYS)}")
-        if not tolerance > 0.0:
-            raise ParameterError(f"found a tolerance of {tolerance:g}; one above 0 is accepted")
-        for body in bodies or ():
+        share = units.NUMBER(tolerance)
+        if not share > 0.0:
+            raise ParameterError(f"found a tolerance of {share:g}; one above 0 is accepted")
+        names = None if bodies is None else names_of(bodies, "bodies")
+        for body in names or ():
             self._require_body(body)
-        return Compliance(simulation=self, by=by, tolerance=tolerance, bodies=bodies)
+        return Compliance(simulation=self, by=by, tolerance=share, bodies=names)
 
     def _require_body(self, name: str) -> None:
         if name not in list(self._positions):  # of a list, which cannot be a key, too

@@ -20,7 +20,9 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 from typing_extensions import Self
 
+from tissu.arrays import real_array
 from tissu.errors import ParameterError
+from tissu.reading import written
 from tissu.scene.trocar.tool import tag_of, tag_text
 from tissu.trocar import kinematics
 from tissu.trocar.model import LocalModel
@@ -147,10 +149,12 @@ class Controller:
 
         Raises:
             TissuError: the trocar runs in real time.
-            ParameterError: fewer than one tick.
+            ParameterError: fewer than one tick, or not a whole number.
         """
-        if ticks < 1:
-            raise ParameterError(f"found {ticks} ticks; one or more are accepted")
+        given: object = ticks
+        whole = isinstance(given, (int, np.integer)) and not isinstance(given, bool)
+        if not whole or ticks < 1:
+            raise ParameterError(f"found {written(ticks)} ticks; one or more are accepted")
         most = max(1, round(SUPERVISED / self._settings.period))
         while ticks > 0:
             now = min(ticks, most)
@@ -214,6 +218,8 @@ class Controller:
             axis=R @ kinematics.axis(found["q"]),
             force=R @ found["force"],
             torque=found["torque"],
+            grip=float(found["grip"]),
+            coupling=float(found["stiffness"]),
             contacts=int(found["contacts"]),
             stored=float(found["stored"]),
             share=float(found["share"]),
@@ -257,14 +263,30 @@ class Controller:
     # ---- the port
 
     def into_port(self, places: Array) -> Array:
-        """Places (n, 3) [m] of the scene in the port's axes, as models have them."""
+        """Places (n, 3) [m] of the scene in the port's axes, as models have them.
+
+        Raises:
+            ParameterError: not rows of three numbers.
+        """
         R, at = self._port
-        return np.asarray((np.reshape(places, (-1, 3)) - at) @ R)
+        return np.asarray((_in_rows(places, "places") - at) @ R)
 
     def turned_into_port(self, directions: Array) -> Array:
-        """Directions (n, 3) of the scene in the port's axes."""
-        return np.asarray(np.reshape(directions, (-1, 3)) @ self._port[0])
+        """Directions (n, 3) of the scene in the port's axes.
+
+        Raises:
+            ParameterError: not rows of three numbers.
+        """
+        return np.asarray(_in_rows(directions, "directions") @ self._port[0])
 
     def stiffness(self) -> Array:
         """K_c of the axes (4,) [N m/rad, N m/rad, N m/rad, N/m]."""
         return np.array(self._settings.stiffness)
+
+
+def _in_rows(values: Array, what: str) -> Array:
+    """Numbers (n, 3); three alone are one row."""
+    found = real_array(values, what)
+    if found.size % 3 or not 0 < found.ndim <= 2:
+        raise ParameterError(f"found {what} of shape {found.shape}; (n, 3) is accepted")
+    return np.asarray(found.reshape(-1, 3), dtype=float)

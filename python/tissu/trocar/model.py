@@ -11,7 +11,10 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from tissu import units
+from tissu.arrays import real_array
 from tissu.errors import ParameterError
+from tissu.reading import Number, written
 from tissu.trocar import kinematics
 from tissu.trocar.kinematics import AXES, Array, Vector
 
@@ -75,8 +78,8 @@ class LocalModel:
         *,
         through: Vector,
         normal: Vector,
-        stiffness: float,
-        friction: float = 0.0,
+        stiffness: Number,
+        friction: Number = 0.0,
         point: Vector = (0.0, 0.0, 0.0),
     ) -> LocalModel:
         """A plane that gives way like a spring in every direction, under one point of the tool.
@@ -90,27 +93,37 @@ class LocalModel:
             point: (3,) of the tool that meets it, in the tool's axes [m]; absent: the tip.
 
         Raises:
-            ParameterError: a normal without length, or a stiffness that is not above 0.
+            ParameterError: a normal without length, a stiffness that is not above 0, or what is not
+                a number.
         """
-        n = np.asarray(normal, dtype=float)
+        q = _finite(joints, AXES, "joints")
+        n, on, own = (
+            _finite(value, 3, what)
+            for value, what in (
+                (normal, "normal"),
+                (through, "point of the plane"),
+                (point, "point"),
+            )
+        )
         if not np.linalg.norm(n) > 0.0:
             text = "found a normal without length; a direction out of the solid half is accepted"
             raise ParameterError(text)
-        if not stiffness > 0.0:
-            text = f"found a stiffness of {stiffness:g} N/m; one above 0 is accepted"
+        stiff = stiffness if stiffness == np.inf else units.STIFFNESS(stiffness)
+        if not stiff > 0.0:
+            text = f"found a stiffness of {stiff:g} N/m; one above 0 is accepted"
             raise ParameterError(text)
         n = n / np.linalg.norm(n)
-        at = kinematics.position(joints, point)
-        anchor = at - ((at - np.asarray(through, dtype=float)) @ n) * n
+        at = kinematics.position(q, own)
+        anchor = at - ((at - on) @ n) * n
         return LocalModel(
-            joints=joints,
-            points=np.array([point], dtype=float),
+            joints=q,
+            points=own[None],
             anchors=anchor[None],
             normals=n[None],
             tangents=across(n)[None],
-            friction=np.array([friction]),
+            friction=np.array([units.NUMBER(friction)]),
             forces=np.zeros((1, 3)),
-            compliance=np.eye(3) / stiffness,
+            compliance=np.eye(3) / stiff,
         )
 
     def rows(self) -> tuple[Array, Array]:
@@ -138,6 +151,15 @@ class LocalModel:
         """W, symmetric, with 1e-9 of its trace on the diagonal: definite despite round-off."""
         W = 0.5 * (self.compliance + self.compliance.T)
         return np.asarray(W + 1e-9 * np.trace(W) * np.eye(len(W)))
+
+
+def _finite(values: Vector, count: int, what: str) -> Array:
+    """So many finite numbers."""
+    found = real_array(values, f"the {what}").astype(float)
+    if found.shape != (count,) or not np.isfinite(found).all():
+        text = f"found the {what} {written(values)}; {count} finite numbers are accepted"
+        raise ParameterError(text)
+    return found
 
 
 def across(normal: Vector) -> Array:

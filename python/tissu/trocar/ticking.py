@@ -239,6 +239,8 @@ class LawTicking:
             "reason": law.reason.name,
             "q": law.q.copy(),
             "torque": law.torque.copy(),
+            "grip": 0.0 if law.sample is None else law.sample.counts[4] * law.settings["grip_size"],
+            "stiffness": law.scale,
             "tag": 0 if law.sample is None else law.sample.tag,
             "stored": law.stored,
             "share": law.share,

@@ -36,6 +36,11 @@ if TYPE_CHECKING:
 
 OUT = 0.1
 """s in which the obstacle of a tool that was taken out goes back to where the scene has it."""
+IN = 0.3
+"""s in which the obstacle of a tool that has come in goes to where the ticks have their proxy: the
+ramp of the coupling."""
+_LEAST_SHARE = 1e-6
+"""of K_c, below which the ticks have no proxy"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -106,6 +111,10 @@ class Touch:
         self._joints: Array = np.zeros(4)
         self._given: LocalModel | None = None
         self._held = False
+        self._left = 0.0  # s of the way in
+        self._behind: Array = np.zeros(4)  # joints from the tool to the proxy, on the way in
+        self._aimed: Array = np.zeros(4)  # where the proxy was
+        self._out: dict[str, tuple[Array, float]] = {}  # where and when a tool went out
         self.largest_error = 0.0
         met = met_by(simulation, list(self._depths))
         self.compliance = simulation.compliance(by=controller.trocar.compliance, bodies=met)
@@ -122,19 +131,22 @@ class Touch:
 
     def lead(self) -> None:
         """Before a step of the scene: the tool goes to where the ticks have their proxy."""
-        self._joints, self._tool = joints, tool = self._proxy()
+        joints, tool = self._proxy()
+        self._aimed = joints
         if self._led in self._depths and tool != self._led:
+            self._out[self._led] = (self._joints, self.simulation.time)
             self.simulation.obstacle(self._led).release(over=OUT)
         elif self._led is not None and tool != self._led:
             self.simulation.instruments[self._led].place(self._at, self._turn)
         if tool in self._depths:
+            joints = self._on_the_way_in(tool, joints)
             self._lead(tool, joints)
         elif tool is not None:
             turn = self._turn @ kinematics.rotation(joints)
             tip = self._at + self._turn @ kinematics.position(joints)
             instrument = self.simulation.instruments[tool]
             (instrument.move if tool == self._led else instrument.place)(tip, turn)
-        self._led = tool
+        self._joints, self._tool, self._led = joints, tool, tool
 
     def hand_on(self) -> Felt:
         """After a step of the scene: its contacts go to the ticks, which run where stepped."""
@@ -171,17 +183,38 @@ class Touch:
         report = self.controller.report()
         known = report.tool in self._depths or report.tool in self._instruments
         tool = report.tool if known and report.state.gives_force else None
-        stiffness, limits = self.controller.stiffness(), self.controller.trocar.limits
-        joints = report.q + report.torque / stiffness
+        limits = self.controller.trocar.limits
+        stiffness = report.coupling * self.controller.stiffness()
+        if report.coupling > _LEAST_SHARE:
+            joints = report.q + report.torque / stiffness
+        else:  # nothing pulls the tool: it stays
+            joints = self._aimed.copy() if tool is not None and tool == self._led else report.q
         joints[:2] = np.clip(joints[:2], -limits.tilt, limits.tilt)
         joints[3] = min(joints[3], limits.depth)
         held = report.limited or self._held
         self._held = False
         if held and self._given is not None and tool == self._led:
             wanted = joints
-            joints = Pressing(self._given, stiffness, limits).held(self._joints, wanted)
+            joints = Pressing(self._given, stiffness, limits).held(self._aimed, wanted)
             self._held = joints is not wanted
         return joints, tool
+
+    def _on_the_way_in(self, tool: str, wanted: Array) -> Array:
+        """Joints of a tool: a tool that came in goes from its place to the proxy's in a while.
+
+        The way that is left is behind the hand: the contacts go to the ticks as if they were that
+        much deeper, so that hand and tissue feel one force, which rises from nothing.
+        """
+        if tool != self._led:
+            home = np.array([0.0, 0.0, 0.0, self._depths[tool]])
+            place, since = self._out.pop(tool, (home, -np.inf))
+            back = min(1.0, (self.simulation.time - since) / OUT)
+            self._left, self._behind = IN, _way(place + back * _way(place, home), wanted)
+        left = max(0.0, self._left - self._dt)
+        left = 0.0 if left < 0.5 * self._dt else left
+        self._behind = self._behind * (left / self._left) if left > 0.0 else np.zeros(4)
+        self._left = left
+        return wanted - self._behind
 
     def _lead(self, tool: str, joints: Array) -> None:
         """The obstacle goes to the tool's pose: x = at + Q (X - at) + R (r - r0)."""
@@ -211,11 +244,13 @@ class Touch:
         local = np.einsum("mij,mj->mi", axes, forces)
         places = self.controller.into_port(np.array([one.point for one in kept]))
         given = np.einsum("mi,mij->mj", (W @ local.ravel()).reshape(-1, 3), axes)
-        own = kinematics.rotation(joints)
+        points = places @ kinematics.rotation(joints) - np.array([0.0, 0.0, joints[3]])
+        proxy = joints + self._behind
+        moved = np.array([kinematics.position(proxy, point) for point in points]) - places
         model = LocalModel(
-            joints=joints,
-            points=places @ own - np.array([0.0, 0.0, joints[3]]),
-            anchors=places - np.array([o.gap for o in kept])[:, None] * normals + given,
+            joints=proxy,
+            points=points,
+            anchors=places + moved - np.array([o.gap for o in kept])[:, None] * normals + given,
             normals=normals,
             tangents=tangents,
             friction=np.array([one.friction for one in kept]),
@@ -237,6 +272,13 @@ class Touch:
         place = kinematics.position(joints)
         blade = Blade((0.0, 0.0, 0.0), way, place, 0.0, size)
         return LocalModel(joints, blade=blade), np.asarray(force)
+
+
+def _way(joints: Array, to: Array) -> Array:
+    """From joints to others (4,), with the shorter turn of the own rotation."""
+    way = to - joints
+    way[2] = np.remainder(way[2] + np.pi, 2.0 * np.pi) - np.pi
+    return np.asarray(way)
 
 
 def _angle_axis(Q: Array) -> tuple[float, Array]:

@@ -75,6 +75,8 @@ TEST(HapticFrame, SequencesWrapAndBeginAgain) {
   EXPECT_FALSE(comes_after(4, 5));
   EXPECT_TRUE(comes_after(2, 0xFFFFFFFEU));
   EXPECT_FALSE(comes_after(0xFFFFFFFEU, 2));
+  EXPECT_FALSE(comes_after(10, 74));
+  EXPECT_TRUE(comes_after(10, 75));
   EXPECT_TRUE(comes_after(0, 5000));  // a device that was switched off and on
 }
 

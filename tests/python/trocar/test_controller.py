@@ -222,8 +222,16 @@ def test_models_that_cannot_be_are_refused():
         fields = {name: getattr(good, name) for name in good.__slots__}
         with pytest.raises(ts.ParameterError, match=said):
             controller.publish(LocalModel(**{**fields, **change}))
-    with pytest.raises(ts.ParameterError, match="stiffness of 0"):
-        LocalModel.plane(good.joints, **{**WALL, "stiffness": 0})
+    for change, said in (
+        ({"stiffness": 0}, "stiffness of 0"),
+        ({"stiffness": "hard"}, "does not begin with a number"),
+        ({"friction": None}, "a number is accepted"),
+        ({"through": (0, 0)}, "3 finite numbers are accepted"),
+        ({"normal": (0, 0, np.nan)}, "3 finite numbers are accepted"),
+        ({"point": "tip"}, "real numbers are accepted"),
+    ):
+        with pytest.raises(ts.ParameterError, match=said):
+            LocalModel.plane(good.joints, **{**WALL, **change})
 
 
 def test_what_a_controller_cannot_do_is_refused():
@@ -233,8 +241,12 @@ def test_what_a_controller_cannot_do_is_refused():
         Controller(trocar(), mode="python", record=True)
     with pytest.raises(ts.ParameterError, match="nothing was recorded"):
         Controller(trocar()).recording()
-    with pytest.raises(ts.ParameterError, match="found 0 ticks"):
-        Controller(trocar()).step(0)
+    for ticks in (0, 1.5, "ten", float("inf")):
+        with pytest.raises(ts.ParameterError, match=f"found {ticks!r} ticks; one or more"):
+            Controller(trocar()).step(ticks)
+    for places in ("here", [1.0, 2.0], np.zeros((2, 2, 3))):
+        with pytest.raises(ts.ParameterError, match="found places of"):
+            Controller(trocar()).into_port(places)
 
 
 def test_a_hand_along_a_file(tmp_path):

@@ -119,6 +119,11 @@ def test_the_passive_bound_is_the_smaller_of_both():
             "type: simulated, changes: {times: [1, 2], tags: [none, 7]},",
             "found the tag 0x7, which no tool of the trocar has; accepted: 0x51A0, or none",
         ),
+        (
+            "type: simulated,",
+            "type: simulated, changes: {times: [-1, 2], tags: [none, 0x51A0]},",
+            "found -1 s; times from 0 s on are accepted",
+        ),
         ("rate: 1 kHz", "compliance: exact", "compliance"),
         ("type: simulated,", "type: falcon,", "accepted types: simulated, udp, serial"),
         ("device: {type: simulated,", "devise: {type: simulated,", "did you mean 'device'"),
@@ -150,6 +155,16 @@ def test_a_tool_that_the_hand_cannot_lead_is_refused(old, new, said):
     except ts.SceneError as refused:
         found = refused.problems
     assert any(said in one and "trocars.right.tools" in one for one in found)
+
+
+def test_changes_of_tools_need_tools():
+    for tools in ("tools: {}", ""):
+        text = RIGHT.replace("tools: {0x51A0: probe}", tools).replace(
+            "type: simulated,", "type: simulated, changes: {times: [0], tags: [7]},"
+        )
+        (found,) = problems(text)
+        assert "trocars.right.device.changes" in found
+        assert "changes are accepted where `tools` names what a tag stands for" in found
 
 
 DEVICE = "device: {type: simulated, hand: {times: [0, 1], points: [[0, 0, 0.1], [0, 0, 0.12]]}}"
@@ -223,6 +238,11 @@ def test_a_scene_without_trocars_loads_none_of_it():
         "simulation.step()\n"
         "found = [m for m in sys.modules if m.startswith(('tissu.trocar', 'tissu._haptic'))]\n"
         "print(found, scene.check().absent[-1])\n"
+        "maps = open('/proc/self/maps').read()\n"
+        "print('_core' in maps, 'haptic' in maps)\n"
+        "import tissu._haptic\n"
+        "print('haptic' in open('/proc/self/maps').read())\n"
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
-    assert done.stdout.split() == ["[]", "haptics"]
+    # What is not mapped takes no instruction; that a map would show it is seen after the import.
+    assert done.stdout.split() == ["[]", "haptics", "True", "False", "True"]

@@ -39,7 +39,7 @@ bool read_frame(std::span<const std::uint8_t, kFrameBytes> frame, Sample& sample
 /// The same of an answer, as a device written in C++ reads it. A torque that is not finite is refused too.
 bool read_answer(std::span<const std::uint8_t, kAnswerBytes> answer, Command& command) noexcept;
 
-/// Whether a frame comes after another. Sequences wrap; a device that is older by more than a thousand frames
+/// Whether a frame comes after another. Sequences wrap; a device that is older by more than 64 frames
 /// has begun again, and is taken.
 bool comes_after(std::uint32_t sequence, std::uint32_t before) noexcept;
 

@@ -34,13 +34,21 @@ class ToolChanges(Part):
     """Changes of the tool in a simulated device, with their times."""
 
     times: IncreasingTimes
-    """strictly increasing times [s]; before the first time, the first tool of the trocar is in the
-    device
+    """strictly increasing times from 0 on [s]; before the first time, the first tool of the trocar
+    is in the device
     """
     tags: _Tags
     """tag of the tool that is in the device from each time on, or none: a tool is taken out before
     the next is put in
     """
+
+    @rule("times")
+    def _begins_with_the_device(self) -> Iterator[Problem]:
+        if self.times[0] < 0.0:
+            text = (
+                f"found {self.times[0]:g} s; times from 0 s on are accepted, for a device begins "
+            )
+            yield Problem(("times", 0), f"{text}at 0 s")
 
     @rule("tags", "times")
     def _one_at_each_time(self) -> Iterator[Problem]:

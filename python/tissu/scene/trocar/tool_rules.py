@@ -60,7 +60,11 @@ def _names(contact: Any, tool: str) -> bool:
 def _changes(trocar: Trocar) -> Iterator[Problem]:
     """Tags that the script of a simulated device puts in, and no tool has."""
     changes = getattr(trocar.device, "changes", None)
-    if changes is None or not trocar.tools:
+    if changes is None:
+        return
+    if not trocar.tools:
+        text = "is given beside no tools; changes are accepted where `tools` names what a tag "
+        yield Problem(("device", "changes"), f"{text}stands for, such as {{0x51A0: probe}}")
         return
     first = next(iter(trocar.tools))
     if changes.times and changes.times[0] > 0.0 and changes.tags[0] not in (None, first):

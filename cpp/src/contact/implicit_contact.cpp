@@ -13,6 +13,9 @@ namespace tissu {
 namespace {
 
 constexpr double kAlternates = 1e-2;  ///< inadmissible share of the forces
+constexpr double kBlow = 0.1;         ///< of the gap: what would go deeper in a step is struck
+constexpr double kRigidStep = 10.0;   ///< times stiffer at a time, …
+constexpr double kMostRigid = 1e6;    ///< … and in all
 
 std::array<double, 3> numbers_of(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
@@ -39,6 +42,7 @@ void ImplicitContact::begin(const State& start, double end, ConstReals led, Cons
   start_ = &start;
   h_ = end - start.time;
   alternations_ = 0;
+  rigid_ = 1.0;
   bodies_.begin(start, load);
   run_.begin(start, end, led);
 }
@@ -54,11 +58,17 @@ void ImplicitContact::set_stiffer(double normal, double tangent) {
   tangent_ = tangent;
 }
 
+void ImplicitContact::stiffen_rigid() { rigid_ = std::min(kRigidStep * rigid_, kMostRigid); }
+
 double ImplicitContact::look(const State& at) {
   run_.look(at);
   shares_.assign(run_.looked().size(), 0.0);
   for (std::size_t i = 0; i < shares_.size(); ++i) shares_[i] = may_press(i) ? 1.0 : 0.0;
-  find_stiffnesses(blocks_, scale_, shares_, stiffnesses_);
+  if (has_own_stiffness()) {
+    stiffnesses_ = shares_;
+  } else {
+    find_stiffnesses(blocks_, scale_, rigid_, shares_, stiffnesses_);
+  }
   begin_press();
   press_all();
   return bodies_.change(run_.acting(), pressing_);
@@ -113,6 +123,19 @@ void ImplicitContact::finish(const State& end, State& into) {
     least_gap_ = std::min(least_gap_, n.dot(r) / c.apart);
   }
   ContactTable::write(run_.acting(), contact_.numbers(into));
+}
+
+bool ImplicitContact::struck_rigid() const {
+  const SurfaceSet& surfaces = contact_.surfaces();
+  if (surfaces.carriers().empty() || !(h_ > 0.0)) return false;
+  return std::ranges::any_of(run_.acting(), [&](const ContactNumbers& c) {
+    const bool rigid = std::ranges::any_of(c.vertex, [&](double vertex) {
+      return vertex >= 0.0 && surfaces.vertices()[static_cast<std::size_t>(vertex)].carrier >= 0;
+    });
+    if (!rigid || !(c.force > 0.0)) return false;
+    const double way = vector_of(c.normal).dot(h_ * run_.rate(c, start_->velocities) + run_.led(c));
+    return -way > kBlow * std::min(c.apart, pair_of(c).gap);
+  });
 }
 
 void ImplicitContact::strike(EndImpulses& impulses, double h, Reals v, State& into) {

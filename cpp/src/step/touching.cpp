@@ -20,6 +20,7 @@ constexpr double kDepthNewton = 1e-3;
 constexpr double kForce = 1e-2;       ///< of the contacts' forces: a smaller change needs no other system
 constexpr double kForceRigid = 1e-3;  ///< the same where a rigid body is free, which has no other forces
 constexpr int kPulled = 3;            ///< systems more for forces that pulled on something rigid
+constexpr int kFirstRigid = 4;        ///< systems after which contacts of rigid bodies become stiffer
 constexpr double kForceNewton = 1e-3;
 constexpr int kMostLooks = 20;  ///< of a step whose equation is solved to its tolerance
 constexpr double kWorse = 2.0;
@@ -110,6 +111,7 @@ void StageSolver::end_touching(double h, State& end) {
 
 void StageSolver::follow(const State& end, std::vector<double>& v) {
   const double move = stage_.contact.stretch * stage_.move;
+  before_cut_ = v;
   cut_.clear();
   for (std::size_t i = 0; i < v.size(); ++i) {
     if (placed_[i] == end.positions[i]) continue;
@@ -123,6 +125,13 @@ void StageSolver::follow(const State& end, std::vector<double>& v) {
     const Quaternion turn = end.rotations[k] * stage_.base.rotations[k].conjugate();
     block(Reals(v), frames[k].rotation) = nearest_turn(turn, Vec3::Zero()) / move;
   }
+}
+
+/// Of methods whose velocities at the end are those of their equation: others have their own way to them.
+void StageSolver::keep_momentum(std::vector<double>& v) {
+  if (cut_.empty() || stage_.contact.stretch != 1.0) return;
+  const World& world = system_->world();
+  contact_->run().keep_momentum(world.mass(), world.fixed(), before_cut_, v);
 }
 
 bool StageSolver::solve_contacts(State& state, std::vector<double>& v, StepReport& report) {
@@ -176,6 +185,7 @@ bool StageSolver::solve_contacts(State& state, std::vector<double>& v, StepRepor
       if (report.hasty) report.message = unsettled(most);
       break;
     }
+    if (i >= kFirstRigid) contact_->stiffen_rigid();
     contact_->take();
     stop_if_asked();
   }
@@ -214,6 +224,7 @@ void StageSolver::iterate_contacts(State& state, std::vector<double>& v, StepRep
     }
   }
   report.newton_iterations = iterations;
+  keep_momentum(v);
   std::ranges::copy(v, state.velocities.begin());
   world.fixed().clear(first_);
 }
@@ -228,6 +239,7 @@ void StageSolver::solve_touching(State& state, std::vector<double>& v, StepRepor
   if (!report.converged && !report.hasty) report.message = "the linear solver stopped before its tolerance";
   State& end = stage_.contact.stretch != 1.0 ? end_ : state;
   follow(end, v);
+  if (newton_.iterations == 1) keep_momentum(v);
   std::ranges::copy(v, state.velocities.begin());
   contact_->finish(end, state);
   if (newton_.iterations > 1) {

@@ -74,9 +74,10 @@ def on(ground: Any, **fields: Any) -> ts.Simulation:
 
 @pytest.mark.parametrize("method", ["auto", "barrier"])
 def test_a_cube_meets_two_triangles_as_it_meets_a_plane(method: Any) -> None:
-    """The same contacts, of vertices alone, and forces to where steps end: those of multipliers
-    change by less than 1e-2 then, those of a barrier are solved to 1e-6 of the load. The step of the
-    impact is taken in parts, whose number may differ.
+    """The same contacts, of vertices alone, and forces to where steps end.
+
+    Those of multipliers change by less than 1e-2 then, those of a barrier are solved to 1e-6 of the
+    load. The step of the impact is taken in parts, whose number may differ.
     """
     step = ts.ImplicitEuler("2 ms", solver=ts.Cholesky())
     settings = ts.ContactSettings(method=method)

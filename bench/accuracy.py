@@ -24,11 +24,12 @@ from tissu.cli.info import machine_line
 
 ROOT = Path(__file__).resolve().parents[1]
 PAGE = ROOT / "docs" / "measured" / "accuracy.md"
-HEAD = """# What accuracy costs in time
+HEAD = """# Accuracy
 
-This page compares elements, laws, models, methods in time and solvers by the time that they take to
-reach an error. `tissu bench accuracy` runs cases with known answers, with all the settings that
-each case names, and writes the error and the time of each run:
+Which setting reaches a given error in the least time? This page compares elements, laws, models,
+integrators and solvers by the time that they take to reach an error. `tissu bench accuracy` runs
+cases with known answers, with all the settings that each case names, and writes the error and the
+time of each run:
 
 ```
 tissu bench accuracy                     # all cases, about two minutes
@@ -47,7 +48,7 @@ is a PNG.
 - **Time**: the wall time from the scene to the result, with all preparations. Runs under 0.2 s are
   taken three times, and the fastest counts.
 - **Front**: the runs that no other run beats in both error and time.
-- **To reach** an error: the time at which a power law between two runs of a curve comes to it.
+- **To reach** an error: the time at which a power law between two runs of a curve reaches it.
 - **As in the paper**: the error against the paper's own reference.
 
 ## A case of your own

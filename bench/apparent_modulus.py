@@ -44,8 +44,8 @@ not.
 """
 
 MIDDLE = """
-Chendeb reproduces the modulus within 12 %. With sliding we are within 27 %. The mesh makes the
-difference: the smallest has no inner point, and glued no free one at all.
+Chendeb reproduces the modulus within 12 %, and tissu with sliding within 27 %. The mesh makes the
+difference: the smallest mesh has no inner point, and when glued no free point at all.
 
 The last row is not in the paper. If all diagonals lean one way, only slanted springs resist a
 shear of the planes. Beyond 10 mm of compression this cube collapses sideways, with cells inside

@@ -32,75 +32,86 @@ FINER = (4, 6, 8, 12)  # for the elements that lose an order
 LOSING = ("hexahedron20", "wedge15", "pyramid13")
 FLAT = {"plane strain": SURFACES, "plane stress": SURFACES, "uniaxial stress": LINES}
 
-HEAD = """# Orders of convergence, measured
+HEAD = """# Orders of convergence
 
-How fast does the error of each element fall as cells shrink? A displacement field u(X) is chosen,
-and SymPy derives the body force that makes it an equilibrium. Then the cube of one metre is solved
-with that force, and with u on its whole boundary. Surfaces are the square of one metre under plane
-strain and plane stress, and lines the line of one metre under uniaxial stress.
+How fast does the error of each element fall as cells shrink? An order of 2 means that cells of
+half the size have a quarter of the error. Every element reaches the order of the theory on regular
+meshes; [the list below](#what-to-read-from-it) has the exceptions on distorted ones.
 
-The field is smooth, without symmetry, with strains of up to 0.2. lambda = 1.2 Pa, mu = 0.8 Pa.
-Errors are L2 norms of the displacement and of the strain (small for Hooke, Green-Lagrange's for
-St-Venant-Kirchhoff). The tests integrate loads and errors by shape functions and quadratures of
-their own (`tests/convergence`), so that the library is not measured with itself. Quadrature of the
-library: `full`. Direct solver, Newton to 1e-11.
+The error is known exactly, because the solution is chosen first: a displacement field u(X). SymPy
+derives the body force that makes it an equilibrium. Then a cube of one metre is solved with that
+force, and with u on its whole boundary. Surface elements fill a square of one metre under plane
+strain and plane stress. Line elements fill a line of one metre under uniaxial stress.
 
-Theory: displacement p + 1, strain p; p = 1 for straight elements, 2 for those with middle nodes.
+The field is smooth, without symmetry, with strains of up to 0.2. Lamé's constants are lambda = 1.2
+Pa and mu = 0.8 Pa. Errors are L2 norms of the displacement and of the strain (small strain for
+Hooke, Green-Lagrange strain for St-Venant-Kirchhoff). The tests integrate loads and errors with
+their own shape functions and quadratures (`tests/convergence`), so the library is not measured
+with itself. The library uses its quadrature `full`, the direct solver, and Newton's method to
+1e-11.
+
+In theory, the displacement has order p + 1 and the strain order p, with p = 1 for elements without
+middle nodes and p = 2 for those with middle nodes.
 
 ![Errors against the number of cells](../pictures/convergence.png)
 
-Drawn for St-Venant-Kirchhoff, surfaces under plane stress, and for the lost order for Hooke.
+The curves are for St-Venant-Kirchhoff, with surfaces under plane stress. Those of the lost order
+are for Hooke.
 
 There are four kinds of mesh:
 
 - **regular**;
-- **smooth**: one smooth map moves all nodes, and cells stay curved and distorted as they shrink;
+- **smooth**: one smooth map moves all nodes; cells are curved and distorted, and become affine as
+  they shrink;
 - **jittered**: corners are moved at random by a fifth of a cell (a tenth where cells are thinner),
   and edges stay straight;
-- **trapezoids**: every second layer of corners is tilted to and fro, in one shape at every size.
+- **trapezoids**: every second layer of corners is tilted to and fro, so cells keep one distorted
+  shape at every size.
 
 ## Volumes
 
-Orders of displacement and strain between the two finest meshes (12 and 8 cells along an edge for
-p = 1, 6 and 4 for p = 2), and nodes and displacement error of the finest regular one:
+Each pair is the order of the displacement and of the strain between the two finest meshes (12 and
+8 cells along an edge for p = 1, 6 and 4 for p = 2). The last columns are the nodes and the
+displacement error of the finest regular mesh.
 
 """
 
 BELOW = """## Surfaces and lines
 
-The same between 24 and 16 cells along an edge. Triangles are halves of the quads; there are no
-trapezoids of lines.
+The orders are those between 24 and 16 cells along an edge. Triangles are halves of the quads.
+Lines have no trapezoids.
 
 """
 
 LOST = """## The lost order
 
-Orders from mesh to mesh of the elements that do not keep theirs:
+Four elements lose an order on trapezoids. These are their orders from mesh to mesh:
 
 """
 
 TAIL = """## What to read from it
 
 - Every element has its full order on regular meshes and on those of a smooth map, with both laws.
-- First-order elements keep it on every mesh. So do the ten-node tetrahedron, which is affine when
-  its edges are straight, and the 27-node hexahedron, which holds the squares of its trilinear map;
-  both reproduce a quadratic field on trapezoids to round-off. (A random mesh has another shape for
-  each size, so that its orders scatter.)
-- The same below three dimensions, where finer meshes are cheap: quads of four and nine nodes,
+- First-order elements keep their order on every mesh. So does the ten-node tetrahedron, which is
+  affine when its edges are straight, and the 27-node hexahedron, whose shape functions contain the
+  squares of its trilinear map. Both reproduce a quadratic field on trapezoids to round-off. (A
+  random mesh has another shape for each size, so its orders scatter.)
+- Surfaces and lines, where finer meshes are cheap, behave alike: quads of four and nine nodes,
   triangles and lines have their full order on every mesh, under plane strain, plane stress and
   uniaxial stress.
-- The 20-node hexahedron, the 15-node wedge, the 13-node pyramid and the 8-node quad do not hold
-  those squares. On cells that stay distorted as they shrink they fall to orders 2 and 1: Arnold,
-  Boffi and Falk, *Approximation by quadrilateral finite elements*, Math. Comp. 71 (2002). With a
-  smooth field the lost term is still small beside the rest on the meshes above, and the orders lie
-  between; with a quadratic field it is all there is. A mesh that is refined from a coarse one grows
-  affine, and keeps the full order.
+- The shape functions of the 20-node hexahedron, the 15-node wedge, the 13-node pyramid and the
+  8-node quad do not contain those squares. On cells that stay distorted as they shrink, these
+  elements fall to orders 2 and 1: Arnold, Boffi and Falk, *Approximation by quadrilateral finite
+  elements*, Math. Comp. 71 (2002). With a smooth field, the lost term is still a small part of the
+  error on the meshes above, and the orders lie in between. With a quadratic field, it is the whole
+  error. The cells of a mesh that is refined from a coarse one become affine, so such a mesh keeps
+  the full order.
 - On curved cells the full rule of the ten-node tetrahedron (four points, exact on affine cells)
-  fails the patch test by an error of third order; `over` passes it, as every other element does
+  fails the patch test by an error of third order. `over` passes it, as does every other element
   with `full`.
 
-Printed by `python bench/convergence.py --picture docs/pictures/convergence.png`; the tests in
-`tests/convergence` hold the orders to 0.2 of the theory.
+Printed by `python bench/convergence.py --picture docs/pictures/convergence.png`. The tests in
+`tests/convergence` require the orders to be within 0.2 of the theory.
 """
 
 

@@ -33,14 +33,15 @@ LARGEST_FACTOR = 60_000
 """unknowns beyond which the direct choices are left out"""
 HEAD = """## The default against every fixed choice
 
-`auto` decides by the counted work of a solve, and never by its time: the bytes of the matrix in
-every iteration, those that a preconditioner reads, and the work to make one or a factor, each
-with the weight of its kind of traffic (`cpp/src/solve/work.h`). It begins with the cheapest
-choice for the first matrix, as predicted from the inertia in its rows and the shape of the body.
-Then it adds up the work of this choice beyond that of another one. When the sum reaches the
-price of making the other one, that one is tried. One solve decides whether it stays, three where
-it was cheap to make. A choice that fails, or that spends more in a solve than another would have
-taken, is abandoned within that solve.
+Is the default solver, `auto`, as fast as the best fixed choice? `auto` decides by the counted work
+of a solve, and never by its time. This work consists of the bytes of the matrix in every
+iteration, the bytes that a preconditioner reads, and the operations to make a preconditioner or a
+factor. Each kind of traffic has its weight (`cpp/src/solve/work.h`). `auto` begins with the
+cheapest choice for the first matrix, as predicted from the inertia in its rows and the shape of
+the body. Then it adds up the work of this choice beyond that of another choice. When the sum
+reaches the price of making the other one, that one is tried. One solve decides whether it stays,
+or three if it was cheap to make. A choice that fails, or that spends more in a solve than another
+would have taken, is abandoned within that solve.
 
 {what} The last column is `auto` over the best fixed choice.
 
@@ -49,13 +50,13 @@ COUNTED = """Counted work of a step in MB. Each cell is that of the second half 
 then that of the first; a static row has one step."""
 TIMED = """Milliseconds of a step's solves: p50 of the second half of the steps, then the first
 step. A static row has the p50 of several runs, then the first. The choices took turns of a few
-steps, as many rounds as the time allowed. A choice that took four times as long as `auto`, or
-exceeded a limit, was left out from then on. Each is compared over the steps that both took.
-In steps of time the supports go up and down, 0.2 % of the body in 16 steps, so that no body comes
-to rest. p50 does not show the steps in which `stale_cholesky` makes its factor anew, each as long
-as several others: `auto` takes that choice only where it halves a solve. Steps that a choice did
-not solve are counted in brackets. `inf` in the last column: another choice solved more steps than
-`auto`."""
+steps, for as many rounds as the time allowed. A choice that took four times as long as `auto`, or
+exceeded a limit, was left out from then on. Each choice is compared with `auto` over the steps
+that both took. In time steps the supports move up and down by 0.2 % of the body in 16 steps, so
+that no body comes to rest. The p50 does not include the steps in which `stale_cholesky` makes a
+new factor. Each of them takes as long as several others, so `auto` takes that choice only if it
+halves a solve. Steps that a choice did not solve are counted in brackets. `inf` in the last
+column: another choice solved more steps than `auto`."""
 SHARE = 1.6
 """what a row takes, of the seconds that it is given, with the turns that run past them"""
 

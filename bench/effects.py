@@ -27,7 +27,7 @@ PAGE = ROOT / "docs/measured/absent-effects.md"
 COUNTED, STEPS = 1, 2  # size of the bar and steps that are counted
 TIMED, TIMED_STEPS = 2, 5
 SIZES = (1, 2, 3)
-TITLE = "# What an effect costs where it is absent"
+TITLE = "# The cost of absent effects"
 
 
 @dataclass(frozen=True)
@@ -121,31 +121,31 @@ def page(
     counted = measured[0].without.scene
     return f"""{TITLE}
 
-An effect that a scene does not ask for costs nothing. It is not in the world: there is no
-object, and no flag that is read for each node or cell. So its functions take no instruction of a
-step. This page counts the instructions; `tests/python/test_absent_effects.py` tests the result.
-It is printed by `python bench/effects.py --write`, not written by hand.
+An effect that a scene does not ask for costs nothing. The simulation contains no object for it,
+and no flag that is read for each node or cell. So a step executes none of its instructions. This
+page counts the instructions, and `tests/python/test_absent_effects.py` tests the result. The page
+is printed by `python bench/effects.py --write`, not written by hand.
 
 The bare scene is a bar of StVK tetrahedra with an initial velocity, without gravity, loads or
-supports. It takes implicit Euler, linearised once, with ten iterations of conjugate gradients
-whatever the residual, on one thread. Each scene with an effect is the bare one (or the named
-one) with that effect. It runs between two runs of the scene without it.
+supports. Its step is implicit Euler, linearised once, with ten iterations of conjugate gradients
+whatever the residual, on one thread. Each scene with an effect is the bare scene (or the named
+one) with that effect added. It runs between two runs of the scene without the effect.
 
 ## Instructions
 
 Instructions of a step, and of the work between two steps, are counted by valgrind's callgrind with
 kernels for
-{counted["isa"]}, {counted["cells"]:,} tetrahedra. "Its own" are those of functions that run for the
+{counted["isa"]}, {counted["cells"]:,} tetrahedra. "Its own" counts the functions that run for the
 effect alone, identified by their names (`bench/effect_rows.py`).
 
 {counted_table(measured)}
 
 {same(measured)}
 
-## Questions
+## Empty lists
 
-A step has to find that there is nothing to do. It does so by loops over empty lists, whose cost
-is the same on every mesh:
+A step has to find out that it has nothing to do for an absent effect. It runs loops over empty
+lists. Their cost is the same on every mesh:
 
 {asked_table(bare)}
 

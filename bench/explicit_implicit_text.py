@@ -1,22 +1,26 @@
 """Words of docs/measured/explicit-implicit.md; bench/explicit_implicit.py puts its numbers in."""
 
-HEAD = """# Explicit against implicit, and the fixed point
+HEAD = """# Explicit and implicit steps
 
-Faure (2014, section 6.2.1) pulls a cube of 1 m, 10 x 10 x 10 hexahedra of St-Venant–Kirchhoff's law
-with nu = 0.3: held at x = 0, led by 5 % at x = 1 over 0.9 s, without damping, for two densities and
-two Young's moduli, with explicit Euler (his table 6.1) and implicit Euler (6.2). Here is the same
-cube with each of his steps. One thread; wall times are medians of a step, times for 0.9 s that
-median times the steps.
+When are explicit steps cheaper than implicit ones? For the cube on this page they are: with
+symplectic Euler at its stable limit, the whole motion costs about as much as a few implicit steps.
+Implicit steps pay for small or stiff cells and slow motions.
+
+Faure (2014, section 6.2.1) pulls a cube of 1 m, 10 x 10 x 10 hexahedra of St-Venant–Kirchhoff's
+law with nu = 0.3. It is held at x = 0 and led by 5 % at x = 1 over 0.9 s, without damping, for two
+densities and two Young's moduli. He uses explicit Euler (his table 6.1) and implicit Euler (6.2).
+This page repeats the cube with each of his steps, on one thread. The wall time of a step is a
+median; the time for 0.9 s is that median times the number of steps.
 
 ## What limits an explicit step
 
-The paper names 2 sqrt(m/E), which has no length in it and so is not a time. The limit is 2 / omega,
-omega the largest eigenfrequency of M^-1 K:
+The paper gives the limit 2 sqrt(m/E), which contains no length and so is not a time. The limit is
+2 / omega, where omega is the largest angular eigenfrequency of M^-1 K:
 
 """
 
 EXPLICIT = """Explicit Euler is not stable at any step without damping: a vibration grows by (1 +
-h^2 omega^2)^(1/2) in each step. The paper's runs survive because 0.9 s are short. tissu refuses
+h^2 omega^2)^(1/2) in each step. The paper's runs survive because 0.9 s is short. tissu refuses
 steps above {limit:.2g} s here (growth by e in 100 s). **Symplectic Euler takes one force in a
 step too, and is stable with steps {ratio:.0f} times as long as the paper's 5e-5 s** (bold: nine
 tenths of its limit). It is stable with all steps of the table:
@@ -24,16 +28,16 @@ tenths of its limit). It is stable with all steps of the table:
 """
 
 BY_HAND = """The next table shows which steps of explicit Euler fail within the 0.9 s. Each pair
-starts with the paper's largest step, which is doubled until a node is more than 100 mm from the
-even stretch. (The cross contraction and the waves of the pull alone make 12 to 15 mm.)
+starts with the paper's largest step, which is doubled until a node is more than 100 mm away from a
+uniform stretch. (The lateral contraction and the waves of the pull alone cause 12 to 15 mm.)
 
 """
 
 IMPLICIT = """Every step that the paper calls not stable survives the 0.9 s here. Its limits do
-not follow omega^2 either: they are the same for E = 100 kPa and 10 kPa. Nor can the cost of a
-step fall to a tenth with the modulus, as in its table, for the same thousand cells. The reason
-for these differences is not known. The table shows that explicit Euler fails in the end, and at
-which growth.
+not follow omega^2 either: they are the same for E = 100 kPa and 10 kPa. Nor can the cost of a step
+fall to a tenth with the modulus, as in its table, because the thousand cells are the same. The
+reason for these differences is not known. The table shows that explicit Euler fails in the end,
+and at which growth.
 
 ## Implicit Euler
 
@@ -72,10 +76,12 @@ acceleration (five differences), and for `bdf2` with Newton's method and conjuga
 
 """
 
-END = """Plain iteration stops converging at h omega = 3/2, as predicted, and is slow before:
-such a step is shorter than one that symplectic Euler takes with a single force. With Anderson's
+END = """The plain iteration stops converging at h omega = 3/2, as predicted, and is slow below
+that: such a step is shorter than one that symplectic Euler takes with a single force. With
+Anderson's
 acceleration it converges beyond this limit, as a Krylov method would, and the number of
 iterations grows in proportion to h omega. A step then costs no more than Newton's as long as h
 omega is below about 4.
 
-Printed by `python bench/explicit_implicit.py --write`; """
+Printed by `python bench/explicit_implicit.py --write`;
+"""

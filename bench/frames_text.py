@@ -1,10 +1,10 @@
 """The words of docs/measured/frames.md; bench/frames.py prints the numbers."""
 
-HEAD = """# Frames, measured
+HEAD = """# Frames
 
-This page compares frames with the tables and figures of Bosman, Duriez and Cotin (2014). What
-frames are, and when to take them: [the guide](../guide/tissue.md). Printed by `python
-bench/frames.py --write`.
+This page compares frames with the tables and figures of Bosman, Duriez and Cotin (2014). [The
+guide](../guide/tissue.md) describes frames and when to take them. Printed by
+`python bench/frames.py --write`.
 """
 
 STEEL_TEXT = """
@@ -25,9 +25,10 @@ come within 2 % of 64 x 4 x 4 hexahedra. Ours are 0.1 % apart, with a quarter of
 STATIC_TEXT = """
 ## The soft cantilever in one static step
 
-The same bar from rest by `static` with `cholesky`, under a share of its weight and under all of it.
-Entries are the sag of the end and the Newton iterations to a residual of 1e-8 of the load. The
-reference is a mesh of 24 x 2 x 2 quadratic hexahedra.
+Which frames converge in a single static step? The same bar is solved from rest by `static` with
+`cholesky`, under a part of its weight and under its whole weight. Entries are the sag of the end
+and the Newton iterations to a residual of 1e-8 of the load. The reference is a mesh of 24 x 2 x 2
+quadratic hexahedra.
 """
 
 TENSION = """
@@ -39,15 +40,15 @@ The end face is held along x only, as in the closed form. The paper is within 0.
 SPEED = """
 ## Table 3: a step with 60 iterations of conjugate gradients, two threads
 
-Points on a grid inside a box, four neighbours, implicit Euler linearised once. The tangent is
-assembled into blocks once a step (SIMD over points), and the 60 products are those of a sparse
-matrix. Our grids have a few more points than the paper's. "At the paper's points" is our time,
-reduced in proportion.
+The points lie on a grid inside a box, and each has four neighbours. The method is implicit Euler,
+linearised once. The tangent is assembled into blocks once a step (SIMD over points), and the 60
+products are those of a sparse matrix. Our grids have a few more points than the paper's. "At the
+paper's points" is our time, reduced in proportion.
 """
 
 NEAR = """
 ## Table 2: the same against frames, points and neighbours, one thread
 
-Poisson samplings, Shepard's weights. The article prints 45.42 and 55.15 ms for 6 and 8 neighbours;
-which is which is not clear from its print.
+Points are Poisson samplings with Shepard's weights. The article prints 45.42 and 55.15 ms for 6
+and 8 neighbours, but not clearly which is which.
 """

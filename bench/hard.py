@@ -28,24 +28,23 @@ import tissu as ts  # noqa: E402
 PAGE = ROOT / "docs" / "measured" / "hard-cases.md"
 HEAD = """# Hard cases
 
-This page shows how every method in time copes with scenes that are known to break simulators.
-Each row is a scene in `tests/hard/cases`, which `tissu run` opens. Each column is a method in
-the place of the scene's own. There are three outcomes:
+This page shows how every integrator copes with scenes that are known to break simulators. Each row
+is a scene in `tests/hard/cases`, which `tissu run` can run. Each column is an integrator instead
+of the scene's own. There are three outcomes:
 
 - **steady**: in the last tenth of the run no node moves by more than a thousandth of the body;
 - **bounded**: the body still moves. The number is the largest distance of a node from rest;
 - **refused**: an error of one sentence, and the simulation stands at its last good step. The notes
   below the table give each sentence.
 
-How static steps and energies are judged: [statics](../guide/statics.md),
-[energy that grows](../guide/integrators.md#energy-that-grows).
+The guide describes how [static steps](../guide/statics.md) and
+[energies](../guide/integrators.md#energy-that-grows) are judged.
 
-Numbers are the largest distance of a node from rest at any time, in sizes of the body. An
-asterisk means that some steps did not meet their tolerances, and that their reports say so. `!`
-means that cells are inside out at the end, which `tissu run` prints. Explicit methods take nine
-tenths of their stable step (`dt: auto`). They are not run if that makes more than 20,000 steps.
-The fixed point takes the scene's step, or the longest one that contracts. Implicit methods take
-the scene's step.
+Numbers are the largest distance of a node from rest at any time, in sizes of the body. An asterisk
+means that some steps did not meet their tolerances; their reports say so. `!` means that cells are
+inside out at the end; `tissu run` prints this. Explicit methods take nine tenths of their stable
+step (`dt: auto`). They are not run if that makes more than 20,000 steps. The fixed point takes the
+scene's step, or the longest one that contracts. Implicit methods take the scene's step.
 
 """
 
@@ -70,7 +69,7 @@ def cell(found: Outcome, notes: list[str]) -> str:
         if said not in notes:
             notes.append(said)
         return f"refused ({notes.index(said) + 1})"
-    marks = ("*" if found.unconverged else "") + ("!" if found.inverted else "")
+    marks = (r"\*" if found.unconverged else "") + ("!" if found.inverted else "")
     crossings = f", {found.crossings} cross" if found.crossings else ""
     return f"{found.kind} {found.bound:.3g}{marks}{crossings}"
 

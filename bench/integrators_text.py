@@ -1,9 +1,9 @@
 """Words of docs/measured/integrators.md; bench/integrators.py puts its numbers in."""
 
-HEAD = """# Methods in time, measured
+HEAD = """# Integrators
 
-This page shows how fast the error of each method falls with the step, and what each method does to
-the energy. When to take which: [the guide](../guide/integrators.md).
+This page shows how fast the error of each method falls with the time step, and how each method
+changes the energy. [The guide](../guide/integrators.md) says when to take which.
 
 ![Errors against the step, energy against time](../pictures/integrators.png)
 

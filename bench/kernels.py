@@ -138,7 +138,7 @@ def ablation_table(rows: dict[str, Row]) -> str:
     saved = ", ".join(f"{name} {100 * ns / whole:.0f} %" for name, ns in costs.items())
     largest = max(costs, key=lambda name: costs[name])
     bound = (
-        f"Share of the whole that goes when a part goes: {saved}. What bounds it most: {largest}."
+        f"If a part is left out, the time falls by this share: {saved}. The largest is {largest}."
     )
     return f"{text}\n\n{bound}"
 
@@ -225,12 +225,12 @@ def machine(report: dict[str, Any]) -> str:
 def page(report: dict[str, Any]) -> str:
     """The whole of docs/measured/kernels.md."""
     rows = rows_of(report)
-    return f"""# What an element costs
+    return f"""# The cost of an element
 
-This page gives the time of a force, a tangent product and a matrix for every element and law,
-and the limits of the machine beside them. It is printed by `python bench/kernels.py`, not
-written by hand: one thread, about 20,000 elements of each type, quadrature `full`, processor
-time of the fastest repetition.
+This page gives the time of a force, a tangent product and a matrix for every element and law, and
+compares it with the limits of the machine. It is printed by `python bench/kernels.py`, not written
+by hand. Times are processor times of the fastest repetition on one thread, for about 20,000
+elements of each type with the quadrature `full`.
 
 {machine(report)}
 
@@ -244,19 +244,20 @@ A multiply-add counts as two operations. The triad `a = b + s c` moves three num
 
 {baseline_table(rows)}
 
-`textbook` computes 3x3 products, E, S and P, one element after the other, with portable flags
-(`bench/baseline/textbook.h`). `expanded` is Picinbono's mass-tensor: the energy as a quartic
-polynomial of the displacements, with 280 constants a tetrahedron, and six that he does not count
-(`bench/baseline/expanded.h`). Both equal the core's forces to round-off: `tests/cpp/bench`.
+How much do the vectorised kernels gain over simple code? `textbook` computes 3x3 products, E, S
+and P, one element after the other, with portable flags (`bench/baseline/textbook.h`). `expanded`
+is Picinbono's mass-tensor: the energy as a quartic polynomial of the displacements, with 280
+constants a tetrahedron, and six that he does not count (`bench/baseline/expanded.h`). Both equal
+the core's forces to round-off: `tests/cpp/bench`.
 
 ## What bounds the force of StVK on tetrahedra
 
 {ablation_table(rows)}
 
-The rows are a kernel of the benchmark's own, with parts left out, on the mesh in the order of
+The rows are those of a kernel in the benchmark, with parts left out, on the mesh in the order of
 the core.
 
-## By element, beside figure 6.11 of Faure 2014
+## By element, compared with figure 6.11 of Faure 2014
 
 {product_table(rows)}
 

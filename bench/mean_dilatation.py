@@ -14,12 +14,12 @@ GRIDS = ((8, 2, 2), (12, 3, 3), (16, 4, 4))
 MODELS = ("fem", "mean-dilatation")
 RATIOS = (0.3, 0.4, 0.45, 0.47, 0.48, 0.49, 0.499, 0.4999)
 
-HEAD = """# Locking, and mean dilatation
+HEAD = """# Mean dilatation
 
 If a material hardly changes its volume, cells of first order lock: a bending cell would have to
-change the volume at its points, and so it does not bend. `tissu check` notes it from a Poisson's
-ratio of 0.45 on. This page measures the locking, and its cure. The model `mean_dilatation` gives
-each *patch* of cells one volume ratio:
+change the volume at its integration points, so it hardly bends. `tissu check` prints a note for
+Poisson's ratios of 0.45 and above. This page measures the locking, and its cure. The model
+`mean_dilatation` gives each *patch* of cells one volume ratio:
 
     E = sum_g w_g W((theta / J_g)^(1/3) F_g),   theta = sum_g w_g J_g / sum_g w_g  of the patch
 
@@ -29,7 +29,7 @@ Pires and Owen 2005). Force and tangent are derivatives of this energy, so momen
 are kept, and the matrix is symmetric. If F is the same everywhere, the model equals `fem` to
 round-off. It takes any law and fibres. Patches do not reach from one region or material to
 another. The price is a matrix that couples all nodes of a patch, and about three passes over the
-cells in place of one.
+cells instead of one.
 
 ```yaml
 model: mean_dilatation
@@ -108,17 +108,22 @@ def page() -> str:
     """The whole page, measured."""
     rows, limit = reference()
     lines = ["## Against quadratic cells, nu = 0.4999", ""]
-    lines += ["Hexahedra of 20 nodes at 2 x 2 x 2 points, which do not lock:", ""]
+    lines += ["Hexahedra of 20 nodes with 2 x 2 x 2 points do not lock. Their sag is the"]
+    lines += ["reference:", ""]
     lines += ["| grid | sag [mm] |", "|---|---|", *rows]
     lines += [f"| limit (Aitken) | {1e3 * limit:.1f} |", ""]
-    lines += ["Cells of first order, sag over that limit, `fem` -> `mean_dilatation`:", ""]
+    lines += ["The next table gives the sag of cells of first order over the reference, first with"]
+    lines += ["`fem`, then with `mean_dilatation`:", ""]
     lines += ["| grid | " + " | ".join(CELLS) + " |", "|---" * (1 + len(CELLS)) + "|"]
     for grid in GRIDS:
         pairs = [[sag(c, grid, m, 0.4999) / limit for m in MODELS] for c in CELLS]
         cells = [f"{fem:.2f} -> {mean:.2f}" for fem, mean in pairs]
         lines.append(f"| {'x'.join(map(str, grid))} | " + " | ".join(cells) + " |")
-    lines += ["", "## Where it begins", ""]
-    lines += ["Sag of `fem` over that of `mean_dilatation` on the same 12 x 3 x 3 grid:", ""]
+    lines += ["", "## From which Poisson's ratio", ""]
+    lines += [
+        "The table gives the sag of `fem` over that of `mean_dilatation` on the same 12 x 3 x 3"
+    ]
+    lines += ["grid, for Poisson's ratios nu. A value of 1 means that `fem` does not lock:", ""]
     lines += ["| nu | " + " | ".join(CELLS) + " |", "|---" * (1 + len(CELLS)) + "|"]
     for nu in RATIOS:
         ratios = [

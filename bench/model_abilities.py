@@ -20,22 +20,24 @@ YOUNG = 20e3  # Pa
 SIDE = 0.05  # m
 CAN = {"yes": "yes", "partly": "partly", "no": "no"}
 
-HEAD = """# Models, measured
+HEAD = """# Models
 
-What each model is, and when to take it: [the guide](../guide/models.md).
+What can each model represent? The table answers by what the classes of the models declare, and, in
+italics, by a measurement. [The guide](../guide/models.md) describes each model and when to take
+it.
 
-The words in this table are those of the models' classes. The figures were measured by
-`python bench/model_abilities.py --write` on a cube of 162 tetrahedra with E = 20 kPa, nu = 0.3;
-[frames](frames.md) and [shells](shells.md) have their own pages.
+The measurements were made by `python bench/model_abilities.py --write` on a cube of 162 tetrahedra
+with E = 20 kPa, nu = 0.3. [Frames](frames.md) and [shells](shells.md) have their own pages.
 
 ![Error against time of examples/beam.yaml](../pictures/compare.png)
 
-`tissu compare examples/beam.yaml`: cells of this size are too coarse for bending, and that error
-is the same for all forms of one energy; springs err by another stiffness.
+The picture was drawn by `tissu compare examples/beam.yaml`. Cells of this size are too coarse for
+bending, and that error is the same for all forms of one energy. Springs have an additional error,
+because their stiffness differs.
 
-More: [the bar of 8 m, bent and twisted, with every model](model-bars.md), [what a tetrahedron
-costs in three forms](models-cost.md), [condensed linear bodies](condensed.md), [the modulus of
-springs](apparent-modulus.md), and [viscosity](viscosity.md).
+Related pages are [the bar of 8 m with every model](model-bars.md), [the cost of a tetrahedron in
+three forms](models-cost.md), [condensed linear bodies](condensed.md), [the modulus of
+springs](apparent-modulus.md) and [viscosity](viscosity.md).
 
 """
 
@@ -224,7 +226,7 @@ def table() -> str:
 def page() -> str:
     """The whole page."""
     listed = "\n".join(f"- {words(name)}" for name in models())
-    return f"{HEAD}{table()}\n\n## In the classes' words\n\n{listed}\n"
+    return f"{HEAD}{table()}\n\n## As the classes declare it\n\n{listed}\n"
 
 
 if __name__ == "__main__":

@@ -25,9 +25,9 @@ HEAD = """# The bar of 8 m with every model
 
 This page bends and twists one bar with every model. The scenes are those of Faure 2014: E = 100
 MPa, static, direct solver, one thread. `fem`, `mass_link` and `mass_tensor` have
-St-Venant–Kirchhoff's law and agree to Newton's tolerance. `corotational` and `condensed` have
-Hooke's law, in turning and in fixed axes. `mass_spring` has its own ratio of contraction. Times
-include making the scene. Printed by `python bench/model_bars.py --write`.
+St-Venant–Kirchhoff's law and agree to Newton's tolerance. `corotational` has Hooke's law in axes
+that turn with each cell, and `condensed` in fixed axes. `mass_spring` has its own Poisson's ratio.
+Times include compiling the scene. Printed by `python bench/model_bars.py --write`.
 
 """
 

@@ -151,13 +151,15 @@ def page(reports: list[Any]) -> str:
     whole = sum(any("/1/min" in b["name"] for b in report["benchmarks"]) for report in reports)
     load = max(report["context"]["load_avg"][0] for report in reports)
     times = "\n\n".join(time_table(rows, job) for job in JOBS)
-    return f"""# What a tetrahedron costs in three forms
+    return f"""# The cost of a tetrahedron in three forms
 
-Linear tetrahedra of St-Venant–Kirchhoff as continuum element (`fem`, 7 constants), in squared
-lengths of edges (`mass_link`, 27) and as a polynomial in displacements (`mass_tensor`, 280 and 6).
-All three give the same forces and tangents to 1e-12: `tests/cpp/model/edges/tetra_models_test.cpp`.
-(The mass-tensor does so up to displacements of about a cell; its round-off grows with their cube.)
-Printed by `bench/models.py`; run it for your machine.
+The energy of a linear tetrahedron of St-Venant–Kirchhoff can be written in three forms: as a
+continuum element (`fem`, 7 constants), in the squared lengths of its edges (`mass_link`, 27), and
+as a polynomial in its displacements (`mass_tensor`, 280 and 6). This page compares their times and
+memory. All three give the same forces and tangents to 1e-12
+(`tests/cpp/model/edges/tetra_models_test.cpp`). For the mass-tensor this holds up to displacements
+of about a cell, because its round-off grows with their cube. Printed by `bench/models.py`; run it
+for your machine.
 {machine(reports[0])}
 
 The fastest of {whole} passes, and {len(reports) - whole} more on two threads: processor time on one
@@ -176,15 +178,15 @@ edges and faces that tetrahedra share, as Picinbono does, and works on eight at 
 "Constants alone" are those of a single tetrahedron, as the papers count. Bytes include
 constants, node positions and everything else that a model keeps.
 
-## Which wins
+## Which is the fastest
 
 {conclusion(rows)}
 
-For forces and products the continuum element wins on today's processors, because it reads least and
-computes no more. A force takes 7 numbers and about 160 operations, counted in the source. The
-mass-link takes 27 numbers for about as many operations, and the mass-tensor about 75 for about 600.
-While a core waits for one number from memory, it could do dozens of operations. So a value that is
-cheap to compute again is better not stored.
+For forces and products the continuum element is the fastest on today's processors, because it
+reads the least and does not compute more. A force reads 7 numbers and takes about 160 operations,
+counted in the source. The mass-link reads 27 numbers for about as many operations, and the
+mass-tensor about 75 for about 600. While a core waits for one number from memory, it could do
+dozens of operations. So it is better not to store a value that is cheap to recompute.
 
 The mass-link is close as long as its constants fit the caches easily (2 MB for 10,000
 tetrahedra), and falls behind beyond that. Its matrix needs fewer operations than the element's.

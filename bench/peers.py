@@ -97,18 +97,18 @@ ones, on one thread; times are CPU time of a step without the first. {versions}
 
 {tables}
 
-"off" of a bar: how far the middle of the free end is from the reference, the same mesh under
-St-Venant–Kirchhoff in steps of {fine:g} ms by BDF2, as a share of its largest displacement: after
-{seconds:g} s, and as the root of the mean square over all steps. What is off is what a program's
-time step, solver and law make of it together. "unsolved": steps of which the program says itself
-that they are not solved to its own tolerance.
+"off" of a bar is the distance of the middle of the free end from the reference, as a share of its
+largest displacement: after {seconds:g} s, and as the root of the mean square over all steps. The
+reference is the same mesh under St-Venant–Kirchhoff in steps of {fine:g} ms by BDF2. This error is
+that of a program's time step, solver and law together. "unsolved" are the steps that the program
+itself reports as not solved to its own tolerance.
 
 The cube of 5 cm, E = 100 kPa, falls 2 cm. Its times are those of the steps from the first contact
-on, "without" those of the same cube that falls for ever. "at impact" and "at rest": how far its
-lowest node is in the plane, beyond the thickness that the program itself gives it, in edges of
-8.3 mm; the most of {impact} steps from the first contact on, and of the last {window}. "force": by
-how much the mean of what the program says that the plane carries differs from the weight, over the
-last {window} steps.
+on. "without" are those of the same cube if it meets no plane. "at impact" and "at rest" are the
+depth of its lowest node in the plane, beyond the thickness that the program itself gives the
+plane, in edges of 8.3 mm: the largest of {impact} steps from the first contact on, and of the last
+{window} steps. "force" is the relative difference between the weight and the program's force on
+the plane, as a mean over the last {window} steps.
 
 {steps}
 
@@ -149,7 +149,8 @@ def section(found: dict[str, dict[Subject, Taken]], references: dict[str, Any], 
         impact=IMPACT,
         window=WINDOW,
         steps=listed(EVERY, "step"),
-        lacks="What of tissu's they do not do:\n\n" + listed(EVERY, "lacks"),
+        lacks="These features of tissu are missing in the other programs:\n\n"
+        + listed(EVERY, "lacks"),
         machine=f"Printed by `python bench/peers.py --write`; {where}",
     )
 

@@ -163,11 +163,11 @@ def page(reports: list[dict[str, Any]]) -> str:
     rows = rows_of(reports)
     parts = "\n\n".join(part_table(rows, part) for part in PARTS)
     steps = "\n\n".join(step_table(rows, solver) for solver in SOLVERS)
-    return f"""# From a thousand elements to a million
+    return f"""# Scaling
 
-This page shows how the time and memory of a step grow with the number of elements. It is printed by
-`python bench/scaling.py`, not written by hand. Every number is that of the fastest repetition:
-processor time on one thread, time by the clock on two.
+This page shows how the time and memory of a step grow with the number of elements, from a thousand
+to a million. It is printed by `python bench/scaling.py`, not written by hand. Every time is that
+of the fastest repetition: processor time on one thread, wall time on two.
 
 {machine(reports[-1])}
 {load_text(reports)}
@@ -186,23 +186,23 @@ MB if they fit a cache, since they are compared with the limit of the memory.
 
 ## A cube of tetrahedra
 
-The cube has 10 cm of soft tissue (10 kPa, nu 0.3, 1000 kg/m3) of St-Venant–Kirchhoff. It is held
-at one face and bent by its weight: `bench/scale/cube.h`. It is the same cube at every size.
-`assembly` is all the work that makes the matrix of a step, inertia and held nodes included.
-Bytes are those that a part reads.
+A cube of 10 cm of soft tissue (10 kPa, nu 0.3, 1000 kg/m3, St-Venant–Kirchhoff) is held at one
+face and bent by its weight (`bench/scale/cube.h`). It is the same cube at every size. `assembly`
+is all the work that makes the matrix of a step, inertia and held nodes included. Bytes are those
+that a part reads.
 
 {parts}
 
 ## Whole steps
 
-Implicit Euler, 10 ms, linearised once, conjugate gradient to 1e-6. Three steps are timed again
-and again, from the third step from rest on; four with a multigrid, which keeps its levels for
-several steps. Each time the solver forgets everything and makes it anew. Shares are of the time
-of a step. "Solve of triad" is the traffic that the iterations need (`bench/solve/traffic.h`), as
-a share of the triad from the level that holds it. Bytes are those of model, matrix and solver;
-"resident" is the growth of the whole process.
+Steps are those of implicit Euler, 10 ms, linearised once, with conjugate gradients to 1e-6.
+Three steps are timed repeatedly, beginning with the third step from rest. With a multigrid, which
+keeps its levels for several steps, four steps are timed. Each repetition starts with an empty
+solver. Shares are of the time of a step. "Solve of triad" is the traffic that the iterations need
+(`bench/solve/traffic.h`), as a share of the triad from the level that holds it. Bytes are those of
+model, matrix and solver; "resident" is the growth of the whole process.
 
-The four steps with a multigrid come before harder ones: from the 8th step on (105,456 elements),
+Harder steps follow after the four steps with a multigrid: from the 8th step on (105,456 elements),
 the swing takes ten Newton iterations a step with any solver.
 
 {best_table(rows)}
@@ -218,7 +218,8 @@ preconditioner keeps. A set-up takes the values of a matrix whose pattern it has
 
 ## Rotations
 
-One thread, 20,000 gradients with random rotations. "Flat" ones take the branch by the eigenvector.
+The table gives the time to find the rotation of a deformation gradient F on one thread, for 20,000
+gradients with random rotations. "Flat" gradients take the branch by the eigenvector.
 
 {rotation_table(rows)}
 """

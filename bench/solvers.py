@@ -45,9 +45,10 @@ SOLVERS = {
     ),
     "cholesky": ts.Cholesky(),
 }
-HEAD = """# Linear solvers, measured
+HEAD = """# Linear solvers
 
-What each solver is, and when to take it: [the guide](../guide/solvers.md).
+How do the time and the memory of each solver grow with the number of unknowns? [The
+guide](../guide/solvers.md) describes each solver and when to take it.
 
 A cube of tetrahedra (10 kPa, nu 0.3, 10 cm) is held at its floor and bent by its weight. The
 tolerance is 1e-6, on one thread. Each entry has the iterations, the time of one system, and the
@@ -57,18 +58,19 @@ the last two sizes.
 
 """
 TAIL = """
-What bounds them: a product reads the matrix once, {matrix:.0f} bytes for each unknown,
+Memory bounds these times. A product reads the matrix once, {matrix:.0f} bytes for each unknown,
 or half of it in single precision. Products run at the bandwidth of the memory once the matrix
-leaves the caches. Triangular solves read as much, and their rows wait for each other. A factor
-of a three-dimensional mesh takes work that grows as n^2, and memory that grows as n^(4/3).
+leaves the caches. Triangular solves read as much, and their rows wait for each other. The work of
+a factor of a three-dimensional mesh grows as n^2, and its memory as n^(4/3).
 
 Inertia halves the iterations of this soft cube at 10 ms. With and without inertia, their number
 grows with the number of cells along the cube. The number of iterations of a multigrid does not
-grow. One of its iterations costs four more products with the matrix, which pays from about ten
+grow. One of its iterations costs four more products with the matrix. This pays from about ten
 thousand unknowns on. Its first system, and the first one after a cut, includes finding the
 aggregates.
 
-Tried and dropped, on the bar of 10,368 and 48,000 tetrahedra with a multigrid in single precision:
+The following changes were tried and dropped, on the bar of 10,368 and 48,000 tetrahedra with a
+multigrid in single precision:
 
 - a register of sixteen numbers for a block in single precision: within 3 % of the time, because the
   product waits for its blocks and not for its instructions;
@@ -204,8 +206,8 @@ def page(sizes: tuple[int, ...]) -> tuple[str, dict[str, list[list[Row]]]]:
     parts = [
         HEAD.format(matrix=matrix),
         "## A step of 10 ms with inertia\n\nIterations, seconds, bytes.\n\n" + table(inertia),
-        "\n\n## Static, Hooke's law\n\nThe first system, with all that is made for it.\n\n"
-        + table(still),
+        "\n\n## Static, Hooke's law\n\n",
+        "The times are those of the first system, with all its preparations.\n\n" + table(still),
         "\n\n![Seconds against unknowns](../pictures/solvers.png)\n",
         TAIL.format(matrix=matrix, machine=machine_line()),
     ]

@@ -30,16 +30,17 @@ FINER = 8
 MARKS, LONG = (1, 10, 100, 1000), 10_000
 TEXT = """## What the tolerance costs
 
-The residual of each solve is at most the tolerance times its right-hand side. The tables show
-what that does to the answer after 1 to 10,000 steps of 10 ms: the difference of all
-displacements from those with a tolerance of 1e-12, in the 2-norm, over the largest displacement
-norm so far. `dt` is the difference from the same run with an eighth of the time step.
+How much does the tolerance of the solver change the answer? The residual of each solve is at most
+the tolerance times the norm of its right-hand side. The tables give the relative error after 1 to
+10,000 steps of 10 ms: the difference of all displacements from those with a tolerance of 1e-12, in
+the 2-norm, over the largest displacement norm so far. The row `dt` is the difference from the same
+run with an eighth of the time step.
 
 {tables}
-Both errors vanish once the bar has come to rest, as the stiff one has after a hundred steps.
+Both errors vanish once the bar has come to rest. The stiff bar is at rest after a hundred steps.
 
-In statics, Newton's method stops by the remaining force, whatever the tolerance of its systems.
-So the tolerance changes the number of Newton iterations, and hardly the answer.
+In statics, Newton's method stops by the residual force, whatever the tolerance of its linear
+systems. So the tolerance changes the number of Newton iterations, but hardly the answer.
 
 {statics}
 The default of `auto` is {default:.0e}: {reason}
@@ -49,8 +50,9 @@ Printed by `python bench/tolerance.py --write`; {machine}
 REASON = """its error stays a thousand times below that of the time step as long as the bodies
 move, after one step as after ten thousand. Newton's method takes as many iterations as with
 exact solves; from 1e-4 on it takes more. A tighter tolerance is useless, since the error of the
-time step is far larger. A looser one saves a fifth of the iterations for each digit. It is right
-if an error of 1e-3 (of 1e-2 at 1e-3) after a thousand steps is acceptable."""
+time step is far larger. A looser one saves a fifth of the iterations for each digit. It is a good
+choice if an error of 1e-3 (of 1e-2 for a tolerance of 1e-3) after a thousand steps is
+acceptable."""
 
 
 def bar(step: Any, *, young: str, cells: tuple[int, int, int]) -> ts.Scene:

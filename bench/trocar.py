@@ -32,9 +32,8 @@ PAGE = ROOT / "docs" / "measured" / "trocar.md"
 US = 1e6
 HEAD = """# The active trocar
 
-This page measures whether the ticks of a trocar are in time, and whether the hand feels the
-force of the tissue. The words are explained in [the guide](../guide/trocar.md). Ticks are those
-of the simulated device, at 1 kHz.
+Are the ticks of a trocar in time, and does the hand feel the force of the tissue? [The
+guide](../guide/trocar.md) explains the terms. Ticks are those of the simulated device, at 1 kHz.
 
 """
 
@@ -211,15 +210,16 @@ def page(seconds: float) -> str:
         row, grants = lateness(seconds, others)
         rows.append(row)
     text = HEAD + "## How late ticks are\n\n"
-    text += f"{seconds:g} s each, with a new model of 8 contacts with friction every 40 ms. "
-    text += "Asked of the machine: " + "; ".join(grants) + ".\n\n"
+    text += f"Each row is a run of {seconds:g} s, in which a new model of 8 contacts with friction "
+    text += "arrives every 40 ms. The settings requested of the machine are "
+    text += "; ".join(grants) + ".\n\n"
     head = ("beside", "late [us], p50, p99, p99.9", "missed ticks", "computing [us], p50, p99")
     text += table(head, rows) + "\n"
     exact, printed = workspace()
     text += "## What the hand feels\n\n"
-    text += "Over pitch and roll of up to 45 degrees the torques give the force at the tip "
-    text += f"to {exact:.0e}; "
-    text += f"those printed in the thesis (5.6, 5.10) miss it by up to {100 * printed:.0f} %.\n\n"
+    text += "For pitch and roll of up to 45 degrees, the torques give the force at the tip "
+    text += f"to {exact:.0e}. Those printed in the thesis (5.6, 5.10) are wrong by up to "
+    text += f"{100 * printed:.0f} %.\n\n"
     text += "An organ of 1,063 nodes is palpated 4 cm deep by a hand that trembles "
     text += (
         "(`examples/palpate.py`). The forces are those of the tissue's steps and of the last tick "
@@ -234,17 +234,19 @@ def page(seconds: float) -> str:
     )
     text += table(head, [felt(dt) for dt in ("10 ms", "20 ms", "40 ms")]) + "\n"
     text += "## The compliance of the tissue\n\n"
-    text += "The same organ while it is pressed deeper, steps of 10 ms. The compliance of so many "
-    text += "contacts after each of them: the factor as it is kept and corrected, the factor made "
-    text += "anew, the largest bound of its error, and beside them a step and the conjugate "
-    text += "gradient, in milliseconds.\n\n"
+    text += "The table gives the time of the compliance, in milliseconds, while the same organ is "
+    text += (
+        "pressed deeper in steps of 10 ms: with a factor that is kept and corrected, with a new "
+    )
+    text += "factor, and with conjugate gradients. It also gives the largest bound of the error, "
+    text += "and the time of a step.\n\n"
     head = ("contacts", "kept", "made anew, how often", "error", "a step", "cg")
     text += table(head, [give(contacts) for contacts in (1, 3, 8)]) + "\n"
     text += "## All together in real time\n\n"
     text += (
-        "The same, in real time: ticks in their thread, steps of the tissue with their compliance, "
+        "The same scene runs in real time: ticks in their thread, steps of the tissue with their "
     )
-    text += "and a report after each of them.\n\n"
+    text += "compliance, and a report after each step.\n\n"
     head = ("step", "steps that were late", "missed ticks", "ticks late [us], p99")
     text += table(head, [together(dt) for dt in ("10 ms", "20 ms", "40 ms")]) + "\n"
     return text + THESIS + f"Printed by `python bench/trocar.py --write`; {machine_line()}\n"

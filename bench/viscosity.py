@@ -27,9 +27,10 @@ COEFFICIENTS = (1e4, 1e5, 3e5, 1e6, 3e6, 1e7, 3e7)
 SHARES = (3e-5, 1e-4, 3e-4, 1e-3, 3e-3, 1e-2, 3e-2)
 SMALL, LARGE = 2, 4  # which of the coefficients the picture shows
 
-HEAD = """# Viscosity, measured
+HEAD = """# Viscosity
 
-What each viscosity is, and when to take it: [the guide](../guide/viscosity.md).
+How much does each viscosity damp vibrations, and how much too stiff does it make a body under
+compression? [The guide](../guide/viscosity.md) describes each viscosity and when to take it.
 
 ## A cube under compression
 
@@ -51,15 +52,15 @@ in percent of the closed form's mean. A positive bias is too stiff.
 TAIL = """
 ## What to read from it
 
-- Without viscosity the cube rings ({none:.1f} %): the damping of the steps, omega^2 dt / 2, hardly
-  changes that.
+- Without viscosity the cube vibrates ({none:.1f} %). The damping of the time steps, omega^2 dt / 2,
+  hardly changes this.
 - Figure 3.8: `centroid` with c = {good_c:g} N s/m^4 takes the oscillation to
   {good_oscillation:.1f} % at a bias of {good_bias:.1f} %; `kelvin_voigt` does as much with eta =
   {good_eta:g} Pa s.
 - Figure 3.9: with c = {bad_c:g} N s/m^4 the bias is {bad_bias:.0f} %. It is the viscosity's
   stress, in proportion to the speed and to the coefficient.
-- Between the two, the slowest mode has a damping ratio of about 0.1 to 0.5: eta = 10 to 30 Pa s
-  here.
+- In between, the slowest mode has a damping ratio of about 0.1 to 0.5. Here this is eta = 10 to 30
+  Pa s.
 - c of `centroid` is not a property of a material: the damper that it makes grows with the square of
   the cells' size. On cells of half the size c must be four times as large: {coarse:.1f} % and
   {fine:.1f} % of oscillation with the same c on cells of 10 mm and 5 mm. eta of `kelvin_voigt` is
@@ -70,8 +71,9 @@ TAIL = """
 TURNING = """
 ## A body that turns
 
-The same cube is free and spins at one turn a second. Entries are the share of its angular momentum
-that is left after half a second, and the same without viscosity, which is the loss by the steps:
+Which viscosities slow down the rotation of a whole body? The same cube is free and spins at one
+turn a second. Entries are the share of its angular momentum that remains after half a second. The
+row without viscosity shows the loss by the time steps:
 
 | viscosity | left |
 |---|---|

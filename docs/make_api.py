@@ -37,6 +37,7 @@ PAGES = {
             "simulation.lead.Lead",
             "simulation.live_load.LiveLoad",
             "simulation.obstacle_lead.ObstacleLead",
+            "simulation.rigid.Rigid",
             "simulation.contact_at_nodes.ContactAtNodes",
             "simulation.obstacle_surface.ObstacleSurface",
             "simulation.parameters.Parameters",

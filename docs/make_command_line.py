@@ -15,7 +15,7 @@ PAGE = Path(__file__).parent / "reference" / "command-line.md"
 HEAD = """# Command line
 
 `tissu COMMAND --help` prints what stands here. `-h` is short for `--help`, and `tissu --version`
-prints the version. Every command takes `--debug`, which shows a traceback in place of a sentence.
+prints the version. Every command takes `--debug`, which shows a traceback instead of a sentence.
 
 A command ends with a status: [0 is success](errors.md#exit-status). Errors are sentences on stderr.
 """

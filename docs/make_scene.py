@@ -18,8 +18,8 @@ is a mapping with the fields of the class. Where several classes are possible, `
 - Numbers are SI. A text with a unit is converted: "4 kPa", "10 ms", "1.05 g/cm^3"
   ([units](units.md)).
 - An unknown key is an error that names the nearest known key. A hyphen may replace an underscore.
-- `tissu check FILE` lists every problem at once, each with its line. Without problems it says what
-  the scene switches on, and why.
+- `tissu check FILE` lists every problem at once, each with its line. If there are none, it lists
+  the effects that the scene switches on, and why.
 
 ```yaml
 {example}```
@@ -67,7 +67,7 @@ prescribed:
 The axes are those of space. A rotation that is held about two axes remains a rotation about the
 third, however large it is. A rotation that is held about one axis has no angular velocity about it.
 
-Driven ports through which a hand feels a tool are `trocars`: [trocar](../guide/trocar.md).
+`trocars` are driven ports with force feedback: [trocar](../guide/trocar.md).
 
 ## Regions
 
@@ -85,11 +85,11 @@ law:
 ```
 
 In Python, `mesh.with_region("tumour", ts.Sphere((0.06, 0.04, 0.03), 0.01))` returns a mesh with one
-more region. It takes numbers of cells in place of a shape, too.
+more region. It also takes the numbers of cells instead of a shape.
 
 ## Contact
 
-Bodies pass through each other unless `contacts` says that they meet:
+Bodies pass through each other unless `contacts` lists them:
 [contact](../guide/contact.md).
 
 ## Files of laws
@@ -119,8 +119,9 @@ Editors with a YAML language server find the schema by the first line of the sce
 
 ## Limits
 
-The words are those of YAML 1.2: 010 is ten. A scene has at most 16 MiB, 40 levels of nesting,
-1,000,000,000 steps, and names of 200 characters. What exceeds a limit is refused with its line.
+Words are read as in YAML 1.2: 010 is ten. A scene has at most 16 MiB, 40 levels of nesting,
+1,000,000,000 steps, and names of 200 characters. A scene that exceeds a limit is
+refused with its line.
 
 This page is printed from the classes by `make codegen`.
 """

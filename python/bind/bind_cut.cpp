@@ -239,6 +239,13 @@ void bind_cut(py::class_<Simulation>& simulation) {
             return found;
           },
           arg("body"))
+      .def(
+          "divided",
+          [](const Simulation& s, const std::string& body) {
+            const Material& material = cut_state(s.world(), body)->material;
+            return !material.cells.empty() || !material.incisions.empty();
+          },
+          arg("body"))
       .def("pieces", &found_pieces, arg("body"))
       .def("body_cells", &body_cells, arg("body"))
       .def("roots", &roots, arg("body"))

@@ -18,7 +18,7 @@ class ParameterError(TissuError, ValueError):
 
 
 class LawError(TissuError):
-    """A law of one's own that cannot be used, or not be made on this machine, with the reason."""
+    """A user-defined law cannot be used, or cannot be compiled on this machine."""
 
 
 class SceneError(TissuError):
@@ -35,7 +35,7 @@ class SceneError(TissuError):
 
 
 class CheckpointError(TissuError):
-    """A checkpoint cannot be written, or gone on from: absent, damaged, of another scene."""
+    """A checkpoint cannot be written or resumed: it is absent, damaged, or of another scene."""
 
 
 class BusyError(TissuError):

@@ -1,4 +1,4 @@
-"""The words an energy may be written in, for `tissu.law`: from tissu.formula import I_C, J, ln.
+"""The words of an energy for `tissu.law`: from tissu.formula import I_C, J, ln.
 
 F is the deformation gradient, C = F^T F, E = (C - I)/2, eps = sym(F) - I, J = det F.
 

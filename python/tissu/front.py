@@ -20,7 +20,7 @@ __all__ = ["Scene"]
 
 
 class Scene(SceneData):
-    """Bodies, what holds and moves them, and how time is stepped; frozen and validated.
+    """Bodies, supports, loads, contacts and a method in time; frozen and validated.
 
     An effect that is absent (no viscosity, no gravity, no loads) is absent from the simulation too.
     """
@@ -89,8 +89,8 @@ class Scene(SceneData):
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write the scene to a YAML file, and beside it meshes made in memory as .vtu files.
 
-        Files of laws that lie elsewhere than below the file's folder are copied there: a scene
-        reads none from outside.
+        Files of laws from outside the file's folder are copied into it, because a scene reads no
+        files from outside.
 
         Raises:
             SceneError: a file cannot be written.
@@ -103,12 +103,12 @@ class Scene(SceneData):
         """Turn the scene into a simulation.
 
         Args:
-            checkpoint: a file of `Simulation.save_checkpoint`, from which it goes on with the same
-                bits; absent: it begins at rest. Name, duration, threads and output of the scene
-                may be others than those of the scene that was saved.
+            checkpoint: a file of `Simulation.save_checkpoint`, from which the simulation continues
+                with the same bits; absent: it begins at rest. Name, duration, threads and output
+                may differ from those of the scene that was saved.
 
         Raises:
-            SceneError: problems of the scene or its meshes; all of them.
+            SceneError: the scene or its meshes have problems; the error lists all of them.
             CheckpointError: the file is absent, damaged, or of another scene or version.
         """
         from tissu.compile import compile_scene
@@ -116,7 +116,7 @@ class Scene(SceneData):
         return compile_scene(self, None if checkpoint is None else Path(checkpoint))
 
     def check(self) -> Check:
-        """Everything that compile() would refuse, and in plain words what the scene switches on."""
+        """The reasons for which compile() would refuse, and the effects that are switched on."""
         from tissu.compile import check_scene
 
         return check_scene(self)

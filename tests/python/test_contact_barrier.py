@@ -172,5 +172,5 @@ def test_steps_that_have_no_barrier_are_refused():
             ts.errors.SceneError, match="of the method barrier; accepted with contact"
         ):
             scene.replace(step=step).compile()
-    with pytest.raises(ts.errors.SceneError, match="found false beside the method barrier"):
+    with pytest.raises(ts.errors.SceneError, match="found false with the method barrier"):
         on_a_slope(0.0, contact=BARRIER.replace(travel=False)).compile()

@@ -470,7 +470,7 @@ REFUSED: dict[str, tuple[Any, str]] = {
             ball(motion=ts.Motion(times=(0, 1), displacements=((0, 0, 0), (1, 0, 0)))),
             STEPS["implicit_euler"],
         ),
-        "beside `motion`",
+        "with `motion`",
     ),
     "a plane": (
         lambda: ts.PlaneObstacle((0, 0, 0), (0, 0, 1), mass=1),

@@ -178,20 +178,20 @@ SLIPS = {
         "method: auto",
         "penalty: reciprocal",
         "contact.penalty",
-        "found reciprocal beside the method augmented",
+        "found reciprocal with the method augmented",
     ),
     "law's name": ("method: auto", "penalty: linea", "contact.penalty", "did you mean 'linear'"),
     "arc length": (
         "{type: implicit_euler, dt: 10 ms}",
         "{type: static, arc_length: true}",
         "step.arc_length",
-        "found true beside contacts",
+        "found true with contacts",
     ),
     "barrier and ways": (
         "method: auto",
         "method: barrier, travel: false",
         "contact.travel",
-        "found false beside the method barrier",
+        "found false with the method barrier",
     ),
     "method's name": ("method: auto", "method: augment", "contact.method", "mean 'augmented'"),
     "method and step": (
@@ -272,7 +272,7 @@ EXPLICIT_SLIPS = {
         "penalty: reciprocal",
         "friction: 0.2",
         "contact.penalty",
-        "found reciprocal beside the method impulse",
+        "found reciprocal with the method impulse",
     ),
     "barrier": (
         "method: barrier",
@@ -352,10 +352,11 @@ def test_surfaces_that_are_not_there_yet(fields, name, words):
 def test_all_is_said_once_and_without_on():
     twice = problems(lambda: scene(contacts=[ts.Contact("all"), ts.Contact("all")]))
     assert twice == [
-        "Scene: contacts[1].between: found all a second time, beside contacts[0]; once is accepted"
+        "Scene: contacts[1].between: found all a second time, in addition to contacts[0]; "
+        "once is accepted"
     ]
     on = problems(lambda: scene(contacts=[ts.Contact("all", on=ts.Nodes([0]))]))
-    assert "contacts[0].on: found `on` beside all" in on[0]
+    assert "contacts[0].on: found `on` with all" in on[0]
 
 
 def test_on_inside_the_body_selects_nothing_of_its_surface():

@@ -320,6 +320,23 @@ def test_a_grab_whose_point_parts_is_released() -> None:
     assert near.released == (near._number in report.released)
 
 
+@pytest.mark.parametrize(
+    ("call", "words"),
+    [
+        (lambda s: s.cut("bar", SLANTED, refine="no"), "refine='no' .* True and False"),
+        (lambda s: s.cut(["bar"], SLANTED), r"found body \['bar'\]; accepted: bar"),
+        (lambda s: s.pieces(None), "found body None; accepted: bar"),
+        (lambda s: s.remove_cells(body="bar", cells=[[1, 2]]), r"shape \(1, 2\); .* one row"),
+        (lambda s: s.remove_cells(body=["bar"], cells=[1]), "no body is named"),
+    ],
+)
+def test_arguments_of_another_kind_are_refused(call: Any, words: str) -> None:
+    simulation = scene().compile()
+    with pytest.raises(ts.ParameterError, match=words):
+        call(simulation)
+    assert simulation.meshes["bar"].cell_count == scene().compile().meshes["bar"].cell_count
+
+
 def test_what_cannot_be_cut_is_refused_and_stays() -> None:
     with pytest.raises(ts.ParameterError, match="compiled without editing"):
         scene(editing=False).compile().cut("bar", SLANTED)

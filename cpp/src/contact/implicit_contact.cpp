@@ -14,8 +14,6 @@ namespace {
 
 constexpr double kAlternates = 1e-2;  ///< inadmissible share of the forces
 constexpr double kBlow = 0.1;         ///< of the gap: what would go deeper in a step is struck
-constexpr double kRigidStep = 10.0;   ///< times stiffer at a time, …
-constexpr double kMostRigid = 1e6;    ///< … and in all
 
 std::array<double, 3> numbers_of(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
@@ -42,7 +40,6 @@ void ImplicitContact::begin(const State& start, double end, ConstReals led, Cons
   start_ = &start;
   h_ = end - start.time;
   alternations_ = 0;
-  rigid_ = 1.0;
   bodies_.begin(start, load);
   run_.begin(start, end, led);
 }
@@ -58,8 +55,6 @@ void ImplicitContact::set_stiffer(double normal, double tangent) {
   tangent_ = tangent;
 }
 
-void ImplicitContact::stiffen_rigid() { rigid_ = std::min(kRigidStep * rigid_, kMostRigid); }
-
 double ImplicitContact::look(const State& at) {
   run_.look(at);
   shares_.assign(run_.looked().size(), 0.0);
@@ -67,7 +62,7 @@ double ImplicitContact::look(const State& at) {
   if (has_own_stiffness()) {
     stiffnesses_ = shares_;
   } else {
-    find_stiffnesses(blocks_, scale_, rigid_, shares_, stiffnesses_);
+    find_stiffnesses(blocks_, scale_, shares_, stiffnesses_);
   }
   begin_press();
   press_all();

@@ -39,7 +39,7 @@ void ImplicitPenalty::begin_press() {
     ranges_[i] = range + std::min(pair_of(looked[i]).gap, looked[i].apart);
     shares_[i] = depths_[i] / ranges_[i];
   }
-  find_stiffnesses(rest_, 1.0, 1.0, shares_, springs_);
+  find_stiffnesses(rest_, 1.0, shares_, springs_);
 }
 
 std::optional<double> ImplicitPenalty::press(std::size_t i, ContactNumbers& c) {

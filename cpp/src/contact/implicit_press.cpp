@@ -61,7 +61,7 @@ bool ImplicitContact::is_rigid(const ContactNumbers& contact) const {
   });
 }
 
-void ImplicitContact::find_stiffnesses(std::span<const double> blocks, double scale, double rigid,
+void ImplicitContact::find_stiffnesses(std::span<const double> blocks, double scale,
                                        std::span<const double> shares, std::vector<double>& stiffnesses) {
   const auto looked = run_.looked();
   const auto each = [&](auto&& f) {
@@ -76,7 +76,7 @@ void ImplicitContact::find_stiffnesses(std::span<const double> blocks, double sc
   for (std::size_t i = 0; i < looked.size(); ++i) {
     if (!(shares[i] > 0.0)) continue;
     const double largest = compliance(looked[i], blocks).cwiseAbs().rowwise().sum().maxCoeff();
-    const double stiff = is_rigid(looked[i]) ? kStiffRigid * rigid : kStiff;
+    const double stiff = is_rigid(looked[i]) ? kStiffRigid : kStiff;
     if (largest > 0.0) stiffnesses[i] = stiff * run_.weight(i) * shares[i] / (largest * scale);
   }
 }

@@ -20,7 +20,6 @@ constexpr double kDepthNewton = 1e-3;
 constexpr double kForce = 1e-2;       ///< of the contacts' forces: a smaller change needs no other system
 constexpr double kForceRigid = 1e-3;  ///< the same where a rigid body is free, which has no other forces
 constexpr int kPulled = 3;            ///< systems more for forces that pulled on something rigid
-constexpr int kFirstRigid = 4;        ///< systems after which contacts of rigid bodies become stiffer
 constexpr double kForceNewton = 1e-3;
 constexpr int kMostLooks = 20;  ///< of a step whose equation is solved to its tolerance
 constexpr double kWorse = 2.0;
@@ -185,7 +184,6 @@ bool StageSolver::solve_contacts(State& state, std::vector<double>& v, StepRepor
       if (report.hasty) report.message = unsettled(most);
       break;
     }
-    if (i >= kFirstRigid) contact_->stiffen_rigid();
     contact_->take();
     stop_if_asked();
   }

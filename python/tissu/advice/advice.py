@@ -22,12 +22,12 @@ _NOT_WRITTEN = ("scene", "error_excess", "rate_excess")
 
 @dataclass(frozen=True, slots=True)
 class Advice:
-    """The settings of a scene that were tried, and which of them to take.
+    """The settings of a scene that were tried, and the recommended one.
 
     Attributes:
         name: of the scene.
-        goal: error and rate that were asked for.
-        reference: what errors are measured against, and what is known of its own error.
+        goal: the requested error and rate.
+        reference: the run with which the others are compared, and the estimate of its own error.
         largest: the largest displacement of the reference over points and times [m].
         reference_error: the reference's own error, mean over points and times [m]; None: not known.
         space_order: order in the size of cells that three runs show; None: they show none.
@@ -35,7 +35,7 @@ class Advice:
         rows: one for each setting, in the order in which they ran; the scene's own comes first.
         seconds: wall time that all of it took.
         notes: bodies that keep their mesh, each with the reason.
-        doubt: why errors may say less than they seem to; empty: no sign of it.
+        doubt: why the errors may be unreliable; empty: no sign of that.
     """
 
     name: str
@@ -57,7 +57,7 @@ class Advice:
 
     @property
     def best(self) -> Row:
-        """The chosen row; where there is none, the one that misses what is asked by the least."""
+        """The chosen row; if there is none, the row that misses the goal by the least."""
         found = self.chosen or nearest(self.rows)
         return self.rows[0] if found is None else found
 
@@ -69,7 +69,7 @@ class Advice:
 
     @property
     def answer(self) -> str:
-        """One sentence: what to take, or which of error and rate cannot be met, by how much."""
+        """One sentence: the recommended setting, or the goal that is missed, and by how much."""
         return sentence(self.rows, self.goal)
 
     def to_csv(self) -> str:

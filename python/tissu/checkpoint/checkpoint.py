@@ -90,7 +90,7 @@ class Checkpoint:
         if found:
             raise CheckpointError(
                 f"checkpoint {self.file}: it was written for another scene: {found}; go on with "
-                "the scene that it was written for, or start anew without it"
+                "the scene that it was written for, or start again without it"
             )
 
     def resumed(self) -> Resumed:
@@ -147,7 +147,7 @@ def _contents(path: Path) -> tuple[dict[str, Any], dict[str, Any]]:
     except DamagedError:
         raise CheckpointError(
             f"checkpoint {path}: its checksum does not match its contents, so it is damaged, cut "
-            "short, or no checkpoint of tissu; go on from another one, or start anew"
+            "short, or no checkpoint of tissu; go on from another one, or start again"
         ) from None
     except FileNotFoundError:
         raise CheckpointError(

@@ -103,5 +103,5 @@ def _require_cuts(path: Path, number: str, arrays: Mapping[str, Any]) -> None:
 def _wrong(path: Path, name: str, accepted: str) -> CheckpointError:
     return CheckpointError(
         f"checkpoint {path}: its entry '{name}' is not {accepted}, so tissu did not write it; "
-        "go on from another one, or start anew"
+        "go on from another one, or start again"
     )

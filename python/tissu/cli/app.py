@@ -103,7 +103,8 @@ def view_command(
         typer.Option(min=1, max=65535, help="Port of the page; default: the first free from 8080."),
     ] = None,
     host: Annotated[
-        str, typer.Option(help="Address to listen on; another than this machine asks for a token.")
+        str,
+        typer.Option(help="Address to listen on; any but that of this machine requires a token."),
     ] = "127.0.0.1",
     token: Annotated[
         str | None, typer.Option(help="Token that a page must bring; default: a new one.")
@@ -291,7 +292,7 @@ def advise_command(
     ] = "60 s",
     models: Annotated[
         str,
-        typer.Option(help="Models to try beside those that keep the scene's laws, with commas."),
+        typer.Option(help="Models to try besides those that keep the scene's laws, with commas."),
     ] = "",
     out: Annotated[
         Path | None,

@@ -28,9 +28,9 @@ def compare(
 ) -> Comparison:
     """Run the same scene with each of several models, and measure them.
 
-    A model that cannot carry the scene's cells or law is a row that says why. Where a model
-    computes another law than the scene's, the scene's own Young's modulus and Poisson's ratio go
-    on (`tissu check` says so).
+    If a model does not take the cells or the law of the scene, its row gives the reason. If a model
+    computes another law, it has the Young's modulus and Poisson's ratio of the scene (`tissu check`
+    notes this).
 
     Args:
         scene: with a duration, or static.

@@ -52,7 +52,7 @@ class Comparison:
     Attributes:
         scene: its name.
         cells: of all bodies.
-        reference: what errors are measured against.
+        reference: the run with which the others are compared.
         rows: one for each model, in the order asked for.
     """
 

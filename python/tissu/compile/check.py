@@ -22,7 +22,7 @@ class Check:
 
     Attributes:
         problems: what compile() refuses, one sentence each, with its place.
-        notes: what is accepted but worth knowing.
+        notes: facts that are accepted but worth knowing.
         effects: effects switched on, each with the field that asks for it.
         absent: effects the scene does not ask for; they run no code.
     """

@@ -177,9 +177,9 @@ def _prepare_pairs(
     least = _NARROW * finest
     if contact.gap is not None and contact.gap < least and method_of(prepared.scene) == "barrier":
         prepared.findings.note(
-            f"{field_path(path)}.gap: {contact.gap:g} m is less than {_NARROW:g} of the mean surface "
-            f"edge, {finest:.4g} m; the barrier is lost in round-off there, so that steps do not "
-            f"converge: take {least:.1g} m or more"
+            f"{field_path(path)}.gap: {contact.gap:g} m is less than {_NARROW:g} of the mean "
+            f"surface edge, {finest:.4g} m; the barrier is lost in round-off there, so that steps "
+            f"do not converge: take {least:.1g} m or more"
         )
 
 

@@ -37,7 +37,7 @@ def compile_scene(scene: Scene, checkpoint: Path | None = None) -> Simulation:
     """Turn a scene into a simulation, at rest or where a checkpoint left it.
 
     Raises:
-        SceneError: problems of the scene or its meshes; all of them.
+        SceneError: the scene or its meshes have problems; the error lists all of them.
         CheckpointError: a checkpoint that is absent, damaged, or of another scene or version.
     """
     saved = None if checkpoint is None else read_checkpoint(checkpoint)

@@ -46,8 +46,8 @@ class MaterialSurface:
 class Material:
     """The material of a body as a conforming mesh.
 
-    Cells that no blade met are as they are; of others the mesh has the tetrahedra of their
-    material.
+    Cells that no blade met are unchanged. Instead of the others, the mesh has the tetrahedra of
+    their material.
 
     Attributes:
         mesh: at rest.

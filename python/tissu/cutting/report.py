@@ -48,13 +48,13 @@ class Piece:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class CutReport:
-    """One cut, ablation or tear of one body; all zero where the blade met nothing.
+    """One cut, ablation or tear of one body; all values are zero if the blade met nothing.
 
     Attributes:
         body: its name.
         by: name of the instrument that made it, "tear" of a tear; empty: a call of the program.
         cells_cut: cells that the blade divided or along whose faces it ran.
-        cells_new: cells that took their places.
+        cells_new: cells that replaced them.
         cells_gone: cells that were replaced or removed.
         nodes_new: copies of nodes.
         faces_opened: triangles of the material, each with two sides now.
@@ -69,8 +69,8 @@ class CutReport:
         elastic_energy_change: [J].
         work: of a blade with a toughness, toughness times area [J]; else 0.
         unresolved: cells that the blade met and did not cut, with the reason.
-        released: numbers of the grabs that were let go, since their points were parted.
-        relaid: whether everything was laid anew, in place of what was touched only.
+        released: numbers of the grabs that were released because their points were separated.
+        relaid: whether everything was rebuilt, and not only the parts that the edit touched.
         milliseconds: wall time.
     """
 

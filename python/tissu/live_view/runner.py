@@ -106,7 +106,7 @@ class Runner:
                 return
 
     def ask(self, wish: Callable[[list[Simulation]], T]) -> Future[T]:
-        """Have something done with the simulations between two steps.
+        """Call a function with the simulations between two steps.
 
         Its error is that of the future; a TissuError is the runner's `error` too, and pauses
         nothing.

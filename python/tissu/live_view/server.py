@@ -55,7 +55,9 @@ def _asking_for(word: str) -> Iterator[None]:
     def guarded(*given: Any, process_request: Any, **more: Any) -> Any:
         def judged(connection: Any, request: Any) -> Any:
             if request.headers.get(FIELD) != word:
-                return connection.respond(HTTPStatus.FORBIDDEN, "found a way beside the door\n")
+                return connection.respond(
+                    HTTPStatus.FORBIDDEN, "connect through the address that the view printed\n"
+                )
             return process_request(connection, request)
 
         return serve(*given, process_request=judged, **more)

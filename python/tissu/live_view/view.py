@@ -46,9 +46,9 @@ _HERE = ("127.0.0.1", "localhost", "::1")
 class View:
     """A page on which one or two simulations run live.
 
-    They belong to the view's thread until it is closed: `ask` reaches them between two steps, and
-    another thread that is inside one of them holds up its next step. Points may be grabbed, also
-    where the scene does not say `grabbing: true`, and supports without a name get one.
+    They belong to the thread of the view until it is closed. `ask` calls a function with them
+    between two steps. Another thread inside one of them delays its next step. Points may be grabbed
+    even if the scene has no `grabbing: true`, and supports without a name get one.
 
     Attributes:
         url: the address of the page.
@@ -193,7 +193,7 @@ class View:
         self.close()
 
     def ask(self, wish: Callable[[list[Simulation]], T]) -> Future[T]:
-        """Have something done with the simulations between two steps."""
+        """Call a function with the simulations between two steps."""
         return self._runner.ask(wish)
 
     def play(self) -> None:
@@ -201,7 +201,7 @@ class View:
         self._runner.play().result()
 
     def pause(self) -> None:
-        """Stand still; returns when it does."""
+        """Pause, and return when the simulations stand still."""
         self._runner.pause().result()
 
     def step(self) -> None:
@@ -209,11 +209,11 @@ class View:
         self._runner.step_once().result()
 
     def undo(self) -> Future[None]:
-        """Go back to before the latest press of a tool, or the latest touch of a trocar."""
+        """Return to before the latest press of a tool, or the latest touch of a trocar."""
         return self._runner.ask(self._session.undo.back)
 
     def reset(self) -> Future[None]:
-        """Begin again: every simulation as it began, with the parameters that it has now."""
+        """Return every simulation to its first state, with its present parameters."""
 
         def begin(simulations: list[Simulation]) -> None:
             for simulation in simulations:
@@ -240,18 +240,18 @@ class View:
 
     @property
     def frames_sent(self) -> int:
-        """Number of frames that the page was given."""
+        """Number of frames that were sent to the page."""
         return self._page.sent
 
     def wait(self, seconds: float | None = None) -> None:
-        """Wait; without a time until Ctrl-C."""
+        """Wait for the given time, or until Ctrl-C."""
         self._closed.wait(seconds)
 
     def close(self) -> None:
         """Stop the simulations after their present step, and close the page.
 
         Raises:
-            TissuError: the recording that was asked for cannot be written.
+            TissuError: the recording cannot be written.
         """
         if self._closed.is_set():
             return

@@ -37,8 +37,8 @@ class Mesh:
 
     Attributes:
         points: rest positions (n, 3) float64 [m], read-only.
-        cells: every block there is, faces and lines too; pairs of a type and its nodes, or a
-            mapping from one to the other as in meshio, become blocks.
+        cells: all blocks, faces and lines included; pairs of a type and its nodes, or a mapping
+            from one to the other as in meshio, are converted to blocks.
         thin: which cells below three dimensions are simulated: 2 for surfaces, 1 for lines; the
             others only mark borders.
         regions: name -> numbers int32 of cells, increasing; a cell may be in several.
@@ -46,11 +46,11 @@ class Mesh:
         source: file it was read from, None when it was made.
         unit: unit of length of the file.
         scale: factor on all lengths, on top of the unit.
-        notes: what the reader did, in words.
+        notes: changes that the reader made, in words.
 
     Raises:
-        MeshError: a position that is not finite, cells that are none, or a number of no node or
-            cell.
+        MeshError: a position that is not finite, an invalid cell, or a number that no node or cell
+            has.
     """
 
     points: Floats
@@ -152,7 +152,7 @@ class Mesh:
     def surface(self) -> Surface:
         """The outer surface of the volume and the faces of sheets that are not on it.
 
-        Of a mesh that simulates nothing, its own faces.
+        For a mesh without simulated cells, its own faces.
         """
         return surfaces.boundary(self)
 
@@ -179,8 +179,8 @@ class Mesh:
     def with_region(self, name: str, where: Selects | ArrayLike) -> Mesh:
         """The same mesh with one more region, or with another one of this name.
 
-        Other regions keep their cells, also those that the new one has. A map of laws gives what
-        no region of it has by the key `rest`.
+        Other regions keep their cells, even those that are in the new one. In a map of laws, the
+        key `rest` means the cells of no region of the map.
 
         Args:
             name: of the region.
@@ -188,7 +188,7 @@ class Mesh:
                 lie in it, or numbers (k,) of cells, or one bool for each cell (e,).
 
         Raises:
-            MeshError: no cell is meant, or a number of no cell.
+            MeshError: the selection has no cell, or a number that no cell has.
         """
         from tissu.mesh.regions import with_region
 

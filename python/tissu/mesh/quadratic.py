@@ -29,8 +29,8 @@ def into_quadratic(mesh: Mesh, *, centres: bool = False) -> Mesh:
 
     Args:
         mesh: a mesh of linear volume cells.
-        centres: whether hexahedra have 27 nodes, with one in the middle of each face and one in
-            their own, instead of 20; then there may be tetrahedra beside them, but no other cells.
+        centres: whether hexahedra have 27 nodes, with one in the middle of each face and one in the
+            centre, instead of 20; then the mesh may also have tetrahedra, but no other cells.
 
     Raises:
         MeshError: there are cells that are not linear or cannot stand beside the hexahedra.

@@ -24,8 +24,8 @@ from tissu.mesh.raw import RawMesh
 def read_mesh(path: str | os.PathLike[str], *, unit: str = "m", scale: float = 1.0) -> Mesh:
     """Read a mesh: every format of meshio, Gmsh 1, VTK polydata, .trian, .off and .obj.
 
-    Like blocks are put together; volume cells numbered in reverse are turned round; physical
-    groups and cell tags become regions. `notes` of the mesh say what was done.
+    Blocks of one type are joined; volume cells numbered in reverse are turned round; physical
+    groups and cell tags become regions. `notes` of the mesh list these changes.
 
     Args:
         path: the file.
@@ -33,7 +33,8 @@ def read_mesh(path: str | os.PathLike[str], *, unit: str = "m", scale: float = 1
         scale: factor on all lengths, on top of the unit.
 
     Raises:
-        MeshError: the file cannot be read, or what it holds is not a mesh; says why and where.
+        MeshError: the file cannot be read, or does not contain a mesh; with the reason and the
+            place.
         ParameterError: the unit is not one of length, or the scale is not positive.
     """
     factor = _factor(unit, scale)

@@ -50,7 +50,7 @@ class Surface:
 def boundary(mesh: Mesh) -> Surface:
     """The outer surface of the volume cells and the sheets that are not on it.
 
-    Of a mesh that simulates nothing, its own faces.
+    For a mesh without simulated cells, its own faces.
     """
     if mesh.body_blocks:
         found = _core.boundary_surface(positions=mesh.points, blocks=mesh.native_blocks())

@@ -58,7 +58,7 @@ def draw(
 ) -> None:
     """Writes a PNG of the bodies at rest and now, same view and scale, coloured by a field.
 
-    Obstacles that bodies meet are grey beside them, and a little transparent before them.
+    Obstacles are grey, and slightly transparent in front of a body.
 
     Args:
         simulation: what is drawn.

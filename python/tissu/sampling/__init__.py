@@ -1,4 +1,4 @@
-"""Where points lie: frames and integration points of bodies without a mesh.
+"""Sampling of frames and integration points for bodies without a mesh.
 
 After Bosman, Duriez and Cotin, Modèle pour la simulation de tissus connectifs, REFIG 2014: frames
 and integration points are two Poisson-disk samplings of the same region, the points more densely.

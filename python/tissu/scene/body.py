@@ -97,14 +97,14 @@ class Body(Part):
     law: LawOrMap
     """the material's law, or a map from the mesh's regions to laws"""
     model: ModelOrMap = field(default=FEM())
-    """what computes the cells' forces, by name: fem, corotational, mass_spring, mass_link,
-    mass_tensor, condensed, mean_dilatation, frames, shell; or a map from the mesh's regions to
-    models
+    """the model that computes the cells' forces, by name: fem, corotational, mass_spring,
+    mass_link, mass_tensor, condensed, mean_dilatation, frames, shell; or a map from the mesh's
+    regions to models
     """
     law_for_model: Literal["exact", "nearest"] = "exact"
-    """the law that is computed if the model does not take the body's: `exact` refuses it; `nearest`
-    is the nearest law that the model takes, with the same young and poisson, equal at small strain
-    only
+    """what to do if the model does not take the law of the body: `exact` refuses the scene;
+    `nearest` uses the nearest law that the model takes, with the same young and poisson, which is
+    equal at small strain only
     """
     density: Maybe[units.Density] = field(default=None, gt=0.0)
     """density [kg/m^3]; this or `mass`"""
@@ -122,8 +122,9 @@ class Body(Part):
     edges
     """
     plane: Literal["strain", "stress"] | None = None
-    """the body is flat, of one z, and stays so: without strain across, as in a slice of something
-    long, or without stress across, as in a plate; absent: its sheets are free in space and to thin
+    """the body is flat, with one z, and stays flat: strain (no strain across it, as in a slice of a
+    long body) or stress (no stress across it, as in a plate); absent: its sheets move freely in
+    space, and may become thinner
     """
 
     start: Start | None = None

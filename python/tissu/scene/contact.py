@@ -72,11 +72,12 @@ class Meeting(Part):
 
 
 class Contact(Meeting):
-    """Two surfaces that meet: of two bodies, or of a body and an obstacle."""
+    """Two surfaces that may touch: of two bodies, or of a body and an obstacle."""
 
     between: Annotated[_Ends, BeforeValidator(_ends)] = field(kw_only=False)
-    """names of a body and of what it meets, one or a list; or all: every pair of bodies, every body
-    and obstacle and every body with itself that no other contact names
+    """the name of a body, and the name or a list of names of bodies or obstacles that it may touch;
+    or all: every pair of bodies, every body with every obstacle, and every body with itself, unless
+    another contact names the pair
     """
     friction: units.Pure = field(default=0.0, ge=0.0)
     """Coulomb's coefficient mu"""
@@ -85,15 +86,15 @@ class Contact(Meeting):
     body
     """
     restitution: Maybe[units.Pure] = field(default=None, ge=0.0, le=1.0)
-    """speed of parting over speed of meeting, of the methods impulse and penalty; absent: 0 of
-    impulse, 0.57 of penalty, whose damper has a fifth of the critical damping
+    """speed after an impact over the speed before it, for the methods impulse and penalty; absent:
+    0 for impulse, 0.57 for penalty, whose damper has a fifth of the critical damping
     """
     stiffness: Maybe[units.StiffnessPerArea] = field(default=None, gt=0.0)
-    """of the method penalty [Pa/m]; absent: from the masses in explicit steps, from the bodies'
-    stiffness at rest in others
+    """contact stiffness of the method penalty [Pa/m]; absent: from the masses in explicit steps,
+    from the bodies' stiffness at rest in others
     """
     on: On | None = None
-    """which nodes of the first body's surface meet the others; absent: all"""
+    """nodes of the first body's surface that take part in the contact; absent: all"""
 
     def pairs(self) -> list[tuple[Path, str, Path, str]]:
         """Both names of each pair, each after its place; none for all."""
@@ -116,7 +117,7 @@ class Contact(Meeting):
 
 
 class SelfContact(Meeting):
-    """A body that meets itself, where it folds."""
+    """A body that may touch itself, for instance where it folds."""
 
     self: Annotated[str, BeforeValidator(_name)] = field(kw_only=False)
     """name of the body"""
@@ -125,12 +126,12 @@ class SelfContact(Meeting):
     gap: Maybe[units.Length] = field(default=None, gt=0.0)
     """distance at which surfaces rest [m]; absent: 2 % of the mean surface edge"""
     restitution: Maybe[units.Pure] = field(default=None, ge=0.0, le=1.0)
-    """speed of parting over speed of meeting, of the methods impulse and penalty; absent: 0 of
-    impulse, 0.57 of penalty, whose damper has a fifth of the critical damping
+    """speed after an impact over the speed before it, for the methods impulse and penalty; absent:
+    0 for impulse, 0.57 for penalty, whose damper has a fifth of the critical damping
     """
     stiffness: Maybe[units.StiffnessPerArea] = field(default=None, gt=0.0)
-    """of the method penalty [Pa/m]; absent: from the masses in explicit steps, from the bodies'
-    stiffness at rest in others
+    """contact stiffness of the method penalty [Pa/m]; absent: from the masses in explicit steps,
+    from the bodies' stiffness at rest in others
     """
 
     def effect(self, path: str, gap: str | None) -> Effect:
@@ -142,22 +143,22 @@ class ContactSettings(Part):
     """Settings that all contacts of a scene share."""
 
     method: Literal["auto", "augmented", "barrier", "penalty", "impulse", "geometric"] = "auto"
-    """how contacts become forces; auto: the first that the step takes"""
+    """how contact forces are computed; auto: the first method that the step supports"""
     broad_phase: Literal["hierarchy", "sweep_and_prune", "grid", "octree", "fcl"] = "hierarchy"
-    """how near surfaces are found; it changes the time of a step and no bit of its result"""
+    """how near surfaces are found; it changes the time of a step, but not its result"""
     penalty: Literal["linear", "reciprocal"] = "linear"
     """how the force of the method penalty grows as surfaces close: with their depth, or as one over
     their distance
     """
     iterations: Annotated[int, Field(ge=1)] = 20
-    """linear systems at most in a step that is linearised once; with the method impulse, contact
-    searches at most in a step whose motion is cut short
+    """largest number of linear systems in a step that is linearised once; with the method impulse,
+    of contact searches in a step whose motion is cut short
     """
     travel: bool = True
-    """whether nodes are held back where surfaces would pass through each other"""
+    """whether nodes are stopped where surfaces would otherwise pass through each other"""
     overlap: Literal["refuse", "separate"] = "refuse"
-    """what to do with surfaces that cross at the start: refuse the scene; separate, which would
-    push them apart first, is refused itself so far
+    """what to do with surfaces that cross at the start: refuse the scene; separate (push them apart
+    first) is not supported yet
     """
 
     def words(self, method: str, step: str) -> str:

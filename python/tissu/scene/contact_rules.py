@@ -69,7 +69,7 @@ def contact_problems(scene: Any) -> Iterator[Problem]:
         yield Problem(("contacts",), f"{text}a contact of it, such as {{between: all}}")
     alls = [n for n, contact in enumerate(contacts) if getattr(contact, "between", "") == "all"]
     for number in alls[1:]:
-        text = f"found all a second time, beside contacts[{alls[0]}]; once is accepted"
+        text = f"found all a second time, in addition to contacts[{alls[0]}]; once is accepted"
         yield Problem(("contacts", number, "between"), text)
     if contacts:
         with contextlib.suppress(Unknown):
@@ -181,7 +181,7 @@ def _all_problems(scene: Any, contact: Contact) -> Iterator[Problem]:
                 text = f"found all, and among the bodies '{name}', {missing.split(',')[0]}"
                 yield Problem(("between",), f"{text}; name the pairs that meet instead")
     if contact.on is not None:
-        text = "found `on` beside all, which has no first body; name the pairs, or leave `on` out"
+        text = "found `on` with all, which has no first body; name the pairs, or leave `on` out"
         yield Problem(("on",), text)
 
 
@@ -207,7 +207,7 @@ def _method_problems(scene: Any) -> Iterator[Problem]:
     yield from _free_problems(scene, step)
     yield from _settings_problems(settings, method)
     if getattr(scene.step, "arc_length", False):
-        text = "found true beside contacts, which an arc length does not follow; leave it out"
+        text = "found true with contacts, which an arc length does not follow; leave it out"
         yield Problem(("step", "arc_length"), text)
     for number, contact in enumerate(scene.contacts):
         with contextlib.suppress(Unknown):
@@ -229,10 +229,10 @@ def _free_problems(scene: Any, step: str) -> Iterator[Problem]:
 
 def _settings_problems(settings: ContactSettings, method: str) -> Iterator[Problem]:
     if settings.penalty != "linear" and method != "penalty":
-        text = f"found {settings.penalty} beside the method {method}, which has no such law; "
+        text = f"found {settings.penalty} with the method {method}, which has no such law; "
         yield Problem(("contact", "penalty"), f"{text}leave it out, or take the method penalty")
     if method == "barrier" and not settings.travel:
-        text = "found false beside the method barrier, which holds surfaces apart on free ways "
+        text = "found false with the method barrier, which holds surfaces apart on free ways "
         yield Problem(("contact", "travel"), f"{text}alone; leave it out")
     if settings.overlap == "separate":
         text = "found separate, which is not there yet; refuse is accepted: move the bodies apart"

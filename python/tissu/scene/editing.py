@@ -21,11 +21,12 @@ _LEAST = 256
 
 
 class Editing(Part):
-    """Cells may be removed and bodies cut while the scene runs; `true` is all defaults."""
+    """Cells may be removed and bodies cut while the scene runs; `true` means all defaults."""
 
     room: Maybe[units.Pure] = field(default=None, ge=0.0, le=100.0)
-    """nodes that cuts may make, as a share of those of the body; absent: a quarter of them, and
-    256 more; a cut that needs more is refused"""
+    """number of nodes that cuts may add, as a share of the nodes of the body; absent: a quarter,
+    and 256 more; a cut that needs more is refused
+    """
 
     def nodes(self, count: int) -> int:
         """Number of nodes that cuts may make in a body of `count` nodes."""

@@ -89,7 +89,7 @@ class Instrument(Part):
     def _begins_once(self) -> Iterator[Problem]:
         for name in ("position", "rotation"):
             if self.path is not None and any(getattr(self, name)):
-                text = "found it beside a path, which says where the tool is; leave it out"
+                text = "found it with a path, which gives the place of the tool; leave it out"
                 yield Problem((name,), text)
 
     @property
@@ -170,7 +170,7 @@ class Knife(Instrument):
 
 
 class Ablator(Instrument):
-    """A tip that takes away the cells whose material has its centre in it, or on its path."""
+    """A tip that removes the cells whose centre of material lies in it, or on its path."""
 
     type: Literal["ablator"] = "ablator"
     radius: units.Length = field(gt=0.0, kw_only=False)
@@ -178,9 +178,11 @@ class Ablator(Instrument):
     ends: _MaybePlaces = field(default=None)
     """ends of the axis of a capsule in the tool's own axes [m]; absent: a ball about the origin"""
     removes: _Names = field(min_length=1)
-    """names of the bodies whose cells it takes away"""
+    """names of the bodies whose cells it removes"""
     least_force: Maybe[units.ForceSize] = field(default=None, ge=0.0)
-    """reserved for tips that work by pressing [N], which are not there yet: leave it out"""
+    """reserved for tips that remove cells by pressing [N], which are not supported yet: leave it
+    out
+    """
 
     @rule("least_force")
     def _does_not_press(self) -> Iterator[Problem]:

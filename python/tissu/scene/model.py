@@ -146,9 +146,9 @@ class Frames(Model):
     middle only, as published
     """
     lever: Lever | None = None
-    """share of the way from frame to point that rotations turn: whole, as published, or half, which
-    bends with the rotations of the material (linked interpolation: for large bending); absent: half
-    along sheets and lines whose section is whole, else whole
+    """share of the vector from frame to point that rotates with the frame: whole, as published, or
+    half, with which frames rotate as the material does (linked interpolation, for large bending);
+    absent: half for sheets and lines whose section is whole, otherwise whole
     """
 
     def _options(self, kept: Ints) -> dict[str, Any]:

@@ -34,14 +34,16 @@ class Obstacle(Part):
     """The common part of all obstacles."""
 
     motion: Motion | None = None
-    """path on which it is led; absent: it stands still"""
+    """its prescribed path; absent: it stands still"""
     mass: Maybe[units.Mass] = field(default=None, gt=0.0)
-    """mass [kg] of an obstacle that moves freely, of even density; absent: it is led, or at rest"""
+    """mass [kg], of uniform density, of an obstacle that moves freely; absent: it follows its path,
+    or stands still
+    """
     velocity: MaybeVector[units.Velocity] = field(default=None)
-    """velocity at the start [m/s], of one with a mass; absent: none"""
+    """velocity at the start [m/s] of an obstacle with a mass; absent: zero"""
     spin: MaybeVector[units.Spin] = field(default=None)
-    """angular velocity at the start about the centre of mass [rad/s], of one with a mass; absent:
-    none
+    """angular velocity at the start about the centre of mass [rad/s] of an obstacle with a mass;
+    absent: zero
     """
     if TYPE_CHECKING:
         type: str
@@ -49,7 +51,7 @@ class Obstacle(Part):
     @rule("mass", "motion")
     def _is_led_or_free(self) -> Iterator[Problem]:
         if self.mass is not None and self.motion is not None:
-            text = f"found {self.mass:g} kg beside `motion`; an obstacle with a mass moves freely, "
+            text = f"found {self.mass:g} kg with `motion`; an obstacle with a mass moves freely, "
             yield Problem(("mass",), f"{text}one that is led has none: leave one of them out")
 
     @rule("mass", "velocity", "spin")
@@ -75,7 +77,7 @@ class PlaneObstacle(Obstacle):
 
     type: Literal["plane"] = "plane"
     point: units.Position = field(kw_only=False)
-    """a point of the plane [m]; it is led, and moments are taken about it"""
+    """a point of the plane [m]; it moves with the plane, and moments are taken about it"""
     normal: units.Direction = field(kw_only=False)
     """direction out of the solid half, of any length but zero"""
 
@@ -145,7 +147,7 @@ class CapsuleObstacle(Obstacle):
 
 
 class BoxObstacle(Obstacle):
-    """A solid box along the axes; its motion may turn it."""
+    """A solid box along the axes; its motion may rotate it."""
 
     type: Literal["box"] = "box"
     min: units.Position = field(kw_only=False)
@@ -170,8 +172,8 @@ class MeshObstacle(Obstacle):
 
     type: Literal["mesh"] = "mesh"
     mesh: Annotated[Read[Any, MeshLike], PlainValidator(mesh_source)] = field(kw_only=False)
-    """a mesh file, a bar, or (in Python) a Mesh; closed, it is met from outside, else from both
-    sides
+    """a mesh file, a bar, or (in Python) a Mesh; bodies touch a closed one from outside, an open
+    one from both sides
     """
 
     def words(self) -> str:

@@ -52,8 +52,8 @@ class Output(Part):
     every: units.Time = field(gt=0.0)
     """simulated time between two written results [s]"""
     fields: Read[tuple[str, ...] | None, Sequence[str] | None] = field(default=None)
-    """fields of `Simulation.field` at cells, such as cauchy_stress; `regions`: which cells are in
-    each; `reactions`: forces, and moments, that supports give to the nodes; absent: von_mises, and
+    """fields of `Simulation.field` at cells, such as cauchy_stress; `regions`: the cells of each
+    region; `reactions`: forces, and moments, of the supports on the nodes; absent: von_mises, and
     energy_density by the name strain_energy_density
     """
     node_fields: Read[tuple[str, ...], Sequence[str]] = field(default=())
@@ -87,7 +87,7 @@ _Tissue = Read[dict[str, Tissue], Mapping[str, Tissue]]
 
 
 class SceneData(Part):
-    """Bodies, what holds and moves them, and how time is stepped; frozen and validated.
+    """Bodies, supports, loads, contacts and a method in time; frozen and validated.
 
     An effect that is absent (no viscosity, no gravity, no loads) is absent from the simulation too.
     """
@@ -109,7 +109,7 @@ class SceneData(Part):
     obstacles: Annotated[Obstacles, BeforeValidator(_by_name)] = field(default_factory=dict)
     """rigid things by name that bodies meet where a contact says so"""
     contacts: Contacts = field(default=())
-    """what meets what; absent: bodies pass through each other"""
+    """pairs of bodies and obstacles that may touch; absent: bodies pass through each other"""
     contact: ContactSettings | None = None
     """settings that all contacts share"""
     trocars: Annotated[Trocars, BeforeValidator(_by_name)] = field(default_factory=dict)
@@ -129,10 +129,11 @@ class SceneData(Part):
     grabbing: bool = False
     """whether points may be grabbed while it runs"""
     output: Output | None = None
-    """what is written while it runs"""
+    """results that are written while the scene runs"""
     laws: Read[tuple[LawFile, ...], Sequence[PathLike]] = field(default=())
-    """Python files with laws of one's own, in the scene's folder or below; they are programs and
-    run only with `--trust-laws`, or `trust_laws=True`"""
+    """Python files with user-defined laws, in the scene's folder or below; they are programs and
+    run only with `--trust-laws`, or `trust_laws=True`
+    """
     _source: Source | None = PrivateAttr(default=None)
 
     @rule()
@@ -264,6 +265,6 @@ class SceneData(Part):
         return other
 
     def own_laws(self) -> list[MadeLaw]:
-        """The laws of one's own that the bodies are made of, each once, in their order."""
+        """The user-defined laws of the bodies, each once, in their order."""
         laws = [type(law).made for body in self.bodies.values() for law in body.laws().values()]
         return list(dict.fromkeys(made for made in laws if made is not None))

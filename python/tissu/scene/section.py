@@ -121,9 +121,7 @@ class Rectangle(Oriented):
     width: units.Length = field(gt=0.0)
     """side across `up` and the line [m]"""
     up: units.Direction = field()
-    """direction in space of the height, of any length but zero; what of it lies along a line is
-    left out
-    """
+    """direction in space of the height, not zero; its part along a line is left out"""
 
     def whole_area(self) -> float:
         """Area [m^2]."""
@@ -152,8 +150,8 @@ class GeneralSection(Oriented):
     shear_across: units.Pure = field(gt=0.0, le=1.0)
     """shear factor of forces across `up`"""
     up: units.Direction = field()
-    """direction in space of the first principal axis, of any length but zero; what of it lies along
-    a line is left out
+    """direction in space of the first principal axis, of any length but zero; its part along a line
+    is left out
     """
 
     @rule("inertia_up", "inertia_across", "torsion")

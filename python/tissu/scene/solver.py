@@ -57,7 +57,7 @@ class Solver(Part):
 
 
 class Auto(Solver):
-    """The cheapest solver by counted work, chosen anew while a scene runs.
+    """The cheapest solver by counted work; the choice may change while a scene runs.
 
     Block-Jacobi, incomplete Cholesky, multigrid, a stale factor or a new one. It may change while
     the scene runs; `plan()` and `profile()` say to which, and by which counts.
@@ -91,9 +91,11 @@ class ConjugateGradient(Solver):
     """the diagonal, its 3x3 blocks, a factor without fill, the factor of an earlier matrix, or a
     multigrid of rigid aggregates"""
     precision: Precision = "double"
-    """of the iterations; residuals are double and correct single ones to the tolerance"""
+    """precision of the iterations; residuals are in double precision, and correct single iterations
+    to the tolerance
+    """
     matrix: Matrix = "assembled"
-    """free: the products of the forces themselves, no matrix; with jacobi and block_jacobi"""
+    """free: products of the forces themselves, without a matrix; with jacobi and block_jacobi"""
 
     def words(self, _solves: str) -> str:
         """The method and its preconditioner."""
@@ -114,7 +116,7 @@ class ConjugateGradient(Solver):
 
 
 class Cholesky(Solver):
-    """Sparse Cholesky factorisation (CHOLMOD), its symbolic part kept while the mesh is."""
+    """Sparse Cholesky factorisation (CHOLMOD); its symbolic part is kept with the mesh."""
 
     type: Literal["cholesky"] = "cholesky"
 

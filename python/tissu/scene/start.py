@@ -20,16 +20,16 @@ Shape = Literal["rest", "point", "plane", "random", "inside_out"]
 
 
 class Start(Part):
-    """The state of a body at time zero; nodes that are held stay in their places."""
+    """The state of a body at time zero; held nodes stay in their places."""
 
     velocity: MaybeVector[units.Velocity] = field(default=None)
     """velocity of all nodes [m/s]; absent: at rest"""
     spin: MaybeVector[units.Spin] = field(default=None)
     """angular velocity about the centre of mass [rad/s]; absent: none"""
     shape: Shape = "rest"
-    """where nodes begin: at rest; all in one point, the centre of mass; flattened into the
-    horizontal plane through it; at random within the body's box; or inside out, mirrored in that
-    plane
+    """places of the nodes at the start: at rest; all in one point, the centre of mass; flattened
+    into the horizontal plane through it; at random within the body's box; or inside out, mirrored
+    in that plane
     """
     seed: Annotated[int, Field(ge=0)] = 0
     """seed of the random places"""

@@ -111,7 +111,7 @@ class Explicit(Step):
 
 
 class ExplicitEuler(Explicit):
-    """Forward Euler: first order; makes every vibration grow that is not damped enough."""
+    """Forward Euler: first order; every vibration grows that is not damped enough."""
 
     type: Literal["explicit_euler"] = "explicit_euler"
 
@@ -167,7 +167,7 @@ class ImplicitMidpoint(Implicit):
 
 
 class BDF2(Implicit):
-    """Backward differentiation of second order: damps fast vibrations, slow ones hardly."""
+    """Backward differentiation of second order: damps fast vibrations, and slow ones little."""
 
     type: Literal["bdf2"] = "bdf2"
 
@@ -223,7 +223,9 @@ class Static(Step):
 
     type: Literal["static"] = "static"
     load_steps: _Count = 1
-    """parts, at least, in which each step is taken; led nodes turn by at most 30 degrees in one"""
+    """least number of parts into which each step is divided; no part turns led nodes by more than
+    30 degrees
+    """
     newton: Newton = field(default_factory=lambda: Newton(iterations=25))
     """Newton's method, for each part that is tried"""
     total_iterations: _Count | None = None

@@ -201,8 +201,9 @@ class Prescribed(Support):
     displacements: MaybeVectors[Many[units.Position]] = field(default=None)
     """displacement from rest at each time [m]; absent: none"""
     node_displacements: _OfNodes = field(default=None)
-    """displacement from rest at each time of each node [m], beside those of all; nodes as `ids` of
-    `on` names them, else by increasing number"""
+    """displacement from rest of each node at each time [m], in addition to those of all nodes;
+    nodes are in the order of the `ids` of `on`, otherwise by increasing number
+    """
     rotation: Rotation | None = None
     """rotation from rest; absent: none"""
 

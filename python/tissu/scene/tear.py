@@ -15,17 +15,17 @@ __all__ = ["Tear"]
 
 
 class Tear(Part):
-    """A body tears where its largest principal stress, averaged around a place, is too large."""
+    """A body tears where the local mean of its largest principal stress exceeds its strength."""
 
     body: str = field(kw_only=False)
     """name of a body of the scene"""
     strength: units.Pressure = field(gt=0.0)
-    """largest principal Cauchy stress that it bears [Pa]"""
+    """largest principal Cauchy stress that it withstands [Pa]"""
     length: units.Length = field(gt=0.0)
     """the stress is a mean over the cells within this distance [m], and a tear opens 1.5 times as
     far: above the edge of a cell, and the same for every mesh"""
     per_step: Annotated[int, Field(ge=1, le=1000)] = 8
-    """places at most that tear at the end of one step, the most overstressed ones"""
+    """largest number of places that tear at the end of one step; the most overstressed first"""
 
     def effect(self, path: str) -> Effect:
         """The effect that it switches on."""

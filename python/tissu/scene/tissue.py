@@ -31,7 +31,7 @@ def _inside(value: Any, info: ValidationInfo) -> Any:
 
 
 class Tissue(Part):
-    """Soft tissue made of frames and integration points; it ties the bodies it lies between.
+    """Soft tissue made of frames and integration points; it connects the bodies on both sides.
 
     Frames have six degrees of freedom. Points listen to the frames near them, and, between two
     bodies, to the nodes of these: nodes with a rotation are frames of the tissue too, others carry
@@ -41,11 +41,11 @@ class Tissue(Part):
     between: tuple[str, str] | None = None
     """names of two bodies that it ties together; this, `inside` or both"""
     inside: Annotated[Read[Any, MeshLike | None], PlainValidator(_inside)] = field(default=None)
-    """a mesh whose closed surface it fills: a file, a bar or (in Python) a Mesh; beside `between`
-    it holds the nodes of the two bodies that lie inside
+    """a mesh whose closed surface it fills: a file, a bar or (in Python) a Mesh; together with
+    `between`, it is attached to the nodes of the two bodies that lie inside
     """
     reach: Maybe[units.Length] = field(default=None, gt=0.0)
-    """longest way from one of the two bodies to the other through it [m]; not beside `inside`"""
+    """longest distance between the two bodies that it fills [m]; not together with `inside`"""
     on: tuple[On, On] | None = None
     """which nodes of the two bodies it may hold; absent: all within reach"""
     frames: Count
@@ -53,7 +53,7 @@ class Tissue(Part):
     points: Count
     """approximate number of its integration points"""
     sampling: Literal["poisson", "grid"] = "poisson"
-    """how frames and points are laid: as far from each other as can be, or on a regular grid"""
+    """how frames and points are placed: as far from each other as possible, or on a regular grid"""
     seed: Annotated[int, Field(ge=0)] = 0
     """of the Poisson sampling"""
     shape: ShapeName = "shepard"
@@ -74,7 +74,7 @@ class Tissue(Part):
         if self.between is None and self.inside is None:
             yield Problem((), "found neither between nor inside; one of them or both are accepted")
         if self.between is None and not (self.reach is None and self.on is None):
-            yield Problem((), "found reach or on without between; they are accepted beside it")
+            yield Problem((), "found reach or on without between; they are accepted with it")
         if self.between is not None and (self.reach is None) == (self.inside is None):
             found = "neither" if self.reach is None else "both"
             text = f"found between with {found} of reach (the longest way from one body to the "

@@ -62,7 +62,7 @@ class Rayleigh(Viscosity):
 
 
 class KelvinVoigt(Viscosity):
-    """A damper beside the law at every point: S = 2 eta dE/dt + zeta tr(dE/dt) I.
+    """A damper parallel to the law at every point: S = 2 eta dE/dt + zeta tr(dE/dt) I.
 
     A rigid rotation is not damped. With the model mass_spring it is a damper beside each spring.
     """
@@ -84,7 +84,7 @@ class KelvinVoigt(Viscosity):
 
 
 class Centroid(Viscosity):
-    """Nodes of a cell damped against its centroid (Chendeb 2007); a rigid rotation is damped."""
+    """Nodes of a cell are damped against its centroid (Chendeb 2007); so are rigid rotations."""
 
     type: Literal["centroid"] = "centroid"
     coefficient: units.DampingPerVolume = field(gt=0.0)
@@ -96,10 +96,10 @@ class Centroid(Viscosity):
 
 
 class PronyBranch(Part):
-    """A spring and a damper in a row, beside the law."""
+    """A spring and a damper in series, parallel to the law."""
 
     weight: units.Pure = field(gt=0.0)
-    """stiffness of the spring, beside the law's own at small strain"""
+    """stiffness of the spring, relative to that of the law at small strain"""
     time: units.Time = field(gt=0.0)
     """time after which its stress has fallen to 1/e [s]"""
 
@@ -112,7 +112,7 @@ _Branches = Read[tuple[PronyBranch, ...], Sequence[PronyBranch]]
 
 
 class Prony(Viscosity):
-    """Stress that relaxes: the law at long times, 1 + sum of the weights as stiff at once."""
+    """Stress that relaxes to that of the law, from 1 + the sum of the weights times as much."""
 
     type: Literal["prony"] = "prony"
     branches: Annotated[_Branches, Field(min_length=1, max_length=16)]

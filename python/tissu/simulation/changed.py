@@ -47,24 +47,24 @@ class Changed:
     def parameters(self) -> Parameters:
         """The numbers of the scene that may change while it runs, by their names.
 
-        `simulation.parameters["bodies.liver.law.young"] = "6 kPa"` holds from the next step on, and
-        does what a new scene with that value would do from there. See `Parameters`.
+        `simulation.parameters["bodies.liver.law.young"] = "6 kPa"` acts from the next step on, as
+        in a new scene with that value. See `Parameters`.
         """
         return Parameters(self, self._entry)  # type: ignore[arg-type]
 
     def allow_grabbing(self) -> None:
-        """Let points be grabbed from now on, where the scene was compiled without `grabbing: true`.
+        """Allow grabs from now on, if the scene was compiled without `grabbing: true`.
 
-        The motion stays the same until one is. As after a checkpoint, the linear solver begins
-        anew: an iterative one may end at other digits within its tolerance.
+        The motion stays the same until a point is grabbed. As after a checkpoint, the linear solver
+        starts without memory, so an iterative solver may end at other digits within its tolerance.
         """
         if not self.scene.grabbing:
             self._become(self.scene.replace(grabbing=True))
 
     def allow_touch(self) -> None:
-        """Allow grabbing, and give supports without a name one, by which `lead` finds them.
+        """Allow grabs, and give each support without a name a name for `lead`.
 
-        The motion stays the same until one is used, as `allow_grabbing` says.
+        The motion stays the same until one is used; see `allow_grabbing`.
         """
         scene, taken = self.scene, set[str]()
         for support in (*scene.fixed, *scene.prescribed):
@@ -78,10 +78,10 @@ class Changed:
             self._become(scene.replace(grabbing=True, **given))
 
     def reset(self) -> None:
-        """Begin again: the state in which the scene begins, at time zero and with all its cells.
+        """Return to the first state of the scene, at time zero and with all its cells.
 
-        Parameters keep the values that they were given; loads are as the scene has them, and
-        grabs are let go.
+        Parameters keep their present values. Loads return to those of the scene, and grabs are
+        released.
         """
         fresh = self._compiled(self.scene)
         self._core.replace_world(world=fresh._world)
@@ -99,12 +99,18 @@ class Changed:
         """
         fresh = self._compiled(scene)
         self._core.settle()
-        edited = any(self._meshes[body] is not mesh for body, mesh in self._rest.items())
-        world = self._core.edited_like_now(fresh=fresh._world) if edited else fresh._world
+        world = self._core.edited_like_now(fresh=fresh._world) if self._edited() else fresh._world
         self._core.replace_world(world=world)
         self._take_over(fresh)
         self.scene = scene
         self._physics_known = None
+
+    def _edited(self) -> bool:
+        """Whether a body has other cells, or material that is divided though no cell has parted."""
+        return any(
+            self._meshes[body] is not mesh or (self.scene.editing and self._core.divided(body))
+            for body, mesh in self._rest.items()
+        )
 
     def _compiled(self, scene: Scene) -> Changed:
         """A simulation of the scene, with the meshes that are in memory already."""

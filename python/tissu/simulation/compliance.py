@@ -27,10 +27,10 @@ WAYS: tuple[Way, ...] = ("factor", "cg", "condensed", "warped")
 @known_names_only
 @one_thread_at_a_time
 class Compliance:
-    """How far points give way within a step, step after step; `Simulation.compliance` makes it.
+    """The compliance of points within a step; made by `Simulation.compliance`.
 
     W = dt^2 H A^-1 H^T with A = M + dt D + dt^2 K as they are now, and H the directions of the
-    points; H K^-1 H^T of a static method. `error` bounds what is wrong with it.
+    points; H K^-1 H^T of a static method. `error` bounds its relative error.
     """
 
     def __init__(
@@ -56,7 +56,7 @@ class Compliance:
     ) -> Floats:
         """W (3m, 3m) of m points in three directions each [m/N], symmetric.
 
-        A point moves as the sum of weight times node.
+        The displacement of a point is the weighted sum of those of its nodes.
 
         Args:
             bodies: name of the body of each point.
@@ -68,7 +68,7 @@ class Compliance:
             The rows and columns of point i are 3 i to 3 i + 2. A direction that is held has zeros.
 
         Raises:
-            ParameterError: no body of that name or no node of that number; a way that this scene
+            ParameterError: no body of that name or no node of that number; a method that this scene
                 does not allow; lengths that differ.
         """
         if not len(bodies) == len(nodes) == len(weights) == len(np.reshape(axes, (-1, 9))):
@@ -94,32 +94,32 @@ class Compliance:
 
     @property
     def by(self) -> Way:
-        """How it is found."""
+        """The method by which it is computed."""
         return self._by
 
     @property
     def error(self) -> float:
         """Bound of the relative error of the latest one, of each direction's own compliance.
 
-        It is zero where the factor was that of the matrix itself, and of `condensed`. It holds
-        where damping and stiffness are positive semi-definite and every node has a mass; without
-        masses the kept factor estimates it. `warped` does not know it: nan.
+        It is zero if the factor is that of the matrix itself, and for `condensed`. The bound is
+        valid if damping and stiffness are positive semi-definite and every node has a mass; without
+        masses the kept factor estimates it. For `warped` the error is not known: nan.
         """
         return float("nan") if self._by == "warped" else self._found.error
 
     @property
     def corrections(self) -> int:
-        """Corrections that the latest one took; of `cg`: iterations."""
+        """Number of corrections of the latest computation; for `cg`, of iterations."""
         return self._found.corrections
 
     @property
     def factors(self) -> int:
-        """How often a matrix was factored since it was made."""
+        """How often a matrix was factored since the object was made."""
         return self._made
 
     @property
     def definite(self) -> bool:
-        """Whether the matrix was positive definite; else that of each cell was made so."""
+        """Whether the matrix was positive definite; otherwise that of each cell was made so."""
         return self._found.definite
 
 

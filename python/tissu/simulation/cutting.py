@@ -36,7 +36,7 @@ _NEAREST = 0.02
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Mark:
-    """A moment to which `Simulation.rewind` goes back; kept in memory only."""
+    """A state to which `Simulation.rewind` returns; kept in memory only."""
 
     _core: core.Mark
     _owner: object
@@ -73,10 +73,10 @@ class Cutting(Remains):
     def cut(self, body: str, blade: Blade, *, refine: bool = False) -> CutReport:
         """Cut a body along a surface in present space, between two steps.
 
-        Each cell that the blade parts is replaced by one copy for each part, undistorted and with
-        the share of the material that it holds (virtual nodes: Molino et al. 2004), so that mass,
-        momenta, kinetic and elastic energy stay what they were. Numbers of nodes and cells stay;
-        new ones follow the last. `surface` and `material` have the cut itself.
+        Each cell that the blade divides is replaced by one undistorted copy for each part, with the
+        share of the material in that part (virtual nodes: Molino et al. 2004). So mass, momenta,
+        kinetic and elastic energy do not change. Nodes and cells keep their numbers; new ones
+        follow the last. `surface` and `material` give the cut itself.
 
         Args:
             body: its name.
@@ -84,20 +84,21 @@ class Cutting(Remains):
             refine: divide cells that a narrow blade pierces without crossing an edge.
 
         Returns:
-            What was cut; empty where the blade met nothing.
+            The report of the cut; empty if the blade met nothing.
 
         Raises:
             ParameterError: the scene was compiled without `editing: true`; no such body, or one
-                that cannot be cut, with what stands against it; a blade without area; no room for
-                the new nodes; in a static scene, pieces that nothing holds. Nothing has changed
-                then.
+                that cannot be cut, with the reason; a blade without area; no room for the new
+                nodes; in a static scene, pieces without a support. Then nothing has changed.
         """
         self._require_editing(body)
+        if not isinstance(refine, bool | np.bool_):
+            raise ParameterError(f"found refine={refine!r} of a cut; True and False are accepted")
         sweep = surface_of(blade, self.positions[body])
-        return self._cut_along(body, sweep, refine=refine)
+        return self._cut_along(body, sweep, refine=bool(refine))
 
     def ablate(self, body: str, place: Place) -> CutReport:
-        """Take away the cells whose material has its centre in a place in present space.
+        """Remove the cells whose centre of material lies in a region of present space.
 
         Cells that share only an edge or a node come apart, unlike after `remove_cells`.
 
@@ -106,7 +107,7 @@ class Cutting(Remains):
             place: a sphere, a capsule or a box.
 
         Raises:
-            ParameterError: see `cut`; that would leave no cell.
+            ParameterError: see `cut`; no cell would remain.
         """
         self._require_editing(body)
         centres, numbers = centres_of(self.material(body))
@@ -136,10 +137,10 @@ class Cutting(Remains):
         )
 
     def mark(self) -> Mark:
-        """Remember this moment, cuts included; `rewind` goes back to it any number of times.
+        """Store the present state, cuts included; `rewind` returns to it any number of times.
 
-        The solver forgets what it keeps of earlier steps, so that a run from here and one after
-        `rewind` have the same bits.
+        The solver drops its memory of earlier steps, so that a run from here and one after `rewind`
+        have the same bits.
         """
         compiled = (self.scene, self._world, self._check, self._loads)
         return Mark(
@@ -147,7 +148,7 @@ class Cutting(Remains):
         )
 
     def rewind(self, mark: object) -> None:
-        """Go back to a mark: state, time, cells, cuts, and the parameters of that moment.
+        """Return to a mark: state, time, cells, cuts, and the parameters at that time.
 
         Raises:
             ParameterError: it is a mark of another simulation.

@@ -48,7 +48,7 @@ class Handled:
     def load(self, which: str | int) -> LiveLoad:
         """A load of the scene, to be changed from the next step on.
 
-        What is changed stands in the state: checkpoints carry it.
+        Changes are part of the state: checkpoints include them.
 
         Args:
             which: its `name`, or its number in the scene.
@@ -71,14 +71,14 @@ class Handled:
         *,
         offset: VectorLike | None = None,
     ) -> Grab:
-        """Pull a point of a body to a target, f = stiffness (target - position), until let go.
+        """Pull a point of a body to a target, f = stiffness (target - position), until released.
 
-        The grab stands in the state: checkpoints carry it.
+        The grab is part of the state: checkpoints include it.
 
         Args:
             body: its name.
-            at: number of a node, or a place of the body at rest (3,) [m], whose cell carries it
-                by its shape functions.
+            at: number of a node, or a place of the body at rest (3,) [m], which moves with its cell
+                by the shape functions.
             target: a place in space (3,) [m].
             stiffness: of the spring [N/m], or text such as "50 N/m".
             offset: of a node that is a frame: from the node to the point at rest (3,) [m]; it
@@ -104,8 +104,8 @@ class Handled:
     ) -> Grab:
         """Grab the surface at its place nearest to a point, as a hand or a mouse does.
 
-        The grab does not pull yet: its target is the place of the point. Move it by
-        `grab.target`, let go by `grab.release()`.
+        The grab does not pull yet: its target is the place of the point. Set `grab.target` to pull,
+        and call `grab.release()` to let go.
 
         Args:
             body: its name.
@@ -134,7 +134,7 @@ class Handled:
         return grab
 
     def drag_stiffness(self, body: str) -> float:
-        """The stiffness of a `drag` that is given none [N/m].
+        """The default stiffness of a `drag` [N/m].
 
         Raises:
             ParameterError: no such body.
@@ -145,7 +145,8 @@ class Handled:
     def drag_as(self, other: Grab) -> Grab:
         """Grab the same point of the same body as a grab of another simulation.
 
-        Its stiffness and its target are those of the other one. Of two simulations of one mesh.
+        Its stiffness and its target are those of the other grab. Both simulations must have the
+        same mesh.
 
         Raises:
             ParameterError: see `grab`; the body has fewer nodes here.
@@ -205,13 +206,13 @@ class Handled:
     ) -> Lead:
         """A support or motion of the scene that has a name, to be led live from the next step on.
 
-        Live targets stand in the state: checkpoints carry them.
+        Live targets are part of the state: checkpoints include them.
 
         Args:
-            which: its `name`, or the part itself as it stands in the scene.
-            positions: where its nodes are led to (k, 3) [m], see `Lead.place`; None: it goes on as
-                it does, until `move` or `place` of what is returned.
-            over: time until they are there [s]; None: the next step.
+            which: its `name`, or the part of the scene itself.
+            positions: target places of its nodes (k, 3) [m], see `Lead.place`; None: it continues
+                its present motion until `move` or `place` of the returned object is called.
+            over: time in which they reach the target [s]; None: the next step.
 
         Raises:
             ParameterError: no support of that name; one without a name; what `Lead.place` refuses.
@@ -226,10 +227,10 @@ class Handled:
     def obstacle(self, name: str) -> ObstacleLead:
         """An obstacle of the scene, to be led live from the next step on.
 
-        Live targets stand in the state: checkpoints carry them.
+        Live targets are part of the state: checkpoints include them.
 
         Raises:
-            ParameterError: no obstacle of that name, or nothing meets anything.
+            ParameterError: no obstacle of that name, or a scene without contacts.
         """
         known = list(self.scene.obstacles) if self.scene.contacts else []
         if name not in known:
@@ -240,7 +241,7 @@ class Handled:
         return ObstacleLead(simulation=self._core, entry=self._entry, name=name)
 
     def rigid(self, name: str) -> Rigid:
-        """An obstacle of the scene that has a mass: where it is, and how it moves.
+        """The place and the motion of an obstacle that has a mass.
 
         Raises:
             ParameterError: no obstacle of that name has a mass.

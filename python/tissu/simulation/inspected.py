@@ -39,11 +39,12 @@ class Inspected:
     def field(self, name: FieldName, at: Place = "cells", body: str | None = None) -> Floats:
         """Strain, stress or energy of a body at the present state.
 
-        Computed on request; a step pays nothing for it. F of sheets and lines is that of
-        a volume: across it has the stretch that leaves no stress there, in plane strain 1. Where a
-        law has no such stretch (StVK, far in tension) values are nan. Stresses are the law's,
-        without viscosity. Of mean dilatation F is the cell's own and the stress the one in balance;
-        corotational cells and shells are linear in axes that turn with them.
+        Fields are computed on request, at no cost to a step. F of sheets and lines is that of a
+        volume: across the sheet or line it has the stretch for which the stress there vanishes, and
+        in plane strain 1. If a law has no such stretch (StVK, far in tension), values are nan.
+        Stresses are those of the law, without viscosity. For mean dilatation, F is that of the cell
+        itself, and the stress is the one in the balance of forces. Corotational cells and shells
+        are linear in axes that turn with them.
 
         Args:
             name: deformation_gradient F, green_strain E, cauchy_stress [Pa],
@@ -71,7 +72,7 @@ class Inspected:
     def fields(
         self, names: Sequence[str], at: Place = "cells", body: str | None = None
     ) -> dict[str, Floats]:
-        """Several fields at once: see `field`. What they have in common is computed once.
+        """Several fields at once: see `field`. Common intermediate results are computed once.
 
         Raises:
             ParameterError: see `field`.
@@ -130,10 +131,11 @@ class Inspected:
         return {name: values[order] for name, values in found.items()}
 
     def inverted_cells(self, body: str) -> Ints:
-        """Numbers (k,) of the cells of a body that are inside out: det F is not above 0 somewhere.
+        """Numbers (k,) of the cells of a body that are inside out: somewhere, det F is not above 0.
 
-        Looked for at the quadrature points of volume cells, and as the mean of thin cells and of
-        frames. Only when asked, and after a static step that converged, whose report names them.
+        det F is computed at the quadrature points of volume cells, and as a mean in thin cells and
+        frames. This happens only on request, and after a static step that converged, whose report
+        names such cells.
 
         Raises:
             ParameterError: no body of that name.
@@ -144,15 +146,15 @@ class Inspected:
         return np.searchsorted(left, self._core.inverted_cells(body)).astype(np.int32)
 
     def reactions(self, body: str, *, moments: bool = False) -> Floats:
-        """Forces (n, 3) that supports and led nodes give to a body [N]; zero where nothing is held.
+        """Forces (n, 3) of supports and led nodes on a body [N]; zero at free nodes.
 
-        M dv/dt - f, with the change of velocity of the latest step; in equilibrium minus the sum of
-        the elastic and external forces.
+        They are M dv/dt - f, with the change of velocity of the latest step. In equilibrium this is
+        minus the sum of the elastic and external forces.
 
         Args:
             body: its name.
-            moments: in place of the forces the moments (n, 3) on nodes whose rotation is held or
-                led, about axes of space [N m]. Forces at other nodes have no part in them.
+            moments: return, instead of the forces, the moments (n, 3) on nodes whose rotation is
+                held or led, about axes of space [N m]. Forces on other nodes do not contribute.
 
         Raises:
             ParameterError: no body of that name, or moments of one whose nodes have no rotation.
@@ -160,13 +162,14 @@ class Inspected:
         return self._core.reactions()[self.rows(body, rotations=moments)]
 
     def rows(self, body: str, *, rotations: bool = False) -> slice:
-        """Which rows of `forces` are those of a body's nodes.
+        """The rows of `forces` that belong to the nodes of a body.
 
         Row i has the three numbers 3 i to 3 i + 2 of the matrices.
 
         Args:
             body: its name.
-            rotations: in place of its nodes' positions their rotations, of frames and shells.
+            rotations: the rows of the rotations of its nodes instead of their positions, for frames
+                and shells.
 
         Raises:
             ParameterError: no body of that name, or rotations of nodes that have none.
@@ -183,8 +186,8 @@ class Inspected:
     def forces(self) -> Floats:
         """Forces (r, 3) on all rows at the present state, elastic, viscous and external [N].
 
-        Rows of rotations have moments [N m]. In equilibrium they are zero where nothing is held,
-        and minus the reactions elsewhere. See `rows`.
+        Rows of rotations have moments [N m]. In equilibrium, forces on free rows are zero, and
+        those on held rows are minus the reactions. See `rows`.
         """
         self._core.settle()
         return self._core.forces()
@@ -192,10 +195,10 @@ class Inspected:
     def stiffness(self) -> Any:
         """-df/dx at the present state as a sparse array (3 r, 3 r) of SciPy [N/m].
 
-        Of all rows, held ones too. It is the tangent of Newton's method: the derivative of `forces`
-        but where a model has another (corotational: approximate) or a symmetric one (a follower
-        pressure on an open surface, shells and frames out of balance). Rows of nodes that a
-        condensed region eliminates are empty.
+        The matrix has all rows, held ones too. It is the tangent of Newton's method: the derivative
+        of `forces`, except where a model has an approximate tangent (corotational) or a symmetric
+        one (a follower pressure on an open surface, shells and frames out of balance). Rows of
+        nodes that a condensed region eliminates are empty.
         """
         self._core.settle()
         return sparse(self._core.stiffness(), 3 * self._world.blocks)
@@ -204,7 +207,7 @@ class Inspected:
         """Which axes of all rows are unknowns (r, 3): not held, not led and not eliminated.
 
         `simulation.stiffness()[free][:, free]` with `free = simulation.free_axes().ravel()` is the
-        matrix that a solver meets.
+        matrix for a solver.
         """
         return self._core.free_axes()
 
@@ -224,16 +227,16 @@ class Inspected:
         tolerance: float = 0.01,
         bodies: Sequence[str] | None = None,
     ) -> Compliance:
-        """What finds how far points of the bodies give way to forces on them, step after step.
+        """An object that computes the compliance of points of the bodies, step after step.
 
         Args:
-            by: "factor": a factor of the step's matrix, which is kept, corrected, and made anew
-                where that does not do; "cg": by the conjugate gradient, without a factor;
-                "condensed": a table of the surface's nodes, made once, where the stiffness does not
-                change with the shape; "warped": that of the rest shape, turned as its nodes have
-                turned.
+            by: "factor": with a factor of the step's matrix, which is kept, corrected, and renewed
+                where corrections are not enough; "cg": with conjugate gradients, without a factor;
+                "condensed": with a table of the surface's nodes, made once, for stiffness that does
+                not change with the shape; "warped": with the table of the rest shape, rotated with
+                its nodes.
             tolerance: largest relative error of a direction's own compliance, of factor and cg.
-            bodies: whose surfaces condensed and warped have in their table; absent: all.
+            bodies: those whose surfaces are in the table of condensed and warped; absent: all.
 
         Raises:
             ParameterError: another way; a tolerance that is not above 0; more than 1,000 nodes on
@@ -248,8 +251,8 @@ class Inspected:
         return Compliance(simulation=self, by=by, tolerance=tolerance, bodies=bodies)
 
     def _require_body(self, name: str) -> None:
-        if name not in self._positions:
-            raise ParameterError(f"found body '{name}'; accepted: {', '.join(self._positions)}")
+        if name not in list(self._positions):  # of a list, which cannot be a key, too
+            raise ParameterError(f"found body {name!r}; accepted: {', '.join(self._positions)}")
 
     def _the_body(self, name: str | None) -> str:
         """A body or tissue by its name, or the only one."""

@@ -39,7 +39,7 @@ _FARTHEST = 1e3
 class Tool:
     """An instrument of the scene by its name; made by `Simulation.instruments`.
 
-    What it does is in `StepReport.cuts` of the step that follows.
+    Its cuts are reported in `StepReport.cuts` of the following step.
     """
 
     def __init__(self, *, simulation: Simulation, name: str) -> None:
@@ -89,14 +89,14 @@ class Tool:
         return pressing.force_on(self._simulation, self._name)
 
     def move(self, position: VectorLike, rotation: VectorLike | ArrayLike | None = None) -> None:
-        """Lead it to a place, where it is at the end of the next step.
+        """Lead it to a place, which it reaches at the end of the next step.
 
-        Several moves before a step are one way with several corners.
+        Several moves before a step form one path with several corners.
 
         Args:
             position: of its origin (3,) [m].
-            rotation: a vector along the axis, as long as the angle (3,) [rad], or a rotation
-                matrix (3, 3); None: as it is turned now.
+            rotation: a vector along the axis, as long as the angle (3,) [rad], or a rotation matrix
+                (3, 3); None: its present rotation.
 
         Raises:
             ParameterError: its path leads it; a value is not finite or of another quantity; a
@@ -109,7 +109,7 @@ class Tool:
         keep(self._simulation._core, known)
 
     def place(self, position: VectorLike, rotation: VectorLike | ArrayLike | None = None) -> None:
-        """Put it somewhere at once: it cuts nothing on the way, and a new incision begins there.
+        """Put it at a place at once, without cutting on the way; a new incision begins there.
 
         Raises:
             ParameterError: see `move`.

@@ -135,7 +135,7 @@ class Lead:
 
         Args:
             positions: of its nodes in the order of `nodes` (k, 3) [m].
-            over: time until they are there [s]; None: the next step.
+            over: time in which they reach the target [s]; None: the next step.
 
         Raises:
             ParameterError: another shape, a value that is not finite, or a time that is not

@@ -17,9 +17,9 @@ class Plan:
     """The effects, the method and the solver of a run.
 
     Attributes:
-        effects: each with the field of the scene that asks for it.
-        absent: effects that the scene does not ask for; none of their code runs.
-        notes: what is accepted but worth knowing.
+        effects: each with the field of the scene that switches it on.
+        absent: effects that the scene does not switch on; none of their code runs.
+        notes: facts that are accepted but worth knowing.
         unknowns: numbers that a step solves for.
         matrix_blocks: 3x3 blocks of the system matrix.
         integrator: its name.

@@ -111,8 +111,8 @@ class Profile:
         p99_ms: 99 % of them were shorter.
         max_ms: the longest of them.
         real_time_factor: simulated time over wall time; above 1 is faster than real time.
-        solves: what the linear solver did.
-        worst: the longest step after the first of all that were taken, and what it did.
+        solves: counts of the linear solver.
+        worst: the longest step after the first, and where its time went.
     """
 
     rows: tuple[ProfileRow, ...]

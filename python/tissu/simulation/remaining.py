@@ -31,8 +31,12 @@ def removed_cells(counts: Mapping[str, int], body: str, cells: ArrayLike) -> NDA
     given = np.atleast_1d(real_array(cells, "cells"))
     if given.size and not np.issubdtype(given.dtype, np.integer):
         raise ParameterError(f"found cells of type {given.dtype}; whole numbers are accepted")
-    if body not in counts:
-        raise ParameterError(f"no body is named '{body}'; there are {', '.join(counts)}")
+    if given.ndim != 1:
+        raise ParameterError(
+            f"found cells of shape {given.shape}; numbers of cells in one row (n,) are accepted"
+        )
+    if body not in list(counts):  # of a list, which cannot be a key, too
+        raise ParameterError(f"no body is named {body!r}; there are {', '.join(counts)}")
     beyond = given[(given < 0) | (given > np.iinfo(np.int32).max)]
     if beyond.size:
         raise ParameterError(f"body '{body}' has no cell {beyond.flat[0]}")

@@ -60,7 +60,7 @@ class Remains:
         return material_now(found, self._meshes[body].points, self.positions[body])
 
     def is_cut(self, body: str) -> bool:
-        """Whether a blade has parted nodes of a body, so that its cells overlap.
+        """Whether a blade has separated nodes of a body, so that its cells overlap.
 
         Raises:
             ParameterError: no body of that name.
@@ -109,7 +109,7 @@ class Remains:
 
         Args:
             body: its name.
-            rest: at rest, in place of now.
+            rest: measure the rest shape instead of the present one.
 
         Raises:
             ParameterError: no such body; the scene was compiled without `editing: true`.

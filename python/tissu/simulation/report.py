@@ -26,15 +26,15 @@ class StepReport:
             in time, changes of momentum.
         indefinite: systems whose matrix was not positive definite, and was made so.
         converged: every tolerance was met.
-        contacts: that press at the end of the step.
-        held_back: nodes whose way was cut so that nothing passes through anything.
+        contacts: number of contacts that press at the end of the step.
+        held_back: nodes whose motion was cut short so that nothing passes through anything.
         least_gap: distance of the nearest pair that presses, as a share of that at which the
             surfaces rest; infinite where nothing does.
         substeps: parts in which the step was taken: more than one where contact made it too long.
         milliseconds: wall time.
-        message: why it did not converge; where a static step did, the cells that are inside out,
-            and that round-off left more than the tolerance of the load.
-        cuts: what instruments and tears did at its end, in the order of the scene.
+        message: why it did not converge; of a static step that converged, the cells that are inside
+            out, and whether round-off left a residual above the tolerance.
+        cuts: the reports of instruments and tears at its end, in the order of the scene.
     """
 
     number: int

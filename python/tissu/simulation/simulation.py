@@ -50,12 +50,12 @@ _SHARE_OF_STABLE = 0.9
 class Simulation(Inspected, Handled, Touched, Changed, Cutting, Instrumented):
     """A compiled scene that can be stepped; made by `Scene.compile()`.
 
-    One thread at a time may call it: while one is in a method, another one gets a `BusyError`.
+    Only one thread at a time may call it: while one is in a method, another one gets a `BusyError`.
 
     Attributes:
-        scene: what it was compiled from.
+        scene: the scene from which it was compiled.
         meshes: body -> mesh at rest; follows the removal of cells.
-        resumed_from: the checkpoint that it went on from; None: it began at rest.
+        resumed_from: the checkpoint from which it was resumed; None: it began at rest.
     """
 
     resumed_from: Resumed | None
@@ -145,8 +145,8 @@ class Simulation(Inspected, Handled, Touched, Changed, Cutting, Instrumented):
     def positions(self) -> Mapping[str, Floats]:
         """Body -> (n, 3) view of the present positions [m]; no copy, writable.
 
-        A view that is kept follows every step, but for the eliminated nodes of condensed regions:
-        they are put in their places when this is asked for.
+        A view follows every step. Only the eliminated nodes of condensed regions are updated when
+        this property is read.
         """
         self._core.settle()
         return self._positions
@@ -179,7 +179,7 @@ class Simulation(Inspected, Handled, Touched, Changed, Cutting, Instrumented):
 
     @property
     def dt(self) -> float:
-        """Time step of the scene [s], where it is auto nine tenths of the stable step at present.
+        """Time step of the scene [s]; if it is auto, nine tenths of the present stable step.
 
         1 for a static scene, whose time only distinguishes loads.
         """
@@ -190,7 +190,8 @@ class Simulation(Inspected, Handled, Touched, Changed, Cutting, Instrumented):
     def stable_step(self) -> float:
         """The largest stable step of an explicit method at the present state [s]; else infinite.
 
-        From the largest eigenfrequency and damping; measured again when the cells have deformed.
+        It follows from the largest eigenfrequency and the damping, which are computed again when
+        the cells have deformed.
         """
         return float(self._core.stable_step())
 
@@ -201,8 +202,8 @@ class Simulation(Inspected, Handled, Touched, Changed, Cutting, Instrumented):
             dt: another time step than the scene's [s], or text such as "5 ms".
 
         Raises:
-            ParameterError: dt is not positive and finite; the step was taken, and what an
-                instrument would cut, or what would tear, at its end is refused.
+            ParameterError: dt is not positive and finite; or the step was taken, but a cut or a
+                tear at its end was refused.
             Diverged: the step gave a value that is not finite; the state is that before it.
         """
         h = self.dt if dt is None else units.TIME(dt)
@@ -241,12 +242,12 @@ class Simulation(Inspected, Handled, Touched, Changed, Cutting, Instrumented):
         Args:
             duration: simulated time [s], or text such as "2 s"; the scene's when it is not given.
                 A static scene without one takes a single step.
-            until: in place of it, the time at which it ends [s]: the steps that a run from time
-                zero to then would take from here on. A simulation that went on from a checkpoint
-                ends with the same steps as one that never stopped.
+            until: instead of a duration, the time at which the run ends [s]. It takes the remaining
+                steps of a run from time zero to then, so a resumed simulation takes the same steps
+                as one that never stopped.
 
         Raises:
-            ParameterError: neither gives a duration, both do, or it is negative.
+            ParameterError: no duration is given, both are given, or it is negative.
             Diverged: see `step`.
         """
         if duration is not None and until is not None:
@@ -267,13 +268,13 @@ class Simulation(Inspected, Handled, Touched, Changed, Cutting, Instrumented):
     def save_checkpoint(self, path: str | os.PathLike[str]) -> None:
         """Write a file from which `scene.compile(checkpoint=path)` goes on with the same bits.
 
-        The file is replaced in one move: a process that is killed meanwhile leaves the one before
-        or this one whole. What the linear solver keeps of earlier steps, such as a factor, is
-        dropped, so that both the simulation that runs on and the one that goes on from the file
-        step without it.
+        The file is replaced atomically: a process that is killed meanwhile leaves either the old or
+        the new file, complete. The linear solver drops its memory of earlier steps, such as a
+        factor, so that the running simulation and the one that is resumed from the file take the
+        same steps.
 
         Raises:
-            CheckpointError: it cannot be written; a file that was there before still is.
+            CheckpointError: it cannot be written; an old file is then kept.
         """
         from tissu.checkpoint import checkpoint
 
@@ -326,8 +327,8 @@ class Simulation(Inspected, Handled, Touched, Changed, Cutting, Instrumented):
     def largest_frequency(self) -> float:
         """The largest eigenfrequency omega of the free nodes at the present state [rad/s].
 
-        By Lanczos' method on M^-1/2 K M^-1/2. An explicit step without damping is stable below
-        2 / omega; 0 where nothing is stiff.
+        It is found by Lanczos' method on M^-1/2 K M^-1/2. An explicit step without damping is
+        stable below 2 / omega. It is 0 if nothing is stiff.
         """
         return float(self._core.largest_frequency())
 
@@ -340,11 +341,11 @@ class Simulation(Inspected, Handled, Touched, Changed, Cutting, Instrumented):
         return int(self._core.solver_bytes())
 
     def profile(self) -> Profile:
-        """Times by stage; see `Profile`. `clear_profile` starts anew."""
+        """Times by stage; see `Profile`. `clear_profile` deletes them."""
         return profile_of(self._core, self._simulated)
 
     def clear_profile(self) -> None:
-        """Forget the times so far, to warm up before measuring."""
+        """Delete the times so far, for instance after the first steps, before a measurement."""
         self._core.profile_clear()
         self._simulated = 0.0
 
@@ -369,7 +370,7 @@ class Simulation(Inspected, Handled, Touched, Changed, Cutting, Instrumented):
         return [f"step.solver: auto took {account}"] if account else []
 
     def remove_cells(self, *, body: str, cells: ArrayLike) -> None:
-        """Take cells out of a body between two steps.
+        """Remove cells of a body between two steps.
 
         Nodes that no cell uses any more stay where they are. Masses, matrix, surface and outputs
         follow.

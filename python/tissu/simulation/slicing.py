@@ -20,8 +20,12 @@ if TYPE_CHECKING:
 
 Floats = NDArray[np.float64]
 
-LEAST_WAY = 0.02
-"""of an edge through the material before it cuts on, as a share of a cell's mean edge"""
+LEAST_WAY = 0.25
+"""of an edge through the material before it cuts on, as a share of a cell's mean edge
+
+Shorter parts are too narrow to say on which side of them a cell lies: of 24 random slow cuts
+through a moving bar two stayed joined at 0.02, one at 0.1, none at 0.2, 0.3 and 0.5.
+"""
 LONGEST_WAY = 0.5
 """of a point of an edge between two rows, as a share of a cell's mean edge"""
 _NO_AREA = 1e-12

@@ -25,19 +25,20 @@ Bools = NDArray[np.bool_]
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Contacts:
-    """The contacts that press, as they stood at the end of the latest step: m of them.
+    """The m contacts that press at the end of the latest step.
 
     Attributes:
-        surfaces: names of the bodies and obstacles that `pairs` numbers.
-        pairs: which two meet (m, 2): the one that `forces` act on, and the other one.
+        surfaces: names of the bodies and obstacles to which the numbers in `pairs` refer.
+        pairs: the two surfaces of each contact (m, 2): the one on which `forces` act, and the other
+            one.
         nodes: whose places the contact joins, numbers in their own body or obstacle (m, 4); -1:
             none; -2 - r: point r of the material of a body that was cut, which nodes carry.
         weights: of these (m, 4). The distance vector is the sum of weight times place.
         points: where the forces act (m, 3) [m], on the first of the pair.
         normals: from the other one to the first (m, 3).
         gaps: distance beyond that at which the surfaces rest (m,) [m]; negative: inside the gap.
-        forces: on the first of the pair (m, 3) [N]; the other one takes the opposite.
-        sliding: where friction gave way (m,).
+        forces: on the first of the pair (m, 3) [N]; the opposite force acts on the other one.
+        sliding: whether the contact slides (m,).
         areas: on which they act (m,) [m2]: a share of the surface at rest.
     """
 
@@ -137,7 +138,7 @@ class Touched:
 
     @property
     def obstacles(self) -> tuple[str, ...]:
-        """Names of the obstacles; none in a scene without contacts, which never meets them."""
+        """Names of the obstacles; none in a scene without contacts."""
         return tuple(self.scene.obstacles) if self.scene.contacts else ()
 
     def contact_at_nodes(self, body: str) -> ContactAtNodes:
@@ -189,14 +190,14 @@ class Touched:
         return ObstacleSurface(rest, now, faces, normal is not None)
 
     def force_on(self, name: str) -> Wrench:
-        """The force and the moment that all contacts gave to a body or obstacle in the latest step.
+        """The force and the moment of all contacts on a body or obstacle in the latest step.
 
         Args:
             name: of the body or obstacle.
 
         Returns:
-            The force [N], and the moment [N m]: of an obstacle about its origin where that is now
-            (the point of a plane, the center of others), of a body about the origin of space.
+            The force [N], and the moment [N m]: for an obstacle about its present origin (the point
+                of a plane, the center of others), for a body about the origin of space.
 
         Raises:
             ParameterError: the scene has no contacts; nothing of that name meets anything.
@@ -209,10 +210,10 @@ class Touched:
         return Wrench(*self._core.contact_force_on(name))
 
     def crossings(self) -> list[Crossing]:
-        """Present crossings of the surfaces that meet; with `travel: true` nothing ever does.
+        """Present crossings of the surfaces in contact; with `travel: true` there are never any.
 
-        The answer is exact for the positions as they are: it uses exact signs, and counts what
-        touches as crossing.
+        The answer is exact for the present positions: it uses exact signs. Surfaces that just touch
+        count as crossing.
 
         Raises:
             ParameterError: the scene has no contacts.
@@ -230,12 +231,12 @@ class Touched:
         ]
 
     def overlaps(self) -> list[Overlap]:
-        """Present depths inside balls, rods, sheets and lines; `crossings` sees their middles only.
+        """Present depths inside balls, rods, sheets and lines; `crossings` tests their middles.
 
-        Of each two surfaces that meet the deepest place, by the distance of their middles and by
-        both half thicknesses; within a body no more than 0.9 of the distance at rest counts as
-        thickness. A surface without thickness that meets a ball rises into it by at most the gap,
-        between the points that meet it.
+        For each pair of surfaces in contact, the deepest place is found from the distance of their
+        middles and both half thicknesses. Within a body, no more than 0.9 of the distance at rest
+        counts as thickness. A surface without thickness in contact with a ball rises into it by at
+        most the gap, between the contact points.
 
         Raises:
             ParameterError: the scene has no contacts.

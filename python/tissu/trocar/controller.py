@@ -85,7 +85,7 @@ class Controller:
         self._ticking: Ticking = ticking_of(mode, self.device, self._settings)
         if record:
             if not isinstance(self._ticking, CompiledTicking):
-                text = "found record beside the mode python; stepped and threaded record"
+                text = "found record with the mode python; stepped and threaded record"
                 raise ParameterError(text)
             self._ticking.record(self._settings)
         self._port = (trocar.port.frame(), np.array(trocar.port.at))

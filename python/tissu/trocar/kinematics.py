@@ -103,7 +103,7 @@ def inverse(place: Vector, turn: Array, point: Vector = (0.0, 0.0, 0.0)) -> Arra
     d = np.asarray(turn)[:, 2]
     if point[0] or point[1]:
         raise ParameterError(
-            f"found the point ({point[0]:g}, {point[1]:g}, {point[2]:g}) beside the tool's axis; "
+            f"found the point ({point[0]:g}, {point[1]:g}, {point[2]:g}) off the tool's axis; "
             "a point of the axis is accepted, such as (0, 0, 0)"
         )
     if d[2] <= 0.0:

@@ -46,8 +46,8 @@ def find_compiler() -> Compiler:
         f"CXX is '{' '.join(asked)}'" if asked else f"looked for {', '.join(NAMES)} on the PATH"
     )
     raise LawError(
-        f"a law of one's own needs a C++ compiler and none that runs was found ({looked}); install "
-        "g++ 11 or newer (Debian: sudo apt install g++), or name a compiler in CXX."
+        f"a user-defined law needs a C++ compiler, and none that runs was found ({looked}); "
+        "install g++ 11 or newer (Debian: sudo apt install g++), or name a compiler in CXX."
     )
 
 

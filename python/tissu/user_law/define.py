@@ -35,7 +35,7 @@ def law(
     text: str = "",
     frame_invariant: bool = True,
 ) -> type[UserLaw]:
-    """A law of one's own, from its energy density; compiled now, or found compiled.
+    """A user-defined law from its energy density; compiled now, or taken from the cache.
 
     The stress P = dW/dF and the tangent dP/dF are derived from W, never given.
 
@@ -45,7 +45,7 @@ def law(
             tr(E), F[0, 1], ln, exp, sqrt, positive, …) and the parameters' names.
         parameters: unit of each parameter, "Pa" or "1" for a pure number; or
             `tissu.formula.Parameter`s, which have a meaning, bounds and a typical value too.
-        constants: what the kernels store in place of parameters, where that saves work: name ->
+        constants: expressions that the kernels store instead of parameters, to save work: name ->
             expression in the parameters. The energy may use both.
         requirements: conditions on several parameters, `tissu.formula.Requirement`s.
         text: what the law is for, its source and its limits; the class's documentation.
@@ -97,12 +97,12 @@ def law(
 
 
 def read_law(path: str | os.PathLike[str]) -> type[UserLaw]:
-    """A law of one's own from a Python file of the form of tissu/codegen/laws; the file is run.
+    """A user-defined law from a Python file of the form of tissu/codegen/laws; the file is run.
 
-    Read files of others before: they can do whatever a program can.
+    Read the file before you run it: it can do anything that a program can.
 
-    The file's name is the law's. PARAMETERS, CONSTANTS, ENERGY, a docstring and, where there are
-    some, REQUIREMENTS and FRAME_INVARIANT are read; SMALL_STRAIN may be left out.
+    The name of the file is that of the law. PARAMETERS, CONSTANTS, ENERGY, a docstring and, if
+    present, REQUIREMENTS and FRAME_INVARIANT are read; SMALL_STRAIN may be left out.
 
     Raises:
         LawError: the file cannot be read or run, or its law is refused; see `law`.

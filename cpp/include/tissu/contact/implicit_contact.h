@@ -57,10 +57,6 @@ class ImplicitContact {
   /// How many times stiffer than that multipliers are against coming nearer, and against sliding: 1, as at
   /// first.
   void set_stiffer(double normal, double tangent);
-  /// Contacts between rigid bodies have not settled: from now on in this step they are ten times stiffer. A
-  /// multiplier grows by what its stiffness makes of a depth, and that is little where a light body carries a
-  /// heavy one.
-  void stiffen_rigid();
   /// Contacts at the places of `at`, with the multipliers of those that were there before. By how much their
   /// forces differ from those of the latest solve, as a share.
   double look(const State& at);
@@ -108,10 +104,9 @@ class ImplicitContact {
   [[nodiscard]] virtual bool has_own_stiffness() const { return false; }
   /// Before the contacts of a look press.
   virtual void begin_press() {}
-  /// What k is of contacts of the latest look, of that matrix, in which contacts count by their shares;
-  /// `rigid` times as much between rigid bodies.
-  void find_stiffnesses(std::span<const double> blocks, double scale, double rigid,
-                        std::span<const double> shares, std::vector<double>& stiffnesses);
+  /// What k is of contacts of the latest look, of that matrix, in which contacts count by their shares.
+  void find_stiffnesses(std::span<const double> blocks, double scale, std::span<const double> shares,
+                        std::vector<double>& stiffnesses);
   /// k of the step's own matrix against coming nearer than a multiplier allows [N/m].
   [[nodiscard]] double hard_stiffness(std::size_t i) const { return normal_ * stiffnesses_[i]; }
   /// A contact is so much deeper than its multiplier allows [m].
@@ -140,7 +135,6 @@ class ImplicitContact {
   double scale_ = 0.0;
   double normal_ = 1.0;                   ///< times stiffer
   double tangent_ = 1.0;                  ///< times stiffer
-  double rigid_ = 1.0;                    ///< times stiffer in this step, between rigid bodies
   std::vector<ContactNumbers> pressing_;  ///< of the latest look
   std::vector<double> stiffnesses_;       ///< of what was looked at; shares where it has its own
   std::vector<double> shares_;            ///< of what was looked at: 1 where it may press

@@ -1,7 +1,7 @@
 """Hooke's law of small strain.
 
-For displacements small beside the body. Linear, so one tangent serves every state. Not invariant
-to rotation: a body that turns by an angle a is seen as strained by 1 - cos a, and swells.
+For small displacements. The law is linear, so its tangent is constant. It is not invariant to
+rotation: turning a body by an angle a gives a strain of 1 - cos a, so the body swells.
 """
 
 from tissu.codegen.vocabulary import LAME, POISSON, YOUNG, eps, symbols_of, tr

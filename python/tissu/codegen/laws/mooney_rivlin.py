@@ -1,7 +1,7 @@
 """Mooney–Rivlin, nearly incompressible.
 
-Mooney 1940, Rivlin 1948; Holzapfel, Nonlinear Solid Mechanics, 2000, section 6.5. Good to about
-100 % of strain; c2 < 0 is accepted, but stable only while strains stay small.
+Mooney 1940, Rivlin 1948; Holzapfel, Nonlinear Solid Mechanics, 2000, section 6.5. Valid up to a
+strain of about 100 %. c2 < 0 is accepted, but stable only at small strains.
 """
 
 from tissu.codegen.vocabulary import KAPPA, Ibar1, Ibar2, J, Parameter, Requirement, symbols_of

@@ -1,7 +1,7 @@
 """Compressible neo-Hooke with a barrier against lost volume.
 
 Bonet, Wood, Nonlinear Continuum Mechanics for Finite Element Analysis, 2nd ed. 2008, eq. 6.28.
-Good to about 50 % of strain. J must stay positive: at an inverted point the energy is not a number.
+Valid up to about 50 % of strain. J must stay positive, or the energy is undefined.
 """
 
 from tissu.codegen.vocabulary import I_C, LAME, POISSON, YOUNG, J, ln, symbols_of

@@ -28,8 +28,8 @@ __all__ = [
 class Hooke(Law):
     """Hooke's law of small strain.
 
-    For displacements small beside the body. Linear, so one tangent serves every state. Not invariant
-    to rotation: a body that turns by an angle a is seen as strained by 1 - cos a, and swells.
+    For small displacements. The law is linear, so its tangent is constant. It is not invariant to
+    rotation: turning a body by an angle a gives a strain of 1 - cos a, so the body swells.
     """
 
     type: Literal["hooke"] = "hooke"
@@ -48,8 +48,8 @@ class Hooke(Law):
 class StVK(Law):
     """St-Venant–Kirchhoff.
 
-    Right for large rotations at moderate strain. Under compression it loses strength at a stretch of
-    1/sqrt(3) = 0.577 and does not resist inversion: that is the law's own limit, not the mesh's.
+    Valid for large rotations at moderate strain. In compression it loses stiffness at a stretch of
+    1/sqrt(3) = 0.577, and it does not resist inversion. This is a limit of the law, not of the mesh.
     """
 
     type: Literal["stvk"] = "stvk"
@@ -69,7 +69,7 @@ class NeoHooke(Law):
     """Compressible neo-Hooke with a barrier against lost volume.
 
     Bonet, Wood, Nonlinear Continuum Mechanics for Finite Element Analysis, 2nd ed. 2008, eq. 6.28.
-    Good to about 50 % of strain. J must stay positive: at an inverted point the energy is not a number.
+    Valid up to about 50 % of strain. J must stay positive, or the energy is undefined.
     """
 
     type: Literal["neo_hooke"] = "neo_hooke"
@@ -109,8 +109,8 @@ class StableNeoHooke(Law):
 class MooneyRivlin(Law):
     """Mooney–Rivlin, nearly incompressible.
 
-    Mooney 1940, Rivlin 1948; Holzapfel, Nonlinear Solid Mechanics, 2000, section 6.5. Good to about
-    100 % of strain; c2 < 0 is accepted, but stable only while strains stay small.
+    Mooney 1940, Rivlin 1948; Holzapfel, Nonlinear Solid Mechanics, 2000, section 6.5. Valid up to a
+    strain of about 100 %. c2 < 0 is accepted, but stable only at small strains.
     """
 
     type: Literal["mooney_rivlin"] = "mooney_rivlin"
@@ -138,7 +138,7 @@ class Yeoh(Law):
     """Yeoh, nearly incompressible: a cubic in Ibar1 - 3.
 
     Yeoh, Some forms of the strain energy function for rubber, Rubber Chem. Technol. 66(5), 1993.
-    Stiffens at large stretch with c3 > 0; with c2 < 0 and a large strain the law may soften first.
+    The law stiffens at large stretch if c3 > 0. If c2 < 0, it may soften before it stiffens.
     """
 
     type: Literal["yeoh"] = "yeoh"
@@ -159,7 +159,7 @@ class Yeoh(Law):
 
 
 class ArrudaBoyce(Law):
-    """Arruda–Boyce: chains of limited length, eight to a cell, as a series of five terms.
+    """Arruda–Boyce: eight chains of limited length in a cell, as a series of five terms.
 
     Arruda, Boyce, J. Mech. Phys. Solids 41(2), 1993. The series follows the chain model to a stretch
     of about 0.9 lambda_m; beyond it the real chain locks and the series does not. The shear modulus at

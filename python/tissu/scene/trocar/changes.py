@@ -31,12 +31,16 @@ _Tags = Annotated[Read[tuple[str | None, ...], Sequence[int | str | None]], Befo
 
 
 class ToolChanges(Part):
-    """Which tool is in a simulated device from which time on."""
+    """Changes of the tool in a simulated device, with their times."""
 
     times: IncreasingTimes
-    """strictly increasing times [s]; before the first the first tool of the trocar is in"""
+    """strictly increasing times [s]; before the first time, the first tool of the trocar is in the
+    device
+    """
     tags: _Tags
-    """tag of the tool that is in from each time on, or none: a tool is taken out before the next"""
+    """tag of the tool that is in the device from each time on, or none: a tool is taken out before
+    the next is put in
+    """
 
     @rule("tags", "times")
     def _one_at_each_time(self) -> Iterator[Problem]:

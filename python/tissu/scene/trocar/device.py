@@ -75,23 +75,23 @@ class TrocarDevice(Part):
 
 
 class SimulatedDevice(TrocarDevice):
-    """A device that is computed: inertia, friction, counts, delay, lost frames, and a hand."""
+    """A simulated device, with inertia, friction, counts, delay, lost frames, and a hand."""
 
     type: Literal["simulated"] = "simulated"
     hand: Hand | None = None
-    """what holds it; absent: nothing does"""
+    """the hand that holds the tool; absent: the tool moves freely"""
     changes: ToolChanges | None = None
-    """which tool is in from when on; absent: the first tool of the trocar, all the time"""
+    """times at which the tool changes; absent: the first tool of the trocar, all the time"""
     delay: units.Time = field(default=0.0, ge=0.0, le=0.1)
     """from reading to the torque on the joint [s]"""
     jitter: units.Time = field(default=0.0, ge=0.0, le=0.1)
-    """of the delay, uniform from 0 to this [s]"""
+    """random part of the delay, uniform from 0 to this [s]"""
     lost: units.Pure = field(default=0.0, ge=0.0, le=1.0)
     """share of frames that do not arrive"""
     seed: Annotated[int, Field(ge=0)] = 1
-    """of everything that is random in it"""
+    """seed of all random numbers of the device"""
     homed: bool = True
-    """whether its encoders know their zero at the start; false: it has to be homed first"""
+    """whether the zero of its encoders is known at the start; false: it has to be homed first"""
     counts: Counts = field(default=TABLE_COUNTS)
     """position of one count of pitch, roll, rotation [rad] and depth [m]"""
 
@@ -121,8 +121,8 @@ class RealDevice(TrocarDevice):
     that has its own clock at 1 kHz
     """
     damping: MaybeDamping = field(default=None)
-    """viscous damping of pitch, roll, rotation [N m s/rad] and depth [N s/m], as
-    `tissu trocar identify` finds it; absent: not known, so that `coupling` has to be given
+    """viscous damping of pitch, roll, rotation [N m s/rad] and depth [N s/m], as measured by `tissu
+    trocar identify`; absent: not known, so `coupling` must be given
     """
     friction: MaybeFriction = field(default=None)
     """Coulomb friction of pitch, roll, rotation [N m] and depth [N]; absent: as for `damping`"""

@@ -36,7 +36,7 @@ class Hand(Part):
     path: Annotated[Read[Path | None, PathLike | None], AfterValidator(_from_base)] = field(
         default=None
     )
-    """a CSV file in place of `times` and `points`: a line `t, x, y, z` [s, m] for each time"""
+    """a CSV file instead of `times` and `points`: a line `t, x, y, z` [s, m] for each time"""
     mass: units.Mass = field(default=0.3, gt=0.0)
     """mass that moves with the tip [kg]"""
     stiffness: OneStiffness = field(default=400.0, gt=0.0)
@@ -44,7 +44,7 @@ class Hand(Part):
     damping: OneDamping = field(default=6.0, ge=0.0)
     """of the damper to the path [N s/m]"""
     tremor: units.Length = field(default=0.0, ge=0.0)
-    """amplitude of a tremor of 8 to 12 Hz beside the path [m]; 0.1 mm is usual"""
+    """amplitude of a tremor of 8 to 12 Hz about the path [m]; 0.1 mm is usual"""
     lets_go: Maybe[units.Time] = field(default=None, ge=0.0)
     """time at which it lets go [s]; absent: never"""
 
@@ -57,7 +57,7 @@ class Hand(Part):
         elif self.points is not None:
             yield from same_length("point", self.points, self.times)
         elif self.times:
-            text = "found times beside a path, whose file has them; leave them out"
+            text = "found times with a path, whose file has them; leave them out"
             yield Problem(("times",), text)
 
     def words(self) -> str:

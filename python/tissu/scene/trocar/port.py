@@ -30,8 +30,8 @@ class Port(Part):
     axis: units.Direction = field(kw_only=False)
     """direction into the body, of any length but zero: of the tool at rest"""
     right: MaybeVector[units.Direction] = field(default=None)
-    """direction about which the tool pitches, as far as it lies across the axis; absent: the x of
-    the scene, or its y where the axis lies along x
+    """direction about which the tool pitches; its part along the axis is left out; absent: the x of
+    the scene, or its y if the axis lies along x
     """
 
     @rule("axis")

@@ -38,7 +38,9 @@ class Coupling(Part):
     """Stiffness of the spring between the device and the tool that the tissue sees."""
 
     stiffness: Stiffness = field(kw_only=False)
-    """of pitch, roll, rotation [N m/rad] and depth [N/m]; at most what the device keeps passive"""
+    """stiffness of pitch, roll, rotation [N m/rad] and depth [N/m]; at most the passive stiffness
+    of the device
+    """
 
 
 def _coupling(value: Any, info: ValidationInfo) -> Any:
@@ -54,12 +56,12 @@ def _coupling(value: Any, info: ValidationInfo) -> Any:
 
 
 class Trocar(Part):
-    """A driven port: its device reads where the tool is, and gives its force to the hand."""
+    """A driven port: its device measures the place of the tool and drives the hand."""
 
     port: Port
-    """where its pivot is, and its axes"""
+    """the place of its pivot, and its axes"""
     device: OneDevice
-    """what reads the hand and drives it"""
+    """the device that measures the hand and drives it"""
     tools: Tools = field(default_factory=dict)
     """tag of a tool -> name of an obstacle or instrument; absent: every tool is accepted, whatever
     its tag
@@ -74,9 +76,9 @@ class Trocar(Part):
     limits: TrocarLimits = field(default_factory=TrocarLimits)
     """limits of force, torque, speed and travel"""
     compliance: ComplianceWay = field(default="factor")
-    """how ticks know how far the tissue gives way. factor: of the step's matrix, corrected;
-    cg: the conjugate gradient; condensed: a table, of stiffness that does not change; warped: the
-    table of the rest shape, turned with the nodes
+    """how the compliance of the tissue is computed for the ticks. factor: with a kept factor of the
+    step's matrix, corrected; cg: with conjugate gradients; condensed: from a table, for stiffness
+    that does not change; warped: from the table of the rest shape, rotated with the nodes
     """
 
     @rule("rate")

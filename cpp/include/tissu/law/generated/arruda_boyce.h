@@ -10,7 +10,7 @@
 
 namespace tissu {
 
-/// Arruda–Boyce: chains of limited length, eight to a cell, as a series of five terms.
+/// Arruda–Boyce: eight chains of limited length in a cell, as a series of five terms.
 ///
 /// Arruda, Boyce, J. Mech. Phys. Solids 41(2), 1993. The series follows the chain model to a stretch
 /// of about 0.9 lambda_m; beyond it the real chain locks and the series does not. The shear modulus at

@@ -12,8 +12,8 @@ namespace tissu {
 
 /// Mooney–Rivlin, nearly incompressible.
 ///
-/// Mooney 1940, Rivlin 1948; Holzapfel, Nonlinear Solid Mechanics, 2000, section 6.5. Good to about
-/// 100 % of strain; c2 < 0 is accepted, but stable only while strains stay small.
+/// Mooney 1940, Rivlin 1948; Holzapfel, Nonlinear Solid Mechanics, 2000, section 6.5. Valid up to a
+/// strain of about 100 %. c2 < 0 is accepted, but stable only at small strains.
 ///
 ///     W = c1 * (Ibar1 - 3) + c2 * (Ibar2 - 3) + kappa / 2 * (J - 1) ** 2
 ///

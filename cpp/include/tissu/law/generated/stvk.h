@@ -11,8 +11,8 @@ namespace tissu {
 
 /// St-Venant–Kirchhoff.
 ///
-/// Right for large rotations at moderate strain. Under compression it loses strength at a stretch of
-/// 1/sqrt(3) = 0.577 and does not resist inversion: that is the law's own limit, not the mesh's.
+/// Valid for large rotations at moderate strain. In compression it loses stiffness at a stretch of
+/// 1/sqrt(3) = 0.577, and it does not resist inversion. This is a limit of the law, not of the mesh.
 ///
 ///     W = lam / 2 * tr(E) ** 2 + mu * tr(E * E)
 ///

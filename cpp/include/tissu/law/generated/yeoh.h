@@ -13,7 +13,7 @@ namespace tissu {
 /// Yeoh, nearly incompressible: a cubic in Ibar1 - 3.
 ///
 /// Yeoh, Some forms of the strain energy function for rubber, Rubber Chem. Technol. 66(5), 1993.
-/// Stiffens at large stretch with c3 > 0; with c2 < 0 and a large strain the law may soften first.
+/// The law stiffens at large stretch if c3 > 0. If c2 < 0, it may soften before it stiffens.
 ///
 ///     W = c1 * (Ibar1 - 3) + c2 * (Ibar1 - 3) ** 2 + c3 * (Ibar1 - 3) ** 3 + kappa / 2 * (J - 1) ** 2
 ///

@@ -113,6 +113,21 @@ def test_a_free_collision_keeps_the_linear_momentum(friction):
     assert np.abs(momentum(simulation) - start).max() <= 4e-5
 
 
+@pytest.mark.parametrize(("gap", "converges"), [(2e-6, True), (1e-9, False)])
+def test_a_gap_above_what_is_noted_converges(gap, converges):
+    """`check` notes a gap below 1e-5 of the edge: steps that do not converge there say so."""
+    scene = on_a_slope(0.0, contact=BARRIER)
+    scene = scene.replace(contacts=[one.replace(gap=gap) for one in scene.contacts])
+    noted = any("is lost in round-off" in note for note in scene.check().notes)
+    assert noted != converges
+    simulation = scene.compile()
+    reports = []
+    for _ in range(12):
+        reports.append(simulation.step())
+        assert simulation.crossings() == []
+    assert all(report.converged for report in reports) == converges
+
+
 def test_thickness_is_not_entered_at_any_speed():
     """A cube meets a fixed ball at 20 m/s in steps of 10 ms: four times its edge in a step."""
     cube = block(young=1e5, start=ts.Start(velocity=(0, 0, -20)), law=ts.StableNeoHooke(

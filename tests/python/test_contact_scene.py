@@ -390,6 +390,15 @@ def test_a_gap_above_a_tenth_of_the_edges_is_noted():
     assert "contacts[0].gap: 0.0058 m is more than a tenth of the mean surface edge, 0.0569" in note
 
 
+def test_a_gap_that_a_barrier_loses_in_round_off_is_noted():
+    """1e-5 of the mean edge, 5.69 cm; tests/python/test_contact_barrier.py steps on either side."""
+    pair, barrier = ("liver", "table"), ts.ContactSettings(method="barrier")
+    assert notes(contacts=[ts.Contact(pair, gap="0.6 um")], contact=barrier) == []
+    assert notes(contacts=[ts.Contact(pair, gap="1 nm")]) == []
+    (note,) = notes(contacts=[ts.Contact(pair, gap="1 nm")], contact=barrier)
+    assert "contacts[0].gap: 1e-09 m is less than 1e-05 of the mean surface edge, 0.0569" in note
+
+
 def test_a_body_that_falls_on_something_is_not_said_to_fall():
     fall = {"gravity": (0, 0, -9.81), "bodies": {"liver": cube()}}
     assert "nothing holds the body" in notes(**fall, obstacles={})[0]

@@ -6,6 +6,7 @@
 #include <numeric>
 #include <utility>
 
+#include "flat_edges.h"
 #include "hold_back.h"
 #include "narrow.h"
 #include "nearest_pair.h"
@@ -47,12 +48,19 @@ bool ContactRun::find_plainly(const Candidate& candidate, double reach, Found& f
   const auto count = static_cast<std::size_t>(vertices_of(candidate.kind));
   const bool at_end =
       std::any_of(closest.beta.begin(), closest.beta.begin() + count, [](double b) { return b == 0.0; });
-  if (at_end && !every_pair_) {
+  if (at_end && !every_pair_) return false;
+  const SurfaceSet& surfaces = contact_.surfaces();
+  if (candidate.kind == PairKind::edge_edge &&
+      (is_flat_edge(surfaces, candidate.a) || is_flat_edge(surfaces, candidate.b))) {
+    return false;
+  }
+  if (candidate.kind == PairKind::vertex_face && at_end &&
+      is_before_neighbour(surfaces, now_, candidate, closest)) {
     return false;
   }
   double weight = 1.0;
   if (candidate.kind == PairKind::edge_edge) {
-    weight = weight_of_edges(contact_.surfaces(), every_pair_ ? from_ : now_, candidate.a, candidate.b);
+    weight = weight_of_edges(surfaces, every_pair_ ? from_ : now_, candidate.a, candidate.b);
   }
   found = {candidate.kind,
            candidate.a,

@@ -78,22 +78,29 @@ void HoldBack::join(std::int32_t& first, std::int32_t mover) {
   const auto [low, high] = std::minmax(a, b);
   parent_[high] = static_cast<std::int32_t>(low);
   shares_[low] = std::min(shares_[low], shares_[high]);
+  anchored_[low] = std::max(anchored_[low], anchored_[high]);
 }
 
-void HoldBack::join(std::span<const std::int32_t> vertices, double share) {
+void HoldBack::join(std::span<const std::int32_t> vertices, double share, bool before_plane) {
   std::int32_t first = -1;
+  bool given = before_plane;
+  const auto add = [&](std::int32_t mover) {
+    given = given || given_[at(mover)] != 0;
+    join(first, mover);
+  };
   for (const std::int32_t v : vertices) {
     if (v < 0) continue;
     const SurfaceVertex& vertex = surfaces_.vertices()[at(v)];
     if (vertex.rider < 0) {
-      join(first, v);
+      add(v);
       continue;
     }
-    for (const RiderPart& part : surfaces_.parts(vertex)) join(first, part.mover);
+    for (const RiderPart& part : surfaces_.parts(vertex)) add(part.mover);
   }
   if (first < 0) return;
-  double& of = shares_[root(first)];
-  of = std::min(of, share);
+  const std::size_t of = root(first);
+  shares_[of] = std::min(shares_[of], share);
+  if (given && share < 1.0) anchored_[of] = 1;
 }
 
 bool HoldBack::find(const Candidates& candidates, std::span<const PlacedPlane> planes, ConstReals from,
@@ -107,6 +114,7 @@ bool HoldBack::find(const Candidates& candidates, std::span<const PlacedPlane> p
               surface.first_vertex);
   }
   shares_.assign(count, 1.0);
+  anchored_.assign(count, 0);
   stopped_.clear();
   stopped_at_planes_.clear();
   bool held = false;
@@ -140,7 +148,7 @@ bool HoldBack::stops_at_plane(const PlaneCandidate& c, const PlacedPlane& plane,
   if (given_[at(c.vertex)] != 0 || std::min(start, end) - sway >= least) return false;
   const bool stops = end < least && end < start;
   if (!stops && sway == 0.0) return false;
-  join({&c.vertex, 1}, stops ? std::max(0.0, kKept * (start - least) / (start - end)) : 1.0);
+  join({&c.vertex, 1}, stops ? std::max(0.0, kKept * (start - least) / (start - end)) : 1.0, true);
   return stops;
 }
 

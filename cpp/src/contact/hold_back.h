@@ -33,6 +33,12 @@ class HoldBack {
   bool find(const Candidates& candidates, std::span<const PlacedPlane> planes, ConstReals from, ConstReals to,
             ConstReals bends = {}, ConstReals sways = {});
   [[nodiscard]] double share(std::int32_t mover) const { return shares_[root(mover)]; }
+  /// The lowest mover of the island that a mover belongs to; itself where it belongs to none.
+  [[nodiscard]] std::int32_t island(std::int32_t mover) const {
+    return static_cast<std::int32_t>(root(mover));
+  }
+  /// Something that is given, such as an obstacle or a plane, stops a mover's island.
+  [[nodiscard]] bool is_stopped_by_given(std::int32_t mover) const { return anchored_[root(mover)] != 0; }
   /// Contacts of the pairs whose whole way is not free, in the order of the list.
   [[nodiscard]] const std::vector<std::int32_t>& stopped() const { return stopped_; }
   [[nodiscard]] const std::vector<std::int32_t>& stopped_at_planes() const { return stopped_at_planes_; }
@@ -48,7 +54,7 @@ class HoldBack {
 
  private:
   [[nodiscard]] std::size_t root(std::int32_t mover) const;
-  void join(std::span<const std::int32_t> vertices, double share);
+  void join(std::span<const std::int32_t> vertices, double share, bool before_plane = false);
   void join(std::int32_t& first, std::int32_t mover);
   bool stops_at_plane(const PlaneCandidate& candidate, const PlacedPlane& plane, ConstReals from,
                       ConstReals to, ConstReals bends, ConstReals sways);
@@ -57,6 +63,7 @@ class HoldBack {
   const std::vector<std::uint8_t>& given_;
   mutable std::vector<std::int32_t> parent_;
   std::vector<double> shares_;
+  std::vector<std::uint8_t> anchored_;  ///< of each island: something given stops it
   std::vector<std::int32_t> stopped_;
   std::vector<std::int32_t> stopped_at_planes_;
 };

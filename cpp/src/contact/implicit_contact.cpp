@@ -13,6 +13,7 @@ namespace tissu {
 namespace {
 
 constexpr double kAlternates = 1e-2;  ///< inadmissible share of the forces
+constexpr double kBlow = 0.1;         ///< of the gap: what would go deeper in a step is struck
 
 std::array<double, 3> numbers_of(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
@@ -58,7 +59,11 @@ double ImplicitContact::look(const State& at) {
   run_.look(at);
   shares_.assign(run_.looked().size(), 0.0);
   for (std::size_t i = 0; i < shares_.size(); ++i) shares_[i] = may_press(i) ? 1.0 : 0.0;
-  find_stiffnesses(blocks_, scale_, shares_, stiffnesses_);
+  if (has_own_stiffness()) {
+    stiffnesses_ = shares_;
+  } else {
+    find_stiffnesses(blocks_, scale_, shares_, stiffnesses_);
+  }
   begin_press();
   press_all();
   return bodies_.change(run_.acting(), pressing_);
@@ -113,6 +118,19 @@ void ImplicitContact::finish(const State& end, State& into) {
     least_gap_ = std::min(least_gap_, n.dot(r) / c.apart);
   }
   ContactTable::write(run_.acting(), contact_.numbers(into));
+}
+
+bool ImplicitContact::struck_rigid() const {
+  const SurfaceSet& surfaces = contact_.surfaces();
+  if (surfaces.carriers().empty() || !(h_ > 0.0)) return false;
+  return std::ranges::any_of(run_.acting(), [&](const ContactNumbers& c) {
+    const bool rigid = std::ranges::any_of(c.vertex, [&](double vertex) {
+      return vertex >= 0.0 && surfaces.vertices()[static_cast<std::size_t>(vertex)].carrier >= 0;
+    });
+    if (!rigid || !(c.force > 0.0)) return false;
+    const double way = vector_of(c.normal).dot(h_ * run_.rate(c, start_->velocities) + run_.led(c));
+    return -way > kBlow * std::min(c.apart, pair_of(c).gap);
+  });
 }
 
 void ImplicitContact::strike(EndImpulses& impulses, double h, Reals v, State& into) {

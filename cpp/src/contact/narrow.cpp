@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "flat_edges.h"
 #include "tissu/contact/closest.h"
 
 namespace tissu {
@@ -64,6 +65,7 @@ class Narrow {
     const Closest closest = closest_edge_edge(points(candidate), first, second);
     if (first != Part::interior || second != Part::interior) return false;
     if (!take(candidate, closest, reach)) return false;
+    if (is_flat_edge(surfaces_, candidate.a) || is_flat_edge(surfaces_, candidate.b)) return false;
     if (!is_in_fan(candidate.a, -closest.r) || !is_in_fan(candidate.b, closest.r)) return false;
     const SurfaceEdge& e = surfaces_.edges()[at(candidate.a)];
     const SurfaceEdge& f = surfaces_.edges()[at(candidate.b)];

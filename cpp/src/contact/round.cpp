@@ -29,7 +29,7 @@ int parts_before_round(const SurfaceSet& surfaces, const Candidate& candidate) {
   double radius = first.radius;
   double other = 0.0;
   if (candidate.kind == PairKind::vertex_face) {
-    if (first.has_faces) return 0;
+    if (first.has_faces || !vertices[at(candidate.vertex[1])].is_soft()) return 0;
     other = vertices[at(candidate.vertex[1])].radius;
     for (const std::int32_t e : surfaces.triangle_edges(candidate.b)) {
       length = std::max(length, edges[at(e)].length);
@@ -40,6 +40,7 @@ int parts_before_round(const SurfaceSet& surfaces, const Candidate& candidate) {
     const SurfaceVertex& second = vertices[at(candidate.vertex[2])];
     const bool is_first = edges[at(candidate.a)].is_lone();
     if (is_first == edges[at(candidate.b)].is_lone()) return 0;
+    if (!(is_first ? second : first).is_soft()) return 0;
     length = edges[at(is_first ? candidate.b : candidate.a)].length;
     other = second.radius;
     if (!is_first) std::swap(radius, other);

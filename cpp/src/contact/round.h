@@ -13,7 +13,8 @@ namespace tissu {
 
 /// Into how many parts the edges of the face, or the edge, of a candidate are cut before something round:
 /// 1 where its corners are enough. 0 where the candidate has nothing round, or only something so thin that
-/// no dent follows it: the narrow phase finds its nearest points.
+/// no dent follows it, and before what is rigid, which has no dents: the narrow phase finds its nearest
+/// points.
 int parts_before_round(const SurfaceSet& surfaces, const Candidate& candidate);
 
 /// Contacts of the points inside a face, inside those of its edges that it is the first face of, or inside

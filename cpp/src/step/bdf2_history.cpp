@@ -14,7 +14,8 @@ void Bdf2History::prepare(const World& world) {
 void Bdf2History::begin(const State& start, double h, StageSolver& solver) {
   const std::vector<Frame>& frames = solver.world().frames();
   solver.begin(start, start.time + h, h);
-  if (end_.is(start)) {
+  goes_on_ = end_.is(start);
+  if (goes_on_) {
     Stage& stage = solver.stage();
     const double r = h / step_;
     const double share = r * r / (1.0 + 2.0 * r);

@@ -49,6 +49,7 @@ StepReport ExplicitMethod::step(State& state, double h) {
   keep_angular_momentum(start_, world().frames(), state);
   report.time = state.time;
   report.converged = true;
+  if (contact_ != nullptr) tell_depth(report);
   return report;
 }
 

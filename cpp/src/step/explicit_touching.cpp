@@ -63,7 +63,9 @@ void ExplicitMethod::touch(ConstReals way, double pushed, double h, State& state
     strike(pushed, h, state);
   }
   held_back_ = hold_back(h, state);
-  for (int i = 1; held_back_ > 0 && i < looks; ++i) {
+  for (int i = 1; i < looks; ++i) {
+    const bool again = held_back_ > 0 || (contact_->strikes_first() && contact_->is_pressed_in(state));
+    if (!again) break;
     contact_->take_back(pushed, free_way_, free_ends_);
     look(state, nullptr);
     strike(pushed, h, state);
@@ -102,6 +104,7 @@ int ExplicitMethod::hold_back(double h, State& state) {
   placed_rotations_ = state.rotations;
   const int rows = contact_->hold_back(state);
   if (rows == 0) return 0;
+  change_ = state.velocities;
   for (std::size_t i = 0; i < placed_.size(); ++i) {
     if (placed_[i] == state.positions[i]) continue;
     state.velocities[i] = (state.positions[i] - start_.positions[i]) / h;
@@ -112,7 +115,18 @@ int ExplicitMethod::hold_back(double h, State& state) {
     const Quaternion turn = state.rotations[k] * start_.rotations[k].conjugate();
     block(Reals(state.velocities), frames[k].rotation) = nearest_turn(turn, Vec3::Zero()) / h;
   }
+  contact_->keep_momentum(world().mass(), world().fixed(), change_, state.velocities);
   return rows;
+}
+
+/// Where what is led leaves no room, impulses find no answer.
+void ExplicitMethod::tell_depth(StepReport& report) const {
+  if (contact_->depth() <= ExplicitContact::kTooDeep) return;
+  report.converged = false;
+  report.message = "surfaces are deeper inside each other than " +
+                   number_text(100.0 * ExplicitContact::kTooDeep) +
+                   " % of their gap at the end of the step; lead things so that they leave room for what is "
+                   "between them, or take a smaller dt";
 }
 
 /// A stiffness of the user's may come to more than was seen at rest: where many contacts meet at a node.

@@ -110,6 +110,7 @@ void StageSolver::end_touching(double h, State& end) {
 
 void StageSolver::follow(const State& end, std::vector<double>& v) {
   const double move = stage_.contact.stretch * stage_.move;
+  before_cut_ = v;
   cut_.clear();
   for (std::size_t i = 0; i < v.size(); ++i) {
     if (placed_[i] == end.positions[i]) continue;
@@ -123,6 +124,13 @@ void StageSolver::follow(const State& end, std::vector<double>& v) {
     const Quaternion turn = end.rotations[k] * stage_.base.rotations[k].conjugate();
     block(Reals(v), frames[k].rotation) = nearest_turn(turn, Vec3::Zero()) / move;
   }
+}
+
+/// Of methods whose velocities at the end are those of their equation: others have their own way to them.
+void StageSolver::keep_momentum(std::vector<double>& v) {
+  if (cut_.empty() || stage_.contact.stretch != 1.0) return;
+  const World& world = system_->world();
+  contact_->run().keep_momentum(world.mass(), world.fixed(), before_cut_, v);
 }
 
 bool StageSolver::solve_contacts(State& state, std::vector<double>& v, StepReport& report) {
@@ -214,6 +222,7 @@ void StageSolver::iterate_contacts(State& state, std::vector<double>& v, StepRep
     }
   }
   report.newton_iterations = iterations;
+  keep_momentum(v);
   std::ranges::copy(v, state.velocities.begin());
   world.fixed().clear(first_);
 }
@@ -228,6 +237,7 @@ void StageSolver::solve_touching(State& state, std::vector<double>& v, StepRepor
   if (!report.converged && !report.hasty) report.message = "the linear solver stopped before its tolerance";
   State& end = stage_.contact.stretch != 1.0 ? end_ : state;
   follow(end, v);
+  if (newton_.iterations == 1) keep_momentum(v);
   std::ranges::copy(v, state.velocities.begin());
   contact_->finish(end, state);
   if (newton_.iterations > 1) {

@@ -30,6 +30,8 @@ GAP = 0.02
 """share of the mean surface edge of the finer body that is the gap where none is given"""
 _WIDE = 0.1
 """share of that edge above which a gap is remarkable"""
+_NARROW = 1e-5
+"""share of that edge below which round-off hides the slope of a barrier: it was found at 2e-6"""
 
 
 class PreparedPair(NamedTuple):
@@ -193,6 +195,13 @@ def _prepare_pairs(
             f"{field_path(path)}.gap: {contact.gap:g} m is more than a tenth of the mean surface "
             f"edge, {finest:.4g} m, so that surfaces rest visibly apart; {GAP * finest:.2g} m is "
             "the default"
+        )
+    least = _NARROW * finest
+    if contact.gap is not None and contact.gap < least and method_of(prepared.scene) == "barrier":
+        prepared.findings.note(
+            f"{field_path(path)}.gap: {contact.gap:g} m is less than {_NARROW:g} of the mean "
+            f"surface edge, {finest:.4g} m; the barrier is lost in round-off there, so that steps "
+            f"do not converge: take {least:.1g} m or more"
         )
 
 

@@ -26,10 +26,8 @@ STEPS_OF_METHOD: dict[str, tuple[str, ...]] = {
 
 Contact in steps without damping ends with impulses that take all that springs would give back.
 """
-STEPS_OF_FREE: tuple[str, ...] = ("implicit_euler", *_EXPLICIT)
-"""the steps that move obstacles with a mass; BDF2 goes on from velocities before a blow, so that
-what is rigid is thrown back
-"""
+STEPS_OF_FREE: tuple[str, ...] = ("implicit_euler", "bdf2", *_EXPLICIT)
+"""the steps that move obstacles with a mass"""
 FIELDS_OF_METHOD: dict[str, tuple[str, ...]] = {
     "impulse": ("restitution",),
     "penalty": ("restitution", "stiffness"),

@@ -38,6 +38,7 @@ struct Bar {
 };
 
 /// Effects, each of which is put on a bar.
+void step_explicitly(Bar& bar);
 void hold(Bar& bar);
 void lead(Bar& bar);
 void lead_live(Bar& bar);
@@ -55,6 +56,10 @@ void remove_a_cell_each_step(Bar& bar);
 void squeeze_each_step(Bar& bar);
 void touch_plane(Bar& bar);
 void rub_plane(Bar& bar);
+void spring_from_plane(Bar& bar);
+void strike_plane(Bar& bar);
+void correct_at_plane(Bar& bar);
+void keep_off_plane(Bar& bar);
 /// A second bar that lies on it and may go through it.
 void lay_bar_above(Bar& bar);
 void touch_bar(Bar& bar);

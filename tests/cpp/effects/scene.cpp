@@ -11,14 +11,16 @@
 #include "tissu/step/static_equilibrium.h"
 
 namespace tissu::effects {
-namespace {
 
-void leave(Bar& /*bar*/) {}
-void fall(Bar& bar) { bar.world.gravity = Vec3(0.0, 0.0, -9.81); }
 void step_explicitly(Bar& bar) {
   bar.integrator = std::make_unique<SymplecticEuler>();
   bar.h = 1e-4;
 }
+
+namespace {
+
+void leave(Bar& /*bar*/) {}
+void fall(Bar& bar) { bar.world.gravity = Vec3(0.0, 0.0, -9.81); }
 void fall_explicitly(Bar& bar) {
   step_explicitly(bar);
   fall(bar);
@@ -48,6 +50,7 @@ void damp_like_kelvin_voigt(Bar& bar) {
 }
 void damp_against_centroids(Bar& bar) { bar.body().viscosity.centroid = 1e3; }
 void relax(Bar& bar) { bar.body().viscosity.prony = {{0.5, 0.1}, {0.2, 1.0}}; }
+void hold_instruments(Bar& bar) { bar.world.instruments = true; }
 void allow_edits(Bar& bar) { bar.world.editable = true; }
 void take_snapshots(Bar& bar) {
   bar.before = [](Simulation& simulation) { (void)simulation.snapshot(); };
@@ -107,9 +110,14 @@ constexpr std::array kRecipes = {
     Recipe{"grab", &add_grab},
     Recipe{"touch-plane", &touch_plane},
     Recipe{"rub-plane", &rub_plane},
+    Recipe{"spring-plane", &spring_from_plane},
+    Recipe{"strike-plane", &strike_plane},
+    Recipe{"correct-plane", &correct_at_plane},
+    Recipe{"barrier-plane", &keep_off_plane},
     Recipe{"two-bars", &lay_bar_above},
     Recipe{"touch-bar", &touch_bar},
     Recipe{"touch-itself", &touch_itself},
+    Recipe{"instruments", &hold_instruments},
     Recipe{"editable", &allow_edits},
     Recipe{"editing", &remove_a_cell_each_step},
     Recipe{"newton", &iterate_newton},

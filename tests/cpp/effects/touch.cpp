@@ -31,8 +31,9 @@ void meet(Bar& bar, std::int32_t a, std::int32_t b, double friction = 0.0) {
 }
 
 /// A plane above the bar, whose end moves up.
-void press_on_plane(Bar& bar, double friction) {
+void press_on_plane(Bar& bar, double friction, ContactMethod method = ContactMethod::augmented) {
   bar.world.contact.emplace();
+  bar.world.contact->method = method;
   bar.world.contact->bodies.push_back(surface_of(bar, "bar"));
   ObstacleDescription plane;
   plane.surface.name = "plane";
@@ -47,6 +48,21 @@ void press_on_plane(Bar& bar, double friction) {
 
 void touch_plane(Bar& bar) { press_on_plane(bar, 0.0); }
 void rub_plane(Bar& bar) { press_on_plane(bar, 0.5); }
+
+void spring_from_plane(Bar& bar) { press_on_plane(bar, 0.0, ContactMethod::penalty); }
+void strike_plane(Bar& bar) {
+  step_explicitly(bar);
+  press_on_plane(bar, 0.0, ContactMethod::impulse);
+}
+void correct_at_plane(Bar& bar) {
+  step_explicitly(bar);
+  press_on_plane(bar, 0.0, ContactMethod::geometric);
+}
+/// Each step is solved, as the method asks for.
+void keep_off_plane(Bar& bar) {
+  bar.solver = {1e-8, 1000};
+  press_on_plane(bar, 0.0, ContactMethod::barrier);
+}
 
 void lay_bar_above(Bar& bar) {
   bar.add_body("fem", "stvk");

@@ -45,6 +45,7 @@ class BarrierContact final : public ImplicitContact {
 
  protected:
   [[nodiscard]] bool may_press(std::size_t i) const override;
+  [[nodiscard]] bool has_own_stiffness() const override { return true; }
   void begin_press() override { energy_ = 0.0; }
   std::optional<double> press(std::size_t i, ContactNumbers& contact) override;
   void rub(ContactNumbers& contact, double bound, double k) override;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "tissu/assembly/fixed_dofs.h"
+#include "tissu/assembly/mass.h"
 #include "tissu/contact/contact.h"
 
 namespace tissu {
@@ -41,6 +42,10 @@ class ContactRun {
   /// Shortens the ways from the start to `to` until nothing passes through anything. The number of rows that
   /// were held back.
   int hold_back(State& to);
+  /// Rows whose ways were cut by the latest `hold_back` have the velocities `v` of what is left of them, in
+  /// the place of `before`. What pairs of free rows stop gets the momentum back that is lost by that, each
+  /// island as a whole; what something given stops, such as an obstacle, does not.
+  void keep_momentum(const Mass& mass, const FixedDofs& fixed, ConstReals before, Reals v);
   /// The least share of its way that the latest `hold_back` left to anything.
   [[nodiscard]] double least_share() const { return least_share_; }
   /// Ways go on from `at`, to which the way was free, and not from the start of the step any more.
@@ -86,6 +91,8 @@ class ContactRun {
   void add(const Candidate& candidate, const Found& found, std::int32_t point);
   void bend(const State& to);
   void sway();
+  template <class Function>
+  void for_held_rows(Function&& f) const;
   void gather_inner_rows(const State& state, std::vector<double>& places) const;
   [[nodiscard]] Vec3 way_turned(const SurfaceCarrier& carrier, const State& to) const;
   int hold_back_carriers(State& to);
@@ -121,6 +128,7 @@ class ContactRun {
   std::vector<ContactNumbers> looked_;
   std::vector<double> gaps_;             ///< of looked_
   std::vector<std::uint8_t> predicted_;  ///< of looked_
+  std::vector<double> lost_;             ///< of each island: mass and momentum, four numbers
   std::vector<double> weights_;          ///< of looked_
   std::vector<std::int32_t> order_;      ///< of contacts_, by their keys
   std::vector<std::uint8_t> met_;        ///< of contacts_: found again in the latest look

@@ -22,6 +22,10 @@ struct ContactRates {
 
 class ExplicitContact {
  public:
+  /// A contact that is deeper inside its gap, as a share of that, is not solved: springs end in its last
+  /// fifth.
+  static constexpr double kTooDeep = 0.9;
+
   /// `frequency`: the largest one of the bodies at rest [1/s].
   static std::unique_ptr<ExplicitContact> make(const Contact& contact, const FixedDofs& fixed,
                                                const Mass& mass, double frequency);
@@ -60,6 +64,15 @@ class ExplicitContact {
   virtual void strike_end(ConstReals velocities, const State& end, Reals change) = 0;
   /// Shortens the ways to `to` until nothing passes. The number of rows that were held back.
   int hold_back(State& to) { return run_.hold_back(to); }
+  /// Velocities of rows that were held back, as `ContactRun` has it.
+  void keep_momentum(const Mass& mass, const FixedDofs& fixed, ConstReals before, Reals v) {
+    run_.keep_momentum(mass, fixed, before, v);
+  }
+  /// Whether impulses pressed something rigid, which is free, into what was too far away to be looked at: it
+  /// looks at that end.
+  bool is_pressed_in(const State& end);
+  /// How far the contacts of the step are inside their gaps at its end, as a share; the most of them.
+  [[nodiscard]] double depth() const { return depth_; }
   /// The step is over: its contacts go into the memory of its end.
   void finish(State& end);
 
@@ -83,9 +96,13 @@ class ExplicitContact {
   double h_ = 0.0;
 
  private:
+  [[nodiscard]] double deepest(const State* end) const;
+  double look_at_depth(const State& at);
+
   const State* start_ = nullptr;
   std::vector<ContactNumbers> kept_;
   double least_gap_ = 0.0;
+  double depth_ = 0.0;
 };
 
 /// The part of a force along a surface, no longer than Coulomb's bound.

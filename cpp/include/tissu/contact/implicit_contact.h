@@ -79,6 +79,9 @@ class ImplicitContact {
   void add_forces(Reals f) const;
   /// Impulses on the velocities at the end of a step of h, which join those forces in the memory of `into`.
   void strike(EndImpulses& impulses, double h, Reals v, State& into);
+  /// A free rigid body met something at such a speed in this step, after it was finished, that it would go
+  /// deeper than a tenth of the gap: its velocity has jumped.
+  [[nodiscard]] bool struck_rigid() const;
   [[nodiscard]] std::size_t size() const { return run_.acting().size(); }
   /// The least distance, as a share of xi, of a pair that acts, at the end of the step; infinite for none.
   [[nodiscard]] double least_gap() const { return least_gap_; }
@@ -97,6 +100,8 @@ class ImplicitContact {
   }
   /// A normal force [N], positive where it pushes, and its stiffness against coming nearer [N/m].
   static void give(ContactNumbers& contact, double force, double k);
+  /// Its contacts have stiffnesses of their own, so that those of the rows are not looked for.
+  [[nodiscard]] virtual bool has_own_stiffness() const { return false; }
   /// Before the contacts of a look press.
   virtual void begin_press() {}
   /// What k is of contacts of the latest look, of that matrix, in which contacts count by their shares.
@@ -131,7 +136,7 @@ class ImplicitContact {
   double normal_ = 1.0;                   ///< times stiffer
   double tangent_ = 1.0;                  ///< times stiffer
   std::vector<ContactNumbers> pressing_;  ///< of the latest look
-  std::vector<double> stiffnesses_;       ///< of what was looked at
+  std::vector<double> stiffnesses_;       ///< of what was looked at; shares where it has its own
   std::vector<double> shares_;            ///< of what was looked at: 1 where it may press
   std::vector<double> counts_;            ///< contacts of each row, by their shares
   int alternations_ = 0;                  ///< updates of this step that found much inadmissible, less others

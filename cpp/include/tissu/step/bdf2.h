@@ -5,7 +5,9 @@
 namespace tissu {
 
 /// The backward differentiation formula of second order (Curtiss, Hirschfelder 1952), for steps that may
-/// change: 3 x1 - 4 x0 + x-1 = 2 h v1, the same for v and M^-1 f. Damps fast vibrations.
+/// change: 3 x1 - 4 x0 + x-1 = 2 h v1, the same for v and M^-1 f. Damps fast vibrations. A
+/// step in which a free rigid body strikes something, and the one after it, are of backward Euler: velocities
+/// of before a blow would throw it back. So is a step in which one turns by more than 1e-3 rad.
 class Bdf2 final : public Integrator {
  public:
   explicit Bdf2(NewtonSettings newton = {}) : solver_(newton) {}
@@ -18,6 +20,8 @@ class Bdf2 final : public Integrator {
   void copy_rows(std::span<const RowCopy> copies) override { history_.copy_rows(copies); }
 
  private:
+  void solve_anew(State& state, double h, StepReport& report);
+
   StageSolver solver_;
   Bdf2History history_;
   State start_;

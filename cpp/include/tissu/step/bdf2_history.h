@@ -13,6 +13,10 @@ class Bdf2History {
   /// x1 = x0 + s (x0 - x-1) + a v1, v1 = v0 + s (v0 - v-1) + a M^-1 f(x1, v1), a = h (1 + r) / (1 + 2 r);
   /// r = 1 gives 4/3, -1/3, 2/3. Without history the step is one of backward Euler.
   void begin(const State& start, double h, StageSolver& solver);
+  /// The latest stage goes on from the state before the last one.
+  [[nodiscard]] bool goes_on() const { return goes_on_; }
+  /// The next stage is one of backward Euler.
+  void forget() { end_.forget(); }
   /// The step of h from `start` led to `end`.
   void keep(const State& start, double h, const State& end);
 
@@ -23,6 +27,7 @@ class Bdf2History {
  private:
   State before_;
   double step_ = 0.0;
+  bool goes_on_ = false;
   StateMark end_;
   std::vector<double> way_;
   State extrapolated_;  ///< the state before, in the rotations of the base

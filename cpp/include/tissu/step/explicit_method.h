@@ -51,6 +51,7 @@ class ExplicitMethod : public Integrator {
   void place(ConstReals way, double h, State& state);
   int hold_back(double h, State& state);
   void require_bearable(double h, double limit) const;
+  void tell_depth(StepReport& report) const;
 
   std::unique_ptr<System> system_;
   StableStep stable_;

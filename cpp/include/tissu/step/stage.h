@@ -58,6 +58,9 @@ class StageSolver {
   [[nodiscard]] double acting() const { return acting_; }
   /// The external impulse of the stage is a part of what acts. `solve` does it itself.
   void judge_by_load();
+  /// The step that was solved is one in which a free rigid body struck something, so that velocities of
+  /// before do not go on after it.
+  [[nodiscard]] bool struck_rigid() const { return contact_ != nullptr && contact_->struck_rigid(); }
 
  private:
   enum class Search { none, residual, energy };
@@ -77,6 +80,8 @@ class StageSolver {
   State& end_of(State& state);
   /// Velocities that lead to an end, of rows that were held back.
   void follow(const State& end, std::vector<double>& v);
+  /// What rows that free rows held back lost by that goes to all of them.
+  void keep_momentum(std::vector<double>& v);
   void set_contacts(State& state);
 
   // barrier_touching.cpp: steps in which contact has a potential.
@@ -142,7 +147,8 @@ class StageSolver {
   State way_end_;               ///< of a way that is tested
   std::vector<double> placed_;  ///< at an end, before ways were cut
   std::vector<Quaternion> placed_rotations_;
-  std::vector<std::int32_t> cut_;  ///< rows that were held back in the latest solve
+  std::vector<std::int32_t> cut_;   ///< rows that were held back in the latest solve
+  std::vector<double> before_cut_;  ///< velocities without that
   Profile* profile_ = nullptr;
   std::size_t detection_row_ = 0;  ///< of the profile; there where something touches
   std::size_t travel_row_ = 0;

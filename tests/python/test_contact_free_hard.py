@@ -1,0 +1,107 @@
+"""Free obstacles where it is hard: pinched, and stopped on their way."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+import tissu as ts
+
+GAP = 1e-4
+TABLE = ts.PlaneObstacle((0, 0, 0), (0, 0, 1))
+
+
+def pinched(step: Any) -> ts.Simulation:
+    """A ball of 4 cm between a table and a block that is led down to 1 cm above it."""
+    lead = ts.Motion(times=(0, 0.1), displacements=((0, 0, 0), (0, 0, -0.03)))
+    scene = ts.Scene(
+        bodies={},
+        obstacles={
+            "table": TABLE,
+            "press": ts.BoxObstacle((-0.05, -0.05, 0.0412), (0.05, 0.05, 0.06), motion=lead),
+            "ball": ts.SphereObstacle((0, 0, 0.0202), radius=0.02, mass=0.1),
+        },
+        contacts=[ts.Contact(("ball", name), gap=GAP) for name in ("table", "press")],
+        step=step,
+    )
+    return scene.compile()
+
+
+@pytest.mark.parametrize(
+    "step", [ts.ImplicitEuler("1 ms"), ts.SymplecticEuler("1 ms"), ts.RK4("1 ms")]
+)
+def test_a_pinched_ball_is_never_pressed_in_without_a_word(step: Any) -> None:
+    """While there is room steps converge; no step that leaves an overlap says so."""
+    simulation = pinched(step)
+    said = 0
+    for k in range(40):
+        report = simulation.step()
+        if any(overlap.depth > 0.0 for overlap in simulation.overlaps()):
+            assert not report.converged
+            assert "deeper" in report.message or "had not settled" in report.message
+            said += 1
+        if k < 2:
+            assert report.converged, report
+    assert said > 20
+
+
+@pytest.mark.parametrize("offset", [0.0, 0.01])
+@pytest.mark.parametrize("speed", [1e3, 1e4])
+def test_balls_that_are_held_back_keep_their_momentum(speed: float, offset: float) -> None:
+    """Linear momentum, to round-off of the solves, whether a step said converged or not."""
+    scene = ts.Scene(
+        bodies={},
+        obstacles={
+            "a": ts.SphereObstacle((0, 0, 0), radius=0.02, mass=0.1, velocity=(speed, 0, 0)),
+            "b": ts.SphereObstacle((0.1, offset, 0), radius=0.02, mass=0.3),
+        },
+        contacts=[ts.Contact(("a", "b"))],
+        step=ts.ImplicitEuler("1 ms"),
+    )
+    simulation = scene.compile()
+    before = 0.05 * speed**2
+    for _ in range(4):
+        simulation.step()
+        a, b = simulation.rigid("a"), simulation.rigid("b")
+        momentum = 0.1 * a.velocity + 0.3 * b.velocity
+        assert np.abs(momentum - (0.1 * speed, 0, 0)).max() < 1e-6 * speed
+        energy = 0.05 * a.velocity @ a.velocity + 0.15 * b.velocity @ b.velocity
+        assert energy <= before * (1 + 1e-9)
+        before = energy
+    assert energy < 0.9 * 0.05 * speed**2  # they met
+
+
+@pytest.mark.parametrize("method", ["implicit_euler", "bdf2"])
+def test_cubes_that_are_held_back_keep_their_momentum(method: str) -> None:
+    """Of 1 GPa at 1 km/s, a step of 1 ms: the step says that it was cut, and nothing is lost."""
+
+    def cube(origin: tuple[float, float, float], speed: float) -> ts.Body:
+        mesh = ts.BarMesh(size=(0.05,) * 3, cells=(2, 2, 2), cell="hexahedron", origin=origin)
+        law = ts.StableNeoHooke(young=1e9, poisson=0.3)
+        start = ts.Start(velocity=(speed, 0, 0))
+        return ts.Body(mesh=mesh, law=law, density=1000.0, start=start)
+
+    scene = ts.Scene(
+        bodies={"a": cube((0, 0, 0), 1e3), "b": cube((0.1, 0.01, 0.005), 0.0)},
+        contacts=[ts.Contact(("a", "b"))],
+        step={"type": method, "dt": "1 ms", "solver": {"type": "cholesky"}},
+    )
+    simulation = scene.compile()
+    mass = simulation.mass_matrix().diagonal()
+
+    def momentum() -> np.ndarray:
+        rows = (simulation.rows(name) for name in simulation.bodies)
+        sums = (
+            mass[3 * r.start : 3 * r.stop : 3] @ simulation.velocities[name]
+            for r, name in zip(rows, simulation.bodies, strict=True)
+        )
+        return sum(sums, np.zeros(3))
+
+    start = momentum()
+    reports = [simulation.step()]
+    assert reports[0].held_back > 0
+    assert not reports[0].converged
+    assert simulation.crossings() == []
+    assert np.abs(momentum() - start).max() < 1e-9 * np.abs(start).max()

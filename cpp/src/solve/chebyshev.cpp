@@ -10,7 +10,7 @@
 namespace tissu {
 namespace {
 
-constexpr int kSteps = 2;     ///< of the polynomial
+constexpr int kSteps = 2;     ///< of the polynomial, each written out with the products that it needs
 constexpr int kLanczos = 12;  ///< products that find the largest eigenvalue
 constexpr double kAbove = 1.05;
 constexpr double kExhausted = 1e-10;  ///< of a residual, squared: there is nothing more to find
@@ -20,6 +20,12 @@ constexpr double kSmoothed = 10.0;    ///< ratio of the eigenvalues between whic
 double scattered(std::size_t i) {
   const double x = std::sin(12.9898 * static_cast<double>(i) + 1.0) * 43758.5453;
   return 2.0 * (x - std::floor(x)) - 1.0;
+}
+
+/// f(i) for the numbers of rows [begin, end).
+template <class Function>
+void for_numbers(std::int32_t begin, std::int32_t end, Function&& f) {
+  for (auto i = 3 * static_cast<std::size_t>(begin); i < 3 * static_cast<std::size_t>(end); ++i) f(i);
 }
 
 }  // namespace
@@ -100,55 +106,63 @@ void Chebyshev<T>::find_largest(const Threads& threads) {
 }
 
 template <class T>
+typename Chebyshev<T>::Polynomial Chebyshev<T>::polynomial() const {
+  const double upper = kAbove * largest_;
+  const double centre = 0.5 * (upper + upper / kSmoothed);
+  const double half = 0.5 * (upper - upper / kSmoothed);
+  const double first = half / centre;
+  const double second = 1.0 / (2.0 / first - first);
+  return {static_cast<T>(1.0 / centre), static_cast<T>(second * first), static_cast<T>(2.0 * second / half)};
+}
+
+/// to = own d + share D^-1 (r - to), and r = r - to, for rows [begin, end).
+template <class T>
+void Chebyshev<T>::second_step(std::int32_t begin, std::int32_t end, const T* r, T* to) {
+  const Polynomial with = polynomial();
+  for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
+    T left[3];
+    T step[3];
+    for (std::size_t k = 0; k < 3; ++k) left[k] = r_[3 * i + k] = r[3 * i + k] - to[3 * i + k];
+    multiply_blocks(inverse_.data() + 9 * i, 0, 1, left, step);
+    for (std::size_t k = 0; k < 3; ++k) to[3 * i + k] = with.own * d_[3 * i + k] + with.share * step[k];
+  }
+}
+
+template <class T>
 void Chebyshev<T>::smooth_from_zero(const Threads& threads, const T* b, T* x) {
-  std::copy_n(b, r_.size(), r_.data());
-  std::fill_n(x, r_.size(), T(0));
-  iterate(threads, x, kSteps);
+  const T share = polynomial().first;
+  threads.for_pieces(rows(), [&](std::int32_t begin, std::int32_t end) {
+    multiply_blocks(inverse_.data(), begin, end, b, d_.data());
+    for_numbers(begin, end, [&](std::size_t i) { d_[i] *= share; });
+  });
+  gather(threads, d_.data());
+  threads.for_pieces(rows(), [&](std::int32_t begin, std::int32_t end) {
+    multiply_rows(begin, end, d_.data(), q_.data());
+    second_step(begin, end, b, q_.data());
+    for_numbers(begin, end, [&](std::size_t i) { x[i] = d_[i] + q_[i]; });
+  });
+  gather(threads, q_.data());
+  threads.for_pieces(rows(), [&](std::int32_t begin, std::int32_t end) {
+    multiply_rows(begin, end, q_.data(), d_.data());
+    for_numbers(begin, end, [&](std::size_t i) { r_[i] -= d_[i]; });
+  });
 }
 
 template <class T>
 void Chebyshev<T>::smooth(const Threads& threads, const T* b, T* x) {
+  const T share = polynomial().first;
   gather(threads, x);
   threads.for_pieces(rows(), [&](std::int32_t begin, std::int32_t end) {
     multiply_rows(begin, end, x, r_.data());
-    for (auto i = 3 * static_cast<std::size_t>(begin); i < 3 * static_cast<std::size_t>(end); ++i) {
-      r_[i] = b[i] - r_[i];
-    }
+    for_numbers(begin, end, [&](std::size_t i) { r_[i] = b[i] - r_[i]; });
+    multiply_blocks(inverse_.data(), begin, end, r_.data(), d_.data());
+    for_numbers(begin, end, [&](std::size_t i) { d_[i] *= share; });
   });
-  iterate(threads, x, kSteps - 1);
-}
-
-template <class T>
-void Chebyshev<T>::iterate(const Threads& threads, T* x, int residuals) {
-  const double upper = kAbove * largest_;
-  const double centre = 0.5 * (upper + upper / kSmoothed);
-  const double half = 0.5 * (upper - upper / kSmoothed);
-  double rho = half / centre;
-  for (int step = 0; step < kSteps; ++step) {
-    const double next = step == 0 ? 0.0 : 1.0 / (2.0 * centre / half - rho);
-    const T own = static_cast<T>(step == 0 ? 0.0 : next * rho);
-    const T share = static_cast<T>(step == 0 ? 1.0 / centre : 2.0 * next / half);
-    if (step > 0) rho = next;
-    threads.for_pieces(rows(), [&](std::int32_t begin, std::int32_t end) {
-      multiply_blocks(inverse_.data(), begin, end, r_.data(), q_.data());
-      for (auto i = 3 * static_cast<std::size_t>(begin); i < 3 * static_cast<std::size_t>(end); ++i) {
-        d_[i] = step == 0 ? share * q_[i] : own * d_[i] + share * q_[i];
-        x[i] += d_[i];
-      }
-    });
-    if (step < residuals) subtract_product(threads);
-  }
-}
-
-/// r -= A d
-template <class T>
-void Chebyshev<T>::subtract_product(const Threads& threads) {
   gather(threads, d_.data());
   threads.for_pieces(rows(), [&](std::int32_t begin, std::int32_t end) {
     multiply_rows(begin, end, d_.data(), q_.data());
-    for (auto i = 3 * static_cast<std::size_t>(begin); i < 3 * static_cast<std::size_t>(end); ++i) {
-      r_[i] -= q_[i];
-    }
+    second_step(begin, end, r_.data(), q_.data());
+    for_numbers(begin, end, [&](std::size_t i) { x[i] = (x[i] + d_[i]) + q_[i]; });
   });
 }
 

@@ -9,7 +9,8 @@ namespace tissu {
 
 /// Smooths with a matrix: a Chebyshev polynomial of D^-1 A for the upper part of its eigenvalues (Adams,
 /// Brezina, Hu and Tuminaro, Parallel multigrid smoothing: polynomial versus Gauss-Seidel, J. Comput. Phys.
-/// 188, 2003). It is symmetric, and its sums do not depend on an order of rows.
+/// 188, 2003). It is symmetric, and its sums do not depend on an order of rows. A product and what follows
+/// from it in the same rows are one pass: three passes from zero, two from an x.
 template <class T>
 class Chebyshev {
  public:
@@ -35,9 +36,14 @@ class Chebyshev {
   /// Rows [begin, end) of A p, where couplings were gathered.
   void multiply_rows(std::int32_t begin, std::int32_t end, const T* p, T* out) const;
   void gather(const Threads& threads, const T* p) const;
-  /// x from r_ = b - A x, which is kept up for so many of the steps.
-  void iterate(const Threads& threads, T* x, int residuals);
-  void subtract_product(const Threads& threads);
+  /// Of two steps: d = first D^-1 r, then own d + share D^-1 r.
+  struct Polynomial {
+    T first;
+    T own;
+    T share;
+  };
+  [[nodiscard]] Polynomial polynomial() const;
+  void second_step(std::int32_t begin, std::int32_t end, const T* r, T* to);
 
   BlockRows<T> A_;
   const Couplings* couplings_ = nullptr;

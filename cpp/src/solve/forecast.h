@@ -13,8 +13,8 @@ namespace tissu {
 /// Answers of successive systems, as of the steps of a motion that is smooth, hardly differ. The guess is
 /// that combination of the latest answers whose residual is least (Fischer 1998, Computer Methods in Applied
 /// Mechanics and Engineering 163, 193-204, with the residual in place of the energy): never worse than no
-/// guess. A product for each answer is its price; where the guesses do not pay they are tried more and more
-/// seldom.
+/// guess. The products of the answers are its price, in one reading of the matrix; where the guesses do not
+/// pay they are tried more and more seldom.
 class Forecast {
  public:
   /// x = 0 becomes the guess, and r = b its residual, whose norm is `size`; the new norm. `work`
@@ -26,14 +26,21 @@ class Forecast {
   [[nodiscard]] std::size_t bytes() const;
 
  private:
-  /// y += a x
-  static void add(const Threads& threads, double a, ConstReals x, Reals y);
-
   static constexpr std::size_t kMost = 3;
+  static constexpr std::size_t kPairs = kMost * (kMost + 1) / 2;
+  using Shares = std::array<double, kMost>;
+  using Sums = std::array<double, kPairs + kMost>;  ///< products with each other, pair by pair, and with r
+
+  /// A x of all answers; the work that it takes.
+  double multiply(const LinearOperator& A);
+  Sums sums(const Threads& threads, ConstReals r);
+  /// The shares of the answers whose residual is least.
+  static Shares shares(const Sums& sums);
 
   std::array<std::vector<double>, kMost> answers_;  ///< the latest first
   std::array<std::vector<double>, kMost> products_;
   std::vector<double> partial_;
+  std::vector<Sums> partial_sums_;
   std::uint64_t id_ = 0;   ///< of the operator
   std::size_t count_ = 0;  ///< of answers
   int pause_ = 0;          ///< solves that go without

@@ -2,10 +2,15 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/QR>
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
+#include "../base/differences.h"
 #include "../base/random.h"
+#include "../world/sample_worlds.h"
+#include "tissu/assembly/block_matrix.h"
 #include "tissu/base/vec.h"
 
 /// Guesses from earlier answers: exact where the new answer is made of them, never worse than none, seldom
@@ -137,6 +142,50 @@ TEST(Forecast, ForgetsAndFollowsAnotherSize) {
   forecast.keep(A, std::vector<double>(12, 1.0));
   guess(forecast, A, numbers(2));
   EXPECT_EQ(A.products, 0);
+}
+
+/// With blocks and couplings, where three products are made in one reading of the matrix: the residual is
+/// that of the guess, and as small as a combination of the answers can leave it, by Householder's QR.
+TEST(Forecast, IsTheBestGuessOfAMatrixWithCouplings) {
+  SparsityBuilder builder(kRows);
+  std::vector<std::int32_t> cells;
+  for (std::int32_t i = 0; i + 4 <= kRows; ++i) cells.insert(cells.end(), {i, i + 1, i + 2, i + 3});
+  builder.add_cells(cells, 4);
+  const Sparsity pattern = builder.build();
+  for (const Isa isa : test::available_isas()) {
+    test::Random random(7);
+    BlockMatrix A(pattern, isa, Threads(1));
+    for (std::int32_t i = 0; i < kRows; ++i) {
+      for (std::int32_t j = i; j < std::min(kRows, i + 4); ++j) {
+        const Mat3 block = random.matrix();
+        A.add(i, j, block);
+        A.add(j, i, block.transpose());
+      }
+    }
+    Couplings couplings;
+    couplings.add({.vertex = {3, 30, 0, 0}, .beta = {1.0, -1.0, 0.0, 0.0}, .H = Mat3::Identity()});
+    couplings.close(kRows, nullptr);
+    A.set_couplings(&couplings);
+    Forecast forecast;
+    Eigen::MatrixXd products(static_cast<Eigen::Index>(kSize), 3);
+    for (unsigned k = 0; k < 3; ++k) {
+      const std::vector<double> answer = random.numbers(kSize);
+      std::vector<double> product(kSize);
+      A.multiply(answer, product);
+      products.col(k) = test::view(product);
+      forecast.keep(A, answer);
+    }
+    const std::vector<double> b = random.numbers(kSize);
+    Guess g;
+    g.r = b;
+    double work = 0.0;
+    g.size = forecast.start(A, norm(b), g.r, g.x, work);
+    std::vector<double> product(kSize);
+    A.multiply(g.x, product);
+    for (std::size_t i = 0; i < kSize; ++i) EXPECT_NEAR(b[i] - product[i], g.r[i], 1e-12);
+    const Eigen::VectorXd share = products.householderQr().solve(test::view(b));
+    EXPECT_NEAR(g.size, (test::view(b) - products * share).norm(), 1e-12);
+  }
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include "definite_tangent.h"
 #include "for_batches.h"
 #include "fused_point.h"
+#include "pair_stiffness.h"
 #include "scatter_pairs.h"
 
 namespace tissu::TISSU_KERNELS {
@@ -106,6 +107,12 @@ struct Elastic : FusedPoint<Element, Rule, LawOf> {
                                            double scale, Batch (&K)[kPairs][9]) {
     const Inverse Jinv = lanes.inverse_jacobian(g);
     const Tensor F = Base::gradient(g, position, Jinv);
+    if constexpr (PairStiffness<MaterialLaw>::kHas && !kDefinite) {
+      Batch grad[kNodes][3];
+      rest_gradients(g, Jinv, grad);
+      PairStiffness<MaterialLaw>(lanes.law, F, lanes.weight(g) * Batch(-scale)).template add<kFirst>(grad, K);
+      return;
+    }
     Tangent<Batch> A;
     if constexpr (kDefinite) {
       PrincipalAxes axes;
@@ -145,6 +152,7 @@ struct Elastic : FusedPoint<Element, Rule, LawOf> {
         view, chunk, [&](const Lanes& lanes, std::int32_t, int) __attribute__((always_inline)) {
           Batch position[kNodes][3];
           Batch K[kPairs][9];
+          fetch_pairs<kNodes>(lanes.slots, blocks);
           lanes.gather_all(positions, position);
           for (auto& block : K) {
             for (Batch& entry : block) entry = Batch(0.0);

@@ -18,6 +18,20 @@ TISSU_INLINE void scatter_pair(const std::int32_t* slots, int a, int b, const Ba
   scatter_add_block(blocks, slots + (b * kNodes + a) * kLanes, transposed);
 }
 
+/// Asks for the blocks that the pairs of a batch of cells will be added to. What a chunk writes does not fit
+/// the first-level cache, and the sums that follow would wait for one block after the other.
+template <int kNodes>
+TISSU_INLINE void fetch_pairs(const std::int32_t* slots, const double* blocks) {
+  for (int pair = 0; pair < kNodes * kNodes; ++pair) {
+    TISSU_UNROLL
+    for (int lane = 0; lane < kWidth; ++lane) {
+      const double* block = at(blocks, slots[pair * kLanes + lane], 9);
+      __builtin_prefetch(block, 1);
+      __builtin_prefetch(block + 8, 1);
+    }
+  }
+}
+
 /// Where the blocks of every row sum to zero, those of node 0 follow from the others: (0, b) = -sum_a (a, b).
 /// `K` holds the pairs a <= b of the nodes 1, 2, … as [b (b - 1) / 2 + a - 1].
 template <int kNodes>

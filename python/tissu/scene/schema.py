@@ -15,6 +15,7 @@ from pydantic.fields import FieldInfo
 
 from tissu.scene.bar import BarMesh
 from tissu.scene.body import Body, MeshFile
+from tissu.scene.contact import ContactSettings
 from tissu.scene.editing import Editing
 from tissu.scene.generated.laws import LAWS
 from tissu.scene.instrument import INSTRUMENTS, Instrument
@@ -52,6 +53,7 @@ _FAMILIES: dict[Any, tuple[type[Part], ...]] = {
 }
 _READ_AS: dict[tuple[type[Part], str], Any] = {  # fields that read more than they keep
     (Body, "mesh"): _MESH,
+    (ContactSettings, "surface_of"): dict[str, _MESH],
     (MeshObstacle, "mesh"): _MESH,
     (SceneData, "editing"): Editing | bool | None,
     (Tissue, "inside"): _MESH | None,

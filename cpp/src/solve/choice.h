@@ -18,10 +18,10 @@ struct Spent {
 /// The first arm is the one whose making and first solves cost least as predicted. From then on what the arms
 /// in use cost is counted, and the rule of renting skis says when to change: what the present arm took
 /// beyond what another one would have taken is added up, and the other one is tried when the sum reaches the
-/// price of making it. One solve then says whether it stays; a few do of a factor, which grows old, and of what
-/// is cheap to make. An arm that did not stay is tried again only after a sum three times as large, as is one
-/// that was left for good, so that changes become rare whatever the matrices do, and all that is spent in vain
-/// stays a fixed multiple of what the best arm takes.
+/// price of making it. One solve then says whether it stays; a few do of a factor, which grows old, and of
+/// what is cheap to make. An arm that did not stay is tried again only after a sum three times as large, as
+/// is one that was left for good, so that changes become rare whatever the matrices do, and all that is spent
+/// in vain stays a fixed multiple of what the best arm takes.
 ///
 /// Where each solve belongs to a frame, a trial must not make one late: an arm is tried only where its first
 /// solve fits a frame, or where the price of making it is saved again soon by its cost as predicted or

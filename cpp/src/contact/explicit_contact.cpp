@@ -36,18 +36,6 @@ void ExplicitContact::begin(const State& start, double end, ConstReals led) {
   begin_response();
 }
 
-/// Of the latest look; where it is known, at another end along the normals of that look.
-double ExplicitContact::deepest(const State* end) const {
-  double most = 0.0;
-  for (std::size_t i = 0; i < run_.looked().size(); ++i) {
-    const ContactNumbers& c = run_.looked()[i];
-    const double gap =
-        end == nullptr ? run_.gap(i) : vector_of(c.normal).dot(contact_.reach(c, *end)) - c.apart;
-    most = std::max(most, -gap / std::min(c.apart, pair_of(c).gap));
-  }
-  return most;
-}
-
 void ExplicitContact::finish(State& end) {
   kept_.clear();
   keep(end, kept_);
@@ -59,13 +47,17 @@ void ExplicitContact::finish(State& end) {
     least_gap_ = std::min(least_gap_, vector_of(c.normal).dot(r) / c.apart);
   }
   ContactTable::write(kept_, contact_.numbers(end));
-  depth_ = contact_.surfaces().carriers().empty() ? deepest(&end) : 0.0;
-  if (depth_ > kTooDeep || !contact_.surfaces().carriers().empty()) depth_ = look_at_depth(end);
+  depth_ = contact_.surfaces().carriers().empty() ? 0.0 : look_at_depth(end);
 }
 
 double ExplicitContact::look_at_depth(const State& at) {
   run_.detect(at, nullptr);
-  return deepest(nullptr);
+  double most = 0.0;
+  for (std::size_t i = 0; i < run_.looked().size(); ++i) {
+    const ContactNumbers& c = run_.looked()[i];
+    most = std::max(most, -run_.gap(i) / std::min(c.apart, pair_of(c).gap));
+  }
+  return most;
 }
 
 bool ExplicitContact::is_pressed_in(const State& end) {

@@ -43,8 +43,8 @@ class ContactRun {
   /// were held back.
   int hold_back(State& to);
   /// Rows whose ways were cut by the latest `hold_back` have the velocities `v` of what is left of them, in
-  /// the place of `before`. What pairs of free rows stop gets the momentum back that is lost by that, each
-  /// island as a whole; what something given stops, such as an obstacle, does not.
+  /// the place of `before`. What rigid bodies stop each other gets the momentum back that is lost by that,
+  /// each island as a whole; what something given stops, such as an obstacle, does not.
   void keep_momentum(const Mass& mass, const FixedDofs& fixed, ConstReals before, Reals v);
   /// The least share of its way that the latest `hold_back` left to anything.
   [[nodiscard]] double least_share() const { return least_share_; }

@@ -71,7 +71,8 @@ class ExplicitContact {
   /// Whether impulses pressed something rigid, which is free, into what was too far away to be looked at: it
   /// looks at that end.
   bool is_pressed_in(const State& end);
-  /// How far the contacts of the step are inside their gaps at its end, as a share; the most of them.
+  /// How far contacts are inside their gaps at the end of the step, as a share, the most of them; 0 where
+  /// nothing rigid is free.
   [[nodiscard]] double depth() const { return depth_; }
   /// The step is over: its contacts go into the memory of its end.
   void finish(State& end);
@@ -96,7 +97,6 @@ class ExplicitContact {
   double h_ = 0.0;
 
  private:
-  [[nodiscard]] double deepest(const State* end) const;
   double look_at_depth(const State& at);
 
   const State* start_ = nullptr;

@@ -221,6 +221,7 @@ WRONG: dict[str, tuple[dict[str, Any], str]] = {
     "tolerance a list": ({"tolerance": [0.1]}, r"found \[0.1\]; a number is accepted"),
     "a body as text": ({"bodies": "block"}, r"a list of names is accepted, such as \['block'\]"),
     "a number as body": ({"bodies": [3]}, r"found the bodies \[3\]; a list of names"),
+    "no body": ({"bodies": [], "by": "warped"}, "found an empty list of bodies; at least one"),
     "another body": ({"bodies": ["b"]}, "found body 'b'; accepted: block"),
 }
 POINT: dict[str, Any] = {
@@ -236,6 +237,12 @@ WRONG_POINT: dict[str, tuple[dict[str, Any], str]] = {
     "half a node": ({"nodes": [[0.5]]}, "a list of whole numbers is accepted"),
     "two weights": ({"weights": [[1.0, 2.0]]}, "for 1 node; a finite one for each node"),
     "a weight nan": ({"weights": [[np.nan]]}, "for 1 node; a finite one for each node"),
+    "axes of length 2": (
+        {"axes": [2.0 * np.eye(3)]},
+        "an axis of length 2; directions of length 1",
+    ),
+    "axes of length 0": ({"axes": [np.zeros((3, 3))]}, "an axis of length 0; directions of length"),
+    "axes in one matrix": ({"axes": np.eye(3)}, r"axes of shape \(3, 3\); \(m, 3, 3\)"),
     "axes of a plane": ({"axes": np.eye(2)}, r"axes of shape \(2, 2\); \(m, 3, 3\) is accepted"),
 }
 

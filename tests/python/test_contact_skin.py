@@ -371,6 +371,12 @@ def test_what_is_refused(case):
     assert "contact.surface_of.bl" in caught.value.problems[0]
 
 
+def test_a_surface_that_no_contact_uses_is_refused():
+    own = ts.ContactSettings(surface_of={"block": bar((3, 3, 3))})
+    with pytest.raises(SceneError, match="'block', which no contact names"):
+        over_a_table(contact=own, contacts=[]).check().raise_problems()
+
+
 def test_bodies_that_carry_no_surface_are_refused():
     sheet = ts.BarMesh(size=(0.1, 0.1, 0), cells=(2, 2, 0), cell="quad", origin=(0, 0, 0.01))
     law = ts.StVK(young=2e4, poisson=0.3)

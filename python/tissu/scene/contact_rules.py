@@ -93,6 +93,18 @@ def _surface_of_problems(scene: Any) -> Iterator[Problem]:
                 if scene.bodies[name].has_rotations:
                     text = f"found '{name}', whose nodes are frames; a body whose nodes have "
                     yield Problem(place, f"{text}places only is accepted")
+            if not any(_names(contact, name) for contact in scene.contacts):
+                text = f"found a surface of '{name}', which no contact names; write it in contacts"
+                yield Problem(place, f"{text}, or leave the surface out")
+
+
+def _names(contact: Any, body: str) -> bool:
+    """Whether a contact is one of a body."""
+    if not isinstance(contact, Contact):
+        return bool(contact.self == body)
+    return contact.between == "all" or any(
+        body in (first, second) for _, first, _, second in contact.pairs()
+    )
 
 
 def _named(

@@ -72,14 +72,20 @@ class Compliance:
 
         Raises:
             ParameterError: no body of that name or no node of that number; a method that this scene
-                does not allow; lengths that differ.
+                does not allow; lengths that differ; axes of another shape, or not of length 1.
         """
         names = names_of(bodies, "bodies")
         directions = real_array(axes, "axes")
-        if directions.size % 9:
+        if directions.ndim != 3 or directions.shape[1:] != (3, 3):
             text = f"found axes of shape {directions.shape}; (m, 3, 3) is accepted"
             raise ParameterError(text)
-        count = directions.size // 9
+        lengths = np.linalg.norm(directions, axis=2)
+        if not (np.abs(lengths - 1.0) <= _UNIT).all():
+            worst = float(lengths.flat[np.argmax(np.abs(lengths - 1.0))])
+            raise ParameterError(
+                f"found an axis of length {worst:g}; directions of length 1 are accepted"
+            )
+        count = len(directions)
         if not len(names) == _length(nodes) == _length(weights) == count:
             raise ParameterError(
                 f"found {len(names)} bodies, {_length(nodes)} nodes, {_length(weights)} weights "
@@ -133,6 +139,8 @@ class Compliance:
 
 
 _NONE = np.empty(0, dtype=np.int32)
+_UNIT = 1e-6
+"""Most that the length of a direction differs from 1: more is another vector, not round-off."""
 
 
 def _length(values: object) -> int:
@@ -167,6 +175,10 @@ def _rows_of(simulation: Simulation, body: str, nodes: ArrayLike) -> Ints:
 
 def _table_rows(simulation: Simulation, bodies: Sequence[str] | None) -> Ints:
     """Rows of the nodes on the surfaces of bodies."""
+    if bodies is not None and not len(bodies):
+        raise ParameterError(
+            "found an empty list of bodies; at least one is accepted, or None for all"
+        )
     rows = [_NONE]
     for body in simulation.bodies if bodies is None else bodies:
         nodes = np.unique(simulation.meshes[body].surface().triangles)

@@ -33,8 +33,10 @@ Bools = NDArray[np.bool_]
 MEMORY = "presses"  # of the core, as grabs have theirs
 _LAG = 0.1
 """of a point behind the tool when the material gives way, as a share of a cell's mean edge"""
-_LEAST_ADVANCE = 0.002
-"""of a point before the edge cuts on, as a share of a cell's mean edge"""
+_LEAST_ADVANCE = 0.2
+"""of a point before the edge cuts on, as a share of a cell's mean edge; see `slicing.LEAST_WAY`"""
+_LEAST_SHARE = 0.002
+"""the same of each of its other points that go on with it"""
 _LANE = 1 << 20
 """numbers of springs of one track"""
 _MOST_PARTS, _MOST_PLACES = 4096, 256
@@ -65,7 +67,10 @@ def cut_pressing(
     way = tool - places
     length = np.linalg.norm(way, axis=1)
     inside, pushes = track.rows[-1].inside, _pushes(track, tool, positions)
-    gives_way = inside & pushes & (length > (_LAG + _LEAST_ADVANCE) * size)
+    # All that have given way go on together, as soon as one of them is far enough behind: an edge
+    # whose points go on one by one would cut in strips that are too narrow to say what they part.
+    gives_way = inside & pushes & (length > (_LAG + _LEAST_SHARE) * size)
+    gives_way &= bool((length[gives_way] > (_LAG + _LEAST_ADVANCE) * size).any())
     free = ~inside | (inside & ~pushes & (length > size))
     now = replace(track, poses=(pose,))
     report = None
@@ -119,6 +124,11 @@ def _press(simulation: Simulation, knife: Knife, body: str, track: Track, pose: 
     row = track.rows[-1]
     pushed = row.inside & _pushes(track, tool, simulation._core.positions)
     stiffness = knife.toughness * widths_of(edge) / (_LAG * cell_size(simulation, body))
+    # Material that gives way pulls back with no more than its toughness until the edge cuts on.
+    places = row.places(simulation._core.positions)
+    way, lag = tool - places, _LAG * cell_size(simulation, body)
+    length = np.linalg.norm(way, axis=1, keepdims=True)
+    targets = places + way * np.minimum(1.0, lag / np.maximum(length, 1e-300))
     kept = grab.records(simulation._core, MEMORY)
     springs = {n: r for n, r in kept.items() if n // _LANE != track.number}
     for point in np.flatnonzero(pushed):
@@ -127,7 +137,7 @@ def _press(simulation: Simulation, knife: Knife, body: str, track: Track, pose: 
         springs[number] = grab.Record(
             number=number,
             stiffness=float(stiffness[point]),
-            target=tool[point],
+            target=targets[point],
             nodes=row.rows[point][held],
             weights=row.weights[point][held],
             frame=-1,

@@ -300,3 +300,34 @@ def test_after_a_fault_the_tissue_feels_the_tool_again_by_and_by(how: str) -> No
     assert np.diff(hand, prepend=0.0).max() < pressed / 3.0
     assert np.abs(forces - hand).max() < pressed / 3.0
     assert len(simulation.crossings()) == 0
+
+
+@pytest.mark.parametrize("depth", [0.125, 0.13, 0.135])
+def test_walls_of_a_pit_all_bear(depth: float) -> None:
+    """A tip that is deep in coarse tissue has contacts around one node: the ticks feel each.
+
+    At rest both forces are one up to a step of the device, as in the test of one contact above.
+    """
+    block = scene().bodies["block"].replace(law=ts.StableNeoHooke(young="5 kPa", poisson=0.4))
+    hand = ts.Hand(
+        times=(0, "0.2 s", "0.9 s"), points=((0, 0, 0.1), (0, 0, 0.1), (0, 0, depth)), tremor=0
+    )
+    trocar = (
+        scene()
+        .trocars["right"]
+        .replace(
+            device=ts.SimulatedDevice(hand=hand),
+            port=ts.Port(at=(0.04, 0.04, 0.15), axis=(0, 0, -1)),
+        )
+    )
+    simulation, found = palpated(
+        150,
+        bodies={"block": block},
+        trocars={"right": trocar},
+        obstacles={"probe": ts.SphereObstacle((0.04, 0.04, 0.06), radius=0.005)},
+    )
+    slow = np.mean([one.force for one in found[-20:]], axis=0)
+    fast = np.mean([one.fast for one in found[-20:]], axis=0)
+    assert found[-1].contacts > 1
+    assert slow[2] > 1.5
+    np.testing.assert_allclose(fast, slow, atol=0.02 * slow[2])

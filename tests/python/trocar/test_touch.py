@@ -228,6 +228,17 @@ def test_a_trocar_without_tools_of_the_scene_is_refused() -> None:
         Touch(simulation, controller)
 
 
+@pytest.mark.parametrize("other", [None, 3, scene()])
+def test_what_is_not_a_simulation_or_a_controller_is_refused(other: Any) -> None:
+    """In a sentence that says where to get one."""
+    simulation = scene().compile()
+    with Controller(simulation.scene.trocars["right"]) as controller:
+        with pytest.raises(ts.ParameterError, match="a compiled scene is accepted"):
+            Touch(other, controller)
+        with pytest.raises(ts.ParameterError, match="the one of a trocar is accepted"):
+            Touch(simulation, other)
+
+
 def test_end_stops_are_no_force_of_the_tissue() -> None:
     """A blade at the end stop of the depth: `fast` has the blade alone."""
     hand = ts.Hand(times=(0, "0.3 s"), points=((0, 0, 0.1), (0, 0, 0.14)))
@@ -320,7 +331,7 @@ def test_walls_of_a_pit_all_bear(depth: float) -> None:
             port=ts.Port(at=(0.04, 0.04, 0.15), axis=(0, 0, -1)),
         )
     )
-    simulation, found = palpated(
+    _, found = palpated(
         150,
         bodies={"block": block},
         trocars={"right": trocar},

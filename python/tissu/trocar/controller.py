@@ -24,6 +24,7 @@ from tissu.arrays import real_array
 from tissu.errors import ParameterError
 from tissu.reading import written
 from tissu.scene.trocar.tool import tag_of, tag_text
+from tissu.scene.trocar.trocar import Trocar
 from tissu.trocar import kinematics
 from tissu.trocar.model import LocalModel
 from tissu.trocar.opened import open_device
@@ -35,7 +36,6 @@ from tissu.trocar.ticking import CompiledTicking, Ticking, ticking_of
 
 if TYPE_CHECKING:
     from tissu import _haptic
-    from tissu.scene.trocar.trocar import Trocar
     from tissu.trocar.kinematics import Array
 
 Mode = Literal["stepped", "threaded", "python"]
@@ -73,8 +73,12 @@ class Controller:
 
         Raises:
             TissuError: the device is not there, does not answer, or has another controller.
-            ParameterError: a mode that is none, or a stiffness that is not passive for the device.
+            ParameterError: a mode that is none, a stiffness that is not passive for the device, or
+                something else than a trocar.
         """
+        _refuse_other(
+            trocar, Trocar, "trocar", 'one of a scene is accepted: scene.trocars["right"]'
+        )
         self.trocar, self.mode = trocar, mode
         self._tools = {tag_of(tag): name for tag, name in trocar.tools.items()}
         first = next(iter(self._tools), 1)
@@ -169,8 +173,10 @@ class Controller:
         Places and directions are in the port's axes (`into_port`).
 
         Raises:
-            ParameterError: a number is not finite, a direction not of unit length, W indefinite.
+            ParameterError: a number is not finite, a direction not of unit length, W indefinite, or
+                something else than a model.
         """
+        _refuse_other(model, LocalModel, "model", "a LocalModel is accepted")
         tag = self._settings.tag if model.tag is None else model.tag
         return self._ticking.publish(model, tag)
 
@@ -282,6 +288,12 @@ class Controller:
     def stiffness(self) -> Array:
         """K_c of the axes (4,) [N m/rad, N m/rad, N m/rad, N/m]."""
         return np.array(self._settings.stiffness)
+
+
+def _refuse_other(value: object, kind: type, what: str, accepted: str) -> None:
+    """What is not of a kind."""
+    if not isinstance(value, kind):
+        raise ParameterError(f"found the {what} {written(value)}; {accepted}")
 
 
 def _in_rows(values: Array, what: str) -> Array:

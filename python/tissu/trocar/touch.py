@@ -24,6 +24,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from tissu.errors import ParameterError
+from tissu.reading import written
 from tissu.trocar import kinematics
 from tissu.trocar.model import MOST_CONTACTS, Blade, LocalModel, across
 from tissu.trocar.pressed import Pressing
@@ -88,8 +89,9 @@ class Touch:
 
         Raises:
             ParameterError: none of the tools is in the scene; a way of compliance that the scene
-                does not allow.
+                does not allow; something else than a simulation and a controller.
         """
+        _refuse_others(simulation, controller)
         self.simulation, self.controller = simulation, controller
         port = controller.trocar.port
         self._turn, self._at = port.frame(), np.array(port.at)
@@ -272,6 +274,19 @@ class Touch:
         place = kinematics.position(joints)
         blade = Blade((0.0, 0.0, 0.0), way, place, 0.0, size)
         return LocalModel(joints, blade=blade), np.asarray(force)
+
+
+def _refuse_others(simulation: object, controller: object) -> None:
+    """What is not a simulation, or not a controller."""
+    from tissu.scene.scene import SceneData
+    from tissu.trocar.controller import Controller
+
+    if not isinstance(getattr(simulation, "scene", None), SceneData):
+        text = f"found the simulation {written(simulation)}; a compiled scene is accepted: "
+        raise ParameterError(text + "scene.compile()")
+    if not isinstance(controller, Controller):
+        text = f"found the controller {written(controller)}; the one of a trocar is accepted: "
+        raise ParameterError(text + 'Controller(scene.trocars["right"])')
 
 
 def _way(joints: Array, to: Array) -> Array:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -13,7 +13,11 @@ if TYPE_CHECKING:
     from tissu.trocar.kinematics import Array
 
 APART = 2e-3
-"""m: contacts nearer to each other than this become one."""
+"""m: contacts nearer to each other than this become one, if they press the same way."""
+TURNED = 0.35
+"""rad between the normals of contacts that press the same way, as a chord: 20 degrees"""
+_PLACES = 8
+"""times as many places as are kept, of which the most alike become one"""
 REACH = 10e-3
 """m before the tool in which tissue that is not touched yet is handed to the ticks."""
 
@@ -125,16 +129,63 @@ def met_by(simulation: Simulation, tools: list[str]) -> list[str]:
 
 
 def merged(touched: list[Touched], most: int) -> list[Touched]:
-    """At most so many places; what is near another one, or one too many, adds its force to it."""
+    """At most so many places, which bear the same force together.
+
+    Contacts become one where they are near each other and press the same way. Contacts that press
+    from different sides stay apart however near they are: of two walls of a pit neither bears what
+    the other does. Where too many are left, the two that are most alike become one, and so on.
+    """
     kept: list[Touched] = []
     for one in sorted(touched, key=lambda place: -float(np.linalg.norm(place.force))):
-        ways = [float(np.linalg.norm(other.point - one.point)) for other in kept]
-        if kept and (min(ways) < APART or len(kept) == most):
-            heir = kept[int(np.argmin(ways))]
-            heir.force = heir.force + one.force
+        unlike = _unlike(one, kept)
+        if kept and (unlike.min() < 1.0 or len(kept) == _PLACES * most):
+            heir = int(np.argmin(unlike))
+            kept[heir] = _joined(kept[heir], one)
         else:
             kept.append(one)
+    if len(kept) <= most:
+        return kept
+    unlike = np.array([_unlike(one, kept) for one in kept])
+    np.fill_diagonal(unlike, np.inf)
+    while len(kept) > most:
+        first, second = sorted(int(k) for k in np.unravel_index(unlike.argmin(), unlike.shape))
+        kept[first] = _joined(kept[first], kept.pop(second))
+        unlike = np.delete(np.delete(unlike, second, axis=0), second, axis=1)
+        unlike[first] = unlike[:, first] = _unlike(kept[first], kept)
+        unlike[first, first] = np.inf
     return kept
+
+
+def _unlike(one: Touched, others: list[Touched]) -> Array:
+    """How far each of the others (n,) is from being the same contact, for which it is below 1."""
+    apart = np.array([other.point - one.point for other in others]).reshape(-1, 3)
+    turned = np.array([other.normal - one.normal for other in others]).reshape(-1, 3)
+    ways = np.linalg.norm(apart, axis=1) / APART, np.linalg.norm(turned, axis=1) / TURNED
+    return np.asarray(np.maximum(*ways))
+
+
+def _joined(one: Touched, other: Touched) -> Touched:
+    """One place of two: the means of places and normals have the weights of what each bears."""
+    bears = np.array([max(0.0, float(each.force @ each.normal)) for each in (one, other)])
+    share = float(bears[0] / bears.sum()) if bears.sum() > 0.0 else 0.5
+    normal = share * one.normal + (1.0 - share) * other.normal
+    length = float(np.linalg.norm(normal))
+    force = one.force + other.force
+    if one.body != other.body or length < 0.1:
+        # Neither a place between two bodies nor a way out between two walls: the stronger stays.
+        return replace(one, force=force)
+    nodes, at = np.unique(np.concatenate([one.nodes, other.nodes]), return_inverse=True)
+    weights = np.concatenate([share * one.weights, (1.0 - share) * other.weights])
+    return Touched(
+        body=one.body,
+        nodes=nodes,
+        weights=np.asarray(np.bincount(at, weights, len(nodes)), dtype=float),
+        point=share * one.point + (1.0 - share) * other.point,
+        normal=normal / length,
+        force=force,
+        friction=one.friction,
+        gap=share * one.gap + (1.0 - share) * other.gap,
+    )
 
 
 def compliance(found: Compliance, kept: list[Touched], directions: Array) -> Array:

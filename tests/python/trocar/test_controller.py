@@ -273,3 +273,14 @@ def test_identification_finds_the_friction_of_the_simulated_device():
         assert axis.damping == pytest.approx(damping, rel=0.1)
         assert axis.friction == pytest.approx(friction, rel=0.1)
         assert axis.rest < 0.05
+
+
+@pytest.mark.parametrize("other", [None, 3, "right"])
+def test_what_is_not_a_trocar_or_a_model_is_refused(other):
+    with pytest.raises(ts.ParameterError, match=r"found the trocar .*; one of a scene is accepted"):
+        Controller(other)
+    with (
+        Controller(trocar()) as controller,
+        pytest.raises(ts.ParameterError, match=r"found the model .*; a LocalModel is accepted"),
+    ):
+        controller.publish(other)

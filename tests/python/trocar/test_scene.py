@@ -8,8 +8,10 @@ import numpy as np
 import pytest
 
 import tissu as ts
+from tissu import _haptic
 from tissu.scene.schema import scene_schema
 from tissu.scene.trocar.passive import passive_bound
+from tissu.scene.trocar.trocar import LONGEST_STEP
 
 HEAD = """
 bodies:
@@ -246,3 +248,23 @@ def test_a_scene_without_trocars_loads_none_of_it():
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     # What is not mapped takes no instruction; that a map would show it is seen after the import.
     assert done.stdout.split() == ["[]", "haptics", "True", "False", "True"]
+
+
+@pytest.mark.parametrize(
+    ("step", "said"),
+    [
+        ("{type: static}", "step: found static, whose steps of 1 s are too long for a hand"),
+        ("{type: implicit_euler, dt: 0.6 s}", "step: found a dt of 0.6 s, too long for a hand"),
+    ],
+)
+def test_steps_that_a_hand_would_wait_for_are_refused(step, said):
+    """The ticks let go of tissue that is older than 0.5 s; without tools nothing waits for it."""
+    assert _haptic.Settings().stall == LONGEST_STEP
+    head = HEAD.replace("{type: implicit_euler, dt: 10 ms}", step)
+    with pytest.raises(ts.SceneError) as refused:
+        ts.Scene.from_yaml_text(head + RIGHT)
+    assert len(refused.value.problems) == 1
+    assert said in refused.value.problems[0]
+    assert ts.Scene.from_yaml_text(head + RIGHT.replace("{0x51A0: probe}", "{}")).check().ok
+    longest = HEAD.replace("dt: 10 ms", "dt: 0.5 s")
+    assert ts.Scene.from_yaml_text(longest + RIGHT).check().ok

@@ -228,6 +228,17 @@ def test_a_trocar_without_tools_of_the_scene_is_refused() -> None:
         Touch(simulation, controller)
 
 
+@pytest.mark.parametrize("other", [None, 3, scene()])
+def test_what_is_not_a_simulation_or_a_controller_is_refused(other: Any) -> None:
+    """In a sentence that says where to get one."""
+    simulation = scene().compile()
+    with Controller(simulation.scene.trocars["right"]) as controller:
+        with pytest.raises(ts.ParameterError, match="a compiled scene is accepted"):
+            Touch(other, controller)
+        with pytest.raises(ts.ParameterError, match="the one of a trocar is accepted"):
+            Touch(simulation, other)
+
+
 def test_end_stops_are_no_force_of_the_tissue() -> None:
     """A blade at the end stop of the depth: `fast` has the blade alone."""
     hand = ts.Hand(times=(0, "0.3 s"), points=((0, 0, 0.1), (0, 0, 0.14)))
@@ -300,3 +311,34 @@ def test_after_a_fault_the_tissue_feels_the_tool_again_by_and_by(how: str) -> No
     assert np.diff(hand, prepend=0.0).max() < pressed / 3.0
     assert np.abs(forces - hand).max() < pressed / 3.0
     assert len(simulation.crossings()) == 0
+
+
+@pytest.mark.parametrize("depth", [0.125, 0.13, 0.135])
+def test_walls_of_a_pit_all_bear(depth: float) -> None:
+    """A tip that is deep in coarse tissue has contacts around one node: the ticks feel each.
+
+    At rest both forces are one up to a step of the device, as in the test of one contact above.
+    """
+    block = scene().bodies["block"].replace(law=ts.StableNeoHooke(young="5 kPa", poisson=0.4))
+    hand = ts.Hand(
+        times=(0, "0.2 s", "0.9 s"), points=((0, 0, 0.1), (0, 0, 0.1), (0, 0, depth)), tremor=0
+    )
+    trocar = (
+        scene()
+        .trocars["right"]
+        .replace(
+            device=ts.SimulatedDevice(hand=hand),
+            port=ts.Port(at=(0.04, 0.04, 0.15), axis=(0, 0, -1)),
+        )
+    )
+    _, found = palpated(
+        150,
+        bodies={"block": block},
+        trocars={"right": trocar},
+        obstacles={"probe": ts.SphereObstacle((0.04, 0.04, 0.06), radius=0.005)},
+    )
+    slow = np.mean([one.force for one in found[-20:]], axis=0)
+    fast = np.mean([one.fast for one in found[-20:]], axis=0)
+    assert found[-1].contacts > 1
+    assert slow[2] > 1.5
+    np.testing.assert_allclose(fast, slow, atol=0.02 * slow[2])

@@ -17,6 +17,7 @@ from tissu.scene.effect import Effect
 from tissu.scene.field import field
 from tissu.scene.part import Part, keeps_problems
 from tissu.scene.problem import Path, Problem
+from tissu.scene.step import Static
 from tissu.scene.trocar.axes import AXIS_NAMES, Stiffness
 from tissu.scene.trocar.device import OneDevice
 from tissu.scene.trocar.limits import TrocarLimits
@@ -30,6 +31,8 @@ __all__ = ["Trocar", "Coupling"]
 
 ComplianceWay = Literal["factor", "cg", "condensed", "warped"]
 LEAST_RATE, LARGEST_RATE = 300.0, 10_000.0
+LONGEST_STEP = 0.5
+"""s: the force of older tissue fades, and the tool stays where it is (`stall` of the ticks)"""
 LEAST_APART = 0.1
 """m between two ports: a cradle is a sphere of 100 mm (thesis, table 5.4.5)."""
 
@@ -148,11 +151,28 @@ def trocar_problems(scene: Any) -> Iterator[Problem]:
     for name, trocar in trocars.items():
         with contextlib.suppress(Unknown):
             yield from below("trocars", below(name, tool_problems(trocar, scene)))
+    if any(trocar.tools for trocar in trocars.values()):
+        yield from _step_problems(getattr(scene, "step", None))
     names = list(trocars)
     for second in range(len(names)):
         for first in range(second):
             with contextlib.suppress(Unknown):
                 yield from _pair_problems(trocars, names[first], names[second])
+
+
+def _step_problems(step: Any) -> Iterator[Problem]:
+    """A step that is longer than the ticks wait for the tissue: a tool would stay where it met."""
+    seconds = getattr(step, "dt", None)
+    if isinstance(step, Static):
+        text = "found static, whose steps of 1 s are too long for a hand; "
+    elif isinstance(seconds, float) and seconds > LONGEST_STEP:
+        text = f"found a dt of {seconds:g} s, too long for a hand; "
+    else:
+        return
+    text += (
+        f"under a trocar's tool steps of at most {LONGEST_STEP:g} s are accepted, such as those of "
+    )
+    yield Problem(("step",), f"{text}implicit_euler or bdf2 with viscosity")
 
 
 def _pair_problems(trocars: Mapping[str, Trocar], first: str, second: str) -> Iterator[Problem]:

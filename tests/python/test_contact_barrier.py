@@ -178,7 +178,7 @@ def test_steps_that_have_no_barrier_are_refused():
 
 @pytest.mark.parametrize("thing", ["ball", "box"])
 def test_friction_of_a_rigid_body_alone_has_a_size(thing):
-    """Nothing in the scene has nodes, so that the speed at which friction sticks comes from the body.
+    """Nothing in the scene has nodes, so that the speed at which friction sticks is the body's.
 
     At rest the table bears the weight; Newton's iteration leaves 1e-6 of it, in steps of 2 ms.
     """

@@ -174,3 +174,27 @@ def test_steps_that_have_no_barrier_are_refused():
             scene.replace(step=step).compile()
     with pytest.raises(ts.errors.SceneError, match="found false with the method barrier"):
         on_a_slope(0.0, contact=BARRIER.replace(travel=False)).compile()
+
+
+@pytest.mark.parametrize("thing", ["ball", "box"])
+def test_friction_of_a_rigid_body_alone_has_a_size(thing):
+    """Nothing in the scene has nodes, so that the speed at which friction sticks is the body's.
+
+    At rest the table bears the weight; Newton's iteration leaves 1e-6 of it, in steps of 2 ms.
+    """
+    free = {
+        "ball": ts.SphereObstacle((0, 0, 0.0103), radius=0.01, mass=0.03),
+        "box": ts.BoxObstacle((0, 0, 0.0003), (0.02, 0.02, 0.02), mass=0.03),
+    }[thing]
+    scene = ts.Scene(
+        bodies={},
+        gravity=(0, 0, -GRAVITY),
+        obstacles={"thing": free, "table": ts.PlaneObstacle((0, 0, 0), (0, 0, 1))},
+        contacts=[ts.Contact(("thing", "table"), friction=0.3, gap="0.2 mm")],
+        contact=BARRIER,
+        step=ts.ImplicitEuler("2 ms"),
+    )
+    simulation = scene.compile()
+    for _ in range(60):
+        assert simulation.step().converged
+    assert simulation.force_on("thing").force[2] == pytest.approx(0.03 * GRAVITY, rel=1e-5)

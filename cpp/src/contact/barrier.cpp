@@ -25,6 +25,25 @@ BarrierValue plain_value(double sigma) {
           -2.0 * log - 4.0 * s / sigma + s * s / (sigma * sigma)};
 }
 
+/// Of the largest rigid body that unknowns move: the diagonal of its box at rest [m]. The extent of a scene
+/// is that of its rows, which for such a body are a point.
+double largest_carried(const SurfaceSet& surfaces) {
+  double largest = 0.0;
+  for (const auto& surface : surfaces.surfaces()) {
+    if (surface.carrier < 0) continue;
+    Box box = Box::none();
+    double radius = 0.0;
+    for (std::int32_t v = surface.first_vertex; v < surface.last_vertex; ++v) {
+      box.add(block(ConstReals(surfaces.rest()), v));
+      radius = std::max(radius, surfaces.vertices()[at(v)].radius);
+    }
+    box.grow(radius);
+    const Vec3 sides(box.high[0] - box.low[0], box.high[1] - box.low[1], box.high[2] - box.low[2]);
+    largest = std::max(largest, sides.norm());
+  }
+  return largest;
+}
+
 }  // namespace
 
 BarrierValue barrier_value(double sigma) {
@@ -37,7 +56,7 @@ BarrierValue barrier_value(double sigma) {
 }
 
 BarrierContact::BarrierContact(const Contact& contact, const FixedDofs& fixed, double extent)
-    : ImplicitContact(contact, fixed), extent_(extent) {
+    : ImplicitContact(contact, fixed), extent_(std::max(extent, largest_carried(contact.surfaces()))) {
   run_.take_every_pair();
   stiffnesses_.assign(contact.description().pairs.size(), 0.0);
 }

@@ -9,10 +9,11 @@
 namespace tissu {
 namespace {
 
-constexpr double kLeast = 0.1;    ///< of xi
-constexpr double kOfStart = 0.5;  ///< of the distance at the start
-constexpr double kBall = 0.45;    ///< of the distance that is left
-constexpr double kKept = 0.9;     ///< of the way to a plane
+constexpr double kLeast = 0.1;     ///< of xi
+constexpr double kOfStart = 0.5;   ///< of the distance at the start
+constexpr double kBall = 0.45;     ///< of the distance that is left
+constexpr double kKept = 0.9;      ///< of the way to a plane
+constexpr double kNearest = 1e-9;  ///< of xi: nearer, nothing goes on to a plane, lest it ends in round-off
 
 std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
@@ -143,7 +144,7 @@ bool HoldBack::stops_at_plane(const PlaneCandidate& c, const PlacedPlane& plane,
   const double start = plane.normal.dot(block(from, c.vertex) - plane.point);
   const double bend = bends.empty() ? 0.0 : 0.125 * bends[at(c.vertex)];
   const double end = plane.normal.dot(block(to, c.vertex) - plane.point) - bend;
-  const double least = HoldBack::least(c.apart, std::max(start, 0.0));
+  const double least = start < kNearest * c.apart ? start : HoldBack::least(c.apart, start);
   const double sway = sways.empty() ? 0.0 : sways[at(c.vertex)];
   if (given_[at(c.vertex)] != 0 || std::min(start, end) - sway >= least) return false;
   const bool stops = end < least && end < start;

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "overlap.h"
+#include "rigid_separation.h"
 #include "tissu/base/error.h"
 #include "tissu/base/number_text.h"
 #include "tissu/contact/audit.h"
@@ -50,8 +51,14 @@ class Separation {
   [[nodiscard]] Depths depths() const { return deep_overlaps(contact_, candidates_, places_, start_, 1.0); }
 
   void run() {
+    const bool has_rigid = !contact_.surfaces().carriers().empty();
+    const RigidSeparation rigid(contact_, start_);
+    if (has_rigid) rigid.run(candidates_, places_, normals_);
     bool near = true;
-    for (int i = 0; near && i < kSweeps; ++i) near = sweep();
+    for (int i = 0; near && i < kSweeps; ++i) {
+      near = sweep();
+      if (near && has_rigid) rigid.run(candidates_, places_, normals_);
+    }
     const auto& vertices = contact_.surfaces().vertices();
     for (std::size_t v = 0; v < vertices.size(); ++v) {
       const auto number = static_cast<std::int32_t>(v);
@@ -114,12 +121,16 @@ class Separation {
     counts_.assign(places_.size() / 3, 0.0);
     candidates_.cover(places_, places_);
     bool near = false;
+    const SurfaceSet& surfaces = contact_.surfaces();
     for (const Candidate& c : candidates_.list()) {
+      if (RigidSeparation::is_rigid(surfaces, c)) continue;
       if (c.kind == PairKind::vertex_face) near = push_off_face(c) || near;
       if (c.kind == PairKind::vertex_edge) near = push_off_rim(c) || near;
     }
-    for (const PlaneCandidate& c : candidates_.planes()) near = push_off_plane(c) || near;
-    for (const auto& surface : contact_.surfaces().surfaces()) {
+    for (const PlaneCandidate& c : candidates_.planes()) {
+      if (!RigidSeparation::is_rigid(surfaces, c)) near = push_off_plane(c) || near;
+    }
+    for (const auto& surface : surfaces.surfaces()) {
       if (surface.carrier >= 0) move_rigidly(surface);
     }
     if (contact_.surfaces().has_riders()) move_rows();

@@ -31,7 +31,8 @@ using Depths = std::map<std::pair<std::int32_t, std::int32_t>, double>;
 Depths overlaps(const Contact& contact, const State& state);
 
 /// Moves apart what touches, or overlaps by no more than the gap, along outward normals, by at most the gap;
-/// obstacles and given rows stay. Refuses bodies that overlap more, by their middles or their thicknesses.
+/// free obstacles by as much as the pile that they are in needs. Other obstacles and given rows stay. Refuses
+/// bodies that overlap more, by their middles or their thicknesses.
 void separate(const Contact& contact, const FixedDofs& fixed, State& start);
 
 }  // namespace tissu

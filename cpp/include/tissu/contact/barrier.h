@@ -32,7 +32,7 @@ BarrierValue barrier_value(double sigma);
 
 class BarrierContact final : public ImplicitContact {
  public:
-  /// `extent`: of the scene [m].
+  /// `extent`: of the scene [m]; where a free obstacle is larger, it counts.
   BarrierContact(const Contact& contact, const FixedDofs& fixed, double extent);
 
   [[nodiscard]] BarrierContact* barrier() override { return this; }

@@ -94,7 +94,7 @@ PRESENT = {
     "inertia": r"\bMass::",
     "linear solver": r"\b(ConjugateGradient|Forecast|attainable)|"
     r"\b(Iteration|Preconditioner|BlockJacobi)<",
-    "matrix": r"\b(BlockMatrix::|multiply_rows\b)",
+    "matrix": r"\b(BlockMatrix::|multiply_(rows\b|three\b|three_of\b))",
     "method": r"\b(ImplicitEuler|StageSolver|System|State|World)::|\bmove\(",
     "loop and roll back": r"\bSimulation::|^tissu_effects_steps$",
     "profile": r"\bProfile::",

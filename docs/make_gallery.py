@@ -26,7 +26,15 @@ ROOT = Path(__file__).resolve().parent
 EXAMPLES = ROOT.parent / "examples"
 FOLDER = ROOT / "pictures" / "gallery"
 WIDTH = 1000  # pixels
-UNTIL = {"bounce": 0.1, "beam": 0.35, "organ": 2.0, "slide": 0.2, "tumble": 0.3, "tear": 0.88}
+UNTIL = {
+    "bounce": 0.1,
+    "beam": 0.35,
+    "organ": 2.0,
+    "slide": 0.2,
+    "tumble": 0.3,
+    "tear": 0.88,
+    "embedded": 0.7,
+}
 """Time at which a scene shows most [s], where it is not the end."""
 STRESS = ("slice", "pressed", "tissue", "twist")
 """Scenes that are coloured by von Mises stress."""

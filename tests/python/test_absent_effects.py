@@ -62,11 +62,16 @@ def test_the_scene_without_it_is_the_same_before_and_after(
 
 @needs_counts
 def test_leave_to_edit_costs_the_room_in_the_matrix_alone(measured: dict[str, Measured]) -> None:
-    """An editable body keeps a quarter of its rows free: more to clear, nothing more to compute."""
+    """An editable body keeps a quarter of its rows free: more to clear, nothing more to compute.
+
+    The functions that multiply by its matrix begin with another way to find the end of a row.
+    """
     one = measured["editing allowed, nothing removed"]
     assert one.present.own.keys() == one.without.own.keys()
     changed = [f for f in one.present.own if one.present.own[f] != one.without.own[f]]
-    assert [f.name for f in changed if not re.search(r"memset|BlockMatrix::", f.name)] == []
+    assert [
+        f.name for f in changed if not re.search(r"memset|BlockMatrix::|Forecast::multiply", f.name)
+    ] == []
     assert one.present.scene["checksum"] == one.without.scene["checksum"]
 
 

@@ -278,7 +278,7 @@ def test_what_no_contact_can_hold_is_refused():
     with pytest.raises(SceneError, match="body 'over' can move freely on some axis") as error:
         scene.replace(contacts=scene.contacts[:1]).compile()
     assert str(error.value).count("\n") == 1  # one problem
-    with pytest.raises(SceneError, match=r"step.arc_length: found true beside contacts"):
+    with pytest.raises(SceneError, match=r"step.arc_length: found true with contacts"):
         scene.replace(step=ts.Static(arc_length=True)).compile()
 
 

@@ -71,4 +71,4 @@ def test_the_part_whose_absence_saves_most_bounds_the_kernel(kernels: ModuleType
     entries = [entry(f"ablation/{part}", 10.0 * ns) for part, ns in parts.items()]
     text = kernels.ablation_table(kernels.rows_of({"benchmarks": entries}))
     assert "the arithmetic 20 %, the scatter 60 %, the gather 10 %, the constants 10 %" in text
-    assert text.endswith("What bounds it most: the scatter.")
+    assert text.endswith("The largest is the scatter.")

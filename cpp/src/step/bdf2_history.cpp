@@ -5,10 +5,11 @@
 namespace tissu {
 namespace {
 
-/// Of the step before, in longer ones a change of velocity would go on by more than it was: s > 1 / 2. The
-/// method itself is stable up to 1 + sqrt(2) (Grigorieff, Numer. Math. 42, 1983), in which s is 1, but a step
-/// that contact took in parts ends with a blow that must not go on.
-constexpr double kLongest = 1.5;
+/// Of the step before: in longer steps a change of velocity would go on by more than it was, s > 1, and the
+/// method is unstable (Grigorieff, Numer. Math. 42, 1983).
+constexpr double kLongest = 2.414;
+/// The same where surfaces meet: a step that contact took in parts ends with a blow, which must not go on.
+constexpr double kLongestInContact = 1.5;
 
 }  // namespace
 
@@ -22,7 +23,8 @@ void Bdf2History::prepare(const World& world) {
 void Bdf2History::begin(const State& start, double h, StageSolver& solver) {
   const std::vector<Frame>& frames = solver.world().frames();
   solver.begin(start, start.time + h, h);
-  goes_on_ = end_.is(start) && h <= kLongest * step_;
+  goes_on_ =
+      end_.is(start) && h <= (solver.world().contact() != nullptr ? kLongestInContact : kLongest) * step_;
   if (goes_on_) {
     Stage& stage = solver.stage();
     const double r = h / step_;

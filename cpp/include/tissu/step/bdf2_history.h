@@ -11,8 +11,8 @@ class Bdf2History {
   void prepare(const World& world);
   /// Makes the stage of a step of h from `start`: with r = h / (step before), s = r^2 / (1 + 2 r),
   /// x1 = x0 + s (x0 - x-1) + a v1, v1 = v0 + s (v0 - v-1) + a M^-1 f(x1, v1), a = h (1 + r) / (1 + 2 r);
-  /// r = 1 gives 4/3, -1/3, 2/3. Without history the step is one of backward Euler, as is one
-  /// that is more than half as long again as the one before, for stability.
+  /// r = 1 gives 4/3, -1/3, 2/3. Without history the step is one of backward
+  /// Euler, as is one that is more than 1 + sqrt(2) times as long as the one before, with contact 1.5 times.
   void begin(const State& start, double h, StageSolver& solver);
   /// The latest stage goes on from the state before the last one.
   [[nodiscard]] bool goes_on() const { return goes_on_; }

@@ -116,7 +116,7 @@ def _improve(
 ) -> None:
     """Put points into cells of one block where they are farther inside than so far.
 
-    Only cells whose boxes a point is no farther from than `reach`; absent: than `slack`.
+    A cell is tried if a point is at most `reach` from its box; the default is `slack`.
     """
     corners = rest[nodes[:, : len(shape.corners)]]
     point, cell = _near(points, corners, slack if reach is None else reach)

@@ -144,7 +144,7 @@ _UNIT = 1e-6
 
 
 def _length(values: object) -> int:
-    """How many; 0 of what is no list."""
+    """The number of values; 0 if they are not a list or an array."""
     if isinstance(values, np.ndarray):
         return len(values) if values.ndim else 0
     return len(values) if isinstance(values, Sequence) else 0

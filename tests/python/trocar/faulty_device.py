@@ -1,9 +1,9 @@
 """A program that plays a device over UDP, on command: python faulty_device.py PORT.
 
 Until the first command it answers every question with a good frame. A command is a line on its
-standard input, the name of what it does next; it then prints what it was told last: whether the
-motors are on, the largest torque, and how many answers came since the last command. So a test has
-the time of both sides in its hands.
+standard input with the name of the next fault. The program then prints the latest order that it
+received: whether the motors are on, the largest torque, and the number of answers since the last
+command. So a test controls the time of both sides.
 """
 
 import select

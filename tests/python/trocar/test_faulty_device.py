@@ -1,7 +1,7 @@
 """A device over UDP in a second process that goes wrong in every way, and what becomes of it.
 
-Stepped, with both sides in turn: the device does what it is told to, the controller takes a tick.
-So no test depends on how fast the machine is.
+Both sides are stepped in turn: the device carries out a command, then the controller takes a tick.
+So no test depends on the speed of the machine.
 """
 
 import subprocess
@@ -36,7 +36,7 @@ class Player:
         self.port = int(self.process.stdout.readline())
 
     def does(self, what):
-        """It does something; gives what it was told last: enable, largest torque, answers."""
+        """Send a command; return the latest order: enable, largest torque, answers."""
         self.process.stdin.write(f"{what}\n")
         self.process.stdin.flush()
         enable, torque, answers = self.process.stdout.readline().split()

@@ -12,10 +12,10 @@ from outcome import CONTACT, names
 STEADY = ("plates_smooth", "plates_rough", "heavy_on_light", "light_on_heavy", "stiff_on_soft")
 STEADY += ("soft_on_stiff", "faces", "slope_sticks", "livers", "slivers")
 MOVING = ("slope_slides", "hollow", "livers_meet", "tool_shot", "fold_drawn")
-BY_BDF2 = tuple(name for name in (*STEADY, *MOVING) if name not in ("hollow", "light_on_heavy"))
-"""BDF2 is refused in the hollow, and leaves the light block trembling."""
+BY_BDF2 = tuple(name for name in (*STEADY, *MOVING) if name != "light_on_heavy")
+"""BDF2 leaves the light block trembling."""
 BY_MIDPOINT = tuple(name for name in (*STEADY, *MOVING) if name not in ("hollow", "heavy_on_light"))
-"""So is the midpoint rule there, and it shakes the light block under the heavy one for ever."""
+"""The midpoint rule is refused in the hollow, and shakes the light block under the heavy one."""
 
 
 def test_every_case_has_an_outcome() -> None:
@@ -45,20 +45,19 @@ def test_the_midpoint_rule_holds_it_too(name: str) -> None:
     held(name, "implicit_midpoint")
 
 
-@pytest.mark.parametrize(
-    ("name", "method"),
-    [("hollow", "bdf2"), ("heavy_on_light", "newmark")],
-)
-def test_energy_from_nowhere_is_told_and_then_refused(name: str, method: str) -> None:
-    """Nothing crosses, and no step that gained a tenth of what the bodies had says converged."""
-    run = ran(name, method)
+def test_energy_from_nowhere_is_told_and_then_refused() -> None:
+    """Newmark under the heavy block: nothing crosses, and no energy beyond ten times the first."""
+    run = ran("heavy_on_light", "newmark")
     assert run.outcome.kind == "refused"
     assert "the energy has grown" in run.outcome.message
     assert run.outcome.crossings == 0
-    for report, energy in zip(run.reports, run.energies[1:], strict=True):
-        assert energy < 11 * max(run.energies[0], 1e-3)
-        if energy > 1.11 * run.energies[0] and name == "hollow":
-            assert not report.converged
+    assert max(run.energies[1:]) < 11 * max(run.energies[0], 1e-3)
+
+
+def test_bdf2_in_the_hollow_gains_no_energy() -> None:
+    """It restarts after each step in parts: steps may grow by up to 1 + sqrt(2)."""
+    run = ran("hollow", "bdf2")
+    assert max(run.energies) <= run.energies[0]
 
 
 def held(name: str, method: str, unconverged: int = 0) -> None:

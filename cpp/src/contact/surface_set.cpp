@@ -82,6 +82,14 @@ void SurfaceSet::add(const SurfaceDescription& description, std::int32_t first_r
     if (found != riders.end() && *found == node) {
       const auto number = static_cast<std::size_t>(found - riders.begin());
       place = ride(description.riders, number, first_row, vertex, rest);
+      if (node < 0 && !description.radius.empty()) {
+        const auto carriers =
+            std::span(description.riders.node)
+                .subspan(at(description.riders.begin[number]),
+                         at(description.riders.begin[number + 1] - description.riders.begin[number]));
+        for (const std::int32_t carrier : carriers)
+          vertex.radius = std::max(vertex.radius, description.radius[at(carrier)]);
+      }
     } else if (obstacle < 0) {
       vertex.row = first_row + node;
       place = block(rest, vertex.row);

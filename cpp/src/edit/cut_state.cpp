@@ -25,6 +25,22 @@ const BodyDescription& described(const World& world, std::string_view name) {
   return *found;
 }
 
+std::optional<CellType> host_type(const ElasticBlock& block) {
+  if (block.element == info(CellType::triangle).name) return CellType::triangle;
+  return cell_type(block.element);
+}
+
+bool has_material(const BodyDescription& body) {
+  if (body.frames || !body.shared.empty()) return false;
+  int dimension = 0;
+  return std::ranges::all_of(body.elastic, [&](const ElasticBlock& block) {
+    const std::optional<CellType> type = host_type(block);
+    if (!type) return false;
+    const int before = std::exchange(dimension, info(*type).dimension);
+    return before == 0 || before == dimension;
+  });
+}
+
 CutState cut_state_of(BodyDescription body, Material material) {
   number_cells(body);
   const auto nodes = static_cast<std::int32_t>(body.positions.size() / 3);
@@ -35,12 +51,14 @@ CutState cut_state_of(BodyDescription body, Material material) {
   std::vector<Hosts::Cell> cells;
   for (const ElasticBlock& block : body.elastic) {
     const ElementInfo& element = *find_element(block.element);
-    const std::optional<CellType> known = cell_type(block.element);
+    const std::optional<CellType> known = host_type(block);
     if (!known) {
-      throw ParameterError("body \"" + body.name + "\" has cells of type " + block.element +
-                           "; only bodies of volume cells have a material that can be cut.");
+      throw ParameterError(
+          "body \"" + body.name + "\" has cells of type " + block.element +
+          "; only bodies of volume cells, and of triangles, have a material that can be cut.");
     }
     const CellType type = *known;
+    const bool is_sheet = info(type).dimension == 2;
     for (std::size_t i = 0; i < block.cell_numbers.size(); ++i) {
       const auto own =
           std::span(block.cells)
@@ -49,7 +67,8 @@ CutState cut_state_of(BodyDescription body, Material material) {
                        type,
                        block.origins.empty() ? block.cell_numbers[i] : block.origins[i],
                        of_cell(block.share, static_cast<std::int32_t>(i)),
-                       {own.begin(), own.end()}});
+                       {own.begin(), own.end()},
+                       is_sheet ? of_cell(block.cross_section, static_cast<std::int32_t>(i)) : 1.0});
     }
   }
   std::ranges::sort(cells, {}, &Hosts::Cell::number);

@@ -1,7 +1,9 @@
 #include "cut_surface.h"
 
 #include <algorithm>
+#include <map>
 #include <numeric>
+#include <optional>
 #include <string>
 
 #include "edit/cut/kerf.h"
@@ -25,14 +27,53 @@ double kerf_depth(const BodyDescription& body, const ContactDescription& contact
   return 0.0;
 }
 
+/// All triangles of a sheet's material.
+KerfSurface sheet_surface(const CutState& cut) {
+  KerfSurface surface;
+  std::map<std::int32_t, Rider> carried;
+  for (const std::int32_t cell : cut.hosts.numbers()) {
+    for (const MaterialTetra& triangle : material_of(cut.hosts, cut.material, cell)) {
+      const auto& [a, b, c, none] = triangle.vertices;
+      surface.triangles.push_back({a, b, c});
+      for (const std::int32_t v : {a, b, c}) {
+        if (v < 0) carried[v] = cut.material.riders[static_cast<std::size_t>(-1 - v)];
+      }
+    }
+  }
+  surface.carried.assign(carried.begin(), carried.end());
+  return surface;
+}
+
+/// Half the thickness of the sheets at each node.
+std::vector<double> radii(const BodyDescription& body) {
+  std::vector<double> radius(body.positions.size() / 3, 0.0);
+  for (const ElasticBlock& block : body.elastic) {
+    for (std::size_t i = 0; i < block.cells.size(); ++i) {
+      double& own = radius[static_cast<std::size_t>(block.cells[i])];
+      own = std::max(own, 0.5 * of_cell(block.cross_section, static_cast<std::int32_t>(i / 3)));
+    }
+  }
+  return radius;
+}
+
+bool is_sheet(const BodyDescription& body) {
+  return std::ranges::all_of(body.elastic, [](const ElasticBlock& block) {
+    const std::optional<CellType> type = host_type(block);
+    return type && info(*type).dimension == 2;
+  });
+}
+
 }  // namespace
 
 SurfaceDescription cut_surface(const BodyDescription& body, const ContactDescription& contact) {
-  KerfSurface found = kerf_surface(body.cut->hosts, body.cut->material, kerf_depth(body, contact));
+  const bool sheet = is_sheet(body);
+  KerfSurface found = sheet ? sheet_surface(*body.cut)
+                            : kerf_surface(body.cut->hosts, body.cut->material, kerf_depth(body, contact));
   SurfaceDescription surface;
   surface.name = body.name;
   surface.triangles = std::move(found.triangles);
-  surface.closed = !surface.triangles.empty();
+  surface.closed = !sheet && !surface.triangles.empty();
+  if (sheet) surface.radius = radii(body);
   SurfaceRiders& riders = surface.riders;
   for (const auto& [vertex, rider] : found.carried) {
     riders.vertex.push_back(vertex);
@@ -56,6 +97,26 @@ void part_pairs(ContactDescription& contact, const BodyDescription& body,
       if (std::ranges::binary_search(pair.nodes, copied[k]))
         pair.nodes.push_back(first + static_cast<std::int32_t>(k));
     }
+  }
+}
+
+void refuse_touching(const BodyDescription& body, const SurfaceDescription& surface,
+                     const ContactDescription& contact) {
+  if (!is_sheet(body)) return;
+  if (surface.triangles.empty()) {
+    throw ParameterError(
+        "body \"" + body.name +
+        "\" cannot be cut: it is flat, and its rim in contact does not follow a cut yet; leave "
+        "it out of contacts.");
+  }
+  for (const ContactPair& pair : contact.pairs) {
+    const auto bodies = static_cast<std::int32_t>(contact.bodies.size());
+    if (pair.a != pair.b || pair.a >= bodies) continue;
+    if (contact.bodies[static_cast<std::size_t>(pair.a)].name != body.name) continue;
+    throw ParameterError(
+        "body \"" + body.name +
+        "\" cannot be cut: it is a sheet that meets itself, and both edges of a cut would begin "
+        "in one place; leave it out of self-contact.");
   }
 }
 

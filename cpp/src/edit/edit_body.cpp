@@ -11,6 +11,7 @@
 #include "debris.h"
 #include "parted_loads.h"
 #include "tissu/base/error.h"
+#include "tissu/edit/cut_state.h"
 #include "tissu/element/reference_cell.h"
 
 namespace tissu {
@@ -151,9 +152,8 @@ void refuse_unparted(const WorldDescription& description, const BodyDescription&
     refuse("its nodes are frames, and bodies whose nodes have places only are accepted");
   }
   for (const ElasticBlock& block : body.elastic) {
-    const ElementInfo* element = find_element(block.element);
-    if (element == nullptr || element->dimension != 3) {
-      refuse("it has cells of type " + block.element + ", and volume cells are accepted");
+    if (!host_type(block)) {
+      refuse("it has cells of type " + block.element + ", and volume cells and triangles are accepted");
     }
     if (std::holds_alternative<CondensedOptions>(block.model)) {
       refuse("its cells are condensed, and a model that keeps each cell is accepted, such as fem");
@@ -163,6 +163,7 @@ void refuse_unparted(const WorldDescription& description, const BodyDescription&
       refuse("its nodes have equal masses, which copies of nodes would change; leave equal_masses out");
     }
   }
+  if (!has_material(body)) refuse("it has volume cells and sheets, and bodies of one of both are accepted");
   for (const PressureDescription& pressure : description.pressures) {
     if (pressure.body == body.name) {
       refuse("the pressure \"" + pressure.name + "\" acts on its faces, which a cut does not part yet");
@@ -177,6 +178,7 @@ void refuse_unparted(const WorldDescription& description, const BodyDescription&
           "surface_of");
     }
     refuse_curved(body);
+    refuse_touching(body, surface, *description.contact);
   }
 }
 

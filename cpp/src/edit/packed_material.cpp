@@ -23,6 +23,16 @@ void check_vertices(const std::vector<std::int32_t>& vertices, std::int32_t node
     refuse("vertices that are not there");
 }
 
+/// Of tetrahedra and triangles, four for each.
+std::vector<std::int32_t> corners_of(const std::vector<std::int32_t>& vertices) {
+  std::vector<std::int32_t> corners;
+  corners.reserve(vertices.size());
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    if (i % 4 != 3 || vertices[i] != kNoVertex) corners.push_back(vertices[i]);
+  }
+  return corners;
+}
+
 }  // namespace
 
 PackedMaterial pack(const Material& material) {
@@ -60,7 +70,7 @@ Material unpack(const PackedMaterial& packed, std::int32_t nodes) {
   }
   check_first(packed.first, packed.hosts.size(), packed.cut.size());
   check_first(packed.first_of_incision, packed.incisions.size(), packed.on_incision.size());
-  check_vertices(packed.vertices, nodes, static_cast<std::int32_t>(riders));
+  check_vertices(corners_of(packed.vertices), nodes, static_cast<std::int32_t>(riders));
   check_vertices(packed.on_incision, nodes, static_cast<std::int32_t>(riders));
   Material material;
   for (std::size_t r = 0; r < riders; ++r) {

@@ -28,14 +28,6 @@ void sort_unique(std::vector<std::int32_t>& list) {
   list.erase(std::unique(list.begin(), list.end()), list.end());
 }
 
-bool has_material(const BodyDescription& body) {
-  return !body.frames && body.shared.empty() &&
-         std::ranges::all_of(body.elastic, [](const ElasticBlock& block) {
-           const ElementInfo* element = find_element(block.element);
-           return element != nullptr && element->dimension == 3;
-         });
-}
-
 std::shared_ptr<World> own(std::shared_ptr<const World> world) {
   if (world.use_count() == 1) return std::const_pointer_cast<World>(std::move(world));
   return laid_anew(*world);

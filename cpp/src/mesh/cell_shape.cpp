@@ -41,6 +41,8 @@ constexpr Shape<8, 5> kPyramid{
     {{{0, 1}, {1, 2}, {2, 3}, {3, 0}, {0, 4}, {1, 4}, {2, 4}, {3, 4}}},
     {{{4, 4, {0, 3, 2, 1}}, {3, 3, {0, 1, 4}}, {3, 3, {1, 2, 4}}, {3, 3, {2, 3, 4}}, {3, 3, {3, 0, 4}}}}};
 
+constexpr std::array<Edge, 3> kTriangleEdges{{{0, 1}, {1, 2}, {2, 0}}};
+
 template <std::size_t n>
 constexpr std::uint8_t middle(const std::array<Edge, n>& edges, std::uint8_t a, std::uint8_t b) {
   std::uint8_t e = 0;
@@ -74,6 +76,7 @@ constexpr std::array<std::uint8_t, 10> kTetraMirror{0, 1, 3, 2, 4, 8, 7, 6, 5, 9
 constexpr std::array<std::uint8_t, 27> kHexahedronMirror{4,  5,  6,  7,  0,  1,  2,  3,  12, 13, 14, 15, 8, 9,
                                                          10, 11, 16, 17, 18, 19, 20, 21, 22, 23, 25, 24, 26};
 constexpr std::array<std::uint8_t, 15> kWedgeMirror{3, 4, 5, 0, 1, 2, 9, 10, 11, 6, 7, 8, 12, 13, 14};
+constexpr std::array<std::uint8_t, 3> kTriangleMirror{0, 2, 1};
 constexpr std::array<std::uint8_t, 13> kPyramidMirror{0, 3, 2, 1, 4, 8, 7, 6, 5, 9, 12, 11, 10};
 
 std::span<const std::uint8_t> mirrored_whole(CellType type) {
@@ -91,6 +94,8 @@ std::span<const std::uint8_t> mirrored_whole(CellType type) {
     case CellType::pyramid:
     case CellType::pyramid13:
       return kPyramidMirror;
+    case CellType::triangle:
+      return kTriangleMirror;
   }
   return {};
 }
@@ -117,6 +122,8 @@ std::span<const LocalFace> faces(CellType type) {
       return kPyramid.faces;
     case CellType::pyramid13:
       return kPyramid13Faces;
+    case CellType::triangle:
+      return {};
   }
   return {};
 }
@@ -136,6 +143,8 @@ std::span<const std::array<std::uint8_t, 2>> edges(CellType type) {
     case CellType::pyramid:
     case CellType::pyramid13:
       return kPyramid.edges;
+    case CellType::triangle:
+      return kTriangleEdges;
   }
   return {};
 }

@@ -6,7 +6,7 @@
 namespace tissu {
 namespace {
 
-constexpr std::array<CellTypeInfo, 9> kCellTypes{{
+constexpr std::array<CellTypeInfo, 10> kCellTypes{{
     {CellType::tetra, "tetra", 4, 3, 1, 4},
     {CellType::hexahedron, "hexahedron", 8, 3, 1, 8},
     {CellType::tetra10, "tetra10", 10, 3, 2, 4},
@@ -16,17 +16,19 @@ constexpr std::array<CellTypeInfo, 9> kCellTypes{{
     {CellType::wedge15, "wedge15", 15, 3, 2, 6},
     {CellType::pyramid, "pyramid", 5, 3, 1, 5},
     {CellType::pyramid13, "pyramid13", 13, 3, 2, 5},
+    {CellType::triangle, "triangle", 3, 2, 1, 3},
 }};
 
 }  // namespace
 
 const CellTypeInfo& info(CellType type) { return kCellTypes[static_cast<std::size_t>(type)]; }
 
-std::span<const CellTypeInfo> cell_types() { return kCellTypes; }
+std::span<const CellTypeInfo> cell_types() { return std::span(kCellTypes).first(9); }
 
 std::optional<CellType> cell_type(std::string_view name) {
-  const auto row = std::ranges::find(kCellTypes, name, &CellTypeInfo::name);
-  if (row == kCellTypes.end()) return std::nullopt;
+  const auto volumes = cell_types();
+  const auto row = std::ranges::find(volumes, name, &CellTypeInfo::name);
+  if (row == volumes.end()) return std::nullopt;
   return row->type;
 }
 

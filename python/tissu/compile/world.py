@@ -17,6 +17,7 @@ from tissu.compile.prepare import prepare
 from tissu.compile.prepared import LoadedNodes, Prepared
 from tissu.compile.start import begin
 from tissu.compile.thin import cross_section_of
+from tissu.cutting.kinds import tough_knife_of
 from tissu.errors import ParameterError, SceneError
 from tissu.mesh.cell import dimension
 from tissu.scene.load import Where
@@ -104,10 +105,25 @@ def refuse_uncuttable(simulation: Simulation) -> None:
             simulation._core.require_parting(body)
         except ParameterError as error:
             problems.append(Problem(path, str(error).rstrip(".")))
+    problems += pressed_sheets(simulation)
     for number, tear in enumerate(scene.tear):
         problems += [] if problems else too_short(simulation, number, tear)
     if problems:
         raise SceneError([problem.sentence(scene.source) for problem in problems])
+
+
+def pressed_sheets(simulation: Simulation) -> list[Problem]:
+    """Knives with a toughness, which press on volumes, in sheets."""
+    found = []
+    for name, tool in simulation.scene.instruments.items():
+        knife = tough_knife_of(tool)
+        for body in [] if knife is None else knife.cuts:
+            if simulation.meshes[body].volume_blocks:
+                continue
+            text = f"found a toughness of a knife that cuts the sheet '{body}'; bodies of volume "
+            text += "cells are accepted, or a knife without toughness"
+            found.append(Problem(("instruments", name, "toughness"), text))
+    return found
 
 
 def too_short(simulation: Simulation, number: int, tear: Tear) -> list[Problem]:
@@ -221,38 +237,9 @@ def _add_body(builder: WorldBuilder, prepared: Prepared, name: str) -> None:
 
 
 def can_be_cut(prepared: Prepared, name: str) -> bool:
-    """Whether a body has volume cells alone, each carried by itself."""
-    body, ready = prepared.scene.bodies[name], prepared.bodies[name]
-    return not body.has_rotations and all(
-        not group.surface and group.model.type != "condensed" and dimension(group.cell_type) == 3
-        for group in ready.groups
-    )
-
-
-def _add_tissue(builder: WorldBuilder, prepared: Prepared, name: str) -> None:
-    tissue, ready = prepared.scene.tissue[name], prepared.tissue[name]
-    law, made = tissue.law, type(tissue.law).made
-    builder.add_body(name=name, positions=np.array(ready.mesh.points), frames=True)
-    builder.add_points(
-        body=name,
-        shared=ready.shared,
-        frames=np.ascontiguousarray(ready.weights.frames, dtype=np.int32),
-        weights=np.ascontiguousarray(ready.weights.weights),
-        gradients=np.ascontiguousarray(ready.weights.gradients),
-        positions=np.ascontiguousarray(ready.points),
-        volumes=ready.volumes,
-        law=law.type,
-        parameters=parameters_of([law], np.zeros(1, dtype=np.int32)),
-        fibres=fibres_of([law], np.zeros(1, dtype=np.int32)),
-        loaded=None if made is None else made.build().loaded,
-        density=ready.density,
-        model=Frames(tangent=tissue.tangent).in_core(np.empty(0, dtype=np.int32)),
-    )
-
-
-def _rim_thickness(prepared: Prepared, name: str) -> float:
-    """Thickness [m] of the edges of a flat body; 0 of others, whose surface is made of faces."""
-    body = prepared.scene.bodies.get(name)
-    if body is None or body.plane is None or body.thickness is None:
-        return 0.0
-    return body.thickness
+    """Whether a body has volume cells alone, or triangles alone, each carried by itself."""
+    body, groups = prepared.scene.bodies[name], prepared.bodies[name].groups
+    if body.has_rotations or any(group.model.type == "condensed" for group in groups):
+        return False
+    volumes = all(dimension(g.cell_type) == 3 and not g.surface for g in groups)
+    return volumes or all(g.cell_type == "triangle" for g in groups)

@@ -19,7 +19,7 @@ __all__ = ["Material", "MaterialSurface"]
 
 @dataclass(frozen=True, slots=True, eq=False)
 class MaterialSurface:
-    """The surface of a body's material as it is now, cut faces included.
+    """The surface of a body's material as it is now, cut faces included; of a sheet all of it.
 
     Attributes:
         points: present places (v, 3) [m].
@@ -47,7 +47,7 @@ class Material:
     """The material of a body as a conforming mesh.
 
     Cells that no blade met are unchanged. Instead of the others, the mesh has the tetrahedra of
-    their material.
+    their material, in a sheet the triangles.
 
     Attributes:
         mesh: at rest.
@@ -89,8 +89,9 @@ def material_now(found: Mapping[str, Any], rest: Floats, now: Floats) -> Materia
     """The material that the core found, where the nodes (n, 3) are at rest and now."""
     nodes, weights = found["nodes"], found["weights"]
     blocks = tuple(CellBlock(type=name, nodes=rows) for name, rows in found["blocks"])
+    thin = (2,) if any(block.type == "triangle" for block in blocks) else ()
     return Material(
-        mesh=Mesh(points=carried(nodes, weights, rest), cells=blocks),
+        mesh=Mesh(points=carried(nodes, weights, rest), cells=blocks, thin=thin),
         points=carried(nodes, weights, now),
         cell=found["cell"],
         nodes=nodes,
@@ -109,6 +110,9 @@ def centres_of(material: Material) -> tuple[Floats, Ints]:
         volumes = np.ones(len(corners))
         if block.type == "tetra":
             volumes = np.abs(np.linalg.det(corners[:, 1:] - corners[:, :1])) / 6.0
+        elif block.type == "triangle":
+            sides = corners[:, 1:] - corners[:, :1]
+            volumes = 0.5 * np.linalg.norm(np.cross(sides[:, 0], sides[:, 1]), axis=1)
         weights.append(np.maximum(volumes, 1e-300))
         centres.append(corners.mean(axis=1))
     weight, centre = np.concatenate(weights), np.concatenate(centres)

@@ -159,5 +159,30 @@ def front_of(triangles: Ints, cut: NDArray[np.bool_], rest: Floats) -> Ints:
     return np.column_stack([sides[first], sides[first + 1, 2]]).astype(np.int64)
 
 
+def front_of_sheet(triangles: Ints, rest: Floats) -> Ints:
+    """Where the two sides of a cut of a sheet meet.
+
+    Args:
+        triangles: of the material (t, 3).
+        rest: places of its points at rest (v, 3) [m], where both sides of a cut coincide.
+
+    Returns:
+        Each point of a front, and the two points beside it on both sides of the cut (k, 3).
+    """
+    sides = np.concatenate([triangles[:, [k, (k + 1) % 3]] for k in range(3)])
+    _, first, counts = np.unique(
+        np.sort(sides, axis=1), axis=0, return_index=True, return_counts=True
+    )
+    border = sides[first[counts == 1]]
+    _, places = np.unique(rest, axis=0, return_inverse=True)
+    ends = np.concatenate([border, border[:, ::-1]])
+    place = places.reshape(-1)[ends[:, 1]]
+    order = np.lexsort((ends[:, 1], place, ends[:, 0]))
+    ends, place = ends[order], place[order]
+    twins = (ends[1:, 0] == ends[:-1, 0]) & (place[1:] == place[:-1])
+    at = np.flatnonzero(twins)
+    return np.column_stack([ends[at], ends[at + 1, 1]]).astype(np.int64)
+
+
 _FACING = -0.9
 """Cosine between the normals of two sides of a cut at its front, at rest."""

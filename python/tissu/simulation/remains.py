@@ -112,9 +112,14 @@ class Remains:
             rest: measure the rest shape instead of the present one.
 
         Raises:
-            ParameterError: no such body; the scene was compiled without `editing: true`.
+            ParameterError: no such body; the scene was compiled without `editing: true`; a body of
+                sheets.
         """
         found = self.material(body)
+        if not found.mesh.volume_blocks:
+            raise ParameterError(
+                f"found the sheet '{body}'; the quality of bodies of volume cells is accepted"
+            )
         placed = found.mesh if rest else dataclasses.replace(found.mesh, points=found.points)
         cut = into_tetrahedra(placed)
         nodes = np.concatenate([block.nodes for block in cut.volume_blocks])

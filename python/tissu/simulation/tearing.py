@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from tissu import _core
 from tissu.cutting.material import centres_of
-from tissu.cutting.overstress import Overstress, front_of, overstressed
+from tissu.cutting.overstress import Overstress, front_of, front_of_sheet, overstressed
 from tissu.errors import ParameterError
 
 if TYPE_CHECKING:
@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from tissu.simulation.simulation import Simulation
 
 Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
 
 RADIUS = 1.5
 """of the disc that opens, as a share of the tear's length"""
@@ -80,7 +81,7 @@ def _torn(simulation: Simulation, tear: Tear) -> list[CutReport]:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Front:
-    """The edges at the fronts of the cuts of a body now.
+    """The edges at the fronts of the cuts of a body now; in a sheet the points.
 
     Attributes:
         middles: (k, 3) [m].
@@ -97,6 +98,8 @@ def _front(simulation: Simulation, body: str) -> _Front | None:
     """The fronts of the cuts of a body now; None: there is none."""
     surface = simulation.surface(body)
     rest = surface.carried(simulation.meshes[body].points)
+    if not simulation.meshes[body].volume_blocks:
+        return _front_of_sheet(surface.triangles.astype(np.int64), surface.points, rest)
     found = front_of(surface.triangles.astype(np.int64), surface.cut, rest)
     if not len(found):
         return None
@@ -106,6 +109,19 @@ def _front(simulation: Simulation, body: str) -> _Front | None:
     ahead = middles - behind
     ahead = _unit(ahead - np.einsum("ki,ki->k", ahead, along)[:, None] * along)
     return _Front(middles, ahead, _unit(np.cross(along, ahead)))
+
+
+def _front_of_sheet(triangles: Ints, points: Floats, rest: Floats) -> _Front | None:
+    found = front_of_sheet(triangles, rest)
+    if not len(found):
+        return None
+    corners = points[triangles]
+    across = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    normals = np.zeros_like(points)
+    for k in range(3):
+        np.add.at(normals, triangles[:, k], across)
+    ahead = _unit(points[found[:, 0]] - 0.5 * (points[found[:, 1]] + points[found[:, 2]]))
+    return _Front(points[found[:, 0]], ahead, _unit(np.cross(ahead, normals[found[:, 0]])))
 
 
 def _unit(vectors: Floats) -> Floats:

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string_view>
 
 #include "tissu/edit/cut/material.h"
@@ -13,6 +14,13 @@ struct CutState {
   Hosts hosts;
   Material material;
 };
+
+/// As what a cut sees the cells of a block: volumes of all types, and triangles of sheets; else nothing.
+std::optional<CellType> host_type(const ElasticBlock& block);
+
+/// Whether all cells of a body have a material that can be cut: volumes, or triangles of sheets, whose nodes
+/// have places only.
+bool has_material(const BodyDescription& body);
 
 /// Of a body as its description has it: every cell whole, or the material given.
 CutState cut_state_of(BodyDescription body, Material material = {});

@@ -24,7 +24,8 @@ enum class CellType : std::uint8_t {
   wedge,
   wedge15,
   pyramid,
-  pyramid13
+  pyramid13,
+  triangle
 };
 
 /// What is fixed by the type of a cell.
@@ -32,7 +33,7 @@ struct CellTypeInfo {
   CellType type;
   std::string_view name;  ///< as meshio writes it
   int nodes;              ///< nodes per cell
-  int dimension;          ///< 3 for a volume
+  int dimension;          ///< 3 for a volume, 2 for a sheet
   int order;              ///< 1 straight edges, 2 a node in the middle of each edge
   int corners;            ///< nodes that are corners; they come first
 };
@@ -40,10 +41,10 @@ struct CellTypeInfo {
 /// The row of the table of cell types that belongs to `type`.
 const CellTypeInfo& info(CellType type);
 
-/// Every row of the table, in the order of the enumeration.
+/// Every row of the table that is a volume, in the order of the enumeration.
 std::span<const CellTypeInfo> cell_types();
 
-/// The type with that name; nothing when there is none.
+/// The type of volume with that name; nothing when there is none.
 std::optional<CellType> cell_type(std::string_view name);
 
 /// Cells of one type: their node numbers one cell after the other.

@@ -5,6 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "tissu/mesh/triangle_tree.h"
+
 namespace tissu {
 namespace {
 
@@ -12,13 +14,15 @@ using Box = Eigen::AlignedBox3d;
 
 /// A point this share of a tetrahedron's height outside of it is in it, for round-off.
 constexpr double kSlack = 1e-9;
+/// Of a triangle's longest edge: so near a sheet a point goes with it.
+constexpr double kNearSheet = 0.5;
 
 std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
-Box box_of(std::span<const std::int32_t> nodes, ConstReals x) {
+Box box_of(std::span<const std::int32_t> nodes, ConstReals x, double grown) {
   Box box;
   for (const std::int32_t node : nodes) box.extend(Vec3(block(x, node)));
-  const double margin = kSlack * box.sizes().norm();
+  const double margin = grown * box.sizes().norm();
   return {(box.min().array() - margin).matrix(), (box.max().array() + margin).matrix()};
 }
 
@@ -34,7 +38,20 @@ bool weights_in(const std::array<Vec3, 4>& corner, const Vec3& p, std::array<dou
   return true;
 }
 
-/// Weights of the vertices of a tetrahedron of the material as weights of nodes.
+/// The three weights of a point in the plane of a triangle; false where it has no area.
+bool weights_on(const std::array<Vec3, 4>& corner, const Vec3& p, std::array<double, 4>& weights) {
+  const Vec3 normal = (corner[1] - corner[0]).cross(corner[2] - corner[0]);
+  const double square = normal.squaredNorm();
+  if (!(square > 0.0)) return false;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vec3& a = corner[(i + 1) % 3];
+    weights[i] = (corner[(i + 2) % 3] - a).cross(p - a).dot(normal) / square;
+  }
+  weights[3] = 0.0;
+  return true;
+}
+
+/// Weights of the vertices of a tetrahedron of the material, or of a triangle, as weights of nodes.
 Rider combined(const Material& material, const MaterialTetra& tetra, const std::array<double, 4>& weights) {
   Rider sum;
   const auto add = [&](std::int32_t node, double weight) {
@@ -47,7 +64,7 @@ Rider combined(const Material& material, const MaterialTetra& tetra, const std::
     }
     sum.weight[place] += weight;
   };
-  for (std::size_t i = 0; i < 4; ++i) {
+  for (std::size_t i = 0; i < tetra.corners(); ++i) {
     const std::int32_t vertex = tetra.vertices[i];
     if (vertex >= 0) {
       add(vertex, weights[i]);
@@ -67,7 +84,8 @@ class Search {
   std::vector<Anchor> find() {
     std::vector<std::int32_t> within;
     for (const Hosts::Cluster& cluster : hosts_.clusters()) {
-      const Box around = box_of(cluster.corners, x_);
+      const bool sheet = !cluster.cells.empty() && is_sheet(cluster.cells.front());
+      const Box around = box_of(cluster.corners, x_, sheet ? kNearSheet : kSlack);
       within.clear();
       for (std::size_t i = 0; i < best_.size(); ++i) {
         if (around.contains(point(static_cast<std::int32_t>(i))))
@@ -91,15 +109,41 @@ class Search {
     std::int32_t cell = std::numeric_limits<std::int32_t>::max();
   };
   [[nodiscard]] Vec3 point(std::int32_t i) const { return block(points_, i); }
+  [[nodiscard]] bool is_sheet(std::int32_t cell) const { return info(hosts_.type(cell)).dimension == 2; }
 
   void look_in(std::int32_t cell, const std::vector<std::int32_t>& within) {
-    const Box box = box_of(hosts_.corners(cell), x_);
+    const Box box = box_of(hosts_.corners(cell), x_, is_sheet(cell) ? kNearSheet : kSlack);
     if (std::ranges::none_of(within, [&](std::int32_t i) { return box.contains(point(i)); })) return;
-    const auto stored = material_.cells.find(cell);
-    if (stored != material_.cells.end()) {
-      for (const MaterialTetra& tetra : stored->second) look_in(cell, tetra, within);
-    } else {
-      for (const MaterialTetra& tetra : whole_material(hosts_, cell)) look_in(cell, tetra, within);
+    for (const MaterialTetra& tetra : material_of(hosts_, material_, cell)) {
+      if (tetra.corners() == 3) {
+        look_beside(cell, tetra, within);
+      } else {
+        look_in(cell, tetra, within);
+      }
+    }
+  }
+
+  /// A point near a sheet keeps its offset from the nearest point of it.
+  void look_beside(std::int32_t cell, const MaterialTetra& triangle,
+                   const std::vector<std::int32_t>& within) {
+    std::array<Vec3, 4> corner;
+    for (std::size_t i = 0; i < 3; ++i) corner[i] = material_.at(triangle.vertices[i], x_);
+    std::array<double, 9> numbers{};
+    double longest = 0.0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      std::copy_n(corner[i].data(), 3, &numbers[3 * i]);
+      longest = std::max(longest, (corner[(i + 1) % 3] - corner[i]).norm());
+    }
+    std::array<double, 4> weights{};
+    for (const std::int32_t i : within) {
+      const Vec3 nearest = closest_on_triangle(point(i), numbers.data());
+      const double away = (point(i) - nearest).norm();
+      Best& best = best_[at(i)];
+      const bool farther =
+          best.anchor.inside && (-away < best.depth || (-away == best.depth && cell >= best.cell));
+      if (away > kNearSheet * longest || farther || !weights_on(corner, nearest, weights)) continue;
+      const Rider rider = combined(material_, triangle, weights);
+      best = {{rider, point(i) - rider.at(x_), true}, -away, cell};
     }
   }
 

@@ -126,7 +126,7 @@ void divide_longest(Patch& patch, std::int32_t tetra) {
   const auto& v = patch.tetra(tetra).vertices;
   std::tuple<double, std::int32_t, std::int32_t> longest{-1.0, 0, 0};
   for (std::size_t i = 0; i < 4; ++i) {
-    for (std::size_t j = 0; j < i; ++j) {
+    for (std::size_t j = 0; j < i && v[i] >= 0; ++j) {
       const auto [p, q] = std::minmax(v[i], v[j]);
       longest = std::max(longest, {rest_length(patch, p, q), p, q});
     }

@@ -100,10 +100,11 @@ class Finder {
   std::vector<CrossedEdge> edges_;
 };
 
-/// Whether the border of one of the triangles enters a tetrahedron.
+/// Whether the border of one of the triangles enters a tetrahedron, or passes through a triangle.
 bool enters(const Patch& patch, const SweepPart& part, Numbers triangles, const Patch::Tetra& tetra) {
   std::array<Vec3, 4> corner;
-  for (std::size_t i = 0; i < 4; ++i) corner[i] = patch.vertex(tetra.vertices[i]).place;
+  const bool solid = tetra.corners() == 4;
+  for (std::size_t i = 0; i < tetra.corners(); ++i) corner[i] = patch.vertex(tetra.vertices[i]).place;
   const auto outside = [&](const Vec3& p) {
     return std::ranges::any_of(kOpposite, [&](const auto& face) {
       return orientation(corner[face[0]], corner[face[1]], corner[face[2]], p) > 0;
@@ -114,6 +115,10 @@ bool enters(const Patch& patch, const SweepPart& part, Numbers triangles, const 
       if ((part.border[at(t)] >> i & 1U) == 0) continue;
       const Vec3& from = part.triangles[at(t)][i];
       const Vec3& to = part.triangles[at(t)][(i + 1) % 3];
+      if (!solid) {
+        if (crosses(from, to, {corner[0], corner[1], corner[2]})) return true;
+        continue;
+      }
       if (!outside(from)) return true;
       for (const auto& face : kOpposite) {
         if (crosses(from, to, {corner[face[0]], corner[face[1]], corner[face[2]]})) return true;
@@ -142,7 +147,9 @@ std::vector<CrossedEdge> crossed_edges(const Patch& patch, const SweepPart& part
   for (const Patch::Tetra& tetra : patch.tetrahedra) {
     if (tetra.cell != cell) triangles = near.triangles(patch.cell(cell = tetra.cell).number);
     if (triangles.empty()) continue;
-    for (const auto& [i, j] : kEdges) finder.look_at(tetra.vertices[i], tetra.vertices[j], triangles);
+    for (const auto& [i, j] : kEdges) {
+      if (tetra.vertices[j] >= 0) finder.look_at(tetra.vertices[i], tetra.vertices[j], triangles);
+    }
   }
   return finder.take();
 }
@@ -152,7 +159,7 @@ std::vector<std::int32_t> pierced_tetrahedra(const Patch& patch, const SweepPart
   std::vector<std::int32_t> pierced;
   for (std::size_t t = 0; t < patch.tetrahedra.size(); ++t) {
     const Patch::Tetra& tetra = patch.tetrahedra[t];
-    const auto met = [&](std::int32_t v) { return known.on(v); };
+    const auto met = [&](std::int32_t v) { return v >= 0 && known.on(v); };
     if (std::ranges::any_of(tetra.vertices, met)) continue;
     const Numbers triangles = near.triangles(patch.cell(tetra.cell).number);
     if (!triangles.empty() && enters(patch, part, triangles, tetra)) {

@@ -15,9 +15,10 @@ Fans::Fans(const Patch& patch, const Fragments& fragments, const std::vector<std
       vertices_(patch.tetrahedra.size()),
       riders_(at(patch.new_riders)) {
   for (std::size_t t = 0; t < vertices_.size(); ++t) {
-    for (std::size_t i = 0; i < 4; ++i) {
-      vertices_[t][i] = patch.vertex(patch.tetrahedra[t].vertices[i]).number;
-    }
+    const Patch::Tetra& tetra = patch.tetrahedra[t];
+    vertices_[t][3] = kNoVertex;
+    for (std::size_t i = 0; i < tetra.corners(); ++i)
+      vertices_[t][i] = patch.vertex(tetra.vertices[i]).number;
   }
   for (std::int32_t v = 0; v < static_cast<std::int32_t>(patch.vertices.size()); ++v) {
     number_vertex(v, std::ranges::binary_search(parted, v));

@@ -117,7 +117,7 @@ void Fragments::find_groups() {
   std::vector<std::pair<std::int32_t, std::int32_t>> pairs;
   for (std::size_t t = 0; t < across_.size(); ++t) {
     for (const std::int32_t other : across_[t]) {
-      if (other <= static_cast<std::int32_t>(t)) continue;
+      if (other < 0) continue;
       const std::int32_t a = of_[t];
       const std::int32_t b = of_[at(other)];
       if (a != b) pairs.emplace_back(std::min(a, b), std::max(a, b));

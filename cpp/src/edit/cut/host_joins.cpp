@@ -19,7 +19,7 @@ const std::vector<HostJoins::Face>& HostJoins::faces_of(std::int32_t cell) {
   const auto stored = material_.cells.find(cell);
   if (stored != material_.cells.end()) {
     for (const MaterialTetra& tetra : stored->second) {
-      for (std::size_t f = 0; f < 4; ++f) {
+      for (std::size_t f = 0; f < tetra.corners(); ++f) {
         if ((tetra.cut >> f & 1U) != 0) continue;
         const auto& [a, b, c] = kOpposite[f];
         add(tetra.vertices[a], tetra.vertices[b], tetra.vertices[c]);
@@ -27,7 +27,10 @@ const std::vector<HostJoins::Face>& HostJoins::faces_of(std::int32_t cell) {
     }
   } else {
     for (const MaterialTetra& tetra : whole_material(hosts_, cell)) {
-      for (const auto& [a, b, c] : kOpposite) add(tetra.vertices[a], tetra.vertices[b], tetra.vertices[c]);
+      for (std::size_t f = 0; f < tetra.corners(); ++f) {
+        const auto& [a, b, c] = kOpposite[f];
+        add(tetra.vertices[a], tetra.vertices[b], tetra.vertices[c]);
+      }
     }
   }
   std::ranges::sort(faces);
@@ -36,8 +39,10 @@ const std::vector<HostJoins::Face>& HostJoins::faces_of(std::int32_t cell) {
 
 bool HostJoins::joined(std::int32_t a, std::int32_t b) {
   if (is_whole(a) && is_whole(b)) {
-    const auto four = [&](std::int32_t cell) { return hosts_.corners(cell).size() == 4; };
-    if (four(a) && four(b)) return true;  // they share three corners
+    const auto simplex = [&](std::int32_t cell) {
+      return hosts_.corners(cell).size() == 1 + static_cast<std::size_t>(info(hosts_.type(cell)).dimension);
+    };
+    if (simplex(a) && simplex(b)) return true;  // they share the corners of a face
   }
   const std::vector<Face> of_a = faces_of(a);
   const std::vector<Face>& of_b = faces_of(b);
@@ -51,10 +56,12 @@ std::vector<std::int32_t> HostJoins::of(std::int32_t cell) {
     near.insert(near.end(), there.begin(), there.end());
   }
   std::ranges::sort(near);
+  const auto of_face = static_cast<std::size_t>(info(hosts_.type(cell)).dimension);
   std::vector<std::int32_t> result;
   for (std::size_t begin = 0, end = 0; begin < near.size(); begin = end) {
     while (end < near.size() && near[end] == near[begin]) ++end;
-    if (end - begin >= 3 && near[begin] != cell && joined(cell, near[begin])) result.push_back(near[begin]);
+    if (end - begin >= of_face && near[begin] != cell && joined(cell, near[begin]))
+      result.push_back(near[begin]);
   }
   return result;
 }

@@ -79,7 +79,7 @@ Hosts::Hosts(std::vector<double> rest, std::vector<std::int32_t> root, std::span
     }
     add(cell, -1);
   }
-  cells_.resize(at(next_cell), {-1, -1, 0.0, CellType::tetra, -1});
+  cells_.resize(at(next_cell), {-1, -1, 0.0, CellType::tetra, -1, 1.0});
   make_clusters();
 }
 
@@ -112,8 +112,9 @@ std::vector<std::int32_t> Hosts::with_neighbours(std::span<const std::int32_t> c
 }
 
 void Hosts::add(const Cell& cell, std::int32_t cluster) {
-  cells_.resize(at(cell.number) + 1, {-1, -1, 0.0, CellType::tetra, -1});
-  cells_.back() = {static_cast<std::int32_t>(pool_.size()), cell.origin, cell.share, cell.type, -1};
+  cells_.resize(at(cell.number) + 1, {-1, -1, 0.0, CellType::tetra, -1, 1.0});
+  cells_.back() = {
+      static_cast<std::int32_t>(pool_.size()), cell.origin, cell.share, cell.type, -1, cell.thickness};
   pool_.insert(pool_.end(), cell.nodes.begin(), cell.nodes.end());
   for (const std::int32_t node : cell.nodes) insert_sorted(cells_at_[at(node)], cell.number);
   if (cluster >= 0) join_cluster(cell.number, cluster);
@@ -164,7 +165,7 @@ void Hosts::apply(const CutPlan& plan) {
   }
   for (const ChangedCell& cell : plan.changed) replace_nodes(cell.number, cell.nodes);
   for (const BornCell& cell : plan.born) {
-    add({cell.number, type(cell.parent), origin(cell.parent), cell.share, cell.nodes},
+    add({cell.number, type(cell.parent), origin(cell.parent), cell.share, cell.nodes, thickness(cell.parent)},
         slot(cell.parent).cluster);
   }
   for (const std::int32_t cell : plan.gone) take_out(cell);

@@ -59,14 +59,14 @@ std::vector<std::array<std::int32_t, 4>> joins(const std::vector<Patch::Tetra>& 
   Waiting waiting(4 * count);
   for (std::size_t t = 0; t < tetrahedra.size(); ++t) {
     if (seen[t] == 0) continue;
-    for (std::size_t f = 0; f < 4; ++f) {
+    for (std::size_t f = 0; f < tetrahedra[t].corners(); ++f) {
       if ((tetrahedra[t].cut >> f & 1U) != 0) continue;
       const std::int32_t other =
           waiting.meet(face_key(tetrahedra[t], f), static_cast<std::int32_t>(4 * t + f));
       if (other < 0) continue;
-      across[t][f] = other / 4;
-      across[static_cast<std::size_t>(other) / 4][static_cast<std::size_t>(other) % 4] =
-          static_cast<std::int32_t>(t);
+      std::int32_t& next = across[static_cast<std::size_t>(other) / 4][static_cast<std::size_t>(other) % 4];
+      across[t][f] = next < 0 ? other / 4 : next;
+      next = static_cast<std::int32_t>(t);
     }
   }
   return across;

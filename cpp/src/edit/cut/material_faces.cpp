@@ -17,6 +17,11 @@ void add_whole(const Hosts& hosts, std::int32_t cell, MaterialFaces& all) {
   const auto unit = static_cast<std::int32_t>(all.units.size());
   all.units.push_back({cell, -1});
   const auto nodes = hosts.corners(cell);
+  if (nodes.size() == 3) {
+    for (std::size_t i = 0; i < 3; ++i)
+      all.faces.push_back({{nodes[i], nodes[(i + 1) % 3], kNoVertex}, unit, false, -1});
+    return;
+  }
   for (const LocalFace& face : faces(hosts.type(cell))) {
     const auto size = at(face.corners);
     std::size_t low = 0;
@@ -34,7 +39,7 @@ void add_list(std::int32_t cell, const std::vector<MaterialTetra>& list, Materia
   for (std::size_t t = 0; t < list.size(); ++t) {
     const auto unit = static_cast<std::int32_t>(all.units.size());
     all.units.push_back({cell, static_cast<std::int32_t>(t)});
-    for (std::size_t f = 0; f < 4; ++f) {
+    for (std::size_t f = 0; f < list[t].corners(); ++f) {
       const auto& v = list[t].vertices;
       const auto& [a, b, c] = kOpposite[f];
       all.faces.push_back({{v[a], v[b], v[c]}, unit, (list[t].cut >> f & 1U) != 0, -1});
@@ -53,11 +58,10 @@ void join_faces(std::vector<MaterialFace>& faces) {
     order.emplace_back(key, static_cast<std::int32_t>(f));
   }
   std::ranges::sort(order);
-  for (std::size_t i = 0; i + 1 < order.size(); ++i) {
-    if (order[i].first != order[i + 1].first) continue;
-    faces[at(order[i].second)].across = order[i + 1].second;
-    faces[at(order[i + 1].second)].across = order[i].second;
-    ++i;
+  for (std::size_t begin = 0, end = 0; begin < order.size(); begin = end) {
+    while (end < order.size() && order[end].first == order[begin].first) ++end;
+    for (std::size_t i = begin; end - begin > 1 && i < end; ++i)
+      faces[at(order[i].second)].across = order[i + 1 < end ? i + 1 : begin].second;
   }
 }
 

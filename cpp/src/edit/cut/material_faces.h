@@ -18,11 +18,12 @@ struct MaterialUnit {
 };
 
 /// A triangle of the border of a unit, anticlockwise seen from outside; quads are cut at their lowest root.
+/// Of a triangle of a sheet an edge, with kNoVertex in the place of a vertex.
 struct MaterialFace {
   std::array<std::int32_t, 3> vertices;
   std::int32_t unit;
   bool cut;
-  std::int32_t across;  ///< the face of another unit that this one is joined to, -1: it is on the surface
+  std::int32_t across;  ///< a face of another unit that this one is joined to, -1: it is on the surface
 };
 
 struct MaterialFaces {

@@ -37,16 +37,12 @@ class VertexList {
   std::vector<std::int32_t> rider_;
 };
 
-double volume(const Hosts& hosts, const Material& material, const MaterialTetra& tetra) {
-  std::array<Vec3, 4> p;
-  for (std::size_t i = 0; i < 4; ++i) p[i] = material.at(tetra.vertices[i], hosts.rest());
-  return (p[1] - p[0]).cross(p[2] - p[0]).dot(p[3] - p[0]) / 6.0;
-}
-
 double volume(const Hosts& hosts, const Material& material, const MaterialUnit& unit) {
-  if (unit.tetra >= 0) return volume(hosts, material, material.cells.at(unit.cell)[at(unit.tetra)]);
+  if (unit.tetra >= 0)
+    return rest_volume(hosts, material, unit.cell, material.cells.at(unit.cell)[at(unit.tetra)]);
   double sum = 0.0;
-  for (const MaterialTetra& tetra : whole_material(hosts, unit.cell)) sum += volume(hosts, material, tetra);
+  for (const MaterialTetra& tetra : whole_material(hosts, unit.cell))
+    sum += rest_volume(hosts, material, unit.cell, tetra);
   return sum;
 }
 
@@ -55,9 +51,18 @@ double volume(const Hosts& hosts, const Material& material, const MaterialUnit& 
 MaterialSurface material_surface(const Hosts& hosts, const Material& material) {
   MaterialSurface surface;
   VertexList vertices(hosts, material);
+  for (const std::int32_t cell : hosts.numbers()) {
+    if (info(hosts.type(cell)).dimension != 2) continue;
+    for (const MaterialTetra& triangle : material_of(hosts, material, cell)) {
+      const auto& [a, b, c, none] = triangle.vertices;
+      surface.triangles.push_back({vertices.place(a), vertices.place(b), vertices.place(c)});
+      surface.cell.push_back(cell);
+      surface.cut.push_back(0);
+    }
+  }
   const MaterialFaces all = material_faces(hosts, material);
   for (const MaterialFace& face : all.faces) {
-    if (face.across >= 0) continue;
+    if (face.across >= 0 || info(hosts.type(all.units[at(face.unit)].cell)).dimension == 2) continue;
     const auto& [a, b, c] = face.vertices;
     surface.triangles.push_back({vertices.place(a), vertices.place(b), vertices.place(c)});
     surface.cell.push_back(all.units[at(face.unit)].cell);
@@ -83,7 +88,9 @@ MaterialMesh material_mesh(const Hosts& hosts, const Material& material) {
   std::vector<std::int32_t> cut_cells;
   for (const auto& [cell, list] : material.cells) {
     for (const MaterialTetra& tetra : list) {
-      for (const std::int32_t vertex : tetra.vertices) cut.nodes.push_back(vertices.place(vertex));
+      if (tetra.corners() == 3) cut.type = CellType::triangle;
+      for (std::size_t i = 0; i < tetra.corners(); ++i)
+        cut.nodes.push_back(vertices.place(tetra.vertices[i]));
       cut_cells.push_back(cell);
     }
   }

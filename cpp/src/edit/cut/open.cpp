@@ -8,6 +8,7 @@
 #include <span>
 
 #include "edit/cut/side.h"
+#include "tissu/base/error.h"
 
 namespace tissu {
 namespace {
@@ -18,7 +19,7 @@ constexpr double kCoverShare = 0.2;
 constexpr double kRoundOff = 1e-12;
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
-/// A face of a tetrahedron by its vertices in ascending order.
+/// A face of a tetrahedron by its vertices in ascending order; an edge of a triangle after -1.
 struct FaceSide {
   std::array<std::int32_t, 3> key;
   std::int32_t tetra;
@@ -42,9 +43,14 @@ class Opener {
     for (std::size_t i = 0; i + 1 < sides.size(); ++i) {
       if (sides[i].key != sides[i + 1].key) continue;
       if (is_open(sides[i]) || is_open(sides[i + 1])) continue;
-      if (above(sides[i].tetra) != above(sides[i + 1].tetra) && covered(sides[i], sides[i + 1])) {
-        open(sides[i], sides[i + 1]);
+      if (above(sides[i].tetra) == above(sides[i + 1].tetra) || !covered(sides[i], sides[i + 1])) continue;
+      if ((i > 0 && sides[i - 1].key == sides[i].key) ||
+          (i + 2 < sides.size() && sides[i + 2].key == sides[i].key)) {
+        throw ParameterError(
+            "the blade follows an edge that more than two triangles share, where a cut cannot say which stay "
+            "together; move the blade a little off the edge.");
       }
+      open(sides[i], sides[i + 1]);
     }
     std::ranges::sort(opened_.vertices);
     opened_.vertices.erase(std::unique(opened_.vertices.begin(), opened_.vertices.end()),
@@ -57,9 +63,9 @@ class Opener {
     std::vector<FaceSide> sides;
     for (std::size_t t = 0; t < patch_.tetrahedra.size(); ++t) {
       const auto& v = patch_.tetrahedra[t].vertices;
-      for (std::uint8_t f = 0; f < 4; ++f) {
+      for (std::uint8_t f = 0; f < patch_.tetrahedra[t].corners(); ++f) {
         std::array<std::int32_t, 3> key{v[kOpposite[f][0]], v[kOpposite[f][1]], v[kOpposite[f][2]]};
-        if (!std::ranges::all_of(key, [&](std::int32_t i) { return known_.on(i); })) continue;
+        if (!std::ranges::all_of(key, [&](std::int32_t i) { return i < 0 || known_.on(i); })) continue;
         std::ranges::sort(key);
         sides.push_back({key, static_cast<std::int32_t>(t), f});
       }
@@ -98,18 +104,33 @@ class Opener {
     return known;
   }
 
+  /// Across a face, away from the tetrahedron; across an edge in the plane of its triangle.
+  [[nodiscard]] Vec3 outward(const Patch::Tetra& tetra, std::size_t face) const {
+    const auto corner = [&](std::size_t i) {
+      return patch_.vertex(tetra.vertices[kOpposite[face][i]]).place;
+    };
+    if (tetra.corners() == 4) return (corner(1) - corner(0)).cross(corner(2) - corner(0));
+    const Vec3& a = patch_.vertex(tetra.vertices[(face + 1) % 3]).place;
+    const Vec3& b = patch_.vertex(tetra.vertices[(face + 2) % 3]).place;
+    const Vec3 away = a - patch_.vertex(tetra.vertices[face]).place;
+    return (b - a).squaredNorm() * away - away.dot(b - a) * (b - a);
+  }
+
   /// Above what an earlier sweep of the incision opened, a tetrahedron is above the blade: 1; below: -1; at
   /// no such face: 0.
   [[nodiscard]] int side_of_earlier(const Patch::Tetra& tetra) const {
-    for (std::size_t f = 0; f < 4; ++f) {
+    for (std::size_t f = 0; f < tetra.corners(); ++f) {
       if ((tetra.cut >> f & 1U) == 0) continue;
-      const auto corner = [&](std::size_t i) { return tetra.vertices[kOpposite[f][i]]; };
-      if (!known_[corner(0)].before || !known_[corner(1)].before || !known_[corner(2)].before) continue;
-      const Vec3& a = patch_.vertex(corner(0)).place;
-      const Vec3& b = patch_.vertex(corner(1)).place;
-      const Vec3& c = patch_.vertex(corner(2)).place;
-      const Vec3 normal = nearest_normal(part_, all_, (a + b + c) / 3.0);
-      return (b - a).cross(c - a).dot(normal) < 0.0 ? 1 : -1;  // outward of the tetrahedron
+      Vec3 middle = Vec3::Zero();
+      bool before = true;
+      for (const std::uint8_t i : kOpposite[f]) {
+        const std::int32_t corner = tetra.vertices[i];
+        if (corner < 0) continue;
+        before = before && known_[corner].before;
+        middle += patch_.vertex(corner).place / static_cast<double>(tetra.corners() - 1);
+      }
+      if (!before) continue;
+      return outward(tetra, f).dot(nearest_normal(part_, all_, middle)) < 0.0 ? 1 : -1;
     }
     return 0;
   }
@@ -123,7 +144,8 @@ class Opener {
     bool all = true;
     Vec3 middle = Vec3::Zero();
     for (const std::int32_t v : tetra.vertices) {
-      middle += 0.25 * patch_.vertex(v).place;
+      if (v < 0) continue;
+      middle += patch_.vertex(v).place / static_cast<double>(tetra.corners());
       if (known_.on(v)) continue;
       all = false;
       sum += height_of(v);
@@ -137,18 +159,27 @@ class Opener {
   }
 
   [[nodiscard]] bool covered(const FaceSide& a, const FaceSide& b) const {
-    const auto before = std::ranges::count_if(a.key, [&](std::int32_t v) { return known_[v].before; });
-    if (before == 1 || before == 2) return true;  // the blade went from those to the others
-    std::array<Vec3, 3> met;
-    for (std::size_t i = 0; i < 3; ++i) met[i] = known_[a.key[i]].met;
-    const Vec3 mean = (met[0] + met[1] + met[2]) / 3.0;
+    const std::span<const std::int32_t> vertices = vertices_of(a);
+    const auto before = std::ranges::count_if(vertices, [&](std::int32_t v) { return known_[v].before; });
+    // The blade went from those to the others.
+    if (before > 0 && before < static_cast<std::ptrdiff_t>(vertices.size())) return true;
+    Vec3 mean = Vec3::Zero();
     double longest = 0.0;
-    for (std::size_t i = 0; i < 3; ++i) longest = std::max(longest, (met[i] - met[(i + 1) % 3]).norm());
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+      const Vec3& met = known_[vertices[i]].met;
+      mean += met;
+      longest = std::max(longest, (met - known_[vertices[(i + 1) % vertices.size()]].met).norm());
+    }
+    mean /= static_cast<double>(vertices.size());
     const double reach = kCoverShare * longest + kRoundOff * mean.cwiseAbs().maxCoeff();
     const auto within = [&](std::span<const std::int32_t> list) {
       return distance(part_, list, mean) <= reach;
     };
     return within(triangles(a.tetra)) || within(triangles(b.tetra)) || within(all_);
+  }
+
+  static std::span<const std::int32_t> vertices_of(const FaceSide& side) {
+    return std::span(side.key).subspan(side.key[0] < 0 ? 1 : 0);
   }
 
   void open(const FaceSide& a, const FaceSide& b) {
@@ -157,14 +188,24 @@ class Opener {
       tetra.cut |= static_cast<std::uint8_t>(1U << side.local);
       patch_.cells[at(tetra.cell)].opened = true;
     }
-    const auto corner = [&](std::size_t i) -> const Patch::Vertex& { return patch_.vertex(a.key[i]); };
+    const std::span<const std::int32_t> vertices = vertices_of(a);
+    const auto corner = [&](std::size_t i) -> const Patch::Vertex& { return patch_.vertex(vertices[i]); };
     const auto area = [](const Vec3& p, const Vec3& q, const Vec3& r) {
       return 0.5 * (q - p).cross(r - p).norm();
     };
     ++opened_.count;
-    opened_.area += area(corner(0).place, corner(1).place, corner(2).place);
-    opened_.rest_area += area(corner(0).rest, corner(1).rest, corner(2).rest);
-    opened_.vertices.insert(opened_.vertices.end(), a.key.begin(), a.key.end());
+    if (vertices.size() == 3) {
+      opened_.area += area(corner(0).place, corner(1).place, corner(2).place);
+      opened_.rest_area += area(corner(0).rest, corner(1).rest, corner(2).rest);
+    } else {
+      const auto thickness = [&](const FaceSide& side) {
+        return patch_.cell(patch_.tetra(side.tetra).cell).thickness;
+      };
+      const double mean = 0.5 * (thickness(a) + thickness(b));
+      opened_.area += mean * (corner(1).place - corner(0).place).norm();
+      opened_.rest_area += mean * (corner(1).rest - corner(0).rest).norm();
+    }
+    opened_.vertices.insert(opened_.vertices.end(), vertices.begin(), vertices.end());
   }
 
   Patch& patch_;

@@ -66,10 +66,10 @@ void Patch::add_cell(const Hosts& hosts, const Material& material, ConstReals x,
   const auto place = static_cast<std::int32_t>(cells.size());
   const auto stored = material.cells.find(number);
   const bool has_list = stored != material.cells.end();
-  cells.push_back({number, has_list, true, longest_edge(hosts, number)});
+  cells.push_back({number, has_list, true, longest_edge(hosts, number), hosts.thickness(number)});
   const auto add = [&](const MaterialTetra& tetra) {
-    Tetra& own = tetrahedra.emplace_back(Tetra{{}, place, tetra.cut});
-    for (std::size_t i = 0; i < 4; ++i) {
+    Tetra& own = tetrahedra.emplace_back(Tetra{{-1, -1, -1, -1}, place, tetra.cut});
+    for (std::size_t i = 0; i < tetra.corners(); ++i) {
       own.vertices[i] = vertex_of(tetra.vertices[i], hosts, material, x);
       at_[at(own.vertices[i])].push_back(static_cast<std::int32_t>(tetrahedra.size()) - 1);
     }
@@ -132,7 +132,7 @@ std::int32_t Patch::divide(std::int32_t p, std::int32_t q, double t) {
     std::ranges::replace(at_[at(q)], parent, other);
     at_.back().insert(at_.back().end(), {parent, other});
     for (const std::int32_t v : far.vertices) {
-      if (v != q && v != middle) at_[at(v)].push_back(other);
+      if (v >= 0 && v != q && v != middle) at_[at(v)].push_back(other);
     }
   }
   return middle;
@@ -141,7 +141,9 @@ std::int32_t Patch::divide(std::int32_t p, std::int32_t q, double t) {
 double Patch::rest_volume(const Tetra& tetra) const {
   const auto& v = tetra.vertices;
   const Vec3& a = vertex(v[0]).rest;
-  return (vertex(v[1]).rest - a).cross(vertex(v[2]).rest - a).dot(vertex(v[3]).rest - a) / 6.0;
+  const Vec3 twice = (vertex(v[1]).rest - a).cross(vertex(v[2]).rest - a);
+  if (tetra.corners() == 3) return 0.5 * twice.norm();
+  return twice.dot(vertex(v[3]).rest - a) / 6.0;
 }
 
 }  // namespace tissu

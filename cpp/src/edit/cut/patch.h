@@ -22,16 +22,20 @@ class Patch {
     Vec3 place;  ///< now [m]
     Vec3 rest;   ///< [m]
   };
+  /// Of a sheet a triangle: the last vertex is -1, and faces are edges.
   struct Tetra {
     std::array<std::int32_t, 4> vertices;
     std::int32_t cell;
     std::uint8_t cut;
+
+    [[nodiscard]] std::size_t corners() const { return vertices[3] < 0 ? 3 : 4; }
   };
   struct Cell {
     std::int32_t number;
-    bool stored;  ///< the material has a list for it
-    bool sound;   ///< every tetrahedron of it has a volume above 0 at rest
-    double size;  ///< longest edge of the first day [m]
+    bool stored;       ///< the material has a list for it
+    bool sound;        ///< every tetrahedron of it has a volume (triangle: area) above 0 at rest
+    double size;       ///< longest edge of the first day [m]
+    double thickness;  ///< of a sheet [m]; 1 for a volume
     bool divided = false;
     bool opened = false;
   };
@@ -59,6 +63,7 @@ class Patch {
   [[nodiscard]] const Vertex& vertex(std::int32_t i) const { return vertices[static_cast<std::size_t>(i)]; }
   [[nodiscard]] const Tetra& tetra(std::int32_t i) const { return tetrahedra[static_cast<std::size_t>(i)]; }
   [[nodiscard]] const Cell& cell(std::int32_t i) const { return cells[static_cast<std::size_t>(i)]; }
+  /// [m3], of a triangle its area [m2].
   [[nodiscard]] double rest_volume(const Tetra& tetra) const;
 
   std::vector<Vertex> vertices;
@@ -79,7 +84,8 @@ class Patch {
 /// (1 - t) p + t q, pairs of the same node added.
 Rider between(const Rider& p, const Rider& q, double t);
 
-/// The face of a tetrahedron that lies opposite to vertex i, anticlockwise seen from outside.
+/// The face of a tetrahedron that lies opposite to vertex i, anticlockwise seen from outside. Of a triangle,
+/// the first three: each has place 3, where no vertex is.
 inline constexpr std::array<std::array<std::uint8_t, 3>, 4> kOpposite{
     {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
 

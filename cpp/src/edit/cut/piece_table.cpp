@@ -14,12 +14,9 @@ namespace {
 
 std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
-double rest_volume(const Hosts& hosts, std::int32_t cell) {
+double whole_volume(const Hosts& hosts, std::int32_t cell) {
   double sum = 0.0;
-  for (const MaterialTetra& tetra : whole_material(hosts, cell)) {
-    const auto p = [&](std::size_t i) { return block(hosts.rest(), tetra.vertices[i]); };
-    sum += (p(1) - p(0)).cross(p(2) - p(0)).dot(p(3) - p(0)) / 6.0;
-  }
+  for (const MaterialTetra& tetra : whole_material(hosts, cell)) sum += rest_volume(hosts, {}, cell, tetra);
   return sum;
 }
 
@@ -113,7 +110,7 @@ PieceTable::PieceTable(const Hosts& hosts, const Material& material) : piece_(at
 }
 
 double PieceTable::volume(const Hosts& hosts, std::int32_t cell) const {
-  return hosts.share(cell) * rest_volume(hosts, cell);
+  return hosts.share(cell) * whole_volume(hosts, cell);
 }
 
 void PieceTable::begin(const Hosts& hosts, const CutPlan& plan) {

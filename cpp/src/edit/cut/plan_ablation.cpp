@@ -21,7 +21,8 @@ CutPlan plan_ablation(const Hosts& hosts, const Material& material, std::vector<
   std::vector<std::int32_t> parted;
   for (const Patch::Tetra& tetra : patch.tetrahedra) {
     if (!std::ranges::binary_search(cells, patch.cell(tetra.cell).number)) continue;
-    parted.insert(parted.end(), tetra.vertices.begin(), tetra.vertices.end());
+    const auto end = tetra.vertices.begin() + static_cast<std::ptrdiff_t>(tetra.corners());
+    parted.insert(parted.end(), tetra.vertices.begin(), end);
   }
   std::ranges::sort(parted);
   parted.erase(std::unique(parted.begin(), parted.end()), parted.end());

@@ -165,7 +165,9 @@ class Attempt {
               const std::vector<CrossedEdge>& edges) {
     for (const CrossedEdge& edge : edges) {
       for (const std::int32_t t : patch_.around(edge.p, edge.q)) {
-        for (const std::int32_t v : patch_.tetra(t).vertices) known.vertices[at(v)].on = true;
+        for (const std::int32_t v : patch_.tetra(t).vertices) {
+          if (v >= 0) known.vertices[at(v)].on = true;
+        }
       }
     }
     bool any = false;

@@ -24,6 +24,7 @@ class Hosts {
     std::int32_t origin;  ///< number of the first-day cell
     double share;         ///< of the volume of the first-day cell's material
     std::vector<std::int32_t> nodes;
+    double thickness = 1.0;  ///< of a sheet at rest [m]; 1 for a volume
   };
 
   /// The cells of a first day, numbered across the blocks.
@@ -42,6 +43,7 @@ class Hosts {
   [[nodiscard]] CellType type(std::int32_t cell) const { return slot(cell).type; }
   [[nodiscard]] std::int32_t origin(std::int32_t cell) const { return slot(cell).origin; }
   [[nodiscard]] double share(std::int32_t cell) const { return slot(cell).share; }
+  [[nodiscard]] double thickness(std::int32_t cell) const { return slot(cell).thickness; }
   [[nodiscard]] std::span<const std::int32_t> nodes(std::int32_t cell) const;
   [[nodiscard]] std::span<const std::int32_t> corners(std::int32_t cell) const;
 
@@ -75,6 +77,7 @@ class Hosts {
     double share;
     CellType type;
     std::int32_t cluster;
+    double thickness;
   };
   [[nodiscard]] const Slot& slot(std::int32_t cell) const { return cells_[static_cast<std::size_t>(cell)]; }
   void add(const Cell& cell, std::int32_t cluster);

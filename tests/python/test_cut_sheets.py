@@ -305,6 +305,36 @@ def test_bits_are_the_same_on_two_threads_after_a_rewind_and_from_a_checkpoint(
         np.testing.assert_array_equal(ends[0], end)
 
 
+@pytest.mark.parametrize("cells", [(24, 8, 0), (36, 12, 0)])
+def test_a_notched_strip_tears_through_in_a_line(cells: tuple[int, int, int]) -> None:
+    """Drawn out, it tears from the notch straight across, on both meshes in the same step or so."""
+    mesh = ts.bar_mesh(size=(0.12, 0.04, 0), cells=cells, cell="triangle")
+    soft = ts.StVK(young="100 kPa", poisson=0.3)
+    damped = ts.Rayleigh(mass=5, stiffness="5 ms")
+    way = [(0.06, -0.02, 0), (0.06, 0.0155, 0), (0.06, -0.02, 0)]
+    end, out = ts.Plane((0.12, 0, 0), (1, 0, 0)), ((0, 0, 0), (0.03, 0, 0))
+    simulation = scene(
+        sheet().replace(mesh=mesh, law=soft, viscosity=damped),
+        gravity=(0, 0, 0),
+        prescribed=[ts.Prescribed("sheet", on=end, times=(0.2, 1.2), displacements=out)],
+        instruments={"blade": knife((0, 0.1, 0.2), way)},
+        tear=[ts.Tear("sheet", strength="12 kPa", length="6 mm")],
+        step=ts.ImplicitEuler("20 ms"),
+    ).compile()
+    begun = None
+    for report in simulation.run(1.2):
+        assert report.converged
+        torn = [cut for cut in report.cuts if cut.by == "tear"]
+        begun = report.time if torn and begun is None else begun
+        assert len(torn) <= 1  # from the front of the notch alone
+        if len(simulation.pieces("sheet")) == 2:
+            break
+    assert begun == pytest.approx(0.47, abs=0.021)
+    one, other = simulation.pieces("sheet")
+    assert one.volume == pytest.approx(0.5 * 0.12 * 0.04 * 1e-3, rel=0.02)
+    assert one.volume + other.volume == pytest.approx(0.12 * 0.04 * 1e-3, rel=ROUND_OFF)
+
+
 def test_cells_go_and_what_hangs_by_a_node_parts() -> None:
     simulation = scene().compile()
     report = simulation.ablate("sheet", ts.Box(min=(0.2, -1, -1), max=(0.22, 1, 1)))

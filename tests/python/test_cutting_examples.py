@@ -29,6 +29,24 @@ def test_the_scalpel_leaves_one_incision(tmp_path: Path) -> None:
     assert abs(sum(cut["mass_change"] for cut in cuts)) < 1e-12
 
 
+def test_the_capsule_opens(tmp_path: Path) -> None:
+    job = Job(EXAMPLES / "capsule.yaml", tmp_path, None, None, quiet=True, picture=True)
+    assert run_scene(job) == 0
+    summary = json.loads((tmp_path / "summary.json").read_text(encoding="utf-8"))
+    cuts = summary["cuts"]
+    assert {cut["by"] for cut in cuts} == {"scalpel"}
+    assert len(cuts[-1]["pieces"]) == 1
+    assert abs(sum(cut["mass_change"] for cut in cuts)) < 1e-12
+    # Two legs of 22.4 mm; a front lies less than a cell of 3.3 mm behind each end.
+    length = sum(cut["area"] for cut in cuts) / 1e-3
+    assert 0.0447 - 2 * 0.0034 < length < 0.0447
+    # The last frame has the material, whose points move with it.
+    frames = sorted(tmp_path.rglob("*.vtu"))
+    assert len(frames) == 10
+    frame = ts.read_mesh(frames[-1])
+    assert len(frame.points) > 37 * 25 + 20
+
+
 def test_the_incision_opens_in_a_folder_that_is_not_there_yet(tmp_path: Path) -> None:
     program = runpy.run_path(str(EXAMPLES / "incision.py"))
     simulation = program["main"](tmp_path / "results")

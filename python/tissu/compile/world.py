@@ -243,3 +243,32 @@ def can_be_cut(prepared: Prepared, name: str) -> bool:
         return False
     volumes = all(dimension(g.cell_type) == 3 and not g.surface for g in groups)
     return volumes or all(g.cell_type == "triangle" for g in groups)
+
+
+def _add_tissue(builder: WorldBuilder, prepared: Prepared, name: str) -> None:
+    tissue, ready = prepared.scene.tissue[name], prepared.tissue[name]
+    law, made = tissue.law, type(tissue.law).made
+    builder.add_body(name=name, positions=np.array(ready.mesh.points), frames=True)
+    builder.add_points(
+        body=name,
+        shared=ready.shared,
+        frames=np.ascontiguousarray(ready.weights.frames, dtype=np.int32),
+        weights=np.ascontiguousarray(ready.weights.weights),
+        gradients=np.ascontiguousarray(ready.weights.gradients),
+        positions=np.ascontiguousarray(ready.points),
+        volumes=ready.volumes,
+        law=law.type,
+        parameters=parameters_of([law], np.zeros(1, dtype=np.int32)),
+        fibres=fibres_of([law], np.zeros(1, dtype=np.int32)),
+        loaded=None if made is None else made.build().loaded,
+        density=ready.density,
+        model=Frames(tangent=tissue.tangent).in_core(np.empty(0, dtype=np.int32)),
+    )
+
+
+def _rim_thickness(prepared: Prepared, name: str) -> float:
+    """Thickness [m] of the edges of a flat body; 0 of others, whose surface is made of faces."""
+    body = prepared.scene.bodies.get(name)
+    if body is None or body.plane is None or body.thickness is None:
+        return 0.0
+    return body.thickness

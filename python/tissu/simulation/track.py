@@ -25,10 +25,10 @@ class Anchors:
     """Places that go with the material.
 
     Attributes:
-        inside: whether each (m,) is in the material.
+        inside: whether each (m,) is in the material, or near a sheet.
         rows: rows of the unknowns (m, 4) that carry each, -1: none.
         weights: their weights (m, 4), which sum to one.
-        offsets: from there (m, 3) [m]; zero in the material.
+        offsets: from there (m, 3) [m]; zero in a volume.
     """
 
     inside: Bools

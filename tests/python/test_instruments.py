@@ -400,12 +400,12 @@ def test_what_cannot_be_is_refused_when_the_scene_is_read() -> None:
     tear = ts.Tear("bar", strength=1e4, length=0.02)
     refused(lambda: scene(knife, tear=[tear, tear]), "found a second tear of 'bar'")
     sheet = ts.Body(
-        mesh=ts.bar_mesh(size=(0.2, 0.1, 0.0), cells=(4, 2, 0), cell="triangle"),
+        mesh=ts.bar_mesh(size=(0.2, 0.1, 0.0), cells=(4, 2, 0), cell="quad"),
         law=ts.Hooke(young=1e5, poisson=0.3),
         density=1000.0,
         thickness=0.002,
     )
-    refused(lambda: scene(knife, bodies={"bar": sheet}).compile(), "volume cells are accepted")
+    refused(lambda: scene(knife, bodies={"bar": sheet}).compile(), "volume cells and triangles")
 
 
 def test_what_cannot_be_is_refused_while_it_runs() -> None:

@@ -17,9 +17,9 @@ from tissu.compile.prepare import prepare
 from tissu.compile.prepared import LoadedNodes, Prepared
 from tissu.compile.start import begin
 from tissu.compile.thin import cross_section_of
-from tissu.cutting.kinds import tough_knife_of
 from tissu.errors import ParameterError, SceneError
 from tissu.mesh.cell import dimension
+from tissu.scene.instrument import Knife
 from tissu.scene.load import Where
 from tissu.scene.model import Frames
 from tissu.scene.problem import Path as Place
@@ -116,8 +116,9 @@ def pressed_sheets(simulation: Simulation) -> list[Problem]:
     """Knives with a toughness, which press on volumes, in sheets."""
     found = []
     for name, tool in simulation.scene.instruments.items():
-        knife = tough_knife_of(tool)
-        for body in [] if knife is None else knife.cuts:
+        if not isinstance(tool, Knife) or tool.toughness is None:
+            continue
+        for body in tool.cuts:
             if simulation.meshes[body].volume_blocks:
                 continue
             text = f"found a toughness of a knife that cuts the sheet '{body}'; bodies of volume "

@@ -63,11 +63,11 @@ class Opener {
     std::vector<FaceSide> sides;
     for (std::size_t t = 0; t < patch_.tetrahedra.size(); ++t) {
       const auto& v = patch_.tetrahedra[t].vertices;
-      for (std::uint8_t f = 0; f < patch_.tetrahedra[t].corners(); ++f) {
+      for (std::size_t f = 0; f < patch_.tetrahedra[t].corners(); ++f) {
         std::array<std::int32_t, 3> key{v[kOpposite[f][0]], v[kOpposite[f][1]], v[kOpposite[f][2]]};
         if (!std::ranges::all_of(key, [&](std::int32_t i) { return i < 0 || known_.on(i); })) continue;
         std::ranges::sort(key);
-        sides.push_back({key, static_cast<std::int32_t>(t), f});
+        sides.push_back({key, static_cast<std::int32_t>(t), static_cast<std::uint8_t>(f)});
       }
     }
     std::ranges::sort(sides, [](const FaceSide& a, const FaceSide& b) {

@@ -31,6 +31,7 @@ constexpr double kTurned = 0.5;  ///< … and the next goes half its way
 constexpr int kMostLooks = 20;   ///< of a step whose equation is solved to its tolerance
 constexpr double kWorse = 2.0;
 constexpr double kRoundings = 16.0;  ///< in each row of what is left
+constexpr double kOfBlow = 0.2;  ///< of what contacts give: less goes into momentum where things only touch
 constexpr double kOfContacts = 0.5;  ///< of what contacts give, which is the load of what was at rest before
 
 std::string unsettled(int systems) {
@@ -160,7 +161,8 @@ bool StageSolver::solve_contacts(State& state, std::vector<double>& v, StepRepor
   // Levers of what is rigid are those of the latest places: the step is one of Newton's for contact.
   const State& levers = contact.surfaces().carriers().empty() ? stage_.base : state;
   bool solved = true;
-  const double noise = system_->round_off(stage_.base) / stage_.move;
+  const bool soft = contact.surfaces().carriers().empty();
+  const double noise = soft ? system_->round_off(stage_.base) / stage_.move : 0.0;
   double load = kFloor * reference_;  // of the first system: what is left of it is judged by it
   std::array<double, 3> changes{};    // of the contacts' forces, by the latest systems
   for (int i = 1;; ++i) {
@@ -176,9 +178,9 @@ bool StageSolver::solve_contacts(State& state, std::vector<double>& v, StepRepor
     system_->recouple(levers);
     std::ranges::fill(change_, 0.0);
     const double size = norm(right_);
-    load = std::max(load, size);
-    const double share = turns_back(changes) ? kTurned : 1.0;
-    const bool roughly = changes[0] > kRoughly * enough || share < 1.0;
+    if (soft) load = std::max(load, size);
+    const double share = soft && turns_back(changes) ? kTurned : 1.0;
+    const bool roughly = soft && (changes[0] > kRoughly * enough || share < 1.0);
     const double rough = kRough * std::min(1.0, changes[0]) * size;
     SolveReport found;
     if (!(size <= noise))
@@ -282,7 +284,10 @@ void StageSolver::solve_touching(State& state, std::vector<double>& v, StepRepor
     contact_->write(state);
     const double left = residual(state, v);
     const double noise = kRoundings * system_->round_off(state) / stage_.move;
-    const double most = std::max({kWorse * start_, kOfContacts * contact_impulse(), noise});
+    // A blow, whose impulse goes into momentum, is better seen in parts; a touch is held by what is elastic.
+    const double given = contact_impulse();
+    const bool is_touch = norm(momentum_) <= kOfBlow * given;
+    const double most = std::max({kWorse * start_, is_touch ? kOfContacts * given : 0.0, noise});
     report.hasty = report.hasty || !(left <= most + kFloor * reference_);
     contact_->finish(end, state);
   }

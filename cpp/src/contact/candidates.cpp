@@ -73,13 +73,19 @@ void Candidates::list_planes() {
 void Candidates::box(ConstReals from, ConstReals to, ConstReals sways) {
   const auto& primitives = surfaces_.primitives();
   needed_.resize(primitives.size());
+  ways_.resize(surfaces_.vertices().size());
+  for (std::size_t v = 0; v < ways_.size(); ++v) {
+    const auto number = static_cast<std::int32_t>(v);
+    ways_[v] = Box::none();
+    ways_[v].add(Vec3(block(from, number)));
+    ways_[v].add(Vec3(block(to, number)));
+  }
   for (std::size_t p = 0; p < primitives.size(); ++p) {
     Box box = Box::none();
     double radius = 0.0;
     for (int i = 0; i < primitives[p].corners; ++i) {
       const std::int32_t v = primitives[p].vertex[at(i)];
-      box.add(Vec3(block(from, v)));
-      box.add(Vec3(block(to, v)));
+      box.add(ways_[at(v)]);
       radius = std::max(radius, surfaces_.vertices()[at(v)].radius + (sways.empty() ? 0.0 : sways[at(v)]));
     }
     box.grow(radius + reach_[at(surfaces_.surface_of_primitive(static_cast<std::int32_t>(p)))]);
@@ -226,7 +232,8 @@ double Candidates::apart_at_rest(PairKind kind, const std::array<std::int32_t, 4
 
 std::size_t Candidates::bytes() const {
   return broad_->bytes() + list_.capacity() * sizeof(Candidate) + found_.capacity() * sizeof(BoxPair) +
-         (needed_.size() + searched_.size()) * sizeof(Box) + planes_.size() * sizeof(PlaneCandidate);
+         (ways_.size() + needed_.size() + searched_.size()) * sizeof(Box) +
+         planes_.size() * sizeof(PlaneCandidate);
 }
 
 }  // namespace tissu

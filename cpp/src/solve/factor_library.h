@@ -17,6 +17,10 @@
 // One thread in the dense kernels of the factor: sums in one order, so that the bits do not depend on the
 // machine.
 extern "C" void openblas_set_num_threads(int) __attribute__((weak));
+// CHOLMOD asks OpenMP for four threads in each supernode, however few the processors are; what they wait for
+// each other takes as long as the factor itself.
+extern "C" int omp_get_max_active_levels(void) __attribute__((weak));
+extern "C" void omp_set_max_active_levels(int) __attribute__((weak));
 #else
 #include <Eigen/SparseCholesky>
 #endif
@@ -38,6 +42,25 @@ struct FactorState {
 };
 
 #ifdef TISSU_HAVE_CHOLMOD
+
+/// OpenMP makes no threads while this lives.
+class WithoutThreads {
+ public:
+  WithoutThreads() {
+    if (is_there()) omp_set_max_active_levels(0);
+  }
+  ~WithoutThreads() {
+    if (is_there()) omp_set_max_active_levels(before_);
+  }
+  WithoutThreads(const WithoutThreads&) = delete;
+  WithoutThreads& operator=(const WithoutThreads&) = delete;
+
+ private:
+  static bool is_there() {
+    return omp_get_max_active_levels != nullptr && omp_set_max_active_levels != nullptr;
+  }
+  int before_ = is_there() ? omp_get_max_active_levels() : 0;
+};
 
 struct SparseFactor::Library : FactorState {
   static constexpr std::string_view kName = "CHOLMOD";
@@ -97,6 +120,7 @@ struct SparseFactor::Library : FactorState {
   }
   bool factorise() {
     cholmod_sparse A = view();
+    const WithoutThreads alone;
     cholmod_factorize(&A, factor, &common);
     if (common.status == CHOLMOD_OUT_OF_MEMORY || common.status == CHOLMOD_TOO_LARGE) {
       throw Error("the Cholesky factor does not fit into memory; use the solver conjugate_gradient.");

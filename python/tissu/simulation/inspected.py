@@ -225,8 +225,8 @@ class Inspected:
 
     def compliance(  # type: ignore[misc]
         self: Simulation,
-        *,
         by: Way = "factor",
+        *,
         tolerance: Number = 0.01,
         bodies: Sequence[str] | None = None,
     ) -> Compliance:

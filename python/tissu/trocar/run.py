@@ -53,6 +53,7 @@ class Trocars:
         self._touches: dict[str, Touch] = {}
         self._open = ExitStack()
         self._late = 0
+        self._behind = 0.0
         if realtime:
             return
         for name, trocar in simulation.scene.trocars.items():
@@ -79,7 +80,11 @@ class Trocars:
         self._open.close()
 
     def along(self, steps: Iterator[StepReport]) -> Iterator[StepReport]:
-        """The steps, each with the tools where the hands have them, and felt by these after it."""
+        """The steps, each with the tools where the hands have them, and felt by these after it.
+
+        In real time a step that took longer than it lasts is late. What it lost is not caught up:
+        the next one begins at once and has its whole time.
+        """
         begin, first = time.monotonic(), self.simulation.time
         while True:
             for touch in self._touches.values():
@@ -91,8 +96,11 @@ class Trocars:
                 self.felt[name].append(touch.hand_on())
             if self.realtime:
                 ahead = self.simulation.time - first - (time.monotonic() - begin)
-                self._late += ahead < 0.0
                 time.sleep(max(0.0, ahead))
+                if ahead < 0.0:
+                    self._late += 1
+                    self._behind -= ahead
+                    begin -= ahead
             yield report
 
     def summary(self) -> dict[str, Any]:
@@ -120,6 +128,7 @@ class Trocars:
                 timing = report.timing
                 found[name] |= {
                     "late_steps": self._late,
+                    "seconds_behind": self._behind,
                     "missed_ticks": timing.missed,
                     "lateness_p99": timing.lateness.p99,
                 }

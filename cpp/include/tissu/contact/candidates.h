@@ -84,6 +84,7 @@ class Candidates {
   std::vector<double> reach_;                  ///< of each surface: what its boxes are grown by [m]
   std::vector<double> skin_;
   std::unique_ptr<BroadPhase> broad_;
+  std::vector<Box> ways_;  ///< of each vertex: from where to where it goes
   std::vector<Box> needed_;
   std::vector<Box> searched_;
   std::vector<BoxPair> found_;

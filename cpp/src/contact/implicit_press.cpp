@@ -76,7 +76,7 @@ void ImplicitContact::find_stiffnesses(std::span<const double> blocks, double sc
   for (std::size_t i = 0; i < looked.size(); ++i) {
     if (!(shares[i] > 0.0)) continue;
     const double largest = compliance(looked[i], blocks).cwiseAbs().rowwise().sum().maxCoeff();
-    const double stiff = is_rigid(looked[i]) ? kStiffRigid : kStiff;
+    const double stiff = is_rigid(looked[i]) ? kStiffRigid * rigid_ : kStiff;
     if (largest > 0.0) stiffnesses[i] = stiff * run_.weight(i) * shares[i] / (largest * scale);
   }
 }

@@ -2,6 +2,7 @@
 /// looked at again after each system, which differs from the one before in couplings alone.
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "tissu/base/interruption.h"
@@ -20,6 +21,9 @@ constexpr double kDepthNewton = 1e-3;
 constexpr double kForce = 1e-2;       ///< of the contacts' forces: a smaller change needs no other system
 constexpr double kForceRigid = 1e-3;  ///< the same where a rigid body is free, which has no other forces
 constexpr int kPulled = 3;            ///< systems more for forces that pulled on something rigid
+constexpr int kPatience = 6;         ///< systems until contacts of rigid bodies become stiffer, …
+constexpr double kStiffer = 2.0;     ///< … by this for each, …
+constexpr double kStiffest = 1024.0; ///< … no further than this
 constexpr double kForceNewton = 1e-3;
 constexpr int kMostLooks = 20;  ///< of a step whose equation is solved to its tolerance
 constexpr double kWorse = 2.0;
@@ -174,6 +178,9 @@ bool StageSolver::solve_contacts(State& state, std::vector<double>& v, StepRepor
     end = &end_of(state);
     update_contacts(*end);
     report.held_back = hold_back(*end);
+    if (enough < kForce && i >= kPatience) {
+      contact_->set_stiffer_rigid(std::min(kStiffest, std::pow(kStiffer, i + 1 - kPatience)));
+    }
     const double other = look(*end);
     // A force that pulled is gone in the next look, and with it what it did to a rigid body.
     const bool pulled = enough < kForce && i <= kPulled && contact_->inadmissible() > kForce;

@@ -2,7 +2,6 @@
 /// looked at again after each system, which differs from the one before in couplings alone.
 
 #include <algorithm>
-#include <cmath>
 #include <string>
 
 #include "tissu/base/interruption.h"
@@ -21,9 +20,10 @@ constexpr double kDepthNewton = 1e-3;
 constexpr double kForce = 1e-2;       ///< of the contacts' forces: a smaller change needs no other system
 constexpr double kForceRigid = 1e-3;  ///< the same where a rigid body is free, which has no other forces
 constexpr int kPulled = 3;            ///< systems more for forces that pulled on something rigid
-constexpr int kPatience = 6;         ///< systems until contacts of rigid bodies become stiffer, …
-constexpr double kStiffer = 2.0;     ///< … by this for each, …
-constexpr double kStiffest = 1024.0; ///< … no further than this
+// Contacts of rigid bodies that neither pull nor exceed friction, and only lack force, become stiffer.
+constexpr int kPatience = 6;       ///< so many systems later …
+constexpr double kStiffer = 2.0;   ///< … by this for each, …
+constexpr double kStiffest = 64.0;  ///< … no further than this
 constexpr double kForceNewton = 1e-3;
 constexpr int kMostLooks = 20;  ///< of a step whose equation is solved to its tolerance
 constexpr double kWorse = 2.0;
@@ -150,6 +150,8 @@ bool StageSolver::solve_contacts(State& state, std::vector<double>& v, StepRepor
   // Levers of what is rigid are those of the latest places: the step is one of Newton's for contact.
   const State& levers = contact.surfaces().carriers().empty() ? stage_.base : state;
   bool solved = true;
+  const bool several = contact.surfaces().carriers().size() > 1;  // one may lie on another
+  double stiffer = 1.0;
   for (int i = 1;; ++i) {
     set_contacts(state);
     place(state, v);
@@ -178,8 +180,9 @@ bool StageSolver::solve_contacts(State& state, std::vector<double>& v, StepRepor
     end = &end_of(state);
     update_contacts(*end);
     report.held_back = hold_back(*end);
-    if (enough < kForce && i >= kPatience) {
-      contact_->set_stiffer_rigid(std::min(kStiffest, std::pow(kStiffer, i + 1 - kPatience)));
+    if (several && i >= kPatience && contact_->inadmissible() <= kForce) {
+      stiffer = std::min(kStiffest, kStiffer * stiffer);
+      contact_->set_stiffer_rigid(stiffer);
     }
     const double other = look(*end);
     // A force that pulled is gone in the next look, and with it what it did to a rigid body.

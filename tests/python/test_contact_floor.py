@@ -36,7 +36,9 @@ def floor(cells: int, digits: int | None = None) -> ts.MeshObstacle:
 def turned(angle: float) -> np.ndarray:
     """Two rotations after each other, about x and y."""
     c, s = np.cos(angle), np.sin(angle)
-    return np.array([[1, 0, 0], [0, c, -s], [0, s, c]]) @ np.array([[c, 0, s], [0, 1, 0], [-s, 0, c]])
+    return np.array([[1, 0, 0], [0, c, -s], [0, s, c]]) @ np.array(
+        [[c, 0, s], [0, 1, 0], [-s, 0, c]]
+    )
 
 
 PLANE = ts.PlaneObstacle((0, 0, 0), (0, 0, 1))
@@ -139,7 +141,7 @@ def test_a_curved_floor_is_not_taken_for_a_plane() -> None:
     """
     angles = np.linspace(-0.8, 0.8, 1601)
     arc = 0.05 * np.stack([np.sin(angles), 0 * angles, np.cos(angles) - 1.0], axis=1)
-    points = np.concatenate([arc + (0, y, 0) for y in (-0.03, 0.03)])
+    points = np.concatenate([arc + np.array([0, y, 0]) for y in (-0.03, 0.03)])
     a = np.arange(1600)
     triangles = np.concatenate(
         [np.stack([a, a + 1, a + 1602], 1), np.stack([a, a + 1602, a + 1601], 1)]

@@ -229,6 +229,8 @@ def test_a_stiffness_of_contacts_without_an_area_is_refused(step):
         with pytest.raises(ts.SceneError) as error:
             scene.compile()
         (text,) = error.value.problems
-        assert f"found 1e+06 Pa/m for '{thin}', whose contacts with 'table' have no area" in str(text)
+        assert f"found 1e+06 Pa/m for '{thin}', whose contacts with 'table' have no area" in str(
+            text
+        )
         left_out = scene.contacts[0].replace(stiffness=None)
         scene.replace(contacts=[left_out]).compile()

@@ -57,8 +57,9 @@ class ImplicitContact {
   /// How many times stiffer than that multipliers are against coming nearer, and against sliding: 1, as at
   /// first.
   void set_stiffer(double normal, double tangent);
-  /// Against coming nearer, the same of contacts that move nothing soft, until the step is over: where a heavy body presses on a
-  /// light one, the light one says how stiff they are, and the multipliers reach the heavy one's slowly.
+  /// Against coming nearer, the same of contacts that move nothing soft, until the step is over: where a
+  /// heavy body presses on a light one, the light one says how stiff they are, and the multipliers reach the
+  /// heavy one's slowly.
   void set_stiffer_rigid(double times) { rigid_ = times; }
   /// Contacts at the places of `at`, with the multipliers of those that were there before. By how much their
   /// forces differ from those of the latest solve, as a share.

@@ -175,3 +175,62 @@ def test_the_same_bits_from_a_checkpoint(threads, tmp_path):
     audited(simulation, 20)
     audited(other, 20)
     assert state(other) == state(simulation)
+
+
+def probed(stiffness):
+    """A block whose bottom is held, under a ball that is as thick as two of its cells."""
+    mesh = ts.BarMesh(size=(0.06, 0.06, 0.03), cells=(3, 3, 2), cell="hexahedron")
+    body = ts.Body(mesh=mesh, law=ts.StableNeoHooke(young=1e6, poisson=0.3), density=1000.0)
+    path = ts.Motion(times=(0, 0.1), displacements=((0, 0, 0), (0, 0, -0.5 * GAP)))
+    ball = ts.SphereObstacle((0.025, 0.035, 0.05 + 2 * GAP), radius=0.02, motion=path)
+    return ts.Scene(
+        bodies={"block": body},
+        obstacles={"ball": ball},
+        contacts=[ts.Contact(("block", "ball"), gap=GAP, stiffness=stiffness)],
+        contact=method("penalty"),
+        fixed=[ts.Fixed(body="block", on=ts.Plane((0, 0, 0), (0, 0, 1)))],
+        step=ts.ImplicitEuler("5 ms"),
+    )
+
+
+def test_a_round_tool_before_a_face_has_the_stiffness_that_was_given():
+    """The force on the ball doubles with the stiffness, as far as the block does not give way."""
+    forces = []
+    for stiffness in (1e4, 2e4):
+        simulation = probed(stiffness).compile()
+        audited(simulation, 40)
+        assert len(simulation.contacts()) > 0
+        forces.append(simulation.force_on("ball").force[2])
+    assert forces[0] > 0.0
+    assert forces[1] == pytest.approx(2.0 * forces[0], rel=2e-2)
+
+
+ROPE = ts.Body(
+    mesh=ts.BarMesh(size=(0.2, 0, 0), cells=(10, 0, 0), cell="line", origin=(0, 0, 0.02)),
+    law=ts.StVK(young=1e5, poisson=0.3),
+    density=1000.0,
+    section=5e-5,
+)
+TABLE = ts.PlaneObstacle((0, 0, 0), (0, 0, 1))
+
+
+@pytest.mark.parametrize("step", [ts.ImplicitEuler("1 ms"), ts.SymplecticEuler("0.1 ms")])
+def test_a_stiffness_of_contacts_without_an_area_is_refused(step):
+    """It was ignored: pascal per metre of no area give no force."""
+    ball = ts.SphereObstacle((0, 0, 0.05), radius=0.01, mass=0.1)
+    for thin, bodies in (("rope", {"rope": ROPE}), ("ball", {})):
+        scene = ts.Scene(
+            bodies=bodies,
+            obstacles={"table": TABLE, **({} if bodies else {"ball": ball})},
+            contacts=[ts.Contact((thin, "table"), stiffness=1e6, gap=GAP)],
+            contact=method("penalty"),
+            step=step,
+        )
+        with pytest.raises(ts.SceneError) as error:
+            scene.compile()
+        (text,) = error.value.problems
+        assert f"found 1e+06 Pa/m for '{thin}', whose contacts with 'table' have no area" in str(
+            text
+        )
+        left_out = scene.contacts[0].replace(stiffness=None)
+        scene.replace(contacts=[left_out]).compile()

@@ -50,10 +50,7 @@ bool ContactRun::find_plainly(const Candidate& candidate, double reach, Found& f
       std::any_of(closest.beta.begin(), closest.beta.begin() + count, [](double b) { return b == 0.0; });
   if (at_end && !every_pair_) return false;
   const SurfaceSet& surfaces = contact_.surfaces();
-  if (candidate.kind == PairKind::edge_edge &&
-      (is_flat_edge(surfaces, candidate.a) || is_flat_edge(surfaces, candidate.b))) {
-    return false;
-  }
+  if (is_of_flat(surfaces, candidate)) return false;
   if (candidate.kind == PairKind::vertex_face && at_end &&
       is_before_neighbour(surfaces, now_, candidate, closest)) {
     return false;

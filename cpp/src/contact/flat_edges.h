@@ -1,15 +1,16 @@
 #pragma once
 
-/// Edges inside a plane of what is rigid. The faces beside such an edge meet all that lies before it, so that
-/// the edge by itself would only push sideways, and add friction to theirs.
+/// Edges and vertices inside a plane of what is rigid (`SurfaceEdge::is_flat`, `SurfaceVertex::is_flat`). The
+/// faces there meet the vertices of all that lies before them, so that the edges and vertices by themselves
+/// would only push sideways, and add friction to theirs.
 
 #include "tissu/contact/candidates.h"
 #include "tissu/contact/closest.h"
 
 namespace tissu {
 
-/// Nothing bends the edge, and the two faces beside it lie in one plane.
-bool is_flat_edge(const SurfaceSet& surfaces, std::int32_t edge);
+/// Whether a candidate consists of such an edge, or of such a vertex and something that has its own vertices.
+bool is_of_flat(const SurfaceSet& surfaces, const Candidate& candidate);
 
 /// A vertex before a face, nearest to it at its rim: whether a face beside it, in the same plane and rigid
 /// too, is nearer to the vertex, so that it alone meets the vertex.

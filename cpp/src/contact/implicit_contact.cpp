@@ -40,6 +40,7 @@ void ImplicitContact::begin(const State& start, double end, ConstReals led, Cons
   start_ = &start;
   h_ = end - start.time;
   alternations_ = 0;
+  rigid_ = 1.0;
   bodies_.begin(start, load);
   run_.begin(start, end, led);
 }

@@ -76,7 +76,7 @@ void ImplicitContact::find_stiffnesses(std::span<const double> blocks, double sc
   for (std::size_t i = 0; i < looked.size(); ++i) {
     if (!(shares[i] > 0.0)) continue;
     const double largest = compliance(looked[i], blocks).cwiseAbs().rowwise().sum().maxCoeff();
-    const double stiff = is_rigid(looked[i]) ? kStiffRigid : kStiff;
+    const double stiff = is_rigid(looked[i]) ? kStiffRigid * rigid_ : kStiff;
     if (largest > 0.0) stiffnesses[i] = stiff * run_.weight(i) * shares[i] / (largest * scale);
   }
 }
@@ -94,7 +94,10 @@ void ImplicitContact::press_all() {
     if (!force) continue;
     const double friction = pair_of(c).friction;
     if (friction == 0.0) c.sliding = 0.0;
-    if (friction > 0.0) rub(c, friction * std::max(0.0, *force), tangent * stiffnesses_[i]);
+    if (friction > 0.0) {
+      const double k = rigid_ > 1.0 && is_rigid(c) ? stiffnesses_[i] / rigid_ : stiffnesses_[i];
+      rub(c, friction * std::max(0.0, *force), tangent * k);
+    }
     pressing_.push_back(c);
   }
 }

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "flat_edges.h"
 #include "tissu/contact/closest.h"
 
 namespace tissu {
@@ -22,13 +21,15 @@ class Narrow {
       : surfaces_(surfaces), places_(places), found_(found) {}
 
   bool vertex_face(const Candidate& candidate, double reach) {
+    if (is_flat(candidate.vertex[0])) return false;
     Part part{};
     const Closest closest = closest_point_triangle(points(candidate), part);
     if (!take(candidate, closest, reach)) return false;
     const std::int32_t v = candidate.vertex[0];
     const std::int32_t face = candidate.b;
     if (part == Part::interior) {
-      found_.area = shared_area(v, candidate.vertex[1]);
+      found_.area = surfaces_.vertices()[at(v)].has_faces ? shared_area(v, candidate.vertex[1])
+                                                          : area_before_round(candidate, closest);
       return is_outside(face, closest.r, 1.0);
     }
     const auto& corners = surfaces_.primitives()[at(face)].vertex;
@@ -50,11 +51,12 @@ class Narrow {
     const Closest closest = closest_point_edge(points(candidate), part);
     if (!take(candidate, closest, reach)) return false;
     const std::int32_t v = candidate.vertex[0];
-    if (part == Part::interior) return vertex_edge(v, candidate.b, closest);
+    if (part == Part::interior) return !is_flat(v) && vertex_edge(v, candidate.b, closest);
     const std::int32_t w = candidate.vertex[part == Part::vertex0 ? 1 : 2];
     if (surfaces_.vertices()[at(w)].has_faces) return false;
-    if (surfaces_.vertices()[at(v)].has_faces)
-      return is_lowest_edge(w, candidate.b) && before_end(v, w, closest);
+    if (surfaces_.vertices()[at(v)].has_faces) {
+      return is_lowest_edge(w, candidate.b) && is_straight_before(v, -closest.r) && before_end(v, w, closest);
+    }
     const bool other_finds = !surfaces_.vertices()[at(v)].is_lone && v > w;
     return is_lowest_edge(w, candidate.b) && !other_finds && vertex_vertex(v, w, closest);
   }
@@ -65,10 +67,10 @@ class Narrow {
     const Closest closest = closest_edge_edge(points(candidate), first, second);
     if (first != Part::interior || second != Part::interior) return false;
     if (!take(candidate, closest, reach)) return false;
-    if (is_flat_edge(surfaces_, candidate.a) || is_flat_edge(surfaces_, candidate.b)) return false;
-    if (!is_in_fan(candidate.a, -closest.r) || !is_in_fan(candidate.b, closest.r)) return false;
     const SurfaceEdge& e = surfaces_.edges()[at(candidate.a)];
     const SurfaceEdge& f = surfaces_.edges()[at(candidate.b)];
+    if (e.is_flat || f.is_flat) return false;
+    if (!is_in_fan(candidate.a, -closest.r) || !is_in_fan(candidate.b, closest.r)) return false;
     found_.weight = weight_of_edges(surfaces_, places_, candidate.a, candidate.b);
     found_.area = 0.25 * (edge_area(e) + edge_area(f));
     return found_.weight > 0.0;
@@ -77,12 +79,15 @@ class Narrow {
   bool points_alone(const Candidate& candidate, double reach) {
     const Vec3 r = place(candidate.vertex[0]) - place(candidate.vertex[1]);
     if (!take(candidate, {{1.0, -1.0, 0.0, 0.0}, r, r.squaredNorm()}, reach)) return false;
+    if (!is_straight_before(candidate.vertex[0], -r)) return false;
     found_.area = shared_area(candidate.vertex[0], candidate.vertex[1]);
     return true;
   }
 
  private:
   [[nodiscard]] Vec3 place(std::int32_t v) const { return block(places_, v); }
+  /// The vertices of what comes near meet the plane itself.
+  [[nodiscard]] bool is_flat(std::int32_t v) const { return surfaces_.vertices()[at(v)].is_flat; }
   [[nodiscard]] std::array<Vec3, 4> points(const Candidate& candidate) const {
     std::array<Vec3, 4> p{};
     for (int i = 0; i < vertices_of(candidate.kind); ++i) p[at(i)] = place(candidate.vertex[at(i)]);
@@ -128,6 +133,11 @@ class Narrow {
       const Vec3 along = place(u) - place(of);
       return r.dot(along) > kFan * r.norm() * along.norm();
     });
+  }
+
+  /// What is round and not straight before a vertex inside a plane is before a face of it.
+  [[nodiscard]] bool is_straight_before(std::int32_t v, const Vec3& r) const {
+    return !is_flat(v) || !is_before_edges(v, r);
   }
 
   /// Before the round end w, whatever side v is seen from: inside its radius is inside. A dent that follows
@@ -190,6 +200,14 @@ class Narrow {
   [[nodiscard]] double shared_area(std::int32_t v, std::int32_t other) const {
     const double area = surfaces_.vertices()[at(v)].area;
     return surfaces_.vertices()[at(other)].is_free() ? 0.5 * area : area;
+  }
+  /// What is round has no area: that of the face's corners, by their weights.
+  [[nodiscard]] double area_before_round(const Candidate& candidate, const Closest& closest) const {
+    double sum = 0.0;
+    for (std::size_t k = 1; k < 4; ++k) {
+      sum -= closest.beta[k] * surfaces_.vertices()[at(candidate.vertex[k])].area;
+    }
+    return sum;
   }
   [[nodiscard]] double edge_area(const SurfaceEdge& e) const {
     double sum = 0.0;

@@ -258,9 +258,10 @@ void PushAhead::refuse(const LedMotion& motion, double way) const {
                " m a step are accepted. Take dt = " + number_text(0.5 * h * kMostParts * part_ / way) +
                " s or less, or lead it more slowly.";
   } else {
-    message += ", and leaves no room";
-    if (culprit_ >= 0) message += " for " + name(culprit_);
-    if (other_ >= 0) message += " and " + name(other_);
+    const bool alone = culprit_ >= 0 && other_ >= 0 && name(culprit_) == name(other_);
+    message += alone ? ", and leaves no room between parts" : ", and leaves no room";
+    if (culprit_ >= 0) message += (alone ? " of " : " for ") + name(culprit_);
+    if (other_ >= 0 && !alone) message += " and " + name(other_);
     message += ". Lead it elsewhere, or more slowly, so that what it pushes can give way.";
   }
   const std::string body =

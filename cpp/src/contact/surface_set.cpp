@@ -107,6 +107,10 @@ void SurfaceSet::add(const SurfaceDescription& description, std::int32_t first_r
   const std::vector<std::int32_t> crowded = add_edges(first_primitive, first_vertex);
   if (description.closed) part_wedges(crowded, first_primitive, first_edge);
   measure(first_primitive, first_edge);
+  if (obstacle >= 0) {
+    mark_flat(first_primitive, first_edge);
+    mark_flat_vertices(first_vertex, first_edge);
+  }
   surfaces_.push_back({description.name, first_vertex, static_cast<std::int32_t>(vertices_.size()),
                        description.closed, obstacle, -1, first_row});
   first_primitive_.push_back(static_cast<std::int32_t>(primitives_.size()));

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "tissu/base/number_text.h"
+#include "tissu/contact/contact.h"
 
 namespace tissu {
 
@@ -17,7 +18,9 @@ Energy energy_of(const World& world, const State& state, Scratch& scratch) {
 }
 
 bool EnergyWatch::can_watch(const World& world) {
-  if (world.fixed().moves() || !world.frames().empty()) return false;
+  const Contact* contact = world.contact();
+  const std::size_t rigid = contact == nullptr ? 0 : contact->surfaces().carriers().size();
+  if (world.fixed().moves() || world.frames().size() > rigid) return false;
   return std::ranges::none_of(world.forces(), [](const auto& model) { return model->may_add_energy(); });
 }
 

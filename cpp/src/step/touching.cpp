@@ -21,6 +21,10 @@ constexpr double kDepthNewton = 1e-3;
 constexpr double kForce = 1e-2;       ///< of the contacts' forces: a smaller change needs no other system
 constexpr double kForceRigid = 1e-3;  ///< the same where a rigid body is free, which has no other forces
 constexpr int kPulled = 3;            ///< systems more for forces that pulled on something rigid
+// Contacts of rigid bodies that neither pull nor exceed friction, and only lack force, become stiffer.
+constexpr int kPatience = 6;        ///< so many systems later …
+constexpr double kStiffer = 2.0;    ///< … by this for each, …
+constexpr double kStiffest = 64.0;  ///< … no further than this
 constexpr double kForceNewton = 1e-3;
 constexpr double kRoughly =
     10.0;                       ///< times that: the next system is one of several, and is solved roughly, …
@@ -165,6 +169,8 @@ bool StageSolver::solve_contacts(State& state, std::vector<double>& v, StepRepor
   const double noise = soft ? system_->round_off(stage_.base) / stage_.move : 0.0;
   double load = kFloor * reference_;  // of the first system: what is left of it is judged by it
   std::array<double, 3> changes{};    // of the contacts' forces, by the latest systems
+  const bool several = contact.surfaces().carriers().size() > 1;  // one may lie on another
+  double stiffer = 1.0;
   for (int i = 1;; ++i) {
     set_contacts(state);
     place(state, v);
@@ -202,6 +208,10 @@ bool StageSolver::solve_contacts(State& state, std::vector<double>& v, StepRepor
     end = &end_of(state);
     update_contacts(*end);
     report.held_back = hold_back(*end);
+    if (several && i >= kPatience && contact_->inadmissible() <= kForce) {
+      stiffer = std::min(kStiffest, kStiffer * stiffer);
+      contact_->set_stiffer_rigid(stiffer);
+    }
     const double other = look(*end);
     // A force that pulled is gone in the next look, and with it what it did to a rigid body.
     const bool pulled = enough < kForce && i <= kPulled && contact_->inadmissible() > kForce;

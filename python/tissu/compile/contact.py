@@ -183,6 +183,14 @@ def _prepare_pairs(
             nodes = _met_nodes(prepared, surfaces[first], path, contact, first)
         if nodes is None:
             return
+        if contact.stiffness is not None:
+            thin = _without_area(made, surfaces, first, second)
+            if thin is not None:
+                text = f"found {contact.stiffness:g} Pa/m for '{thin}', whose contacts with "
+                text += f"'{second if thin == first else first}' have no area; leave it out: the "
+                text += "stiffness then comes from the masses, or from the body"
+                prepared.findings.problem((*path, "stiffness"), text)
+                return
         edge = _finest_edge(made, surfaces, first, second)
         gaps.append(GAP * edge if contact.gap is None else contact.gap)
         finest = edge if not finest else min(finest, edge)
@@ -203,6 +211,25 @@ def _prepare_pairs(
             f"surface edge, {finest:.4g} m; the barrier is lost in round-off there, so that steps "
             f"do not converge: take {least:.1g} m or more"
         )
+
+
+def _without_area(
+    made: PreparedContact, surfaces: dict[str, ContactSurface], first: str, second: str
+) -> str | None:
+    """Which of two has contacts without an area: a body with lines, or a round free obstacle.
+
+    What is round meets the faces of a body on their area, but other obstacles at points.
+    """
+    for name in (first, second):
+        if name in surfaces and len(surfaces[name].edges):
+            return name
+    if first in surfaces or second in surfaces:
+        return None
+    for name in (first, second):
+        surface = made.obstacles[name].surface
+        if surface is not None and not len(surface.triangles):
+            return name
+    return None
 
 
 def _finest_edge(

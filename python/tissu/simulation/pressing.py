@@ -35,8 +35,6 @@ _LAG = 0.1
 """of a point behind the tool when the material gives way, as a share of a cell's mean edge"""
 _LEAST_ADVANCE = 0.2
 """of a point before the edge cuts on, as a share of a cell's mean edge; see `slicing.LEAST_WAY`"""
-_LEAST_SHARE = 0.002
-"""the same of each of its other points that go on with it"""
 _LANE = 1 << 20
 """numbers of springs of one track"""
 _MOST_PARTS, _MOST_PLACES = 4096, 256
@@ -69,7 +67,7 @@ def cut_pressing(
     inside, pushes = track.rows[-1].inside, _pushes(track, tool, positions)
     # All that have given way go on together, as soon as one of them is far enough behind: an edge
     # whose points go on one by one would cut in strips that are too narrow to say what they part.
-    gives_way = inside & pushes & (length > (_LAG + _LEAST_SHARE) * size)
+    gives_way = inside & pushes & (length > _LAG * size)
     gives_way &= bool((length[gives_way] > (_LAG + _LEAST_ADVANCE) * size).any())
     free = ~inside | (inside & ~pushes & (length > size))
     now = replace(track, poses=(pose,))

@@ -57,6 +57,10 @@ class ImplicitContact {
   /// How many times stiffer than that multipliers are against coming nearer, and against sliding: 1, as at
   /// first.
   void set_stiffer(double normal, double tangent);
+  /// Against coming nearer, the same of contacts that move nothing soft, until the step is over: where a
+  /// heavy body presses on a light one, the light one says how stiff they are, and the multipliers reach the
+  /// heavy one's slowly.
+  void set_stiffer_rigid(double times) { rigid_ = times; }
   /// Contacts at the places of `at`, with the multipliers of those that were there before. By how much their
   /// forces differ from those of the latest solve, as a share.
   double look(const State& at);
@@ -135,6 +139,7 @@ class ImplicitContact {
   double scale_ = 0.0;
   double normal_ = 1.0;                   ///< times stiffer
   double tangent_ = 1.0;                  ///< times stiffer
+  double rigid_ = 1.0;                    ///< times stiffer
   std::vector<ContactNumbers> pressing_;  ///< of the latest look
   std::vector<double> stiffnesses_;       ///< of what was looked at; shares where it has its own
   std::vector<double> shares_;            ///< of what was looked at: 1 where it may press

@@ -28,6 +28,7 @@ struct SurfaceEdge {
   std::array<std::int32_t, 2> face = {-1, -1};    ///< the first two triangles beside it
   std::array<std::int32_t, 2> across = {-1, -1};  ///< the vertex of each that is not on the edge
   double length = 0.0;                            ///< at rest [m]
+  bool is_flat = false;                           ///< inside a plane of what is rigid
   [[nodiscard]] bool is_lone() const { return face[0] < 0; }
 };
 
@@ -55,6 +56,7 @@ struct SurfaceVertex {
   double area = 0.0;    ///< a third of its triangles' at rest [m2]
   bool has_faces = false;
   bool is_lone = false;  ///< it has no edge
+  bool is_flat = false;  ///< all its edges are
   /// Unknowns move it; else it is at rest or led.
   [[nodiscard]] bool is_free() const { return row >= 0 || carrier >= 0 || rider >= 0; }
   /// What moves it is deformed.
@@ -151,6 +153,10 @@ class SurfaceSet {
                    std::int32_t first_edge);
   void measure(std::int32_t first_primitive, std::int32_t first_edge);
   void list_neighbours();
+  // flat_edges.cpp
+  /// Marks the edges and vertices inside planes of the latest surface, which is rigid.
+  void mark_flat(std::int32_t first_primitive, std::int32_t first_edge);
+  void mark_flat_vertices(std::int32_t first_vertex, std::int32_t first_edge);
   // surface_riders.cpp
   /// A vertex of the latest body that nodes carry; its place at rest.
   Vec3 ride(const SurfaceRiders& riders, std::size_t number, std::int32_t first_row, SurfaceVertex& vertex,

@@ -38,9 +38,17 @@ SurfaceSet::SurfaceSet(const ContactDescription& description, std::span<const st
   for (std::size_t i = 0; i < description.bodies.size(); ++i) {
     add(description.bodies[i], first_node[i], -1, rest);
   }
+  // In implicit steps vertices inside a plane stay: they hold what lies on them with more points, and push
+  // along the normal of a face.
+  const bool is_explicit = description.method == ContactMethod::penalty ||
+                           description.method == ContactMethod::impulse ||
+                           description.method == ContactMethod::geometric;
   for (std::size_t i = 0; i < description.obstacles.size(); ++i) {
     const ObstacleDescription& obstacle = description.obstacles[i];
+    const auto first_vertex = static_cast<std::int32_t>(vertices_.size());
+    const auto first_edge = static_cast<std::int32_t>(edges_.size());
     add(obstacle.surface, -1, static_cast<std::int32_t>(i), rest);
+    if (is_explicit) mark_flat_vertices(first_vertex, first_edge);
     if (obstacle.frame >= 0) carry(frames[at(obstacle.frame)], obstacle.frame, obstacle.origin);
   }
   list_by(owner_, primitives_.size(), own_vertex_begin_, own_vertex_);
@@ -107,10 +115,7 @@ void SurfaceSet::add(const SurfaceDescription& description, std::int32_t first_r
   const std::vector<std::int32_t> crowded = add_edges(first_primitive, first_vertex);
   if (description.closed) part_wedges(crowded, first_primitive, first_edge);
   measure(first_primitive, first_edge);
-  if (obstacle >= 0) {
-    mark_flat(first_primitive, first_edge);
-    mark_flat_vertices(first_vertex, first_edge);
-  }
+  if (obstacle >= 0) mark_flat(first_primitive, first_edge);
   surfaces_.push_back({description.name, first_vertex, static_cast<std::int32_t>(vertices_.size()),
                        description.closed, obstacle, -1, first_row});
   first_primitive_.push_back(static_cast<std::int32_t>(primitives_.size()));

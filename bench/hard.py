@@ -92,7 +92,7 @@ def rows(folder: Path, columns: list[str], notes: list[str]) -> list[str]:
             print(f"{name:24} {method:18} {spent:6.1f} s  {found}", file=sys.stderr, flush=True)
         own = columns.index(scene.step.type)
         entries[own] = f"**{entries[own]}**"
-        link = f"[{name}](../{folder.relative_to(ROOT)}/{name}.yaml)"
+        link = f"[{name}](../../{folder.relative_to(ROOT)}/{name}.yaml)"
         lines.append(f"| {link} | " + " | ".join(entries) + " |")
     return lines
 

@@ -2,7 +2,6 @@
 /// looked at again after each system, which differs from the one before in couplings alone.
 
 #include <algorithm>
-#include <array>
 #include <string>
 
 #include "tissu/base/interruption.h"
@@ -26,28 +25,14 @@ constexpr int kPatience = 6;        ///< so many systems later …
 constexpr double kStiffer = 2.0;    ///< … by this for each, …
 constexpr double kStiffest = 64.0;  ///< … no further than this
 constexpr double kForceNewton = 1e-3;
-constexpr double kRoughly =
-    10.0;                       ///< times that: the next system is one of several, and is solved roughly, …
-constexpr double kRough = 5e3;  ///< … to so much more than its tolerance: what is left is in the next one
-constexpr double kOther = 0.5;  ///< share of the forces that are others after a system, …
-constexpr double kTurns = 0.9;  ///< … of that two systems before: they turn back, …
-constexpr double kTurned = 0.5;  ///< … and the next goes half its way
-constexpr int kMostLooks = 20;   ///< of a step whose equation is solved to its tolerance
+constexpr int kMostLooks = 20;  ///< of a step whose equation is solved to its tolerance
 constexpr double kWorse = 2.0;
-constexpr double kRoundings = 16.0;  ///< in each row of what is left
-constexpr double kOfBlow = 0.2;  ///< of what contacts give: less goes into momentum where things only touch
-constexpr double kOfContacts = 0.5;  ///< of what contacts give, which is the load of what was at rest before
 
 std::string unsettled(int systems) {
   return "contacts had not settled after " + std::to_string(systems) +
          (systems == 1 ? " system" : " systems") +
          ": more than a hundredth of their forces pull or exceed friction, or they are deeper than half "
          "the gap; take a smaller dt or more iterations of contact";
-}
-
-/// Systems that lead to and fro between two sets of contacts: none, and all that this leads into.
-bool turns_back(const std::array<double, 3>& changes) {
-  return changes[2] > 0.0 && changes[0] > kOther && changes[0] > kTurns * changes[2];
 }
 
 }  // namespace
@@ -165,10 +150,6 @@ bool StageSolver::solve_contacts(State& state, std::vector<double>& v, StepRepor
   // Levers of what is rigid are those of the latest places: the step is one of Newton's for contact.
   const State& levers = contact.surfaces().carriers().empty() ? stage_.base : state;
   bool solved = true;
-  const bool soft = contact.surfaces().carriers().empty();
-  const double noise = soft ? system_->round_off(stage_.base) / stage_.move : 0.0;
-  double load = kFloor * reference_;  // of the first system: what is left of it is judged by it
-  std::array<double, 3> changes{};    // of the contacts' forces, by the latest systems
   const bool several = contact.surfaces().carriers().size() > 1;  // one may lie on another
   double stiffer = 1.0;
   for (int i = 1;; ++i) {
@@ -183,19 +164,10 @@ bool StageSolver::solve_contacts(State& state, std::vector<double>& v, StepRepor
     world.fixed().clear(right_);
     system_->recouple(levers);
     std::ranges::fill(change_, 0.0);
-    const double size = norm(right_);
-    if (soft) load = std::max(load, size);
-    const double share = soft && turns_back(changes) ? kTurned : 1.0;
-    const bool roughly = soft && (changes[0] > kRoughly * enough || share < 1.0);
-    const double rough = kRough * std::min(1.0, changes[0]) * size;
-    SolveReport found;
-    if (!(size <= noise))
-      found = solve_linear(stage_.base, roughly ? std::max(load, rough) : load, false, report);
-    found.converged = found.converged || size <= noise;  // at rest there is nothing to solve
+    const SolveReport found = solve_linear(stage_.base, kFloor * reference_, false, report);
     solved = solved && found.converged;
     ++report.newton_iterations;
     report.residual = found.residual;
-    for (double& c : change_) c *= share;
     // Without contact: A change - C change.
     system_->system_matrix().multiply(change_, work_);
     contact.add_product(levers, scratch_, {stage_.move * stage_.push, 0.0}, change_, work_);
@@ -215,8 +187,7 @@ bool StageSolver::solve_contacts(State& state, std::vector<double>& v, StepRepor
     const double other = look(*end);
     // A force that pulled is gone in the next look, and with it what it did to a rigid body.
     const bool pulled = enough < kForce && i <= kPulled && contact_->inadmissible() > kForce;
-    const bool free = report.held_back == 0 && !pulled && !roughly;
-    changes = {other, changes[0], changes[1]};
+    const bool free = report.held_back == 0 && !pulled;
     if (free && other <= enough && contact_->depth() <= (i < kLater ? kDepth : kLaterDepth)) break;
     if (i == most) {
       report.hasty = contact_->inadmissible() > kForce || contact_->depth() > kTooDeep;
@@ -227,14 +198,6 @@ bool StageSolver::solve_contacts(State& state, std::vector<double>& v, StepRepor
     stop_if_asked();
   }
   return solved && !report.hasty;
-}
-
-/// The size of what the contacts give in the stage [N s].
-double StageSolver::contact_impulse() {
-  std::ranges::fill(work_, 0.0);
-  contact_->add_forces(work_);
-  system_->world().fixed().clear(work_);
-  return stage_.push * norm(work_);
 }
 
 /// Newton's iteration with the contacts of one look, and looks until they stay.
@@ -292,13 +255,7 @@ void StageSolver::solve_touching(State& state, std::vector<double>& v, StepRepor
     contact_->finish(end, state);
   } else if (report.held_back == 0 && !system_->world().is_linear()) {
     contact_->write(state);
-    const double left = residual(state, v);
-    const double noise = kRoundings * system_->round_off(state) / stage_.move;
-    // A blow, whose impulse goes into momentum, is better seen in parts; a touch is held by what is elastic.
-    const double given = contact_impulse();
-    const bool is_touch = norm(momentum_) <= kOfBlow * given;
-    const double most = std::max({kWorse * start_, is_touch ? kOfContacts * given : 0.0, noise});
-    report.hasty = report.hasty || !(left <= most + kFloor * reference_);
+    report.hasty = report.hasty || !(residual(state, v) <= kWorse * start_ + kFloor * reference_);
     contact_->finish(end, state);
   }
   report.contacts = static_cast<int>(contact_->size());

@@ -73,7 +73,6 @@ class StageSolver {
   void solve_touching(State& state, std::vector<double>& v, StepReport& report);
   void begin_touching(State& state, std::vector<double>& v);
   /// Systems that differ in contacts alone: what is elastic stays linearised at the base.
-  double contact_impulse();
   bool solve_contacts(State& state, std::vector<double>& v, StepReport& report);
   void iterate_contacts(State& state, std::vector<double>& v, StepReport& report);
   /// Where the step ends if its equation is solved by x(v), which is where `state` is: `state` itself, or

@@ -94,17 +94,13 @@ def alike(name: str) -> ts.Scene:
 
 
 @pytest.mark.parametrize("name", RATIOS)
-def test_ratios_cost_at_most_four_times_the_iterations(name: str) -> None:
-    """Of linear solvers, beside a run with both blocks of one stuff.
-
-    The design asks for three. The heavy block on the light one took 2.9 and 3.4 times as many,
-    with two ways of renewing the preconditioner: contacts settle in other numbers of systems.
-    """
+def test_ratios_cost_at_most_three_times_the_iterations(name: str) -> None:
+    """Of linear solvers, beside a run with both blocks of one stuff."""
 
     def iterations(reports: list[ts.StepReport]) -> int:
         return sum(report.solver_iterations for report in reports)
 
-    assert iterations(ran(name).reports) <= 4 * iterations(run(alike(name)).reports)
+    assert iterations(ran(name).reports) <= 3 * iterations(run(alike(name)).reports)
 
 
 def turned(degrees: float) -> ts.Scene:

@@ -100,6 +100,22 @@ def test_a_light_box_under_a_heavy_one_stays_before_the_plane_though_no_step_con
     assert held > 20
 
 
+def plates(mass: float, fall: float, friction: float, step: Any) -> ts.Scene:
+    """A free plate of 10 g on a table, and a heavier one a way above it [m]."""
+    foot = 2 * GAP + 0.01 + fall
+    return ts.Scene(
+        bodies={},
+        gravity=(0, 0, -9.81),
+        obstacles={
+            "table": TABLE,
+            "light": ts.BoxObstacle((-0.05, -0.05, GAP), (0.05, 0.05, GAP + 0.01), mass="10 g"),
+            "heavy": ts.BoxObstacle((-0.04, -0.04, foot), (0.04, 0.04, foot + 0.02), mass=mass),
+        },
+        contacts=[ts.Contact("all", gap=GAP, friction=friction)],
+        step=step,
+    )
+
+
 @pytest.mark.parametrize("fall", [0.0, 0.02])
 @pytest.mark.parametrize("friction", [0.0, 0.3])
 @pytest.mark.parametrize("step", [ts.ImplicitEuler("1 ms"), ts.BDF2("1 ms")], ids=["euler", "bdf2"])
@@ -109,22 +125,7 @@ def test_a_heavy_plate_rests_on_a_light_one(step: Any, friction: float, fall: fl
     A shut contact whose force is right to a thousandth gives back at most that share of the gap in
     a step, so that its energy is right to m g gap; the weight is right to a thousandth at rest.
     """
-    scene = ts.Scene(
-        bodies={},
-        gravity=(0, 0, -9.81),
-        obstacles={
-            "table": TABLE,
-            "light": ts.BoxObstacle((-0.05, -0.05, GAP), (0.05, 0.05, GAP + 0.01), mass="10 g"),
-            "heavy": ts.BoxObstacle(
-                (-0.04, -0.04, 2 * GAP + 0.01 + fall),
-                (0.04, 0.04, 2 * GAP + 0.03 + fall),
-                mass="1 kg",
-            ),
-        },
-        contacts=[ts.Contact("all", gap=GAP, friction=friction)],
-        step=step,
-    )
-    simulation = scene.compile()
+    simulation = plates(1.0, fall, friction, step).compile()
     start, forces = simulation.energy()["total"], []
     for k in range(400):
         report = simulation.step()
@@ -145,18 +146,7 @@ def test_energy_that_free_obstacles_gain_is_told(mass: float) -> None:
 
     They may give M (gap / h)^2, and a tenth of what was there counts as nothing.
     """
-    scene = ts.Scene(
-        bodies={},
-        gravity=(0, 0, -9.81),
-        obstacles={
-            "table": TABLE,
-            "light": ts.BoxObstacle((-0.05, -0.05, GAP), (0.05, 0.05, GAP + 0.01), mass="10 g"),
-            "heavy": ts.BoxObstacle((-0.04, -0.04, 0.0202), (0.04, 0.04, 0.0402), mass=mass),
-        },
-        contacts=[ts.Contact("all", gap=GAP, friction=0.3)],
-        step=ts.ImplicitEuler("1 ms"),
-    )
-    simulation = scene.compile()
+    simulation = plates(mass, 0.01, 0.3, ts.ImplicitEuler("1 ms")).compile()
     start, allowed = simulation.energy()["total"], (mass + 0.01) * (GAP / 1e-3) ** 2
     for _ in range(300):
         try:

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 import tissu as ts
+from cut_states import shaken
 
 ROUND_OFF = 1e-12
 """Of sums over some thousand numbers: a few hundred times the spacing of doubles."""
@@ -37,16 +38,6 @@ def scene(body: ts.Body | None = None, **changes: Any) -> ts.Scene:
         }
         | changes
     )
-
-
-def shaken(simulation: ts.Simulation, seed: int = 1) -> ts.Simulation:
-    """Bodies that are deformed and move, each node in its own way."""
-    random = np.random.default_rng(seed)
-    for body in simulation.bodies:
-        places = simulation.positions[body]
-        places += 2e-3 * random.standard_normal(places.shape)
-        simulation.velocities[body][:] = random.standard_normal(places.shape)
-    return simulation
 
 
 def nodes_of(simulation: ts.Simulation, piece: ts.Piece) -> np.ndarray[Any, Any]:

@@ -43,14 +43,15 @@ struct FactorState {
 
 #ifdef TISSU_HAVE_CHOLMOD
 
-/// OpenMP makes no threads while this lives.
+/// OpenMP makes no threads while this lives. Where the setting is one for all threads of the process (libgomp
+/// before GCC 12) and another thread has switched them off, that one switches them on again.
 class WithoutThreads {
  public:
   WithoutThreads() {
-    if (is_there()) omp_set_max_active_levels(0);
+    if (before_ > 0) omp_set_max_active_levels(0);
   }
   ~WithoutThreads() {
-    if (is_there()) omp_set_max_active_levels(before_);
+    if (before_ > 0) omp_set_max_active_levels(before_);
   }
   WithoutThreads(const WithoutThreads&) = delete;
   WithoutThreads& operator=(const WithoutThreads&) = delete;

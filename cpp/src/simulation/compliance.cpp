@@ -42,8 +42,8 @@ struct Compliance::Kept {
   Couplings couplings;
   Scratch scratch;
   KeptFactor factor;
-  Eigen::MatrixXd table;            ///< A^-1 among the rows of the settings
-  std::vector<std::int32_t> place;  ///< of each row in the table; -1: it is not there
+  Eigen::MatrixXd table;                   ///< A^-1 among the rows of the settings
+  std::vector<std::int32_t> place;         ///< of each row in the table; -1: it is not there
   double time = -1.0, time_before = -1.0;  ///< of the latest state, and of that before it [s]
   std::vector<double> velocities, velocities_before;
   std::vector<double> way, push;  ///< what find_drift works with

@@ -103,6 +103,9 @@ class Recording:
             ParameterError: the file cannot be read, or is not a recording of this version.
         """
         try:
+            with zipfile.ZipFile(path) as file:
+                if file.testzip() is not None:  # before NumPy reads a header that is not one
+                    raise zipfile.BadZipFile
             with np.load(path, allow_pickle=False) as file:
                 arrays = {name: file[name] for name in file.files}
             version = int(arrays.pop("version"))

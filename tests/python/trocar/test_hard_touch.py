@@ -41,7 +41,7 @@ def deep(dt: float, young: float) -> tuple[ts.Simulation, list[Felt], list[bool]
 @pytest.mark.parametrize("dt", [0.01, 0.02, 0.04])
 @pytest.mark.parametrize("young", [1e3, 5e3, 5e4])
 def test_sixteen_centimetres_deep(dt: float, young: float) -> None:
-    """Once the hand is deep every step converges, and nothing ever crosses; hand and tissue feel one force, up to the limit.
+    """Once the hand is deep every step converges; nothing ever crosses; hand and tissue agree.
 
     Their means differ by at most 2 % (10 ms) or 5 % (40 ms), the goals of the design. The stiff
     organ takes the 5 N of the limit. While models left the drift of the tissue out, its force

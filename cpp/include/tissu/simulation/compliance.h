@@ -71,8 +71,8 @@ class Compliance {
   /// ParameterError where the way cannot be taken in this world, or a row is not among those of the settings.
   const Eigen::MatrixXd& find(Simulation& simulation, double h, std::span<const CarriedPoint> points);
   [[nodiscard]] const Report& report() const { return report_; }
-  /// The drift d (3 m) [m] of the latest points along their directions; zero at rest, and of tables, which have
-  /// no X.
+  /// The drift d (3 m) [m] of the latest points along their directions; zero at rest, and of tables, which
+  /// have no X.
   [[nodiscard]] const Eigen::VectorXd& drift() const { return drift_; }
   /// Most rows of the unknown that condensed and warped take.
   static constexpr std::size_t kMostRows = 1000;

@@ -77,6 +77,13 @@ def cut_rows(
 ) -> tuple[CutReport | None, Track]:
     """Cut a body along rows (k, m, 3) of places of an edge, the first where the last cut ended.
 
+    Args:
+        simulation: whose body is cut.
+        name: of the knife.
+        body: its name.
+        track: whose rows are those of the cut so far, the last one where it ended.
+        rows: where the edge goes on [m].
+
     Raises:
         ParameterError: the cut is refused.
     """
@@ -99,9 +106,10 @@ def cut_rows(
         incision=number,
     )
     report = simulation._cut_along(body, sweep, by=name)
-    goes_on = bool(kept[-1].inside.any())
+    met = bool(report.cells_cut or report.unresolved)
+    # Between two points outside, the edge may still be in a corner of the body.
+    goes_on = met or bool(kept[-1].inside.any())
     after = replace(ended, rows=kept, incision=number) if goes_on else ended
-    met = report.cells_cut or report.unresolved
     return (report if met else None), after
 
 

@@ -121,7 +121,8 @@ Simulation::Mark Simulation::mark() {
             .watch = watch_ ? watch_->reference(state_) : std::vector<double>(),
             .settled = settled_};
   if (mark.world == nullptr) {
-    if (described_ == nullptr) described_ = std::make_shared<const WorldDescription>(described_apart(*world_));
+    if (described_ == nullptr)
+      described_ = std::make_shared<const WorldDescription>(described_apart(*world_));
     mark.described = described_;
   }
   return mark;

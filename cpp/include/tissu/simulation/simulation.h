@@ -133,8 +133,8 @@ class Simulation {
   void hold() { world_->fixed().copy(held_, state_.velocities); }
 
   std::shared_ptr<const World> world_;
-  std::unique_ptr<WorldEditor> editor_;  ///< of the world; null: edits lay everything anew
-  std::shared_ptr<const World> kept_;    ///< the same as the world, until an edit in place
+  std::unique_ptr<WorldEditor> editor_;                ///< of the world; null: edits lay everything anew
+  std::shared_ptr<const World> kept_;                  ///< the same as the world, until an edit in place
   std::shared_ptr<const WorldDescription> described_;  ///< of the world, for marks, until an edit in place
   std::uint64_t edits_ = 0;
   bool edits_in_place_ = false;

@@ -77,8 +77,8 @@ class Patch {
   std::vector<Tetra> tetrahedra;
   std::vector<Cell> cells;
   std::vector<Division> divisions;  ///< one after the other
-  std::int32_t old_riders;      ///< of the material; new riders of the patch follow
-  std::int32_t new_riders = 0;  ///< vertices put on edges
+  std::int32_t old_riders;          ///< of the material; new riders of the patch follow
+  std::int32_t new_riders = 0;      ///< vertices put on edges
 
  private:
   void add_cell(const Hosts& hosts, const Material& material, ConstReals x, std::int32_t number);

@@ -12,13 +12,17 @@
 
 namespace tissu {
 
-std::shared_ptr<World> laid_anew(const World& world) {
+WorldDescription described_apart(const World& world) {
   WorldDescription description = *world.description();
   for (BodyDescription& body : description.bodies) {
     body.uncut = nullptr;
     if (body.cut != nullptr) body.cut = std::make_shared<const CutState>(*body.cut);
   }
-  return std::make_shared<World>(std::move(description));
+  return description;
+}
+
+std::shared_ptr<World> laid_anew(const World& world) {
+  return std::make_shared<World>(described_apart(world));
 }
 
 namespace {

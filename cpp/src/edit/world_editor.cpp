@@ -29,7 +29,7 @@ namespace {
 
 void sort_unique(std::vector<std::int32_t>& list) {
   std::ranges::sort(list);
-  list.erase(std::unique(list.begin(), list.end()), list.end());
+  list.erase(std::ranges::unique(list).begin(), list.end());
 }
 
 std::shared_ptr<World> own(std::shared_ptr<const World> world) {

@@ -54,8 +54,7 @@ class Opener {
       open(sides[i], sides[i + 1]);
     }
     std::ranges::sort(opened_.vertices);
-    opened_.vertices.erase(std::unique(opened_.vertices.begin(), opened_.vertices.end()),
-                           opened_.vertices.end());
+    opened_.vertices.erase(std::ranges::unique(opened_.vertices).begin(), opened_.vertices.end());
     return std::move(opened_);
   }
 
@@ -95,7 +94,7 @@ class Opener {
       candidates.insert(candidates.end(), triangles(t).begin(), triangles(t).end());
     }
     std::ranges::sort(candidates);
-    candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());
+    candidates.erase(std::ranges::unique(candidates).begin(), candidates.end());
     if (candidates.empty()) candidates = all_;
     known = signed_height(part_, candidates, patch_.vertex(v).place);
     const int votes = known_[v].votes;

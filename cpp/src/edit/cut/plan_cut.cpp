@@ -31,7 +31,7 @@ std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 void sort_unique(Numbers& numbers) {
   std::ranges::sort(numbers);
-  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+  numbers.erase(std::ranges::unique(numbers).begin(), numbers.end());
 }
 
 void check(const Hosts& hosts, ConstReals x, const CutOptions& options) {
@@ -198,8 +198,9 @@ class Attempt {
       if (!patch_.cell(cell).divided && !patch_.cell(cell).opened) add(cell, Unresolved::pierced);
     }
     std::ranges::sort(plan.unresolved);
-    const auto same = std::unique(plan.unresolved.begin(), plan.unresolved.end(),
-                                  [](const auto& a, const auto& b) { return a.first == b.first; });
+    const auto same = std::ranges::unique(plan.unresolved, [](const auto& a, const auto& b) {
+                        return a.first == b.first;
+                      }).begin();
     plan.unresolved.erase(same, plan.unresolved.end());
   }
 

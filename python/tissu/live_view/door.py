@@ -24,6 +24,8 @@ FIRST_PORT, PORTS = 8080, 20
 """Where a port is looked for when none is asked for."""
 _HEAD = 65536
 """Longest head of a request [bytes]."""
+_TURNS = 4
+"""turns of the loop in which a connection that was just accepted has come to its task"""
 _PATIENCE = 10.0
 """How long a head may take [s]."""
 _HERE = ("127.0.0.1", "localhost", "::1")
@@ -116,10 +118,15 @@ class Door:
 
     async def _shut(self) -> None:
         self._server.close()
-        others = [task for task in asyncio.all_tasks() if task is not asyncio.current_task()]
-        for task in others:
-            task.cancel()
-        await asyncio.gather(*others, return_exceptions=True)
+        quiet = 0
+        while quiet < _TURNS:
+            others = asyncio.all_tasks() - {asyncio.current_task()}
+            await asyncio.sleep(0)  # a task that never began would be complained of
+            for task in others:
+                task.cancel()
+            if others:  # again and again: wait_for may swallow a cancellation (Python before 3.12)
+                await asyncio.wait(others, timeout=0.01)
+            quiet = 0 if others else quiet + 1
 
     async def _meet(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
         """One connection, which carries one request or one websocket."""

@@ -1,6 +1,7 @@
 """The door before the page: who is let in, and what passes through."""
 
 import contextlib
+import gc
 import socket
 import socketserver
 import threading
@@ -182,3 +183,25 @@ def test_another_address_asks_for_a_token():
         assert len(token) >= 20
         with pytest.raises(urllib.error.HTTPError, match="403"):
             urllib.request.urlopen(address, timeout=10.0)
+
+
+def test_a_door_shuts_while_connections_come_in(echo):
+    """No task of a connection is left behind, be it just accepted, asked, or handed on."""
+    head = b"GET / HTTP/1.1\r\nHost: 127.0.0.1\r\n\r\n"
+    for number in range(100):
+        door = Door(host="127.0.0.1", port=0, behind=echo, token="")
+        told = []
+        door._loop.set_exception_handler(lambda _, context, told=told: told.append(context))
+        ways = []
+        for rest in (b"", head[:20], head, head):
+            ways.append(socket.create_connection(("127.0.0.1", door.port), timeout=10.0))
+            ways[-1].sendall(rest)
+            if rest and number % 2:
+                with contextlib.suppress(OSError):
+                    ways[-1].settimeout(0.001)
+                    ways[-1].recv(1)
+        door.close()
+        for way in ways:
+            way.close()
+        gc.collect()  # a task that waits for ever is complained of when it is collected
+        assert told == [], told

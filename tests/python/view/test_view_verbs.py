@@ -1,5 +1,6 @@
 """The view from a program and from the command line, and the examples of its page in the docs."""
 
+import contextlib
 import os
 import re
 import signal
@@ -88,16 +89,22 @@ def test_other_time_steps_do_not_stand_side_by_side():
         ts.view(liver(), beside=liver(step=ts.ImplicitEuler("20 ms")), browser=False)
 
 
+@contextlib.contextmanager
 def started(*words):
+    """The command; it does not outlive a test that failed."""
     environment = {**os.environ, "PYTHONUNBUFFERED": "1"}
-    return subprocess.Popen(
+    with subprocess.Popen(
         [sys.executable, "-m", "tissu", "view", *words],
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
         text=True,
         cwd=ROOT,
         env=environment,
-    )
+    ) as command:
+        try:
+            yield command
+        finally:
+            command.kill()
 
 
 def test_the_command_says_where_the_page_is_and_ends_with_ctrl_c(tmp_path):

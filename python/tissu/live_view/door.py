@@ -14,7 +14,9 @@ import hmac
 import re
 import secrets
 import threading
+import weakref
 from http.cookies import SimpleCookie
+from typing import Any
 from urllib.parse import parse_qs, urlsplit
 
 from tissu.errors import ParameterError
@@ -68,6 +70,8 @@ class Door:
                 f"found the token {token[:30]!r}; up to 128 letters, digits, - and _ are accepted"
             )
         self.host, self.token, self._behind, self._word = host, token, behind, word
+        self._meetings: set[asyncio.Task[Any]] = set()
+        self._ways: weakref.WeakSet[asyncio.WriteTransport] = weakref.WeakSet()
         self._loop = asyncio.new_event_loop()
         self._thread = threading.Thread(
             target=self._loop.run_forever, name="tissu door", daemon=True
@@ -117,36 +121,53 @@ class Door:
         )
 
     async def _shut(self) -> None:
-        self._server.close()
+        # No more are accepted. The server closes once those that were have come to their tasks: a
+        # connection that is on its way while it closes stays open for ever (Python 3.11).
+        for listening in self._server.sockets:
+            self._loop.remove_reader(listening.fileno())
         quiet = 0
         while quiet < _TURNS:
             others = asyncio.all_tasks() - {asyncio.current_task()}
-            await asyncio.sleep(0)  # a task that never began would be complained of
-            for task in others:
+            # Again and again: before Python 3.12, wait_for may swallow a cancellation.
+            for task in self._meetings:
                 task.cancel()
-            if others:  # again and again: wait_for may swallow a cancellation (Python before 3.12)
+            if others:
                 await asyncio.wait(others, timeout=0.01)
+            for way in list(self._ways):
+                way.abort()
+            await asyncio.sleep(0)
             quiet = 0 if others else quiet + 1
+        self._server.close()
 
     async def _meet(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
         """One connection, which carries one request or one websocket."""
-        with contextlib.suppress(OSError, asyncio.CancelledError, asyncio.IncompleteReadError):
-            try:
-                head = await asyncio.wait_for(reader.readuntil(b"\r\n\r\n"), _PATIENCE)
-            except (asyncio.LimitOverrunError, asyncio.TimeoutError):
-                return writer.close()
-            answer = self.judge(head)
-            if answer is not None:
-                writer.write(answer)
-                await writer.drain()
-                return writer.close()
-            inner, out = await asyncio.open_connection("127.0.0.1", self._behind)
-            out.write(self._with_word(head))
-            try:
-                await asyncio.gather(_hand_on(reader, out), _hand_on(inner, writer))
-            finally:
-                out.close()
-        writer.close()
+        self._ways.add(writer.transport)
+        task = asyncio.current_task()
+        assert task is not None
+        self._meetings.add(task)
+        try:
+            with contextlib.suppress(OSError, asyncio.CancelledError, asyncio.IncompleteReadError):
+                await self._serve(reader, writer)
+        finally:
+            self._meetings.discard(task)
+            writer.close()
+
+    async def _serve(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
+        try:
+            head = await asyncio.wait_for(reader.readuntil(b"\r\n\r\n"), _PATIENCE)
+        except (asyncio.LimitOverrunError, asyncio.TimeoutError):
+            return
+        answer = self.judge(head)
+        if answer is not None:
+            writer.write(answer)
+            return await writer.drain()
+        inner, out = await asyncio.open_connection("127.0.0.1", self._behind)
+        self._ways.add(out.transport)
+        out.write(self._with_word(head))
+        try:
+            await asyncio.gather(_hand_on(reader, out), _hand_on(inner, writer))
+        finally:
+            out.close()
 
     def _with_word(self, head: bytes) -> bytes:
         """The head with the word for what is behind, after its first line."""

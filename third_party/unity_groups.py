@@ -1,7 +1,8 @@
 """Which sources can be compiled together, as one file that includes them.
 
-Most of the time of a compile goes into headers and templates that neighbouring sources share. Two sources go together
-if they are in one folder and define no private name (a name in a namespace without a name) alike.
+Most of the time of a compile goes into headers and templates that neighbouring sources share. Two
+sources go together if they are in one folder and define no private name (a name in a namespace
+without a name) alike.
 
     python unity_groups.py SOURCE...    prints "NUMBER SOURCE" for each source that is in a group
 """

@@ -14,7 +14,7 @@ from pathlib import Path
 
 MOST = 8
 """sources of a group: more of them save little, take more memory and leave processors idle"""
-MACROS = re.compile(r"(TYPED_)?TEST(_\w+)?|INSTANTIATE_\w+|static_assert|PrintTo|test")
+MACROS = re.compile(r"(TYPED_)?TEST(_\w+)?|INSTANTIATE_\w+|static_assert|PrintTo")
 
 
 def own_names(text: str) -> set[str]:
@@ -22,7 +22,7 @@ def own_names(text: str) -> set[str]:
     names: set[str] = set()
     for part in re.findall(r"^namespace \{$(.*?)^\}  // namespace$", text, re.M | re.S):
         for line in re.findall(r"^[A-Za-z].*", part, re.M):
-            found = re.match(r"(?:struct|class|enum class|using) (\w+)", line)
+            found = re.match(r"(?:struct|class|enum class|using) (?:\w+::)*(\w+)", line)
             found = found or re.search(r"(\w+)(?:\[.*?\])? ?(?:=|\{|;|$)", line.split("(")[0])
             names.update(found.groups() if found else ())
     return {name for name in names if not MACROS.fullmatch(name)}

@@ -106,7 +106,7 @@ def test_held_nodes_that_overlap_are_refused_by_name():
             ts.Fixed("b", on=ts.Box(min=(None, None, None))),
         ]
     )
-    with pytest.raises(SceneError, match='"a" and "b" in .* places; separate could not') as caught:
+    with pytest.raises(SceneError, match=r'"a" and "b" in .* places; separate could not') as caught:
         scene.compile()
     assert len(caught.value.problems) == 1
     assert scene.check().problems == caught.value.problems

@@ -256,7 +256,7 @@ def _apart(prepared: Prepared, shifts: dict[str, Floats], over: float) -> Prepar
         obstacles={name: _held(one) for name, one in contact.obstacles.items()},
         pairs=[pair._replace(contact=plain) for pair in contact.pairs if _soft(contact, pair)],
     )
-    update = {"gravity": None, "instruments": {}, "editing": None, "tear": ()}
+    update: dict[str, Any] = {"gravity": None, "instruments": {}, "editing": None, "tear": ()}
     scene = prepared.scene.model_copy(update=update)
     return dataclasses.replace(
         prepared, scene=scene, bodies=bodies, held=held, loaded=[], contact=made

@@ -65,9 +65,9 @@ PAGES = {
         ("comparison", "advice"),
     ),
     "pictures": Page(
-        "Pictures and the live view",
-        "Images, and the page in the browser.",
-        ("picture", "live_view"),
+        "Pictures, files and the live view",
+        "Images, files for ParaView, and the page in the browser.",
+        ("picture", "output", "live_view"),
     ),
     "sampling": Page(
         "Examples and sampling",

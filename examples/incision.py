@@ -13,7 +13,6 @@ from pathlib import Path
 import numpy as np
 
 import tissu as ts
-from tissu.output import Series
 
 
 def block() -> ts.Scene:
@@ -51,7 +50,7 @@ def main(folder: Path) -> ts.Simulation:
         assert report.converged
     print(simulation.cut("tissue", knife()))
     folder.mkdir(parents=True, exist_ok=True)
-    series = Series(simulation, folder)
+    series = ts.Series(simulation, folder)
     for number, report in enumerate(simulation.run(0.6)):
         assert report.converged
         if number % 10 == 0:

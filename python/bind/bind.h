@@ -28,7 +28,7 @@ std::vector<T> to_vector(const Array<T>& array) {
 
 /// Refuses an array that does not have `columns` columns.
 template <class T>
-const Array<T>& with_columns(const Array<T>& array, py::ssize_t columns, const char* name) {
+Array<T> with_columns(const Array<T>& array, py::ssize_t columns, const char* name) {
   if (array.ndim() == 2 && array.shape(1) == columns) return array;
   throw ParameterError(std::string(name) + " must have the shape (n, " + std::to_string(columns) + ").");
 }

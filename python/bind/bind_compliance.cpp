@@ -55,6 +55,11 @@ void bind_compliance(py::module_& m) {
             return py::array_t<double>({size, size}, W.data());  // symmetric: the order does not matter
           },
           py::kw_only(), arg("simulation"), arg("dt"), arg("begin"), arg("rows"), arg("weights"), arg("axes"))
+      .def_property_readonly("drift",
+                             [](const Compliance& self) {
+                               const Eigen::VectorXd& d = self.drift();
+                               return py::array_t<double>(static_cast<py::ssize_t>(d.size()), d.data());
+                             })
       .def_property_readonly("error", [](const Compliance& self) { return self.report().error; })
       .def_property_readonly("corrections", [](const Compliance& self) { return self.report().corrections; })
       .def_property_readonly("made", [](const Compliance& self) { return self.report().made; })

@@ -38,7 +38,7 @@ void bind_sweep(py::module_& m) {
       .def(
           "triangles_sweep",
           [](const Doubles& points, const Ints& triangles) {
-            const Ints& rows = with_columns(triangles, 3, "triangles");
+            const Ints rows = with_columns(triangles, 3, "triangles");
             std::vector<std::array<std::int32_t, 3>> corners(static_cast<std::size_t>(rows.shape(0)));
             for (std::size_t t = 0; t < corners.size(); ++t)
               std::copy_n(rows.data(static_cast<py::ssize_t>(t)), 3, corners[t].begin());

@@ -90,6 +90,9 @@ _HOMES = {
         "draw",
         "draw_overlay",
     ),
+    "tissu.output": (
+        "Series",
+    ),
     "tissu.live_view": (
         "View",
         "view",

@@ -56,6 +56,7 @@ from tissu.advice import Advice as Advice
 from tissu.advice import advise as advise
 from tissu.picture import draw as draw
 from tissu.picture import draw_overlay as draw_overlay
+from tissu.output import Series as Series
 from tissu.live_view import View as View
 from tissu.live_view import view as view
 from tissu.scene import Output as Output

@@ -103,6 +103,34 @@ def test_ratios_cost_at_most_three_times_the_iterations(name: str) -> None:
     assert iterations(ran(name).reports) <= 3 * iterations(run(alike(name)).reports)
 
 
+SOLVERS = (
+    ts.Auto(tolerance=0.7e-5),
+    ts.Auto(tolerance=1.2e-5),
+    ts.ConjugateGradient(tolerance=1e-6),
+    ts.ConjugateGradient(tolerance=1e-4, preconditioner="multigrid"),
+    ts.Cholesky(),
+)
+
+
+@pytest.mark.parametrize("name", ["heavy_on_light", "light_on_heavy"])
+def test_the_last_digits_of_a_solver_do_not_decide_what_settles(name: str) -> None:
+    """Corners of blocks stand on corners: which of the two meets the other's face is a rounding.
+
+    Their force is the same pair's, whichever it is. The first step aside, no step takes more than
+    10 systems, and solvers differ by a tenth: 104 to 109 systems were found, and 153 to 1382 where
+    that force was lost.
+    """
+    scene = case(name, CONTACT)
+    systems = []
+    for solver in SOLVERS:
+        found = run(scene.replace(step=scene.step.replace(solver=solver)))
+        each = [report.newton_iterations for report in found.reports]
+        assert found.outcome.unconverged == 0
+        assert max(each[1:]) <= 10, solver
+        systems.append(sum(each[1:]))
+    assert max(systems) <= 1.1 * min(systems), systems
+
+
 def turned(degrees: float) -> ts.Scene:
     """The upper block turned about the vertical axis through its middle."""
     scene = case("faces", CONTACT)

@@ -277,3 +277,62 @@ def test_the_gradient_serves_a_static_scene() -> None:
     assert relative(found(simulation, compliance), exact) < 1e-2
     assert compliance.error < 1e-2
     assert compliance.factors == 0
+
+
+@pytest.mark.parametrize("way", ["factor", "cg"])
+def test_the_drift_is_where_the_next_step_takes_the_points(way: str) -> None:
+    """A bar of Hooke's law that swings: x_(n+1) = x_n + drift, but for its weight within a step.
+
+    Backward Euler is linear in it, so that the two agree to the tolerance of the compliance; a
+    steady force f gives way by the same at any time, and is in both steps of the velocity's change.
+    """
+    bar = ts.Body(
+        mesh=ts.BarMesh(size=(0.2, 0.02, 0.02), cells=(8, 2, 2)),
+        law=ts.Hooke(young="50 kPa", poisson=0.3),
+        density=1000,
+        viscosity=ts.Rayleigh(mass=2, stiffness="5 ms"),
+    )
+    simulation = ts.Scene(
+        bodies={"bar": bar},
+        fixed=[ts.Fixed("bar", on=ts.Plane((0, 0, 0), (1, 0, 0)))],
+        gravity=(0, 0, -9.81),
+        step=ts.ImplicitEuler("10 ms"),
+    ).compile()
+    tip = int(simulation.positions["bar"][:, 0].argmax())
+    compliance = simulation.compliance(by=way, tolerance=1e-6)
+
+    def drift() -> np.ndarray:
+        compliance.of(["bar"], [[tip]], [[1.0]], np.eye(3)[None])
+        return compliance.drift
+
+    np.testing.assert_array_equal(drift(), 0.0)  # at rest
+    places, expected = [], []
+    for _ in range(30):
+        simulation.step()
+        places.append(simulation.positions["bar"][tip].copy())
+        expected.append(drift())
+    ways = np.diff(places, axis=0)
+    largest = float(np.abs(ways).max())
+    np.testing.assert_allclose(expected[1:-1], ways[1:], atol=1e-3 * largest)
+    assert largest > 1e-3
+
+
+def test_the_drift_of_a_table_is_zero() -> None:
+    """A table of surface nodes has no motion of the others."""
+    simulation = ts.Scene(
+        bodies={
+            "bar": ts.Body(
+                mesh=ts.BarMesh(size=(0.2, 0.02, 0.02), cells=(4, 1, 1)),
+                law=ts.Hooke(young="50 kPa", poisson=0.3),
+                density=1000,
+            )
+        },
+        fixed=[ts.Fixed("bar", on=ts.Plane((0, 0, 0), (1, 0, 0)))],
+        gravity=(0, 0, -9.81),
+        step=ts.ImplicitEuler("10 ms"),
+    ).compile()
+    for _ in range(3):
+        simulation.step()
+    compliance = simulation.compliance(by="condensed")
+    compliance.of(["bar"], [[19]], [[1.0]], np.eye(3)[None])
+    np.testing.assert_array_equal(compliance.drift, np.zeros(3))

@@ -71,6 +71,25 @@ def test_steps_after_it_have_the_bits_of_a_world_laid_anew(name: str) -> None:
     assert ends[0] == ends[1]
 
 
+def test_a_mark_after_a_cut_is_returned_to_any_number_of_times() -> None:
+    """Also after other cuts, and after steps only; each time the same steps follow."""
+    simulation = bar(ts.ImplicitEuler(dt=0.005))
+    discs(simulation)
+    mark = simulation.mark()
+    cells = simulation.remaining_cells("bar")
+    ends = []
+    for k in range(4):
+        for _ in range(2):
+            simulation.step()
+        ends.append(simulation.positions["bar"].tobytes())
+        if k != 1:
+            blade = ts.Disc((0.35, 0.05, 0.05), (1.0, 0.1 * k, 0.1), "4 cm")
+            assert simulation.cut("bar", blade).cells_cut
+        simulation.rewind(mark)
+        np.testing.assert_array_equal(simulation.remaining_cells("bar"), cells)
+    assert len(set(ends)) == 1
+
+
 def test_where_nodes_are_held_everything_is_laid_anew() -> None:
     simulation = bar(ts.ImplicitEuler(dt=0.005))
     held = simulation.cut("bar", ts.Disc((0.0, 0.05, 0.05), (0.0, 0.0, 1.0), "5 cm"))

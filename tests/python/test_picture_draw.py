@@ -62,6 +62,25 @@ def test_the_deformed_shape_hangs_lower_than_the_rest_shape(bent, tmp_path):
     assert low[1] > low[0] + 5
 
 
+def test_the_viewer_stands_where_asked(bent, tmp_path):
+    def extent(towards):
+        draw(bent, tmp_path / "bent.png", towards=towards)
+        half = saturated(imread(tmp_path / "bent.png"))[100:, 16:720]
+        spans = [np.flatnonzero(half.any(axis=k)) for k in (0, 1)]
+        return np.array([np.ptp(span) + 1 for span in spans])
+
+    along, above = extent((1, 0, 0)), extent((0, 0, 1))
+    assert along[0] / along[1] == pytest.approx(1.0, abs=0.02)  # the square end, to a pixel or two
+    assert above.max() / above.min() == pytest.approx(4.0, abs=0.15)  # 0.2 m by 0.05 m
+
+
+@pytest.mark.parametrize("towards", [(0, 0, 0), (1, 0), (np.nan, 0, 1), (np.inf, 0, 0)])
+def test_a_viewer_nowhere_is_refused(bent, tmp_path, towards):
+    with pytest.raises(ParameterError, match="as the direction to the viewer; three finite"):
+        draw(bent, tmp_path / "a.png", towards=towards)
+    assert not list(tmp_path.iterdir())
+
+
 def test_wrong_requests_are_refused(bent, tmp_path):
     with pytest.raises(ParameterError, match="displacement, von_mises"):
         draw(bent, tmp_path / "a.png", field="heat")

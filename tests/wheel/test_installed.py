@@ -33,6 +33,18 @@ def test_the_licences_travel_with_it():
     assert {"LICENSE", "NOTICE.md"} <= names
 
 
+def test_what_is_bundled_is_licensed():
+    """Each bundled library has its licence; with CHOLMOD the metadata name the GPL."""
+    paths = [Path(str(path)) for path in metadata.files("tissu") or ()]
+    libraries = {path.name.split("-")[0] for path in paths if path.parent.name == "tissu.libs"}
+    of = [path.name for path in paths if path.parent.name == "bundled"]
+    for library in libraries:
+        start = "libopenblas" if library.startswith("libopenblas") else library
+        assert any(name.startswith(f"{start}-") for name in of), library
+    licence = metadata.metadata("tissu")["License-Expression"]
+    assert licence.startswith("GPL-2.0-or-later AND ") == ("libcholmod" in libraries)
+
+
 def test_the_command_runs():
     done = subprocess.run(
         [sys.executable, "-m", "tissu", "info"], capture_output=True, text=True, check=True

@@ -12,12 +12,12 @@ using Triangle = std::array<Vec3, 3>;
 
 /// Signs of which none is positive, or none negative.
 bool agree(const std::array<int, 3>& signs) {
-  const auto [low, high] = std::minmax_element(signs.begin(), signs.end());
+  const auto [low, high] = std::ranges::minmax_element(signs);
   return *low >= 0 || *high <= 0;
 }
 
 bool all_are(int sign, const std::array<int, 3>& signs) {
-  return std::all_of(signs.begin(), signs.end(), [&](int one) { return one == sign; });
+  return std::ranges::all_of(signs, [&](int one) { return one == sign; });
 }
 
 /// A segment in the plane of a triangle whose orientation, seen from `above`, is `turn`. Two convex shapes in

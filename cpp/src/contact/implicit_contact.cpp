@@ -34,6 +34,7 @@ std::unique_ptr<ImplicitContact> ImplicitContact::make(const Contact& contact, c
 ImplicitContact::ImplicitContact(const Contact& contact, const FixedDofs& fixed)
     : contact_(contact), run_(contact, fixed), fixed_(fixed), bodies_(contact, fixed.masks().size()) {
   counts_.assign(fixed.masks().size(), 0.0);
+  run_.hand_over_to_all();
 }
 
 void ImplicitContact::begin(const State& start, double end, ConstReals led, ConstReals load) {

@@ -29,7 +29,7 @@ bool is_finite(const Box& box) {
 }
 
 void check_first(const std::vector<std::int32_t>& first) {
-  if (first.front() != 0 || !std::is_sorted(first.begin(), first.end())) {
+  if (first.front() != 0 || !std::ranges::is_sorted(first)) {
     throw ParameterError("found first primitives of surfaces that begin with " +
                          std::to_string(first.front()) +
                          " or descend; numbers that begin with 0 and do not descend are accepted.");

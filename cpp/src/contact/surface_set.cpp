@@ -75,7 +75,7 @@ void SurfaceSet::add(const SurfaceDescription& description, std::int32_t first_r
   for (const auto& e : description.edges) nodes.insert(nodes.end(), e.begin(), e.end());
   nodes.insert(nodes.end(), description.points.begin(), description.points.end());
   std::ranges::sort(nodes);
-  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  nodes.erase(std::ranges::unique(nodes).begin(), nodes.end());
   const auto number = [&](std::int32_t node) {
     return first_vertex + static_cast<std::int32_t>(std::ranges::lower_bound(nodes, node) - nodes.begin());
   };
@@ -165,7 +165,7 @@ std::vector<std::int32_t> SurfaceSet::add_edges(std::int32_t first_primitive, st
     }
   }
   std::ranges::sort(crowded);
-  crowded.erase(std::unique(crowded.begin(), crowded.end()), crowded.end());
+  crowded.erase(std::ranges::unique(crowded).begin(), crowded.end());
   return crowded;
 }
 

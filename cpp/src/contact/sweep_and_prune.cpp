@@ -145,7 +145,7 @@ void SweepAndPrune::join(std::span<const Box> boxes, std::vector<BoxPair>& pairs
   const auto parted = [&](const BoxPair& pair) {
     return !boxes[static_cast<std::size_t>(pair.a)].overlaps(boxes[static_cast<std::size_t>(pair.b)]);
   };
-  const auto kept_end = std::remove_if(kept_.begin(), kept_.end(), parted);
+  const auto kept_end = std::ranges::remove_if(kept_, parted).begin();
   pairs.resize(static_cast<std::size_t>((kept_end - kept_.begin()) + std::ssize(begun_sorted_)));
   std::merge(kept_.begin(), kept_end, begun_sorted_.begin(), begun_sorted_.end(), pairs.begin());
   kept_.assign(pairs.begin(), pairs.end());

@@ -215,6 +215,7 @@ std::shared_ptr<const World> edit_body(const World& world, const State& state, s
 std::vector<RowCopy> row_copies(const World& world, std::string_view name, const BodyEdit& edit) {
   const Body& body = world.body(name);
   std::vector<RowCopy> copies;
+  copies.reserve(edit.copied.size());
   for (std::size_t k = 0; k < edit.copied.size(); ++k) {
     copies.push_back(
         {body.first_node + body.node_count + static_cast<std::int32_t>(k), body.first_node + edit.copied[k]});

@@ -12,20 +12,24 @@
 
 namespace tissu {
 
-std::shared_ptr<World> laid_anew(const World& world) {
+WorldDescription described_apart(const World& world) {
   WorldDescription description = *world.description();
   for (BodyDescription& body : description.bodies) {
     body.uncut = nullptr;
     if (body.cut != nullptr) body.cut = std::make_shared<const CutState>(*body.cut);
   }
-  return std::make_shared<World>(std::move(description));
+  return description;
+}
+
+std::shared_ptr<World> laid_anew(const World& world) {
+  return std::make_shared<World>(described_apart(world));
 }
 
 namespace {
 
 void sort_unique(std::vector<std::int32_t>& list) {
   std::ranges::sort(list);
-  list.erase(std::unique(list.begin(), list.end()), list.end());
+  list.erase(std::ranges::unique(list).begin(), list.end());
 }
 
 std::shared_ptr<World> own(std::shared_ptr<const World> world) {

@@ -12,13 +12,14 @@ namespace tissu {
 namespace {
 
 constexpr double kMost = 1e6;  ///< points of an edge, poses that wait, tracks
+constexpr double kMostRows = 1e3;
 
 /// What is wrong with the track at the beginning of the numbers; empty: nothing.
 std::string misfit(std::span<const double> numbers, std::int32_t blocks) {
   if (numbers.size() < Instruments::kHead) return "does not have its first six numbers";
   if (!is_whole(numbers[0], 0.0, kMost) || !is_whole(numbers[2], -1.0, 2e9) ||
       !is_whole(numbers[3], 0.0, kMost) || !is_whole(numbers[4], 1.0, kMost) ||
-      !is_whole(numbers[5], 0.0, 3.0)) {
+      !is_whole(numbers[5], 0.0, kMostRows)) {
     return "counts what cannot be counted so";
   }
   const auto count = [&](std::size_t i) { return static_cast<std::size_t>(numbers[i]); };

@@ -52,7 +52,7 @@ std::uint32_t crc32(std::span<const std::uint8_t> bytes) noexcept {
 
 Frame frame_of(const Sample& sample) noexcept {
   Frame frame{};
-  std::copy(kFrameMagic.begin(), kFrameMagic.end(), frame.begin());
+  std::ranges::copy(kFrameMagic, frame.begin());
   put(frame, 4, sample.sequence);
   put(frame, 8, sample.time_ns);
   for (std::size_t k = 0; k < kChannels; ++k) put(frame, 16 + 4 * k, sample.counts[k]);
@@ -64,7 +64,7 @@ Frame frame_of(const Sample& sample) noexcept {
 
 Answer answer_of(const Command& command) noexcept {
   Answer answer{};
-  std::copy(kAnswerMagic.begin(), kAnswerMagic.end(), answer.begin());
+  std::ranges::copy(kAnswerMagic, answer.begin());
   put(answer, 4, command.sequence);
   for (std::size_t k = 0; k < kChannels; ++k) {
     put(answer, 8 + 4 * k, std::bit_cast<std::uint32_t>(static_cast<float>(command.torque[k])));

@@ -27,6 +27,27 @@ struct Pointing {
   }
 };
 
+Mat3 rotation_of(const Joints& q) noexcept {
+  const double c = std::cos(q[2]);
+  const double s = std::sin(q[2]);
+  Mat3 turn;
+  turn << c, -s, 0.0, s, c, 0.0, 0.0, 0.0, 1.0;
+  return Pointing(q).rotation() * turn;
+}
+
+Vec3 point_of(const Joints& q, const Vec3& l) noexcept {
+  return rotation_of(q) * Vec3(l[0], l[1], l[2] + q[3]);
+}
+
+Jacobian jacobian_of(const Joints& q, const Vec3& l) noexcept {
+  const Vec3 x = point_of(q, l);
+  const Mat3 omega = tool_turns(q);
+  Jacobian J;
+  for (int i = 0; i < 3; ++i) J.col(i) = omega.col(i).cross(x);
+  J.col(3) = omega.col(2);
+  return J;
+}
+
 }  // namespace
 
 TrocarKinematics::TrocarKinematics(const JointLimits& limits) : limits_(limits) {
@@ -44,25 +65,12 @@ TrocarKinematics::TrocarKinematics(const JointLimits& limits) : limits_(limits) 
   }
 }
 
-Mat3 TrocarKinematics::rotation(const Joints& q) const noexcept {
-  const double c = std::cos(q[2]);
-  const double s = std::sin(q[2]);
-  Mat3 turn;
-  turn << c, -s, 0.0, s, c, 0.0, 0.0, 0.0, 1.0;
-  return Pointing(q).rotation() * turn;
-}
+Mat3 TrocarKinematics::rotation(const Joints& q) const noexcept { return rotation_of(q); }
 
-Vec3 TrocarKinematics::point(const Joints& q, const Vec3& l) const noexcept {
-  return rotation(q) * Vec3(l[0], l[1], l[2] + q[3]);
-}
+Vec3 TrocarKinematics::point(const Joints& q, const Vec3& l) const noexcept { return point_of(q, l); }
 
 Jacobian TrocarKinematics::jacobian(const Joints& q, const Vec3& l) const noexcept {
-  const Vec3 x = point(q, l);
-  const Mat3 omega = tool_turns(q);
-  Jacobian J;
-  for (int i = 0; i < 3; ++i) J.col(i) = omega.col(i).cross(x);
-  J.col(3) = omega.col(2);
-  return J;
+  return jacobian_of(q, l);
 }
 
 Vec3 tool_axis(const Joints& q) noexcept { return Pointing(q).axis(); }
@@ -90,7 +98,7 @@ Joints joints_of(const Mat3& R, const Vec3& x, const Vec3& l) noexcept {
 }
 
 Joints torques_of(const Joints& q, const Vec3& l, const Vec3& f) noexcept {
-  return TrocarKinematics().jacobian(q, l).transpose() * f;
+  return jacobian_of(q, l).transpose() * f;
 }
 
 Joints axis_torques(const Joints& q, const Vec3& f) noexcept {

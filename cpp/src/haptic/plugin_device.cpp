@@ -97,8 +97,8 @@ class PluginDevice final : public Device {
                   "); plug it in, or check the address.");
     }
     info_.axes = found.axes;
-    std::copy(std::begin(found.count_size), std::end(found.count_size), info_.count_size.begin());
-    std::copy(std::begin(found.torque_limit), std::end(found.torque_limit), info_.torque_limit.begin());
+    std::ranges::copy(found.count_size, info_.count_size.begin());
+    std::ranges::copy(found.torque_limit, info_.torque_limit.begin());
     info_.rate = found.rate;
     info_.delay = found.delay;
     info_.torque_confirmed = found.torque_confirmed != 0;
@@ -120,7 +120,7 @@ class PluginDevice final : public Device {
     tissu_device_sample found{};
     const int status = entries_.read(device_, &found);
     if (status != TISSU_DEVICE_OK) return status_of(status);
-    std::copy(std::begin(found.counts), std::end(found.counts), sample.counts.begin());
+    std::ranges::copy(found.counts, sample.counts.begin());
     sample.time_ns = found.time_ns;
     sample.sequence = found.sequence;
     sample.flags = static_cast<std::uint16_t>(found.flags);
@@ -130,7 +130,7 @@ class PluginDevice final : public Device {
 
   DeviceStatus write(const Command& command) noexcept override {
     tissu_device_command given{};
-    std::copy(command.torque.begin(), command.torque.end(), std::begin(given.torque));
+    std::ranges::copy(command.torque, std::begin(given.torque));
     given.sequence = command.sequence;
     given.watchdog_ms = command.watchdog_ms;
     given.enable = command.enable ? 1 : 0;

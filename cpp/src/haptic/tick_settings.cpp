@@ -13,7 +13,7 @@ class Problems {
  public:
   void require(bool good, const std::string& sentence) {
     if (good) return;
-    if (!text_.empty()) text_ += "\n";
+    if (!text_.empty()) text_ += '\n';
     text_ += sentence;
   }
   void raise() const {

@@ -1,6 +1,7 @@
 #include "tissu/simulation/compliance.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "kept_factor.h"
 #include "node_turns.h"
@@ -41,8 +42,11 @@ struct Compliance::Kept {
   Couplings couplings;
   Scratch scratch;
   KeptFactor factor;
-  Eigen::MatrixXd table;            ///< A^-1 among the rows of the settings
-  std::vector<std::int32_t> place;  ///< of each row in the table; -1: it is not there
+  Eigen::MatrixXd table;                   ///< A^-1 among the rows of the settings
+  std::vector<std::int32_t> place;         ///< of each row in the table; -1: it is not there
+  double time = -1.0, time_before = -1.0;  ///< of the latest state, and of that before it [s]
+  std::vector<double> velocities, velocities_before;
+  std::vector<double> way, push;  ///< what find_drift works with
 
   explicit Kept(std::shared_ptr<const World> of)
       : world(std::move(of)), A(world->sparsity(), world->isa(), world->threads()) {}
@@ -118,7 +122,43 @@ const Eigen::MatrixXd& Compliance::find(Simulation& simulation, double h,
     find_by_solves(simulation.state(), points);
   }
   W_ *= kept_->size();
+  if (tabled || kept_->is_static) {
+    drift_.setZero(W_.rows());
+  } else {
+    remember(simulation.state());
+    find_drift(simulation.state());
+  }
   return W_;
+}
+
+void Compliance::remember(const State& state) {
+  Kept& k = *kept_;
+  if (state.time == k.time) return;
+  k.time_before = k.time;
+  k.velocities_before.swap(k.velocities);
+  k.time = state.time;
+  k.velocities.assign(state.velocities.begin(), state.velocities.end());
+}
+
+void Compliance::find_drift(const State& state) {
+  Kept& k = *kept_;
+  const World& world = *k.world;
+  // A state that does not follow the one before is taken to move evenly.
+  const bool follows = std::abs(k.time - k.time_before - k.h) <= 1e-6 * k.h &&
+                       k.velocities_before.size() == k.velocities.size();
+  k.way = k.velocities;
+  if (follows) {
+    for (std::size_t i = 0; i < k.way.size(); ++i) k.way[i] += k.velocities[i] - k.velocities_before[i];
+  }
+  k.push.assign(k.way.size(), 0.0);
+  world.mass().add_product(state, 1.0, k.way, k.push);
+  for (const auto& model : world.forces()) {
+    if (model->has_stiffness() && !model->run_time().couples) {
+      model->add_product(state, k.scratch, {0.0, -k.h, false}, k.velocities, k.push);
+    }
+  }
+  const Eigen::Map<const Eigen::VectorXd> push(k.push.data(), static_cast<Eigen::Index>(k.push.size()));
+  drift_ = k.h * (k.factor.motions().transpose() * push);
 }
 
 void Compliance::find_by_solves(const State& state, std::span<const CarriedPoint> points) {

@@ -33,6 +33,7 @@ void Simulation::replace_world(std::shared_ptr<const World> world, std::span<con
   world_ = std::move(world);
   editor_ = std::move(editor);
   kept_ = std::move(kept);
+  described_.reset();
   ++edits_;
   renew_watch();
   if (inverted_) inverted_.emplace(*world_);
@@ -48,6 +49,7 @@ void Simulation::take_over(std::span<const RowCopy> copies) {
 
 void Simulation::follow(const WorldEditor::Made& made) {
   kept_.reset();
+  described_.reset();
   ++edits_;
   if (!integrator_->follow_edit(made.rows)) {
     const std::vector<double> memory = integrator_->memory();
@@ -106,36 +108,50 @@ void Simulation::remove_cells(std::string_view body, std::span<const std::int32_
   replace_world(tissu::remove_cells(*world_, state_, body, cells));
 }
 
-std::shared_ptr<const World> Simulation::kept_world() {
-  if (editor_ == nullptr) return world_;
-  if (kept_ == nullptr) kept_ = laid_anew(*world_);
-  return kept_;
-}
-
+/// A world that edits changed in place is kept as what it is made of, and laid again when it is needed.
 Simulation::Mark Simulation::mark() {
   forget_solves();
   hold();
-  return {.world = kept_world(),
-          .state = state_,
-          .last_good = last_good_,
-          .held = held_,
-          .integrator = integrator_->memory(),
-          .watch = watch_ ? watch_->reference(state_) : std::vector<double>(),
-          .settled = settled_};
+  Mark mark{.world = editor_ == nullptr ? world_ : kept_,
+            .described = nullptr,
+            .state = state_,
+            .last_good = last_good_,
+            .held = held_,
+            .integrator = integrator_->memory(),
+            .watch = watch_ ? watch_->reference(state_) : std::vector<double>(),
+            .settled = settled_};
+  if (mark.world == nullptr) {
+    if (described_ == nullptr)
+      described_ = std::make_shared<const WorldDescription>(described_apart(*world_));
+    mark.described = described_;
+  }
+  return mark;
+}
+
+bool Simulation::is_at(const Mark& mark) const {
+  if (mark.world == nullptr) return mark.described == described_;
+  return mark.world == (editor_ == nullptr ? world_ : kept_);
+}
+
+void Simulation::return_to_world(const Mark& mark) {
+  std::shared_ptr<const World> world = mark.world;
+  if (world == nullptr) world = std::make_shared<World>(*mark.described);
+  std::unique_ptr<WorldEditor> editor;
+  if (edits_in_place_ && WorldEditor::serves(*world)) {
+    editor = std::make_unique<WorldEditor>(std::move(world));
+    world = editor->world();
+  }
+  world_ = std::move(world);
+  editor_ = std::move(editor);
+  kept_ = mark.world;
+  described_ = mark.described;
 }
 
 void Simulation::rewind(const Mark& mark) {
   if (mark.state.positions.size() != state_.positions.size()) {
     throw ParameterError("the mark has other unknowns than the simulation; rewind the one that made it.");
   }
-  if (mark.world != (editor_ == nullptr ? world_ : kept_)) {
-    world_ = kept_ = mark.world;
-    editor_.reset();
-    if (edits_in_place_ && WorldEditor::serves(*world_)) {
-      editor_ = std::make_unique<WorldEditor>(mark.world);
-      world_ = editor_->world();
-    }
-  }
+  if (!is_at(mark)) return_to_world(mark);
   ++edits_;
   integrator_->prepare(*world_, solver_.get(), profile_);
   integrator_->restore(mark.integrator);

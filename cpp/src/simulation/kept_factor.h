@@ -29,6 +29,8 @@ class KeptFactor {
   Eigen::MatrixXd among(const BlockMatrix& A, std::span<const std::int32_t> rows);
   /// H A^-1 H^T, a bound of its relative error, and how it came about.
   [[nodiscard]] const Eigen::MatrixXd& found() const { return W_; }
+  /// X ~ A^-1 H^T
+  [[nodiscard]] const Eigen::MatrixXd& motions() const { return X_; }
   [[nodiscard]] double error() const { return error_; }
   [[nodiscard]] int corrections() const { return corrections_; }
   [[nodiscard]] bool made() const { return made_; }

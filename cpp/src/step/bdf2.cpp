@@ -1,6 +1,7 @@
 #include "tissu/step/bdf2.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "tissu/contact/contact.h"
 
@@ -53,7 +54,7 @@ void Bdf2::solve_anew(State& state, double h, StepReport& report) {
   anew.newton_iterations += report.newton_iterations;
   anew.solver_iterations += report.solver_iterations;
   anew.indefinite += report.indefinite;
-  report = anew;
+  report = std::move(anew);
 }
 
 }  // namespace tissu

@@ -131,7 +131,6 @@ void StaticTouching::begin(const LoadPath& path, double from, double to, State& 
   best_ = std::numeric_limits<double>::infinity();
   idle_ = 0;
   contact_->set_stiffer(kNormal, tangent_);
-  contact_->run().hand_over_to_all();
   if (is_loose_) measure_mass();
   is_falling_ = is_loose_;
   hold_back(held_);

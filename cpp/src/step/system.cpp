@@ -111,23 +111,24 @@ void System::assemble_mean(const State& state, double share, double mass) {
 
 void System::assemble_blocks(const State& state, double mass, StiffnessScale scale, double definite) {
   if (!matrix_) matrix_.emplace(world_.sparsity(), world_.isa(), world_.threads());
+  BlockMatrix& matrix = *matrix_;
   {
     const Timed timed(profile_, mass_row_);
-    matrix_->clear();
-    if (mass != 0.0) world_.mass().add_to(*matrix_, state, mass);
+    matrix.clear();
+    if (mass != 0.0) world_.mass().add_to(matrix, state, mass);
   }
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     const ForceModel& model = *world_.forces()[i];
     if (!model.has_stiffness()) continue;
     const Timed timed(profile_, rows_[i].stiffness);
-    model.add_stiffness(state, scratch_, scale, *matrix_);
-    if (definite > 0.0) model.add_stiffness(state, scratch_, {-definite, 0.0, true}, *matrix_);
+    model.add_stiffness(state, scratch_, scale, matrix);
+    if (definite > 0.0) model.add_stiffness(state, scratch_, {-definite, 0.0, true}, matrix);
   }
-  matrix_->constrain(world_.fixed().rows(), world_.fixed().masks());
-  if (!world_.run_time().coupling.empty()) couple(state, scale, *matrix_);
+  matrix.constrain(world_.fixed().rows(), world_.fixed().masks());
+  if (!world_.run_time().coupling.empty()) couple(state, scale, matrix);
   if (solver_ == nullptr || !solver_->needs_places()) return;
   place_rows(state);
-  matrix_->set_places(&places_);
+  matrix.set_places(&places_);
 }
 
 void System::couple(const State& state, StiffnessScale scale, BlockMatrix& matrix) {

@@ -23,7 +23,7 @@ std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 void sort_unique(std::vector<std::int32_t>& list) {
   std::ranges::sort(list);
-  list.erase(std::unique(list.begin(), list.end()), list.end());
+  list.erase(std::ranges::unique(list).begin(), list.end());
 }
 
 /// Of a world that was made for editing.

@@ -72,7 +72,7 @@ class Running {
   }
 
  private:
-  static const Settings& checked(const Settings& settings, double delay) {
+  static Settings checked(Settings settings, double delay) {
     check(settings, delay);
     return settings;
   }

@@ -79,6 +79,7 @@ def run(
         bool, typer.Option("--realtime", help="Whether trocars and steps keep pace with the clock.")
     ] = False,
     trust_laws: TrustLaws = False,
+    trust_plugins: TrustPlugins = False,
     accept_unconverged: AcceptUnconverged = False,
     quiet: Annotated[bool, typer.Option("--quiet", "-q", help="Print errors only.")] = False,
     debug: Debug = False,
@@ -89,9 +90,7 @@ def run(
     with reported(debug=debug):
         more = (resume, checkpoint, checkpoint_every, trust_laws, accept_unconverged)
         folder = out or Path("results") / scene.stem
-        job = Job(
-            scene, folder, duration, threads, quiet, *more, picture=picture, realtime=realtime
-        )
+        job = Job(scene, folder, duration, threads, quiet, *more, picture, realtime, trust_plugins)
         raise typer.Exit(run_scene(job, debug=debug))
 
 

@@ -51,6 +51,7 @@ class Job:
     accept_unconverged: bool = False
     picture: bool = True
     realtime: bool = False
+    trust_plugins: bool = False
 
 
 @dataclass(slots=True)
@@ -109,7 +110,7 @@ def run_scene(job: Job, *, debug: bool = False) -> int:
     if not job.quiet:
         for note in worth_knowing(simulation):
             complain(f"note: {note}")
-    with interruption() as interrupted, beside(simulation, realtime=job.realtime) as trocars:
+    with interruption() as interrupted, beside(simulation, job) as trocars:
         series, contacts = Series(simulation, folder), ContactTally(simulation)
         files = Files(series, checkpoints, Timetable(span(scene)[1]), clock)
         ending = advance(simulation, files, tally, interrupted, trocars, quiet=job.quiet)
@@ -131,21 +132,22 @@ def run_scene(job: Job, *, debug: bool = False) -> int:
 
 
 @contextlib.contextmanager
-def beside(simulation: Simulation, *, realtime: bool) -> Iterator[Trocars | None]:
+def beside(simulation: Simulation, job: Job) -> Iterator[Trocars | None]:
     """The trocars of the scene while it runs; None, with nothing loaded, where it has none.
 
     Raises:
         TissuError: a device that is not there, or a tool that cannot be led.
     """
     if not simulation.scene.trocars:
-        if realtime:
+        if job.realtime:
             text = "found --realtime and no trocars in the scene; without them a run is as fast as "
             raise ParameterError(f"{text}it can, leave it out")
         yield None
         return
     from tissu.trocar.run import Trocars
 
-    with Trocars(simulation, realtime=realtime) as trocars:
+    trusted = job.trust_plugins
+    with Trocars(simulation, realtime=job.realtime, trust_plugins=trusted) as trocars:
         yield trocars
 
 

@@ -70,6 +70,7 @@ NAMES: dict[str, tuple[str, ...]] = {
     "comparison": ("Comparison", "compare"),
     "advice": ("Advice", "advise"),
     "picture": ("draw", "draw_overlay"),
+    "output": ("Series",),
     "live_view": ("View", "view"),
 }
 """Room -> its public names, beside those of the parts of a scene."""

@@ -1,4 +1,4 @@
-"""A film of the simulations: the surfaces at moments of simulated time, written as glTF."""
+"""A film of the simulations: what is seen at moments of simulated time, written as glTF."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from tissu.live_view.body_drawing import normals
 from tissu.live_view.colours import BODIES
+from tissu.live_view.film_rigid import Look, RigidFilm, instruments, obstacles
 from tissu.live_view.gltf import Gltf
 from tissu.live_view.surface import Seen, seen_of
 
@@ -49,15 +50,17 @@ class Film:
         times: of its moments, since it began [s of simulated time].
     """
 
-    def __init__(self, stage: Stage) -> None:
+    def __init__(self, stage: Stage, *, more: Sequence[Look] = ()) -> None:
         """Nothing was seen yet.
 
         Args:
             stage: where simulations stand beside each other.
+            more: what is there beside bodies, obstacles and instruments.
         """
         self.times: dict[int, float] = {}
         self._stage = stage
         self._shots: dict[tuple[int, str], list[Shot]] = {}
+        self._rigid = RigidFilm([obstacles, instruments, *more])
         self._every = EVERY
         self._next = 0
         self._before = 0.0  # simulated time of the latest look
@@ -90,6 +93,7 @@ class Film:
             place = self._stage.shifts[lane] / self._stage.factor
             nodes = [self._add(gltf, called, shot, colour, place) for shot in shots]
             self._switch(gltf, shots, nodes)
+        self._rigid.write(gltf, self.times, self._stage)
         gltf.write(path)
 
     def _keep(self, simulations: Sequence[Simulation]) -> None:
@@ -104,11 +108,12 @@ class Film:
                     shots.append(Shot(now))
                 places = now.at(simulation.positions[name]).astype(np.float32)
                 shots[-1].places[self._next] = places
+        self._rigid.keep(self._next, simulations)
         self._next += 1
 
     def _thin(self) -> None:
         """Keep every second moment where there are too many."""
-        points = sum(
+        points = self._rigid.size + sum(
             len(shot.seen.nodes) * len(shot.places)
             for shots in self._shots.values()
             for shot in shots
@@ -118,6 +123,7 @@ class Film:
         kept = list(self.times)[::2]
         self._next, self._every = len(kept), 2.0 * self._every
         self.times = {number: self.times[old] for number, old in enumerate(kept)}
+        self._rigid.thin({old: number for number, old in enumerate(kept)})
         for key, shots in self._shots.items():
             for shot in shots:
                 found = [(new, shot.places.get(old)) for new, old in enumerate(kept)]
@@ -151,7 +157,7 @@ class Film:
         ]
         if targets:
             primitives = [{**one, "targets": targets} for one in primitives]
-        node = gltf.mesh(name, primitives, place=place)
+        node = gltf.mesh(name, primitives, translation=place)
         if targets:
             at = np.array([self.times[number] for number in shot.places], dtype=np.float32)
             weights = np.eye(len(at), dtype=np.float32)[:, 1:]

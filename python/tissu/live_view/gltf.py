@@ -79,18 +79,19 @@ class Gltf:
         """Numbers of points: of triangles (t, 3) or lines (l, 2)."""
         return self.numbers(rows.ravel(), of=_CORNERS_OF)
 
-    def colour(self, name: str, colour: tuple[int, int, int]) -> int:
-        """A surface of a colour, given as a screen shows it, 0 to 255."""
+    def colour(self, name: str, colour: tuple[int, int, int], opacity: float = 1.0) -> int:
+        """A surface of a colour, given as a screen shows it, 0 to 255, and of an opacity."""
         share = np.array(colour) / 255.0
         linear = np.where(share <= 0.04045, share / 12.92, ((share + 0.055) / 1.055) ** 2.4)
         shine = {"metallicFactor": 0.0, "roughnessFactor": 0.8}
-        painted = {"baseColorFactor": [*linear.tolist(), 1.0], **shine}
-        return self._add(
-            "materials", {"name": name, "doubleSided": True, "pbrMetallicRoughness": painted}
-        )
+        painted = {"baseColorFactor": [*linear.tolist(), opacity], **shine}
+        made = {"name": name, "doubleSided": True, "pbrMetallicRoughness": painted}
+        if opacity < 1.0:
+            made["alphaMode"] = "BLEND"
+        return self._add("materials", made)
 
-    def mesh(self, name: str, primitives: list[dict[str, Any]], *, place: ArrayLike) -> int:
-        """A mesh at a place; gives the number of its node."""
+    def mesh(self, name: str, primitives: list[dict[str, Any]], **pose: ArrayLike) -> int:
+        """A mesh at a pose, of `translation`, `rotation` x, y, z, w and `scale`; gives its node."""
         mesh: dict[str, Any] = {"name": name, "primitives": primitives}
         targets = len(primitives[0].get("targets", ()))
         if targets:
@@ -98,13 +99,13 @@ class Gltf:
         node = {
             "name": name,
             "mesh": self._add("meshes", mesh),
-            "translation": np.asarray(place, dtype=float).tolist(),
+            **{what: np.asarray(numbers, dtype=float).tolist() for what, numbers in pose.items()},
         }
         self._root["children"].append(self._add("nodes", node))
         return int(self._root["children"][-1])
 
     def move(self, node: int, what: str, times: int, values: int, *, way: str = "LINEAR") -> None:
-        """A motion of a node: its `weights` or `scale` at times [s], both places of numbers."""
+        """A motion of a node: what of it changes, at times [s]; both are places of numbers."""
         sampler = {"input": times, "output": values, "interpolation": way}
         self._samplers.append(sampler)
         target = {"node": node, "path": what}

@@ -81,8 +81,8 @@ class View:
             browser: whether the page is opened in a browser.
             shared: whether every page may touch; else the first one that is open.
             record: a file that is written when the view is closed: .html keeps everything that
-                is shown and plays in a browser without a server; .glb is glTF of the surfaces, up
-                to 30 moments of each simulated second.
+                is shown and plays in a browser without a server; .glb is glTF of bodies, obstacles,
+                instruments and trocars, up to 30 moments of each simulated second.
             speed: simulated seconds for each second of wall time; infinite: as fast as it goes.
             playing: whether it runs at once.
             hand: what holds simulated trocars at first: `scene`, the hand that the scene gives
@@ -116,7 +116,8 @@ class View:
             raise
         self._film: Film | None = None
         if self._record is not None and self._record.suffix == ".glb":
-            self._film = Film(self._session.stage)
+            more = [] if self._trocars is None else [self._trocars.placed]
+            self._film = Film(self._session.stage, more=more)
             self._film.look(simulations)
         elif self._record is not None:
             self._session.recorder.begin()

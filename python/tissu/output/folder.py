@@ -25,7 +25,7 @@ def prepare_folder(path: str | PathLike[str]) -> Path:
     except (OSError, ValueError) as refused:
         raise TissuError(
             f"output folder {folder}: cannot be written ({reason_of(refused)}); "
-            "name another with --out"
+            "name another folder (--out of a command)"
         ) from None
     return folder
 

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from tissu.counted import counted
 from tissu.files import distinct_names, file_name, require_folder_place, whole_file
 from tissu.files.whole import clear_unfinished
-from tissu.output.folder import inner_folder
+from tissu.output.folder import inner_folder, prepare_folder
 from tissu.output.obstacle_file import write_contact_surface, write_obstacle
 from tissu.output.vtu_fields import cell_data, node_data
 
@@ -33,8 +33,17 @@ class Series:
     [m/s]; cell fields: strain_energy_density [J/m^3], and von_mises [Pa] of models that know it,
     or those that the scene's `output` names; of bodies with contacts the point fields
     contact_pressure [Pa] and contact_gap [m] too. Of connective tissue its integration points, of
-    obstacles that bodies meet their surface; of bodies with a `surface_of` that mesh too. After
-    each call all files are complete and the index lists all of them.
+    obstacles that bodies meet their surface; of bodies with a `surface_of` that mesh too. Of bodies
+    that were cut, the surface and the inside of their material. After each call all files are
+    complete and the index lists all of them.
+
+        series = ts.Series(simulation, "results")
+        for report in simulation.run("0.5 s"):
+            series.write()
+
+    Args:
+        simulation: what is written.
+        folder: where; it is made if it is not there.
 
     Attributes:
         index: the PVD file.
@@ -44,7 +53,7 @@ class Series:
     """
 
     def __init__(self, simulation: Simulation, folder: str | PathLike[str]) -> None:
-        """Takes away what an earlier series of this name left in the folder.
+        """Makes the folder, and takes away what an earlier series of this name left in it.
 
         A simulation that went on from a checkpoint continues the series in the folder: frames
         until that time stay, later ones are taken away.
@@ -53,7 +62,7 @@ class Series:
             TissuError: the folder cannot be written.
         """
         self._simulation = simulation
-        self._folder = Path(folder)
+        self._folder = prepare_folder(folder)
         self._entries: list[str] = []
         require_folder_place(self._folder / FRAMES, "output folder", within=True)
         self._parts = [*simulation.meshes, *simulation.tissue, *simulation.obstacles]

@@ -52,6 +52,7 @@ def look_at(
     *,
     size: tuple[int, int],
     up: ArrayLike = (0.0, 0.0, 1.0),
+    towards: ArrayLike | None = None,
     margin: float = 0.06,
 ) -> Camera:
     """A camera that shows all shapes, from the side of the first one and a little from above.
@@ -60,10 +61,12 @@ def look_at(
         shapes: points (n,3) [m] of each shape.
         size: width and height of the picture [pixels].
         up: (3,) direction that points to the top of the picture.
+        towards: (3,) direction from the shapes to the viewer, in place of that from the side.
         margin: share of the picture left free on each side.
 
     Raises:
-        ParameterError: no points, points that are not finite, or a picture without pixels.
+        ParameterError: no points, points that are not finite, a picture without pixels, or a
+            direction of length zero.
     """
     clouds = [np.asarray(s, dtype=np.float64).reshape(-1, 3) for s in shapes]
     clouds = [c for c in clouds if len(c)]
@@ -71,7 +74,8 @@ def look_at(
         raise ParameterError("a picture needs at least one point, and finite coordinates only")
     if min(size) < 1:
         raise ParameterError(f"a picture of {size[0]} x {size[1]} pixels; at least 1 x 1 is needed")
-    axes = view_axes(clouds[0], np.asarray(up, dtype=np.float64))
+    top = np.asarray(up, dtype=np.float64)
+    axes = view_axes(clouds[0], top) if towards is None else axes_towards(towards, top)
     seen = np.vstack(clouds) @ axes.T
     low, high = seen.min(axis=0), seen.max(axis=0)
     extent = np.maximum(high - low, 1e-12 + 1e-9 * np.abs(seen).max())
@@ -93,6 +97,29 @@ def view_axes(points: Array, up: Array) -> Array:
     top = math.cos(ELEVATION) * up - math.sin(ELEVATION) * towards
     towards = math.cos(ELEVATION) * towards + math.sin(ELEVATION) * up
     return np.stack([right, top, towards])
+
+
+def axes_towards(towards: ArrayLike, up: Array) -> Array:
+    """Axes (3,3) of a view from a direction (3,); `up` points upwards on the picture.
+
+    Along `up` itself, the axis that lies most across it points upwards.
+
+    Raises:
+        ParameterError: not three finite numbers, or all of them zero.
+    """
+    direction = np.asarray(towards, dtype=np.float64)
+    usable = direction.shape == (3,) and bool(np.isfinite(direction).all()) and direction.any()
+    if not usable:
+        raise ParameterError(
+            f"found {towards!r} as the direction to the viewer; three finite numbers that are not "
+            "all zero are accepted"
+        )
+    direction = direction / np.linalg.norm(direction)
+    right = np.cross(up, direction)
+    if np.linalg.norm(right) <= 1e-6 * np.linalg.norm(up):
+        right = np.cross(np.eye(3)[int(np.argmin(np.abs(direction)))], direction)
+    right /= np.linalg.norm(right)
+    return np.stack([right, np.cross(direction, right), direction])
 
 
 def _longest_horizontal(points: Array, up: Array) -> Array:

@@ -55,6 +55,7 @@ def draw(
     *,
     size: tuple[int, int] = (1600, 800),
     field: Field = "displacement",
+    towards: ArrayLike | None = None,
 ) -> None:
     """Writes a PNG of the bodies at rest and now, same view and scale, coloured by a field.
 
@@ -66,19 +67,27 @@ def draw(
         size: width and height [pixels], at least 200 x 100.
         field: "displacement" [m] or "von_mises" [Pa], the latter averaged at the surface's points.
             A body with a `surface_of` is drawn by that mesh.
+        towards: (3,) direction from the bodies to the viewer, such as (0, -1, 0); none: square
+            onto their longest horizontal axis, turned by 28 degrees and raised by 22.
 
     Raises:
-        ParameterError: an unknown field, von_mises of a model without stress, or a picture too
-            small for its words.
+        ParameterError: an unknown field, von_mises of a model without stress, a picture too small
+            for its words, or a direction that is not three finite numbers or is zero.
         TissuError: the file cannot be written.
     """
     if field not in LABELS:
         raise ParameterError(f"field '{field}'; accepted: {', '.join(LABELS)}")
-    up = up_of(simulation)
-    title = simulation.scene.name
-    shape, time = shape_of(simulation, field), simulation.time
-    beside = obstacles_of(simulation)
-    draw_shape(shape, path, title=title, time=time, up=up, size=size, field=field, obstacles=beside)
+    draw_shape(
+        shape_of(simulation, field),
+        path,
+        title=simulation.scene.name,
+        time=simulation.time,
+        up=up_of(simulation),
+        towards=towards,
+        size=size,
+        field=field,
+        obstacles=obstacles_of(simulation),
+    )
 
 
 def up_of(simulation: Simulation) -> Array:
@@ -100,6 +109,7 @@ def draw_shape(
     size: tuple[int, int] = (1600, 800),
     field: Field = "displacement",
     obstacles: Obstacles | None = None,
+    towards: ArrayLike | None = None,
 ) -> None:
     """Writes a PNG of a shape at rest and deformed, and of obstacles; see `draw`."""
     if size[0] < 200 or size[1] < 100:
@@ -111,7 +121,7 @@ def draw_shape(
     seen = [shape.rest, shape.now]
     if obstacles is not None:
         seen += obstacles.in_view(np.concatenate(seen))
-    camera = look_at(seen, size=panel_size, up=up)
+    camera = look_at(seen, size=panel_size, up=up, towards=towards)
     _panels(figure, shape, obstacles, camera, (left, top), field)
 
     shift = float(np.linalg.norm(shape.now - shape.rest, axis=1).max(initial=0.0))

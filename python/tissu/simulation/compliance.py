@@ -123,6 +123,17 @@ class Compliance:
         return float("nan") if self._by == "warped" else self._found.error
 
     @property
+    def drift(self) -> Floats:
+        """How far the latest points go on in the next step (3m,) [m], along their directions.
+
+        Without forces on them the next step takes them from x to x - W lambda + drift, with lambda
+        the forces on them in the latest step: d = dt H A^-1 (M (2 v - v_before) + dt D v). It is
+        zero at rest, for `condensed` and `warped`, and of a static method. The velocities before
+        are those of a call one step earlier; without it the points are taken to move evenly.
+        """
+        return np.asarray(self._found.drift)
+
+    @property
     def corrections(self) -> int:
         """Number of corrections of the latest computation; for `cg`, of iterations."""
         return self._found.corrections

@@ -18,8 +18,8 @@ from numpy.typing import NDArray
 from tissu.cutting.kinds import tough_knife_of
 from tissu.cutting.way import pose_at
 from tissu.simulation import grab
-from tissu.simulation.slicing import cell_size, cut_rows, edge_of
-from tissu.simulation.track import Track, anchored
+from tissu.simulation.slicing import LONGEST_WAY, cell_size, cut_rows, edge_of
+from tissu.simulation.track import Anchors, Track, anchored
 
 if TYPE_CHECKING:
     from tissu.cutting.pose import Pose
@@ -61,25 +61,30 @@ def cut_pressing(
     assert knife.toughness is not None
     size, positions = cell_size(simulation, body), simulation._core.positions
     pose, edge = track.poses[-1], edge_of(simulation, knife)
-    tool, places = pose.place(edge), track.rows[-1].places(positions)
+    cut, behind, row = _rows(track)
+    tool, places, front = pose.place(edge), row.places(positions), cut[-1].places(positions)
     way = tool - places
     length = np.linalg.norm(way, axis=1)
-    inside, pushes = track.rows[-1].inside, _pushes(track, tool, positions)
+    inside, pushes = row.inside, _pushes(track, tool, positions)
     # All that have given way go on together, as soon as one of them is far enough behind: an edge
     # whose points go on one by one would cut in strips that are too narrow to say what they part.
     gives_way = inside & pushes & (length > _LAG * size)
     gives_way &= bool((length[gives_way] > (_LAG + _LEAST_ADVANCE) * size).any())
     free = ~inside | (inside & ~pushes & (length > size))
+    # Between a point beside the material and the next one the edge may be in a corner of the body,
+    # which is cut as they go along.
+    drawn = bool((np.linalg.norm(places - front, axis=1) > LONGEST_WAY * size).any())
     now = replace(track, poses=(pose,))
     report = None
-    if gives_way.any():
+    if drawn or gives_way.any():
         share = np.where(gives_way, 1.0 - _LAG * size / np.maximum(length, 1e-300), 0.0)
-        rows = _parted(places, places + share[:, None] * way, 0.5 * size)
-        report, now = cut_rows(simulation, name, body, now, rows)
+        ahead = _parted(front, places + share[:, None] * way, LONGEST_WAY * size)
+        report, now = cut_rows(simulation, name, body, replace(now, rows=cut), ahead)
         if report is not None:
             report = replace(report, work=knife.toughness * report.area)
-        now = _only(track, now, gives_way)
-    now = _followed(simulation, body, now, free, places, tool, size)
+        cut, behind, row = now.rows, behind.chosen(row, gives_way), now.rows[-1]
+    behind, row = _followed(simulation, body, (behind, row), free, places, tool, size)
+    now = replace(now, rows=(*cut, behind, row))
     _press(simulation, knife, body, now, pose)
     return report, now
 
@@ -145,10 +150,16 @@ def _press(simulation: Simulation, knife: Knife, body: str, track: Track, pose: 
     grab.keep(simulation._core, dict(sorted(springs.items())), MEMORY)
 
 
+def _rows(track: Track) -> tuple[tuple[Anchors, ...], Anchors, Anchors]:
+    """The rows of the cut so far, where each point was before its latest move, and where it is."""
+    *cut, behind, row = track.rows if len(track.rows) > 1 else 3 * track.rows
+    return tuple(cut), behind, row
+
+
 def _pushes(track: Track, tool: Floats, positions: Floats) -> Bools:
     """Whether the tool is ahead of each point (m,), on the side to which that went on last."""
-    last = track.rows[-1].places(positions)
-    before = track.rows[0].places(positions)
+    _, behind, row = _rows(track)
+    last, before = row.places(positions), behind.places(positions)
     return np.asarray(((tool - last) * (last - before)).sum(axis=1) >= 0.0)
 
 
@@ -160,30 +171,28 @@ def _parted(start: Floats, end: Floats, longest: float) -> Floats:
     return np.asarray(start + shares * (end - start))
 
 
-def _only(before: Track, after: Track, moved: Bools) -> Track:
-    """The track after a cut, in which points that did not go on are where they were."""
-    last = before.rows[-1].chosen(after.rows[-1], moved)
-    first = before.rows[0].chosen(before.rows[-1], moved)
-    return replace(after, rows=(first, last))
-
-
 def _followed(
     simulation: Simulation,
     body: str,
-    track: Track,
+    rows: tuple[Anchors, Anchors],
     free: Bools,
     places: Floats,
     tool: Floats,
     size: float,
-) -> Track:
-    """Points beside the material go to the tool, or to where they enter the material."""
+) -> tuple[Anchors, Anchors]:
+    """Points beside the material go to the tool, or to where they enter the material.
+
+    Returns:
+        Where each point was before its latest move, and where it is, as `rows` had it.
+    """
+    behind, row = rows
     if not free.any():
-        return track
+        return rows
     ends = np.where(free[:, None], tool, places)
     far = float(np.linalg.norm(ends - places, axis=1).max())
     count = min(_MOST_PLACES, max(1, math.ceil(far / (_LAG * size))))
     # Those in the material that the tool has drawn back from are let go, and follow it as it is.
-    chosen = np.flatnonzero(free & ~track.rows[-1].inside)
+    chosen = np.flatnonzero(free & ~row.inside)
     shares = np.arange(1, count + 1) / count
     way = places[chosen, None] + shares[:, None] * (tool - places)[chosen, None]
     found = anchored(simulation._core, body, np.ascontiguousarray(way.reshape(-1, 3)))
@@ -192,8 +201,5 @@ def _followed(
         entries = np.flatnonzero(inside[k])
         if len(entries):
             ends[point] = way[k, entries[0]]
-    row = anchored(simulation._core, body, ends)
     start = anchored(simulation._core, body, places)
-    last = track.rows[-1].chosen(row, free)
-    first = track.rows[0].chosen(start, free)
-    return replace(track, rows=(first, last))
+    return behind.chosen(start, free), row.chosen(anchored(simulation._core, body, ends), free)

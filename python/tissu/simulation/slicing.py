@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from tissu import _core
 from tissu.cutting.way import area_of, resampled, rows_of
-from tissu.simulation.track import Track, anchored
+from tissu.simulation.track import Anchors, Track, anchored
 
 if TYPE_CHECKING:
     from tissu.cutting.report import CutReport
@@ -28,6 +28,8 @@ through a moving bar two stayed joined at 0.02, one at 0.1, none at 0.2, 0.3 and
 """
 LONGEST_WAY = 0.5
 """of a point of an edge between two rows, as a share of a cell's mean edge"""
+_BEHIND = 1.5
+"""of an edge, behind which the front of its cut may lie, as a share of a cell's mean edge"""
 _NO_AREA = 1e-12
 
 
@@ -77,17 +79,24 @@ def cut_rows(
 ) -> tuple[CutReport | None, Track]:
     """Cut a body along rows (k, m, 3) of places of an edge, the first where the last cut ended.
 
+    Args:
+        simulation: whose body is cut.
+        name: of the knife.
+        body: its name.
+        track: whose rows are those of the cut so far, the last one where it ended.
+        rows: where the edge goes on [m].
+
     Raises:
         ParameterError: the cut is refused.
     """
-    # Where the material is now, before it parts: the last two rows go on from both its sides.
-    kept = tuple(anchored(simulation._core, body, row) for row in rows[-2:])
+    # Where the material is now, before it parts: what is kept goes on from both its sides.
+    positions, size = simulation._core.positions, cell_size(simulation, body)
+    past = [(row, row.places(positions)) for row in track.rows[:-1]]
+    kept = _kept(simulation, body, past, rows, size)
     ended = replace(track, incision=-1, poses=track.poses[-1:], rows=kept[-1:])
     if not _near(simulation, body, rows):
         return None, ended
-    way = rows
-    if len(track.rows) == 2:
-        way = np.concatenate([track.rows[0].places(simulation._core.positions)[None], rows])
+    way = np.array([*(places for _, places in past), *rows])
     if not area_of(way) > _NO_AREA * np.square(np.ptp(way.reshape(-1, 3), axis=0).max()):
         return None, ended
     number = track.incision if track.incision >= 0 else _next_incision(simulation, body, track)
@@ -99,10 +108,41 @@ def cut_rows(
         incision=number,
     )
     report = simulation._cut_along(body, sweep, by=name)
-    goes_on = bool(kept[-1].inside.any())
+    met = bool(report.cells_cut or report.unresolved)
+    # Between two points outside, the edge may still be in a corner of the body.
+    goes_on = met or bool(kept[-1].inside.any())
     after = replace(ended, rows=kept, incision=number) if goes_on else ended
-    met = report.cells_cut or report.unresolved
     return (report if met else None), after
+
+
+def _kept(
+    simulation: Simulation,
+    body: str,
+    past: list[tuple[Anchors, Floats]],
+    rows: Floats,
+    size: float,
+) -> tuple[Anchors, ...]:
+    """The latest rows of a cut, as far back as its front may be behind the edge.
+
+    A cell is cut along the edges that the blade has crossed. If another blade divides a cell at the
+    front, its new edges cross this one where it has already been, so that the next sweep begins
+    there.
+    """
+    last = rows[-1]
+    kept, after = [anchored(simulation._core, body, last)], last
+    for row, places in [*past, *((None, row) for row in rows[:-1])][::-1]:
+        if _far(places, after) < LEAST_WAY * size:
+            continue
+        kept.append(anchored(simulation._core, body, places) if row is None else row)
+        after = places
+        if _far(places, last) > _BEHIND * size:
+            break
+    return tuple(kept[::-1])
+
+
+def _far(row: Floats, other: Floats) -> float:
+    """Mean way of the points (m, 3) between two rows [m]."""
+    return float(np.linalg.norm(row - other, axis=1).mean())
 
 
 def _next_incision(simulation: Simulation, body: str, track: Track) -> int:

@@ -8,6 +8,7 @@ last bit, whether the recording was made stepped or in real time.
 from __future__ import annotations
 
 import zipfile
+import zlib
 from collections.abc import Mapping
 from dataclasses import dataclass, fields
 from pathlib import Path
@@ -20,12 +21,26 @@ from tissu.errors import ParameterError
 from tissu.files import whole_file
 from tissu.trocar.kinematics import Array
 from tissu.trocar.model import Blade, LocalModel
+from tissu.trocar.recording_whole import (
+    require_columns,
+    require_named,
+    require_numbers,
+    require_settings,
+)
 from tissu.trocar.settings import fields_of, settings_from
 
 _VERSION = 1
 _BLADE = tuple(field.name for field in fields(Blade))
 _MODEL = tuple(f.name for f in fields(LocalModel) if f.name not in ("tag", "blade"))
-_COMPARED = ("command", "enable", "q", "torque", "force", "state", "stored", "tank", "given_out")
+_NOT_ONE = (
+    *(OSError, ValueError, KeyError, TypeError, IndexError, EOFError, NotImplementedError),
+    *(RuntimeError, zipfile.BadZipFile, zlib.error),
+)
+"""What reading a file raises that is none, or was damaged."""
+_COMPARED = (
+    *("command", "enable", "q", "torque", "force", "state", "reason"),
+    *("stored", "share", "tank", "given_out"),
+)
 """Columns that a replay has to give again."""
 
 
@@ -88,16 +103,19 @@ class Recording:
             ParameterError: the file cannot be read, or is not a recording of this version.
         """
         try:
+            with zipfile.ZipFile(path) as file:
+                if file.testzip() is not None:  # before NumPy reads a header that is not one
+                    raise zipfile.BadZipFile
             with np.load(path, allow_pickle=False) as file:
                 arrays = {name: file[name] for name in file.files}
             version = int(arrays.pop("version"))
             if version != _VERSION:
-                text = f"the recording {path} has version {version}; {_VERSION} is accepted"
+                text = f"the recording has version {version}; {_VERSION} is accepted"
                 raise ParameterError(f"{text}: record again")
             return _recording_of(arrays)
-        except ParameterError:
-            raise
-        except (OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile) as error:
+        except ParameterError as error:
+            raise ParameterError(f"{path}: {error}") from None
+        except _NOT_ONE as error:
             text = f"{path} is not a recording of a trocar ({type(error).__name__}); "
             raise ParameterError(f"{text}a file of `tissu trocar record` is accepted") from None
 
@@ -105,15 +123,8 @@ class Recording:
         """The columns that the same ticks give now, one by one.
 
         Raises:
-            ParameterError: settings or models are not accepted by this version, or are missing.
+            ParameterError: settings or models are not accepted by this version.
         """
-        try:
-            return self._replayed()
-        except KeyError as error:
-            text = f"the recording has no {error.args[0]!r}, which its ticks refer to; it is not "
-            raise ParameterError(f"{text}whole: record again") from None
-
-    def _replayed(self) -> dict[str, Array]:
         device = _haptic.replayed(self.columns)
         run = _haptic.Run(device, settings_from(self.settings[0]), room=max(1, self.ticks))
         models = {published.stamp: published for published in self.models}
@@ -159,16 +170,20 @@ def _recording_of(arrays: Mapping[str, Array]) -> Recording:
             columns[rest[0]] = array
         else:
             grouped[group].setdefault(rest[0], {})[rest[1]] = array
+    changes = {int(number): one for number, one in grouped["settings"].items()}
+    require_columns(columns)
+    require_settings(changes)
     settings = [
-        {name: value.item() if value.ndim == 0 else value for name, value in one.items()}
-        for _, one in sorted(grouped["settings"].items(), key=lambda item: int(item[0]))
+        {name: value.item() if value.ndim == 0 else value for name, value in changes[k].items()}
+        for k in range(len(changes))
     ]
     models = [_published(int(stamp), one) for stamp, one in grouped["model"].items()]
-    columns["number"], settings[0]  # a recording has both
+    require_named(columns, len(settings), [published.stamp for published in models])
     return Recording(columns, settings, models)
 
 
 def _published(stamp: int, arrays: Mapping[str, Array]) -> Published:
+    require_numbers(arrays)
     blade = None
     if "blade/way" in arrays:
         parts: dict[str, Any] = {name: arrays[f"blade/{name}"] for name in _BLADE}

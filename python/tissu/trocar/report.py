@@ -105,7 +105,8 @@ class Report:
         axis: (3,) unit vector along the tool into the body, in the scene.
         force: (3,) of the tissue on the tool, in the scene [N].
         torque: (4,) that the joints should feel [N m, N m, N m, N].
-        grip: angle of the tool's grip, of a device that has a fifth channel [rad].
+        grip: angle of the tool's grip, of a device that has a fifth channel [rad]; it is read, and
+            never driven.
         coupling: share of the stiffness K_c that is in use; 0: no force is given.
         contacts: with a force.
         stored: energy in coupling and tissue [J].

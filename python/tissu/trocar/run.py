@@ -37,18 +37,22 @@ class Trocars:
         felt: what each trocar felt in each step, by its name.
     """
 
-    def __init__(self, simulation: Simulation, *, realtime: bool = False) -> None:
+    def __init__(
+        self, simulation: Simulation, *, realtime: bool = False, trust_plugins: bool = False
+    ) -> None:
         """Take the trocars of its scene.
 
         Args:
             simulation: whose scene has trocars.
             realtime: whether ticks and steps keep pace with the clock; else both are stepped.
+            trust_plugins: whether the plug-in of a device, which is a program, may run.
 
         Raises:
             ParameterError: a device that is not simulated, and not in real time; what `Touch`
                 refuses.
         """
         self.simulation, self.realtime = simulation, realtime
+        self._trust = trust_plugins
         self.felt: dict[str, list[Felt]] = {}
         self._touches: dict[str, Touch] = {}
         self._open = ExitStack()
@@ -66,7 +70,9 @@ class Trocars:
     def __enter__(self) -> Self:
         mode: Any = "threaded" if self.realtime else "stepped"
         for name, trocar in self.simulation.scene.trocars.items():
-            controller = self._open.enter_context(Controller(trocar, mode=mode))
+            controller = self._open.enter_context(
+                Controller(trocar, mode=mode, trust_plugins=self._trust)
+            )
             self._touches[name] = Touch(self.simulation, controller)
             self.felt[name] = []
         return self

@@ -13,6 +13,7 @@ contacts become the model that the ticks feel until the next one:
     x = anchor - W lambda,   W = h^2 H (M + h C + h^2 K)^-1 H^T
 
 with the rows H of the contacts' points of the tissue, of the matrices at the end of the step. The
+anchor is where the points go in the next step without the forces lambda of the tool on them. The
 proxy is that of Zilles and Salisbury 1995.
 """
 
@@ -212,11 +213,15 @@ class Touch:
             place, since = self._out.pop(tool, (home, -np.inf))
             back = min(1.0, (self.simulation.time - since) / OUT)
             self._left, self._behind = IN, _way(place + back * _way(place, home), wanted)
-        left = max(0.0, self._left - self._dt)
-        left = 0.0 if left < 0.5 * self._dt else left
-        self._behind = self._behind * (left / self._left) if left > 0.0 else np.zeros(4)
-        self._left = left
+        self._left, self._behind = self._left_then()
         return wanted - self._behind
+
+    def _left_then(self) -> tuple[float, Array]:
+        """What will be left of the way in after a step: time [s], and joints (4,)."""
+        left = max(0.0, self._left - self._dt)
+        if left < 0.5 * self._dt:
+            return 0.0, np.zeros(4)
+        return left, self._behind * (left / self._left)
 
     def _lead(self, tool: str, joints: Array) -> None:
         """The obstacle goes to the tool's pose: x = at + Q (X - at) + R (r - r0)."""
@@ -245,10 +250,15 @@ class Touch:
         forces = self.controller.turned_into_port(np.array([one.force for one in kept]))
         local = np.einsum("mij,mj->mi", axes, forces)
         places = self.controller.into_port(np.array([one.point for one in kept]))
-        given = np.einsum("mi,mij->mj", (W @ local.ravel()).reshape(-1, 3), axes)
+        back = self.compliance.drift + W @ local.ravel()
+        given = np.einsum("mi,mij->mj", back.reshape(-1, 3), axes)
         points = places @ kinematics.rotation(joints) - np.array([0.0, 0.0, joints[3]])
         proxy = joints + self._behind
-        moved = np.array([kinematics.position(proxy, point) for point in points]) - places
+        # In the next step the tool will be nearer to a proxy on its way in.
+        then = proxy - self._left_then()[1]
+        moved = np.array(
+            [kinematics.position(proxy, at) - kinematics.position(then, at) for at in points]
+        )
         model = LocalModel(
             joints=proxy,
             points=points,

@@ -105,6 +105,26 @@ def test_a_file_that_is_no_recording_is_refused(tmp_path):
         Recording.read(path)
 
 
+@pytest.mark.parametrize("mode", ["stepped", "python"])
+def test_a_grip_is_read_and_never_driven(mode):
+    """Its angle is counts times 0.05 degrees; its torque is zero in every state, in contact too."""
+    controller = Controller(trocar(), mode=mode)
+    states, commands = set(), []
+    with controller:
+        controller.device.jump(4, 100)
+        for _ in range(30):
+            report = controller.step(20)
+            assert report.grip == pytest.approx(np.radians(5.0), rel=1e-12)
+            states.add(report.state)
+            through = (0, 0, 0.105)
+            wall = LocalModel.plane(report.q, through=through, normal=(0, 0, -1), stiffness=500.0)
+            controller.publish(wall)
+            commands.append(controller.records()["command"])
+    columns = np.concatenate(commands)
+    assert State.contact in states and np.abs(columns[:, 3]).max() > 0.1
+    assert columns.shape[1] == 5 and not columns[:, 4].any()
+
+
 TOOLS = {0x51A0: "probe", 0x51A1: "knife"}
 
 

@@ -15,9 +15,11 @@ from pathlib import Path
 
 import played_device
 import pytest
+from typer.testing import CliRunner
 
 import tissu as ts
 from tissu import _haptic
+from tissu.cli.app import app
 from tissu.trocar.controller import Controller
 from tissu.trocar.model import LocalModel
 from tissu.trocar.states import State
@@ -248,6 +250,24 @@ def test_the_example_plug_in_is_built_opened_and_held(tmp_path):
         assert report.force[2] == pytest.approx(0.2 * 9.81, abs=500 * 1e-4)
         with pytest.raises(ts.TissuError, match="has a controller already"):
             Controller(trocar(device), trust_plugins=True)
+
+
+def test_a_scene_with_a_plug_in_runs_where_it_is_trusted(tmp_path):
+    """`tissu run --realtime`, refused without --trust-plugins."""
+    built(ROOT / "examples" / "plugin" / "weight.c", tmp_path / "weight.so")
+    text = (ROOT / "examples" / "trocar.yaml").read_text()
+    given = text[text.index("      type: simulated") : text.index("    tools:")]
+    scene = tmp_path / "weight.yaml"
+    plugin = (
+        "      {type: plugin, library: weight.so}\n    coupling: {stiffness: [1, 1, 0.1, 100]}\n"
+    )
+    scene.write_text(text.replace(given, plugin).replace("duration: 0.1 s", "duration: 0.02 s"))
+    command = ["run", str(scene), "--realtime", "--out", str(tmp_path / "out"), "--no-picture"]
+    refused = CliRunner().invoke(app, command)
+    assert refused.exit_code == 2 and "take --trust-plugins" in refused.output
+    done = CliRunner().invoke(app, [*command, "--trust-plugins"])
+    assert done.exit_code == 0, done.output
+    assert (tmp_path / "out" / "trocar-right.csv").is_file()
 
 
 def test_plug_ins_that_are_none_are_refused(tmp_path):

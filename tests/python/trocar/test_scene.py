@@ -201,7 +201,7 @@ def test_friction_that_is_not_known_leaves_no_automatic_coupling():
 
 
 def test_ports_that_collide_and_a_second_controller_are_refused():
-    second = RIGHT.replace("right:", "left:")
+    second = RIGHT.replace("right:", "left:").replace("{0x51A0: probe}", "{}")
     assert "at least 0.1 m is accepted" in problems(RIGHT + second)[0]
     away = second.replace("[6 cm, -9 cm, 12 cm]", "[17 cm, -9 cm, 12 cm]")
     assert ts.Scene.from_yaml_text(HEAD + RIGHT + away).check().ok
@@ -211,6 +211,13 @@ def test_ports_that_collide_and_a_second_controller_are_refused():
     for old, new in given.items():
         both = both.replace(old, new)
     assert "which trocars.right has too; a device has one controller" in problems(both)[0]
+
+
+def test_two_trocars_do_not_lead_one_tool():
+    """The obstacle would go where the second hand is, and both would feel its contacts."""
+    second = RIGHT.replace("right:", "left:").replace("6 cm, -9 cm", "17 cm, -9 cm")
+    (found,) = problems(RIGHT + second)
+    assert "trocars.left.tools: found 'probe', which trocars.right has too" in found
 
 
 def test_the_frame_of_a_port_is_right_handed_with_its_axis_inwards():

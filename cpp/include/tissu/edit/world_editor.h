@@ -16,6 +16,8 @@
 
 namespace tissu {
 
+/// What a world is made of, of which no edit of the world reaches anything.
+WorldDescription described_apart(const World& world);
 /// The same world once more, of which no edit of the other reaches anything.
 std::shared_ptr<World> laid_anew(const World& world);
 

@@ -15,6 +15,13 @@
 /// so that the error is of second order in X, is bounded, and has one sign. Where the bound is too large X is
 /// corrected: by the factor, then by a solve among the rows whose residual is largest. Where that is not
 /// enough, A is factored anew.
+///
+/// Tissue that moves goes on. Without forces on the points the next step would take them from x_n to
+///
+///     x_n - W lambda_n + d,   d = h H A^-1 (M (2 v_n - v_(n-1)) + h D v_n)
+///
+/// with lambda_n the forces of this step: the drift d is its momentum, and the share of lambda_n that its
+/// viscosity took and gives back when it stands. It is of first order in the error of X, and zero at rest.
 
 #include <Eigen/Core>
 #include <memory>
@@ -64,6 +71,9 @@ class Compliance {
   /// ParameterError where the way cannot be taken in this world, or a row is not among those of the settings.
   const Eigen::MatrixXd& find(Simulation& simulation, double h, std::span<const CarriedPoint> points);
   [[nodiscard]] const Report& report() const { return report_; }
+  /// The drift d (3 m) [m] of the latest points along their directions; zero at rest, and of tables, which
+  /// have no X.
+  [[nodiscard]] const Eigen::VectorXd& drift() const { return drift_; }
   /// Most rows of the unknown that condensed and warped take.
   static constexpr std::size_t kMostRows = 1000;
   /// What makes the factors.
@@ -74,6 +84,8 @@ class Compliance {
   void follow(const Simulation& simulation, double h);
   void assemble(const State& state);
   void couple(const State& state);
+  void remember(const State& state);
+  void find_drift(const State& state);
   void find_by_solves(const State& state, std::span<const CarriedPoint> points);
   void find_by_table(const State& state, std::span<const CarriedPoint> points);
 
@@ -81,6 +93,7 @@ class Compliance {
   Report report_;
   std::unique_ptr<Kept> kept_;  ///< of a world
   Eigen::MatrixXd W_;
+  Eigen::VectorXd drift_;
 };
 
 }  // namespace tissu

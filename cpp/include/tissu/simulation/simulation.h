@@ -89,7 +89,8 @@ class Simulation {
 
   /// What `rewind` goes back to: the world and all that its next step depends on.
   struct Mark {
-    std::shared_ptr<const World> world;
+    std::shared_ptr<const World> world;                 ///< null: of this description, from which it is laid
+    std::shared_ptr<const WorldDescription> described;  ///< of a world that edits changed in place
     State state;
     State last_good;
     std::vector<double> held;
@@ -110,8 +111,9 @@ class Simulation {
   Edited make(std::string_view body, CutPlan plan);
   void follow(const WorldEditor::Made& made);
   void take_over(std::span<const RowCopy> copies);
-  /// The world as it is now, which no edit in place reaches.
-  [[nodiscard]] std::shared_ptr<const World> kept_world();
+  /// Whether the world is still the one of a mark.
+  [[nodiscard]] bool is_at(const Mark& mark) const;
+  void return_to_world(const Mark& mark);
   [[nodiscard]] double farthest() const;
   [[nodiscard]] bool is_sane() const;
   [[noreturn]] void roll_back(double h);
@@ -131,8 +133,9 @@ class Simulation {
   void hold() { world_->fixed().copy(held_, state_.velocities); }
 
   std::shared_ptr<const World> world_;
-  std::unique_ptr<WorldEditor> editor_;  ///< of the world; null: edits lay everything anew
-  std::shared_ptr<const World> kept_;    ///< the same as the world, until an edit in place
+  std::unique_ptr<WorldEditor> editor_;                ///< of the world; null: edits lay everything anew
+  std::shared_ptr<const World> kept_;                  ///< the same as the world, until an edit in place
+  std::shared_ptr<const WorldDescription> described_;  ///< of the world, for marks, until an edit in place
   std::uint64_t edits_ = 0;
   bool edits_in_place_ = false;
   std::unique_ptr<Integrator> integrator_;

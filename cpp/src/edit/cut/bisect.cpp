@@ -28,7 +28,7 @@ class Divider {
     }
     for (auto* list : {&left_.unsound, &left_.folded}) {
       std::ranges::sort(*list);
-      list->erase(std::unique(list->begin(), list->end()), list->end());
+      list->erase(std::ranges::unique(*list).begin(), list->end());
     }
     return std::move(left_);
   }

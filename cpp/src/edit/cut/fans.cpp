@@ -33,7 +33,7 @@ std::vector<std::int32_t> Fans::numbers(std::int32_t vertex) const {
     found.push_back(vertices_[at(t)][corner]);
   }
   std::ranges::sort(found);
-  found.erase(std::unique(found.begin(), found.end()), found.end());
+  found.erase(std::ranges::unique(found).begin(), found.end());
   return found;
 }
 

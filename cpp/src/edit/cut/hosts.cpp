@@ -35,7 +35,7 @@ std::uint32_t morton(const Vec3& p, const Eigen::AlignedBox3d& box) {
 
 void sort_unique(std::vector<std::int32_t>& list) {
   std::ranges::sort(list);
-  list.erase(std::unique(list.begin(), list.end()), list.end());
+  list.erase(std::ranges::unique(list).begin(), list.end());
 }
 
 void insert_sorted(std::vector<std::int32_t>& list, std::int32_t value) {

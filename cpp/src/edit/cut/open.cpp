@@ -17,6 +17,7 @@ std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 constexpr double kCoverShare = 0.2;
 constexpr double kRoundOff = 1e-12;
+constexpr double kLeastAlong = 0.5;  ///< cosine between the normals of a face of the cut and of the blade
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 /// A face of a tetrahedron by its vertices in ascending order; an edge of a triangle after -1.
@@ -53,8 +54,7 @@ class Opener {
       open(sides[i], sides[i + 1]);
     }
     std::ranges::sort(opened_.vertices);
-    opened_.vertices.erase(std::unique(opened_.vertices.begin(), opened_.vertices.end()),
-                           opened_.vertices.end());
+    opened_.vertices.erase(std::ranges::unique(opened_.vertices).begin(), opened_.vertices.end());
     return std::move(opened_);
   }
 
@@ -94,7 +94,7 @@ class Opener {
       candidates.insert(candidates.end(), triangles(t).begin(), triangles(t).end());
     }
     std::ranges::sort(candidates);
-    candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());
+    candidates.erase(std::ranges::unique(candidates).begin(), candidates.end());
     if (candidates.empty()) candidates = all_;
     known = signed_height(part_, candidates, patch_.vertex(v).place);
     const int votes = known_[v].votes;
@@ -117,8 +117,11 @@ class Opener {
   }
 
   /// Above what an earlier sweep of the incision opened, a tetrahedron is above the blade: 1; below: -1; at
-  /// no such face: 0.
+  /// no such face: 0. A face across the blade belongs to another cut, whose vertices lie on both; of several
+  /// the one that lies flattest along the blade counts.
   [[nodiscard]] int side_of_earlier(const Patch::Tetra& tetra) const {
+    double flattest = kLeastAlong;
+    int side = 0;
     for (std::size_t f = 0; f < tetra.corners(); ++f) {
       if ((tetra.cut >> f & 1U) == 0) continue;
       Vec3 middle = Vec3::Zero();
@@ -130,9 +133,12 @@ class Opener {
         middle += patch_.vertex(corner).place / static_cast<double>(tetra.corners() - 1);
       }
       if (!before) continue;
-      return outward(tetra, f).dot(nearest_normal(part_, all_, middle)) < 0.0 ? 1 : -1;
+      const double along = outward(tetra, f).normalized().dot(nearest_normal(part_, all_, middle));
+      if (std::abs(along) <= flattest) continue;
+      flattest = std::abs(along);
+      side = along < 0.0 ? 1 : -1;
     }
-    return 0;
+    return side;
   }
 
   /// Whether a tetrahedron is above the blade: its vertices that are not on the cut decide, its middle if all

@@ -116,6 +116,7 @@ std::int32_t Patch::divide(std::int32_t p, std::int32_t q, double t) {
   vertices.push_back({-1 - (old_riders + new_riders++), between(a.rider, b.rider, t),
                       (1.0 - t) * a.place + t * b.place, (1.0 - t) * a.rest + t * b.rest});
   at_.emplace_back();
+  divisions.push_back({middle, p, q});
   for (const std::int32_t parent : parents) {
     const auto other = static_cast<std::int32_t>(tetrahedra.size());
     Tetra near = tetra(parent);  // keeps p

@@ -66,11 +66,19 @@ class Patch {
   /// [m3], of a triangle its area [m2].
   [[nodiscard]] double rest_volume(const Tetra& tetra) const;
 
+  /// A vertex that was put on an edge, and the edge's ends (places).
+  struct Division {
+    std::int32_t vertex;
+    std::int32_t p;
+    std::int32_t q;
+  };
+
   std::vector<Vertex> vertices;
   std::vector<Tetra> tetrahedra;
   std::vector<Cell> cells;
-  std::int32_t old_riders;      ///< of the material; new riders of the patch follow
-  std::int32_t new_riders = 0;  ///< vertices put on edges
+  std::vector<Division> divisions;  ///< one after the other
+  std::int32_t old_riders;          ///< of the material; new riders of the patch follow
+  std::int32_t new_riders = 0;      ///< vertices put on edges
 
  private:
   void add_cell(const Hosts& hosts, const Material& material, ConstReals x, std::int32_t number);

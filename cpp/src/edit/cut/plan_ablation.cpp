@@ -12,7 +12,7 @@ namespace tissu {
 
 CutPlan plan_ablation(const Hosts& hosts, const Material& material, std::vector<std::int32_t> cells) {
   std::ranges::sort(cells);
-  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+  cells.erase(std::ranges::unique(cells).begin(), cells.end());
   for (const std::int32_t cell : cells) {
     if (!hosts.has(cell))
       throw ParameterError("the body has no cell " + std::to_string(cell) + " (any more).");
@@ -25,7 +25,7 @@ CutPlan plan_ablation(const Hosts& hosts, const Material& material, std::vector<
     parted.insert(parted.end(), tetra.vertices.begin(), end);
   }
   std::ranges::sort(parted);
-  parted.erase(std::unique(parted.begin(), parted.end()), parted.end());
+  parted.erase(std::ranges::unique(parted).begin(), parted.end());
   CutPlan plan;
   plan.gone = cells;
   const Fragments fragments(hosts, patch, cells, cells);

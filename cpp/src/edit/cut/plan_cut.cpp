@@ -31,7 +31,7 @@ std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 void sort_unique(Numbers& numbers) {
   std::ranges::sort(numbers);
-  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+  numbers.erase(std::ranges::unique(numbers).begin(), numbers.end());
 }
 
 void check(const Hosts& hosts, ConstReals x, const CutOptions& options) {
@@ -134,6 +134,12 @@ class Attempt {
         known.vertices[v].before = true;
       }
     }
+    for (const Patch::Division& division : patch_.divisions) {
+      if (!known[division.p].before || !known[division.q].before) continue;
+      const Vec3& place = patch_.vertex(division.vertex).place;
+      known.put_on(division.vertex, place, place);
+      known.vertices[at(division.vertex)].before = true;
+    }
     return known;
   }
 
@@ -192,8 +198,9 @@ class Attempt {
       if (!patch_.cell(cell).divided && !patch_.cell(cell).opened) add(cell, Unresolved::pierced);
     }
     std::ranges::sort(plan.unresolved);
-    const auto same = std::unique(plan.unresolved.begin(), plan.unresolved.end(),
-                                  [](const auto& a, const auto& b) { return a.first == b.first; });
+    const auto same = std::ranges::unique(plan.unresolved, [](const auto& a, const auto& b) {
+                        return a.first == b.first;
+                      }).begin();
     plan.unresolved.erase(same, plan.unresolved.end());
   }
 
@@ -237,17 +244,36 @@ class Attempt {
         Numbers& list = lists[incision.number];
         list.insert(list.end(), now.begin(), now.end());
       }
+      std::vector<char> on(patch_.vertices.size(), 0);
+      for (std::size_t v = 0; v < on.size(); ++v)
+        on[v] = std::ranges::binary_search(incision.vertices, patch_.vertices[v].number) ? 1 : 0;
+      add_divided(std::move(on), fans, lists[incision.number]);
     }
     for (const auto& [number, known] : on_incision_) {
+      std::vector<char> on(patch_.vertices.size(), 0);
       for (std::size_t v = 0; v < known.vertices.size(); ++v) {
         if (!known.vertices[v].on) continue;
+        on[v] = 1;
         const Numbers now = fans.numbers(static_cast<std::int32_t>(v));
         lists[number].insert(lists[number].end(), now.begin(), now.end());
       }
+      add_divided(std::move(on), fans, lists[number]);
     }
     for (auto& [number, list] : lists) {
       sort_unique(list);
       plan.material.incisions.push_back({number, std::move(list)});
+    }
+  }
+
+  /// An edge between two vertices of an incision is one of its surface, so that a vertex which another blade
+  /// puts on the edge is on that incision too: else the faces there would never open. `on`: vertices of the
+  /// patch that are on it.
+  void add_divided(std::vector<char> on, const Fans& fans, Numbers& list) const {
+    for (const auto& [vertex, p, q] : patch_.divisions) {
+      if (on[at(p)] == 0 || on[at(q)] == 0 || on[at(vertex)] != 0) continue;
+      on[at(vertex)] = 1;
+      const Numbers now = fans.numbers(vertex);
+      list.insert(list.end(), now.begin(), now.end());
     }
   }
 

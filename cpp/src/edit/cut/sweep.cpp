@@ -148,6 +148,7 @@ Sweep disc_sweep(const Vec3& center, const Vec3& normal, double radius) {
     rim[i] = center + radius * std::cos(angle) * u + radius * std::sin(angle) * v;
   }
   std::vector<Triangle> triangles;
+  triangles.reserve(kDiscSides);
   for (std::size_t i = 0; i < kDiscSides; ++i)
     triangles.push_back({center, rim[i], rim[(i + 1) % kDiscSides]});
   return one_part(std::move(triangles));

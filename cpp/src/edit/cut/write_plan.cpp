@@ -89,7 +89,7 @@ void write_plan(const Hosts& hosts, const Material& material, const Patch& patch
   }
   const auto removed = static_cast<std::ptrdiff_t>(plan.gone.size());
   write_cells(hosts, patch, fragments, replicas, plan);
-  std::inplace_merge(plan.gone.begin(), plan.gone.begin() + removed, plan.gone.end());
+  std::ranges::inplace_merge(plan.gone, plan.gone.begin() + removed);
   plan.first_node = hosts.node_count();
   plan.nodes = fragments.born();
   plan.emptied = fragments.emptied();

@@ -50,6 +50,7 @@ PointFields Corotational::point_fields(const PointQuery& query) const {
   PointFields points = PlacedCells(block_, block_.quadrature, query).lay();
   const auto count = static_cast<std::size_t>(points.points_per_cell);
   std::vector<Mat3> R;
+  R.reserve(centre.cells());
   for (std::size_t cell = 0; cell < centre.cells(); ++cell) R.push_back(rotation_of(centre, cell, rotation_));
   PointFields turned = points;
   for (std::size_t i = 0; i < points.volumes.size(); ++i) {

@@ -126,6 +126,7 @@ void Frames::lay_frames() {
                          "\" has frames as its model, but nodes without rotations; let its nodes be frames.");
   }
   std::vector<std::pair<std::int32_t, std::int32_t>> pairs;
+  pairs.reserve(block_.cells.size());
   for (std::size_t i = 0; i < block_.cells.size(); ++i)
     pairs.emplace_back(block_.cells[i], known ? block_.frames[i] : -1);
   std::ranges::sort(pairs);

@@ -12,8 +12,8 @@ from tissu.live_view.marks import Marks
 if TYPE_CHECKING:
     from tissu.simulation import Simulation
 
-_COLOUR = (168, 172, 178)
-_OPACITY = 0.75
+COLOUR = (168, 172, 178)
+OPACITY = 0.75
 
 
 def _begin(simulation: Simulation) -> Draw:
@@ -25,7 +25,7 @@ def _begin(simulation: Simulation) -> Draw:
             known = drawn.get(name)
             if known is None or not np.array_equal(known[0], surface.points):
                 corners = surface.points[surface.triangles]
-                drawn[name] = surface.points, Marks(_COLOUR, surface=corners, opacity=_OPACITY)
+                drawn[name] = surface.points, Marks(COLOUR, surface=corners, opacity=OPACITY)
         return [marks for _, marks in drawn.values()]
 
     return draw

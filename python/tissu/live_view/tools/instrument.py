@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from tissu.live_view.pointer import Pointer
     from tissu.simulation import Simulation
 
-_COLOUR = (40, 40, 40)
+COLOUR = (40, 40, 40)
 
 
 class MoveInstrument(Tool):
@@ -60,7 +60,7 @@ class MoveInstrument(Tool):
         for simulation in simulations:
             edges = [tool.edge for tool in simulation.instruments.values()]
             lines = [edge[i : i + 2] for edge in edges for i in range(len(edge) - 1)]
-            found.append((Marks(_COLOUR, lines=np.array(lines)),) if lines else ())
+            found.append((Marks(COLOUR, lines=np.array(lines)),) if lines else ())
         return found
 
     def say(self, simulations: Sequence[Simulation]) -> str:

@@ -35,8 +35,8 @@ STATES = {
     "fault": (200, 30, 30),
 }
 """Colour of the port's ring in each state."""
-_STEEL, _PORT, _GRIP = (196, 202, 208), (90, 100, 112), (60, 66, 74)
-_HAND, _WANTED, _FORCE, _EDGE = (20, 110, 200), (230, 120, 20), (200, 30, 60), (40, 40, 40)
+STEEL, PORT, GRIP_COLOUR = (196, 202, 208), (90, 100, 112), (60, 66, 74)
+_HAND, _WANTED, FORCE, _EDGE = (20, 110, 200), (230, 120, 20), (200, 30, 60), (40, 40, 40)
 _SIDES = 16
 
 
@@ -79,10 +79,10 @@ class TrocarDrawing:
         label = ((self._at + RING * self._turn[:, 0], words),)
         return [
             *(self._ring_of(name, state, colour) for name, colour in STATES.items()),
-            Marks(_PORT, surface=self._sleeve, opacity=0.45, labels=label),
-            Marks(_STEEL, surface=self._tube(shown, SHAFT, (2.0 * SHAFT, self._length))),
-            Marks(_GRIP, surface=self._tube(shown, GRIP, (self._length, self._end))),
-            Marks(_FORCE, arrows=_arrow(top, force, arrow)),
+            Marks(PORT, surface=self._sleeve, opacity=0.45, labels=label),
+            Marks(STEEL, surface=self._tube(shown, SHAFT, (2.0 * SHAFT, self._length))),
+            Marks(GRIP_COLOUR, surface=self._tube(shown, GRIP, (self._length, self._end))),
+            Marks(FORCE, arrows=_arrow(top, force, arrow)),
             self._hand(tool, inside is not None),
             self._wanted(),
             self._edges(inside),

@@ -12,11 +12,13 @@ from tissu.live_view.layers.layer import Draw, Layer
 from tissu.live_view.marks import extent
 from tissu.live_view.runner import step_of
 from tissu.live_view.trocars.drawing import TrocarDrawing
+from tissu.live_view.trocars.film import TrocarFilm
 from tissu.live_view.trocars.live import LiveTrocar
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    from tissu.live_view.film_rigid import Placed
     from tissu.live_view.marks import Marks
     from tissu.live_view.trocars.frame import TrocarFrame
     from tissu.live_view.trocars.held import HandKind
@@ -63,6 +65,7 @@ class LiveTrocars:
             self.close()
             raise
         self._drawings = [TrocarDrawing(one) for one in self.each]
+        self._films = [TrocarFilm(one) for one in self.each]
 
     @property
     def names(self) -> list[str]:
@@ -132,6 +135,11 @@ class LiveTrocars:
     def points(self) -> NDArray[np.float64]:
         """Where they are, for the first view (n, 3) [m]."""
         return np.concatenate([drawing.first_points(self.arrow) for drawing in self._drawings])
+
+    def placed(self, simulation: Simulation, lane: int) -> list[Placed]:
+        """Ports, tools, instruments and forces of a lane, for a film."""
+        here = [one for one in self._films if one.live.lane == lane]
+        return [placed for one in here for placed in one.placed(self.arrow)]
 
     @property
     def layer(self) -> Layer:

@@ -183,6 +183,10 @@ def _pair_problems(trocars: Mapping[str, Trocar], first: str, second: str) -> It
     if identity is not None and identity == one.device.identity():
         text = f"found {identity}, which trocars.{first} has too; a device has one controller"
         yield Problem((*path, "device"), text)
+    for name in other.tools.values():
+        if name in one.tools.values():
+            text = f"found '{name}', which trocars.{first} has too; one trocar leads a tool: give "
+            yield Problem((*path, "tools"), f"{text}this one an obstacle or instrument of its own")
     apart = float(np.linalg.norm(np.subtract(one.port.at, other.port.at)))
     if apart < LEAST_APART * (1.0 - 1e-9) and not math.isnan(apart):
         text = f"found {apart:.4g} m to the port of trocars.{first}; at least {LEAST_APART:g} m "

@@ -14,9 +14,10 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from tissu.errors import ParameterError, SceneError, TissuError
+from tissu.errors import OverlapError, ParameterError, SceneError, TissuError
 from tissu.scene.contact import Contact
 from tissu.scene.motion import Motion
+from tissu.scene.problem import Problem
 from tissu.scene.solver import Auto
 from tissu.scene.step import ImplicitEuler, Newton
 from tissu.scene.support import Fixed, Prescribed
@@ -54,7 +55,7 @@ class Apart(NamedTuple):
             simulation.velocities[name][:] = 0.0
 
 
-def separated(prepared: Prepared, found: SceneError) -> Apart:
+def separated(prepared: Prepared, found: OverlapError) -> Apart:
     """Where the bodies of a scene stand without crossings; `found`: what overlaps.
 
     Raises:
@@ -65,12 +66,11 @@ def separated(prepared: Prepared, found: SceneError) -> Apart:
         shifts = _Rigid(prepared).shifts()
         return _led_back(prepared, shifts)
     except TissuError as error:
-        overlap = found.problems[0].split("; they must begin apart")[0].rstrip(".")
         why = error.problems[0] if isinstance(error, SceneError) else str(error)
         why = why.rstrip(".").removeprefix("found ")
-        raise SceneError(
-            [f"{overlap}; separate could not push them apart: {why}; move one of them"]
-        ) from None
+        text = f"found surfaces that overlap at the start: {found.places}; separate could not push "
+        problem = Problem(("contacts",), f"{text}them apart: {why}; move one of them")
+        raise SceneError([problem.sentence(prepared.scene.source)]) from None
 
 
 def _require_nodes_alone(prepared: Prepared) -> None:

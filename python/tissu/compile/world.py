@@ -17,7 +17,7 @@ from tissu.compile.prepare import prepare
 from tissu.compile.prepared import LoadedNodes, Prepared
 from tissu.compile.start import begin
 from tissu.compile.thin import cross_section_of
-from tissu.errors import ParameterError, SceneError
+from tissu.errors import OverlapError, ParameterError, SceneError
 from tissu.mesh.cell import dimension
 from tissu.scene.instrument import Knife
 from tissu.scene.load import Where
@@ -84,17 +84,18 @@ def world_and_start(prepared: Prepared, *, resumed: bool = False) -> tuple[Any, 
     Raises:
         SceneError: surfaces that meet overlap at the start, and were not or cannot be separated.
     """
-    try:
+    contact = prepared.contact
+    if contact is None or contact.settings.overlap == "refuse":
         return world_of(prepared), None
-    except SceneError as error:
-        contact = prepared.contact
-        wanted = contact is not None and contact.settings.overlap == "separate"
-        if not wanted or "overlap at the start" not in str(error):
-            raise
+    try:
+        return build_world(prepared), None
+    except OverlapError as overlap:
         from tissu.compile.separate import separated
 
-        apart = None if resumed else separated(prepared, error)
+        apart = None if resumed else separated(prepared, overlap)
         return build_world(prepared, overlap=True), apart
+    except ParameterError as error:
+        raise _refused(prepared, error) from None
 
 
 def world_of(prepared: Prepared) -> Any:
@@ -108,9 +109,14 @@ def world_of(prepared: Prepared) -> Any:
     except ParameterError as error:
         if prepared.contact is None:
             raise
-        build_world(dataclasses.replace(prepared, contact=None))  # raises what else is wrong
-        problem = Problem(("contacts",), str(error))
-        raise SceneError([problem.sentence(prepared.scene.source)]) from None
+        raise _refused(prepared, error) from None
+
+
+def _refused(prepared: Prepared, error: ParameterError) -> SceneError:
+    """What is wrong with contacts, if nothing else is."""
+    build_world(dataclasses.replace(prepared, contact=None))  # raises what else is wrong
+    problem = Problem(("contacts",), str(error))
+    return SceneError([problem.sentence(prepared.scene.source)])
 
 
 def refuse_uncuttable(simulation: Simulation) -> None:

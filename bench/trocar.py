@@ -140,8 +140,8 @@ def felt(dt: str) -> list[str]:
     return [
         dt,
         f"{slow[on].mean():.3f}",
-        f"{100 * means:.1f} %",
-        f"{100 * each:.1f} %",
+        f"{100 * means:.2g} %",
+        f"{100 * each:.2g} %",
         f"{1e3 * spent:.1f}",
     ]
 

@@ -24,7 +24,7 @@ def every_trocar_part():
         f"trocar {number}": ts.Trocar(
             port=ts.Port((number, 0, 0.1), (0, 0.2, -1), right=(1, 0, 0)),
             device=device,
-            tools={0x51A0: "probe"},
+            tools={0x51A0: f"probe {number}"},
             coupling=coupling,
             limits=ts.TrocarLimits(force="4 N", tilt="40 deg"),
         )
@@ -38,8 +38,11 @@ def every_trocar_part():
                 density=1e3,
             )
         },
-        obstacles={"probe": ts.SphereObstacle((0, 0, 2), 0.01)},
-        contacts=[ts.Contact(("bar", "probe"))],
+        obstacles={
+            f"probe {number}": ts.SphereObstacle((number, 0, 2), 0.01)
+            for number in range(len(devices))
+        },
+        contacts=[ts.Contact(("bar", f"probe {number}")) for number in range(len(devices))],
         trocars=trocars,
         step=ts.ImplicitEuler(0.01),
     )

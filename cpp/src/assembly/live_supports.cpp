@@ -6,6 +6,7 @@
 
 #include "tissu/assembly/fixed_dofs.h"
 #include "tissu/base/error.h"
+#include "tissu/base/number_text.h"
 
 namespace tissu {
 
@@ -134,7 +135,7 @@ std::vector<std::int32_t> FixedDofs::nodes_of(std::string_view name) const {
 LiveLeadNumbers FixedDofs::begin_way(const LiveSupport& support, bool released, double over,
                                      State& state) const {
   if (!(over >= 0.0) || !std::isfinite(over)) {
-    throw ParameterError("the way to a live target takes " + std::to_string(over) +
+    throw ParameterError("the way to a live target takes " + number_text(over) +
                          " s; it must be finite and not negative.");
   }
   std::vector<double>& numbers = state.memory[support.place];

@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "tissu/base/error.h"
+#include "tissu/base/number_text.h"
 
 namespace tissu {
 namespace {
@@ -13,7 +14,7 @@ namespace {
 std::string text(const Box& box) {
   std::string out;
   for (std::size_t k = 0; k < 3; ++k) {
-    out += (k == 0 ? "[" : ", [") + std::to_string(box.low[k]) + ", " + std::to_string(box.high[k]) + "]";
+    out += (k == 0 ? "[" : ", [") + number_text(box.low[k]) + ", " + number_text(box.high[k]) + "]";
   }
   return out;
 }

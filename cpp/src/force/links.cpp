@@ -46,7 +46,7 @@ std::int32_t vertex_of(const State& state, const LinkPoint& point, Couplings& co
 
 std::int32_t LinkTable::add(const LinkPoint& a, const LinkPoint& b, double stiffness) {
   if (!(stiffness > 0.0)) {
-    throw ParameterError("a link's stiffness is " + std::to_string(stiffness) + " N/m; it must be positive.");
+    throw ParameterError("a link's stiffness is " + number_text(stiffness) + " N/m; it must be positive.");
   }
   for (const LinkPoint& point : {a, b}) {
     numbers_.insert(numbers_.end(), {static_cast<double>(point.block), static_cast<double>(point.frame),

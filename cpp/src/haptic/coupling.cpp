@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "tissu/base/error.h"
+#include "tissu/base/number_text.h"
 
 namespace tissu::haptic {
 namespace {
@@ -35,7 +36,7 @@ void require(const Joints& values, const char* name) {
   for (int i = 0; i < kJoints; ++i) {
     if (!(values[i] > 0.0) || !std::isfinite(values[i])) {
       throw ParameterError(std::string(name) + " must be finite and above 0; of axis " + std::to_string(i) +
-                           " it is " + std::to_string(values[i]) + ".");
+                           " it is " + number_text(values[i]) + ".");
     }
   }
 }
@@ -63,8 +64,8 @@ Joints passive_stiffness(const JointFriction& friction, const Joints& count_size
   require(count_size, "The size of a count");
   if (!(period > 0.0) || !(delay >= 0.0) || !(margin > 0.0) || !std::isfinite(period + delay + margin)) {
     throw ParameterError("The period and the margin must be above 0 and the delay at least 0 s; they are " +
-                         std::to_string(period) + ", " + std::to_string(margin) + " and " +
-                         std::to_string(delay) + ".");
+                         number_text(period) + ", " + number_text(margin) + " and " + number_text(delay) +
+                         ".");
   }
   const Joints damped = friction.viscous / (0.5 * period + delay);
   const Joints held = 2.0 * friction.coulomb.cwiseQuotient(count_size);

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "tissu/base/error.h"
+#include "tissu/base/number_text.h"
 #include "tissu/haptic/random.h"
 
 namespace tissu::haptic {
@@ -21,7 +22,7 @@ void check(const HandSettings& s) {
     }
     if (i > 0 && !(p.time > s.path[i - 1].time)) {
       throw ParameterError("Point " + std::to_string(i) + " of the path of a hand is at " +
-                           std::to_string(p.time) + " s; it must be later than the point before it.");
+                           number_text(p.time) + " s; it must be later than the point before it.");
     }
   }
   for (const double value : {s.mass, s.stiffness, s.damping, s.turn_stiffness, s.turn_damping, s.tremor}) {

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "tissu/base/error.h"
+#include "tissu/base/number_text.h"
 
 namespace tissu::haptic {
 namespace {
@@ -55,7 +56,7 @@ TrocarKinematics::TrocarKinematics(const JointLimits& limits) : limits_(limits) 
   for (int i = 0; i < kJoints; ++i) {
     if (!(limits.low[i] < limits.high[i])) {
       throw ParameterError("The low end of a joint must be below its high end; it is " +
-                           std::to_string(limits.low[i]) + " and " + std::to_string(limits.high[i]) + ".");
+                           number_text(limits.low[i]) + " and " + number_text(limits.high[i]) + ".");
     }
   }
   for (const int i : {0, 1}) {
@@ -118,8 +119,8 @@ double unwrapped(double psi, double before) noexcept {
 
 Fulcrum::Fulcrum(double least_depth) : least_depth_(least_depth) {
   if (!(least_depth > 0.0)) {
-    throw ParameterError("The least depth of a fulcrum must be above 0 m; it is " +
-                         std::to_string(least_depth) + ".");
+    throw ParameterError("The least depth of a fulcrum must be above 0 m; it is " + number_text(least_depth) +
+                         ".");
   }
 }
 

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "tissu/base/error.h"
+#include "tissu/base/number_text.h"
 
 namespace tissu::haptic {
 namespace {
@@ -26,8 +27,7 @@ void check_contact(const LocalModel& model, std::int32_t i) {
     refuse(model, "the normal and the tangent of " + name + " must be unit vectors at right angles.");
   }
   if (c.friction < 0.0) {
-    refuse(model,
-           "the friction of " + name + " is " + std::to_string(c.friction) + "; it must be at least 0.");
+    refuse(model, "the friction of " + name + " is " + number_text(c.friction) + "; it must be at least 0.");
   }
 }
 

@@ -12,6 +12,7 @@
 #include <system_error>
 
 #include "tissu/base/error.h"
+#include "tissu/base/number_text.h"
 
 namespace tissu::haptic {
 namespace {
@@ -83,7 +84,7 @@ int last_core() {
 Loop::Loop(Ticked& ticked, const LoopOptions& options)
     : ticked_(ticked), options_(options), period_(std::llround(options.period * 1e9)) {
   if (!(options.period >= 1e-4 && options.period <= 1.0 / 299.0)) {
-    throw ParameterError("found a period of " + std::to_string(1e3 * options.period) +
+    throw ParameterError("found a period of " + number_text(1e3 * options.period) +
                          " ms; 0.1 to 3.33 ms are accepted, which are 10 kHz to 300 Hz.");
   }
 }

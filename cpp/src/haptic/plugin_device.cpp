@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "tissu/base/error.h"
+#include "tissu/base/number_text.h"
 #include "tissu/haptic/device_claim.h"
 #include "tissu/haptic/device_plugin.h"
 
@@ -70,16 +71,16 @@ std::string wrong_with(const DeviceInfo& info) {
   }
   for (std::size_t k = 0; k < static_cast<std::size_t>(info.axes); ++k) {
     if (!(std::isfinite(info.count_size[k]) && info.count_size[k] > 0.0)) {
-      return "a count of " + std::to_string(info.count_size[k]) + " on axis " + std::to_string(k) +
+      return "a count of " + number_text(info.count_size[k]) + " on axis " + std::to_string(k) +
              "; one above 0 is accepted";
     }
     if (!(std::isfinite(info.torque_limit[k]) && info.torque_limit[k] >= 0.0)) {
-      return "a torque limit of " + std::to_string(info.torque_limit[k]) + " on axis " + std::to_string(k) +
+      return "a torque limit of " + number_text(info.torque_limit[k]) + " on axis " + std::to_string(k) +
              "; 0 or more is accepted";
     }
   }
-  if (!(info.rate >= 300.0)) return std::to_string(info.rate) + " Hz; 300 Hz or more are accepted";
-  if (!(info.delay >= 0.0)) return "a delay of " + std::to_string(info.delay) + " s; 0 or more is accepted";
+  if (!(info.rate >= 300.0)) return number_text(info.rate) + " Hz; 300 Hz or more are accepted";
+  if (!(info.delay >= 0.0)) return "a delay of " + number_text(info.delay) + " s; 0 or more is accepted";
   return {};
 }
 

@@ -11,6 +11,7 @@
 #include <cstring>
 
 #include "tissu/base/error.h"
+#include "tissu/base/number_text.h"
 #include "tissu/haptic/device_claim.h"
 #include "tissu/haptic/frame_stream.h"
 
@@ -109,7 +110,7 @@ class SerialDevice final : public Device {
                   "); name one, such as /dev/ttyACM0.");
     }
     if (!meet(options.wait)) {
-      throw Error("the device at " + options.path + " gives no frame within " + std::to_string(options.wait) +
+      throw Error("the device at " + options.path + " gives no frame within " + number_text(options.wait) +
                   " s; switch it on, and check that both sides have " + std::to_string(options.baud) +
                   " baud.");
     }

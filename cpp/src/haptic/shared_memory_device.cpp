@@ -12,6 +12,7 @@
 #include <thread>
 
 #include "tissu/base/error.h"
+#include "tissu/base/number_text.h"
 #include "tissu/haptic/device_claim.h"
 #include "tissu/haptic/frame.h"
 
@@ -65,7 +66,7 @@ class SharedMemoryDevice final : public Device {
       : claim_("shared memory " + options.name), info_(options.info), memory_(options.name) {
     if (!meet(options.wait)) {
       throw Error("the shared memory " + options.name + " gets no new frame within " +
-                  std::to_string(options.wait) + " s; start the program that plays the device.");
+                  number_text(options.wait) + " s; start the program that plays the device.");
     }
   }
   SharedMemoryDevice(const SharedMemoryDevice&) = delete;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "tissu/base/error.h"
+#include "tissu/base/number_text.h"
 
 namespace tissu::haptic {
 
@@ -11,15 +12,15 @@ void Transmission::check() const {
   for (int i = 0; i < kJoints; ++i) {
     if (!(efficiency[i] > 0.0 && efficiency[i] <= 1.0)) {
       throw ParameterError("The efficiency of axis " + std::to_string(i) + " is " +
-                           std::to_string(efficiency[i]) + "; above 0 and at most 1 is accepted.");
+                           number_text(efficiency[i]) + "; above 0 and at most 1 is accepted.");
     }
     if (!(coulomb[i] >= 0.0) || !std::isfinite(coulomb[i])) {
       throw ParameterError("The Coulomb friction of axis " + std::to_string(i) + " is " +
-                           std::to_string(coulomb[i]) + "; at least 0 is accepted.");
+                           number_text(coulomb[i]) + "; at least 0 is accepted.");
     }
   }
   if (!(share >= 0.0 && share <= 0.8)) {
-    throw ParameterError("The share of friction that is compensated is " + std::to_string(share) +
+    throw ParameterError("The share of friction that is compensated is " + number_text(share) +
                          "; 0 to 0.8 is accepted, since more is active.");
   }
 }

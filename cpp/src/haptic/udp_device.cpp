@@ -13,6 +13,7 @@
 #include <cstring>
 
 #include "tissu/base/error.h"
+#include "tissu/base/number_text.h"
 #include "tissu/haptic/device_claim.h"
 #include "tissu/haptic/frame.h"
 
@@ -48,7 +49,7 @@ class UdpDevice final : public Device {
     }
     if (!meet(options.wait)) {
       close(socket_);
-      throw Error("no device answers at " + place_of(options) + " within " + std::to_string(options.wait) +
+      throw Error("no device answers at " + place_of(options) + " within " + number_text(options.wait) +
                   " s; switch it on, or check its address.");
     }
   }

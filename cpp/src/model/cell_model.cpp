@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "tissu/base/error.h"
+#include "tissu/base/number_text.h"
 #include "tissu/cell/chunk_plan.h"
 
 namespace tissu {
@@ -37,16 +38,16 @@ void check_sizes(const ElasticBlock& block, const ReferenceCell& reference, std:
   for (const double share : block.share) {
     if (share > 0.0 && share <= 1.0) continue;
     throw ParameterError("body \"" + block.body + "\" has a cell with a share of material of " +
-                         std::to_string(share) + "; it must be above 0 and at most 1.");
+                         number_text(share) + "; it must be above 0 and at most 1.");
   }
   for (const double size : block.cross_section) {
     if (size > 0.0 && std::isfinite(size)) continue;
-    throw ParameterError("body \"" + block.body + "\" has a thickness or section of " + std::to_string(size) +
+    throw ParameterError("body \"" + block.body + "\" has a thickness or section of " + number_text(size) +
                          "; it must be positive and finite.");
   }
   for (const double density : block.density) {
     if (density > 0.0 && std::isfinite(density)) continue;
-    throw ParameterError("body \"" + block.body + "\" has a density of " + std::to_string(density) +
+    throw ParameterError("body \"" + block.body + "\" has a density of " + number_text(density) +
                          " kg/m3; it must be positive and finite.");
   }
 }

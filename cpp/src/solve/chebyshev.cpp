@@ -3,6 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include "block_inverse.h"
 #include "dot.h"
@@ -16,10 +17,14 @@ constexpr double kAbove = 1.05;
 constexpr double kExhausted = 1e-10;  ///< of a residual, squared: there is nothing more to find
 constexpr double kSmoothed = 10.0;    ///< ratio of the eigenvalues between which it smooths
 
-/// Numbers between -1 and 1 without a pattern, the same every time.
-double scattered(std::size_t i) {
-  const double x = std::sin(12.9898 * static_cast<double>(i) + 1.0) * 43758.5453;
-  return 2.0 * (x - std::floor(x)) - 1.0;
+/// Numbers between -1 and 1 without a pattern, the same every time (the finalizer of SplitMix64: Steele, Lea
+/// and Flood, Fast splittable pseudorandom number generators, OOPSLA 2014).
+double scattered(std::uint64_t i) {
+  std::uint64_t x = (i + 1) * 0x9e3779b97f4a7c15ULL;
+  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ULL;
+  x = (x ^ (x >> 27)) * 0x94d049bb133111ebULL;
+  x ^= x >> 31;
+  return std::ldexp(static_cast<double>(x >> 11), -52) - 1.0;
 }
 
 /// f(i) for the numbers of rows [begin, end).

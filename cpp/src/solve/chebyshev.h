@@ -18,6 +18,8 @@ class Chebyshev {
   /// eigenvalue too, which else stays: smoothing bears one that is 15 % larger, and a preconditioner that
   /// does not serve is made as a whole.
   void make(const LevelMatrix& A, Isa isa, const Threads& threads, bool measured = true);
+  /// Measures the largest eigenvalue of the matrix that it was made of.
+  void find_largest(const Threads& threads);
   /// x from zero; afterwards `residual()` = b - A x.
   void smooth_from_zero(const Threads& threads, const T* b, T* x);
   /// x from what it is.
@@ -32,7 +34,6 @@ class Chebyshev {
   [[nodiscard]] double cycle_bytes() const;
 
  private:
-  void find_largest(const Threads& threads);
   /// Rows [begin, end) of A p, where couplings were gathered.
   void multiply_rows(std::int32_t begin, std::int32_t end, const T* p, T* out) const;
   void gather(const Threads& threads, const T* p) const;

@@ -1,6 +1,7 @@
 #include "multigrid.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "work.h"
 
@@ -10,9 +11,11 @@ namespace {
 constexpr std::int32_t kDirect = 80;  ///< rows of a level that gets a factor
 constexpr double kCoarser = 0.7;      ///< rows that a next level has at most, of those of its finer one
 constexpr double kOverrelaxed = 4.0 / 3.0;
-constexpr double kPairBytes = 400;  ///< what a product of a block with a motion costs, in bytes read
-constexpr double kPart = 1.5;       ///< iterations that a part of a making may take
-constexpr double kRefresh = 1.5;    ///< cycles of smoothing that a smoother and its prolongation take
+constexpr double kPairBytes = 400;    ///< what a product of a block with a motion costs, in bytes read
+constexpr double kPart = 2.0;         ///< iterations that a solve may spend on a making in parts
+constexpr double kLeastPart = 0.1;    ///< iterations: less than that is left to the next solve
+constexpr double kNewSmoother = 1.5;  ///< cycles of smoothing that a new smoother takes
+constexpr double kNewTransfer = 1.5;  ///< and the prolongation of its level
 constexpr double kFirstShift = 1e-10;
 
 }  // namespace
@@ -28,10 +31,9 @@ void Multigrid<T>::make(const LinearOperator& A, double scale) {
   threads_ = A.matrix()->threads();
   const bool fresh = levels_.empty();
   direct_ = false;
-  part_ = 0;
   if (fresh) start(fine_matrix(A, scale));
   take(A);
-  for (std::size_t n = 0; refresh(n, A, scale, fresh, true); ++n) {
+  for (std::size_t n = 0; refresh(n, A, scale, fresh); ++n) {
     if (fresh) levels_.push_back(std::make_unique<Level>());
     project(n, A, scale);
   }
@@ -39,8 +41,9 @@ void Multigrid<T>::make(const LinearOperator& A, double scale) {
   once_ = fresh ? kAggregation * A.rows() : 0.0;
 }
 
-/// Parts in turn: the smoother of a level with its prolongation, the matrix of the next one row by row, and
-/// so on. What is new works with what is old: each part is of a matrix that was given lately.
+/// Parts in turn: of each level the smoother with its prolongation, its largest eigenvalue where it is
+/// measured, and the matrix of the next level, a few rows at a time. What is new works with what is old: each
+/// part is of a matrix that was given lately.
 template <class T>
 bool Multigrid<T>::make_part(const LinearOperator& A, double scale) {
   const bool couples = has_couplings_ || A.couplings() != nullptr;  // its parts would not fit each other
@@ -48,34 +51,53 @@ bool Multigrid<T>::make_part(const LinearOperator& A, double scale) {
     make(A, scale);
     return true;
   }
-  double left = kPart;  // iterations
-  while (left > 0.0) {
-    if (part_ == 0) {
-      take(A);
-      renewals_ = (renewals_ + 1) % kMeasured;
-    }
-    const auto n = static_cast<std::size_t>(part_ / 2);
-    Level& level = *levels_[n];
-    if (part_ % 2 == 0) {
-      if (!refresh(n, A, scale, false, renewals_ == 0)) {
-        finish(A, scale);
-        once_ = 0.0;
-        return true;
+  for (double left = kPart; left > kLeastPart || part_ == Part::prolongation;) {
+    Level& level = *levels_[part_level_];
+    switch (part_) {
+      case Part::smoother:
+        if (part_level_ == 0) {
+          take(A);
+          renewals_ = (renewals_ + 1) % kMeasured;
+        }
+        if (!smooths(part_level_, A, scale)) {
+          finish(A, scale);
+          once_ = 0.0;
+          return true;
+        }
+        level.smoother.make(level_matrix(part_level_, A, scale), isa_, threads_, false);
+        left -= kNewSmoother * level.smoother.cycle_bytes() / iteration_bytes_;
+        part_ = renewals_ == 0 ? Part::eigenvalue : Part::prolongation;
+        break;
+      case Part::eigenvalue:
+        if (left < kPart) return false;  // the longest part of all, in a solve of its own
+        level.smoother.find_largest(threads_);
+        part_ = Part::prolongation;
+        return false;
+      case Part::prolongation:
+        if (!level.pattern) {  // the coarsest level
+          finish(A, scale);
+          once_ = 0.0;
+          return true;
+        }
+        fill_transfer(part_level_, A, scale);
+        left -= kNewTransfer * level.smoother.cycle_bytes() / iteration_bytes_;
+        row_ = 0;
+        part_ = Part::next_matrix;
+        break;
+      case Part::next_matrix: {
+        const double whole = kPairBytes * static_cast<double>(level.pattern->pairs) / iteration_bytes_;
+        const double rows = static_cast<double>(level.smoother.rows());
+        const auto some =
+            static_cast<std::int32_t>(std::clamp(std::ceil(rows * left / std::max(whole, 1e-9)), 1.0, rows));
+        left -= whole * some / rows;
+        row_ = fill_coarse_part(level_matrix(part_level_, A, scale), *level.pattern, level.P, row_, some,
+                                threads_, scratch_, level.next_values);
+        if (row_ > 0) continue;
+        levels_[++part_level_]->places = level.next_places;
+        part_ = Part::smoother;
+        break;
       }
-      left -= kRefresh * level.smoother.cycle_bytes() / iteration_bytes_;
-      row_ = 0;
-      ++part_;
-      continue;
     }
-    const double whole = kPairBytes * static_cast<double>(level.pattern->pairs) / iteration_bytes_;
-    const double rows = static_cast<double>(level.smoother.rows());
-    const auto some = static_cast<std::int32_t>(std::clamp(rows * kPart / std::max(whole, 1e-9), 1.0, rows));
-    left -= whole * some / rows;
-    row_ = fill_coarse_part(level_matrix(n, A, scale), *level.pattern, level.P, row_, some, threads_,
-                            scratch_, level.next_values);
-    if (row_ > 0) continue;
-    levels_[n + 1]->places = level.next_places;
-    ++part_;
   }
   return false;
 }
@@ -85,7 +107,8 @@ void Multigrid<T>::finish(const LinearOperator& A, double scale) {
   if (direct_) factor(level_matrix(levels_.size() - 1, A, scale));
   set_price(A);
   complete_ = true;
-  part_ = 0;
+  part_ = Part::smoother;
+  part_level_ = 0;
 }
 
 template <class T>
@@ -109,24 +132,37 @@ LevelMatrix Multigrid<T>::level_matrix(std::size_t n, const LinearOperator& A, d
   return level;
 }
 
+/// Whether a level is smoothed; else it is the last one, which its factor solves.
 template <class T>
-bool Multigrid<T>::refresh(std::size_t n, const LinearOperator& A, double scale, bool fresh, bool measured) {
-  Level& fine = *levels_[n];
-  const LevelMatrix level = level_matrix(n, A, scale);
-  if (level.rows() <= kDirect) {
+bool Multigrid<T>::smooths(std::size_t n, const LinearOperator& A, double scale) const {
+  return level_matrix(n, A, scale).rows() > kDirect;
+}
+
+template <class T>
+bool Multigrid<T>::refresh(std::size_t n, const LinearOperator& A, double scale, bool fresh) {
+  if (!smooths(n, A, scale)) {
     direct_ = true;
     return false;
   }
-  fine.smoother.make(level, isa_, threads_, measured);
+  Level& fine = *levels_[n];
+  const LevelMatrix level = level_matrix(n, A, scale);
+  fine.smoother.make(level, isa_, threads_, true);
   if (fresh && !coarsen(level, fine)) return false;
   if (!fine.pattern) return false;
+  fill_transfer(n, A, scale);
+  return true;
+}
+
+template <class T>
+void Multigrid<T>::fill_transfer(std::size_t n, const LinearOperator& A, double scale) {
+  Level& fine = *levels_[n];
   place_aggregates(fine.aggregates, fine.places, fine.next_places);
   fine.P.refer(fine.prolongation.begin, fine.prolongation.column, isa_);
   fine.R.refer(fine.restriction.begin, fine.restriction.column, isa_);
-  fill_prolongation(level, fine.aggregates, fine.places, fine.next_places, fine.smoother.inverse(),
-                    kOverrelaxed / fine.smoother.largest(), *fine.pattern, threads_, fine.P);
+  fill_prolongation(level_matrix(n, A, scale), fine.aggregates, fine.places, fine.next_places,
+                    fine.smoother.inverse(), kOverrelaxed / fine.smoother.largest(), *fine.pattern, threads_,
+                    fine.P);
   fill_restriction(*fine.pattern, fine.P, threads_, fine.R);
-  return true;
 }
 
 template <class T>

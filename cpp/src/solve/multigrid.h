@@ -31,7 +31,9 @@ class Multigrid final : public Preconditioner<T> {
   void apply(std::span<const T> r, std::span<T> z) override;
   void forget() override {
     levels_.clear();
-    part_ = renewals_ = 0;
+    part_ = Part::smoother;
+    part_level_ = 0;
+    renewals_ = 0;
   }
   [[nodiscard]] std::size_t bytes() const override;
   /// Rows of each level, the coarsest last.
@@ -58,9 +60,11 @@ class Multigrid final : public Preconditioner<T> {
   void take(const LinearOperator& A);
   [[nodiscard]] LevelMatrix fine_matrix(const LinearOperator& A, double scale) const;
   [[nodiscard]] LevelMatrix level_matrix(std::size_t n, const LinearOperator& A, double scale) const;
-  /// The smoother of a level and its prolongation; false: it is the last one. `measured`: with its
-  /// eigenvalue.
-  bool refresh(std::size_t n, const LinearOperator& A, double scale, bool fresh, bool measured);
+  [[nodiscard]] bool smooths(std::size_t n, const LinearOperator& A, double scale) const;
+  /// The smoother of a level and its prolongation; false: it is the last one.
+  bool refresh(std::size_t n, const LinearOperator& A, double scale, bool fresh);
+  /// The prolongation of a level and its transpose.
+  void fill_transfer(std::size_t n, const LinearOperator& A, double scale);
   /// The matrix of the next level.
   void project(std::size_t n, const LinearOperator& A, double scale);
   void finish(const LinearOperator& A, double scale);
@@ -78,8 +82,11 @@ class Multigrid final : public Preconditioner<T> {
   CoarseScratch scratch_;
   std::vector<CarriedPart> carried_;
   static constexpr int kMeasured = 4;  ///< makings in parts, of which one measures the largest eigenvalues
-  int part_ = 0;                       ///< the next one of a making in parts
-  int renewals_ = 0;                   ///< makings in parts, modulo kMeasured
+  /// What a making in parts does next, and on which level.
+  enum class Part : std::uint8_t { smoother, eigenvalue, prolongation, next_matrix };
+  Part part_ = Part::smoother;
+  std::size_t part_level_ = 0;
+  int renewals_ = 0;  ///< makings in parts, modulo kMeasured
   bool has_couplings_ = false;
   bool complete_ = false;  ///< the latest making came to its end
   bool direct_ = false;    ///< the coarsest level is solved by its factor

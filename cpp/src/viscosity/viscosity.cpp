@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "tissu/base/error.h"
+#include "tissu/base/number_text.h"
 
 namespace tissu {
 namespace {
@@ -10,7 +11,7 @@ namespace {
 void check(const std::string& body, const std::string& what, double value, const std::string& unit,
            bool may_be_zero) {
   if (std::isfinite(value) && (may_be_zero ? value >= 0.0 : value > 0.0)) return;
-  throw ParameterError("body \"" + body + "\" has " + what + " of " + std::to_string(value) + unit +
+  throw ParameterError("body \"" + body + "\" has " + what + " of " + number_text(value) + unit +
                        "; it must be finite and " + (may_be_zero ? "not negative." : "above 0."));
 }
 

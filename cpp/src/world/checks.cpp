@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "tissu/base/error.h"
+#include "tissu/base/number_text.h"
 
 namespace tissu {
 
@@ -28,7 +29,7 @@ void check_size(const std::string& where, std::size_t found, std::size_t accepte
 void check_frame(const FrameDescription& frame, std::size_t number) {
   const std::string where = "frame " + std::to_string(number);
   if (!(frame.mass > 0.0) || !std::isfinite(frame.mass)) {
-    throw ParameterError(where + " has a mass of " + std::to_string(frame.mass) +
+    throw ParameterError(where + " has a mass of " + number_text(frame.mass) +
                          " kg; it must be positive and finite.");
   }
   const Eigen::LLT<Mat3> factor(frame.inertia);

@@ -13,6 +13,7 @@
 #include "edit/cut/patch.h"
 #include "edit/cut/write_plan.h"
 #include "tissu/base/error.h"
+#include "tissu/base/number_text.h"
 #include "tissu/edit/cut/cut_plan.h"
 
 namespace tissu {
@@ -36,7 +37,7 @@ void sort_unique(Numbers& numbers) {
 
 void check(const Hosts& hosts, ConstReals x, const CutOptions& options) {
   if (!(options.t0 >= 0.0 && options.t0 <= kLargestT0)) {
-    throw ParameterError("a cut has t0 = " + std::to_string(options.t0) + "; 0 to 0.45 are accepted.");
+    throw ParameterError("a cut has t0 = " + number_text(options.t0) + "; 0 to 0.45 are accepted.");
   }
   if (x.size() != 3 * at(hosts.node_count())) {
     throw ParameterError("a cut of " + std::to_string(hosts.node_count()) + " nodes got " +

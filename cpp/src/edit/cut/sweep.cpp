@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "tissu/base/error.h"
+#include "tissu/base/number_text.h"
 
 namespace tissu {
 namespace {
@@ -139,7 +140,7 @@ Sweep plane_sweep(const Vec3& point, const Vec3& normal, const Vec3& low, const 
 Sweep disc_sweep(const Vec3& center, const Vec3& normal, double radius) {
   check_finite(center, "center");
   if (!(radius > 0.0) || !std::isfinite(radius)) {
-    throw ParameterError("a disc has the radius " + std::to_string(radius) + " m; above 0 is accepted.");
+    throw ParameterError("a disc has the radius " + number_text(radius) + " m; above 0 is accepted.");
   }
   const auto [u, v] = directions(unit(normal));
   std::array<Vec3, kDiscSides> rim;

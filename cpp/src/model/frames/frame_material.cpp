@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "tissu/base/error.h"
+#include "tissu/base/number_text.h"
 
 namespace tissu {
 namespace {
@@ -43,7 +44,7 @@ Shares shares_of(const ElasticBlock& block, const SectionConstants& section, dou
   const Shares shares{2.0 * k - twist, twist};
   if (shares.own > 0.0 && shares.other > 0.0) return shares;
   throw ParameterError("body \"" + block.body + "\" has lines with a section of torsion constant " +
-                       std::to_string(twist) + " (I_up + I_across) and shear factor " + std::to_string(k) +
+                       number_text(twist) + " (I_up + I_across) and shear factor " + number_text(k) +
                        "; a constant above zero and below twice the shear factor is accepted.");
 }
 

@@ -8,6 +8,7 @@
 #include "base/kernel_choice.h"
 #include "kernels/frame_list.h"
 #include "tissu/base/error.h"
+#include "tissu/base/number_text.h"
 #include "tissu/element/reference_cell.h"
 #include "tissu/model/frames/frame_cells.h"
 #include "tissu/model/frames/frames.h"
@@ -40,7 +41,7 @@ void check(const ElasticBlock& block, const FramePoints& points) {
   for (std::size_t s = 0; s < n; ++s) {
     if (points.volumes[s] > 0.0 && std::isfinite(points.volumes[s])) continue;
     throw ParameterError(where + ": integration point " + std::to_string(s) + " has a volume of " +
-                         std::to_string(points.volumes[s]) + " m3; it must be positive and finite.");
+                         number_text(points.volumes[s]) + " m3; it must be positive and finite.");
   }
 }
 
@@ -100,7 +101,7 @@ Frames::Frames(ElasticBlock block, ConstReals rest_positions, Isa isa, Threads t
   check_size(block_, block_.density, "density", cells);
   for (const double density : block_.density) {
     if (density > 0.0 && std::isfinite(density)) continue;
-    throw ParameterError("body \"" + block_.body + "\" has a density of " + std::to_string(density) +
+    throw ParameterError("body \"" + block_.body + "\" has a density of " + number_text(density) +
                          " kg/m3; it must be positive and finite.");
   }
   lay_frames();

@@ -8,6 +8,7 @@
 #include "shell_motion.h"
 #include "shell_parts.h"
 #include "tissu/base/error.h"
+#include "tissu/base/number_text.h"
 
 namespace tissu {
 namespace {
@@ -19,7 +20,7 @@ constexpr int kBending[9] = {2, 3, 4, 8, 9, 10, 14, 15, 16};
 
 void check(const ShellSection& section) {
   const auto refuse = [](const std::string& what, double found, const std::string& taken) {
-    throw ParameterError("a shell has a " + what + " of " + std::to_string(found) + "; it must be " + taken +
+    throw ParameterError("a shell has a " + what + " of " + number_text(found) + "; it must be " + taken +
                          ".");
   };
   const auto positive = [](double value) { return value > 0.0 && std::isfinite(value); };
@@ -40,8 +41,8 @@ Mat3 plane_axes(const std::array<Vec3, 3>& X, double& area) {
   area = 0.5 * normal.norm();
   const double size2 = std::max(first.squaredNorm(), second.squaredNorm());
   if (!(area > kFlat * size2)) {
-    throw MeshError("a shell's triangle with sides of " + std::to_string(first.norm()) + " m and " +
-                    std::to_string(second.norm()) + " m has an area of " + std::to_string(area) +
+    throw MeshError("a shell's triangle with sides of " + number_text(first.norm()) + " m and " +
+                    number_text(second.norm()) + " m has an area of " + number_text(area) +
                     " m2; repair or remove it.");
   }
   Mat3 axes;

@@ -1,4 +1,4 @@
-"""Where points lie against a surface of triangles, or of thick points and lines: depth and nearest point."""
+"""Depth and nearest point of points in a surface of triangles, or of thick points and lines."""
 
 from __future__ import annotations
 
@@ -84,9 +84,7 @@ def _turns(corners: Floats, points: Floats) -> Floats:
     a, b, c = (corners[None, :, k] - points[:, None] for k in range(3))
     la, lb, lc = (np.linalg.norm(x, axis=2) for x in (a, b, c))
     ab, bc, ca = ((x * y).sum(axis=2) for x, y in ((a, b), (b, c), (c, a)))
-    solid = np.arctan2(
-        (a * np.cross(b, c)).sum(axis=2), la * lb * lc + ab * lc + bc * la + ca * lb
-    )
+    solid = np.arctan2((a * np.cross(b, c)).sum(axis=2), la * lb * lc + ab * lc + bc * la + ca * lb)
     return np.asarray(solid.sum(axis=1) / (2.0 * np.pi))
 
 

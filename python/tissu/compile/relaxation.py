@@ -77,7 +77,9 @@ class _Solve:
         from scipy.sparse.linalg import splu
 
         rows = len(core.positions)
-        stiffness = sparse(core.stiffness(), 3 * rows) + loose**2 * sparse(core.mass_matrix(), 3 * rows)
+        stiffness = sparse(core.stiffness(), 3 * rows) + loose**2 * sparse(
+            core.mass_matrix(), 3 * rows
+        )
         free = core.free_axes().ravel().copy()
         free[: 3 * bodies.start] = False
         free[3 * bodies.stop :] = False

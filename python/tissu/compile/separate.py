@@ -91,7 +91,10 @@ def _pushed_apart(prepared: Prepared) -> Apart:
     edge = min(surface.mean_edge for surface in contact.bodies.values())
     size = max(float(np.linalg.norm(np.ptp(s.vertices, axis=0))) for s in contact.bodies.values())
     nodes = slice(0, sum(body.mesh.node_count for body in prepared.bodies.values()))
-    crossing = size / edge * 2.0 / core.largest_frequency()
+    largest = core.largest_frequency()
+    if not largest > 0.0:
+        raise ParameterError("all of their nodes are held")
+    crossing = 2.0 / largest * size / edge
     clearance = Clearance(contact, core)
     relaxation = Relaxation(core, clearance, gap, nodes, crossing)
     relaxation.run()
@@ -123,9 +126,12 @@ def _require_whole(core: Any, contact: PreparedContact) -> None:
 
 
 def _core_of(world: Any) -> Any:
-    """A simulation of a world, in implicit steps to the tolerance of Newton's method."""
+    """A simulation of a world, in implicit steps that are linearised once.
+
+    To the tolerance of Newton's method, the set of contacts may change for ever in long steps.
+    """
     from tissu import _core
 
-    step = ImplicitEuler(1.0, newton=Newton(iterations=int(__import__('os').environ.get('NI','20'))))
+    step = ImplicitEuler(1.0, newton=Newton(iterations=1))
     solver = Auto().linear_solver(equilibrium=False)
     return _core.Simulation(world=world, integrator=step.integrator(), solver=solver)

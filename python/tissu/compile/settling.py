@@ -1,4 +1,4 @@
-"""Bodies that press on each other come to rest: implicit steps from standstill, each as long as goes."""
+"""Bodies that press on each other come to rest, by implicit steps from standstill."""
 
 from __future__ import annotations
 
@@ -20,8 +20,9 @@ _BALANCE = 1e-2
 """of the contact forces: the sum of all forces on nodes that nothing balances"""
 _AT_REST = 1e-3
 """of the smallest gap: what nodes may still move in a step where nothing presses"""
-_SHORTEST, _LONGEST = 1.0 / 64, 4.0
-"""of the time that a wave needs to pass through: steps"""
+_FIRST, _GROWTH, _LONGEST = 0.125, 1.5, 4.0
+"""lengths of steps, of the time that a wave needs to pass through: bodies that start far from
+equilibrium need inertia, and those near to it do not"""
 
 
 class Rest(NamedTuple):
@@ -33,43 +34,46 @@ class Rest(NamedTuple):
 
 
 def settle(core: Any, *, bodies: slice, crossing: float, gap: float, most: int) -> Rest:
-    """Steps without speed until forces balance each other; each leaves M (x1 - x0)/dt^2 of them.
+    """Steps that begin without speed, until elastic and contact forces balance each other.
+
+    `crossing`: the time that a wave needs to pass through [s]; `gap`: the smallest one [m].
 
     Raises:
-        ParameterError: they do not, within so many steps.
+        ParameterError: they do not, within `most` steps.
     """
-    masses = np.zeros(len(core.positions))
-    rows, _, blocks = core.mass_matrix()
-    np.add.at(masses, rows, blocks[:, 0, 0])
     free = core.free_axes()
-    dt = 0.125 * crossing
+    dt = _FIRST * crossing
     left = pressing = np.inf
     for number in range(1, most + 1):
         before = core.positions.copy()
         core.velocities[:] = 0.0
         core.time = 0.0
-        report = core.step(dt)
-        moved = np.where(free, core.positions - before, 0.0)[bodies]
-        far = float(np.linalg.norm(moved, axis=1).max())
-        left = float((masses[bodies] * np.linalg.norm(moved, axis=1)).sum()) / dt**2
+        core.step(dt)
+        core.velocities[:] = 0.0
+        far = _lengths(core.positions - before, free, bodies).max()
+        left = float(_lengths(core.forces(), free, bodies).sum())
         pressing = float(np.linalg.norm(core.contacts()[6], axis=1).sum())
-        import os
-        if os.environ.get("SHOW"): print(number, f"dt {dt/crossing:.3f} far/gap {far/gap:.3g} left {left:.3g} pressing {pressing:.3g}", report.converged, report.message, report.contacts, report.milliseconds)
-        if dt >= 0.1 * crossing:
-            if left <= _BALANCE * pressing or far <= _AT_REST * gap:
-                return Rest(number, pressing, left)
-        dt = min(dt * 1.5, float(os.environ.get("CAP", "1")) * crossing)
+        if dt >= crossing and (left <= _BALANCE * pressing or far <= _AT_REST * gap):
+            return Rest(number, pressing, left)
+        dt = min(_GROWTH * dt, _LONGEST * crossing)
     raise ParameterError(
         f"forces of {left:.3g} N are still without balance, beside {pressing:.3g} N of contact, "
         f"after {most} steps"
     )
 
 
+def _lengths(vectors: Floats, free: Any, bodies: slice) -> Floats:
+    """Of the unknowns of nodes."""
+    return np.asarray(np.linalg.norm(np.where(free, vectors[: len(free)], 0.0)[bodies], axis=1))
+
+
 def unloaded(prepared: Prepared) -> Prepared:
     """The scene without loads, friction and viscosity, whose supports and obstacles stay."""
     contact = prepared.contact
     assert contact is not None
-    settings = contact.settings.model_copy(update={"penalty": "linear", "travel": True})
+    settings = contact.settings.model_copy(
+        update={"penalty": "linear", "travel": True, "iterations": 3}
+    )
     made = dataclasses.replace(
         contact,
         method="augmented",

@@ -50,7 +50,7 @@ class Clearance:
         self._middles: dict[tuple[str, str], dict[tuple[int, int], float]] = {}
 
     def crossing(self) -> int:
-        """How many places cross now. Edges that pierce a surface twice are asked for their middle."""
+        """How many places cross now; of an edge that pierces twice the middle will be asked."""
         found: dict[tuple[str, str, tuple[int, int]], list[float]] = {}
         crossings = self._core.crossings()
         for a, (tail, head), b, triangle in crossings:
@@ -141,6 +141,7 @@ class Clearance:
         reach = max(_REACH * min((edge for edge in edges if edge > 0.0), default=0.0), 4.0 * gap)
         if surface is None:
             one = self._contact.obstacles[other]
+            assert one.normal is not None  # a plane
             far = (places - one.origin) @ one.normal
             normal = np.broadcast_to(one.normal, places.shape)
             nothing = np.zeros((len(places), 0))

@@ -26,7 +26,7 @@ _SWEEPS = 400
 _ENOUGH = 0.02
 """of the gap: change of a clearance in a sweep over all of them that counts as none"""
 _LOOSE = 0.1
-"""of the frequency with which a wave passes through: of what holds a body that nothing else holds"""
+"""of the frequency with which a wave passes through: of springs that hold what nothing else does"""
 
 
 class Relaxation:
@@ -35,7 +35,7 @@ class Relaxation:
     def __init__(
         self, core: Any, clearance: Clearance, gap: float, bodies: slice, crossing: float
     ) -> None:
-        """`core`: a simulation at rest; `gap`: the least [m]; `crossing`: of a wave through all [s]."""
+        """`core`: a simulation at rest; `gap`: the least [m]; `crossing`: time of a wave [s]."""
         self._core = core
         self._clearance = clearance
         self._gap = gap
@@ -58,7 +58,7 @@ class Relaxation:
             if look == 0:
                 self.depth = -float(asked.distance.min(initial=0.0))
             clear = float(asked.distance.min(initial=np.inf)) > 0.25 * self._gap
-            if not crossing and clear and not self._core.overlaps():
+            if not crossing and clear and not is_thick_inside(self._core, self._gap):
                 return
             moved = solve.displacements(asked.rows, asked.bound, self._rest, _ENOUGH * self._gap)
             self._core.positions[:] = self._rest + moved
@@ -68,6 +68,14 @@ class Relaxation:
             f"found {crossing} crossings of edges still after {_LOOKS} looks, from places as deep "
             f"as {self.depth:.3g} m"
         )
+
+
+def is_thick_inside(core: Any, gap: float) -> bool:
+    """Whether thick things are inside each other by more than a tenth of the gap.
+
+    So near to a surface, contact lets nothing come on its way.
+    """
+    return any(depth > 0.1 * gap for _, _, depth in core.overlaps())
 
 
 class _Solve:
@@ -99,7 +107,7 @@ class _Solve:
 
 
 def _complementary(matrix: Floats, wanted: Floats, enough: float) -> Floats:
-    """p >= 0 with `matrix @ p >= wanted`, and p = 0 where it is more; by Gauss and Seidel.
+    """Pushes p >= 0 with `matrix @ p >= wanted`, and 0 where it is more; by Gauss and Seidel.
 
     Raises:
         ParameterError: a point that nothing can move has to.

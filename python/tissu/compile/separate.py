@@ -1,8 +1,8 @@
 """Surfaces that overlap at the start are pushed apart: `contact: {overlap: separate}`.
 
-First a linear problem of elasticity deforms the bodies until the exact audit finds no crossing. Then
-contact, which allows none from there on, brings them to rest in a world without loads. What remains
-is an equilibrium of elasticity and contact.
+First a linear problem of elasticity deforms the bodies until the exact audit finds no crossing.
+Then contact, which allows none from there on, brings them to rest in a world without loads. What
+remains is an equilibrium of elasticity and contact.
 """
 
 from __future__ import annotations
@@ -81,7 +81,7 @@ def _contact(prepared: Prepared) -> PreparedContact:
 
 def _pushed_apart(prepared: Prepared) -> Apart:
     from tissu.compile.clearance import Clearance
-    from tissu.compile.relaxation import Relaxation
+    from tissu.compile.relaxation import Relaxation, is_thick_inside
     from tissu.compile.settling import settle, unloaded
     from tissu.compile.world import build_world
 
@@ -101,7 +101,7 @@ def _pushed_apart(prepared: Prepared) -> Apart:
     _require_whole(core, contact)
     most = STEPS - relaxation.looks
     rest = settle(core, bodies=nodes, crossing=crossing, gap=gap, most=most)
-    if core.crossings() or core.overlaps():
+    if core.crossings() or is_thick_inside(core, gap):
         raise ParameterError("they still cross")
     _require_whole(core, contact)
     positions, told = {}, []
@@ -113,8 +113,8 @@ def _pushed_apart(prepared: Prepared) -> Apart:
     steps = counted(relaxation.looks + rest.steps, "step")
     return Apart(
         positions,
-        f"contact.overlap: pushed apart at the start: {', '.join(told)}; {steps}, contact forces of "
-        f"{rest.pressing:.3g} N in sum, balanced to {rest.unbalanced:.1g} N",
+        f"contact.overlap: pushed apart at the start: {', '.join(told)}; {steps}, contact "
+        f"forces of {rest.pressing:.3g} N in sum, balanced to {rest.unbalanced:.1g} N",
     )
 
 

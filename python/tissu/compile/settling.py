@@ -26,7 +26,7 @@ equilibrium need inertia, and those near to it do not"""
 
 
 class Rest(NamedTuple):
-    """How bodies came to rest: steps, contact forces in sum and what of them is not balanced [N]."""
+    """How bodies came to rest: steps, contact forces in sum, what of them has no balance [N]."""
 
     steps: int
     pressing: float

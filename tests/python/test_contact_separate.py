@@ -130,7 +130,7 @@ def test_a_row_that_is_held_at_its_ends():
     ends = [
         ts.Fixed("a", on=LEFT),
         ts.Fixed("d", on=ts.Box(min=(3 * step + EDGE - 1e-6, None, None))),
-        *(ts.Fixed(name, axes="yz") for name in "bc"),
+        *(ts.Fixed(name, on=ts.Box(min=(None, None, None)), axes="yz") for name in "bc"),
     ]
     simulation = settled(
         ts.Scene(

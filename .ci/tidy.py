@@ -23,6 +23,9 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 BUILD = ROOT / "build/main"
 STAMPS = ROOT / "build/tidy"
+sys.path.insert(0, str(ROOT / "third_party"))
+from unity_groups import own_names  # noqa: E402
+
 FOLDERS = ("cpp/src", "python/bind", "bench")
 MOST = 8
 """sources that are read together: more of them save little, and take more memory"""
@@ -53,14 +56,22 @@ def without_precompiled(command: str) -> str:
     return shlex.join(kept)
 
 
+def sources_of(file: str) -> list[str]:
+    """The source itself, or those that the build compiles together in it."""
+    if not Path(file).name.startswith("unity_"):
+        return [file]
+    return re.findall(r'#include "(.*)"', Path(file).read_text())
+
+
 def commands() -> list[dict[str, str]]:
     """How each source is compiled; of a kernel compiled several times, the first (baseline) way."""
     own = tuple(str(ROOT / folder) + os.sep for folder in FOLDERS)
     first: dict[str, dict[str, str]] = {}
     for entry in json.loads((BUILD / "compile_commands.json").read_text()):
-        if entry["file"].startswith(own):
-            entry["command"] = without_precompiled(entry["command"])
-            first.setdefault(entry["file"], entry)
+        for file in sources_of(entry["file"]):
+            if file.startswith(own):
+                command = without_precompiled(entry["command"].replace(entry["file"], file))
+                first.setdefault(file, {"file": file, "command": command})
     return list(first.values())
 
 
@@ -125,17 +136,6 @@ def check(group: Sequence[Source]) -> str:
     if not (apart and rest):
         apart, rest = list(group[: len(group) // 2]), list(group[len(group) // 2 :])
     return check(apart) + check(rest)
-
-
-def own_names(text: str) -> set[str]:
-    """What a source defines in namespaces without a name, roughly: a miss costs time only."""
-    names: set[str] = set()
-    for part in re.findall(r"^namespace \{$(.*?)^\}  // namespace$", text, re.M | re.S):
-        for line in re.findall(r"^[A-Za-z].*", part, re.M):
-            found = re.match(r"(?:struct|class|enum class|using) (\w+)", line)
-            found = found or re.search(r"(\w+)(?:\[.*?\])? ?(?:=|\{|;|$)", line.split("(")[0])
-            names.update(found.groups() if found else ())
-    return names
 
 
 def groups(sources: Iterable[Source]) -> list[list[Source]]:

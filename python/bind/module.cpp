@@ -5,6 +5,7 @@
 #include "tissu/base/build.h"
 #include "tissu/base/isa.h"
 #include "tissu/base/parallel.h"
+#include "tissu/contact/audit.h"
 
 namespace tissu::bind {
 namespace {
@@ -25,6 +26,10 @@ void translate(std::exception_ptr pointer) {  // NOLINT(performance-unnecessary-
     PyErr_SetObject(type.ptr(), made.ptr());
   } catch (const MeshError& error) {
     set_error("MeshError", error);
+  } catch (const OverlapError& error) {
+    const py::object type = py::module_::import("tissu.errors").attr("OverlapError");
+    const py::object made = type(error.what(), py::arg("places") = error.places());
+    PyErr_SetObject(type.ptr(), made.ptr());
   } catch (const ParameterError& error) {
     set_error("ParameterError", error);
   } catch (const Error& error) {

@@ -17,6 +17,18 @@ class ParameterError(TissuError, ValueError):
     """A number or an array is outside what the equations accept."""
 
 
+class OverlapError(ParameterError):
+    """Surfaces overlap at the start, where they must begin apart.
+
+    Attributes:
+        places: names of both, and in how many places or how deep, in words.
+    """
+
+    def __init__(self, message: str, *, places: str = "") -> None:
+        self.places = places
+        super().__init__(message)
+
+
 class LawError(TissuError):
     """A user-defined law cannot be used, or cannot be compiled on this machine."""
 

@@ -165,6 +165,18 @@ def test_a_probe_works_its_way_into_an_organ():
         assert after[0] < 0.5 * before[-1]
 
 
+def test_an_organ_is_pushed_off_what_it_overlaps():
+    """In balance without loads: what presses on the organ goes through it to its support."""
+    simulation = example("overlap")
+    assert "pushed apart" in str(simulation.plan())
+    force = simulation.force_on("organ").force
+    assert force[2] < -0.05
+    others = simulation.force_on("block").force + simulation.force_on("bone").force
+    assert np.abs(force + others).max() <= 1e-12 * np.linalg.norm(force)
+    support = simulation.reactions("organ").sum(axis=0)
+    assert np.linalg.norm(support + force) < 0.03 * np.linalg.norm(force)
+
+
 def test_two_organs_are_pushed_together():
     made = runpy.run_path(str(EXAMPLES / "two_organs.py"))
     simulation = run(made["scene"]())

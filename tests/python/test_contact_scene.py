@@ -202,7 +202,12 @@ SLIPS = {
         "found bdf2_fixed_point with 3 contacts of the method augmented",
     ),
     "iterations": ("method: auto", "iterations: 0", "contact.iterations", "at least 1"),
-    "overlap": ("method: auto", "overlap: separate", "contact.overlap", "not there yet; refuse"),
+    "overlap": (
+        "method: auto",
+        "travel: false, overlap: separate",
+        "contact.overlap",
+        "refuses no",
+    ),
     "a name twice": ("  table: {", "  liver: {", "obstacles.liver", "as a body too"),
     "mass": (
         "radius: 3 mm,",

@@ -263,8 +263,10 @@ void separate(const Contact& contact, const FixedDofs& fixed, State& start) {
     text += (text.empty() ? "\"" : "; \"") + surfaces[at(pair.first)].name + "\" and \"" +
             surfaces[at(pair.second)].name + "\" by " + number_text(depth) + " m of their thickness";
   }
-  throw ParameterError("found surfaces that overlap at the start: " + text +
-                       "; they must begin apart, or overlap by no more than their gap. Move one of them.");
+  throw OverlapError("found surfaces that overlap at the start: " + text +
+                         "; they must begin apart, or overlap by no more than their gap. Move one of them, "
+                         "or ask for contact.overlap: separate.",
+                     text);
 }
 
 }  // namespace tissu

@@ -6,7 +6,7 @@
 namespace tissu::haptic::bind {
 namespace {
 
-py::dict to_dict(const DeviceInfo& info) {
+py::dict info_dict(const DeviceInfo& info) {
   py::dict made;
   made["axes"] = info.axes;
   made["count_size"] = py::array_t<double>(kChannels, info.count_size.data());
@@ -144,7 +144,7 @@ void bind_simulated(py::class_<SimulatedDevice, Device>& bound) {
 }  // namespace
 
 void bind_device(py::module_& m) {
-  py::class_<Device>(m, "Device").def("info", [](const Device& d) { return to_dict(d.info()); });
+  py::class_<Device>(m, "Device").def("info", [](const Device& d) { return info_dict(d.info()); });
   bind_hand(m);
   bind_mechanism(m);
   bind_line(m);

@@ -35,8 +35,8 @@ struct Ticks {
 };
 
 /// A stepped loop beside what it needs; the device is the caller's.
-struct Loop {
-  Loop(Device& device, const Settings& settings) : device(&device), loop(device, kinematics, settings) {}
+struct OwnLoop {
+  OwnLoop(Device& device, const Settings& settings) : device(&device), loop(device, kinematics, settings) {}
 
   py::dict run(std::int64_t n) {
     std::vector<LoopRow> rows;
@@ -86,18 +86,18 @@ void bind_loop(py::module_& m) {
       .def("tick", &Ticks::tick, py::kw_only(), arg("counts"), arg("flags"), arg("tag") = 0,
            arg("time_ns") = 0, arg("sequence") = 0, arg("read") = "ok", arg("written") = "ok",
            arg("now_ns") = 0, arg("late") = 0, arg("model") = nullptr);
-  py::class_<Loop>(m, "SteppedLoop")
+  py::class_<OwnLoop>(m, "SteppedLoop")
       .def(py::init<Device&, const Settings&>(), arg("device"), arg("settings"), py::keep_alive<1, 2>())
       .def(
-          "set", [](Loop& l, const Settings& settings) { l.loop.set(settings); }, arg("settings"))
+          "set", [](OwnLoop& l, const Settings& settings) { l.loop.set(settings); }, arg("settings"))
       .def(
-          "publish", [](Loop& l, const LocalModel& model) { l.loop.publish(model); }, arg("model"))
+          "publish", [](OwnLoop& l, const LocalModel& model) { l.loop.publish(model); }, arg("model"))
       .def(
-          "be_late", [](Loop& l, std::int32_t ticks) { l.loop.be_late(ticks); }, arg("ticks"))
-      .def("run", &Loop::run, arg("ticks"))
-      .def_property_readonly("time", [](const Loop& l) { return l.loop.time(); })
-      .def_property_readonly("state", [](const Loop& l) { return name_of(l.loop.memory().state); })
-      .def_property_readonly("reason", [](const Loop& l) { return name_of(l.loop.memory().reason); });
+          "be_late", [](OwnLoop& l, std::int32_t ticks) { l.loop.be_late(ticks); }, arg("ticks"))
+      .def("run", &OwnLoop::run, arg("ticks"))
+      .def_property_readonly("time", [](const OwnLoop& l) { return l.loop.time(); })
+      .def_property_readonly("state", [](const OwnLoop& l) { return name_of(l.loop.memory().state); })
+      .def_property_readonly("reason", [](const OwnLoop& l) { return name_of(l.loop.memory().reason); });
   py::list states;
   for (int i = 0; i < 7; ++i) states.append(name_of(static_cast<State>(i)));
   py::list reasons;

@@ -59,13 +59,13 @@ def check_scene(scene: SceneData) -> Check:
     check = check_of(prepared)
     if not check.ok or prepared.contact is None:
         return check
-    from tissu.compile.world import world_of
+    from tissu.compile.world import world_and_start
 
     try:  # whether surfaces overlap at the start, the core says
-        world_of(prepared)
+        apart = world_and_start(prepared)[1]
     except SceneError as error:
         return replace(check, problems=error.problems)
-    return check
+    return check if apart is None else replace(check, notes=[*check.notes, apart.words])
 
 
 def problems_of(scene: SceneData) -> list[str]:

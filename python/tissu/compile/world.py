@@ -17,7 +17,7 @@ from tissu.compile.prepare import prepare
 from tissu.compile.prepared import LoadedNodes, Prepared
 from tissu.compile.start import begin
 from tissu.compile.thin import cross_section_of
-from tissu.errors import ParameterError, SceneError
+from tissu.errors import OverlapError, ParameterError, SceneError
 from tissu.mesh.cell import dimension
 from tissu.scene.instrument import Knife
 from tissu.scene.load import Where
@@ -29,6 +29,7 @@ from tissu.scene.step import Static
 
 if TYPE_CHECKING:
     from tissu._core import WorldBuilder
+    from tissu.compile.separate import Apart
     from tissu.front import Scene
     from tissu.scene.tear import Tear
     from tissu.simulation import Simulation
@@ -48,11 +49,15 @@ def compile_scene(scene: Scene, checkpoint: Path | None = None) -> Simulation:
         raise SceneError(check.problems)
     from tissu.simulation import Simulation
 
+    world, apart = world_and_start(prepared, resumed=saved is not None)
+    if apart is not None:
+        check = dataclasses.replace(check, notes=[*check.notes, apart.words])
+
     solver = getattr(scene.step, "solver", None)
     equilibrium = isinstance(scene.step, Static)
     simulation = Simulation(
         scene=scene,
-        world=world_of(prepared),
+        world=world,
         meshes={name: body.mesh for name, body in prepared.bodies.items()},
         tissue={name: tissue.mesh for name, tissue in prepared.tissue.items()},
         integrator=scene.step.integrator(),
@@ -65,10 +70,32 @@ def compile_scene(scene: Scene, checkpoint: Path | None = None) -> Simulation:
     if saved is not None:
         return simulation
     begin(simulation, prepared)
+    if apart is not None:
+        apart.begin(simulation)
     problem = unstable_step(simulation)
     if problem is not None:
         raise SceneError([problem.sentence(scene.source)])
     return simulation
+
+
+def world_and_start(prepared: Prepared, *, resumed: bool = False) -> tuple[Any, Apart | None]:
+    """The world of a scene, and where bodies that overlapped in it begin; a checkpoint knows that.
+
+    Raises:
+        SceneError: surfaces that meet overlap at the start, and were not or cannot be separated.
+    """
+    contact = prepared.contact
+    if contact is None or contact.settings.overlap == "refuse":
+        return world_of(prepared), None
+    try:
+        return build_world(prepared), None
+    except OverlapError as overlap:
+        from tissu.compile.separate import separated
+
+        apart = None if resumed else separated(prepared, overlap)
+        return build_world(prepared, overlap=True), apart
+    except ParameterError as error:
+        raise _refused(prepared, error) from None
 
 
 def world_of(prepared: Prepared) -> Any:
@@ -82,9 +109,14 @@ def world_of(prepared: Prepared) -> Any:
     except ParameterError as error:
         if prepared.contact is None:
             raise
-        build_world(dataclasses.replace(prepared, contact=None))  # raises what else is wrong
-        problem = Problem(("contacts",), str(error))
-        raise SceneError([problem.sentence(prepared.scene.source)]) from None
+        raise _refused(prepared, error) from None
+
+
+def _refused(prepared: Prepared, error: ParameterError) -> SceneError:
+    """What is wrong with contacts, if nothing else is."""
+    build_world(dataclasses.replace(prepared, contact=None))  # raises what else is wrong
+    problem = Problem(("contacts",), str(error))
+    return SceneError([problem.sentence(prepared.scene.source)])
 
 
 def refuse_uncuttable(simulation: Simulation) -> None:
@@ -156,8 +188,11 @@ def unstable_step(simulation: Simulation) -> Problem | None:
     return Problem(("step", "dt"), text + "a smaller step, or an implicit method")
 
 
-def build_world(prepared: Prepared) -> Any:
-    """The world of a scene that has no problems; only what the scene asks for is in it."""
+def build_world(prepared: Prepared, *, overlap: bool = False) -> Any:
+    """The world of a scene that has no problems; only what the scene asks for is in it.
+
+    `overlap`: surfaces may overlap at the start, and are left where they are.
+    """
     from tissu._core import WorldBuilder
 
     scene = prepared.scene
@@ -184,7 +219,7 @@ def build_world(prepared: Prepared) -> Any:
         loaded.load.add_to(builder, where, number=int(loaded.path[1]))
     if prepared.contact is not None:
         prepared.contact.add_to(builder)
-    return builder.build()
+    return builder.build(overlap)
 
 
 def _where(prepared: Prepared, loaded: LoadedNodes) -> Where:

@@ -162,8 +162,8 @@ class ContactSettings(Part):
     travel: bool = True
     """whether nodes are stopped where surfaces would otherwise pass through each other"""
     overlap: Literal["refuse", "separate"] = "refuse"
-    """what to do with surfaces that cross at the start: refuse the scene; separate (push them apart
-    first) is not supported yet
+    """what to do with surfaces that cross at the start: refuse the scene, or separate them: bodies
+    are deformed until they press on each other without crossing
     """
     surface_of: _SurfaceOf = field(default_factory=dict)
     """body -> mesh that is its surface in contact, in place of the boundary of its cells, which

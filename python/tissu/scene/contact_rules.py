@@ -289,8 +289,8 @@ def _settings_problems(settings: ContactSettings, method: str) -> Iterator[Probl
     if method == "barrier" and not settings.travel:
         text = "found false with the method barrier, which holds surfaces apart on free ways "
         yield Problem(("contact", "travel"), f"{text}alone; leave it out")
-    if settings.overlap == "separate":
-        text = "found separate, which is not there yet; refuse is accepted: move the bodies apart"
+    if settings.overlap == "separate" and not settings.travel:
+        text = "found separate with travel: false, which refuses no overlap; leave one of them out"
         yield Problem(("contact", "overlap"), text)
     if settings.broad_phase == "fcl" and not _has_fcl():
         text = "found fcl, which this build of tissu is without; hierarchy, sweep_and_prune, grid "

@@ -5,10 +5,12 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "tissu/assembly/fixed_dofs.h"
+#include "tissu/base/error.h"
 #include "tissu/contact/contact.h"
 
 namespace tissu {
@@ -30,9 +32,20 @@ std::vector<Crossing> crossings(const Contact& contact, const State& state);
 using Depths = std::map<std::pair<std::int32_t, std::int32_t>, double>;
 Depths overlaps(const Contact& contact, const State& state);
 
+/// Surfaces overlap at the start, where they must begin apart.
+class OverlapError : public ParameterError {
+ public:
+  OverlapError(const std::string& message, std::string places)
+      : ParameterError(message), places_(std::move(places)) {}
+  [[nodiscard]] const std::string& places() const { return places_; }  ///< names of both, and how much
+
+ private:
+  std::string places_;
+};
+
 /// Moves apart what touches, or overlaps by no more than the gap, along outward normals, by at most the gap;
 /// free obstacles by as much as the pile that they are in needs. Other obstacles and given rows stay. Refuses
-/// bodies that overlap more, by their middles or their thicknesses.
+/// bodies that overlap more, by their middles or their thicknesses (OverlapError).
 void separate(const Contact& contact, const FixedDofs& fixed, State& start);
 
 }  // namespace tissu

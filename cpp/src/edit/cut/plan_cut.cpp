@@ -1,13 +1,13 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <optional>
 #include <string>
 
 #include "edit/cut/bisect.h"
 #include "edit/cut/crossings.h"
 #include "edit/cut/fans.h"
 #include "edit/cut/fragments.h"
+#include "edit/cut/incisions.h"
 #include "edit/cut/near.h"
 #include "edit/cut/open.h"
 #include "edit/cut/patch.h"
@@ -88,27 +88,12 @@ class Attempt {
     if (!last && !large_enough(replicas, raised)) return false;
     const Fans fans(patch_, fragments, parted_);
     write_plan(hosts_, material_, patch_, fragments, replicas, fans, plan);
-    write_incisions(fans, plan);
+    write_incisions(patch_, material_, on_incision_, fans, plan);
     return true;
   }
 
   /// Vertices that a blade met which opened nothing: along faces one opens when its last vertex is met.
-  void remember(CutPlan& plan) const {
-    std::map<std::int32_t, Numbers> lists;
-    for (const auto& [number, known] : on_incision_) {
-      for (std::size_t v = 0; v < known.vertices.size(); ++v) {
-        if (known.vertices[v].on) lists[number].push_back(patch_.vertices[v].number);
-      }
-    }
-    for (auto& [number, list] : lists) {
-      const auto before = std::ranges::find(material_.incisions, number, &Incision::number);
-      if (before != material_.incisions.end())
-        list.insert(list.end(), before->vertices.begin(), before->vertices.end());
-      sort_unique(list);
-      if (before == material_.incisions.end() || list != before->vertices)
-        plan.material.incisions.push_back({number, std::move(list)});
-    }
-  }
+  void remember(CutPlan& plan) const { remember_incisions(patch_, material_, on_incision_, plan); }
 
  private:
   [[nodiscard]] Numbers loaded() const {
@@ -123,35 +108,14 @@ class Attempt {
     return own == raised_.end() ? options_.t0 : own->second;
   }
 
-  /// What is known before a part cuts: vertices of its incision are on it.
-  [[nodiscard]] OnCut known_before(const SweepPart& part) const {
-    OnCut known(patch_.vertices.size());
-    for (const Incision& incision : material_.incisions) {
-      if (incision.number != part.incision || part.incision < 0) continue;
-      for (std::size_t v = 0; v < patch_.vertices.size(); ++v) {
-        const Patch::Vertex& vertex = patch_.vertices[v];
-        if (!std::ranges::binary_search(incision.vertices, vertex.number)) continue;
-        known.put_on(static_cast<std::int32_t>(v), vertex.place, vertex.place);
-        known.vertices[v].before = true;
-      }
-    }
-    for (const Patch::Division& division : patch_.divisions) {
-      if (!known[division.p].before || !known[division.q].before) continue;
-      const Vec3& place = patch_.vertex(division.vertex).place;
-      known.put_on(division.vertex, place, place);
-      known.vertices[at(division.vertex)].before = true;
-    }
-    return known;
-  }
-
   bool cut_part(std::size_t number, CutPlan& plan) {
     const SweepPart& part = sweep_.parts[number];
     const NearCells& near = near_[number];
-    OnCut known = known_before(part);
+    OnCut known = known_before(patch_, material_, part.incision);
     std::vector<CrossedEdge> edges = crossed_edges(patch_, part, near, options_.t0, known);
     for (int round = 0; options_.refine && round < kRefinements; ++round) {
       if (!refine(part, near, known, edges)) break;
-      known = known_before(part);
+      known = known_before(patch_, material_, part.incision);
       edges = crossed_edges(patch_, part, near, options_.t0, known);
     }
     const bool crossed = !edges.empty();
@@ -235,49 +199,6 @@ class Attempt {
     return all;
   }
 
-  /// Vertices that the parts put on their incisions; of old ones, the copies and new numbers too.
-  void write_incisions(const Fans& fans, CutPlan& plan) const {
-    std::map<std::int32_t, Numbers> lists;
-    for (const Incision& incision : material_.incisions) {
-      for (const std::int32_t vertex : incision.vertices) {
-        const std::int32_t place = patch_.place_of(vertex);
-        const Numbers now = place < 0 ? Numbers{vertex} : fans.numbers(place);
-        Numbers& list = lists[incision.number];
-        list.insert(list.end(), now.begin(), now.end());
-      }
-      std::vector<char> on(patch_.vertices.size(), 0);
-      for (std::size_t v = 0; v < on.size(); ++v)
-        on[v] = std::ranges::binary_search(incision.vertices, patch_.vertices[v].number) ? 1 : 0;
-      add_divided(std::move(on), fans, lists[incision.number]);
-    }
-    for (const auto& [number, known] : on_incision_) {
-      std::vector<char> on(patch_.vertices.size(), 0);
-      for (std::size_t v = 0; v < known.vertices.size(); ++v) {
-        if (!known.vertices[v].on) continue;
-        on[v] = 1;
-        const Numbers now = fans.numbers(static_cast<std::int32_t>(v));
-        lists[number].insert(lists[number].end(), now.begin(), now.end());
-      }
-      add_divided(std::move(on), fans, lists[number]);
-    }
-    for (auto& [number, list] : lists) {
-      sort_unique(list);
-      plan.material.incisions.push_back({number, std::move(list)});
-    }
-  }
-
-  /// An edge between two vertices of an incision is one of its surface, so that a vertex which another blade
-  /// puts on the edge is on that incision too: else the faces there would never open. `on`: vertices of the
-  /// patch that are on it.
-  void add_divided(std::vector<char> on, const Fans& fans, Numbers& list) const {
-    for (const auto& [vertex, p, q] : patch_.divisions) {
-      if (on[at(p)] == 0 || on[at(q)] == 0 || on[at(vertex)] != 0) continue;
-      on[at(vertex)] = 1;
-      const Numbers now = fans.numbers(vertex);
-      list.insert(list.end(), now.begin(), now.end());
-    }
-  }
-
   const Hosts& hosts_;
   const Material& material_;
   ConstReals x_;
@@ -287,7 +208,7 @@ class Attempt {
   const RaisedT0& raised_;
   Patch patch_;
   Numbers parted_;  ///< vertices of opened faces
-  std::vector<std::pair<std::int32_t, OnCut>> on_incision_;
+  OnIncisions on_incision_;
 };
 
 }  // namespace

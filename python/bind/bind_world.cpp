@@ -256,15 +256,18 @@ void bind_world(py::module_& m) {
           py::kw_only(), arg("body"), arg("nodes"), arg("axes"), arg("times"), arg("displacements"),
           arg("angles"), arg("center"), arg("axis"), arg("rotations"), arg("name"))
       .def(
-          "build",
-          [](const WorldDescription& world, bool overlap) {
-            if (!overlap || !world.contact) return std::make_shared<World>(world);
+          "build", [](const WorldDescription& world) { return std::make_shared<World>(world); },
+          py::call_guard<py::gil_scoped_release>())
+      .def(
+          "build_crossing",
+          [](const WorldDescription& world) {
+            if (!world.contact) return std::make_shared<World>(world);
             WorldDescription crossing = world;  // in which surfaces may cross, and are left where they are
             crossing.contact->travel = false;
             const World before(std::move(crossing));
             return std::make_shared<World>(world, &before);
           },
-          py::arg("overlap") = false, py::call_guard<py::gil_scoped_release>());
+          py::call_guard<py::gil_scoped_release>());
 }
 
 }  // namespace tissu::bind

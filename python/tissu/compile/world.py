@@ -219,7 +219,7 @@ def build_world(prepared: Prepared, *, overlap: bool = False) -> Any:
         loaded.load.add_to(builder, where, number=int(loaded.path[1]))
     if prepared.contact is not None:
         prepared.contact.add_to(builder)
-    return builder.build(overlap)
+    return builder.build_crossing() if overlap else builder.build()
 
 
 def _where(prepared: Prepared, loaded: LoadedNodes) -> Where:

@@ -281,3 +281,23 @@ def test_a_pipe_as_a_scene_is_refused(tmp_path):
     ended = run(tmp_path / "bar.yaml", "--resume", tmp_path / "kept", "-o", tmp_path / "out")
     assert ended.returncode == 2
     assert "kept: found a pipe; a regular file is accepted" in ended.stderr
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "why"),
+    [
+        ("young: 20 kPa", "young: -1 Pa", "young"),
+        ("fixed:\n", "fixed:\n  - {body: liver, on: all}\n", "liver"),
+        ("max: [1 mm, null, null]", "max: [-1 m, null, null]", "no node"),
+    ],
+)
+def test_a_run_that_is_refused_leaves_no_folder(scene, tmp_path, old, new, why):
+    """Found by the schema or only when the scene is compiled; folders that were there stay."""
+    written = scene((old, new))
+    out = tmp_path / "a" / "b"
+    done = run(written, "--out", out)
+    assert done.returncode == 2 and why in done.stderr
+    assert not (tmp_path / "a").exists()
+    out.mkdir(parents=True)
+    assert run(written, "--out", out).returncode == 2
+    assert out.is_dir()

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import typer
 
-from tissu.output import prepare_folder
+from tissu.output import folder_of_run
 
 
 def advise_scene(
@@ -34,19 +34,19 @@ def advise_scene(
 
     asked = [name.strip() for name in models.split(",") if name.strip()]
     scene = Scene.from_yaml(file, trust_laws=trust_laws)
-    folder = prepare_folder(out)
-    told = _tell if sys.stderr.isatty() else None
-    found = advise(scene, error, rate, budget=budget, models=asked, told=told)
-    for name, text in (("table.csv", found.to_csv()), ("advice.md", found.to_markdown())):
-        with whole_file(folder / name) as target:
-            target.write_text(text, encoding="utf-8")
-    found.scene.save(folder / "scene.yaml")
-    with whole_file(folder / "advice.png") as target:
-        drawn = draw(found, target)
-    typer.echo(str(found))
-    kind = "chosen" if found.chosen is not None else "nearest"
-    files = "table.csv, advice.md" + (", advice.png" if drawn else "")
-    typer.echo(f"written: {folder}/scene.yaml ({kind}: {found.best.name}), {files}")
+    with folder_of_run(out) as folder:
+        told = _tell if sys.stderr.isatty() else None
+        found = advise(scene, error, rate, budget=budget, models=asked, told=told)
+        for name, text in (("table.csv", found.to_csv()), ("advice.md", found.to_markdown())):
+            with whole_file(folder / name) as target:
+                target.write_text(text, encoding="utf-8")
+        found.scene.save(folder / "scene.yaml")
+        with whole_file(folder / "advice.png") as target:
+            drawn = draw(found, target)
+        typer.echo(str(found))
+        kind = "chosen" if found.chosen is not None else "nearest"
+        files = "table.csv, advice.md" + (", advice.png" if drawn else "")
+        typer.echo(f"written: {folder}/scene.yaml ({kind}: {found.best.name}), {files}")
 
 
 def _tell(text: str) -> None:

@@ -19,7 +19,7 @@ from tissu.accuracy.table import to_csv, to_parquet
 from tissu.cli.info import machine_line
 from tissu.errors import ParameterError
 from tissu.files import whole_file
-from tissu.output import prepare_folder
+from tissu.output import folder_of_run
 
 CASES = Path(__file__).resolve().parents[1] / "accuracy" / "cases"
 
@@ -61,25 +61,28 @@ def bench_accuracy(job: Job) -> None:
     """
     preset = _preset(job.preset)
     found = read_cases(job.cases or CASES, job.names)
-    folder = prepare_folder(job.out)
-    begin = time.perf_counter()
-    studies: list[Study] = []
-    for case in found:
-        why = missing(case, job.meshes)
-        if why and not job.names:
-            typer.echo(f"{case.name}: left out, since it {why}\n")
-            continue
-        if why:
-            raise ParameterError(f"case {case.name} {why}")
-        typer.echo(f"{case.name}: {case.title}")
-        one = study(case, preset, meshes=job.meshes, trust_laws=job.trust_laws, told=_told)
-        typer.echo(f"  {sentence(one)}\n")
-        studies.append(one)
-        _write(studies, folder)
-    seconds = time.perf_counter() - begin
-    tables = ["accuracy.csv", *(["accuracy.parquet"] if find_spec("pyarrow") is not None else [])]
-    names = ", ".join(["accuracy.html", *tables, *(f"{s.case.name}.png" for s in studies)])
-    typer.echo(f"{seconds:.0f} s; written: {folder}/{names}")
+    with folder_of_run(job.out) as folder:
+        begin = time.perf_counter()
+        studies: list[Study] = []
+        for case in found:
+            why = missing(case, job.meshes)
+            if why and not job.names:
+                typer.echo(f"{case.name}: left out, since it {why}\n")
+                continue
+            if why:
+                raise ParameterError(f"case {case.name} {why}")
+            typer.echo(f"{case.name}: {case.title}")
+            one = study(case, preset, meshes=job.meshes, trust_laws=job.trust_laws, told=_told)
+            typer.echo(f"  {sentence(one)}\n")
+            studies.append(one)
+            _write(studies, folder)
+        seconds = time.perf_counter() - begin
+        tables = [
+            "accuracy.csv",
+            *(["accuracy.parquet"] if find_spec("pyarrow") is not None else []),
+        ]
+        names = ", ".join(["accuracy.html", *tables, *(f"{s.case.name}.png" for s in studies)])
+        typer.echo(f"{seconds:.0f} s; written: {folder}/{names}")
 
 
 def _preset(word: str) -> Preset:

@@ -21,7 +21,7 @@ from tissu.output import (
     ContactTally,
     Series,
     StepTally,
-    prepare_folder,
+    folder_of_run,
     summarise,
     write_summary,
 )
@@ -101,11 +101,20 @@ def run_scene(job: Job, *, debug: bool = False) -> int:
         CheckpointError: it cannot go on from the checkpoint, or write one.
         TissuError: the output folder cannot be written.
     """
-    clock, tally = Clock(), StepTally()
+    clock = Clock()
     with clock.stage("compile"):
         scene = load(job)
         checkpoints = checkpoints_option(job.checkpoint, job.checkpoint_every)
-        folder = prepare_folder(job.out)
+    with folder_of_run(job.out) as folder:
+        return run_into(folder, job, scene, checkpoints, clock, debug=debug)
+
+
+def run_into(
+    folder: Path, job: Job, scene: Scene, checkpoints: Checkpoints, clock: Clock, *, debug: bool
+) -> int:
+    """Runs a scene into its folder; returns the exit code."""
+    tally = StepTally()
+    with clock.stage("compile"):
         simulation = scene.compile(checkpoint=job.resume)
     if not job.quiet:
         for note in worth_knowing(simulation):

@@ -97,11 +97,12 @@ def require_folder_place(path: str | os.PathLike[str], what: str, *, within: boo
     except (OSError, ValueError) as refused:
         raise TissuError(
             f"{what} {shown_path(path)}: cannot be written ({reason_of(refused)}); "
-            "name another with --out"
+            "name another folder (--out of a command)"
         ) from None
     if kind not in ("nothing", "a folder"):
         article = "it is a file" if kind == "a file" else f"found {kind}"
         raise TissuError(
-            f"{what} {shown_path(path)}: {article}, a folder is accepted; name another with --out"
+            f"{what} {shown_path(path)}: {article}, a folder is accepted; "
+            "name another folder (--out of a command)"
         )
     return Path(path)

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import contextlib
+import os
 import tempfile
+from collections.abc import Iterator
 from os import PathLike
 from pathlib import Path
 
@@ -28,6 +31,24 @@ def prepare_folder(path: str | PathLike[str]) -> Path:
             "name another folder (--out of a command)"
         ) from None
     return folder
+
+
+@contextlib.contextmanager
+def folder_of_run(path: str | PathLike[str]) -> Iterator[Path]:
+    """Makes the folder; a run that is refused before it writes anything leaves none behind.
+
+    Raises:
+        TissuError: something else lies there, or it cannot be made or written.
+    """
+    places = (Path(path), *Path(path).parents)
+    new = [place for place in places if not os.path.lexists(place)]
+    try:
+        yield prepare_folder(path)
+    except BaseException:
+        for place in new:
+            with contextlib.suppress(OSError):  # it holds something, or was not made
+                place.rmdir()
+        raise
 
 
 def inner_folder(folder: Path, name: str) -> Path:

@@ -50,7 +50,6 @@ CutState cut_state_of(BodyDescription body, Material material) {
   root.insert(root.end(), body.copies_of.begin(), body.copies_of.end());
   std::vector<Hosts::Cell> cells;
   for (const ElasticBlock& block : body.elastic) {
-    const ElementInfo& element = *find_element(block.element);
     const std::optional<CellType> known = host_type(block);
     if (!known) {
       throw ParameterError(
@@ -58,6 +57,7 @@ CutState cut_state_of(BodyDescription body, Material material) {
           "; only bodies of volume cells, and of triangles, have a material that can be cut.");
     }
     const CellType type = *known;
+    const ElementInfo& element = *find_element(block.element);
     const bool is_sheet = info(type).dimension == 2;
     for (std::size_t i = 0; i < block.cell_numbers.size(); ++i) {
       const auto own =

@@ -201,6 +201,7 @@ std::shared_ptr<const World> edit_body(const World& world, const State& state, s
   WorldDescription description = *world.description();
   BodyDescription& body = description.body(name);
   refuse_unparted(description, body);
+  refuse_tied(description, name, edit.copied);
   body = edited(std::move(body), edit);
   part_supports(description, body, edit);
   part_loads(description, body);

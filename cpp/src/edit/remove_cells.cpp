@@ -8,6 +8,7 @@
 #include "parted_loads.h"
 #include "tissu/base/error.h"
 #include "tissu/edit/cut_state.h"
+#include "tissu/element/reference_cell.h"
 
 namespace tissu {
 namespace {
@@ -33,6 +34,12 @@ std::shared_ptr<const World> remove_cells(const World& world, const State& state
   }
   WorldDescription description = *world.description();
   BodyDescription& edited = description.body(body);
+  if (!edited.shared.empty() || std::ranges::any_of(edited.elastic, [](const ElasticBlock& block) {
+        return find_element(block.element) == nullptr;
+      })) {
+    throw ParameterError("\"" + edited.name + "\" is tissue, which has points and no cells to remove; " +
+                         "name a body.");
+  }
   number_cells(edited);
   Numbers wanted(cells.begin(), cells.end());
   for (ElasticBlock& block : edited.elastic) remove_from(block, wanted);

@@ -48,11 +48,13 @@ Threads threads_of(const WorldDescription& description) {
                        std::to_string(available_threads()) + " are of no use.");
 }
 
-/// The numbers of the cells of a block; `next` is the first of a block whose cells have none.
+/// The numbers of the cells of a block; `next` is the first of a block whose cells have none. Points without
+/// a mesh stay without numbers, because no edit names them.
 std::vector<std::int32_t> numbers_of(const ElasticBlock& block, std::int32_t next) {
   if (!block.cell_numbers.empty()) return block.cell_numbers;
-  std::vector<std::int32_t> numbers(block.cells.size() /
-                                    static_cast<std::size_t>(find_element(block.element)->nodes));
+  const ElementInfo* element = find_element(block.element);
+  if (element == nullptr) return {};
+  std::vector<std::int32_t> numbers(block.cells.size() / static_cast<std::size_t>(element->nodes));
   std::iota(numbers.begin(), numbers.end(), next);
   return numbers;
 }

@@ -133,6 +133,8 @@ def run_into(
     if not job.quiet and not files.lost:
         with contextlib.suppress(BrokenPipeError):  # its reader has left; the run ends as it did
             report(simulation, series, tally, clock, picture)
+            for text in trocars.words() if trocars is not None else ():
+                print(text)
     if ending.error is not None and debug:
         raise ending.error
     if ending.message:

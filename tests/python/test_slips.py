@@ -1,4 +1,4 @@
-"""Slips of a newcomer: each is met by a sentence that names the cure, and by no phrase of pydantic."""
+"""Slips of a newcomer: a sentence names the cure of each, without the phrases of pydantic."""
 
 import numpy as np
 import pytest

@@ -21,6 +21,7 @@ _BOUNDS = {
     "greater_than": "more than {gt:g}",
     "greater_than_equal": "at least {ge:g}",
     "less_than": "less than {lt:g}",
+    "less_than_equal": "at most {le:g}",
 }
 
 _ACCEPTED = {
@@ -93,18 +94,19 @@ def _sentence(details: ErrorDetails, found: object) -> str:
         return f"found {shown}; a list is accepted{_as_a_list(found)}"
     if kind == "missing":
         return f"found {shown}, which has too few entries; one more is accepted"
-    return f"found {shown}; {_accepted(kind, context)} is accepted"
+    accepted = _accepted(kind, context) or text.removeprefix("Input should be ")
+    return f"found {shown}; {accepted} is accepted"
 
 
 def _accepted(kind: str, context: Mapping[str, Any]) -> str:
-    """What a kind of field accepts, in words."""
+    """What a kind of field accepts, in words; empty: nothing is known of that kind."""
     if kind in _ACCEPTED:
         return _ACCEPTED[kind]
     words = {"int": "a whole number", "float": "a number", "bool": "true or false"}
     words |= {"string": "a text", "path": "the path of a file", "too": "a list of fewer entries"}
     if "max_length" in context:
         return f"at most {context['max_length']}"
-    return words.get(kind.split("_")[0], "another kind of value")
+    return words.get(kind.split("_")[0], "")
 
 
 def _as_a_list(found: object) -> str:

@@ -24,7 +24,8 @@ Place place(const Vec3& p) { return {p[0], p[1], p[2]}; }
 void check_finite(const Vec3& p, const char* what) {
   if (p.allFinite()) return;
   throw ParameterError("the " + std::string(what) + " of a blade is (" + number_text(p[0]) + ", " +
-                       number_text(p[1]) + ", " + number_text(p[2]) + "); three finite numbers are accepted.");
+                       number_text(p[1]) + ", " + number_text(p[2]) +
+                       "); three finite numbers are accepted.");
 }
 
 Vec3 unit(const Vec3& normal) {

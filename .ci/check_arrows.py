@@ -124,7 +124,7 @@ PYTHON: dict[str, set[str]] = {
     "output": {"errors", "counted", "field_names", "files", "mesh", "_core"},
 }
 # The active trocar. A scene without one imports none of it.
-PYTHON["trocar"] = {"arrays", "errors", "files", "reading", "scene", "units", "_haptic"}
+PYTHON["trocar"] = {"arrays", "counted", "errors", "files", "reading", "scene", "units", "_haptic"}
 PYTHON["examples"] = {"errors", "files", "front"}
 PYTHON["cli"] = set(PYTHON)
 PYTHON["__main__"] = {"cli"}

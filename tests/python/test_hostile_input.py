@@ -97,7 +97,7 @@ FIELDS = {
     "cells": ("[2, 1, 1]", "[99999999999999999999, 1, 1]", "found 99999999999999999999; whole"),
     "too many cells": ("[2, 1, 1]", "[1000000, 1000000, 1000000]", "take fewer cells"),
     "bar too big": ("[2, 1, 1]", "[2000000000, 1, 1]", "take fewer cells"),
-    "threads": ("duration: 20 ms", "threads: 99999999999999999999", "less than or equal to 1024"),
+    "threads": ("duration: 20 ms", "threads: 99999999999999999999", "at most 1024"),
     "iterations": ("10 ms}", f"10 ms, newton: {{iterations: {10**20}}}}}", "whole numbers up to"),
     "nodes": (BOX, f"type: nodes, ids: [{10**20}]", "found 1" + "0" * 20 + "; whole numbers"),
     "steps": ("dt: 10 ms", "dt: 1e-12", r"which is 2e\+10 steps; at most 1e\+09 are accepted"),

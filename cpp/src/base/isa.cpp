@@ -42,10 +42,14 @@ Isa choose_isa() {
     if (!runs_here(isa)) continue;
     if (asked == nullptr || *asked == '\0' || asked == name(isa)) return isa;
   }
-  throw ParameterError(
-      "TISSU_ISA is \"" + std::string(asked) +
-      "\", which is not an instruction set that this machine and this build have; leave it unset, "
-      "or use baseline, avx2 or avx512.");
+  std::string here;
+  for (const Isa isa : kAll) {
+    if (runs_here(isa)) here += (here.empty() ? "" : ", ") + std::string(name(isa));
+  }
+  throw ParameterError("TISSU_ISA is \"" + std::string(asked) +
+                       "\", which is not an instruction set that this machine and this build have; leave it "
+                       "unset, or use one of: " +
+                       here + ".");
 }
 
 }  // namespace tissu

@@ -160,7 +160,9 @@ void refuse_unparted(const WorldDescription& description, const BodyDescription&
     }
     if (const auto* springs = std::get_if<MassSpringOptions>(&block.model);
         springs && springs->equal_masses) {
-      refuse("its nodes have equal masses, which copies of nodes would change; leave equal_masses out");
+      refuse(
+          "its nodes have equal masses, which copies of nodes would change; take masses: volume, the "
+          "default");
     }
   }
   if (!has_material(body)) refuse("it has volume cells and sheets, and bodies of one of both are accepted");

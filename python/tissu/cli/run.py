@@ -130,9 +130,12 @@ def run_into(
             conclude(simulation, series, tally, clock, ending, picture, contacts, trocars)
         for text in trocars.problems() if trocars is not None else ():
             complain(text)
+        ends = trocars.words() if trocars is not None else []
     if not job.quiet and not files.lost:
         with contextlib.suppress(BrokenPipeError):  # its reader has left; the run ends as it did
             report(simulation, series, tally, clock, picture)
+            for text in ends:
+                print(text)
     if ending.error is not None and debug:
         raise ending.error
     if ending.message:

@@ -30,6 +30,10 @@ _SOFTEST, _STIFFEST = 50.0, 3e10
 """Pa: Young's moduli of tissue, from below that of brain and fat (some 100 Pa; Budday et al., Fifty
 shades of brain, Arch. Comput. Methods Eng. 27, 2020) to cortical bone (up to 25 GPa; Rho et al.,
 Mechanical properties and the hierarchical structure of bone, Med. Eng. Phys. 20, 1998)."""
+_HEAVIEST = 10.0 * 9.81
+"""m/s^2: ten times that of the earth; 9810 is that of the earth in mm/s^2."""
+_LONGEST_STEP = 1.0
+"""s: one that is longer shows no motion of tissue; 10 is one of 10 ms in milliseconds."""
 _ALL_AXES = 7
 _LINEAR_MODELS = ("fem", "mean_dilatation")
 
@@ -37,12 +41,40 @@ _LINEAR_MODELS = ("fem", "mean_dilatation")
 def doubts(prepared: Prepared) -> list[str]:
     """What is computed as it stands, one sentence each."""
     found: list[str] = []
-    checks = (_sizes, _moduli, _held_loads, _following_pressure, _turning, _contacts)
+    checks = (
+        _gravity,
+        _step,
+        _sizes,
+        _moduli,
+        _held_loads,
+        _following_pressure,
+        _turning,
+        _contacts,
+    )
     for check in checks:
         with contextlib.suppress(Unknown):
             for text in check(prepared):
                 found.append(text)
     return found
+
+
+def _gravity(prepared: Prepared) -> Iterator[str]:
+    gravity = prepared.scene.gravity
+    size = 0.0 if gravity is None else float(np.linalg.norm(gravity))
+    if size > _HEAVIEST:
+        yield (
+            f"gravity: {size:.4g} m/s^2 is more than ten times that of the earth, 9.81 m/s^2; look "
+            "at its unit"
+        )
+
+
+def _step(prepared: Prepared) -> Iterator[str]:
+    dt = getattr(prepared.scene.step, "dt", None)
+    if isinstance(dt, float) and dt > _LONGEST_STEP:
+        yield (
+            f"step.dt: {dt:g} s is longer than motions of tissue last; 10 ms is usual, written "
+            "dt: 10 ms"
+        )
 
 
 def _sizes(prepared: Prepared) -> Iterator[str]:

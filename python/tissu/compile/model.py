@@ -142,7 +142,11 @@ def check_rotations(prepared: Prepared) -> None:
             text = f"found {body.viscosity.type} for frames; rayleigh is accepted"
             _tell_once(("bodies", name, "viscosity"), text, prepared.findings)
         if True in kinds and getattr(prepared.scene, "editing", False):
-            text = "found true with a body of frames, whose cells cannot be removed; leave it out"
+            model = next(model for model in body.models().values() if model.with_rotations)
+            text = (
+                f"found true with the model {model.type} of body '{name}', whose cells cannot be "
+            )
+            text += "cut or removed; leave editing out, or take another model"
             _tell_once(("editing",), text, prepared.findings)
     for number, load in enumerate(getattr(prepared.scene, "loads", ())):
         asked = getattr(prepared.scene, "bodies", {}).get(getattr(load, "body", None))

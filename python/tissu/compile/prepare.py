@@ -63,10 +63,40 @@ def prepare(scene: SceneData) -> Prepared:
 
 
 def _check_device(prepared: Prepared, name: str, trocar: Trocar) -> None:
-    """A device that is not there."""
+    """A device, or the path of its hand, that is not there; a table that no tissue has."""
+    path: Path = ("trocars", name)
     absent = trocar.device.absent()
     if absent is not None:
-        prepared.findings.problem(("trocars", name, "device"), absent)
+        prepared.findings.problem((*path, "device"), absent)
+    hand = getattr(trocar.device, "hand", None)
+    if hand is not None and hand.path is not None and not hand.path.is_file():
+        text = f"found {hand.path}, and no such file is there; a CSV file with a line `t, x, y, z` "
+        text += "[s, m] for each time is accepted, or `times` with `points`"
+        prepared.findings.problem((*path, "device", "hand", "path"), text)
+    if trocar.compliance == "condensed":
+        changing = _changing(prepared.scene)
+        if changing:
+            text = (
+                f"found condensed, whose table holds while the stiffness does; {changing} changes "
+            )
+            text += (
+                "with the shape: take factor or warped, or hooke with the model fem or condensed"
+            )
+            prepared.findings.problem((*path, "compliance"), text)
+
+
+def _changing(scene: SceneData) -> str:
+    """A body whose stiffness changes with its shape, in words; empty: none does."""
+    for name, body in scene.bodies.items():
+        for model in body.models().values():
+            turns = model.type == "corotational" and getattr(model, "rotation", "") != "small"
+            if turns or model.type in ("mass_spring", "mass_link"):
+                return f"that of '{name}' (model {model.type})"
+        condensed = all(model.type == "condensed" for model in body.models().values())
+        for law in body.laws().values():
+            if law.type != "hooke" and not condensed:
+                return f"that of '{name}' (law {law.type})"
+    return ""
 
 
 def _prepare_body(prepared: Prepared, name: str) -> None:

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from tissu.errors import TissuError
+from tissu.errors import ParameterError, TissuError
 from tissu.files import require_file_place, whole_file
 from tissu.files.place import reason_of
 from tissu.picture.camera import Camera
@@ -124,12 +124,26 @@ def colour_bar(
     bar.outline.set_visible(False)
 
 
+def require_png(path: Path) -> None:
+    """Pictures are PNG files, and are named so.
+
+    Raises:
+        ParameterError: a name that ends otherwise.
+    """
+    if path.suffix.lower() != ".png":
+        found = f"that ends in {path.suffix}" if path.suffix else "without an ending"
+        text = f"found the picture {path}, a name {found}; .png is accepted, such as "
+        raise ParameterError(f"{text}{path.with_suffix('.png') if path.name else 'scene.png'}")
+
+
 def save(figure: Figure, path: Path) -> None:
     """Writes a PNG file, whole or not at all.
 
     Raises:
+        ParameterError: a name that ends otherwise.
         TissuError: the file cannot be written.
     """
+    require_png(path)
     require_file_place(path, "picture")
     try:
         path.parent.mkdir(parents=True, exist_ok=True)

@@ -6,7 +6,7 @@ import ast
 import inspect
 import itertools
 import textwrap
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
 from pydantic import ValidationError
@@ -21,7 +21,30 @@ _BOUNDS = {
     "greater_than": "more than {gt:g}",
     "greater_than_equal": "at least {ge:g}",
     "less_than": "less than {lt:g}",
+    "less_than_equal": "at most {le:g}",
 }
+
+_ACCEPTED = {
+    "finite_number": "a finite number",
+    "int_parsing_size": "a smaller whole number",
+    "path_type": "the path of a file",
+    "string_type": "a text",
+}
+
+_CELLS = {
+    **dict.fromkeys(("tetrahedron", "tetrahedra", "tet", "tet4", "c3d4"), "tetra"),
+    **dict.fromkeys(("tetrahedron10", "tet10", "c3d10"), "tetra10"),
+    **dict.fromkeys(("hex", "hexa", "hex8", "brick", "c3d8"), "hexahedron"),
+    **dict.fromkeys(("hex20", "c3d20"), "hexahedron20"),
+    "hex27": "hexahedron27",
+    **dict.fromkeys(("prism", "penta", "penta6", "c3d6"), "wedge"),
+    **dict.fromkeys(("penta15", "c3d15"), "wedge15"),
+    **dict.fromkeys(("tri", "tri3"), "triangle"),
+    "tri6": "triangle6",
+    **dict.fromkeys(("quadrilateral", "quad4"), "quad"),
+    **dict.fromkeys(("edge", "beam", "segment"), "line"),
+}
+"""Other programs' names of cells, and those of tissu."""
 
 
 def explained(error: ValidationError, raw: object) -> Iterator[Problem]:
@@ -67,15 +90,39 @@ def _sentence(details: ErrorDetails, found: object) -> str:
         return f"found {shown}; at least {context['min_length']} entry is accepted"
     if kind == "dict_type":
         return f"found {shown}; a mapping is accepted"
-    if text.startswith("Input should be "):
-        return f"found {shown}; accepted: {text.removeprefix('Input should be ')}"
-    return f"found {shown}; {text}"
+    if kind in ("tuple_type", "list_type"):
+        return f"found {shown}; a list is accepted{_as_a_list(found)}"
+    if kind == "missing":
+        return f"found {shown}, which has too few entries; one more is accepted"
+    accepted = _accepted(kind, context) or text.removeprefix("Input should be ")
+    return f"found {shown}; {accepted} is accepted"
+
+
+def _accepted(kind: str, context: Mapping[str, Any]) -> str:
+    """What a kind of field accepts, in words; empty: nothing is known of that kind."""
+    if kind in _ACCEPTED:
+        return _ACCEPTED[kind]
+    words = {"int": "a whole number", "float": "a number", "bool": "true or false"}
+    words |= {"string": "a text", "path": "the path of a file", "too": "a list of fewer entries"}
+    if "max_length" in context:
+        return f"at most {context['max_length']}"
+    return words.get(kind.split("_")[0], "")
+
+
+def _as_a_list(found: object) -> str:
+    """How a single part becomes a list of one."""
+    if isinstance(found, Mapping):
+        return ": write a dash before its keys, or brackets around it, as in [{...}]"
+    return "" if found is None else f", such as [{written(found)}]"
 
 
 def _meant(found: object, expected: str) -> str:
     """The nearest of the accepted words, as pydantic lists them; nothing when none is near."""
     words = [part for part in expected.split("'") if part.isidentifier() and part != "or"]
-    close = nearest_word(found, words) if isinstance(found, str) else None
+    if not isinstance(found, str):
+        return ""
+    close = _CELLS.get(found.lower())
+    close = close if close in words else nearest_word(found, words)
     return "" if close is None else f"; did you mean '{close}'?"
 
 

@@ -35,12 +35,25 @@ def instrument_problems(scene: Any) -> Iterator[Problem]:
                 text = f"found a second tear of '{tear.body}'; one for each body is accepted"
                 yield Problem(("tear", number, "body"), text)
             yield from _edited(scene, ("tear", number), "a tear")
+            yield from _stressed(scene, tear.body, ("tear", number, "body"))
 
 
 def _of_body(scene: Any, body: str, path: Path) -> Iterator[Problem]:
     if body not in scene.bodies:
         text = f"no body is named '{body}'{nearest(body, scene.bodies)} "
         yield Problem(path, f"{text}Bodies: {one_of_words(scene.bodies)}")
+
+
+def _stressed(scene: Any, name: str, path: Path) -> Iterator[Problem]:
+    """A tear reads a stress, which springs do not have."""
+    body = scene.bodies.get(name)
+    for model in [] if body is None else body.models().values():
+        if model.type == "mass_spring":
+            text = (
+                f"found the model {model.type} of body '{name}', which has no stress to tear at; "
+            )
+            yield Problem(path, f"{text}fem, corotational and mean_dilatation are accepted")
+            return
 
 
 def _edited(scene: Any, path: Path, what: str) -> Iterator[Problem]:

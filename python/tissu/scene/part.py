@@ -162,6 +162,9 @@ def _sorted_out(cls: type[Part], value: object) -> tuple[dict[str, Any], list[Pr
         text = f"found {written(value)}; a mapping is accepted, with the keys "
         return dict.fromkeys(known, Unread()), [Problem((), text + one_of_words(known))]
     fields = {name: item for name, item in value.items() if name in known}
+    if True in value and "on" in known and "on" not in fields:  # `on:`, as YAML 1.1 reads it
+        fields["on"] = value[True]
+        value = {name: item for name, item in value.items() if name is not True}
     problems = []
     for key in (str(key) for key in value if key not in known):
         text = f"unknown key{nearest(key, known)} Accepted: {one_of_words(known)}"

@@ -153,6 +153,16 @@ class Implicit(Step):
     solver: OneSolver = field(default_factory=Auto)
     """linear solver"""
 
+    @rule("newton")
+    def _tests_its_tolerance(self) -> Iterator[Problem]:
+        """A step that is linearised once is not iterated to a tolerance."""
+        newton = self.newton
+        if newton is None or newton.iterations > 1 or "tolerance" not in newton.model_fields_set:
+            return
+        text = f"found {newton.tolerance:g} with one iteration, after which no tolerance is tested;"
+        text += " two or more iterations are accepted, or none of both: leave the tolerance out"
+        yield Problem(("newton", "tolerance"), text)
+
 
 class ImplicitEuler(Implicit):
     """Implicit Euler: first order, damps vibrations; linearised once unless `newton` is given."""

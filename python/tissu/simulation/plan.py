@@ -20,7 +20,7 @@ class Plan:
         effects: each with the field of the scene that switches it on.
         absent: effects that the scene does not switch on; none of their code runs.
         notes: facts that are accepted but worth knowing.
-        unknowns: numbers that a step solves for.
+        unknowns: three for each node, held ones too; without the room that editing leaves for cuts.
         matrix_blocks: 3x3 blocks of the system matrix.
         integrator: its name.
         solver: name of the linear solver.

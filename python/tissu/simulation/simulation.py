@@ -355,7 +355,7 @@ class Simulation(Inspected, Handled, Touched, Changed, Cutting, Instrumented):
             effects=tuple(self._check.effects),
             absent=tuple(self._check.absent),
             notes=(*self._check.notes, *self._chosen()),
-            unknowns=3 * self._world.blocks,
+            unknowns=3 * (self._world.blocks - self._spare_rows()),
             matrix_blocks=self._world.matrix_blocks,
             integrator=self._core.integrator_name,
             solver=self._core.solver_name or "no linear system",
@@ -363,6 +363,18 @@ class Simulation(Inspected, Handled, Touched, Changed, Cutting, Instrumented):
             threads=self._world.threads,
             instruction_set=self._world.instruction_set,
         )
+
+    def _spare_rows(self) -> int:
+        """Rows that are reserved for nodes which cuts may make: up to the rows of the next body."""
+        if self.scene.editing is None:
+            return 0
+        ranges = {name: self._core.body_range(name) for name in (*self.meshes, *self.tissue)}
+        firsts = sorted(first for first, _ in ranges.values())
+        spare = 0
+        for first, count in (ranges[name] for name in self.meshes):
+            after = next((other for other in firsts if other > first), self._world.blocks)
+            spare += after - first - count
+        return spare
 
     def _chosen(self) -> list[str]:
         """What the solver `auto` chose so far, as a note."""

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from typing_extensions import Self
 
+from tissu.counted import counted
 from tissu.errors import ParameterError
 from tissu.trocar.controller import Controller
 from tissu.trocar.states import State
@@ -138,6 +139,18 @@ class Trocars:
                     "missed_ticks": timing.missed,
                     "lateness_p99": timing.lateness.p99,
                 }
+        return found
+
+    def words(self) -> list[str]:
+        """A line for each trocar: its state and tool, and in real time what was late."""
+        found = []
+        for name, touch in self._touches.items():
+            report = touch.controller.report()
+            text = f"trocar:  {name} ended {report.state.name} with {report.tool or 'no tool'}"
+            if self.realtime:
+                text += f"; {counted(report.timing.missed, 'missed tick')}, "
+                text += f"{counted(self._late, 'late step')}, {self._behind:.3g} s behind"
+            found.append(text)
         return found
 
     def problems(self) -> list[str]:

@@ -64,8 +64,12 @@ def test_a_run_in_real_time_takes_its_time(tmp_path: Path) -> None:
     found = run(tmp_path, DEEPER, "--realtime", "--duration", "0.2 s")
     assert found.exit_code == 0, found.output
     summary = json.loads((tmp_path / "out" / "summary.json").read_text(encoding="utf-8"))
-    assert summary["trocars"]["right"]["missed_ticks"] >= 0
+    right = summary["trocars"]["right"]
+    assert right["missed_ticks"] >= 0
     assert len(table(tmp_path)) == 20
+    line = next(one for one in found.output.splitlines() if one.startswith("trocar:"))
+    assert f"right ended {right['state']} with {right['tool'] or 'no tool'}; " in line
+    assert f"{right['late_steps']} late step" in line
 
 
 def test_a_trocar_that_ends_held_is_said(tmp_path: Path) -> None:

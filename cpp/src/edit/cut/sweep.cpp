@@ -22,7 +22,10 @@ constexpr std::size_t kDiscSides = 32;
 Place place(const Vec3& p) { return {p[0], p[1], p[2]}; }
 
 void check_finite(const Vec3& p, const char* what) {
-  if (!p.allFinite()) throw ParameterError(std::string("the ") + what + " of a blade must be finite.");
+  if (p.allFinite()) return;
+  throw ParameterError("the " + std::string(what) + " of a blade is (" + number_text(p[0]) + ", " +
+                       number_text(p[1]) + ", " + number_text(p[2]) +
+                       "); three finite numbers are accepted.");
 }
 
 Vec3 unit(const Vec3& normal) {

@@ -123,7 +123,7 @@ def write_a_summary(place):
     ],
 )
 def test_whatever_is_written_refuses_a_pipe(pipe, write, error):
-    place = pipe()
+    place = pipe("pipe.png" if write is write_picture else "pipe.vtu")
     said = []
 
     def attempt():
@@ -199,11 +199,12 @@ def test_a_name_planted_beside_a_file_is_not_opened(tmp_path):
     other.write_text("kept")
     out = tmp_path / "out"
     out.mkdir()
-    (out / f".a.vtu.{os.getpid()}").symlink_to(other)
+    for name in ("a.vtu", "a.png"):
+        (out / f".{name}.{os.getpid()}").symlink_to(other)
     (out / f".run.{os.getpid()}.partial").symlink_to(other)
     ts.write_mesh(ts.bar_mesh(size=(1, 1, 1), cells=(1, 1, 1)), out / "a.vtu")
     write_checkpoint(out / "run")
-    write_picture(out / "a.vtu")
+    write_picture(out / "a.png")
     assert other.read_text() == "kept"
 
 

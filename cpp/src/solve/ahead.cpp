@@ -45,8 +45,8 @@ void Ahead::made(const LinearOperator& A) {
 }
 
 bool Ahead::serves(const LinearOperator& A) {
-  const bool same = waits_ && A.matrix() != nullptr && A.couplings() == nullptr && id_ == A.id() &&
-                    print_ == print_of(A);
+  const bool same =
+      waits_ && A.matrix() != nullptr && A.couplings() == nullptr && id_ == A.id() && print_ == print_of(A);
   waits_ = false;
   return same;
 }

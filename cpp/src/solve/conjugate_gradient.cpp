@@ -62,7 +62,9 @@ std::string name_of(const ConjugateGradient::Settings& settings) {
 }  // namespace
 
 ConjugateGradient::ConjugateGradient(Settings settings)
-    : settings_(settings), name_(name_of(settings)), forecast_(std::make_unique<Forecast>()),
+    : settings_(settings),
+      name_(name_of(settings)),
+      forecast_(std::make_unique<Forecast>()),
       ahead_(std::make_unique<Ahead>()) {
   if (!(settings.tolerance > 0.0) || settings.iterations < 1) {
     throw ParameterError("conjugate gradient needs a positive tolerance and at least one iteration.");

@@ -29,8 +29,9 @@ struct Outcome {
 };
 
 /// Some steps, after something that happens between the preparation and the first of them.
-Outcome steps(const test::SolverCase& solver, const test::Method& method, bool ahead,
-              const std::function<void(Simulation&)>& between = [](Simulation&) {}) {
+Outcome steps(
+    const test::SolverCase& solver, const test::Method& method, bool ahead,
+    const std::function<void(Simulation&)>& between = [](Simulation&) {}) {
   Simulation simulation = test::simulate(cube(), method.make(), solver.make(1e-6));
   if (ahead) simulation.prepare_ahead(kStep);
   between(simulation);
@@ -64,8 +65,7 @@ TEST_P(PreparedAhead, GivesTheSameBitsWhenTheStateChangesBeforeTheFirstStep) {
   };
   expect_same(steps(GetParam(), method, true, squeeze), steps(GetParam(), method, false, squeeze));
   const auto other_length = [](Simulation& simulation) { simulation.step(0.3 * kStep); };
-  expect_same(steps(GetParam(), method, true, other_length),
-              steps(GetParam(), method, false, other_length));
+  expect_same(steps(GetParam(), method, true, other_length), steps(GetParam(), method, false, other_length));
   const auto go_back = [](Simulation& simulation) { simulation.rewind(simulation.mark()); };
   expect_same(steps(GetParam(), method, true, go_back), steps(GetParam(), method, false));
 }

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 
 def cut_lines(simulation: Simulation, cuts: Sequence[dict[str, Any]]) -> list[str]:
-    """For each body that was cut: by what, when, how much was opened, and the pieces now.
+    """For each body that was cut: by what, when, how much was opened, the pieces now, the time.
 
     Args:
         simulation: at the end of the run.
@@ -31,7 +31,9 @@ def cut_lines(simulation: Simulation, cuts: Sequence[dict[str, Any]]) -> list[st
         free = sum(not piece.held for piece in pieces)
         words = [f"{area:.3g} cm2 opened"] + [f"{taken:.3g} g removed"] * (taken > 1e-9)
         words.append(f"{counted(len(pieces), 'piece')}, {free} of them without a support")
-        lines.append(f"{body} was cut by {tools} {when}: {', '.join(words)}")
+        seconds = sum(cut["milliseconds"] for cut in of_body) / 1e3
+        spent = f"{counted(len(of_body), 'edit')} took {seconds:.2f} s of the steps"
+        lines.append(f"{body} was cut by {tools} {when}: {', '.join(words)}; {spent}")
     return lines
 
 

@@ -117,9 +117,7 @@ class Changed:
     def _compiled(self, scene: Scene) -> Changed:
         """A simulation of the scene, with the meshes that are in memory already."""
         bodies = {name: body.replace(mesh=self._rest[name]) for name, body in scene.bodies.items()}
-        from tissu.compile import compile_scene
-
-        return compile_scene(scene.replace(bodies=bodies))
+        return scene.replace(bodies=bodies)._compiled()
 
     def _take_over(self, fresh: Changed) -> None:
         self._world, self._check, self._loads = fresh._world, fresh._check, fresh._loads

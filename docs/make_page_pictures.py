@@ -19,6 +19,7 @@ DRAWN = {
     "own-organ": ("learn/own-organ.md", "liver.png"),
     "touch-and-cut": ("learn/touch-and-cut.md", "cut.png"),
     "organ-cut": ("learn/touch-and-cut.md", "organ.png"),
+    "operation": ("learn/touch-and-cut.md", "results/operation/operation.png"),
 }
 """Name of the picture -> the page, and what its blocks draw."""
 

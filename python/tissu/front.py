@@ -111,15 +111,15 @@ class Scene(SceneData):
             SceneError: the scene or its meshes have problems; the error lists all of them.
             CheckpointError: the file is absent, damaged, or of another scene or version.
         """
-        simulation = self._compiled(None if checkpoint is None else Path(checkpoint))
+        simulation = self._compiled(checkpoint)
         simulation._prepare_first_step()
         return simulation
 
-    def _compiled(self, checkpoint: Path | None = None) -> Simulation:
-        """The same with nothing made for a first step, as for a simulation that takes none."""
+    def _compiled(self, checkpoint: str | os.PathLike[str] | None = None) -> Simulation:
+        """The simulation before anything of its first step is made."""
         from tissu.compile import compile_scene
 
-        return compile_scene(self, checkpoint)
+        return compile_scene(self, None if checkpoint is None else Path(checkpoint))
 
     def check(self) -> Check:
         """The reasons for which compile() would refuse, and the effects that are switched on."""

@@ -15,8 +15,10 @@ from tissu.cli.run import Job, run_scene
 EXAMPLES = Path(__file__).parents[2] / "examples"
 
 
-def test_the_scalpel_leaves_one_incision(tmp_path: Path) -> None:
-    job = Job(EXAMPLES / "scalpel.yaml", tmp_path, None, None, quiet=True, picture=False)
+def test_the_scalpel_leaves_one_incision(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    job = Job(EXAMPLES / "scalpel.yaml", tmp_path, None, None, quiet=False, picture=False)
     assert run_scene(job) == 0
     summary = json.loads((tmp_path / "summary.json").read_text(encoding="utf-8"))
     cuts = summary["cuts"]
@@ -26,6 +28,11 @@ def test_the_scalpel_leaves_one_incision(tmp_path: Path) -> None:
     # 3.7 cm along and 1.4 cm deep, in material that is drawn out across: front a cell behind.
     area = sum(cut["area"] for cut in cuts)
     assert area == pytest.approx(0.037 * 0.014, rel=0.25)
+    (line,) = (line for line in capsys.readouterr().out.splitlines() if "was cut" in line)
+    first, last = cuts[0]["time"], cuts[-1]["time"]
+    opened = f"{1e4 * area:.3g} cm2 opened, 1 piece, 0 of them without a support"
+    said = f"tissue was cut by scalpel from {first:.4g} s to {last:.4g} s: {opened}; "
+    assert line.startswith(f"{said}{len(cuts)} edits took ")
     assert abs(sum(cut["mass_change"] for cut in cuts)) < 1e-12
 
 

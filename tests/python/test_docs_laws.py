@@ -15,13 +15,18 @@ PAGE = (Path(__file__).parents[2] / "docs" / "guide" / "own-laws.md").read_text(
 
 
 def test_the_example_runs():
-    text = re.search(r"```python\n(.*?)```", PAGE, re.DOTALL)[1]
+    text, comparison = re.findall(r"```python\n(.*?)```", PAGE, re.DOTALL)
     names = {}
     with contextlib.redirect_stdout(io.StringIO()) as out:
         exec(compile(text, "laws.md", "exec"), names)
     assert abs(names["simulation"].time - 0.1) < 1e-12
     assert -0.1 < float(out.getvalue()) < -0.001  # it hangs, by millimetres to centimetres
     assert names["Gent"].__doc__.startswith("Gent 1996")
+    with contextlib.redirect_stdout(io.StringIO()) as out:
+        exec(compile(comparison, "laws.md", "exec"), names)
+    assert out.getvalue() in PAGE
+    # What is left is the compressibility, of the order of mu / kappa = 1e-4.
+    assert names["found"] == pytest.approx(names["closed"], rel=2e-4)
 
 
 def test_the_file_of_the_page_makes_the_same_law(tmp_path):

@@ -26,7 +26,9 @@ app.add_typer(bench_app, name="bench")
 SceneFile = Annotated[Path, typer.Argument(metavar="SCENE", help="A scene (YAML).")]
 TrustPlugins = Annotated[
     bool,
-    typer.Option("--trust-plugins", help="Whether the plug-in of a trocar, a program, may run."),
+    typer.Option(
+        "--trust-plugins", help="Load plug-ins of trocars. They are programs: check them first."
+    ),
 ]
 TrustLaws = Annotated[
     bool,
@@ -48,15 +50,17 @@ def run(
     scene: SceneFile,
     out: Annotated[
         Path | None,
-        typer.Option("--out", "-o", help="Folder of the results; default: results/SCENE."),
+        typer.Option(
+            "--out", "-o", metavar="PATH", help="Folder of the results; default: results/SCENE."
+        ),
     ] = None,
     duration: Annotated[
         str | None,
-        typer.Option(help="Simulated time, such as '2 s'; default: the scene's."),
+        typer.Option(metavar="TIME", help="Simulated time, such as '2 s'; default: the scene's."),
     ] = None,
     threads: Annotated[
         int | None,
-        typer.Option(min=1, help="Number of threads; default: the scene's."),
+        typer.Option(min=1, metavar="N", help="Number of threads, from 1; default: the scene's."),
     ] = None,
     resume: Annotated[
         Path | None,
@@ -70,13 +74,15 @@ def run(
     ] = None,
     checkpoint_every: Annotated[
         str | None,
-        typer.Option(metavar="TIME", help="And whenever this simulated time has passed: '1 s'."),
+        typer.Option(
+            metavar="TIME", help="Write it also each time that so much time has passed: '1 s'."
+        ),
     ] = None,
     picture: Annotated[
-        bool, typer.Option("--picture/--no-picture", help="Whether a picture is drawn at the end.")
+        bool, typer.Option("--picture/--no-picture", help="Draw a picture at the end.")
     ] = True,
     realtime: Annotated[
-        bool, typer.Option("--realtime", help="Whether trocars and steps keep pace with the clock.")
+        bool, typer.Option("--realtime", help="Let trocars and steps keep pace with the clock.")
     ] = False,
     trust_laws: TrustLaws = False,
     trust_plugins: TrustPlugins = False,

@@ -15,6 +15,7 @@ from tissu.cli.interruption import Interruption, interruption
 from tissu.cli.outcome import BAD_INPUT, DIVERGED, FINISHED, UNCONVERGED, complain
 from tissu.cli.progress import RunProgress
 from tissu.cli.timetable import Timetable
+from tissu.cli.touches import contact_line, cut_lines
 from tissu.counted import counted
 from tissu.errors import CheckpointError, Diverged, ParameterError, TissuError
 from tissu.output import (
@@ -133,7 +134,7 @@ def run_into(
         ends = trocars.words() if trocars is not None else []
     if not job.quiet and not files.lost:
         with contextlib.suppress(BrokenPipeError):  # its reader has left; the run ends as it did
-            report(simulation, series, tally, clock, picture)
+            report(simulation, series, tally, clock, picture, contacts)
             for text in ends:
                 print(text)
     if ending.error is not None and debug:
@@ -341,9 +342,14 @@ def conclude(
 
 
 def report(
-    simulation: Simulation, series: Series, tally: StepTally, clock: Clock, picture: Path | None
+    simulation: Simulation,
+    series: Series,
+    tally: StepTally,
+    clock: Clock,
+    picture: Path | None,
+    contacts: ContactTally,
 ) -> None:
-    """Prints what the steps cost and where the results are."""
+    """Prints what the steps cost, what was cut and touched, and where the results are."""
     print(simulation.profile())
     spent = ", ".join(f"{name} {seconds:.2f} s" for name, seconds in clock.seconds.items())
     print(f"\n{counted(tally.steps, 'step')} to t = {simulation.time:.4g} s; {spent}")
@@ -358,6 +364,8 @@ def report(
         print(resumed_words(simulation.resumed_from))
     if series.inverted:
         print(series.inverted)
+    for text in (*cut_lines(simulation, tally.cuts), *contact_line(contacts.record())):
+        print(text)
     print(f"result:  {series.index} ({counted(series.count, 'time')})")
     print(f"summary: {series.index.with_name('summary.json')}")
     if picture is not None:

@@ -6,6 +6,7 @@ from test_view_browser import organ
 
 import tissu as ts
 from tissu.live_view.gizmo import Gizmo
+from tissu.live_view.layers import LAYERS
 from tissu.live_view.tools import TOOLS
 from tissu.live_view.tools.instrument import MoveInstrument
 from tissu.live_view.tools.obstacle import quaternion
@@ -56,3 +57,20 @@ def test_it_is_offered_only_where_an_instrument_has_no_path():
     assert not MoveInstrument.offered(led)
     with pytest.raises(ts.ParameterError, match="which its path leads"):
         led.instruments["scalpel"].place((0, 0, 0))
+
+
+def test_an_instrument_on_a_path_is_drawn_where_it_is():
+    path = ts.ToolPath(times=[0, 0.1], positions=[(0.1, 0, 0.2), (0.1, 0, 0.1)])
+    hook = ts.Ablator(radius=0.01, removes=["organ"], position=(0, 0, 0.3))
+    scalpel = ts.Knife(EDGE, cuts=["organ"], path=path)
+    simulation = organ(editing=True, instruments={"scalpel": scalpel, "hook": hook})
+    (layer,) = (one for one in LAYERS if one.name == "instruments")
+    assert layer.offered(simulation) and not layer.offered(organ(editing=True))
+    draw = layer.begin(simulation)
+    simulation.step()
+    knife_marks, ball = draw()
+    # The path goes down by 1 m/s; the instrument's axes are not turned.
+    there = np.array(EDGE) + np.array((0.1, 0, 0.2 - simulation.time))
+    np.testing.assert_allclose(knife_marks.lines, [there], atol=1e-12)
+    np.testing.assert_allclose(ball.points, [(0, 0, 0.3)], atol=1e-12)
+    assert len(ball.lines) == 0

@@ -155,7 +155,12 @@ SLIPS = {
         "contacts[0].stiffness",
         "found stiffness 2e+06, which the method augmented",
     ),
-    "bouncy": ("friction: 0.2", "restitution: 2", "contacts[0].restitution", "found 2; at most 1 is accepted"),
+    "bouncy": (
+        "friction: 0.2",
+        "restitution: 2",
+        "contacts[0].restitution",
+        "found 2; at most 1 is accepted",
+    ),
     "explicit": (
         "{type: implicit_euler, dt: 10 ms}",
         "rk4",

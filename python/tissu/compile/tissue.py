@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from tissu import _core, sampling
-from tissu.compile.prepared import Floats, Ints, KnownMesh, Prepared, PreparedTissue, Weights
-from tissu.compile.riding import carried
+from tissu.compile.prepared import Floats, Ints, KnownMesh, Prepared, PreparedTissue
 from tissu.errors import ParameterError, TissuError
 from tissu.mesh import CellBlock, Mesh
 from tissu.sampling.poisson import poisson_search
 from tissu.scene.unknown import Unknown
+from tissu.ties import Carriers, Links, Weights, carried
 
 if TYPE_CHECKING:
     from tissu.sampling import Region
@@ -51,7 +51,7 @@ def _made(prepared: Prepared, name: str, tissue: Tissue) -> PreparedTissue | Non
     volumes = sampling.point_volumes(region, points)
     places = [prepared.bodies[body].mesh.points[nodes] for body, nodes in held]
     origins = np.concatenate([frames, *places])
-    weights = Weights(
+    listened = Weights(
         *_core.shape_weights(
             name=tissue.shape,
             neighbours=tissue.neighbours or 0,
@@ -60,8 +60,9 @@ def _made(prepared: Prepared, name: str, tissue: Tissue) -> PreparedTissue | Non
             body=name,
         )
     )
-    shared = [(body, int(node)) for body, nodes in held for node in nodes]
-    weights, shared = carried(prepared, weights, len(frames), shared, points)
+    near = [(body, int(node)) for body, nodes in held for node in nodes]
+    carriers = _carriers(prepared, [body for body, _ in held])
+    weights, shared = carried(carriers, listened, len(frames), near, points)
     _require_ties(tissue, weights, len(frames), shared)
     idle = np.setdiff1d(np.arange(len(frames)), weights.frames)
     if len(idle):
@@ -72,7 +73,26 @@ def _made(prepared: Prepared, name: str, tissue: Tissue) -> PreparedTissue | Non
     )
     density = tissue.density if tissue.mass is None else tissue.mass / float(volumes.sum())
     assert density is not None  # the tissue has one of both
-    return PreparedTissue(mesh, points, volumes, shared, weights, float(density))
+    links = Links(
+        name=name,
+        shape=tissue.shape,
+        own=len(frames),
+        origins=np.ascontiguousarray(origins),
+        near=near,
+        points=np.ascontiguousarray(points),
+        masses=float(density) * volumes,
+        volumes=volumes,
+        listened=listened,
+        first=(weights, shared),
+        carriers=carriers,
+    )
+    return PreparedTissue(mesh, points, volumes, shared, weights, float(density), links)
+
+
+def _carriers(prepared: Prepared, bodies: list[str]) -> Carriers:
+    """Those of the bodies whose nodes have no rotation."""
+    riding = [name for name in bodies if not prepared.scene.bodies[name].has_rotations]
+    return Carriers({name: prepared.bodies[name].mesh for name in riding})
 
 
 def _filled(tissue: Tissue) -> Region:

@@ -48,6 +48,9 @@ class Changed:
 
     if TYPE_CHECKING:
 
+        def prepare_first_step(self) -> None:
+            """Make what the first step asks for."""
+
         def _follow_cells(self, body: str) -> None: ...
         def _as_severed(self, world: core.World, places: Mapping[str, Floats]) -> core.World: ...
         def _become_severed(self, severed: Mapping[str, Ints]) -> None: ...

@@ -58,17 +58,22 @@ class Severing:
         from tissu.cutting.blade import surface_of
 
         places = np.concatenate([self._core.points(tissue), self._origins(tissue)])
-        return self._sever_along(tissue, surface_of(blade, places))
+        return self._lose(tissue, self._crossed(tissue, surface_of(blade, places)), by="")
 
-    def _sever_along(self, tissue: str, sweep: core.Sweep, *, by: str = "") -> CutReport:
-        """Sever the links that a blade crosses."""
+    def _sever_along(self, tissue: str, sweep: core.Sweep, *, by: str) -> CutReport | None:
+        """Sever the links that a blade crosses; None where there are none."""
+        pairs = self._crossed(tissue, sweep)
+        return self._lose(tissue, pairs, by=by) if len(pairs) else None
+
+    def _crossed(self, tissue: str, sweep: core.Sweep) -> Pairs:
+        """The links that a blade crosses."""
         links, severed = self._links[tissue], self._pairs(tissue)
         pairs = links.without(severed)
         there = np.unique(pairs[:, 0])
         now = self._core.points(tissue)[np.searchsorted(there, pairs[:, 0])]
         origins = self._origins(tissue)[pairs[:, 1]]
         crossed = _core.severed(sweep=sweep, begins=np.ascontiguousarray(origins), ends=now)
-        return self._lose(tissue, pairs[crossed], by=by)
+        return pairs[crossed]
 
     def _take_points(self, tissue: str, place: Place, *, by: str = "") -> CutReport:
         """Take away the points of a tissue that lie in a region of present space."""

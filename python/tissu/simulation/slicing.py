@@ -96,8 +96,7 @@ def _sever_rows(
         points=points,
         incision=-1,
     )
-    report = simulation._sever_along(tissue, sweep, by=name)
-    return (report if report.links_severed else None), after
+    return simulation._sever_along(tissue, sweep, by=name), after
 
 
 def cut_rows(

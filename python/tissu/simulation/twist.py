@@ -131,7 +131,7 @@ def joined(weights: Weights, labels: Ints) -> Ints:
         weights: of the points, by numbers of rows.
         labels: the same for rows that hang together already; each is the number of one of them.
     """
-    parent = labels.copy()
+    parent = np.arange(len(labels))
 
     def root(label: int) -> int:
         while parent[label] != label:
@@ -142,12 +142,9 @@ def joined(weights: Weights, labels: Ints) -> Ints:
     for rows, counts in zip(weights.frames, weights.listed(), strict=True):
         roots = {root(int(label)) for label in labels[rows[counts]]}
         parent[list(roots)] = min(roots)
-    roots_of = {int(label): root(int(label)) for label in np.unique(labels[weights.frames])}
-    found = labels.copy()
-    for label, to in roots_of.items():
-        if label != to:
-            found[labels == label] = to
-    return found
+    for label in np.unique(labels[weights.frames]):
+        parent[label] = root(int(label))
+    return np.asarray(parent[labels])
 
 
 def labels_of(weights: Weights, labels: Ints) -> Ints:

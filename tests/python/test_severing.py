@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 from numpy.typing import NDArray
@@ -17,6 +19,7 @@ from severing_scenes import (
     around,
     flying,
     hanging,
+    same,
     simulated,
     steps,
 )
@@ -102,6 +105,54 @@ def test_mass_and_momenta_are_kept(blade: ts.Plane | ts.Sweep) -> None:
             assert (np.abs(now[side] - sides[side]) < 1e-11 * size).all()
     steps(simulation, 20)
     assert (np.abs(_momenta(simulation) - total)[:3] < 1e-7 * size[:3]).all()
+
+
+@pytest.mark.parametrize("kind", ["frames", "shell"])
+def test_organs_whose_nodes_turn_keep_their_momenta(kind: str, tmp_path: Path) -> None:
+    """The tissue follows their nodes themselves. A checkpoint goes on. The organs are not cut."""
+    scene = flying()
+    bodies = {name: _turning(kind, name, body) for name, body in scene.bodies.items()}
+    fascia = scene.tissue["fascia"].replace(points=100)
+    if kind == "shell":  # their sheets are not closed: the tissue fills the gap
+        gap = ts.BarMesh(size=(0.08, 0.08, 0.03), cells=(1, 1, 1), cell="hexahedron",
+                         origin=(0.01, 0.01, 0.04))  # fmt: skip
+        fascia = fascia.replace(inside=gap, reach=None)
+    scene = scene.replace(bodies=bodies, tissue={"fascia": fascia})
+    simulation = scene.compile()
+    steps(simulation, 6)
+    total = _momenta(simulation)
+    size = np.abs(total).reshape(2, 3).max(axis=1).repeat(3)
+    report = simulation.cut("fascia", HALF)
+    assert report.links_severed > 10
+    assert report.points_gone == ()
+    assert (np.abs(_momenta(simulation) - total) < 1e-12 * size).all()
+    for refused in (
+        lambda: simulation.cut("upper", MIDDLE),
+        lambda: simulation.ablate("upper", ts.Sphere((0, 0, 0.07), 0.01)),
+        lambda: simulation.remove_cells(body="upper", cells=[0]),
+    ):
+        with pytest.raises(ts.ParameterError, match="frames"):
+            refused()
+    steps(simulation, 2)
+    simulation.save_checkpoint(tmp_path / "cut.tissu")
+    resumed = scene.compile(checkpoint=tmp_path / "cut.tissu")
+    for one in (simulation, resumed):
+        one.cut("fascia", MIDDLE)
+        steps(one, 2)
+    assert same(simulation, resumed)
+
+
+def _turning(kind: str, name: str, body: ts.Body) -> ts.Body:
+    """A block of frames, or the sheet of shells on the side of it where the tissue is."""
+    start = ts.Start(velocity=(0.1, 0, 0.05) if name == "upper" else (-0.1, 0.2, 0))
+    if kind == "frames":
+        return body.replace(model=ts.Frames(), start=start)
+    points = body.mesh.mesh().points
+    low, high = points.min(axis=0), points.max(axis=0)
+    origin = (*low[:2], low[2] if name == "upper" else high[2])
+    sheet = ts.BarMesh(size=(*(high - low)[:2], 0), cells=(5, 5, 0), cell="triangle", origin=origin)
+    law = ts.Hooke(young=1e5, poisson=0.3)
+    return ts.Body(mesh=sheet, law=law, density=1e3, thickness="5 mm", model="shell", start=start)
 
 
 def _momenta(simulation: ts.Simulation) -> Floats:

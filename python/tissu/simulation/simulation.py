@@ -412,7 +412,9 @@ class Simulation(Inspected, Handled, Touched, Changed, Cutting, Instrumented):
             ParameterError: the scene was compiled without `editing: true`, or has no such cell.
         """
         counts = {name: self._core.cell_count(name) for name in self._meshes}
-        self._core.remove_cells(body=body, cells=removed_cells(counts, body, cells))
+        turning = [name for name, of in self.scene.bodies.items() if of.has_rotations]
+        numbers = removed_cells(counts, body, cells, turning)
+        self._core.remove_cells(body=body, cells=numbers)
         self._follow_cells(body)
 
     def remaining_cells(self, body: str) -> NDArray[np.int32]:

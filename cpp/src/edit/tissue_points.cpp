@@ -6,6 +6,7 @@
 #include "debris.h"
 #include "described.h"
 #include "tissu/base/error.h"
+#include "tissu/edit/world_editor.h"
 
 namespace tissu {
 namespace {
@@ -22,7 +23,7 @@ ElasticBlock* points_of(BodyDescription& body) {
 std::shared_ptr<const World> with_points(const World& world, std::string_view tissue, TissuePoints left,
                                          ConstReals places) {
   (void)described(world, tissue);  // refuses
-  WorldDescription description = *world.description();
+  WorldDescription description = described_apart(world);
   BodyDescription& body = description.body(tissue);
   ElasticBlock* block = points_of(body);
   if (block == nullptr) {

@@ -111,6 +111,30 @@ def test_a_tied_organ_is_cut_where_the_tissue_was_severed_from_it() -> None:
     assert np.array_equal(simulation.positions["lower"], there)
 
 
+def test_cuts_of_organs_and_of_tissue_in_turn_have_the_same_bits(tmp_path: Path) -> None:
+    """Organs that no tissue ties any more are cut in place, between cuts of the tissue."""
+    simulation = simulated()
+    for body in ("lower", "upper"):
+        simulation.cut("fascia", around(body))
+    blades = [ts.Plane((x, 0.05, 0), (1, 0.1, 0)) for x in (0.03, 0.05, 0.06)]
+    assert not simulation.cut("lower", blades[1]).relaid
+    steps(simulation, 2)
+    mark, ends = simulation.mark(), []
+    for _ in range(2):
+        simulation.rewind(mark)
+        for cut, blade in (("upper", blades[0]), ("fascia", ACROSS), ("upper", blades[2])):
+            simulation.cut(cut, blade)
+            steps(simulation, 1)
+        simulation.save_checkpoint(tmp_path / "both.tissu")
+        steps(simulation, 2)
+        ends.append({body: simulation.positions[body].copy() for body in simulation.bodies})
+    resumed = hanging().compile(checkpoint=tmp_path / "both.tissu")
+    steps(resumed, 2)
+    assert same(simulation, resumed)
+    assert all(np.array_equal(ends[0][body], ends[1][body]) for body in simulation.bodies)
+    assert len(simulation.pieces("upper")) == 3
+
+
 def test_points_without_a_link_go_and_are_reported() -> None:
     simulation = simulated()
     points = simulation.points("fascia")

@@ -105,7 +105,7 @@ class Severing:
         self._core.replace_world(world=world)
         give_back_to(self, tissue, left, touched, had - momenta_of(self, tissue, left, touched))
         self._require_stable(tissue, stable)
-        self._severed[tissue] = severed
+        self._severed[tissue], self._lefts[tissue] = severed, (severed, left)
         self._rest_points[tissue] = links.points[left.kept]
         now, change = self._core.energy(), rows_of(self._core).momenta() - momenta
         return _report(

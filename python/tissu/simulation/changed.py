@@ -48,12 +48,10 @@ class Changed:
 
     if TYPE_CHECKING:
 
-        def prepare_first_step(self) -> None:
-            """Make what the first step asks for."""
-
         def _follow_cells(self, body: str) -> None: ...
         def _as_severed(self, world: core.World, places: Mapping[str, Floats]) -> core.World: ...
         def _become_severed(self, severed: Mapping[str, Ints]) -> None: ...
+        def _prepare_first_step(self) -> None: ...
 
     @property
     def parameters(self) -> Parameters:
@@ -103,7 +101,7 @@ class Changed:
         self._become_severed({})
         for body in self._rest:
             self._follow_cells(body)
-        self.prepare_first_step()
+        self._prepare_first_step()
 
     def _become(self, scene: Scene) -> None:
         """Go on with a scene that differs in numbers only.

@@ -54,7 +54,7 @@ CPP: dict[str, set[str]] = {
     "viscosity": MODEL | {"model/edges"},  # dampers beside springs
     "contact": {"base", "mesh", "assembly", "state", "force"},
     "edit/cut": {"base", "mesh"},
-    "edit": MODEL | {"world", "contact", "edit/cut"},
+    "edit": MODEL | {"world", "contact", "edit/cut", "model/frames/frame_points"},
     "picture": {"base"},
 }
 CPP["model/models"] = MODEL | {room for room in CPP if room.startswith("model/")}
@@ -80,6 +80,7 @@ PYTHON: dict[str, set[str]] = {
     "codegen": {"errors"},
     "formula": {"errors", "codegen"},
     "mesh": {"arrays", "errors", "counted", "files", "units", "_core"},
+    "ties": {"errors", "mesh", "_core"},
     "sampling": {"errors", "counted", "mesh", "_core"},
     "scene": {"errors", "counted", "field_names", "reading", "units", "mesh", "_core"},
     "user_law": {"errors", "files", "units", "codegen", "scene", "_core"},
@@ -103,6 +104,7 @@ PYTHON: dict[str, set[str]] = {
         "reading",
         "checkpoint",
         "live_view",
+        "ties",
         "_core",
     },
     "compile": {
@@ -114,6 +116,7 @@ PYTHON: dict[str, set[str]] = {
         "effects",
         "checkpoint",
         "simulation",
+        "ties",
         "_core",
     },
     "front": {"errors", "scene", "yaml_io", "compile"},

@@ -34,9 +34,10 @@ UNTIL = {
     "tumble": 0.3,
     "tear": 0.88,
     "embedded": 0.7,
+    "severed": 0.38,
 }
 """Time at which a scene shows most [s], where it is not the end."""
-STRESS = ("slice", "pressed", "tissue", "twist")
+STRESS = ("slice", "pressed", "tissue", "severed", "twist")
 """Scenes that are coloured by von Mises stress."""
 
 

@@ -61,6 +61,24 @@ py::array_t<bool> free_axes(const Simulation& simulation) {
   return free;
 }
 
+/// Masses (n,) of all rows [kg]; of each frame its row, that of its rotation, and its inertia now [kg m2].
+py::tuple lumped_masses(const Simulation& simulation) {
+  const Mass& mass = simulation.world().mass();
+  const auto count = static_cast<py::ssize_t>(mass.frames().size());
+  py::array_t<std::int32_t> rows({count, py::ssize_t{2}});
+  py::array_t<double> inertias({count, py::ssize_t{3}, py::ssize_t{3}});
+  for (py::ssize_t k = 0; k < count; ++k) {
+    const Frame& frame = mass.frames()[static_cast<std::size_t>(k)];
+    rows.mutable_at(k, 0) = frame.block;
+    rows.mutable_at(k, 1) = frame.rotation;
+    const Mat3 now = spatial_inertia(frame, simulation.state().rotations[static_cast<std::size_t>(k)]);
+    std::copy_n(now.data(), 9, inertias.mutable_data(k, 0, 0));  // symmetric
+  }
+  return py::make_tuple(
+      py::array_t<double>(static_cast<py::ssize_t>(mass.nodal().size()), mass.nodal().data()), rows,
+      inertias);
+}
+
 }  // namespace
 
 void bind_matrices(py::class_<Simulation>& simulation) {
@@ -68,6 +86,7 @@ void bind_matrices(py::class_<Simulation>& simulation) {
   simulation.def("forces", &forces)
       .def("first_rotation", &first_rotation, arg("body"))
       .def("free_axes", &free_axes)
+      .def("lumped_masses", &lumped_masses)
       .def("stiffness", [](const Simulation& s) { return to_blocks(stiffness_matrix(s.world(), s.state())); })
       .def("damping", [](const Simulation& s) { return to_blocks(damping_matrix(s.world(), s.state())); })
       .def("mass_matrix", [](const Simulation& s) { return to_blocks(mass_matrix(s.world(), s.state())); });

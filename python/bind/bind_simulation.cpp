@@ -177,6 +177,8 @@ void bind_simulation(py::module_& m) {
             s.forget_solves();  // as a simulation of the new scene would begin
           },
           py::kw_only(), arg("world"))
+      .def_property_readonly(
+          "world", [](const Simulation& s) { return std::const_pointer_cast<World>(s.shared_world()); })
       .def("settle", &Simulation::settle)
       .def("reactions",
            [](const Simulation& s) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "bind.h"
+#include "tissu/edit/cut/severed.h"
 #include "tissu/edit/cut/sweep.h"
 #include "tissu/simulation/simulation.h"
 
@@ -14,6 +15,14 @@ using Ints = Array<std::int32_t>;
 
 std::span<const double> numbers(const Doubles& array) {
   return {array.data(), static_cast<std::size_t>(array.size())};
+}
+
+py::array_t<bool> which_severed(const Sweep& sweep, const Doubles& begins, const Doubles& ends) {
+  const std::vector<char> found =
+      severed(sweep, numbers(with_columns(begins, 3, "begins")), numbers(with_columns(ends, 3, "ends")));
+  py::array_t<bool> result(static_cast<py::ssize_t>(found.size()));
+  std::ranges::transform(found, result.mutable_data(), [](char c) { return c != 0; });
+  return result;
 }
 
 }  // namespace
@@ -50,7 +59,8 @@ void bind_sweep(py::module_& m) {
           [](const Doubles& places, std::int32_t moments, std::int32_t points, std::int32_t incision) {
             return edge_sweep(numbers(places), moments, points, incision);
           },
-          py::kw_only(), arg("places"), arg("moments"), arg("points"), arg("incision"));
+          py::kw_only(), arg("places"), arg("moments"), arg("points"), arg("incision"))
+      .def("severed", &which_severed, py::kw_only(), arg("sweep"), arg("begins"), arg("ends"));
 }
 
 }  // namespace tissu::bind

@@ -5,6 +5,7 @@
 #include "bind.h"
 #include "motion.h"
 #include "specs.h"
+#include "tissu/edit/tissue_points.h"
 #include "tissu/world/world.h"
 
 namespace tissu::bind {
@@ -69,20 +70,35 @@ void add_elastic(WorldDescription& world, const std::string& body, const std::st
   world.body(body).elastic.push_back(std::move(block));
 }
 
+/// Points among frames, (p, k) of each list, without the frames themselves.
+FramePoints to_points(const Ints& frames, const Doubles& weights, const Doubles& gradients,
+                      const Doubles& positions, const Doubles& volumes) {
+  if (frames.ndim() != 2) throw ParameterError("frames must have the shape (p, k).");
+  FramePoints points;
+  points.neighbours = static_cast<int>(frames.shape(1));
+  points.weights = to_vector(weights);
+  points.gradients = to_vector(gradients);
+  points.positions = to_vector(with_columns(positions, 3, "positions"));
+  points.volumes = to_vector(volumes);
+  return points;
+}
+
+using Shared = std::vector<std::pair<std::string, std::int32_t>>;
+
+std::vector<SharedNode> to_shared(const Shared& shared) {
+  std::vector<SharedNode> result;
+  result.reserve(shared.size());
+  for (const auto& [body, node] : shared) result.push_back({body, node});
+  return result;
+}
+
 /// Points of a body of frames: which nodes of its own and then of `shared` each listens to, and how.
-void add_points(WorldDescription& world, const std::string& body,
-                const std::vector<std::pair<std::string, std::int32_t>>& shared, const Ints& frames,
+void add_points(WorldDescription& world, const std::string& body, const Shared& shared, const Ints& frames,
                 const Doubles& weights, const Doubles& gradients, const Doubles& positions,
                 const Doubles& volumes, const std::string& law, const Parameters& parameters,
                 const Parameters& fibres, const std::shared_ptr<LoadedLaw>& loaded, double density,
                 const ModelSpec& model) {
-  if (frames.ndim() != 2) throw ParameterError("frames must have the shape (p, k).");
-  auto points = std::make_shared<FramePoints>();
-  points->neighbours = static_cast<int>(frames.shape(1));
-  points->weights = to_vector(weights);
-  points->gradients = to_vector(gradients);
-  points->positions = to_vector(with_columns(positions, 3, "positions"));
-  points->volumes = to_vector(volumes);
+  auto points = std::make_shared<FramePoints>(to_points(frames, weights, gradients, positions, volumes));
   ElasticBlock block;
   block.element = "points";
   block.cells = to_vector(frames);
@@ -94,8 +110,18 @@ void add_points(WorldDescription& world, const std::string& body,
   block.model = model.options;
   std::get<FramesOptions>(block.model).points = std::move(points);
   BodyDescription& made = world.body(body);
-  for (const auto& [other, node] : shared) made.shared.push_back({other, node});
+  for (SharedNode& node : to_shared(shared)) made.shared.push_back(std::move(node));
   made.elastic.push_back(std::move(block));
+}
+
+/// The world with other points in a tissue, and those of its frames that no point follows held at `places`.
+std::shared_ptr<World> points_left(const World& world, const std::string& tissue, const Shared& shared,
+                                   const Ints& frames, const Doubles& weights, const Doubles& gradients,
+                                   const Doubles& positions, const Doubles& volumes, const Doubles& places) {
+  TissuePoints left{to_shared(shared), to_points(frames, weights, gradients, positions, volumes)};
+  left.points.frames = to_vector(frames);
+  const std::vector<double> at = to_vector(with_columns(places, 3, "places"));
+  return std::const_pointer_cast<World>(with_points(world, tissue, std::move(left), at));
 }
 
 void add_prony(WorldDescription& world, const std::string& body,
@@ -140,6 +166,8 @@ void bind_world(py::module_& m) {
       .def_property_readonly("elastic_blocks", &elastic_blocks)
       .def_property_readonly("editable", [](const World& world) { return world.description() != nullptr; })
       .def_property_readonly("mass", [](const World& world) { return world.mass().total(); })
+      .def("with_points", &points_left, py::kw_only(), arg("tissue"), arg("shared"), arg("frames"),
+           arg("weights"), arg("gradients"), arg("positions"), arg("volumes"), arg("places"))
       .def_property_readonly("threads", [](const World& world) { return world.threads().count(); })
       .def_property_readonly("instruction_set",
                              [](const World& world) { return std::string(name(world.isa())); });

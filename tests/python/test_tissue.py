@@ -126,6 +126,7 @@ def test_momentum_is_kept_across_the_tissue() -> None:
         ({"mass": 1.0}, "both of density and mass"),
         ({"shape": "trilinear"}, "grid"),
         ({"frames": 2, "neighbours": 500}, "neighbours|frames"),
+        ({"sampling": "grid", "reach": 0.031, "frames": 2}, "no frame of the grid inside"),
     ],
 )
 def test_tissue_refuses_in_one_sentence(fields: dict[str, Any], words: str) -> None:

@@ -52,6 +52,7 @@ void hold_debris(WorldDescription& description, const BodyDescription& body, con
   const std::vector<char> used = used_nodes(body);
   FixedNodes held;
   held.body = body.name;
+  held.rotations = body.frames ? FixedDofs::kAllAxes : std::uint8_t{0};
   for (std::size_t node = 0; node < used.size(); ++node) {
     if (used[node] != 0) continue;
     held.nodes.push_back(static_cast<std::int32_t>(node));

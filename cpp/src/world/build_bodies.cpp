@@ -13,6 +13,8 @@
 namespace tissu {
 namespace {
 
+constexpr double kOfNothing = 1e-20;  ///< inertia of a frame that is held and has no material [kg m2]
+
 /// Of the chunks of a body that may be cut: the cells and copies of nodes that an edit makes stand in the
 /// chunk of the cell that they come from.
 constexpr double kEditableFill = 0.75;
@@ -212,12 +214,18 @@ std::vector<std::int32_t> WorldBuilder::shared_nodes(const BodyDescription& desc
   return nodes;
 }
 
-/// Inertias that the models gave to the frames of their bodies.
+/// Inertias that the models gave to the frames of their bodies. One that no point listens to has none, nor a
+/// mass: it is refused as a node without mass, unless it is held. Then it gets one that has an inverse.
 void WorldBuilder::add_inertias(std::vector<Frame>& frames) const {
   for (std::size_t k = 0; k < frames.size(); ++k) frames[k].inertia += inertias_[k];
   for (const Body& body : world_.bodies_) {
     for (std::int32_t i = 0; body.first_frame >= 0 && i < body.node_count; ++i) {
-      check_inertia(body.name, i, frames[static_cast<std::size_t>(body.first_frame + i)].inertia);
+      Mat3& inertia = frames[static_cast<std::size_t>(body.first_frame + i)].inertia;
+      if (inertia.isZero(0.0)) {
+        inertia.diagonal().setConstant(kOfNothing);
+        continue;
+      }
+      check_inertia(body.name, i, inertia);
     }
   }
 }

@@ -70,6 +70,10 @@ void WorldBuilder::hold_rotations(const FixedNodes& fixed, const Body& on,
   numbers.reserve(nodes.size());
   for (const std::int32_t node : nodes) numbers.push_back(on.first_frame + node - on.first_node);
   const auto blocks = rotations_of(on, nodes, where);
+  if (!fixed.positions.empty()) {  // what an edit left behind stays as it has turned
+    world_.fixed_.hold_turning(blocks, FixedDofs::kAllAxes);
+    return;
+  }
   if (fixed.rotations == FixedDofs::kAllAxes) {
     world_.fixed_.add_rotations(blocks, numbers, world_.rest_.rotations, fixed.motion, fixed.name);
     return;

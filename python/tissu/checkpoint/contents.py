@@ -65,6 +65,9 @@ def require_contents(path: Path, header: Mapping[str, Any], arrays: Mapping[str,
     integrator = arrays.get("integrator")  # a stable step may be infinite
     if not isinstance(integrator, np.ndarray) or integrator.dtype != np.float64:
         raise _wrong(path, "integrator", "an array of float64")
+    for name in [name for name in arrays if name.startswith("severed_")]:
+        if arrays[name].dtype != np.int32:
+            raise _wrong(path, name, "an array of int32")
     for key, body in snapshot.items():
         if key.startswith("body_"):
             _require_body(path, key.removeprefix("body_"), body, arrays)

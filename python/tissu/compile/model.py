@@ -15,6 +15,7 @@ from tissu.scene.generated.laws import LAWS
 from tissu.scene.model import Condensed, Frames
 from tissu.scene.part import type_name
 from tissu.scene.problem import Problem, one_of_words
+from tissu.scene.tissue import tissues_of
 
 if TYPE_CHECKING:
     from tissu.compile.prepared import Findings, Group, Ints, Prepared
@@ -141,7 +142,8 @@ def check_rotations(prepared: Prepared) -> None:
         if True in kinds and body.viscosity is not None and body.viscosity.type != "rayleigh":
             text = f"found {body.viscosity.type} for frames; rayleigh is accepted"
             _tell_once(("bodies", name, "viscosity"), text, prepared.findings)
-        if True in kinds and getattr(prepared.scene, "editing", False):
+        tied = any(name in (tissue.between or ()) for tissue in tissues_of(prepared.scene).values())
+        if True in kinds and not tied and getattr(prepared.scene, "editing", False):
             model = next(model for model in body.models().values() if model.with_rotations)
             text = (
                 f"found true with the model {model.type} of body '{name}', whose cells cannot be "

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,6 +12,7 @@ from tissu.counted import counted
 from tissu.mesh.cell import dimension
 from tissu.scene.model import FEM, Model
 from tissu.scene.problem import Path, Problem
+from tissu.ties import Links, Weights
 
 if TYPE_CHECKING:
     from tissu.compile.contact import PreparedContact
@@ -95,20 +96,6 @@ class PreparedBody:
     density: float
 
 
-class Weights(NamedTuple):
-    """How points listen to frames.
-
-    Attributes:
-        frames: numbers (p, k).
-        weights: (p, k).
-        gradients: (p, k, 3) at rest [1/m].
-    """
-
-    frames: Ints
-    weights: Floats
-    gradients: Floats
-
-
 @dataclass(frozen=True, slots=True)
 class PreparedTissue:
     """A tissue as the world takes it.
@@ -120,6 +107,7 @@ class PreparedTissue:
         shared: nodes of bodies that it holds, by name and number.
         weights: how the points listen to its frames and, by numbers after those, to these nodes.
         density: [kg/m^3].
+        links: of the points, which blades may sever.
     """
 
     mesh: Mesh
@@ -128,6 +116,7 @@ class PreparedTissue:
     shared: list[tuple[str, int]]
     weights: Weights
     density: float
+    links: Links
 
 
 @dataclass(frozen=True, slots=True)

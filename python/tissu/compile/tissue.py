@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from tissu import _core, sampling
-from tissu.compile.prepared import Floats, Ints, KnownMesh, Prepared, PreparedTissue, Weights
-from tissu.compile.riding import carried
+from tissu.compile.prepared import Floats, Ints, KnownMesh, Prepared, PreparedTissue
 from tissu.errors import ParameterError, TissuError
 from tissu.mesh import CellBlock, Mesh
 from tissu.sampling.poisson import poisson_search
 from tissu.scene.unknown import Unknown
+from tissu.ties import Carriers, Links, Weights, carried
 
 if TYPE_CHECKING:
     from tissu.sampling import Region
@@ -48,31 +48,69 @@ def _made(prepared: Prepared, name: str, tissue: Tissue) -> PreparedTissue | Non
             return None  # told already
         region, held = _between(prepared, tissue, ("tissue", name))
     frames, points = _sampled(region, tissue)
+    _require_found(frames, points)
     volumes = sampling.point_volumes(region, points)
+    density = tissue.density if tissue.mass is None else tissue.mass / float(volumes.sum())
+    assert density is not None  # the tissue has one of both
     places = [prepared.bodies[body].mesh.points[nodes] for body, nodes in held]
-    origins = np.concatenate([frames, *places])
-    weights = Weights(
+    origins = np.ascontiguousarray(np.concatenate([frames, *places]))
+    listened = _listened(tissue, name, origins, points)
+    near = [(body, int(node)) for body, nodes in held for node in nodes]
+    carriers = _carriers(prepared, [body for body, _ in held])
+    weights, shared = carried(carriers, listened, len(frames), near, points)
+    _require_ties(tissue, weights, len(frames), shared)
+    _require_followed(weights, len(frames))
+    links = Links(
+        name=name,
+        shape=tissue.shape,
+        own=len(frames),
+        origins=origins,
+        near=near,
+        points=np.ascontiguousarray(points),
+        masses=float(density) * volumes,
+        volumes=volumes,
+        listened=listened,
+        first=(weights, shared),
+        carriers=carriers,
+    )
+    numbers = np.arange(len(frames), dtype=np.int32)[:, None]
+    mesh = Mesh(points=frames, cells=(CellBlock("vertex", numbers),))
+    return PreparedTissue(mesh, points, volumes, shared, weights, float(density), links)
+
+
+def _require_found(frames: Floats, points: Floats) -> None:
+    """A grid may have no place inside."""
+    for found, what in ((frames, "frame"), (points, "point")):
+        if not len(found):
+            text = f"found no {what} of the grid inside; more {what}s are accepted, or "
+            raise ParameterError(f"{text}sampling: poisson")
+
+
+def _require_followed(weights: Weights, own: int) -> None:
+    """Each of the tissue's own frames has a point."""
+    idle = np.setdiff1d(np.arange(own), weights.frames)
+    if len(idle):
+        text = f"{len(idle)} of {own} frames have no point that listens to them; "
+        raise ParameterError(f"{text}more points, or more neighbours, are accepted")
+
+
+def _listened(tissue: Tissue, name: str, origins: Floats, points: Floats) -> Weights:
+    """How the points listen to frames and to nodes of bodies."""
+    return Weights(
         *_core.shape_weights(
             name=tissue.shape,
             neighbours=tissue.neighbours or 0,
-            frames=np.ascontiguousarray(origins),
+            frames=origins,
             points=np.ascontiguousarray(points),
             body=name,
         )
     )
-    shared = [(body, int(node)) for body, nodes in held for node in nodes]
-    weights, shared = carried(prepared, weights, len(frames), shared, points)
-    _require_ties(tissue, weights, len(frames), shared)
-    idle = np.setdiff1d(np.arange(len(frames)), weights.frames)
-    if len(idle):
-        text = f"{len(idle)} of {len(frames)} frames have no point that listens to them; "
-        raise ParameterError(f"{text}more points, or more neighbours, are accepted")
-    mesh = Mesh(
-        points=frames, cells=(CellBlock("vertex", np.arange(len(frames), dtype=np.int32)[:, None]),)
-    )
-    density = tissue.density if tissue.mass is None else tissue.mass / float(volumes.sum())
-    assert density is not None  # the tissue has one of both
-    return PreparedTissue(mesh, points, volumes, shared, weights, float(density))
+
+
+def _carriers(prepared: Prepared, bodies: list[str]) -> Carriers:
+    """Those of the bodies whose nodes have no rotation."""
+    riding = [name for name in bodies if not prepared.scene.bodies[name].has_rotations]
+    return Carriers({name: prepared.bodies[name].mesh for name in riding})
 
 
 def _filled(tissue: Tissue) -> Region:

@@ -60,6 +60,7 @@ def compile_scene(scene: Scene, checkpoint: Path | None = None) -> Simulation:
         world=world,
         meshes={name: body.mesh for name, body in prepared.bodies.items()},
         tissue={name: tissue.mesh for name, tissue in prepared.tissue.items()},
+        links={name: tissue.links for name, tissue in prepared.tissue.items()},
         integrator=scene.step.integrator(),
         solver=None if solver is None else solver.linear_solver(equilibrium=equilibrium),
         check=check,
@@ -133,6 +134,8 @@ def refuse_uncuttable(simulation: Simulation) -> None:
     ]
     named += [(("tear", number, "body"), tear.body) for number, tear in enumerate(scene.tear)]
     for path, body in named:
+        if body in scene.tissue:
+            continue
         try:
             simulation._core.require_parting(body)
         except ParameterError as error:
@@ -145,15 +148,16 @@ def refuse_uncuttable(simulation: Simulation) -> None:
 
 
 def pressed_sheets(simulation: Simulation) -> list[Problem]:
-    """Knives with a toughness, which press on volumes, in sheets."""
+    """Knives with a toughness, which press on volumes, in sheets and in tissue."""
     found = []
     for name, tool in simulation.scene.instruments.items():
         if not isinstance(tool, Knife) or tool.toughness is None:
             continue
         for body in tool.cuts:
-            if simulation.meshes[body].volume_blocks:
+            if body not in simulation.scene.tissue and simulation.meshes[body].volume_blocks:
                 continue
-            text = f"found a toughness of a knife that cuts the sheet '{body}'; bodies of volume "
+            kind = "tissue" if body in simulation.scene.tissue else "sheet"
+            text = f"found a toughness of a knife that cuts the {kind} '{body}'; bodies of volume "
             text += "cells are accepted, or a knife without toughness"
             found.append(Problem(("instruments", name, "toughness"), text))
     return found

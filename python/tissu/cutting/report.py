@@ -21,10 +21,12 @@ class Piece:
     """A connected part of a body's material.
 
     Attributes:
-        cells: numbers (k,) of the cells that hold it, ascending; a cell may hold several pieces.
+        cells: numbers (k,) of the cells that hold it, ascending; a cell may hold several pieces. Of
+            tissue, numbers of its points.
         volume: at rest [m3].
         mass: [kg].
-        held: whether a support holds or leads one of its nodes.
+        held: whether a support holds or leads one of its nodes; of tissue, or one of the bodies
+            that it hangs on.
     """
 
     cells: Ints
@@ -70,6 +72,8 @@ class CutReport:
         work: of a blade with a toughness, toughness times area [J]; else 0.
         unresolved: cells that the blade met and did not cut, with the reason.
         released: numbers of the grabs that were released because their points were separated.
+        links_severed: links of tissue, each of a point with a frame or with a node of a body.
+        points_gone: numbers of the points of tissue that have lost their last link, or were taken.
         relaid: whether everything was rebuilt, and not only the parts that the edit touched.
         milliseconds: wall time.
     """
@@ -93,14 +97,23 @@ class CutReport:
     work: float
     unresolved: tuple[tuple[int, str], ...]
     released: tuple[int, ...]
+    links_severed: int
+    points_gone: tuple[int, ...]
     relaid: bool
     milliseconds: float
+
+    @property
+    def met_nothing(self) -> bool:
+        """Whether nothing was cut and nothing is gone."""
+        return not (self.cells_cut or self.cells_gone or self.links_severed)
 
     def __str__(self) -> str:
         """One line."""
         by = f" by {self.by}" if self.by else ""
-        if not self.cells_cut and not self.cells_gone:
+        if self.met_nothing:
             return f"cut of '{self.body}'{by}: the blade met nothing"
+        if self.links_severed:
+            return self._of_tissue(by)
         text = f"cut of '{self.body}'{by}: {counted(self.cells_cut, 'cell')} cut, "
         if not self.cells_cut:
             text = f"ablation of '{self.body}'{by}: {counted(self.cells_gone, 'cell')} gone, "
@@ -109,6 +122,16 @@ class CutReport:
         if self.unresolved:
             text += f"; {counted(len(self.unresolved), 'cell')} met and not cut"
         return text
+
+    def _of_tissue(self, by: str) -> str:
+        text = f"cut of '{self.body}'{by}: {counted(self.links_severed, 'link')} severed, "
+        if self.points_gone:
+            text += f"{counted(len(self.points_gone), 'point')} gone, "
+        jump = self.elastic_energy_change + self.kinetic_energy_change
+        return text + (
+            f"energy {jump:+.3g} J, {counted(len(self.pieces), 'piece')}, "
+            f"{self.milliseconds:.1f} ms"
+        )
 
 
 def cut_report(
@@ -142,6 +165,8 @@ def cut_report(
         work=0.0,
         unresolved=tuple((int(cell), str(why)) for cell, why in made["unresolved"]),
         released=released,
+        links_severed=0,
+        points_gone=(),
         relaid=made["relaid"],
         milliseconds=milliseconds,
     )

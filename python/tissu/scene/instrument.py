@@ -126,7 +126,7 @@ class Knife(Instrument):
     edge: _Places = field(kw_only=False)
     """points of the cutting edge in the tool's own axes [m], two or more"""
     cuts: _Names = field(min_length=1)
-    """names of the bodies that it cuts"""
+    """names of the bodies and tissues that it cuts"""
     toughness: Maybe[units.Toughness] = field(default=None, gt=0.0)
     """energy that a new unit of area takes, J_c [J/m^2]: the edge presses until the force on it is
     J_c for each metre in the material; absent: it cuts without force"""
@@ -178,7 +178,7 @@ class Ablator(Instrument):
     ends: _MaybePlaces = field(default=None)
     """ends of the axis of a capsule in the tool's own axes [m]; absent: a ball about the origin"""
     removes: _Names = field(min_length=1)
-    """names of the bodies whose cells it removes"""
+    """names of the bodies whose cells, and of the tissues whose points, it removes"""
     least_force: Maybe[units.ForceSize] = field(default=None, ge=0.0)
     """reserved for tips that remove cells by pressing [N], which are not supported yet: leave it
     out

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from tissu.scene.problem import Path, Problem, nearest, one_of_words
+from tissu.scene.tissue import tissues_of
 from tissu.scene.unknown import Unknown
 
 _EXPLICIT = ("symplectic_euler", "explicit_euler", "rk2", "rk4")
@@ -19,7 +20,8 @@ def instrument_problems(scene: Any) -> Iterator[Problem]:
             path: Path = ("instruments", name)
             for number, body in enumerate(instrument.bodies):
                 place = (*path, instrument.bodies_field, number)
-                yield from _of_body(scene, body, place)
+                if body not in tissues_of(scene):
+                    yield from _of_body(scene, body, place)
                 if body in instrument.bodies[:number]:
                     yield Problem(place, f"found '{body}' twice; each body once is accepted")
             for group in ("bodies", "tissue", "obstacles"):
@@ -30,6 +32,10 @@ def instrument_problems(scene: Any) -> Iterator[Problem]:
             yield from _pressing(scene, instrument, path)
     for number, tear in enumerate(getattr(scene, "tear", ())):
         with contextlib.suppress(Unknown):
+            if tear.body in tissues_of(scene):
+                text = f"found a tear of tissue '{tear.body}'; tears of bodies are accepted, and "
+                yield Problem(("tear", number, "body"), text + "tissue is cut by a blade")
+                continue
             yield from _of_body(scene, tear.body, ("tear", number, "body"))
             if tear.body in [other.body for other in scene.tear[:number]]:
                 text = f"found a second tear of '{tear.body}'; one for each body is accepted"

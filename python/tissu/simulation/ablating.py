@@ -26,20 +26,29 @@ def ablate_with(
 ) -> tuple[CutReport | None, Track]:
     """Take away the cells of a body whose centres lie on the way of the tip since its last place.
 
+    Of tissue, the points that lie there.
+
     Raises:
         ParameterError: the ablation is refused.
     """
     after = replace(track, poses=track.poses[-1:])
     swept = [place for a, b in itertools.pairwise(track.poses) for place in _between(tip, a, b)]
     swept = swept or [_tip(tip, track.poses[-1])]
-    if not any(_near(simulation, body, place) for place in swept):
+    if body in simulation._meshes and not any(_near(simulation, body, p) for p in swept):
         return None, after
-    centres, numbers = centres_of(simulation.material(body))
+    tissue = body in simulation._links
+    if tissue:
+        centres = simulation.points(body)
+        numbers = np.arange(len(centres), dtype=np.int32)
+    else:
+        centres, numbers = centres_of(simulation.material(body))
     inside = np.zeros(len(numbers), dtype=bool)
     for place in swept:
         inside |= place.holds(centres)
     if not inside.any():
         return None, after
+    if tissue:
+        return simulation._take(body, inside, by=name), after
     return simulation._ablate_cells(body, numbers[inside], len(numbers), by=name), after
 
 

@@ -12,8 +12,11 @@ from typing import TYPE_CHECKING
 from tissu.simulation.parameters import Parameters
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Mapping, Sequence
     from typing import Any
+
+    import numpy as np
+    from numpy.typing import NDArray
 
     from tissu import _core as core
     from tissu.compile import Check
@@ -23,6 +26,9 @@ if TYPE_CHECKING:
     from tissu.scene.support import Support
     from tissu.simulation.entry import Entry
     from tissu.simulation.meshes import Meshes
+
+    Floats = NDArray[np.float64]
+    Ints = NDArray[np.int32]
 
 
 class Changed:
@@ -37,11 +43,14 @@ class Changed:
     _rest: dict[str, Mesh]
     _loads: Sequence[tuple[Load, Where]]
     _physics_known: dict[str, Any] | None
+    _positions: Mapping[str, Floats]
     _steps: int
 
     if TYPE_CHECKING:
 
         def _follow_cells(self, body: str) -> None: ...
+        def _as_severed(self, world: core.World, places: Mapping[str, Floats]) -> core.World: ...
+        def _become_severed(self, severed: Mapping[str, Ints]) -> None: ...
         def _prepare_first_step(self) -> None: ...
 
     @property
@@ -89,6 +98,7 @@ class Changed:
         self._core.restore(fresh._core.snapshot())
         self._take_over(fresh)
         self._steps = 0
+        self._become_severed({})
         for body in self._rest:
             self._follow_cells(body)
         self._prepare_first_step()
@@ -101,7 +111,8 @@ class Changed:
         """
         fresh = self._compiled(scene)
         self._core.settle()
-        world = self._core.edited_like_now(fresh=fresh._world) if self._edited() else fresh._world
+        world = self._as_severed(fresh._world, self._positions)
+        world = self._core.edited_like_now(fresh=world) if self._edited() else world
         self._core.replace_world(world=world)
         self._take_over(fresh)
         self.scene = scene

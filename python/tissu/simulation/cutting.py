@@ -18,6 +18,7 @@ from tissu.errors import ParameterError
 from tissu.mesh import CellBlock, Mesh
 from tissu.simulation import grab as kept
 from tissu.simulation.remains import Remains
+from tissu.simulation.severing import Severing
 
 if TYPE_CHECKING:
     from tissu import _core as core
@@ -43,6 +44,7 @@ class Mark:
     _meshes: dict[str, Mesh]
     _steps: int
     _compiled: tuple[Any, ...]
+    _severed: Mapping[str, Ints]
     time: float
     """simulated time [s]"""
 
@@ -51,8 +53,8 @@ class Mark:
         return f"Mark(at t = {self.time:.6g} s)"
 
 
-class Cutting(Remains):
-    """The part of a simulation that cuts its bodies."""
+class Cutting(Remains, Severing):
+    """The part of a simulation that cuts its bodies and its tissue."""
 
     scene: Scene
     _core: core.Simulation
@@ -78,8 +80,11 @@ class Cutting(Remains):
         kinetic and elastic energy do not change. Nodes and cells keep their numbers; new ones
         follow the last. `surface` and `material` give the cut itself.
 
+        Points of connective tissue lose the frames and nodes beyond the blade, for ever. Their
+        weights are made anew from those that are left; mass and momenta do not change.
+
         Args:
-            body: its name.
+            body: its name, or that of a tissue.
             blade: `ts.Plane` (all of the body), `ts.Disc`, `ts.Triangles` or `ts.Sweep`.
             refine: divide cells that a narrow blade pierces without crossing an edge.
 
@@ -94,22 +99,27 @@ class Cutting(Remains):
         self._require_editing(body)
         if not isinstance(refine, bool | np.bool_):
             raise ParameterError(f"found refine={refine!r} of a cut; True and False are accepted")
+        if body in self._links:
+            return self._sever(body, blade)
         sweep = surface_of(blade, self.positions[body])
         return self._cut_along(body, sweep, refine=bool(refine))
 
     def ablate(self, body: str, place: Place) -> CutReport:
         """Remove the cells whose centre of material lies in a region of present space.
 
-        Cells that share only an edge or a node come apart, unlike after `remove_cells`.
+        Cells that share only an edge or a node come apart, unlike after `remove_cells`. Of tissue,
+        the points that lie in the region are removed.
 
         Args:
-            body: its name.
+            body: its name, or that of a tissue.
             place: a sphere, a capsule or a box.
 
         Raises:
             ParameterError: see `cut`; no cell would remain.
         """
         self._require_editing(body)
+        if body in self._links:
+            return self._take_points(body, place)
         centres, numbers = centres_of(self.material(body))
         return self._ablate_cells(body, numbers[inside_of(place, centres)], len(numbers))
 
@@ -144,7 +154,13 @@ class Cutting(Remains):
         """
         compiled = (self.scene, self._world, self._check, self._loads)
         return Mark(
-            self._core.mark(), self, dict(self._meshes), self._steps, compiled, self._core.time
+            self._core.mark(),
+            self,
+            dict(self._meshes),
+            self._steps,
+            compiled,
+            dict(self._severed),
+            self._core.time,
         )
 
     def rewind(self, mark: object) -> None:
@@ -162,6 +178,7 @@ class Cutting(Remains):
         self._steps = mark._steps
         self.scene, self._world, self._check, self._loads = mark._compiled
         self._physics_known = None
+        self._become_severed(mark._severed)
         self._lay_views()
 
     def _made(self, body: str, make: Any, *, by: str) -> CutReport:

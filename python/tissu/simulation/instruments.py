@@ -18,7 +18,7 @@ from tissu.simulation.ablating import ablate_with
 from tissu.simulation.entry import one_thread_at_a_time
 from tissu.simulation.known_names import known_names_only
 from tissu.simulation.slicing import cut_with, edge_of
-from tissu.simulation.track import Track, anchored, keep, tracks
+from tissu.simulation.track import Track, anchored, anchored_in_tissue, keep, tracks
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -220,7 +220,11 @@ def _begun(simulation: Simulation, number: int, pose: Pose) -> Track:
     if knife is None:
         return Track(number=number, incision=-1, poses=(pose,), rows=())
     edge = edge_of(simulation, knife)
-    row = anchored(simulation._core, body, pose.place(edge))
+    places = pose.place(edge)
+    if body in simulation._links:
+        row = anchored_in_tissue(simulation, body, places)
+    else:
+        row = anchored(simulation._core, body, places)
     return Track(number=number, incision=-1, poses=(pose,), rows=(row,))
 
 

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from tissu import _core as core
     from tissu.front import Scene
     from tissu.simulation.meshes import Meshes
+    from tissu.ties import Links
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int32]
@@ -38,7 +39,11 @@ class Remains:
 
         @property
         def positions(self) -> Mapping[str, Floats]: ...
+
+        _links: dict[str, Links]
+
         def _require_body(self, name: str) -> None: ...
+        def _tissue_pieces(self, tissue: str) -> tuple[Piece, ...]: ...
 
     def surface(self, body: str) -> MaterialSurface:
         """The surface of the material of a body as it is now.
@@ -70,12 +75,14 @@ class Remains:
         return rest is not None and self._core.body_range(body)[1] > rest.node_count
 
     def pieces(self, body: str) -> tuple[Piece, ...]:
-        """The connected parts of the material of a body, the largest first.
+        """The connected parts of the material of a body or of a tissue, the largest first.
 
         Raises:
             ParameterError: no such body; the scene was compiled without `editing: true`.
         """
         self._require_editing(body)
+        if body in self._links:
+            return self._tissue_pieces(body)
         found = self._core.pieces(body)
         mass, whole = self._core.mass(body), sum(volume for _, volume, _ in found)
         pieces = [

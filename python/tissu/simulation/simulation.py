@@ -27,6 +27,7 @@ from tissu.simulation.plan import Plan
 from tissu.simulation.profile import Profile, profile_of
 from tissu.simulation.remaining import keep_cells, removed_cells
 from tissu.simulation.report import StepReport, report_of
+from tissu.simulation.resuming import resume_severed, severed_arrays
 from tissu.simulation.schedule import stable_steps, steps_of, steps_until
 from tissu.simulation.tearing import tear_after_step
 from tissu.simulation.touched import Touched
@@ -38,6 +39,7 @@ if TYPE_CHECKING:
     from tissu.live_view import View
     from tissu.mesh import Mesh
     from tissu.scene.load import Load, Where
+    from tissu.ties import Links
 
 Floats = NDArray[np.float64]
 
@@ -67,6 +69,7 @@ class Simulation(Inspected, Handled, Touched, Changed, Cutting, Instrumented):
         world: _core.World,
         meshes: Mapping[str, Mesh],
         tissue: Mapping[str, Mesh] | None = None,
+        links: Mapping[str, Links] | None = None,
         integrator: _core.Integrator,
         solver: _core.LinearSolver | None,
         check: Check,
@@ -90,6 +93,9 @@ class Simulation(Inspected, Handled, Touched, Changed, Cutting, Instrumented):
         self._physics_known: dict[str, Any] | None = None
         self._cell_sizes: dict[str, float] = {}
         self._tissue = dict(tissue or {})
+        self._links = dict(links or {})
+        self._severed: dict[str, NDArray[np.int32]] = {}
+        self._lefts: dict[str, Any] = {}
         self._rest_points = {name: self._core.points(name) for name in [*meshes, *self._tissue]}
         self._lay_views()
         self.resumed_from = None
@@ -293,7 +299,7 @@ class Simulation(Inspected, Handled, Touched, Changed, Cutting, Instrumented):
             scene=self.scene.name,
             physics=self._physics(),
             steps=self._steps,
-            snapshot=self._core.snapshot(),
+            snapshot={**self._core.snapshot(), **severed_arrays(self._links, self._severed)},
             build=checkpoint.build(),
         ).write(Path(path))
 
@@ -406,7 +412,9 @@ class Simulation(Inspected, Handled, Touched, Changed, Cutting, Instrumented):
             ParameterError: the scene was compiled without `editing: true`, or has no such cell.
         """
         counts = {name: self._core.cell_count(name) for name in self._meshes}
-        self._core.remove_cells(body=body, cells=removed_cells(counts, body, cells))
+        turning = [name for name, of in self.scene.bodies.items() if of.has_rotations]
+        numbers = removed_cells(counts, body, cells, turning)
+        self._core.remove_cells(body=body, cells=numbers)
         self._follow_cells(body)
 
     def remaining_cells(self, body: str) -> NDArray[np.int32]:
@@ -441,6 +449,7 @@ class Simulation(Inspected, Handled, Touched, Changed, Cutting, Instrumented):
     def _go_on_from(self, checkpoint: Checkpoint) -> None:
         checkpoint.require(self._physics())
         try:
+            resume_severed(self, checkpoint.snapshot)
             self._core.restore(dict(checkpoint.snapshot))
         except TissuError as error:  # of a forged file: another scene is refused above
             raise CheckpointError(f"checkpoint {checkpoint.file}: {error}") from None

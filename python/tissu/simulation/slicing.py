@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from tissu import _core
 from tissu.cutting.way import area_of, resampled, rows_of
-from tissu.simulation.track import Anchors, Track, anchored
+from tissu.simulation.track import Anchors, Track, anchored, anchored_in_tissue
 
 if TYPE_CHECKING:
     from tissu.cutting.report import CutReport
@@ -34,10 +34,15 @@ _NO_AREA = 1e-12
 
 
 def cell_size(simulation: Simulation, body: str) -> float:
-    """Mean distance of the first three corners of a cell of a body on the first day [m]."""
+    """Mean distance of the first three corners of a cell of a body on the first day [m].
+
+    Of tissue, the mean distance of its points.
+    """
     found = simulation._cell_sizes.get(body)
     if found is None:
-        found = simulation._cell_sizes[body] = _mean_edge(simulation._rest[body])
+        of_tissue = body in simulation._links
+        found = simulation._links[body].spacing if of_tissue else _mean_edge(simulation._rest[body])
+        simulation._cell_sizes[body] = found
     return found
 
 
@@ -71,7 +76,27 @@ def cut_with(
     rows = rows_of(edge, track.poses, start, LONGEST_WAY * size)
     if np.linalg.norm(rows - start, axis=2).max() < LEAST_WAY * size:
         return None, track
+    if body in simulation._links:
+        return _sever_rows(simulation, name, body, track, rows)
     return cut_rows(simulation, name, body, track, rows)
+
+
+def _sever_rows(
+    simulation: Simulation, name: str, tissue: str, track: Track, rows: Floats
+) -> tuple[CutReport | None, Track]:
+    """Sever the links of a tissue that cross the way of an edge (k, m, 3)."""
+    kept = anchored_in_tissue(simulation, tissue, rows[-1])
+    after = replace(track, poses=track.poses[-1:], rows=(kept,))
+    if not area_of(rows) > _NO_AREA * np.square(np.ptp(rows.reshape(-1, 3), axis=0).max()):
+        return None, after
+    moments, points, _ = rows.shape
+    sweep = _core.edge_sweep(
+        places=np.ascontiguousarray(rows.reshape(-1, 3)),
+        moments=moments,
+        points=points,
+        incision=-1,
+    )
+    return simulation._sever_along(tissue, sweep, by=name), after
 
 
 def cut_rows(

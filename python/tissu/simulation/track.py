@@ -12,6 +12,7 @@ from tissu.cutting.pose import Pose
 
 if TYPE_CHECKING:
     from tissu import _core as core
+    from tissu.simulation.simulation import Simulation
 
 Floats = NDArray[np.float64]
 Bools = NDArray[np.bool_]
@@ -119,6 +120,18 @@ def anchored(simulation: core.Simulation, body: str, points: Floats) -> Anchors:
     inside, nodes, weights, offsets = simulation.anchors(body=body, points=points)
     rows = np.where(nodes >= 0, nodes.astype(np.int64) + first, -1)
     return Anchors(np.asarray(inside), rows, weights, offsets)
+
+
+def anchored_in_tissue(simulation: Simulation, tissue: str, points: Floats) -> Anchors:
+    """Anchors of points (m, 3) [m]: each goes with the nearest frame that has a point."""
+    first, _ = simulation._core.body_range(tissue)
+    frames, used = simulation.positions[tissue], simulation._left(tissue).weights.frames
+    followed = np.intersect1d(used, np.arange(len(frames)))
+    apart = np.linalg.norm(points[:, None] - frames[followed], axis=2)
+    near = followed[apart.argmin(axis=1)]
+    rows, weights = np.full((len(points), 4), -1, dtype=np.int64), np.zeros((len(points), 4))
+    rows[:, 0], weights[:, 0] = first + near, 1.0
+    return Anchors(np.ones(len(points), dtype=bool), rows, weights, points - frames[near])
 
 
 def _anchors(row: Floats) -> Anchors:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Any
 
@@ -54,9 +55,9 @@ class CutReport:
         body: its name.
         by: name of the instrument that made it, "tear" of a tear; empty: a call of the program.
         cells_cut: cells that the blade divided or along whose faces it ran.
-        cells_new: cells that replaced them.
+        cells_new: cells that replaced them: copies, or parts where cuts divide cells.
         cells_gone: cells that were replaced or removed.
-        nodes_new: copies of nodes.
+        nodes_new: copies of nodes, and nodes on edges where cuts divide cells.
         faces_opened: triangles of the material, each with two sides now.
         area: of one side of these faces now [m2].
         rest_area: the same at rest [m2].
@@ -71,6 +72,8 @@ class CutReport:
         unresolved: cells that the blade met and did not cut, with the reason.
         released: numbers of the grabs that were released because their points were separated.
         relaid: whether everything was rebuilt, and not only the parts that the edit touched.
+        stable_step: the largest stable step of an explicit method after it [s], measured where cuts
+            divide cells; else infinite.
         milliseconds: wall time.
     """
 
@@ -94,6 +97,7 @@ class CutReport:
     unresolved: tuple[tuple[int, str], ...]
     released: tuple[int, ...]
     relaid: bool
+    stable_step: float
     milliseconds: float
 
     def __str__(self) -> str:
@@ -108,6 +112,8 @@ class CutReport:
         text += f"{counted(len(self.pieces), 'piece')}, {self.milliseconds:.1f} ms"
         if self.unresolved:
             text += f"; {counted(len(self.unresolved), 'cell')} met and not cut"
+        if math.isfinite(self.stable_step):
+            text += f"; steps are stable up to {self.stable_step:.4g} s"
         return text
 
 
@@ -118,6 +124,7 @@ def cut_report(
     by: str,
     pieces: tuple[Piece, ...],
     released: tuple[int, ...],
+    stable_step: float,
     milliseconds: float,
 ) -> CutReport:
     """The report of what the core made, between totals of what it touched."""
@@ -143,5 +150,6 @@ def cut_report(
         unresolved=tuple((int(cell), str(why)) for cell, why in made["unresolved"]),
         released=released,
         relaid=made["relaid"],
+        stable_step=stable_step,
         milliseconds=milliseconds,
     )

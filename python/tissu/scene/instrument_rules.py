@@ -28,6 +28,9 @@ def instrument_problems(scene: Any) -> Iterator[Problem]:
                     yield Problem(path, text)
             yield from _edited(scene, path, "an instrument")
             yield from _pressing(scene, instrument, path)
+    with contextlib.suppress(Unknown):
+        if getattr(scene, "editing", None) is not None:
+            yield from scene.editing.unknown_bodies(scene.bodies)
     for number, tear in enumerate(getattr(scene, "tear", ())):
         with contextlib.suppress(Unknown):
             yield from _of_body(scene, tear.body, ("tear", number, "body"))

@@ -1,4 +1,4 @@
-"""Which bodies a cut may divide: bodies of tetrahedra of first order, each carried by itself."""
+"""Which bodies a cut may divide: tetrahedra, or triangles, of first order."""
 
 from __future__ import annotations
 
@@ -10,8 +10,9 @@ if TYPE_CHECKING:
     from tissu.compile.prepared import Prepared, PreparedBody
     from tissu.scene.problem import Path
 
+_CELLS = ("tetra", "triangle")
 _MODELS = ("fem", "corotational", "mass_link", "mass_tensor")
-"""Models whose energy in a tetrahedron is its volume times a function of F."""
+"""Models whose energy in such a cell is its volume times a function of F."""
 
 
 def check_divided(prepared: Prepared) -> None:
@@ -34,8 +35,8 @@ def check_divided(prepared: Prepared) -> None:
 def _in_the_way(prepared: Prepared, name: str, body: PreparedBody) -> str:
     """What of a body cannot be divided, and what is accepted, in words; empty: nothing."""
     for group in body.groups:
-        if group.cell_type != "tetra":
-            return f"cells of type {group.cell_type}; tetrahedra of first order"
+        if group.cell_type not in _CELLS or group.cell_type != body.groups[0].cell_type:
+            return f"cells of type {group.cell_type}; tetrahedra, or triangles, of first order"
         if group.model.type not in _MODELS:
             return f"the model {group.model.type}; fem, corotational, mass_link and mass_tensor"
     for motion in getattr(prepared.scene, "prescribed", ()):

@@ -34,7 +34,8 @@ class Editing(Part):
 
     method: Read[Method | dict[str, Method], Method | Mapping[str, Method]] = field(default="auto")
     """how a cut parts cells: virtual (copies of whole cells) or subdivide (the cells are divided
-    along the cut; tetrahedra of first order only); auto is virtual; or a map from bodies to methods
+    along the cut; tetrahedra and triangles of first order only); auto is virtual; or a map from
+    bodies to methods
     """
 
     def divides(self, body: str) -> bool:

@@ -79,9 +79,10 @@ class Divided {
     const std::int32_t number = cell.divided ? next++ : cell.number;
     MaterialTetra own;
     own.cut = tetra.cut;
-    for (std::size_t i = 0; i < 4; ++i) own.vertices[i] = node(tetra.vertices[i]);
-    if (cell.divided)
-      plan_.born.push_back({number, cell.number, 1.0, {own.vertices.begin(), own.vertices.end()}});
+    own.vertices[3] = kNoVertex;
+    for (std::size_t i = 0; i < tetra.corners(); ++i) own.vertices[i] = node(tetra.vertices[i]);
+    const auto end = own.vertices.begin() + static_cast<std::ptrdiff_t>(tetra.corners());
+    if (cell.divided) plan_.born.push_back({number, cell.number, 1.0, {own.vertices.begin(), end}});
     if (own.cut != 0) plan_.material.cells.emplace_back(number, std::vector<MaterialTetra>{own});
     touched_.push_back(number);
   }
@@ -151,11 +152,12 @@ void join(const CutPlan& divided, CutPlan parted, CutPlan& plan) {
 
 void refuse_undivided(const Hosts& hosts, const Material& material, const Numbers& cells) {
   for (const std::int32_t cell : cells) {
-    if (hosts.type(cell) == CellType::tetra) continue;
-    throw ParameterError("the cut meets cell " + std::to_string(cell) + " of type " +
-                         std::string(info(hosts.type(cell)).name) +
-                         "; tetrahedra of first order are accepted where editing says subdivide: take "
-                         "method: virtual.");
+    if (hosts.type(cell) == CellType::tetra || hosts.type(cell) == CellType::triangle) continue;
+    throw ParameterError(
+        "the cut meets cell " + std::to_string(cell) + " of type " +
+        std::string(info(hosts.type(cell)).name) +
+        "; tetrahedra and triangles of first order are accepted where editing says subdivide: take "
+        "method: virtual.");
   }
   const auto is_part = [&](std::int32_t cell) { return hosts.share(cell) < 1.0; };
   if (material.riders.empty() && std::ranges::none_of(cells, is_part)) return;

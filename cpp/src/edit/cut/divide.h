@@ -14,7 +14,7 @@
 
 namespace tissu {
 
-/// Refuses cells that are not tetrahedra of first order, and cells of which a copy holds a part.
+/// Refuses cells that are not tetrahedra or triangles of first order, and cells of which a copy holds a part.
 void refuse_undivided(const Hosts& hosts, const Material& material, const std::vector<std::int32_t>& cells);
 
 /// Cells, nodes and material of the plan; the patch has divided edges and opened faces. The nodes of opened

@@ -15,13 +15,13 @@ constexpr int kMostPlans = 8;
 
 double quality(const Patch& patch, const Patch::Tetra& tetra) {
   const auto p = [&](std::size_t i) { return patch.vertex(tetra.vertices[i]).rest; };
-  return tetra_quality(p(0), p(1), p(2), p(3));
+  return tetra.corners() == 3 ? triangle_quality(p(0), p(1), p(2)) : tetra_quality(p(0), p(1), p(2), p(3));
 }
 
 double quality(const Hosts& hosts, std::int32_t cell) {
   const auto nodes = hosts.corners(cell);
   const auto p = [&](std::size_t i) -> Vec3 { return block(hosts.rest(), nodes[i]); };
-  return tetra_quality(p(0), p(1), p(2), p(3));
+  return nodes.size() == 3 ? triangle_quality(p(0), p(1), p(2)) : tetra_quality(p(0), p(1), p(2), p(3));
 }
 
 }  // namespace
@@ -32,6 +32,11 @@ double tetra_quality(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d)
                          (c - b).squaredNorm() + (d - b).squaredNorm() + (d - c).squaredNorm();
   const double mean = std::sqrt(squares / 6.0);
   return 6.0 * std::sqrt(2.0) * volume / (mean * mean * mean);
+}
+
+double triangle_quality(const Vec3& a, const Vec3& b, const Vec3& c) {
+  const double squares = (b - a).squaredNorm() + (c - a).squaredNorm() + (c - b).squaredNorm();
+  return 2.0 * std::sqrt(3.0) * (b - a).cross(c - a).norm() / squares;
 }
 
 int Remedies::round(std::int32_t cell) const {

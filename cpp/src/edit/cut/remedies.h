@@ -14,6 +14,8 @@ namespace tissu {
 
 /// 6 sqrt(2) V / l_rms^3 of a tetrahedron of corners a to d: 1 regular, 0 flat, negative inside out.
 double tetra_quality(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
+/// 4 sqrt(3) A / (sum of l^2) of a triangle: 1 regular, 0 without area.
+double triangle_quality(const Vec3& a, const Vec3& b, const Vec3& c);
 
 /// A child of a cell has a quality of at least min(0.05, a quarter of the cell's). Where it has not, these
 /// are tried in turn, each in a new plan: the edges of the cell are divided in the reverse order; of its

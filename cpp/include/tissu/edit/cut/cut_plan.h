@@ -19,7 +19,7 @@ struct CutOptions {
   /// Cells that the blade pierces without crossing an edge are divided first, at most three times.
   bool refine = false;
   /// Cells are divided along the cut (divide.h of the cutter), in place of copies of whole cells. Tetrahedra
-  /// of first order only.
+  /// and triangles of first order only.
   bool divide = false;
 };
 

@@ -108,10 +108,9 @@ def section() -> str:
         "## What a cut keeps\n\n"
         f"The table compares the two methods of `editing`. {CUTS} random planes cut a jittered\n"
         f"bar of {cells:,} tetrahedra, each from the same state, in which every node moves on its\n"
-        "own.\n"
-        "Changes are the largest of all cuts. Those of momentum are relative to the mass times\n"
-        "the largest speed, those of angular momentum to 40 cm times that, the others to their\n"
-        "values before. Kinetic energy is only lost. The least quality q is that of the cells of\n"
+        "own. Changes are the largest of all cuts. Those of momentum are relative to the mass\n"
+        "times the largest speed, those of angular momentum to 40 cm times that, the others to\n"
+        "their values before. Kinetic energy is only lost. The least quality q is that of the cells of\n"
         "forces, 1 for a regular tetrahedron. The stable step of symplectic Euler is relative to\n"
         "that before: median and least. Cells `left` were met by the blade and not cut.\n\n"
         + table(head, [row(method) for method in ("virtual", "subdivide")])

@@ -110,9 +110,10 @@ def section() -> str:
         f"bar of {cells:,} tetrahedra, each from the same state, in which every node moves on its\n"
         "own. Changes are the largest of all cuts. Those of momentum are relative to the mass\n"
         "times the largest speed, those of angular momentum to 40 cm times that, the others to\n"
-        "their values before. Kinetic energy is only lost. The least quality q is that of the cells of\n"
-        "forces, 1 for a regular tetrahedron. The stable step of symplectic Euler is relative to\n"
-        "that before: median and least. Cells `left` were met by the blade and not cut.\n\n"
+        "their values before. Kinetic energy is only lost. The least quality q is that of the\n"
+        "cells of forces, 1 for a regular tetrahedron. The stable step of symplectic Euler is\n"
+        "relative to that before: median and least. Cells `left` were met by the blade and not\n"
+        "cut.\n\n"
         + table(head, [row(method) for method in ("virtual", "subdivide")])
         + f"\n\nPrinted by `python bench/carriers.py --write`; {machine_line()}\n"
     )

@@ -52,8 +52,8 @@ py::dict to_dict(const CutPlan& plan) {
   result["area"] = plan.area;
   result["rest_area"] = plan.rest_area;
   std::vector<std::int32_t> copied;
-  copied.reserve(plan.nodes.size());
-  for (const BornNode& node : plan.nodes) copied.push_back(node.copied);
+  for (const BornNode& node : plan.nodes)
+    if (node.copied >= 0 && node.copied < plan.first_node) copied.push_back(node.copied);
   result["copied"] = to_array(copied);
   std::vector<std::pair<std::int32_t, std::string>> unresolved;
   unresolved.reserve(plan.unresolved.size());
@@ -70,8 +70,9 @@ py::dict to_dict(const Simulation::Edited& edited) {
   return result;
 }
 
-py::dict cut(Simulation& simulation, const std::string& body, const Sweep& sweep, double t0, bool refine) {
-  return to_dict(simulation.cut(body, sweep, {.t0 = t0, .refine = refine}));
+py::dict cut(Simulation& simulation, const std::string& body, const Sweep& sweep, double t0, bool refine,
+             bool divide) {
+  return to_dict(simulation.cut(body, sweep, {.t0 = t0, .refine = refine, .divide = divide}));
 }
 
 py::dict ablate(Simulation& simulation, const std::string& body, const Ints& cells) {
@@ -178,14 +179,29 @@ py::list body_cells(const Simulation& simulation, const std::string& name) {
   return runs;
 }
 
-/// The first day's node of each node of the body.
+/// The first day's node of each node of the body; -1 of those that a blade put on an edge.
 Ints roots(const Simulation& simulation, const std::string& name) {
   const auto cut = cut_state(simulation.world(), name);
-  const Hosts& hosts = cut->hosts;
-  Ints result(static_cast<py::ssize_t>(hosts.node_count()));
-  for (std::int32_t node = 0; node < hosts.node_count(); ++node)
-    result.mutable_data()[node] = hosts.root(node);
-  return result;
+  std::vector<std::int32_t> found;
+  for (std::int32_t node = 0; node < cut->hosts.node_count(); ++node)
+    found.push_back(std::max(cut->hosts.root(node), -1));
+  return to_array(found);
+}
+
+/// Places at rest (n, 3) of the nodes of the body, and the nodes of the first day between which each is.
+py::tuple made_of(const Simulation& simulation, const std::string& name) {
+  const auto cut = cut_state(simulation.world(), name);
+  Doubles places({static_cast<py::ssize_t>(cut->hosts.node_count()), py::ssize_t{3}});
+  std::ranges::copy(cut->hosts.rest(), places.mutable_data());
+  std::vector<Rider> riders;
+  for (std::int32_t node = 0; node < cut->hosts.node_count(); ++node) {
+    const std::int32_t root = cut->hosts.root(node);
+    riders.push_back(Rider{{root, -1, -1, -1}, {1.0, 0.0, 0.0, 0.0}, 1});
+    if (root < 0) riders.back() = cut->hosts.points()[static_cast<std::size_t>(-1 - root)];
+  }
+  py::dict result;
+  add_riders(riders, result);
+  return py::make_tuple(places, py::object(result["nodes"]), py::object(result["weights"]));
 }
 
 /// Anchors of points (m, 3) in a body: whether they are inside (m,), nodes (m, 4), weights (m, 4), offsets.
@@ -217,7 +233,8 @@ std::shared_ptr<World> edited_like(const World& fresh, const Simulation& simulat
 
 void bind_cut(py::class_<Simulation>& simulation) {
   using py::arg;
-  simulation.def("cut", &cut, py::kw_only(), arg("body"), arg("sweep"), arg("t0"), arg("refine"))
+  simulation
+      .def("cut", &cut, py::kw_only(), arg("body"), arg("sweep"), arg("t0"), arg("refine"), arg("divide"))
       .def("ablate", &ablate, py::kw_only(), arg("body"), arg("cells"))
       .def("anchors", &anchored, py::kw_only(), arg("body"), arg("points"))
       .def(
@@ -249,6 +266,7 @@ void bind_cut(py::class_<Simulation>& simulation) {
       .def("pieces", &found_pieces, arg("body"))
       .def("body_cells", &body_cells, arg("body"))
       .def("roots", &roots, arg("body"))
+      .def("made_of", &made_of, arg("body"))
       .def(
           "mass",
           [](const Simulation& s, const std::string& name) {

@@ -13,11 +13,18 @@ namespace {
 BodyEdit edit_of(const BodyDescription& body, const CutState& before, const CutPlan& plan) {
   BodyEdit edit;
   set_cells(plan, edit);
-  for (const BornNode& node : plan.nodes) edit.copied.push_back(node.copied);
   edit.bare = bare_after(body.bare, plan);
   CutState after = before;
   after.hosts.apply(plan);
   after.material.apply(plan);
+  std::int32_t number = plan.first_node;
+  for (const BornNode& node : plan.nodes) {
+    const bool is_copy = node.between.count == 0;
+    edit.copied.push_back(is_copy ? node.copied : after.hosts.root(number));
+    edit.between.push_back(node.between);
+    ++number;
+  }
+  edit.points = first_day_points(after.hosts);
   edit.cut = std::make_shared<const CutState>(std::move(after));
   return edit;
 }
@@ -27,7 +34,8 @@ BodyEdit edit_of(const BodyDescription& body, const CutState& before, const CutP
 void refuse_crossings(const World& world, const State& state, std::string_view name, const CutWorld& cut) {
   if (world.contact() == nullptr || !world.contact()->description().travel) return;
   State after = state;
-  copy_rows(cut.copies, after.positions);
+  blend_rows(cut.born.blends, after.positions);
+  copy_rows(cut.born.copies, after.positions);
   const auto many = crossings(*cut.world->contact(), after).size();
   if (many == 0 || many <= crossings(*world.contact(), state).size()) return;
   throw ParameterError(
@@ -63,7 +71,7 @@ CutPlan plan_body_ablation(const World& world, std::string_view name, std::vecto
 
 CutWorld cut_world(const World& world, const State& state, std::string_view name, const CutPlan& plan) {
   const BodyEdit edit = edit_of(described(world, name), *cut_state(world, name), plan);
-  CutWorld made = {edit_body(world, state, name, edit), row_copies(world, name, edit)};
+  CutWorld made = {edit_body(world, state, name, edit), rows_born(world, name, edit)};
   refuse_crossings(world, state, name, made);
   return made;
 }

@@ -15,6 +15,19 @@ std::vector<std::int32_t> bare_after(const std::vector<std::int32_t>& before, co
   return bare;
 }
 
+std::vector<FirstDayPoint> first_day_points(const Hosts& hosts) {
+  std::vector<FirstDayPoint> points;
+  points.reserve(hosts.points().size());
+  for (const Rider& rider : hosts.points()) {
+    FirstDayPoint& point = points.emplace_back();
+    for (std::size_t i = 0; i < static_cast<std::size_t>(rider.count); ++i) {
+      point.node[i] = rider.node[i];
+      point.weight[i] = rider.weight[i];
+    }
+  }
+  return points;
+}
+
 void set_cells(const CutPlan& plan, CellEdit& edit) {
   edit.gone = plan.gone;
   for (const BornCell& cell : plan.born)

@@ -6,11 +6,15 @@
 
 #include "tissu/edit/cut/cut_plan.h"
 #include "tissu/model/cell_edit.h"
+#include "tissu/world/description.h"
 
 namespace tissu {
 
 /// Nodes without material: those from before, old ones that lose it, and new ones that never have any.
 std::vector<std::int32_t> bare_after(const std::vector<std::int32_t>& before, const CutPlan& plan);
+
+/// The places of nodes on edges as a description has them.
+std::vector<FirstDayPoint> first_day_points(const Hosts& hosts);
 
 /// The cells of a plan.
 void set_cells(const CutPlan& plan, CellEdit& edit);

@@ -41,6 +41,24 @@ bool has_material(const BodyDescription& body) {
   });
 }
 
+namespace {
+
+std::vector<Rider> riders_of(const std::vector<FirstDayPoint>& points) {
+  std::vector<Rider> riders;
+  riders.reserve(points.size());
+  for (const FirstDayPoint& point : points) {
+    Rider& rider = riders.emplace_back();
+    for (std::size_t i = 0; i < point.node.size() && point.node[i] >= 0; ++i) {
+      rider.node[i] = point.node[i];
+      rider.weight[i] = point.weight[i];
+      ++rider.count;
+    }
+  }
+  return riders;
+}
+
+}  // namespace
+
 CutState cut_state_of(BodyDescription body, Material material) {
   number_cells(body);
   const auto nodes = static_cast<std::int32_t>(body.positions.size() / 3);
@@ -72,7 +90,8 @@ CutState cut_state_of(BodyDescription body, Material material) {
     }
   }
   std::ranges::sort(cells, {}, &Hosts::Cell::number);
-  return {Hosts(body.positions, std::move(root), cells, body.next_cell), std::move(material)};
+  return {Hosts(body.positions, std::move(root), cells, body.next_cell, riders_of(body.points)),
+          std::move(material)};
 }
 
 std::shared_ptr<const CutState> cut_state(const World& world, std::string_view name) {

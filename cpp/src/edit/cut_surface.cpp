@@ -84,7 +84,11 @@ SurfaceDescription cut_surface(const BodyDescription& body, const ContactDescrip
   }
   surface.roots.resize(body.positions.size() / 3 - body.copies_of.size());
   std::iota(surface.roots.begin(), surface.roots.end(), 0);
-  surface.roots.insert(surface.roots.end(), body.copies_of.begin(), body.copies_of.end());
+  std::map<std::int32_t, std::int32_t> on_edges;  // the first node at each place
+  for (const std::int32_t root : body.copies_of) {
+    const auto node = static_cast<std::int32_t>(surface.roots.size());
+    surface.roots.push_back(root >= 0 ? root : on_edges.try_emplace(root, node).first->second);
+  }
   return surface;
 }
 
@@ -93,9 +97,14 @@ void part_pairs(ContactDescription& contact, const BodyDescription& body,
   const auto first = static_cast<std::int32_t>(body.positions.size() / 3 - copied.size());
   for (ContactPair& pair : contact.pairs) {
     if (pair.nodes.empty() || contact.bodies[static_cast<std::size_t>(pair.a)].name != body.name) continue;
+    const auto meets = [&](std::int32_t node) { return std::ranges::binary_search(pair.nodes, node); };
     for (std::size_t k = 0; k < copied.size(); ++k) {
-      if (std::ranges::binary_search(pair.nodes, copied[k]))
-        pair.nodes.push_back(first + static_cast<std::int32_t>(k));
+      const bool on_edge = copied[k] < 0;
+      const bool met = on_edge
+                           ? std::ranges::all_of(body.points[static_cast<std::size_t>(-1 - copied[k])].node,
+                                                 [&](std::int32_t node) { return node < 0 || meets(node); })
+                           : meets(copied[k]);
+      if (met) pair.nodes.push_back(first + static_cast<std::int32_t>(k));
     }
   }
 }

@@ -39,6 +39,14 @@ CellPlace place_of(const CellPlaces& places, std::int32_t number, const BodyDesc
   throw ParameterError("body \"" + body.name + "\" has no cell " + std::to_string(number) + " (any more).");
 }
 
+/// sum w X, in the order of `Rider::at`.
+Vec3 place_of(const BodyDescription& body, const FirstDayPoint& point) {
+  Vec3 sum = Vec3::Zero();
+  for (std::size_t i = 0; i < point.node.size() && point.node[i] >= 0; ++i)
+    sum += point.weight[i] * block(ConstReals(body.positions), point.node[i]);
+  return sum;
+}
+
 void add_nodes(BodyDescription& body, const std::vector<std::int32_t>& copied) {
   const auto wanted = static_cast<std::int32_t>(copied.size());
   if (wanted > body.room) {
@@ -49,6 +57,12 @@ void add_nodes(BodyDescription& body, const std::vector<std::int32_t>& copied) {
   const auto first_day =
       static_cast<std::int32_t>(body.positions.size() / 3) - static_cast<std::int32_t>(body.copies_of.size());
   for (const std::int32_t node : copied) {
+    if (node < 0) {
+      const Vec3 place = place_of(body, body.points[static_cast<std::size_t>(-1 - node)]);
+      body.positions.insert(body.positions.end(), place.data(), place.data() + 3);
+      body.copies_of.push_back(node);
+      continue;
+    }
     const auto at = 3 * static_cast<std::size_t>(node);
     for (std::size_t k = 0; k < 3; ++k) body.positions.push_back(body.positions[at + k]);
     body.copies_of.push_back(node < first_day ? node
@@ -110,14 +124,27 @@ void edit_cells(BodyDescription& body, const BodyEdit& edit) {
   std::erase_if(body.elastic, [](const ElasticBlock& block) { return block.cells.empty(); });
 }
 
-/// Copies of held nodes are held as those are, but for nodes without material.
+std::vector<std::int32_t> ascending(std::vector<std::int32_t> numbers) {
+  std::ranges::sort(numbers);
+  return numbers;
+}
+
+/// Copies of held nodes are held as those are, but for nodes without material. A node on an edge is held
+/// where all nodes of the first day that it lies between were: it could not move before the cut either.
 void part_supports(WorldDescription& description, const BodyDescription& body, const BodyEdit& edit) {
   const auto first = static_cast<std::int32_t>(body.positions.size() / 3 - edit.copied.size());
   for (FixedNodes& fixed : description.fixed) {
     if (fixed.body != body.name || !fixed.positions.empty()) continue;  // debris has no copies
+    if (fixed.first_day.empty()) fixed.first_day = ascending(fixed.nodes);
+    const auto is_held = [&](std::int32_t node) {
+      if (node >= 0) return std::ranges::find(fixed.nodes, node) != fixed.nodes.end();
+      const FirstDayPoint& point = body.points[static_cast<std::size_t>(-1 - node)];
+      return std::ranges::all_of(point.node, [&](std::int32_t one) {
+        return one < 0 || std::ranges::binary_search(fixed.first_day, one);
+      });
+    };
     for (std::size_t k = 0; k < edit.copied.size(); ++k) {
-      if (std::ranges::find(fixed.nodes, edit.copied[k]) != fixed.nodes.end())
-        fixed.nodes.push_back(first + static_cast<std::int32_t>(k));
+      if (is_held(edit.copied[k])) fixed.nodes.push_back(first + static_cast<std::int32_t>(k));
     }
     std::erase_if(fixed.nodes,
                   [&](std::int32_t node) { return std::ranges::binary_search(body.bare, node); });
@@ -186,6 +213,7 @@ void refuse_unparted(const WorldDescription& description, const BodyDescription&
 
 BodyDescription edited(BodyDescription body, const BodyEdit& edit) {
   number_cells(body);
+  if (!edit.points.empty()) body.points = edit.points;
   add_nodes(body, edit.copied);
   edit_cells(body, edit);
   body.bare = edit.bare;
@@ -215,15 +243,24 @@ std::shared_ptr<const World> edit_body(const World& world, const State& state, s
   return std::make_shared<World>(std::move(description), &world, true);
 }
 
-std::vector<RowCopy> row_copies(const World& world, std::string_view name, const BodyEdit& edit) {
+RowsBorn rows_born(const World& world, std::string_view name, const BodyEdit& edit) {
   const Body& body = world.body(name);
-  std::vector<RowCopy> copies;
-  copies.reserve(edit.copied.size());
+  RowsBorn born;
   for (std::size_t k = 0; k < edit.copied.size(); ++k) {
-    copies.push_back(
-        {body.first_node + body.node_count + static_cast<std::int32_t>(k), body.first_node + edit.copied[k]});
+    const std::int32_t to = body.first_node + body.node_count + static_cast<std::int32_t>(k);
+    if (edit.copied[k] >= 0) {
+      born.copies.push_back({to, body.first_node + edit.copied[k]});
+      continue;
+    }
+    const Rider& between = edit.between[k];
+    RowBlend& blend = born.blends.emplace_back();
+    blend.to = to;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(between.count); ++i) {
+      blend.from[i] = body.first_node + between.node[i];
+      blend.weight[i] = between.weight[i];
+    }
   }
-  return copies;
+  return born;
 }
 
 }  // namespace tissu

@@ -61,6 +61,7 @@ struct Family {
     std::unordered_map<std::int32_t, std::vector<std::int32_t>> result;
     for (std::size_t k = 0; k < body.copies_of.size(); ++k) {
       const std::int32_t root = body.copies_of[k];
+      if (root < 0) continue;  // on an edge, where no load of the first day acts
       const auto [found, is_new] = result.try_emplace(root);
       if (is_new && !is_bare(root)) found->second.push_back(root);
       const auto copy = first_day + static_cast<std::int32_t>(k);

@@ -42,6 +42,10 @@ void add_cut(const BodyDescription& body, BodyTopology& to) {
     to.nodes.insert(to.nodes.end(), first, first + static_cast<std::ptrdiff_t>(nodes));
   }
   to.copies_of = body.copies_of;
+  for (const FirstDayPoint& point : body.points) {
+    to.point_nodes.insert(to.point_nodes.end(), point.node.begin(), point.node.end());
+    to.point_weights.insert(to.point_weights.end(), point.weight.begin(), point.weight.end());
+  }
   to.bare = body.bare;
   to.next_cell = body.next_cell;
   to.material = pack(body.cut->material);
@@ -130,6 +134,7 @@ class Replay {
     }
     std::ranges::sort(edit_.gone);
     edit_.copied = topology_.copies_of;
+    edit_.points = points();
     edit_.bare = topology_.bare;
     edit_.next_cell = topology_.next_cell;
     edit_.inherits = false;
@@ -160,11 +165,25 @@ class Replay {
       return [count](std::int32_t node) { return node < 0 || node >= count; };
     };
     const auto first = static_cast<std::int32_t>(body_.positions.size() / 3);
-    if (std::ranges::any_of(topology_.copies_of, is_outside(first)) ||
+    const std::vector<std::int32_t>& of_points = topology_.point_nodes;
+    if (of_points.size() % 4 != 0 || topology_.point_weights.size() != of_points.size())
+      refuse(topology_, "its lists differ in length");
+    const auto points = static_cast<std::int32_t>(of_points.size() / 4);
+    const auto is_no_root = [&](std::int32_t node) { return node < -points || node >= first; };
+    if (std::ranges::any_of(topology_.copies_of, is_no_root) ||
+        std::ranges::any_of(of_points, [&](std::int32_t node) { return node < -1 || node >= first; }) ||
         std::ranges::any_of(topology_.nodes, is_outside(node_count())) ||
         std::ranges::any_of(topology_.bare, is_outside(node_count()))) {
       refuse(topology_, "it names nodes that are not there");
     }
+  }
+  [[nodiscard]] std::vector<FirstDayPoint> points() const {
+    std::vector<FirstDayPoint> points(topology_.point_nodes.size() / 4);
+    for (std::size_t i = 0; i < topology_.point_nodes.size(); ++i) {
+      points[i / 4].node[i % 4] = topology_.point_nodes[i];
+      points[i / 4].weight[i % 4] = topology_.point_weights[i];
+    }
+    return points;
   }
   void list_cells(const ElasticBlock& block) {
     const std::size_t nodes = block.cells.size() / block.cell_numbers.size();

@@ -14,7 +14,8 @@ void Simulation::prepare_edits() {
   replace_world(world_);
 }
 
-void Simulation::replace_world(std::shared_ptr<const World> world, std::span<const RowCopy> copies) {
+void Simulation::replace_world(std::shared_ptr<const World> world, std::span<const RowCopy> copies,
+                               std::span<const RowBlend> blends) {
   if (world->blocks() != world_->blocks()) {
     throw ParameterError("the new world has other unknowns than the one that runs.");
   }
@@ -28,7 +29,7 @@ void Simulation::replace_world(std::shared_ptr<const World> world, std::span<con
   const std::vector<double> memory = integrator_->memory();
   integrator_->prepare(*world, solver_.get(), profile_);
   integrator_->restore(memory);
-  take_over(copies);
+  take_over(copies, blends);
   carry_memory(*world_, *world, state_);
   world_ = std::move(world);
   editor_ = std::move(editor);
@@ -40,11 +41,14 @@ void Simulation::replace_world(std::shared_ptr<const World> world, std::span<con
 }
 
 /// Rows that an edit made take over everything of others.
-void Simulation::take_over(std::span<const RowCopy> copies) {
+void Simulation::take_over(std::span<const RowCopy> copies, std::span<const RowBlend> blends) {
+  integrator_->blend_rows(blends);
   integrator_->copy_rows(copies);
   for (std::vector<double>* values :
-       {&state_.positions, &state_.velocities, &last_good_.positions, &last_good_.velocities, &held_})
+       {&state_.positions, &state_.velocities, &last_good_.positions, &last_good_.velocities, &held_}) {
+    blend_rows(blends, *values);
     copy_rows(copies, *values);
+  }
 }
 
 void Simulation::follow(const WorldEditor::Made& made) {
@@ -86,7 +90,7 @@ Simulation::Edited Simulation::make(std::string_view body, CutPlan plan) {
   }
   CutWorld made = cut_world(*world_, state_, body, edited.plan);
   edited.before = totals(*world_, state_, body);
-  replace_world(std::move(made.world), made.copies);
+  replace_world(std::move(made.world), made.born.copies, made.born.blends);
   edited.after = totals(*world_, state_, body);
   edited.relaid = true;
   return edited;

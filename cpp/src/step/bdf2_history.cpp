@@ -86,4 +86,11 @@ void Bdf2History::copy_rows(std::span<const RowCopy> copies) {
   tissu::copy_rows(copies, before_.velocities);
 }
 
+void Bdf2History::blend_rows(std::span<const RowBlend> blends) {
+  if (end_.is_empty()) return;
+  end_.blend_rows(blends);
+  tissu::blend_rows(blends, before_.positions);
+  tissu::blend_rows(blends, before_.velocities);
+}
+
 }  // namespace tissu

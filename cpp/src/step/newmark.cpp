@@ -83,4 +83,10 @@ void Newmark::copy_rows(std::span<const RowCopy> copies) {
   tissu::copy_rows(copies, a_);
 }
 
+void Newmark::blend_rows(std::span<const RowBlend> blends) {
+  if (end_.is_empty()) return;
+  end_.blend_rows(blends);
+  tissu::blend_rows(blends, a_);
+}
+
 }  // namespace tissu

@@ -25,6 +25,12 @@ void StateMark::copy_rows(std::span<const RowCopy> copies) {
   tissu::copy_rows(copies, velocities_);
 }
 
+void StateMark::blend_rows(std::span<const RowBlend> blends) {
+  if (is_empty()) return;
+  tissu::blend_rows(blends, positions_);
+  tissu::blend_rows(blends, velocities_);
+}
+
 bool StateMark::is(const State& state) const {
   return !positions_.empty() && time_ == state.time && positions_ == state.positions &&
          velocities_ == state.velocities;

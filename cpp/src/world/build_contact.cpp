@@ -26,9 +26,17 @@ void WorldBuilder::separate_surfaces() {
   for (const BodyDescription& body : description_.bodies) {
     const std::int32_t first = world_.body(body.name).first_node;
     auto copy = first + static_cast<std::int32_t>(body.positions.size() / 3 - body.copies_of.size());
+    const ConstReals before(before_->rest_positions());
     for (const std::int32_t node : body.copies_of) {
-      block(Reals(world_.rest_.positions), copy++) =
-          block(ConstReals(before_->rest_positions()), first + node);
+      Vec3 place = Vec3::Zero();
+      if (node >= 0) {
+        place = block(before, first + node);
+      } else {
+        const FirstDayPoint& point = body.points[static_cast<std::size_t>(-1 - node)];
+        for (std::size_t i = 0; i < 4 && point.node[i] >= 0; ++i)
+          place += point.weight[i] * block(before, first + point.node[i]);
+      }
+      block(Reals(world_.rest_.positions), copy++) = place;
     }
   }
 }

@@ -9,6 +9,7 @@ import numpy as np
 
 from tissu.compile.balance import check_supports
 from tissu.compile.contact import prepare_contact
+from tissu.compile.dividing import check_divided
 from tissu.compile.material import cell_groups, density_of
 from tissu.compile.meshes import known_mesh
 from tissu.compile.model import check_kept, check_rotations, note_condensed, note_static_frames
@@ -53,6 +54,8 @@ def prepare(scene: SceneData) -> Prepared:
     check_kept(prepared)
     with contextlib.suppress(Unknown):
         check_rotations(prepared)
+    with contextlib.suppress(Unknown):
+        check_divided(prepared)
     check_supports(prepared)
     with contextlib.suppress(Unknown):
         prepare_contact(prepared)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Any
 
@@ -56,9 +57,9 @@ class CutReport:
         body: its name.
         by: name of the instrument that made it, "tear" of a tear; empty: a call of the program.
         cells_cut: cells that the blade divided or along whose faces it ran.
-        cells_new: cells that replaced them.
+        cells_new: cells that replaced them: copies, or parts where cuts divide cells.
         cells_gone: cells that were replaced or removed.
-        nodes_new: copies of nodes.
+        nodes_new: copies of nodes, and nodes on edges where cuts divide cells.
         faces_opened: triangles of the material, each with two sides now.
         area: of one side of these faces now [m2].
         rest_area: the same at rest [m2].
@@ -75,6 +76,8 @@ class CutReport:
         links_severed: links of tissue, each of a point with a frame or with a node of a body.
         points_gone: numbers of the points of tissue that have lost their last link, or were taken.
         relaid: whether everything was rebuilt, and not only the parts that the edit touched.
+        stable_step: the largest stable step of an explicit method after it [s], measured where cuts
+            divide cells; else infinite.
         milliseconds: wall time.
     """
 
@@ -100,6 +103,7 @@ class CutReport:
     links_severed: int
     points_gone: tuple[int, ...]
     relaid: bool
+    stable_step: float
     milliseconds: float
 
     @property
@@ -121,6 +125,8 @@ class CutReport:
         text += f"{counted(len(self.pieces), 'piece')}, {self.milliseconds:.1f} ms"
         if self.unresolved:
             text += f"; {counted(len(self.unresolved), 'cell')} met and not cut"
+        if math.isfinite(self.stable_step):
+            text += f"; steps are stable up to {self.stable_step:.4g} s"
         return text
 
     def _of_tissue(self, by: str) -> str:
@@ -141,6 +147,7 @@ def cut_report(
     by: str,
     pieces: tuple[Piece, ...],
     released: tuple[int, ...],
+    stable_step: float,
     milliseconds: float,
 ) -> CutReport:
     """The report of what the core made, between totals of what it touched."""
@@ -168,5 +175,6 @@ def cut_report(
         links_severed=0,
         points_gone=(),
         relaid=made["relaid"],
+        stable_step=stable_step,
         milliseconds=milliseconds,
     )

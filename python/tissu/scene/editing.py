@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from typing import Annotated
+from collections.abc import Iterator, Mapping
+from typing import Annotated, Literal
 
 from pydantic import BeforeValidator
 
@@ -12,12 +13,15 @@ from tissu.reading import Maybe, Read
 from tissu.scene.effect import Effect
 from tissu.scene.field import field
 from tissu.scene.part import Part
+from tissu.scene.problem import Problem, nearest, one_of_words
 
 __all__ = ["Editing"]
 
 
 _SHARE = 0.25
 _LEAST = 256
+
+Method = Literal["auto", "virtual", "subdivide"]
 
 
 class Editing(Part):
@@ -27,6 +31,25 @@ class Editing(Part):
     """number of nodes that cuts may add, as a share of the nodes of the body; absent: a quarter,
     and 256 more; a cut that needs more is refused
     """
+
+    method: Read[Method | dict[str, Method], Method | Mapping[str, Method]] = field(default="auto")
+    """how a cut parts cells: virtual (copies of whole cells) or subdivide (the cells are divided
+    along the cut; tetrahedra and triangles of first order only); auto is virtual; or a map from
+    bodies to methods
+    """
+
+    def divides(self, body: str) -> bool:
+        """Whether a cut divides the cells of a body."""
+        method = self.method.get(body, "auto") if isinstance(self.method, dict) else self.method
+        return method == "subdivide"
+
+    def unknown_bodies(self, bodies: Mapping[str, object]) -> Iterator[Problem]:
+        """Methods of bodies that the scene does not have."""
+        for body in self.method if isinstance(self.method, dict) else ():
+            if body not in bodies:
+                text = f"no body is named '{body}'{nearest(body, bodies)} "
+                text += f"Bodies: {one_of_words(bodies)}"
+                yield Problem(("editing", "method", body), text)
 
     def nodes(self, count: int) -> int:
         """Number of nodes that cuts may make in a body of `count` nodes."""
@@ -39,7 +62,13 @@ class Editing(Part):
         room = f"{_SHARE:.0%} of a body's nodes and {_LEAST} more"
         if self.room is not None:
             room = f"{self.room:.0%} of a body's nodes"
-        return Effect("cutting", f"editing leaves room for {room}")
+        why = f"editing leaves room for {room}"
+        if isinstance(self.method, dict):
+            divided = [body for body in self.method if self.divides(body)]
+            why += f"; cuts divide the cells of {', '.join(divided)}" if divided else ""
+        elif self.method == "subdivide":
+            why += "; cuts divide cells"
+        return Effect("cutting", why)
 
 
 def _written(value: object) -> object:

@@ -30,6 +30,9 @@ def instrument_problems(scene: Any) -> Iterator[Problem]:
                     yield Problem(path, text)
             yield from _edited(scene, path, "an instrument")
             yield from _pressing(scene, instrument, path)
+    with contextlib.suppress(Unknown):
+        if getattr(scene, "editing", None) is not None:
+            yield from scene.editing.unknown_bodies(scene.bodies)
     for number, tear in enumerate(getattr(scene, "tear", ())):
         with contextlib.suppress(Unknown):
             if tear.body in tissues_of(scene):

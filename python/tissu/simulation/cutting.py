@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import math
 import time
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -70,6 +71,8 @@ class Cutting(Remains, Severing):
         def positions(self) -> Mapping[str, Floats]: ...
         def _require_body(self, name: str) -> None: ...
         def _follow_cells(self, body: str) -> None: ...
+        @property
+        def stable_step(self) -> float: ...
         def _lay_views(self) -> None: ...
 
     def cut(self, body: str, blade: Blade, *, refine: bool = False) -> CutReport:
@@ -77,7 +80,8 @@ class Cutting(Remains, Severing):
 
         Each cell that the blade divides is replaced by one undistorted copy for each part, with the
         share of the material in that part (virtual nodes: Molino et al. 2004). So mass, momenta,
-        kinetic and elastic energy do not change. Nodes and cells keep their numbers; new ones
+        kinetic and elastic energy do not change. With `editing: {method: subdivide}` the cells are
+        divided instead, and new nodes lie on the cut. Nodes and cells keep their numbers; new ones
         follow the last. `surface` and `material` give the cut itself.
 
         Points of connective tissue lose the frames and nodes beyond the blade, for ever. Their
@@ -142,9 +146,18 @@ class Cutting(Remains, Severing):
         """Cut along a surface of the core; `nearest`: share of an edge from its end to go there."""
         return self._made(
             body,
-            lambda: self._core.cut(body=body, sweep=sweep, t0=nearest, refine=refine),
+            lambda: self._core.cut(
+                body=body,
+                sweep=sweep,
+                t0=nearest,
+                refine=refine,
+                divide=self._divides(body),
+            ),
             by=by,
         )
+
+    def _divides(self, body: str) -> bool:
+        return self.scene.editing is not None and self.scene.editing.divides(body)
 
     def mark(self) -> Mark:
         """Store the present state, cuts included; `rewind` returns to it any number of times.
@@ -207,6 +220,7 @@ class Cutting(Remains, Severing):
             by=by,
             pieces=pieces,
             released=released,
+            stable_step=self.stable_step if met and self._divides(body) else math.inf,
             milliseconds=1e3 * (time.perf_counter() - start),
         )
 
@@ -220,13 +234,14 @@ class Cutting(Remains, Severing):
         return tuple(parted)
 
 
-def cut_mesh(rest: Mesh, runs: list[Any], roots: Ints) -> Mesh:
+def cut_mesh(rest: Mesh, runs: list[Any], roots: Ints, places: Floats) -> Mesh:
     """The mesh of the cells of a body that was cut, in ascending number, at rest.
 
     Args:
         rest: of the first day.
         runs: type, numbers, origins, shares and nodes of runs of cells.
-        roots: the first day's node of each node.
+        roots: the first day's node of each node; -1 of those that a blade put on an edge.
+        places: of all nodes at rest.
     """
     origins = np.concatenate([run[2] for run in runs])
     regions = {
@@ -235,7 +250,7 @@ def cut_mesh(rest: Mesh, runs: list[Any], roots: Ints) -> Mesh:
     }
     return dataclasses.replace(
         rest,
-        points=rest.points[roots],
+        points=np.where(roots[:, None] < 0, places, rest.points[roots]),
         cells=tuple(CellBlock(type=run[0], nodes=run[4]) for run in runs),
         regions=regions,
         border_regions={},

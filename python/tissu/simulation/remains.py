@@ -65,7 +65,7 @@ class Remains:
         return material_now(found, self._meshes[body].points, self.positions[body])
 
     def is_cut(self, body: str) -> bool:
-        """Whether a blade has separated nodes of a body, so that its cells overlap.
+        """Whether a blade has separated nodes of a body, or divided its cells.
 
         Raises:
             ParameterError: no body of that name.
@@ -103,11 +103,26 @@ class Remains:
     def born(self, body: str) -> Ints:
         """The original node (n,) that each node of `meshes[body]` is, or is a copy of.
 
+        -1 of a node that a blade put on an edge, where cuts divide cells; see `made_of`.
+
         Raises:
             ParameterError: no such body; the scene was compiled without `editing: true`.
         """
         self._require_editing(body)
         return self._core.roots(body)
+
+    def made_of(self, body: str) -> tuple[Ints, Floats]:
+        """The original nodes between which each node of `meshes[body]` lies at rest.
+
+        Returns:
+            nodes (n, 4), -1 beyond the last, and their weights (n, 4), which sum to 1.
+
+        Raises:
+            ParameterError: no such body; the scene was compiled without `editing: true`.
+        """
+        self._require_editing(body)
+        _, nodes, weights = self._core.made_of(body)
+        return nodes, weights
 
     def quality(self, body: str, *, rest: bool = False) -> Quality:
         """Measures of the shape of the material's tetrahedra, each 1 for the regular one.

@@ -441,7 +441,8 @@ class Simulation(Inspected, Handled, Touched, Changed, Cutting, Instrumented):
         """The mesh of the present cells of a body."""
         rest = self._rest[body]
         if self._core.body_range(body)[1] > rest.node_count:
-            return cut_mesh(rest, self._core.body_cells(body), self._core.roots(body))
+            core = self._core
+            return cut_mesh(rest, core.body_cells(body), core.roots(body), core.made_of(body)[0])
         if self._core.cell_count(body) == rest.cell_count:
             return rest
         return keep_cells(rest, self.remaining_cells(body))

@@ -128,7 +128,7 @@ TEST(EditBody, PartsNodesAndKeepsMassAndRows) {
   for (const auto& model : after->forces()) {
     if (model->kind() == ForceKind::external) model->add_force(after->rest_state(), test::scratch(), f);
   }
-  for (const RowCopy copy : row_copies(before, "body", pair.edit)) {
+  for (const RowCopy copy : rows_born(before, "body", pair.edit).copies) {
     EXPECT_NEAR(block(ConstReals(f), copy.to).x(), 0.5, 1e-12);  // both cells are alike
     EXPECT_NEAR(block(ConstReals(f), copy.from).x(), 0.5, 1e-12);
   }

@@ -26,7 +26,7 @@ bool changes(const CutPlan& plan);
 
 struct CutWorld {
   std::shared_ptr<const World> world;
-  std::vector<RowCopy> copies;  ///< rows of the state that take over others
+  RowsBorn born;  ///< rows of the state that take over others
 };
 
 /// A new world in which the plan is made. Refuses what edit_body refuses.

@@ -9,15 +9,20 @@
 #include <string_view>
 #include <vector>
 
+#include "tissu/edit/cut/hosts.h"
 #include "tissu/model/cell_edit.h"
+#include "tissu/state/row_blend.h"
 #include "tissu/state/state.h"
 #include "tissu/world/world.h"
 
 namespace tissu {
 
 struct BodyEdit : CellEdit {
-  std::vector<std::int32_t> copied;  ///< of each new node, which follow the last: the node that it copies
-  std::vector<std::int32_t> bare;    ///< nodes with cells but without material at them, ascending
+  /// Of each new node, which follow the last: the node that it copies; -1 - i: it is at `points[i]`.
+  std::vector<std::int32_t> copied;
+  std::vector<Rider> between;  ///< of each, the old nodes between which it is; empty where all are copies
+  std::vector<FirstDayPoint> points;  ///< all of the body after the edit
+  std::vector<std::int32_t> bare;     ///< nodes with cells but without material at them, ascending
   /// New cells take over what their parents remember; else every cell is there already in the world whose
   /// memory comes along.
   bool inherits = true;
@@ -38,7 +43,12 @@ std::shared_ptr<const World> edit_body(const World& world, const State& state, s
 /// Refuses a body whose nodes cannot part, with what stands against it.
 void refuse_unparted(const WorldDescription& description, const BodyDescription& body);
 
-/// What the rows of the new nodes take over; `world` is that before the edit.
-std::vector<RowCopy> row_copies(const World& world, std::string_view body, const BodyEdit& edit);
+/// What the rows of the new nodes take over, first those between others, then copies.
+struct RowsBorn {
+  std::vector<RowBlend> blends;
+  std::vector<RowCopy> copies;
+};
+/// `world` is that before the edit.
+RowsBorn rows_born(const World& world, std::string_view body, const BodyEdit& edit);
 
 }  // namespace tissu

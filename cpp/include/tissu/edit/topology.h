@@ -33,12 +33,14 @@ struct BodyTopology {
   std::vector<std::int32_t> loose_nodes;  ///< that no cell uses, numbers in the body
   std::vector<double> places;             ///< where these are held [m], three for each
   // Of a body that was cut only:
-  std::vector<std::int32_t> origins;    ///< the first day's cell that each cell comes from
-  std::vector<double> shares;           ///< of material, of each
-  std::vector<std::int32_t> nodes;      ///< cell after cell
-  std::vector<std::int32_t> copies_of;  ///< of the nodes that edits made: a node of the first day
-  std::vector<std::int32_t> bare;       ///< nodes without material at them
-  std::int32_t next_cell = 0;           ///< the number that the next cell gets
+  std::vector<std::int32_t> origins;      ///< the first day's cell that each cell comes from
+  std::vector<double> shares;             ///< of material, of each
+  std::vector<std::int32_t> nodes;        ///< cell after cell
+  std::vector<std::int32_t> copies_of;    ///< of the nodes that edits made: as `BodyDescription` has them
+  std::vector<std::int32_t> point_nodes;  ///< of its points, four for each, -1 beyond the last
+  std::vector<double> point_weights;      ///< four for each
+  std::vector<std::int32_t> bare;         ///< nodes without material at them
+  std::int32_t next_cell = 0;             ///< the number that the next cell gets
   PackedMaterial material;
 
   [[nodiscard]] bool was_cut() const { return !origins.empty(); }

@@ -89,7 +89,8 @@ class Simulation {
   /// Goes on with another world of the same unknowns: made by an editor from this one, or of the same scene
   /// with other numbers in it. What models remember goes along, as far as the new ones have it too; rows of
   /// nodes that an edit made take over everything of those that they copy.
-  void replace_world(std::shared_ptr<const World> world, std::span<const RowCopy> copies = {});
+  void replace_world(std::shared_ptr<const World> world, std::span<const RowCopy> copies = {},
+                     std::span<const RowBlend> blends = {});
 
   /// What `rewind` goes back to: the world and all that its next step depends on.
   struct Mark {
@@ -114,7 +115,7 @@ class Simulation {
   StepReport step_in_parts(double h, int halvings);
   Edited make(std::string_view body, CutPlan plan);
   void follow(const WorldEditor::Made& made);
-  void take_over(std::span<const RowCopy> copies);
+  void take_over(std::span<const RowCopy> copies, std::span<const RowBlend> blends = {});
   /// Whether the world is still the one of a mark.
   [[nodiscard]] bool is_at(const Mark& mark) const;
   void return_to_world(const Mark& mark);

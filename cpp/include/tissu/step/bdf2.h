@@ -19,6 +19,7 @@ class Bdf2 final : public Integrator {
   void append_memory(std::vector<double>& memory) const override { history_.append_memory(memory); }
   void restore(ConstReals memory) override { history_.restore(memory); }
   void copy_rows(std::span<const RowCopy> copies) override { history_.copy_rows(copies); }
+  void blend_rows(std::span<const RowBlend> blends) override { history_.blend_rows(blends); }
 
  private:
   void solve_anew(State& state, double h, StepReport& report);

@@ -24,6 +24,7 @@ class Bdf2History {
   void append_memory(std::vector<double>& memory) const;
   void restore(ConstReals memory);
   void copy_rows(std::span<const RowCopy> copies);
+  void blend_rows(std::span<const RowBlend> blends);
 
  private:
   State before_;

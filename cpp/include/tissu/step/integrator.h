@@ -8,6 +8,7 @@
 
 #include "tissu/base/profile.h"
 #include "tissu/solve/linear_solver.h"
+#include "tissu/state/row_blend.h"
 #include "tissu/world/world.h"
 
 namespace tissu {
@@ -84,6 +85,8 @@ class Integrator {
   virtual bool follow_edit(std::span<const std::int32_t> /*rows*/) { return false; }
   /// Rows that an edit made take over what is kept of others.
   virtual void copy_rows(std::span<const RowCopy> /*copies*/) {}
+  /// The same for rows between others.
+  virtual void blend_rows(std::span<const RowBlend> /*blends*/) {}
 };
 
 }  // namespace tissu

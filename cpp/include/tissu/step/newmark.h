@@ -24,6 +24,7 @@ class Newmark final : public Integrator {
   void append_memory(std::vector<double>& memory) const override;
   void restore(ConstReals memory) override;
   void copy_rows(std::span<const RowCopy> copies) override;
+  void blend_rows(std::span<const RowBlend> blends) override;
 
  private:
   /// The accelerations at the start: those that the last step ended with, or M^-1 f when the state is

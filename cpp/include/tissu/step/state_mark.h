@@ -1,5 +1,6 @@
 #pragma once
 
+#include "tissu/state/row_blend.h"
 #include "tissu/state/state.h"
 
 namespace tissu {
@@ -14,6 +15,7 @@ class StateMark {
   void set(const State& state);
   void forget() { positions_.clear(); }
   void copy_rows(std::span<const RowCopy> copies);
+  void blend_rows(std::span<const RowBlend> blends);
   [[nodiscard]] bool is_empty() const { return positions_.empty(); }
   [[nodiscard]] bool is(const State& state) const;
   /// Time, positions, velocities, …

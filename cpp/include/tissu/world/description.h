@@ -2,6 +2,7 @@
 
 /// What a world is built from, as plain data with node numbers local to each body.
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <string>
@@ -29,6 +30,12 @@ struct SharedNode {
   std::int32_t node = 0;
 };
 
+/// A place in a body of the first day: the mean of up to four nodes, by weights that sum to 1.
+struct FirstDayPoint {
+  std::array<std::int32_t, 4> node{-1, -1, -1, -1};  ///< -1 beyond the last
+  std::array<double, 4> weight{};
+};
+
 struct BodyDescription {
   std::string name;
   std::vector<double> positions;  ///< at rest [m], three for each node
@@ -40,8 +47,10 @@ struct BodyDescription {
   std::vector<SharedNode> shared = {};
   /// Rows of the unknown that follow its nodes, held and without mass: nodes that edits make take them.
   std::int32_t room = 0;
-  /// Of the nodes that edits made, which are its last: the node of the first day that each is a copy of.
+  /// Of the nodes that edits made, which are its last: the node of the first day that each is a copy of; of
+  /// those that blades put on edges, -1 - i for the place `points[i]`.
   std::vector<std::int32_t> copies_of = {};
+  std::vector<FirstDayPoint> points = {};
   /// Nodes with cells but without material at them, which nothing holds or loads; ascending.
   std::vector<std::int32_t> bare = {};
   /// Its cells and their material as cuts left them; null before the first cut.
@@ -61,6 +70,8 @@ struct FixedNodes {
   std::uint8_t rotations = 0;     ///< of frames: axes about which their rotation is given too
   /// By which a run leads them live (FixedDofs::lead_to), together with all others of the name; empty: never.
   std::string name = {};
+  /// Its nodes before the first edit of the body, ascending; empty until then.
+  std::vector<std::int32_t> first_day = {};
 };
 
 struct LoadDescription {

@@ -18,8 +18,9 @@ double rest_length(const Patch& patch, std::int32_t p, std::int32_t q) {
 
 class Divider {
  public:
-  Divider(Patch& patch, const std::function<double(std::int32_t)>& t0, OnCut& known)
-      : patch_(patch), t0_(t0), known_(known) {}
+  Divider(Patch& patch, const std::function<double(std::int32_t)>& t0, OnCut& known,
+          const std::function<bool(std::int32_t)>& turned)
+      : patch_(patch), t0_(t0), known_(known), turned_(turned) {}
 
   LeftEdges divide(std::vector<CrossedEdge> edges) {
     for (int round = 0; round < kRounds && !edges.empty(); ++round) edges = one_round(edges, round == 0);
@@ -36,7 +37,8 @@ class Divider {
  private:
   /// An edge and which of its crossings is nearest to the middle.
   struct Choice {
-    double length;
+    double rank;  ///< the longest first: the length at rest, negative; its own sign where turned
+    bool turned;
     CrossedEdge edge;
     std::size_t which;
   };
@@ -49,18 +51,27 @@ class Divider {
           edge.crossings, {}, [](const Crossing& crossing) { return std::abs(crossing.t - 0.5); });
       const auto which = static_cast<std::size_t>(nearest - edge.crossings.begin());
       if (goes_to_end(edge, nearest->t)) continue;
-      choices.push_back({rest_length(patch_, edge.p, edge.q), std::move(edge), which});
+      const double length = rest_length(patch_, edge.p, edge.q);
+      const bool turned = is_turned(edge);
+      choices.push_back({turned ? length : -length, turned, std::move(edge), which});
     }
     std::erase_if(choices, [&](const Choice& choice) {
       const int ends = (known_.on(choice.edge.p) ? 1 : 0) + (known_.on(choice.edge.q) ? 1 : 0);
       return ends > (first ? 0 : 1);
     });
     std::ranges::sort(choices, [](const Choice& a, const Choice& b) {
-      return std::tuple(-a.length, a.edge.p, a.edge.q) < std::tuple(-b.length, b.edge.p, b.edge.q);
+      return std::tuple(a.turned, a.rank, a.edge.p, a.edge.q) <
+             std::tuple(b.turned, b.rank, b.edge.p, b.edge.q);
     });
     std::vector<CrossedEdge> halves;
     for (const Choice& choice : choices) cross(choice, halves);
     return halves;
+  }
+
+  [[nodiscard]] bool is_turned(const CrossedEdge& edge) const {
+    if (!turned_) return false;
+    return std::ranges::any_of(patch_.around(edge.p, edge.q),
+                               [&](std::int32_t t) { return turned_(patch_.tetra(t).cell); });
   }
 
   /// Whether the cut goes to an end of the edge, which is then on the cut, or the edge has to stay.
@@ -112,14 +123,16 @@ class Divider {
   Patch& patch_;
   const std::function<double(std::int32_t)>& t0_;
   OnCut& known_;
+  const std::function<bool(std::int32_t)>& turned_;
   LeftEdges left_;
 };
 
 }  // namespace
 
 LeftEdges divide_crossed(Patch& patch, std::vector<CrossedEdge> edges,
-                         const std::function<double(std::int32_t)>& t0, OnCut& known) {
-  return Divider(patch, t0, known).divide(std::move(edges));
+                         const std::function<double(std::int32_t)>& t0, OnCut& known,
+                         const std::function<bool(std::int32_t)>& turned) {
+  return Divider(patch, t0, known, turned).divide(std::move(edges));
 }
 
 void divide_longest(Patch& patch, std::int32_t tetra) {

@@ -20,8 +20,10 @@ struct LeftEdges {
   std::vector<std::int32_t> unsound;
   std::vector<std::int32_t> folded;
 };
+/// `turned`: edges of these cells (places) are divided after all others, the shortest first.
 LeftEdges divide_crossed(Patch& patch, std::vector<CrossedEdge> edges,
-                         const std::function<double(std::int32_t)>& t0, OnCut& known);
+                         const std::function<double(std::int32_t)>& t0, OnCut& known,
+                         const std::function<bool(std::int32_t)>& turned = {});
 
 /// The longest edge at rest of a tetrahedron is divided in the middle.
 void divide_longest(Patch& patch, std::int32_t tetra);

@@ -64,8 +64,8 @@ Hosts::Hosts(const Mesh& mesh) : rest_(mesh.positions), root_(at(mesh.node_count
 }
 
 Hosts::Hosts(std::vector<double> rest, std::vector<std::int32_t> root, std::span<const Cell> cells,
-             std::int32_t next_cell)
-    : rest_(std::move(rest)), root_(std::move(root)) {
+             std::int32_t next_cell, std::vector<Rider> points)
+    : rest_(std::move(rest)), root_(std::move(root)), points_(std::move(points)) {
   const auto wrong = [](const std::string& what) { return ParameterError("hosts of a cut body: " + what); };
   if (rest_.size() != 3 * root_.size()) throw wrong("3 rest numbers and one root per node are accepted.");
   cells_at_.resize(root_.size());
@@ -156,11 +156,39 @@ void Hosts::make_clusters() {
   }
 }
 
+/// The same point in nodes of the first day. All of them are corners of one first-day cell. Places at rest
+/// follow from these alone, whatever the cuts were between.
+Rider Hosts::on_first_day(const Rider& rider) const {
+  Rider sum;
+  const auto add = [&](std::int32_t node, double weight) {
+    const auto end = sum.node.begin() + sum.count;
+    const auto same =
+        at(static_cast<std::int32_t>(std::find(sum.node.begin(), end, node) - sum.node.begin()));
+    if (same == sum.node.size()) {
+      throw ParameterError("a node on an edge lies between more than four nodes of the first day.");
+    }
+    if (same == at(sum.count)) sum.node[at(sum.count++)] = node;
+    sum.weight[same] += weight;
+  };
+  for (std::size_t i = 0; i < at(rider.count); ++i) {
+    const std::int32_t own = root(rider.node[i]);
+    if (own >= 0) {
+      add(own, rider.weight[i]);
+      continue;
+    }
+    const Rider& point = points_[at(-1 - own)];
+    for (std::size_t k = 0; k < at(point.count); ++k) add(point.node[k], rider.weight[i] * point.weight[k]);
+  }
+  return sum;
+}
+
 void Hosts::apply(const CutPlan& plan) {
   for (const BornNode& node : plan.nodes) {
-    const Vec3 place = block(rest(), node.copied);
+    const bool is_copy = node.between.count == 0;
+    if (!is_copy) points_.push_back(on_first_day(node.between));
+    const Vec3 place = is_copy ? Vec3(block(rest(), node.copied)) : points_.back().at(rest());
     rest_.insert(rest_.end(), place.data(), place.data() + 3);
-    root_.push_back(root(node.copied));
+    root_.push_back(is_copy ? root(node.copied) : -static_cast<std::int32_t>(points_.size()));
     cells_at_.emplace_back();
   }
   for (const ChangedCell& cell : plan.changed) replace_nodes(cell.number, cell.nodes);

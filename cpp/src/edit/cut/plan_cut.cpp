@@ -1,16 +1,19 @@
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <string>
 
 #include "edit/cut/bisect.h"
 #include "edit/cut/crossings.h"
+#include "edit/cut/divide.h"
 #include "edit/cut/fans.h"
 #include "edit/cut/fragments.h"
 #include "edit/cut/incisions.h"
 #include "edit/cut/near.h"
 #include "edit/cut/open.h"
 #include "edit/cut/patch.h"
+#include "edit/cut/remedies.h"
 #include "edit/cut/write_plan.h"
 #include "tissu/base/error.h"
 #include "tissu/base/number_text.h"
@@ -27,6 +30,8 @@ constexpr int kAttempts = 6;
 constexpr double kLeastShare = 1e-9;
 constexpr double kFirstRaise = 0.02;
 constexpr double kLargestT0 = 0.45;
+/// Where cells are divided: nearer to an end their parts would be too flat.
+constexpr double kLeastT0OfDivided = 0.2;
 
 std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
@@ -55,7 +60,8 @@ using RaisedT0 = std::map<std::int32_t, double>;
 class Attempt {
  public:
   Attempt(const Hosts& hosts, const Material& material, ConstReals x, const Sweep& sweep,
-          const std::vector<NearCells>& near, const CutOptions& options, const RaisedT0& raised)
+          const std::vector<NearCells>& near, const CutOptions& options, const RaisedT0& raised,
+          Remedies& remedies)
       : hosts_(hosts),
         material_(material),
         x_(x),
@@ -63,6 +69,7 @@ class Attempt {
         near_(near),
         options_(options),
         raised_(raised),
+        remedies_(remedies),
         patch_(hosts, material, x, loaded()) {}
 
   /// Divides and opens. False when the blade crossed no edge and lies in no inner face.
@@ -92,6 +99,14 @@ class Attempt {
     return true;
   }
 
+  /// The plan of divided cells. False when one of them would be too flat; then it has another remedy.
+  bool divided(CutPlan& plan) {
+    if (remedies_.advance(hosts_, patch_)) return false;
+    for (const Patch::Cell& cell : patch_.cells) plan.cells_cut += cell.divided || cell.opened ? 1 : 0;
+    write_division(hosts_, material_, x_, patch_, on_incision_, plan);
+    return true;
+  }
+
   /// Vertices that a blade met which opened nothing: along faces one opens when its last vertex is met.
   void remember(CutPlan& plan) const { remember_incisions(patch_, material_, on_incision_, plan); }
 
@@ -104,8 +119,9 @@ class Attempt {
   }
 
   [[nodiscard]] double t0(std::int32_t cell) const {
-    const auto own = raised_.find(patch_.cell(cell).number);
-    return own == raised_.end() ? options_.t0 : own->second;
+    const std::int32_t number = patch_.cell(cell).number;
+    const auto own = raised_.find(number);
+    return own == raised_.end() ? remedies_.t0(number, options_.t0) : own->second;
   }
 
   bool cut_part(std::size_t number, CutPlan& plan) {
@@ -118,9 +134,14 @@ class Attempt {
       known = known_before(patch_, material_, part.incision);
       edges = crossed_edges(patch_, part, near, options_.t0, known);
     }
+    for (const std::int32_t cell : remedies_.apply(patch_, options_.t0, edges))
+      plan.unresolved.emplace_back(cell, Unresolved::flat);
     const bool crossed = !edges.empty();
+    std::function<bool(std::int32_t)> turned;
+    if (remedies_.any())
+      turned = [&](std::int32_t cell) { return remedies_.turned(patch_.cell(cell).number); };
     const LeftEdges left =
-        divide_crossed(patch_, std::move(edges), [&](std::int32_t cell) { return t0(cell); }, known);
+        divide_crossed(patch_, std::move(edges), [&](std::int32_t cell) { return t0(cell); }, known, turned);
     const OpenedFaces opened = open_faces(patch_, part, near, known);
     plan.faces_opened += opened.count;
     plan.area += opened.area;
@@ -145,11 +166,21 @@ class Attempt {
     const std::vector<Patch::Tetra> before = patch_.tetrahedra;
     for (const std::int32_t t : pierced_tetrahedra(patch_, part, near, known)) {
       const Patch::Tetra& tetra = patch_.tetra(t);
+      if (remedies_.any() && stays_whole(tetra)) continue;
       if (!patch_.cell(tetra.cell).sound || tetra.vertices != before[at(t)].vertices) continue;
       divide_longest(patch_, t);
       any = true;
     }
     return any;
+  }
+
+  /// Whether a cell at one of the vertices of a tetrahedron stays whole.
+  [[nodiscard]] bool stays_whole(const Patch::Tetra& tetra) const {
+    return std::ranges::any_of(tetra.vertices, [&](std::int32_t v) {
+      return v >= 0 && std::ranges::any_of(patch_.tetrahedra_at(v), [&](std::int32_t t) {
+               return remedies_.whole(patch_.cell(patch_.tetra(t).cell).number);
+             });
+    });
   }
 
   void report(const LeftEdges& left, const Numbers& pierced, CutPlan& plan) {
@@ -206,6 +237,7 @@ class Attempt {
   const std::vector<NearCells>& near_;
   const CutOptions& options_;
   const RaisedT0& raised_;
+  Remedies& remedies_;
   Patch patch_;
   Numbers parted_;  ///< vertices of opened faces
   OnIncisions on_incision_;
@@ -221,25 +253,37 @@ std::string_view words(Unresolved reason) {
       return "the blade crosses an edge of the cell more often than a cut follows";
     case Unresolved::shape:
       return "a tetrahedron between corners of the cell has no volume above zero at rest";
+    case Unresolved::flat:
+      return "the cut would leave a part of the cell too flat to be a cell";
   }
   return {};
 }
 
 CutPlan plan_cut(const Hosts& hosts, const Material& material, ConstReals x, const Sweep& sweep,
-                 const CutOptions& options) {
-  check(hosts, x, options);
+                 const CutOptions& asked) {
+  check(hosts, x, asked);
+  CutOptions options = asked;
+  if (options.divide) options.t0 = std::max(options.t0, kLeastT0OfDivided);
   std::vector<NearCells> near;
   near.reserve(sweep.parts.size());
   for (const SweepPart& part : sweep.parts) near.emplace_back(hosts, x, part);
+  if (options.divide) {
+    for (const NearCells& one : near) refuse_undivided(hosts, material, one.cells());
+  }
   RaisedT0 raised;
+  Remedies remedies;
   for (int attempt = 1;; ++attempt) {
     CutPlan plan;
     plan.first_node = hosts.node_count();
     if (std::ranges::all_of(near, [](const NearCells& n) { return n.cells().empty(); })) return plan;
-    Attempt cut(hosts, material, x, sweep, near, options, raised);
+    Attempt cut(hosts, material, x, sweep, near, options, raised, remedies);
     if (!cut.cut(plan)) {
       cut.remember(plan);
       return plan;
+    }
+    if (options.divide) {
+      if (cut.divided(plan)) return plan;
+      continue;
     }
     RaisedT0 wanted = raised;
     if (cut.finish(plan, wanted, attempt == kAttempts)) return plan;

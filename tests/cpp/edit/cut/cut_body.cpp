@@ -57,7 +57,8 @@ void CutBody::apply(const CutPlan& plan) {
   hosts.apply(plan);
   material.apply(plan);
   for (const BornNode& node : plan.nodes) {
-    const Vec3 place = block(ConstReals(x), node.copied);
+    const bool is_copy = node.between.count == 0;
+    const Vec3 place = is_copy ? Vec3(block(ConstReals(x), node.copied)) : node.between.at(x);
     x.insert(x.end(), place.data(), place.data() + 3);
   }
 }
@@ -133,7 +134,7 @@ std::string CutBody::tetrahedra_fault() const {
   return {};
 }
 
-/// The shares of a first-day cell's hosts sum to 1, each is the host's volume over the cell's.
+/// Shares are the volumes of hosts over those of their cells; a first-day cell keeps its volume.
 std::string CutBody::share_fault() const {
   std::vector<double> volumes(first_volumes_.size(), 0.0);
   for (const std::int32_t cell : hosts.numbers()) {
@@ -141,8 +142,10 @@ std::string CutBody::share_fault() const {
     for (const MaterialTetra& tetra : list(cell)) own += volume_of(tetra, material, hosts.rest());
     const std::size_t origin = at(hosts.origin(cell));
     volumes[origin] += own;
-    if (!ablated_ &&
-        std::abs(hosts.share(cell) * first_volumes_[origin] - own) > kRoundOff * first_volumes_[origin]) {
+    double whole = 0.0;
+    for (const MaterialTetra& tetra : whole_material(hosts, cell))
+      whole += volume_of(tetra, material, hosts.rest());
+    if (!ablated_ && std::abs(hosts.share(cell) * whole - own) > kRoundOff * whole) {
       return "share of cell " + std::to_string(cell) + " is not its volume's";
     }
   }

@@ -18,13 +18,17 @@ struct CutOptions {
   double t0 = 0.02;
   /// Cells that the blade pierces without crossing an edge are divided first, at most three times.
   bool refine = false;
+  /// Cells are divided along the cut (divide.h of the cutter), in place of copies of whole cells. Tetrahedra
+  /// and triangles of first order only.
+  bool divide = false;
 };
 
 /// Why the blade met a cell and did not cut it.
 enum class Unresolved : std::uint8_t {
   pierced,  ///< the blade is narrower than the cell: it crosses no edge
   folded,   ///< the blade crosses an edge more often than a cut follows
-  shape     ///< the cell's material is inside out at rest, so that its edges are not divided
+  shape,    ///< the cell's material is inside out at rest, so that its edges are not divided
+  flat      ///< a part of the cell would be too flat to be a cell
 };
 std::string_view words(Unresolved reason);
 
@@ -41,8 +45,9 @@ struct ChangedCell {
 };
 /// Node first_node + i of the plan. Copies of a node ascend with it.
 struct BornNode {
-  std::int32_t copied;  ///< the old node that it is a copy of: rest place, place, speed, history
+  std::int32_t copied;  ///< the node that it is a copy of: rest place, place, speed, history; -1: between
   bool material;        ///< there is material at it; else it is virtual: never held, never loaded
+  Rider between = {};   ///< the old nodes between which it is; none of a copy
 };
 
 /// What a cut does to the material, by the new numbers.

@@ -2,6 +2,7 @@
 
 /// The cells of a body as a cut sees them: by numbers that live for ever, with the cells at each node.
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -12,6 +13,17 @@
 namespace tissu {
 
 struct CutPlan;
+
+/// A point of the material as weights of nodes, which sum to 1. A tetrahedron of the material lies inside one
+/// between four corners of its host, so that four pairs are enough.
+struct Rider {
+  std::array<std::int32_t, 4> node{-1, -1, -1, -1};
+  std::array<double, 4> weight{};
+  std::int32_t count = 0;
+
+  /// sum w x_node
+  [[nodiscard]] Vec3 at(ConstReals x) const;
+};
 
 /// A host is a cell that carries material: a first-day cell, or a replica that holds a part of one. Numbers
 /// of cells and nodes are for ever: new ones follow the last, none is used twice.
@@ -31,8 +43,9 @@ class Hosts {
   explicit Hosts(const Mesh& mesh);
   /// Hosts as a file kept them: `rest` has 3 numbers per node [m], `root` the first-day node of each, `cells`
   /// ascend in number. Throws ParameterError where these do not fit together.
+  /// `points`: the places on the first day of nodes that blades put on edges.
   Hosts(std::vector<double> rest, std::vector<std::int32_t> root, std::span<const Cell> cells,
-        std::int32_t next_cell);
+        std::int32_t next_cell, std::vector<Rider> points = {});
 
   [[nodiscard]] std::int32_t node_count() const { return static_cast<std::int32_t>(root_.size()); }
   [[nodiscard]] std::int32_t next_cell() const { return static_cast<std::int32_t>(cells_.size()); }
@@ -49,8 +62,10 @@ class Hosts {
 
   /// Rest places of the nodes [m], 3 numbers each.
   [[nodiscard]] ConstReals rest() const { return rest_; }
-  /// The first-day node that a node is a copy of; itself on the first day.
+  /// The first-day node that a node is a copy of; itself on the first day. Of a node that a blade put on an
+  /// edge, -1 - i for the place points()[i] of the first day.
   [[nodiscard]] std::int32_t root(std::int32_t node) const { return root_[static_cast<std::size_t>(node)]; }
+  [[nodiscard]] const std::vector<Rider>& points() const { return points_; }
   /// Numbers of the cells at a node, ascending.
   [[nodiscard]] std::span<const std::int32_t> cells_at(std::int32_t node) const {
     return cells_at_[static_cast<std::size_t>(node)];
@@ -81,6 +96,7 @@ class Hosts {
   };
   [[nodiscard]] const Slot& slot(std::int32_t cell) const { return cells_[static_cast<std::size_t>(cell)]; }
   void add(const Cell& cell, std::int32_t cluster);
+  [[nodiscard]] Rider on_first_day(const Rider& rider) const;
   void take_out(std::int32_t cell);
   void replace_nodes(std::int32_t cell, std::span<const std::int32_t> nodes);
   void make_clusters();
@@ -88,6 +104,7 @@ class Hosts {
 
   std::vector<double> rest_;
   std::vector<std::int32_t> root_;
+  std::vector<Rider> points_;       ///< in nodes of the first day
   std::vector<Slot> cells_;         ///< by number
   std::vector<std::int32_t> pool_;  ///< the nodes of the cells
   std::vector<std::vector<std::int32_t>> cells_at_;

@@ -14,17 +14,6 @@
 
 namespace tissu {
 
-/// A point of the material as weights of nodes, which sum to 1. A tetrahedron of the material lies inside one
-/// between four corners of its host, so that four pairs are enough.
-struct Rider {
-  std::array<std::int32_t, 4> node{-1, -1, -1, -1};
-  std::array<double, 4> weight{};
-  std::int32_t count = 0;
-
-  /// sum w x_node
-  [[nodiscard]] Vec3 at(ConstReals x) const;
-};
-
 /// Stands in the last place of a triangle.
 inline constexpr std::int32_t kNoVertex = std::numeric_limits<std::int32_t>::max();
 

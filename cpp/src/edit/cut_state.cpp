@@ -26,7 +26,9 @@ const BodyDescription& described(const World& world, std::string_view name) {
 }
 
 std::optional<CellType> host_type(const ElasticBlock& block) {
-  if (block.element == info(CellType::triangle).name) return CellType::triangle;
+  for (const CellType thin : {CellType::triangle, CellType::line}) {
+    if (block.element == info(thin).name) return thin;
+  }
   return cell_type(block.element);
 }
 
@@ -52,13 +54,13 @@ CutState cut_state_of(BodyDescription body, Material material) {
   for (const ElasticBlock& block : body.elastic) {
     const std::optional<CellType> known = host_type(block);
     if (!known) {
-      throw ParameterError(
-          "body \"" + body.name + "\" has cells of type " + block.element +
-          "; only bodies of volume cells, and of triangles, have a material that can be cut.");
+      throw ParameterError("body \"" + body.name + "\" has cells of type " + block.element +
+                           "; only bodies of volume cells, of triangles and of lines of two nodes have a "
+                           "material that can be cut.");
     }
     const CellType type = *known;
     const ElementInfo& element = *find_element(block.element);
-    const bool is_sheet = info(type).dimension == 2;
+    const bool is_thin = info(type).dimension < 3;
     for (std::size_t i = 0; i < block.cell_numbers.size(); ++i) {
       const auto own =
           std::span(block.cells)
@@ -68,7 +70,7 @@ CutState cut_state_of(BodyDescription body, Material material) {
                        block.origins.empty() ? block.cell_numbers[i] : block.origins[i],
                        of_cell(block.share, static_cast<std::int32_t>(i)),
                        {own.begin(), own.end()},
-                       is_sheet ? of_cell(block.cross_section, static_cast<std::int32_t>(i)) : 1.0});
+                       is_thin ? of_cell(block.cross_section, static_cast<std::int32_t>(i)) : 1.0});
     }
   }
   std::ranges::sort(cells, {}, &Hosts::Cell::number);

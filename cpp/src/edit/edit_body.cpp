@@ -153,7 +153,8 @@ void refuse_unparted(const WorldDescription& description, const BodyDescription&
   }
   for (const ElasticBlock& block : body.elastic) {
     if (!host_type(block)) {
-      refuse("it has cells of type " + block.element + ", and volume cells and triangles are accepted");
+      refuse("it has cells of type " + block.element +
+             ", and volume cells, triangles and lines of two nodes are accepted");
     }
     if (std::holds_alternative<CondensedOptions>(block.model)) {
       refuse("its cells are condensed, and a model that keeps each cell is accepted, such as fem");
@@ -165,7 +166,10 @@ void refuse_unparted(const WorldDescription& description, const BodyDescription&
           "default");
     }
   }
-  if (!has_material(body)) refuse("it has volume cells and sheets, and bodies of one of both are accepted");
+  if (!has_material(body))
+    refuse(
+        "it has cells of several dimensions, and bodies of volume cells, of sheets or of lines alone are "
+        "accepted");
   for (const PressureDescription& pressure : description.pressures) {
     if (pressure.body == body.name) {
       refuse("the pressure \"" + pressure.name + "\" acts on its faces, which a cut does not part yet");

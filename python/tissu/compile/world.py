@@ -153,7 +153,8 @@ def pressed_sheets(simulation: Simulation) -> list[Problem]:
         for body in tool.cuts:
             if simulation.meshes[body].volume_blocks:
                 continue
-            text = f"found a toughness of a knife that cuts the sheet '{body}'; bodies of volume "
+            what = "lines" if simulation.meshes[body].thin == (1,) else "sheet"
+            text = f"found a toughness of a knife that cuts the {what} '{body}'; bodies of volume "
             text += "cells are accepted, or a knife without toughness"
             found.append(Problem(("instruments", name, "toughness"), text))
     return found
@@ -273,12 +274,12 @@ def _add_body(builder: WorldBuilder, prepared: Prepared, name: str) -> None:
 
 
 def can_be_cut(prepared: Prepared, name: str) -> bool:
-    """Whether a body has volume cells alone, or triangles alone, each carried by itself."""
+    """Whether a body has volume cells, triangles or lines alone, each carried by itself."""
     body, groups = prepared.scene.bodies[name], prepared.bodies[name].groups
     if body.has_rotations or any(group.model.type == "condensed" for group in groups):
         return False
     volumes = all(dimension(g.cell_type) == 3 and not g.surface for g in groups)
-    return volumes or all(g.cell_type == "triangle" for g in groups)
+    return volumes or any(all(g.cell_type == t for g in groups) for t in ("triangle", "line"))
 
 
 def _add_tissue(builder: WorldBuilder, prepared: Prepared, name: str) -> None:

@@ -181,7 +181,7 @@ def shape_of(simulation: Simulation, field: Field) -> Shape:
     parts = []
     for name, mesh in simulation.meshes.items():
         if simulation.is_cut(name):
-            parts.append(_cut(simulation, name, field))
+            parts += _cut(simulation, name, field)
             continue
         if name in simulation.own_surfaces:
             parts.append(_own_surface(simulation, name, field))
@@ -211,17 +211,23 @@ def shape_of(simulation: Simulation, field: Field) -> Shape:
     return _joined(parts)
 
 
-def _cut(simulation: Simulation, name: str, field: Field) -> Shape:
-    """The surface of the material of a body that was cut."""
+def _cut(simulation: Simulation, name: str, field: Field) -> list[Shape]:
+    """The surface of the material of a body that was cut, and its pieces of lines."""
     surface = simulation.surface(name)
     shift = surface.carried(np.asarray(simulation.displacements(name)))
     triangles = np.asarray(surface.triangles, dtype=np.int64)
-    if field == "displacement":
-        values = np.linalg.norm(shift, axis=1)
-    else:
-        host = np.searchsorted(simulation.remaining_cells(name), surface.cell)
-        values = _at_points(_stress_of(simulation, name)[host], triangles, surface.points)
-    return Shape(surface.points - shift, surface.points, triangles, values)
+    rest, cells = surface.points - shift, simulation.remaining_cells(name)
+    values, at_ends = np.linalg.norm(shift, axis=1), np.empty(0)
+    if field != "displacement":
+        every = _stress_of(simulation, name)
+        at_ends = every[np.searchsorted(cells, surface.line_cell)]
+        values = _at_points(every[np.searchsorted(cells, surface.cell)], triangles, surface.points)
+    if not len(surface.lines):
+        return [Shape(rest, surface.points, triangles, values)]
+    lines = np.asarray(surface.lines, dtype=np.int64)
+    radius = LINE * float(np.linalg.norm(np.ptp(rest, axis=0)))
+    ends = values[lines] if field == "displacement" else np.repeat(at_ends[:, None], 2, axis=1)
+    return [_rods(rest, surface.points, surface.lines, ends, radius)]
 
 
 def _own_surface(simulation: Simulation, name: str, field: Field) -> Shape:

@@ -104,8 +104,10 @@ class Attempt {
   }
 
   [[nodiscard]] double t0(std::int32_t cell) const {
-    const auto own = raised_.find(patch_.cell(cell).number);
-    return own == raised_.end() ? options_.t0 : own->second;
+    const std::int32_t number = patch_.cell(cell).number;
+    const auto own = raised_.find(number);
+    if (own != raised_.end()) return own->second;
+    return info(hosts_.type(number)).dimension == 1 ? 0.0 : options_.t0;  // no part of a line is narrow
   }
 
   bool cut_part(std::size_t number, CutPlan& plan) {

@@ -32,8 +32,15 @@ std::optional<CellType> host_type(const ElasticBlock& block) {
   return cell_type(block.element);
 }
 
+bool listens_to_frames(const BodyDescription& body) {
+  if (!body.shared.empty()) return true;
+  return body.frames && !std::ranges::all_of(body.elastic, [](const ElasticBlock& block) {
+           return std::holds_alternative<ShellOptions>(block.model);
+         });
+}
+
 bool has_material(const BodyDescription& body) {
-  if (body.frames || !body.shared.empty()) return false;
+  if (listens_to_frames(body)) return false;
   int dimension = 0;
   return std::ranges::all_of(body.elastic, [&](const ElasticBlock& block) {
     const std::optional<CellType> type = host_type(block);

@@ -10,6 +10,7 @@
 #include "cut_surface.h"
 #include "debris.h"
 #include "parted_loads.h"
+#include "parted_pressures.h"
 #include "tissu/base/error.h"
 #include "tissu/edit/cut_state.h"
 #include "tissu/element/reference_cell.h"
@@ -148,8 +149,8 @@ void refuse_unparted(const WorldDescription& description, const BodyDescription&
   const auto refuse = [&](const std::string& why) {
     throw ParameterError("body \"" + body.name + "\" cannot be cut: " + why + ".");
   };
-  if (body.frames || !body.shared.empty()) {
-    refuse("its nodes are frames, and bodies whose nodes have places only are accepted");
+  if (listens_to_frames(body)) {
+    refuse("its points listen to frames, and bodies whose cells have nodes of their own are accepted");
   }
   for (const ElasticBlock& block : body.elastic) {
     if (!host_type(block)) {
@@ -170,11 +171,7 @@ void refuse_unparted(const WorldDescription& description, const BodyDescription&
     refuse(
         "it has cells of several dimensions, and bodies of volume cells, of sheets or of lines alone are "
         "accepted");
-  for (const PressureDescription& pressure : description.pressures) {
-    if (pressure.body == body.name) {
-      refuse("the pressure \"" + pressure.name + "\" acts on its faces, which a cut does not part yet");
-    }
-  }
+  refuse_pressed(description, body);
   if (!description.contact) return;
   for (const SurfaceDescription& surface : description.contact->bodies) {
     if (surface.name != body.name) continue;
@@ -211,6 +208,7 @@ std::shared_ptr<const World> edit_body(const World& world, const State& state, s
   body = edited(std::move(body), edit);
   part_supports(description, body, edit);
   part_loads(description, body);
+  part_pressures(description, body);
   refuse_live_changes(world, state, *world.description(), description);
   std::erase_if(description.fixed, [](const FixedNodes& fixed) { return fixed.nodes.empty(); });
   hold_debris(description, body, state, world.body(name).first_node);
@@ -224,8 +222,14 @@ std::vector<RowCopy> row_copies(const World& world, std::string_view name, const
   std::vector<RowCopy> copies;
   copies.reserve(edit.copied.size());
   for (std::size_t k = 0; k < edit.copied.size(); ++k) {
-    copies.push_back(
-        {body.first_node + body.node_count + static_cast<std::int32_t>(k), body.first_node + edit.copied[k]});
+    const std::int32_t to = body.node_count + static_cast<std::int32_t>(k);
+    const std::int32_t from = edit.copied[k];
+    copies.push_back({body.first_node + to, body.first_node + from});
+    if (body.first_frame < 0) continue;
+    const auto rotation = [&](std::int32_t node) {
+      return world.frames()[static_cast<std::size_t>(body.first_frame + node)].rotation;
+    };
+    copies.push_back({rotation(to), rotation(from), body.first_frame + to, body.first_frame + from});
   }
   return copies;
 }

@@ -42,9 +42,8 @@ void Simulation::replace_world(std::shared_ptr<const World> world, std::span<con
 /// Rows that an edit made take over everything of others.
 void Simulation::take_over(std::span<const RowCopy> copies) {
   integrator_->copy_rows(copies);
-  for (std::vector<double>* values :
-       {&state_.positions, &state_.velocities, &last_good_.positions, &last_good_.velocities, &held_})
-    copy_rows(copies, *values);
+  for (State* state : {&state_, &last_good_}) copy_rows(copies, *state);
+  copy_rows(copies, Reals(held_));
 }
 
 void Simulation::follow(const WorldEditor::Made& made) {

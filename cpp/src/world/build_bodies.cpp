@@ -190,11 +190,12 @@ void WorldBuilder::add_node_frames(std::vector<Frame>& frames) {
     Body& body = world_.bodies_[i];
     const std::int32_t first = world_.blocks();
     body.first_frame = static_cast<std::int32_t>(frames.size());
-    for (std::int32_t node = 0; node < body.node_count; ++node) {
+    const std::int32_t count = body.node_count + body.room;
+    for (std::int32_t node = 0; node < count; ++node) {
       frames.push_back({body.first_node + node, first + node, 0.0, Mat3::Zero()});
     }
     State& rest = world_.rest_;
-    rest.positions.resize(rest.positions.size() + 3 * static_cast<std::size_t>(body.node_count), 0.0);
+    rest.positions.resize(rest.positions.size() + 3 * static_cast<std::size_t>(count), 0.0);
     rest.rotations.resize(frames.size(), Quaternion::Identity());
     speeds_.resize(frames.size(), Vec3::Zero());
     spins_.resize(frames.size(), Vec3::Zero());
@@ -212,11 +213,20 @@ std::vector<std::int32_t> WorldBuilder::shared_nodes(const BodyDescription& desc
   return nodes;
 }
 
+/// Whether no cell has a node any more, which is held where it was then.
+bool WorldBuilder::is_loose(const std::string& body, std::int32_t node) const {
+  return std::ranges::any_of(description_.fixed, [&](const FixedNodes& fixed) {
+    return fixed.body == body && !fixed.positions.empty() &&
+           std::ranges::find(fixed.nodes, node) != fixed.nodes.end();
+  });
+}
+
 /// Inertias that the models gave to the frames of their bodies.
 void WorldBuilder::add_inertias(std::vector<Frame>& frames) const {
   for (std::size_t k = 0; k < frames.size(); ++k) frames[k].inertia += inertias_[k];
   for (const Body& body : world_.bodies_) {
     for (std::int32_t i = 0; body.first_frame >= 0 && i < body.node_count; ++i) {
+      if (masses_[static_cast<std::size_t>(body.first_node + i)] == 0.0 && is_loose(body.name, i)) continue;
       check_inertia(body.name, i, frames[static_cast<std::size_t>(body.first_frame + i)].inertia);
     }
   }

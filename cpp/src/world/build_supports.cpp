@@ -45,6 +45,10 @@ void WorldBuilder::hold_room() {
     std::vector<std::int32_t> rows(static_cast<std::size_t>(body.room));
     std::iota(rows.begin(), rows.end(), body.first_node + body.node_count);
     world_.fixed_.add(rows, world_.rest_positions(), FixedDofs::kAllAxes, {});
+    if (body.first_frame >= 0) {
+      world_.fixed_.hold_turning(rotations_of(body, std::move(rows), "the room of a body"),
+                                 FixedDofs::kAllAxes);
+    }
   }
 }
 
@@ -62,6 +66,10 @@ void WorldBuilder::hold(const FixedNodes& fixed) {
   }
   if (fixed.axes != 0) world_.fixed_.add(nodes, start, fixed.axes, fixed.motion, fixed.name);
   if (fixed.rotations != 0) hold_rotations(fixed, on, nodes, where);
+  const bool loose = !fixed.positions.empty();  // no cell has them any more
+  if (loose && on.first_frame >= 0) {
+    world_.fixed_.hold_turning(rotations_of(on, nodes, where), FixedDofs::kAllAxes);
+  }
 }
 
 void WorldBuilder::hold_rotations(const FixedNodes& fixed, const Body& on,

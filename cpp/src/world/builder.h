@@ -41,6 +41,7 @@ class WorldBuilder {
   void hold_rotations(const FixedNodes& fixed, const Body& on, const std::vector<std::int32_t>& nodes,
                       const std::string& where);
   void hold_room();
+  [[nodiscard]] bool is_loose(const std::string& body, std::int32_t node) const;
   void hold_eliminated();
   /// The blocks of the rotations of some nodes; refuses those of a body whose nodes have none.
   [[nodiscard]] std::vector<std::int32_t> rotations_of(const Body& body, std::vector<std::int32_t> nodes,

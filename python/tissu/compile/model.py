@@ -12,7 +12,7 @@ from tissu.counted import counted
 from tissu.mesh.cell import dimension
 from tissu.scene.contact_rules import meets_others
 from tissu.scene.generated.laws import LAWS
-from tissu.scene.model import Condensed, Frames
+from tissu.scene.model import Condensed, Frames, Shell
 from tissu.scene.part import type_name
 from tissu.scene.problem import Problem, one_of_words
 
@@ -141,8 +141,9 @@ def check_rotations(prepared: Prepared) -> None:
         if True in kinds and body.viscosity is not None and body.viscosity.type != "rayleigh":
             text = f"found {body.viscosity.type} for frames; rayleigh is accepted"
             _tell_once(("bodies", name, "viscosity"), text, prepared.findings)
-        if True in kinds and getattr(prepared.scene, "editing", False):
-            model = next(model for model in body.models().values() if model.with_rotations)
+        fixed = [m for m in body.models().values() if m.with_rotations and not isinstance(m, Shell)]
+        if fixed and getattr(prepared.scene, "editing", False):
+            model = fixed[0]
             text = (
                 f"found true with the model {model.type} of body '{name}', whose cells cannot be "
             )

@@ -181,7 +181,7 @@ def shape_of(simulation: Simulation, field: Field) -> Shape:
     parts = []
     for name, mesh in simulation.meshes.items():
         if simulation.is_cut(name):
-            parts += _cut(simulation, name, field)
+            parts.append(_cut(simulation, name, field))
             continue
         if name in simulation.own_surfaces:
             parts.append(_own_surface(simulation, name, field))
@@ -211,23 +211,21 @@ def shape_of(simulation: Simulation, field: Field) -> Shape:
     return _joined(parts)
 
 
-def _cut(simulation: Simulation, name: str, field: Field) -> list[Shape]:
-    """The surface of the material of a body that was cut, and its pieces of lines."""
+def _cut(simulation: Simulation, name: str, field: Field) -> Shape:
+    """The surface of the material of a body that was cut, or its pieces of lines."""
     surface = simulation.surface(name)
     shift = surface.carried(np.asarray(simulation.displacements(name)))
-    triangles = np.asarray(surface.triangles, dtype=np.int64)
-    rest, cells = surface.points - shift, simulation.remaining_cells(name)
-    values, at_ends = np.linalg.norm(shift, axis=1), np.empty(0)
+    triangles, rest = np.asarray(surface.triangles, dtype=np.int64), surface.points - shift
+    values = np.linalg.norm(shift, axis=1)
+    ends = values[surface.lines]
     if field != "displacement":
-        every = _stress_of(simulation, name)
-        at_ends = every[np.searchsorted(cells, surface.line_cell)]
+        every, cells = _stress_of(simulation, name), simulation.remaining_cells(name)
+        ends = np.tile(every[np.searchsorted(cells, surface.line_cell)], (2, 1)).T
         values = _at_points(every[np.searchsorted(cells, surface.cell)], triangles, surface.points)
     if not len(surface.lines):
-        return [Shape(rest, surface.points, triangles, values)]
-    lines = np.asarray(surface.lines, dtype=np.int64)
+        return Shape(rest, surface.points, triangles, values)
     radius = LINE * float(np.linalg.norm(np.ptp(rest, axis=0)))
-    ends = values[lines] if field == "displacement" else np.repeat(at_ends[:, None], 2, axis=1)
-    return [_rods(rest, surface.points, surface.lines, ends, radius)]
+    return _rods(rest, surface.points, surface.lines, ends, radius)
 
 
 def _own_surface(simulation: Simulation, name: str, field: Field) -> Shape:

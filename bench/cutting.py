@@ -1,13 +1,17 @@
-"""What a cut costs: `python bench/cutting.py [--write]`.
+"""What a cut costs: `python bench/cutting.py [--peer PYTHON] [--write]`.
 
-Discs that cut about a hundred tetrahedra out of a bar of so many, again and again from the same
-moment (`mark`, `rewind`): time of the cut, of its stages, of steps before and after, and their
-iterations. Run it on a machine that does nothing else.
+Discs that cut about a hundred tetrahedra out of a bar of so many, each as the first cut of a world
+(`mark`, `rewind`) and then one after the other: time of the cut, of steps before and after, and
+their iterations. PYTHON is one that has rapier3d, whose cuts of the same bars are timed between
+ours. Run it on a machine that does nothing else.
 """
 
 from __future__ import annotations
 
 import argparse
+import json
+import subprocess
+import tempfile
 import time
 from pathlib import Path
 
@@ -22,6 +26,7 @@ BEGIN, END = "<!-- bench/cutting.py -->\n", "<!-- end of bench/cutting.py -->\n"
 SIDES = (6, 12, 20)
 """Cells along the two short sides of a bar that is four times as long."""
 CUTS = 20
+PEER_CUTS = 8
 STEPS = 10
 
 
@@ -66,6 +71,102 @@ def stepped(simulation: ts.Simulation) -> tuple[float, float, float]:
     )
 
 
+def cuts_in_a_row(side: int) -> list[float]:
+    """Of all discs in one body, a step after each, without the first one [ms]."""
+    simulation, found = bar(side), []
+    for disc in discs(side):
+        found.append(simulation.cut("bar", disc).milliseconds)
+        simulation.step()
+    return found[1:]
+
+
+def blades(side: int) -> list[np.ndarray]:
+    """A regular triangle (3, 3) in the place of each disc, with its area [m]."""
+    found = []
+    for disc in discs(side):
+        normal = np.asarray(disc.normal) / np.linalg.norm(disc.normal)
+        one = np.cross(normal, (0.0, 0.0, 1.0))
+        one /= np.linalg.norm(one)
+        other = np.cross(normal, one)
+        radius = disc.radius * np.sqrt(np.pi / (0.75 * np.sqrt(3.0)))
+        turns = 2.0 * np.pi * np.arange(3)[:, None] / 3.0
+        found.append(disc.center + radius * (np.cos(turns) * one + np.sin(turns) * other))
+    return found
+
+
+def ours(side: int, number: int) -> dict[str, float]:
+    """One blade in a new body."""
+    simulation = bar(side)
+    before = [simulation.step().milliseconds for _ in range(5)]
+    report = simulation.cut("bar", ts.Triangles(blades(side)[number], [(0, 1, 2)]))
+    after = [simulation.step().milliseconds for _ in range(STEPS)]
+    return {
+        "cut": report.milliseconds,
+        "cells": report.cells_cut,
+        "step": float(np.median(before)),
+        "after": float(np.median(after)),
+    }
+
+
+def rapier(python: str, side: int, number: int) -> dict[str, float]:
+    """The same blade in Rapier's soft body."""
+    mesh = ts.bar_mesh(size=(0.4, 0.1, 0.1), cells=(4 * side, side, side), cell="tetra")
+    with tempfile.TemporaryDirectory() as folder:
+        work = Path(folder) / "work.npz"
+        held = np.flatnonzero(mesh.points[:, 0] < 1e-9)
+        np.savez(
+            work,
+            points=mesh.points,
+            tetrahedra=mesh.cells[0].nodes,
+            held=held,
+            blades=blades(side)[number : number + 1],
+        )
+        script = str(Path(__file__).parent / "cutting_rapier.py")
+        done = subprocess.run(
+            [python, script, str(work)], capture_output=True, text=True, check=True
+        )
+    found: dict[str, float] = json.loads(done.stdout)
+    return found
+
+
+def peer_rows(python: str, side: int) -> list[list[str]]:
+    """Both programs in turns, in one run."""
+    pairs = [(ours(side, number), rapier(python, side, number)) for number in range(PEER_CUTS)]
+    rows = []
+    for name, which, cells in (("tissu", 0, "cells"), ("Rapier", 1, "torn")):
+        found = [pair[which] for pair in pairs]
+
+        def median(key: str, found: list[dict[str, float]] = found) -> float:
+            return float(np.median([one[key] for one in found]))
+
+        rows.append(
+            [
+                f"{24 * side**3:,}",
+                name if which == 0 else f"{name} {pairs[0][1]['version']}",
+                f"{median(cells):.0f}",
+                f"{median('cut'):.1f}",
+                f"{max(one['cut'] for one in found):.1f}",
+                f"{median('step'):.1f}",
+                f"{median('after'):.1f}",
+            ]
+        )
+    return rows
+
+
+def peer_section(python: str) -> str:
+    """The table beside Rapier."""
+    head = ["tetrahedra", "program", "cells", "cut ms, p50", "cut ms, max", "step ms", "after"]
+    rows = [row for side in SIDES for row in peer_rows(python, side)]
+    return (
+        "\n### Beside Rapier\n\n"
+        f"{PEER_CUTS} triangles cut the same bars, each a body of its own that has gone five steps. Both\n"
+        "programs take turns, on one thread. In tissu the cut lies where the blade went: each side\n"
+        "has a copy of a crossed cell with its share of the material. In Rapier the cut follows\n"
+        "the faces of cells, whose nodes are doubled, and numbers are in single precision. *cells*\n"
+        "are those that the blade crossed.\n\n" + table(head, rows) + "\n"
+    )
+
+
 def row(side: int) -> list[str]:
     """One bar."""
     simulation = bar(side)
@@ -74,6 +175,7 @@ def row(side: int) -> list[str]:
     mark = simulation.mark()
     _, before, plain = stepped(simulation)
     cuts, cells, read, first, after, iterations = [], [], [], [], [], []
+    later = cuts_in_a_row(side)
     for disc in discs(side):
         simulation.rewind(mark)
         report = simulation.cut("bar", disc)
@@ -91,6 +193,8 @@ def row(side: int) -> list[str]:
         f"{np.mean(cells):.0f}",
         f"{np.median(cuts):.1f}",
         f"{np.percentile(cuts, 95):.1f}",
+        f"{np.median(later):.1f}",
+        f"{np.percentile(later, 95):.1f}",
         f"{np.median(read):.1f}",
         f"{before:.2f}",
         f"{np.median(first):.2f}",
@@ -100,19 +204,21 @@ def row(side: int) -> list[str]:
     ]
 
 
-def section() -> str:
+def section(python: str | None) -> str:
     """The table and what it says."""
-    head = ["tetrahedra", "cut", "ms, p50", "ms, p95", "surface ms", "step ms", "first after"]
-    head += ["later", "iterations", "after"]
+    head = ["tetrahedra", "cut", "first, p50", "first, p95", "next, p50", "next, p95"]
+    head += ["surface ms", "step ms", "first after", "later", "iterations", "after"]
     rows = [row(side) for side in SIDES]
     return (
         "## The time of a cut\n\n"
         "The table gives the time of a cut, and of the steps after it, for meshes of several\n"
-        f"sizes. A bar of StVK under its weight is cut by {CUTS} discs, each from the same state,\n"
-        "with implicit Euler of 10 ms on one thread. The time of a cut includes the report with\n"
-        "its pieces, but not reading the surface. The goal is 5 ms for a hundred cells of 50,000.\n"
-        "The first step after a cut makes a new preconditioner.\n\n"
+        f"sizes [ms]. A bar of StVK under its weight is cut by {CUTS} discs, with implicit Euler of\n"
+        "10 ms on one thread: each disc as the *first* cut of a new simulation, and then one after\n"
+        "the other as the *next* ones. The time of a cut includes the report with its pieces, but\n"
+        "not reading the surface. The goal is 5 ms for a hundred cells of 50,000. The first step\n"
+        "after a cut makes a new preconditioner.\n\n"
         + table(head, rows)
+        + ("" if python is None else "\n" + peer_section(python).rstrip())
         + f"\n\nPrinted by `python bench/cutting.py --write`; {machine_line()}\n"
     )
 
@@ -121,8 +227,10 @@ def main() -> None:
     """Prints the section, or writes it."""
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
     parser.add_argument("--write", action="store_true", help="to docs/measured/cutting.md")
-    text = section()
-    if parser.parse_args().write:
+    parser.add_argument("--peer", metavar="PYTHON", help="a Python that has rapier3d")
+    asked = parser.parse_args()
+    text = section(asked.peer)
+    if asked.write:
         page = PAGE.read_text(encoding="utf-8")
         before, _, rest = page.partition(BEGIN)
         PAGE.write_text(before + BEGIN + text + END + rest.partition(END)[2], encoding="utf-8")

@@ -107,6 +107,7 @@ void bind_simulation(py::module_& m) {
            }),
            py::kw_only(), arg("world"), arg("integrator"), arg("solver").none(true))
       .def("step", &step_interruptibly, arg("dt"))
+      .def("prepare_ahead", &Simulation::prepare_ahead, arg("dt"), py::call_guard<py::gil_scoped_release>())
       .def_property(
           "time", [](const Simulation& s) { return s.state().time; },
           [](Simulation& s, double time) {

@@ -113,7 +113,9 @@ class Scene(SceneData):
         """
         from tissu.compile import compile_scene
 
-        return compile_scene(self, None if checkpoint is None else Path(checkpoint))
+        simulation = compile_scene(self, None if checkpoint is None else Path(checkpoint))
+        simulation.prepare_first_step()
+        return simulation
 
     def check(self) -> Check:
         """The reasons for which compile() would refuse, and the effects that are switched on."""

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "tissu/base/error.h"
+#include "tissu/base/interruption.h"
 #include "tissu/base/number_text.h"
 #include "tissu/world/run_time.h"
 
@@ -94,6 +95,19 @@ Simulation::Simulation(std::shared_ptr<const World> world, std::unique_ptr<Integ
 void Simulation::renew_watch() {
   watch_.reset();
   if (is_watched(*world_, *integrator_, solver_ != nullptr)) watch_.emplace();
+}
+
+void Simulation::prepare_ahead(double h) {
+  if (solver_ == nullptr || !(h > 0.0) || !std::isfinite(h)) return;
+  State ahead = state_;
+  try {
+    begin_step(*world_, ahead, scratch_, h);
+    integrator_->prepare_ahead(ahead, h);
+  } catch (const Interrupted&) {
+    throw;
+  } catch (const Error&) {  // the step will say it
+    solver_->forget();
+  }
 }
 
 StepReport Simulation::step(double h) {

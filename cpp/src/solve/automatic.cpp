@@ -5,6 +5,7 @@
 #include <limits>
 #include <sstream>
 
+#include "ahead.h"
 #include "arm_costs.h"
 #include "choice.h"
 #include "tissu/assembly/couplings.h"
@@ -87,6 +88,7 @@ Automatic::Automatic(Settings settings)
     : settings_(settings),
       choice_(std::make_unique<Choice>()),
       known_(std::make_unique<Known>()),
+      ahead_(std::make_unique<Ahead>()),
       solvers_(kArms),
       solves_(kArms, 0) {
   if (!(settings.tolerance > 0.0)) {
@@ -139,6 +141,23 @@ void Automatic::meet(const BlockMatrix& A) {
   known.version = A.values_version();
 }
 
+void Automatic::meet_after(const LinearOperator& A) {
+  const bool waited = ahead_->waits();
+  if (waited && ahead_->serves(A)) {
+    known_->version = A.values_version();
+    return;
+  }
+  if (waited) forget();
+  meet(*A.matrix());
+}
+
+void Automatic::prepare_ahead(const LinearOperator& A) {
+  if (A.matrix() == nullptr || A.couplings() != nullptr) return;
+  meet(*A.matrix());
+  solver(choice_->current()).prepare_ahead(A);
+  ahead_->made(A);
+}
+
 SolveReport Automatic::attempt(const LinearOperator& A, ConstReals b, Reals x, double floor) {
   const Arm arm = choice_->current();
   LinearSolver& solver = this->solver(arm);
@@ -154,7 +173,7 @@ SolveReport Automatic::attempt(const LinearOperator& A, ConstReals b, Reals x, d
 
 SolveReport Automatic::solve(const LinearOperator& A, ConstReals b, Reals x, double floor) {
   if (A.matrix() == nullptr) throw ParameterError("the automatic solver needs an assembled matrix.");
-  meet(*A.matrix());
+  meet_after(A);
   choice_->begin_solve();
   SolveReport sum;
   while (true) {
@@ -192,6 +211,7 @@ void Automatic::drop() {
 void Automatic::forget() {
   for (auto& solver : solvers_) solver.reset();
   *known_ = Known();
+  *ahead_ = Ahead();
 }
 
 std::size_t Automatic::bytes() const {

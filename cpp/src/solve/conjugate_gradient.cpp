@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "ahead.h"
 #include "forecast.h"
 #include "iteration.h"
 #include "tissu/base/error.h"
@@ -61,7 +62,10 @@ std::string name_of(const ConjugateGradient::Settings& settings) {
 }  // namespace
 
 ConjugateGradient::ConjugateGradient(Settings settings)
-    : settings_(settings), name_(name_of(settings)), forecast_(std::make_unique<Forecast>()) {
+    : settings_(settings),
+      name_(name_of(settings)),
+      forecast_(std::make_unique<Forecast>()),
+      ahead_(std::make_unique<Ahead>()) {
   if (!(settings.tolerance > 0.0) || settings.iterations < 1) {
     throw ParameterError("conjugate gradient needs a positive tolerance and at least one iteration.");
   }
@@ -146,6 +150,26 @@ End ConjugateGradient::single_round(const LinearOperator& A, Reals x, double len
   return end;
 }
 
+void ConjugateGradient::prepare_ahead(const LinearOperator& A) {
+  if (A.matrix() == nullptr || A.couplings() != nullptr) return;
+  if (settings_.precision == Precision::single) {
+    iteration<float>().prepare(A, false);
+  } else {
+    iteration<double>().prepare(A, false);
+  }
+  ahead_->made(A);
+}
+
+void ConjugateGradient::begin_solve(const LinearOperator& A) {
+  const bool waited = ahead_->waits();
+  const bool serves = waited && ahead_->serves(A);
+  if (waited && !serves) forget();
+  if (full_) full_->begin_solve();
+  if (single_) single_->begin_solve();
+  if (serves && full_) full_->take_over(A);
+  if (serves && single_) single_->take_over(A);
+}
+
 SolveReport ConjugateGradient::solve(const LinearOperator& A, ConstReals b, Reals x, double floor) {
   if (needs_matrix() && A.matrix() == nullptr) {
     throw ParameterError("this conjugate gradient needs an assembled matrix.");
@@ -157,8 +181,7 @@ SolveReport ConjugateGradient::solve(const LinearOperator& A, ConstReals b, Real
     report.converged = true;
     return report;
   }
-  if (full_) full_->begin_solve();
-  if (single_) single_->begin_solve();
+  begin_solve(A);
   rounds(A, b, x, reference, report);
   report.making = (full_ ? full_->making() : 0.0) + (single_ ? single_->making() : 0.0);
   report.once = (full_ ? full_->once() : 0.0) + (single_ ? single_->once() : 0.0);
@@ -220,6 +243,7 @@ void ConjugateGradient::forget() {
   if (full_) full_->forget();
   if (single_) single_->forget();
   forecast_->forget();
+  *ahead_ = Ahead();
 }
 
 std::size_t ConjugateGradient::bytes() const {

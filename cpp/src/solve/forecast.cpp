@@ -39,9 +39,11 @@ double Forecast::multiply(const LinearOperator& A) {
 Forecast::Sums Forecast::sums(const Threads& threads, ConstReals r) {
   const auto rows = static_cast<std::int32_t>(r.size() / 3);
   partial_sums_.resize(static_cast<std::size_t>(Threads::pieces(rows)));
-  threads.for_pieces(rows, [&](std::int32_t begin, std::int32_t end) {
+  threads.for_each(Threads::pieces(rows), [&](std::int32_t piece) {
     Sums sum{};
-    for (auto i = 3 * static_cast<std::size_t>(begin); i < 3 * static_cast<std::size_t>(end); ++i) {
+    const auto begin = 3 * static_cast<std::size_t>(Threads::begin_of(piece));
+    const auto end = 3 * static_cast<std::size_t>(Threads::end_of(piece, rows));
+    for (std::size_t i = begin; i < end; ++i) {
       const Shares y = {products_[0][i], products_[1][i], products_[2][i]};
       std::size_t pair = 0;
       for (std::size_t n = 0; n < kMost; ++n) {
@@ -49,7 +51,7 @@ Forecast::Sums Forecast::sums(const Threads& threads, ConstReals r) {
         sum[kPairs + n] += y[n] * r[i];
       }
     }
-    partial_sums_[static_cast<std::size_t>(begin / Threads::kPiece)] = sum;
+    partial_sums_[static_cast<std::size_t>(piece)] = sum;
   });
   Sums total{};
   for (const Sums& sum : partial_sums_) {

@@ -32,8 +32,9 @@ bool Iteration<T>::prepare(const LinearOperator& A, bool forced) {
   }
   const bool serves = made_ && id_ == A.id() && given_ == A.given();
   if (serves && version_ == A.version()) return false;
-  if (serves && !forced && !in_parts_ && !renewal_.due(expected(A))) return false;
+  if (serves && !forced && (parted_ || (!in_parts_ && !renewal_.due(expected(A))))) return false;
   if (serves && !forced) {
+    parted_ = true;
     in_parts_ = !M_->make_part(A, scale());
     if (in_parts_) return true;
   } else {
@@ -79,6 +80,14 @@ void Iteration<T>::begin_solve() {
   once_ = 0.0;
   goes_on_ = false;
   made_midway_ = false;
+  parted_ = false;
+}
+
+template <class T>
+void Iteration<T>::take_over(const LinearOperator& A) {
+  version_ = A.version();
+  making_ = M_->making();
+  once_ = M_->once();
 }
 
 template <class T>

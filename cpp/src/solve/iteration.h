@@ -35,6 +35,8 @@ class Iteration {
   /// The next run goes on in the directions of the latest one, whose residual it is given computed anew and
   /// divided by `scale` times what the latest was divided by. Otherwise it starts its own.
   void go_on(double scale);
+  /// What was made last was made of this operator, for the solve that has begun.
+  void take_over(const LinearOperator& A);
   /// A solve begins, or is over.
   void begin_solve();
   void end_solve();
@@ -67,6 +69,7 @@ class Iteration {
   bool made_ = false;
   bool made_midway_ = false;
   bool in_parts_ = false;  ///< a making has begun that takes several solves
+  bool parted_ = false;    ///< this solve has had its part of it
   std::uint64_t id_ = 0;
   std::uint64_t version_ = 0;
   const std::vector<std::uint8_t>* given_ = nullptr;

@@ -27,6 +27,11 @@ void Bdf2::prepare(const World& world, LinearSolver* solver, Profile& profile) {
   v_ = start_.velocities;
 }
 
+void Bdf2::prepare_ahead(const State& state, double h) {
+  history_.begin(state, h, solver_);
+  solver_.prepare_ahead();
+}
+
 StepReport Bdf2::step(State& state, double h) {
   StepReport report;
   start_ = state;

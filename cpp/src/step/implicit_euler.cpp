@@ -8,13 +8,22 @@ void ImplicitEuler::prepare(const World& world, LinearSolver* solver, Profile& p
   v_ = start_.velocities;
 }
 
-StepReport ImplicitEuler::step(State& state, double h) {
-  StepReport report;
+void ImplicitEuler::begin(const State& state, double h) {
   start_ = state;
   v_ = state.velocities;
   // Loads and led nodes act with their value at the end of the step.
   solver_.begin(start_, state.time + h, h);
   solver_.lead(start_, state.time + h, h, 1.0);
+}
+
+void ImplicitEuler::prepare_ahead(const State& state, double h) {
+  begin(state, h);
+  solver_.prepare_ahead();
+}
+
+StepReport ImplicitEuler::step(State& state, double h) {
+  StepReport report;
+  begin(state, h);
   solver_.solve(state, v_, report);
   keep_angular_momentum(start_, solver_.world().frames(), state);
   report.time = state.time;

@@ -8,8 +8,7 @@ void ImplicitMidpoint::prepare(const World& world, LinearSolver* solver, Profile
   mean_ = start_.velocities;
 }
 
-StepReport ImplicitMidpoint::step(State& state, double h) {
-  StepReport report;
+void ImplicitMidpoint::begin(const State& state, double h) {
   start_ = state;
   mean_ = state.velocities;
   // Half a step of backward Euler; where motion is given, its mean velocity over the whole one.
@@ -17,6 +16,16 @@ StepReport ImplicitMidpoint::step(State& state, double h) {
   solver_.stage().end = start_.time + h;
   solver_.stage().contact = {2.0, 2.0};
   solver_.lead(start_, start_.time + h, h, 0.5);
+}
+
+void ImplicitMidpoint::prepare_ahead(const State& state, double h) {
+  begin(state, h);
+  solver_.prepare_ahead();
+}
+
+StepReport ImplicitMidpoint::step(State& state, double h) {
+  StepReport report;
+  begin(state, h);
   solver_.solve(state, mean_, report);
   // The other half goes on with the same velocity.
   move(start_, solver_.world().frames(), mean_, h, state);

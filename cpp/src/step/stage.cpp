@@ -86,6 +86,11 @@ void StageSolver::lead(const State& start, double time, double h, double share) 
   fixed.place(start, share * h - stage_.move, given_, stage_.base);
 }
 
+void StageSolver::prepare_ahead() {
+  assemble(stage_.base, false);
+  system_->prepare_ahead();
+}
+
 void StageSolver::solve(State& state, std::vector<double>& v, StepReport& report) {
   judge_by_load();
   guess_ = v;

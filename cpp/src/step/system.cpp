@@ -179,6 +179,10 @@ void System::place_rows(const State& state) {
 
 double System::round_off(const State& state) const { return system_matrix().round_off(state.positions); }
 
+void System::prepare_ahead() const {
+  if (solver_ != nullptr) solver_->prepare_ahead(system_matrix());
+}
+
 SolveReport System::solve(ConstReals b, Reals x, double floor) {
   if (solver_ == nullptr) throw ParameterError("this method solves systems: give it a linear solver.");
   const auto start = std::chrono::steady_clock::now();

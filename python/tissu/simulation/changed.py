@@ -90,6 +90,7 @@ class Changed:
         self._steps = 0
         for body in self._rest:
             self._follow_cells(body)
+        self.prepare_first_step()
 
     def _become(self, scene: Scene) -> None:
         """Go on with a scene that differs in numbers only.
@@ -115,7 +116,9 @@ class Changed:
     def _compiled(self, scene: Scene) -> Changed:
         """A simulation of the scene, with the meshes that are in memory already."""
         bodies = {name: body.replace(mesh=self._rest[name]) for name, body in scene.bodies.items()}
-        return scene.replace(bodies=bodies).compile()
+        from tissu.compile import compile_scene
+
+        return compile_scene(scene.replace(bodies=bodies))
 
     def _take_over(self, fresh: Changed) -> None:
         self._world, self._check, self._loads = fresh._world, fresh._check, fresh._loads

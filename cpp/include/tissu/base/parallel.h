@@ -3,6 +3,7 @@
 /// Parallel loops whose result does not depend on the number of threads: the work is cut into the same pieces
 /// whatever that number is, and what the pieces give is put together in the order of the pieces.
 
+#include <algorithm>
 #include <cstdint>
 #include <type_traits>
 #include <vector>
@@ -27,10 +28,14 @@ class Threads {
         const_cast<void*>(static_cast<const void*>(&f)));  // NOLINT(cppcoreguidelines-pro-type-const-cast)
   }
 
-  /// f(begin, end) over [0, count) in pieces of kPiece.
+  /// f(begin, end) over [0, count) in pieces. How long they are depends on the number of threads, so that
+  /// all of them have work until the end: nothing that f gives may depend on where a piece begins.
   template <class Function>
   void for_pieces(std::int32_t count, Function&& f) const {
-    for_each(pieces(count), [&](std::int32_t p) { f(begin_of(p), end_of(p, count)); });
+    const std::int32_t size =
+        count_ == 1 ? kPiece : std::clamp(count / (kShares * count_) + 1, kLeast, kPiece);
+    for_each((count + size - 1) / size,
+             [&](std::int32_t p) { f(p * size, std::min(count, (p + 1) * size)); });
   }
 
   /// The sum of f(begin, end) over the pieces of [0, count), added in their order. `partial` is scratch.
@@ -45,17 +50,19 @@ class Threads {
     return total;
   }
 
-  static constexpr std::int32_t kPiece = 512;  ///< rows of one piece; part of the result's bits
+  static constexpr std::int32_t kPiece = 512;  ///< rows of one piece of a sum; part of the result's bits
   static constexpr std::int32_t pieces(std::int32_t count) { return (count + kPiece - 1) / kPiece; }
+  static constexpr std::int32_t begin_of(std::int32_t piece) { return piece * kPiece; }
+  static constexpr std::int32_t end_of(std::int32_t piece, std::int32_t count) {
+    return piece * kPiece + kPiece < count ? piece * kPiece + kPiece : count;
+  }
 
  private:
   /// call(called, i) for i in [0, count), shared out over threads that all loops of the process have in
   /// common, or on the thread that calls where another loop has them.
   static void share(int threads, std::int32_t count, void (*call)(void*, std::int32_t), void* called);
-  static constexpr std::int32_t begin_of(std::int32_t piece) { return piece * kPiece; }
-  static constexpr std::int32_t end_of(std::int32_t piece, std::int32_t count) {
-    return piece * kPiece + kPiece < count ? piece * kPiece + kPiece : count;
-  }
+  static constexpr std::int32_t kShares = 4;  ///< pieces of a loop that each thread has, at least …
+  static constexpr std::int32_t kLeast = 64;  ///< … if they are not shorter than this
   int count_;
 };
 

@@ -33,6 +33,10 @@ class Simulation {
   /// the energy (EnergyWatch).
   StepReport step(double h);
 
+  /// Makes what the first step will ask for if it is one of h [s]: orderings, aggregates, a preconditioner.
+  /// Steps give the same bits without. Only before the first step.
+  void prepare_ahead(double h);
+
   /// The largest step that is stable now [s]; infinite for methods that have no such limit.
   [[nodiscard]] double stable_step() { return integrator_->stable_step(state_); }
 

@@ -9,6 +9,7 @@
 
 namespace tissu {
 
+class Ahead;
 class Choice;
 enum class Arm : unsigned char;
 
@@ -35,11 +36,15 @@ class Automatic final : public LinearSolver {
   /// Which ways solved how many systems, and how often they changed.
   [[nodiscard]] std::string account() const override;
   SolveReport solve(const LinearOperator& A, ConstReals b, Reals x, double floor) override;
+  void prepare_ahead(const LinearOperator& A) override;
   void forget() override;
   [[nodiscard]] std::size_t bytes() const override;
 
  private:
+  /// What it knows of matrices follows, and what it expects of each way.
   void meet(const BlockMatrix& A);
+  /// The same where something was made ahead, which is forgotten if it does not serve.
+  void meet_after(const LinearOperator& A);
   void predict(bool first);
   LinearSolver& solver(Arm arm);
   SolveReport attempt(const LinearOperator& A, ConstReals b, Reals x, double floor);
@@ -50,6 +55,7 @@ class Automatic final : public LinearSolver {
   std::unique_ptr<Choice> choice_;
   struct Known;
   std::unique_ptr<Known> known_;  ///< of the matrix
+  std::unique_ptr<Ahead> ahead_;
   std::vector<std::unique_ptr<LinearSolver>> solvers_;
   std::vector<std::int64_t> solves_;  ///< of each way
   int changes_ = 0;                   ///< of those that were forgotten

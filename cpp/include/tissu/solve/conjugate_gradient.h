@@ -23,6 +23,7 @@ enum class Precision { full, single };
 /// What the iterations multiply with: an assembled matrix, or the forces' own products.
 enum class Product { assembled, free };
 
+class Ahead;
 class Forecast;
 template <class T>
 class Iteration;
@@ -55,6 +56,7 @@ class ConjugateGradient final : public LinearSolver {
     return settings_.preconditioning == Preconditioning::multigrid;
   }
   SolveReport solve(const LinearOperator& A, ConstReals b, Reals x, double floor) override;
+  void prepare_ahead(const LinearOperator& A) override;
   /// The next solves stop, not converged, when they have taken so much work (SolveReport), makings not
   /// counted: for a caller that has another way. Infinite at first.
   void allow(double work) { allowance_ = work; }
@@ -62,6 +64,8 @@ class ConjugateGradient final : public LinearSolver {
   [[nodiscard]] std::size_t bytes() const override;
 
  private:
+  /// A solve begins, with what was made ahead if that serves it.
+  void begin_solve(const LinearOperator& A);
   /// r_ = b - A x; |r_|
   double residual(const LinearOperator& A, ConstReals b, ConstReals x, SolveReport& report);
   /// Work of this solve so far, makings not counted.
@@ -87,6 +91,7 @@ class ConjugateGradient final : public LinearSolver {
   std::vector<float> single_change_;
   std::vector<double> partial_;
   std::unique_ptr<Forecast> forecast_;
+  std::unique_ptr<Ahead> ahead_;
   std::unique_ptr<Iteration<double>> full_;
   std::unique_ptr<Iteration<float>> single_;
 };

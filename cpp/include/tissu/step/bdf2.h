@@ -14,6 +14,7 @@ class Bdf2 final : public Integrator {
   [[nodiscard]] std::string_view name() const override { return "BDF2"; }
   void prepare(const World& world, LinearSolver* solver, Profile& profile) override;
   bool follow_edit(std::span<const std::int32_t> rows) override { return solver_.follow_edit(rows); }
+  void prepare_ahead(const State& state, double h) override;
   StepReport step(State& state, double h) override;
   void append_memory(std::vector<double>& memory) const override { history_.append_memory(memory); }
   void restore(ConstReals memory) override { history_.restore(memory); }

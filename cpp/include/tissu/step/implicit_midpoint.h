@@ -13,9 +13,12 @@ class ImplicitMidpoint final : public Integrator {
   [[nodiscard]] bool is_undamped() const override { return true; }
   void prepare(const World& world, LinearSolver* solver, Profile& profile) override;
   bool follow_edit(std::span<const std::int32_t> rows) override { return solver_.follow_edit(rows); }
+  void prepare_ahead(const State& state, double h) override;
   StepReport step(State& state, double h) override;
 
  private:
+  void begin(const State& state, double h);
+
   StageSolver solver_;
   State start_;
   std::vector<double> mean_;  ///< velocity

@@ -60,6 +60,9 @@ class Integrator {
   /// Allocates what its steps need. Called before the first step, and again after an edit. `solver` outlives
   /// the steps; null for methods that solve no system.
   virtual void prepare(const World& world, LinearSolver* solver, Profile& profile) = 0;
+  /// Makes what a first step of h from this state will ask for, so that it takes no longer than others. It
+  /// changes nothing of what steps give.
+  virtual void prepare_ahead(const State& /*state*/, double /*h*/) {}
   /// The largest step that is stable at a state [s]; infinite for methods that have no such limit.
   [[nodiscard]] virtual double stable_step(const State& /*state*/) {
     return std::numeric_limits<double>::infinity();

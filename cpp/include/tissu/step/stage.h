@@ -41,6 +41,8 @@ class StageSolver {
   void lead(const State& start, double time, double h, double share);
   /// Those velocities, put into v.
   void copy_given(Reals v) const { system_->world().fixed().copy(given_, v); }
+  /// Assembles the matrix of the stage and lets the solver make what it needs of it, before there is a step.
+  void prepare_ahead();
   /// Solves for v from the guess that it holds; `state` gets x(v) and v. The report is added to.
   void solve(State& state, std::vector<double>& v, StepReport& report);
   /// v += seconds M^-1 of the contact forces of the way that the latest solve found, on free rows; nothing

@@ -106,6 +106,11 @@ py::dict surface(const Simulation& simulation, const std::string& body) {
     std::ranges::copy(found.triangles[t], triangles.mutable_data(static_cast<py::ssize_t>(t)));
   result["triangles"] = triangles;
   result["cell"] = to_array(found.cell);
+  Ints lines({static_cast<py::ssize_t>(found.lines.size()), py::ssize_t{2}});
+  for (std::size_t l = 0; l < found.lines.size(); ++l)
+    std::ranges::copy(found.lines[l], lines.mutable_data(static_cast<py::ssize_t>(l)));
+  result["lines"] = lines;
+  result["line_cell"] = to_array(found.line_cell);
   result["vertex_node"] = to_array(found.vertex_node);
   py::array_t<bool> opened(static_cast<py::ssize_t>(found.cut.size()));
   std::ranges::transform(found.cut, opened.mutable_data(), [](char c) { return c != 0; });

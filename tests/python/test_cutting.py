@@ -420,7 +420,7 @@ def test_a_sheet_of_quads_has_no_material_to_cut() -> None:
     for look in (simulation.surface, simulation.material, simulation.pieces, simulation.origin):
         with pytest.raises(ts.ParameterError, match="cells of type quad"):
             look("bar")
-    with pytest.raises(ts.ParameterError, match="volume cells and triangles are accepted"):
+    with pytest.raises(ts.ParameterError, match="volume cells, triangles and lines"):
         simulation.cut("bar", SLANTED)
     assert simulation.step().converged
 

@@ -405,7 +405,9 @@ def test_what_cannot_be_is_refused_when_the_scene_is_read() -> None:
         density=1000.0,
         thickness=0.002,
     )
-    refused(lambda: scene(knife, bodies={"bar": sheet}).compile(), "volume cells and triangles")
+    refused(
+        lambda: scene(knife, bodies={"bar": sheet}).compile(), "volume cells, triangles and lines"
+    )
 
 
 def test_what_cannot_be_is_refused_while_it_runs() -> None:

@@ -18,11 +18,28 @@ BodyTotals totals(const World& world, const State& state, std::span<const std::i
   return result;
 }
 
+namespace {
+
+/// Of nodes that have rotations.
+void add_spins(const World& world, const State& state, const Body& body, BodyTotals& result) {
+  for (std::int32_t node = 0; body.first_frame >= 0 && node < body.node_count; ++node) {
+    const auto k = static_cast<std::size_t>(body.first_frame + node);
+    const Frame& frame = world.frames()[k];
+    const Vec3 omega = block(ConstReals(state.velocities), frame.rotation);
+    const Vec3 spin = spatial_inertia(frame, state.rotations[k]) * omega;
+    result.angular_momentum += spin;
+    result.kinetic += 0.5 * omega.dot(spin);
+  }
+}
+
+}  // namespace
+
 BodyTotals totals(const World& world, const State& state, std::string_view name) {
   const Body& body = world.body(name);
   std::vector<std::int32_t> rows(static_cast<std::size_t>(body.node_count));
   std::iota(rows.begin(), rows.end(), body.first_node);
   BodyTotals result = totals(world, state, rows);
+  add_spins(world, state, body, result);
   Scratch scratch;
   for (const BodyModel* model : body.models) {
     result.elastic += model->energy(state, scratch);

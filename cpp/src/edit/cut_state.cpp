@@ -26,12 +26,21 @@ const BodyDescription& described(const World& world, std::string_view name) {
 }
 
 std::optional<CellType> host_type(const ElasticBlock& block) {
-  if (block.element == info(CellType::triangle).name) return CellType::triangle;
+  for (const CellType thin : {CellType::triangle, CellType::line}) {
+    if (block.element == info(thin).name) return thin;
+  }
   return cell_type(block.element);
 }
 
+bool listens_to_frames(const BodyDescription& body) {
+  if (!body.shared.empty()) return true;
+  return body.frames && !std::ranges::all_of(body.elastic, [](const ElasticBlock& block) {
+           return std::holds_alternative<ShellOptions>(block.model);
+         });
+}
+
 bool has_material(const BodyDescription& body) {
-  if (body.frames || !body.shared.empty()) return false;
+  if (listens_to_frames(body)) return false;
   int dimension = 0;
   return std::ranges::all_of(body.elastic, [&](const ElasticBlock& block) {
     const std::optional<CellType> type = host_type(block);
@@ -70,13 +79,13 @@ CutState cut_state_of(BodyDescription body, Material material) {
   for (const ElasticBlock& block : body.elastic) {
     const std::optional<CellType> known = host_type(block);
     if (!known) {
-      throw ParameterError(
-          "body \"" + body.name + "\" has cells of type " + block.element +
-          "; only bodies of volume cells, and of triangles, have a material that can be cut.");
+      throw ParameterError("body \"" + body.name + "\" has cells of type " + block.element +
+                           "; only bodies of volume cells, of triangles and of lines of two nodes have a "
+                           "material that can be cut.");
     }
     const CellType type = *known;
     const ElementInfo& element = *find_element(block.element);
-    const bool is_sheet = info(type).dimension == 2;
+    const bool is_thin = info(type).dimension < 3;
     for (std::size_t i = 0; i < block.cell_numbers.size(); ++i) {
       const auto own =
           std::span(block.cells)
@@ -86,7 +95,7 @@ CutState cut_state_of(BodyDescription body, Material material) {
                        block.origins.empty() ? block.cell_numbers[i] : block.origins[i],
                        of_cell(block.share, static_cast<std::int32_t>(i)),
                        {own.begin(), own.end()},
-                       is_sheet ? of_cell(block.cross_section, static_cast<std::int32_t>(i)) : 1.0});
+                       is_thin ? of_cell(block.cross_section, static_cast<std::int32_t>(i)) : 1.0});
     }
   }
   std::ranges::sort(cells, {}, &Hosts::Cell::number);

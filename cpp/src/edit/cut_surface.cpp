@@ -1,7 +1,10 @@
 #include "cut_surface.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <map>
+#include <numbers>
 #include <numeric>
 #include <optional>
 #include <string>
@@ -44,36 +47,56 @@ KerfSurface sheet_surface(const CutState& cut) {
   return surface;
 }
 
-/// Half the thickness of the sheets at each node.
+/// All pieces of the material of lines, and the vertices that ride.
+KerfSurface line_surface(const CutState& cut, std::vector<std::array<std::int32_t, 2>>& edges) {
+  KerfSurface surface;
+  std::map<std::int32_t, Rider> carried;
+  for (const std::int32_t cell : cut.hosts.numbers()) {
+    for (const MaterialTetra& piece : material_of(cut.hosts, cut.material, cell)) {
+      const auto [a, b] = std::minmax(piece.vertices[0], piece.vertices[1]);
+      edges.push_back({a, b});
+      for (const std::int32_t v : {a, b}) {
+        if (v < 0) carried[v] = cut.material.riders[static_cast<std::size_t>(-1 - v)];
+      }
+    }
+  }
+  surface.carried.assign(carried.begin(), carried.end());
+  return surface;
+}
+
+/// Half the thickness of the sheets at each node, or the radius of the lines.
 std::vector<double> radii(const BodyDescription& body) {
   std::vector<double> radius(body.positions.size() / 3, 0.0);
   for (const ElasticBlock& block : body.elastic) {
+    const ElementInfo& element = *find_element(block.element);
     for (std::size_t i = 0; i < block.cells.size(); ++i) {
+      const double section = of_cell(block.cross_section, static_cast<std::int32_t>(i) / element.nodes);
       double& own = radius[static_cast<std::size_t>(block.cells[i])];
-      own = std::max(own, 0.5 * of_cell(block.cross_section, static_cast<std::int32_t>(i / 3)));
+      own = std::max(own, element.dimension == 2 ? 0.5 * section : std::sqrt(section / std::numbers::pi));
     }
   }
   return radius;
 }
 
-bool is_sheet(const BodyDescription& body) {
-  return std::ranges::all_of(body.elastic, [](const ElasticBlock& block) {
-    const std::optional<CellType> type = host_type(block);
-    return type && info(*type).dimension == 2;
-  });
+/// Of the cells of a body, whose material all has the same.
+int dimension_of(const BodyDescription& body) {
+  const std::optional<CellType> type = body.elastic.empty() ? std::nullopt : host_type(body.elastic.front());
+  return type ? info(*type).dimension : 3;
 }
 
 }  // namespace
 
 SurfaceDescription cut_surface(const BodyDescription& body, const ContactDescription& contact) {
-  const bool sheet = is_sheet(body);
-  KerfSurface found = sheet ? sheet_surface(*body.cut)
-                            : kerf_surface(body.cut->hosts, body.cut->material, kerf_depth(body, contact));
+  const int dimension = dimension_of(body);
   SurfaceDescription surface;
+  KerfSurface found = dimension == 1 ? line_surface(*body.cut, surface.edges)
+                      : dimension == 2
+                          ? sheet_surface(*body.cut)
+                          : kerf_surface(body.cut->hosts, body.cut->material, kerf_depth(body, contact));
   surface.name = body.name;
   surface.triangles = std::move(found.triangles);
-  surface.closed = !sheet && !surface.triangles.empty();
-  if (sheet) surface.radius = radii(body);
+  surface.closed = dimension == 3 && !surface.triangles.empty();
+  if (dimension < 3) surface.radius = radii(body);
   SurfaceRiders& riders = surface.riders;
   for (const auto& [vertex, rider] : found.carried) {
     riders.vertex.push_back(vertex);
@@ -111,8 +134,9 @@ void part_pairs(ContactDescription& contact, const BodyDescription& body,
 
 void refuse_touching(const BodyDescription& body, const SurfaceDescription& surface,
                      const ContactDescription& contact) {
-  if (!is_sheet(body)) return;
-  if (surface.triangles.empty()) {
+  const int dimension = dimension_of(body);
+  if (dimension == 3) return;
+  if (dimension == 2 && surface.triangles.empty()) {
     throw ParameterError(
         "body \"" + body.name +
         "\" cannot be cut: it is flat, and its rim in contact does not follow a cut yet; leave "
@@ -124,8 +148,11 @@ void refuse_touching(const BodyDescription& body, const SurfaceDescription& surf
     if (contact.bodies[static_cast<std::size_t>(pair.a)].name != body.name) continue;
     throw ParameterError(
         "body \"" + body.name +
-        "\" cannot be cut: it is a sheet that meets itself, and both edges of a cut would begin "
-        "in one place; leave it out of self-contact.");
+        (dimension == 2
+             ? "\" cannot be cut: it is a sheet that meets itself, and both edges of a cut would begin "
+               "in one place; leave it out of self-contact."
+             : "\" cannot be cut: its lines meet themselves, and both ends of a cut would begin in "
+               "one place; leave it out of self-contact."));
   }
 }
 

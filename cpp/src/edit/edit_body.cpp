@@ -10,6 +10,7 @@
 #include "cut_surface.h"
 #include "debris.h"
 #include "parted_loads.h"
+#include "parted_pressures.h"
 #include "tissu/base/error.h"
 #include "tissu/edit/cut_state.h"
 #include "tissu/element/reference_cell.h"
@@ -175,12 +176,13 @@ void refuse_unparted(const WorldDescription& description, const BodyDescription&
   const auto refuse = [&](const std::string& why) {
     throw ParameterError("body \"" + body.name + "\" cannot be cut: " + why + ".");
   };
-  if (body.frames || !body.shared.empty()) {
-    refuse("its nodes are frames, and bodies whose nodes have places only are accepted");
+  if (listens_to_frames(body)) {
+    refuse("its points listen to frames, and bodies whose cells have nodes of their own are accepted");
   }
   for (const ElasticBlock& block : body.elastic) {
     if (!host_type(block)) {
-      refuse("it has cells of type " + block.element + ", and volume cells and triangles are accepted");
+      refuse("it has cells of type " + block.element +
+             ", and volume cells, triangles and lines of two nodes are accepted");
     }
     if (std::holds_alternative<CondensedOptions>(block.model)) {
       refuse("its cells are condensed, and a model that keeps each cell is accepted, such as fem");
@@ -192,12 +194,11 @@ void refuse_unparted(const WorldDescription& description, const BodyDescription&
           "default");
     }
   }
-  if (!has_material(body)) refuse("it has volume cells and sheets, and bodies of one of both are accepted");
-  for (const PressureDescription& pressure : description.pressures) {
-    if (pressure.body == body.name) {
-      refuse("the pressure \"" + pressure.name + "\" acts on its faces, which a cut does not part yet");
-    }
-  }
+  if (!has_material(body))
+    refuse(
+        "it has cells of several dimensions, and bodies of volume cells, of sheets or of lines alone are "
+        "accepted");
+  refuse_pressed(description, body);
   if (!description.contact) return;
   for (const SurfaceDescription& surface : description.contact->bodies) {
     if (surface.name != body.name) continue;
@@ -235,6 +236,7 @@ std::shared_ptr<const World> edit_body(const World& world, const State& state, s
   body = edited(std::move(body), edit);
   part_supports(description, body, edit);
   part_loads(description, body);
+  part_pressures(description, body);
   refuse_live_changes(world, state, *world.description(), description);
   std::erase_if(description.fixed, [](const FixedNodes& fixed) { return fixed.nodes.empty(); });
   hold_debris(description, body, state, world.body(name).first_node);
@@ -247,14 +249,20 @@ RowsBorn rows_born(const World& world, std::string_view name, const BodyEdit& ed
   const Body& body = world.body(name);
   RowsBorn born;
   for (std::size_t k = 0; k < edit.copied.size(); ++k) {
-    const std::int32_t to = body.first_node + body.node_count + static_cast<std::int32_t>(k);
-    if (edit.copied[k] >= 0) {
-      born.copies.push_back({to, body.first_node + edit.copied[k]});
+    const std::int32_t to = body.node_count + static_cast<std::int32_t>(k);
+    const std::int32_t from = edit.copied[k];
+    if (from >= 0) {
+      born.copies.push_back({body.first_node + to, body.first_node + from});
+      if (body.first_frame < 0) continue;
+      const auto rotation = [&](std::int32_t node) {
+        return world.frames()[static_cast<std::size_t>(body.first_frame + node)].rotation;
+      };
+      born.copies.push_back({rotation(to), rotation(from), body.first_frame + to, body.first_frame + from});
       continue;
     }
     const Rider& between = edit.between[k];
     RowBlend& blend = born.blends.emplace_back();
-    blend.to = to;
+    blend.to = body.first_node + to;
     for (std::size_t i = 0; i < static_cast<std::size_t>(between.count); ++i) {
       blend.from[i] = body.first_node + between.node[i];
       blend.weight[i] = between.weight[i];

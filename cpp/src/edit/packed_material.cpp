@@ -23,12 +23,12 @@ void check_vertices(const std::vector<std::int32_t>& vertices, std::int32_t node
     refuse("vertices that are not there");
 }
 
-/// Of tetrahedra and triangles, four for each.
+/// Of tetrahedra, triangles and pieces of lines, four for each.
 std::vector<std::int32_t> corners_of(const std::vector<std::int32_t>& vertices) {
   std::vector<std::int32_t> corners;
   corners.reserve(vertices.size());
   for (std::size_t i = 0; i < vertices.size(); ++i) {
-    if (i % 4 != 3 || vertices[i] != kNoVertex) corners.push_back(vertices[i]);
+    if (i % 4 < 2 || vertices[i] != kNoVertex) corners.push_back(vertices[i]);
   }
   return corners;
 }

@@ -13,17 +13,21 @@ namespace {
 
 using Masses = std::unordered_map<std::int32_t, double>;
 
-double rest_volume(const ReferenceCell& reference, const std::int32_t* nodes, ConstReals X) {
-  double volume = 0.0;
+/// [m3]; of a sheet the area [m2], of a line the length [m].
+double rest_measure(const ReferenceCell& reference, const std::int32_t* nodes, ConstReals X) {
+  double measure = 0.0;
   for (const ReferenceCell::Point& point : reference.points) {
     Mat3 J = Mat3::Zero();
     for (int a = 0; a < reference.nodes; ++a) {
       J += block(X, nodes[a]) *
            Eigen::Map<const Eigen::RowVector3d>(point.gradients[static_cast<std::size_t>(a)].data());
     }
-    volume += point.weight * J.determinant();
+    const double volume = reference.dimension == 3   ? J.determinant()
+                          : reference.dimension == 2 ? J.col(0).cross(J.col(1)).norm()
+                                                     : J.col(0).norm();
+    measure += point.weight * volume;
   }
-  return volume;
+  return measure;
 }
 
 /// The mass of the material around each of the nodes that are keys, shared evenly by the nodes of a cell.
@@ -38,8 +42,9 @@ void add_masses(const BodyDescription& body, Masses& masses) {
         const auto found = masses.find(nodes[a]);
         if (found == masses.end()) continue;
         if (mass < 0.0) {
-          mass = of_cell(cells.density, e) * of_cell(cells.share, e) *
-                 rest_volume(reference, nodes, body.positions) / reference.nodes;
+          const double section = reference.dimension == 3 ? 1.0 : of_cell(cells.cross_section, e);
+          mass = of_cell(cells.density, e) * of_cell(cells.share, e) * section *
+                 rest_measure(reference, nodes, body.positions) / reference.nodes;
         }
         found->second += mass;
       }

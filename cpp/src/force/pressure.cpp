@@ -60,6 +60,20 @@ Mat3 cross_matrix(const Vec3& a) {
   return m;
 }
 
+/// Where a point is that rides on nodes.
+Vec3 place_of(const std::vector<CarriedNode>& point, ConstReals x) {
+  Vec3 place = Vec3::Zero();
+  for (const CarriedNode& one : point) place += one.weight * block(x, one.node);
+  return place;
+}
+
+std::array<Vec3, 3> places_of(const CarriedFace& face, ConstReals x) {
+  return {place_of(face[0], x), place_of(face[1], x), place_of(face[2], x)};
+}
+
+/// As long as its area.
+Vec3 normal_of(const std::array<Vec3, 3>& p) { return 0.5 * (p[1] - p[0]).cross(p[2] - p[0]); }
+
 }  // namespace
 
 void add_areas(const FaceCells& faces, ConstReals positions, std::vector<double>& nodal) {
@@ -80,8 +94,12 @@ void add_normals(const FaceCells& faces, ConstReals positions, std::vector<doubl
              });
 }
 
-Pressure::Pressure(std::string name, std::vector<FaceCells> faces, double pressure, History history)
-    : name_(std::move(name)), pressure_(pressure), history_(std::move(history)) {
+Pressure::Pressure(std::string name, std::vector<FaceCells> faces, double pressure, History history,
+                   std::vector<CarriedFace> carried)
+    : name_(std::move(name)),
+      carried_(std::move(carried)),
+      pressure_(pressure),
+      history_(std::move(history)) {
   for (FaceCells& some : faces) {
     ReferenceCell rule = exact_rule(some);
     faces_.push_back({std::move(some), std::move(rule)});
@@ -100,6 +118,15 @@ void Pressure::carry_memory(const ForceModel& before, const Memory& then, Memory
 
 void Pressure::couple(SparsityBuilder& builder) const {
   for (const Ruled& some : faces_) builder.add_cells(some.faces.nodes, some.rule.nodes);
+  for (const CarriedFace& face : carried_) {
+    std::vector<std::int32_t> nodes;
+    for (const auto& point : face) {
+      for (const CarriedNode& one : point) nodes.push_back(one.node);
+    }
+    std::ranges::sort(nodes);
+    nodes.erase(std::ranges::unique(nodes).begin(), nodes.end());
+    builder.add_cells(nodes, static_cast<int>(nodes.size()));
+  }
 }
 
 void Pressure::add_force(const State& state, Scratch& /*scratch*/, Reals f) const {
@@ -110,6 +137,12 @@ void Pressure::add_force(const State& state, Scratch& /*scratch*/, Reals f) cons
                  const Vec3 push = -p * point.weight * t[0].cross(t[1]);
                  for (std::size_t a = 0; a < face.size(); ++a) block(f, face[a]) += point.values[a] * push;
                });
+  }
+  for (const CarriedFace& face : carried_) {
+    const Vec3 push = -p / 3.0 * normal_of(places_of(face, state.positions));
+    for (const auto& point : face) {
+      for (const CarriedNode& one : point) block(f, one.node) += one.weight * push;
+    }
   }
 }
 
@@ -133,6 +166,21 @@ void Pressure::for_blocks(const State& state, double scale, Function&& f) const 
                    }
                  }
                });
+  }
+  // Of a flat triangle D_b is half of [the side opposite to b]x, against its sense: n = 1/2 sum x_b x x_c.
+  for (const CarriedFace& face : carried_) {
+    const std::array<Vec3, 3> x = places_of(face, state.positions);
+    const auto D = [&](std::size_t b) { return Mat3(0.5 * cross_matrix(x[(b + 2) % 3] - x[(b + 1) % 3])); };
+    for (std::size_t a = 0; a < 3; ++a) {
+      for (std::size_t b = 0; b < 3; ++b) {
+        if (a == b) continue;
+        const Mat3 B = -p / 6.0 * (D(b) - D(a));
+        for (const CarriedNode& one : face[a]) {
+          for (const CarriedNode& other : face[b])
+            f(one.node, other.node, Mat3(one.weight * other.weight * B));
+        }
+      }
+    }
   }
 }
 
@@ -160,6 +208,10 @@ double Pressure::energy(const State& state, Scratch& /*scratch*/) const {
       for (std::size_t a = 0; a < face.size(); ++a) place += point.values[a] * block(x, face[a]);
       volume += share * point.weight * place.dot(t[0].cross(t[1]));
     });
+  }
+  for (const CarriedFace& face : carried_) {
+    const std::array<Vec3, 3> p = places_of(face, x);
+    volume += (p[0] + p[1] + p[2]).dot(normal_of(p)) / 9.0;
   }
   return state.load_factor * pressure_at(state) * volume;
 }

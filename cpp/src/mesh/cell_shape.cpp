@@ -42,6 +42,7 @@ constexpr Shape<8, 5> kPyramid{
     {{{4, 4, {0, 3, 2, 1}}, {3, 3, {0, 1, 4}}, {3, 3, {1, 2, 4}}, {3, 3, {2, 3, 4}}, {3, 3, {3, 0, 4}}}}};
 
 constexpr std::array<Edge, 3> kTriangleEdges{{{0, 1}, {1, 2}, {2, 0}}};
+constexpr std::array<Edge, 1> kLineEdges{{{0, 1}}};
 
 template <std::size_t n>
 constexpr std::uint8_t middle(const std::array<Edge, n>& edges, std::uint8_t a, std::uint8_t b) {
@@ -77,6 +78,7 @@ constexpr std::array<std::uint8_t, 27> kHexahedronMirror{4,  5,  6,  7,  0,  1, 
                                                          10, 11, 16, 17, 18, 19, 20, 21, 22, 23, 25, 24, 26};
 constexpr std::array<std::uint8_t, 15> kWedgeMirror{3, 4, 5, 0, 1, 2, 9, 10, 11, 6, 7, 8, 12, 13, 14};
 constexpr std::array<std::uint8_t, 3> kTriangleMirror{0, 2, 1};
+constexpr std::array<std::uint8_t, 2> kLineMirror{1, 0};
 constexpr std::array<std::uint8_t, 13> kPyramidMirror{0, 3, 2, 1, 4, 8, 7, 6, 5, 9, 12, 11, 10};
 
 std::span<const std::uint8_t> mirrored_whole(CellType type) {
@@ -96,6 +98,8 @@ std::span<const std::uint8_t> mirrored_whole(CellType type) {
       return kPyramidMirror;
     case CellType::triangle:
       return kTriangleMirror;
+    case CellType::line:
+      return kLineMirror;
   }
   return {};
 }
@@ -123,6 +127,7 @@ std::span<const LocalFace> faces(CellType type) {
     case CellType::pyramid13:
       return kPyramid13Faces;
     case CellType::triangle:
+    case CellType::line:
       return {};
   }
   return {};
@@ -145,6 +150,8 @@ std::span<const std::array<std::uint8_t, 2>> edges(CellType type) {
       return kPyramid.edges;
     case CellType::triangle:
       return kTriangleEdges;
+    case CellType::line:
+      return kLineEdges;
   }
   return {};
 }

@@ -6,7 +6,7 @@
 namespace tissu {
 namespace {
 
-constexpr std::array<CellTypeInfo, 10> kCellTypes{{
+constexpr std::array<CellTypeInfo, 11> kCellTypes{{
     {CellType::tetra, "tetra", 4, 3, 1, 4},
     {CellType::hexahedron, "hexahedron", 8, 3, 1, 8},
     {CellType::tetra10, "tetra10", 10, 3, 2, 4},
@@ -17,6 +17,7 @@ constexpr std::array<CellTypeInfo, 10> kCellTypes{{
     {CellType::pyramid, "pyramid", 5, 3, 1, 5},
     {CellType::pyramid13, "pyramid13", 13, 3, 2, 5},
     {CellType::triangle, "triangle", 3, 2, 1, 3},
+    {CellType::line, "line", 2, 1, 1, 2},
 }};
 
 }  // namespace

@@ -44,11 +44,13 @@ void Simulation::replace_world(std::shared_ptr<const World> world, std::span<con
 void Simulation::take_over(std::span<const RowCopy> copies, std::span<const RowBlend> blends) {
   integrator_->blend_rows(blends);
   integrator_->copy_rows(copies);
-  for (std::vector<double>* values :
-       {&state_.positions, &state_.velocities, &last_good_.positions, &last_good_.velocities, &held_}) {
-    blend_rows(blends, *values);
-    copy_rows(copies, *values);
+  for (State* state : {&state_, &last_good_}) {
+    blend_rows(blends, state->positions);
+    blend_rows(blends, state->velocities);
+    copy_rows(copies, *state);
   }
+  blend_rows(blends, held_);
+  copy_rows(copies, Reals(held_));
 }
 
 void Simulation::follow(const WorldEditor::Made& made) {

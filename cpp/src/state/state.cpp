@@ -10,6 +10,16 @@ void copy_rows(std::span<const RowCopy> copies, Reals values) {
   for (const RowCopy copy : copies) block(values, copy.to) = block(ConstReals(values), copy.from);
 }
 
+void copy_rows(std::span<const RowCopy> copies, State& state) {
+  copy_rows(copies, state.positions);
+  copy_rows(copies, state.velocities);
+  for (const RowCopy copy : copies) {
+    if (copy.to_frame < 0) continue;
+    state.rotations[static_cast<std::size_t>(copy.to_frame)] =
+        state.rotations[static_cast<std::size_t>(copy.from_frame)];
+  }
+}
+
 Mat3 spatial_inertia(const Frame& frame, const Quaternion& rotation) {
   const Mat3 R = rotation.toRotationMatrix();
   return R * frame.inertia * R.transpose();
@@ -64,6 +74,7 @@ void move(const State& from, const std::vector<Frame>& frames, ConstReals v, dou
 
 void keep_angular_momentum(const State& from, const std::vector<Frame>& frames, State& to) {
   for (std::size_t k = 0; k < frames.size(); ++k) {
+    if (frames[k].inertia(0, 0) == 0.0) continue;  // no cell has it, and it is held
     auto omega = block(Reals(to.velocities), frames[k].rotation);
     const Vec3 momentum = spatial_inertia(frames[k], from.rotations[k]) * omega;
     omega = spatial_inertia(frames[k], to.rotations[k]).inverse() * momentum;

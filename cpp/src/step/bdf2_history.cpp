@@ -82,8 +82,7 @@ void Bdf2History::restore(ConstReals memory) {
 void Bdf2History::copy_rows(std::span<const RowCopy> copies) {
   if (end_.is_empty()) return;
   end_.copy_rows(copies);
-  tissu::copy_rows(copies, before_.positions);
-  tissu::copy_rows(copies, before_.velocities);
+  tissu::copy_rows(copies, before_);
 }
 
 void Bdf2History::blend_rows(std::span<const RowBlend> blends) {

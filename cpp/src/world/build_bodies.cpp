@@ -192,11 +192,12 @@ void WorldBuilder::add_node_frames(std::vector<Frame>& frames) {
     Body& body = world_.bodies_[i];
     const std::int32_t first = world_.blocks();
     body.first_frame = static_cast<std::int32_t>(frames.size());
-    for (std::int32_t node = 0; node < body.node_count; ++node) {
+    const std::int32_t count = body.node_count + body.room;
+    for (std::int32_t node = 0; node < count; ++node) {
       frames.push_back({body.first_node + node, first + node, 0.0, Mat3::Zero()});
     }
     State& rest = world_.rest_;
-    rest.positions.resize(rest.positions.size() + 3 * static_cast<std::size_t>(body.node_count), 0.0);
+    rest.positions.resize(rest.positions.size() + 3 * static_cast<std::size_t>(count), 0.0);
     rest.rotations.resize(frames.size(), Quaternion::Identity());
     speeds_.resize(frames.size(), Vec3::Zero());
     spins_.resize(frames.size(), Vec3::Zero());

@@ -46,8 +46,14 @@ void WorldBuilder::add_pressure(const PressureDescription& pressure) {
     some.nodes =
         shifted(std::move(some.nodes), on.first_node, on.node_count, "pressure \"" + pressure.name + "\"");
   }
-  world_.forces_.push_back(
-      std::make_unique<Pressure>(pressure.name, std::move(faces), pressure.pressure, pressure.history));
+  auto carried = pressure.carried;
+  for (CarriedFace& face : carried) {
+    for (auto& point : face) {
+      for (CarriedNode& one : point) one.node += on.first_node;
+    }
+  }
+  world_.forces_.push_back(std::make_unique<Pressure>(pressure.name, std::move(faces), pressure.pressure,
+                                                      pressure.history, std::move(carried)));
 }
 
 }  // namespace tissu

@@ -45,6 +45,10 @@ void WorldBuilder::hold_room() {
     std::vector<std::int32_t> rows(static_cast<std::size_t>(body.room));
     std::iota(rows.begin(), rows.end(), body.first_node + body.node_count);
     world_.fixed_.add(rows, world_.rest_positions(), FixedDofs::kAllAxes, {});
+    if (body.first_frame >= 0) {
+      world_.fixed_.hold_turning(rotations_of(body, std::move(rows), "the room of a body"),
+                                 FixedDofs::kAllAxes);
+    }
   }
 }
 
@@ -61,7 +65,12 @@ void WorldBuilder::hold(const FixedNodes& fixed) {
     block(Reals(start), nodes[i]) = block(ConstReals(fixed.positions), static_cast<std::int32_t>(i));
   }
   if (fixed.axes != 0) world_.fixed_.add(nodes, start, fixed.axes, fixed.motion, fixed.name);
-  if (fixed.rotations != 0) hold_rotations(fixed, on, nodes, where);
+  const bool loose = !fixed.positions.empty();  // what an edit left behind stays as it has turned
+  if (loose && on.first_frame >= 0) {
+    world_.fixed_.hold_turning(rotations_of(on, nodes, where), FixedDofs::kAllAxes);
+  } else if (fixed.rotations != 0) {
+    hold_rotations(fixed, on, nodes, where);
+  }
 }
 
 void WorldBuilder::hold_rotations(const FixedNodes& fixed, const Body& on,
@@ -70,10 +79,6 @@ void WorldBuilder::hold_rotations(const FixedNodes& fixed, const Body& on,
   numbers.reserve(nodes.size());
   for (const std::int32_t node : nodes) numbers.push_back(on.first_frame + node - on.first_node);
   const auto blocks = rotations_of(on, nodes, where);
-  if (!fixed.positions.empty()) {  // what an edit left behind stays as it has turned
-    world_.fixed_.hold_turning(blocks, FixedDofs::kAllAxes);
-    return;
-  }
   if (fixed.rotations == FixedDofs::kAllAxes) {
     world_.fixed_.add_rotations(blocks, numbers, world_.rest_.rotations, fixed.motion, fixed.name);
     return;

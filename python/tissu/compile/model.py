@@ -12,7 +12,7 @@ from tissu.counted import counted
 from tissu.mesh.cell import dimension
 from tissu.scene.contact_rules import meets_others
 from tissu.scene.generated.laws import LAWS
-from tissu.scene.model import Condensed, Frames
+from tissu.scene.model import Condensed, Frames, Shell
 from tissu.scene.part import type_name
 from tissu.scene.problem import Problem, one_of_words
 from tissu.scene.tissue import tissues_of
@@ -143,8 +143,9 @@ def check_rotations(prepared: Prepared) -> None:
             text = f"found {body.viscosity.type} for frames; rayleigh is accepted"
             _tell_once(("bodies", name, "viscosity"), text, prepared.findings)
         tied = any(name in (tissue.between or ()) for tissue in tissues_of(prepared.scene).values())
-        if True in kinds and not tied and getattr(prepared.scene, "editing", False):
-            model = next(model for model in body.models().values() if model.with_rotations)
+        fixed = [m for m in body.models().values() if m.with_rotations and not isinstance(m, Shell)]
+        if fixed and not tied and getattr(prepared.scene, "editing", False):
+            model = fixed[0]
             text = (
                 f"found true with the model {model.type} of body '{name}', whose cells cannot be "
             )

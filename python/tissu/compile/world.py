@@ -11,6 +11,7 @@ import numpy as np
 
 from tissu.checkpoint import read_checkpoint
 from tissu.compile.check import check_of
+from tissu.compile.cuttable import refuse_uncuttable
 from tissu.compile.material import fibres_of, parameters_of
 from tissu.compile.model import kept_nodes
 from tissu.compile.prepare import prepare
@@ -19,10 +20,8 @@ from tissu.compile.start import begin
 from tissu.compile.thin import cross_section_of
 from tissu.errors import OverlapError, ParameterError, SceneError
 from tissu.mesh.cell import dimension
-from tissu.scene.instrument import Knife
 from tissu.scene.load import Where
 from tissu.scene.model import Frames
-from tissu.scene.problem import Path as Place
 from tissu.scene.problem import Problem
 from tissu.scene.section import section_in_core
 from tissu.scene.step import Static
@@ -31,7 +30,6 @@ if TYPE_CHECKING:
     from tissu._core import WorldBuilder
     from tissu.compile.separate import Apart
     from tissu.front import Scene
-    from tissu.scene.tear import Tear
     from tissu.simulation import Simulation
 
 
@@ -118,65 +116,6 @@ def _refused(prepared: Prepared, error: ParameterError) -> SceneError:
     build_world(dataclasses.replace(prepared, contact=None))  # raises what else is wrong
     problem = Problem(("contacts",), str(error))
     return SceneError([problem.sentence(prepared.scene.source)])
-
-
-def refuse_uncuttable(simulation: Simulation) -> None:
-    """Refuse instruments and tears of bodies that cannot be cut.
-
-    Raises:
-        SceneError: they cannot, with what stands against it.
-    """
-    scene, problems = simulation.scene, list[Problem]()
-    named: list[tuple[Place, str]] = [
-        (("instruments", name, tool.bodies_field, number), body)
-        for name, tool in scene.instruments.items()
-        for number, body in enumerate(tool.bodies)
-    ]
-    named += [(("tear", number, "body"), tear.body) for number, tear in enumerate(scene.tear)]
-    for path, body in named:
-        if body in scene.tissue:
-            continue
-        try:
-            simulation._core.require_parting(body)
-        except ParameterError as error:
-            problems.append(Problem(path, str(error).rstrip(".")))
-    problems += pressed_sheets(simulation)
-    for number, tear in enumerate(scene.tear):
-        problems += [] if problems else too_short(simulation, number, tear)
-    if problems:
-        raise SceneError([problem.sentence(scene.source) for problem in problems])
-
-
-def pressed_sheets(simulation: Simulation) -> list[Problem]:
-    """Knives with a toughness, which press on volumes, in sheets and in tissue."""
-    found = []
-    for name, tool in simulation.scene.instruments.items():
-        if not isinstance(tool, Knife) or tool.toughness is None:
-            continue
-        for body in tool.cuts:
-            if body not in simulation.scene.tissue and simulation.meshes[body].volume_blocks:
-                continue
-            kind = "tissue" if body in simulation.scene.tissue else "sheet"
-            text = f"found a toughness of a knife that cuts the {kind} '{body}'; bodies of volume "
-            text += "cells are accepted, or a knife without toughness"
-            found.append(Problem(("instruments", name, "toughness"), text))
-    return found
-
-
-def too_short(simulation: Simulation, number: int, tear: Tear) -> list[Problem]:
-    """A tear whose length the cells do not resolve, or of a body that has no stress."""
-    from tissu.simulation.slicing import cell_size
-
-    try:
-        simulation.field("cauchy_stress", "cells", tear.body)
-    except ParameterError as error:
-        return [Problem(("tear", number, "body"), str(error))]
-    size = cell_size(simulation, tear.body)
-    if tear.length >= size:
-        return []
-    text = f"found {tear.length:g} m, below {size:.3g} m, the mean edge of the cells of "
-    text += f"'{tear.body}'; at least that is accepted, or a finer mesh"
-    return [Problem(("tear", number, "length"), text)]
 
 
 def unstable_step(simulation: Simulation) -> Problem | None:
@@ -277,12 +216,13 @@ def _add_body(builder: WorldBuilder, prepared: Prepared, name: str) -> None:
 
 
 def can_be_cut(prepared: Prepared, name: str) -> bool:
-    """Whether a body has volume cells alone, or triangles alone, each carried by itself."""
+    """Whether a body has volume cells, triangles or lines alone, each carried by itself."""
     body, groups = prepared.scene.bodies[name], prepared.bodies[name].groups
-    if body.has_rotations or any(group.model.type == "condensed" for group in groups):
+    kept = [model.type for model in body.models().values() if model.with_rotations]
+    if any(kind != "shell" for kind in kept) or any(g.model.type == "condensed" for g in groups):
         return False
     volumes = all(dimension(g.cell_type) == 3 and not g.surface for g in groups)
-    return volumes or all(g.cell_type == "triangle" for g in groups)
+    return volumes or any(all(g.cell_type == t for g in groups) for t in ("triangle", "line"))
 
 
 def _add_tissue(builder: WorldBuilder, prepared: Prepared, name: str) -> None:

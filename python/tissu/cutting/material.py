@@ -19,13 +19,15 @@ __all__ = ["Material", "MaterialSurface"]
 
 @dataclass(frozen=True, slots=True, eq=False)
 class MaterialSurface:
-    """The surface of a body's material as it is now, cut faces included; of a sheet all of it.
+    """The surface of a body's material as it is now, cut faces included; all of a sheet or line.
 
     Attributes:
         points: present places (v, 3) [m].
         triangles: numbers of points (t, 3), anticlockwise seen from outside.
         cell: number (t,) of the cell that each triangle belongs to.
         cut: whether (t,) a cut opened it.
+        lines: pieces (l, 2) of lines, numbers of points.
+        line_cell: number (l,) of the cell that each piece belongs to.
         nodes: nodes of the body (v, 4) that carry each point, -1: none.
         weights: of these nodes (v, 4), which sum to one.
     """
@@ -34,6 +36,8 @@ class MaterialSurface:
     triangles: Ints
     cell: Ints
     cut: NDArray[np.bool_]
+    lines: Ints
+    line_cell: Ints
     nodes: Ints
     weights: Floats
 
@@ -47,7 +51,7 @@ class Material:
     """The material of a body as a conforming mesh.
 
     Cells that no blade met are unchanged. Instead of the others, the mesh has the tetrahedra of
-    their material, in a sheet the triangles.
+    their material, of a sheet the triangles, of lines the pieces.
 
     Attributes:
         mesh: at rest.
@@ -80,6 +84,8 @@ def surface_now(found: Mapping[str, Any], now: Floats) -> MaterialSurface:
         triangles=found["triangles"],
         cell=found["cell"],
         cut=found["cut"],
+        lines=found["lines"],
+        line_cell=found["line_cell"],
         nodes=found["nodes"],
         weights=found["weights"],
     )
@@ -89,7 +95,8 @@ def material_now(found: Mapping[str, Any], rest: Floats, now: Floats) -> Materia
     """The material that the core found, where the nodes (n, 3) are at rest and now."""
     nodes, weights = found["nodes"], found["weights"]
     blocks = tuple(CellBlock(type=name, nodes=rows) for name, rows in found["blocks"])
-    thin = (2,) if any(block.type == "triangle" for block in blocks) else ()
+    types = {block.type for block in blocks}
+    thin = tuple(m for m, name in ((2, "triangle"), (1, "line")) if name in types)
     return Material(
         mesh=Mesh(points=carried(nodes, weights, rest), cells=blocks, thin=thin),
         points=carried(nodes, weights, now),
@@ -113,6 +120,8 @@ def centres_of(material: Material) -> tuple[Floats, Ints]:
         elif block.type == "triangle":
             sides = corners[:, 1:] - corners[:, :1]
             volumes = 0.5 * np.linalg.norm(np.cross(sides[:, 0], sides[:, 1]), axis=1)
+        elif block.type == "line":
+            volumes = np.linalg.norm(corners[:, 1] - corners[:, 0], axis=1)
         weights.append(np.maximum(volumes, 1e-300))
         centres.append(corners.mean(axis=1))
     weight, centre = np.concatenate(weights), np.concatenate(centres)

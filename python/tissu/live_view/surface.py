@@ -141,8 +141,8 @@ def _seen_of_cut(simulation: Simulation, body: str) -> Seen:
         triangles=triangles,
         cells=cells.astype(np.int64),
         edges=np.unique(sides[~inner], axis=0),
-        lines=np.empty((0, 2), dtype=np.int64),
-        line_cells=np.empty(0, dtype=np.int64),
+        lines=surface.lines.astype(np.int64),
+        line_cells=np.searchsorted(simulation.remaining_cells(body), surface.line_cell),
         weights=surface.weights,
         cut=surface.cut,
     )

@@ -212,16 +212,20 @@ def shape_of(simulation: Simulation, field: Field) -> Shape:
 
 
 def _cut(simulation: Simulation, name: str, field: Field) -> Shape:
-    """The surface of the material of a body that was cut."""
+    """The surface of the material of a body that was cut, or its pieces of lines."""
     surface = simulation.surface(name)
     shift = surface.carried(np.asarray(simulation.displacements(name)))
-    triangles = np.asarray(surface.triangles, dtype=np.int64)
-    if field == "displacement":
-        values = np.linalg.norm(shift, axis=1)
-    else:
-        host = np.searchsorted(simulation.remaining_cells(name), surface.cell)
-        values = _at_points(_stress_of(simulation, name)[host], triangles, surface.points)
-    return Shape(surface.points - shift, surface.points, triangles, values)
+    triangles, rest = np.asarray(surface.triangles, dtype=np.int64), surface.points - shift
+    values = np.linalg.norm(shift, axis=1)
+    ends = values[surface.lines]
+    if field != "displacement":
+        every, cells = _stress_of(simulation, name), simulation.remaining_cells(name)
+        ends = np.tile(every[np.searchsorted(cells, surface.line_cell)], (2, 1)).T
+        values = _at_points(every[np.searchsorted(cells, surface.cell)], triangles, surface.points)
+    if not len(surface.lines):
+        return Shape(rest, surface.points, triangles, values)
+    radius = LINE * float(np.linalg.norm(np.ptp(rest, axis=0)))
+    return _rods(rest, surface.points, surface.lines, ends, radius)
 
 
 def _own_surface(simulation: Simulation, name: str, field: Field) -> Shape:

@@ -129,7 +129,9 @@ class Knife(Instrument):
     """names of the bodies and tissues that it cuts"""
     toughness: Maybe[units.Toughness] = field(default=None, gt=0.0)
     """energy that a new unit of area takes, J_c [J/m^2]: the edge presses until the force on it is
-    J_c for each metre in the material; absent: it cuts without force"""
+    J_c for each metre in the material, in a sheet J_c times the thickness; absent: it cuts without
+    force
+    """
 
     @rule("edge")
     def _has_a_length(self) -> Iterator[Problem]:

@@ -135,12 +135,13 @@ class Remains:
 
         Raises:
             ParameterError: no such body; the scene was compiled without `editing: true`; a body of
-                sheets.
+                sheets or lines.
         """
         found = self.material(body)
         if not found.mesh.volume_blocks:
             raise ParameterError(
-                f"found the sheet '{body}'; the quality of bodies of volume cells is accepted"
+                f"found {_thin(found.mesh)} '{body}'; the quality of bodies of volume cells is "
+                "accepted"
             )
         placed = found.mesh if rest else dataclasses.replace(found.mesh, points=found.points)
         cut = into_tetrahedra(placed)
@@ -153,3 +154,8 @@ class Remains:
             raise ParameterError(
                 "the scene was compiled without editing; write editing: true to cut its bodies"
             )
+
+
+def _thin(mesh: Mesh) -> str:
+    """What a mesh without volume cells is."""
+    return "the lines" if mesh.thin == (1,) else "the sheet"

@@ -34,7 +34,7 @@ _NO_AREA = 1e-12
 
 
 def cell_size(simulation: Simulation, body: str) -> float:
-    """Mean distance of the first three corners of a cell of a body on the first day [m].
+    """Mean distance of the first corners of a cell of a body, up to three, on the first day [m].
 
     Of tissue, the mean distance of its points.
     """
@@ -47,10 +47,11 @@ def cell_size(simulation: Simulation, body: str) -> float:
 
 
 def _mean_edge(mesh: Mesh) -> float:
-    lengths = [
-        np.linalg.norm(np.diff(mesh.points[block.nodes[:, [0, 1, 2, 0]]], axis=1), axis=2).ravel()
-        for block in mesh.body_blocks
-    ]
+    lengths = []
+    for block in mesh.body_blocks:
+        around = [0, 1] if block.type == "line" else [0, 1, 2, 0]
+        sides = np.diff(mesh.points[block.nodes[:, around]], axis=1)
+        lengths.append(np.linalg.norm(sides, axis=2).ravel())
     return float(np.concatenate(lengths).mean())
 
 

@@ -97,6 +97,8 @@ class _Front:
 def _front(simulation: Simulation, body: str) -> _Front | None:
     """The fronts of the cuts of a body now; None: there is none."""
     surface = simulation.surface(body)
+    if len(surface.lines):  # a cut line has ends and no front
+        return None
     rest = surface.carried(simulation.meshes[body].points)
     if not simulation.meshes[body].volume_blocks:
         return _front_of_sheet(surface.triangles.astype(np.int64), surface.points, rest)

@@ -20,7 +20,7 @@ struct PackedMaterial {
   std::vector<double> rider_weights;      ///< four for each
   std::vector<std::int32_t> hosts;        ///< ascending
   std::vector<std::int32_t> first;        ///< of each host the first of its tetrahedra, and their number
-  std::vector<std::int32_t> vertices;     ///< four for each tetrahedron, the last of a triangle kNoVertex
+  std::vector<std::int32_t> vertices;     ///< four for each tetrahedron, kNoVertex where there is none
   std::vector<std::int32_t> cut;          ///< of each, the bits of its opened faces
   std::vector<std::int32_t> incisions;    ///< numbers, ascending
   std::vector<std::int32_t> first_of_incision;

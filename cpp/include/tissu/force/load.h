@@ -2,6 +2,7 @@
 
 /// Loads from outside: forces on nodes, and pressure on faces.
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -49,6 +50,14 @@ struct FaceCells {
   double thickness = 0.0;  ///< of the flat body along z, at rest [m]; faces have none
 };
 
+/// A point that rides on nodes: numbers and weights, which sum to one.
+struct CarriedNode {
+  std::int32_t node;
+  double weight;
+};
+/// A flat triangle between such points, anticlockwise seen from outside.
+using CarriedFace = std::array<std::vector<CarriedNode>, 3>;
+
 /// Adds each node's share of the area of the faces [m2], sum_g w_g |x,1 x x,2| N_a: what a traction that is
 /// the same everywhere gives to the nodes.
 void add_areas(const FaceCells& faces, ConstReals positions, std::vector<double>& nodal);
@@ -61,10 +70,12 @@ void add_normals(const FaceCells& faces, ConstReals positions, std::vector<doubl
 /// an open surface; the symmetric part is used, which is exact for a pressure on a closed surface or one
 /// whose rim is held. A definite matrix goes without it: the eigenvalues of a face sum to zero, so half of
 /// what it says would be gone, and on a closed surface the faces' parts cancel each other, their halves would
-/// not. What a run changes of it: the pressure.
+/// not. A triangle whose points ride on nodes gives each point a third of its force. What a run changes of
+/// it: the pressure.
 class Pressure final : public ForceModel {
  public:
-  Pressure(std::string name, std::vector<FaceCells> faces, double pressure, History history);
+  Pressure(std::string name, std::vector<FaceCells> faces, double pressure, History history,
+           std::vector<CarriedFace> carried = {});
   [[nodiscard]] std::string_view effect() const override { return name_; }
   [[nodiscard]] ForceKind kind() const override { return ForceKind::external; }
   [[nodiscard]] bool may_add_energy() const override { return true; }
@@ -94,6 +105,7 @@ class Pressure final : public ForceModel {
 
   std::string name_;
   std::vector<Ruled> faces_;
+  std::vector<CarriedFace> carried_;
   double pressure_;  ///< [Pa]
   History history_;
   LoadChange change_;

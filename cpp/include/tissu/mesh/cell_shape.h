@@ -18,7 +18,7 @@ struct LocalFace {
   std::array<std::uint8_t, 9> node;
 };
 
-/// The faces of a cell type; a sheet has none.
+/// The faces of a cell type; a sheet and a line have none.
 std::span<const LocalFace> faces(CellType type);
 
 /// The corners that end each edge, in the order of the nodes in the middles of the edges.

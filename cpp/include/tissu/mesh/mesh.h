@@ -25,7 +25,8 @@ enum class CellType : std::uint8_t {
   wedge15,
   pyramid,
   pyramid13,
-  triangle
+  triangle,
+  line
 };
 
 /// What is fixed by the type of a cell.
@@ -33,7 +34,7 @@ struct CellTypeInfo {
   CellType type;
   std::string_view name;  ///< as meshio writes it
   int nodes;              ///< nodes per cell
-  int dimension;          ///< 3 for a volume, 2 for a sheet
+  int dimension;          ///< 3 for a volume, 2 for a sheet, 1 for a line
   int order;              ///< 1 straight edges, 2 a node in the middle of each edge
   int corners;            ///< nodes that are corners; they come first
 };

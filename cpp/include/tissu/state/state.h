@@ -37,10 +37,14 @@ struct State {
 struct RowCopy {
   std::int32_t to = 0;
   std::int32_t from = 0;
+  std::int32_t to_frame = -1;  ///< of a row that is the rotation of this frame; -1: it is none
+  std::int32_t from_frame = -1;
 };
 
 /// values[to] = values[from], three numbers each.
 void copy_rows(std::span<const RowCopy> copies, Reals values);
+/// Positions, velocities and rotations.
+void copy_rows(std::span<const RowCopy> copies, State& state);
 
 /// exp(w), the rotation by |w| about w.
 Quaternion turn_by(const Vec3& w);

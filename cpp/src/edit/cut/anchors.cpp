@@ -14,7 +14,7 @@ using Box = Eigen::AlignedBox3d;
 
 /// A point this share of a tetrahedron's height outside of it is in it, for round-off.
 constexpr double kSlack = 1e-9;
-/// Of a triangle's longest edge: so near a sheet a point goes with it.
+/// Of a triangle's longest edge, or a line's length: so near a sheet or line a point goes with it.
 constexpr double kNearSheet = 0.5;
 
 std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
@@ -51,7 +51,16 @@ bool weights_on(const std::array<Vec3, 4>& corner, const Vec3& p, std::array<dou
   return true;
 }
 
-/// Weights of the vertices of a tetrahedron of the material, or of a triangle, as weights of nodes.
+/// The two weights of the nearest point of a piece of a line; false where it has no length.
+bool weights_along(const Vec3& a, const Vec3& b, const Vec3& p, std::array<double, 4>& weights) {
+  const double square = (b - a).squaredNorm();
+  if (!(square > 0.0)) return false;
+  const double t = std::clamp((p - a).dot(b - a) / square, 0.0, 1.0);
+  weights = {1.0 - t, t, 0.0, 0.0};
+  return true;
+}
+
+/// Weights of the vertices of a part of the material as weights of nodes.
 Rider combined(const Material& material, const MaterialTetra& tetra, const std::array<double, 4>& weights) {
   Rider sum;
   const auto add = [&](std::int32_t node, double weight) {
@@ -84,8 +93,8 @@ class Search {
   std::vector<Anchor> find() {
     std::vector<std::int32_t> within;
     for (const Hosts::Cluster& cluster : hosts_.clusters()) {
-      const bool sheet = !cluster.cells.empty() && is_sheet(cluster.cells.front());
-      const Box around = box_of(cluster.corners, x_, sheet ? kNearSheet : kSlack);
+      const bool thin = !cluster.cells.empty() && is_thin(cluster.cells.front());
+      const Box around = box_of(cluster.corners, x_, thin ? kNearSheet : kSlack);
       within.clear();
       for (std::size_t i = 0; i < best_.size(); ++i) {
         if (around.contains(point(static_cast<std::int32_t>(i))))
@@ -109,16 +118,18 @@ class Search {
     std::int32_t cell = std::numeric_limits<std::int32_t>::max();
   };
   [[nodiscard]] Vec3 point(std::int32_t i) const { return block(points_, i); }
-  [[nodiscard]] bool is_sheet(std::int32_t cell) const { return info(hosts_.type(cell)).dimension == 2; }
+  [[nodiscard]] bool is_thin(std::int32_t cell) const { return info(hosts_.type(cell)).dimension < 3; }
 
   void look_in(std::int32_t cell, const std::vector<std::int32_t>& within) {
-    const Box box = box_of(hosts_.corners(cell), x_, is_sheet(cell) ? kNearSheet : kSlack);
+    const Box box = box_of(hosts_.corners(cell), x_, is_thin(cell) ? kNearSheet : kSlack);
     if (std::ranges::none_of(within, [&](std::int32_t i) { return box.contains(point(i)); })) return;
     for (const MaterialTetra& tetra : material_of(hosts_, material_, cell)) {
-      if (tetra.corners() == 3) {
+      if (tetra.corners() == 4) {
+        look_in(cell, tetra, within);
+      } else if (tetra.corners() == 3) {
         look_beside(cell, tetra, within);
       } else {
-        look_in(cell, tetra, within);
+        look_along(cell, tetra, within);
       }
     }
   }
@@ -138,13 +149,34 @@ class Search {
     for (const std::int32_t i : within) {
       const Vec3 nearest = closest_on_triangle(point(i), numbers.data());
       const double away = (point(i) - nearest).norm();
-      Best& best = best_[at(i)];
-      const bool farther =
-          best.anchor.inside && (-away < best.depth || (-away == best.depth && cell >= best.cell));
-      if (away > kNearSheet * longest || farther || !weights_on(corner, nearest, weights)) continue;
-      const Rider rider = combined(material_, triangle, weights);
-      best = {{rider, point(i) - rider.at(x_), true}, -away, cell};
+      if (away > kNearSheet * longest || !is_nearest(i, away, cell)) continue;
+      if (weights_on(corner, nearest, weights))
+        go_with(i, away, cell, combined(material_, triangle, weights));
     }
+  }
+
+  /// The same of a line.
+  void look_along(std::int32_t cell, const MaterialTetra& piece, const std::vector<std::int32_t>& within) {
+    const Vec3 a = material_.at(piece.vertices[0], x_);
+    const Vec3 b = material_.at(piece.vertices[1], x_);
+    const auto ends = hosts_.corners(cell);
+    const double length = (Vec3(block(x_, ends[0])) - Vec3(block(x_, ends[1]))).norm();
+    std::array<double, 4> weights{};
+    for (const std::int32_t i : within) {
+      if (!weights_along(a, b, point(i), weights)) return;
+      const double away = (point(i) - (weights[0] * a + weights[1] * b)).norm();
+      if (away > kNearSheet * length || !is_nearest(i, away, cell)) continue;
+      go_with(i, away, cell, combined(material_, piece, weights));
+    }
+  }
+
+  [[nodiscard]] bool is_nearest(std::int32_t i, double away, std::int32_t cell) const {
+    const Best& best = best_[at(i)];
+    return !best.anchor.inside || -away > best.depth || (-away == best.depth && cell < best.cell);
+  }
+
+  void go_with(std::int32_t i, double away, std::int32_t cell, const Rider& rider) {
+    best_[at(i)] = {{rider, point(i) - rider.at(x_), true}, -away, cell};
   }
 
   void look_in(std::int32_t cell, const MaterialTetra& tetra, const std::vector<std::int32_t>& within) {

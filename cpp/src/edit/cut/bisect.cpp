@@ -86,8 +86,9 @@ class Divider {
       size = std::max(size, patch_.cell(cell).size);
       sound = sound && patch_.cell(cell).sound;
     }
+    const bool line = !around.empty() && patch_.tetra(around.front()).corners() == 2;
     const bool first_day = patch_.vertex(edge.p).number >= 0 && patch_.vertex(edge.q).number >= 0;
-    if (!first_day && rest_length(patch_, edge.p, edge.q) < kShortShare * size) share = 0.5;
+    if (!first_day && !line && rest_length(patch_, edge.p, edge.q) < kShortShare * size) share = 0.5;
     if (t <= share || t >= 1.0 - share) {
       const Vec3& a = patch_.vertex(edge.p).place;
       const Vec3& b = patch_.vertex(edge.q).place;

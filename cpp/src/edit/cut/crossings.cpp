@@ -100,8 +100,10 @@ class Finder {
   std::vector<CrossedEdge> edges_;
 };
 
-/// Whether the border of one of the triangles enters a tetrahedron, or passes through a triangle.
+/// Whether the border of one of the triangles enters a tetrahedron, or passes through a triangle. A line is
+/// crossed or not met.
 bool enters(const Patch& patch, const SweepPart& part, Numbers triangles, const Patch::Tetra& tetra) {
+  if (tetra.corners() == 2) return false;
   std::array<Vec3, 4> corner;
   const bool solid = tetra.corners() == 4;
   for (std::size_t i = 0; i < tetra.corners(); ++i) corner[i] = patch.vertex(tetra.vertices[i]).place;

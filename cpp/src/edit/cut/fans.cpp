@@ -16,7 +16,7 @@ Fans::Fans(const Patch& patch, const Fragments& fragments, const std::vector<std
       riders_(at(patch.new_riders)) {
   for (std::size_t t = 0; t < vertices_.size(); ++t) {
     const Patch::Tetra& tetra = patch.tetrahedra[t];
-    vertices_[t][3] = kNoVertex;
+    vertices_[t].fill(kNoVertex);
     for (std::size_t i = 0; i < tetra.corners(); ++i)
       vertices_[t][i] = patch.vertex(tetra.vertices[i]).number;
   }

@@ -47,6 +47,7 @@ void Material::remove(std::span<const std::int32_t> hosts) {
 
 std::vector<MaterialTetra> whole_material(const Hosts& hosts, std::int32_t cell) {
   const auto nodes = hosts.corners(cell);
+  if (nodes.size() == 2) return {{{nodes[0], nodes[1], kNoVertex, kNoVertex}, 0}};
   if (nodes.size() == 3) return {{{nodes[0], nodes[1], nodes[2], kNoVertex}, 0}};
   if (nodes.size() == 4) return {{{nodes[0], nodes[1], nodes[2], nodes[3]}, 0}};
   const auto root = [&](std::int32_t node) { return hosts.root(node); };
@@ -75,6 +76,7 @@ std::vector<MaterialTetra> material_of(const Hosts& hosts, const Material& mater
 double rest_volume(const Hosts& hosts, const Material& material, std::int32_t cell,
                    const MaterialTetra& tetra) {
   const auto p = [&](std::size_t i) { return material.at(tetra.vertices[i], hosts.rest()); };
+  if (tetra.corners() == 2) return (p(1) - p(0)).norm() * hosts.thickness(cell);
   const Vec3 twice = (p(1) - p(0)).cross(p(2) - p(0));
   if (tetra.corners() == 3) return 0.5 * twice.norm() * hosts.thickness(cell);
   return twice.dot(p(3) - p(0)) / 6.0;

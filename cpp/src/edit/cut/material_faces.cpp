@@ -17,6 +17,11 @@ void add_whole(const Hosts& hosts, std::int32_t cell, MaterialFaces& all) {
   const auto unit = static_cast<std::int32_t>(all.units.size());
   all.units.push_back({cell, -1});
   const auto nodes = hosts.corners(cell);
+  if (nodes.size() == 2) {
+    for (const std::int32_t node : nodes)
+      all.faces.push_back({{node, kNoVertex, kNoVertex}, unit, false, -1});
+    return;
+  }
   if (nodes.size() == 3) {
     for (std::size_t i = 0; i < 3; ++i)
       all.faces.push_back({{nodes[i], nodes[(i + 1) % 3], kNoVertex}, unit, false, -1});

@@ -18,7 +18,7 @@ struct MaterialUnit {
 };
 
 /// A triangle of the border of a unit, anticlockwise seen from outside; quads are cut at their lowest root.
-/// Of a triangle of a sheet an edge, with kNoVertex in the place of a vertex.
+/// Of a triangle of a sheet an edge, with kNoVertex in the place of a vertex; of a line one vertex.
 struct MaterialFace {
   std::array<std::int32_t, 3> vertices;
   std::int32_t unit;

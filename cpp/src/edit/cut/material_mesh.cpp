@@ -52,8 +52,13 @@ MaterialSurface material_surface(const Hosts& hosts, const Material& material) {
   MaterialSurface surface;
   VertexList vertices(hosts, material);
   for (const std::int32_t cell : hosts.numbers()) {
-    if (info(hosts.type(cell)).dimension != 2) continue;
+    if (info(hosts.type(cell)).dimension == 3) continue;
     for (const MaterialTetra& triangle : material_of(hosts, material, cell)) {
+      if (triangle.corners() == 2) {
+        surface.lines.push_back({vertices.place(triangle.vertices[0]), vertices.place(triangle.vertices[1])});
+        surface.line_cell.push_back(cell);
+        continue;
+      }
       const auto& [a, b, c, none] = triangle.vertices;
       surface.triangles.push_back({vertices.place(a), vertices.place(b), vertices.place(c)});
       surface.cell.push_back(cell);
@@ -62,7 +67,7 @@ MaterialSurface material_surface(const Hosts& hosts, const Material& material) {
   }
   const MaterialFaces all = material_faces(hosts, material);
   for (const MaterialFace& face : all.faces) {
-    if (face.across >= 0 || info(hosts.type(all.units[at(face.unit)].cell)).dimension == 2) continue;
+    if (face.across >= 0 || info(hosts.type(all.units[at(face.unit)].cell)).dimension != 3) continue;
     const auto& [a, b, c] = face.vertices;
     surface.triangles.push_back({vertices.place(a), vertices.place(b), vertices.place(c)});
     surface.cell.push_back(all.units[at(face.unit)].cell);
@@ -88,7 +93,7 @@ MaterialMesh material_mesh(const Hosts& hosts, const Material& material) {
   std::vector<std::int32_t> cut_cells;
   for (const auto& [cell, list] : material.cells) {
     for (const MaterialTetra& tetra : list) {
-      if (tetra.corners() == 3) cut.type = CellType::triangle;
+      if (tetra.corners() < 4) cut.type = tetra.corners() == 3 ? CellType::triangle : CellType::line;
       for (std::size_t i = 0; i < tetra.corners(); ++i)
         cut.nodes.push_back(vertices.place(tetra.vertices[i]));
       cut_cells.push_back(cell);

@@ -20,7 +20,8 @@ constexpr double kRoundOff = 1e-12;
 constexpr double kLeastAlong = 0.5;  ///< cosine between the normals of a face of the cut and of the blade
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
-/// A face of a tetrahedron by its vertices in ascending order; an edge of a triangle after -1.
+/// A face of a tetrahedron by its vertices in ascending order; an edge of a triangle after -1, an end of a
+/// line after two.
 struct FaceSide {
   std::array<std::int32_t, 3> key;
   std::int32_t tetra;
@@ -47,9 +48,7 @@ class Opener {
       if (above(sides[i].tetra) == above(sides[i + 1].tetra) || !covered(sides[i], sides[i + 1])) continue;
       if ((i > 0 && sides[i - 1].key == sides[i].key) ||
           (i + 2 < sides.size() && sides[i + 2].key == sides[i].key)) {
-        throw ParameterError(
-            "the blade follows an edge that more than two triangles share, where a cut cannot say which stay "
-            "together; move the blade a little off the edge.");
+        refuse_junction(sides[i]);
       }
       open(sides[i], sides[i + 1]);
     }
@@ -80,6 +79,16 @@ class Opener {
     return (patch_.tetra(side.tetra).cut >> side.local & 1U) != 0;
   }
 
+  [[noreturn]] static void refuse_junction(const FaceSide& side) {
+    throw ParameterError(
+        vertices_of(side).size() == 1
+            ? "the blade passes through a node that more than two lines share, where a cut cannot say which "
+              "stay together; move the blade a little off the node."
+            : "the blade follows an edge that more than two triangles share, where a cut cannot say which "
+              "stay "
+              "together; move the blade a little off the edge.");
+  }
+
   [[nodiscard]] std::span<const std::int32_t> triangles(std::int32_t tetra) const {
     return near_.triangles(patch_.cell(patch_.tetra(tetra).cell).number);
   }
@@ -104,11 +113,13 @@ class Opener {
     return known;
   }
 
-  /// Across a face, away from the tetrahedron; across an edge in the plane of its triangle.
+  /// Across a face, away from the tetrahedron; across an edge in the plane of its triangle; out of an end of
+  /// a line.
   [[nodiscard]] Vec3 outward(const Patch::Tetra& tetra, std::size_t face) const {
     const auto corner = [&](std::size_t i) {
       return patch_.vertex(tetra.vertices[kOpposite[face][i]]).place;
     };
+    if (tetra.corners() == 2) return corner(0) - patch_.vertex(tetra.vertices[face]).place;
     if (tetra.corners() == 4) return (corner(1) - corner(0)).cross(corner(2) - corner(0));
     const Vec3& a = patch_.vertex(tetra.vertices[(face + 1) % 3]).place;
     const Vec3& b = patch_.vertex(tetra.vertices[(face + 2) % 3]).place;
@@ -169,6 +180,7 @@ class Opener {
     const auto before = std::ranges::count_if(vertices, [&](std::int32_t v) { return known_[v].before; });
     // The blade went from those to the others.
     if (before > 0 && before < static_cast<std::ptrdiff_t>(vertices.size())) return true;
+    if (before == 0 && vertices.size() == 1) return true;  // the blade crosses the line there
     Vec3 mean = Vec3::Zero();
     double longest = 0.0;
     for (std::size_t i = 0; i < vertices.size(); ++i) {
@@ -185,7 +197,7 @@ class Opener {
   }
 
   static std::span<const std::int32_t> vertices_of(const FaceSide& side) {
-    return std::span(side.key).subspan(side.key[0] < 0 ? 1 : 0);
+    return std::span(side.key).subspan(static_cast<std::size_t>(std::ranges::count(side.key, -1)));
   }
 
   void open(const FaceSide& a, const FaceSide& b) {
@@ -194,12 +206,17 @@ class Opener {
       tetra.cut |= static_cast<std::uint8_t>(1U << side.local);
       patch_.cells[at(tetra.cell)].opened = true;
     }
+    opened_.vertices.insert(opened_.vertices.end(), vertices_of(a).begin(), vertices_of(a).end());
+    ++opened_.count;
+    add_area(a, b);
+  }
+
+  void add_area(const FaceSide& a, const FaceSide& b) {
     const std::span<const std::int32_t> vertices = vertices_of(a);
     const auto corner = [&](std::size_t i) -> const Patch::Vertex& { return patch_.vertex(vertices[i]); };
     const auto area = [](const Vec3& p, const Vec3& q, const Vec3& r) {
       return 0.5 * (q - p).cross(r - p).norm();
     };
-    ++opened_.count;
     if (vertices.size() == 3) {
       opened_.area += area(corner(0).place, corner(1).place, corner(2).place);
       opened_.rest_area += area(corner(0).rest, corner(1).rest, corner(2).rest);
@@ -208,10 +225,10 @@ class Opener {
         return patch_.cell(patch_.tetra(side.tetra).cell).thickness;
       };
       const double mean = 0.5 * (thickness(a) + thickness(b));
-      opened_.area += mean * (corner(1).place - corner(0).place).norm();
-      opened_.rest_area += mean * (corner(1).rest - corner(0).rest).norm();
+      const bool line = vertices.size() == 1;
+      opened_.area += mean * (line ? 1.0 : (corner(1).place - corner(0).place).norm());
+      opened_.rest_area += mean * (line ? 1.0 : (corner(1).rest - corner(0).rest).norm());
     }
-    opened_.vertices.insert(opened_.vertices.end(), vertices.begin(), vertices.end());
   }
 
   Patch& patch_;

@@ -142,6 +142,7 @@ std::int32_t Patch::divide(std::int32_t p, std::int32_t q, double t) {
 double Patch::rest_volume(const Tetra& tetra) const {
   const auto& v = tetra.vertices;
   const Vec3& a = vertex(v[0]).rest;
+  if (tetra.corners() == 2) return (vertex(v[1]).rest - a).norm();
   const Vec3 twice = (vertex(v[1]).rest - a).cross(vertex(v[2]).rest - a);
   if (tetra.corners() == 3) return 0.5 * twice.norm();
   return twice.dot(vertex(v[3]).rest - a) / 6.0;

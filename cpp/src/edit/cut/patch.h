@@ -22,20 +22,24 @@ class Patch {
     Vec3 place;  ///< now [m]
     Vec3 rest;   ///< [m]
   };
-  /// Of a sheet a triangle: the last vertex is -1, and faces are edges.
+  /// Of a sheet a triangle: the last vertex is -1, and faces are edges. Of a line a piece: the last two are
+  /// -1.
   struct Tetra {
     std::array<std::int32_t, 4> vertices;
     std::int32_t cell;
     std::uint8_t cut;
 
-    [[nodiscard]] std::size_t corners() const { return vertices[3] < 0 ? 3 : 4; }
+    [[nodiscard]] std::size_t corners() const {
+      if (vertices[3] >= 0) return 4;
+      return vertices[2] < 0 ? 2 : 3;
+    }
   };
   struct Cell {
     std::int32_t number;
     bool stored;       ///< the material has a list for it
-    bool sound;        ///< every tetrahedron of it has a volume (triangle: area) above 0 at rest
+    bool sound;        ///< every tetrahedron of it has a volume (area, length) above 0 at rest
     double size;       ///< longest edge of the first day [m]
-    double thickness;  ///< of a sheet [m]; 1 for a volume
+    double thickness;  ///< of a sheet [m], of a line its section [m2]; 1 for a volume
     bool divided = false;
     bool opened = false;
   };
@@ -63,7 +67,7 @@ class Patch {
   [[nodiscard]] const Vertex& vertex(std::int32_t i) const { return vertices[static_cast<std::size_t>(i)]; }
   [[nodiscard]] const Tetra& tetra(std::int32_t i) const { return tetrahedra[static_cast<std::size_t>(i)]; }
   [[nodiscard]] const Cell& cell(std::int32_t i) const { return cells[static_cast<std::size_t>(i)]; }
-  /// [m3], of a triangle its area [m2].
+  /// [m3], of a triangle its area [m2], of a line its length [m].
   [[nodiscard]] double rest_volume(const Tetra& tetra) const;
 
   /// A vertex that was put on an edge, and the edge's ends (places).
@@ -93,7 +97,7 @@ class Patch {
 Rider between(const Rider& p, const Rider& q, double t);
 
 /// The face of a tetrahedron that lies opposite to vertex i, anticlockwise seen from outside. Of a triangle,
-/// the first three: each has place 3, where no vertex is.
+/// the first three: each has place 3, where no vertex is. Of a line the first two, each with places 2 and 3.
 inline constexpr std::array<std::array<std::uint8_t, 3>, 4> kOpposite{
     {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
 

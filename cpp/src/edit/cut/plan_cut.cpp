@@ -121,7 +121,9 @@ class Attempt {
   [[nodiscard]] double t0(std::int32_t cell) const {
     const std::int32_t number = patch_.cell(cell).number;
     const auto own = raised_.find(number);
-    return own == raised_.end() ? remedies_.t0(number, options_.t0) : own->second;
+    if (own != raised_.end()) return own->second;
+    if (info(hosts_.type(number)).dimension == 1) return 0.0;  // no part of a line is narrow
+    return remedies_.t0(number, options_.t0);
   }
 
   bool cut_part(std::size_t number, CutPlan& plan) {

@@ -89,7 +89,7 @@ void Shell::lay_elements(ConstReals rest_positions) {
     elements_.emplace_back(
         std::array{corner(0), corner(1), corner(2)},
         ShellSection{of_cell(block_.cross_section, cell), of_cell(block_.parameters.at("young"), cell),
-                     of_cell(block_.parameters.at("poisson"), cell), drilling});
+                     of_cell(block_.parameters.at("poisson"), cell), drilling, of_cell(block_.share, cell)});
   }
 }
 

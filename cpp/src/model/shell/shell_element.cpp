@@ -77,8 +77,8 @@ ShellElement::ShellElement(const std::array<Vec3, 3>& rest_positions, const Shel
   }
   gradients_ = gradients_of(nodes_, area_);
   const FlatTriangle triangle{nodes_, gradients_, area_};
-  membrane_ = membrane_stiffness(triangle, section_);
-  bending_ = bending_stiffness(triangle, section_);
+  membrane_ = section_.share * membrane_stiffness(triangle, section_);
+  bending_ = section_.share * bending_stiffness(triangle, section_);
 }
 
 double ShellElement::nodal_inertia(double density) const {

@@ -12,15 +12,15 @@ namespace tissu {
 
 /// A place is rider.at(x) + offset.
 struct Anchor {
-  Rider rider;                 ///< in the material the point itself, of a sheet the nearest; beside it a node
+  Rider rider;  ///< in the material the point itself, of sheets and lines the nearest; else a node
   Vec3 offset = Vec3::Zero();  ///< from there, in space [m]; zero in a volume
-  bool inside = false;         ///< it is in the material, or near a sheet
+  bool inside = false;         ///< it is in the material, or near a sheet or line
 };
 
 /// Anchors of points, three numbers each, where the nodes are at x. Of tetrahedra that hold a point the one
 /// in which it lies deepest counts, then the host of the lowest number; a point beside the material keeps its
 /// offset from the nearest node that a cell uses, so that a body which moves past it passes it by as much. A
-/// point within half an edge of a sheet keeps its offset from the nearest point of the sheet.
+/// point within half an edge of a sheet or a line keeps its offset from the nearest point of it.
 std::vector<Anchor> anchors(const Hosts& hosts, const Material& material, ConstReals x, ConstReals points);
 
 }  // namespace tissu

@@ -36,7 +36,7 @@ class Hosts {
     std::int32_t origin;  ///< number of the first-day cell
     double share;         ///< of the volume of the first-day cell's material
     std::vector<std::int32_t> nodes;
-    double thickness = 1.0;  ///< of a sheet at rest [m]; 1 for a volume
+    double thickness = 1.0;  ///< of a sheet at rest [m], of a line its section [m2]; 1 for a volume
   };
 
   /// The cells of a first day, numbered across the blocks.

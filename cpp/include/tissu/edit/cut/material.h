@@ -1,6 +1,7 @@
 #pragma once
 
-/// The material of cut cells: tetrahedra, of sheets triangles, whose vertices are nodes or ride on nodes.
+/// The material of cut cells: tetrahedra, of sheets triangles, of lines pieces of them, whose vertices are
+/// nodes or ride on nodes.
 
 #include <array>
 #include <cstdint>
@@ -14,18 +15,22 @@
 
 namespace tissu {
 
-/// Stands in the last place of a triangle.
+/// Stands in the last place of a triangle, and in the last two of a piece of a line.
 inline constexpr std::int32_t kNoVertex = std::numeric_limits<std::int32_t>::max();
 
 /// Vertex v >= 0 is node v; v < 0 is rider -1 - v. Positive volume at rest: vertex 3 lies on the side to
 /// which the normal of 0 1 2 points. In a sheet it is a triangle, whose faces are its edges: the last of its
-/// vertices is kNoVertex.
+/// vertices is kNoVertex. In a line it is a piece between two vertices, whose faces are its ends: the face
+/// opposite to vertex 0 is vertex 1.
 struct MaterialTetra {
   std::array<std::int32_t, 4> vertices;
   std::uint8_t cut = 0;  ///< bit i: the face opposite to vertex i was opened by a cut
 
-  /// 4, of a triangle 3; as many faces it has.
-  [[nodiscard]] std::size_t corners() const { return vertices[3] == kNoVertex ? 3 : 4; }
+  /// 4, of a triangle 3, of a piece of a line 2; as many faces it has.
+  [[nodiscard]] std::size_t corners() const {
+    if (vertices[3] != kNoVertex) return 4;
+    return vertices[2] == kNoVertex ? 2 : 3;
+  }
 };
 
 /// What a blade that goes on knows of where it was: the vertices that lie on its cut, ascending.
@@ -50,13 +55,14 @@ struct Material {
 
 /// The material of an uncut cell: a cone from its corner of lowest root over the faces that do not have that
 /// corner, each quad face cut at its lowest root (Dompierre, Labbe, Vallet and Camarero, How to subdivide
-/// pyramids, prisms and hexahedra into tetrahedra, 1999). A triangle is its own.
+/// pyramids, prisms and hexahedra into tetrahedra, 1999). A triangle is its own, and so is a line.
 std::vector<MaterialTetra> whole_material(const Hosts& hosts, std::int32_t cell);
 
 /// What is there of a cell, cut or not.
 std::vector<MaterialTetra> material_of(const Hosts& hosts, const Material& material, std::int32_t cell);
 
-/// Volume at rest [m3]; of a triangle of a sheet its area times the thickness of its host.
+/// Volume at rest [m3]; of a triangle of a sheet its area times the thickness of its host, of a piece of a
+/// line its length times the area of the section.
 double rest_volume(const Hosts& hosts, const Material& material, std::int32_t cell,
                    const MaterialTetra& tetra);
 

@@ -12,20 +12,22 @@
 
 namespace tissu {
 
-/// Of sheets all triangles of the material. Of volumes closed: every edge is on as many triangles that run
-/// along it as on such that run against it. Of quadratic cells the corners' chords are the surface; quads are
-/// cut at their lowest root.
+/// Of sheets all triangles of the material, of lines all pieces. Of volumes closed: every edge is on as many
+/// triangles that run along it as on such that run against it. Of quadratic cells the corners' chords are the
+/// surface; quads are cut at their lowest root.
 struct MaterialSurface {
   std::vector<Rider> vertices;
   std::vector<std::int32_t> vertex_node;               ///< the node that a vertex is; -1: it rides
   std::vector<std::array<std::int32_t, 3>> triangles;  ///< anticlockwise seen from outside
   std::vector<std::int32_t> cell;                      ///< host of each triangle
   std::vector<char> cut;                               ///< 1: opened by a cut
+  std::vector<std::array<std::int32_t, 2>> lines;      ///< pieces of lines
+  std::vector<std::int32_t> line_cell;                 ///< host of each piece
 };
 MaterialSurface material_surface(const Hosts& hosts, const Material& material);
 
-/// Uncut cells as they are, then the tetrahedra, or triangles, of cut ones. A quad of an uncut cell may meet
-/// two triangles of a cut one, which fill it.
+/// Uncut cells as they are, then the tetrahedra, triangles or pieces of lines of cut ones. A quad of an uncut
+/// cell may meet two triangles of a cut one, which fill it.
 struct MaterialMesh {
   std::vector<Rider> vertices;            ///< nodes of uncut cells and vertices of tetrahedra
   std::vector<std::int32_t> vertex_node;  ///< -1: rides

@@ -39,6 +39,9 @@ struct ShellSection {
   /// triangle. Small, 1e-3: nearly a membrane without drilling, for curved shells whose mesh is coarse,
   /// h^2 > t R, on which that stiffness resists bending.
   double drilling = 1.0;
+  /// Of the triangle that is material: K, volume, mass and inertia are multiplied by it
+  /// (ElasticBlock::share).
+  double share = 1.0;
 };
 
 struct ShellPose {
@@ -74,8 +77,10 @@ class ShellElement {
   /// det F of the volume: that of the surface, and how much thinner it is under plane stress.
   [[nodiscard]] double volume_ratio(const ShellPose& pose) const;
 
-  [[nodiscard]] double area() const { return area_; }                         ///< at rest [m2]
-  [[nodiscard]] double volume() const { return area_ * section_.thickness; }  ///< at rest [m3]
+  [[nodiscard]] double area() const { return area_; }  ///< at rest [m2]
+  [[nodiscard]] double volume() const {                ///< of the material at rest [m3]
+    return area_ * section_.thickness * section_.share;
+  }
   [[nodiscard]] double nodal_mass(double density) const { return density * volume() / 3.0; }  ///< [kg]
   /// About every axis alike [kg m2], m max(t^2 / 12, A / 8): as large as keeps rotations from vibrating
   /// faster than translations do (Hughes, Cohen and Haroun, Nucl. Eng. Des. 46, 1978). Its error goes with

@@ -1,0 +1,163 @@
+#include "parted_pressures.h"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <span>
+#include <string>
+
+#include "edit/cut/patch.h"
+#include "tissu/base/error.h"
+#include "tissu/edit/cut_state.h"
+#include "tissu/element/reference_cell.h"
+#include "tissu/mesh/cell_shape.h"
+
+namespace tissu {
+namespace {
+
+using Nodes = std::vector<std::int32_t>;
+
+std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
+
+Nodes sorted(Nodes nodes) {
+  std::ranges::sort(nodes);
+  return nodes;
+}
+
+/// Whether two orders of the same nodes run the same way around.
+bool same_way(const Nodes& a, const Nodes& b) {
+  const auto start = static_cast<std::size_t>(std::ranges::find(b, a.front()) - b.begin());
+  return b[(start + 1) % b.size()] == a[1];
+}
+
+/// The faces of a body that a pressure acts on, as they are after cuts.
+class Pressed {
+ public:
+  Pressed(const CutState& cut, const std::vector<FaceCells>& first_day) : cut_(cut) {
+    for (const FaceCells& some : first_day) {
+      const auto corners = at(find_element(some.element)->nodes);
+      for (std::size_t i = 0; i + corners <= some.nodes.size(); i += corners) {
+        const auto first = some.nodes.begin() + static_cast<std::ptrdiff_t>(i);
+        Nodes face(first, first + static_cast<std::ptrdiff_t>(corners));
+        faces_.emplace(sorted(face), face);
+      }
+    }
+  }
+
+  void find(PressureDescription& pressure) {
+    for (const std::int32_t cell : cut_.hosts.numbers()) look_at(cell);
+    pressure.faces.clear();
+    if (!triangles_.empty()) pressure.faces.push_back({"triangle", std::move(triangles_)});
+    if (!quads_.empty()) pressure.faces.push_back({"quad", std::move(quads_)});
+    pressure.carried = std::move(carried_);
+  }
+
+ private:
+  void look_at(std::int32_t cell) {
+    const auto corners = cut_.hosts.corners(cell);
+    if (info(cut_.hosts.type(cell)).dimension == 2) {
+      look_at(cell, {corners.begin(), corners.end()});
+      return;
+    }
+    for (const LocalFace& face : faces(cut_.hosts.type(cell))) {
+      Nodes nodes;
+      for (std::size_t c = 0; c < at(face.corners); ++c) nodes.push_back(corners[face.node[c]]);
+      look_at(cell, nodes);
+    }
+  }
+
+  /// `nodes`: of a face of the cell, anticlockwise seen from outside; of a sheet all.
+  void look_at(std::int32_t cell, const Nodes& nodes) {
+    Nodes roots;
+    for (const std::int32_t node : nodes) roots.push_back(cut_.hosts.root(node));
+    const auto pressed = faces_.find(sorted(roots));
+    if (pressed == faces_.end()) return;
+    const bool same = same_way(roots, pressed->second);
+    const auto stored = cut_.material.cells.find(cell);
+    if (stored != cut_.material.cells.end()) {
+      for (const MaterialTetra& tetra : stored->second) carry(tetra, nodes, same);
+      return;
+    }
+    Nodes& list = nodes.size() == 3 ? triangles_ : quads_;
+    if (same) {
+      list.insert(list.end(), nodes.begin(), nodes.end());
+    } else {
+      list.insert(list.end(), nodes.rbegin(), nodes.rend());
+    }
+  }
+
+  /// The faces of a tetrahedron that lie in a face of its host; a triangle of a sheet is one itself.
+  void carry(const MaterialTetra& tetra, const Nodes& nodes, bool same) {
+    const auto& v = tetra.vertices;
+    if (tetra.corners() == 3) {
+      add({v[0], v[1], v[2]}, same);
+      return;
+    }
+    for (std::size_t f = 0; f < 4; ++f) {
+      const auto& [a, b, c] = kOpposite[f];
+      const bool inside = std::ranges::all_of(std::array{v[a], v[b], v[c]},
+                                              [&](std::int32_t vertex) { return lies_in(vertex, nodes); });
+      if (inside && (tetra.cut >> f & 1U) == 0) add({v[a], v[b], v[c]}, same);
+    }
+  }
+
+  [[nodiscard]] Rider rider_of(std::int32_t vertex) const {
+    if (vertex >= 0) return {{vertex, -1, -1, -1}, {1.0, 0.0, 0.0, 0.0}, 1};
+    return cut_.material.riders[at(-1 - vertex)];
+  }
+
+  [[nodiscard]] bool lies_in(std::int32_t vertex, const Nodes& nodes) const {
+    const Rider rider = rider_of(vertex);
+    for (std::size_t k = 0; k < at(rider.count); ++k) {
+      if (rider.weight[k] != 0.0 && std::ranges::find(nodes, rider.node[k]) == nodes.end()) return false;
+    }
+    return true;
+  }
+
+  void add(std::array<std::int32_t, 3> vertices, bool same) {
+    if (!same) std::swap(vertices[1], vertices[2]);
+    CarriedFace& face = carried_.emplace_back();
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Rider rider = rider_of(vertices[i]);
+      for (std::size_t k = 0; k < at(rider.count); ++k) {
+        if (rider.weight[k] != 0.0) face[i].push_back({rider.node[k], rider.weight[k]});
+      }
+    }
+  }
+
+  const CutState& cut_;
+  std::map<Nodes, Nodes> faces_;  ///< of the first day, by their nodes in ascending order
+  Nodes triangles_;
+  Nodes quads_;
+  std::vector<CarriedFace> carried_;
+};
+
+}  // namespace
+
+void part_pressures(WorldDescription& description, const BodyDescription& body) {
+  if (body.cut == nullptr) return;
+  for (PressureDescription& pressure : description.pressures) {
+    if (pressure.body != body.name) continue;
+    if (pressure.first_day.empty()) pressure.first_day = pressure.faces;
+    Pressed(*body.cut, pressure.first_day).find(pressure);
+  }
+}
+
+void refuse_pressed(const WorldDescription& description, const BodyDescription& body) {
+  for (const PressureDescription& pressure : description.pressures) {
+    if (pressure.body != body.name) continue;
+    for (const FaceCells& some : pressure.faces) {
+      if (some.element == "triangle" || some.element == "quad") continue;
+      const bool edge = find_element(some.element)->dimension == 1;
+      throw ParameterError(
+          "body \"" + body.name + "\" cannot be cut: the pressure \"" + pressure.name +
+          (edge ? "\" acts on edges of a flat body, which a cut does not part yet; faces of a "
+                  "volume or of a sheet are accepted, or leave the pressure out."
+                : "\" acts on faces of type " + some.element +
+                      ", which are curved and those of a cut are flat; cells of first order "
+                      "are accepted, or leave the pressure out."));
+    }
+  }
+}
+
+}  // namespace tissu

@@ -159,11 +159,11 @@ def peer_section(python: str) -> str:
     rows = [row for side in SIDES for row in peer_rows(python, side)]
     return (
         "\n### Beside Rapier\n\n"
-        f"{PEER_CUTS} triangles cut the same bars, each a body of its own that has gone five steps. Both\n"
-        "programs take turns, on one thread. In tissu the cut lies where the blade went: each side\n"
-        "has a copy of a crossed cell with its share of the material. In Rapier the cut follows\n"
-        "the faces of cells, whose nodes are doubled, and numbers are in single precision. *cells*\n"
-        "are those that the blade crossed.\n\n" + table(head, rows) + "\n"
+        f"{PEER_CUTS} triangles cut the same bars, each a body of its own that has gone five\n"
+        "steps. Both programs take turns, on one thread. In tissu the cut lies where the blade\n"
+        "went: each side has a copy of a crossed cell with its share of the material. In Rapier\n"
+        "the cut follows the faces of cells, whose nodes are doubled, and numbers are in single\n"
+        "precision. *cells* are those that the blade crossed.\n\n" + table(head, rows) + "\n"
     )
 
 
@@ -212,11 +212,11 @@ def section(python: str | None) -> str:
     return (
         "## The time of a cut\n\n"
         "The table gives the time of a cut, and of the steps after it, for meshes of several\n"
-        f"sizes [ms]. A bar of StVK under its weight is cut by {CUTS} discs, with implicit Euler of\n"
-        "10 ms on one thread: each disc as the *first* cut of a new simulation, and then one after\n"
-        "the other as the *next* ones. The time of a cut includes the report with its pieces, but\n"
-        "not reading the surface. The goal is 5 ms for a hundred cells of 50,000. The first step\n"
-        "after a cut makes a new preconditioner.\n\n"
+        f"sizes [ms]. A bar of StVK under its weight is cut by {CUTS} discs, with implicit Euler\n"
+        "of 10 ms on one thread: each disc as the *first* cut of a new simulation, and then one\n"
+        "after the other as the *next* ones. The time of a cut includes the report with its\n"
+        "pieces, but not reading the surface. The goal is 5 ms for a hundred cells of 50,000. The\n"
+        "first step after a cut makes a new preconditioner.\n\n"
         + table(head, rows)
         + ("" if python is None else "\n" + peer_section(python).rstrip())
         + f"\n\nPrinted by `python bench/cutting.py --write`; {machine_line()}\n"

@@ -1,6 +1,8 @@
-"""Cuts of Rapier's soft bodies, for bench/cutting.py: `python cutting_rapier.py WORK`, in any Python that has
-rapier3d. WORK holds points (n, 3), tetrahedra (e, 4), held nodes, and blades (k, 3, 3) [m]; each blade cuts a
-body of its own that has gone five steps of 10 ms. Prints rows of JSON.
+"""Cuts of Rapier's soft bodies, for bench/cutting.py: `python cutting_rapier.py WORK`.
+
+In any Python that has rapier3d. WORK holds points (n, 3), tetrahedra (e, 4), held nodes, and blades
+(k, 3, 3) [m]; each blade cuts a body of its own that has gone five steps of 10 ms. It prints a row
+of JSON for each.
 """
 
 from __future__ import annotations

@@ -114,7 +114,7 @@ class Scene(SceneData):
         from tissu.compile import compile_scene
 
         simulation = compile_scene(self, None if checkpoint is None else Path(checkpoint))
-        simulation.prepare_first_step()
+        simulation._prepare_first_step()
         return simulation
 
     def check(self) -> Check:

@@ -106,3 +106,30 @@ def test_a_law_without_young_is_refused():
     law = ts.MooneyRivlin(c1=1e3, c2=1e3, kappa=1e6)
     with pytest.raises(ts.SceneError, match=r"bar\.model: found condensed for the law mooney"):
         scene("condensed", law=law).compile()
+
+
+@pytest.mark.parametrize("keep", ["touched", "surface"])
+def test_energies_under_gravity_are_those_of_the_whole_body(keep: str) -> None:
+    """1/2 u K u and -m g x of all nodes, though steps know the kept ones alone."""
+    energies = []
+    for model in (ts.FEM(), ts.Condensed(keep=keep)):
+        body = ts.Body(
+            mesh=ts.BarMesh(size=(0.2, 0.05, 0.05), cells=(4, 2, 2), cell="tetra"),
+            model=model,
+            law=ts.Hooke(young=1e6, poisson=0.3),
+            density=1000,
+        )
+        simulation = ts.Scene(
+            bodies={"bar": body},
+            fixed=[ts.Fixed("bar", on=ts.Plane((0, 0, 0), (1, 0, 0)))],
+            gravity=(1.0, -2.0, -9.81),
+            step=ts.Static(solver=ts.Cholesky()),
+        ).compile()
+        assert simulation.step().converged
+        u = simulation.displacements("bar").ravel()
+        if not energies:
+            K = simulation.stiffness()
+        found = simulation.energy()
+        assert found["elastic"] == pytest.approx(0.5 * u @ (K @ u), rel=1e-9)
+        energies.append([found["elastic"], found["potential"], found["total"]])
+    assert energies[1] == pytest.approx(energies[0], rel=1e-9)

@@ -155,7 +155,12 @@ SLIPS = {
         "contacts[0].stiffness",
         "found stiffness 2e+06, which the method augmented",
     ),
-    "bouncy": ("friction: 0.2", "restitution: 2", "contacts[0].restitution", "found 2; at most 1 is accepted"),
+    "bouncy": (
+        "friction: 0.2",
+        "restitution: 2",
+        "contacts[0].restitution",
+        "found 2; at most 1 is accepted",
+    ),
     "explicit": (
         "{type: implicit_euler, dt: 10 ms}",
         "rk4",
@@ -441,3 +446,21 @@ def test_the_page_names_every_obstacle_field_and_step():
             assert f"| `{name}` |" in PAGE
     for steps in STEPS_OF_METHOD.values():
         assert all(f"`{step}`" in PAGE for step in steps)
+
+
+@pytest.mark.parametrize("cell", ["hexahedron20", "pyramid13", "hexahedron27", "hexahedron"])
+def test_faces_without_a_middle_node_are_noted(cell):
+    """Pressed cubes of the first two are too soft by 3 to 15 %; of the others they are exact."""
+    body = ts.Body(
+        mesh=ts.BarMesh(size=(0.1, 0.1, 0.1), cells=(1, 1, 1), cell=cell),
+        law=ts.NeoHooke(young=1e4, poisson=0.3),
+        density=1000,
+    )
+    scene = ts.Scene(
+        bodies={"cube": body},
+        obstacles={"table": ts.PlaneObstacle((0, 0, -0.01), (0, 0, 1))},
+        contacts=[ts.Contact(("cube", "table"))],
+        step=ts.ImplicitEuler("10 ms"),
+    )
+    noted = any("no node in their middle" in note for note in scene.check().notes)
+    assert noted == (cell in ("hexahedron20", "pyramid13"))

@@ -362,7 +362,10 @@ def test_a_piece_falls_on_a_table_and_weighs_what_it_weighs() -> None:
 
 def test_what_cannot_be_cut_is_refused_in_a_sentence() -> None:
     shell = scene(sheet(model="shell", law=ts.Hooke(young=5e5, poisson=0.3)))
-    with pytest.raises(ts.SceneError, match="editing: found true with the model shell of body 'sheet', whose cells cannot"):
+    with pytest.raises(
+        ts.SceneError,
+        match="editing: found true with the model shell of body 'sheet', whose cells cannot",
+    ):
         shell.compile()
     quads = sheet().replace(
         mesh=ts.bar_mesh(size=(0.4, 0.1, 0), cells=(8, 2, 0), cell="quad"),

@@ -231,3 +231,42 @@ def test_unused_nodes_are_kept_and_noted(tmp_path: Path) -> None:
     mesh = read_mesh(write(tmp_path / "a.msh", text))
     assert mesh.unused_nodes.tolist() == [4]
     assert mesh.notes[-1] == "1 node is used by no volume cell (4)"
+
+
+GMSH4 = """\
+$MeshFormat
+4.1 0 8
+$EndMeshFormat
+$Nodes
+1 4 1 4
+3 0 0 4
+1
+2
+3
+4
+0 0 0
+1 0 0
+0 1 0
+0 0 1
+$EndNodes
+$Elements
+1 1 7 7
+3 0 4 1
+7 1 2 3 4
+$EndElements
+"""
+
+
+@pytest.mark.parametrize("tag", ["0", "-1"])
+def test_gmsh_tags_that_no_node_can_have(tmp_path: Path, tag: str) -> None:
+    """The library below takes 0 for the last node, and -1 for the one before."""
+    two = GMSH4.replace("4.1 0 8", "2.2 0 8").replace("1 4 1 4\n3 0 0 4\n1\n2\n3\n4\n", "4\n")
+    for number, row in enumerate(("0 0 0", "1 0 0", "0 1 0", "0 0 1"), start=1):
+        two = two.replace(f"\n{row}\n", f"\n{number} {row}\n")
+    two = two.replace("1 1 7 7\n3 0 4 1\n7 1", "1\n7 4 2 0 0 1")
+    for text, nodes in ((GMSH4, "7 1 2 3 4"), (two, "0 0 1 2 3 4")):
+        assert read_mesh(write(tmp_path / "a.msh", text)).cells[0].nodes.tolist() == [[0, 1, 2, 3]]
+        assert text.count(nodes) == 1
+        wrong = text.replace(nodes, nodes.replace("2 3 4", f"{tag} 3 4"))
+        with pytest.raises(MeshError, match=f"a.msh: cell 7 has the node {tag}; tags from 1 on"):
+            read_mesh(write(tmp_path / "a.msh", wrong))

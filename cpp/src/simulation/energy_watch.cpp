@@ -11,8 +11,10 @@ Energy energy_of(const World& world, const State& state, Scratch& scratch) {
   Energy energy;
   energy.kinetic = world.mass().kinetic_energy(state);
   for (const auto& model : world.forces()) {
-    (model->kind() == ForceKind::elastic ? energy.elastic : energy.potential) +=
-        model->energy(state, scratch);
+    const double stored = model->energy(state, scratch);
+    const double outer = model->kind() == ForceKind::elastic ? model->potential(state) : stored;
+    energy.potential += outer;
+    energy.elastic += stored - outer;
   }
   return energy;
 }

@@ -163,6 +163,31 @@ double largest_frequency(const World& world, const State& state) {
   return std::sqrt(Lanczos(stiffness, state.positions.size()).largest(kFine));
 }
 
+namespace {
+
+/// x . A x / x . x
+double quotient(ScaledMatrix& A, const std::vector<double>& x) {
+  std::vector<double> product(x.size());
+  A.apply(x, product);
+  return std::inner_product(x.begin(), x.end(), product.begin(), 0.0) /
+         std::inner_product(x.begin(), x.end(), x.begin(), 0.0);
+}
+
+}  // namespace
+
+Vibration stiffest_vibration(const World& world, const State& state, double h) {
+  ScaledMatrix both(world, state, {-h * h, -2.0 * h});
+  Lanczos lanczos(both, state.positions.size());
+  if (!(lanczos.largest(kCoarse) > 0.0)) return {};
+  const std::vector<double> shape = lanczos.shape();
+  ScaledMatrix stiffness(world, state, {-1.0, 0.0});
+  ScaledMatrix damping(world, state, {0.0, -1.0});
+  Vibration result;
+  result.frequency = std::sqrt(std::max(0.0, quotient(stiffness, shape)));
+  result.damping = result.largest_damping = std::max(0.0, quotient(damping, shape));
+  return result;
+}
+
 Vibration fastest_vibration(const World& world, const State& state) {
   const std::size_t size = state.positions.size();
   Vibration result;
@@ -172,11 +197,7 @@ Vibration fastest_vibration(const World& world, const State& state) {
   result.frequency = std::sqrt(elastic.largest(kCoarse));
   result.largest_damping = Lanczos(damping, size).largest(kCoarse);
   if (result.largest_damping > 0.0 && result.frequency > 0.0) {
-    const std::vector<double> shape = elastic.shape();
-    std::vector<double> damped(size);
-    damping.apply(shape, damped);
-    result.damping = std::inner_product(shape.begin(), shape.end(), damped.begin(), 0.0) /
-                     std::inner_product(shape.begin(), shape.end(), shape.begin(), 0.0);
+    result.damping = quotient(damping, elastic.shape());
   }
   return result;
 }

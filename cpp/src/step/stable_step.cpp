@@ -12,6 +12,8 @@ constexpr double kLookEvery = 8.0;  ///< steps
 constexpr double kDeformed = 0.02;  ///< share of an edge's length
 constexpr double kRoundOff = 1e-12;
 constexpr int kHalvings = 60;
+constexpr int kMostLooks = 8;       ///< for the shape that limits the step by stiffness and damping together
+constexpr double kSettled = 0.999;  ///< of the limit before: the shape of the limit is found
 
 }  // namespace
 
@@ -118,18 +120,28 @@ double StableStep::coupled(const State& state) {
 
 void StableStep::measure(const Amplification& method, const State& state) {
   if (!world_->run_time().coupling.empty()) coupled_ = coupled(state);
-  Vibration vibration = fastest_vibration(*world_, state);
-  limit_ = largest_stable_step(method, vibration);
-  // What does not touch stays as it is; what does may be damped by it too.
-  vibration.frequency = std::hypot(vibration.frequency, more_frequency_);
-  vibration.damping += more_damping_;
-  vibration.largest_damping += more_damping_;
-  limit_ = std::min(limit_, largest_stable_step(method, vibration));
+  const Vibration fastest = fastest_vibration(*world_, state);
+  limit_ = bearable(method, fastest);
+  const bool both = fastest.frequency > 0.0 && fastest.largest_damping > 0.0;
+  for (int look = 0; both && look < kMostLooks && limit_ > 0.0; ++look) {
+    const double before = limit_;
+    limit_ = std::min(limit_, bearable(method, stiffest_vibration(*world_, state, limit_)));
+    if (limit_ > kSettled * before) break;
+  }
   age_ = 0.0;
   const ConstReals x(state.positions);
   for (std::size_t e = 0; e < lengths_.size(); ++e) {
     lengths_[e] = (block(x, edges_[2 * e]) - block(x, edges_[2 * e + 1])).norm();
   }
+}
+
+double StableStep::bearable(const Amplification& method, Vibration vibration) const {
+  const double alone = largest_stable_step(method, vibration);
+  // What does not touch stays as it is; what does may be damped by it too.
+  vibration.frequency = std::hypot(vibration.frequency, more_frequency_);
+  vibration.damping += more_damping_;
+  vibration.largest_damping += more_damping_;
+  return std::min(alone, largest_stable_step(method, vibration));
 }
 
 void StableStep::append_memory(std::vector<double>& memory) const {

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from tissu.errors import MeshError
 from tissu.mesh.cell import cell_table, dimension
+from tissu.mesh.gmsh_tags import impossible_tag
 from tissu.mesh.raw import RawMesh, tagged_regions
 from tissu.mesh.truncated import finite
 
@@ -90,6 +91,9 @@ def read_through_meshio(path: Path) -> RawMesh:
             f"{' '.join(sorted({*endings(), '.trian'}))}"
         )
     reasons = []
+    wrong = impossible_tag(path) if "gmsh" in names else None
+    if wrong is not None:
+        raise MeshError(f"{path}: {wrong}")
     for name in names:
         with quiet() as said:
             try:
@@ -108,6 +112,12 @@ def _reason(name: str, error: BaseException, said: str) -> str:
     """Why a format's reader gave up, in one line."""
     if isinstance(error, UnicodeDecodeError):
         return "it holds bytes that are not text where text is expected; is it damaged?"
+    if isinstance(error, (KeyError, IndexError)):
+        return (
+            f"a cell or a set names what is not in the file: {' '.join(str(error).split())[:100]}"
+        )
+    if isinstance(error, MemoryError):
+        return "it announces more numbers than the memory holds; is one of its counts damaged?"
     if isinstance(error, SystemExit):  # then what it printed holds the reason, before its verdict
         text = said.replace("\n", " ").split("Error:")[0]
     else:

@@ -42,6 +42,7 @@ class Changed:
     if TYPE_CHECKING:
 
         def _follow_cells(self, body: str) -> None: ...
+        def _prepare_first_step(self) -> None: ...
 
     @property
     def parameters(self) -> Parameters:
@@ -90,7 +91,7 @@ class Changed:
         self._steps = 0
         for body in self._rest:
             self._follow_cells(body)
-        self.prepare_first_step()
+        self._prepare_first_step()
 
     def _become(self, scene: Scene) -> None:
         """Go on with a scene that differs in numbers only.

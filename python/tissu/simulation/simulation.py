@@ -195,7 +195,7 @@ class Simulation(Inspected, Handled, Touched, Changed, Cutting, Instrumented):
         """
         return float(self._core.stable_step())
 
-    def prepare_first_step(self) -> None:
+    def _prepare_first_step(self) -> None:
         """Make what the first step asks for: orderings, aggregates, a preconditioner.
 
         `compile` and `reset` do it, so that the first step takes about as long as the others. Steps

@@ -11,6 +11,7 @@ import pytest
 from test_touch import scene
 
 import tissu as ts
+from tissu import _haptic
 from tissu.trocar.controller import Controller
 from tissu.trocar.states import State
 from tissu.trocar.touch import Felt, Touch
@@ -108,7 +109,7 @@ def test_unplugged_in_the_middle_of_palpation(mode: str) -> None:
     assert np.abs(device.motor_torque).max() < 1e-9  # a lag of 0.5 ms
 
 
-def _until_released(device: SimulatedDevice, mode: str) -> None:
+def _until_released(device: _haptic.SimulatedDevice, mode: str) -> None:
     """The torque has gone, with the motors' lag of 0.5 ms.
 
     Beside a thread, 30 steps of the tissue may take less time than the 20 lags down to 1e-9.

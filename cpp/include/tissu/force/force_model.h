@@ -69,6 +69,8 @@ class ForceModel {
   /// Stored energy [J]; of a force with a potential the one whose negative gradient is `add_force`, at every
   /// load factor.
   [[nodiscard]] virtual double energy(const State& /*state*/, Scratch& /*scratch*/) const { return 0.0; }
+  /// The share of the energy of something elastic that is the potential of outer forces, which it bears [J].
+  [[nodiscard]] virtual double potential(const State& /*state*/) const { return 0.0; }
 
   // What changes while a world runs.
   [[nodiscard]] virtual RunTime run_time() const { return {}; }

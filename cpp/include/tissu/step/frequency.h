@@ -18,5 +18,9 @@ struct Vibration {
 };
 /// Those at a state, to a thousandth.
 Vibration fastest_vibration(const World& world, const State& state);
+/// Frequency and damping of the shape y for which h^2 y . K y + 2 h y . D y is largest, with y . M y = 1.
+/// Where neither the fastest shape nor the most damped one limits the step h [s], this one does: velocities
+/// that are damped explicitly change their sign from step to step where that is 4 (symplectic Euler).
+Vibration stiffest_vibration(const World& world, const State& state, double h);
 
 }  // namespace tissu

@@ -44,6 +44,8 @@ class StableStep {
   /// A number that changes with the couplings: which rows, how stiff.
   [[nodiscard]] double coupled(const State& state);
   void measure(const Amplification& method, const State& state);
+  /// The largest stable step of a vibration, with what was added to all of them and without.
+  [[nodiscard]] double bearable(const Amplification& method, Vibration vibration) const;
 
   const World* world_ = nullptr;
   double more_frequency_ = 0.0;

@@ -93,14 +93,26 @@ void Condensed::add_product(const State& /*state*/, Scratch& /*scratch*/, Stiffn
   multiply(-scale.position, [&](std::int32_t node) { return Vec3(tissu::block(p, node)); }, out);
 }
 
-double Condensed::energy(const State& state, Scratch& /*scratch*/) const {
+Eigen::VectorXd Condensed::displacements(const State& state) const {
   const std::vector<std::int32_t>& kept = region_->kept();
   Eigen::VectorXd u(static_cast<Eigen::Index>(3 * kept.size()));
   for (std::size_t k = 0; k < kept.size(); ++k) {
     u.segment<3>(static_cast<Eigen::Index>(3 * k)) = tissu::block(ConstReals(state.positions), kept[k]) -
                                                      tissu::block(ConstReals(region_->rest()), kept[k]);
   }
-  return 0.5 * u.dot(region_->stiffness() * u) - state.load_factor * u.dot(region_->pull());
+  return u;
+}
+
+/// Strains by the kept nodes and by the weight of the inner ones do no work on each other.
+double Condensed::energy(const State& state, Scratch& /*scratch*/) const {
+  const Eigen::VectorXd u = displacements(state);
+  const double l = state.load_factor;
+  return 0.5 * (u.dot(region_->stiffness() * u) + l * l * region_->sag()) + potential(state);
+}
+
+double Condensed::potential(const State& state) const {
+  const double l = state.load_factor;
+  return -l * (displacements(state).dot(region_->pull()) + region_->pull_at_rest() + l * region_->sag());
 }
 
 void Condensed::add_masses(std::vector<double>& nodal) const {

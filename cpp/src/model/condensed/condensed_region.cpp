@@ -129,11 +129,16 @@ void CondensedRegion::share_masses() {
   std::vector<double> b = weight_;
   std::vector<double> x(rest_.size());
   solve_inner(b, x);
+  for (const std::int32_t i : inner_) {
+    sag_ += block(ConstReals(weight_), i).dot(block(ConstReals(x), i));
+    pull_at_rest_ += block(ConstReals(weight_), i).dot(block(ConstReals(rest_), i));
+  }
   K_->multiply(x, b);
   pull_.resize(static_cast<Eigen::Index>(3 * kept_.size()));
   for (std::size_t k = 0; k < kept_.size(); ++k) {
     const double less = pulled[static_cast<std::size_t>(kept_[k])] - masses_[k];
     pull_.segment<3>(static_cast<Eigen::Index>(3 * k)) = less * g - block(ConstReals(b), kept_[k]);
+    pull_at_rest_ += less * g.dot(block(ConstReals(rest_), kept_[k]));
   }
 }
 

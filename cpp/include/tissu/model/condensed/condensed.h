@@ -32,6 +32,8 @@ class Condensed final : public BodyModel {
   void add_product(const State& state, Scratch& scratch, StiffnessScale scale, ConstReals p,
                    Reals out) const override;
   [[nodiscard]] double energy(const State& state, Scratch& scratch) const override;
+  /// Of the weight of all nodes, less that of the kept ones' masses, which the world's gravity has.
+  [[nodiscard]] double potential(const State& state) const override;
 
   [[nodiscard]] const ElasticBlock& block() const override { return block_; }
   [[nodiscard]] std::int32_t cell_count() const override { return region_->elastic().cell_count(); }
@@ -56,6 +58,7 @@ class Condensed final : public BodyModel {
  private:
   Condensed(std::shared_ptr<const CondensedRegion> region, ElasticBlock block)
       : region_(std::move(region)), block_(std::move(block)) {}
+  [[nodiscard]] Eigen::VectorXd displacements(const State& state) const;
   template <class Value>
   void multiply(double scale, Value&& p, Reals f) const;
 

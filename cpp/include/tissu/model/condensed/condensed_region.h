@@ -27,6 +27,11 @@ class CondensedRegion {
   [[nodiscard]] const Eigen::MatrixXd& stiffness() const { return S_; }
   /// Of gravity, less what it does to the masses of the kept nodes [N]
   [[nodiscard]] const Eigen::VectorXd& pull() const { return pull_; }
+  /// weight_i . K_ii^-1 weight_i: the way that the weight of the inner nodes goes where the kept ones stand
+  /// [J]
+  [[nodiscard]] double sag() const { return sag_; }
+  /// Sum of weights times places at rest, less that of the masses of the kept nodes [J]
+  [[nodiscard]] double pull_at_rest() const { return pull_at_rest_; }
   /// Of the kept nodes [kg]: those of the inner ones are shared in proportion to their own, for slow motion.
   [[nodiscard]] const std::vector<double>& masses() const { return masses_; }
   /// Puts inner nodes where they are, with the velocities that the kept ones give them.
@@ -46,6 +51,8 @@ class CondensedRegion {
   std::vector<std::int32_t> inner_;
   Eigen::MatrixXd S_;
   Eigen::VectorXd pull_;
+  double sag_ = 0.0;
+  double pull_at_rest_ = 0.0;
   std::vector<double> masses_;
   std::vector<double> weight_;        ///< of the inner nodes, in an array of the whole world [N]
   Sparsity pattern_;                  ///< of the region

@@ -107,16 +107,38 @@ bool Candidates::cover(ConstReals from, ConstReals to, ConstReals sways) {
     follow(from, to, sways);
     return false;
   }
-  searched_ = needed_;
-  for (std::size_t p = 0; p < searched_.size(); ++p) {
-    searched_[p].grow(skin_[at(surfaces_.surface_of_primitive(static_cast<std::int32_t>(p)))]);
-  }
-  broad_->find(searched_, found_);
-  list_.clear();
-  for (const BoxPair& pair : found_) list_features(pair);
+  search();
   measure(from);
   follow(from, to, sways);
   return true;
+}
+
+/// The features of two primitives do not depend on where these are: those of pairs that were found before are
+/// taken over.
+void Candidates::search() {
+  for (std::size_t p = 0; p < needed_.size(); ++p) {
+    needed_[p].grow(skin_[at(surfaces_.surface_of_primitive(static_cast<std::int32_t>(p)))]);
+  }
+  broad_->find(needed_, found_before_);  // refuses what is not finite: then the list stays with its boxes
+  std::swap(searched_, needed_);
+  std::swap(found_, found_before_);
+  std::swap(list_, list_before_);
+  std::swap(begin_, begin_before_);
+  list_.clear();
+  begin_.clear();
+  std::size_t k = 0;
+  for (const BoxPair& pair : found_) {
+    begin_.push_back(list_.size());
+    while (k < found_before_.size() && found_before_[k] < pair) ++k;
+    if (k == found_before_.size() || found_before_[k] != pair) {
+      list_features(pair);
+      continue;
+    }
+    const auto at_pair = list_before_.begin();
+    list_.insert(list_.end(), at_pair + static_cast<std::ptrdiff_t>(begin_before_[k]),
+                 at_pair + static_cast<std::ptrdiff_t>(begin_before_[k + 1]));
+  }
+  begin_.push_back(list_.size());
 }
 
 void Candidates::measure(ConstReals places) {
@@ -231,7 +253,9 @@ double Candidates::apart_at_rest(PairKind kind, const std::array<std::int32_t, 4
 }
 
 std::size_t Candidates::bytes() const {
-  return broad_->bytes() + list_.capacity() * sizeof(Candidate) + found_.capacity() * sizeof(BoxPair) +
+  return broad_->bytes() + (list_.capacity() + list_before_.capacity()) * sizeof(Candidate) +
+         (found_.capacity() + found_before_.capacity()) * sizeof(BoxPair) +
+         (begin_.capacity() + begin_before_.capacity()) * sizeof(std::size_t) +
          (ways_.size() + needed_.size() + searched_.size()) * sizeof(Box) +
          planes_.size() * sizeof(PlaneCandidate);
 }

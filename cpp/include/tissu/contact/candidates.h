@@ -67,6 +67,7 @@ class Candidates {
   /// Of surfaces a and b, a <= b: the number of their pair; -1: they do not meet.
   [[nodiscard]] std::int32_t pair_of(std::int32_t a, std::int32_t b) const;
   void box(ConstReals from, ConstReals to, ConstReals sways);
+  void search();
   void list_features(const BoxPair& pair);
   void add(PairKind kind, std::int32_t a, std::int32_t b, std::array<std::int32_t, 4> vertex);
   [[nodiscard]] bool may_meet(const ContactPair& pair, const std::array<std::int32_t, 4>& vertex) const;
@@ -89,6 +90,10 @@ class Candidates {
   std::vector<Box> searched_;
   std::vector<BoxPair> found_;
   std::vector<Candidate> list_;
+  std::vector<std::size_t> begin_;     ///< of each pair that was found: its first candidate; and the end
+  std::vector<BoxPair> found_before_;  ///< the same of the search before
+  std::vector<Candidate> list_before_;
+  std::vector<std::size_t> begin_before_;
   std::vector<double> distance_;  ///< of each when the list was made [m], less round-off
   std::vector<double> made_;      ///< places of all vertices then
   std::vector<double> gone_;      ///< how far each may be from there on the ways covered last [m]

@@ -168,3 +168,27 @@ def test_a_checkpoint_of_another_scene_is_refused(scene, tmp_path):
     assert ended.returncode == 2
     assert "bodies.bar.law.young is 20000.0 there and 30000.0 here" in ended.stderr
     assert summary(tmp_path / "out")["steps"]["steps"] == 4  # what was there is left alone
+
+
+def test_a_run_that_goes_on_from_unsolved_steps_is_unconverged_too(scene, tmp_path):
+    """Its state follows from theirs, whether the steps after the checkpoint converge or not."""
+    hard = "step: {type: implicit_euler, dt: 20 ms, newton: {iterations: 2, tolerance: 1e-12}}"
+    text = scene.read_text().replace("step: {type: implicit_euler, dt: 5 ms}", hard)
+    scene.write_text(text.replace("cells: [16, 4, 4]", "cells: [6, 2, 2]"))
+    kept, out = tmp_path / "kept", tmp_path / "out"
+    first = run(scene, "-o", out, "--checkpoint", kept, "--duration", "0.1 s")
+    assert first.returncode == 3, first.stderr
+    missed = summary(out)["steps"]
+    assert missed["unconverged"] > 0
+    again = run(scene, "-o", out, "--resume", kept, "--duration", "0.1 s")
+    assert again.returncode == 3, again.stderr
+    assert f"{missed['unconverged']} of 5 steps did not converge" in again.stderr
+    found = summary(out)
+    assert (found["status"], found["steps"]["steps"]) == ("unconverged", 0)
+    before = found["resumed_from"]
+    assert (before["steps"], before["unconverged"]) == (5, missed["unconverged"])
+    assert before["first_unconverged"] == missed["first_unconverged"]
+    accepted = run(
+        scene, "-o", out, "--resume", kept, "--duration", "0.1 s", "--accept-unconverged"
+    )
+    assert accepted.returncode == 0, accepted.stderr

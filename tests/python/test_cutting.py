@@ -470,3 +470,28 @@ def test_a_body_that_falls_goes_on_falling_as_it_is_cut(step: ts.Step) -> None:
     expected = other.displacements("bar")[one.born("bar")]
     np.testing.assert_allclose(one.displacements("bar"), expected, rtol=0, atol=1e-12)
     assert np.abs(expected).max() > 1e-6
+
+
+@pytest.mark.parametrize("cell", ["tetra", "hexahedron"])
+def test_the_energy_that_an_ablation_takes_is_reported_with_its_branches(cell: str) -> None:
+    """Of a Prony series too, whose springs hold as much as the law at once: g = 1."""
+    body = ts.Body(
+        mesh=ts.BarMesh(size=(0.2, 0.05, 0.05), cells=(8, 2, 2), cell=cell),
+        law=ts.StableNeoHooke(young=5e4, poisson=0.4),
+        density=1000,
+        viscosity=ts.Prony(branches=[ts.PronyBranch(weight=1.0, time="0.5 s")]),
+    )
+    simulation = ts.Scene(
+        bodies={"bar": body},
+        fixed=[ts.Fixed("bar", on=ts.Plane((0, 0, 0), (1, 0, 0)))],
+        gravity=(0, 0, -9.81),
+        step=ts.ImplicitEuler("10 ms"),
+        editing=True,
+    ).compile()
+    for _ in range(5):
+        simulation.step()
+    before = simulation.energy()["elastic"]
+    report = simulation.ablate("bar", ts.Box((0.15, None, None), (0.18, None, None)))
+    change = simulation.energy()["elastic"] - before
+    assert change < 0.0
+    assert report.elastic_energy_change == pytest.approx(change, rel=1e-9)

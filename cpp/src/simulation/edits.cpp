@@ -92,8 +92,10 @@ Simulation::Edited Simulation::make(std::string_view body, CutPlan plan) {
   }
   CutWorld made = cut_world(*world_, state_, body, edited.plan);
   edited.before = totals(*world_, state_, body);
+  edited.before.elastic = energy_of(*world_, state_, scratch_).elastic;  // branches of a Prony series too
   replace_world(std::move(made.world), made.born.copies, made.born.blends);
   edited.after = totals(*world_, state_, body);
+  edited.after.elastic = energy_of(*world_, state_, scratch_).elastic;
   edited.relaid = true;
   return edited;
 }

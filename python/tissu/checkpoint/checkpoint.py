@@ -17,7 +17,7 @@ from tissu.checkpoint.whole import write_whole
 from tissu.errors import CheckpointError
 from tissu.files.place import kind_of_place, reason_of, shown_path
 
-FORMAT = 3
+FORMAT = 4
 _COLUMNS = {"positions": 3, "velocities": 3, "velocities_before": 3, "rotations": 4}
 
 
@@ -29,12 +29,16 @@ class Resumed:
         file: the checkpoint.
         time: simulated time at which it was taken [s].
         steps: that were taken until then.
+        unconverged: number of those that did not converge.
+        first_unconverged: what the first of them said; empty: all did.
         note: why the bits need not be those of the run that goes on there; empty: they are.
     """
 
     file: str
     time: float
     steps: int
+    unconverged: int
+    first_unconverged: str
     note: str
 
 
@@ -46,6 +50,7 @@ class Checkpoint:
         scene: name of the scene.
         physics: what its motion depends on; see `physics_of`.
         steps: that were taken.
+        unconverged: how many of them did not converge, and what the first of those said.
         snapshot: numbers and arrays of the core, exact.
         build: version, compiler, instruction set and libraries of the tissu that took it.
         file: it was read from; None: it was taken here.
@@ -54,6 +59,7 @@ class Checkpoint:
     scene: str
     physics: Mapping[str, Any]
     steps: int
+    unconverged: tuple[int, str]
     snapshot: Mapping[str, Any]
     build: Mapping[str, Any]
     file: Path | None = None
@@ -71,6 +77,8 @@ class Checkpoint:
             "build": self.build,
             "scene": self.scene,
             "steps": self.steps,
+            "unconverged": self.unconverged[0],
+            "first_unconverged": self.unconverged[1],
             "snapshot": {k: v for k, v in self.snapshot.items() if k not in arrays},
             "physics": self.physics,
         }
@@ -104,7 +112,9 @@ class Checkpoint:
                 f"{', '.join(_told(now[name]) for name in other)}: it goes on to round-off, not "
                 "with the same bits"
             )
-        return Resumed(str(self.file), float(self.snapshot["time"]), self.steps, note)
+        return Resumed(
+            str(self.file), float(self.snapshot["time"]), self.steps, *self.unconverged, note
+        )
 
 
 def read_checkpoint(path: Path) -> Checkpoint:
@@ -126,6 +136,7 @@ def read_checkpoint(path: Path) -> Checkpoint:
         scene=header["scene"],
         physics=header["physics"],
         steps=header["steps"],
+        unconverged=(header["unconverged"], header["first_unconverged"]),
         snapshot={**header["snapshot"], **arrays},
         build=header["build"],
         file=path,

@@ -18,6 +18,8 @@ from tissu.errors import CheckpointError
 _HEADER: dict[str, type] = {
     "scene": str,
     "steps": int,
+    "unconverged": int,
+    "first_unconverged": str,
     "physics": dict,
     "snapshot": dict,
     "build": dict,
@@ -51,6 +53,9 @@ def require_contents(path: Path, header: Mapping[str, Any], arrays: Mapping[str,
     snapshot = header["snapshot"]
     if not 0 <= header["steps"] <= _MOST_STEPS:
         raise _wrong(path, "steps", "a number of steps")
+    missed, said = header["unconverged"], header["first_unconverged"]
+    if not 0 <= missed <= header["steps"] or bool(missed) != bool(said):
+        raise _wrong(path, "unconverged", "a number of steps, with what the first of them said")
     for name in _TIMES:
         value = snapshot.get(name)
         if type(value) not in (int, float) or not math.isfinite(value):

@@ -124,7 +124,7 @@ def run_into(
         series, contacts = Series(simulation, folder), ContactTally(simulation)
         files = Files(series, checkpoints, Timetable(span(scene)[1]), clock)
         ending = advance(simulation, files, tally, interrupted, trocars, quiet=job.quiet)
-        ending = judged(ending, tally, accepted=job.accept_unconverged)
+        ending = judged(simulation, ending, tally, accepted=job.accept_unconverged)
         picture = None
         if not files.lost:
             picture = drawn(simulation, series, clock) if job.picture else None
@@ -278,12 +278,20 @@ def advance(
     return files.end(simulation, ending)
 
 
-def judged(ending: Ending, tally: StepTally, *, accepted: bool) -> Ending:
-    """The ending of a run that took all its steps, some of which did not converge."""
-    if ending.status != "finished" or not tally.unconverged:
+def judged(simulation: Simulation, ending: Ending, tally: StepTally, *, accepted: bool) -> Ending:
+    """The ending of a run that took all its steps, some of which did not converge.
+
+    Those before the checkpoint from which it went on count too: its state follows from them.
+    """
+    before = simulation.resumed_from
+    missed, taken, first = tally.unconverged, tally.steps, tally.first_unconverged
+    if before is not None:
+        missed, taken = missed + before.unconverged, taken + before.steps
+        first = before.first_unconverged or first
+    if ending.status != "finished" or not missed:
         return ending
-    share = f"{tally.unconverged} of {counted(tally.steps, 'step')} did not converge"
-    text = f"{share}, the first: {tally.first_unconverged}"
+    share = f"{missed} of {counted(taken, 'step')} did not converge"
+    text = f"{share}, the first: {first}"
     if accepted:
         return Ending("finished", FINISHED, f"{text}; accepted with --accept-unconverged")
     text += "; the results are written and are not a solution: give the solver more iterations or "

@@ -18,6 +18,8 @@ if TYPE_CHECKING:
 
 _LOOK = 0.04
 """s between two reports: the rate of a display."""
+_NOTHING = 1e-9
+"""s: what rounding may leave of a time."""
 
 
 def trocars_of(scene: Path, name: str | None) -> dict[str, Trocar]:
@@ -176,24 +178,25 @@ def record_trocar(job: Recorded) -> None:
     mode: Mode = "threaded" if job.realtime else "stepped"
     controller = Controller(trocar, mode=mode, record=True, trust_plugins=job.trusted)
     with controller:
-        looks = max(1, round(job.seconds / _LOOK))
-        for _ in range(looks):
-            _look(controller, job, trocar)
+        left = job.seconds
+        while left > _NOTHING:
+            _look(controller, job, trocar, min(_LOOK, left))
+            left -= _LOOK
         print(f"trocar {key}: {controller.report()}")
     recording = controller.recording()
     recording.save(job.out)
     print(f"recorded: {job.out} ({recording.ticks} ticks, {len(recording.models)} models)")
 
 
-def _look(controller: Controller, job: Recorded, trocar: Trocar) -> None:
+def _look(controller: Controller, job: Recorded, trocar: Trocar, seconds: float) -> None:
     """One period of a display: the wall is published anew where the tool is now."""
     from tissu.trocar.model import LocalModel
 
     if job.realtime:
-        time.sleep(_LOOK)
+        time.sleep(seconds)
         report = controller.report()
     else:
-        report = controller.step(max(1, round(_LOOK * trocar.rate)))
+        report = controller.step(max(1, round(seconds * trocar.rate)))
     if job.wall is not None:
         through, out = (0.0, 0.0, job.wall), (0.0, 0.0, -1.0)
         controller.publish(

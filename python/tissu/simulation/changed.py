@@ -45,6 +45,7 @@ class Changed:
     _physics_known: dict[str, Any] | None
     _positions: Mapping[str, Floats]
     _steps: int
+    _unconverged: tuple[int, str]
 
     if TYPE_CHECKING:
 
@@ -98,6 +99,7 @@ class Changed:
         self._core.restore(fresh._core.snapshot())
         self._take_over(fresh)
         self._steps = 0
+        self._unconverged = (0, "")
         self._become_severed({})
         for body in self._rest:
             self._follow_cells(body)

@@ -44,6 +44,7 @@ class Mark:
     _owner: object
     _meshes: dict[str, Mesh]
     _steps: int
+    _unconverged: tuple[int, str]
     _compiled: tuple[Any, ...]
     _severed: Mapping[str, Ints]
     time: float
@@ -60,6 +61,7 @@ class Cutting(Remains, Severing):
     scene: Scene
     _core: core.Simulation
     _steps: int
+    _unconverged: tuple[int, str]
     _world: core.World
     _check: Check
     _loads: Sequence[tuple[Load, Where]]
@@ -171,6 +173,7 @@ class Cutting(Remains, Severing):
             self,
             dict(self._meshes),
             self._steps,
+            self._unconverged,
             compiled,
             dict(self._severed),
             self._core.time,
@@ -189,6 +192,7 @@ class Cutting(Remains, Severing):
         self._core.rewind(mark._core)
         self._meshes.become(mark._meshes)
         self._steps = mark._steps
+        self._unconverged = mark._unconverged
         self.scene, self._world, self._check, self._loads = mark._compiled
         self._physics_known = None
         self._become_severed(mark._severed)

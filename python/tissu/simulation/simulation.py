@@ -89,6 +89,7 @@ class Simulation(Inspected, Handled, Touched, Changed, Cutting, Instrumented):
         self._meshes = Meshes(meshes, self._mesh_now)
         self._rest = {name: mesh for name, mesh in meshes.items()}
         self._steps = 0
+        self._unconverged = (0, "")
         self._simulated = 0.0
         self._physics_known: dict[str, Any] | None = None
         self._cell_sizes: dict[str, float] = {}
@@ -234,6 +235,9 @@ class Simulation(Inspected, Handled, Touched, Changed, Cutting, Instrumented):
         if self.scene.tear:
             cuts += tear_after_step(self)
         told = report_of(report, number=self._steps, cuts=cuts)
+        if not told.converged:
+            count, first = self._unconverged
+            self._unconverged = (count + 1, first or str(told))
         for observer in self._observers:
             observer(told)
         return told
@@ -299,6 +303,7 @@ class Simulation(Inspected, Handled, Touched, Changed, Cutting, Instrumented):
             scene=self.scene.name,
             physics=self._physics(),
             steps=self._steps,
+            unconverged=self._unconverged,
             snapshot={**self._core.snapshot(), **severed_arrays(self._links, self._severed)},
             build=checkpoint.build(),
         ).write(Path(path))
@@ -455,6 +460,7 @@ class Simulation(Inspected, Handled, Touched, Changed, Cutting, Instrumented):
         except TissuError as error:  # of a forged file: another scene is refused above
             raise CheckpointError(f"checkpoint {checkpoint.file}: {error}") from None
         self._steps = checkpoint.steps
+        self._unconverged = checkpoint.unconverged
         for body in self._rest:
             self._follow_cells(body)
         self.resumed_from = checkpoint.resumed()

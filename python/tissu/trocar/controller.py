@@ -130,7 +130,7 @@ class Controller:
             spin: last part of each wait that is spent awake [s].
 
         Raises:
-            TissuError: it runs already, or the machine gives no thread.
+            TissuError: its thread runs already, or the machine gives none.
         """
         self._set(run=True)
         self._ticking.start(priority=priority, lock_memory=lock_memory, pin=pin, spin=spin)

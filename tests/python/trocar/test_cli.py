@@ -30,8 +30,8 @@ def test_check_says_what_is_there_and_what_bounds_it():
 
 def test_a_recording_replays_with_the_same_bits(tmp_path):
     file = tmp_path / "palpation.npz"
-    said = tissu("record", SCENE, file, "--wall", "110 mm", "--seconds", "1.2 s")
-    assert "1201 ticks, 30 models" in said
+    said = tissu("record", SCENE, file, "--wall", "110 mm", "--seconds", "1.21 s")
+    assert "1211 ticks, 31 models" in said  # a model each 40 ms, and one for the rest
     assert "the same bits" in tissu("replay", file)
     assert "no recording" in tissu("replay", SCENE, code=2).replace("not a", "no")
     assert "found no file" in tissu("replay", tmp_path / "none.npz", code=2)

@@ -175,7 +175,7 @@ def test_other_versions_are_refused_and_other_kernels_told(file):
     assert "format 4 of tissu 7.5.1; format 4 of tissu" in refusal(file)
     rewritten(file, tissu=ts.__version__, format=9)
     assert "it has format 9" in refusal(file)
-    rewritten(file, format=3, build={**checkpoints.build(), "instruction_set": "mmx"})
+    rewritten(file, format=4, build={**checkpoints.build(), "instruction_set": "mmx"})
     told = made().compile(checkpoint=file).resumed_from.note
     assert "mmx" in told
     assert "not with the same bits" in told

@@ -109,7 +109,7 @@ def test_mass_and_momenta_are_kept(blade: ts.Plane | ts.Sweep) -> None:
 
 @pytest.mark.parametrize("kind", ["frames", "shell"])
 def test_organs_whose_nodes_turn_keep_their_momenta(kind: str, tmp_path: Path) -> None:
-    """The tissue follows their nodes themselves. A checkpoint goes on. The organs are not cut."""
+    """The tissue follows their nodes themselves. A checkpoint goes on. Frames are not cut."""
     scene = flying()
     bodies = {name: _turning(kind, name, body) for name, body in scene.bodies.items()}
     fascia = scene.tissue["fascia"].replace(points=100)
@@ -131,8 +131,9 @@ def test_organs_whose_nodes_turn_keep_their_momenta(kind: str, tmp_path: Path) -
         lambda: simulation.ablate("upper", ts.Sphere((0, 0, 0.07), 0.01)),
         lambda: simulation.remove_cells(body="upper", cells=[0]),
     ):
-        with pytest.raises(ts.ParameterError, match="frames"):
-            refused()
+        if kind == "frames":
+            with pytest.raises(ts.ParameterError, match="frames"):
+                refused()
     steps(simulation, 2)
     simulation.save_checkpoint(tmp_path / "cut.tissu")
     resumed = scene.compile(checkpoint=tmp_path / "cut.tissu")

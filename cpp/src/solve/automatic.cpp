@@ -151,11 +151,12 @@ void Automatic::meet_after(const LinearOperator& A) {
   meet(*A.matrix());
 }
 
-void Automatic::prepare_ahead(const LinearOperator& A) {
-  if (A.matrix() == nullptr || A.couplings() != nullptr) return;
+bool Automatic::prepare_ahead(const LinearOperator& A) {
+  if (A.matrix() == nullptr || A.couplings() != nullptr) return false;
   meet(*A.matrix());
-  solver(choice_->current()).prepare_ahead(A);
+  const bool made = solver(choice_->current()).prepare_ahead(A);
   ahead_->made(A);
+  return made;
 }
 
 SolveReport Automatic::attempt(const LinearOperator& A, ConstReals b, Reals x, double floor) {

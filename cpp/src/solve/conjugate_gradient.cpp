@@ -150,14 +150,15 @@ End ConjugateGradient::single_round(const LinearOperator& A, Reals x, double len
   return end;
 }
 
-void ConjugateGradient::prepare_ahead(const LinearOperator& A) {
-  if (A.matrix() == nullptr || A.couplings() != nullptr) return;
+bool ConjugateGradient::prepare_ahead(const LinearOperator& A) {
+  if (A.matrix() == nullptr || A.couplings() != nullptr) return false;
   if (settings_.precision == Precision::single) {
     iteration<float>().prepare(A, false);
   } else {
     iteration<double>().prepare(A, false);
   }
   ahead_->made(A);
+  return true;
 }
 
 void ConjugateGradient::begin_solve(const LinearOperator& A) {

@@ -13,6 +13,7 @@ namespace {
 
 /// A residual this many times the first: the matrix is singular, and x runs off along its kernel.
 constexpr double kLost = 1e8;
+constexpr int kBetween = 5;    ///< iterations of a solve after which it may spend another part on a making
 constexpr double kDear = 2.0;  ///< times the iterations that are allowed: a price that no solve may pay
 
 }  // namespace
@@ -32,9 +33,10 @@ bool Iteration<T>::prepare(const LinearOperator& A, bool forced) {
   }
   const bool serves = made_ && id_ == A.id() && given_ == A.given();
   if (serves && version_ == A.version()) return false;
-  if (serves && !forced && (parted_ || (!in_parts_ && !renewal_.due(expected(A))))) return false;
+  if (serves && !forced && (spent_ < kBetween * parts_ || (!in_parts_ && !renewal_.due(expected(A)))))
+    return false;
   if (serves && !forced) {
-    parted_ = true;
+    ++parts_;
     in_parts_ = !M_->make_part(A, scale());
     if (in_parts_) return true;
   } else {
@@ -80,7 +82,7 @@ void Iteration<T>::begin_solve() {
   once_ = 0.0;
   goes_on_ = false;
   made_midway_ = false;
-  parted_ = false;
+  parts_ = 0;
 }
 
 template <class T>

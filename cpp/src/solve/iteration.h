@@ -69,7 +69,7 @@ class Iteration {
   bool made_ = false;
   bool made_midway_ = false;
   bool in_parts_ = false;  ///< a making has begun that takes several solves
-  bool parted_ = false;    ///< this solve has had its part of it
+  int parts_ = 0;          ///< of it that this solve has made
   std::uint64_t id_ = 0;
   std::uint64_t version_ = 0;
   const std::vector<std::uint8_t>* given_ = nullptr;

@@ -179,8 +179,15 @@ void System::place_rows(const State& state) {
 
 double System::round_off(const State& state) const { return system_matrix().round_off(state.positions); }
 
-void System::prepare_ahead() const {
-  if (solver_ != nullptr) solver_->prepare_ahead(system_matrix());
+void System::prepare_ahead() {
+  if (solver_ == nullptr) return;
+  const auto start = std::chrono::steady_clock::now();
+  if (solver_->prepare_ahead(system_matrix())) {
+    profile_.add(preparation_row_,
+                 std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+    profile_.solves().preparations += 1;
+  }
+  assembled_ = false;  // a linear body may stand elsewhere when its first step begins
 }
 
 SolveReport System::solve(ConstReals b, Reals x, double floor) {

@@ -26,10 +26,10 @@ def removed_cells(
         counts: body -> number of its cells.
         body: its name.
         cells: to take out.
-        turning: bodies whose nodes have rotations.
+        turning: bodies of frames.
 
     Raises:
-        ParameterError: they are not whole numbers, no body has that name, its nodes have rotations,
+        ParameterError: they are not whole numbers, no body has that name, it is one of frames,
             or no cell would be left.
     """
     given = np.atleast_1d(real_array(cells, "cells"))

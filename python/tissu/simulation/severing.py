@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import time
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
@@ -278,6 +279,7 @@ def _report(
         "unresolved": (),
         "released": (),
         "relaid": False,
+        "stable_step": math.inf,
     }
     milliseconds = 1e3 * (time.perf_counter() - start)
     return CutReport(

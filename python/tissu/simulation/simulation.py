@@ -417,7 +417,11 @@ class Simulation(Inspected, Handled, Touched, Changed, Cutting, Instrumented):
             ParameterError: the scene was compiled without `editing: true`, or has no such cell.
         """
         counts = {name: self._core.cell_count(name) for name in self._meshes}
-        turning = [name for name, of in self.scene.bodies.items() if of.has_rotations]
+        turning = [
+            name
+            for name, of in self.scene.bodies.items()
+            if any(model.type == "frames" for model in of.models().values())
+        ]
         numbers = removed_cells(counts, body, cells, turning)
         self._core.remove_cells(body=body, cells=numbers)
         self._follow_cells(body)

@@ -25,7 +25,8 @@ WorldDescription cube(const char* law = "stvk") {
 
 struct Outcome {
   State state;
-  std::int64_t made_in_first_step = 0;
+  std::int64_t made_before = 0;
+  std::int64_t made_by_first_step = 0;
 };
 
 /// Some steps, after something that happens between the preparation and the first of them.
@@ -36,8 +37,9 @@ Outcome steps(
   if (ahead) simulation.prepare_ahead(kStep);
   between(simulation);
   Outcome outcome;
+  outcome.made_before = simulation.profile().solves().preparations;
   simulation.step(kStep);
-  outcome.made_in_first_step = simulation.profile().solves().preparations;
+  outcome.made_by_first_step = simulation.profile().solves().preparations;
   for (int i = 0; i < 5; ++i) simulation.step(kStep);
   outcome.state = simulation.state();
   return outcome;
@@ -51,7 +53,7 @@ void expect_same(const Outcome& one, const Outcome& other) {
 class PreparedAhead : public testing::TestWithParam<test::SolverCase> {};
 
 TEST_P(PreparedAhead, GivesTheSameBits) {
-  for (const char* name : {"implicit_euler", "implicit_midpoint", "bdf2", "newmark", "rk4"}) {
+  for (const char* name : {"implicit_euler", "implicit_midpoint", "bdf2", "newmark"}) {
     SCOPED_TRACE(name);
     const test::Method method = test::method_named(name);
     expect_same(steps(GetParam(), method, true), steps(GetParam(), method, false));
@@ -73,13 +75,17 @@ TEST_P(PreparedAhead, GivesTheSameBitsWhenTheStateChangesBeforeTheFirstStep) {
 INSTANTIATE_TEST_SUITE_P(Solvers, PreparedAhead, testing::ValuesIn(test::all_solver_cases()),
                          [](const auto& info) { return info.param.name; });
 
-TEST(PreparedAhead, LeavesTheFirstStepNothingToMake) {
+/// Of the makings in the first step: Jacobi's are made for each of its systems.
+TEST(PreparedAhead, SparesTheFirstStepOneMaking) {
   const test::Method method = test::method_named("implicit_euler");
   for (const test::SolverCase& solver : test::solver_cases()) {
     if (solver.name == "cholesky") continue;  // its factor is that of each step's own matrix
     SCOPED_TRACE(solver.name);
-    EXPECT_EQ(steps(solver, method, true).made_in_first_step, 0);
-    EXPECT_GT(steps(solver, method, false).made_in_first_step, 0);
+    const Outcome ahead = steps(solver, method, true);
+    const Outcome without = steps(solver, method, false);
+    EXPECT_EQ(ahead.made_before, 1);
+    EXPECT_EQ(without.made_before, 0);
+    EXPECT_EQ(ahead.made_by_first_step, without.made_by_first_step);
   }
 }
 

@@ -36,7 +36,7 @@ class Automatic final : public LinearSolver {
   /// Which ways solved how many systems, and how often they changed.
   [[nodiscard]] std::string account() const override;
   SolveReport solve(const LinearOperator& A, ConstReals b, Reals x, double floor) override;
-  void prepare_ahead(const LinearOperator& A) override;
+  bool prepare_ahead(const LinearOperator& A) override;
   void forget() override;
   [[nodiscard]] std::size_t bytes() const override;
 

@@ -56,7 +56,7 @@ class ConjugateGradient final : public LinearSolver {
     return settings_.preconditioning == Preconditioning::multigrid;
   }
   SolveReport solve(const LinearOperator& A, ConstReals b, Reals x, double floor) override;
-  void prepare_ahead(const LinearOperator& A) override;
+  bool prepare_ahead(const LinearOperator& A) override;
   /// The next solves stop, not converged, when they have taken so much work (SolveReport), makings not
   /// counted: for a caller that has another way. Infinite at first.
   void allow(double work) { allowance_ = work; }

@@ -41,8 +41,8 @@ class LinearSolver {
   virtual SolveReport solve(const LinearOperator& A, ConstReals b, Reals x, double floor) = 0;
   /// Makes what its first solve will ask of this matrix: ordering, aggregates, preconditioner. That solve
   /// takes it if its matrix is the same to the last bit, and else makes its own, so that it gives the bits
-  /// that it gives without. Only before the first solve.
-  virtual void prepare_ahead(const LinearOperator& /*A*/) {}
+  /// that it gives without. Only before the first solve. False: it made nothing.
+  virtual bool prepare_ahead(const LinearOperator& /*A*/) { return false; }
   /// Drops what it keeps of earlier matrices: the next solve gives the bits that a new solver gives.
   virtual void forget() = 0;
   /// What it chose in the solves so far, and by which counts; empty for a solver that has one way.

@@ -45,7 +45,7 @@ class System {
   /// The contact of a world that touches in implicit steps, or in static ones.
   std::unique_ptr<ImplicitContact> make_contact(bool is_static);
   /// The solver makes what it needs of the matrix before there is a step. Only after `assemble`.
-  void prepare_ahead() const;
+  void prepare_ahead();
   /// Solves A x = b from the first guess x.
   SolveReport solve(ConstReals b, Reals x, double floor);
 

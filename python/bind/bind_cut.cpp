@@ -187,9 +187,9 @@ py::list body_cells(const Simulation& simulation, const std::string& name) {
 /// The first day's node of each node of the body; -1 of those that a blade put on an edge.
 Ints roots(const Simulation& simulation, const std::string& name) {
   const auto cut = cut_state(simulation.world(), name);
-  std::vector<std::int32_t> found;
-  for (std::int32_t node = 0; node < cut->hosts.node_count(); ++node)
-    found.push_back(std::max(cut->hosts.root(node), -1));
+  std::vector<std::int32_t> found(static_cast<std::size_t>(cut->hosts.node_count()));
+  for (std::size_t node = 0; node < found.size(); ++node)
+    found[node] = std::max(cut->hosts.root(static_cast<std::int32_t>(node)), -1);
   return to_array(found);
 }
 

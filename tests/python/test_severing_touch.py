@@ -1,4 +1,4 @@
-"""Severed tissue under a hand, in the files of a run, and in checkpoints that nobody wrote."""
+"""Severed tissue under a hand, in the files of a run, and in forged checkpoints."""
 
 from __future__ import annotations
 

@@ -5,6 +5,9 @@ include(CheckCXXSourceRuns)
 # ---- a compiler cache, where there is one and the builder named none
 option(TISSU_CCACHE "Compile through ccache where it is installed" ON)
 if(TISSU_CCACHE AND TISSU_TOP_LEVEL AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+  if(TISSU_CCACHE_PROGRAM AND NOT EXISTS "${TISSU_CCACHE_PROGRAM}")
+    unset(TISSU_CCACHE_PROGRAM CACHE)  # it was removed since the last configuration
+  endif()
   find_program(TISSU_CCACHE_PROGRAM ccache)
   mark_as_advanced(TISSU_CCACHE_PROGRAM)
   if(TISSU_CCACHE_PROGRAM)

@@ -135,25 +135,27 @@ py::dict material(const Simulation& simulation, const std::string& body) {
   return result;
 }
 
-/// Cells, volume, and whether a support holds one of the nodes, of each connected part.
+/// Cells, volume, and whether supports hold nodes on all axes, of each connected part.
 py::list found_pieces(const Simulation& simulation, const std::string& name) {
   const Body& body = simulation.world().body(name);
   const auto cut = cut_state(simulation.world(), name);
   const std::vector<std::int32_t>& rows = simulation.world().fixed().rows();
   const std::vector<std::uint8_t>& masks = simulation.world().fixed().masks();
-  std::vector<std::int32_t> held;  // cells with a held node
+  std::vector<std::pair<std::int32_t, std::uint8_t>> held;  // cells with a held node, and its axes
   for (auto row = std::ranges::lower_bound(rows, body.first_node);
        row != rows.end() && *row < body.first_node + body.node_count; ++row) {
-    if (masks[static_cast<std::size_t>(*row)] != FixedDofs::kAllAxes) continue;
-    const auto cells = cut->hosts.cells_at(*row - body.first_node);
-    held.insert(held.end(), cells.begin(), cells.end());
+    for (const std::int32_t cell : cut->hosts.cells_at(*row - body.first_node)) {
+      held.emplace_back(cell, masks[static_cast<std::size_t>(*row)]);
+    }
   }
-  std::ranges::sort(held);
   py::list result;
   for (const Piece& piece : simulation.pieces(name)) {
-    const bool any = std::ranges::any_of(
-        held, [&](std::int32_t cell) { return std::ranges::binary_search(piece.cells, cell); });
-    result.append(py::make_tuple(to_array(piece.cells), piece.volume, any));
+    unsigned axes = 0;
+    for (const auto& [cell, mask] : held) {
+      if (std::ranges::binary_search(piece.cells, cell)) axes |= mask;
+    }
+    const bool on_all = (axes & FixedDofs::kAllAxes) == FixedDofs::kAllAxes;
+    result.append(py::make_tuple(to_array(piece.cells), piece.volume, on_all));
   }
   return result;
 }

@@ -360,10 +360,28 @@ def test_a_static_body_keeps_its_pieces_held() -> None:
     with pytest.raises(ts.ParameterError, match="without support"):
         simulation.cut("bar", SLANTED)
     np.testing.assert_array_equal(simulation.positions["bar"], before)
+    centres = simulation.meshes["bar"].points[simulation.meshes["bar"].cells[0].nodes].mean(axis=1)
+    across = np.flatnonzero(np.abs(centres[:, 0] - 0.2) < 0.03)
+    with pytest.raises(ts.ParameterError, match="1 of 2 pieces of body 'bar' without support"):
+        simulation.remove_cells(body="bar", cells=across)
+    assert simulation.meshes["bar"].cell_count == len(centres)
     corners = [(0.13, -1, 0.06), (0.13, 1, 0.06), (0.13, 1, 1), (0.13, -1, 1)]
     slit = ts.Triangles(corners, [(0, 1, 2), (0, 2, 3)])
     assert simulation.cut("bar", slit).cells_cut
     assert simulation.step().converged
+
+
+def test_a_static_piece_may_be_held_by_different_nodes_on_each_axis() -> None:
+    end = {"max": (0.0, None, None)}
+    fixed = [
+        ts.Fixed("bar", on=ts.Box(**end, min=(None, None, 0.06)), axes="x"),
+        ts.Fixed("bar", on=ts.Box(max=(0.0, None, 0.01)), axes="yz"),
+    ]
+    stiff = bar(law=ts.StVK(young=5e6, poisson=0.3))
+    simulation = scene(stiff, step=ts.Static(), fixed=fixed).compile()
+    assert [piece.held for piece in simulation.pieces("bar")] == [True]
+    corners = [(0.13, -1, 0.06), (0.13, 1, 0.06), (0.13, 1, 1), (0.13, -1, 1)]
+    assert simulation.cut("bar", ts.Triangles(corners, [(0, 1, 2), (0, 2, 3)])).cells_cut
 
 
 def test_ablation_takes_cells_by_their_material() -> None:

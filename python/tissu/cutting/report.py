@@ -26,8 +26,8 @@ class Piece:
             tissue, numbers of its points.
         volume: at rest [m3].
         mass: [kg].
-        held: whether a support holds or leads one of its nodes; of tissue, or one of the bodies
-            that it hangs on.
+        held: whether supports hold or lead its nodes on all axes; of tissue, whether a support
+            holds one of its frames or one of the bodies that it hangs on.
     """
 
     cells: Ints

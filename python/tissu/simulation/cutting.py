@@ -202,21 +202,13 @@ class Cutting(Remains, Severing):
         """Make a cut and follow it; go back where it leaves a static body with free pieces."""
         start = time.perf_counter()
         grabs = kept.records(self._core) if self.scene.grabbing else {}
-        way_back = self._core.mark() if self.scene.step.type == "static" else None
+        way_back = self._way_back()
         made = make()
         met = bool(made["cells_cut"] or made["cells_gone"])
         if met:
             self._follow_cells(body)
         pieces = self.pieces(body)
-        free = [piece for piece in pieces if not piece.held]
-        if way_back is not None and met and free:
-            self._core.rewind(way_back)
-            self._follow_cells(body)
-            raise ParameterError(
-                f"the cut would leave {len(free)} of {len(pieces)} pieces of body '{body}' without "
-                f"support ({free[0]!r}), which has no equilibrium; hold it, or take an implicit "
-                "method in time"
-            )
+        self._refuse_free_pieces(body, pieces, way_back if met else None)
         released = self._released(body, grabs, made["copied"]) if met else ()
         return cut_report(
             body,
@@ -226,6 +218,23 @@ class Cutting(Remains, Severing):
             released=released,
             stable_step=self.stable_step if met and self._divides(body) else math.inf,
             milliseconds=1e3 * (time.perf_counter() - start),
+        )
+
+    def _way_back(self) -> Any:
+        """A mark of the core in a static scene, whose cuts may have to be undone; else None."""
+        return self._core.mark() if self.scene.step.type == "static" else None
+
+    def _refuse_free_pieces(self, body: str, pieces: Sequence[Piece], way_back: Any) -> None:
+        """Go back and refuse a cut that leaves a piece of a static body without support."""
+        free = [piece for piece in pieces if not piece.held]
+        if way_back is None or not free:
+            return
+        self._core.rewind(way_back)
+        self._follow_cells(body)
+        raise ParameterError(
+            f"the cut would leave {len(free)} of {len(pieces)} pieces of body '{body}' without "
+            f"support ({free[0]!r}), which has no equilibrium; hold it, or take an implicit "
+            "method in time"
         )
 
     def _released(self, body: str, grabs: dict[int, kept.Record], copied: Ints) -> tuple[int, ...]:

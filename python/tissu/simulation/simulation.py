@@ -414,7 +414,8 @@ class Simulation(Inspected, Handled, Touched, Changed, Cutting, Instrumented):
             cells: numbers across the volume cells of the mesh that the scene was compiled from.
 
         Raises:
-            ParameterError: the scene was compiled without `editing: true`, or has no such cell.
+            ParameterError: the scene was compiled without `editing: true`, or has no such cell; in
+                a static scene, pieces without a support would be left. Then nothing has changed.
         """
         counts = {name: self._core.cell_count(name) for name in self._meshes}
         turning = [
@@ -423,8 +424,10 @@ class Simulation(Inspected, Handled, Touched, Changed, Cutting, Instrumented):
             if any(model.type == "frames" for model in of.models().values())
         ]
         numbers = removed_cells(counts, body, cells, turning)
+        way_back = self._way_back()
         self._core.remove_cells(body=body, cells=numbers)
         self._follow_cells(body)
+        self._refuse_free_pieces(body, self.pieces(body) if way_back is not None else (), way_back)
 
     def remaining_cells(self, body: str) -> NDArray[np.int32]:
         """Numbers (e,) in the mesh of the scene of the cells that `meshes[body]` has now.

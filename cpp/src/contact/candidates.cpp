@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "nearest_pair.h"
 
@@ -10,22 +11,26 @@ namespace {
 
 std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
-constexpr double kOfRest = 0.9;       ///< of the distance at rest: where such pairs are held apart, …
-constexpr double kOfJoined = 0.1;     ///< … if material that is not parted holds them apart by itself
 constexpr double kSkin = 0.1;         ///< of the mean edge
 constexpr double kSure = 1.0 - 1e-9;  ///< of a distance: round-off is less
 constexpr double kGapSkin = 0.5;      ///< of the gap
 
 }  // namespace
 
-Candidates::Candidates(const ContactDescription& description, const SurfaceSet& surfaces)
-    : description_(description), surfaces_(surfaces) {
+Candidates::Candidates(const ContactDescription& description, const SurfaceSet& surfaces, Ways ways)
+    : description_(description), surfaces_(surfaces), ways_(ways) {
   const std::size_t count = surfaces.surfaces().size();
+  const auto is_plane = [&](std::int32_t s) {
+    return surfaces.first_primitive()[at(s)] == surfaces.first_primitive()[at(s) + 1];
+  };
   pair_.assign(count * count, -1);
   reach_.assign(count, 0.0);
   on_.resize(description.pairs.size());
-  SearchPlan plan;
-  plan.first = surfaces.first_primitive();
+  is_own_.assign(description.pairs.size(), 0);
+  fixed_.meets.assign(count, 0);
+  own_.meets.assign(count, 0);
+  SearchPlan between{surfaces.first_primitive(), {}};
+  SearchPlan within = between;
   for (std::size_t k = 0; k < description.pairs.size(); ++k) {
     const ContactPair& pair = description.pairs[k];
     for (const std::int32_t s : {pair.a, pair.b}) reach_[at(s)] = std::max(reach_[at(s)], pair.gap);
@@ -40,12 +45,24 @@ Candidates::Candidates(const ContactDescription& description, const SurfaceSet& 
     const auto [low, high] = std::minmax(pair.a, pair.b);
     std::int32_t& place = pair_[at(low) * count + at(high)];
     if (place < 0) place = static_cast<std::int32_t>(k);
-    plan.meetings.push_back({low, high});
+    if (is_plane(low) || is_plane(high)) continue;
+    is_own_[k] = ways == Ways::together && low == high ? 1 : 0;
+    Seen& seen = is_own_[k] != 0 ? own_ : fixed_;
+    seen.meets[at(low)] = seen.meets[at(high)] = 1;
+    (is_own_[k] != 0 ? within : between).meetings.push_back({low, high});
   }
   for (std::size_t s = 0; s < count; ++s) {
     skin_.push_back(kGapSkin * reach_[s] + kSkin * surfaces.mean_edge(static_cast<std::int32_t>(s)));
   }
-  broad_ = make_broad_phase(description.broad_phase, plan);
+  const bool only_planes = between.meetings.empty() && within.meetings.empty();
+  if (only_planes || !between.meetings.empty()) {
+    fixed_.broad = make_broad_phase(description.broad_phase, between);
+  }
+  if (!within.meetings.empty()) {
+    own_.broad = make_broad_phase(description.broad_phase, within);
+    mean_from_.resize(3 * count);
+    mean_to_.resize(3 * count);
+  }
   list_planes();
 }
 
@@ -70,58 +87,115 @@ void Candidates::list_planes() {
   }
 }
 
-void Candidates::box(ConstReals from, ConstReals to, ConstReals sways) {
-  const auto& primitives = surfaces_.primitives();
-  needed_.resize(primitives.size());
-  ways_.resize(surfaces_.vertices().size());
-  for (std::size_t v = 0; v < ways_.size(); ++v) {
-    const auto number = static_cast<std::int32_t>(v);
-    ways_[v] = Box::none();
-    ways_[v].add(Vec3(block(from, number)));
-    ways_[v].add(Vec3(block(to, number)));
-  }
-  for (std::size_t p = 0; p < primitives.size(); ++p) {
-    Box box = Box::none();
-    double radius = 0.0;
-    for (int i = 0; i < primitives[p].corners; ++i) {
-      const std::int32_t v = primitives[p].vertex[at(i)];
-      box.add(ways_[at(v)]);
-      radius = std::max(radius, surfaces_.vertices()[at(v)].radius + (sways.empty() ? 0.0 : sways[at(v)]));
+/// f(surface, vertex) for the vertices of the surfaces that have pairs seen so.
+template <class Function>
+void Candidates::for_seen(const Seen& seen, Function&& f) const {
+  for (std::size_t s = 0; s < seen.meets.size(); ++s) {
+    if (seen.meets[s] == 0) continue;
+    const SurfaceSet::Surface& surface = surfaces_.surfaces()[s];
+    for (std::int32_t v = surface.first_vertex; v < surface.last_vertex; ++v) {
+      f(static_cast<std::int32_t>(s), v);
     }
-    box.grow(radius + reach_[at(surfaces_.surface_of_primitive(static_cast<std::int32_t>(p)))]);
-    needed_[p] = box;
   }
 }
 
-bool Candidates::cover(ConstReals from, ConstReals to, ConstReals sways) {
-  box(from, to, sways);
-  const auto is_inside = [](const Box& inner, const Box& outer) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      if (inner.low[k] < outer.low[k] || inner.high[k] > outer.high[k]) return false;
+void Candidates::find_means(ConstReals from, ConstReals to) {
+  for (std::size_t s = 0; s < own_.meets.size(); ++s) {
+    if (own_.meets[s] == 0) continue;
+    const SurfaceSet::Surface& surface = surfaces_.surfaces()[s];
+    Vec3 begin = Vec3::Zero();
+    Vec3 end = Vec3::Zero();
+    for (std::int32_t v = surface.first_vertex; v < surface.last_vertex; ++v) {
+      begin += block(from, v);
+      end += block(to, v);
     }
-    return true;
-  };
-  bool covered = searched_.size() == needed_.size();
-  for (std::size_t p = 0; covered && p < needed_.size(); ++p) covered = is_inside(needed_[p], searched_[p]);
-  if (covered) {
-    follow(from, to, sways);
-    return false;
+    const double count = surface.last_vertex - surface.first_vertex;
+    const auto number = static_cast<std::int32_t>(s);
+    block(Reals(mean_from_), number) = begin / count;
+    block(Reals(mean_to_), number) = end / count;
   }
-  search();
-  measure(from);
-  follow(from, to, sways);
-  return true;
+}
+
+void Candidates::lay_ways(Seen& seen, ConstReals from, ConstReals to, ConstReals sways) const {
+  if (!seen.broad) return;
+  seen.ways.resize(surfaces_.vertices().size());
+  const bool from_mean = &seen == &own_;
+  for_seen(seen, [&](std::int32_t s, std::int32_t v) {
+    Vec3 begin = block(from, v);
+    Vec3 end = block(to, v);
+    if (from_mean) {
+      begin -= block(ConstReals(mean_from_), s);
+      end -= block(ConstReals(mean_to_), s);
+    }
+    Box& box = seen.ways[at(v)];
+    box = Box::none();
+    box.add(begin);
+    box.add(end);
+    if (!sways.empty()) box.grow(sways[at(v)]);
+  });
+}
+
+bool Candidates::is_covered(const Seen& seen) const {
+  bool covered = true;
+  for_seen(seen, [&](std::int32_t /*surface*/, std::int32_t v) {
+    const Box& inner = seen.ways[at(v)];
+    const Box& outer = seen.searched[at(v)];
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (inner.low[k] < outer.low[k] || inner.high[k] > outer.high[k]) covered = false;
+    }
+  });
+  return covered;
+}
+
+bool Candidates::cover(ConstReals from, ConstReals to, ConstReals sways) {
+  if (own_.broad) find_means(from, to);
+  lay_ways(fixed_, from, to, sways);
+  lay_ways(own_, from, to, sways);
+  const bool covered = is_listed_ && is_covered(fixed_) && is_covered(own_);
+  if (!covered) {
+    search();
+    measure(from);
+  }
+  follow(fixed_, from, to, sways);
+  follow(own_, from, to, sways);
+  return !covered;
+}
+
+void Candidates::search(Seen& seen) {
+  seen.found.clear();
+  if (!seen.broad) return;
+  // Refused ways leave the list with its margins.
+  boxes_.assign(surfaces_.primitives().size(), Box{});
+  for (std::size_t p = 0; p < boxes_.size(); ++p) {
+    const auto surface = surfaces_.surface_of_primitive(static_cast<std::int32_t>(p));
+    if (seen.meets[at(surface)] == 0) continue;
+    Box box = Box::none();
+    double radius = 0.0;
+    const Primitive& primitive = surfaces_.primitives()[p];
+    for (int i = 0; i < primitive.corners; ++i) {
+      const std::int32_t v = primitive.vertex[at(i)];
+      box.add(seen.ways[at(v)]);
+      radius = std::max(radius, surfaces_.vertices()[at(v)].radius);
+    }
+    box.grow(radius + reach_[at(surface)] + skin_[at(surface)]);
+    boxes_[p] = box;
+  }
+  seen.broad->find(boxes_, seen.found);
 }
 
 /// The features of two primitives do not depend on where these are: those of pairs that were found before are
 /// taken over.
 void Candidates::search() {
-  for (std::size_t p = 0; p < needed_.size(); ++p) {
-    needed_[p].grow(skin_[at(surfaces_.surface_of_primitive(static_cast<std::int32_t>(p)))]);
+  search(fixed_);
+  search(own_);
+  for (Seen* seen : {&fixed_, &own_}) {
+    seen->searched = seen->ways;
+    for_seen(*seen, [&](std::int32_t s, std::int32_t v) { seen->searched[at(v)].grow(skin_[at(s)]); });
   }
-  broad_->find(needed_, found_before_);  // refuses what is not finite: then the list stays with its boxes
-  std::swap(searched_, needed_);
+  is_listed_ = true;
   std::swap(found_, found_before_);
+  found_.clear();
+  std::ranges::merge(fixed_.found, own_.found, std::back_inserter(found_));
   std::swap(list_, list_before_);
   std::swap(begin_, begin_before_);
   list_.clear();
@@ -141,123 +215,100 @@ void Candidates::search() {
   begin_.push_back(list_.size());
 }
 
+/// The distances of all, and which of them may come near while the list is kept.
 void Candidates::measure(ConstReals places) {
   made_.assign(places.begin(), places.begin() + static_cast<std::ptrdiff_t>(surfaces_.rest().size()));
-  distance_.resize(list_.size());
+  mean_made_ = mean_from_;
+  for (Seen* seen : {&fixed_, &own_}) {
+    if (!seen->broad) continue;
+    seen->room.resize(surfaces_.vertices().size());
+    for_seen(*seen, [&](std::int32_t s, std::int32_t v) {
+      Vec3 place = block(places, v);
+      if (seen == &own_) place -= block(ConstReals(mean_from_), s);
+      double square = 0.0;
+      const Box& box = seen->searched[at(v)];
+      for (std::size_t k = 0; k < 3; ++k) {
+        const double x = place[static_cast<Eigen::Index>(k)];
+        const double most =
+            std::max(x - static_cast<double>(box.low[k]), static_cast<double>(box.high[k]) - x);
+        square += most * most;
+      }
+      seen->room[at(v)] = std::sqrt(square) / kSure;
+    });
+  }
+  distance_.assign(list_.size(), -1.0);
+  near_.clear();
   for (std::size_t i = 0; i < list_.size(); ++i) {
+    const Candidate& c = list_[i];
+    const double reach = c.apart + description_.pairs[at(c.pair)].gap;
+    if (!is_farther(i, gone(c, seen_of(c).room) + reach)) near_.push_back(static_cast<std::int32_t>(i));
+  }
+}
+
+bool Candidates::is_farther(std::size_t i, double than) const {
+  if (distance_[i] < 0.0) {
+    const Candidate& c = list_[i];
+    const auto place = [&](int k) { return Vec3(block(ConstReals(made_), c.vertex[at(k)])); };
+    if ((place(0) - place(vertices_of_first(c.kind))).squaredNorm() <= than * than) return false;
     std::array<Vec3, 4> p{};
-    for (int k = 0; k < vertices_of(list_[i].kind); ++k) p[at(k)] = block(places, list_[i].vertex[at(k)]);
-    distance_[i] = kSure * std::sqrt(nearest_of(list_[i].kind, p).square);
+    for (int k = 0; k < vertices_of(c.kind); ++k) p[at(k)] = place(k);
+    distance_[i] = kSure * std::sqrt(nearest_of(c.kind, p).square);
   }
+  return distance_[i] > than;
 }
 
-void Candidates::follow(ConstReals from, ConstReals to, ConstReals sways) {
-  gone_.resize(made_.size() / 3);
-  for (std::size_t v = 0; v < gone_.size(); ++v) {
-    const auto number = static_cast<std::int32_t>(v);
-    const Vec3 was = block(ConstReals(made_), number);
-    gone_[v] = std::sqrt(
-        std::max((block(from, number) - was).squaredNorm(), (block(to, number) - was).squaredNorm()));
-    if (!sways.empty()) gone_[v] += sways[v];
-  }
+void Candidates::follow(Seen& seen, ConstReals from, ConstReals to, ConstReals sways) const {
+  if (!seen.broad) return;
+  seen.gone.resize(surfaces_.vertices().size());
+  // What rows carry may leave its way, be all shares the same or not.
+  seen.shifts.resize(ways_ == Ways::together && sways.empty() ? 6 * seen.gone.size() : 0);
+  const bool from_mean = &seen == &own_;
+  for_seen(seen, [&](std::int32_t s, std::int32_t v) {
+    const Vec3 was = block(ConstReals(made_), v);
+    Vec3 begin = block(from, v) - was;
+    Vec3 end = block(to, v) - was;
+    if (from_mean) {
+      const Vec3 mean = block(ConstReals(mean_made_), s);
+      begin -= block(ConstReals(mean_from_), s) - mean;
+      end -= block(ConstReals(mean_to_), s) - mean;
+    }
+    double& gone = seen.gone[at(v)];
+    gone = std::sqrt(std::max(begin.squaredNorm(), end.squaredNorm()));
+    if (!sways.empty()) gone += sways[at(v)];
+    if (seen.shifts.empty()) return;
+    block(Reals(seen.shifts), 2 * v) = begin;
+    block(Reals(seen.shifts), 2 * v + 1) = end;
+  });
 }
 
-void Candidates::list_features(const BoxPair& pair) {
-  const auto& primitives = surfaces_.primitives();
-  const auto& vertices = surfaces_.vertices();
-  const auto& edges = surfaces_.edges();
-  for (const auto& [p, q] : {std::pair(pair.a, pair.b), std::pair(pair.b, pair.a)}) {
-    const Primitive& other = primitives[at(q)];
-    for (const std::int32_t v : surfaces_.vertices_of(p)) {
-      if (other.corners == 3) {
-        add(PairKind::vertex_face, v, q, {v, other.vertex[0], other.vertex[1], other.vertex[2]});
-      }
-      for (const std::int32_t e : surfaces_.edges_of(q)) {
-        if (edges[at(e)].is_lone()) {
-          add(PairKind::vertex_edge, v, e, {v, edges[at(e)].vertex[0], edges[at(e)].vertex[1], -1});
-        }
-      }
+double Candidates::gone_together(const Candidate& c, ConstReals shifts) {
+  const int first = vertices_of_first(c.kind);
+  double largest = 0.0;
+  for (int i = 0; i < first; ++i) {
+    const std::int32_t v = c.vertex[at(i)];
+    for (int j = first; j < vertices_of(c.kind); ++j) {
+      const std::int32_t w = c.vertex[at(j)];
+      const double at_begin = (block(shifts, 2 * v) - block(shifts, 2 * w)).squaredNorm();
+      const double at_end = (block(shifts, 2 * v + 1) - block(shifts, 2 * w + 1)).squaredNorm();
+      largest = std::max({largest, at_begin, at_end});
     }
   }
-  for (const std::int32_t e : surfaces_.edges_of(pair.a)) {
-    for (const std::int32_t f : surfaces_.edges_of(pair.b)) {
-      const auto& [a, b] = edges[at(e)].vertex;
-      const auto& [c, d] = edges[at(f)].vertex;
-      add(PairKind::edge_edge, e, f, {a, b, c, d});
-    }
-  }
-  for (const std::int32_t v : surfaces_.vertices_of(pair.a)) {
-    for (const std::int32_t w : surfaces_.vertices_of(pair.b)) {
-      // What is round is the second; of two such things the order is theirs.
-      const bool may_be_round = vertices[at(w)].is_lone;
-      if (may_be_round && (vertices[at(v)].is_lone || vertices[at(v)].has_faces)) {
-        add(PairKind::vertex_vertex, v, w, {v, w, -1, -1});
-      } else if (vertices[at(v)].is_lone && vertices[at(w)].has_faces) {
-        add(PairKind::vertex_vertex, w, v, {w, v, -1, -1});
-      }
-    }
-  }
-}
-
-bool Candidates::may_meet(const ContactPair& pair, const std::array<std::int32_t, 4>& vertex) const {
-  const auto& on = on_[static_cast<std::size_t>(&pair - description_.pairs.data())];
-  if (on.empty()) return true;
-  return std::ranges::all_of(vertex, [&](std::int32_t v) { return v < 0 || on[at(v)] != 0; });
-}
-
-void Candidates::add(PairKind kind, std::int32_t a, std::int32_t b, std::array<std::int32_t, 4> vertex) {
-  const auto& vertices = surfaces_.vertices();
-  const int first = vertices_of_first(kind);
-  const int all = vertices_of(kind);
-  bool free = false;
-  double radius = 0.0;
-  double other_radius = 0.0;
-  for (int i = 0; i < all; ++i) {
-    const SurfaceVertex& v = vertices[at(vertex[at(i)])];
-    free = free || v.is_free();
-    double& of = i < first ? radius : other_radius;
-    of = std::max(of, v.radius);
-    for (int j = first; i < first && j < all; ++j) {
-      const SurfaceVertex& w = vertices[at(vertex[at(j)])];
-      if (vertex[at(i)] == vertex[at(j)] || (v.row >= 0 && v.row == w.row)) return;
-    }
-  }
-  const std::int32_t own = vertices[at(vertex[0])].surface;
-  const std::int32_t other = vertices[at(vertex[at(first)])].surface;
-  const std::int32_t number = pair_of(own, other);
-  if (!free || number < 0) return;
-  const ContactPair& pair = description_.pairs[at(number)];
-  if (!may_meet(pair, vertex)) return;
-  double apart = radius + other_radius + pair.gap;
-  if (own == other) apart = apart_at_rest(kind, vertex, apart);
-  if (apart > 0.0) list_.push_back({kind, a, b, number, vertex, apart});
-}
-
-double Candidates::apart_at_rest(PairKind kind, const std::array<std::int32_t, 4>& vertex,
-                                 double apart) const {
-  std::array<Vec3, 4> p{};
-  for (int i = 0; i < vertices_of(kind); ++i) {
-    p[at(i)] = block(ConstReals(surfaces_.rest()), vertex[at(i)]);
-  }
-  double share = kOfRest;
-  if (surfaces_.has_riders()) {
-    const std::span<const std::int32_t> all(vertex);
-    const auto first = at(vertices_of_first(kind));
-    const auto rest = all.subspan(first, at(vertices_of(kind)) - first);
-    const auto rides = [&](std::int32_t v) { return v >= 0 && surfaces_.vertices()[at(v)].rider >= 0; };
-    if (std::ranges::any_of(all, rides)) {
-      share = surfaces_.is_joined(all.first(first), rest) ? kOfJoined : kOfWalls;
-    }
-  }
-  return std::min(apart, share * std::sqrt(nearest_of(kind, p).square));
+  return std::sqrt(largest);
 }
 
 std::size_t Candidates::bytes() const {
-  return broad_->bytes() + (list_.capacity() + list_before_.capacity()) * sizeof(Candidate) +
-         (found_.capacity() + found_before_.capacity()) * sizeof(BoxPair) +
-         (begin_.capacity() + begin_before_.capacity()) * sizeof(std::size_t) +
-         (ways_.size() + needed_.size() + searched_.size()) * sizeof(Box) +
-         planes_.size() * sizeof(PlaneCandidate);
+  std::size_t sum = (list_.capacity() + list_before_.capacity()) * sizeof(Candidate) +
+                    (found_.capacity() + found_before_.capacity()) * sizeof(BoxPair) +
+                    (begin_.capacity() + begin_before_.capacity()) * sizeof(std::size_t) +
+                    boxes_.size() * sizeof(Box) + planes_.size() * sizeof(PlaneCandidate) +
+                    near_.capacity() * sizeof(std::int32_t);
+  for (const Seen* seen : {&fixed_, &own_}) {
+    if (seen->broad) sum += seen->broad->bytes();
+    sum += (seen->ways.size() + seen->searched.size()) * sizeof(Box) +
+           (seen->room.size() + seen->gone.size()) * sizeof(double) +
+           seen->found.capacity() * sizeof(BoxPair);
+  }
+  return sum;
 }
 
 }  // namespace tissu

@@ -21,7 +21,7 @@ void ContactRun::detect(const State& at, const State* goal) {
       for (std::size_t i = 3 * v; i < 3 * v + 3; ++i) now_[i] += from_[i] - begin_[i];
     }
   }
-  candidates_->cover(from_, now_);
+  near().cover(from_, now_);
   find();
   keep_multipliers();
   hand_over();

@@ -89,15 +89,17 @@ void ContactRun::find_pairs() {
   const auto& pairs = contact_.description().pairs;
   Found found{};
   auto stopped = held_->stopped().begin();
-  for (std::size_t i = 0; i < candidates_->list().size(); ++i) {
-    const Candidate& candidate = candidates_->list()[i];
+  const Candidates& candidates = near();
+  for (const std::int32_t number : candidates.near()) {
+    const std::size_t i = at(number);
+    const Candidate& candidate = candidates.list()[i];
     double reach = candidate.apart + pairs[at(candidate.pair)].gap;
     const bool stops = stopped != held_->stopped().end() && at(*stopped) == i;
     if (stops) {
       reach = std::numeric_limits<double>::infinity();
       ++stopped;
     }
-    if (candidates_->is_far(i, reach)) continue;
+    if (candidates.is_far(i, reach)) continue;
     if (every_pair_) {
       if (find_plainly(candidate, reach, found)) add(candidate, found, 0);
       continue;

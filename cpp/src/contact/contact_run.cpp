@@ -27,6 +27,10 @@ ContactRun::ContactRun(const Contact& contact, const FixedDofs& fixed) : contact
   }
   for (const auto& inner : surfaces.inner_rows()) given_.push_back(is_given(inner.row) ? 1 : 0);
   candidates_ = std::make_unique<Candidates>(contact.description(), contact.surfaces());
+  if (std::ranges::any_of(contact.description().pairs, [](const ContactPair& p) { return p.a == p.b; })) {
+    together_ =
+        std::make_unique<Candidates>(contact.description(), contact.surfaces(), Candidates::Ways::together);
+  }
   held_ = std::make_unique<HoldBack>(contact.surfaces(), given_);
   ahead_ = std::make_unique<PushAhead>(contact, given_);
   begin_.resize(3 * surfaces.mover_count());
@@ -87,10 +91,15 @@ int ContactRun::hold_back(State& to) {
   least_share_ = 1.0;
   goal_ = now_;
   sway();
+  const bool travels = contact_.description().travel;
+  if (travels) bend(to);
+  if (together_ != nullptr) {
+    held_->release();
+    together_->cover(from_, now_, sways_);
+    if (!travels || held_->is_free(*together_, planes_, from_, now_, bends_, sways_)) return 0;
+  }
   candidates_->cover(from_, now_, sways_);
-  if (!contact_.description().travel) return 0;
-  bend(to);
-  if (!held_->find(*candidates_, planes_, from_, now_, bends_, sways_)) return 0;
+  if (!travels || !held_->find(*candidates_, planes_, from_, now_, bends_, sways_)) return 0;
   int rows = hold_back_carriers(to);
   const auto hold = [&](std::size_t mover, std::int32_t row) {
     const auto number = static_cast<std::int32_t>(mover);
@@ -193,10 +202,14 @@ void ContactRun::stand(State& at) const {
 void ContactRun::look(const State& at) {
   looked_at_ = &at;
   gather(at, now_);
-  candidates_->cover(from_, now_);
+  near().cover(from_, now_);
   find();
   keep_multipliers();
   hand_over();
+}
+
+Candidates& ContactRun::near() {
+  return together_ == nullptr || !held_->stopped().empty() ? *candidates_ : *together_;
 }
 
 Vec3 ContactRun::gone(const ContactNumbers& contact) const {
@@ -212,7 +225,8 @@ Vec3 ContactRun::gone(const ContactNumbers& contact) const {
 }
 
 std::size_t ContactRun::bytes() const {
-  return candidates_->bytes() + (begin_.size() + from_.size() + now_.size()) * sizeof(double) +
+  return candidates_->bytes() + (together_ != nullptr ? together_->bytes() : 0) +
+         (begin_.size() + from_.size() + now_.size()) * sizeof(double) +
          (contacts_.capacity() + looked_.capacity()) * sizeof(ContactNumbers);
 }
 

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <numeric>
 
-#include "nearest_pair.h"
-
 namespace tissu {
 namespace {
 
@@ -44,7 +42,8 @@ FreeWay free_way(const Candidate& candidate, ConstReals from, ConstReals to, Con
   const double bend = bends.empty() ? 0.0 : bend_of(candidate, bends);
   const double sway = sways.empty() ? 0.0 : bend_of(candidate, sways);
   if (longest == 0.0 && bend == 0.0 && sway == 0.0) return {1.0, true};
-  const double distance = std::sqrt(nearest_of(candidate.kind, pair.from).square);
+  const Vec3 start = shortest_line(pair);
+  const double distance = start.norm();
   const double least = HoldBack::least(candidate.apart, distance);
   const double room = distance - least;
   // What arcs leave their chords by up to a share of the way: half of the room at most.
@@ -54,10 +53,10 @@ FreeWay free_way(const Candidate& candidate, ConstReals from, ConstReals to, Con
     for (Vec3& way : pair.way) way *= most;
     longest *= most * most;
   }
-  if (std::sqrt(longest) <= kBall * (room - off - sway) || is_kept_apart(pair, least + off + sway)) {
+  if (std::sqrt(longest) <= kBall * (room - off - sway) || is_kept_apart(pair, start, least + off + sway)) {
     return {most, most == 1.0};
   }
-  return {most * free_share(pair, least + off), false};
+  return {most * free_share(pair, start, least + off), false};
 }
 
 std::size_t HoldBack::root(std::int32_t mover) const {
@@ -104,53 +103,73 @@ void HoldBack::join(std::span<const std::int32_t> vertices, double share, bool b
   if (given && share < 1.0) anchored_[of] = 1;
 }
 
-bool HoldBack::find(const Candidates& candidates, std::span<const PlacedPlane> planes, ConstReals from,
-                    ConstReals to, ConstReals bends, ConstReals sways) {
+void HoldBack::release() {
   const std::size_t count = surfaces_.mover_count();
   parent_.resize(count);
   std::iota(parent_.begin(), parent_.end(), 0);
+  shares_.assign(count, 1.0);
+  anchored_.assign(count, 0);
+  forget();
+}
+
+bool HoldBack::find(const Candidates& candidates, std::span<const PlacedPlane> planes, ConstReals from,
+                    ConstReals to, ConstReals bends, ConstReals sways) {
+  release();
   for (const auto& surface : surfaces_.surfaces()) {
     if (surface.carrier < 0) continue;
     std::fill(parent_.begin() + surface.first_vertex, parent_.begin() + surface.last_vertex,
               surface.first_vertex);
   }
-  shares_.assign(count, 1.0);
-  anchored_.assign(count, 0);
-  stopped_.clear();
-  stopped_at_planes_.clear();
   bool held = false;
   const auto& list = candidates.list();
-  for (std::size_t i = 0; i < list.size(); ++i) {
+  for (const std::int32_t number : candidates.near()) {
+    const std::size_t i = at(number);
     if (candidates.is_far(i, list[i].apart)) continue;
     const FreeWay way = free_way(list[i], from, to, bends, sways);
     if (way.whatever) continue;
     join(list[i].vertex, way.share);
     if (way.share == 1.0) continue;
     held = true;
-    stopped_.push_back(static_cast<std::int32_t>(i));
+    stopped_.push_back(number);
   }
   const auto& before_planes = candidates.planes();
   for (std::size_t i = 0; i < before_planes.size(); ++i) {
     const PlacedPlane& plane = planes[at(before_planes[i].obstacle)];
-    if (!stops_at_plane(before_planes[i], plane, from, to, bends, sways)) continue;
+    const FreeWay way = free_way_to_plane(before_planes[i], plane, from, to, bends, sways);
+    if (way.whatever) continue;
+    join({&before_planes[i].vertex, 1}, way.share, true);
+    if (way.share == 1.0) continue;
     held = true;
     stopped_at_planes_.push_back(static_cast<std::int32_t>(i));
   }
   return held;
 }
 
-bool HoldBack::stops_at_plane(const PlaneCandidate& c, const PlacedPlane& plane, ConstReals from,
-                              ConstReals to, ConstReals bends, ConstReals sways) {
+bool HoldBack::is_free(const Candidates& candidates, std::span<const PlacedPlane> planes, ConstReals from,
+                       ConstReals to, ConstReals bends, ConstReals sways) const {
+  const auto& list = candidates.list();
+  const auto is_pair_free = [&](std::int32_t i) {
+    return candidates.is_far(at(i), list[at(i)].apart) ||
+           free_way(list[at(i)], from, to, bends, sways).share == 1.0;
+  };
+  const auto is_free_of_plane = [&](const PlaneCandidate& c) {
+    return free_way_to_plane(c, planes[at(c.obstacle)], from, to, bends, sways).share == 1.0;
+  };
+  return std::ranges::all_of(candidates.planes(), is_free_of_plane) &&
+         std::ranges::all_of(candidates.near(), is_pair_free);
+}
+
+FreeWay HoldBack::free_way_to_plane(const PlaneCandidate& c, const PlacedPlane& plane, ConstReals from,
+                                    ConstReals to, ConstReals bends, ConstReals sways) const {
   const double start = plane.normal.dot(block(from, c.vertex) - plane.point);
   const double bend = bends.empty() ? 0.0 : 0.125 * bends[at(c.vertex)];
   const double end = plane.normal.dot(block(to, c.vertex) - plane.point) - bend;
   const double least = start < kNearest * c.apart ? start : HoldBack::least(c.apart, start);
   const double sway = sways.empty() ? 0.0 : sways[at(c.vertex)];
-  if (given_[at(c.vertex)] != 0 || std::min(start, end) - sway >= least) return false;
+  if (given_[at(c.vertex)] != 0 || std::min(start, end) - sway >= least) return {1.0, true};
   const bool stops = end < least && end < start;
-  if (!stops && sway == 0.0) return false;
-  join({&c.vertex, 1}, stops ? std::max(0.0, kKept * (start - least) / (start - end)) : 1.0, true);
-  return stops;
+  if (!stops) return {1.0, sway == 0.0};
+  return {std::max(0.0, kKept * (start - least) / (start - end)), false};
 }
 
 }  // namespace tissu

@@ -16,6 +16,12 @@ struct PlacedPlane {
   Vec3 normal;
 };
 
+/// The share of a pair's way that is free, and whether that is so however ways are shortened.
+struct FreeWay {
+  double share;
+  bool whatever;
+};
+
 /// Shortens ways so that every candidate stays apart. A pair passes by one of three tests, cheapest first:
 /// none of its vertices goes as far as 0.45 of the distance that is left; one plane keeps its sides apart at
 /// both ends; additive conservative advancement along the whole way. The first two hold however ways are
@@ -28,6 +34,10 @@ class HoldBack {
   HoldBack(const SurfaceSet& surfaces, const std::vector<std::uint8_t>& given)
       : surfaces_(surfaces), given_(given) {}
 
+  /// Whether all ways are free as they are, so that none has to be shortened. `candidates`: of ways that are
+  /// gone together.
+  [[nodiscard]] bool is_free(const Candidates& candidates, std::span<const PlacedPlane> planes,
+                             ConstReals from, ConstReals to, ConstReals bends, ConstReals sways) const;
   /// Shares of the ways, in [0, 1], for every mover; true when one is below 1. `planes`: of each obstacle;
   /// `bends`: as `free_way` has them. The vertices of a rigid body go one share.
   bool find(const Candidates& candidates, std::span<const PlacedPlane> planes, ConstReals from, ConstReals to,
@@ -43,6 +53,8 @@ class HoldBack {
   [[nodiscard]] const std::vector<std::int32_t>& stopped() const { return stopped_; }
   [[nodiscard]] const std::vector<std::int32_t>& stopped_at_planes() const { return stopped_at_planes_; }
 
+  /// Every mover goes its whole way, and is an island.
+  void release();
   void forget() {
     stopped_.clear();
     stopped_at_planes_.clear();
@@ -56,8 +68,10 @@ class HoldBack {
   [[nodiscard]] std::size_t root(std::int32_t mover) const;
   void join(std::span<const std::int32_t> vertices, double share, bool before_plane = false);
   void join(std::int32_t& first, std::int32_t mover);
-  bool stops_at_plane(const PlaneCandidate& candidate, const PlacedPlane& plane, ConstReals from,
-                      ConstReals to, ConstReals bends, ConstReals sways);
+  /// The share of the way of a vertex that leads to no plane's other side.
+  [[nodiscard]] FreeWay free_way_to_plane(const PlaneCandidate& candidate, const PlacedPlane& plane,
+                                          ConstReals from, ConstReals to, ConstReals bends,
+                                          ConstReals sways) const;
 
   const SurfaceSet& surfaces_;
   const std::vector<std::uint8_t>& given_;
@@ -68,15 +82,10 @@ class HoldBack {
   std::vector<std::int32_t> stopped_at_planes_;
 };
 
-/// The share of a pair's way that is free, and whether that is so however ways are shortened.
-struct FreeWay {
-  double share;
-  bool whatever;
-};
-/// `bends`: of each vertex, |arm| theta^2 of the rigid body that turns by theta while it carries it: the arc
-/// up to a share s of the way leaves the chord by no more than s (1 - s) / 2 of that [m]. Empty for none.
-/// `sways`: of each vertex that rows carry, how far it may leave its straight way when those go different
-/// shares of theirs [m]. Empty for none.
+/// Of a pair. `bends`: of each vertex, |arm| theta^2 of the rigid body that turns by theta while it carries
+/// it: the arc up to a share s of the way leaves the chord by no more than s (1 - s) / 2 of that [m]. Empty
+/// for none. `sways`: of each vertex that rows carry, how far it may leave its straight way when those go
+/// different shares of theirs [m]. Empty for none.
 FreeWay free_way(const Candidate& candidate, ConstReals from, ConstReals to, ConstReals bends = {},
                  ConstReals sways = {});
 

@@ -187,7 +187,8 @@ void PushAhead::move_row(std::int32_t mover, const Vec3& by) {
 /// True when all pairs keep apart; else `pushed` says whether something was moved out of the way.
 bool PushAhead::push_pairs(const Candidates& candidates, ConstReals from, bool& pushed) {
   bool clear = true;
-  for (std::size_t i = 0; i < candidates.list().size(); ++i) {
+  for (const std::int32_t number : candidates.near()) {
+    const std::size_t i = at(number);
     const Candidate& candidate = candidates.list()[i];
     if (candidates.is_far(i, candidate.apart)) continue;
     const FreeWay way = free_way(candidate, from, to_, {});

@@ -120,23 +120,32 @@ bool separates(const PairWay& pair, const Vec3& normal, double least) {
 
 }  // namespace
 
-bool is_kept_apart(const PairWay& pair, double least) {
-  const std::size_t count = sides_of(pair.kind).end;
+Vec3 shortest_line(const PairWay& pair) {
   Four p;
-  for (std::size_t i = 0; i < count; ++i) p[i] = pair.from[i] - pair.from[0];
-  const Vec3 start = shortest(pair.kind, p);
+  for (std::size_t i = 0; i < sides_of(pair.kind).end; ++i) p[i] = pair.from[i] - pair.from[0];
+  return shortest(pair.kind, p);
+}
+
+bool is_kept_apart(const PairWay& pair, double least) {
+  return is_kept_apart(pair, shortest_line(pair), least);
+}
+
+bool is_kept_apart(const PairWay& pair, const Vec3& start, double least) {
   const double distance = start.norm();
   if (distance > 0.0 && separates(pair, start / distance, least)) return true;
-  for (std::size_t i = 0; i < count; ++i) p[i] += pair.way[i];
+  Four p;
+  for (std::size_t i = 0; i < sides_of(pair.kind).end; ++i) p[i] = pair.from[i] - pair.from[0] + pair.way[i];
   const Vec3 end = shortest(pair.kind, p);
   const double at_end = end.norm();
   return at_end > 0.0 && separates(pair, end / at_end, least);
 }
 
-double free_share(const PairWay& pair, double least) {
+double free_share(const PairWay& pair, double least) { return free_share(pair, shortest_line(pair), least); }
+
+double free_share(const PairWay& pair, const Vec3& from, double least) {
   const Moving moving(pair);
   Four p = moving.from;
-  Vec3 r = shortest(moving.kind, p);
+  Vec3 r = from;
   double distance = r.norm();
   const double start = distance - least;
   if (!(start > 0.0) || !moving.mean.allFinite()) return 0.0;

@@ -61,6 +61,7 @@ StepReport Simulation::step_in_parts(double h, int halvings) {
   integrator_->append_memory(start.integrator);
   const bool last = halvings == kMostHalvings;
   std::optional<StepReport> report;
+  integrator_->give_up_early(halvings < kHalvings);
   try {
     report = integrator_->step(state_, h);
   } catch (const Interrupted&) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <string>
 
+#include "settling.h"
 #include "tissu/base/interruption.h"
 #include "tissu/base/norm.h"
 #include "tissu/step/stage.h"
@@ -152,6 +153,7 @@ bool StageSolver::solve_contacts(State& state, std::vector<double>& v, StepRepor
   bool solved = true;
   const bool several = contact.surfaces().carriers().size() > 1;  // one may lie on another
   double stiffer = 1.0;
+  Settling settling;
   for (int i = 1;; ++i) {
     set_contacts(state);
     place(state, v);
@@ -189,6 +191,13 @@ bool StageSolver::solve_contacts(State& state, std::vector<double>& v, StepRepor
     const bool pulled = enough < kForce && i <= kPulled && contact_->inadmissible() > kForce;
     const bool free = report.held_back == 0 && !pulled;
     if (free && other <= enough && contact_->depth() <= (i < kLater ? kDepth : kLaterDepth)) break;
+    const bool lost = settling.is_lost(
+        {report.held_back, contact_->size(), other, contact_->inadmissible(), contact_->depth()});
+    if (gives_up_early_ && lost) {
+      report.hasty = true;
+      report.message = unsettled(i);
+      break;
+    }
     if (i == most) {
       report.hasty = contact_->inadmissible() > kForce || contact_->depth() > kTooDeep;
       if (report.hasty) report.message = unsettled(most);

@@ -26,6 +26,17 @@ constexpr unsigned kFew = 200;  ///< 20 s of one processor; 10,000 take 17 minut
 constexpr std::array<BroadPhaseKind, 4> kBroadPhases = {
     BroadPhaseKind::hierarchy, BroadPhaseKind::sweep_and_prune, BroadPhaseKind::grid, BroadPhaseKind::octree};
 
+/// Numbers of `near` alone, of which the others have to be far.
+template <class Far>
+std::vector<Found> near_contacts(const Soup& soup, const SurfaceSet& surfaces, const Candidates& candidates,
+                                 ConstReals places, Far&& is_far) {
+  std::vector<Candidate> near;
+  for (const std::int32_t i : candidates.near()) near.push_back(candidates.list()[at(i)]);
+  return test::contacts_of(soup, surfaces, near, places, [&](std::size_t i, double reach) {
+    return is_far(at(candidates.near()[i]), reach);
+  });
+}
+
 TEST(SoupTest, EveryBroadPhaseGivesTheContactsOfTestingEveryPair) {
   std::array<int, 4> seen{};
   const test::SoupRange soups(kFew);
@@ -38,7 +49,9 @@ TEST(SoupTest, EveryBroadPhaseGivesTheContactsOfTestingEveryPair) {
     for (std::size_t i = 0; i < kBroadPhases.size(); ++i) {
       descriptions[i] = soup.description;
       descriptions[i].broad_phase = kBroadPhases[i];
-      all.push_back(std::make_unique<Candidates>(descriptions[i], surfaces));
+      for (const auto ways : {Candidates::Ways::apart, Candidates::Ways::together}) {
+        all.push_back(std::make_unique<Candidates>(descriptions[i], surfaces, ways));
+      }
     }
     for (std::size_t time = 0; time < soup.places.size(); ++time) {
       const std::vector<double>& from = soup.places[time == 0 ? 0 : time - 1];
@@ -50,8 +63,8 @@ TEST(SoupTest, EveryBroadPhaseGivesTheContactsOfTestingEveryPair) {
       for (const std::unique_ptr<Candidates>& candidates : all) {
         candidates->cover(from, to);
         const std::vector<Found> found =
-            test::contacts_of(soup, surfaces, candidates->list(), to,
-                              [&](std::size_t i, double reach) { return candidates->is_far(i, reach); });
+            near_contacts(soup, surfaces, *candidates, to,
+                          [&](std::size_t i, double reach) { return candidates->is_far(i, reach); });
         ASSERT_TRUE(std::ranges::equal(found, expected, test::same))
             << candidates->broad_phase().name() << " finds " << found.size() << " contacts of "
             << expected.size() << " in soup " << number << " at " << time;
@@ -178,6 +191,52 @@ std::vector<double> held(const SurfaceSet& surfaces, const Candidates& candidate
     block(Reals(end), v) = start + hold_back.share(v) * (block(to, v) - start);
   }
   return end;
+}
+
+/// Ways that are all free together need no shortening when each is seen apart, and the other way round.
+TEST(SoupTest, WaysAreFreeTogetherWhereNoneHasToBeShortened) {
+  std::array<int, 2> seen{};
+  const test::SoupRange soups(kFew);
+  for (unsigned number = soups.first; number < soups.end; ++number) {
+    const Soup soup = test::soup(number);
+    const SurfaceSet surfaces(soup.description, soup.first_row, soup.places[0]);
+    const std::vector<std::uint8_t> given(surfaces.vertices().size(), 0);
+    HoldBack hold_back(surfaces, given);
+    Candidates apart(soup.description, surfaces);
+    Candidates together(soup.description, surfaces, Candidates::Ways::together);
+    for (const double scale : {1e-3, 1e-2, 0.1, 1.0}) {
+      const std::vector<double>& from = soup.places[1];
+      std::vector<double> to = soup.places[2];
+      for (std::size_t i = 0; i < to.size(); ++i) to[i] = from[i] + scale * (to[i] - from[i]) + (i % 3 == 2);
+      apart.cover(from, to);
+      together.cover(from, to);
+      const bool free = !hold_back.find(apart, {}, from, to);
+      ASSERT_EQ(hold_back.is_free(together, {}, from, to, {}, {}), free) << "soup " << number;
+      ++seen[free ? 1 : 0];
+    }
+  }
+  EXPECT_GT(seen[0], 10);
+  EXPECT_GT(seen[1], 10);
+}
+
+TEST(SoupTest, WhatABodyHasInCommonGivesItNoCandidates) {
+  const Soup soup = test::soup(0);
+  const SurfaceSet surfaces(soup.description, soup.first_row, soup.places[0]);
+  Candidates rest(soup.description, surfaces, Candidates::Ways::together);
+  Candidates falling(soup.description, surfaces, Candidates::Ways::together);
+  const std::vector<double>& from = soup.places[0];
+  std::vector<double> to = from;
+  for (std::size_t i = 2; i < to.size(); i += 3) to[i] -= 100.0;
+  rest.cover(from, from);
+  falling.cover(from, to);
+  const auto within = [&](const Candidates& candidates) {
+    return std::ranges::count_if(candidates.list(), [&](const Candidate& c) {
+      return surfaces.vertices()[at(c.vertex[0])].surface == surfaces.vertices()[at(c.vertex[3])].surface;
+    });
+  };
+  const auto at_rest = static_cast<double>(within(rest));
+  EXPECT_NEAR(static_cast<double>(within(falling)), at_rest, 0.01 * at_rest);
+  EXPECT_GT(at_rest, 100.0);
 }
 
 TEST(SoupTest, NoCrossingThatExactBisectionFindsIsPassed) {

@@ -86,6 +86,8 @@ class ContactRun {
  private:
   void gather(const State& state, std::vector<double>& places) const;
   void find();
+  /// Those that a look has to see: ways that were cut are not gone together.
+  [[nodiscard]] Candidates& near();
   void find_pairs();
   void find_planes();
   void add(const Candidate& candidate, const Found& found, std::int32_t point);
@@ -107,6 +109,7 @@ class ContactRun {
   const Contact& contact_;
   std::vector<std::uint8_t> given_;  ///< of each mover, and of vertices that rows carry
   std::unique_ptr<Candidates> candidates_;
+  std::unique_ptr<Candidates> together_;  ///< of ways that are gone whole; null: they would be the same
   std::unique_ptr<HoldBack> held_;
   std::unique_ptr<PushAhead> ahead_;
   std::vector<PlacedPlane> planes_;

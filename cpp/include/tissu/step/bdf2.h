@@ -15,6 +15,7 @@ class Bdf2 final : public Integrator {
   void prepare(const World& world, LinearSolver* solver, Profile& profile) override;
   bool follow_edit(std::span<const std::int32_t> rows) override { return solver_.follow_edit(rows); }
   void prepare_ahead(const State& state, double h) override;
+  void give_up_early(bool early) override { solver_.give_up_early(early); }
   StepReport step(State& state, double h) override;
   void append_memory(std::vector<double>& memory) const override { history_.append_memory(memory); }
   void restore(ConstReals memory) override { history_.restore(memory); }

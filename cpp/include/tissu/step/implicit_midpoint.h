@@ -14,6 +14,7 @@ class ImplicitMidpoint final : public Integrator {
   void prepare(const World& world, LinearSolver* solver, Profile& profile) override;
   bool follow_edit(std::span<const std::int32_t> rows) override { return solver_.follow_edit(rows); }
   void prepare_ahead(const State& state, double h) override;
+  void give_up_early(bool early) override { solver_.give_up_early(early); }
   StepReport step(State& state, double h) override;
 
  private:

@@ -68,6 +68,9 @@ class Integrator {
   [[nodiscard]] virtual double stable_step(const State& /*state*/) {
     return std::numeric_limits<double>::infinity();
   }
+  /// Whether a step whose contacts do not settle may say so before all its systems, because shorter
+  /// ones will be taken instead.
+  virtual void give_up_early(bool /*early*/) {}
   /// Moves the state by h [s]. The state is undefined when it throws.
   virtual StepReport step(State& state, double h) = 0;
   /// What the next step needs beside the state, such as earlier states, goes to the end of `memory`: nothing

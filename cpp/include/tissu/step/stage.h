@@ -52,6 +52,9 @@ class StageSolver {
   /// on. Rows whose way was cut have the velocity of their way.
   void end_touching(double h, State& end);
 
+  /// As `Integrator` has it.
+  void give_up_early(bool early) { gives_up_early_ = early; }
+
   /// push f - M (v - v^) at x(v), which goes into `state` with v; zero where motion is given. Its norm.
   double residual(State& state, ConstReals v);
   [[nodiscard]] ConstReals right() const { return right_; }
@@ -159,7 +162,8 @@ class StageSolver {
   std::vector<double> blocks_;         ///< diagonal of the matrix without contact
   std::vector<double> elastic_;        ///< what is right without contact
   Scratch scratch_;                    ///< of energies
-  double reference_ = 0.0;             ///< push |external force|
+  bool gives_up_early_ = false;
+  double reference_ = 0.0;  ///< push |external force|
   double acting_ = 0.0;
   double start_ = 0.0;       ///< residual that the first solve found
   bool is_falling_ = false;  ///< the last of Newton's iterations at least halved the least residual

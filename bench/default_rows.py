@@ -71,10 +71,18 @@ class Taken:
     failed: list[int] = field(default_factory=list)
     past: float = 0.0
 
-    def p50(self, steps: int | None = None) -> float:
-        """Of the second half of so many steps, or of all, when `auto` has learned."""
+    def later(self, steps: int | None = None) -> list[float]:
+        """The second half of so many steps, or of all, when `auto` has learned."""
         some = self.steps[:steps]
-        return float(np.median(some[len(some) // 2 :])) if some else float("nan")
+        return some[len(some) // 2 :] or [float("nan")]
+
+    def mean(self, steps: int | None = None) -> float:
+        """Of the second half; factors and levels that are made anew count."""
+        return float(np.mean(self.later(steps)))
+
+    def p50(self) -> float:
+        """Of the second half."""
+        return float(np.median(self.later()))
 
     def failures(self, steps: int) -> int:
         """How many of the first and so many further steps were not solved."""

@@ -48,15 +48,15 @@ would have taken, is abandoned within that solve.
 """
 COUNTED = """Counted work of a step in MB. Each cell is that of the second half of {taken} steps,
 then that of the first; a static row has one step."""
-TIMED = """Milliseconds of a step's solves: p50 of the second half of the steps, then the first
-step. A static row has the p50 of several runs, then the first. The choices took turns of a few
-steps, for as many rounds as the time allowed. A choice that took four times as long as `auto`, or
-exceeded a limit, was left out from then on. Each choice is compared with `auto` over the steps
-that both took. In time steps the supports move up and down by 0.2 % of the body in 16 steps, so
-that no body comes to rest. The p50 does not include the steps in which `stale_cholesky` makes a
-new factor. Each of them takes as long as several others, so `auto` takes that choice only if it
-halves a solve. Steps that a choice did not solve are counted in brackets. `inf` in the last
-column: another choice solved more steps than `auto`."""
+TIMED = """Milliseconds of a step's solves: the mean over the second half of the steps, then their
+median. A static row has those of several runs. The choices took turns of a few steps, for as many
+rounds as the time allowed. A choice that took four times as long as `auto`, or exceeded a limit,
+was left out from then on. Each choice is compared with `auto` by the mean over the steps that both
+took. In time steps the supports move up and down by 0.2 % of the body in 16 steps, so that no body
+comes to rest. The median does not include the steps in which `stale_cholesky` makes a new factor.
+Each of them takes as long as several others, so `auto` takes that choice only if it halves a
+solve. Steps that a choice did not solve are counted in brackets. `inf` in the last column: another
+choice solved more steps than `auto`."""
 SHARE = 1.6
 """what a row takes, of the seconds that it is given, with the turns that run past them"""
 
@@ -147,7 +147,7 @@ def cell(run: Run, *, counts: bool) -> str:
 
 
 def over_best(found: dict[str, Taken]) -> float:
-    """p50 of `auto` over that of the best, each over the steps that both took.
+    """Mean of `auto` over that of the best, each over the steps that both took.
 
     Infinite where `auto` fails and another one does not; one that fails more is not compared.
     """
@@ -160,17 +160,17 @@ def over_best(found: dict[str, Taken]) -> float:
         if auto.past or more > 0:
             return float("inf")
         if more == 0:
-            ratios.append(auto.p50(common) / taken.p50(common))
+            ratios.append(auto.mean(common) / taken.mean(common))
     return max(ratios, default=float("nan"))
 
 
 def time_cell(taken: Taken | None) -> str:
-    """p50 and the first step [ms]."""
+    """Mean and median [ms]."""
     if taken is None:
         return "not run"
     if taken.past:
         return f"> {taken.past:.0f} s"
-    text = f"{1e3 * taken.p50():.3g}, {1e3 * taken.first:.3g}"
+    text = f"{1e3 * taken.mean():.3g}, {1e3 * taken.p50():.3g}"
     return f"{text} ({len(taken.failed)} failed)" if taken.failed else text
 
 

@@ -8,17 +8,15 @@ from __future__ import annotations
 
 import argparse
 from itertools import combinations
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 from kernels import table
+from section import MEASURED, put_between
 
 import tissu as ts
 from tissu.cli.info import machine_line
 
-PAGE = Path(__file__).resolve().parent.parent / "docs" / "measured" / "cutting.md"
-BEGIN, END = "<!-- bench/carriers.py -->\n", "<!-- end of bench/carriers.py -->\n"
 CUTS = 60
 SIZE = np.array((0.4, 0.1, 0.1))
 CELLS = np.array((12, 4, 4))
@@ -125,9 +123,7 @@ def main() -> None:
     parser.add_argument("--write", action="store_true", help="to docs/measured/cutting.md")
     text = section()
     if parser.parse_args().write:
-        page = PAGE.read_text(encoding="utf-8")
-        before, _, rest = page.partition(BEGIN)
-        PAGE.write_text(before + BEGIN + text + END + rest.partition(END)[2], encoding="utf-8")
+        put_between(MEASURED / "cutting.md", "bench/carriers.py", text)
     else:
         print(text)
 

@@ -17,12 +17,11 @@ from pathlib import Path
 
 import numpy as np
 from kernels import table
+from section import MEASURED, put_between
 
 import tissu as ts
 from tissu.cli.info import machine_line
 
-PAGE = Path(__file__).resolve().parent.parent / "docs" / "measured" / "cutting.md"
-BEGIN, END = "<!-- bench/cutting.py -->\n", "<!-- end of bench/cutting.py -->\n"
 SIDES = (6, 12, 20)
 """Cells along the two short sides of a bar that is four times as long."""
 CUTS = 20
@@ -231,9 +230,7 @@ def main() -> None:
     asked = parser.parse_args()
     text = section(asked.peer)
     if asked.write:
-        page = PAGE.read_text(encoding="utf-8")
-        before, _, rest = page.partition(BEGIN)
-        PAGE.write_text(before + BEGIN + text + END + rest.partition(END)[2], encoding="utf-8")
+        put_between(MEASURED / "cutting.md", "bench/cutting.py", text)
     else:
         print(text)
 

@@ -1,10 +1,11 @@
-"""Sections of docs/measured/solvers.md that scripts of their own print."""
+"""Sections of the pages in docs/measured that scripts of their own print."""
 
 from __future__ import annotations
 
 from pathlib import Path
 
-PAGE = Path(__file__).resolve().parents[1] / "docs" / "measured" / "solvers.md"
+MEASURED = Path(__file__).resolve().parents[1] / "docs" / "measured"
+PAGE = MEASURED / "solvers.md"
 
 
 def marks(name: str) -> tuple[str, str]:
@@ -19,6 +20,20 @@ def put(name: str, text: str) -> None:
     after = rest.partition(end)[2] if found else ""
     gap = "" if found else "\n"
     PAGE.write_text(f"{before}{gap}{begin}{text}{end}{after}", encoding="utf-8")
+
+
+def put_between(page: Path, name: str, text: str) -> None:
+    """Replaces what stands between the marks of a script on a page.
+
+    Raises:
+        SystemExit: the page has no such marks.
+    """
+    begin, end = f"<!-- {name} -->\n", f"<!-- end of {name} -->\n"
+    before, found, rest = page.read_text(encoding="utf-8").partition(begin)
+    _, closed, after = rest.partition(end)
+    if not (found and closed):
+        raise SystemExit(f"{page.name} has no place between {begin.strip()} and {end.strip()}")
+    page.write_text(f"{before}{begin}{text}{end}{after}", encoding="utf-8")
 
 
 def kept() -> str:

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "tissu/base/sort_unique.h"
+
 namespace tissu {
 namespace {
 
@@ -87,8 +89,7 @@ void FixedDofs::lead(std::span<const std::int32_t> rows, std::uint8_t mask) {
     masks_[static_cast<std::size_t>(row)] |= mask;
     rows_.push_back(row);
   }
-  std::ranges::sort(rows_);
-  rows_.erase(std::ranges::unique(rows_).begin(), rows_.end());
+  sort_unique(rows_);
 }
 
 void FixedDofs::set_velocities(const State& from, double time, double h, double share, Reals v) const {

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "tissu/base/error.h"
+#include "tissu/base/sort_unique.h"
 
 namespace tissu {
 namespace {
@@ -70,8 +71,7 @@ Sparsity SparsityBuilder::build(double room) const {
       const auto& cell = incident[static_cast<std::size_t>(c)];
       row.insert(row.end(), cell.begin(), cell.end());
     }
-    std::ranges::sort(row);
-    row.erase(std::ranges::unique(row).begin(), row.end());
+    sort_unique(row);
     result.column.insert(result.column.end(), row.begin(), row.end());
     if (room > 0.0) {
       result.open_end.push_back(static_cast<std::int64_t>(result.column.size()));

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "chunk_lanes.h"
+#include "tissu/base/sort_unique.h"
 
 namespace tissu {
 namespace {
@@ -77,8 +78,7 @@ ChunkEdit::Seat ChunkEdit::seat(std::int32_t origin, std::int32_t lane) const {
 
 std::vector<ElementOrder::Run> ChunkEdit::lay(std::span<const std::int32_t> place,
                                               std::span<const std::int32_t> cells, ElementOrder& order) {
-  std::ranges::sort(touched_);
-  touched_.erase(std::ranges::unique(touched_).begin(), touched_.end());
+  sort_unique(touched_);
   std::vector<ElementOrder::Run> laid;
   for (const std::int32_t chunk : touched_) {
     lay_chunk(chunk, place, cells, order);

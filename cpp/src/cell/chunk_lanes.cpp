@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "tissu/base/sort_unique.h"
+
 namespace tissu {
 namespace {
 
@@ -33,8 +35,7 @@ std::vector<std::int32_t> lay_places(std::span<const std::int32_t> cells, int si
     const auto cell = cells.subspan(static_cast<std::size_t>(order.element[i]) * n, n);
     nodes.insert(nodes.end(), cell.begin(), cell.end());
   }
-  std::ranges::sort(nodes);
-  nodes.erase(std::ranges::unique(nodes).begin(), nodes.end());
+  sort_unique(nodes);
   for (std::size_t i = first; i < last; ++i) {
     for (std::size_t a = 0; a < n; ++a) {
       const std::int32_t node = cells[static_cast<std::size_t>(order.element[i]) * n + a];

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "tissu/base/sort_unique.h"
 #include "tissu/cell/cell_patches.h"
 
 namespace tissu {
@@ -46,8 +47,7 @@ void lay_nodes(std::span<const std::int32_t> cells, std::size_t size, const Elem
     };
     nodes.clear();
     for_nodes([&](std::int32_t node) { nodes.push_back(node); });
-    std::ranges::sort(nodes);
-    nodes.erase(std::ranges::unique(nodes).begin(), nodes.end());
+    sort_unique(nodes);
     for_nodes([&](std::int32_t node) {
       table.places.push_back(
           static_cast<std::uint8_t>(std::ranges::lower_bound(nodes, node) - nodes.begin()));

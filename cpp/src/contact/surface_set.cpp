@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <unordered_map>
 
+#include "tissu/base/sort_unique.h"
+
 namespace tissu {
 namespace {
 
@@ -74,8 +76,7 @@ void SurfaceSet::add(const SurfaceDescription& description, std::int32_t first_r
   for (const auto& t : description.triangles) nodes.insert(nodes.end(), t.begin(), t.end());
   for (const auto& e : description.edges) nodes.insert(nodes.end(), e.begin(), e.end());
   nodes.insert(nodes.end(), description.points.begin(), description.points.end());
-  std::ranges::sort(nodes);
-  nodes.erase(std::ranges::unique(nodes).begin(), nodes.end());
+  sort_unique(nodes);
   const auto number = [&](std::int32_t node) {
     return first_vertex + static_cast<std::int32_t>(std::ranges::lower_bound(nodes, node) - nodes.begin());
   };
@@ -164,8 +165,7 @@ std::vector<std::int32_t> SurfaceSet::add_edges(std::int32_t first_primitive, st
       edge.across[side] = primitive.vertex[at((i + 2) % 3)];
     }
   }
-  std::ranges::sort(crowded);
-  crowded.erase(std::ranges::unique(crowded).begin(), crowded.end());
+  sort_unique(crowded);
   return crowded;
 }
 

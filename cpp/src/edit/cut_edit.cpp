@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "tissu/base/sort_unique.h"
+
 namespace tissu {
 
 std::vector<std::int32_t> bare_after(const std::vector<std::int32_t>& before, const CutPlan& plan) {
@@ -10,8 +12,7 @@ std::vector<std::int32_t> bare_after(const std::vector<std::int32_t>& before, co
   for (std::size_t i = 0; i < plan.nodes.size(); ++i) {
     if (!plan.nodes[i].material) bare.push_back(plan.first_node + static_cast<std::int32_t>(i));
   }
-  std::ranges::sort(bare);
-  bare.erase(std::ranges::unique(bare).begin(), bare.end());
+  sort_unique(bare);
   return bare;
 }
 

@@ -7,6 +7,7 @@
 
 #include "cut_edit.h"
 #include "tissu/base/error.h"
+#include "tissu/base/sort_unique.h"
 #include "tissu/edit/cut_body.h"
 #include "tissu/element/reference_cell.h"
 
@@ -26,11 +27,6 @@ std::shared_ptr<World> laid_anew(const World& world) {
 }
 
 namespace {
-
-void sort_unique(std::vector<std::int32_t>& list) {
-  std::ranges::sort(list);
-  list.erase(std::ranges::unique(list).begin(), list.end());
-}
 
 std::shared_ptr<World> own(std::shared_ptr<const World> world) {
   if (world.use_count() == 1) return std::const_pointer_cast<World>(std::move(world));

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "tissu/base/error.h"
+#include "tissu/base/sort_unique.h"
 #include "tissu/element/reference_cell.h"
 #include "tissu/force/load.h"
 
@@ -123,8 +124,7 @@ void Pressure::couple(SparsityBuilder& builder) const {
     for (const auto& point : face) {
       for (const CarriedNode& one : point) nodes.push_back(one.node);
     }
-    std::ranges::sort(nodes);
-    nodes.erase(std::ranges::unique(nodes).begin(), nodes.end());
+    sort_unique(nodes);
     builder.add_cells(nodes, static_cast<int>(nodes.size()));
   }
 }

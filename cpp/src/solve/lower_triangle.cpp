@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tissu/base/sort_unique.h"
+
 namespace tissu {
 
 bool LowerTriangle::update_pattern(const BlockMatrix& matrix, const Couplings* couplings) {
@@ -11,8 +13,7 @@ bool LowerTriangle::update_pattern(const BlockMatrix& matrix, const Couplings* c
     couplings->for_blocks([&](std::int32_t r, std::int32_t c, const Mat3&) {
       if (c > r && matrix.sparsity().slot(r, c) < 0) extra.emplace_back(r, c);
     });
-    std::ranges::sort(extra);
-    extra.erase(std::ranges::unique(extra).begin(), extra.end());
+    sort_unique(extra);
   }
   if (matrix_ == matrix.id() && extra == extra_) return false;
   matrix_ = matrix.id();

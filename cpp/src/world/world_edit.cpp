@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "tissu/base/error.h"
+#include "tissu/base/sort_unique.h"
 #include "tissu/force/grabs.h"
 #include "tissu/force/gravity.h"
 #include "tissu/force/instruments.h"
@@ -20,11 +21,6 @@ namespace {
 constexpr std::int64_t kMostBlocks = 2;
 
 std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
-
-void sort_unique(std::vector<std::int32_t>& list) {
-  std::ranges::sort(list);
-  list.erase(std::ranges::unique(list).begin(), list.end());
-}
 
 /// Of a world that was made for editing.
 template <class Held>

@@ -9,6 +9,7 @@
 #include "edit/cut/fragments.h"
 #include "edit/cut/write_plan.h"
 #include "tissu/base/error.h"
+#include "tissu/base/sort_unique.h"
 
 namespace tissu {
 namespace {
@@ -16,11 +17,6 @@ namespace {
 using Numbers = std::vector<std::int32_t>;
 
 std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
-
-void sort_unique(Numbers& numbers) {
-  std::ranges::sort(numbers);
-  numbers.erase(std::ranges::unique(numbers).begin(), numbers.end());
-}
 
 /// The body with its cells divided, and no node parted yet.
 class Divided {

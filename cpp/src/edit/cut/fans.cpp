@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "tissu/base/sort_unique.h"
+
 namespace tissu {
 namespace {
 
@@ -32,8 +34,7 @@ std::vector<std::int32_t> Fans::numbers(std::int32_t vertex) const {
     const auto corner = static_cast<std::size_t>(std::ranges::find(before, vertex) - before.begin());
     found.push_back(vertices_[at(t)][corner]);
   }
-  std::ranges::sort(found);
-  found.erase(std::ranges::unique(found).begin(), found.end());
+  sort_unique(found);
   return found;
 }
 

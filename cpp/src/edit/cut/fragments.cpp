@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "edit/cut/joins.h"
+#include "tissu/base/sort_unique.h"
 #include "tissu/mesh/cell_shape.h"
 
 namespace tissu {
@@ -15,12 +16,6 @@ namespace {
 std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 constexpr double kOnFace = 1e-9;  ///< of a tetrahedron's height: a point so far outside is in it
-
-template <class Values>
-void sort_unique(Values& values) {
-  std::ranges::sort(values);
-  values.erase(std::unique(values.begin(), values.end()), values.end());
-}
 
 /// The corners whose mean a node of a cell is.
 std::vector<std::uint8_t> corners_around(CellType type, std::size_t node) {

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "tissu/base/error.h"
+#include "tissu/base/sort_unique.h"
 #include "tissu/edit/cut/cut_plan.h"
 
 namespace tissu {
@@ -31,11 +32,6 @@ std::uint32_t morton(const Vec3& p, const Eigen::AlignedBox3d& box) {
     code |= spread(static_cast<std::uint32_t>(share * 1023.0)) << static_cast<unsigned>(i);
   }
   return code;
-}
-
-void sort_unique(std::vector<std::int32_t>& list) {
-  std::ranges::sort(list);
-  list.erase(std::ranges::unique(list).begin(), list.end());
 }
 
 void insert_sorted(std::vector<std::int32_t>& list, std::int32_t value) {

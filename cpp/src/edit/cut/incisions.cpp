@@ -4,17 +4,14 @@
 #include <map>
 #include <utility>
 
+#include "tissu/base/sort_unique.h"
+
 namespace tissu {
 namespace {
 
 using Numbers = std::vector<std::int32_t>;
 
 std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
-
-void sort_unique(Numbers& numbers) {
-  std::ranges::sort(numbers);
-  numbers.erase(std::ranges::unique(numbers).begin(), numbers.end());
-}
 
 /// An edge between two vertices of an incision is one of its surface, so that a vertex which another blade
 /// puts on the edge is on that incision too: else the faces there would never open. `on`: vertices of the

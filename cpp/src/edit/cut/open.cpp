@@ -9,6 +9,7 @@
 
 #include "edit/cut/side.h"
 #include "tissu/base/error.h"
+#include "tissu/base/sort_unique.h"
 
 namespace tissu {
 namespace {
@@ -102,8 +103,7 @@ class Opener {
     for (const std::int32_t t : patch_.tetrahedra_at(v)) {
       candidates.insert(candidates.end(), triangles(t).begin(), triangles(t).end());
     }
-    std::ranges::sort(candidates);
-    candidates.erase(std::ranges::unique(candidates).begin(), candidates.end());
+    sort_unique(candidates);
     if (candidates.empty()) candidates = all_;
     known = signed_height(part_, candidates, patch_.vertex(v).place);
     const int votes = known_[v].votes;

@@ -6,13 +6,13 @@
 #include "edit/cut/patch.h"
 #include "edit/cut/write_plan.h"
 #include "tissu/base/error.h"
+#include "tissu/base/sort_unique.h"
 #include "tissu/edit/cut/cut_plan.h"
 
 namespace tissu {
 
 CutPlan plan_ablation(const Hosts& hosts, const Material& material, std::vector<std::int32_t> cells) {
-  std::ranges::sort(cells);
-  cells.erase(std::ranges::unique(cells).begin(), cells.end());
+  sort_unique(cells);
   for (const std::int32_t cell : cells) {
     if (!hosts.has(cell))
       throw ParameterError("the body has no cell " + std::to_string(cell) + " (any more).");
@@ -24,8 +24,7 @@ CutPlan plan_ablation(const Hosts& hosts, const Material& material, std::vector<
     const auto end = tetra.vertices.begin() + static_cast<std::ptrdiff_t>(tetra.corners());
     parted.insert(parted.end(), tetra.vertices.begin(), end);
   }
-  std::ranges::sort(parted);
-  parted.erase(std::ranges::unique(parted).begin(), parted.end());
+  sort_unique(parted);
   CutPlan plan;
   plan.gone = cells;
   const Fragments fragments(hosts, patch, cells, cells);

@@ -17,6 +17,7 @@
 #include "edit/cut/write_plan.h"
 #include "tissu/base/error.h"
 #include "tissu/base/number_text.h"
+#include "tissu/base/sort_unique.h"
 #include "tissu/edit/cut/cut_plan.h"
 
 namespace tissu {
@@ -34,11 +35,6 @@ constexpr double kLargestT0 = 0.45;
 constexpr double kLeastT0OfDivided = 0.2;
 
 std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
-
-void sort_unique(Numbers& numbers) {
-  std::ranges::sort(numbers);
-  numbers.erase(std::ranges::unique(numbers).begin(), numbers.end());
-}
 
 void check(const Hosts& hosts, ConstReals x, const CutOptions& options) {
   if (!(options.t0 >= 0.0 && options.t0 <= kLargestT0)) {

@@ -7,6 +7,7 @@
 
 #include "tissu/assembly/fixed_dofs.h"
 #include "tissu/base/error.h"
+#include "tissu/base/sort_unique.h"
 
 namespace tissu {
 namespace {
@@ -34,8 +35,7 @@ CondensedRegion::CondensedRegion(ElasticBlock block, ConstReals rest_positions, 
 void CondensedRegion::sort_nodes() {
   const ElasticBlock& whole = elastic_.block();
   std::vector<std::int32_t> nodes = whole.cells;
-  std::ranges::sort(nodes);
-  nodes.erase(std::ranges::unique(nodes).begin(), nodes.end());
+  sort_unique(nodes);
   std::vector<std::int32_t> kept = std::get<CondensedOptions>(whole.model).kept;
   std::ranges::sort(kept);
   std::ranges::set_intersection(nodes, kept, std::back_inserter(kept_));

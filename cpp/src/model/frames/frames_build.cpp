@@ -9,6 +9,7 @@
 #include "kernels/frame_list.h"
 #include "tissu/base/error.h"
 #include "tissu/base/number_text.h"
+#include "tissu/base/sort_unique.h"
 #include "tissu/element/reference_cell.h"
 #include "tissu/model/frames/frame_cells.h"
 #include "tissu/model/frames/frames.h"
@@ -130,8 +131,7 @@ void Frames::lay_frames() {
   pairs.reserve(block_.cells.size());
   for (std::size_t i = 0; i < block_.cells.size(); ++i)
     pairs.emplace_back(block_.cells[i], known ? block_.frames[i] : -1);
-  std::ranges::sort(pairs);
-  pairs.erase(std::ranges::unique(pairs).begin(), pairs.end());
+  sort_unique(pairs);
   for (const auto& [block, frame] : pairs) {
     blocks_.push_back(block);
     numbers_.push_back(frame);

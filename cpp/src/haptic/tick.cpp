@@ -90,7 +90,7 @@ Command tick(const Kinematics& kinematics, const Settings& settings, const TickI
     m.window.clear();
   } else {
     Joints wanted = model_torques(kinematics, settings, input, motion, m, report);
-    if (m.state == State::homing) wanted = settings.homing_torque;
+    if (m.state == State::homing) wanted = m.homing_way * settings.homing_torque;
     command = to_motors(settings, wanted, motion, m, report);
   }
   command.sequence = m.sample.sequence;

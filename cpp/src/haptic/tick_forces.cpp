@@ -170,7 +170,8 @@ Joints model_torques(const Kinematics& kinematics, const Settings& settings, con
                      const Motion& motion, Memory& m, TickReport& report) noexcept {
   const Joints slow = 2.0 * settings.count_size / settings.period;
   if (!gives_force(m.state)) {
-    settle(settings, motion, 0.0, m);
+    // What drives the axes to their ends is not the tissue's: the tank does not pay it.
+    if (m.state != State::homing) settle(settings, motion, 0.0, m);
     drop_force(m);
     return Joints::Zero();
   }

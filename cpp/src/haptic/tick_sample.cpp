@@ -23,7 +23,10 @@ std::int64_t turned(const Settings& settings, std::int32_t now, std::int32_t bef
   return wrapped - static_cast<std::int64_t>(turns) * settings.turn_counts;
 }
 
-/// A driven axis that has not moved for a while stands at its end: that is where it counts from.
+constexpr double kTravel = 0.02;  ///< of the travel between its ends: an axis that went less was held
+
+/// Driven axes that do not move any more stand at their ends, unless something holds them. So they go from
+/// one end to the other, and the way between has to be that between the ends.
 void watch_homing(const Settings& settings, const Counts& before, Memory& m) noexcept {
   const auto wanted = static_cast<std::int32_t>(settings.homing_still / settings.period);
   bool all = true;
@@ -34,11 +37,25 @@ void watch_homing(const Settings& settings, const Counts& before, Memory& m) noe
     all = all && m.still[i] >= wanted;
   }
   if (!all) return;
+  m.still = {};
+  const bool first = m.homing_way < 0.0;
+  m.homing_way = -m.homing_way;
+  bool whole = true;
   for (const int joint : {0, 1, 3}) {
+    const double place = m.sample.counts[static_cast<std::size_t>(joint)] * settings.count_size[joint];
+    if (first) {
+      m.first_end[joint] = place;
+      continue;
+    }
     const bool high = settings.homing_torque[joint] > 0.0;
-    const double end = high ? settings.ends.high[joint] : settings.ends.low[joint];
-    m.zero[joint] = end - m.sample.counts[static_cast<std::size_t>(joint)] * settings.count_size[joint];
+    const double travel = settings.ends.high[joint] - settings.ends.low[joint];
+    const double gone = (high ? 1.0 : -1.0) * (place - m.first_end[joint]);
+    whole = whole && std::abs(gone - travel) <= kTravel * travel;
+    m.zero[joint] = (high ? settings.ends.high[joint] : settings.ends.low[joint]) - place;
   }
+  if (first) return;
+  m.blocked = !whole;
+  if (!whole) return;
   m.zero[2] = -static_cast<double>(m.turn) * settings.count_size[2];  // own rotation has no end
   m.homed = true;
 }

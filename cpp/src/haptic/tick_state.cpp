@@ -56,6 +56,7 @@ void go_on(const Settings& settings, const TickInput& input, const Motion& motio
     case State::off:
     case State::homing:
       m.state = m.homed ? State::empty : State::homing;
+      m.reason = Reason::none;
       return;
     case State::empty:
       if (motion.fresh && settings.tag != 0 && m.sample.tag == settings.tag &&
@@ -101,13 +102,16 @@ void change_state(const Settings& settings, const TickInput& input, const Motion
     m.state = State::off;
     m.reason = Reason::none;
     m.failed_reads = m.failed_writes = m.bad_models = m.bad_torques = 0;
+    m.homing_way = -1.0;
+    m.blocked = false;
+    m.still = {};
   } else if (const Reason reason = fault_of(input, m); m.state != State::fault && reason != Reason::none) {
     m.state = State::fault;
     m.reason = reason;
     m.homed = false;  // what is plugged in again has to say where it is
   } else if (!m.homed && m.state != State::fault) {
     m.state = State::homing;
-    m.reason = Reason::none;
+    m.reason = m.blocked ? Reason::ends_not_found : Reason::none;
   } else {
     go_on(settings, input, motion, m);
   }

@@ -101,7 +101,7 @@ void bind_loop(py::module_& m) {
   py::list states;
   for (int i = 0; i < 7; ++i) states.append(name_of(static_cast<State>(i)));
   py::list reasons;
-  for (int i = 0; i < 9; ++i) reasons.append(name_of(static_cast<Reason>(i)));
+  for (int i = 0; i < 10; ++i) reasons.append(name_of(static_cast<Reason>(i)));
   m.attr("STATES") = py::tuple(states);
   m.attr("REASONS") = py::tuple(reasons);
 }

@@ -6,9 +6,9 @@ namespace tissu::haptic::bind {
 namespace {
 
 constexpr std::array<const char*, 7> kStates{"off", "homing", "empty", "free", "contact", "held", "fault"};
-constexpr std::array<const char*, 9> kReasons{"none",         "reads_failed", "writes_failed",
-                                              "device_fault", "not_finite",   "model_stalled",
-                                              "too_fast",     "tag_changed",  "late"};
+constexpr std::array<const char*, 10> kReasons{"none",       "reads_failed",  "writes_failed", "device_fault",
+                                               "not_finite", "model_stalled", "too_fast",      "tag_changed",
+                                               "late",       "ends_not_found"};
 constexpr std::array<const char*, 4> kStatuses{"ok", "none", "broken", "gone"};
 
 /// A column of numbers: `at` gives the one of a row.

@@ -241,6 +241,11 @@ class Controller:
         if state is State.empty and tag and self._tools and tag not in self._tools:
             known = ", ".join(f"{tag_text(t)} ({name})" for t, name in self._tools.items())
             return f"found the tag {tag_text(tag)}, which no tool of the scene has; known: {known}"
+        driven = any(self._settings.homing_torque)
+        if state is State.homing and not driven:
+            return (
+                "the device does not know its zero; home it, as its manual says, and it reports so"
+            )
         return reason.words
 
     def timing(self) -> Timing:

@@ -175,7 +175,8 @@ class Law:
         """Torques (4,) of tissue, stops and dampers on the joints, through the tank."""
         s = self.settings
         if not self.state.gives_force:
-            self._settle(motion, 0.0)
+            if self.state is not State.homing:  # the tank does not pay what drives the axes
+                self._settle(motion, 0.0)
             self._drop()
             return np.zeros(AXES)
         self._solve_current(motion)

@@ -38,7 +38,7 @@ def settings_of(trocar: Trocar) -> _haptic.Settings:
     made.joint_low = (-limits.tilt, -limits.tilt, -1e300, limits.least_depth)
     made.joint_high = (limits.tilt, limits.tilt, 1e300, limits.depth)
     made.tag = 0 if trocar.tools else ANY_TOOL
-    if isinstance(trocar.device, SimulatedDevice) and not trocar.device.homed:
+    if isinstance(trocar.device, SimulatedDevice):  # which may lose its zero, too
         made.homing_torque = _HOMING
         made.end_high = _ENDS
     return made

@@ -23,7 +23,7 @@ class State(IntEnum):
 
 
 class Reason(IntEnum):
-    """Why a trocar is held or in fault."""
+    """Why a trocar is held, in fault, or does not come home."""
 
     none = 0
     reads_failed = 1
@@ -34,6 +34,7 @@ class Reason(IntEnum):
     too_fast = 6
     tag_changed = 7
     late = 8
+    ends_not_found = 9
 
     @property
     def words(self) -> str:
@@ -70,6 +71,8 @@ _WORDS = {
     "it",
     Reason.too_fast: "the tip moved faster than its limit; acknowledge it when the device is well",
     Reason.tag_changed: "the tag changed while the tool was in; take the tool out",
+    Reason.ends_not_found: "the axes came to rest before both of their ends; let go of the handle, "
+    "or free what blocks it",
     Reason.late: "more than five ticks in a row were missed; acknowledge it when the machine has "
     "time",
 }

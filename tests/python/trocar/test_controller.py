@@ -190,11 +190,35 @@ def test_a_device_that_does_not_know_its_zero_is_driven_home():
     device = ts.SimulatedDevice(homed=False, seed=3)
     with Controller(trocar(device=device)) as controller:
         assert controller.step(20).state is State.homing
-        report = controller.step(3000)
+        report = controller.step(4000)
         assert report.state is not State.homing
         real = controller.device.joints
         # Where it stands is known to some counts: stops give way by motor torque over stiffness.
         assert np.abs(report.q - real)[[0, 1, 3]] == pytest.approx(0.0, abs=1e-3)
+
+
+def test_homing_against_a_hand_says_what_to_do() -> None:
+    hand = ts.Hand(times=(0, 1), points=((0, 0, 0.1), (0, 0, 0.1)))
+    with Controller(trocar(device=ts.SimulatedDevice(homed=False, hand=hand, seed=3))) as controller:
+        report = controller.step(4000)
+        assert report.state is State.homing
+        assert "let go of the handle" in report.problem
+        assert not report.force.any()
+
+
+def test_a_device_that_is_plugged_in_again_is_driven_home() -> None:
+    with Controller(trocar(device=ts.SimulatedDevice(seed=3))) as controller:
+        controller.step(100)
+        controller.device.unplug()
+        assert controller.step(20).state is State.fault
+        controller.device.plug_in()
+        controller.stop()
+        controller.start()
+        assert controller.step(20).state is State.homing
+        report = controller.step(4000)
+        assert report.state is State.contact and not report.problem  # with its own end
+        assert np.abs(report.q - controller.device.joints)[[0, 1, 3]] == pytest.approx(0.0, abs=1e-3)
+        assert report.coupling == 1.0 and report.tank > 0.0
 
 
 def test_a_trocar_that_was_stopped_starts_again():

@@ -106,6 +106,8 @@ def test_unplugged_in_the_middle_of_palpation(mode: str) -> None:
         for _ in range(5):
             touch.step()
         assert controller.report().state is State.homing  # its counts begin anew
+    for _ in range(20):  # periods of the device, which was told to be off
+        _haptic.read(device)
     assert np.abs(device.motor_torque).max() < 1e-9  # a lag of 0.5 ms
 
 

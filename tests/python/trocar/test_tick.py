@@ -213,6 +213,20 @@ def test_homing_finds_the_zero_of_its_encoders():
     error = np.abs(row["q"][-1] - row["joints"][-1])[[0, 1, 3]]
     # It stands against springs at its ends: torque / stiffness beyond them, and two counts.
     assert (error <= np.array([0.2 / 500, 0.2 / 500, 2.0 / 5e4]) + 2 * COUNT[[0, 1, 3]]).all()
+    driven = row["state"] == STATES.index("homing")
+    # What drives the axes home is not paid by the tank: it is as full as at the start.
+    assert row["given_out"][driven] == pytest.approx(0.0, abs=0.0)
+    assert row["tank"][driven].min() == row["tank"][0] > 0.0
+
+
+def test_a_hand_that_holds_the_handle_gives_no_zero():
+    held = hand([[0.0, 0.02, 0.0, 0.2], [1.0, 0.02, 0.0, 0.2]])
+    made = device(held, q=[0.1, -0.2, 0.0, 0.2], line={"unknown_zero": True, "seed": 4})
+    loop = haptic.SteppedLoop(made, settings(homing_torque=[0.2, 0.2, 0.0, 2.0]))
+    row = loop.run(4000)
+    assert set(row["state"]) == {STATES.index("homing")}
+    assert loop.reason == "ends_not_found"
+    assert row["torque"].any()  # it goes on trying
 
 
 @pytest.mark.parametrize(

@@ -38,7 +38,8 @@ enum class Reason : std::uint8_t {
   model_stalled,  ///< no new model for longer than `stall` and the fade; ends with the next model
   too_fast,       ///< the tip moved faster than the limit
   tag_changed,    ///< another tag without the tool having been taken out
-  late            ///< more than 5 ticks late in a row
+  late,           ///< more than 5 ticks late in a row
+  ends_not_found  ///< while homing: axes came to rest before both of their ends
 };
 
 /// What the controller decides; it changes between two ticks, rarely.
@@ -68,7 +69,7 @@ struct Settings {
   JointLimits ends{
       {-0.87266462599716477, -0.87266462599716477, -1e300, 0.0},
       {0.87266462599716477, 0.87266462599716477, 1e300, 0.31}};  ///< where homing comes to a stop
-  Joints homing_torque = Joints::Zero();  ///< its sign says which end; 0: the hand drives
+  Joints homing_torque = Joints::Zero();  ///< its sign says to which end at last; 0: the hand drives
   double homing_still = 0.1;              ///< an axis that stood still so long under it is at its end [s]
 };
 
@@ -131,6 +132,9 @@ struct Memory {
   bool homed = false;
   bool device_homed = false;  ///< the device said so in the last sample
   std::array<std::int32_t, kJoints> still{};
+  double homing_way = -1.0;           ///< times the torque of homing: -1 to the first end, 1 to the last
+  Joints first_end = Joints::Zero();  ///< where the axes came to rest first, by their counts alone
+  bool blocked = false;               ///< they have come to rest before their ends
   Joints q = Joints::Zero();
   VelocityWindows window{};
   // model and coupling

@@ -1,5 +1,6 @@
 #include "parted_pressures.h"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <map>
@@ -8,6 +9,7 @@
 
 #include "edit/cut/patch.h"
 #include "tissu/base/error.h"
+#include "tissu/base/sort_unique.h"
 #include "tissu/edit/cut_state.h"
 #include "tissu/element/reference_cell.h"
 #include "tissu/mesh/cell_shape.h"
@@ -39,6 +41,7 @@ class Pressed {
       for (std::size_t i = 0; i + corners <= some.nodes.size(); i += corners) {
         const auto first = some.nodes.begin() + static_cast<std::ptrdiff_t>(i);
         Nodes face(first, first + static_cast<std::ptrdiff_t>(corners));
+        for (const std::int32_t node : face) faces_at_[node].push_back(face);
         faces_.emplace(sorted(face), face);
       }
     }
@@ -70,6 +73,10 @@ class Pressed {
   void look_at(std::int32_t cell, const Nodes& nodes) {
     Nodes roots;
     for (const std::int32_t node : nodes) roots.push_back(cut_.hosts.root(node));
+    if (std::ranges::any_of(roots, [](std::int32_t root) { return root < 0; })) {
+      look_at_part(nodes);
+      return;
+    }
     const auto pressed = faces_.find(sorted(roots));
     if (pressed == faces_.end()) return;
     const bool same = same_way(roots, pressed->second);
@@ -78,6 +85,45 @@ class Pressed {
       for (const MaterialTetra& tetra : stored->second) carry(tetra, nodes, same);
       return;
     }
+    add_face(nodes, same);
+  }
+
+  /// A triangle of a divided cell, some nodes of which a cut put between those of the first day.
+  void look_at_part(const Nodes& nodes) {
+    std::array<Rider, 3> riders;
+    Nodes all;
+    for (std::size_t i = 0; i < riders.size(); ++i) {
+      riders[i] = origin_of(nodes[i]);
+      for (std::size_t k = 0; k < at(riders[i].count); ++k) {
+        if (riders[i].weight[k] != 0.0) all.push_back(riders[i].node[k]);
+      }
+    }
+    sort_unique(all);
+    const auto faces = faces_at_.find(all.front());
+    if (faces == faces_at_.end()) return;
+    for (const Nodes& face : faces->second) {
+      if (face.size() != 3 || !std::ranges::includes(sorted(face), all)) continue;
+      Mat3 shares = Mat3::Zero();
+      for (std::size_t i = 0; i < riders.size(); ++i) {
+        for (std::size_t k = 0; k < at(riders[i].count); ++k) {
+          const auto corner = std::ranges::find(face, riders[i].node[k]) - face.begin();
+          if (corner < 3) shares(static_cast<Eigen::Index>(i), corner) += riders[i].weight[k];
+        }
+      }
+      add_face(nodes, shares.determinant() > 0.0);
+      return;
+    }
+  }
+
+  /// Between which nodes of the first day a node lies.
+  [[nodiscard]] Rider origin_of(std::int32_t node) const {
+    const std::int32_t root = cut_.hosts.root(node);
+    if (root < 0) return cut_.hosts.points()[at(-1 - root)];
+    return {{root, -1, -1, -1}, {1.0, 0.0, 0.0, 0.0}, 1};
+  }
+
+  /// `same`: the nodes run the way around that the pressure acts by.
+  void add_face(const Nodes& nodes, bool same) {
     Nodes& list = nodes.size() == 3 ? triangles_ : quads_;
     if (same) {
       list.insert(list.end(), nodes.begin(), nodes.end());
@@ -127,6 +173,7 @@ class Pressed {
 
   const CutState& cut_;
   std::map<Nodes, Nodes> faces_;  ///< of the first day, by their nodes in ascending order
+  std::map<std::int32_t, std::vector<Nodes>> faces_at_;  ///< the same, by each of their nodes
   Nodes triangles_;
   Nodes quads_;
   std::vector<CarriedFace> carried_;

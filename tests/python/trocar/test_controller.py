@@ -199,7 +199,9 @@ def test_a_device_that_does_not_know_its_zero_is_driven_home():
 
 def test_homing_against_a_hand_says_what_to_do() -> None:
     hand = ts.Hand(times=(0, 1), points=((0, 0, 0.1), (0, 0, 0.1)))
-    with Controller(trocar(device=ts.SimulatedDevice(homed=False, hand=hand, seed=3))) as controller:
+    with Controller(
+        trocar(device=ts.SimulatedDevice(homed=False, hand=hand, seed=3))
+    ) as controller:
         report = controller.step(4000)
         assert report.state is State.homing
         assert "let go of the handle" in report.problem
@@ -217,7 +219,9 @@ def test_a_device_that_is_plugged_in_again_is_driven_home() -> None:
         assert controller.step(20).state is State.homing
         report = controller.step(4000)
         assert report.state is State.contact and not report.problem  # with its own end
-        assert np.abs(report.q - controller.device.joints)[[0, 1, 3]] == pytest.approx(0.0, abs=1e-3)
+        assert np.abs(report.q - controller.device.joints)[[0, 1, 3]] == pytest.approx(
+            0.0, abs=1e-3
+        )
         assert report.coupling == 1.0 and report.tank > 0.0
 
 

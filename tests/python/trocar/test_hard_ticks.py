@@ -350,23 +350,50 @@ def test_lost_frames_and_late_ticks():
 
 
 def test_a_tissue_that_changes_all_the_time():
-    # Stiffness +-30 % every 40 ms under a steady push: the tool is stiller with the tank.
-    def swing(gate):
-        made = device(hand([(0, 0, 0, 0.2), (0.3, 0, 0, 0.204)]))
-        loop = haptic.SteppedLoop(made, settings(tank_gate=gate))
-        rows = []
-        for stamp in range(1, 100):
-            W = 1 / 500.0 * (1.3 if stamp % 2 else 0.7)
-            loop.publish(floor(stamp, 0.2, W=W))
-            rows.append(loop.run(40))
-        joints = np.concatenate([row["joints"] for row in rows[50:]])[:, 3]
-        return joints.std(), rows
+    """Stiffness +-30 % every 40 ms under a push of 1 N on 0.15 kg: at most a third of the swing."""
+    friction = [6e-3, 6e-3, 1e-3, 0.05]
+    coupling = 790.0
 
-    with_tank, rows = swing(True)
-    without, _ = swing(False)
-    assert with_tank <= without
-    tanks = np.concatenate([row["tank"] for row in rows])
-    assert tanks.min() >= -5e-3
+    def swing(stiffness, gate):
+        push = {"mass": 0.15, "coulomb": friction, "gravity": [0, 0, 1.0 / 0.15]}
+        changes = {"stiffness": [48, 48, 1.6, coupling], "coulomb": friction, "tank_gate": gate}
+        loop = haptic.SteppedLoop(device(mechanism=push), settings(**changes))
+        rows = []
+        for stamp in range(1, 150):
+            k = stiffness * (1.3 if stamp % 2 else 0.7)
+            loop.publish(floor(stamp, 0.2, W=max(0.0, 1 / k - 1 / coupling)))
+            rows.append(loop.run(40))
+        depth = np.concatenate([row["joints"] for row in rows[100:-1]])[:, 3]
+        turns = depth[: len(depth) // 80 * 80].reshape(-1, 80)  # a change and back
+        return np.sqrt(turns.var(axis=1).mean()), rows
+
+    for stiffness in (300.0, 500.0):
+        with_tank, rows = swing(stiffness, True)
+        without, _ = swing(stiffness, False)
+        assert without > 2e-4
+        assert with_tank < (0.34 if stiffness == 300.0 else 0.6) * without
+        tanks = np.concatenate([row["tank"] for row in rows])
+        assert tanks.min() >= -5e-3
+
+
+def test_each_deeper_debt_of_the_tank_halves_the_coupling():
+    """A hand taps a stiff wall six times a second, and nothing that it dissipates is credited."""
+    turns = np.linspace(0.0, 6.0, 601)
+    path = np.column_stack([turns, 0 * turns, 0 * turns, 0.2 + 0.004 * np.sin(12 * np.pi * turns)])
+    loop = haptic.SteppedLoop(device(hand(path, smooth=False)), settings(tank_credit=0.0))
+    rows = []
+    for stamp in range(1, 151):
+        loop.publish(floor(stamp, 0.2, W=1e-4))
+        rows.append(loop.run(40))
+    tank, coupling = (np.concatenate([row[name] for row in rows]) for name in ("tank", "stiffness"))
+    assert tank.min() < -1e-6
+    deepest = np.minimum.accumulate(np.concatenate([[0.0], tank]))
+    trips = np.flatnonzero((tank < 0.0) & (tank < deepest[:-1] - 1e-9))
+    halved = coupling[trips] / coupling[trips - 1]
+    assert len(trips) > 0
+    assert (halved < 0.51).any()  # with a ramp of an entry that goes on
+    assert coupling[trips[-1]] == 0.125
+    assert coupling[trips[-1] :].min() >= 0.125 - 1e-12
 
 
 def test_palpated_tissue_has_no_lag():

@@ -84,6 +84,7 @@ class Attempt {
     }
     part_divided_edges(touched);
     sort_unique(touched);
+    part_corners(touched);
     sort_unique(parted_);
     patch_.extend(hosts_, material_, x_, hosts_.with_neighbours(touched));
     const Fragments fragments(hosts_, patch_, touched, {});
@@ -213,6 +214,15 @@ class Attempt {
       if (!open) continue;
       parted_.push_back(vertex);
       for (const std::int32_t t : around) touched.push_back(patch_.cell(patch_.tetra(t).cell).number);
+    }
+  }
+
+  /// Cells whose removal left others joined at an edge or a node alone: their copies would not be.
+  void part_corners(const Numbers& touched) {
+    for (const Patch::Tetra& tetra : patch_.tetrahedra) {
+      if (!std::ranges::binary_search(touched, patch_.cell(tetra.cell).number)) continue;
+      const auto end = tetra.vertices.begin() + static_cast<std::ptrdiff_t>(tetra.corners());
+      parted_.insert(parted_.end(), tetra.vertices.begin(), end);
     }
   }
 

@@ -40,6 +40,31 @@ def test_nodes_between_held_nodes_are_held() -> None:
     assert ((simulation.born("bar") < 0) == (weights[:, 1] > 0)).all()
 
 
+@pytest.mark.parametrize("follows", [True, False])
+@pytest.mark.parametrize("solid", [True, False])
+def test_a_pressure_stays_on_divided_faces(solid: bool, follows: bool) -> None:
+    """500 Pa on 0.1 x 0.05 m, before and after each of three cuts that divide its faces."""
+    if solid:
+        mesh = ts.bar_mesh(size=(0.1, 0.05, 0.05), cells=(4, 2, 2), cell="tetra")
+        body, on = {}, ts.Plane((0, 0, 0.05), (0, 0, 1))
+    else:
+        mesh = ts.bar_mesh(size=(0.1, 0.05, 0), cells=(4, 2, 0), cell="triangle")
+        law = ts.StVK(young=5e4, poisson=0.3)
+        body, on = {"thickness": 1e-3, "law": law}, ts.Box()
+    pressed = ts.Pressure("bar", on=on, pressure=500.0, follows=follows)
+    simulation = scene(bar(mesh=mesh, **body), fixed=[], gravity=None, loads=[pressed]).compile()
+    forces = simulation.forces()[simulation.rows("bar")].sum(axis=0)
+    assert np.abs(forces) == pytest.approx([0.0, 0.0, 2.5], abs=1e-12)
+    for blade in (
+        ts.Plane((0.06, 0, 0), (1.0, 0.2, 0.0)),
+        ts.Plane((0.05, 0.02, 0), (0.3, 1.0, 0.0)),
+        ts.Plane((0.02, 0, 0), (1.0, -0.4, 0.1)),
+    ):
+        assert simulation.cut("bar", blade).cells_cut > 0
+        after = simulation.forces()[simulation.rows("bar")].sum(axis=0)
+        assert after == pytest.approx(forces, abs=1e-12)
+
+
 def test_a_cut_along_the_pull_changes_nothing() -> None:
     """A relaxing bar under uniaxial tension has no traction on planes along it.
 

@@ -384,6 +384,46 @@ def test_a_static_piece_may_be_held_by_different_nodes_on_each_axis() -> None:
     assert simulation.cut("bar", ts.Triangles(corners, [(0, 1, 2), (0, 2, 3)])).cells_cut
 
 
+@pytest.mark.parametrize("cell", ["tetra", "hexahedron", "wedge"])
+def test_cuts_after_removed_cells_keep_all_material(cell: str) -> None:
+    """Cells that the removed ones left joined at an edge or a node alone come apart in a cut."""
+    for seed in range(8):
+        random = np.random.default_rng(seed)
+        simulation = scene(bar(cell, (4, 2, 2)), editing=ts.Editing(room=20.0)).compile()
+        count = simulation.meshes["bar"].cell_count
+        gone = random.choice(count, size=random.integers(1, count // 4), replace=False)
+        simulation.remove_cells(body="bar", cells=gone)
+        before = simulation.meshes["bar"].volume()
+        for _ in range(2):
+            point = tuple(random.uniform(0.0, 1.0, 3) * (0.4, 0.1, 0.1))
+            simulation.cut("bar", ts.Plane(point, tuple(random.normal(size=3))))
+        pieces = simulation.pieces("bar")
+        for volume in (
+            sum(piece.volume for piece in pieces),
+            sum(piece.mass for piece in pieces) / 1000.0,
+            simulation.material("bar").mesh.volume(),
+        ):
+            assert volume == pytest.approx(before, rel=ROUND_OFF), seed
+        simulation.surface("bar")
+        simulation.quality("bar")
+
+
+def test_a_way_back_of_a_blade_does_not_undo_the_way_in() -> None:
+    edges = [[(0.213, y, -0.1), (0.213, y, 0.2)] for y in (-0.05, 0.06, -0.05)]
+    reports = []
+    for moments in (edges[:2], edges):
+        simulation = scene(bar("tetra", (8, 4, 4))).compile()
+        reports.append(simulation.cut("bar", ts.Sweep(moments)))
+    assert reports[0].cells_cut > 0
+    assert reports[1].area == pytest.approx(reports[0].area, rel=1e-12)
+    assert reports[1].cells_cut == reports[0].cells_cut
+    corners = [(0.213, -1, -1), (0.213, 3, -1), (0.213, -1, 3)]
+    for times in (1, 2, 3):
+        simulation = scene().compile()
+        report = simulation.cut("bar", ts.Triangles(corners, [(0, 1, 2)] * times))
+        assert len(report.pieces) == 2
+
+
 def test_ablation_takes_cells_by_their_material() -> None:
     simulation = scene().compile()
     report = simulation.ablate("bar", ts.Sphere((0.4, 0.1, 0.1), 0.06))

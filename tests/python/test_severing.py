@@ -28,6 +28,16 @@ from tissu.simulation.lumped import momenta_of
 Floats = NDArray[np.float64]
 
 
+def test_the_scalpel_of_the_example_severs() -> None:
+    """Nothing holds the lower block at the end, which falls."""
+    simulation = ts.examples.scene("severed").compile()
+    for report in simulation.run():
+        assert report.converged
+    upper, lower = sorted(simulation.pieces("fascia"), key=lambda piece: not piece.held)
+    assert (upper.held, lower.held) == (True, False)
+    assert simulation.velocities["lower"][:, 2].mean() < -1.0
+
+
 def test_severed_organs_move_as_scenes_built_apart() -> None:
     """Cut off all around both blocks: each moves as if it were alone, and the tissue falls freely.
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -18,6 +19,7 @@ using Place = std::array<double, 3>;
 using Corners = std::array<std::size_t, 3>;
 
 constexpr std::size_t kDiscSides = 32;
+constexpr double kTurnsBack = -0.5;  ///< cosine between two ways of a blade one after the other
 
 Place place(const Vec3& p) { return {p[0], p[1], p[2]}; }
 
@@ -45,6 +47,16 @@ std::pair<Vec3, Vec3> directions(const Vec3& normal) {
 }
 
 bool has_area(const Triangle& t) { return (t[1] - t[0]).cross(t[2] - t[0]).squaredNorm() > 0.0; }
+
+/// A triangle that stands twice in a list would cross every edge to and fro.
+void erase_repeated(std::vector<Triangle>& triangles) {
+  std::set<std::array<Place, 3>> seen;
+  std::erase_if(triangles, [&](const Triangle& t) {
+    std::array<Place, 3> corners = {place(t[0]), place(t[1]), place(t[2])};
+    std::ranges::sort(corners);
+    return !seen.insert(corners).second;
+  });
+}
 
 /// The triangles on each edge, as triangle * 3 + the corner where the edge starts. Points are the same where
 /// their coordinates are.
@@ -172,6 +184,7 @@ Sweep triangle_sweep(std::span<const double> points, std::span<const std::array<
     for (const Vec3& p : all.back()) check_finite(p, "points");
   }
   std::erase_if(all, [](const Triangle& t) { return !has_area(t); });
+  erase_repeated(all);
   if (all.empty()) throw ParameterError("a blade has no area; a surface with an area is accepted.");
   const EdgeTable table(all);
   std::vector<int> turn(all.size(), 0);
@@ -202,11 +215,25 @@ Sweep edge_sweep(std::span<const double> places, std::int32_t moments, std::int3
   const auto at = [&](std::int32_t moment, std::int32_t point) -> Vec3 {
     return block(places, moment * points + point);
   };
+  // An edge of a cell that is crossed to and fro is not cut: a way back is a surface of its own.
+  const auto way = [&](std::int32_t k) -> Vec3 {
+    Vec3 sum = Vec3::Zero();
+    for (std::int32_t i = 0; i < points; ++i) sum += at(k, i) - at(k - 1, i);
+    return sum;
+  };
+  Sweep sweep;
   std::vector<Triangle> triangles;
+  const auto end_part = [&] {
+    std::erase_if(triangles, [](const Triangle& t) { return !has_area(t); });
+    if (triangles.empty()) return;
+    sweep.parts.push_back(std::move(one_part(std::move(triangles), incision).parts.front()));
+    triangles.clear();
+  };
   for (std::int32_t k = 0; k < moments; ++k) {
-    for (std::int32_t i = 0; i < points; ++i) {
-      check_finite(at(k, i), "places");
-      if (k == 0 || i == 0) continue;
+    for (std::int32_t i = 0; i < points; ++i) check_finite(at(k, i), "places");
+    if (k == 0) continue;
+    if (k > 1 && way(k).dot(way(k - 1)) < kTurnsBack * way(k).norm() * way(k - 1).norm()) end_part();
+    for (std::int32_t i = 1; i < points; ++i) {
       const Vec3 a = at(k - 1, i - 1);
       const Vec3 b = at(k - 1, i);
       const Vec3 c = at(k, i);
@@ -215,7 +242,9 @@ Sweep edge_sweep(std::span<const double> places, std::int32_t moments, std::int3
       triangles.push_back({a, c, d});
     }
   }
-  return one_part(std::move(triangles), incision);
+  end_part();
+  if (sweep.parts.empty()) throw ParameterError("a blade has no area; a surface with an area is accepted.");
+  return sweep;
 }
 
 }  // namespace tissu

@@ -71,7 +71,11 @@ void EnergyWatch::allow_contacts(const World& world, double h) {
 std::string EnergyWatch::say(const World& world) const {
   const std::string found = "the energy has grown by " + number_text(100.0 * growth()) +
                             " % of what the bodies had, and nothing in the scene gives any; take ";
-  if (world.contact() != nullptr) return found + "a smaller dt, or implicit_euler, which damps most";
+  if (world.contact() != nullptr) {
+    return found +
+           "a smaller dt, steps that are linearised once (newton: iterations: 1), or implicit_euler, which "
+           "damps most";
+  }
   return found +
          "energy_momentum, which keeps it, a smaller dt, or a method that damps (implicit_euler, bdf2)";
 }

@@ -80,7 +80,7 @@ bool EnergyMomentum::iterate_touching(const State& from, double h, StepReport& r
   }
   report.hasty = contact_->inadmissible() > kMostForce || contact_->depth() > kMostDepth;
   if (report.hasty) {
-    report.message = "contacts had not settled after " + std::to_string(kMostLooks) + " looks";
+    report.message = "contacts had not settled after " + std::to_string(kMostLooks) + " searches";
   }
   return true;
 }

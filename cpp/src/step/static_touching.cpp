@@ -271,7 +271,7 @@ bool StaticTouching::look_until_it_stays(const LoadPath& path, double before, do
       return true;
     }
   }
-  return give_up("contact forces had not come to rest after " + std::to_string(kMostLooks) + " looks");
+  return give_up("contact forces had not come to rest after " + std::to_string(kMostLooks) + " searches");
 }
 
 }  // namespace tissu

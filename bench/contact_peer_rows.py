@@ -105,7 +105,7 @@ def measures(work: Work, way: str, taken: Taken) -> Measures:
 def outcome(scene: str, found: Measures) -> str:
     """In words."""
     if found.gained > 1.0:
-        word = "explodes"
+        word = "gains energy"
     elif scene == "stack":
         word = "falls" if found.fell else "stands"
     elif scene == "slide":

@@ -58,14 +58,14 @@ RUN = [
     ("contact_newton", "best"),
 ]
 
-TEXT = """The scenes of the first table that rest or slide were set up in other programs too, on the
-same meshes of tetrahedra (those of the slopes are cut from the hexahedra, also for tissu), with the
-same material, damping and gravity. The programs took turns of {turn} steps, each on one thread, at
-their defaults and at the best settings that a short search found. Times are CPU time of 10 ms of
-the scene in which something touches. After each 10 ms the positions of all nodes were audited by
-one program, whatever the programs report: **plane** and **joints** are the depth of the lowest node
-and of the bodies inside the thickness that a program itself gives its surfaces, in mean edges, and
-**crosses by** is the largest depth of a node below the plane itself or inside another body.
+TEXT = """The programs got the same meshes of tetrahedra (those of the slopes are cut from the
+hexahedra, also for tissu), the same material, density, gravity and friction, and took turns of
+{turn} steps of 10 ms, each on one thread. "best" are the best settings that a short search by
+hand found. Times are CPU time of 10 ms of the scene in which something touches. **plane** is
+the depth of the lowest node inside the thickness that a program gives its surfaces, **joints**
+that between bodies, and **crosses by** is the largest depth of a node below the plane itself or
+inside another body, in the whole run; all are measured from the positions of the nodes after
+each 10 ms, in mean edges.
 {versions}
 
 {tables}
@@ -73,19 +73,23 @@ and of the bodies inside the thickness that a program itself gives its surfaces,
 {settings}
 
 "at impact" are the {impact} steps from the first contact on; "at the end" are the last {window}
-steps, or half of a shorter run. "force error" is that of the mean force on the floor at the end,
-"its worst" that of a single step. A body that crosses by more than {crossed:g} % of an edge
-interpenetrates, one that moves more slowly than {rests:g} mm/s rests, on the slope {sticks:g} mm/s;
-one that slides does so within {near:g} % of Coulomb's acceleration, and one that touches in less
-than {touching:g} % of the steps at the end hops. "unsolved" are the steps, also inner ones, that
-a program itself reports as not solved. MuJoCo has damping in proportion to mass and stiffness like
-tissu. Rapier has that of the mass and its own elastic damping, computes in single precision, and
-runs in decimetres, because it gives no elasticity to cells as small as these in metres. Newton has
-a viscosity of the shear modulus times the same time constant, none of the mass, and computes in
-single precision. The flexes of MuJoCo and the particles of Newton are given a thickness because
-their defaults, 5 mm and 0.1 m, are wider than the gaps of 1 mm between the cubes at the start.
+steps, or half of a shorter run. {shorter} "force error" is that of the mean force on the floor
+at the end, "its worst" that of a single step. A body that crosses by more than {crossed:g} % of
+an edge interpenetrates. One that moves along the plane more slowly than {rests:g} mm/s rests,
+and one that moves more slowly than {sticks:g} mm/s sticks to the slope. One that slides does so
+within {near:g} % of Coulomb's acceleration, and hops if it touches in less than {touching:g} %
+of the steps at the end. One gains energy if its kinetic energy and that of gravity rise above
+the start by more than its weight times 5 cm. "unsolved" are the steps, also inner ones, that a
+program itself reports as not solved.
 
-{machine}"""
+MuJoCo has damping in proportion to mass and stiffness like tissu. Rapier has that of the mass
+and its own elastic damping, computes in single precision, and runs in decimetres, because it
+gives no elasticity to cells as small as these in metres. Newton has a viscosity of the shear
+modulus times the same time constant, none of the mass, and computes in single precision. The
+flexes of MuJoCo and the particles of Newton are given a thickness because their defaults, 5 mm
+and 0.1 m, are wider than the gaps of 1 mm between the cubes at the start.
+
+Printed by `python bench/contact_peers.py --write`; {machine}"""
 
 
 def work_of(scene: str) -> Work:
@@ -142,6 +146,7 @@ def section(scenes: list[str], pythons: dict[str, str]) -> str:
         settings="\n".join(f"- {name}: {text}." for name, text in said.items()),
         impact=IMPACT,
         window=WINDOW,
+        shorter=" ".join(f'"{s}" is run for {DT * n:g} s.' for s, n in STEPS.items()),
         crossed=100.0 * CROSSED,
         rests=1e3 * RESTS,
         sticks=1e3 * STICKS,

@@ -237,9 +237,10 @@ void StageSolver::iterate_contacts(State& state, std::vector<double>& v, StepRep
     if (other <= kForceNewton && report.held_back == 0 && contact_->depth() <= kDepthNewton) break;
     if (i + 1 == kMostLooks) {
       report.converged = false;
-      report.message = "contacts had not come to rest after " + std::to_string(kMostLooks) +
-                       " searches, each with an iteration of Newton's method; take a smaller dt, or steps that "
-                       "are linearised once (newton: iterations: 1)";
+      report.message =
+          "contacts had not come to rest after " + std::to_string(kMostLooks) +
+          " searches, each with an iteration of Newton's method; take a smaller dt, or steps that "
+          "are linearised once (newton: iterations: 1)";
     }
   }
   report.newton_iterations = iterations;

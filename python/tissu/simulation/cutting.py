@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from tissu.cutting.blade import Blade, Place, inside_of, surface_of
 from tissu.cutting.material import centres_of
-from tissu.cutting.report import CutReport, cut_report
+from tissu.cutting.report import CutReport, Piece, cut_report
 from tissu.errors import ParameterError
 from tissu.mesh import CellBlock, Mesh
 from tissu.simulation import grab as kept

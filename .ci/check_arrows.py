@@ -120,10 +120,10 @@ PYTHON: dict[str, set[str]] = {
         "_core",
     },
     "front": {"errors", "scene", "yaml_io", "compile"},
-    "comparison": {"errors", "counted", "mesh", "scene", "picture"},
+    "comparison": {"errors", "counted", "mesh", "reading", "scene", "picture"},
     "accuracy": {"errors", "counted", "pareto", "front", "yaml_io", "picture"},
     "contact_cost": {"errors", "mesh", "scene", "front", "simulation"},
-    "advice": {"errors", "counted", "pareto", "units", "mesh", "scene", "picture"},
+    "advice": {"errors", "counted", "pareto", "reading", "units", "mesh", "scene", "picture"},
     "output": {"errors", "counted", "field_names", "files", "mesh", "_core"},
 }
 # The active trocar. A scene without one imports none of it.

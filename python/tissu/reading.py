@@ -41,7 +41,7 @@ def listed(value: object) -> object:
     return value.tolist() if isinstance(value, np.ndarray) else value
 
 
-def names_of(value: object, what: str) -> tuple[str, ...]:
+def names_of(value: object, what: str, *, example: str = "liver") -> tuple[str, ...]:
     """The names of a list; a single text would be taken for a list of its letters.
 
     Raises:
@@ -50,9 +50,9 @@ def names_of(value: object, what: str) -> tuple[str, ...]:
     found = listed(value)
     if isinstance(found, (list, tuple)) and all(isinstance(name, str) for name in found):
         return tuple(found)
-    example = f"['{value}']" if isinstance(value, str) else "['liver']"
+    shown = value if isinstance(value, str) else example
     raise ParameterError(
-        f"found the {what} {written(value)}; a list of names is accepted, such as {example}"
+        f"found the {what} {written(value)}; a list of names is accepted, such as ['{shown}']"
     )
 
 

@@ -124,6 +124,40 @@ def test_a_stopped_run_leaves_its_checkpoint(scene, tmp_path, number, code):
     assert (done.returncode, summary(tmp_path / "other")["steps"]["steps"]) == (0, 0)
 
 
+CUBE_ON_A_TABLE = """\
+name: cube
+bodies:
+  cube:
+    mesh: {type: bar, size: [0.1, 0.1, 0.1], cells: [1, 1, 1], origin: [0, 0, 0.01]}
+    law: {type: stvk, young: 20 kPa, poisson: 0.4}
+    density: 1000
+obstacles:
+  table: {type: plane, point: [0, 0, 0], normal: [0, 0, 1]}
+contacts:
+  - {between: [cube, table]}
+step: {type: implicit_euler, dt: 10 ms}
+duration: 50 ms
+"""
+
+
+@pytest.mark.parametrize("end", ["50 ms", "30 ms"])
+def test_a_run_that_went_on_at_its_end_or_beyond_says_that_nothing_was_left(tmp_path, end):
+    file = tmp_path / "cube.yaml"
+    file.write_text(CUBE_ON_A_TABLE)
+    words = [file, "-o", tmp_path / "out"]
+    begun = run(*words, "--checkpoint", tmp_path / "c")
+    assert begun.returncode == 0, begun.stderr
+    assert "nothing touched anything" in begun.stdout
+    done = run(*words, "--resume", tmp_path / "c", "--duration", end)
+    assert done.returncode == 0
+    assert (
+        f"tissu: nothing was left to do: {tmp_path / 'c'} has the state at t = 0.05 s, and the run "
+        f"ends at 0.0{end[0]} s; give a longer --duration to go on\n"
+    ) in done.stderr
+    assert "touched" not in done.stdout
+    assert "0 steps" not in done.stdout
+
+
 def test_threads_and_repeated_runs_write_the_same_files(scene, tmp_path):
     found = []
     for number, threads in enumerate((1, 1, 2, 3, 4)):

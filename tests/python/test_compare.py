@@ -1,6 +1,7 @@
 """tissu compare: what its rows say, against runs taken apart."""
 
 import csv
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -9,6 +10,8 @@ from typer.testing import CliRunner
 import tissu as ts
 from beam import beam as swinging
 from tissu.cli.app import app
+
+EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
 
 
 def beam(**changes):
@@ -108,3 +111,50 @@ def test_the_command_tells_a_wrong_model(tmp_path):
     result = CliRunner().invoke(app, ["compare", str(file), "--models", "femm"])
     assert result.exit_code != 0
     assert "unknown model 'femm'; did you mean 'fem'" in result.output
+
+
+def refused(comparison):
+    return {row.model: row.why for row in comparison.rows if row.outcome == "refused"}
+
+
+def test_viscosity_that_a_model_does_not_take_is_a_row():
+    bar = beam().bodies["bar"]
+    relaxing = ts.Prony(branches=[ts.PronyBranch(weight=0.5, time=0.1)])
+    scene = beam(bodies={"bar": bar.replace(viscosity=relaxing)}, duration=0.02)
+    found = ts.compare(scene, models=["condensed", "fem"], reference="fem")
+    assert "prony" in refused(found)["condensed"]
+    assert list(refused(found)) == ["condensed"]
+
+
+def test_a_load_that_a_model_does_not_take_is_a_row():
+    scene = ts.Scene.from_yaml(EXAMPLES / "roll.yaml")
+    mesh = ts.BarMesh(size=(0.2, 0.02, 0.0), cells=(4, 1, 0), cell="triangle")
+    strip = scene.bodies["strip"].replace(mesh=mesh)
+    scene = scene.replace(bodies={"strip": strip}, duration=0.1)
+    found = ts.compare(scene)
+    assert "no rotation" in refused(found)["fem"]
+    (shell,) = [row for row in found.rows if row.model == "shell"]
+    assert (shell.outcome, shell.mean_error) == ("finished", 0.0)
+    assert found.reference.startswith("shell on the same mesh")
+    with pytest.raises(ts.ParameterError, match=r"reference \(fem\) is refused, so name another"):
+        ts.compare(scene, models=["shell"], reference="fem")
+
+
+@pytest.mark.parametrize(
+    ("models", "words"),
+    [
+        ("", "option --models: found no name; names with commas between them are accepted"),
+        (" ", "option --models: found no name;"),
+        ("fem,,mass_link", "option --models: found an empty name in 'fem,,mass_link'"),
+        ("fem,fem", "found the model fem twice; each is accepted once"),
+    ],
+)
+def test_models_that_are_empty_or_named_twice_are_refused(tmp_path, models, words):
+    file = tmp_path / "beam.yaml"
+    beam(duration=0.02).save(file)
+    done = CliRunner().invoke(
+        app, ["compare", str(file), "--models", models, "-o", str(tmp_path / "out")]
+    )
+    assert done.exit_code == 2
+    assert words in done.output
+    assert not (tmp_path / "out").exists()

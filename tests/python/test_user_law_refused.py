@@ -211,3 +211,36 @@ for ask in (lambda: tissu.law("x", energy=0, parameters={}), lambda: tissu.formu
     assert len(done.stdout.splitlines()) == 3
     for line in done.stdout.splitlines():
         assert re.search(r"^SymPy.* is not installed; run pip install 'tissu\[laws\]'\.$", line)
+
+
+@pytest.mark.parametrize(
+    ("stated", "reason"),
+    [
+        ("3", r"found SMALL_STRAIN = 3; two expressions .* are accepted"),
+        ("(mu,)", r"found SMALL_STRAIN = \(mu,\); two expressions"),
+        ("(0, 2 * mu)", r"SMALL_STRAIN gives lambda = 0, mu = 2000, but .*; state those"),
+        ("(kappa - 2 * mu / 3, nu)", r"SMALL_STRAIN uses 'nu', which is not a parameter"),
+        ("(kappa - 2 * mu / 3, mu)", None),
+    ],
+)
+def test_a_stated_limit_that_is_not_that_of_the_energy_is_refused(tmp_path, stated, reason):
+    file = tmp_path / "rubber.py"
+    file.write_text(
+        '"""A law of rubber."""\n'
+        "import sympy\n"
+        "from tissu.formula import Ibar1, J, Parameter, symbols_of\n"
+        "PARAMETERS = (\n"
+        '    Parameter(name="mu", unit="Pa", meaning="shear", typical=1000.0, above=0.0),\n'
+        '    Parameter(name="kappa", unit="Pa", meaning="bulk", typical=9000.0, above=0.0),\n'
+        ")\n"
+        "mu, kappa = symbols_of(PARAMETERS)\n"
+        "nu = sympy.Symbol('nu')\n"
+        'CONSTANTS = {"mu": mu, "kappa": kappa}\n'
+        "ENERGY = mu / 2 * (Ibar1 - 3) + kappa / 2 * (J - 1) ** 2\n"
+        f"SMALL_STRAIN = {stated}\n"
+    )
+    if reason is None:
+        assert ts.read_law(file).__name__
+        return
+    with pytest.raises(ts.LawError, match=reason):
+        ts.read_law(file)

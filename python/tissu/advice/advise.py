@@ -21,9 +21,11 @@ from tissu.advice.resolution import Resolutions
 from tissu.advice.rows import largest_move, row_of
 from tissu.advice.setting import Setting
 from tissu.errors import ParameterError
+from tissu.reading import names_of
 from tissu.scene.model import MODELS
 from tissu.scene.part import spelled, type_name
 from tissu.scene.problem import nearest, one_of_words
+from tissu.scene.scene import require_scene
 from tissu.scene.step import Static
 
 if TYPE_CHECKING:
@@ -63,16 +65,17 @@ def advise(
         told: called with a line for each run as it ends.
 
     Raises:
-        ParameterError: an error, a rate or a budget that is not positive, a scene without duration,
-            an unknown model, a budget that does not suffice for one run of the scene, or a share of
-            the motion of a scene in which nothing moves.
+        ParameterError: no scene, an error, a rate or a budget that is not positive, a scene
+            without duration, an unknown model, a budget that does not suffice for one run of the
+            scene, or a share of the motion of a scene in which nothing moves.
         SceneError: the scene itself does not compile.
     """
+    require_scene(scene, "advise")
+    models = [spelled(model) for model in names_of(models, "models", example="fem")]
+    _check_models(models)
     begin = time.perf_counter()
     dynamic = not isinstance(scene.step, Static)
     asked, seconds = goal(error, rate, dynamic=dynamic), budget_seconds(budget)
-    models = [spelled(model) for model in models]
-    _check_models(models)
     if scene.duration is None and dynamic:
         raise ParameterError(
             "the scene has no duration; a time to be simulated is needed, such as duration: 1 s"

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import typer
 
+from tissu.cli.inputs import input_files, require_apart
 from tissu.output import folder_of_run
 
 
@@ -34,6 +35,8 @@ def advise_scene(
 
     asked = [name.strip() for name in models.split(",") if name.strip()]
     scene = Scene.from_yaml(file, trust_laws=trust_laws)
+    written = [out / name for name in ("scene.yaml", "table.csv", "advice.md", "advice.png")]
+    require_apart(f"output folder {out}", written, input_files(file, scene))
     with folder_of_run(out) as folder:
         told = _tell if sys.stderr.isatty() else None
         found = advise(scene, error, rate, budget=budget, models=asked, told=told)

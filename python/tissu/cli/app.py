@@ -193,8 +193,8 @@ def info(
 def compare_command(
     scene: SceneFile,
     models: Annotated[
-        str, typer.Option(help="Names with commas: mass_spring,mass_link,fem; default: all.")
-    ] = "",
+        str | None, typer.Option(help="Names with commas: mass_spring,mass_link,fem; default: all.")
+    ] = None,
     reference: Annotated[
         str,
         typer.Option(

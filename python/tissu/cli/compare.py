@@ -6,11 +6,12 @@ from pathlib import Path
 
 import typer
 
+from tissu.errors import ParameterError
 from tissu.output import prepare_folder
 
 
 def compare_scene(
-    file: Path, models: str, reference: str, out: Path, *, trust_laws: bool = False
+    file: Path, models: str | None, reference: str, out: Path, *, trust_laws: bool = False
 ) -> None:
     """Runs the comparison and writes compare.csv, compare.md and compare.png.
 
@@ -23,7 +24,7 @@ def compare_scene(
     from tissu.files import require_folder_place, whole_file
     from tissu.front import Scene
 
-    asked = [name.strip() for name in models.split(",") if name.strip()]
+    asked = [] if models is None else names_option(models)
     scene = Scene.from_yaml(file, trust_laws=trust_laws)
     against: Scene | str = reference
     if Path(reference).suffix in (".yaml", ".yml"):
@@ -38,3 +39,19 @@ def compare_scene(
         drawn = draw(found, target)
     typer.echo(str(found))
     typer.echo(f"written: {folder}/compare.csv, compare.md" + (", compare.png" if drawn else ""))
+
+
+def names_option(models: str) -> list[str]:
+    """The names of --models.
+
+    Raises:
+        ParameterError: one of them is empty.
+    """
+    names = [name.strip() for name in models.split(",")]
+    if not all(names):
+        found = f"an empty name in '{models}'" if models.strip() else "no name"
+        raise ParameterError(
+            f"option --models: found {found}; names with commas between them are accepted, such as "
+            "fem,mass_spring; leave the option out for all models"
+        )
+    return names

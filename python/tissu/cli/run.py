@@ -6,11 +6,12 @@ import contextlib
 import math
 import time
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeVar
 
 from tissu.cli.checkpoints import Checkpoints, checkpoints_option, positive_time
+from tissu.cli.inputs import input_files, require_apart
 from tissu.cli.interruption import Interruption, interruption
 from tissu.cli.outcome import BAD_INPUT, DIVERGED, FINISHED, UNCONVERGED, complain
 from tissu.cli.progress import RunProgress
@@ -18,6 +19,7 @@ from tissu.cli.timetable import Timetable
 from tissu.cli.touches import contact_line, cut_lines
 from tissu.counted import counted
 from tissu.errors import CheckpointError, Diverged, ParameterError, TissuError
+from tissu.files import file_name
 from tissu.output import (
     ContactTally,
     Series,
@@ -26,6 +28,7 @@ from tissu.output import (
     summarise,
     write_summary,
 )
+from tissu.output.series import FRAMES
 
 if TYPE_CHECKING:
     from tissu.checkpoint import Resumed
@@ -106,6 +109,7 @@ def run_scene(job: Job, *, debug: bool = False) -> int:
     with clock.stage("compile"):
         scene = load(job)
         checkpoints = checkpoints_option(job.checkpoint, job.checkpoint_every)
+        require_outputs_apart(job, scene)
     with folder_of_run(job.out) as folder:
         return run_into(folder, job, scene, checkpoints, clock, debug=debug)
 
@@ -125,6 +129,7 @@ def run_into(
         files = Files(series, checkpoints, Timetable(span(scene)[1]), clock)
         ending = advance(simulation, files, tally, interrupted, trocars, quiet=job.quiet)
         ending = judged(simulation, ending, tally, accepted=job.accept_unconverged)
+        ending = with_note(ending, nothing_left(simulation, ending, tally))
         picture = None
         if not files.lost:
             picture = drawn(simulation, series, clock) if job.picture else None
@@ -142,6 +147,20 @@ def run_into(
     if ending.message:
         complain(ending.message)
     return ending.code
+
+
+def require_outputs_apart(job: Job, scene: Scene) -> None:
+    """Refuse results in the place of what the scene is read from.
+
+    Raises:
+        ParameterError: the option, and the file.
+    """
+    inputs = input_files(job.scene, scene)
+    if job.checkpoint is not None:
+        require_apart("option --checkpoint", [job.checkpoint], inputs)
+    name = file_name(scene.name)
+    written = [job.out / last for last in (FRAMES, f"{name}.pvd", f"{name}.png", "summary.json")]
+    require_apart(f"output folder {job.out}", written, inputs)
 
 
 @contextlib.contextmanager
@@ -299,6 +318,23 @@ def judged(simulation: Simulation, ending: Ending, tally: StepTally, *, accepted
     return Ending("unconverged", UNCONVERGED, text)
 
 
+def nothing_left(simulation: Simulation, ending: Ending, tally: StepTally) -> str:
+    """A sentence on a run whose checkpoint stands at its end or beyond; empty: it took steps."""
+    before = simulation.resumed_from
+    if before is None or tally.steps or ending.status not in ("finished", "unconverged"):
+        return ""
+    end = span(simulation.scene)[0]
+    text = f"nothing was left to do: {before.file} has the state at t = {before.time:.4g} s"
+    return f"{text}, and the run ends at {end:.4g} s; give a longer --duration to go on"
+
+
+def with_note(ending: Ending, note: str) -> Ending:
+    """The ending with a sentence in front of its own."""
+    if not note:
+        return ending
+    return replace(ending, message="; ".join(filter(None, (note, ending.message))))
+
+
 def span(scene: Scene) -> tuple[float, float]:
     """Simulated time of the run, and between two written results [s]."""
     duration = scene.duration or 1.0
@@ -357,10 +393,14 @@ def report(
     picture: Path | None,
     contacts: ContactTally,
 ) -> None:
-    """Prints what the steps cost, what was cut and touched, and where the results are."""
-    print(simulation.profile())
-    spent = ", ".join(f"{name} {seconds:.2f} s" for name, seconds in clock.seconds.items())
-    print(f"\n{counted(tally.steps, 'step')} to t = {simulation.time:.4g} s; {spent}")
+    """Prints what the steps cost, what was cut and touched, and where the results are.
+
+    Of a run that took no step there is nothing to say of steps and contacts.
+    """
+    if tally.steps:
+        print(simulation.profile())
+        spent = ", ".join(f"{name} {seconds:.2f} s" for name, seconds in clock.seconds.items())
+        print(f"\n{counted(tally.steps, 'step')} to t = {simulation.time:.4g} s; {spent}")
     if tally.unconverged:
         share = f"{tally.unconverged} of {counted(tally.steps, 'step')}"
         print(f"{share} did not converge, the first: {tally.first_unconverged}")
@@ -372,7 +412,8 @@ def report(
         print(resumed_words(simulation.resumed_from))
     if series.inverted:
         print(series.inverted)
-    for text in (*cut_lines(simulation, tally.cuts), *contact_line(contacts.record())):
+    touched = contact_line(contacts.record()) if tally.steps else []
+    for text in (*cut_lines(simulation, tally.cuts), *touched):
         print(text)
     print(f"result:  {series.index} ({counted(series.count, 'time')})")
     print(f"summary: {series.index.with_name('summary.json')}")

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from tissu.cli.inputs import input_files, require_apart
 from tissu.cli.outcome import DIVERGED, FINISHED
 from tissu.errors import ParameterError, SceneError
 
@@ -175,6 +176,7 @@ def record_trocar(job: Recorded) -> None:
     from tissu.trocar.controller import Controller
 
     key, trocar = one_trocar(job.scene, job.name)
+    require_apart(f"recording {job.out}", [job.out], input_files(job.scene, trocar))
     mode: Mode = "threaded" if job.realtime else "stepped"
     controller = Controller(trocar, mode=mode, record=True, trust_plugins=job.trusted)
     with controller:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import typer
 
+from tissu.cli.inputs import input_files, require_apart
 from tissu.cli.interruption import interruption
 
 if TYPE_CHECKING:
@@ -45,6 +46,8 @@ def view_scene(job: Job) -> None:
     from tissu.live_view import View
 
     scene = Scene.from_yaml(job.scene, trust_laws=job.trust_laws)
+    if job.record is not None:
+        require_apart("option --record", [job.record], input_files(job.scene, scene))
     beside = None if not job.beside else scene_beside(scene, job.beside, trust_laws=job.trust_laws)
     view_of = View(
         scene.compile(),

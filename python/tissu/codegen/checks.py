@@ -124,5 +124,5 @@ def _check_small_strain(law: Law, point: Point, scale: float) -> None:
         real_mu, real_lam = found[1, 1], found[0, 4]
         raise LawError(
             f"{law.name}: SMALL_STRAIN gives lambda = {lam:.6g}, mu = {mu:.6g}, but the tangent at "
-            f"rest has {real_lam:.6g}, {real_mu:.6g}."
+            f"rest has {real_lam:.6g}, {real_mu:.6g}; state those."
         )

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import ast
 import difflib
+import reprlib
 import runpy
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
@@ -161,10 +162,23 @@ def _made(name: str, formula: str, found: Mapping[str, Any], *, limit: bool) -> 
         parameters=tuple(found["PARAMETERS"]),
         constants=dict(found["CONSTANTS"]),
         energy=sp.sympify(found["ENERGY"]),
-        small_strain=None if small_strain is None else tuple(map(sp.sympify, small_strain)),
+        small_strain=None if small_strain is None else _two(name, small_strain),
         requirements=tuple(found.get("REQUIREMENTS", ())),
         frame_invariant=bool(found.get("FRAME_INVARIANT", True)),
         addition=addition,
+    )
+
+
+def _two(name: str, small_strain: object) -> tuple[Expr, Expr]:
+    try:
+        lam, mu = (sp.sympify(constant) for constant in small_strain)  # type: ignore[attr-defined]
+        if isinstance(lam, sp.Expr) and isinstance(mu, sp.Expr):
+            return lam, mu
+    except (TypeError, ValueError, sp.SympifyError):
+        pass
+    raise LawError(
+        f"{name}: found SMALL_STRAIN = {reprlib.repr(small_strain)}; two expressions in the "
+        "constants are accepted, Lamé's lambda and mu at rest: (lambda, mu); or leave it out."
     )
 
 

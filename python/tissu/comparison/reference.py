@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from tissu.comparison.trace import Floats, Trace, trace
 from tissu.errors import MeshError, ParameterError
 from tissu.mesh import into_quadratic
-from tissu.scene.model import FEM
+from tissu.scene.model import FEM, Shell
 from tissu.scene.step import Newton
 
 if TYPE_CHECKING:
@@ -30,10 +30,15 @@ def with_model(scene: Scene, model: object) -> Scene:
 def finest(scene: Scene, meshes: dict[str, Mesh]) -> tuple[Trace, str]:
     """The scene with continuum elements of second order, where its cells have them.
 
-    Where a step that is linearised once does not bring it to the end, Newton's method is iterated.
+    Shells stay shells: elements of a continuum on their triangles are another body. Where a step
+    that is linearised once does not bring it to the end, Newton's method is iterated.
     """
     bodies, words = {}, set()
     for name, body in scene.bodies.items():
+        if isinstance(body.model, Shell):
+            bodies[name] = body
+            words.add("shell on the same mesh")
+            continue
         changes: dict[str, object] = {"model": FEM()}
         try:
             if meshes[name].thin_blocks:

@@ -9,13 +9,16 @@ from tissu.comparison.reference import errors, finest, with_model
 from tissu.comparison.table import Comparison, Row
 from tissu.comparison.trace import Trace, trace
 from tissu.counted import counted
-from tissu.errors import ParameterError, SceneError
+from tissu.errors import ParameterError, SceneError, TissuError
+from tissu.reading import written
 from tissu.scene.model import MODELS
 from tissu.scene.part import spelled, type_name
 from tissu.scene.problem import nearest, one_of_words
+from tissu.scene.scene import require_scene
 
 if TYPE_CHECKING:
     from tissu.front import Scene
+    from tissu.mesh import Mesh
 
 
 def model_names() -> list[str]:
@@ -28,32 +31,52 @@ def compare(
 ) -> Comparison:
     """Run the same scene with each of several models, and measure them.
 
-    If a model does not take the cells or the law of the scene, its row gives the reason. If a model
-    computes another law, it has the Young's modulus and Poisson's ratio of the scene (`tissu check`
-    notes this).
+    If a model does not take the scene (its cells, law, viscosity, loads), its row gives the reason.
+    If a model computes another law, it has the Young's modulus and Poisson's ratio of the scene
+    (`tissu check` notes this).
 
     Args:
         scene: with a duration, or static.
-        models: their names, or models with their own fields; empty: all.
+        models: their names, or models with their own fields, each once; empty: all.
         reference: what errors are measured against: "finest", which is fem with elements of second
             order on the same cells; the name of a model; or another scene with the same step and
             duration, whose bodies have nodes wherever this one's have.
 
     Raises:
-        ParameterError: an unknown model, or a reference that does not fit.
+        ParameterError: no scene, an unknown model or one twice, or a reference that does not fit.
         SceneError: the scene itself does not compile.
     """
-    asked = [spelled(m) if isinstance(m, str) else m for m in models] or model_names()
+    require_scene(scene, "compare")
+    asked = listed_models(models) or model_names()
     reference = spelled(reference) if isinstance(reference, str) else reference
     for model in [*asked, *([reference] if isinstance(reference, str) else [])]:
         check_model(model, also=("finest",) if model is reference else ())
-    traces: dict[str, Trace | SceneError] = {}
+    words = [_word(model) for model in asked]
+    for word in words:
+        if words.count(word) > 1:
+            raise ParameterError(f"found the model {word} twice; each is accepted once")
+    meshes = scene.compile().meshes  # from here on a refusal is that of a model
+    traces: dict[str, Trace | TissuError] = {}
     for model in asked:
         traces[_word(model)] = _tried(scene, model)
-    richest, words = _reference(scene, reference, traces)
+    richest, against = _reference(scene, dict(meshes), reference, traces)
     rows = [_row(word, found, richest) for word, found in traces.items()]
-    cells = sum(mesh.cell_count for mesh in scene.compile().meshes.values())
-    return Comparison(scene.name, cells, words, tuple(rows))
+    cells = sum(mesh.cell_count for mesh in meshes.values())
+    return Comparison(scene.name, cells, against, tuple(rows))
+
+
+def listed_models(models: object) -> list[object]:
+    """The models of a list, their names as they are spelled in scenes.
+
+    Raises:
+        ParameterError: not a list; a single text would be taken for a list of its letters.
+    """
+    if not isinstance(models, (list, tuple)):
+        example = f"['{models}']" if isinstance(models, str) else "['fem', 'mass_spring']"
+        raise ParameterError(
+            f"found the models {written(models)}; a list is accepted, such as {example}"
+        )
+    return [spelled(model) if isinstance(model, str) else model for model in models]
 
 
 def check_model(model: object, *, also: Sequence[str] = ()) -> None:
@@ -79,32 +102,49 @@ def _word(model: object) -> str:
     return str(getattr(model, "type", model)) + (f" ({', '.join(sorted(given))})" if given else "")
 
 
-def _tried(scene: Scene, model: object) -> Trace | SceneError:
+def _tried(scene: Scene, model: object) -> Trace | TissuError:
     try:
         return trace(with_model(scene, model))
-    except SceneError as error:
-        if all(".model" in problem for problem in error.problems):
-            return error
-        raise
+    except TissuError as error:
+        return error
 
 
 def _reference(
-    scene: Scene, reference: Scene | str, traces: dict[str, Trace | SceneError]
+    scene: Scene,
+    meshes: dict[str, Mesh],
+    reference: Scene | str,
+    traces: dict[str, Trace | TissuError],
 ) -> tuple[Trace, str]:
-    if reference == "finest":
-        found, words = finest(scene, dict(scene.compile().meshes))
-    elif isinstance(reference, str):
-        known = traces.get(reference)
-        found = known if isinstance(known, Trace) else trace(with_model(scene, reference))
-        words = f"{reference} on the same mesh"
-    else:
-        found, words = trace(reference), f"the scene {reference.name}"
+    try:
+        found, words = _reference_run(scene, meshes, reference, traces)
+    except SceneError as error:
+        name = reference if isinstance(reference, str) else f"the scene {reference.name}"
+        raise ParameterError(
+            f"the reference ({name}) is refused, so name another with --reference: {_why(error)}"
+        ) from None
     if found.stopped:
         raise ParameterError(
             f"the reference ({words}) stopped before its end, so name another with --reference: "
             f"{found.stopped}"
         )
     return found, words + _doubts(found)
+
+
+def _reference_run(
+    scene: Scene,
+    meshes: dict[str, Mesh],
+    reference: Scene | str,
+    traces: dict[str, Trace | TissuError],
+) -> tuple[Trace, str]:
+    if reference == "finest":
+        found, words = finest(scene, meshes)
+    elif isinstance(reference, str):
+        known = traces.get(reference)
+        found = known if isinstance(known, Trace) else trace(with_model(scene, reference))
+        words = f"{reference} on the same mesh"
+    else:
+        found, words = trace(reference), f"the scene {reference.name}"
+    return found, words
 
 
 def _doubts(reference: Trace) -> str:
@@ -117,9 +157,13 @@ def _doubts(reference: Trace) -> str:
     return f" (beware: {', '.join(doubts)})" if doubts else ""
 
 
-def _row(word: str, found: Trace | SceneError, reference: Trace) -> Row:
-    if isinstance(found, SceneError):
-        return Row(word, "refused", why="; ".join(found.problems))
+def _why(error: TissuError) -> str:
+    return "; ".join(error.problems) if isinstance(error, SceneError) else str(error)
+
+
+def _row(word: str, found: Trace | TissuError, reference: Trace) -> Row:
+    if isinstance(found, TissuError):
+        return Row(word, "refused", why=_why(found))
     known = found.times.size > 0
     mean, largest, size = errors(found, reference) if known else (None, None, 0.0)
     return Row(

@@ -8,6 +8,7 @@ waits for a reader that may never come.
 from __future__ import annotations
 
 import os
+import reprlib
 import stat
 from collections.abc import Callable
 from pathlib import Path
@@ -44,6 +45,25 @@ def shown_path(path: str | os.PathLike[str]) -> str:
     text = os.fsdecode(os.fspath(path)).encode("utf-8", "backslashreplace").decode()
     text = text.replace("\0", "\\0")
     return text if len(text) <= _LONGEST else f"{text[:_LONGEST]}..."
+
+
+def path_of(
+    value: object, accepted: str, *, error: Callable[[str], TissuError] = TissuError
+) -> Path:
+    """What was given as a path, as one.
+
+    Args:
+        value: a text or a path.
+        accepted: what it should be, for the message: "the path of a mesh file".
+        error: what makes the error of its sentence.
+
+    Raises:
+        TissuError: it is neither a text nor a path.
+    """
+    try:
+        return Path(value)  # type: ignore[arg-type]
+    except TypeError:
+        raise error(f"found {reprlib.repr(value)}; {accepted} is accepted") from None
 
 
 def reason_of(error: Exception) -> str:

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from tissu import _core
 from tissu.counted import are, counted
 from tissu.errors import MeshError, ParameterError
-from tissu.files.place import kind_of_place, reason_of, shown_path
+from tissu.files.place import kind_of_place, path_of, reason_of, shown_path
 from tissu.mesh.cell import CellBlock, Floats, Ints, dimension
 from tissu.mesh.format import reader, sniffed
 from tissu.mesh.mesh import Mesh, first_five
@@ -38,7 +38,7 @@ def read_mesh(path: str | os.PathLike[str], *, unit: str = "m", scale: float = 1
         ParameterError: the unit is not one of length, or the scale is not positive.
     """
     factor = _factor(unit, scale)
-    file = _existing(Path(path))
+    file = _existing(path_of(path, "the path of a mesh file", error=MeshError))
     try:
         raw = reader(file)(file)
     except MeshError as error:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import itertools
+import reprlib
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -33,8 +34,11 @@ def refined(mesh: Mesh) -> Mesh:
         mesh: a mesh of tetrahedra and hexahedra with straight edges.
 
     Raises:
-        MeshError: there are other volume cells.
+        MeshError: it is not a mesh, or there are other volume cells.
     """
+    if not hasattr(mesh, "volume_blocks"):
+        text = f"found {reprlib.repr(mesh)}; a Mesh is accepted, such as read_mesh('liver.vtu')"
+        raise MeshError(f"{text} gives")
     wrong = [block.type for block in mesh.volume_blocks if block.type not in _ACCEPTED]
     if wrong:
         raise MeshError(f"found cells of type {wrong[0]}; {', '.join(_ACCEPTED)} are accepted")

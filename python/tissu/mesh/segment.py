@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import reprlib
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -62,8 +63,10 @@ def segments_of(pairs: Sequence[tuple[str, str]]) -> list[Segment]:
     and wedges show quads, which tetrahedra meet with a layer of pyramids.
 
     Raises:
-        ParameterError: no segment, no such cell type, or types whose middle nodes do not match.
+        ParameterError: no pairs, no segment, no such cell type, or types whose middle nodes do not
+            match.
     """
+    _require_pairs(pairs)
     cells = [_named(cell) for cell, _ in pairs]
     _require_alike(cells)
     bases = [linear_type(cell) for cell in cells]
@@ -79,6 +82,16 @@ def segments_of(pairs: Sequence[tuple[str, str]]) -> list[Segment]:
         )
         for i in range(len(cells))
     ]
+
+
+def _require_pairs(pairs: object) -> None:
+    accepted = "a list of pairs (cell type, label) is accepted, such as [('hex8', 'a')]"
+    if not isinstance(pairs, (list, tuple)):
+        raise ParameterError(f"found the segments {reprlib.repr(pairs)}; {accepted}")
+    for pair in pairs:
+        two = isinstance(pair, (list, tuple)) and len(pair) == 2
+        if not two or not all(isinstance(word, str) for word in pair):
+            raise ParameterError(f"found the segment {reprlib.repr(pair)}; {accepted}")
 
 
 def _named(cell: str) -> str:

@@ -12,6 +12,7 @@ from pathlib import Path
 from tissu.errors import TissuError
 from tissu.files import require_folder_place
 from tissu.files.place import reason_of
+from tissu.output.held import held_folder
 
 
 def prepare_folder(path: str | PathLike[str]) -> Path:
@@ -35,15 +36,18 @@ def prepare_folder(path: str | PathLike[str]) -> Path:
 
 @contextlib.contextmanager
 def folder_of_run(path: str | PathLike[str]) -> Iterator[Path]:
-    """Makes the folder; a run that is refused before it writes anything leaves none behind.
+    """Makes the folder, and holds it; a run refused before it writes anything leaves none behind.
 
     Raises:
-        TissuError: something else lies there, or it cannot be made or written.
+        TissuError: something else lies there, it cannot be made or written, or another run writes
+            there.
     """
     places = (Path(path), *Path(path).parents)
     new = [place for place in places if not os.path.lexists(place)]
     try:
-        yield prepare_folder(path)
+        folder = prepare_folder(path)
+        with held_folder(folder):
+            yield folder
     except BaseException:
         for place in new:
             with contextlib.suppress(OSError):  # it holds something, or was not made

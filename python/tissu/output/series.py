@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import weakref
 from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -15,6 +16,7 @@ from tissu.counted import counted
 from tissu.files import distinct_names, file_name, require_folder_place, whole_file
 from tissu.files.whole import clear_unfinished
 from tissu.output.folder import inner_folder, prepare_folder
+from tissu.output.held import hold
 from tissu.output.obstacle_file import write_contact_surface, write_obstacle
 from tissu.output.vtu_fields import cell_data, node_data
 
@@ -35,7 +37,8 @@ class Series:
     contact_pressure [Pa] and contact_gap [m] too. Of connective tissue its integration points, of
     obstacles that bodies meet their surface; of bodies with a `surface_of` that mesh too. Of bodies
     that were cut, the surface and the inside of their material. After each call all files are
-    complete and the index lists all of them.
+    complete and the index lists all of them. No other process writes there as long as the series
+    is kept.
 
         series = ts.Series(simulation, "results")
         for report in simulation.run("0.5 s"):
@@ -59,10 +62,11 @@ class Series:
         until that time stay, later ones are taken away.
 
         Raises:
-            TissuError: the folder cannot be written.
+            TissuError: the folder cannot be written, or another process writes there.
         """
         self._simulation = simulation
         self._folder = prepare_folder(folder)
+        weakref.finalize(self, hold(self._folder))
         self._entries: list[str] = []
         require_folder_place(self._folder / FRAMES, "output folder", within=True)
         self._parts = [*simulation.meshes, *simulation.tissue, *simulation.obstacles]

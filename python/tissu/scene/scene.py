@@ -11,8 +11,9 @@ from pydantic import AfterValidator, BeforeValidator, Field, PrivateAttr, Valida
 from typing_extensions import Self
 
 from tissu import units
+from tissu.errors import ParameterError
 from tissu.field_names import FIELD_NAMES, WRITTEN_BESIDE
-from tissu.reading import Maybe, MaybeVector, Read
+from tissu.reading import Maybe, MaybeVector, Read, written
 from tissu.scene.body import Body, PathLike
 from tissu.scene.bounds import name_problem, step_problems
 from tissu.scene.contact import Contacts, ContactSettings
@@ -268,3 +269,14 @@ class SceneData(Part):
         """The user-defined laws of the bodies, each once, in their order."""
         laws = [type(law).made for body in self.bodies.values() for law in body.laws().values()]
         return list(dict.fromkeys(made for made in laws if made is not None))
+
+
+def require_scene(value: object, verb: str) -> None:
+    """Refuse what is not a scene, for instance the path of its file.
+
+    Raises:
+        ParameterError: it is not one.
+    """
+    if not isinstance(value, SceneData):
+        text = f"{verb}: found {written(value)}; a Scene is accepted, such as "
+        raise ParameterError(f"{text}Scene.from_yaml('scene.yaml')")

@@ -7,11 +7,11 @@ last bit, whether the recording was made stepped or in real time.
 
 from __future__ import annotations
 
+import os
 import zipfile
 import zlib
 from collections.abc import Mapping
 from dataclasses import dataclass, fields
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -19,6 +19,7 @@ import numpy as np
 from tissu import _haptic
 from tissu.errors import ParameterError
 from tissu.files import whole_file
+from tissu.files.place import path_of
 from tissu.trocar.kinematics import Array
 from tissu.trocar.model import Blade, LocalModel
 from tissu.trocar.recording_whole import (
@@ -80,7 +81,7 @@ class Recording:
         """How many."""
         return len(self.columns["number"])
 
-    def save(self, path: Path) -> None:
+    def save(self, path: str | os.PathLike[str]) -> None:
         """Write it.
 
         Raises:
@@ -92,11 +93,12 @@ class Recording:
             arrays |= {f"settings/{k}/{name}": np.array(value) for name, value in one.items()}
         for published in self.models:
             arrays |= _arrays_of(published)
-        with whole_file(path, error=ParameterError) as partial, partial.open("wb") as file:
+        place = path_of(path, "the path of a recording", error=ParameterError)
+        with whole_file(place, error=ParameterError) as partial, partial.open("wb") as file:
             np.savez_compressed(file, **arrays)
 
     @staticmethod
-    def read(path: Path) -> Recording:
+    def read(path: str | os.PathLike[str]) -> Recording:
         """Read one.
 
         Raises:

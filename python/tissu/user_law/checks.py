@@ -65,11 +65,12 @@ def checked(law: Law, *, given: bool) -> Law:
         LawError: what is wrong with the law.
     """
     check_units(law)
+    stated = law.small_strain
     law = replace(law, small_strain=_small_strain(law))
     first: LawError | None = None
     for tried in [law] if given else _with_numbers(law):
         try:
-            check_law(tried)
+            check_law(replace(tried, small_strain=stated or tried.small_strain))
             _check_stiffness(tried)
             return tried
         except LawError as error:

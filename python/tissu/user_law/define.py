@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from tissu.errors import LawError
+from tissu.files.place import path_of
 from tissu.scene.law import UserLaw
 from tissu.scene.laws import built_in_names
 from tissu.user_law.made import MadeLaw
@@ -22,7 +23,7 @@ from tissu.user_law.scene_class import scene_class
 
 if TYPE_CHECKING:
     from tissu.codegen.definition import Law
-    from tissu.codegen.vocabulary import Parameter, Requirement
+    from tissu.codegen.vocabulary import Expr, Parameter, Requirement
 
 
 def law(
@@ -102,13 +103,14 @@ def read_law(path: str | os.PathLike[str]) -> type[UserLaw]:
     Read the file before you run it: it can do anything that a program can.
 
     The name of the file is that of the law. PARAMETERS, CONSTANTS, ENERGY, a docstring and, if
-    present, REQUIREMENTS and FRAME_INVARIANT are read; SMALL_STRAIN may be left out.
+    present, REQUIREMENTS and FRAME_INVARIANT are read. SMALL_STRAIN may be left out; if it is
+    there, it must be the limit of the energy.
 
     Raises:
         LawError: the file cannot be read or run, or its law is refused; see `law`.
     """
     _need_sympy()
-    file = Path(path)
+    file = path_of(path, "the path of a Python file with the formula of a law", error=LawError)
     if not file.is_file():
         raise LawError(
             f"{file}: no such file; a Python file with the formula of a law is accepted."
@@ -134,9 +136,27 @@ def _law_of_file(file: Path) -> tuple[Law, str]:
         for name, expression in found.constants.items()
     }
     made = replace(
-        found, class_name="Material", text="", formula=str(energy), energy=energy, constants=stored
+        found,
+        class_name="Material",
+        text="",
+        formula=str(energy),
+        energy=energy,
+        constants=stored,
+        small_strain=_stated(found),
     )
     return made, found.text
+
+
+def _stated(law: Law) -> tuple[Expr, Expr] | None:
+    """What SMALL_STRAIN of a file states, in the generator's words."""
+    from tissu.codegen.definition import refuse_unknown
+    from tissu.user_law.formula import in_words
+
+    if law.small_strain is None:
+        return None
+    lam, mu = (in_words(e, law=law.name, place="SMALL_STRAIN") for e in law.small_strain)
+    refuse_unknown(law.name, "SMALL_STRAIN", lam.free_symbols | mu.free_symbols, law.constants)
+    return lam, mu
 
 
 def law_from_record(record: Mapping[str, Any]) -> type[UserLaw]:
@@ -216,7 +236,9 @@ def _need_sympy() -> None:
         ) from None
 
 
-def _check_name(name: str) -> None:
+def _check_name(name: object) -> None:
+    if not isinstance(name, str):
+        raise LawError(f"found {name!r} as the name of a law; a text is accepted, such as 'gent'.")
     plain = name.isidentifier() and name.isascii() and name == name.lower()
     if not plain or name.startswith("_") or keyword.iskeyword(name) or len(name) > 60:
         raise LawError(

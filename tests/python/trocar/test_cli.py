@@ -37,6 +37,14 @@ def test_a_recording_replays_with_the_same_bits(tmp_path):
     assert "found no file" in tissu("replay", tmp_path / "none.npz", code=2)
 
 
+def test_a_recording_does_not_replace_its_scene(tmp_path):
+    scene = tmp_path / "palpation.yaml"
+    scene.write_bytes(SCENE.read_bytes())
+    said = tissu("record", scene, scene, "--seconds", "0.01 s", code=2)
+    assert f"found {scene}, which the scene is read from and which would be replaced" in said
+    assert scene.read_bytes() == SCENE.read_bytes()
+
+
 def test_identify_prints_what_a_scene_takes():
     said = tissu("identify", SCENE)
     damping, friction = (line for line in said.splitlines() if line.startswith("  damping") or

@@ -91,8 +91,15 @@ def test_stepped_runs_have_the_same_bits_and_replay(tmp_path):
     back = Recording.read(path)
     assert back.ticks == one.ticks
     assert back.difference(back.replay()) == ""
+    one.save(str(path))
+    assert Recording.read(str(path)).ticks == one.ticks
     changed = {**back.columns, "torque": back.columns["torque"] * (1 + 2**-52)}
     assert "another torque" in back.difference(changed)
+
+
+def test_a_recording_is_saved_to_a_path_and_nothing_else():
+    with pytest.raises(ts.ParameterError, match="found 3; the path of a recording is accepted"):
+        Recording({}, [], []).save(3)
 
 
 def test_a_file_that_is_no_recording_is_refused(tmp_path):

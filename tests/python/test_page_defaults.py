@@ -74,7 +74,7 @@ def test_a_default_of_a_table(page: str, first: str, field: str) -> None:
 
 PROSE = {
     ("guide/statics.md", "25 iterations, 1e-6"): [ts.Static().newton.iterations == 25],
-    ("guide/solvers.md", "1e-5 of `auto`, else 1e-6"): [
+    ("guide/solvers.md", "1e-5 with `auto`, else 1e-6"): [
         ts.Auto().tolerance == 1e-5,
         ts.ConjugateGradient().tolerance == 1e-6,
     ],

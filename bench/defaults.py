@@ -20,11 +20,11 @@ from pathlib import Path
 import numpy as np
 
 import tissu as ts
-from tissu.cli.info import machine_line
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 from default_rows import ROWS, Row, Taken, choices, step_of, timed
 from default_scenes import SCENES, fixed
+from kernels import measured_at
 from section import put
 
 TAKEN, MOST_SECONDS = 120, 30.0
@@ -214,7 +214,7 @@ def section(asked: argparse.Namespace) -> str:
         raise SystemExit(f"no row begins with {asked.rows!r}; the rows are: {every}.")
     text = HEAD.format(what=COUNTED.format(taken=TAKEN) if asked.counts else TIMED)
     text += count_table(rows) if asked.counts else time_table(rows, asked.minutes, asked.meshes)
-    return f"{text}\n\nPrinted by `python bench/defaults.py --write`; {machine_line()}\n"
+    return f"{text}\n\nPrinted by `python bench/defaults.py --write`; {measured_at()}\n"
 
 
 if __name__ == "__main__":

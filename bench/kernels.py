@@ -10,6 +10,7 @@ repetition.
 from __future__ import annotations
 
 import argparse
+import datetime
 import json
 import re
 import subprocess
@@ -17,7 +18,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from tissu.cli.info import processor
+from tissu.cli.info import machine_line, processor
 
 ROOT = Path(__file__).resolve().parent.parent
 JOBS = ("force", "product", "assembly")
@@ -204,6 +205,11 @@ def commit() -> str:
         check=False,
     )
     return done.stdout.strip() or "unknown"
+
+
+def measured_at() -> str:
+    """The machine, the commit and the day, as pages end."""
+    return f"{machine_line()} Commit {commit()}, {datetime.date.today()}."
 
 
 def machine(report: dict[str, Any]) -> str:

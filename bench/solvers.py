@@ -15,10 +15,10 @@ from pathlib import Path
 import numpy as np
 
 import tissu as ts
-from tissu.cli.info import machine_line
 from tissu.picture.series_colours import series_colours
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
+from kernels import measured_at
 from section import PAGE, kept
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -215,7 +215,7 @@ def page(sizes: tuple[int, ...]) -> tuple[str, dict[str, list[list[Row]]]]:
         "\n\n## Static, Hooke's law\n\n",
         "The times are those of the first system, with all its preparations.\n\n" + table(still),
         "\n\n![Seconds against unknowns](../pictures/solvers.png)\n",
-        TAIL.format(matrix=matrix, machine=machine_line()),
+        TAIL.format(matrix=matrix, machine=measured_at()),
     ]
     return "".join(parts), {"10 ms, with inertia": inertia, "static": still}
 

@@ -8,19 +8,17 @@ Every row is a run of its own, from rest on. Run it on a machine that does nothi
 from __future__ import annotations
 
 import argparse
-import datetime
 import time
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from kernels import commit, table
+from kernels import measured_at, table
 from peer_work import DENSITY, GRAVITY, POISSON, SIZE, YOUNG
 from section import MEASURED
 
 import tissu as ts
-from tissu.cli.info import machine_line
 
 PAGE = MEASURED / "steps.md"
 DT = 0.01  # s
@@ -184,8 +182,7 @@ def page(found: list[Row], share: float) -> str:
         "goal of p50",
     ]
     head += ["two threads, p50", "speed-up", "p99 / p50 of two"]
-    said = f"{machine_line()} Commit {commit()}, {datetime.date.today()}."
-    return f"{HEAD}{table(head, lines)}\n\n{said}\n"
+    return f"{HEAD}{table(head, lines)}\n\n{measured_at()}\n"
 
 
 def main() -> None:

@@ -14,10 +14,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 import tissu as ts
-from tissu.cli.info import machine_line
 from tissu.counted import counted
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
+from kernels import measured_at
 from section import put
 
 Floats = NDArray[np.float64]
@@ -145,7 +145,7 @@ def section(*, full: bool) -> str:
         statics=statics(),
         default=default,
         reason=REASON,
-        machine=machine_line(),
+        machine=measured_at(),
     )
 
 

@@ -424,6 +424,18 @@ def test_a_way_back_of_a_blade_does_not_undo_the_way_in() -> None:
         assert len(report.pieces) == 2
 
 
+def test_values_of_too_few_nodes_are_refused() -> None:
+    simulation = scene().compile()
+    simulation.cut("bar", SLANTED)
+    for found in (simulation.material("bar"), simulation.surface("bar")):
+        values = simulation.positions["bar"]
+        assert found.carried(values) == pytest.approx(found.points, abs=1e-12)
+        with pytest.raises(ts.ParameterError, match=r"shape \(3, 3\); a row for each node"):
+            found.carried(values[:3])
+        with pytest.raises(ts.ParameterError, match="real numbers"):
+            found.carried("text")  # type: ignore[arg-type]
+
+
 def test_ablation_takes_cells_by_their_material() -> None:
     simulation = scene().compile()
     report = simulation.ablate("bar", ts.Sphere((0.4, 0.1, 0.1), 0.06))

@@ -9,6 +9,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from tissu.arrays import real_array
+from tissu.errors import ParameterError
 from tissu.mesh import CellBlock, Mesh
 
 Floats = NDArray[np.float64]
@@ -73,8 +75,19 @@ class Material:
 
 
 def carried(nodes: Ints, weights: Floats, values: Floats) -> Floats:
-    """sum_k w_k values_k of each point, whose nodes are (v, 4), -1: none."""
-    return np.asarray(np.einsum("vk,vk...->v...", weights, values[np.maximum(nodes, 0)]))
+    """sum_k w_k values_k of each point, whose nodes are (v, 4), -1: none.
+
+    Raises:
+        ParameterError: values that are no numbers, or of fewer nodes than the points name.
+    """
+    given = real_array(values, "values")
+    least = int(nodes.max(initial=-1)) + 1
+    if given.ndim == 0 or len(given) < least:
+        raise ParameterError(
+            f"found values of shape {given.shape}; a row for each node of the body is accepted, at "
+            f"least {least}"
+        )
+    return np.asarray(np.einsum("vk,vk...->v...", weights, given[np.maximum(nodes, 0)]))
 
 
 def surface_now(found: Mapping[str, Any], now: Floats) -> MaterialSurface:

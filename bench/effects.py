@@ -144,7 +144,7 @@ functions that serve the effect alone. They are identified by their names
 
 ## Empty lists
 
-A step still runs loops over the empty lists of absent effects. Their cost is the same on every mesh:
+A step still loops over the empty lists of absent effects. Their cost is the same on every mesh:
 
 {asked_table(bare)}
 

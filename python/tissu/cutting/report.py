@@ -22,11 +22,11 @@ class Piece:
     """A connected part of a body's material.
 
     Attributes:
-        cells: numbers (k,) of the cells that hold it, ascending; a cell may hold several pieces. Of
-            tissue, numbers of its points.
+        cells: numbers (k,) of the cells that hold it, ascending; a cell may hold several pieces.
+            For tissue, numbers of its points.
         volume: at rest [m3].
         mass: [kg].
-        held: whether a support holds or leads one of its nodes; of tissue, or one of the bodies
+        held: whether a support holds or moves one of its nodes, or for tissue one of the bodies
             that it hangs on.
     """
 

@@ -173,8 +173,8 @@ class Controller:
         Places and directions are in the port's axes (`into_port`).
 
         Raises:
-            ParameterError: a number is not finite, a direction not of unit length, W indefinite, or
-                something else than a model.
+            ParameterError: a number is not finite, a direction that is not of unit length, an
+                indefinite W, or an argument that is not a model.
         """
         _refuse_other(model, LocalModel, "model", "a LocalModel is accepted")
         tag = self._settings.tag if model.tag is None else model.tag

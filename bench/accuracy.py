@@ -43,12 +43,13 @@ tissu bench accuracy --list              # what cases there are
 is a PNG.
 
 - **Error**: the mean distance from the reference over its places (a deflection curve, points, a
-  whole field), as a share of the largest displacement. It is never a distance from a beam formula,
+  whole field), as a share of the largest displacement. The reference is never a beam formula,
   except in the column "as in the paper".
 - **Time**: the wall time from the scene to the result, with all preparations. Runs under 0.2 s are
   taken three times, and the fastest counts.
 - **Front**: the runs that no other run beats in both error and time.
-- **To reach** an error: the time at which a power law between two runs of a curve reaches it.
+- **To reach** an error: the time at which a power law, fitted between two runs of a curve, reaches
+  this error.
 - **As in the paper**: the error against the paper's own reference.
 
 ## A case of your own

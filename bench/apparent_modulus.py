@@ -27,51 +27,51 @@ LEANING = "cut into six"
 
 HEAD = """# The apparent modulus of springs
 
-Springs on edges have no Young's modulus of their own. This page measures the modulus of a cube
-made of them, in the experiment of Chendeb (2007, section 2.3.4) with the model `mass_spring`. A
-plane compresses four meshes of a cube of 50 mm, E = 0.02 MPa, by 12 mm. The modulus is stress
-over strain, (force / 25 cm^2) / (12 mm / 50 mm). Equilibrium is found by Newton's method in
-twelve steps, without gravity.
+Springs on edges have no Young's modulus of their own. This page measures the modulus of a cube of
+springs in the experiment of Chendeb (2007, section 2.3.4), with the model `mass_spring`. A plane
+compresses four meshes of a cube of 50 mm, E = 0.02 MPa, by 12 mm. The modulus is stress over
+strain, (force / 25 cm^2) / (12 mm / 50 mm). Equilibrium is found by Newton's method in twelve
+steps, without gravity.
 
-The paper's regular meshes are cubes cut into five tetrahedra: 125 points with 540 springs and
-320 tetrahedra, and 1000 points with 5130 springs, which are 3645 tetrahedra (the paper prints
-5645). Its irregular mesh came from commercial software (151 points, 688 springs, 407
-tetrahedra). Ours has cubes cut into twelve around their centres, with points moved at random.
-The paper does not say whether points slide on the planes. In the columns **sliding** they do,
-between three planes of symmetry, so the cube may get thicker. In the columns **glued** they do
-not.
+The paper's regular meshes are cubes cut into five tetrahedra. One has 125 points, 540 springs and
+320 tetrahedra, the other 1000 points, 5130 springs and 3645 tetrahedra (the paper prints 5645). Its
+irregular mesh came from commercial software (151 points, 688 springs, 407 tetrahedra). Ours has
+cubes cut into twelve around their centres, with points moved at random. The paper does not say
+whether points slide on the planes. In the column **sliding** they do, with three planes of
+symmetry, so the cube may get thicker. In the column **glued** they do not.
 
 """
 
 MIDDLE = """
 Chendeb reproduces the modulus within 12 %, and tissu with sliding within 27 %. The mesh makes the
-difference: the smallest mesh has no inner point, and when glued no free point at all.
+difference: the smallest mesh has no inner point, and no free point at all when it is glued.
 
-The last row is not in the paper. If all diagonals lean one way, only slanted springs resist a
-shear of the planes. Beyond 10 mm of compression this cube collapses sideways, with cells inside
-out, at a modulus of 2.3 kPa: springs do not resist inversion (`inverted cells: no` in the table
-of models). Newton's method did converge.
+The last row is not in the paper. If all diagonals lean one way, only slanted springs resist a shear
+of the planes. Beyond 10 mm of compression this cube collapses sideways, with cells inside out, at a
+modulus of 2.3 kPa, because springs do not resist inversion (*inverted cells* in the [table of
+models](models.md)). Newton's method did converge.
 
 ## What the springs are made of
 
-The same meshes are compressed by 0.1 % between sliding planes along each axis of the cube.
-Entries are the least and the largest Young's modulus, and the ratio of the strain across to that
-along.
+The same meshes are compressed by 0.1 % between sliding planes along each axis of the cube. Entries
+are the least and the largest value of the three axes. Poisson's ratio is the transverse strain over
+the axial strain.
 
 """
 
 REASON = """
-Poisson's ratio is not a parameter. If springs lie in all directions alike, the rule gives Lamé's
-constants lambda = mu = 2 E / 5: Young's modulus E and Poisson's ratio 1/4, as
-`tests/cpp/model/edges/mass_spring_test.cpp` derives by hand. The irregular mesh comes near to this.
-Meshes with preferred directions depart from it. Cubes cut into five have most springs along their
-axes, so they are stiffer along these, and thicken less. The paper says that its cubes did not get
-thicker at all; ours do. At 12 mm (24 %) springs that turn away from the load add the rest.
+Poisson's ratio is not a parameter. If springs lie in all directions alike, the rule for the
+stiffness gives Lamé's constants lambda = mu = 2 E / 5, which are Young's modulus E and Poisson's
+ratio 1/4 (`tests/cpp/model/edges/mass_spring_test.cpp` has the derivation). The irregular mesh
+comes close to these values. Meshes with preferred directions depart from them. Cubes cut into five
+have most springs along their axes, so they are stiffer along the axes, and thicken less. The paper
+says that its cubes did not get thicker at all; ours do. At 12 mm (24 %) the rest of the difference
+comes from springs that turn away from the load.
 
 ## Equal masses and masses of the volumes
 
-A cube of {points} points crowded towards x = 0 is glued to the ground and sinks under its
-weight. The springs are those of the rule. Only the masses change, with the same sum. A
+A cube of {points} points crowded towards x = 0 is glued to the ground and sinks under its weight.
+The springs follow the same rule in every row. Only the masses differ, and their sum is the same. A
 homogeneous cube would sink evenly:
 
 """
@@ -79,10 +79,10 @@ homogeneous cube would sink evenly:
 LAST = """
 ![Shapes under gravity, displacements enlarged](../pictures/apparent-modulus.png)
 
-With equal masses, the crowded side carries most of the weight and sinks deeper (figure 2.5).
-With the masses of the volumes (figure 2.6) the weight is right, but the springs still err: by
-the rule, flat cells are stiffer than long ones. The paper's figures show the first error and not
-the second. Continuum elements on the same mesh have neither.
+With equal masses, the crowded side carries most of the weight and sinks deeper (figure 2.5). With
+the masses of the volumes (figure 2.6) the weight is right, but the springs still err: the rule
+makes flat cells stiffer than long ones. The paper's figures show the first error but not the
+second. Continuum elements on the same mesh have neither.
 """
 
 

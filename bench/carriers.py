@@ -106,12 +106,12 @@ def section() -> str:
         "## What a cut keeps\n\n"
         f"The table compares the two methods of `editing`. {CUTS} random planes cut a jittered\n"
         f"bar of {cells:,} tetrahedra, each from the same state, in which every node moves on its\n"
-        "own. Changes are the largest of all cuts. Those of momentum are relative to the mass\n"
-        "times the largest speed, those of angular momentum to 40 cm times that, the others to\n"
-        "their values before. Kinetic energy is only lost. The least quality q is that of the\n"
-        "cells of forces, 1 for a regular tetrahedron. The stable step of symplectic Euler is\n"
-        "relative to that before: median and least. Cells `left` were met by the blade and not\n"
-        "cut.\n\n"
+        "own. Entries are the largest change over all cuts. The change of momentum is relative to\n"
+        "the mass times the largest speed, the change of angular momentum to 40 cm times that,\n"
+        "and the others to the value before the cut. Kinetic energy is only lost, never gained.\n"
+        "The least quality q is that of the cells that compute forces; a regular tetrahedron has\n"
+        "1. The stable step of symplectic Euler is relative to the one before the cut: median and\n"
+        "least. Cells `left` were met by the blade but not cut.\n\n"
         + table(head, [row(method) for method in ("virtual", "subdivide")])
         + f"\n\nPrinted by `python bench/carriers.py --write`; {machine_line()}\n"
     )

@@ -21,12 +21,12 @@ advance? With a few touched nodes, a condensed step is several times as fast as 
 With a whole surface, it is several times as slow.
 
 A body of Hooke's law under `step: {type: static, solver: {type: cholesky}}` has one constant
-matrix. Its factor is made in the first step and kept, and every later step costs one solve.
-`model: condensed` goes further (Bro-Nielsen and Cotin 1996): inner nodes are eliminated once. The
-unknowns are the touched nodes (held, led, loaded, shared with other cells), or the surface as
-well. The positions of the other nodes are computed on demand, by a solve with the factor of the
-inside. In [contact](../guide/contact.md) any node of the surface may be touched, so all of them
-are kept, whatever `keep` says.
+matrix. It is factored in the first step, and every later step costs one solve. `model: condensed`
+goes further (Bro-Nielsen and Cotin 1996): inner nodes are eliminated once. The unknowns are the
+touched nodes (fixed, prescribed, loaded, or shared with other cells), and on request the whole
+surface. The positions of the other nodes are computed on demand, by a solve with the factor of the
+inner nodes. In [contact](../guide/contact.md) any node of the surface may be touched, so all of
+them are kept, whatever `keep` says.
 
 One region may be condensed while others have models of their own (Cotin, Delingette, Ayache 2000):
 
@@ -41,9 +41,9 @@ the largest displacement.
 
 """
 TAIL = """
-The memory that it reads bounds the time of a step. The sparse solve reads its factor twice. The
-condensed solve reads a dense matrix of (3 n)^2 numbers, where n is the number of kept nodes. So a
-step with a few touched nodes costs next to nothing, and one with a whole surface of some thousand
+The time of a step is bounded by the memory that it reads. The sparse solve reads its factor twice.
+The condensed solve reads a dense matrix of (3 n)^2 numbers, where n is the number of kept nodes. So
+a step with a few touched nodes costs next to nothing, and one with a whole surface of some thousand
 nodes costs more than the sparse solve of the whole body. Keep the surface only if something may
 touch it anywhere. The preparation takes one solve for each kept degree of freedom.
 """

@@ -34,44 +34,45 @@ FLAT = {"plane strain": SURFACES, "plane stress": SURFACES, "uniaxial stress": L
 
 HEAD = """# Orders of convergence
 
-How fast does the error of each element fall as cells shrink? An order of 2 means that cells of
-half the size have a quarter of the error. Every element reaches the order of the theory on regular
-meshes; [the list below](#what-to-read-from-it) has the exceptions on distorted ones.
+How fast does the error of each element fall as the cells shrink? An order of 2 means that halving
+the cells divides the error by four. Every element reaches the theoretical order on regular meshes;
+[the list below](#what-to-read-from-it) gives the exceptions on distorted meshes.
 
 The error is known exactly, because the solution is chosen first: a displacement field u(X). SymPy
-derives the body force that makes it an equilibrium. Then a cube of one metre is solved with that
-force, and with u on its whole boundary. Surface elements fill a square of one metre under plane
-strain and plane stress. Line elements fill a line of one metre under uniaxial stress.
+derives the body force under which this field is an equilibrium. Then a cube of one metre is solved
+with that force, and with u prescribed on its whole boundary. Surface elements fill a square of one
+metre under plane strain and plane stress. Line elements fill a line of one metre under uniaxial
+stress.
 
 The field is smooth, without symmetry, with strains of up to 0.2. Lamé's constants are lambda = 1.2
 Pa and mu = 0.8 Pa. Errors are L2 norms of the displacement and of the strain (small strain for
 Hooke, Green-Lagrange strain for St-Venant-Kirchhoff). The tests integrate loads and errors with
-their own shape functions and quadratures (`tests/convergence`), so the library is not measured
-with itself. The library uses its quadrature `full`, the direct solver, and Newton's method to
+their own shape functions and quadratures (`tests/convergence`), so the measurement does not rely on
+the library's. The library uses its quadrature `full`, the direct solver, and Newton's method to
 1e-11.
 
-In theory, the displacement has order p + 1 and the strain order p, with p = 1 for elements without
-middle nodes and p = 2 for those with middle nodes.
+In theory, the displacement has order p + 1 and the strain has order p, with p = 1 for elements
+without middle nodes and p = 2 for elements with them.
 
 ![Errors against the number of cells](../pictures/convergence.png)
 
-The curves are for St-Venant-Kirchhoff, with surfaces under plane stress. Those of the lost order
-are for Hooke.
+The curves are for St-Venant-Kirchhoff, with surfaces under plane stress. The curves of [the lost
+order](#the-lost-order) are for Hooke.
 
 There are four kinds of mesh:
 
 - **regular**;
-- **smooth**: one smooth map moves all nodes; cells are curved and distorted, and become affine as
-  they shrink;
+- **smooth**: one smooth map moves all nodes; the cells are curved and distorted, and become affine
+  as they shrink;
 - **jittered**: corners are moved at random by a fifth of a cell (a tenth where cells are thinner),
   and edges stay straight;
-- **trapezoids**: every second layer of corners is tilted to and fro, so cells keep one distorted
-  shape at every size.
+- **trapezoids**: every second layer of corners is tilted to and fro, so that the cells have the
+  same distorted shape at every size.
 
 ## Volumes
 
-Each pair is the order of the displacement and of the strain between the two finest meshes (12 and
-8 cells along an edge for p = 1, 6 and 4 for p = 2). The last columns are the nodes and the
+Each pair gives the orders of the displacement and of the strain between the two finest meshes (12
+and 8 cells along an edge for p = 1, 6 and 4 for p = 2). The last columns are the nodes and the
 displacement error of the finest regular mesh.
 
 """
@@ -85,30 +86,30 @@ Lines have no trapezoids.
 
 LOST = """## The lost order
 
-Four elements lose an order on trapezoids. These are their orders from mesh to mesh:
+Four elements lose an order on trapezoids. The table gives their orders from mesh to mesh:
 
 """
 
 TAIL = """## What to read from it
 
-- Every element has its full order on regular meshes and on those of a smooth map, with both laws.
+- Every element has its full order on regular and smooth meshes, with both laws.
 - First-order elements keep their order on every mesh. So does the ten-node tetrahedron, which is
   affine when its edges are straight, and the 27-node hexahedron, whose shape functions contain the
   squares of its trilinear map. Both reproduce a quadratic field on trapezoids to round-off. (A
-  random mesh has another shape for each size, so its orders scatter.)
-- Surfaces and lines, where finer meshes are cheap, behave alike: quads of four and nine nodes,
-  triangles and lines have their full order on every mesh, under plane strain, plane stress and
-  uniaxial stress.
+  random mesh has a different shape at each size, so its orders scatter.)
+- Surfaces and lines, where finer meshes are cheap, behave in the same way: quads of four and nine
+  nodes, triangles and lines have their full order on every mesh, under plane strain, plane stress
+  and uniaxial stress.
 - The shape functions of the 20-node hexahedron, the 15-node wedge, the 13-node pyramid and the
-  8-node quad do not contain those squares. On cells that stay distorted as they shrink, these
-  elements fall to orders 2 and 1: Arnold, Boffi and Falk, *Approximation by quadrilateral finite
-  elements*, Math. Comp. 71 (2002). With a smooth field, the lost term is still a small part of the
+  8-node quad do not contain those squares. On cells that stay distorted as they shrink, the orders
+  of these elements fall to 2 and 1 (Arnold, Boffi and Falk, *Approximation by quadrilateral finite
+  elements*, Math. Comp. 71, 2002). With a smooth field, the lost term is still a small part of the
   error on the meshes above, and the orders lie in between. With a quadratic field, it is the whole
-  error. The cells of a mesh that is refined from a coarse one become affine, so such a mesh keeps
-  the full order.
-- On curved cells the full rule of the ten-node tetrahedron (four points, exact on affine cells)
-  fails the patch test by an error of third order. `over` passes it, as does every other element
-  with `full`.
+  error. When a coarse mesh is refined, its cells become affine, so the elements keep their full
+  order.
+- On curved cells the quadrature `full` of the ten-node tetrahedron (four points, exact on affine
+  cells) fails the patch test by an error of third order. `over` passes it, as does every other
+  element with `full`.
 
 Printed by `python bench/convergence.py --picture docs/pictures/convergence.png`. The tests in
 `tests/convergence` require the orders to be within 0.2 of the theory.

@@ -121,22 +121,22 @@ def page(
     counted = measured[0].without.scene
     return f"""{TITLE}
 
-An effect that a scene does not ask for costs nothing. The simulation contains no object for it,
-and no flag that is read for each node or cell. So a step executes none of its instructions. This
-page counts the instructions, and `tests/python/test_absent_effects.py` tests the result. The page
-is printed by `python bench/effects.py --write`, not written by hand.
+An effect that a scene does not ask for costs nothing. The simulation contains no object for it, and
+no flag that is read for each node or cell. So a step executes none of its instructions. This page
+gives the counted instructions, and `tests/python/test_absent_effects.py` tests the result. The page
+is printed by `python bench/effects.py --write`.
 
 The bare scene is a bar of StVK tetrahedra with an initial velocity, without gravity, loads or
-supports. Its step is implicit Euler, linearised once, with ten iterations of conjugate gradients
-whatever the residual, on one thread. Each scene with an effect is the bare scene (or the named
-one) with that effect added. It runs between two runs of the scene without the effect.
+supports. Its step is implicit Euler, linearised once, with exactly ten iterations of conjugate
+gradients, on one thread. Each scene with an effect is the bare scene (or the named one) with that
+effect added. It runs between two runs of the scene without the effect.
 
 ## Instructions
 
-Instructions of a step, and of the work between two steps, are counted by valgrind's callgrind with
-kernels for
-{counted["isa"]}, {counted["cells"]:,} tetrahedra. "Its own" counts the functions that run for the
-effect alone, identified by their names (`bench/effect_rows.py`).
+The instructions of a step, and of the work between two steps, are counted by valgrind's callgrind
+with kernels for {counted["isa"]}, {counted["cells"]:,} tetrahedra. The columns "its own" count only
+functions that serve the effect alone. They are identified by their names
+(`bench/effect_rows.py`).
 
 {counted_table(measured)}
 
@@ -144,8 +144,7 @@ effect alone, identified by their names (`bench/effect_rows.py`).
 
 ## Empty lists
 
-A step has to find out that it has nothing to do for an absent effect. It runs loops over empty
-lists. Their cost is the same on every mesh:
+A step still loops over the empty lists of absent effects. Their cost is the same on every mesh:
 
 {asked_table(bare)}
 
@@ -160,7 +159,7 @@ lists. Their cost is the same on every mesh:
 Medians of {rounds} rounds, in each of which the three scenes of a row take {TIMED_STEPS} steps one
 after the other; kernels for {timed["isa"]}, {timed["nodes"]:,} nodes, one thread unless said.
 {timed["compiler"]}, {processor()}, commit {commit()}, {datetime.date.today().isoformat()}. The
-machine is shared: by how much "again / without" differs from 1 is its noise.
+machine is shared. Its noise is the difference of "again / without" from 1.
 
 {timed_table(timings)}
 """

@@ -10,8 +10,9 @@ guide](../guide/tissue.md) describes frames and when to take them. Printed by
 STEEL_TEXT = """
 ## Figures 6 and 7: the steel cantilever, 16 x 0.5 x 0.5 m
 
-The paper compares with the beam formula, 147.19 mm. A mesh converges to another value, 150.17 mm
-(CalculiX, `B` of the reference). Quadrature is full. Times are those of one static step from rest.
+The paper compares with the beam formula, 147.19 mm. Meshes converge to another value, 150.17 mm
+(CalculiX, `B` of the reference). The quadrature is `full`. Times are those of one static step from
+rest.
 """
 
 SOFT_TEXT = """
@@ -27,14 +28,14 @@ STATIC_TEXT = """
 
 Which frames converge in a single static step? The same bar is solved from rest by `static` with
 `cholesky`, under a part of its weight and under its whole weight. Entries are the sag of the end
-and the Newton iterations to a residual of 1e-8 of the load. The reference is a mesh of 24 x 2 x 2
-quadratic hexahedra.
+and the number of Newton iterations to a residual of 1e-8 of the load. The reference is a mesh of 24
+x 2 x 2 quadratic hexahedra.
 """
 
 TENSION = """
 ## Table 1: the cylinder in tension
 
-The end face is held along x only, as in the closed form. The paper is within 0.7 %.
+The end face is held only along x, as in the closed form. The paper's results are within 0.7 %.
 """
 
 SPEED = """
@@ -43,12 +44,12 @@ SPEED = """
 The points lie on a grid inside a box, and each has four neighbours. The method is implicit Euler,
 linearised once. The tangent is assembled into blocks once a step (SIMD over points), and the 60
 products are those of a sparse matrix. Our grids have a few more points than the paper's. "At the
-paper's points" is our time, reduced in proportion.
+paper's points" is our time, scaled to the paper's number of points.
 """
 
 NEAR = """
 ## Table 2: the same against frames, points and neighbours, one thread
 
-Points are Poisson samplings with Shepard's weights. The article prints 45.42 and 55.15 ms for 6
-and 8 neighbours, but not clearly which is which.
+Points are Poisson samplings with Shepard's weights. The article prints 45.42 and 55.15 ms for 6 and
+8 neighbours, but does not say clearly which is which.
 """

@@ -33,18 +33,19 @@ is a scene in `tests/hard/cases`, which `tissu run` can run. Each column is an i
 of the scene's own. There are three outcomes:
 
 - **steady**: in the last tenth of the run no node moves by more than a thousandth of the body;
-- **bounded**: the body still moves. The number is the largest distance of a node from rest;
-- **refused**: an error of one sentence, and the simulation stands at its last good step. The notes
-  below the table give each sentence.
+- **bounded**: the body still moves;
+- **refused**: there is an error of one sentence, and the simulation stands at its last good step.
+  The notes below the table give each sentence.
 
 The guide describes how [static steps](../guide/statics.md) and
 [energies](../guide/integrators.md#energy-that-grows) are judged.
 
-Numbers are the largest distance of a node from rest at any time, in sizes of the body. An asterisk
-means that some steps did not meet their tolerances; their reports say so. `!` means that cells are
-inside out at the end; `tissu run` prints this. Explicit methods take nine tenths of their stable
-step (`dt: auto`). They are not run if that makes more than 20,000 steps. The fixed point takes the
-scene's step, or the longest one that contracts. Implicit methods take the scene's step.
+Numbers are the largest distance of a node from its rest position at any time, in sizes of the body.
+An asterisk means that some steps did not meet their tolerances; their reports say so. `!` means
+that cells are inside out at the end; `tissu run` prints this. Explicit methods take nine tenths of
+their stable step (`dt: auto`). They are not run if this would take more than 20,000 steps. The
+fixed-point iteration takes the scene's step, or the longest step for which it contracts. Implicit
+methods take the scene's step.
 
 """
 
@@ -52,10 +53,10 @@ scene's step, or the longest one that contracts. Implicit methods take the scene
 BEGIN, END = "<!-- contact -->", "<!-- end of contact -->"
 CONTACT_HEAD = """## Contact
 
-These scenes are in `tests/hard/contact`, with the methods that contact has. The exact audit runs
-after every step. An entry that does not mention crossings had none.
-`tests/hard/test_contact_*.py` states the outcome of each case: forces by closed form, momenta to
-round-off, the same bits on 1, 2 and 4 threads. [The limits of
+These scenes are in `tests/hard/contact`, and run with methods that have contact. The exact audit
+runs after every step. An entry that does not mention crossings had none.
+`tests/hard/test_contact_*.py` tests the outcome of each case: forces against closed forms, momenta
+to round-off, the same bits on 1, 2 and 4 threads. [The limits of
 contact](../guide/contact.md#limits) are in the guide.
 
 """

@@ -16,20 +16,19 @@ RATIOS = (0.3, 0.4, 0.45, 0.47, 0.48, 0.49, 0.499, 0.4999)
 
 HEAD = """# Mean dilatation
 
-If a material hardly changes its volume, cells of first order lock: a bending cell would have to
+If a material hardly changes its volume, first-order cells lock: a cell that bends would have to
 change the volume at its integration points, so it hardly bends. `tissu check` prints a note for
 Poisson's ratios of 0.45 and above. This page measures the locking, and its cure. The model
 `mean_dilatation` gives each *patch* of cells one volume ratio:
 
     E = sum_g w_g W((theta / J_g)^(1/3) F_g),   theta = sum_g w_g J_g / sum_g w_g  of the patch
 
-A patch is one hexahedron (Nagtegaal, Parks and Rice 1974; Simo, Taylor and Pister 1985), or
-about eight tetrahedra, or six wedges or pyramids around a node (after de Souza Neto, Andrade
-Pires and Owen 2005). Force and tangent are derivatives of this energy, so momentum and energy
-are kept, and the matrix is symmetric. If F is the same everywhere, the model equals `fem` to
-round-off. It takes any law and fibres. Patches do not reach from one region or material to
-another. The price is a matrix that couples all nodes of a patch, and about three passes over the
-cells instead of one.
+A patch is one hexahedron (Nagtegaal, Parks and Rice 1974; Simo, Taylor and Pister 1985), or about
+eight tetrahedra, or six wedges or pyramids around a node (after de Souza Neto, Andrade Pires and
+Owen 2005). Force and tangent are derivatives of this energy, so momentum and energy are conserved,
+and the matrix is symmetric. If F is the same everywhere, the model equals `fem` to round-off. It
+takes any law, and fibres. Patches do not extend from one region or material to another. The price
+is a matrix that couples all nodes of a patch, and about three passes over the cells instead of one.
 
 ```yaml
 model: mean_dilatation
@@ -42,29 +41,29 @@ kPa, 1000 kg/m3. The end sinks by a quarter of the length.
 TAIL = """
 ## Limits
 
-- **Coarse cells stay too stiff in bending** for another reason than volume (tetrahedra and wedges
-  most): that error goes with the square of the cells' size, at any Poisson's ratio.
-- **The pressure is that of a patch**, and as coarse as the patches. For a cube held all around
+- **Coarse cells stay too stiff in bending** for a reason other than volume (tetrahedra and wedges
+  most of all). This error falls with the square of the cell size, at any Poisson's ratio.
+- **The pressure is that of a patch**, so it is as coarse as the patches. For a cube held all around
   with 3 to 6 cells a side, the inf-sup constant is 0.05 to 0.08 for tetrahedra, 0.26 to 0.35 for
-  wedges and 0.25 to 0.39 for pyramids. Some pressures of tetrahedra (at most 7) affect no
-  displacement; wedges and pyramids have none of these. A regular grid of hexahedra has 3 n - 2
-  of them (7 to 16), the well-known chessboard
-  (`tests/cpp/model/dilatation/cell_pressure_test.cpp`). Displacements do not suffer; the stress
-  of a single cell may.
-- **Size of patches.** Sag over the converged sag of this bar with neo-Hooke and nu = 0.4999, for
-  grids of 8 x 2 x 2 and 16 x 4 x 4 and three ways of cutting into tetrahedra: nearly cell by
-  cell 0.35 to 0.65 and 0.41 to 0.84; patches of 6: 0.71 to 1.05 and 0.90 to 0.93; of 8: 0.70 to
-  0.97 and 0.90 to 0.93; of 12: 0.79 to 1.31 and 0.93 to 0.94; of 24: 1.2 to 1.4 and 0.93 to
-  1.01.
-- **Crushed cells.** Below a tenth of its volume, the weight of a point in the mean falls, to
-  zero when the point is inverted. So energy and force stay finite, and the law sees the sign of
-  its own J. A law that accepts inverted cells (stable neo-Hooke) brings them back. Neo-Hooke
-  refuses them with the same message as under `fem`.
-- **St-Venant-Kirchhoff.** Its lambda/2 tr(E)^2 is not a function of the volume. If bending
-  strains eps are finite, one theta cannot make tr(E) small at every point, and cells stiffen
-  again from lambda eps^2 > mu on. At nu = 0.49 locking is cured ([phantom](phantom.md)); at
-  0.4999 it is not in this bar. Take a law with a volume term, such as neo-Hooke.
-- **Removed cells** leave the others in their patches.
+  wedges and 0.25 to 0.39 for pyramids. Some pressure modes of tetrahedra (at most 7) affect no
+  displacement; wedges and pyramids have no such modes. A regular grid of hexahedra has 3 n - 2 of
+  them (7 to 16), the well-known chessboard modes
+  (`tests/cpp/model/dilatation/cell_pressure_test.cpp`). Displacements do not suffer from them; the
+  stress of a single cell may.
+- **Size of patches.** The sag depends on the size of the patches. The figures are the ratio of the
+  sag to the converged sag, for this bar with neo-Hooke and nu = 0.4999, on grids of 8 x 2 x 2 and
+  16 x 4 x 4 with three ways of cutting into tetrahedra. Nearly cell by cell, it is 0.35 to 0.65 and
+  0.41 to 0.84; with patches of 6 cells, 0.71 to 1.05 and 0.90 to 0.93; of 8, 0.70 to 0.97 and 0.90
+  to 0.93; of 12, 0.79 to 1.31 and 0.93 to 0.94; of 24, 1.2 to 1.4 and 0.93 to 1.01.
+- **Crushed cells.** When the volume at a point is below a tenth of its rest volume, the weight of
+  the point in the mean falls; it is zero when the point is inverted. So energy and force stay
+  finite, and the law sees the sign of its own J. A law that accepts inverted cells (stable
+  neo-Hooke) brings them back. Neo-Hooke refuses them with the same message as under `fem`.
+- **St-Venant-Kirchhoff.** Its lambda/2 tr(E)^2 is not a function of the volume. If bending strains
+  eps are finite, one theta cannot make tr(E) small at every point, and the cells stiffen again when
+  lambda eps^2 > mu. At nu = 0.49 locking is cured ([phantom](phantom.md)); at 0.4999 it is not in
+  this bar. Take a law with a volume term, such as neo-Hooke.
+- **Removed cells.** When a cell is removed, the others stay in their patches.
 - **Quadratic cells** need no cure: take `hexahedron20` with `quadrature: reduced` in a static
   scene in which bending has to be right.
 """
@@ -112,18 +111,17 @@ def page() -> str:
     lines += ["reference:", ""]
     lines += ["| grid | sag [mm] |", "|---|---|", *rows]
     lines += [f"| limit (Aitken) | {1e3 * limit:.1f} |", ""]
-    lines += ["The next table gives the sag of cells of first order over the reference, first with"]
-    lines += ["`fem`, then with `mean_dilatation`:", ""]
+    lines += ["The next table gives the ratio of the sag of first-order cells to the reference,"]
+    lines += ["first with `fem`, then with `mean_dilatation`:", ""]
     lines += ["| grid | " + " | ".join(CELLS) + " |", "|---" * (1 + len(CELLS)) + "|"]
     for grid in GRIDS:
         pairs = [[sag(c, grid, m, 0.4999) / limit for m in MODELS] for c in CELLS]
         cells = [f"{fem:.2f} -> {mean:.2f}" for fem, mean in pairs]
         lines.append(f"| {'x'.join(map(str, grid))} | " + " | ".join(cells) + " |")
     lines += ["", "## From which Poisson's ratio", ""]
-    lines += [
-        "The table gives the sag of `fem` over that of `mean_dilatation` on the same 12 x 3 x 3"
-    ]
-    lines += ["grid, for Poisson's ratios nu. A value of 1 means that `fem` does not lock:", ""]
+    lines += ["The table gives the ratio of the sag with `fem` to that with `mean_dilatation` on"]
+    lines += ["the same 12 x 3 x 3 grid, for several Poisson's ratios nu. A value of 1 means that"]
+    lines += ["`fem` does not lock:", ""]
     lines += ["| nu | " + " | ".join(CELLS) + " |", "|---" * (1 + len(CELLS)) + "|"]
     for nu in RATIOS:
         ratios = [

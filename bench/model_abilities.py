@@ -22,9 +22,8 @@ CAN = {"yes": "yes", "partly": "partly", "no": "no"}
 
 HEAD = """# Models
 
-What can each model represent? The table answers by what the classes of the models declare, and, in
-italics, by a measurement. [The guide](../guide/models.md) describes each model and when to take
-it.
+What can each model represent? The table gives what the classes of the models declare, and, in
+italics, a measurement. [The guide](../guide/models.md) describes each model and when to take it.
 
 The measurements were made by `python bench/model_abilities.py --write` on a cube of 162 tetrahedra
 with E = 20 kPa, nu = 0.3. [Frames](frames.md) and [shells](shells.md) have their own pages.

@@ -23,11 +23,11 @@ TURNED = ((12, 2, 2), (24, 4, 4))
 STEPS = 12  # of half a turn
 HEAD = """# The bar of 8 m with every model
 
-This page bends and twists one bar with every model. The scenes are those of Faure 2014: E = 100
-MPa, static, direct solver, one thread. `fem`, `mass_link` and `mass_tensor` have
+On this page, one bar is bent and twisted with every model. The scenes are those of Faure 2014: E =
+100 MPa, static, direct solver, one thread. `fem`, `mass_link` and `mass_tensor` have
 St-Venant–Kirchhoff's law and agree to Newton's tolerance. `corotational` has Hooke's law in axes
-that turn with each cell, and `condensed` in fixed axes. `mass_spring` has its own Poisson's ratio.
-Times include compiling the scene. Printed by `python bench/model_bars.py --write`.
+that turn with each cell, and `condensed` has it in fixed axes. `mass_spring` has its own Poisson's
+ratio. Times include the compilation of the scene. Printed by `python bench/model_bars.py --write`.
 
 """
 
@@ -133,8 +133,8 @@ def page() -> str:
     bent = [
         "## Bending under its own weight, nu = 0",
         "",
-        "Distance of the axis from the converged solution of St-Venant–Kirchhoff (CalculiX,",
-        "`tests/reference`), whose tip sinks 0.6076 m.",
+        "Errors are the distance of the axis from the converged solution of St-Venant–Kirchhoff",
+        "(CalculiX, `tests/reference`), whose tip sinks by 0.6076 m.",
         "",
         "| model | cells | tip [m] | mean error [mm] | largest [mm] | time [ms] |",
         "|---|---|---|---|---|---|",
@@ -148,7 +148,8 @@ def page() -> str:
         "",
         "## Half a turn of the end, nu = 0.3",
         "",
-        "Distance of the nodes from those of hexahedra of second order, and the moment.",
+        "Errors are the distance of the nodes from those of second-order hexahedra. The table also",
+        "gives the moment.",
         "",
         "| model | cells | moment [MN m] | mean error [mm] | largest [mm] |",
         "|---|---|---|---|---|",

@@ -116,7 +116,7 @@ def edit_table(rows: Rows) -> str:
                 f"{1e-6 * anew['cpu_time']:.2f}",
             ]
         )
-    head = ["one cell goes from", "constants summed up again", "edited, ms", "made anew, ms"]
+    head = ["one cell is removed from", "constants summed again", "edited, ms", "made anew, ms"]
     return table(head, lines)
 
 
@@ -154,53 +154,55 @@ def page(reports: list[Any]) -> str:
     return f"""# The cost of a tetrahedron in three forms
 
 The energy of a linear tetrahedron of St-Venant–Kirchhoff can be written in three forms: as a
-continuum element (`fem`, 7 constants), in the squared lengths of its edges (`mass_link`, 27), and
-as a polynomial in its displacements (`mass_tensor`, 280 and 6). This page compares their times and
-memory. All three give the same forces and tangents to 1e-12
+continuum element (`fem`, 7 constants), in the squared lengths of its edges (`mass_link`, 27
+constants), and as a polynomial in its displacements (`mass_tensor`, 280 and 6 constants). This page
+compares their times and memory. All three give the same forces and tangents to 1e-12
 (`tests/cpp/model/edges/tetra_models_test.cpp`). For the mass-tensor this holds up to displacements
 of about a cell, because its round-off grows with their cube. Printed by `bench/models.py`; run it
 for your machine.
 {machine(reports[0])}
 
-The fastest of {whole} passes, and {len(reports) - whole} more on two threads: processor time on one
-thread, time by the clock on two. Others used the machine at the same time, with a load of up to
-{load:.0f}: figures on two threads are upper bounds, and those in brackets, above one thread's, say
-only that the second core was not free.
+Times are the fastest of {whole} passes, and {len(reports) - whole} more on two threads: processor
+time on one thread, wall time on two. Other users loaded the machine at the same time (a load of up
+to {load:.0f}), so figures on two threads are upper bounds. Figures in brackets exceed those of one
+thread and show only that the second core was not free.
 
 {times}
 
-`280 each`: the same polynomial as it is usually written, every tetrahedron with all constants of
-its own, one after the other without vector instructions. Our mass-tensor keeps them on the nodes,
-edges and faces that tetrahedra share, as Picinbono does, and works on eight at a time.
+`280 each` is the same polynomial in its usual form: every tetrahedron has all constants of its own,
+and tetrahedra are computed one after the other without vector instructions. Our mass-tensor keeps
+the constants on the nodes, edges and faces that tetrahedra share, as Picinbono does, and computes
+eight tetrahedra at a time.
 
 {size_table(rows)}
 
-"Constants alone" are those of a single tetrahedron, as the papers count. Bytes include
-constants, node positions and everything else that a model keeps.
+"Constants alone" counts those of a single tetrahedron, as the papers do. Bytes include constants,
+node positions and everything else that a model keeps.
 
 ## Which is the fastest
 
 {conclusion(rows)}
 
-For forces and products the continuum element is the fastest on today's processors, because it
-reads the least and does not compute more. A force reads 7 numbers and takes about 160 operations,
-counted in the source. The mass-link reads 27 numbers for about as many operations, and the
-mass-tensor about 75 for about 600. While a core waits for one number from memory, it could do
-dozens of operations. So it is better not to store a value that is cheap to recompute.
+For forces and products the continuum element is the fastest on today's processors, because it reads
+the least and does not compute more. A force reads 7 numbers and takes about 160 operations, counted
+in the source. The mass-link reads 27 numbers for about as many operations, and the mass-tensor
+reads about 75 numbers for about 600 operations. While a core waits for one number from memory, it
+could do dozens of operations. So a value that is cheap to recompute is better not stored.
 
-The mass-link is close as long as its constants fit the caches easily (2 MB for 10,000
-tetrahedra), and falls behind beyond that. Its matrix needs fewer operations than the element's.
-It is ahead on small meshes; on large ones, where writing the matrix costs more than computing
-it, the two are even. Stored constants never pay for the mass-tensor. It is bearable only because
-neighbours share them, which brings 286 down to about 75.
+The mass-link is close as long as its constants fit easily into the caches (2 MB for 10,000
+tetrahedra), and falls behind beyond that. Its matrix needs fewer operations than that of the
+continuum element. So the mass-link is ahead on small meshes; on large ones, where writing the
+matrix costs more than computing it, the two are even. Stored constants never pay for the
+mass-tensor. Its cost is bearable only because neighbours share constants, which brings 286 down to
+about 75.
 
-## Cells that go
+## Removed cells
 
 {edit_table(rows)}
 
-Only constants on the nodes, edges and faces of the removed cell are summed up again. The others
-are copied, because the world before the edit stays as it is. Times are processor time of the
-model alone; a world also finds its pattern anew. A continuum element has no sums to update.
+Only constants on the nodes, edges and faces of the removed cell are summed again. The others are
+copied, because the world before the edit stays as it is. Times are processor times of the model
+alone; a world also computes its matrix pattern again. A continuum element has no sums to update.
 """
 
 

@@ -32,7 +32,7 @@ PAGE = ROOT / "docs" / "measured" / "trocar.md"
 US = 1e6
 HEAD = """# The active trocar
 
-Are the ticks of a trocar in time, and does the hand feel the force of the tissue? [The
+Are the ticks of a trocar on time, and does the hand feel the force of the tissue? [The
 guide](../guide/trocar.md) explains the terms. Ticks are those of the simulated device, at 1 kHz.
 
 """
@@ -221,10 +221,9 @@ def page(seconds: float) -> str:
     text += f"to {exact:.0e}. Those printed in the thesis (5.6, 5.10) are wrong by up to "
     text += f"{100 * printed:.0f} %.\n\n"
     text += "An organ of 1,063 nodes is palpated 4 cm deep by a hand that trembles "
-    text += (
-        "(`examples/palpate.py`). The forces are those of the tissue's steps and of the last tick "
-    )
-    text += "of each, from 0.7 to 1.38 s, while the hand stays deep.\n\n"
+    text += "(`examples/palpate.py`). The table compares the forces of the tissue's steps with "
+    text += "those of the last tick of each step, from 0.7 to 1.38 s, while the hand stays "
+    text += "deep.\n\n"
     head = (
         "step",
         "mean force [N]",
@@ -234,19 +233,15 @@ def page(seconds: float) -> str:
     )
     text += table(head, [felt(dt) for dt in ("10 ms", "20 ms", "40 ms")]) + "\n"
     text += "## The compliance of the tissue\n\n"
-    text += "The table gives the time of the compliance, in milliseconds, while the same organ is "
-    text += (
-        "pressed deeper in steps of 10 ms: with a factor that is kept and corrected, with a new "
-    )
-    text += "factor, and with conjugate gradients. It also gives the largest bound of the error, "
-    text += "and the time of a step.\n\n"
+    text += "The table gives the time to compute the compliance, in milliseconds, while the same "
+    text += "organ is pressed deeper in steps of 10 ms: with a factor that is kept and corrected, "
+    text += "with a new factor, and with conjugate gradients. It also gives the largest error "
+    text += "bound, and the time of a step.\n\n"
     head = ("contacts", "kept", "made anew, how often", "error", "a step", "cg")
     text += table(head, [give(contacts) for contacts in (1, 3, 8)]) + "\n"
     text += "## All together in real time\n\n"
-    text += (
-        "The same scene runs in real time: ticks in their thread, steps of the tissue with their "
-    )
-    text += "compliance, and a report after each step.\n\n"
+    text += "The same scene runs in real time: ticks in their own thread, steps of the tissue with "
+    text += "the compliance, and a report after each step.\n\n"
     head = ("step", "steps that were late", "missed ticks", "ticks late [us], p99")
     text += table(head, [together(dt) for dt in ("10 ms", "20 ms", "40 ms")]) + "\n"
     return text + THESIS + f"Printed by `python bench/trocar.py --write`; {machine_line()}\n"
@@ -254,8 +249,9 @@ def page(seconds: float) -> str:
 
 THESIS = """## What the thesis asked and reached
 
-Requirements of Chendeb 2007, 5.3.3, its table 5.4.5, and the simulated device here, which has the
-counts of that table. No device was at hand.
+The table lists the requirements of Chendeb 2007 (5.3.3), the results in its table 5.4.5, and those
+of the simulated device here, which has the encoder counts of that table. No real device was
+available.
 
 | | asked | table 5.4.5 | here |
 | --- | --- | --- | --- |

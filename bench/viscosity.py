@@ -34,12 +34,12 @@ compression? [The guide](../guide/viscosity.md) describes each viscosity and whe
 
 ## A cube under compression
 
-A cube of 50 mm is pressed by 15 mm at 150 mm/s: St-Venant-Kirchhoff with E = 0.02 MPa and nu =
-0.3, 1000 kg/m3, 625 tetrahedra, three planes of symmetry. The planes slide, so the closed form P
-= E/2 F (F^2 - 1) holds once the cube is at rest. Implicit Euler with 0.1 ms and Newton's method.
-The paper presses at 1 mm/s. Its impact at the start is therefore 150 times weaker, and so is the
-stress that a given viscosity adds: rho c v = 4.5 Pa there, {blow:.0f} Pa here, of {largest:.0f}
-Pa at the end.
+A cube of 50 mm is pressed by 15 mm at 150 mm/s: St-Venant-Kirchhoff with E = 0.02 MPa and nu = 0.3,
+1000 kg/m3, 625 tetrahedra, three planes of symmetry. The cube slides on the planes, so the closed
+form P = E/2 F (F^2 - 1) holds once the cube is at rest. The method is implicit Euler with 0.1 ms
+and Newton's method. The paper presses at 1 mm/s. Its impact at the start is therefore 150 times
+weaker, and so is the stress that a given viscosity adds: rho c v = 4.5 Pa there, {blow:.0f} Pa
+here, of {largest:.0f} Pa at the end.
 
 The tables compare the pressure from 5 % of compression on with the closed form. **Oscillation** is
 the root mean square of the difference about its straight trend, and **bias** is its mean. Both are
@@ -57,14 +57,14 @@ TAIL = """
 - Figure 3.8: `centroid` with c = {good_c:g} N s/m^4 takes the oscillation to
   {good_oscillation:.1f} % at a bias of {good_bias:.1f} %; `kelvin_voigt` does as much with eta =
   {good_eta:g} Pa s.
-- Figure 3.9: with c = {bad_c:g} N s/m^4 the bias is {bad_bias:.0f} %. It is the viscosity's
-  stress, in proportion to the speed and to the coefficient.
-- In between, the slowest mode has a damping ratio of about 0.1 to 0.5. Here this is eta = 10 to 30
-  Pa s.
-- c of `centroid` is not a property of a material: the damper that it makes grows with the square of
-  the cells' size. On cells of half the size c must be four times as large: {coarse:.1f} % and
-  {fine:.1f} % of oscillation with the same c on cells of 10 mm and 5 mm. eta of `kelvin_voigt` is
-  one.
+- Figure 3.9: with c = {bad_c:g} N s/m^4 the bias is {bad_bias:.0f} %. This bias is the
+  stress of the viscosity, which is proportional to the speed and to the coefficient.
+- Between these extremes, the slowest mode has a damping ratio of about 0.1 to 0.5. Here this is eta
+  = 10 to 30 Pa s.
+- The coefficient c of `centroid` is not a material property: the damping that it causes grows with
+  the square of the cell size. On cells of half the size c must be four times as large: {coarse:.1f}
+  % and {fine:.1f} % of oscillation with the same c on cells of 10 mm and 5 mm. The coefficient eta
+  of `kelvin_voigt` is a material property.
 - The paper's 1e-3 has no unit and cannot be compared.
 """
 
@@ -73,7 +73,7 @@ TURNING = """
 
 Which viscosities slow down the rotation of a whole body? The same cube is free and spins at one
 turn a second. Entries are the share of its angular momentum that remains after half a second. The
-row without viscosity shows the loss by the time steps:
+row without viscosity shows the loss caused by the time steps:
 
 | viscosity | left |
 |---|---|

@@ -28,9 +28,9 @@ is a mapping with the fields of the class. Where several classes are possible, `
 
 Volume cells of a mesh are always simulated. Triangles and quads are simulated if the body has a
 `thickness`, and lines if it has a `section`. Sheets and lines are stiff along themselves. They
-resist bending only with the models `frames` and `shell`. In space they are free to thin: no stress
-acts across a sheet or across a line. A body that mixes them has the regions `volumes`, `sheets` and
-`lines`:
+resist bending only with the models `frames` and `shell`. In space they may get thinner freely: no
+stress acts across a sheet or across a line. A body that mixes them has the regions `volumes`,
+`sheets` and `lines`:
 
 ```yaml
 law:
@@ -39,7 +39,8 @@ law:
 thickness: 0.1 mm
 ```
 
-A `section` is the area of a circle, or a shape. Rods (`model: frames`) bend and twist by its shape:
+A `section` is the area of a circle, or a shape. Rods (`model: frames`) bend and twist according to
+this shape:
 
 ```yaml
 section: {{type: rectangle, height: 2 mm, width: 1 mm, up: [0, 0, 1]}}
@@ -49,8 +50,8 @@ section: {{type: rectangle, height: 2 mm, width: 1 mm, up: [0, 0, 1]}}
 
 With `model: frames` or `shell` nodes have rotations as well, and sheets bend
 ([frames](../guide/tissue.md), [shells](../guide/shells.md)). A node that is held on all axes cannot
-rotate either, unless the support has `rotations: free`. On a plane of symmetry across x, hold the
-place on x and the rotation about y and z. `axes: free` holds or leads the rotation alone:
+rotate either, unless the support has `rotations: free`. On a plane of symmetry across x, fix the
+position on x and the rotation about y and z. `axes: free` fixes or prescribes only the rotation:
 
 ```yaml
 fixed:

@@ -10,7 +10,8 @@ PAGE = Path(__file__).parent / "reference" / "units.md"
 HEAD = """# Units
 
 A plain number is SI. A text is a number and a unit, and it is converted: `"4 kPa"`, `"10 ms"`,
-`"1.05 g/cm^3"`. A unit of the wrong dimension is an error that names the dimension which was found:
+`"1.05 g/cm^3"`. A unit of the wrong dimension is an error, which names the dimension that was
+found:
 
 ```python
 import tissu as ts
@@ -30,8 +31,8 @@ Units are multiplied with `*` or a space, divided with `/`, raised with `^`, and
 brackets: `"N s/m^4"`, `"kgf/cm^2"`. Nothing is evaluated: units come from the tables below. In
 Python a quantity of the package pint is accepted as well. Results are always SI.
 
-tissu has no unit system to choose. A mesh in millimetres is read with `unit="mm"`, and its points
-are metres from there on. Data in mm, tonne, s and MPa is written with its units: `"12 MPa"`,
+There is no unit system to choose. A mesh in millimetres is read with `unit="mm"`, and its points
+are in metres from then on. Data in mm, tonne, s and MPa is written with its units: `"12 MPa"`,
 `"1e-9 t/mm^3"`.
 
 ## Dimensions

@@ -73,7 +73,7 @@ class Advice:
         return sentence(self.rows, self.goal)
 
     def to_csv(self) -> str:
-        """A line of names, then a line for each setting; SI units but for ms and megabytes."""
+        """A line of names, then a line for each setting; SI units except for ms and megabytes."""
         text = io.StringIO()
         names = [field.name for field in fields(Row) if field.name not in _NOT_WRITTEN]
         writer = csv.DictWriter(text, names, lineterminator="\n")
@@ -83,7 +83,7 @@ class Advice:
         return text.getvalue()
 
     def to_markdown(self) -> str:
-        """The table with what it was measured against, and the answer."""
+        """The table with the reference of its errors, and the answer."""
         head = [*_WORDS, *_NUMBERS]
         lines = [
             f"{self.name}: errors against {self.reference}.",

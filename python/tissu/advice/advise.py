@@ -61,7 +61,7 @@ def advise(
         rate: updates a second of wall time; each brings the scene 1/rate seconds of simulated time
             further, so that it runs in real time. An update of a static scene is one solve.
         budget: wall time that all runs together may take [s].
-        models: names of models to try beside those that keep the scene's laws.
+        models: names of models to try in addition to those that keep the scene's laws.
         told: called with a line for each run as it ends.
 
     Raises:

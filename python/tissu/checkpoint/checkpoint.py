@@ -23,15 +23,15 @@ _COLUMNS = {"positions": 3, "velocities": 3, "velocities_before": 3, "rotations"
 
 @dataclass(frozen=True, slots=True)
 class Resumed:
-    """The checkpoint from which a simulation went on.
+    """The checkpoint from which a simulation continued.
 
     Attributes:
         file: the checkpoint.
         time: simulated time at which it was taken [s].
-        steps: that were taken until then.
+        steps: number of steps taken until then.
         unconverged: number of those that did not converge.
-        first_unconverged: what the first of them said; empty: all did.
-        note: why the bits need not be those of the run that goes on there; empty: they are.
+        first_unconverged: message of the first of them; empty: all converged.
+        note: why the bits may differ from those of the original run; empty: they do not.
     """
 
     file: str

@@ -62,7 +62,7 @@ class Comparison:
     rows: tuple[Row, ...]
 
     def to_csv(self) -> str:
-        """A line of names, then a line for each model; SI units but for ms and megabytes."""
+        """A line of names, then a line for each model; SI units except for ms and megabytes."""
         text = io.StringIO()
         writer = csv.DictWriter(text, [field.name for field in fields(Row)], lineterminator="\n")
         writer.writeheader()
@@ -70,7 +70,7 @@ class Comparison:
         return text.getvalue()
 
     def to_markdown(self) -> str:
-        """The table with what it was measured against."""
+        """The table with the reference of its errors."""
         head = ["model", *_COLUMNS]
         lines = [
             f"{self.scene}: {self.cells} cells; errors against {self.reference}.",

@@ -123,10 +123,10 @@ def surface_of(blade: object, places: Floats) -> CoreSweep:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Capsule:
-    """All points no farther than `radius` from the line between two ends: a ball that is swept.
+    """All points no farther than `radius` from the line between two ends: a swept ball.
 
     Attributes:
-        ends: both ends (2, 3) [m]; of one and the same place it is a ball.
+        ends: both ends (2, 3) [m]; if they are the same place, it is a ball.
         radius: [m], or text such as "2 mm".
     """
 

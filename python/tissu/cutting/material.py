@@ -52,8 +52,8 @@ class MaterialSurface:
 class Material:
     """The material of a body as a conforming mesh.
 
-    Cells that no blade met are unchanged. Instead of the others, the mesh has the tetrahedra of
-    their material, of a sheet the triangles, of lines the pieces.
+    Cells that no blade met are unchanged. Each other cell is replaced by the tetrahedra of its
+    material, in a sheet by triangles, in lines by pieces.
 
     Attributes:
         mesh: at rest.

@@ -22,8 +22,8 @@ class Piece:
     """A connected part of a body's material.
 
     Attributes:
-        cells: numbers (k,) of the cells that hold it, ascending; a cell may hold several pieces. Of
-            tissue, numbers of its points.
+        cells: numbers (k,) of the cells that hold it, ascending; a cell may hold several pieces.
+            For tissue, numbers of its points.
         volume: at rest [m3].
         mass: [kg].
         held: whether supports hold or lead its nodes on all axes; of tissue, whether a support

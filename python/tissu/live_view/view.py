@@ -198,7 +198,7 @@ class View:
         return self._runner.ask(wish)
 
     def play(self) -> None:
-        """Run on."""
+        """Continue to run."""
         self._runner.play().result()
 
     def pause(self) -> None:

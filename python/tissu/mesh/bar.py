@@ -37,7 +37,7 @@ def bar_mesh(
     split: Split = "six",
     origin: Sequence[float] = (0.0, 0.0, 0.0),
 ) -> Mesh:
-    """A box, a plate or a line cut into like cells; nodes are numbered x fastest, then y, then z.
+    """A box, plate or line of cells of one type; nodes are numbered x fastest, then y, then z.
 
     The tips of pyramids come after the corners of the grid, the middles of edges after both.
 

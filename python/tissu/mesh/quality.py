@@ -87,7 +87,7 @@ class QualityReport:
 
     @property
     def median_quality(self) -> float:
-        """Shape that half of the cells are better than; nan without cells."""
+        """Median shape of the cells; nan without cells."""
         return float(np.median(self.shapes)) if len(self.shapes) else float("nan")
 
     @property

@@ -29,7 +29,7 @@ def read_mesh(path: str | os.PathLike[str], *, unit: str = "m", scale: float = 1
 
     Args:
         path: the file.
-        unit: unit of length the file is written in: "m", "cm", "mm", "inch", ...
+        unit: unit of length of the file: "m", "cm", "mm", "inch", ...
         scale: factor on all lengths, on top of the unit.
 
     Raises:

@@ -32,13 +32,13 @@ class Series:
     """Writes the bodies of a simulation at the times `write` is called.
 
     The points are where the nodes are at that time; point fields: displacement [m] and velocity
-    [m/s]; cell fields: strain_energy_density [J/m^3], and von_mises [Pa] of models that know it,
-    or those that the scene's `output` names; of bodies with contacts the point fields
-    contact_pressure [Pa] and contact_gap [m] too. Of connective tissue its integration points, of
-    obstacles that bodies meet their surface; of bodies with a `surface_of` that mesh too. Of bodies
-    that were cut, the surface and the inside of their material. After each call all files are
-    complete and the index lists all of them. No other process writes there as long as the series
-    is kept.
+    [m/s]; cell fields: strain_energy_density [J/m^3], and von_mises [Pa] for models that compute
+    it, or those that the scene's `output` names. Bodies with contacts also have the point fields
+    contact_pressure [Pa] and contact_gap [m]. Connective tissue is written as its integration
+    points, obstacles that bodies meet as their surface. A body with a `surface_of` has that mesh in
+    addition. Bodies that were cut have the surface and the inside of their material. After each
+    call all files are complete and the index lists all of them.
+    No other process writes there as long as the series is kept.
 
         series = ts.Series(simulation, "results")
         for report in simulation.run("0.5 s"):
@@ -46,7 +46,7 @@ class Series:
 
     Args:
         simulation: what is written.
-        folder: where; it is made if it is not there.
+        folder: the folder of the files; it is made if it does not exist.
 
     Attributes:
         index: the PVD file.

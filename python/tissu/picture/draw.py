@@ -72,7 +72,7 @@ def draw(
 
     Raises:
         ParameterError: an unknown field, von_mises of a model without stress, a picture too small
-            for its words, or a direction that is not three finite numbers or is zero.
+            for its text, or a direction that is not three finite numbers or is zero.
         TissuError: the file cannot be written.
     """
     if field not in LABELS:

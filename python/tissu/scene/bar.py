@@ -53,7 +53,7 @@ BarCell = Literal[
 
 
 class BarMesh(Part):
-    """A box, a plate or a line cut into like cells, or a box into segments of a cell type each."""
+    """A box, plate or line of cells of one type, or a box in segments of one cell type each."""
 
     type: Literal["bar"] = "bar"
     size: units.Position

@@ -49,7 +49,7 @@ class MeshFile(Part):
     file: Annotated[Read[Path, PathLike], AfterValidator(_from_base)] = field(kw_only=False)
     """path of the mesh file"""
     unit: Annotated[str, AfterValidator(_length_unit)] = "m"
-    """unit of length the file is written in"""
+    """unit of length of the file"""
     scale: units.Pure = field(default=1.0, gt=0.0)
     """factor on all lengths, after the unit"""
     regions: NamedSelections = field(default_factory=dict)

@@ -75,7 +75,7 @@ class Instrument(Part):
     """What all instruments share."""
 
     path: ToolPath | None = None
-    """path on which it is led; absent: a program moves it, `simulation.instruments[name].move`"""
+    """path along which it moves; absent: a program calls `simulation.instruments[name].move`"""
     position: units.Position = field(default=(0.0, 0.0, 0.0))
     """place of its origin before it is moved [m]; without a path only"""
     rotation: units.RotationVector = field(default=(0.0, 0.0, 0.0))
@@ -128,7 +128,7 @@ class Knife(Instrument):
     cuts: _Names = field(min_length=1)
     """names of the bodies and tissues that it cuts"""
     toughness: Maybe[units.Toughness] = field(default=None, gt=0.0)
-    """energy that a new unit of area takes, J_c [J/m^2]: the edge presses until the force on it is
+    """energy J_c that a unit of new area takes [J/m^2]: the edge presses until the force on it is
     J_c for each metre in the material, in a sheet J_c times the thickness; absent: it cuts without
     force
     """
@@ -172,7 +172,7 @@ class Knife(Instrument):
 
 
 class Ablator(Instrument):
-    """A tip that removes the cells whose centre of material lies in it, or on its path."""
+    """A tip that removes the cells whose centre of material lies in the tip or on its path."""
 
     type: Literal["ablator"] = "ablator"
     radius: units.Length = field(gt=0.0, kw_only=False)

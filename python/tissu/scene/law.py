@@ -20,7 +20,7 @@ __all__ = ["Fibres", "UserLaw"]
 
 
 class Fibres(Part):
-    """Fibres added to a law: stiff when stretched, nothing when slack (Holzapfel, one family).
+    """Fibres added to a law: stiff when stretched, stress-free when slack (Holzapfel, one family).
 
     W = k1 / (2 k2) (exp(k2 <Ibar4 - 1>^2) - 1), Ibar4 the squared stretch along the fibre.
     """

@@ -125,7 +125,8 @@ class Condensed(Model):
 
     type: Literal["condensed"] = "condensed"
     keep: Literal["touched", "surface"] = "touched"
-    """nodes that stay unknown: those held, led, loaded or shared with others, or the surface too"""
+    """nodes that stay unknowns: those fixed, prescribed, loaded or shared, or the surface as
+    well"""
 
     def _options(self, kept: Ints) -> dict[str, Any]:
         return {"kept": kept}

@@ -108,13 +108,13 @@ class SceneData(Part):
     loads: Read[tuple[OneLoad, ...], Sequence[Load]] = field(default=())
     """forces, tractions and pressures"""
     obstacles: Annotated[Obstacles, BeforeValidator(_by_name)] = field(default_factory=dict)
-    """rigid things by name that bodies meet where a contact says so"""
+    """rigid objects by name, which bodies touch if a contact lists them"""
     contacts: Contacts = field(default=())
     """pairs of bodies and obstacles that may touch; absent: bodies pass through each other"""
     contact: ContactSettings | None = None
     """settings that all contacts share"""
     trocars: Annotated[Trocars, BeforeValidator(_by_name)] = field(default_factory=dict)
-    """driven ports by name, through which a hand feels the tissue; absent: none"""
+    """driven ports by name, through which a hand feels the tissue"""
     step: OneStep
     """how time is stepped, such as {type: implicit_euler, dt: 10 ms}"""
     duration: Maybe[units.Time] = field(default=None, gt=0.0)
@@ -122,13 +122,13 @@ class SceneData(Part):
     threads: Annotated[int, Field(ge=1, le=1024)] = 1
     """number of threads"""
     editing: EditingField = field(default=None)
-    """whether cells may be removed, and bodies cut, while it runs"""
+    """whether cells may be removed, and bodies cut, while the scene runs"""
     instruments: Annotated[AllInstruments, BeforeValidator(_by_name)] = field(default_factory=dict)
     """knives and ablators by name, which work at the end of each step; need `editing`"""
     tear: Read[tuple[Tear, ...], Sequence[Tear]] = field(default=())
-    """which bodies tear, and when; needs `editing`"""
+    """which bodies tear, and at what stress; needs `editing`"""
     grabbing: bool = False
-    """whether points may be grabbed while it runs"""
+    """whether points may be grabbed while the scene runs"""
     output: Output | None = None
     """results that are written while the scene runs"""
     laws: Read[tuple[LawFile, ...], Sequence[PathLike]] = field(default=())

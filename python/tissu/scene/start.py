@@ -27,12 +27,12 @@ class Start(Part):
     spin: MaybeVector[units.Spin] = field(default=None)
     """angular velocity about the centre of mass [rad/s]; absent: none"""
     shape: Shape = "rest"
-    """places of the nodes at the start: at rest; all in one point, the centre of mass; flattened
+    """positions of the nodes at the start: at rest; all in one point, the centre of mass; flattened
     into the horizontal plane through it; at random within the body's box; or inside out, mirrored
     in that plane
     """
     seed: Annotated[int, Field(ge=0)] = 0
-    """seed of the random places"""
+    """seed of the random positions"""
 
     def words(self) -> str:
         """How it begins, as `check` says it."""

@@ -59,7 +59,7 @@ _StableStep = Annotated[Read[float | Literal["auto"], Number], BeforeValidator(_
 
 
 class Newton(Part):
-    """Newton's method: how often the step is linearised again, and when it is solved."""
+    """Newton's method: how often the step is linearised again, and when it counts as solved."""
 
     iterations: _Count = 10
     """largest number of iterations in a step; of Static, for each part of the load tried"""
@@ -111,7 +111,7 @@ class Explicit(Step):
 
 
 class ExplicitEuler(Explicit):
-    """Forward Euler: first order; every vibration grows that is not damped enough."""
+    """Forward Euler: first order; every vibration that is not damped enough grows."""
 
     type: Literal["explicit_euler"] = "explicit_euler"
 
@@ -146,10 +146,10 @@ class Implicit(Step):
     dt: units.Time = field(gt=0.0, kw_only=False)
     """time step [s], such as '10 ms'"""
     newton: Newton | None = None
-    """Newton's method; absent: linearised once, iterated only where that made things worse"""
+    """Newton's method; absent: linearised once, iterated only where that increases the residual"""
     indefinite: Indefinite = "project"
-    """what to do where the matrix of a step is not positive definite: project each cell's share on
-    the positive semi-definite ones, regularise with a growing share of the mass, or refuse"""
+    """what to do where the matrix of a step is not positive definite: project each cell's share
+    onto a positive semi-definite one, regularise with a growing share of the mass, or refuse"""
     solver: OneSolver = field(default_factory=Auto)
     """linear solver"""
 
@@ -177,7 +177,7 @@ class ImplicitMidpoint(Implicit):
 
 
 class BDF2(Implicit):
-    """Backward differentiation of second order: damps fast vibrations, and slow ones little."""
+    """Backward differentiation of second order: damps fast vibrations, and slow ones hardly."""
 
     type: Literal["bdf2"] = "bdf2"
 
@@ -233,8 +233,8 @@ class Static(Step):
 
     type: Literal["static"] = "static"
     load_steps: _Count = 1
-    """least number of parts into which each step is divided; no part turns led nodes by more than
-    30 degrees
+    """least number of parts into which each step is divided; no part turns prescribed nodes by more
+    than 30 degrees
     """
     newton: Newton = field(default_factory=lambda: Newton(iterations=25))
     """Newton's method, for each part that is tried"""
@@ -242,8 +242,8 @@ class Static(Step):
     """largest number of Newton iterations in a step, at most half of them as steps of energy
     descent; absent: iterations (load_steps + 19), with contact four times that"""
     arc_length: bool = False
-    """follow the path by its arc length from the start, as through limit points of the load; false:
-    only where no part of the load is small enough"""
+    """follow the path by its arc length from the start, for instance through limit points of the
+    load; false: only where no part of the load is small enough"""
     solver: OneSolver = field(default_factory=Auto)
     """linear solver"""
 

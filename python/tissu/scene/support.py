@@ -88,7 +88,7 @@ class Support(Part):
     on: On
     """which nodes: a box, sphere, plane, nodes, surface or region"""
     name: str | None = None
-    """name by which a running simulation leads it live, see `Simulation.lead`"""
+    """name by which a running simulation moves it, see `Simulation.lead`"""
 
     if TYPE_CHECKING:
         axes: Axes

@@ -23,7 +23,7 @@ class Tear(Part):
     """largest principal Cauchy stress that it withstands [Pa]"""
     length: units.Length = field(gt=0.0)
     """the stress is a mean over the cells within this distance [m], and a tear opens 1.5 times as
-    far: above the edge of a cell, and the same for every mesh"""
+    far; take it longer than the edge of a cell, and the same for every mesh"""
     per_step: Annotated[int, Field(ge=1, le=1000)] = 8
     """largest number of places that tear at the end of one step; the most overstressed first"""
 

@@ -55,7 +55,7 @@ class Tissue(Part):
     sampling: Literal["poisson", "grid"] = "poisson"
     """how frames and points are placed: as far from each other as possible, or on a regular grid"""
     seed: Annotated[int, Field(ge=0)] = 0
-    """of the Poisson sampling"""
+    """seed of the Poisson sampling"""
     shape: ShapeName = "shepard"
     """shape function, which gives the points their weights of frames"""
     neighbours: Count | None = None

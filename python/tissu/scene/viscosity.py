@@ -84,7 +84,7 @@ class KelvinVoigt(Viscosity):
 
 
 class Centroid(Viscosity):
-    """Nodes of a cell are damped against its centroid (Chendeb 2007); so are rigid rotations."""
+    """Damping relative to the centroid of each cell (Chendeb 2007); it damps rotations too."""
 
     type: Literal["centroid"] = "centroid"
     coefficient: units.DampingPerVolume = field(gt=0.0)
@@ -112,7 +112,7 @@ _Branches = Read[tuple[PronyBranch, ...], Sequence[PronyBranch]]
 
 
 class Prony(Viscosity):
-    """Stress that relaxes to that of the law, from 1 + the sum of the weights times as much."""
+    """Stress that starts at 1 + the sum of the weights times that of the law, and relaxes to it."""
 
     type: Literal["prony"] = "prony"
     branches: Annotated[_Branches, Field(min_length=1, max_length=16)]

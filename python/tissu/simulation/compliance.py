@@ -124,7 +124,7 @@ class Compliance:
 
     @property
     def drift(self) -> Floats:
-        """How far the latest points go on in the next step (3m,) [m], along their directions.
+        """How far the latest points move on in the next step (3m,) [m], along their directions.
 
         Without forces on them the next step takes them from x to x - W lambda + drift, with lambda
         the forces on them in the latest step: d = dt H A^-1 (M (2 v - v_before) + dt D v). It is

@@ -23,8 +23,8 @@ class ContactAtNodes(NamedTuple):
     Attributes:
         pressure: normal force on the node over its area of the surface at rest (n,) [Pa]; 0 where
             nothing presses, and at nodes that have no area, such as those of lines.
-        gap: the least gap of the contacts that the node is a part of (n,) [m]; 1e30 of a node that
-            no contact has.
+        gap: the least gap of the contacts that the node is a part of (n,) [m]; 1e30 for a node
+            without contact.
     """
 
     pressure: Floats

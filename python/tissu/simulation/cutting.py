@@ -86,8 +86,8 @@ class Cutting(Remains, Severing):
         divided instead, and new nodes lie on the cut. Nodes and cells keep their numbers; new ones
         follow the last. `surface` and `material` give the cut itself.
 
-        Points of connective tissue lose the frames and nodes beyond the blade, for ever. Their
-        weights are made anew from those that are left; mass and momenta do not change.
+        Points of connective tissue permanently lose the frames and nodes beyond the blade. Their
+        weights are computed again from those that remain; mass and momenta do not change.
 
         Args:
             body: its name, or that of a tissue.
@@ -113,7 +113,7 @@ class Cutting(Remains, Severing):
     def ablate(self, body: str, place: Place) -> CutReport:
         """Remove the cells whose centre of material lies in a region of present space.
 
-        Cells that share only an edge or a node come apart, unlike after `remove_cells`. Of tissue,
+        Cells that share only an edge or a node come apart, unlike after `remove_cells`. For tissue,
         the points that lie in the region are removed.
 
         Args:

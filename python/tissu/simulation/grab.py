@@ -105,8 +105,8 @@ def keep(simulation: core.Simulation, grabs: dict[int, Record], memory: str = ME
 class Grab:
     """A spring of zero rest length from a point of a body to a target in space.
 
-    It pulls with f = stiffness (target - position). Made by `Simulation.grab`, and found again by
-    `Simulation.grabs`, in a simulation that goes on from a checkpoint too.
+    It pulls with f = stiffness (target - position). It is made by `Simulation.grab`, and found
+    again by `Simulation.grabs`, also in a simulation that continues from a checkpoint.
     """
 
     def __init__(

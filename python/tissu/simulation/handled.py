@@ -204,7 +204,7 @@ class Handled:
         *,
         over: Number | str | None = None,
     ) -> Lead:
-        """A support or motion of the scene that has a name, to be led live from the next step on.
+        """A named support or motion of the scene, to be moved live from the next step on.
 
         Live targets are part of the state: checkpoints include them.
 
@@ -225,7 +225,7 @@ class Handled:
         return lead
 
     def obstacle(self, name: str) -> ObstacleLead:
-        """An obstacle of the scene, to be led live from the next step on.
+        """An obstacle of the scene, to be moved live from the next step on.
 
         Live targets are part of the state: checkpoints include them.
 

@@ -149,7 +149,7 @@ class Inspected:
         return np.searchsorted(left, self._core.inverted_cells(body)).astype(np.int32)
 
     def reactions(self, body: str, *, moments: bool = False) -> Floats:
-        """Forces (n, 3) of supports and led nodes on a body [N]; zero at free nodes.
+        """Forces (n, 3) of supports and prescribed nodes on a body [N]; zero at free nodes.
 
         They are M dv/dt - f, with the change of velocity of the latest step. In equilibrium this is
         minus the sum of the elastic and external forces.
@@ -157,7 +157,8 @@ class Inspected:
         Args:
             body: its name.
             moments: return, instead of the forces, the moments (n, 3) on nodes whose rotation is
-                held or led, about axes of space [N m]. Forces on other nodes do not contribute.
+                fixed or prescribed, about axes of space [N m]. Forces on other nodes do not
+                contribute.
 
         Raises:
             ParameterError: no body of that name, or moments of one whose nodes have no rotation.
@@ -207,7 +208,7 @@ class Inspected:
         return sparse(self._core.stiffness(), 3 * self._world.blocks)
 
     def free_axes(self) -> NDArray[np.bool_]:
-        """Which axes of all rows are unknowns (r, 3): not held, not led and not eliminated.
+        """Which axes of all rows are unknowns (r, 3): not fixed, not prescribed and not eliminated.
 
         `simulation.stiffness()[free][:, free]` with `free = simulation.free_axes().ravel()` is the
         matrix for a solver.
@@ -238,7 +239,7 @@ class Inspected:
                 "condensed": with a table of the surface's nodes, made once, for stiffness that does
                 not change with the shape; "warped": with the table of the rest shape, rotated with
                 its nodes.
-            tolerance: largest relative error of a direction's own compliance, of factor and cg.
+            tolerance: largest relative error of a direction's own compliance, for factor and cg.
             bodies: those whose surfaces are in the table of condensed and warped; absent: all.
 
         Raises:

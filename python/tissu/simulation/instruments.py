@@ -89,7 +89,7 @@ class Tool:
         return pressing.force_on(self._simulation, self._name)
 
     def move(self, position: VectorLike, rotation: VectorLike | ArrayLike | None = None) -> None:
-        """Lead it to a place, which it reaches at the end of the next step.
+        """Move it to a place, which it reaches at the end of the next step.
 
         Several moves before a step form one path with several corners.
 
@@ -99,7 +99,7 @@ class Tool:
                 (3, 3); None: its present rotation.
 
         Raises:
-            ParameterError: its path leads it; a value is not finite or of another quantity; a
+            ParameterError: it follows a path; a value is not finite or of another quantity; a
                 matrix that is not a rotation.
         """
         pose = self._moved_to(position, rotation)

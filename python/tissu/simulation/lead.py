@@ -31,9 +31,9 @@ _DIRECTION = units.Triple(units.NUMBER)
 class Lead:
     """A support of the scene by its name, which may be given a live target from the next step on.
 
-    On the way from where it is to its target the nodes go with a constant velocity, and a rotation
-    goes along its arc at a constant rate. There they stay until they are led on or released. Made
-    by `Simulation.lead`.
+    On the way to the target the nodes move with a constant velocity, and a rotation follows its arc
+    at a constant rate. The nodes stay there until they are moved again or released. It is made by
+    `Simulation.lead`.
     """
 
     def __init__(self, *, simulation: core.Simulation, entry: Entry, support: Support) -> None:
@@ -76,9 +76,9 @@ class Lead:
 
     @property
     def target(self) -> Floats:
-        """Places to which its nodes are led (k, 3) [m]: the live target, else its own path now.
+        """Places to which its nodes move (k, 3) [m]: the live target, or else its own path now.
 
-        Only the axes of the support are led.
+        Only the axes of the support are prescribed.
         """
         return self._core.led_target(self._name)
 
@@ -106,14 +106,14 @@ class Lead:
         center: VectorLike = (0.0, 0.0, 0.0),
         over: Number | str | None = None,
     ) -> None:
-        """Lead it as one rigid piece: a rotation from rest, then a displacement from rest.
+        """Move it as one rigid piece: a rotation from rest, then a displacement from rest.
 
-        Rotations of nodes that are frames are led too, where the support gives them.
+        Rotations of nodes that are frames are prescribed too, if the support gives them.
 
         Args:
             displacement: from rest (3,) [m].
             angle: of the rotation from rest [rad], or text such as "30 deg". Whole turns count: it
-                goes round from the angle before to this one.
+                turns from the previous angle to this one.
             axis: direction of the rotation's axis, of any length but zero.
             center: a point of the axis at rest (3,) [m].
             over: time until it is there [s]; None: the next step.
@@ -129,7 +129,7 @@ class Lead:
         )
 
     def place(self, positions: ArrayLike, *, over: Number | str | None = None) -> None:
-        """Lead each node to a place of its own, along a line.
+        """Move each node to a place of its own, along a line.
 
         Rotations of nodes that are frames stay as they are.
 
@@ -146,7 +146,7 @@ class Lead:
         )
 
     def release(self, *, over: Number | str | None = None) -> None:
-        """Hand it back to its own path; once more does nothing.
+        """Return it to its own path; a second call does nothing.
 
         Args:
             over: time until it is there [s]; None: the next step.

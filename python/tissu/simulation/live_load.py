@@ -26,7 +26,7 @@ _HEAD = 2  # numbers before those that the load is made of: whether a factor is 
 @known_names_only
 @one_thread_at_a_time
 class LiveLoad:
-    """A load as it acts now; what is assigned to it holds from the next step on.
+    """A load as it acts now; an assigned value holds from the next step on.
 
     It has the attribute that its type has in a scene: `force` [N], `moment` [N m], `traction` or
     `pressure` [Pa]. Made by `Simulation.load`.
@@ -102,7 +102,7 @@ class LiveLoad:
         self._keep(numbers)
 
     def reset(self) -> None:
-        """Give it back the value that it has in the scene."""
+        """Restore the value that it has in the scene."""
         self._core.set_remembered(self._place, np.empty(0))
 
     def _numbers(self) -> Floats:

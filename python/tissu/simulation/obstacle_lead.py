@@ -25,8 +25,8 @@ Floats = NDArray[np.float64]
 class ObstacleLead:
     """An obstacle of the scene by its name, which may be given a live target from the next step on.
 
-    On the way it goes with a constant velocity and turns at a constant rate. It pushes what is in
-    its way. Made by `Simulation.obstacle`.
+    On the way it moves with a constant velocity and turns at a constant rate. It pushes bodies in
+    its way. It is made by `Simulation.obstacle`.
     """
 
     def __init__(self, *, simulation: core.Simulation, entry: Entry, name: str) -> None:
@@ -57,7 +57,7 @@ class ObstacleLead:
 
     @property
     def force(self) -> Floats:
-        """Force of the bodies on it in the latest step (3,) [N]: that which a hand would feel."""
+        """Force of the bodies on it in the latest step (3,) [N]: what a hand would feel."""
         return self._core.contact_force_on(self._name)[0]
 
     @property
@@ -79,7 +79,7 @@ class ObstacleLead:
         center: VectorLike = (0.0, 0.0, 0.0),
         over: Number | str | None = None,
     ) -> None:
-        """Lead it: a rotation from rest, then a displacement from rest.
+        """Move it: a rotation from rest, then a displacement from rest.
 
         Args:
             displacement: from rest (3,) [m].
@@ -99,7 +99,7 @@ class ObstacleLead:
         )
 
     def release(self, *, over: Number | str | None = None) -> None:
-        """Hand it back to its own path; once more does nothing.
+        """Return it to its own path; a second call does nothing.
 
         Args:
             over: time until it is there [s]; None: the next step.

@@ -41,12 +41,12 @@ class Parameter:
 
 @known_names_only
 class Parameters(MutableMapping[str, float]):
-    """Names of numbers -> their values [SI]; what is assigned holds from the next step on.
+    """Names of numbers -> their values [SI]; an assigned value holds from the next step on.
 
     Texts with a unit are accepted. A name is the path of a field in the scene:
     `bodies.BODY.law.young`, `bodies.BODY.viscosity.eta`, `gravity.z`; of a load its own name, or
-    its number: `loads.pull.force.x`, `loads.0.factor`. What the scene does not have, or a part does
-    not name as changeable, is not here.
+    its number: `loads.pull.force.x`, `loads.0.factor`. Numbers that the scene does not have, or
+    that may not change, are not listed.
     """
 
     def __init__(self, simulation: Simulation, entry: Entry) -> None:

@@ -42,8 +42,8 @@ class Solves:
         preparations: preconditioners or factors made.
         failures: systems that were not solved to the tolerance.
         residual: the largest |b - A x| / |b|.
-        work: what they took, in bytes that a product of the matrix reads; counted, never timed.
-        account: what `auto` chose, and by which counts; empty for another solver.
+        work: their work, in bytes that a product of the matrix reads; counted, never timed.
+        account: the choice of `auto`, and the counts behind it; empty for another solver.
     """
 
     solves: int

@@ -103,7 +103,7 @@ class Remains:
     def born(self, body: str) -> Ints:
         """The original node (n,) that each node of `meshes[body]` is, or is a copy of.
 
-        -1 of a node that a blade put on an edge, where cuts divide cells; see `made_of`.
+        -1 for a node that a blade put on an edge, where cuts divide cells; see `made_of`.
 
         Raises:
             ParameterError: no such body; the scene was compiled without `editing: true`.

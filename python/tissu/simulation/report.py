@@ -22,7 +22,7 @@ class StepReport:
         newton_iterations: linearisations.
         solver_iterations: of the linear solver, over all linearisations.
         residual: of the linear system, over its right side; of Newton's equation when it is
-            iterated, over the load that acts: external forces, reactions where nodes are led and,
+            iterated, over the load that acts: external forces, reactions at prescribed nodes and,
             in time, changes of momentum.
         indefinite: systems whose matrix was not positive definite, and was made so.
         converged: every tolerance was met.

@@ -72,10 +72,10 @@ class Rigid:
 
     @property
     def force(self) -> Floats:
-        """What others give to it by contact (3,) [N], of the latest step."""
+        """Contact force of others on it in the latest step (3,) [N]."""
         return self._core.contact_force_on(self._name)[0]
 
     @property
     def moment(self) -> Floats:
-        """What others give to it by contact about its centre of mass (3,) [N m]."""
+        """Contact moment of others on it about its centre of mass (3,) [N m]."""
         return self._core.contact_force_on(self._name)[1]

@@ -287,7 +287,7 @@ class Simulation(Inspected, Handled, Touched, Changed, Cutting, Instrumented):
             yield self.step(dt)
 
     def save_checkpoint(self, path: str | os.PathLike[str]) -> None:
-        """Write a file from which `scene.compile(checkpoint=path)` goes on with the same bits.
+        """Write a file from which `scene.compile(checkpoint=path)` continues with the same bits.
 
         The file is replaced atomically: a process that is killed meanwhile leaves either the old or
         the new file, complete. The linear solver drops its memory of earlier steps, such as a

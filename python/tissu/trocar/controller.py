@@ -49,8 +49,8 @@ class Controller:
     Attributes:
         trocar: the part of the scene.
         mode: how ticks are run.
-        tool: name of the tool that is in; None: none that the scene knows.
-        device: what is read and written.
+        tool: name of the tool in the device; None: no tool that the scene knows.
+        device: the device that is read and written.
     """
 
     def __init__(
@@ -143,7 +143,7 @@ class Controller:
         self._ticking.end()
 
     def acknowledge(self) -> None:
-        """Go on after the trocar was held: it begins again as if the tool had come in."""
+        """Continue after the trocar was held: it starts again as if the tool had just entered."""
         self._set(acknowledged=self._settings.acknowledged + 1)
 
     # ---- the ticks
@@ -168,20 +168,20 @@ class Controller:
         return self.report()
 
     def publish(self, model: LocalModel) -> int:
-        """Hand the newest model of the tissue to the ticks; its stamp.
+        """Pass the newest model of the tissue to the ticks, and return its stamp.
 
         Places and directions are in the port's axes (`into_port`).
 
         Raises:
-            ParameterError: a number is not finite, a direction not of unit length, W indefinite, or
-                something else than a model.
+            ParameterError: a number is not finite, a direction that is not of unit length, an
+                indefinite W, or an argument that is not a model.
         """
         _refuse_other(model, LocalModel, "model", "a LocalModel is accepted")
         tag = self._settings.tag if model.tag is None else model.tag
         return self._ticking.publish(model, tag)
 
     def supervise(self) -> None:
-        """Look which tool is in, and take it where the scene knows it.
+        """Check which tool is in the device, and accept it if the scene knows it.
 
         Called by `step`; in the mode threaded a program calls it, or `report`,
         at the rate of a display.
@@ -255,8 +255,8 @@ class Controller:
     def records(self) -> dict[str, Array]:
         """Ticks since this was called last, at most 4,096: an array for each field.
 
-        Their `counts`, `flags`, `tag`, `read` and `written` are what the device gave, `command` and
-        `enable` what it was told; `number` counts periods.
+        Their `counts`, `flags`, `tag`, `read` and `written` come from the device, `command` and
+        `enable` went to it; `number` counts periods.
         """
         return self._ticking.records()
 

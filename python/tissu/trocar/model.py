@@ -49,7 +49,7 @@ class LocalModel:
     """Contacts of a tool, at most eight. Places and directions are in the port's axes.
 
     Attributes:
-        joints: (4,) q of the tool that the model was made at: of the proxy, not of the device.
+        joints: (4,) q of the tool at which the model was made: of the proxy, not of the device.
         points: (m, 3) points of the tool, in its axes, the tip at 0 [m].
         anchors: (m, 3) places of the tissue's points without any of the forces [m].
         normals: (m, 3) unit vectors out of the tissue.
@@ -57,8 +57,8 @@ class LocalModel:
         friction: (m,) Coulomb's coefficients.
         forces: (m, 3) of the slow step, along normal and tangents: where ticks begin [N].
         compliance: W (3m, 3m) [m/N], rows normal, tangent, normal x tangent of each contact.
-        tag: of the tool; None: of the tool that is in.
-        blade: what a blade cuts, if anything.
+        tag: of the tool; None: of the tool in the device.
+        blade: the resistance of a blade, if there is one.
     """
 
     joints: Vector
@@ -93,8 +93,8 @@ class LocalModel:
             point: (3,) of the tool that meets it, in the tool's axes [m]; absent: the tip.
 
         Raises:
-            ParameterError: a normal without length, a stiffness that is not above 0, or what is not
-                a number.
+            ParameterError: a normal without length, a stiffness that is not above 0, or a value
+                that is not a number.
         """
         q = _finite(joints, AXES, "joints")
         n, on, own = (

@@ -83,7 +83,7 @@ class SimulatedDevice(TrocarDevice):
     changes: ToolChanges | None = None
     """times at which the tool changes; absent: the first tool of the trocar, all the time"""
     delay: units.Time = field(default=0.0, ge=0.0, le=0.1)
-    """from reading to the torque on the joint [s]"""
+    """time from reading to the torque on the joint [s]"""
     jitter: units.Time = field(default=0.0, ge=0.0, le=0.1)
     """random part of the delay, uniform from 0 to this [s]"""
     lost: units.Pure = field(default=0.0, ge=0.0, le=1.0)
@@ -117,8 +117,8 @@ class RealDevice(TrocarDevice):
     """What devices share that are not computed."""
 
     delay: units.Time = field(default=1e-3, ge=0.0, le=0.1)
-    """from reading to the torque on the joint [s], of the device's data sheet; 1 ms at least of one
-    that has its own clock at 1 kHz
+    """time from reading to the torque on the joint [s], from the data sheet; at least 1 ms for a
+    device with its own clock at 1 kHz
     """
     damping: MaybeDamping = field(default=None)
     """viscous damping of pitch, roll, rotation [N m s/rad] and depth [N s/m], as measured by `tissu
@@ -156,11 +156,11 @@ def _host(value: str) -> str:
 
 
 class UdpDevice(RealDevice):
-    """A device that speaks frames of 64 bytes over UDP (docs/guide/trocar.md)."""
+    """A device that exchanges frames of 64 bytes over UDP (docs/guide/trocar.md)."""
 
     type: Literal["udp"] = "udp"
     host: Annotated[str, AfterValidator(_host)] = field(kw_only=False)
-    """address of the device, in numbers"""
+    """numeric address of the device"""
     port: Annotated[int, Field(ge=1, le=65535)] = field(kw_only=False)
     """port of the device"""
 
@@ -174,11 +174,11 @@ class UdpDevice(RealDevice):
 
 
 class SerialDevice(RealDevice):
-    """A device that speaks frames of 64 bytes over a serial line (docs/guide/trocar.md)."""
+    """A device that exchanges frames of 64 bytes over a serial line (docs/guide/trocar.md)."""
 
     type: Literal["serial"] = "serial"
     path: Read[Path, PathLike] = field(kw_only=False)
-    """of the line, such as /dev/ttyACM0"""
+    """path of the line, such as /dev/ttyACM0"""
     baud: int = 921_600
     """speed of the line; 921600, 1000000, 2000000 or 4000000"""
 
@@ -206,11 +206,11 @@ class SerialDevice(RealDevice):
 
 
 class SharedMemoryDevice(RealDevice):
-    """A device that another program of this machine plays (docs/guide/trocar.md)."""
+    """A device that another program on this machine simulates (docs/guide/trocar.md)."""
 
     type: Literal["shared_memory"] = "shared_memory"
     name: str = field(kw_only=False)
-    """of the memory, such as /trocar"""
+    """name of the memory, such as /trocar"""
 
     @rule("name")
     def _is_a_name(self) -> Iterator[Problem]:

@@ -40,9 +40,9 @@ class Hand(Part):
     mass: units.Mass = field(default=0.3, gt=0.0)
     """mass that moves with the tip [kg]"""
     stiffness: OneStiffness = field(default=400.0, gt=0.0)
-    """of the spring to the path [N/m]"""
+    """stiffness of the spring to the path [N/m]"""
     damping: OneDamping = field(default=6.0, ge=0.0)
-    """of the damper to the path [N s/m]"""
+    """damping of the damper to the path [N s/m]"""
     tremor: units.Length = field(default=0.0, ge=0.0)
     """amplitude of a tremor of 8 to 12 Hz about the path [m]; 0.1 mm is usual"""
     lets_go: Maybe[units.Time] = field(default=None, ge=0.0)

@@ -21,15 +21,16 @@ class TrocarLimits(Part):
     """Limits of torques and speeds, and the places of the end stops."""
 
     force: OneForce = field(default=5.0, gt=0.0)
-    """along the tool [N]"""
+    """largest force along the tool [N]"""
     torque: OneMoment = field(default=6.0, gt=0.0)
-    """about pitch and roll [N m]"""
+    """largest torque about pitch and roll [N m]"""
     rotation: OneMoment = field(default=0.2, gt=0.0)
-    """about the own rotation of the tool [N m]"""
+    """largest torque about the tool's own axis [N m]"""
     speed: OneSpeed = field(default=2.0, gt=0.0)
-    """of the tip [m/s]: beyond it, the trocar gives no force until it is enabled again"""
+    """largest speed of the tip [m/s]: beyond it, the trocar gives no force until it is enabled
+    again"""
     tilt: units.Angle = field(default=math.radians(45.0), gt=0.0, le=_STEEPEST)
-    """of pitch and of roll [rad], up to 75 degrees; the place of the end stops"""
+    """largest pitch and roll [rad], up to 75 degrees; the place of the end stops"""
     least_depth: units.Length = field(default=0.02, gt=0.0)
     """smallest depth at which there is a force [m]"""
     depth: units.Length = field(default=0.3, gt=0.0)

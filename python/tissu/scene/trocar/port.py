@@ -28,7 +28,7 @@ class Port(Part):
     at: units.Position = field(kw_only=False)
     """the pivot [m]"""
     axis: units.Direction = field(kw_only=False)
-    """direction into the body, of any length but zero: of the tool at rest"""
+    """direction into the body, and of the tool at rest; of any length but zero"""
     right: MaybeVector[units.Direction] = field(default=None)
     """direction about which the tool pitches; its part along the axis is left out; absent: the x of
     the scene, or its y if the axis lies along x

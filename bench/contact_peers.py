@@ -6,13 +6,12 @@ The scenes are cube, stack, stick, slide and rest of `tissu bench contact`, on m
 that all programs share. MuJoCo, Rapier and Newton run in the Python that --python names, this one
 where it is left out; a program that is not there is named as such. All take turns of a few steps
 in one run, each in a process of its own, on one thread. Without a scene all run, which takes a
-quarter of an hour.
+quarter of an hour; a page names those that were run.
 """
 
 from __future__ import annotations
 
 import argparse
-import datetime
 import sys
 import tempfile
 from pathlib import Path
@@ -21,7 +20,6 @@ import numpy as np
 
 import tissu as ts
 from tissu import scene as parts
-from tissu.cli.info import machine_line
 from tissu.contact_cost import CASES
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
@@ -39,13 +37,13 @@ from contact_peer_rows import (
     program_of,
     row,
 )  # fmt: skip
-from kernels import commit, table
+from kernels import commit, measured_at, table
 from peer_contact_work import SETUPS
 from peer_turns import Subject, Taken, side_by_side
 from peer_work import Work
+from section import MEASURED, put_between
 
-PAGE = Path(__file__).resolve().parents[1] / "docs" / "measured" / "contact.md"
-BEGIN, END = "<!-- bench/contact_peers.py -->", "<!-- end of bench/contact_peers.py -->"
+PAGE = MEASURED / "contact.md"
 DT, TURN = 0.01, 5  # s, and steps at a time
 STEPS = {"stack": 200, "rest": 40}  # for which all of the scene takes the peers long
 RUN = [
@@ -89,7 +87,7 @@ modulus times the same time constant, none of the mass, and computes in single p
 flexes of MuJoCo and the particles of Newton are given a thickness because their defaults, 5 mm
 and 0.1 m, are wider than the gaps of 1 mm between the cubes at the start.
 
-Printed by `python bench/contact_peers.py --write`; {machine}"""
+Printed by `python bench/contact_peers.py{scenes} --write`; {machine}"""
 
 
 def work_of(scene: str) -> Work:
@@ -146,23 +144,17 @@ def section(scenes: list[str], pythons: dict[str, str]) -> str:
         settings="\n".join(f"- {name}: {text}." for name, text in said.items()),
         impact=IMPACT,
         window=WINDOW,
-        shorter=" ".join(f'"{s}" is run for {DT * n:g} s.' for s, n in STEPS.items()),
+        shorter=" ".join(
+            f'"{s}" is run for {DT * n:g} s.' for s, n in STEPS.items() if s in scenes
+        ),
         crossed=100.0 * CROSSED,
         rests=1e3 * RESTS,
         sticks=1e3 * STICKS,
         near=100.0 * NEAR,
         touching=100.0 * TOUCHING,
-        machine=f"{machine_line()} Commit {commit()}, {datetime.date.today()}.",
+        scenes="" if scenes == list(SETUPS) else " " + " ".join(scenes),
+        machine=measured_at(),
     )
-
-
-def put(page: str, text: str) -> str:
-    """The page with the text between its marks."""
-    before, found, rest = page.partition(BEGIN)
-    _, closed, after = rest.partition(END)
-    if not (found and closed):
-        raise SystemExit(f"{PAGE.name} has no place between {BEGIN} and {END}")
-    return f"{before}{BEGIN}\n\n{text}\n\n{END}{after}"
 
 
 def main() -> int:
@@ -176,8 +168,6 @@ def main() -> int:
     unknown = [scene for scene in asked.scenes if scene not in SETUPS]
     if unknown:
         parser.error(f"found scene '{unknown[0]}'; {', '.join(SETUPS)} are accepted")
-    if asked.write and asked.scenes:
-        parser.error("--write writes all scenes; name none")
     if asked.write and commit().endswith("-dirty"):
         print("contact_peers: the page names its commit; commit all changes first", file=sys.stderr)
         return 1
@@ -185,7 +175,7 @@ def main() -> int:
     pythons["contact_newton"] = asked.newton or asked.python
     text = section(asked.scenes or list(SETUPS), pythons)
     if asked.write:
-        PAGE.write_text(put(PAGE.read_text(encoding="utf-8"), text), encoding="utf-8")
+        put_between(PAGE, "bench/contact_peers.py", f"\n{text}\n\n")
     else:
         print(text)
     return 0

@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 from peer_contact_work import GAP, POISSON, YOUNG, Audit, Bodies, Setup, split
-from peer_mujoco import numbers, version
+from peer_mujoco import Flex, numbers, version
 from peer_work import Facts, Work
 
 __all__ = ["WAYS", "make", "version"]
@@ -45,34 +43,23 @@ def model(work: Work, bodies: Bodies, setup: Setup, settings: str) -> str:
 <worldbody><geom type="plane" size="1 1 1" {contact}/>{parts}</worldbody></mujoco>"""
 
 
-class Flexes:
+class Flexes(Flex):
     """A model of the bodies and its state."""
 
     def __init__(self, work: Work, way: str) -> None:
         """`way` is "SCENE; SETTINGS"."""
-        import mujoco
-
         setup, settings = split(way)
-        self._mujoco, self._parts = mujoco, STEPS[settings]
         bodies = Bodies(work, setup)
         radius = GAP * bodies.edge
+        text = model(work, bodies, setup, settings)
+        super().__init__(work, text, bodies.masses.ravel(), setup.damping[0])
+        self._parts = STEPS[settings]
         self._audit = Audit(bodies, setup, work.dt, thickness=(radius, 2.0 * radius))
-        self._model = mujoco.MjModel.from_xml_string(model(work, bodies, setup, settings))
-        self._data = mujoco.MjData(self._model)
-        # It gives every node the same mass; here each has that of the cells around it.
-        self._model.body_mass[self._model.flex_vertbodyid] = bodies.masses.ravel()
-        dofs = self._model.body_dofadr[self._model.flex_vertbodyid]
-        for axis in range(3):
-            self._model.dof_damping[dofs + axis] = setup.damping[0] * bodies.masses.ravel()
-        mujoco.mj_setConst(self._model, self._data)
-        mujoco.mj_resetData(self._model, self._data)
-        mujoco.mj_forward(self._model, self._data)
-        self._told = self._warnings()
 
     def step(self) -> None:
         """10 ms."""
         for _ in range(self._parts):
-            self._mujoco.mj_step(self._model, self._data)
+            super().step()
 
     def seen(self) -> list[float]:
         """As Audit.seen says."""
@@ -82,20 +69,6 @@ class Flexes:
                 self._mujoco.mj_contactForce(self._model, self._data, number, force)
                 up += float(force[0])  # along the contact's normal
         return self._audit.seen(self._places(), self._data.ncon > 0, up)
-
-    def _places(self) -> Any:
-        """Of the nodes [m], where they are after the step."""
-        for place in (self._mujoco.mj_kinematics, self._mujoco.mj_comPos, self._mujoco.mj_flex):
-            place(self._model, self._data)
-        return self._data.flexvert_xpos
-
-    def unsolved(self) -> int | None:
-        """Steps with a warning on the inertia, which is what it says of an unfinished solve."""
-        return self._warnings() - self._told
-
-    def _warnings(self) -> int:
-        kind = self._mujoco.mjtWarning.mjWARN_INERTIA
-        return int(self._data.warning[int(kind)].number)
 
 
 def make(work: Work, way: str) -> Flexes:

@@ -66,10 +66,17 @@ def cube_model(work: Work, way: str) -> str:
 
 
 class Flex:
-    """A model of one flex and its state."""
+    """A model of one flex or several, and its state."""
 
-    def __init__(self, work: Work, text: str) -> None:
-        """`text` is its MJCF."""
+    def __init__(self, work: Work, text: str, masses: Any = None, drag: float = 0.0) -> None:
+        """`text` is its MJCF.
+
+        Args:
+            work: whose nodes it has.
+            text: its MJCF.
+            masses: of all nodes [kg]; None: those of the work.
+            drag: force over momentum of each node [1/s].
+        """
         import mujoco
 
         self._mujoco, self._work = mujoco, work
@@ -78,7 +85,12 @@ class Flex:
         bodies = self._model.flex_vertbodyid  # 0, the world, of nodes that are held
         free = bodies > 0
         # It gives every node the same mass; here each has that of the cells around it.
-        self._model.body_mass[bodies[free]] = work.masses[free]
+        of_nodes = (work.masses if masses is None else masses)[free]
+        self._model.body_mass[bodies[free]] = of_nodes
+        if drag > 0.0:
+            dofs = self._model.body_dofadr[bodies[free]]
+            for axis in range(3):
+                self._model.dof_damping[dofs + axis] = drag * of_nodes
         mujoco.mj_setConst(self._model, self._data)
         mujoco.mj_resetData(self._model, self._data)
         mujoco.mj_forward(self._model, self._data)

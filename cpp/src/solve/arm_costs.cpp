@@ -20,17 +20,22 @@ constexpr double kForACellBent = 15.0;
 constexpr double kOfTolerance = 14.5;  ///< ln(2 / 1e-6), at which the numbers here were found
 /// Iterations of block-Jacobi for one of incomplete Cholesky.
 constexpr double kSaved = 3.2;
-constexpr double kCycles = 11.0;        ///< iterations of a multigrid
-constexpr double kGuessed = 0.7;        ///< of them, where a motion goes on
-constexpr double kGuesses = 1.0;        ///< what the products of a guess cost, in iterations of a multigrid
-constexpr double kWaveRatio = 3.5;      ///< of the moduli of plane waves at Poisson's ratio 0.3
-constexpr double kSheetCycles = 5.0;    ///< times as many at least for a body of one cell through
+constexpr double kCycles = 11.0;      ///< iterations of a multigrid
+constexpr double kGuessed = 0.7;      ///< of them, where a motion goes on
+constexpr double kGuesses = 1.0;      ///< what the products of a guess cost, in iterations of a multigrid
+constexpr double kWaveRatio = 3.5;    ///< of the moduli of plane waves at Poisson's ratio 0.3
+constexpr double kSheetCycles = 5.0;  ///< times as many at least for a body of one cell through
+constexpr double kSlenderCycles =
+    0.65;  ///< times as many for each length over thickness of a bar in equilibrium
+constexpr double kHinderedCycles =
+    1.25;                               ///< power of what a stiff part does to the iterations of block-Jacobi
 constexpr double kCycleProducts = 6.0;  ///< products, with those of the coarser levels, that a cycle costs
 constexpr double kLevelsMade = 110.0;   ///< products that making all levels costs, …
 constexpr double kFewRows = 300.0;  ///< … of a matrix of many more rows, whose inner ones have all neighbours
 /// Products that an incomplete factor costs, for each byte of a row: it multiplies pairs of its blocks.
 constexpr double kTriangleMade = 0.011;
 constexpr double kStale = 6.0;  ///< iterations with the factor of an earlier matrix, of a body in motion
+constexpr double kStaleNewton = 10.0;  ///< … and in Newton's iterations, between which a body bends more
 /// Solves that a preconditioner serves while a body moves, and in Newton's iterations.
 constexpr double kServesSteps = 20.0;
 constexpr double kServesNewton = 2.0;
@@ -39,6 +44,13 @@ constexpr double kServesNewton = 2.0;
 /// those of block-Jacobi, which in so many rows sees less of it, with its cubic root: five times as many at
 /// 0.499.
 double stiffer(const MatrixShape& shape) { return std::max(1.0, shape.wave_ratio / kWaveRatio); }
+
+/// Times as many iterations of bodies with a stiff part: 4 where it is 1e4 times as stiff as the rest, and 7
+/// from 1e6 on, for block-Jacobi as for a multigrid. Up to a hundred times, which a graded mesh has too, few
+/// are more.
+double hindered(const MatrixShape& shape) {
+  return std::clamp(1.0 + 1.5 * (std::log10(shape.contrast) - 2.0), 1.0, 7.0);
+}
 
 /// Unknowns of a separator of the matrix's graph.
 double separator(const MatrixShape& shape) { return 3.0 * std::max(1.0, shape.across * shape.through); }
@@ -57,7 +69,7 @@ double plain_iterations(const MatrixShape& shape, double tolerance, bool equilib
   const double still =
       (equilibrium ? kForACellBent : kForACell) * std::cbrt(stiffer(shape)) * bending * digits / kOfTolerance;
   const double moving = 0.5 * std::sqrt(kLargest / std::max(shape.inertia, 1e-12)) * digits;
-  return std::max(1.0, std::min({still, moving, 3.0 * shape.rows}));
+  return std::max(1.0, std::min({hindered(shape) * still, hindered(shape) * moving, 3.0 * shape.rows}));
 }
 
 double factor_bytes(const MatrixShape& shape) {
@@ -77,10 +89,13 @@ ForArms<Cost> predicted_costs(const MatrixShape& shape, double plain, double tol
   const double blocks = 3.0 * shape.rows / std::max(1.0, std::pow(width, 1.5) / std::sqrt(3.0));
   const double operations = 3.0 * width * width * width * std::max(1.0, blocks);
   const double factor =
-      operations / SparseFactor::operations_per_byte() + kFactorNumber * factor_bytes(shape) / sizeof(double);
+      SparseFactor::making_work(operations, factor_bytes(shape) / sizeof(double), shape.rows);
   const double with_factor = 2.0 * kFactorSolve * factor_bytes(shape) + 2.0 * shape.bytes;
   const double sheet = equilibrium ? std::max(kSheetCycles, shape.along) : kSheetCycles;
-  const double cycles = std::sqrt(stiffer(shape)) * (shape.through < 2.0 ? sheet : 1.0) * kCycles;
+  const double slender = equilibrium ? std::max(1.0, kSlenderCycles * shape.along / shape.through) : 1.0;
+  const double thin = shape.through < 2.0 ? std::max(sheet, slender) : slender;
+  const double cycles =
+      std::pow(hindered(shape), kHinderedCycles) * std::sqrt(stiffer(shape)) * thin * kCycles;
   const double saved = kSaved / std::pow(stiffer(shape), 1.0 / 6.0);
   const double levels = kLevelsMade * shape.rows / (shape.rows + kFewRows);
   // The guess from the latest answers (forecast.h) saves a share of the digits of a motion.
@@ -95,7 +110,8 @@ ForArms<Cost> predicted_costs(const MatrixShape& shape, double plain, double tol
                                    once + (needed + kGuesses) * (iteration + kCycleProducts * product),
                                    kAggregation * shape.rows};
   const double ordering = kOrdering * shape.rows;
-  costs[number(Arm::stale_cholesky)] = {factor, kept, std::max(1.0, changing * kStale * digits) * with_factor,
+  const double stale = (equilibrium ? kStaleNewton : kStale) * std::sqrt(hindered(shape));
+  costs[number(Arm::stale_cholesky)] = {factor, kept, std::max(1.0, changing * stale * digits) * with_factor,
                                         ordering};
   costs[number(Arm::cholesky)] = {factor, changing, with_factor, ordering};
   for (Cost& cost : costs) cost.solving += changes.pattern * cost.once;

@@ -68,8 +68,9 @@ void add(const SolveReport& report, SolveReport& sum) {
   sum.once += report.once;
 }
 
-Spent spent(const SolveReport& report) {
-  return {report.making, report.once, report.work - report.making - report.once};
+/// `left`: what an attempt before this one left of the digits.
+Spent spent(const SolveReport& report, double left = 1.0) {
+  return {report.making, report.once, (report.work - report.making - report.once) / left};
 }
 
 }  // namespace
@@ -159,14 +160,14 @@ bool Automatic::prepare_ahead(const LinearOperator& A) {
   return made;
 }
 
-SolveReport Automatic::attempt(const LinearOperator& A, ConstReals b, Reals x, double floor) {
+SolveReport Automatic::attempt(const LinearOperator& A, ConstReals b, Reals x, double floor, double left) {
   const Arm arm = choice_->current();
   LinearSolver& solver = this->solver(arm);
   if (arm == Arm::cholesky) return solver.solve(A, b, x, floor);
   static_cast<ConjugateGradient&>(solver).allow(choice_->allowance());
   const SolveReport report = solver.solve(A, b, x, floor);
   const double of_plain = arm == Arm::incomplete_cholesky ? kOfPlain : 1.0;
-  const double plain = of_plain * report.iterations;
+  const double plain = of_plain * report.iterations / left;
   if (report.iterations == 0 || (arm != Arm::block_jacobi && arm != Arm::incomplete_cholesky)) return report;
   known_->plain = report.converged ? plain : std::max(known_->plain, kUnfinished * plain);
   return report;
@@ -177,11 +178,12 @@ SolveReport Automatic::solve(const LinearOperator& A, ConstReals b, Reals x, dou
   meet_after(A);
   choice_->begin_solve();
   SolveReport sum;
+  double left = 1.0;
   while (true) {
     const Arm arm = choice_->current();
     SolveReport report;
     try {
-      report = attempt(A, b, x, floor);
+      report = attempt(A, b, x, floor, left);
     } catch (const Interrupted&) {
       throw;
     } catch (const Error&) {  // a factor that cannot be made
@@ -193,9 +195,10 @@ SolveReport Automatic::solve(const LinearOperator& A, ConstReals b, Reals x, dou
     if (report.converged || !report.positive_definite) {
       ++solves_[number(arm)];
       // A first guess that is the answer says nothing of the others.
-      if (report.converged && report.iterations > 0) choice_->used(spent(report));
+      if (report.converged && report.iterations > 0) choice_->used(spent(report, left));
       break;
     }
+    left = digits_left(report.residual, settings_.tolerance);
     const double solving = spent(report).solving;
     if (!choice_->leave(solving, solving < choice_->allowance())) break;
   }

@@ -1,6 +1,7 @@
 #include "choice.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace tissu {
 namespace {
@@ -25,6 +26,7 @@ constexpr double kAfterCheapTrial = 1.5;  ///< the same where the trial cost lit
 constexpr double kAfterFailure = 4.0;     ///< times the patience of an arm that failed
 constexpr double kUnfinished = 2.0;       ///< times what it spent: the price of a solve that was left
 constexpr double kMostPatience = 1e6;
+constexpr double kLeastDigits = 0.2;
 
 }  // namespace
 
@@ -168,6 +170,11 @@ void Choice::regret(double work) {
   for (const Arm arm : kAllArms) {
     if (arm != current_) at(arm).regret = std::max(0.0, at(arm).regret + work - expected(arm));
   }
+}
+
+double digits_left(double residual, double tolerance) {
+  if (!(residual < 1.0)) return 1.0;
+  return std::clamp(1.0 - std::log(residual) / std::log(tolerance), kLeastDigits, 1.0);
 }
 
 }  // namespace tissu

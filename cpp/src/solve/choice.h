@@ -91,4 +91,8 @@ class Choice {
   int changes_ = 0;
 };
 
+/// What an attempt that was abandoned has not gained of the digits of a solve, so that the cost of the rest
+/// says what a whole solve costs; at least a fifth.
+double digits_left(double residual, double tolerance);
+
 }  // namespace tissu

@@ -10,7 +10,8 @@
 namespace tissu {
 namespace {
 
-constexpr double kInside = 0.05;  ///< of the forces of neighbours, what is left inside a body
+constexpr double kStiffest = 0.99;  ///< of the rows are not as stiff as those whose contrast counts
+constexpr double kInside = 0.05;    ///< of the forces of neighbours, what is left inside a body
 
 /// Rows that hang together with others: not those that are given, or eliminated.
 std::vector<std::int32_t> bound_rows(const BlockMatrix& A) {
@@ -53,6 +54,23 @@ void count_cells(const RowPlaces* places, const std::vector<std::int32_t>& rows,
 bool is_point(const BlockMatrix& A, std::int32_t row) {
   const bool turns = A.places() != nullptr && !A.places()->point.empty() && A.places()->is_rotation(row);
   return !turns && !A.is_given(row, 0) && !A.is_given(row, 1) && !A.is_given(row, 2);
+}
+
+/// Of the traces of the diagonal blocks of points.
+double contrast_of(const BlockMatrix& A, const std::vector<std::int32_t>& rows) {
+  std::vector<double> traces;
+  traces.reserve(rows.size());
+  for (const std::int32_t i : rows) {
+    if (is_point(A, i)) traces.push_back(A.diagonal_block(i).trace());
+  }
+  if (traces.empty()) return 1.0;
+  const auto quantile = [&](double share) {
+    const auto place = static_cast<std::ptrdiff_t>(share * static_cast<double>(traces.size() - 1));
+    std::ranges::nth_element(traces, traces.begin() + place);
+    return traces[static_cast<std::size_t>(place)];
+  };
+  const double middle = quantile(0.5);
+  return middle > 0.0 ? std::max(1.0, quantile(kStiffest) / middle) : 1.0;
 }
 
 double inertia_of(const BlockMatrix& A, const std::vector<std::int32_t>& rows) {
@@ -125,6 +143,7 @@ MatrixShape shape_of(const BlockMatrix& A, bool equilibrium) {
   count_cells(A.places(), rows, shape);
   if (!equilibrium) shape.inertia = inertia_of(A, rows);
   shape.wave_ratio = wave_ratio_of(A, rows);
+  shape.contrast = contrast_of(A, rows);
   return shape;
 }
 

@@ -17,6 +17,8 @@ struct MatrixShape {
   double inertia = 0.0;
   /// (lambda + 2 mu) / mu, which grows without bound as Poisson's ratio nears 1/2.
   double wave_ratio = 1.0;
+  /// Of the diagonal blocks' traces: the 99th percentile over the median.
+  double contrast = 1.0;
 };
 
 MatrixShape shape_of(const BlockMatrix& A, bool equilibrium);

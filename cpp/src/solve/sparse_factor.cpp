@@ -14,7 +14,9 @@ constexpr double kLastShift = 1e6;
 SparseFactor::SparseFactor() : library_(std::make_unique<Library>()) {}
 SparseFactor::~SparseFactor() = default;
 std::string_view SparseFactor::library() { return Library::kName; }
-double SparseFactor::operations_per_byte() { return Library::kOperationsPerByte; }
+double SparseFactor::making_work(double operations, double numbers, double rows) {
+  return operations / Library::kOperationsPerByte + kFactorNumber * numbers + kFactorRow * rows;
+}
 
 void SparseFactor::take_pattern(const BlockMatrix& matrix, const Couplings* couplings) {
   making_ = once_ = 0.0;
@@ -25,7 +27,7 @@ void SparseFactor::take_pattern(const BlockMatrix& matrix, const Couplings* coup
 
 bool SparseFactor::factorise() {
   const bool made = library_->factorise();
-  making_ += operations() / operations_per_byte() + kFactorNumber * number_bytes() / sizeof(double);
+  making_ += making_work(operations(), library_->numbers, library_->rows());
   return made;
 }
 

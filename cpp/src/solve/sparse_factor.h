@@ -36,8 +36,8 @@ class SparseFactor {
 
   /// Operations of a making, a multiplication with its addition counted as one.
   [[nodiscard]] double operations() const;
-  /// How many operations of a making take the time of reading one byte from memory.
-  [[nodiscard]] static double operations_per_byte();
+  /// Work (work.h) of making a factor of so many operations, numbers, and rows of three.
+  [[nodiscard]] static double making_work(double operations, double numbers, double rows);
   /// Bytes of the factor's numbers: what half a solve reads.
   [[nodiscard]] double number_bytes() const;
   /// Work (work.h) of the latest making, of its ordering where the pattern was new, and of a solve.

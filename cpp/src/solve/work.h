@@ -12,13 +12,15 @@ inline constexpr double kSweep = 1.4;
 /// Of a byte of a sparse factor, whose solves gather and scatter.
 inline constexpr double kFactorSolve = 1.4;
 /// Of each number of a sparse factor, which is gathered and scattered, beside the operations.
-inline constexpr double kFactorNumber = 1000.0;
+inline constexpr double kFactorNumber = 330.0;
+/// Of each row of three of a sparse factor, beside its numbers: what a small supernode costs.
+inline constexpr double kFactorRow = 15e3;
 /// Of a byte of the matrix in double precision that becomes one in single: it is read, and half is written.
 inline constexpr double kConversion = 1.5;
 /// Of a byte of the inverses of diagonal blocks, which take some tens of operations each.
 inline constexpr double kInverse = 3.0;
 /// Of a row of three in the ordering of a factor, which a new pattern asks for.
-inline constexpr double kOrdering = 3e5;
+inline constexpr double kOrdering = 2e5;
 /// Of a row of three in the search for aggregates, which a new pattern asks for.
 inline constexpr double kAggregation = 6e4;
 

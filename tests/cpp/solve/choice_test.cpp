@@ -154,6 +154,14 @@ TEST(Choice, AFailureHandsOnAndComesBackLater) {
 }
 
 /// A way whose making is infinite, as a factor that does not fit, is not even the last resort.
+TEST(Choice, TheRestOfASolveCountsAsTheShareOfItsDigits) {
+  EXPECT_DOUBLE_EQ(digits_left(1.0, 1e-6), 1.0);
+  EXPECT_DOUBLE_EQ(digits_left(7.0, 1e-6), 1.0);  // it gained nothing
+  EXPECT_NEAR(digits_left(1e-3, 1e-6), 0.5, 1e-12);
+  EXPECT_NEAR(digits_left(1e-2, 1e-8), 0.75, 1e-12);
+  EXPECT_DOUBLE_EQ(digits_left(1.1e-6, 1e-6), 0.2);  // a tenth of a digit says nothing of a whole solve
+}
+
 TEST(Choice, WhatDoesNotFitIsNeverTaken) {
   ForArms<Cost> costs = like(3.0, 10.0);
   costs[number(Arm::cholesky)].solving = costs[number(Arm::stale_cholesky)].solving = HUGE_VAL;

@@ -47,7 +47,7 @@ class Automatic final : public LinearSolver {
   void meet_after(const LinearOperator& A);
   void predict(bool first);
   LinearSolver& solver(Arm arm);
-  SolveReport attempt(const LinearOperator& A, ConstReals b, Reals x, double floor);
+  SolveReport attempt(const LinearOperator& A, ConstReals b, Reals x, double floor, double left);
   /// What is not used any more.
   void drop();
 

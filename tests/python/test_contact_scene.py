@@ -385,14 +385,6 @@ def test_without_contacts_check_says_whose_boxes_overlap():
     assert notes(bodies=touching, obstacles={}, contacts=met) == []
 
 
-def test_a_barrier_before_flat_faces_of_triangles_is_noted():
-    box = ts.BoxObstacle(min=(-1, -1, -0.2), max=(1, 1, -0.1))
-    met = {"obstacles": {"box": box}, "contacts": [ts.Contact(("liver", "box"))]}
-    (note,) = notes(**met, contact=ts.ContactSettings(method="barrier"))
-    assert note.startswith("obstacles.box: with the method barrier, the force of a single step")
-    assert notes(**met) == []
-
-
 def test_settings_and_obstacles_without_contacts_are_noted():
     assert notes()[0].startswith("obstacles: without `contacts` nothing meets anything")
     assert notes(contact=ts.ContactSettings())[0].startswith("contact: without `contacts`")

@@ -51,8 +51,7 @@ bool ContactRun::find_plainly(const Candidate& candidate, double reach, Found& f
   if (at_end && !every_pair_) return false;
   const SurfaceSet& surfaces = contact_.surfaces();
   if (is_of_flat(surfaces, candidate)) return false;
-  if (candidate.kind == PairKind::vertex_face && at_end &&
-      is_before_neighbour(surfaces, now_, candidate, closest)) {
+  if (candidate.kind == PairKind::vertex_face && is_before_neighbour(surfaces, now_, candidate, reach)) {
     return false;
   }
   double weight = 1.0;

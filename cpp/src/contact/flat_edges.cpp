@@ -8,9 +8,12 @@
 namespace tissu {
 namespace {
 
-constexpr double kFlat = 1e-6;   ///< sine of the angle between two faces, whatever the mesh
-constexpr double kBent = 1e-3;   ///< the same where places are rounded to single precision or six digits, …
-constexpr double kOff = 2e-6;    ///< … which moves them by this share of the largest coordinate, …
+constexpr double kFlat = 1e-6;  ///< sine of the angle between two faces, whatever the mesh
+constexpr double kBent = 1e-3;  ///< the same where places are rounded to single precision or six digits, …
+constexpr double kOff = 2e-6;   ///< … which moves them by this share of the largest coordinate, …
+constexpr double kBeside = 1e-6;  ///< of the reach of a contact
+/// A direction along no edge and no diagonal of what is made of round numbers.
+constexpr std::array<double, 3> kAside = {0.4673, 0.7421, 0.4805};
 constexpr double kPlane = 4e-6;  ///< … and the vertices of a whole plane by so much
 
 std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
@@ -131,20 +134,25 @@ bool is_of_flat(const SurfaceSet& surfaces, const Candidate& candidate) {
 }
 
 bool is_before_neighbour(const SurfaceSet& surfaces, ConstReals places, const Candidate& candidate,
-                         const Closest& closest) {
+                         double reach) {
   if (surfaces.vertices()[at(candidate.vertex[1])].is_soft()) return false;
+  const auto& edges = surfaces.triangle_edges(candidate.b);
+  if (std::ranges::none_of(edges, [&](std::int32_t e) { return surfaces.edges()[at(e)].is_flat; }))
+    return false;
+  std::array<Vec3, 4> p;
+  for (std::size_t i = 0; i < 4; ++i) p[i] = block(places, candidate.vertex[i]);
+  p[0] += kBeside * reach * Vec3(kAside[0], kAside[1], kAside[2]);
+  Part part{};
+  const Closest closest = closest_point_triangle(p, part);
   for (std::size_t i = 0; i < 3; ++i) {
     const std::size_t across = 1 + (i + 2) % 3;
     if (closest.beta[across] != 0.0) continue;  // the nearest point is not on this edge
-    const std::int32_t e = surfaces.triangle_edges(candidate.b)[i];
-    if (!surfaces.edges()[at(e)].is_flat) continue;
-    const Vec3 from = block(places, candidate.vertex[1 + i]);
-    const Vec3 along = (block(places, candidate.vertex[1 + (i + 1) % 3]) - from).normalized();
-    Vec3 into = block(places, candidate.vertex[across]) - from;
+    if (!surfaces.edges()[at(edges[i])].is_flat) continue;
+    const Vec3& from = p[1 + i];
+    const Vec3 along = (p[1 + (i + 1) % 3] - from).normalized();
+    Vec3 into = p[across] - from;
     into -= along.dot(into) * along;
-    const double beyond = -closest.r.dot(into);
-    // On the edge itself the first face meets the vertex.
-    if (beyond > 0.0 || (beyond == 0.0 && surfaces.edges()[at(e)].face[0] != candidate.b)) return true;
+    if (closest.r.dot(into) < 0.0) return true;
   }
   return false;
 }

@@ -12,7 +12,6 @@ from tissu.compile.balance import held_axes
 from tissu.compile.inside import nested
 from tissu.compile.overlap import boxes_that_overlap
 from tissu.counted import are, counted
-from tissu.scene.contact_rules import method_of
 from tissu.scene.law import UserLaw
 from tissu.scene.load import Pressure
 from tissu.scene.model import Condensed
@@ -135,19 +134,6 @@ def _uneven_faces(prepared: Prepared, met: set[str]) -> Iterator[str]:
             )
 
 
-def _flat_obstacles(prepared: Prepared, met: set[str]) -> Iterator[str]:
-    """On faces of several triangles the forces of a barrier change from step to step."""
-    if method_of(prepared.scene) != "barrier":
-        return
-    for name, obstacle in prepared.scene.obstacles.items():
-        if name in met and obstacle.type in ("box", "mesh"):
-            yield (
-                f"obstacles.{name}: with the method barrier, the force of a single step on flat "
-                f"faces of a {obstacle.type} may be wrong by half; its mean over many steps is "
-                "right. Take planes, or the method augmented"
-            )
-
-
 def _contacts(prepared: Prepared) -> Iterator[str]:
     scene = prepared.scene
     if scene.contacts:
@@ -162,7 +148,6 @@ def _contacts(prepared: Prepared) -> Iterator[str]:
             if prepared.contact is not None and name not in met
         )
         if prepared.contact is not None:
-            yield from _flat_obstacles(prepared, met)
             yield from (
                 f"contacts: '{inner}' lies inside '{outer}', which is met from outside only, so "
                 "that nothing presses them apart; move it out unless it belongs there"

@@ -231,7 +231,8 @@ TEST(SoupTest, WhatABodyHasInCommonGivesItNoCandidates) {
   falling.cover(from, to);
   const auto within = [&](const Candidates& candidates) {
     return std::ranges::count_if(candidates.list(), [&](const Candidate& c) {
-      return surfaces.vertices()[at(c.vertex[0])].surface == surfaces.vertices()[at(c.vertex[3])].surface;
+      const std::int32_t last = c.vertex[at(vertices_of(c.kind) - 1)];
+      return surfaces.vertices()[at(c.vertex[0])].surface == surfaces.vertices()[at(last)].surface;
     });
   };
   const auto at_rest = static_cast<double>(within(rest));

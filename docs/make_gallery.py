@@ -27,7 +27,7 @@ EXAMPLES = ROOT.parent / "examples"
 FOLDER = ROOT / "pictures" / "gallery"
 WIDTH = 1000  # pixels
 UNTIL = {
-    "bounce": 0.1,
+    "bounce": 0.17,
     "beam": 0.35,
     "organ": 2.0,
     "slide": 0.2,

@@ -60,7 +60,15 @@ to round-off, the same bits on 1, 2 and 4 threads. [The limits of
 contact](../guide/contact.md#limits) are in the guide.
 
 """
-TAIL = "This page is printed by `python bench/hard.py --write`.\n"
+TAIL = """\
+`tests/hard/test_contact_edits.py` removes cells while surfaces press on each other. While the two
+livers touch, it removes a third of the touching cells three times. In another test it removes all
+touching cells of one liver, again and again, until nothing touches. The contact forces on the
+remaining surfaces are the same to the bit after each removal. No surface crosses another in any
+step. The bits are the same with 1, 2 and 4 threads, and with a checkpoint between two removals.
+
+This page is printed by `python bench/hard.py --write`.
+"""
 
 
 def cell(found: Outcome, notes: list[str]) -> str:

@@ -1,6 +1,6 @@
 """A real liver, held at its ligament side and left to gravity until it rests.
 
-    python bench/liver.py --meshes FOLDER [--picture docs/pictures/liver.png]
+    python bench/liver.py --meshes FOLDER [--picture FILE.png]
 
 FOLDER holds `liver.msh` (Gmsh 1, centimetres, 596 tetrahedra) from SOFA's repository, share/mesh.
 """

@@ -34,11 +34,13 @@ PAGES = {
         ("simulation",),
         (
             "simulation.grab.Grab",
+            "simulation.grab_point.GrabPoint",
             "simulation.lead.Lead",
             "simulation.live_load.LiveLoad",
             "simulation.obstacle_lead.ObstacleLead",
             "simulation.rigid.Rigid",
             "simulation.contact_at_nodes.ContactAtNodes",
+            "simulation.touched.BodySurface",
             "simulation.obstacle_surface.ObstacleSurface",
             "simulation.parameters.Parameters",
             "simulation.parameters.Parameter",
@@ -47,6 +49,9 @@ PAGES = {
             "simulation.profile.WorstStep",
             "checkpoint.Resumed",
             "compile.Check",
+            "scene.effect.Effect",
+            "scene.problem.Problem",
+            "scene.problem.Source",
         ),
     ),
     "mesh": Page("Meshes", "Reading, making, checking and writing meshes.", ("mesh",)),
@@ -55,7 +60,7 @@ PAGES = {
         "Laws of your own",
         "A law from its formula, compiled at run time.",
         ("user_law",),
-        (),
+        ("user_law.made.MadeLaw", "user_law.made.Build", "codegen.definition.Law"),
         ("formula",),
     ),
     "fields": Page("Names of fields", "What `Simulation.field` computes.", ("field_names",)),
@@ -63,6 +68,7 @@ PAGES = {
         "Comparison and advice",
         "One scene with several models, and the cheapest setting that is good enough.",
         ("comparison", "advice"),
+        ("comparison.table.Row", "advice.goal.Goal", "advice.rows.Row"),
     ),
     "pictures": Page(
         "Pictures, files and the live view",
@@ -73,14 +79,29 @@ PAGES = {
         "Examples and sampling",
         "The examples that come with the package, and points inside a surface.",
         (),
-        (),
+        ("sampling.nearest.TriangleTree",),
         ("examples", "sampling"),
     ),
     "trocar": Page(
         "The controller of a trocar",
         "These are loaded from their modules: `from tissu.trocar.controller import Controller`.",
         (),
-        ("trocar.controller.Controller", "trocar.model.LocalModel"),
+        (
+            "trocar.controller.Controller",
+            "trocar.model.LocalModel",
+            "trocar.model.Blade",
+            "trocar.touch.Touch",
+            "trocar.touch.Felt",
+            "trocar.report.Report",
+            "trocar.report.Timing",
+            "trocar.report.Spread",
+            "trocar.report.Grant",
+            "trocar.states.State",
+            "trocar.states.Reason",
+            "trocar.recording.Recording",
+            "trocar.recording.Published",
+            "scene.trocar.passive.Bound",
+        ),
     ),
     "errors": Page(
         "Errors",
@@ -89,6 +110,12 @@ PAGES = {
     ),
 }
 """Name of the file -> the page, beside those of the parts of a scene."""
+COMMON = {
+    "Laws and viscosity": "scene.law.Law",
+    "Models": "scene.model.Model",
+    "Loads": "scene.load.Load",
+}
+"""Heading of parts of a scene -> the class that they have in common."""
 
 
 def slug(heading: str) -> str:
@@ -113,6 +140,8 @@ def part_page(heading: str, modules: tuple[str, ...]) -> str:
         "has `replace(**changes)`: the part with some fields changed, and checked again.\n"
     )
     blocks = [block(name) for name in names]
+    if heading in COMMON:
+        blocks += ["## What they have in common", block(COMMON[heading])]
     return "\n".join([head, *(f"{text}\n" for text in blocks)])
 
 
@@ -123,7 +152,7 @@ def room_page(page: Page) -> str:
     blocks = [block(name, inherited) for name in names]
     blocks += [block(name) for name in page.modules]
     if page.returned:
-        blocks += ["## What methods return"] * bool(names)
+        blocks += ["## What methods return"] * bool(names or page.modules)
         blocks += [block(name, inherited) for name in page.returned]
     return "\n".join([f"# {page.title}\n\n{page.words}\n", *(f"{text}\n" for text in blocks)])
 
@@ -141,7 +170,7 @@ def index() -> str:
         "`import tissu as ts` loads each name when it is first asked for. Numbers are SI, arrays",
         "are `(n, 3)`, and nodes of cells stand in VTK's order. A text with a unit is converted.",
         "",
-        "| page | names |",
+        "| page | names, and classes that methods return |",
         "|---|---|",
     ]
     for heading, modules in HEADINGS.items():
@@ -150,10 +179,8 @@ def index() -> str:
         listed = " ".join(f"`{name}`" for name in names)
         lines.append(f"| [{heading}]({slug(heading)}.md) | {listed} |")
     for name, page in all_pages().items():
-        if not names_of(page):
-            lines.append(f"| [{page.title}]({name}.md) | {page.words} |")
-            continue
-        listed = " ".join(f"`{public}`" for public in names_of(page))
+        returned = [path.rpartition(".")[2] for path in page.returned]
+        listed = " ".join(f"`{public}`" for public in dict.fromkeys([*names_of(page), *returned]))
         lines.append(f"| [{page.title}]({name}.md) | {listed} |")
     return "\n".join([*lines, "", "This page is printed by `make codegen`.", ""])
 

@@ -27,7 +27,7 @@ EXAMPLES = ROOT.parent / "examples"
 FOLDER = ROOT / "pictures" / "gallery"
 WIDTH = 1000  # pixels
 UNTIL = {
-    "bounce": 0.1,
+    "bounce": 0.17,
     "beam": 0.35,
     "organ": 2.0,
     "slide": 0.2,
@@ -82,13 +82,13 @@ def relax(path: Path) -> None:
 
 
 def snap(path: Path) -> None:
-    """Force against the way of the top."""
+    """Force against the displacement of the top."""
     simulation = ts.Scene.from_yaml(EXAMPLES / "snap.yaml").compile()
     ways, forces = [0.0], [0.0]
     for _ in simulation.run():
         ways.append(-1e3 * float(simulation.displacements("truss")[1, 2]))
         forces.append(-1e3 * float(simulation.reactions("truss")[1, 2]))
-    labels = ("way of the top [mm]", "force that leads it [mN]")
+    labels = ("displacement of the top [mm]", "force that holds it there [mN]")
     curve(ways, forces, labels, "snap: the truss of von Mises", path)
 
 
@@ -99,7 +99,7 @@ def wave(path: Path) -> None:
         pass
     along = simulation.meshes["bar"].points[:, 0]
     speeds = 1e3 * simulation.velocities["bar"][:, 0]
-    labels = ("place along the bar [m]", "velocity [mm/s]")
+    labels = ("position along the bar [m]", "velocity [mm/s]")
     curve(list(along), list(speeds), labels, "wave: 50 ms after the end was pulled", path)
 
 

@@ -1,7 +1,7 @@
 """A hand palpates an organ through a trocar: what it feels, of the tissue and of the ticks.
 
 The port is above the right lobe; the simulated hand goes down by 4 cm, to the side, and up again.
-Prints both forces, and draws them over time with the trocar in its port where a file is named.
+Prints both forces, and draws them over time if a file is named.
 
     python examples/palpate.py [PICTURE.png]
 """

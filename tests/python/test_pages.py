@@ -43,6 +43,12 @@ def test_pages_that_run_elsewhere_are_there():
         assert (Path(__file__).parent / test).is_file()
 
 
+@pytest.mark.parametrize("page", sorted((DOCS / "guide").glob("*.md")), ids=lambda path: path.stem)
+def test_a_page_of_the_guide_has_its_limits(page):
+    if page.stem != "index" and not page.stem.endswith("-methods"):
+        assert "\n## Limits\n" in page.read_text(encoding="utf-8")
+
+
 MADE = runpy.run_path(str(DOCS / "make_notebook.py"), run_name="docs")
 
 

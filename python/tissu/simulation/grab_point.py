@@ -26,7 +26,7 @@ _POSITION = units.Triple(units.LENGTH)
 
 @dataclass(frozen=True, slots=True)
 class GrabPoint:
-    """A point of a body; see `Record` of `grab.py`, with nodes of the body.
+    """A point of a body, as a weighted mean of its nodes.
 
     Attributes:
         nodes: numbers (k,) of nodes and

@@ -22,7 +22,13 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class Build:
-    """The core's law with what it was compiled by."""
+    """The core's law with what it was compiled by.
+
+    Attributes:
+        loaded: the law as the core holds it.
+        compiler: its name and version.
+        flags: those of the compiler.
+    """
 
     loaded: LoadedLaw
     compiler: str

@@ -14,6 +14,8 @@
 namespace tissu::bench {
 namespace {
 
+constexpr double kBlockBytes = 9.0 * sizeof(double);  ///< of a pair of nodes, which an assembly adds once
+
 /// A block of one element and law with all that its jobs need. One at a time is kept: the rows of an element
 /// and law follow each other.
 struct Block {
@@ -84,6 +86,12 @@ void count(benchmark::State& run, const Row& row, const Block& block) {
   run.counters["elements/s"] = Counter(elements, kRate);
   run.counters["bytes/element"] = bytes / elements;
   run.counters["of bandwidth"] = Counter(bytes / limits().bandwidth(bytes), kRate);
+  const auto nodes = static_cast<double>(row.element->nodes);
+  run.counters["nodes/element"] = nodes;
+  if (row.job == Job::assembly) {
+    const double written = elements * kBlockBytes * 0.5 * nodes * (nodes + 1.0);
+    run.counters["of writing"] = Counter(written / limits().bandwidth(written), kRate);
+  }
   const auto law = law_operations(row.law->name, row.element->dimension);
   if (!law) return;
   const double each =

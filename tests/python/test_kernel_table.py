@@ -72,3 +72,17 @@ def test_the_part_whose_absence_saves_most_bounds_the_kernel(kernels: ModuleType
     text = kernels.ablation_table(kernels.rows_of({"benchmarks": entries}))
     assert "the arithmetic 20 %, the scatter 60 %, the gather 10 %, the constants 10 %" in text
     assert text.endswith("The largest is the scatter.")
+
+
+def test_a_kernel_is_named_by_the_limit_that_it_is_nearest_to(kernels: ModuleType) -> None:
+    """Of 10 ns four nodes gathered in 0.5 ns and scattered in 1 ns each take 6; a product's 8."""
+    parts = {"constants": 1.0, "constants, gather": 3.0, "constants, gather, scatter": 7.0}
+    entries = [entry(f"ablation/{part}", 10.0 * ns) for part, ns in parts.items()]
+    shares = {"of peak": 0.3, "of bandwidth": 0.7, "nodes/element": 4.0}
+    entries += [entry(f"kernel/tetra/stvk/{job}", 100.0, **shares) for job in ("force", "product")]
+    entries.append(entry("kernel/tetra/stvk/assembly", 100.0, **shares, **{"of writing": 0.75}))
+    rows = kernels.rows_of({"benchmarks": entries})
+    moved = kernels.moved_of(rows)
+    assert moved == pytest.approx((0.5, 1.0))
+    found = [kernels.bound_of(rows[f"kernel/tetra/stvk/{j}"], j, moved) for j in kernels.JOBS]
+    assert found == ["constants 70 %", "gather, scatter 80 %", "writing 75 %"]

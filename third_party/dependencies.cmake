@@ -41,16 +41,16 @@ tissu_dependency(FCL
   VERSIONS "0.7"
   LICENCE "BSD-3-Clause (its libccd too)"
   DEBIAN "libfcl-dev"
-  INSTALL tests
+  INSTALL yes
   GIT https://github.com/flexible-collision-library/fcl.git
   TAG df2702ca5e703dec98ebd725782ce13862e87fc8  # 0.7.0
   WHY "a broad phase, and the oracle of the tests of contact, BVHModel<AABB> only: RSS and OBBRSS give wrong distances
-       after a bottom-up refit. The library itself links it with TISSU_WITH_FCL alone")
+       after a bottom-up refit. On where it is found; wheels go without, for it has 8 MB")
 tissu_dependency(CCD
   VERSIONS ">= 2.1"
   LICENCE "BSD-3-Clause"
   DEBIAN "libccd-dev"
-  INSTALL tests
+  INSTALL yes
   GIT https://github.com/danfis/libccd.git
   TAG 7931e764a19ef6b21b443376c699bbc9c6d4fba8  # the head after 2.1
   WHY "needed by FCL")
@@ -130,8 +130,13 @@ endif()
 
 # ---- FCL -----------------------------------------------------------------------------------------------------------
 set(TISSU_HAVE_FCL OFF)
+find_package(fcl 0.7 QUIET CONFIG)  # never its .pc file, which forces C++11
+set(fcl_is_there OFF)
+if(TARGET fcl)
+  set(fcl_is_there ON)
+endif()
+option(TISSU_WITH_FCL "The broad phase of FCL; on where FCL is found; off: it is refused by name" ${fcl_is_there})
 if(TISSU_WITH_FCL)
-  find_package(fcl 0.7 QUIET CONFIG)  # never its .pc file, which forces C++11
   if(NOT TARGET fcl)
     if(CMAKE_VERSION VERSION_LESS 3.24)
       message(FATAL_ERROR "tissu: no FCL 0.7 (Debian: ${TISSU_FCL_DEBIAN}), and fetching it needs CMake >= 3.24; "
@@ -163,12 +168,9 @@ if(SKBUILD)
   endif()
 endif()
 
-# FCL for the tests, where its package is there: they compare with it, the library goes without.
+# FCL for the tests, where its package is there: they compare with it, also where the library goes without.
 set(TISSU_TEST_FCL OFF)
 if(TISSU_BUILD_TESTS)
-  if(NOT TARGET fcl)
-    find_package(fcl 0.7 QUIET CONFIG)
-  endif()
   if(TARGET fcl)
     set(TISSU_TEST_FCL ON)
   else()

@@ -7,6 +7,7 @@ import pytest
 
 import tissu as ts
 from contact_audit import GRAVITY, audited, block, damped, weight
+from tissu import _core
 
 GAP = 1e-3
 """[m]"""
@@ -121,8 +122,13 @@ def test_any_number_of_threads_gives_the_same_bits(threads):
     assert state(simulation) == straight()[0]
 
 
-@pytest.mark.parametrize("search", ["sweep_and_prune", "grid", "octree"])
+@pytest.mark.parametrize("search", ["sweep_and_prune", "grid", "octree", "fcl"])
 def test_every_broad_phase_gives_the_same_bits(search):
+    """That of FCL in a build that has it, as that of `make test` does; else it is refused."""
+    if search == "fcl" and "FCL" not in _core.build_info()["libraries"]:
+        with pytest.raises(ts.errors.SceneError, match="which this build of tissu is without"):
+            two(contact=ts.ContactSettings(broad_phase=search))
+        return
     simulation = two(contact=ts.ContactSettings(broad_phase=search)).compile()
     audited(simulation, 50)
     assert state(simulation) == straight()[1]

@@ -48,7 +48,9 @@ class Pool {
     grow(threads);
     const std::uint32_t turn = ++turn_;
     // Shut before anything changes: a thread that is late finds nothing to take.
-    for (Share& own : shares_) own.next.store(ticket(turn, kShut), std::memory_order_relaxed);
+    for (int t = 0; t < made_; ++t) {
+      shares_[static_cast<std::size_t>(t)].next.store(ticket(turn, kShut), std::memory_order_relaxed);
+    }
     call_.store(call, std::memory_order_relaxed);
     called_.store(called, std::memory_order_relaxed);
     threads_.store(threads, std::memory_order_relaxed);

@@ -8,17 +8,20 @@ namespace {
 
 std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
-/// One thread takes the rows as they come, which reads memory in order; several take them group by group.
+/// Rows of a group, on average, from which on several threads are faster: fewer are one or two pieces, and
+/// leave the order in which memory is read.
+constexpr std::int32_t kFewRows = 2 * RowGroups::kPiece;
+
+/// One thread takes the rows as they come, which reads memory in order; several take them group by group, if
+/// groups are large enough.
 RowGroups grouped(std::int32_t rows, bool reversed, int threads, const std::vector<std::int64_t>& begin,
                   const std::vector<std::int32_t>& column) {
   RowGroups groups;
   groups.rows.resize(at(rows));
   std::iota(groups.rows.begin(), groups.rows.end(), 0);
   if (reversed) std::ranges::reverse(groups.rows);
-  if (threads == 1) {
-    groups.begin = {0, rows};
-    return groups;
-  }
+  groups.begin = {0, rows};
+  if (threads == 1) return groups;
   std::vector<std::int32_t> level(at(rows), 0);
   std::int32_t levels = 0;
   for (const std::int32_t r : groups.rows) {
@@ -27,6 +30,8 @@ RowGroups grouped(std::int32_t rows, bool reversed, int threads, const std::vect
     }
     levels = std::max(levels, level[at(r)] + 1);
   }
+  if (rows < levels * kFewRows) return groups;
+  groups.one_by_one = false;
   std::ranges::stable_sort(groups.rows, {}, [&](std::int32_t r) { return level[at(r)]; });
   groups.begin.assign(at(levels) + 1, 0);
   for (const std::int32_t l : level) ++groups.begin[at(l) + 1];

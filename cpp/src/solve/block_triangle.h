@@ -15,6 +15,7 @@ namespace tissu {
 struct RowGroups {
   std::vector<std::int32_t> rows;
   std::vector<std::int32_t> begin;  ///< of each group in `rows`, and the end
+  bool one_by_one = true;           ///< one group, whose rows need each other in their order
 
   /// f(pointer to rows, count), groups in order, the rows of a group on all threads.
   template <class Function>
@@ -22,7 +23,7 @@ struct RowGroups {
     for (std::size_t g = 0; g + 1 < begin.size(); ++g) {
       const std::int32_t first = begin[g];
       const std::int32_t count = begin[g + 1] - first;
-      const std::int32_t piece = threads.count() == 1 ? count : kPiece;
+      const std::int32_t piece = one_by_one ? count : kPiece;
       threads.for_each((count + piece - 1) / piece, [&](std::int32_t p) {
         f(rows.data() + first + p * piece, std::min(piece, count - p * piece));
       });

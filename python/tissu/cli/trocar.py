@@ -75,8 +75,13 @@ def check_trocars(scene: Path, name: str | None, *, trusted: bool) -> None:
                 report = controller.step(300)
             print(f"trocar {key}: {trocar.device.words()}")
             print(f"  now: {report}")
-            for axis, felt, bound in _couplings(trocar):
-                print(f"  {axis}: coupling {felt}, {bound}")
+            print("\n".join(_words_of(trocar)))
+
+
+def _words_of(trocar: Trocar) -> list[str]:
+    """A line for the coupling of each axis, and for what else the motors do."""
+    found = [f"  {axis}: coupling {felt}, {bound}" for axis, felt, bound in _couplings(trocar)]
+    return found + [f"  {words}" for words in trocar.carried_words()]
 
 
 def _couplings(trocar: Trocar) -> list[tuple[str, str, str]]:

@@ -109,13 +109,14 @@ def record_command(
         bool, typer.Option("--realtime", help="By the thread; default: stepped.")
     ] = False,
     wall: Annotated[
-        str | None, typer.Option(metavar="DEPTH", help="A wall that is felt there: '110 mm'.")
+        str | None,
+        typer.Option(metavar="DEPTH", help="A wall that is felt in place of the tissue: '110 mm'."),
     ] = None,
     stiffness: Annotated[str, typer.Option(help="Of the wall.")] = "500 N/m",
     trust_plugins: TrustPlugins = False,
     debug: Debug = False,
 ) -> None:
-    """Record all ticks: what the device gave, the models, the torques."""
+    """Record all ticks: what the device gave, the models of the tissue, the torques."""
     from tissu.cli.trocar import Recorded, check_writable, record_trocar
     from tissu.units import LENGTH, STIFFNESS
 

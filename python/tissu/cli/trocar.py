@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from tissu.scene.trocar.passive import Bound
     from tissu.scene.trocar.trocar import Trocar
     from tissu.trocar.controller import Controller, Mode
+    from tissu.trocar.identify import Axis
     from tissu.trocar.touch import Touch
 
 _LOOK = 0.04
@@ -118,7 +119,7 @@ def _couplings(trocar: Trocar) -> list[tuple[str, str, str]]:
 
 
 def identify_trocar(scene: Path, name: str | None, *, trusted: bool) -> None:
-    """Drives each axis to and fro, and prints its damping and friction as a scene has them."""
+    """Drives each axis to and fro, and prints damping, friction, efficiency as a scene has them."""
     from tissu.trocar.identify import identify
     from tissu.trocar.opened import open_device
 
@@ -129,11 +130,20 @@ def identify_trocar(scene: Path, name: str | None, *, trusted: bool) -> None:
     print(f"trocar {key}:")
     for axis in axes:
         text = f"  {axis.name}: inertia {axis.inertia:.3g}, damping {axis.damping:.3g}, "
-        print(f"{text}friction {axis.friction:.3g} (SI); rest {axis.rest:.1%}")
+        print(f"{text}friction {axis.friction:.3g} (SI), {_loss(axis)}; rest {axis.rest:.1%}")
     damping = ", ".join(f"{max(axis.damping, 0.0):.3g}" for axis in axes)
     friction = ", ".join(f"{max(axis.friction, 0.0):.3g}" for axis in axes)
     print("for the device of the scene:")
-    print(f"  damping: [{damping}]\n  friction: [{friction}]")
+    known = [axis.efficiency for axis in axes]
+    efficiency = ", ".join("1" if eta is None else f"{eta:.3g}" for eta in known)
+    print(f"  damping: [{damping}]\n  friction: [{friction}]\n  efficiency: [{efficiency}]")
+
+
+def _loss(axis: Axis) -> str:
+    """The efficiency of an axis, and how well it is known."""
+    if axis.efficiency is None:
+        return "efficiency not found: the axis has too little inertia, take the data sheet's"
+    return f"efficiency {axis.efficiency:.3f} +- {axis.error:.3f}"
 
 
 def jitter_trocar(

@@ -73,7 +73,7 @@ def check_command(
 def identify_command(
     scene: SceneFile, trocar: Name = None, trust_plugins: TrustPlugins = False, debug: Debug = False
 ) -> None:
-    """Drive each axis to and fro, and find its damping and friction; nothing may hold the tool."""
+    """Drive each axis to and fro; find damping, friction and efficiency. Nothing may hold it."""
     from tissu.cli.trocar import identify_trocar
 
     with reported(debug=debug):

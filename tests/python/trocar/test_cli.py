@@ -61,8 +61,9 @@ def test_a_recording_does_not_replace_its_scene(tmp_path):
 
 def test_identify_prints_what_a_scene_takes():
     said = tissu("identify", SCENE)
-    damping, friction = (line for line in said.splitlines() if line.startswith("  damping") or
-                         line.startswith("  friction"))  # fmt: skip
+    names = ("  damping", "  friction", "  efficiency")
+    damping, friction, efficiency = (line for line in said.splitlines() if line.startswith(names))
+    assert yaml.safe_load(efficiency)["efficiency"] == pytest.approx([1.0] * 4, abs=0.01)
     assert len(yaml.safe_load(damping)["damping"]) == 4
     assert yaml.safe_load(friction)["friction"][3] == pytest.approx(0.3, rel=0.1)
 

@@ -403,6 +403,42 @@ def test_identification_finds_the_friction_of_the_simulated_device():
         assert axis.damping == pytest.approx(damping, rel=0.1)
         assert axis.friction == pytest.approx(friction, rel=0.1)
         assert axis.rest < 0.05
+        assert axis.efficiency == pytest.approx(1.0, abs=0.01)
+
+
+@pytest.mark.parametrize(
+    ("eta", "delay"),
+    [((0.95, 0.9, 0.96, 0.7), 0.0), ((0.8, 0.85, 0.9, 0.9), 0.0), ((0.95, 0.9, 0.96, 0.7), 2e-3)],
+)
+def test_identification_separates_the_efficiency_from_the_friction(eta, delay):
+    """By what a braking motor loses; three standard errors, and the model's own error."""
+    from tissu.trocar.identify import identify
+    from tissu.trocar.opened import open_device
+
+    free = trocar(device=ts.SimulatedDevice(efficiency=eta, delay=delay))
+    axes = identify(free, open_device(free, 1), realtime=False)
+    mechanism = _haptic.Mechanism()
+    for axis, known, damping, friction in zip(
+        axes, eta, mechanism.viscous, mechanism.coulomb, strict=True
+    ):
+        own, rough = (0.025, 0.15) if axis.name == "rotation" else (0.006, 0.1)
+        assert axis.error < 0.01
+        assert axis.efficiency == pytest.approx(known, abs=own + 3.0 * axis.error)
+        assert axis.damping == pytest.approx(damping, rel=0.1)
+        assert axis.friction == pytest.approx(friction, rel=rough)
+
+
+def test_the_efficiency_of_an_axis_that_cannot_brake_is_not_found():
+    """Without inertia the motor always drives: friction is what the motor feels, over eta."""
+    from tissu.trocar.identify import identify
+    from tissu.trocar.opened import open_device
+
+    light = ts.TrocarMechanism(axial=1e-8, cradle=(2e-3, 2e-3, 2e-8, 0.05))
+    device = ts.SimulatedDevice(efficiency=(1, 1, 0.8, 1), mechanism=light)
+    free = trocar(device=device)
+    rotation = identify(free, open_device(free, 1), realtime=False)[2]
+    assert rotation.efficiency is None
+    assert rotation.damping == pytest.approx(1e-3 / 0.8, rel=0.1)
 
 
 @pytest.mark.parametrize("other", [None, 3, "right"])

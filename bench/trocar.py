@@ -3,33 +3,35 @@
     python bench/trocar.py [--seconds 10] [--write]
 
 Needs a machine that has nothing else to do; the rows beside busy processes start these by
-themselves. Whether SCHED_FIFO and locked memory are granted stands in the table.
+themselves. Whether SCHED_FIFO and locked memory are granted stands in the table. With --write, it
+also prints the table of swings into docs/guide/trocar-methods.md.
 """
 
 from __future__ import annotations
 
 import argparse
-import multiprocessing
 import runpy
 import time
 from pathlib import Path
-from typing import Any
 
 import numpy as np
+from section import put_between
+from trocar_cases import rows_of_cases
+from trocar_hand import palpated, swings, workspace
+from trocar_time import lateness, together
 
 import tissu as ts
 from tissu.cli.info import machine_line
 from tissu.trocar import kinematics
 from tissu.trocar.controller import Controller
-from tissu.trocar.model import LocalModel, across
-from tissu.trocar.run import Trocars
 from tissu.trocar.touch import Touch
 
 PRESSED = (-0.046, 0.006, 0.075)
 """m: where the organ is palpated"""
 ROOT = Path(__file__).resolve().parents[1]
 PAGE = ROOT / "docs" / "measured" / "trocar.md"
-US = 1e6
+METHODS = ROOT / "docs" / "guide" / "trocar-methods.md"
+SWINGS = "swings, printed by bench/trocar.py --write"
 HEAD = """# The active trocar
 
 Are the ticks of a trocar on time, and does the hand feel the force of the tissue? [The
@@ -38,76 +40,9 @@ guide](../guide/trocar.md) explains the terms. Ticks are those of the simulated 
 """
 
 
-def trocar(hand: Any = None, **device: Any) -> ts.Trocar:
-    """A trocar whose hand stays 20 cm deep."""
-    hand = hand or ts.Hand(times=(0.0, 1.0), points=((0, 0, 0.2), (0, 0, 0.2)))
-    return ts.Trocar(
-        port=ts.Port(at=(0, 0, 0), axis=(0, 0, -1)), device=ts.SimulatedDevice(hand=hand, **device)
-    )
-
-
-def patch(contacts: int, joints: Any) -> LocalModel:
-    """Contacts with friction on a ring of 2 mm around the tip, in soft tissue."""
-    angles = 2.0 * np.pi * np.arange(contacts) / contacts
-    points = 2e-3 * np.column_stack([np.cos(angles), np.sin(angles), np.zeros(contacts)])
-    normals = np.tile([0.0, 0.0, -1.0], (contacts, 1))
-    return LocalModel(
-        joints=joints,
-        points=points,
-        anchors=np.add(points, (0.0, 0.0, 0.198)),
-        normals=normals,
-        tangents=np.array([across(n) for n in normals]),
-        friction=np.full(contacts, 0.2),
-        forces=np.zeros((contacts, 3)),
-        compliance=np.eye(3 * contacts) / 300.0,
-    )
-
-
-def busy(until: float) -> None:
-    """Takes a core."""
-    while time.monotonic() < until:
-        sum(range(1000))
-
-
-def lateness(seconds: float, others: int) -> tuple[list[str], list[str]]:
-    """A row of ticks in real time beside so many busy processes, and what was granted."""
-    until = time.monotonic() + seconds + 2.0
-    tasks = [multiprocessing.Process(target=busy, args=(until,)) for _ in range(others)]
-    for task in tasks:
-        task.start()
-    with Controller(trocar(), mode="threaded") as controller:
-        begin, ticks = time.monotonic(), 0
-        while time.monotonic() < begin + seconds:
-            report = controller.report()
-            controller.publish(patch(8, report.q))
-            time.sleep(0.04)
-        timing = controller.timing()
-        ticks = timing.ticks
-    for task in tasks:
-        task.join()
-    late, compute = timing.lateness, timing.compute
-    row = [
-        f"{others} busy processes" if others else "nothing else runs",
-        f"{US * late.p50:.0f}, {US * late.p99:.0f}, {US * late.p999:.0f}",
-        f"{timing.missed} of {ticks + timing.missed:,}",
-        f"{US * compute.p50:.0f}, {US * compute.p99:.0f}",
-    ]
-    return row, [str(grant) for grant in timing.grants]
-
-
-def workspace() -> tuple[float, float]:
-    """Largest relative error of the force at the tip: of ours, and of the printed one."""
+def printed() -> float:
+    """Largest relative error of the force at the tip by the torques that the thesis prints."""
     worst = 0.0
-    for pitch in np.radians((-45, -20, 0, 20, 45)):
-        for roll in np.radians((-45, 0, 45)):
-            q = np.array([pitch, roll, 0.0, 0.2])
-            tip, d = kinematics.position(q), kinematics.axis(q)
-            force = np.array([1.0, -0.5, 0.7]) - 2.0 * d
-            tau = kinematics.torques(q, tip[None], force[None])
-            J = kinematics.jacobian(q, tip)
-            back = np.linalg.lstsq(J.T, tau, rcond=None)[0]
-            worst = max(worst, float(np.linalg.norm(back - force) / np.linalg.norm(force)))
-    printed = 0.0
     for angle in np.radians((10, 20, 30, 45)):
         q = np.array([0.0, angle, 0.0, 0.2])
         tip = kinematics.position(q)
@@ -118,8 +53,8 @@ def workspace() -> tuple[float, float]:
             J = kinematics.jacobian(q, tip)[:, :2]
             made = np.linalg.lstsq(J.T, np.asarray(tau)[:2], rcond=None)[0]
             right = np.linalg.lstsq(J.T, wanted, rcond=None)[0]
-            printed = max(printed, float(np.linalg.norm(made - right) / np.linalg.norm(right)))
-    return worst, printed
+            worst = max(worst, float(np.linalg.norm(made - right) / np.linalg.norm(right)))
+    return worst
 
 
 def felt(dt: str) -> list[str]:
@@ -143,23 +78,6 @@ def felt(dt: str) -> list[str]:
         f"{100 * means:.2g} %",
         f"{100 * each:.2g} %",
         f"{1e3 * spent:.1f}",
-    ]
-
-
-def together(dt: str) -> list[str]:
-    """The organ in real time: ticks at 1 kHz, steps, a look at 25 Hz, on the machine's cores."""
-    example = runpy.run_path(str(ROOT / "examples" / "palpate.py"))
-    simulation = example["scene"]().replace(step=ts.ImplicitEuler(dt)).compile()
-    with Trocars(simulation, realtime=True) as trocars:
-        for _ in trocars.along(iter(simulation.run())):
-            pass
-        found = trocars.summary()["right"]
-    steps = len(trocars.felt["right"])
-    return [
-        dt,
-        f"{found['late_steps']} of {steps}",
-        f"{found['missed_ticks']}",
-        f"{US * found['lateness_p99']:.0f}",
     ]
 
 
@@ -203,23 +121,41 @@ def table(head: tuple[str, ...], rows: list[list[str]]) -> str:
     return "".join(f"| {' | '.join(line)} |\n" for line in lines)
 
 
-def page(seconds: float) -> str:
-    """The whole page."""
+def on_time(seconds: float) -> str:
+    """How late ticks are."""
     rows, grants = [], []
     for others in (0, 2, 4):
-        row, grants = lateness(seconds, others)
-        rows.append(row)
-    text = HEAD + "## How late ticks are\n\n"
+        for privileged in (True, False):
+            row, asked = lateness(seconds, others, privileged=privileged)
+            rows.append(row)
+            grants = asked or grants
+    text = "## How late ticks are\n\n"
     text += f"Each row is a run of {seconds:g} s, in which a new model of 8 contacts with friction "
     text += "arrives every 40 ms. The settings requested of the machine are "
-    text += "; ".join(grants) + ".\n\n"
-    head = ("beside", "late [us], p50, p99, p99.9", "missed ticks", "computing [us], p50, p99")
-    text += table(head, rows) + "\n"
-    exact, printed = workspace()
-    text += "## What the hand feels\n\n"
-    text += "For pitch and roll of up to 45 degrees, the torques give the force at the tip "
-    text += f"to {exact:.0e}. Those printed in the thesis (5.6, 5.10) are wrong by up to "
-    text += f"{100 * printed:.0f} %.\n\n"
+    text += "; ".join(grants) + ". In the rows without privileges nothing is requested: the thread "
+    text += "is one like any other. A trocar is held after more than five missed ticks in a row.\n"
+    head = (
+        *("beside", "privileges", "late [us], p50, p99, p99.9", "missed ticks", "held, times"),
+        "computing [us], p50, p99",
+    )
+    return text + "\n" + table(head, rows) + "\n"
+
+
+def on_the_hand() -> str:
+    """Force over the workspace, and agreement with the tissue."""
+    text = "## What the hand feels\n\n"
+    text += "A hand presses an oblique wall at 45 places of the workspace, pitch and roll up to 42 "
+    text += "degrees and 10 to 28 cm deep, and stays there. The table compares the force that it "
+    text += "feels with that of the contact: ticks, motors, encoders and friction of the simulated "
+    text += "device lie between the two. The last two columns are medians for a hand that moves "
+    text += "by 6 mm to and fro once a second. Efficiencies are 0.95, 0.95, 0.98 and 0.7, the "
+    text += "compensation is that of `compensation: {friction: 80 %}` and `efficiency`. It acts "
+    text += "with a part that grows with the speed, up to two counts a tick (0.2 m/s of depth), so "
+    text += "a hand at rest, and one that palpates slowly, feels little of it.\n\n"
+    head = ("device", "error, median", "largest", "going in", "going out")
+    text += table(head, workspace()) + "\n"
+    text += "The torques printed in the thesis (5.6, 5.10) give a force at the tip that is wrong "
+    text += f"by up to {100 * printed():.0f} %.\n\n"
     text += "An organ of 1,063 nodes is palpated 4 cm deep by a hand that trembles "
     text += "(`examples/palpate.py`). The table compares the forces of the tissue's steps with "
     text += "those of the last tick of each step, from 0.7 to 1.38 s, while the hand stays "
@@ -232,18 +168,60 @@ def page(seconds: float) -> str:
         "ms a step and its ticks",
     )
     text += table(head, [felt(dt) for dt in ("10 ms", "20 ms", "40 ms")]) + "\n"
-    text += "## The compliance of the tissue\n\n"
+    text += "The same organ is palpated by a hand whose path goes 5 mm up and down once a second, "
+    text += "for 2.5 s in contact. In each step, `Report.disagreement` is the size of the "
+    text += "difference between the mean force of the ticks and that of the tissue's step. The "
+    text += "last two columns give its mean and its largest value, of the mean force.\n\n"
+    head = (
+        *("step", "way of the tool [mm]", "mean force [N]", "largest force [N]"),
+        *("mean disagreement", "largest"),
+    )
+    return text + table(head, [palpated(dt) for dt in ("10 ms", "40 ms")]) + "\n"
+
+
+def of_hard_cases() -> str:
+    """What happens when things go wrong."""
+    text = "## Hard cases\n\n"
+    text += "A hand presses into soft tissue for 0.6 s; then the case happens. From then on, the "
+    text += "energy given out is the largest work of the motors on the tool. Its bound at that "
+    text += "time is the energy that was stored, that of the tank, and what the device has "
+    text += "dissipated since. The last column is how far the tool swings within the last 0.1 s of "
+    text += "1.5 s.\n\n"
+    head = (
+        *("case", "ends in", "energy given out [mJ]", "bound [mJ]", "within it"),
+        "swing at the end [counts]",
+    )
+    return text + table(head, rows_of_cases()) + "\n"
+
+
+def of_compliance() -> str:
+    """What the compliance takes."""
+    text = "## The compliance of the tissue\n\n"
     text += "The table gives the time to compute the compliance, in milliseconds, while the same "
     text += "organ is pressed deeper in steps of 10 ms: with a factor that is kept and corrected, "
     text += "with a new factor, and with conjugate gradients. It also gives the largest error "
     text += "bound, and the time of a step.\n\n"
     head = ("contacts", "kept", "made anew, how often", "error", "a step", "cg")
-    text += table(head, [give(contacts) for contacts in (1, 3, 8)]) + "\n"
-    text += "## All together in real time\n\n"
-    text += "The same scene runs in real time: ticks in their own thread, steps of the tissue with "
-    text += "the compliance, and a report after each step.\n\n"
-    head = ("step", "steps that were late", "missed ticks", "ticks late [us], p99")
-    text += table(head, [together(dt) for dt in ("10 ms", "20 ms", "40 ms")]) + "\n"
+    return text + table(head, [give(contacts) for contacts in (1, 3, 8)]) + "\n"
+
+
+def all_together() -> str:
+    """Three loops at once."""
+    text = "## All together in real time\n\n"
+    text += "The same scene runs in real time in one process: ticks at 1 kHz in their own thread, "
+    text += "steps of the tissue with the compliance and a report after each step, and a display "
+    text += "loop of 25 Hz that packs the newest shape and forces as a page takes them.\n\n"
+    head = (
+        *("step", "steps that were late", "missed ticks", "ticks late [us], p99"),
+        *("display late [ms], p99", "displays left out"),
+    )
+    return text + table(head, [together(dt) for dt in ("10 ms", "20 ms", "40 ms")]) + "\n"
+
+
+def page(seconds: float) -> str:
+    """The whole page."""
+    text = HEAD + on_time(seconds) + on_the_hand() + of_hard_cases()
+    text += of_compliance() + all_together()
     return text + THESIS + f"Printed by `python bench/trocar.py --write`; {machine_line()}\n"
 
 
@@ -278,6 +256,7 @@ def main() -> None:
     text = page(given.seconds)
     if given.write:
         PAGE.write_text(text, encoding="utf-8")
+        put_between(METHODS, SWINGS, swings())
     print(text)
 
 

@@ -164,6 +164,8 @@ _HOMES = {
         "Hand",
         "ToolChanges",
         "TrocarLimits",
+        "TrocarCompensation",
+        "TrocarMechanism",
         "Editing",
         "Ablator",
         "Knife",

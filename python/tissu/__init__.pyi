@@ -125,6 +125,8 @@ from tissu.scene import PluginDevice as PluginDevice
 from tissu.scene import Hand as Hand
 from tissu.scene import ToolChanges as ToolChanges
 from tissu.scene import TrocarLimits as TrocarLimits
+from tissu.scene import TrocarCompensation as TrocarCompensation
+from tissu.scene import TrocarMechanism as TrocarMechanism
 from tissu.scene import Editing as Editing
 from tissu.scene import Ablator as Ablator
 from tissu.scene import Knife as Knife

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstddef>
 #include <ctime>
+#include <mutex>
 #include <system_error>
 
 #include "tissu/base/error.h"
@@ -49,8 +50,41 @@ Grant ask_memory() {
              "that group, a new login");
 }
 
-Grant ask_core() {
-  const int core = last_core();
+/// How many loops of this process are pinned to each processor.
+struct Pins {
+  std::mutex mutex;
+  std::array<int, CPU_SETSIZE> loops{};
+};
+Pins& pins() {
+  static Pins made;
+  return made;
+}
+
+/// Takes the processor with the fewest loops, of these the last; -1: none is known.
+int take_core() {
+  cpu_set_t allowed;
+  CPU_ZERO(&allowed);
+  if (sched_getaffinity(0, sizeof allowed, &allowed) != 0) return -1;
+  Pins& all = pins();
+  const std::scoped_lock lock(all.mutex);
+  std::size_t taken = all.loops.size();
+  for (std::size_t core = 0; core < all.loops.size(); ++core) {
+    if (!CPU_ISSET(core, &allowed)) continue;
+    if (taken == all.loops.size() || all.loops[core] <= all.loops[taken]) taken = core;
+  }
+  if (taken == all.loops.size()) return -1;
+  ++all.loops[taken];
+  return static_cast<int>(taken);
+}
+
+void give_back(int core) {
+  if (core < 0) return;
+  Pins& all = pins();
+  const std::scoped_lock lock(all.mutex);
+  --all.loops[static_cast<std::size_t>(core)];
+}
+
+Grant ask_core(int core) {
   int error = EINVAL;
   if (core >= 0) {
     cpu_set_t only;
@@ -104,6 +138,8 @@ void Loop::start() {
       ready_.store(true, std::memory_order_release);
       ready_.notify_all();
       run();
+      give_back(core_);
+      core_ = -1;
     });
   } catch (const std::system_error& error) {
     throw Error(std::string("the machine gives no thread for the haptic loop (") + error.what() +
@@ -121,7 +157,10 @@ void Loop::prepare() {
   grants_.clear();
   if (options_.priority > 0) grants_.push_back(ask_priority(options_.priority));
   if (options_.lock_memory) grants_.push_back(ask_memory());
-  if (options_.pin) grants_.push_back(ask_core());
+  if (options_.pin) {
+    core_ = take_core();
+    grants_.push_back(ask_core(core_));
+  }
   touch_stack();
 }
 

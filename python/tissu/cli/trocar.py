@@ -13,9 +13,12 @@ from tissu.cli.outcome import DIVERGED, FINISHED
 from tissu.errors import ParameterError, SceneError
 
 if TYPE_CHECKING:
+    from tissu.front import Scene
     from tissu.scene.trocar.passive import Bound
     from tissu.scene.trocar.trocar import Trocar
     from tissu.trocar.controller import Controller, Mode
+    from tissu.trocar.identify import Axis
+    from tissu.trocar.touch import Touch
 
 _LOOK = 0.04
 """s between two reports: the rate of a display."""
@@ -29,13 +32,24 @@ def trocars_of(scene: Path, name: str | None) -> dict[str, Trocar]:
     Raises:
         SceneError: the scene has problems, or no trocar of this name.
     """
+    return _named(scene, _checked(scene), name)
+
+
+def _checked(scene: Path) -> Scene:
+    """The scene of a file, without problems."""
     from tissu.front import Scene
-    from tissu.scene.problem import nearest
 
     found = Scene.from_yaml(scene)
     problems = found.check().problems
     if problems:
         raise SceneError(problems)
+    return found
+
+
+def _named(scene: Path, found: Scene, name: str | None) -> dict[str, Trocar]:
+    """All trocars, or the one that is named."""
+    from tissu.scene.problem import nearest
+
     trocars = dict(found.trocars)
     if not trocars:
         raise SceneError([f"{scene}: found no trocars; at least one is accepted, as `trocars:`"])
@@ -53,7 +67,11 @@ def one_trocar(scene: Path, name: str | None) -> tuple[str, Trocar]:
     Raises:
         SceneError: there are several, and none is named.
     """
-    found = trocars_of(scene, name)
+    return _the_one(scene, trocars_of(scene, name))
+
+
+def _the_one(scene: Path, found: dict[str, Trocar]) -> tuple[str, Trocar]:
+    """The trocar where there is one."""
     if len(found) > 1:
         text = f"{scene}: found the trocars {', '.join(found)}; name one of them by --trocar"
         raise SceneError([text])
@@ -75,8 +93,13 @@ def check_trocars(scene: Path, name: str | None, *, trusted: bool) -> None:
                 report = controller.step(300)
             print(f"trocar {key}: {trocar.device.words()}")
             print(f"  now: {report}")
-            for axis, felt, bound in _couplings(trocar):
-                print(f"  {axis}: coupling {felt}, {bound}")
+            print("\n".join(_words_of(trocar)))
+
+
+def _words_of(trocar: Trocar) -> list[str]:
+    """A line for the coupling of each axis, and for what else the motors do."""
+    found = [f"  {axis}: coupling {felt}, {bound}" for axis, felt, bound in _couplings(trocar)]
+    return found + [f"  {words}" for words in trocar.carried_words()]
 
 
 def _couplings(trocar: Trocar) -> list[tuple[str, str, str]]:
@@ -96,7 +119,7 @@ def _couplings(trocar: Trocar) -> list[tuple[str, str, str]]:
 
 
 def identify_trocar(scene: Path, name: str | None, *, trusted: bool) -> None:
-    """Drives each axis to and fro, and prints its damping and friction as a scene has them."""
+    """Drives each axis to and fro, and prints damping, friction, efficiency as a scene has them."""
     from tissu.trocar.identify import identify
     from tissu.trocar.opened import open_device
 
@@ -107,11 +130,20 @@ def identify_trocar(scene: Path, name: str | None, *, trusted: bool) -> None:
     print(f"trocar {key}:")
     for axis in axes:
         text = f"  {axis.name}: inertia {axis.inertia:.3g}, damping {axis.damping:.3g}, "
-        print(f"{text}friction {axis.friction:.3g} (SI); rest {axis.rest:.1%}")
+        print(f"{text}friction {axis.friction:.3g} (SI), {_loss(axis)}; rest {axis.rest:.1%}")
     damping = ", ".join(f"{max(axis.damping, 0.0):.3g}" for axis in axes)
     friction = ", ".join(f"{max(axis.friction, 0.0):.3g}" for axis in axes)
     print("for the device of the scene:")
-    print(f"  damping: [{damping}]\n  friction: [{friction}]")
+    known = [axis.efficiency for axis in axes]
+    efficiency = ", ".join("1" if eta is None else f"{eta:.3g}" for eta in known)
+    print(f"  damping: [{damping}]\n  friction: [{friction}]\n  efficiency: [{efficiency}]")
+
+
+def _loss(axis: Axis) -> str:
+    """The efficiency of an axis, and how well it is known."""
+    if axis.efficiency is None:
+        return "efficiency not found: the axis has too little inertia, take the data sheet's"
+    return f"efficiency {axis.efficiency:.3f} +- {axis.error:.3f}"
 
 
 def jitter_trocar(
@@ -141,7 +173,8 @@ class Recorded:
         out: file of the recording.
         seconds: how long.
         realtime: whether by the thread; else stepped, in simulated time.
-        wall: depth of a wall across the port that is felt meanwhile [m]; None: none.
+        wall: depth of a wall across the port that is felt in place of the tissue [m]; None: the
+            tissue of the scene is felt, where the trocar has tools.
         stiffness: of the wall [N/m].
         trusted: whether a plug-in may run.
     """
@@ -172,15 +205,19 @@ def check_writable(out: Path) -> None:
 
 
 def record_trocar(job: Recorded) -> None:
-    """Ticks for a while, with a wall that is felt or without, and writes what happened."""
+    """Ticks for a while, with the tissue or a wall that is felt, and writes what happened."""
     from tissu.trocar.controller import Controller
 
-    key, trocar = one_trocar(job.scene, job.name)
+    scene = _checked(job.scene)
+    key, trocar = _the_one(job.scene, _named(job.scene, scene, job.name))
     require_apart(f"recording {job.out}", [job.out], input_files(job.scene, trocar))
     mode: Mode = "threaded" if job.realtime else "stepped"
     controller = Controller(trocar, mode=mode, record=True, trust_plugins=job.trusted)
+    touch = _touch(scene, controller, job)
     with controller:
         left = job.seconds
+        if touch is not None:
+            left -= _touching(touch, job)
         while left > _NOTHING:
             _look(controller, job, trocar, min(_LOOK, left))
             left -= _LOOK
@@ -188,6 +225,27 @@ def record_trocar(job: Recorded) -> None:
     recording = controller.recording()
     recording.save(job.out)
     print(f"recorded: {job.out} ({recording.ticks} ticks, {len(recording.models)} models)")
+
+
+def _touch(scene: Scene, controller: Controller, job: Recorded) -> Touch | None:
+    """The scene that the tools of the trocar touch; None where a wall stands in, or it has none."""
+    from tissu.trocar.touch import Touch
+
+    if job.wall is not None or not controller.trocar.tools:
+        return None
+    return Touch(scene.compile(), controller)
+
+
+def _touching(touch: Touch, job: Recorded) -> float:
+    """Whole steps of the scene and their ticks; the time that they took on its clock [s]."""
+    dt = touch.simulation.dt
+    steps = int(job.seconds / dt + _NOTHING)
+    begin = time.monotonic()
+    for number in range(steps):
+        touch.step()
+        if job.realtime:
+            time.sleep(max(0.0, begin + (number + 1) * dt - time.monotonic()))
+    return steps * dt
 
 
 def _look(controller: Controller, job: Recorded, trocar: Trocar, seconds: float) -> None:

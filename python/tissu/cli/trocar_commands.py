@@ -73,7 +73,7 @@ def check_command(
 def identify_command(
     scene: SceneFile, trocar: Name = None, trust_plugins: TrustPlugins = False, debug: Debug = False
 ) -> None:
-    """Drive each axis to and fro, and find its damping and friction; nothing may hold the tool."""
+    """Drive each axis to and fro; find damping, friction and efficiency. Nothing may hold it."""
     from tissu.cli.trocar import identify_trocar
 
     with reported(debug=debug):
@@ -109,13 +109,14 @@ def record_command(
         bool, typer.Option("--realtime", help="By the thread; default: stepped.")
     ] = False,
     wall: Annotated[
-        str | None, typer.Option(metavar="DEPTH", help="A wall that is felt there: '110 mm'.")
+        str | None,
+        typer.Option(metavar="DEPTH", help="A wall that is felt in place of the tissue: '110 mm'."),
     ] = None,
     stiffness: Annotated[str, typer.Option(help="Of the wall.")] = "500 N/m",
     trust_plugins: TrustPlugins = False,
     debug: Debug = False,
 ) -> None:
-    """Record all ticks: what the device gave, the models, the torques."""
+    """Record all ticks: what the device gave, the models of the tissue, the torques."""
     from tissu.cli.trocar import Recorded, check_writable, record_trocar
     from tissu.units import LENGTH, STIFFNESS
 

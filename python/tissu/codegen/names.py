@@ -93,6 +93,8 @@ HEADINGS: dict[str, tuple[str, ...]] = {
         "trocar.hand",
         "trocar.changes",
         "trocar.limits",
+        "trocar.compensation",
+        "trocar.mechanism",
     ),
     "Editing and instruments": ("editing", "instrument", "tear"),
     "Steps": ("step",),

@@ -113,6 +113,12 @@ from tissu.scene.trocar.changes import (
 from tissu.scene.trocar.limits import (
     TrocarLimits,
 )
+from tissu.scene.trocar.compensation import (
+    TrocarCompensation,
+)
+from tissu.scene.trocar.mechanism import (
+    TrocarMechanism,
+)
 from tissu.scene.editing import (
     Editing,
 )
@@ -211,6 +217,8 @@ __all__ = [
     "Hand",
     "ToolChanges",
     "TrocarLimits",
+    "TrocarCompensation",
+    "TrocarMechanism",
     "Editing",
     "Ablator",
     "Knife",

@@ -39,6 +39,8 @@ if TYPE_CHECKING:
     from tissu.trocar.kinematics import Array
 
 Mode = Literal["stepped", "threaded", "python"]
+STALE = 0.1
+"""s: a model that is older is reported, whatever the step of the tissue is."""
 SUPERVISED = 0.04
 """s between two looks at the tool while ticks are stepped: the rate of a display."""
 
@@ -180,6 +182,21 @@ class Controller:
         tag = self._settings.tag if model.tag is None else model.tag
         return self._ticking.publish(model, tag)
 
+    def expect_models(self, every: float) -> None:
+        """Say how often a model comes [s]: one older than two of these and 100 ms is stale.
+
+        `Touch` calls it with the step of the scene.
+
+        Raises:
+            ParameterError: not a time above 0.
+        """
+        given: object = every
+        if not isinstance(given, (int, float)) or not 0.0 < given < np.inf:
+            raise ParameterError(f"found {written(every)}; a time above 0 s is accepted")
+        stale = max(2.0 * float(given), STALE)
+        if stale != self._settings.stale:
+            self._set(stale=stale)
+
     def supervise(self) -> None:
         """Check which tool is in the device, and accept it if the scene knows it.
 
@@ -232,6 +249,7 @@ class Controller:
             tank=float(found["tank"]),
             given_out=float(found["given_out"]),
             model_age=float(found["model_age"]),
+            stale=float(found["model_age"]) > self._settings.stale,
             disagreement=float(found["disagreement"]),
             limited=bool(found["limited"]),
             timing=self.timing(),

@@ -1,11 +1,16 @@
-"""Damping and friction of a device, found by driving each axis to and fro.
+"""Damping, friction and efficiency of a device, found by driving each axis to and fro.
 
-Of each axis in turn, with a torque tau that swings, over windows of ticks:
+Of each axis in turn, with a torque tau that swings at several rates and strengths, over windows of
+ticks:
 
-    I (v_1 - v_0) + b (q_1 - q_0) + f_c sum sgn(v) T + c T = sum tau T
+    I (v_1 - v_0) + b (q_1 - q_0) + f_c sum sgn(v) T + c T = eta sum+ tau T + 1/eta sum- tau T
 
-is solved for inertia I, viscous damping b, Coulomb friction f_c and a constant torque c (a weight)
-by least squares. Nothing may hold the device.
+with sum+ over the ticks in which the motor drives (tau v > 0) and sum- over those in which it
+brakes. Divided by eta, this is linear in I / eta, b / eta, f_c / eta, c / eta and 1 / eta^2, and is
+solved by least squares for inertia I, viscous damping b, Coulomb friction f_c, a constant torque c
+(a weight) and the efficiency eta. Only braking separates eta from the others: an axis whose inertia
+is small against its damping does not brake long enough, and its eta may stay unknown. Nothing may
+hold the device.
 """
 
 from __future__ import annotations
@@ -24,16 +29,23 @@ from tissu.trocar.states import Flag, Status
 if TYPE_CHECKING:
     from tissu.scene.trocar.trocar import Trocar
 
-SHARES = (0.01, 0.01, 0.05, 0.4)
+SHARES = (0.02, 0.02, 0.2, 0.4)
 """Of the torque limit of each axis: how strong it is driven."""
 _RATE = 2.0
-"""Swings a second [Hz]."""
-_SECONDS = 3.0
-"""For each axis."""
-_HALF = 10
-"""Ticks on either side of which a speed is the mean."""
-_WINDOW = 25
-"""Ticks of an equation."""
+"""Least number of swings a second [Hz]."""
+_RATES = (1.0, 1.0, 5.0, 1.0)
+"""times that for each axis: the own rotation has little inertia, which shows in fast swings alone
+"""
+_PARTS = ((1.0, 1.0), (1.0, 0.6), (2.0, 1.0), (2.0, 0.6))
+"""Rate and strength of the parts of a drive, of the largest."""
+_SECONDS = 1.5
+"""For each part."""
+_LAGS = np.arange(0.0, 6.1e-3, 2.5e-4)
+"""s from a command to its torque that are tried"""
+_LEAST_BRAKING = 1e-3
+"""of the torque that drives: below it, the efficiency is not known"""
+_DOUBT = 0.03
+"""Standard error of the efficiency from which it counts as not known."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,6 +57,9 @@ class Axis:
         inertia: [kg m^2 or kg].
         damping: viscous [N m s/rad or N s/m].
         friction: Coulomb's [N m or N].
+        efficiency: of the transmission; None: the drive does not show it, and inertia, damping and
+            friction are those that the motor feels, which are divided by it.
+        error: standard error of the efficiency, as far as noise goes; infinite: not known.
         rest: what the equation leaves, of the torque that drives (root of mean squares) [1].
     """
 
@@ -52,6 +67,8 @@ class Axis:
     inertia: float
     damping: float
     friction: float
+    efficiency: float | None
+    error: float
     rest: float
 
 
@@ -70,7 +87,8 @@ def identify(trocar: Trocar, device: _haptic.Device, *, realtime: bool) -> list[
     for axis in range(AXES):
         limit = trocar.limits.torques()[axis]
         times, q, tau = _swing(trocar, device, axis, SHARES[axis] * limit, realtime)
-        found.append(fitted(NAMES[axis], times, q, tau))
+        rate = _RATE * _RATES[axis] * max(part[0] for part in _PARTS)
+        found.append(fitted(NAMES[axis], times, q, tau, rate=rate))
     _haptic.write(device, [0.0] * 5, enable=False)
     return found
 
@@ -81,14 +99,17 @@ def _swing(
     """Times, positions and torques of an axis that is driven to and fro."""
     rows = []
     begun, now = None, 0.0
-    while now < _SECONDS:
+    while now < _SECONDS * len(_PARTS):
         sample = _next(device, realtime)
         begun = sample["time_ns"] if begun is None else begun
         now = 1e-9 * (sample["time_ns"] - begun)
         q = sample["counts"][axis] * trocar.device.counts[axis]
         _refuse_ends(trocar, axis, q, device)
         torque = [0.0] * 5
-        torque[axis] = strength * float(np.cos(2.0 * np.pi * _RATE * now))
+        part = min(int(now / _SECONDS), len(_PARTS) - 1)
+        rate, share = _PARTS[part]
+        phase = 2.0 * np.pi * _RATE * _RATES[axis] * rate * (now - part * _SECONDS)
+        torque[axis] = share * strength * float(np.cos(phase))
         _haptic.write(device, torque, sequence=sample["sequence"])
         rows.append((now, q, torque[axis]))
     times, places, torques = np.transpose(rows)
@@ -120,14 +141,31 @@ def _refuse_ends(trocar: Trocar, axis: int, q: float, device: _haptic.Device) ->
         raise TissuError(f"{text} way, and begin again")
 
 
-def fitted(name: str, times: Array, q: Array, tau: Array) -> Axis:
+def fitted(name: str, times: Array, q: Array, tau: Array, *, rate: float = _RATE) -> Axis:
     """The axis whose motion q (n,) under torques tau (n,) was seen at times (n,) [s].
 
-    A torque acts from its sample to the next one.
+    A torque acts from its sample to the next one, and a while later: the time that leaves least.
+
+    Args:
+        name: of the axis.
+        times: of the samples [s].
+        q: positions [rad or m].
+        tau: torques of the motor [N m or N].
+        rate: largest number of swings a second [Hz].
     """
-    inner = slice(_HALF, -_HALF)
-    speed = (q[2 * _HALF :] - q[: -2 * _HALF]) / (times[2 * _HALF :] - times[: -2 * _HALF])
-    times, q, tau = times[inner], q[inner], tau[inner]
+    found = [_fitted(name, times, q, tau, rate, lag) for lag in _LAGS]
+    return min(found, key=lambda axis: axis.rest)
+
+
+def _fitted(name: str, times: Array, q: Array, tau: Array, rate: float, lag: float) -> Axis:
+    """The same for torques that arrive so much later [s]."""
+    tick = float(np.median(np.diff(times)))
+    half = max(2, round(0.04 / (rate * tick)))
+    window = max(4, round(0.1 / (rate * tick)))
+    inner = slice(half, -half)
+    speed = (q[2 * half :] - q[: -2 * half]) / (times[2 * half :] - times[: -2 * half])
+    before, times, q = times, times[inner], q[inner]
+    tau = np.interp(times - lag, before, tau)
     step = np.diff(times, append=times[-1])
 
     def sums(rate: Array) -> Array:
@@ -136,16 +174,38 @@ def fitted(name: str, times: Array, q: Array, tau: Array) -> Axis:
 
     def over(values: Array) -> Array:
         """How far values (n,) go in each window."""
-        return np.asarray(values[_WINDOW:] - values[:-_WINDOW])
+        return np.asarray(values[window:] - values[:-window])
 
+    drives = tau * speed > 0.0
     columns = [over(speed), over(q), over(sums(np.sign(speed))), over(times)]
-    wanted = over(sums(tau))
+    wanted, braked = over(sums(np.where(drives, tau, 0.0))), over(sums(np.where(drives, 0.0, tau)))
     # Near where it turns round, friction is neither of both.
     slow = np.abs(speed) < 0.1 * np.abs(speed).max(initial=0.0)
     moving = over(sums(slow.astype(float))) == 0.0
-    A = np.column_stack(columns)[moving]
-    (inertia, damping, friction, _), *_ = np.linalg.lstsq(A, wanted[moving], rcond=None)
-    rest = A @ np.linalg.lstsq(A, wanted[moving], rcond=None)[0] - wanted[moving]
-    size = max(float(np.sqrt(np.mean(wanted[moving] ** 2))), 1e-300)
+    A = np.column_stack([*columns, -braked])[moving]
+    x, rest, spread = _least_squares(A, wanted[moving])
+    size = max(float(np.sqrt(np.mean((wanted + braked)[moving] ** 2))), 1e-300)
+    # Windows overlap: so many of them tell as much as one.
+    loss, doubt = float(x[4]), float(spread[4]) * np.sqrt(window)
+    eta = float(min(1.0, max(loss, 1.0) ** -0.5))
+    error = float(0.5 * eta**3 * doubt)
+    brakes = np.linalg.norm(braked[moving]) > _LEAST_BRAKING * np.linalg.norm(wanted[moving])
+    known = bool(brakes) and error <= _DOUBT
+    if not known:
+        x, rest, _ = _least_squares(np.column_stack(columns)[moving], (wanted + braked)[moving])
+    scale = eta if known else 1.0
+    inertia, damping, friction = (scale * float(value) for value in x[:3])
     left = float(np.sqrt(np.mean(rest**2))) / size
-    return Axis(name, float(inertia), float(damping), float(friction), left)
+    error = error if known else float("inf")
+    return Axis(name, inertia, damping, friction, eta if known else None, error, left)
+
+
+def _least_squares(A: Array, b: Array) -> tuple[Array, Array, Array]:
+    """The x of least |A x - b|, what it leaves, and the standard error of each number."""
+    size = np.maximum(np.linalg.norm(A, axis=0), 1e-300)
+    U, s, V = np.linalg.svd(A / size, full_matrices=False)
+    inverse = np.where(s > 1e-12 * s[0], 1.0 / np.maximum(s, 1e-300), 0.0)
+    x = (V.T * inverse) @ (U.T @ b) / size
+    rest = A @ x - b
+    noise = float(rest @ rest) / max(1, len(b) - len(s))
+    return x, rest, np.sqrt(noise * ((V.T * inverse) ** 2).sum(axis=1)) / size

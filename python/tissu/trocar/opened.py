@@ -17,6 +17,7 @@ from tissu.scene.trocar.device import (
 )
 from tissu.scene.trocar.tool import tag_of
 from tissu.trocar.kinematics import Array
+from tissu.trocar.settings import port_gravity
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -99,11 +100,26 @@ def simulated(
         made_hand = hand_of(held, device.seed, since=since)
         first = made_hand.wanted(0.0)[0]
     q = _haptic.Fulcrum().joints(first) if joints is None else joints
-    made = _haptic.SimulatedDevice(q, _haptic.Mechanism(), line, made_hand)
+    made = _haptic.SimulatedDevice(q, _mechanism(trocar, device), line, made_hand)
     made.set_tool(tag, True)
     if device.changes is not None:
         tags = (0 if one is None else tag_of(one) for one in device.changes.tags)
         made.plan_tools(list(zip(device.changes.times, tags, strict=True)))
+    return made
+
+
+def _mechanism(trocar: Trocar, device: SimulatedDevice) -> _haptic.Mechanism:
+    """Masses, friction, losses and ends of a simulated device."""
+    given, made = device.mechanism, _haptic.Mechanism()
+    made.mass, made.centre = given.mass, given.centre
+    made.across, made.axial, made.cradle = given.across, given.axial, given.cradle
+    made.viscous, made.coulomb = given.damping, given.friction
+    made.efficiency, made.gravity = device.efficiency, port_gravity(trocar)
+    if given.roller_force is not None:
+        made.roller_force = given.roller_force
+    made.encoder_on_motor = given.encoder == "motor"
+    made.low = (-given.tilt, -given.tilt, -1e300, 0.0)
+    made.high = (given.tilt, given.tilt, 1e300, given.depth)
     return made
 
 

@@ -114,6 +114,8 @@ class Report:
         tank: energy that may be given out [J].
         given_out: energy that was given out since the start [J].
         model_age: of the model that is felt [s].
+        stale: whether that is more than 100 ms, and than two steps of the tissue: the tissue is
+            late, and its latest model is still felt.
         disagreement: of the mean force of the ticks and that of the slow step [N].
         limited: whether a limit cut the torque.
         timing: how the machine let it run.
@@ -139,6 +141,7 @@ class Report:
     tank: float
     given_out: float
     model_age: float
+    stale: bool
     disagreement: float
     limited: bool
     timing: Timing

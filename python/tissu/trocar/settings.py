@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-import math
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from tissu import _haptic
 from tissu.scene.trocar.device import SimulatedDevice
+from tissu.scene.trocar.trocar import Coupling
 
 if TYPE_CHECKING:
     from tissu.scene.trocar.trocar import Trocar
+    from tissu.trocar.kinematics import Array
 
 ANY_TOOL: int = _haptic.ANY_TOOL
 """Tag of the settings with which every tool is taken."""
@@ -20,8 +21,6 @@ FIELDS = tuple(
 )
 _HOMING = (0.2, 0.2, 0.0, 2.0)
 """Torques that drive a simulated device to its end stops [N m, N m, N m, N]."""
-_ENDS = (math.radians(50.0), math.radians(50.0), 1e300, 0.31)
-"""Where its end stops are [rad, rad, rad, m]."""
 _ENOUGH = 1.0 + 1e-9
 
 
@@ -31,6 +30,8 @@ def settings_of(trocar: Trocar) -> _haptic.Settings:
     made.period = 1.0 / trocar.rate
     made.count_size = trocar.device.counts
     made.stiffness = trocar.stiffness()
+    if isinstance(trocar.coupling, Coupling):
+        made.damping = trocar.coupling.damping
     _give_friction(made, trocar)
     limits = trocar.limits
     made.torque_limit = limits.torques()
@@ -39,9 +40,28 @@ def settings_of(trocar: Trocar) -> _haptic.Settings:
     made.joint_high = (limits.tilt, limits.tilt, 1e300, limits.depth)
     made.tag = 0 if trocar.tools else ANY_TOOL
     if isinstance(trocar.device, SimulatedDevice):  # which may lose its zero, too
+        ends = trocar.device.mechanism
         made.homing_torque = _HOMING
-        made.end_high = _ENDS
+        made.end_low = (-ends.tilt, -ends.tilt, -1e300, 0.0)
+        made.end_high = (ends.tilt, ends.tilt, 1e300, ends.depth)
+    _give_compensation(made, trocar)
     return made
+
+
+def port_gravity(trocar: Trocar) -> Array:
+    """Gravity in the port's axes (3,) [m/s^2]; zero where the device is balanced."""
+    return np.asarray(trocar.port.frame().T @ np.array(trocar.gravity or (0.0, 0.0, 0.0)))
+
+
+def _give_compensation(made: _haptic.Settings, trocar: Trocar) -> None:
+    """Efficiency of the motors, and the friction and weight that they carry."""
+    given, known = trocar.compensation, trocar.device.dissipation()
+    made.efficiency = trocar.device.efficiency
+    made.compensation = given.friction
+    if known is not None:
+        made.compensated = known[1]
+    made.tool_mass, made.tool_centre = given.mass, given.centre
+    made.gravity = port_gravity(trocar)
 
 
 def _give_friction(made: _haptic.Settings, trocar: Trocar) -> None:

@@ -60,19 +60,20 @@ class Flag(IntEnum):
     fault = 8
 
 
-_AGAIN = "then stop the trocar and start it again"
+AGAIN = "stop the trocar and start it again"
+ACKNOWLEDGE = "acknowledge it"
 _WORDS = {
     Reason.none: "",
-    Reason.reads_failed: f"the device gave no sample five times in a row; check it, {_AGAIN}",
-    Reason.writes_failed: f"the device took no command five times in a row; check it, {_AGAIN}",
-    Reason.device_fault: f"the device reports a fault of its own; clear it there, {_AGAIN}",
-    Reason.not_finite: f"a model or a torque was not finite three times in a row; {_AGAIN}",
+    Reason.reads_failed: f"the device gave no sample five times in a row; check it, then {AGAIN}",
+    Reason.writes_failed: f"the device took no command five times in a row; check it, then {AGAIN}",
+    Reason.device_fault: f"the device reports a fault of its own; clear it there, then {AGAIN}",
+    Reason.not_finite: f"a model or a torque was not finite three times in a row; {AGAIN}",
     Reason.model_stalled: "no model of the tissue came for longer than a second; the next one ends "
     "it",
-    Reason.too_fast: "the tip moved faster than its limit; acknowledge it when the device is well",
+    Reason.too_fast: f"the tip moved faster than its limit; {ACKNOWLEDGE} when the device is well",
     Reason.tag_changed: "the tag changed while the tool was in; take the tool out",
     Reason.ends_not_found: "the axes came to rest before both of their ends; let go of the handle, "
     "or free what blocks it",
-    Reason.late: "more than five ticks in a row were missed; acknowledge it when the machine has "
-    "time",
+    Reason.late: "more than five ticks in a row were missed; "
+    f"{ACKNOWLEDGE} when the machine has time",
 }

@@ -108,6 +108,7 @@ class Touch:
             text = f"found no obstacle and no instrument among the tools of the trocar ({names}); "
             raise ParameterError(text + "name one of the scene in `tools`")
         self._dt = simulation.dt
+        controller.expect_models(every=self._dt)
         self._led: str | None = None
         self._due = 0.0
         self._tool: str | None = None

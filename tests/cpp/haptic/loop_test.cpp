@@ -1,6 +1,7 @@
 #include "tissu/haptic/loop.h"
 
 #include <gtest/gtest.h>
+#include <sched.h>
 
 #include <atomic>
 #include <chrono>
@@ -84,6 +85,28 @@ TEST(HapticLoop, ThreadSaysWhatTheMachineGrantedAndTheRemedyWhereNot) {
     EXPECT_EQ(grant.granted, grant.error == 0);
     EXPECT_EQ(grant.granted, grant.remedy.empty());
   }
+}
+
+TEST(HapticLoop, ThreadsOfSeveralLoopsArePinnedToDifferentCores) {
+  const int last = last_core();
+  cpu_set_t allowed;
+  CPU_ZERO(&allowed);
+  ASSERT_EQ(sched_getaffinity(0, sizeof allowed, &allowed), 0);
+  if (CPU_COUNT(&allowed) < 2) GTEST_SKIP() << "one core";
+  Counting one, other, third;
+  LoopOptions options = plain();
+  options.pin = true;
+  Loop first(one, options), second(other, options), again(third, options);
+  first.start();
+  second.start();
+  const std::string taken = "core " + std::to_string(last);
+  EXPECT_EQ(first.report().grants.back().what, taken);
+  EXPECT_NE(second.report().grants.back().what, taken);
+  first.stop();
+  again.start();  // on the core that the first has left
+  EXPECT_EQ(again.report().grants.back().what, taken);
+  again.stop();
+  second.stop();
 }
 
 TEST(HapticLoop, RefusesAPeriodThatIsTooLongOrTooShort) {

@@ -37,6 +37,20 @@ def test_a_recording_replays_with_the_same_bits(tmp_path):
     assert "found no file" in tissu("replay", tmp_path / "none.npz", code=2)
 
 
+def test_a_recording_feels_the_tissue_of_the_scene(tmp_path):
+    """A model each step of 10 ms; the hand has touched the tissue before 0.6 s."""
+    file = tmp_path / "touch.npz"
+    said = tissu("record", SCENE, file, "--seconds", "0.605 s")
+    assert "606 ticks, 60 models" in said
+    assert "contact, probe" in said
+    assert "the same bits" in tissu("replay", file)
+    # The wall takes the place of the tissue, and is not reached.
+    said = tissu("record", SCENE, file, "--wall", "290 mm", "--seconds", "0.6 s")
+    assert "free, probe" in said
+    assert "20 models" in tissu("record", SCENE, file, "--realtime", "--seconds", "0.2 s")
+    assert "the same bits" in tissu("replay", file)
+
+
 def test_a_recording_does_not_replace_its_scene(tmp_path):
     scene = tmp_path / "palpation.yaml"
     scene.write_bytes(SCENE.read_bytes())
@@ -47,8 +61,9 @@ def test_a_recording_does_not_replace_its_scene(tmp_path):
 
 def test_identify_prints_what_a_scene_takes():
     said = tissu("identify", SCENE)
-    damping, friction = (line for line in said.splitlines() if line.startswith("  damping") or
-                         line.startswith("  friction"))  # fmt: skip
+    names = ("  damping", "  friction", "  efficiency")
+    damping, friction, efficiency = (line for line in said.splitlines() if line.startswith(names))
+    assert yaml.safe_load(efficiency)["efficiency"] == pytest.approx([1.0] * 4, abs=0.01)
     assert len(yaml.safe_load(damping)["damping"]) == 4
     assert yaml.safe_load(friction)["friction"][3] == pytest.approx(0.3, rel=0.1)
 

@@ -1,5 +1,8 @@
 """The controller: states, tools, walls that are felt, three ways to run, recordings, hard cases."""
 
+import os
+import time
+
 import numpy as np
 import pytest
 
@@ -72,6 +75,78 @@ def test_in_real_time_the_thread_takes_the_ticks():
     assert not recording.columns["enable"][-1]  # the motors were switched off
     # Real time and its missed ticks are in the recording: the replay has the same bits.
     assert recording.difference(recording.replay()) == ""
+
+
+@pytest.mark.parametrize("mode", ["stepped", "python"])
+def test_a_model_is_stale_after_100_ms_and_two_steps_of_the_tissue(mode):
+    for every, until in ((None, 100), (0.02, 100), (0.08, 160)):
+        with Controller(trocar(), mode=mode) as controller:
+            if every is not None:
+                controller.expect_models(every=every)
+            q = controller.step(400).q
+            assert not controller.report().stale  # there is none
+            controller.publish(LocalModel.plane(q, **WALL))
+            assert not controller.step(until).stale
+            assert controller.step(5).stale
+            assert controller.report().state in (State.free, State.contact)
+            controller.publish(LocalModel.plane(q, **WALL))
+            assert not controller.step(1).stale
+            with pytest.raises(ts.ParameterError, match="a time above 0 s is accepted"):
+                controller.expect_models(every=0.0)
+
+
+def test_two_trocars_tick_in_real_time_at_once():
+    """Each thread has its exchange: each hand feels its own wall, and no tick is mixed up."""
+    deep = ts.Hand(times=[0, 0.2, 0.5], points=[(0, 0, 0.1), (0, 0, 0.1), (0, 0, 0.112)])
+    run = [
+        Controller(
+            trocar(
+                port=ts.Port((x, 0, 0.12), (0, 0, -1)),
+                device=ts.SimulatedDevice(hand=deep),
+                rate=300.0,  # slow, so that a busy machine seldom misses five ticks in a row
+            ),
+            mode="threaded",
+            record=True,
+        )
+        for x in (0.0, 0.2)
+    ]
+    walls, stamps, felt = (200.0, 600.0), [0, 0], [[], []]
+    for controller in run:
+        controller.start(lock_memory=False)
+    end = time.monotonic() + 60.0  # what a busy machine takes is not judged
+    while min(c.report().tick for c in run) < 300 or min(map(len, felt)) < 10:
+        assert time.monotonic() < end
+        time.sleep(0.01)
+        for number, controller in enumerate(run):
+            report = controller.report()
+            if report.state is State.held:  # on a busy machine
+                controller.acknowledge()
+            wall = {**WALL, "stiffness": walls[number]}
+            stamps[number] = controller.publish(LocalModel.plane(report.q, **wall))
+            if report.share == report.coupling == 1.0 and report.force[2] > 0.2:
+                felt[number].append(report.force[2] / (report.q[3] - 0.105))
+    cores = [next(g.what for g in c.timing().grants if "core" in g.what) for c in run]
+    if len(os.sched_getaffinity(0)) > 1:
+        assert cores[0] != cores[1]
+    for number, controller in enumerate(run):
+        controller.stop()
+        timing, recording = controller.timing(), controller.recording()
+        columns = recording.columns
+        assert not timing.running
+        # Each period has a tick or is missed; after the thread's, one tick switches the motors off.
+        numbers = columns["number"].astype(int)
+        assert len(numbers) == timing.ticks + 1
+        assert numbers[timing.ticks - 1] + 1 == timing.ticks + timing.missed
+        assert (np.diff(numbers) > 0).all()
+        assert not columns["enable"][-1]
+        offered = columns["offered"].astype(int)
+        assert (np.diff(offered) >= 0).all()
+        assert stamps[number] - 3 <= offered.max() <= stamps[number]
+        assert recording.difference(recording.replay()) == ""
+        K = controller.stiffness()[3]
+        assert np.array(felt[number]) == pytest.approx(
+            walls[number] * K / (walls[number] + K), rel=0.02
+        )
 
 
 def test_stepped_runs_have_the_same_bits_and_replay(tmp_path):
@@ -328,6 +403,42 @@ def test_identification_finds_the_friction_of_the_simulated_device():
         assert axis.damping == pytest.approx(damping, rel=0.1)
         assert axis.friction == pytest.approx(friction, rel=0.1)
         assert axis.rest < 0.05
+        assert axis.efficiency == pytest.approx(1.0, abs=0.01)
+
+
+@pytest.mark.parametrize(
+    ("eta", "delay"),
+    [((0.95, 0.9, 0.96, 0.7), 0.0), ((0.8, 0.85, 0.9, 0.9), 0.0), ((0.95, 0.9, 0.96, 0.7), 2e-3)],
+)
+def test_identification_separates_the_efficiency_from_the_friction(eta, delay):
+    """By what a braking motor loses; three standard errors, and the model's own error."""
+    from tissu.trocar.identify import identify
+    from tissu.trocar.opened import open_device
+
+    free = trocar(device=ts.SimulatedDevice(efficiency=eta, delay=delay))
+    axes = identify(free, open_device(free, 1), realtime=False)
+    mechanism = _haptic.Mechanism()
+    for axis, known, damping, friction in zip(
+        axes, eta, mechanism.viscous, mechanism.coulomb, strict=True
+    ):
+        own, rough = (0.025, 0.15) if axis.name == "rotation" else (0.006, 0.1)
+        assert axis.error < 0.01
+        assert axis.efficiency == pytest.approx(known, abs=own + 3.0 * axis.error)
+        assert axis.damping == pytest.approx(damping, rel=0.1)
+        assert axis.friction == pytest.approx(friction, rel=rough)
+
+
+def test_the_efficiency_of_an_axis_that_cannot_brake_is_not_found():
+    """Without inertia the motor always drives: friction is what the motor feels, over eta."""
+    from tissu.trocar.identify import identify
+    from tissu.trocar.opened import open_device
+
+    light = ts.TrocarMechanism(axial=1e-8, cradle=(2e-3, 2e-3, 2e-8, 0.05))
+    device = ts.SimulatedDevice(efficiency=(1, 1, 0.8, 1), mechanism=light)
+    free = trocar(device=device)
+    rotation = identify(free, open_device(free, 1), realtime=False)[2]
+    assert rotation.efficiency is None
+    assert rotation.damping == pytest.approx(1e-3 / 0.8, rel=0.1)
 
 
 @pytest.mark.parametrize("other", [None, 3, "right"])

@@ -56,8 +56,8 @@ def test_the_page_shows_the_trocar_its_force_and_its_faults(views, pages):
 
     of(view, lambda _: view._session.trocars.each[0].held.device.unplug())
     page.get_by_role("button", name="Step").click()
-    page.get_by_text(re.compile("fault: the device gave no sample five times")).wait_for()
-    cure = page.get_by_role("button", name="Home again")
+    page.get_by_text(re.compile("no sample five times .* then press 'Switch on again'")).wait_for()
+    cure = page.get_by_role("button", name="Switch on again")
     cure.click()
     page.get_by_role("button", name="Play").click()
     until(page, lambda: now(view).state in ("free", "contact"))

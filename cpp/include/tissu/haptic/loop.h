@@ -32,8 +32,9 @@ struct LoopOptions {
   double period = 1e-3;     ///< [s]
   int priority = 60;        ///< of SCHED_FIFO; 0: not asked for
   bool lock_memory = true;  ///< whether pages are to stay in memory
-  bool pin = true;          ///< whether the thread is to stay on the last core that the process has
-  double spin = 0.0;        ///< the last part of each wait that is spent awake [s]
+  bool pin = true;  ///< whether the thread is to stay on one core: the last one with the fewest loops of this
+                    ///< process
+  double spin = 0.0;  ///< the last part of each wait that is spent awake [s]
 };
 
 /// Something that was asked of the machine. A refusal is not an error.
@@ -92,6 +93,7 @@ class Loop {
   std::atomic<std::int64_t> held_{0};
   Timing lateness_;
   Timing compute_;
+  int core_ = -1;              // that the thread is pinned to; of the thread alone
   std::vector<Grant> grants_;  // written before `ready_`, constant after
 };
 

@@ -12,6 +12,7 @@ from tissu.live_view.layers.grabs import force_text
 from tissu.live_view.panels.panel import Panel, table, text, warning
 from tissu.live_view.trocars.curve import Curve
 from tissu.live_view.trocars.gamepad import reader, sticks_of, word_of
+from tissu.trocar.states import ACKNOWLEDGE, AGAIN
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -27,7 +28,8 @@ if TYPE_CHECKING:
 
 _HANDS: dict[str, HandKind] = {"of the scene": "scene", "of the browser": "browser"}
 _OUT = "none"
-_CURES = {"held": "Go on", "fault": "Home again"}
+_GO_ON, _SWITCH_ON = "Go on", "Switch on again"
+_CURES = {"held": _GO_ON, "fault": _SWITCH_ON}
 _SETTLED = 0.5
 """s after a page has changed a widget in which it is left as it is."""
 _DEGREES = 180.0 / np.pi
@@ -63,7 +65,7 @@ class TrocarFolder:
         with gui.add_folder(f"Trocar {name}"):
             self._said = gui.add_html(text("…"))
             self._problem = gui.add_html("", visible=False)
-            self._cure = gui.add_button("Go on", visible=False)
+            self._cure = gui.add_button(_GO_ON, visible=False)
             self._choose_hand_and_tool(gui, first)
             self._add_hand(gui, first, place)
             self._curve = Curve(gui, session)
@@ -159,16 +161,24 @@ class TrocarFolder:
         problem = next((one for one in frames if one.problem), None)
         self._problem.visible = problem is not None
         if problem is not None:
-            self._problem.content = warning(f"{problem.state}: {problem.problem}.")
+            self._problem.content = warning(f"{problem.state}: {sentence_of(problem)}.")
         cure = next((_CURES[one.state] for one in frames if one.state in _CURES), None)
         self._cure.visible = cure is not None
-        self._cure.label = cure or "Go on"
+        self._cure.label = cure or _GO_ON
         if self._tool is not None and time.time() - self._tool.update_timestamp > _SETTLED:
             self._tool.value = first.next_tool or _OUT  # after a reset, say
         if first.hand == "browser":
             for slider, value in zip(self._sliders, shown_joints(first.wanted), strict=True):
                 follow(slider, value)
         self._curve.show(first.history)
+
+
+def sentence_of(one: TrocarFrame) -> str:
+    """What is wrong and what to do, with the button of the page in place of the call."""
+    press = f"press '{_SWITCH_ON}'"
+    if one.hand == "device":
+        press = f"let go of the handle and {press}: the device homes before it gives force"
+    return one.problem.replace(AGAIN, press).replace(ACKNOWLEDGE, f"press '{_GO_ON}'")
 
 
 def numbers_of(one: TrocarFrame) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Annotated
@@ -23,6 +24,7 @@ def _per_turn(name: str, unit: str, example: str) -> units.Dimension:
 
 TURN_DAMPING = _per_turn("damping of a turn", "N*m*s/rad", "0.03 N m s/rad")
 TURN_STIFFNESS = _per_turn("stiffness of a turn", "N*m/rad", "48 N m/rad")
+INERTIA = units.Dimension("inertia", "kg*m^2", "2e-3 kg m^2", {"kg*m^2": 1.0, "g*m^2": 1e-3})
 DAMPING = units.Dimension("damping", "N*s/m", "1 N s/m", {"N*s/m": 1.0, "kg/s": 1.0})
 
 
@@ -36,6 +38,8 @@ class PerAxis:
     """each is at least this"""
     above: bool = False
     """or above it"""
+    most: float = math.inf
+    """and at most this"""
     absent: bool = False
     """whether none at all is accepted too"""
 
@@ -61,8 +65,11 @@ class PerAxis:
             raise ParameterError(f"{name}: {error}") from None
         if number < self.least or (self.above and number == self.least):
             bound = "above" if self.above else "of at least"
-            text = f"found {number:g} {kind.unit.replace('*', ' ')}"
+            text = f"found {number:g} {kind.unit.replace('*', ' ')}".rstrip()
             raise ParameterError(f"{name}: {text}; one {bound} {self.least:g} is accepted")
+        if number > self.most:
+            text = f"found {number:g} {kind.unit.replace('*', ' ')}".rstrip()
+            raise ParameterError(f"{name}: {text}; one of at most {self.most:g} is accepted")
         return number
 
     def _example(self) -> str:
@@ -76,9 +83,17 @@ MaybeDamping = Annotated[_MaybeFour, BeforeValidator(PerAxis(TURN_DAMPING, DAMPI
 MaybeFriction = Annotated[
     _MaybeFour, BeforeValidator(PerAxis(units.MOMENT, units.FORCE, absent=True))
 ]
+Damping = Annotated[_Four, BeforeValidator(PerAxis(TURN_DAMPING, DAMPING))]
+OwnDamping = Annotated[_Four, BeforeValidator(PerAxis(TURN_DAMPING, DAMPING, above=True))]
+OwnFriction = Annotated[_Four, BeforeValidator(PerAxis(units.MOMENT, units.FORCE, above=True))]
+Cradle = Annotated[_Four, BeforeValidator(PerAxis(INERTIA, units.MASS))]
+Efficiency = Annotated[
+    _Four, BeforeValidator(PerAxis(units.NUMBER, units.NUMBER, least=1e-2, most=1.0))
+]
 Stiffness = Annotated[_Four, BeforeValidator(PerAxis(TURN_STIFFNESS, units.STIFFNESS, above=True))]
 OneForce = Annotated[Read[float, Number], BeforeValidator(units.FORCE)]
 OneMoment = Annotated[Read[float, Number], BeforeValidator(units.MOMENT)]
 OneSpeed = Annotated[Read[float, Number], BeforeValidator(units.VELOCITY)]
+OneInertia = Annotated[Read[float, Number], BeforeValidator(INERTIA)]
 OneStiffness = Annotated[Read[float, Number], BeforeValidator(units.STIFFNESS)]
 OneDamping = Annotated[Read[float, Number], BeforeValidator(DAMPING)]

@@ -17,9 +17,10 @@ from tissu.scene.body import PathLike
 from tissu.scene.field import field
 from tissu.scene.part import Part, one_of
 from tissu.scene.problem import Problem
-from tissu.scene.trocar.axes import Counts, MaybeDamping, MaybeFriction
+from tissu.scene.trocar.axes import Counts, Efficiency, MaybeDamping, MaybeFriction
 from tissu.scene.trocar.changes import ToolChanges
 from tissu.scene.trocar.hand import Hand
+from tissu.scene.trocar.mechanism import TrocarMechanism
 from tissu.scene.unknown import rule
 
 __all__ = [
@@ -33,8 +34,7 @@ __all__ = [
 Four = tuple[float, float, float, float]
 TABLE_COUNTS: Four = (math.radians(0.01), math.radians(0.01), math.radians(0.05), 1e-4)
 """Position of one count of the thesis' prototype (table 5.4.5) [rad, rad, rad, m]."""
-SIMULATED_DAMPING: Four = (0.03, 0.03, 1e-3, 1.0)
-SIMULATED_FRICTION: Four = (6e-3, 6e-3, 1e-3, 0.3)
+IDEAL: Four = (1.0, 1.0, 1.0, 1.0)
 BAUDS = (921_600, 1_000_000, 2_000_000, 4_000_000)
 
 
@@ -49,6 +49,7 @@ class TrocarDevice(Part):
     if TYPE_CHECKING:
         type: str
         counts: Counts
+        efficiency: Efficiency
 
     def identity(self) -> str | None:
         """Which device it is: one controller has it at a time; None: no other one can open it."""
@@ -94,6 +95,12 @@ class SimulatedDevice(TrocarDevice):
     """whether the zero of its encoders is known at the start; false: it has to be homed first"""
     counts: Counts = field(default=TABLE_COUNTS)
     """position of one count of pitch, roll, rotation [rad] and depth [m]"""
+    efficiency: Efficiency = field(default=IDEAL)
+    """efficiency of the transmissions of pitch, roll, rotation and depth: the part of a motor's
+    torque that arrives at the joint while the motor drives
+    """
+    mechanism: TrocarMechanism = field(default_factory=TrocarMechanism)
+    """masses, friction and ends"""
 
     def identity(self) -> str | None:
         """None: each trocar has its own."""
@@ -101,7 +108,7 @@ class SimulatedDevice(TrocarDevice):
 
     def dissipation(self) -> tuple[Four, Four] | None:
         """Of the computed mechanism."""
-        return SIMULATED_DAMPING, SIMULATED_FRICTION
+        return self.mechanism.damping, self.mechanism.friction
 
     def loop_delay(self) -> float:
         """The largest."""
@@ -128,6 +135,10 @@ class RealDevice(TrocarDevice):
     """Coulomb friction of pitch, roll, rotation [N m] and depth [N]; absent: as for `damping`"""
     counts: Counts = field(default=TABLE_COUNTS)
     """position of one count of pitch, roll, rotation [rad] and depth [m]"""
+    efficiency: Efficiency = field(default=IDEAL)
+    """efficiency of the transmissions of pitch, roll, rotation and depth, as measured by `tissu
+    trocar identify`; 1: their losses are not compensated
+    """
 
     @rule("damping", "friction")
     def _knows_both(self) -> Iterator[Problem]:

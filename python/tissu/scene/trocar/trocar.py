@@ -12,13 +12,14 @@ from pydantic import PlainValidator, ValidationInfo
 
 from tissu import _core, units
 from tissu.errors import ParameterError
-from tissu.reading import Read, written
-from tissu.scene.effect import Effect
+from tissu.reading import MaybeVector, Read, written
+from tissu.scene.effect import Effect, vector_in_words
 from tissu.scene.field import field
 from tissu.scene.part import Part, keeps_problems
 from tissu.scene.problem import Path, Problem
 from tissu.scene.step import Static
-from tissu.scene.trocar.axes import AXIS_NAMES, Stiffness
+from tissu.scene.trocar.axes import AXIS_NAMES, Damping, Stiffness
+from tissu.scene.trocar.compensation import TrocarCompensation
 from tissu.scene.trocar.device import OneDevice
 from tissu.scene.trocar.limits import TrocarLimits
 from tissu.scene.trocar.passive import MARGIN, Bound, passive_bounds
@@ -43,6 +44,10 @@ class Coupling(Part):
     stiffness: Stiffness = field(kw_only=False)
     """stiffness of pitch, roll, rotation [N m/rad] and depth [N/m]; at most the passive stiffness
     of the device
+    """
+    damping: Damping = field(default=(0.0, 0.0, 0.0, 0.0))
+    """virtual damping of pitch, roll, rotation [N m s/rad] and depth [N s/m] while a force is
+    given; at most what the stiffness leaves of the device's own damping
     """
 
 
@@ -78,6 +83,12 @@ class Trocar(Part):
     """automatic: 0.8 of the largest passive stiffness of each axis; or a stiffness"""
     limits: TrocarLimits = field(default_factory=TrocarLimits)
     """limits of force, torque, speed and travel"""
+    gravity: MaybeVector[units.Acceleration] = field(default=None)
+    """acceleration of gravity on the tool, in the scene's axes [m/s^2]; absent: the device is
+    balanced, and its tool has no weight
+    """
+    compensation: TrocarCompensation = field(default_factory=TrocarCompensation)
+    """friction and weight that the motors carry"""
     compliance: ComplianceWay = field(default="factor")
     """how the compliance of the tissue is computed for the ticks. factor: with a kept factor of the
     step's matrix, corrected; cg: with conjugate gradients; condensed: from a table, for stiffness
@@ -109,6 +120,36 @@ class Trocar(Part):
                     text += f"{bound.stiffness:.4g} {unit}, {bound.why}; at most that is accepted"
                     yield Problem(("coupling", "stiffness", number), text)
 
+    @rule("coupling")
+    def _is_damped_passively(self) -> Iterator[Problem]:
+        """Colgate and Schenkel 1997: b > K T / 2 + B, here with the delay."""
+        known = self.device.dissipation()
+        if not isinstance(self.coupling, Coupling) or known is None:
+            return
+        hold = 0.5 / self.rate + self.device.loop_delay()
+        rows = zip(
+            AXIS_NAMES, self.coupling.damping, self.coupling.stiffness, known[0], strict=True
+        )
+        for number, (name, damping, stiffness, own) in enumerate(rows):
+            most = max(0.0, own - stiffness * hold)
+            if damping > most * (1.0 + 1e-9):
+                unit = "N s/m" if name == "depth" else "N m s/rad"
+                text = f"found {damping:g} {unit} on {name}; at most {most:.4g} {unit} is accepted,"
+                text += " what the stiffness leaves of the damping of the device"
+                yield Problem(("coupling", "damping", number), text)
+
+    @rule("compensation", "gravity", "device")
+    def _compensates_what_is_there(self) -> Iterator[Problem]:
+        if self.compensation.mass > 0.0 and not any(self.gravity or ()):
+            text = f"found {self.compensation.mass:g} kg without gravity; `gravity` of the trocar "
+            text += "beside it is accepted, such as [0, 0, -9.81]"
+            yield Problem(("compensation", "mass"), text)
+        if self.compensation.friction > 0.0 and self.device.dissipation() is None:
+            text = f"found {self.compensation.friction:g} of a friction that is not known; the "
+            text += "`damping` and `friction` of the device beside it are accepted, as `tissu "
+            text += "trocar identify` finds them"
+            yield Problem(("compensation", "friction"), text)
+
     def bounds(self) -> list[Bound] | None:
         """The largest passive stiffness of each axis; None where the device is not known enough."""
         known = self.device.dissipation()
@@ -129,7 +170,22 @@ class Trocar(Part):
         text = f"trocars.{name} is {self.device.words()}, {self.port.words()}, {self.rate:g} Hz, "
         kind = "automatic" if self.coupling == "automatic" else "given"
         text += f"coupling {kind}: {felt} N m/rad and N/m, compliance {self._compliance()}"
+        text += "".join(f", {words}" for words in self.carried_words())
         return Effect(f"trocar {name}", text)
+
+    def carried_words(self) -> list[str]:
+        """What pulls at the tool, what is lost on the way to it, and what the motors make good."""
+        found = []
+        if self.gravity is not None:
+            found.append(f"gravity {vector_in_words(self.gravity)} m/s^2")
+        if self.compensation.mass > 0.0:
+            found.append(f"the weight of {self.compensation.mass:g} kg carried")
+        if any(eta < 1.0 for eta in self.device.efficiency):
+            each = ", ".join(f"{eta:g}" for eta in self.device.efficiency)
+            found.append(f"efficiency {each}")
+        if self.compensation.friction > 0.0:
+            found.append(f"{self.compensation.friction:.0%} of the friction compensated")
+        return found
 
     def _compliance(self) -> str:
         """How it is found, and with what."""

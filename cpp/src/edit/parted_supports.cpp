@@ -101,9 +101,9 @@ void part_supports(WorldDescription& description, const BodyDescription& body, c
       fixed.first_day = fixed.nodes;
       std::ranges::sort(fixed.first_day);
     }
-    const Numbers before = fixed.nodes;
-    for (std::size_t k = 0; k < copied.size(); ++k) {
-      const bool is_held = copied[k] >= 0 ? contains(before, copied[k]) : was_held(fixed, body, copied[k]);
+    for (std::size_t k = 0; k < copied.size(); ++k) {  // of a divided edge, copies of new nodes follow these
+      const bool is_held =
+          copied[k] >= 0 ? contains(fixed.nodes, copied[k]) : was_held(fixed, body, copied[k]);
       if (is_held) fixed.nodes.push_back(first + static_cast<std::int32_t>(k));
     }
   }

@@ -16,9 +16,10 @@ namespace {
 
 std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
-constexpr double kTurned = 0.5;  ///< cosine between the normals of a blade that may pass a cell twice
-constexpr double kBetween =
-    0.15;  ///< of the way between two places on the blade: its middle is so far off it
+constexpr int kRounds = 16;
+constexpr std::size_t kMostGrowth = 8;  ///< times the tetrahedra before the rounds
+constexpr double kTurned = 0.5;         ///< cosine between the normals of a blade that may pass a cell twice
+constexpr double kBetween = 0.15;       ///< of the way between two places: its middle is so far off the blade
 
 Vec3 normal_of(const std::array<Vec3, 3>& t) { return (t[1] - t[0]).cross(t[2] - t[0]).normalized(); }
 
@@ -68,6 +69,7 @@ std::vector<Crossing> other_sheets(const Patch& patch, const SweepPart& part, co
     const Vec3 place = a + share * (b - a);
     const auto is_other = [&](std::int32_t v) {
       if (!known.on(v)) return true;
+      if (known[v].before) return false;  // the blade now is not the one that it lies on
       const Vec3& met = known[v].met;
       return distance(part, triangles, 0.5 * (place + met)) > kBetween * (place - met).norm();
     };
@@ -78,8 +80,7 @@ std::vector<Crossing> other_sheets(const Patch& patch, const SweepPart& part, co
 
 constexpr std::array<std::array<std::uint8_t, 2>, 6> kEdges{{{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
 
-}  // namespace
-
+/// Their other ends get votes as those of edges that are crossed once.
 std::vector<CrossedEdge> edges_to_other_sheets(const Patch& patch, const SweepPart& part,
                                                const NearCells& near, double t0, OnCut& known) {
   std::map<std::pair<std::int32_t, std::int32_t>, std::vector<Crossing>> found;
@@ -111,6 +112,18 @@ std::vector<CrossedEdge> edges_to_other_sheets(const Patch& patch, const SweepPa
     edges.push_back({ends.first, ends.second, std::move(crossings)});
   }
   return edges;
+}
+
+}  // namespace
+
+void divide_at_other_sheets(Patch& patch, const SweepPart& part, const NearCells& near, double t0,
+                            const std::function<double(std::int32_t)>& share, OnCut& known) {
+  const std::size_t most = kMostGrowth * patch.tetrahedra.size();
+  for (int round = 0; round < kRounds && patch.tetrahedra.size() <= most; ++round) {
+    std::vector<CrossedEdge> edges = edges_to_other_sheets(patch, part, near, t0, known);
+    if (edges.empty()) return;
+    divide_crossed(patch, std::move(edges), share, known, {}, 2);
+  }
 }
 
 std::vector<std::int32_t> bridged_cells(const Patch& patch, const SweepPart& part, const NearCells& near,

@@ -3,6 +3,7 @@
 /// Cells that a blade passes more than once, as with walls that are nearer to each other than a cell.
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "edit/cut/crossings.h"
@@ -11,10 +12,11 @@
 
 namespace tissu {
 
-/// Edges from a vertex on the cut through another sheet of the blade, near cells where the blade turns by
-/// more than 60 degrees. Their other ends get votes as those of edges that are crossed once.
-std::vector<CrossedEdge> edges_to_other_sheets(const Patch& patch, const SweepPart& part,
-                                               const NearCells& near, double t0, OnCut& known);
+/// Divides edges that lead from a vertex on the cut through another sheet of the blade, and then their parts
+/// and neighbours that do, near cells where the blade turns by more than 60 degrees. `share`: of an edge of a
+/// cell of the patch, as divide_crossed takes it.
+void divide_at_other_sheets(Patch& patch, const SweepPart& part, const NearCells& near, double t0,
+                            const std::function<double(std::int32_t)>& share, OnCut& known);
 
 /// After a part of a sweep was cut: cells (places, ascending) near which the blade turns by more than 60
 /// degrees, and where it left material joined that it divides. There an edge goes from one sheet of the blade

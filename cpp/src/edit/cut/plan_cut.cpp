@@ -28,8 +28,6 @@ using Numbers = std::vector<std::int32_t>;
 
 constexpr int kRefinements = 3;
 constexpr int kAttempts = 6;
-/// Rounds in which edges that begin on one sheet of the blade are divided at others.
-constexpr int kOtherSheets = 16;
 /// Of a first-day cell; smaller parts send their crossings to the nodes.
 constexpr double kLeastShare = 1e-9;
 constexpr double kFirstRaise = 0.02;
@@ -144,11 +142,7 @@ class Attempt {
       turned = [&](std::int32_t cell) { return remedies_.turned(patch_.cell(cell).number); };
     const auto share = [&](std::int32_t cell) { return t0(cell); };
     const LeftEdges left = divide_crossed(patch_, std::move(edges), share, known, turned);
-    for (int round = 0; !options_.divide && round < kOtherSheets; ++round) {
-      edges = edges_to_other_sheets(patch_, part, near, options_.t0, known);
-      if (edges.empty()) break;
-      divide_crossed(patch_, std::move(edges), share, known, turned, 2);
-    }
+    if (!options_.divide) divide_at_other_sheets(patch_, part, near, options_.t0, share, known);
     const OpenedFaces opened = open_faces(patch_, part, near, known, !options_.divide);
     plan.faces_opened += opened.count;
     plan.area += opened.area;

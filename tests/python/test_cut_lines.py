@@ -390,3 +390,27 @@ def test_what_cannot_be_cut_is_refused_in_a_sentence() -> None:
         scene(instruments={"blade": tough}).compile()
     with pytest.raises(ts.ParameterError, match="the lines 'cable'; the quality of"):
         scene().compile().quality("cable")
+
+
+def test_the_direct_solver_names_the_node_of_a_slack_line_that_nothing_holds() -> None:
+    """A line that is not stretched resists no motion across itself in a static step."""
+    line = ts.Body(
+        mesh=ts.bar_mesh(size=(0.1, 0, 0), cells=(4, 0, 0), cell="line"),
+        law=ts.StVK(young=5e4, poisson=0.4),
+        density=1000.0,
+        section=1e-6,
+    )
+    simulation = ts.Scene(
+        bodies={"thread": line},
+        gravity=(0, 0, -9.81),
+        fixed=[ts.Fixed("thread", on=ts.Nodes((0,)))],
+        step=ts.Static(solver=ts.Cholesky()),
+    ).compile()
+    with pytest.raises(ts.TissuError) as caught:
+        simulation.step()
+    assert str(caught.value) == (
+        "the direct solver found 0 on the diagonal of the matrix, at node 1 of body "
+        '"thread" along y, where numbers above 0 are accepted: nothing resists a motion of the '
+        "node, as across a line that is not stretched in a static step; stretch the line, hold "
+        "the node, or take a step with inertia, such as implicit_euler."
+    )

@@ -12,6 +12,8 @@ import pytest
 import tissu as ts
 from severing_scenes import ACROSS, HALF, MIDDLE, G, around, flying, hanging, same, simulated, steps
 from tissu.cli.run import Job, run_scene
+from tissu.cli.touches import cut_lines
+from tissu.output.summary import cut_record
 from tissu.simulation.lumped import momenta_of
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
@@ -204,6 +206,11 @@ def test_instruments_sever_tissue_at_the_end_of_a_step(kind: str) -> None:
         gone = sorted(p for report in reports for p in report.points_gone)
         heights = np.abs(simulation._links["fascia"].points[:, 2] - 0.055)
         assert gone == np.flatnonzero(heights <= 0.004).tolist()
+    named = "ablation" if kind == "ablator" else "cut"
+    assert all(str(report).startswith(f"{named} of 'fascia' by tool: ") for report in reports)
+    lines = cut_lines(simulation, [cut_record(0.05, report) for report in reports])
+    done = {"knife": "cut", "ablator": "ablated"}[kind]
+    assert lines[0].startswith(f"fascia was {done} by tool at 0.05 s: ")
 
 
 def test_the_example_comes_apart(tmp_path: Path) -> None:

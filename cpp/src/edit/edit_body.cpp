@@ -11,6 +11,7 @@
 #include "debris.h"
 #include "parted_loads.h"
 #include "parted_pressures.h"
+#include "parted_supports.h"
 #include "tissu/base/error.h"
 #include "tissu/edit/cut_state.h"
 #include "tissu/element/reference_cell.h"
@@ -125,33 +126,6 @@ void edit_cells(BodyDescription& body, const BodyEdit& edit) {
   std::erase_if(body.elastic, [](const ElasticBlock& block) { return block.cells.empty(); });
 }
 
-std::vector<std::int32_t> ascending(std::vector<std::int32_t> numbers) {
-  std::ranges::sort(numbers);
-  return numbers;
-}
-
-/// Copies of held nodes are held as those are, but for nodes without material. A node on an edge is held
-/// where all nodes of the first day that it lies between were: it could not move before the cut either.
-void part_supports(WorldDescription& description, const BodyDescription& body, const BodyEdit& edit) {
-  const auto first = static_cast<std::int32_t>(body.positions.size() / 3 - edit.copied.size());
-  for (FixedNodes& fixed : description.fixed) {
-    if (fixed.body != body.name || !fixed.positions.empty()) continue;  // debris has no copies
-    if (fixed.first_day.empty()) fixed.first_day = ascending(fixed.nodes);
-    const auto is_held = [&](std::int32_t node) {
-      if (node >= 0) return std::ranges::find(fixed.nodes, node) != fixed.nodes.end();
-      const FirstDayPoint& point = body.points[static_cast<std::size_t>(-1 - node)];
-      return std::ranges::all_of(point.node, [&](std::int32_t one) {
-        return one < 0 || std::ranges::binary_search(fixed.first_day, one);
-      });
-    };
-    for (std::size_t k = 0; k < edit.copied.size(); ++k) {
-      if (is_held(edit.copied[k])) fixed.nodes.push_back(first + static_cast<std::int32_t>(k));
-    }
-    std::erase_if(fixed.nodes,
-                  [&](std::int32_t node) { return std::ranges::binary_search(body.bare, node); });
-  }
-}
-
 /// Live numbers of a support or load are one for each of its nodes, so that it keeps its nodes meanwhile.
 void refuse_live_changes(const World& world, const State& state, const WorldDescription& before,
                          const WorldDescription& after) {
@@ -234,7 +208,7 @@ std::shared_ptr<const World> edit_body(const World& world, const State& state, s
   refuse_unparted(description, body);
   refuse_tied(description, name, edit.copied);
   body = edited(std::move(body), edit);
-  part_supports(description, body, edit);
+  part_supports(description, body, edit.copied);
   part_loads(description, body);
   part_pressures(description, body);
   refuse_live_changes(world, state, *world.description(), description);

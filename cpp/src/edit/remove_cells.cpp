@@ -7,6 +7,7 @@
 #include "debris.h"
 #include "parted_loads.h"
 #include "parted_pressures.h"
+#include "parted_supports.h"
 #include "tissu/base/error.h"
 #include "tissu/edit/cut_state.h"
 #include "tissu/element/reference_cell.h"
@@ -56,6 +57,7 @@ std::shared_ptr<const World> remove_cells(const World& world, const State& state
     edited.cut = std::make_shared<const CutState>(std::move(left));
   }
   std::erase_if(edited.elastic, [](const ElasticBlock& block) { return block.cells.empty(); });
+  free_unneeded(description, edited);
   part_loads(description, edited);
   part_pressures(description, edited);
   hold_debris(description, edited, state, world.body(body).first_node);

@@ -37,6 +37,11 @@ void fill_report(const Settings& settings, const TickInput& input, const Motion&
   report.tag = m.sample.tag;
 }
 
+/// Joint speeds below which the sense of a motion is not known for sure: two counts in the longest window.
+Joints slow_of(const Settings& settings) noexcept {
+  return 2.0 / ((kWindow - 1) * settings.period) * settings.count_size;
+}
+
 /// From what the joints should feel to the command of the motors: limits, slew, transmission, weight.
 Command to_motors(const Settings& settings, const Joints& wanted, const Motion& motion, Memory& m,
                   TickReport& report) noexcept {
@@ -44,7 +49,7 @@ Command to_motors(const Settings& settings, const Joints& wanted, const Motion& 
   report.limited = within != wanted;
   const Joints tau = slewed(settings.limits, m.torque, within);
   report.slewed = tau != within;
-  const Joints slow = 2.0 * settings.count_size / settings.period;
+  const Joints slow = slow_of(settings);
   const bool moves = m.state != State::homing;  // before, speeds and positions mean nothing
   const Joints v = moves ? motion.speed : Joints::Zero();
   const Joints weight = moves ? weight_torques(settings, m.q) : Joints::Zero();

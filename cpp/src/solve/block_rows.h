@@ -59,6 +59,12 @@ class BlockRows {
                        [&](std::int32_t begin, std::int32_t end) { multiply_rows(begin, end, p, out); });
   }
   [[nodiscard]] std::size_t bytes() const { return values_.size() * sizeof(T); }
+  /// Of the values that a product reads: not the room of an open pattern, which depends on the edits before.
+  [[nodiscard]] std::size_t product_bytes() const {
+    std::int64_t blocks = 0;
+    for (std::int32_t i = 0; i < rows_; ++i) blocks += end_[i] - begin_[i];
+    return static_cast<std::size_t>(9 * blocks + 1) * sizeof(T);
+  }
 
  private:
   const std::int64_t* begin_ = nullptr;

@@ -180,7 +180,7 @@ template <class T>
 double Chebyshev<T>::cycle_bytes() const {
   const auto products = static_cast<double>(2 * kSteps);
   const auto vectors = static_cast<double>((15 * kSteps + 6) * 3 * sizeof(T));
-  return products * static_cast<double>(A_.bytes()) + vectors * A_.rows();
+  return products * static_cast<double>(A_.product_bytes()) + vectors * A_.rows();
 }
 
 template class Chebyshev<double>;

@@ -1,6 +1,7 @@
 #include "sparse_factor.h"
 
 #include "factor_library.h"
+#include "singular_matrix.h"
 #include "work.h"
 
 namespace tissu {
@@ -40,7 +41,7 @@ void SparseFactor::make(const BlockMatrix& matrix, bool coupled) {
   l.lower.update_values(matrix, couplings, shift);
   while (!factorise()) {
     shift = shift == 0.0 ? kFirstShift : 10.0 * shift;
-    if (shift > kLastShift) throw Error("the matrix of the step is not finite or has a zero diagonal.");
+    if (shift > kLastShift) refuse_factor(matrix);
     l.lower.update_values(matrix, couplings, shift);
   }
   l.definite = shift == 0.0;

@@ -19,8 +19,8 @@ class SparseFactor {
   static std::string_view library();
 
   /// Factors the matrix, with its symbolic part kept while the pattern is. A matrix that is not positive
-  /// definite gets a growing share of its diagonal added until it is. Throws Error when none is large enough.
-  /// `coupled`: of the matrix and its couplings; else of the matrix alone.
+  /// definite gets a growing share of its diagonal added until it is. Throws what refuse_factor throws when
+  /// none is large enough. `coupled`: of the matrix and its couplings; else of the matrix alone.
   void make(const BlockMatrix& matrix, bool coupled = false);
   /// Factors the matrix alone as it is; false, and nothing is kept, where it is not positive definite.
   bool attempt(const BlockMatrix& matrix);

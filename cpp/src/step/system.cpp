@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <chrono>
 #include <memory>
+#include <string>
 
+#include "solve/singular_matrix.h"
 #include "tissu/base/error.h"
 #include "tissu/base/norm.h"
+#include "tissu/base/number_text.h"
 
 namespace tissu {
 namespace {
@@ -14,6 +17,22 @@ bool has_constant_matrix(const std::unique_ptr<ForceModel>& model) {
   return model->has_constant_stiffness() || model->run_time().couples;
 }
 bool is_external(const std::unique_ptr<ForceModel>& model) { return model->kind() == ForceKind::external; }
+
+/// Which node it is that nothing holds, and what holds it.
+std::string say(const World& world, const SingularMatrix& found) {
+  std::string node = "row " + std::to_string(found.row());
+  for (const Body& body : world.bodies()) {
+    const std::int32_t own = found.row() - body.first_node;
+    if (own >= 0 && own < body.node_count)
+      node = "node " + std::to_string(own) + " of body \"" + body.name + "\"";
+  }
+  return "the direct solver found " + number_text(found.diagonal()) + " on the diagonal of the matrix, at " +
+         node + " along " + "xyz"[found.axis()] +
+         ", where numbers above 0 are accepted: nothing resists a motion of the node, as across a line that "
+         "is "
+         "not stretched in a static step; stretch the line, hold the node, or take a step with inertia, such "
+         "as implicit_euler.";
+}
 
 }  // namespace
 
@@ -193,7 +212,13 @@ void System::prepare_ahead() {
 SolveReport System::solve(ConstReals b, Reals x, double floor) {
   if (solver_ == nullptr) throw ParameterError("this method solves systems: give it a linear solver.");
   const auto start = std::chrono::steady_clock::now();
-  const SolveReport report = solver_->solve(system_matrix(), b, x, floor);
+  const SolveReport report = [&] {
+    try {
+      return solver_->solve(system_matrix(), b, x, floor);
+    } catch (const SingularMatrix& found) {
+      throw Error(say(world_, found));
+    }
+  }();
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   profile_.add(preparation_row_, report.preparation_seconds, report.preparations);
   profile_.add(solve_row_, seconds - report.preparation_seconds);

@@ -56,6 +56,7 @@ class CutReport:
     Attributes:
         body: its name.
         by: name of the instrument that made it, "tear" of a tear; empty: a call of the program.
+        ablated: whether it took what lies in a region, rather than cut along a blade.
         cells_cut: cells that the blade divided or along whose faces it ran.
         cells_new: cells that replaced them: copies, or parts where cuts divide cells.
         cells_gone: cells that were replaced or removed.
@@ -71,7 +72,10 @@ class CutReport:
         kinetic_energy_change: [J].
         elastic_energy_change: [J].
         work: of a blade with a toughness, toughness times area [J]; else 0.
-        unresolved: cells that the blade met and did not cut, with the reason.
+        unresolved: cells that the blade met and did not cut, or not as far as it went, with the
+            reason.
+        bridges: how many of these cells the blade passed more than once, so that material
+            between its walls may stay joined.
         released: numbers of the grabs that were released because their points were separated.
         links_severed: links of tissue, each of a point with a frame or with a node of a body.
         points_gone: numbers of the points of tissue that have lost their last link, or were taken.
@@ -83,6 +87,7 @@ class CutReport:
 
     body: str
     by: str
+    ablated: bool
     cells_cut: int
     cells_new: int
     cells_gone: int
@@ -99,6 +104,7 @@ class CutReport:
     elastic_energy_change: float
     work: float
     unresolved: tuple[tuple[int, str], ...]
+    bridges: int
     released: tuple[int, ...]
     links_severed: int
     points_gone: tuple[int, ...]
@@ -113,24 +119,28 @@ class CutReport:
 
     def __str__(self) -> str:
         """One line."""
-        by = f" by {self.by}" if self.by else ""
+        text = f"{'ablation' if self.ablated else 'cut'} of '{self.body}'"
+        text += f" by {self.by}: " if self.by else ": "
         if self.met_nothing:
-            return f"cut of '{self.body}'{by}: the blade met nothing"
+            return text + f"the {'region' if self.ablated else 'blade'} met nothing"
         if self.links_severed:
-            return self._of_tissue(by)
-        text = f"cut of '{self.body}'{by}: {counted(self.cells_cut, 'cell')} cut, "
-        if not self.cells_cut:
-            text = f"ablation of '{self.body}'{by}: {counted(self.cells_gone, 'cell')} gone, "
+            return text + self._of_tissue()
+        if self.ablated:
+            text += f"{counted(self.cells_gone, 'cell')} gone, "
+        else:
+            text += f"{counted(self.cells_cut, 'cell')} cut, "
         text += f"{counted(self.nodes_new, 'new node')}, {1e4 * self.area:.4g} cm2 opened, "
         text += f"{counted(len(self.pieces), 'piece')}, {self.milliseconds:.1f} ms"
-        if self.unresolved:
-            text += f"; {counted(len(self.unresolved), 'cell')} met and not cut"
+        if len(self.unresolved) > self.bridges:
+            text += f"; {counted(len(self.unresolved) - self.bridges, 'cell')} met and not cut"
+        if self.bridges:
+            text += f"; walls of the blade may have left bridges in {counted(self.bridges, 'cell')}"
         if math.isfinite(self.stable_step):
             text += f"; steps are stable up to {self.stable_step:.4g} s"
         return text
 
-    def _of_tissue(self, by: str) -> str:
-        text = f"cut of '{self.body}'{by}: {counted(self.links_severed, 'link')} severed, "
+    def _of_tissue(self) -> str:
+        text = f"{counted(self.links_severed, 'link')} severed, "
         if self.points_gone:
             text += f"{counted(len(self.points_gone), 'point')} gone, "
         jump = self.elastic_energy_change + self.kinetic_energy_change
@@ -145,6 +155,7 @@ def cut_report(
     made: dict[str, Any],
     *,
     by: str,
+    ablated: bool,
     pieces: tuple[Piece, ...],
     released: tuple[int, ...],
     stable_step: float,
@@ -155,6 +166,7 @@ def cut_report(
     return CutReport(
         body=body,
         by=by,
+        ablated=ablated,
         cells_cut=made["cells_cut"],
         cells_new=made["cells_new"],
         cells_gone=made["cells_gone"],
@@ -171,6 +183,7 @@ def cut_report(
         elastic_energy_change=after["elastic"] - before["elastic"],
         work=0.0,
         unresolved=tuple((int(cell), str(why)) for cell, why in made["unresolved"]),
+        bridges=made["bridges"],
         released=released,
         links_severed=0,
         points_gone=(),

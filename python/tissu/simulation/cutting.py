@@ -134,7 +134,9 @@ class Cutting(Remains, Severing):
         if len(cells) == count:
             raise ParameterError(f"that would leave no cell of body '{body}'; keep at least one")
         gone = np.unique(cells).astype(np.int32)
-        return self._made(body, lambda: self._core.ablate(body=body, cells=gone), by=by)
+        return self._made(
+            body, lambda: self._core.ablate(body=body, cells=gone), by=by, ablated=True
+        )
 
     def _cut_along(
         self,
@@ -198,7 +200,7 @@ class Cutting(Remains, Severing):
         self._become_severed(mark._severed)
         self._lay_views()
 
-    def _made(self, body: str, make: Any, *, by: str) -> CutReport:
+    def _made(self, body: str, make: Any, *, by: str, ablated: bool = False) -> CutReport:
         """Make a cut and follow it; go back where it leaves a static body with free pieces."""
         start = time.perf_counter()
         grabs = kept.records(self._core) if self.scene.grabbing else {}
@@ -214,6 +216,7 @@ class Cutting(Remains, Severing):
             body,
             made,
             by=by,
+            ablated=ablated,
             pieces=pieces,
             released=released,
             stable_step=self.stable_step if met and self._divides(body) else math.inf,

@@ -85,15 +85,16 @@ class Severing:
     def _take(self, tissue: str, inside: NDArray[np.bool_], *, by: str = "") -> CutReport:
         pairs = self._links[tissue].without(self._pairs(tissue))
         gone = np.unique(pairs[:, 0])[inside]
-        return self._lose(tissue, pairs[np.isin(pairs[:, 0], gone)], by=by)
+        return self._lose(tissue, pairs[np.isin(pairs[:, 0], gone)], by=by, ablated=True)
 
-    def _lose(self, tissue: str, pairs: Pairs, *, by: str) -> CutReport:
+    def _lose(self, tissue: str, pairs: Pairs, *, by: str, ablated: bool = False) -> CutReport:
         """Go on without some links; nothing has changed where it is refused."""
         start = time.perf_counter()
         links, before = self._links[tissue], self._pairs(tissue)
         there = self._left(tissue)
         if not len(pairs):
-            return _report(tissue, by, pieces=self._tissue_pieces(tissue), start=start)
+            pieces = self._tissue_pieces(tissue)
+            return _report(tissue, by, pieces=pieces, start=start, ablated=ablated)
         severed = np.unique(np.concatenate([before, pairs]), axis=0)
         left = links.left(severed)
         gone = np.setdiff1d(there.kept, left.kept)
@@ -114,6 +115,7 @@ class Severing:
             by,
             pieces=self._tissue_pieces(tissue),
             start=start,
+            ablated=ablated,
             links_severed=len(pairs),
             points_gone=tuple(int(p) for p in gone),
             volume_change=-float(links.volumes[gone].sum()),
@@ -269,6 +271,7 @@ def _report(
     """A report of tissue, which has no cells and no faces."""
     nothing: dict[str, Any] = {
         **dict.fromkeys(("cells_cut", "cells_new", "cells_gone", "nodes_new", "faces_opened"), 0),
+        "bridges": 0,
         **dict.fromkeys(("area", "rest_area", "volume_change", "mass_change", "work"), 0.0),
         "momentum_change": np.zeros(3),
         "angular_momentum_change": np.zeros(3),

@@ -45,6 +45,8 @@ Floats = NDArray[np.float64]
 
 _SHARE_OF_STABLE = 0.9
 """of the stable step, for the step auto: room for what the body stiffens in between"""
+_SHARE_WITH_COPIES = 0.5
+"""the same after cuts by copies: a light copy beside heavy ones swings far, and stiffens"""
 
 
 @known_names_only
@@ -188,10 +190,21 @@ class Simulation(Inspected, Handled, Touched, Changed, Cutting, Instrumented):
     def dt(self) -> float:
         """Time step of the scene [s]; if it is auto, nine tenths of the present stable step.
 
-        1 for a static scene, whose time only distinguishes loads.
+        Half of it in scenes with a body that was cut by copies of whole cells. 1 for a static
+        scene, whose time only distinguishes loads.
         """
         dt = getattr(self.scene.step, "dt", 1.0)
-        return _SHARE_OF_STABLE * self.stable_step if dt == "auto" else float(dt)
+        if dt != "auto":
+            return float(dt)
+        share = _SHARE_WITH_COPIES if self._has_copies() else _SHARE_OF_STABLE
+        return share * self.stable_step
+
+    def _has_copies(self) -> bool:
+        """Whether a body has copies of cells, which may hold as little material as one likes."""
+        return any(
+            self._core.body_range(body)[1] > rest.node_count and not self._divides(body)
+            for body, rest in self._rest.items()
+        )
 
     @property
     def stable_step(self) -> float:

@@ -18,6 +18,7 @@ import numpy as np
 
 from tissu.trocar import kinematics
 from tissu.trocar.kinematics import AXES, Array
+from tissu.trocar.velocity import WINDOW
 
 Settings = Mapping[str, Any]
 _LEAST_DEPTH = 0.02
@@ -35,7 +36,7 @@ def felt(s: Settings, q: Array, before: Array, wanted: Array) -> Array:
 
 def command(s: Settings, q: Array, tau: Array, speed: Array) -> tuple[Array, Array]:
     """Torques (4,) of the motors, and what of them counts as work on the hand."""
-    moving = np.clip(speed * s["period"] / (2.0 * s["count_size"]), -1.0, 1.0)
+    moving = np.clip(speed * s["period"] * (WINDOW - 1) / (2.0 * s["count_size"]), -1.0, 1.0)
     carried = tau + _weight(s, q)
     sign = np.where(carried < 0.0, -moving, moving)  # +1: the motor drives the hand
     up, down = 1.0 / s["efficiency"] - 1.0, 1.0 - s["efficiency"]

@@ -3,7 +3,8 @@
 /// What a torque on a joint asks of its motor: efficiency with its sign, and a share of the friction.
 ///
 ///   motor = tau / eta^s + share f_c sigma(q.),   s = +1 where the motor drives the hand (tau q. > 0), -1
-///   where the hand drives the motor, blended over |q.| < 2 counts a tick
+///   where the hand drives the motor, blended over |q.| < 2 counts in the longest window of
+///   speeds (velocity.h)
 ///
 /// Chendeb 2007 (5.8, 5.9) divides always: while the hand drives, which is most of palpation, the hand then
 /// feels tau / eta^2, 2.04 tau for eta = 0.7.
@@ -21,7 +22,8 @@ struct Transmission {
   void check() const;
   /// share f_c sigma(v): part of `motor`, and of the work that is given out.
   [[nodiscard]] Joints compensation(const Joints& v, const Joints& slow) const noexcept;
-  /// The motors' torques for joint torques tau at joint speeds v; `slow` = 2 Delta / T.
+  /// The motors' torques for joint torques tau at joint speeds v; `slow`: two counts in the
+  /// longest window of speeds.
   [[nodiscard]] Joints motor(const Joints& tau, const Joints& v, const Joints& slow) const noexcept;
 };
 

@@ -51,7 +51,8 @@ struct BodyDescription {
   /// those that blades put on edges, -1 - i for the place `points[i]`.
   std::vector<std::int32_t> copies_of = {};
   std::vector<FirstDayPoint> points = {};
-  /// Nodes with cells but without material at them, which nothing holds or loads; ascending.
+  /// Nodes with cells but without material at them; ascending. Nothing loads them, and a support holds those
+  /// that the material on it needs (part_supports of the room edit).
   std::vector<std::int32_t> bare = {};
   /// Its cells and their material as cuts left them; null before the first cut.
   std::shared_ptr<const CutState> cut = nullptr;

@@ -19,8 +19,8 @@ double rest_length(const Patch& patch, std::int32_t p, std::int32_t q) {
 class Divider {
  public:
   Divider(Patch& patch, const std::function<double(std::int32_t)>& t0, OnCut& known,
-          const std::function<bool(std::int32_t)>& turned)
-      : patch_(patch), t0_(t0), known_(known), turned_(turned) {}
+          const std::function<bool(std::int32_t)>& turned, int on)
+      : patch_(patch), t0_(t0), known_(known), turned_(turned), on_(on) {}
 
   LeftEdges divide(std::vector<CrossedEdge> edges) {
     for (int round = 0; round < kRounds && !edges.empty(); ++round) edges = one_round(edges, round == 0);
@@ -57,7 +57,7 @@ class Divider {
     }
     std::erase_if(choices, [&](const Choice& choice) {
       const int ends = (known_.on(choice.edge.p) ? 1 : 0) + (known_.on(choice.edge.q) ? 1 : 0);
-      return ends > (first ? 0 : 1);
+      return ends > (first ? on_ : std::max(on_, 1));
     });
     std::ranges::sort(choices, [](const Choice& a, const Choice& b) {
       return std::tuple(a.turned, a.rank, a.edge.p, a.edge.q) <
@@ -77,18 +77,14 @@ class Divider {
   /// Whether the cut goes to an end of the edge, which is then on the cut, or the edge has to stay.
   bool goes_to_end(const CrossedEdge& edge, double t) {
     double share = kLeastT;
-    double size = 0.0;
     bool sound = true;
     const std::vector<std::int32_t> around = patch_.around(edge.p, edge.q);
     for (const std::int32_t tetra : around) {
       const std::int32_t cell = patch_.tetra(tetra).cell;
       share = std::max(share, t0_(cell));
-      size = std::max(size, patch_.cell(cell).size);
       sound = sound && patch_.cell(cell).sound;
     }
-    const bool line = !around.empty() && patch_.tetra(around.front()).corners() == 2;
-    const bool first_day = patch_.vertex(edge.p).number >= 0 && patch_.vertex(edge.q).number >= 0;
-    if (!first_day && !line && rest_length(patch_, edge.p, edge.q) < kShortShare * size) share = 0.5;
+    if (is_short(patch_, edge.p, edge.q)) share = 0.5;
     if (t <= share || t >= 1.0 - share) {
       const Vec3& a = patch_.vertex(edge.p).place;
       const Vec3& b = patch_.vertex(edge.q).place;
@@ -125,6 +121,7 @@ class Divider {
   const std::function<double(std::int32_t)>& t0_;
   OnCut& known_;
   const std::function<bool(std::int32_t)>& turned_;
+  int on_;
   LeftEdges left_;
 };
 
@@ -132,8 +129,18 @@ class Divider {
 
 LeftEdges divide_crossed(Patch& patch, std::vector<CrossedEdge> edges,
                          const std::function<double(std::int32_t)>& t0, OnCut& known,
-                         const std::function<bool(std::int32_t)>& turned) {
-  return Divider(patch, t0, known, turned).divide(std::move(edges));
+                         const std::function<bool(std::int32_t)>& turned, int on) {
+  return Divider(patch, t0, known, turned, on).divide(std::move(edges));
+}
+
+bool is_short(const Patch& patch, std::int32_t p, std::int32_t q) {
+  if (patch.vertex(p).number >= 0 && patch.vertex(q).number >= 0) return false;
+  double size = 0.0;
+  for (const std::int32_t t : patch.around(p, q)) {
+    if (patch.tetra(t).corners() == 2) return false;
+    size = std::max(size, patch.cell(patch.tetra(t).cell).size);
+  }
+  return rest_length(patch, p, q) < kShortShare * size;
 }
 
 void divide_longest(Patch& patch, std::int32_t tetra) {

@@ -20,10 +20,14 @@ struct LeftEdges {
   std::vector<std::int32_t> unsound;
   std::vector<std::int32_t> folded;
 };
-/// `turned`: edges of these cells (places) are divided after all others, the shortest first.
+/// `turned`: edges of these cells (places) are divided after all others, the shortest first. `on`: so many
+/// ends of an edge may be on the cut.
 LeftEdges divide_crossed(Patch& patch, std::vector<CrossedEdge> edges,
                          const std::function<double(std::int32_t)>& t0, OnCut& known,
-                         const std::function<bool(std::int32_t)>& turned = {});
+                         const std::function<bool(std::int32_t)>& turned = {}, int on = 0);
+
+/// Whether an edge between vertices that blades put there is so short that a crossing goes to its nearer end.
+bool is_short(const Patch& patch, std::int32_t p, std::int32_t q);
 
 /// The longest edge at rest of a tetrahedron is divided in the middle.
 void divide_longest(Patch& patch, std::int32_t tetra);

@@ -36,23 +36,6 @@ bool passes(const Triangle& triangle, const Vec3& a, const Vec3& b) {
   return !(above && below);
 }
 
-/// Crossings nearer than t0 to one another in a row are one where they go the same way, none where they go to
-/// and fro: seams of the blade, and its ridges.
-void settle(std::vector<Crossing>& crossings, double t0) {
-  std::ranges::sort(crossings, [](const Crossing& a, const Crossing& b) {
-    return a.t != b.t ? a.t < b.t : a.direction < b.direction;
-  });
-  std::vector<Crossing> kept;
-  for (const Crossing& next : crossings) {
-    if (!kept.empty() && next.t - kept.back().t <= t0) {
-      if (next.direction != kept.back().direction) kept.pop_back();
-    } else {
-      kept.push_back(next);
-    }
-  }
-  crossings = std::move(kept);
-}
-
 class Finder {
  public:
   Finder(const Patch& patch, const SweepPart& part, double t0, OnCut& known)
@@ -131,6 +114,21 @@ bool enters(const Patch& patch, const SweepPart& part, Numbers triangles, const 
 }
 
 }  // namespace
+
+void settle(std::vector<Crossing>& crossings, double t0) {
+  std::ranges::sort(crossings, [](const Crossing& a, const Crossing& b) {
+    return a.t != b.t ? a.t < b.t : a.direction < b.direction;
+  });
+  std::vector<Crossing> kept;
+  for (const Crossing& next : crossings) {
+    if (!kept.empty() && next.t - kept.back().t <= t0) {
+      if (next.direction != kept.back().direction) kept.pop_back();
+    } else {
+      kept.push_back(next);
+    }
+  }
+  crossings = std::move(kept);
+}
 
 void OnCut::put_on(std::int32_t v, const Vec3& place, const Vec3& met) {
   Vertex& vertex = vertices[at(v)];

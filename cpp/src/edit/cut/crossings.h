@@ -44,6 +44,10 @@ struct CrossedEdge {
   std::vector<Crossing> crossings;  ///< ascending t, one for each time the blade is passed
 };
 
+/// Crossings nearer than t0 to one another in a row are one where they go the same way, none where they go to
+/// and fro: seams of the blade, and its ridges.
+void settle(std::vector<Crossing>& crossings, double t0);
+
 /// The edges of the near cells that the blade crosses inside, and their votes. Vertices that the blade meets
 /// exactly are put on the cut; edges that end at a vertex on the cut are not crossed. Crossings that undo
 /// each other within the share `t0` of an edge are none.

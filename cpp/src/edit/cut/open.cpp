@@ -31,11 +31,12 @@ struct FaceSide {
 
 class Opener {
  public:
-  Opener(Patch& patch, const SweepPart& part, const NearCells& near, const OnCut& known)
+  Opener(Patch& patch, const SweepPart& part, const NearCells& near, const OnCut& known, bool bent)
       : patch_(patch),
         part_(part),
         near_(near),
         known_(known),
+        bent_(bent),
         all_(part.triangles.size()),
         heights_(patch.vertices.size(), kUnknown) {
     std::iota(all_.begin(), all_.end(), 0);
@@ -46,7 +47,12 @@ class Opener {
     for (std::size_t i = 0; i + 1 < sides.size(); ++i) {
       if (sides[i].key != sides[i + 1].key) continue;
       if (is_open(sides[i]) || is_open(sides[i + 1])) continue;
-      if (above(sides[i].tetra) == above(sides[i + 1].tetra) || !covered(sides[i], sides[i + 1])) continue;
+      if (above(sides[i].tetra) == above(sides[i + 1].tetra)) continue;
+      if (!covered(sides[i], sides[i + 1])) {
+        if (!is_bent_away(sides[i])) continue;
+        if (!bent_) opened_.uncovered.push_back(sides[i].tetra);
+        if (!bent_) continue;
+      }
       if ((i > 0 && sides[i - 1].key == sides[i].key) ||
           (i + 2 < sides.size() && sides[i + 2].key == sides[i].key)) {
         refuse_junction(sides[i]);
@@ -181,19 +187,30 @@ class Opener {
     // The blade went from those to the others.
     if (before > 0 && before < static_cast<std::ptrdiff_t>(vertices.size())) return true;
     if (before == 0 && vertices.size() == 1) return true;  // the blade crosses the line there
-    Vec3 mean = Vec3::Zero();
+    const Vec3 mean = met_mean(a);
     double longest = 0.0;
     for (std::size_t i = 0; i < vertices.size(); ++i) {
       const Vec3& met = known_[vertices[i]].met;
-      mean += met;
       longest = std::max(longest, (met - known_[vertices[(i + 1) % vertices.size()]].met).norm());
     }
-    mean /= static_cast<double>(vertices.size());
     const double reach = kCoverShare * longest + kRoundOff * mean.cwiseAbs().maxCoeff();
     const auto within = [&](std::span<const std::int32_t> list) {
       return distance(part_, list, mean) <= reach;
     };
     return within(triangles(a.tetra)) || within(triangles(b.tetra)) || within(all_);
+  }
+
+  /// Whether a face that the blade does not cover is one that the blade passes, and not beyond its border.
+  [[nodiscard]] bool is_bent_away(const FaceSide& side) const {
+    const auto is_new = [&](std::int32_t v) { return !known_[v].before; };
+    return std::ranges::all_of(vertices_of(side), is_new) && !is_beyond_border(part_, all_, met_mean(side));
+  }
+
+  /// Of the places where the blade met the vertices of a face.
+  [[nodiscard]] Vec3 met_mean(const FaceSide& side) const {
+    Vec3 mean = Vec3::Zero();
+    for (const std::int32_t v : vertices_of(side)) mean += known_[v].met;
+    return mean / static_cast<double>(vertices_of(side).size());
   }
 
   static std::span<const std::int32_t> vertices_of(const FaceSide& side) {
@@ -235,6 +252,7 @@ class Opener {
   const SweepPart& part_;
   const NearCells& near_;
   const OnCut& known_;
+  bool bent_;
   std::vector<std::int32_t> all_;
   std::vector<double> heights_;
   OpenedFaces opened_;
@@ -242,8 +260,9 @@ class Opener {
 
 }  // namespace
 
-OpenedFaces open_faces(Patch& patch, const SweepPart& part, const NearCells& near, const OnCut& known) {
-  return Opener(patch, part, near, known).open();
+OpenedFaces open_faces(Patch& patch, const SweepPart& part, const NearCells& near, const OnCut& known,
+                       bool bent) {
+  return Opener(patch, part, near, known, bent).open();
 }
 
 }  // namespace tissu

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "edit/cut/bisect.h"
+#include "edit/cut/bridges.h"
 #include "edit/cut/crossings.h"
 #include "edit/cut/divide.h"
 #include "edit/cut/fans.h"
@@ -139,13 +140,16 @@ class Attempt {
     std::function<bool(std::int32_t)> turned;
     if (remedies_.any())
       turned = [&](std::int32_t cell) { return remedies_.turned(patch_.cell(cell).number); };
-    const LeftEdges left =
-        divide_crossed(patch_, std::move(edges), [&](std::int32_t cell) { return t0(cell); }, known, turned);
-    const OpenedFaces opened = open_faces(patch_, part, near, known);
+    const auto share = [&](std::int32_t cell) { return t0(cell); };
+    const LeftEdges left = divide_crossed(patch_, std::move(edges), share, known, turned);
+    if (!options_.divide) divide_at_other_sheets(patch_, part, near, options_.t0, share, known);
+    const OpenedFaces opened = open_faces(patch_, part, near, known, !options_.divide);
     plan.faces_opened += opened.count;
     plan.area += opened.area;
     plan.rest_area += opened.rest_area;
     parted_.insert(parted_.end(), opened.vertices.begin(), opened.vertices.end());
+    for (const std::int32_t cell : bridged_cells(patch_, part, near, options_.t0, known, opened.uncovered))
+      plan.unresolved.emplace_back(patch_.cell(cell).number, Unresolved::bridge);
     report(left, pierced_tetrahedra(patch_, part, near, known), plan);
     if (part.incision >= 0) on_incision_.emplace_back(part.incision, std::move(known));
     return crossed || opened.count > 0;
@@ -252,20 +256,6 @@ class Attempt {
 };
 
 }  // namespace
-
-std::string_view words(Unresolved reason) {
-  switch (reason) {
-    case Unresolved::pierced:
-      return "the blade is narrower than the cell there and crosses none of its edges";
-    case Unresolved::folded:
-      return "the blade crosses an edge of the cell more often than a cut follows";
-    case Unresolved::shape:
-      return "a tetrahedron between corners of the cell has no volume above zero at rest";
-    case Unresolved::flat:
-      return "the cut would leave a part of the cell too flat to be a cell";
-  }
-  return {};
-}
 
 CutPlan plan_cut(const Hosts& hosts, const Material& material, ConstReals x, const Sweep& sweep,
                  const CutOptions& asked) {

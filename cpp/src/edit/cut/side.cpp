@@ -32,6 +32,26 @@ double distance(const SweepPart& part, std::span<const std::int32_t> triangles, 
   return least;
 }
 
+bool is_beyond_border(const SweepPart& part, std::span<const std::int32_t> triangles, const Vec3& p) {
+  double least = kInfinity;
+  bool on_border = false;
+  for (const std::int32_t t : triangles) {
+    const auto& triangle = part.triangles[static_cast<std::size_t>(t)];
+    const Vec3 nearest = closest_on_triangle(p, numbers(triangle).data());
+    const double away = (p - nearest).norm();
+    if (away > least * (1.0 + kEqual)) continue;
+    if (away < least * (1.0 - kEqual)) on_border = false;
+    least = std::min(least, away);
+    for (std::size_t i = 0; i < 3; ++i) {
+      if ((part.border[static_cast<std::size_t>(t)] >> i & 1U) == 0) continue;
+      const Vec3 along = triangle[(i + 1) % 3] - triangle[i];
+      const Vec3 off = along.cross(nearest - triangle[i]);
+      on_border = on_border || off.norm() <= kEqual * along.squaredNorm();
+    }
+  }
+  return on_border;
+}
+
 double signed_height(const SweepPart& part, std::span<const std::int32_t> triangles, const Vec3& p) {
   double least = kInfinity;
   double height = 0.0;

@@ -23,12 +23,13 @@ struct CutOptions {
   bool divide = false;
 };
 
-/// Why the blade met a cell and did not cut it.
+/// Why the blade met a cell and did not cut it, or not as far as it went.
 enum class Unresolved : std::uint8_t {
   pierced,  ///< the blade is narrower than the cell: it crosses no edge
   folded,   ///< the blade crosses an edge more often than a cut follows
   shape,    ///< the cell's material is inside out at rest, so that its edges are not divided
-  flat      ///< a part of the cell would be too flat to be a cell
+  flat,     ///< a part of the cell would be too flat to be a cell
+  bridge    ///< the blade passes the cell more than once; material between may stay joined
 };
 std::string_view words(Unresolved reason);
 
@@ -46,8 +47,9 @@ struct ChangedCell {
 /// Node first_node + i of the plan. Copies of a node ascend with it.
 struct BornNode {
   std::int32_t copied;  ///< the node that it is a copy of: rest place, place, speed, history; -1: between
-  bool material;        ///< there is material at it; else it is virtual: never held, never loaded
-  Rider between = {};   ///< the old nodes between which it is; none of a copy
+  bool
+      material;  ///< there is material at it; else it is virtual: never loaded, held where a support needs it
+  Rider between = {};  ///< the old nodes between which it is; none of a copy
 };
 
 /// What a cut does to the material, by the new numbers.
@@ -73,6 +75,7 @@ struct CutPlan {
   double area = 0.0;              ///< of the opened faces now, one side [m2]
   double rest_area = 0.0;
   std::vector<std::pair<std::int32_t, Unresolved>> unresolved;  ///< by ascending host
+  [[nodiscard]] std::int32_t bridges() const;                   ///< hosts that are unresolved as a bridge
 
   /// Nothing was opened or divided.
   [[nodiscard]] bool empty() const { return cells_cut == 0; }

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from trocar_cases import DEPTH, TAG, Trial, contacts, floor, joined
+from trocar_cases import COMPENSATED, DEPTH, LOSSES, TAG, Trial, contacts, floor, joined
 
 import tissu as ts
 from tissu.trocar import kinematics
@@ -27,15 +27,8 @@ WALL = 1000.0
 """Its stiffness [N/m]."""
 SETTLES = 1.6
 """Time in which a hand comes to rest [s]."""
-ETA = (0.95, 0.95, 0.98, 0.7)
 EXACT = {"count_size": [1e-7] * 5, "torque_bits": 0}
 NO_FRICTION = {"coulomb": [0.0] * 4}
-LOSSES = {"efficiency": ETA}
-COMPENSATED = {
-    "efficiency": ETA,
-    "compensated": [6e-3, 6e-3, 1e-3, 0.3],
-    "compensation": 0.8,
-}
 DEVICES: tuple[tuple[str, dict[str, Any]], ...] = (
     (
         "no friction, fine counts and torques",

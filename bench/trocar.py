@@ -150,8 +150,8 @@ def on_the_hand() -> str:
     text += "device lie between the two. The last two columns are medians for a hand that moves "
     text += "by 6 mm to and fro once a second. Efficiencies are 0.95, 0.95, 0.98 and 0.7, the "
     text += "compensation is that of `compensation: {friction: 80 %}` and `efficiency`. It acts "
-    text += "with a part that grows with the speed, up to two counts a tick (0.2 m/s of depth), so "
-    text += "a hand at rest, and one that palpates slowly, feels little of it.\n\n"
+    text += "with a part that grows with the speed, up to two counts in the longest window of "
+    text += "speeds (6.5 mm/s of depth), so a hand at rest feels little of it.\n\n"
     head = ("device", "error, median", "largest", "going in", "going out")
     text += table(head, workspace()) + "\n"
     text += "The torques printed in the thesis (5.6, 5.10) give a force at the tip that is wrong "

@@ -115,6 +115,32 @@ def test_what_lies_over_the_edges_of_a_flat_face_rests(table, friction):
         assert simulation.force_on("cube").force[2] == pytest.approx(weight(), rel=1e-4)
 
 
+def test_vertices_inside_a_flat_face_push_nothing_sideways():
+    """A soft block on a level floor of 800 triangles, without friction, stays where it is.
+
+    The block sags between its nodes. Vertices of the floor pushed along the normals of its bent
+    faces, and drove it with 0.1 m/s2. What remains is the round-off of the linear solves.
+    """
+    mesh = ts.BarMesh(
+        size=(0.06, 0.06, 0.04), cells=(3, 3, 2), cell="hexahedron", origin=(-0.02, -0.0413, 6e-4)
+    )
+    law = ts.StableNeoHooke(young=2e5, poisson=0.3)
+    body = ts.Body(mesh=mesh, law=law, density=1000.0, viscosity=damped(0.0, 0.01))
+    floor = ts.bar_mesh(size=(0.4, 0.4, 0.05), cells=(20, 20, 1), origin=(-0.2, -0.2, -0.05))
+    simulation = ts.Scene(
+        bodies={"block": body},
+        obstacles={"floor": ts.MeshObstacle(floor)},
+        contacts=[ts.Contact(("block", "floor"), gap="0.5 mm")],
+        gravity=(0, 0, -GRAVITY),
+        step=ts.ImplicitEuler("5 ms"),
+        contact=BARRIER,
+    ).compile()
+    audited(simulation, 60)
+    assert np.abs(simulation.velocities["block"][:, :2].mean(axis=0)).max() < 1e-9
+    found = simulation.contacts()
+    assert np.abs(found.forces[:, :2]).max() < 1e-9 * np.abs(found.forces).max()
+
+
 def test_below_its_angle_it_creeps_no_faster_than_friction_needs():
     """Friction reaches its bound at 1e-3 extents a second; 0.9 of the bound acts at 0.69 of it."""
     simulation = on_a_slope(0.9 * MU, contact=BARRIER).compile()

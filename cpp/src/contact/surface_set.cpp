@@ -40,17 +40,16 @@ SurfaceSet::SurfaceSet(const ContactDescription& description, std::span<const st
   for (std::size_t i = 0; i < description.bodies.size(); ++i) {
     add(description.bodies[i], first_node[i], -1, rest);
   }
-  // In implicit steps vertices inside a plane stay: they hold what lies on them with more points, and push
-  // along the normal of a face.
-  const bool is_explicit = description.method == ContactMethod::penalty ||
-                           description.method == ContactMethod::impulse ||
-                           description.method == ContactMethod::geometric;
+  // Of augmented contacts vertices inside a plane stay: they hold what lies on them with more points, and push
+  // along the normal of a face. A barrier would push along the distance, which is not the plane's normal where
+  // the face that lies on it is bent.
+  const bool planes_alone = description.method != ContactMethod::augmented;
   for (std::size_t i = 0; i < description.obstacles.size(); ++i) {
     const ObstacleDescription& obstacle = description.obstacles[i];
     const auto first_vertex = static_cast<std::int32_t>(vertices_.size());
     const auto first_edge = static_cast<std::int32_t>(edges_.size());
     add(obstacle.surface, -1, static_cast<std::int32_t>(i), rest);
-    if (is_explicit) mark_flat_vertices(first_vertex, first_edge);
+    if (planes_alone) mark_flat_vertices(first_vertex, first_edge);
     if (obstacle.frame >= 0) carry(frames[at(obstacle.frame)], obstacle.frame, obstacle.origin);
   }
   list_by(owner_, primitives_.size(), own_vertex_begin_, own_vertex_);

@@ -66,8 +66,10 @@ Command to_motors(const Settings& settings, const Joints& wanted, const Motion& 
   m.torque = tau;
   m.paid = tau + settings.transmission.compensation(v, slow);
   for (int i = 0; i < kJoints; ++i) {
-    command.torque[static_cast<std::size_t>(i)] =
-        std::clamp(motor[i], -settings.limits.torque[i], settings.limits.torque[i]);
+    const double most = settings.limits.torque[i];
+    const double given = std::clamp(motor[i], -most, most);
+    report.limited = report.limited || given != motor[i];
+    command.torque[static_cast<std::size_t>(i)] = given;
   }
   return command;
 }

@@ -32,12 +32,12 @@ Joints Transmission::compensation(const Joints& v, const Joints& slow) const noe
 }
 
 Joints Transmission::motor(const Joints& tau, const Joints& v, const Joints& slow) const noexcept {
-  Joints made = compensation(v, slow);
+  Joints made = tau + compensation(v, slow);
   for (int i = 0; i < kJoints; ++i) {
     const double moving = std::clamp(v[i] / slow[i], -1.0, 1.0);
-    const double s = tau[i] < 0.0 ? -moving : moving;  // +1: the motor drives the hand
-    // A joint at rest gets tau; on either side one straight line in s.
-    made[i] += tau[i] * (s >= 0.0 ? 1.0 + s * (1.0 / efficiency[i] - 1.0) : 1.0 + s * (1.0 - efficiency[i]));
+    const double s = made[i] < 0.0 ? -moving : moving;  // +1: the motor drives the hand
+    // A joint at rest gets what it asks for; on either side one straight line in s.
+    made[i] *= s >= 0.0 ? 1.0 + s * (1.0 / efficiency[i] - 1.0) : 1.0 + s * (1.0 - efficiency[i]);
   }
   return made;
 }

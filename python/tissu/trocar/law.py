@@ -48,6 +48,7 @@ class Law:
         self.tag, self.turn = 0, 0
         self.homed = self.device_homed = False
         self.q: Array = np.zeros(AXES)
+        self.limited = False
         self.window: list[Array] = []
         self.model: Offered | None = None
         self.refused = 0
@@ -105,6 +106,8 @@ class Law:
             return np.zeros(AXES)
         slewed = motors.felt(self.settings, self.q, self.torque, wanted)
         command, self.paid = motors.command(self.settings, self.q, slewed, motion.speed)
+        cut = motors.saturated(self.settings, self.q, wanted) != wanted
+        self.limited = bool(np.any(cut | (np.abs(command) >= self.settings["torque_limit"])))
         self.torque = slewed
         return command
 
@@ -121,7 +124,7 @@ class Law:
             "force": force,
             "contacts": borne,
             "model_age": self.age,
-            "limited": bool(np.any(np.abs(self.torque) >= self.settings["torque_limit"])),
+            "limited": self.limited,
             "disagreement": 0.0,
         }
 

@@ -4,7 +4,7 @@ No torque is above a limit of its axis, nor the force at the tip above its own: 
 direction. No axis changes by more than a share of its limit in a tick. A motor that drives the hand
 loses to its transmission, one that the hand drives gains:
 
-    motor = tau / eta^s + share f_c sigma(q.),   s = +1 where tau q. > 0, -1 where it is < 0
+    motor = (tau + share f_c sigma(q.)) / eta^s,   s = +1 where what is asked for drives, -1 where it brakes
 
 The thesis (5.8, 5.9) divides always: the hand that drives then feels tau / eta^2.
 """
@@ -27,7 +27,7 @@ _LEAST_DEPTH = 0.02
 
 def felt(s: Settings, q: Array, before: Array, wanted: Array) -> Array:
     """Torques (4,) within all limits, from those of the tick before towards those wanted."""
-    tau = _saturated(s, q, wanted)
+    tau = saturated(s, q, wanted)
     change, most = np.abs(tau - before), s["slew"] * s["torque_limit"]
     above = change > most
     factor = np.min(most[above] / change[above], initial=1.0)
@@ -37,16 +37,16 @@ def felt(s: Settings, q: Array, before: Array, wanted: Array) -> Array:
 def command(s: Settings, q: Array, tau: Array, speed: Array) -> tuple[Array, Array]:
     """Torques (4,) of the motors, and what of them counts as work on the hand."""
     moving = np.clip(speed * s["period"] * (WINDOW - 1) / (2.0 * s["count_size"]), -1.0, 1.0)
-    carried = tau + _weight(s, q)
+    compensation = s["compensation"] * s["compensated"] * moving
+    carried = tau + _weight(s, q) + compensation
     sign = np.where(carried < 0.0, -moving, moving)  # +1: the motor drives the hand
     up, down = 1.0 / s["efficiency"] - 1.0, 1.0 - s["efficiency"]
     factor = 1.0 + sign * np.where(sign >= 0.0, up, down)
-    compensation = s["compensation"] * s["compensated"] * moving
     limit = s["torque_limit"]
-    return np.clip(factor * carried + compensation, -limit, limit), tau + compensation
+    return np.clip(factor * carried, -limit, limit), tau + compensation
 
 
-def _saturated(s: Settings, q: Array, tau: Array) -> Array:
+def saturated(s: Settings, q: Array, tau: Array) -> Array:
     """Tau times one factor, so that no axis and not the tip is above its limit."""
     sizes = np.append(np.abs(tau), tip_force(q, tau))
     limits = np.append(s["torque_limit"], s["force_limit"])

@@ -2,9 +2,9 @@
 
 /// What a torque on a joint asks of its motor: efficiency with its sign, and a share of the friction.
 ///
-///   motor = tau / eta^s + share f_c sigma(q.),   s = +1 where the motor drives the hand (tau q. > 0), -1
-///   where the hand drives the motor, blended over |q.| < 2 counts in the longest window of
-///   speeds (velocity.h)
+///   motor = (tau + share f_c sigma(q.)) / eta^s,   s = +1 where the motor drives the hand (what it asks for
+///   times q. is above 0), -1 where the hand drives the motor, blended over |q.| < 2 counts in the longest
+///   window of speeds (velocity.h)
 ///
 /// Chendeb 2007 (5.8, 5.9) divides always: while the hand drives, which is most of palpation, the hand then
 /// feels tau / eta^2, 2.04 tau for eta = 0.7.

@@ -110,3 +110,20 @@ def test_a_body_condensed_in_part_that_may_turn():
     loose = [ts.Fixed("bar", on=ts.Nodes([0]))]
     assert about(notes(body, fixed=loose), "a condensed region takes a turn", "fewer than three")
     assert not about(notes(body), "takes a turn")
+
+
+def layers(ratio, solver):
+    """A bar of tetrahedra whose every other layer is so many times as stiff as the rest."""
+    far = ts.Box(("0.1", None, None), (None, None, None))
+    mesh = ts.BarMesh(size=(0.2, 0.1, 0.1), cells=(4, 2, 2), cell="tetra", regions={"stiff": far})
+    soft, stiff = (ts.StableNeoHooke(young=1e4 * k, poisson=0.3) for k in (1.0, ratio))
+    step = ts.ImplicitEuler(0.01, solver=solver)
+    return notes(BAR.replace(mesh=mesh, law={"stiff": stiff, "rest": soft}), step=step)
+
+
+def test_a_stiff_part_with_a_loose_tolerance():
+    (note,) = about(layers(1e6, ts.Auto()), "bodies.bar", "1e+06 times as stiff")
+    assert "step.solver.tolerance 1e-05" in note
+    assert not about(layers(1e4, ts.Auto()), "times as stiff")
+    for exact in (ts.Auto(tolerance=1e-7), ts.Cholesky()):
+        assert not about(layers(1e6, exact), "times as stiff")

@@ -34,6 +34,9 @@ _HEAVIEST = 10.0 * 9.81
 """m/s^2: ten times that of the earth; 9810 is that of the earth in mm/s^2."""
 _LONGEST_STEP = 1.0
 """s: one that is longer shows no motion of tissue; 10 is one of 10 ms in milliseconds."""
+_CONTRAST, _EXACT = 1e5, 1e-7
+"""Of the moduli of one body, and a tolerance: a residual says little of the soft parts beside parts
+that are stiffer by this much (docs/guide/solvers.md), from this tolerance down it says enough."""
 _ALL_AXES = 7
 _EIGHT_NODE_FACES = {"hexahedron20", "wedge15", "pyramid13"}
 _LINEAR_MODELS = ("fem", "mean_dilatation")
@@ -47,6 +50,7 @@ def doubts(prepared: Prepared) -> list[str]:
         _step,
         _sizes,
         _moduli,
+        _contrast,
         _held_loads,
         _following_pressure,
         _turning,
@@ -99,6 +103,22 @@ def _moduli(prepared: Prepared) -> Iterator[str]:
             yield (
                 f"{place}: Young's modulus at rest is {young:.4g} Pa, outside what tissue has "
                 f"({_SOFTEST:g} Pa to {_STIFFEST:g} Pa, bone); look at its unit"
+            )
+
+
+def _contrast(prepared: Prepared) -> Iterator[str]:
+    """Stiff parts hold most of a residual, soft parts most of the motion."""
+    tolerance = getattr(getattr(prepared.scene.step, "solver", None), "tolerance", 0.0)
+    if tolerance <= _EXACT:
+        return
+    for name, body in prepared.scene.bodies.items():
+        moduli = [young for law in body.laws().values() if (young := young_of(law))]
+        ratio = max(moduli, default=1.0) / min(moduli, default=1.0)
+        if ratio >= _CONTRAST:
+            yield (
+                f"bodies.{name}: one of its laws is {ratio:.2g} times as stiff as another; with "
+                f"step.solver.tolerance {tolerance:g} the soft parts may be off by a percent after "
+                f"some steps that converged; take {_EXACT:g} or less, or the solver cholesky"
             )
 
 

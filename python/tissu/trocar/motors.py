@@ -4,7 +4,7 @@ No torque is above a limit of its axis, nor the force at the tip above its own: 
 direction. No axis changes by more than a share of its limit in a tick. A motor that drives the hand
 loses to its transmission, one that the hand drives gains:
 
-    motor = (tau + share f_c sigma(q.)) / eta^s,   s = +1 where what is asked for drives, -1 where it brakes
+    motor = (tau + share f_c sigma(q.)) / eta^s,   s = +1 where it drives, -1 where it brakes
 
 The thesis (5.8, 5.9) divides always: the hand that drives then feels tau / eta^2.
 """

@@ -90,15 +90,28 @@ def test_what_is_asked_in_vain_is_refused():
     [
         (("jitter", SCENE, "--seconds", "-1 s"), "--seconds: found '-1 s'; 0.001 to 86400 s is"),
         (("jitter", SCENE, "--seconds", "0"), "--seconds: found '0'; 0.001 to 86400 s is accepted"),
-        (("jitter", SCENE, "--seconds", "nan"), "not finite"),
+        (("jitter", SCENE, "--seconds", "nan"), "--seconds: found 'nan'"),
+        (("record", SCENE, "out.npz", "--wall", "nan"), "--wall: found 'nan'"),
+        (("record", SCENE, "out.npz", "--wall", "1kg"), "--wall: "),
+        (
+            ("record", SCENE, "out.npz", "--wall", "1 cm", "--stiffness", "inf"),
+            "--stiffness: found 'inf'",
+        ),
+        (
+            ("record", SCENE, "out.npz", "--stiffness", "300"),
+            "--stiffness: found '300' without a wall; it is accepted with --wall",
+        ),
         (("jitter", SCENE, "--spin", "-1 ms"), "--spin: found '-1 ms'; 0 to 86400 s is accepted"),
         (("record", SCENE, "out.npz", "--seconds", "inf"), "not finite"),
         (("record", SCENE, "out.npz", "--wall", "-5 mm"), "--wall: found '-5 mm'; 0 to 1 m is"),
         (
-            ("record", SCENE, "out.npz", "--stiffness", "0 N/m"),
+            ("record", SCENE, "out.npz", "--wall", "1 cm", "--stiffness", "0 N/m"),
             "--stiffness: found '0 N/m'; at least",
         ),
-        (("record", SCENE, "out.npz", "--stiffness", "-3"), "--stiffness: found '-3'; at least"),
+        (
+            ("record", SCENE, "out.npz", "--wall", "1 cm", "--stiffness", "-3"),
+            "--stiffness: found '-3'; at least",
+        ),
         (("record", SCENE, "."), "found the folder .; a file is accepted"),
         (("record", SCENE, "none/out.npz"), "one that is there is accepted: make it first"),
         (("record", "none.yaml", "out.npz"), "none.yaml"),

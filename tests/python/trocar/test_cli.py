@@ -131,3 +131,19 @@ def test_odd_input_is_refused_in_one_sentence(arguments, said, tmp_path, monkeyp
     assert "Traceback" not in told
     assert len(told.replace("1 problem in the scene:\n- ", "").strip().splitlines()) == 1
     assert not list(tmp_path.iterdir())
+
+
+def test_a_value_that_was_not_found_is_not_pasted(capsys):
+    """A damping of -4.4 N s/m was pasted as 0, an unknown efficiency as 1."""
+    from tissu.cli.trocar import _print_field, _values
+    from tissu.trocar.identify import Axis
+
+    axis = Axis("depth", -0.007, -4.43, 2.0, None, float("inf"), 0.01, (0.1, 5.0, 0.1))
+    said = _values(axis)
+    assert said.startswith("inertia not found, damping not found, friction 2 +- 0.1")
+    assert "too weak against its friction, raise the torque limit" in said
+    _print_field("damping", [0.1, None])
+    _print_field("friction", [0.1, 2.0])
+    assert capsys.readouterr().out == (
+        "  no line for damping: a value of it was not found\n  friction: [0.1, 2]\n"
+    )

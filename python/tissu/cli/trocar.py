@@ -129,20 +129,50 @@ def identify_trocar(scene: Path, name: str | None, *, trusted: bool) -> None:
     axes = identify(free, open_device(free, 1, trust_plugins=trusted), realtime=real)
     print(f"trocar {key}:")
     for axis in axes:
-        text = f"  {axis.name}: inertia {axis.inertia:.3g}, damping {axis.damping:.3g}, "
-        print(f"{text}friction {axis.friction:.3g} (SI), {_loss(axis)}; rest {axis.rest:.1%}")
-    damping = ", ".join(f"{max(axis.damping, 0.0):.3g}" for axis in axes)
-    friction = ", ".join(f"{max(axis.friction, 0.0):.3g}" for axis in axes)
+        print(f"  {axis.name}: {_values(axis)}, {_loss(axis)}; rest {axis.rest:.1%}")
     print("for the device of the scene:")
-    known = [axis.efficiency for axis in axes]
-    efficiency = ", ".join("1" if eta is None else f"{eta:.3g}" for eta in known)
-    print(f"  damping: [{damping}]\n  friction: [{friction}]\n  efficiency: [{efficiency}]")
+    found = [axis.found() for axis in axes]
+    _print_field(
+        "damping", [a.damping if ok[1] else None for a, ok in zip(axes, found, strict=True)]
+    )
+    _print_field(
+        "friction", [a.friction if ok[2] else None for a, ok in zip(axes, found, strict=True)]
+    )
+    _print_field("efficiency", [axis.efficiency for axis in axes])
+
+
+def _print_field(name: str, values: list[float | None]) -> None:
+    """A line of a scene, or that there is none because a value was not found."""
+    known = [f"{value:.3g}" for value in values if value is not None]
+    if len(known) == len(values):
+        print(f"  {name}: [{', '.join(known)}]")
+    else:
+        print(f"  no line for {name}: a value of it was not found")
+
+
+def _values(axis: Axis) -> str:
+    """Inertia, damping and friction of an axis with their spread; why one was not found."""
+    rows = zip(
+        ("inertia", "damping", "friction"),
+        (axis.inertia, axis.damping, axis.friction),
+        axis.spread,
+        axis.found(),
+        strict=True,
+    )
+    text = ", ".join(
+        f"{name} {value:.3g} +- {spread:.1g}" if ok else f"{name} not found"
+        for name, value, spread, ok in rows
+    )
+    if all(axis.found()):
+        return f"{text} (SI)"
+    why = "the motor's swing is too weak against its friction, raise the torque limit of the axis"
+    return f"{text} (SI; {why})"
 
 
 def _loss(axis: Axis) -> str:
     """The efficiency of an axis, and how well it is known."""
     if axis.efficiency is None:
-        return "efficiency not found: the axis has too little inertia, take the data sheet's"
+        return "efficiency not found: the axis brakes too little, take the data sheet's"
     return f"efficiency {axis.efficiency:.3f} +- {axis.error:.3f}"
 
 

@@ -42,7 +42,10 @@ def number_of(
     """
     from tissu.errors import ParameterError
 
-    value = read(given)
+    try:
+        value = read(given)
+    except ParameterError as problem:
+        raise ParameterError(f"{option}: {problem}") from None
     if not least <= value <= most:
         accepted = (
             f"at least {least:g} {unit}" if most == math.inf else f"{least:g} to {most:g} {unit}"
@@ -112,18 +115,23 @@ def record_command(
         str | None,
         typer.Option(metavar="DEPTH", help="A wall that is felt in place of the tissue: '110 mm'."),
     ] = None,
-    stiffness: Annotated[str, typer.Option(help="Of the wall.")] = "500 N/m",
+    stiffness: Annotated[str | None, typer.Option(help="Of the wall; default: 500 N/m.")] = None,
     trust_plugins: TrustPlugins = False,
     debug: Debug = False,
 ) -> None:
     """Record all ticks: what the device gave, the models of the tissue, the torques."""
     from tissu.cli.trocar import Recorded, check_writable, record_trocar
+    from tissu.errors import ParameterError
     from tissu.units import LENGTH, STIFFNESS
 
     with reported(debug=debug):
         check_writable(out)
         depth = None if wall is None else number_of("--wall", LENGTH, wall, "m", 0.0, 1.0)
-        felt = number_of("--stiffness", STIFFNESS, stiffness, "N/m", _TINY, math.inf)
+        if stiffness is not None and wall is None:
+            text = f"--stiffness: found {stiffness!r} without a wall; it is accepted with --wall"
+            raise ParameterError(text)
+        stiff = "500 N/m" if stiffness is None else stiffness
+        felt = number_of("--stiffness", STIFFNESS, stiff, "N/m", _TINY, math.inf)
         numbers = (seconds_of("--seconds", seconds), realtime, depth, felt)
         job = Recorded(scene, trocar, out, *numbers, trust_plugins)
         record_trocar(job)

@@ -41,6 +41,8 @@ if TYPE_CHECKING:
 Mode = Literal["stepped", "threaded", "python"]
 STALE = 0.1
 """s: a model that is older is reported, whatever the step of the tissue is."""
+LONGEST_SPIN = 86_400.0
+"""s that a thread may spend awake before a tick"""
 SUPERVISED = 0.04
 """s between two looks at the tool while ticks are stepped: the rate of a display."""
 
@@ -132,8 +134,13 @@ class Controller:
             spin: last part of each wait that is spent awake [s].
 
         Raises:
+            ParameterError: a spin that is not a time from 0 to a day.
             TissuError: its thread runs already, or the machine gives none.
         """
+        given: object = spin
+        if not isinstance(given, (int, float)) or not 0.0 <= given <= LONGEST_SPIN:
+            text = f"found the spin {written(spin)}; 0 to {LONGEST_SPIN:g} s is accepted"
+            raise ParameterError(text)
         self._set(run=True)
         self._ticking.start(priority=priority, lock_memory=lock_memory, pin=pin, spin=spin)
 

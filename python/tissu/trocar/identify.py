@@ -16,13 +16,13 @@ hold the device.
 from __future__ import annotations
 
 import time
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from tissu import _haptic
-from tissu.errors import TissuError
+from tissu.errors import ParameterError, TissuError
 from tissu.trocar.kinematics import AXES, NAMES, Array
 from tissu.trocar.states import Flag, Status
 
@@ -44,8 +44,12 @@ _LAGS = np.arange(0.0, 6.1e-3, 2.5e-4)
 """s from a command to its torque that are tried"""
 _LEAST_BRAKING = 1e-3
 """of the torque that drives: below it, the efficiency is not known"""
-_DOUBT = 0.03
-"""Standard error of the efficiency from which it counts as not known."""
+_DOUBT = 0.06
+"""Standard error of the efficiency, of noise alone, from which it counts as not known."""
+_LARGEST_ERROR = 0.1
+"""The same with the spread between slow and fast swings."""
+_LARGE = 0.25
+"""Spread of a value, as a share of it, from which it counts as not found."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,8 +63,10 @@ class Axis:
         friction: Coulomb's [N m or N].
         efficiency: of the transmission; None: the drive does not show it, and inertia, damping and
             friction are those that the motor feels, which are divided by it.
-        error: standard error of the efficiency, as far as noise goes; infinite: not known.
+        error: of the efficiency: noise, and how far slow and fast swings differ; infinite: not
+            known.
         rest: what the equation leaves, of the torque that drives (root of mean squares) [1].
+        spread: how far inertia, damping and friction of slow and fast swings differ.
     """
 
     name: str
@@ -70,6 +76,16 @@ class Axis:
     efficiency: float | None
     error: float
     rest: float
+    spread: tuple[float, float, float] = (0.0, 0.0, 0.0)
+
+    def found(self) -> tuple[bool, bool, bool]:
+        """Whether inertia, damping and friction are above 0 and known within a share of them."""
+        values = (self.inertia, self.damping, self.friction)
+        rows = zip(values, self.spread, strict=True)
+        inertia, damping, friction = (
+            value > 0.0 and spread <= _LARGE * value for value, spread in rows
+        )
+        return inertia, damping, friction
 
 
 def identify(trocar: Trocar, device: _haptic.Device, *, realtime: bool) -> list[Axis]:
@@ -81,14 +97,18 @@ def identify(trocar: Trocar, device: _haptic.Device, *, realtime: bool) -> list[
         realtime: whether to wait for the device's samples; a simulated one gives one when asked.
 
     Raises:
+        ParameterError: gravity pulls at the tool.
         TissuError: the device gives no samples, is not homed, or an axis comes near its end.
     """
+    if any(trocar.gravity or ()):
+        text = "found `gravity` of the trocar; identification accepts a balanced tool: leave "
+        raise ParameterError(f"{text}`gravity` out for it")
     found = []
     for axis in range(AXES):
         limit = trocar.limits.torques()[axis]
         times, q, tau = _swing(trocar, device, axis, SHARES[axis] * limit, realtime)
         rate = _RATE * _RATES[axis] * max(part[0] for part in _PARTS)
-        found.append(fitted(NAMES[axis], times, q, tau, rate=rate))
+        found.append(compared(NAMES[axis], times, q, tau, rate=rate))
     _haptic.write(device, [0.0] * 5, enable=False)
     return found
 
@@ -141,10 +161,12 @@ def _refuse_ends(trocar: Trocar, axis: int, q: float, device: _haptic.Device) ->
         raise TissuError(f"{text} way, and begin again")
 
 
-def fitted(name: str, times: Array, q: Array, tau: Array, *, rate: float = _RATE) -> Axis:
-    """The axis whose motion q (n,) under torques tau (n,) was seen at times (n,) [s].
+def compared(name: str, times: Array, q: Array, tau: Array, *, rate: float) -> Axis:
+    """What the slow swings show, with how far the fast ones differ from it as its spread.
 
-    A torque acts from its sample to the next one, and a while later: the time that leaves least.
+    Near where an axis turns round, the sense of its motion is least certain, and fast swings spend
+    more of their braking there. A torque acts from its sample to the next one, and a while later:
+    the time that leaves least.
 
     Args:
         name: of the axis.
@@ -153,8 +175,37 @@ def fitted(name: str, times: Array, q: Array, tau: Array, *, rate: float = _RATE
         tau: torques of the motor [N m or N].
         rate: largest number of swings a second [Hz].
     """
-    found = [_fitted(name, times, q, tau, rate, lag) for lag in _LAGS]
-    return min(found, key=lambda axis: axis.rest)
+    lag = _best_lag(name, times, q, tau, rate)
+    early = times < 2.0 * _SECONDS
+    slow = _fitted(name, times[early], q[early], tau[early], rate, lag)
+    fast = _fitted(name, times[~early], q[~early], tau[~early], rate, lag)
+    if slow.efficiency is None or fast.efficiency is None:
+        slow, fast = _of_the_motor(slow), _of_the_motor(fast)
+    else:
+        error = float(np.hypot(slow.error, slow.efficiency - fast.efficiency))
+        known = error <= _LARGEST_ERROR
+        slow = replace(slow, error=error) if known else _of_the_motor(slow)
+        fast = fast if known else _of_the_motor(fast)
+    inertia, damping = abs(slow.inertia - fast.inertia), abs(slow.damping - fast.damping)
+    return replace(slow, spread=(inertia, damping, abs(slow.friction - fast.friction)))
+
+
+def _of_the_motor(axis: Axis) -> Axis:
+    """As the motor feels it: the efficiency is not known."""
+    eta = axis.efficiency or 1.0
+    return replace(
+        axis,
+        inertia=axis.inertia / eta,
+        damping=axis.damping / eta,
+        friction=axis.friction / eta,
+        efficiency=None,
+        error=float("inf"),
+    )
+
+
+def _best_lag(name: str, times: Array, q: Array, tau: Array, rate: float) -> float:
+    """The time from a command to its torque that leaves least [s]."""
+    return float(min(_LAGS, key=lambda lag: _fitted(name, times, q, tau, rate, lag).rest))
 
 
 def _fitted(name: str, times: Array, q: Array, tau: Array, rate: float, lag: float) -> Axis:

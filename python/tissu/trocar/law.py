@@ -54,6 +54,8 @@ class Law:
         self.refused = 0
         self.G: Array = np.zeros((0, AXES))
         self.g0: Array = np.zeros(0)
+        self.force_sum: Array = np.zeros(3)
+        self.force_ticks, self.disagreement = 0, 0.0
         self.tank = Tank(
             self.settings["tank_start"],
             self.settings["tank_cap"],
@@ -73,6 +75,7 @@ class Law:
         self.slip: Array = np.zeros(rows)
         self.shift: Array = np.zeros(rows)
         self.scale, self.share, self.stored = 0.0, 1.0, 0.0
+        self.force_sum, self.force_ticks = np.zeros(3), 0
 
     def tick(
         self,
@@ -125,8 +128,16 @@ class Law:
             "contacts": borne,
             "model_age": self.age,
             "limited": self.limited,
-            "disagreement": 0.0,
+            "disagreement": self.disagreement,
         }
+
+    def _contact_force(self) -> Array:
+        """Of all contacts on the tool, without a blade (3,) [N]."""
+        force: Array = np.zeros(3)
+        if self.model is not None:
+            for D, own in zip(self.model.model.directions(), self._cones(), strict=True):
+                force = force + D.T @ own
+        return force
 
     def _cones(self) -> Array:
         """Forces (m, 3) of the contacts along their directions [N]."""
@@ -187,6 +198,8 @@ class Law:
         scale = self._wanted_scale(age)
         if self._take_model(offered) or scale != self.scale or self.share != 1.0:
             self._adopt(scale)
+        self.force_sum = self.force_sum + self._contact_force()
+        self.force_ticks += 1
         self.state = State.contact if np.any(self.forces) else State.free
         damping = self.tank.damping(
             s["viscous"], motion.speed, 2.0 * s["count_size"] / s["period"], s["period"]
@@ -280,6 +293,10 @@ class Law:
         rows = len(self.g0) + len(_STOPPED)
         self.slip, self.forces = np.zeros(rows), np.zeros(rows)
         self.forces[: offered.model.forces.size] = np.ravel(offered.model.forces)
+        if self.force_ticks:
+            mean = self.force_sum / self.force_ticks
+            self.disagreement = float(np.linalg.norm(mean - self._contact_force()))
+        self.force_sum, self.force_ticks = np.zeros(3), 0
         return True
 
     def _adopt(self, scale: float) -> None:

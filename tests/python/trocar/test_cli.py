@@ -90,15 +90,28 @@ def test_what_is_asked_in_vain_is_refused():
     [
         (("jitter", SCENE, "--seconds", "-1 s"), "--seconds: found '-1 s'; 0.001 to 86400 s is"),
         (("jitter", SCENE, "--seconds", "0"), "--seconds: found '0'; 0.001 to 86400 s is accepted"),
-        (("jitter", SCENE, "--seconds", "nan"), "not finite"),
+        (("jitter", SCENE, "--seconds", "nan"), "--seconds: found 'nan'"),
+        (("record", SCENE, "out.npz", "--wall", "nan"), "--wall: found 'nan'"),
+        (("record", SCENE, "out.npz", "--wall", "1kg"), "--wall: "),
+        (
+            ("record", SCENE, "out.npz", "--wall", "1 cm", "--stiffness", "inf"),
+            "--stiffness: found 'inf'",
+        ),
+        (
+            ("record", SCENE, "out.npz", "--stiffness", "300"),
+            "--stiffness: found '300' without a wall; it is accepted with --wall",
+        ),
         (("jitter", SCENE, "--spin", "-1 ms"), "--spin: found '-1 ms'; 0 to 86400 s is accepted"),
         (("record", SCENE, "out.npz", "--seconds", "inf"), "not finite"),
         (("record", SCENE, "out.npz", "--wall", "-5 mm"), "--wall: found '-5 mm'; 0 to 1 m is"),
         (
-            ("record", SCENE, "out.npz", "--stiffness", "0 N/m"),
+            ("record", SCENE, "out.npz", "--wall", "1 cm", "--stiffness", "0 N/m"),
             "--stiffness: found '0 N/m'; at least",
         ),
-        (("record", SCENE, "out.npz", "--stiffness", "-3"), "--stiffness: found '-3'; at least"),
+        (
+            ("record", SCENE, "out.npz", "--wall", "1 cm", "--stiffness", "-3"),
+            "--stiffness: found '-3'; at least",
+        ),
         (("record", SCENE, "."), "found the folder .; a file is accepted"),
         (("record", SCENE, "none/out.npz"), "one that is there is accepted: make it first"),
         (("record", "none.yaml", "out.npz"), "none.yaml"),
@@ -118,3 +131,19 @@ def test_odd_input_is_refused_in_one_sentence(arguments, said, tmp_path, monkeyp
     assert "Traceback" not in told
     assert len(told.replace("1 problem in the scene:\n- ", "").strip().splitlines()) == 1
     assert not list(tmp_path.iterdir())
+
+
+def test_a_value_that_was_not_found_is_not_pasted(capsys):
+    """A damping of -4.4 N s/m was pasted as 0, an unknown efficiency as 1."""
+    from tissu.cli.trocar import _print_field, _values
+    from tissu.trocar.identify import Axis
+
+    axis = Axis("depth", -0.007, -4.43, 2.0, None, float("inf"), 0.01, (0.1, 5.0, 0.1))
+    said = _values(axis)
+    assert said.startswith("inertia not found, damping not found, friction 2 +- 0.1")
+    assert "too weak against its friction, raise the torque limit" in said
+    _print_field("damping", [0.1, None])
+    _print_field("friction", [0.1, 2.0])
+    assert capsys.readouterr().out == (
+        "  no line for damping: a value of it was not found\n  friction: [0.1, 2]\n"
+    )

@@ -172,7 +172,8 @@ def _values(axis: Axis) -> str:
 def _loss(axis: Axis) -> str:
     """The efficiency of an axis, and how well it is known."""
     if axis.efficiency is None:
-        return "efficiency not found: the axis brakes too little, take the data sheet's"
+        why = "the axis brakes too little; the others are what the motor feels, 1/eta larger"
+        return f"efficiency not found: {why}"
     return f"efficiency {axis.efficiency:.3f} +- {axis.error:.3f}"
 
 

@@ -40,9 +40,9 @@ SurfaceSet::SurfaceSet(const ContactDescription& description, std::span<const st
   for (std::size_t i = 0; i < description.bodies.size(); ++i) {
     add(description.bodies[i], first_node[i], -1, rest);
   }
-  // Of augmented contacts vertices inside a plane stay: they hold what lies on them with more points, and push
-  // along the normal of a face. A barrier would push along the distance, which is not the plane's normal where
-  // the face that lies on it is bent.
+  // Of augmented contacts vertices inside a plane stay: they hold what lies on them with more points, and
+  // push along the normal of a face. A barrier would push along the distance, which is not the plane's normal
+  // where the face that lies on it is bent.
   const bool planes_alone = description.method != ContactMethod::augmented;
   for (std::size_t i = 0; i < description.obstacles.size(); ++i) {
     const ObstacleDescription& obstacle = description.obstacles[i];

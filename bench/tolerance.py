@@ -49,9 +49,10 @@ Printed by `python bench/tolerance.py --write`; {machine}
 """
 REASON = """its error stays a thousand times below that of the time step as long as the bodies
 move, after one step as after ten thousand. Newton's method takes as many iterations as with
-exact solves; from 1e-4 on it takes more. A tighter tolerance is useless, since the error of the
-time step is far larger. A looser one saves a fifth of the iterations for each digit. It is a good
-choice if an error of 1e-3 (of 1e-2 for a tolerance of 1e-3) after a thousand steps is
+exact solves; with 1e-2 it may take more. A tighter tolerance is useless, since the error of the
+time step is far larger, except for bodies with parts that are 1e5 times as stiff as the rest
+([limits](../guide/solvers.md#limits)). A looser one saves a fifth of the iterations for each digit.
+It is a good choice if an error of 3e-4 (of 1e-3 for a tolerance of 1e-3) after a thousand steps is
 acceptable."""
 
 

@@ -63,7 +63,7 @@ test::CutBody bar(CellType type) {
 
 class WallsTest : public testing::TestWithParam<CellType> {
  protected:
-  /// Parts that are no crumbs: larger than a tenth of a cell.
+  /// Parts that are larger than a tenth of a cell, and so not crumbs.
   static int large_pieces(const test::CutBody& body) {
     int count = 0;
     for (const Piece& piece : pieces(body.hosts, body.material)) {

@@ -63,7 +63,7 @@ def test_the_metadata_tells_the_licences_of_what_is_inside():
     notice = [path for path in metadata.files("tissu") or () if path.name == "NOTICE.md"]
     text = notice[0].read_text()
     libraries = re.findall(r"^\| ([A-Z]\w+|pybind11)", text, re.MULTILINE)
-    assert libraries == ["Eigen", "pybind11", "CHOLMOD", "BLAS"]
+    assert libraries == ["Eigen", "pybind11", "CHOLMOD", "BLAS", "FCL"]
     assert "viz" not in (told.get_all("Provides-Extra") or [])
     assert not [need for need in metadata.requires("tissu") or () if "pyvista" in need]
 

@@ -100,6 +100,8 @@ def started(*words):
         text=True,
         cwd=ROOT,
         env=environment,
+        # Where the tests run in the background of a shell, they ignore SIGINT, and so would it.
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler),
     ) as command:
         try:
             yield command

@@ -13,10 +13,10 @@ namespace {
 /// Of D^-1 A with the blocks D on the diagonal, for cells of four to eight nodes.
 constexpr double kLargest = 3.0;
 /// Iterations for each cell along a cube that one side holds, to 1e-6, where its weight pulls along the cells
-/// (docs/measured/solvers.md); where it bends them 18 to 21 were counted, of which an equilibrium expects the
+/// (docs/measured/solvers.md); where it bends them 18 to 21 were counted, of which an equilibrium expects
 /// less.
 constexpr double kForACell = 12.8;
-constexpr double kForACellBent = 15.0;
+constexpr double kForACellBent = 17.0;
 constexpr double kOfTolerance = 14.5;  ///< ln(2 / 1e-6), at which the numbers here were found
 /// Iterations of block-Jacobi for one of incomplete Cholesky.
 constexpr double kSaved = 3.2;
@@ -25,10 +25,8 @@ constexpr double kGuessed = 0.7;      ///< of them, where a motion goes on
 constexpr double kGuesses = 1.0;      ///< what the products of a guess cost, in iterations of a multigrid
 constexpr double kWaveRatio = 3.5;    ///< of the moduli of plane waves at Poisson's ratio 0.3
 constexpr double kSheetCycles = 5.0;  ///< times as many at least for a body of one cell through
-constexpr double kSlenderCycles =
-    0.65;  ///< times as many for each length over thickness of a bar in equilibrium
-constexpr double kHinderedCycles =
-    1.25;                               ///< power of what a stiff part does to the iterations of block-Jacobi
+/// Times as many for each length over thickness of a bar in equilibrium.
+constexpr double kSlenderCycles = 0.24;
 constexpr double kCycleProducts = 6.0;  ///< products, with those of the coarser levels, that a cycle costs
 constexpr double kLevelsMade = 110.0;   ///< products that making all levels costs, …
 constexpr double kFewRows = 300.0;  ///< … of a matrix of many more rows, whose inner ones have all neighbours
@@ -82,6 +80,7 @@ ForArms<Cost> predicted_costs(const MatrixShape& shape, double plain, double tol
   const double product = 0.5 * shape.bytes;  // in single precision
   const double iteration = product + 0.5 * kVectorBytes * shape.rows;
   const double once = (kConversion + 1.0) * shape.bytes;  // the matrix in single precision, and a residual
+  const double cycle = shape.bytes + kVectorBytes * shape.rows + kCycleProducts * product;
   const double changing = changes.values;
   const double serves = 1.0 / (equilibrium ? kServesNewton : kServesSteps);
   const double kept = std::max(changes.pattern, std::min(changing, serves));
@@ -94,8 +93,7 @@ ForArms<Cost> predicted_costs(const MatrixShape& shape, double plain, double tol
   const double sheet = equilibrium ? std::max(kSheetCycles, shape.along) : kSheetCycles;
   const double slender = equilibrium ? std::max(1.0, kSlenderCycles * shape.along / shape.through) : 1.0;
   const double thin = shape.through < 2.0 ? std::max(sheet, slender) : slender;
-  const double cycles =
-      std::pow(hindered(shape), kHinderedCycles) * std::sqrt(stiffer(shape)) * thin * kCycles;
+  const double cycles = hindered(shape) * std::sqrt(stiffer(shape)) * thin * kCycles;
   const double saved = kSaved / std::pow(stiffer(shape), 1.0 / 6.0);
   const double levels = kLevelsMade * shape.rows / (shape.rows + kFewRows);
   // The guess from the latest answers (forecast.h) saves a share of the digits of a motion.
@@ -106,8 +104,7 @@ ForArms<Cost> predicted_costs(const MatrixShape& shape, double plain, double tol
   costs[number(Arm::block_jacobi)] = {0.1 * shape.bytes, changing, once + plain * iteration, 0.0};
   costs[number(Arm::incomplete_cholesky)] = {kTriangleMade * shape.bytes / shape.rows * shape.bytes, kept,
                                              once + plain / saved * (iteration + kSweep * product), 0.0};
-  costs[number(Arm::multigrid)] = {levels * product, kept,
-                                   once + (needed + kGuesses) * (iteration + kCycleProducts * product),
+  costs[number(Arm::multigrid)] = {levels * product, kept, shape.bytes + (needed + kGuesses) * cycle,
                                    kAggregation * shape.rows};
   const double ordering = kOrdering * shape.rows;
   const double stale = (equilibrium ? kStaleNewton : kStale) * std::sqrt(hindered(shape));

@@ -20,6 +20,8 @@ constexpr int kSingleIterations = 100;
 constexpr double kFaithful = 3.0;
 /// Iterations that it may take without halving the residual, beside a quarter of those before.
 constexpr int kPatience = 200;
+/// Solves that go without single precision after it has failed, at most.
+constexpr int kLongestPause = 64;
 
 /// Whether single precision still lowers the residual.
 struct Progress {
@@ -108,26 +110,27 @@ double ConjugateGradient::spent(const SolveReport& report) const {
   return report.work + (full_ ? full_->solving() : 0.0) + (single_ ? single_->solving() : 0.0);
 }
 
-template <class T>
+template <class T, class V>
 int ConjugateGradient::left(const LinearOperator& A, const SolveReport& report) {
   const int most = settings_.iterations - report.iterations;
-  const double allowed = (allowance_ - spent(report)) / iteration<T>().iteration_work(A);
+  const double allowed = (allowance_ - spent(report)) / iteration<T>().template iteration_work<V>(A);
   return allowed < most ? std::max(1, static_cast<int>(allowed)) : most;
 }
 
-template <class T>
+template <class T, class V>
 void ConjugateGradient::prepare(const LinearOperator& A, bool forced, SolveReport& report) {
   const auto begin = std::chrono::steady_clock::now();
-  if (!iteration<T>().prepare(A, forced)) return;
+  if (!iteration<T>().template prepare<V>(A, forced)) return;
   ++report.preparations;
   report.preparation_seconds +=
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
-End ConjugateGradient::full_round(const LinearOperator& A, Reals x, double target, SolveReport& report) {
-  Iteration<double>& iteration = this->iteration<double>();
+template <class T>
+End ConjugateGradient::double_round(const LinearOperator& A, Reals x, double target, SolveReport& report) {
+  Iteration<T>& iteration = this->iteration<T>();
   change_.resize(r_.size());
-  const End end = iteration.run(A, r_, change_, target, left<double>(A, report));
+  const End end = iteration.template run<double>(A, r_, change_, target, left<T, double>(A, report));
   report.iterations += iteration.iterations();
   for (std::size_t i = 0; i < x.size(); ++i) x[i] += change_[i];
   return end;
@@ -141,8 +144,8 @@ End ConjugateGradient::single_round(const LinearOperator& A, Reals x, double len
   single_change_.resize(r_.size());
   for (std::size_t i = 0; i < r_.size(); ++i) single_r_[i] = static_cast<float>(r_[i] / length);
   const double depth = std::max(0.5 * target / length, kSingleDepth);
-  const int most = std::min(kSingleIterations, left<float>(A, report));
-  const End end = iteration.run(A, single_r_, single_change_, depth, most);
+  const int most = std::min(kSingleIterations, left<float, float>(A, report));
+  const End end = iteration.run<float>(A, single_r_, single_change_, depth, most);
   report.iterations += iteration.iterations();
   if (end == End::lost) return end;
   const double scale = length * iteration.scale();
@@ -152,11 +155,10 @@ End ConjugateGradient::single_round(const LinearOperator& A, Reals x, double len
 
 bool ConjugateGradient::prepare_ahead(const LinearOperator& A) {
   if (A.matrix() == nullptr || A.couplings() != nullptr) return false;
-  if (settings_.precision == Precision::single) {
-    iteration<float>().prepare(A, false);
-  } else {
-    iteration<double>().prepare(A, false);
-  }
+  const Way way = first_way();
+  if (way == Way::full) iteration<double>().prepare<double>(A, false);
+  if (way == Way::mixed) iteration<float>().prepare<double>(A, false);
+  if (way == Way::single) iteration<float>().prepare<float>(A, false);
   ahead_->made(A);
   return true;
 }
@@ -193,9 +195,31 @@ SolveReport ConjugateGradient::solve(const LinearOperator& A, ConstReals b, Real
   return report;
 }
 
+ConjugateGradient::Way ConjugateGradient::first_way() const {
+  if (settings_.precision == Precision::full) return Way::full;
+  // Its cycle reads the matrix of each level several times, so a product in double costs little beside it.
+  if (settings_.preconditioning == Preconditioning::multigrid) return Way::mixed;
+  return pause_ > 0 ? Way::mixed : Way::single;
+}
+
+End ConjugateGradient::round(Way way, const LinearOperator& A, Reals x, double size, double target, bool renew,
+                             SolveReport& report) {
+  if (way == Way::full) {
+    prepare<double, double>(A, renew, report);
+    return double_round<double>(A, x, target, report);
+  }
+  if (way == Way::mixed) {
+    prepare<float, double>(A, renew, report);
+    return double_round<float>(A, x, target, report);
+  }
+  prepare<float, float>(A, renew, report);
+  return single_round(A, x, size, target, report);
+}
+
 void ConjugateGradient::rounds(const LinearOperator& A, ConstReals b, Reals x, double reference,
                                SolveReport& report) {
-  bool single = settings_.precision == Precision::single;
+  Way way = first_way();
+  pause_ = std::max(0, pause_ - 1);
   bool renew = false;
   const bool zero = std::ranges::all_of(x, [](double value) { return value == 0.0; });
   double size = residual(A, b, x, report);
@@ -207,36 +231,36 @@ void ConjugateGradient::rounds(const LinearOperator& A, ConstReals b, Reals x, d
     if (!report.converged && round > 0) {
       report.converged = report.residual <= attainable(A, x, reference, settings_.tolerance);
     }
+    if (report.converged && way == Way::single && round > 0) pauses_ = 0;
     if (report.converged || report.iterations >= settings_.iterations || spent(report) >= allowance_) return;
     const double before = size;
-    const double target = settings_.tolerance * reference;
-    End end{};
-    if (single) {
-      prepare<float>(A, renew, report);
-      end = single_round(A, x, size, target, report);
-    } else {
-      prepare<double>(A, renew, report);
-      end = full_round(A, x, target, report);
-    }
+    const End end = this->round(way, A, x, size, settings_.tolerance * reference, renew, report);
     size = residual(A, b, x, report);
     renew = end == End::renewal;
     if (renew) continue;
-    if (single) {
-      single = (end == End::reached || end == End::exhausted) &&
-               size < kFaithful * before * single_->residual() &&
-               progress.goes_on(size, report.iterations, settings_.iterations);
-      if (single) single_->go_on(size / before);
+    if (way == Way::single) {
+      const bool serves = (end == End::reached || end == End::exhausted) &&
+                          size < kFaithful * before * single_->residual() &&
+                          progress.goes_on(size, report.iterations, settings_.iterations);
+      if (serves) {
+        single_->go_on<float>(size / before);
+        continue;
+      }
+      way = Way::mixed;
+      pause_ = pauses_ = std::clamp(2 * pauses_, 1, kLongestPause);
       continue;
     }
     if (end == End::reached && size < 0.5 * before) {
-      full_->go_on(1.0);
+      if (way == Way::full) full_->go_on<double>(1.0);
+      if (way == Way::mixed) single_->go_on<double>(1.0);
       continue;
     }
     report.residual = size / reference;
     report.positive_definite = end == End::reached || end == End::exhausted;
     report.converged =
         report.positive_definite && report.residual <= attainable(A, x, reference, settings_.tolerance);
-    return;
+    if (report.positive_definite || way == Way::full) return;
+    way = Way::full;  // what looked like a negative curvature may be the preconditioner's round-off
   }
 }
 
@@ -244,6 +268,7 @@ void ConjugateGradient::forget() {
   if (full_) full_->forget();
   if (single_) single_->forget();
   forecast_->forget();
+  pause_ = pauses_ = 0;
   *ahead_ = Ahead();
 }
 

@@ -27,9 +27,12 @@ double Iteration<T>::scale() const {
 }
 
 template <class T>
+template <class V>
 bool Iteration<T>::prepare(const LinearOperator& A, bool forced) {
-  if constexpr (std::is_same_v<T, float>) {
+  if constexpr (std::is_same_v<V, float>) {
     if (matrix_.update(*A.matrix())) work_ += kConversion * static_cast<double>(A.bytes());
+  } else if constexpr (std::is_same_v<T, float>) {
+    matrix_.measure(*A.matrix());
   }
   const bool serves = made_ && id_ == A.id() && given_ == A.given();
   if (serves && version_ == A.version()) return false;
@@ -98,40 +101,74 @@ void Iteration<T>::end_solve() {
 }
 
 template <class T>
+template <class V>
 double Iteration<T>::iteration_work(const LinearOperator& A) const {
-  constexpr double kShare = sizeof(T) / static_cast<double>(sizeof(double));
+  constexpr double kShare = sizeof(V) / static_cast<double>(sizeof(double));
   const double product = kShare * (static_cast<double>(A.bytes()) + kVectorBytes * A.rows());
   return product + M_->application();
 }
 
 template <class T>
-void Iteration<T>::multiply(const LinearOperator& A) {
-  if constexpr (std::is_same_v<T, float>) {
-    matrix_.multiply(p_, q_);
+template <class V>
+Iteration<T>::template Vectors<V>& Iteration<T>::vectors() {
+  if constexpr (std::is_same_v<V, T>) {
+    return own_;
   } else {
-    A.multiply(p_, q_);
+    return wide_;
   }
 }
 
 template <class T>
-double Iteration<T>::advance(const Threads& threads, std::span<T> r, std::span<T> d, double alpha,
+template <class V>
+void Iteration<T>::multiply(const LinearOperator& A) {
+  Vectors<V>& v = vectors<V>();
+  if constexpr (std::is_same_v<V, float>) {
+    matrix_.multiply(v.p, v.q);
+  } else {
+    A.multiply(v.p, v.q);
+  }
+}
+
+template <class T>
+void Iteration<T>::narrow(std::span<const double> r, std::size_t first, std::size_t last) {
+  for (std::size_t i = first; i < last; ++i) r_[i] = static_cast<T>(r[i] / unit_);
+}
+
+template <class T>
+void Iteration<T>::widen(std::size_t first, std::size_t last) {
+  for (std::size_t i = first; i < last; ++i) wide_.z[i] = unit_ * static_cast<double>(z_[i]);
+}
+
+template <class T>
+template <class V>
+double Iteration<T>::advance(const Threads& threads, std::span<V> r, std::span<V> d, double alpha,
                              double& square) {
+  constexpr bool kWide = !std::is_same_v<V, T>;
+  Vectors<V>& v = vectors<V>();
   const auto rows = static_cast<std::int32_t>(r.size() / 3);
   squares_.resize(static_cast<std::size_t>(Threads::pieces(rows)));
-  const T a = static_cast<T>(alpha);
+  const V a = static_cast<V>(alpha);
   const bool local = M_->is_local();
   double rz = threads.sum(rows, partial_, [&](std::int32_t begin, std::int32_t end) {
     const auto first = 3 * static_cast<std::size_t>(begin);
     const auto last = 3 * static_cast<std::size_t>(end);
     for (std::size_t i = first; i < last; ++i) {
-      d[i] += a * p_[i];
-      r[i] -= a * q_[i];
+      d[i] += a * v.p[i];
+      r[i] -= a * v.q[i];
     }
-    if (local) M_->apply_rows(begin, end, r.data(), z_.data());
+    if constexpr (kWide) {
+      narrow(r, first, last);
+      if (local) {
+        M_->apply_rows(begin, end, r_.data(), z_.data());
+        widen(first, last);
+      }
+    } else if (local) {
+      M_->apply_rows(begin, end, r.data(), v.z.data());
+    }
     double sum = 0.0;
     double squares = 0.0;
     for (std::size_t i = first; i < last; ++i) {
-      sum += static_cast<double>(r[i]) * static_cast<double>(z_[i]);
+      sum += static_cast<double>(r[i]) * static_cast<double>(v.z[i]);
       squares += static_cast<double>(r[i]) * static_cast<double>(r[i]);
     }
     squares_[static_cast<std::size_t>(begin / Threads::kPiece)] = squares;
@@ -139,38 +176,54 @@ double Iteration<T>::advance(const Threads& threads, std::span<T> r, std::span<T
   });
   square = 0.0;
   for (const double s : squares_) square += s;
-  if (!local) {
-    M_->apply(r, z_);
-    rz = dot<T>(threads, r, z_, partial_);
+  if (local) return rz;
+  if constexpr (kWide) {
+    M_->apply(r_, z_);
+    threads.for_pieces(rows, [&](std::int32_t begin, std::int32_t end) {
+      widen(3 * static_cast<std::size_t>(begin), 3 * static_cast<std::size_t>(end));
+    });
+  } else {
+    M_->apply(r, v.z);
   }
-  return rz;
+  return dot<V>(threads, r, v.z, partial_);
 }
 
 template <class T>
+template <class V>
 void Iteration<T>::go_on(double scale) {
   goes_on_ = true;
-  for (T& p : p_) p = static_cast<T>(static_cast<double>(p) / scale);
+  for (V& p : vectors<V>().p) p = static_cast<V>(static_cast<double>(p) / scale);
   rz_ /= scale * scale;
 }
 
 template <class T>
+template <class V>
 void Iteration<T>::turn(const Threads& threads, double beta) {
-  const T b = static_cast<T>(beta);
-  threads.for_pieces(static_cast<std::int32_t>(p_.size() / 3), [&](std::int32_t begin, std::int32_t end) {
+  Vectors<V>& v = vectors<V>();
+  const V b = static_cast<V>(beta);
+  threads.for_pieces(static_cast<std::int32_t>(v.p.size() / 3), [&](std::int32_t begin, std::int32_t end) {
     for (auto i = 3 * static_cast<std::size_t>(begin); i < 3 * static_cast<std::size_t>(end); ++i) {
-      p_[i] = z_[i] + b * p_[i];
+      v.p[i] = v.z[i] + b * v.p[i];
     }
   });
 }
 
 template <class T>
-End Iteration<T>::run(const LinearOperator& A, std::span<T> r, std::span<T> d, double target, int most) {
+template <class V>
+End Iteration<T>::run(const LinearOperator& A, std::span<V> r, std::span<V> d, double target, int most) {
   const Threads& threads = A.threads();
-  z_.resize(r.size());
-  p_.resize(r.size());
-  q_.assign(r.size(), T(0));
-  if (!goes_on_) std::ranges::fill(p_, T(0));
-  std::ranges::fill(d, T(0));
+  Vectors<V>& v = vectors<V>();
+  v.z.resize(r.size());
+  v.p.resize(r.size());
+  v.q.assign(r.size(), V(0));
+  if constexpr (!std::is_same_v<V, T>) {
+    r_.resize(r.size());
+    z_.resize(r.size());
+    const double length = std::sqrt(dot<V>(threads, r, r, partial_));
+    unit_ = length > 0.0 ? length : 1.0;
+  }
+  if (!goes_on_) std::ranges::fill(v.p, V(0));
+  std::ranges::fill(d, V(0));
   // A new one is made when half of what is allowed is gone, unless it costs far more than all of that.
   const double half = renewal_.price() < kDear * most ? 0.5 * most : Renewal::kUnlimited;
   const double left =
@@ -178,7 +231,7 @@ End Iteration<T>::run(const LinearOperator& A, std::span<T> r, std::span<T> d, d
   iterations_ = 0;
   work_ += M_->application();
   double square = 0.0;
-  double rz = advance(threads, r, d, 0.0, square);
+  double rz = advance<V>(threads, r, d, 0.0, square);
   double beta = goes_on_ && rz_ > 0.0 ? rz / rz_ : 0.0;
   goes_on_ = false;
   const double first = std::sqrt(square);
@@ -193,16 +246,16 @@ End Iteration<T>::run(const LinearOperator& A, std::span<T> r, std::span<T> d, d
     }
     if (iterations_ >= left) return End::renewal;
     stop_if_asked();
-    turn(threads, beta);
+    turn<V>(threads, beta);
     rz_ = rz;
-    multiply(A);
-    const double curvature = dot<T>(threads, p_, q_, partial_);
+    multiply<V>(A);
+    const double curvature = dot<V>(threads, v.p, v.q, partial_);
     if (!(curvature > 0.0)) return End::curvature;
-    rz = advance(threads, r, d, rz_ / curvature, square);
+    rz = advance<V>(threads, r, d, rz_ / curvature, square);
     beta = rz / rz_;
     ++iterations_;
     ++spent_;
-    work_ += iteration_work(A);
+    work_ += iteration_work<V>(A);
   }
 }
 
@@ -215,10 +268,26 @@ void Iteration<T>::forget() {
 
 template <class T>
 std::size_t Iteration<T>::bytes() const {
-  return (z_.size() + p_.size() + q_.size()) * sizeof(T) + matrix_.bytes() + M_->bytes();
+  const std::size_t between = (r_.size() + z_.size()) * sizeof(T);
+  return own_.bytes() + wide_.bytes() + between + matrix_.bytes() + M_->bytes();
 }
 
 template class Iteration<double>;
 template class Iteration<float>;
+template bool Iteration<double>::prepare<double>(const LinearOperator&, bool);
+template bool Iteration<float>::prepare<double>(const LinearOperator&, bool);
+template bool Iteration<float>::prepare<float>(const LinearOperator&, bool);
+template End Iteration<double>::run<double>(const LinearOperator&, std::span<double>, std::span<double>,
+                                            double, int);
+template End Iteration<float>::run<double>(const LinearOperator&, std::span<double>, std::span<double>,
+                                           double, int);
+template End Iteration<float>::run<float>(const LinearOperator&, std::span<float>, std::span<float>, double,
+                                          int);
+template void Iteration<double>::go_on<double>(double);
+template void Iteration<float>::go_on<double>(double);
+template void Iteration<float>::go_on<float>(double);
+template double Iteration<double>::iteration_work<double>(const LinearOperator&) const;
+template double Iteration<float>::iteration_work<double>(const LinearOperator&) const;
+template double Iteration<float>::iteration_work<float>(const LinearOperator&) const;
 
 }  // namespace tissu

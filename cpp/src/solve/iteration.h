@@ -1,6 +1,6 @@
 #pragma once
 
-/// The iterations of the conjugate gradient, in one precision, with their preconditioner.
+/// The iterations of the conjugate gradient with their preconditioner, in one precision or in two.
 
 #include <memory>
 #include <span>
@@ -22,18 +22,25 @@ enum class End {
   lost,       ///< the residual grew without bound, as with a singular matrix
 };
 
+/// T: the precision of the preconditioner. The iterations have the same one, or double: in single precision
+/// the matrix itself is rounded, which a long thin body in equilibrium does not bear, whose softest motions
+/// are a millionth as stiff as its cells; a preconditioner may be rounded.
 template <class T>
 class Iteration {
  public:
   explicit Iteration(Preconditioning kind);
 
   /// Makes the preconditioner where there is none for this operator, where another is due, or where it is
-  /// `forced` and not of these values already; true when it did.
+  /// `forced` and not of these values already; true when it did. V: the precision of the iterations.
+  template <class V>
   bool prepare(const LinearOperator& A, bool forced);
-  /// Lowers |r| to `target` and gives what it takes as d.
-  End run(const LinearOperator& A, std::span<T> r, std::span<T> d, double target, int most);
-  /// The next run goes on in the directions of the latest one, whose residual it is given computed anew and
-  /// divided by `scale` times what the latest was divided by. Otherwise it starts its own.
+  /// Lowers |r| to `target` and gives what it takes as d, in iterations of precision V.
+  template <class V>
+  End run(const LinearOperator& A, std::span<V> r, std::span<V> d, double target, int most);
+  /// The next run goes on in the directions of the latest one, which had the same precision, whose residual it
+  /// is given computed anew and divided by `scale` times what the latest was divided by. Otherwise it starts
+  /// its own.
+  template <class V>
   void go_on(double scale);
   /// What was made last was made of this operator, for the solve that has begun.
   void take_over(const LinearOperator& A);
@@ -49,6 +56,7 @@ class Iteration {
   [[nodiscard]] double solving() const { return work_; }
   [[nodiscard]] double making() const { return making_; }
   [[nodiscard]] double once() const { return once_; }
+  template <class V>
   [[nodiscard]] double iteration_work(const LinearOperator& A) const;
   /// What the matrix that it works with was multiplied by.
   [[nodiscard]] double scale() const;
@@ -56,13 +64,29 @@ class Iteration {
   [[nodiscard]] std::size_t bytes() const;
 
  private:
+  template <class V>
+  struct Vectors {
+    std::vector<V> z;
+    std::vector<V> p;
+    std::vector<V> q;
+    [[nodiscard]] std::size_t bytes() const { return (z.size() + p.size() + q.size()) * sizeof(V); }
+  };
+  template <class V>
+  Vectors<V>& vectors();
+  /// q = A p
+  template <class V>
   void multiply(const LinearOperator& A);
   /// Iterations that couplings cost which the preconditioner does not know, or knows in vain.
   double expected(const LinearOperator& A);
   /// p = z + beta p
+  template <class V>
   void turn(const Threads& threads, double beta);
   /// d += alpha p, r -= alpha q, z = M^-1 r; r . z, and |r|^2 into `square`.
-  double advance(const Threads& threads, std::span<T> r, std::span<T> d, double alpha, double& square);
+  template <class V>
+  double advance(const Threads& threads, std::span<V> r, std::span<V> d, double alpha, double& square);
+  /// Rows of r in the precision of the preconditioner, and rows of its z in that of the iterations.
+  void narrow(std::span<const double> r, std::size_t first, std::size_t last);
+  void widen(std::size_t first, std::size_t last);
 
   std::unique_ptr<Preconditioner<T>> M_;
   Renewal renewal_;
@@ -84,9 +108,11 @@ class Iteration {
   bool goes_on_ = false;
   double rz_ = 0.0;      ///< r . z when p_ was made
   SingleMatrix matrix_;  ///< of single precision only
-  std::vector<T> z_;
-  std::vector<T> p_;
-  std::vector<T> q_;
+  Vectors<T> own_;
+  Vectors<double> wide_;  ///< of iterations in double with a preconditioner in single precision, …
+  std::vector<T> r_;      ///< … what that is given, divided by unit_, …
+  std::vector<T> z_;      ///< … and what it answers
+  double unit_ = 1.0;     ///< |r| at the beginning of the run
   std::vector<double> partial_;
   std::vector<double> squares_;
 };

@@ -7,12 +7,10 @@
 
 namespace tissu {
 
-bool SingleMatrix::update(const BlockMatrix& matrix) {
-  matrix_ = &matrix;
-  if (id_ == matrix.id() && version_ == matrix.version()) return false;
-  id_ = matrix.id();
-  version_ = matrix.version();
-  multiply_rows_ = multiply_rows_of<float>(matrix.isa());
+void SingleMatrix::measure(const BlockMatrix& matrix) {
+  if (measured_id_ == matrix.id() && measured_version_ == matrix.version()) return;
+  measured_id_ = matrix.id();
+  measured_version_ = matrix.version();
   double largest = 0.0;
   for (std::int32_t i = 0; i < matrix.rows(); ++i) {
     for (int k = 0; k < 3; ++k) {
@@ -26,6 +24,15 @@ bool SingleMatrix::update(const BlockMatrix& matrix) {
     }
   }
   scale_ = largest > 0.0 && std::isfinite(largest) ? 1.0 / largest : 1.0;
+}
+
+bool SingleMatrix::update(const BlockMatrix& matrix) {
+  matrix_ = &matrix;
+  if (id_ == matrix.id() && version_ == matrix.version()) return false;
+  measure(matrix);
+  id_ = matrix.id();
+  version_ = matrix.version();
+  multiply_rows_ = multiply_rows_of<float>(matrix.isa());
   const auto blocks = matrix.sparsity().blocks();
   values_.resize(static_cast<std::size_t>(9 * blocks + 1));  // one more can be read
   constexpr std::int64_t kTogether = 8;

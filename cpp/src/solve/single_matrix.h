@@ -9,6 +9,8 @@ namespace tissu {
 /// A block matrix in single precision, scaled so that its largest diagonal number is 1.
 class SingleMatrix {
  public:
+  /// Finds the scale alone, for a matrix that is not multiplied with in single precision.
+  void measure(const BlockMatrix& matrix);
   /// Takes over pattern and values; false where it has them.
   bool update(const BlockMatrix& matrix);
   void multiply(std::span<const float> p, std::span<float> out) const;
@@ -17,6 +19,8 @@ class SingleMatrix {
 
  private:
   const BlockMatrix* matrix_ = nullptr;
+  std::uint64_t measured_id_ = 0;  ///< of the matrix that has this scale
+  std::uint64_t measured_version_ = 0;
   std::uint64_t id_ = 0;
   std::uint64_t version_ = 0;
   double scale_ = 1.0;

@@ -91,9 +91,8 @@ class ConjugateGradient(Solver):
     """the diagonal, its 3x3 blocks, a factor without fill, the factor of an earlier matrix, or a
     multigrid of rigid aggregates"""
     precision: Precision = "double"
-    """precision of the iterations; residuals are in double precision, and correct single iterations
-    to the tolerance
-    """
+    """precision of the preconditioner, and of the iterations except with `multigrid`; the solution
+    has the tolerance of double precision in any case"""
     matrix: Matrix = "assembled"
     """free: products of the forces themselves, without a matrix; with jacobi and block_jacobi"""
 

@@ -27,6 +27,8 @@ constexpr double kWaveRatio = 3.5;    ///< of the moduli of plane waves at Poiss
 constexpr double kSheetCycles = 5.0;  ///< times as many at least for a body of one cell through
 /// Times as many for each length over thickness of a bar in equilibrium.
 constexpr double kSlenderCycles = 0.24;
+/// Power of what a stiff part does to the iterations of block-Jacobi: 10 to 50 iterations were counted.
+constexpr double kHinderedCycles = 0.75;
 constexpr double kCycleProducts = 6.0;  ///< products, with those of the coarser levels, that a cycle costs
 constexpr double kLevelsMade = 110.0;   ///< products that making all levels costs, …
 constexpr double kFewRows = 300.0;  ///< … of a matrix of many more rows, whose inner ones have all neighbours
@@ -93,7 +95,8 @@ ForArms<Cost> predicted_costs(const MatrixShape& shape, double plain, double tol
   const double sheet = equilibrium ? std::max(kSheetCycles, shape.along) : kSheetCycles;
   const double slender = equilibrium ? std::max(1.0, kSlenderCycles * shape.along / shape.through) : 1.0;
   const double thin = shape.through < 2.0 ? std::max(sheet, slender) : slender;
-  const double cycles = hindered(shape) * std::sqrt(stiffer(shape)) * thin * kCycles;
+  const double cycles =
+      std::pow(hindered(shape), kHinderedCycles) * std::sqrt(stiffer(shape)) * thin * kCycles;
   const double saved = kSaved / std::pow(stiffer(shape), 1.0 / 6.0);
   const double levels = kLevelsMade * shape.rows / (shape.rows + kFewRows);
   // The guess from the latest answers (forecast.h) saves a share of the digits of a motion.

@@ -202,8 +202,8 @@ ConjugateGradient::Way ConjugateGradient::first_way() const {
   return pause_ > 0 ? Way::mixed : Way::single;
 }
 
-End ConjugateGradient::round(Way way, const LinearOperator& A, Reals x, double size, double target, bool renew,
-                             SolveReport& report) {
+End ConjugateGradient::round(Way way, const LinearOperator& A, Reals x, double size, double target,
+                             bool renew, SolveReport& report) {
   if (way == Way::full) {
     prepare<double, double>(A, renew, report);
     return double_round<double>(A, x, target, report);
@@ -225,18 +225,31 @@ void ConjugateGradient::rounds(const LinearOperator& A, ConstReals b, Reals x, d
   double size = residual(A, b, x, report);
   if (zero && size > settings_.tolerance * reference) size = forecast_->start(A, size, r_, x, report.work);
   Progress progress{size};
+  double before = size;
+  bool counted = false;  // by the iterations, not computed from x
   for (int round = 0;; ++round) {
-    report.residual = size / reference;
-    report.converged = report.residual <= settings_.tolerance;
-    if (!report.converged && round > 0) {
-      report.converged = report.residual <= attainable(A, x, reference, settings_.tolerance);
+    const bool last = report.iterations >= settings_.iterations || spent(report) >= allowance_;
+    if (counted && last) size = residual(A, b, x, report);
+    if (!counted || last) {
+      report.residual = size / reference;
+      report.converged = report.residual <= settings_.tolerance;
+      if (!report.converged && round > 0) {
+        report.converged = report.residual <= attainable(A, x, reference, settings_.tolerance);
+      }
+      if (report.converged && way == Way::single && round > 0) pauses_ = 0;
+      if (report.converged || last) return;
+      before = size;
     }
-    if (report.converged && way == Way::single && round > 0) pauses_ = 0;
-    if (report.converged || report.iterations >= settings_.iterations || spent(report) >= allowance_) return;
-    const double before = size;
     const End end = this->round(way, A, x, size, settings_.tolerance * reference, renew, report);
-    size = residual(A, b, x, report);
     renew = end == End::renewal;
+    counted = end == End::part;
+    if (counted) {
+      if (way == Way::full) full_->go_on<double>(1.0);
+      if (way == Way::mixed) single_->go_on<double>(1.0);
+      size = way == Way::full ? full_->residual() : single_->residual();
+      continue;
+    }
+    size = residual(A, b, x, report);
     if (renew) continue;
     if (way == Way::single) {
       const bool serves = (end == End::reached || end == End::exhausted) &&

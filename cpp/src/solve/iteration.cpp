@@ -215,24 +215,30 @@ End Iteration<T>::run(const LinearOperator& A, std::span<V> r, std::span<V> d, d
   Vectors<V>& v = vectors<V>();
   v.z.resize(r.size());
   v.p.resize(r.size());
-  v.q.assign(r.size(), V(0));
+  v.q.resize(r.size());
   if constexpr (!std::is_same_v<V, T>) {
     r_.resize(r.size());
     z_.resize(r.size());
     const double length = std::sqrt(dot<V>(threads, r, r, partial_));
     unit_ = length > 0.0 ? length : 1.0;
   }
+  constexpr bool kDouble = std::is_same_v<V, double>;
   if (!goes_on_) std::ranges::fill(v.p, V(0));
+  if (!goes_on_ || !kDouble) std::ranges::fill(v.q, V(0));
   std::ranges::fill(d, V(0));
   // A new one is made when half of what is allowed is gone, unless it costs far more than all of that.
   const double half = renewal_.price() < kDear * most ? 0.5 * most : Renewal::kUnlimited;
   const double left =
       version_ == A.version() || in_parts_ ? Renewal::kUnlimited : std::min(half, renewal_.left() - spent_);
+  // Runs in single precision are short, and leave their parts to the next one.
+  const int part = in_parts_ && kDouble ? std::max(1, kBetween * parts_ - spent_) : most;
   iterations_ = 0;
   work_ += M_->application();
   double square = 0.0;
   double rz = advance<V>(threads, r, d, 0.0, square);
   double beta = goes_on_ && rz_ > 0.0 ? rz / rz_ : 0.0;
+  // Where the preconditioner has changed, the direction is conjugate to the latest one all the same.
+  if (goes_on_ && kDouble) beta = -dot<V>(threads, v.z, v.q, partial_) / curvature_;
   goes_on_ = false;
   const double first = std::sqrt(square);
   while (true) {
@@ -245,13 +251,14 @@ End Iteration<T>::run(const LinearOperator& A, std::span<V> r, std::span<V> d, d
       return version_ == A.version() ? End::curvature : End::renewal;
     }
     if (iterations_ >= left) return End::renewal;
+    if (iterations_ >= part) return End::part;
     stop_if_asked();
     turn<V>(threads, beta);
     rz_ = rz;
     multiply<V>(A);
-    const double curvature = dot<V>(threads, v.p, v.q, partial_);
-    if (!(curvature > 0.0)) return End::curvature;
-    rz = advance<V>(threads, r, d, rz_ / curvature, square);
+    curvature_ = dot<V>(threads, v.p, v.q, partial_);
+    if (!(curvature_ > 0.0)) return End::curvature;
+    rz = advance<V>(threads, r, d, rz_ / curvature_, square);
     beta = rz / rz_;
     ++iterations_;
     ++spent_;

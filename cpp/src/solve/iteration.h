@@ -18,6 +18,7 @@ enum class End {
   reached,    ///< their own count of the residual is at the target
   exhausted,  ///< there were as many as allowed
   renewal,    ///< with a preconditioner that does not pay any more
+  part,       ///< `prepare` may make another part of a preconditioner, after which they go on; r is exact
   curvature,  ///< p . A p <= 0 or r . M^-1 r <= 0: not positive definite, as far as this precision can tell
   lost,       ///< the residual grew without bound, as with a singular matrix
 };
@@ -37,9 +38,9 @@ class Iteration {
   /// Lowers |r| to `target` and gives what it takes as d, in iterations of precision V.
   template <class V>
   End run(const LinearOperator& A, std::span<V> r, std::span<V> d, double target, int most);
-  /// The next run goes on in the directions of the latest one, which had the same precision, whose residual it
-  /// is given computed anew and divided by `scale` times what the latest was divided by. Otherwise it starts
-  /// its own.
+  /// The next run goes on in the directions of the latest one, which had the same precision, whose residual
+  /// it is given computed anew and divided by `scale` times what the latest was divided by. Otherwise it
+  /// starts its own.
   template <class V>
   void go_on(double scale);
   /// What was made last was made of this operator, for the solve that has begun.
@@ -106,8 +107,9 @@ class Iteration {
   int iterations_ = 0;
   double residual_ = 0.0;
   bool goes_on_ = false;
-  double rz_ = 0.0;      ///< r . z when p_ was made
-  SingleMatrix matrix_;  ///< of single precision only
+  double rz_ = 0.0;         ///< r . z when p was made
+  double curvature_ = 1.0;  ///< p . A p
+  SingleMatrix matrix_;     ///< of single precision only
   Vectors<T> own_;
   Vectors<double> wide_;  ///< of iterations in double with a preconditioner in single precision, …
   std::vector<T> r_;      ///< … what that is given, divided by unit_, …

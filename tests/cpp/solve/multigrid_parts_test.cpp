@@ -86,6 +86,38 @@ TEST(MultigridParts, StaySymmetricAndPositiveWhileTheMatrixChanges) {
   }
 }
 
+/// A solve that makes several parts goes on between them without computing its residual; what it reports is
+/// the residual of x all the same, also where it was stopped.
+TEST(MultigridParts, OfOneSolveLeaveItsReportExact) {
+  for (const Precision precision : {Precision::full, Precision::single}) {
+    for (const int most : {14, 1000}) {
+      Cube cube;
+      ConjugateGradient solver({1e-6, most, Preconditioning::multigrid, precision, Product::assembled});
+      const auto& given = *cube.matrix().given();
+      int most_parts = 0;
+      for (int solve = 0; solve < 60; ++solve) {
+        cube.assemble(0.1 * (1.0 + solve % 10));
+        std::vector<double> b = cube.numbers(static_cast<unsigned>(solve));
+        for (std::size_t i = 0; i < b.size(); ++i) {
+          if (given[i] != 0) b[i] = 0.0;
+        }
+        std::vector<double> x(b.size(), 0.0);
+        std::vector<double> product(b.size());
+        const SolveReport report = solver.solve(cube.matrix(), b, x, 0.0);
+        cube.matrix().multiply(x, product);
+        for (std::size_t i = 0; i < b.size(); ++i) product[i] = b[i] - product[i];
+        const double residual = std::sqrt(dot(product, product) / dot(b, b));
+        EXPECT_NEAR(report.residual, residual, 1e-6 * residual);  // sums of some thousand products
+        EXPECT_EQ(report.converged, residual <= 1e-6);
+        EXPECT_LE(report.iterations, most);
+        EXPECT_TRUE(report.converged || most == 14);
+        most_parts = std::max(most_parts, report.preparations);
+      }
+      EXPECT_TRUE(most_parts >= 2 || most == 14);
+    }
+  }
+}
+
 TEST(MultigridParts, AreBegunAgainByAWholeMaking) {
   Cube cube;
   Multigrid<double> whole;

@@ -20,6 +20,7 @@ from tissu.mesh import CellBlock, Mesh
 from tissu.simulation import grab as kept
 from tissu.simulation.remains import Remains
 from tissu.simulation.severing import Severing
+from tissu.simulation.still import still_nodes
 
 if TYPE_CHECKING:
     from tissu import _core as core
@@ -156,12 +157,24 @@ class Cutting(Remains, Severing):
                 t0=nearest,
                 refine=refine,
                 divide=self._divides(body),
+                **self._snapping(body),
             ),
             by=by,
         )
 
     def _divides(self, body: str) -> bool:
         return self.scene.editing is not None and self.scene.editing.divides(body)
+
+    def _snapping(self, body: str) -> dict[str, Any]:
+        """Whether a cut moves nodes, and which of them do not."""
+        editing = self.scene.editing
+        if editing is None or not editing.snaps(body):
+            return {"snap": False, "depth": False, "still": np.zeros(0, dtype=np.int32)}
+        first, count = self._core.body_range(body)
+        grabs = kept.records(self._core) if self.scene.grabbing else {}
+        rows = [grab.nodes for grab in grabs.values()]
+        still = still_nodes(self._meshes[body], rows, first, count)
+        return {"snap": True, "depth": editing.depth, "still": still}
 
     def mark(self) -> Mark:
         """Store the present state, cuts included; `rewind` returns to it any number of times.
@@ -206,7 +219,7 @@ class Cutting(Remains, Severing):
         grabs = kept.records(self._core) if self.scene.grabbing else {}
         way_back = self._way_back()
         made = make()
-        met = bool(made["cells_cut"] or made["cells_gone"])
+        met = bool(made["cells_cut"] or made["cells_gone"] or made["nodes_moved"])
         if met:
             self._follow_cells(body)
         pieces = self.pieces(body)
@@ -250,7 +263,9 @@ class Cutting(Remains, Severing):
         return tuple(parted)
 
 
-def cut_mesh(rest: Mesh, runs: list[Any], roots: Ints, places: Floats) -> Mesh:
+def cut_mesh(
+    rest: Mesh, runs: list[Any], roots: Ints, places: Floats, *, moved: bool = False
+) -> Mesh:
     """The mesh of the cells of a body that was cut, in ascending number, at rest.
 
     Args:
@@ -258,6 +273,7 @@ def cut_mesh(rest: Mesh, runs: list[Any], roots: Ints, places: Floats) -> Mesh:
         runs: type, numbers, origins, shares and nodes of runs of cells.
         roots: the first day's node of each node; -1 of those that a blade put on an edge.
         places: of all nodes at rest.
+        moved: whether cuts have moved nodes at rest.
     """
     origins = np.concatenate([run[2] for run in runs])
     regions = {
@@ -266,7 +282,7 @@ def cut_mesh(rest: Mesh, runs: list[Any], roots: Ints, places: Floats) -> Mesh:
     }
     return dataclasses.replace(
         rest,
-        points=np.where(roots[:, None] < 0, places, rest.points[roots]),
+        points=places if moved else np.where(roots[:, None] < 0, places, rest.points[roots]),
         cells=tuple(CellBlock(type=run[0], nodes=run[4]) for run in runs),
         regions=regions,
         border_regions={},

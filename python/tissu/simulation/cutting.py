@@ -21,6 +21,7 @@ from tissu.simulation import grab as kept
 from tissu.simulation.remains import Remains
 from tissu.simulation.severing import Severing
 from tissu.simulation.still import still_nodes
+from tissu.simulation.track import anchor_again, places_in
 
 if TYPE_CHECKING:
     from tissu import _core as core
@@ -149,7 +150,9 @@ class Cutting(Remains, Severing):
         nearest: float = _NEAREST,
     ) -> CutReport:
         """Cut along a surface of the core; `nearest`: share of an edge from its end to go there."""
-        return self._made(
+        snaps = self.scene.editing is not None and self.scene.editing.snaps(body)
+        rows = places_in(self, body) if snaps and self.scene.instruments else {}  # type: ignore[arg-type]
+        report = self._made(
             body,
             lambda: self._core.cut(
                 body=body,
@@ -161,6 +164,9 @@ class Cutting(Remains, Severing):
             ),
             by=by,
         )
+        if report.nodes_moved and rows:
+            anchor_again(self, body, rows)  # type: ignore[arg-type]
+        return report
 
     def _divides(self, body: str) -> bool:
         return self.scene.editing is not None and self.scene.editing.divides(body)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,7 +14,9 @@ if TYPE_CHECKING:
 Ints = NDArray[np.int32]
 
 
-def still_nodes(mesh: Mesh, rows: Iterable[Ints], first: int, count: int) -> Ints:
+def still_nodes(
+    mesh: Mesh, rows: Iterable[NDArray[np.integer[Any]]], first: int, count: int
+) -> Ints:
     """Nodes of grabs, and those on the border of a named region, ascending.
 
     Args:

@@ -85,8 +85,9 @@ class Cutting(Remains, Severing):
         Each cell that the blade divides is replaced by one undistorted copy for each part, with the
         share of the material in that part (virtual nodes: Molino et al. 2004). So mass, momenta,
         kinetic and elastic energy do not change. With `editing: {method: subdivide}` the cells are
-        divided instead, and new nodes lie on the cut. Nodes and cells keep their numbers; new ones
-        follow the last. `surface` and `material` give the cut itself.
+        divided instead, and new nodes lie on the cut. With `{method: snap}` nodes move onto the cut
+        first, where they may. Nodes and cells keep their numbers; new ones follow the last.
+        `surface` and `material` give the cut itself.
 
         Points of connective tissue permanently lose the frames and nodes beyond the blade. Their
         weights are computed again from those that remain; mass and momenta do not change.

@@ -19,6 +19,7 @@ from tissu.cutting.quality import Quality
 CUTS = 40
 CUBE, SIDE = 0.1, 6
 METHODS = ("subdivide", "snap")
+PICTURE = MEASURED.parent / "pictures" / "seed-cuts.png"
 
 Array = np.ndarray[Any, Any]
 
@@ -92,13 +93,13 @@ def away(simulation: ts.Simulation, point: Array, normal: Array) -> Array:
     return np.abs((places[walls] - point) @ normal) / float((SIZE / CELLS).max())
 
 
-def along(method: str) -> tuple[list[str], Quality | None]:
+def along(method: str) -> tuple[list[str], Quality]:
     """Planes through the bar, each from the same state; and the cells after one of them."""
     simulation = bar(method)
     mark = simulation.mark()
     moved = born = gone = cut = left = 0
     far, shape, radii, bad = [], 1.0, 1.0, 0
-    first: Quality | None = None
+    first = []
     for point, normal in blades():
         report = simulation.cut("bar", ts.Plane(point, normal))
         moved += report.nodes_moved
@@ -108,7 +109,7 @@ def along(method: str) -> tuple[list[str], Quality | None]:
         left += len(report.unresolved)
         far.append(away(simulation, point, normal))
         quality = simulation.quality("bar", rest=True)
-        first = first or quality
+        first.append(quality)
         shape, radii = min(shape, quality.shape.min()), min(radii, quality.radii.min())
         bad += int(quality.has_short_edge.sum() + quality.is_flat.sum())
         simulation.rewind(mark)
@@ -124,7 +125,7 @@ def along(method: str) -> tuple[list[str], Quality | None]:
         f"{bad / CUTS:.1f}",
         str(left),
     ]
-    return row, first
+    return row, first[0]
 
 
 def shallow(*, depth: bool) -> list[str]:
@@ -159,20 +160,41 @@ def spread(name: str, quality: Quality) -> list[str]:
     ]
 
 
-def section() -> str:
-    """The tables and what they say."""
-    rows, spreads = [], [spread("uncut", bar("snap").quality("bar", rest=True))]
+def draw(meshes: dict[str, Quality]) -> None:
+    """Figure 4.21: RRS against volume, a dot for each cell."""
+    import matplotlib
+
+    matplotlib.use("Agg")
+    from matplotlib import pyplot
+
+    figure, panels = pyplot.subplots(
+        1, len(meshes), figsize=(10.5, 3.4), sharex=True, sharey=True, layout="constrained"
+    )
+    for panel, (name, quality) in zip(panels, meshes.items(), strict=True):
+        panel.scatter(quality.volume / meshes["uncut"].volume.mean(), quality.radii, s=4)
+        panel.axhline(0.1, linewidth=0.8, linestyle="--", color="grey")
+        panel.set(
+            title=f"{name}: {len(quality.volume)} cells", xlabel="volume / mean of uncut", ylim=0
+        )
+        panel.grid(alpha=0.3)
+    panels[0].set_ylabel("RRS = 3 rho_in / rho_out")
+    figure.savefig(PICTURE, dpi=110)
+
+
+def section() -> tuple[str, dict[str, Quality]]:
+    """The tables and what they say, and the cells of figure 4.21."""
+    meshes = {"uncut": bar("snap").quality("bar", rest=True)}
+    rows = []
     for method in METHODS:
-        row, first = along(method)
+        row, meshes[method] = along(method)
         rows.append(row)
-        if first is not None:
-            spreads.append(spread(method, first))
+    spreads = [spread(name, quality) for name, quality in meshes.items()]
     of_path = ["method", "nodes moved", "cells added", "distance, rms", "largest"]
     of_path += ["least q", "least RRS", "bad cells", "left"]
     of_depth = ["depth", "nodes moved", "cells made", "faces opened", "area cm2", "least q"]
     of_spread = ["mesh", "cells", "RRS, least", "RRS, 5 %", "RRS, median", "volume, least"]
     of_spread += ["volume, spread"]
-    return (
+    text = (
         "## The figures of Chendeb 2007\n\n"
         "Section 4.4 of the thesis shows its cuts in pictures. The tables give numbers for the\n"
         "same cases. Figure 4.20 shows the collapse of a short edge, and figure 4.21 compares it\n"
@@ -204,16 +226,19 @@ def section() -> str:
         "The cells of the bar before and after the first of these planes. Volumes are relative to\n"
         "their mean, and their spread is the standard deviation.\n\n"
         + table(of_spread, spreads)
-        + "\n\nPrinted by `python bench/seed_cuts.py --write`.\n"
+        + "\n\n![RRS against volume before and after a cut](../pictures/seed-cuts.png)\n"
+        + "\nPrinted by `python bench/seed_cuts.py --write`.\n"
     )
+    return text, meshes
 
 
 def main() -> None:
     """Prints the section, or writes it."""
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
     parser.add_argument("--write", action="store_true", help="to docs/measured/cutting.md")
-    text = section()
+    text, meshes = section()
     if parser.parse_args().write:
+        draw(meshes)
         put_between(MEASURED / "cutting.md", "bench/seed_cuts.py", text)
     else:
         print(text)

@@ -1,6 +1,8 @@
 #include "edit/cut/movable.h"
 
 #include <algorithm>
+#include <cmath>
+#include <iterator>
 #include <limits>
 #include <map>
 

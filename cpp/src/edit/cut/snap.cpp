@@ -1,7 +1,9 @@
 #include "tissu/edit/cut/snap.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
+#include <optional>
 #include <set>
 #include <tuple>
 #include <utility>

@@ -11,6 +11,7 @@ namespace {
 
 std::vector<std::int32_t> cells_at_moves(const Hosts& after, const CutPlan& plan) {
   std::vector<std::int32_t> nodes;
+  nodes.reserve(plan.moved.size());
   for (const NodeMove& move : plan.moved) nodes.push_back(move.node);
   sort_unique(nodes);
   std::int32_t number = plan.first_node;

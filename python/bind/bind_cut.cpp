@@ -60,20 +60,28 @@ py::dict to_dict(const CutPlan& plan) {
   for (const auto& [cell, reason] : plan.unresolved) unresolved.emplace_back(cell, words(reason));
   result["unresolved"] = unresolved;
   result["bridges"] = plan.bridges();
+  result["nodes_moved"] = plan.moved.size();
   return result;
 }
 
 py::dict to_dict(const Simulation::Edited& edited) {
   py::dict result = to_dict(edited.plan);
   result["relaid"] = edited.relaid;
+  result["least_quality"] = edited.least_quality;
   result["before"] = to_dict(edited.before);
   result["after"] = to_dict(edited.after);
   return result;
 }
 
 py::dict cut(Simulation& simulation, const std::string& body, const Sweep& sweep, double t0, bool refine,
-             bool divide) {
-  return to_dict(simulation.cut(body, sweep, {.t0 = t0, .refine = refine, .divide = divide}));
+             bool divide, bool snap, bool depth, const Ints& still) {
+  return to_dict(simulation.cut(body, sweep,
+                                {.t0 = t0,
+                                 .refine = refine,
+                                 .divide = divide,
+                                 .snap = snap,
+                                 .depth = depth,
+                                 .still = to_vector(still)}));
 }
 
 py::dict ablate(Simulation& simulation, const std::string& body, const Ints& cells) {
@@ -242,7 +250,8 @@ std::shared_ptr<World> edited_like(const World& fresh, const Simulation& simulat
 void bind_cut(py::class_<Simulation>& simulation) {
   using py::arg;
   simulation
-      .def("cut", &cut, py::kw_only(), arg("body"), arg("sweep"), arg("t0"), arg("refine"), arg("divide"))
+      .def("cut", &cut, py::kw_only(), arg("body"), arg("sweep"), arg("t0"), arg("refine"), arg("divide"),
+           arg("snap"), arg("depth"), arg("still"))
       .def("ablate", &ablate, py::kw_only(), arg("body"), arg("cells"))
       .def("anchors", &anchored, py::kw_only(), arg("body"), arg("points"))
       .def(
@@ -269,6 +278,16 @@ void bind_cut(py::class_<Simulation>& simulation) {
           [](const Simulation& s, const std::string& body) {
             const Material& material = cut_state(s.world(), body)->material;
             return !material.cells.empty() || !material.incisions.empty();
+          },
+          arg("body"))
+      .def(
+          "moved",
+          [](const Simulation& s, const std::string& body) {
+            const WorldDescription* description = s.world().description();
+            return description != nullptr &&
+                   std::ranges::any_of(description->bodies, [&](const BodyDescription& one) {
+                     return one.name == body && one.moved;
+                   });
           },
           arg("body"))
       .def("pieces", &found_pieces, arg("body"))

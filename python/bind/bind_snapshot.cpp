@@ -90,6 +90,7 @@ void add_cut(const BodyTopology& body, const std::string& number, py::dict& resu
   result[py::str("shares_" + number)] = to_array(body.shares);
   result[py::str("rider_weights_" + number)] = to_array(body.material.rider_weights);
   result[py::str("next_cell_" + number)] = body.next_cell;
+  if (!body.rest.empty()) result[py::str("rest_" + number)] = to_array(body.rest);
   if (body.point_nodes.empty()) return;
   result[py::str("point_nodes_" + number)] = to_array(body.point_nodes);
   result[py::str("point_weights_" + number)] = to_array(body.point_weights);
@@ -143,6 +144,7 @@ void read_cut(const py::dict& from, const std::string& number, BodyTopology& bod
   body.shares = doubles(from, "shares_" + number);
   body.material.rider_weights = doubles(from, "rider_weights_" + number);
   body.next_cell = value<std::int32_t>(from, "next_cell_" + number);
+  if (from.contains(("rest_" + number).c_str())) body.rest = doubles(from, "rest_" + number);
   if (!from.contains(("point_nodes_" + number).c_str())) return;
   body.point_nodes = integers(from, "point_nodes_" + number);
   body.point_weights = doubles(from, "point_weights_" + number);

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import tissu as ts
-from tissu.cutting.quality import quality_of
+from tissu.cutting.quality import Quality, quality_of
 
 REGULAR = np.array([(1, 1, 1), (1, -1, -1), (-1, 1, -1), (-1, -1, 1)], dtype=float)[[0, 2, 1, 3]]
 MEASURES = ("shape", "edges", "inner", "radii", "solid_angle", "dihedral")
@@ -76,6 +76,80 @@ def test_the_two_types_of_bad_ones() -> None:
     quality = quality_of(np.array([needle, [flat[k] for k in (0, 1, 3, 2)], REGULAR], dtype=float))
     np.testing.assert_array_equal(quality.has_short_edge, [True, False, False])
     np.testing.assert_array_equal(quality.is_flat, [False, True, False])
+
+
+def measures(corners: list[tuple[float, float, float]]) -> Quality:
+    tetrahedron = np.array(corners, dtype=float)
+    if np.linalg.det(tetrahedron[1:] - tetrahedron[0]) < 0:
+        tetrahedron = tetrahedron[[0, 2, 1, 3]]
+    return quality_of(tetrahedron[None])
+
+
+SHAPES = [0.3, 0.1, 0.02]
+ROOT2, ROOT3 = 2**0.5, 3**0.5
+
+
+@pytest.mark.parametrize("e", SHAPES)
+def test_a_sliver_by_formula(e: float) -> None:
+    """Corners (+-1, 0, -e) and (0, +-1, e): four edges sqrt(2 + 4 e^2), two of 2, V = 4 e / 3."""
+    found = measures([(1, 0, -e), (-1, 0, -e), (0, 1, e), (0, -1, e)])
+    side, volume = (2 + 4 * e * e) ** 0.5, 4 * e / 3
+    mean_square = (4 * side**2 + 2 * 4) / 6
+    area = 4 * 0.5 * 2 * (side**2 - 1) ** 0.5  # four triangles of base 2
+    center = (1 + e * e) ** 0.5  # from the origin
+    assert found.volume[0] == pytest.approx(volume, rel=1e-12)
+    assert found.shape[0] == pytest.approx(6 * ROOT2 * volume / mean_square**1.5, rel=1e-12)
+    assert found.edges[0] == pytest.approx(side / 2, rel=1e-12)  # blind: near 0.7
+    assert found.radii[0] == pytest.approx(3 * 3 * volume / area / center, rel=1e-9)
+    assert found.inner[0] == pytest.approx(12 / 6**0.5 * 3 * volume / area / 2, rel=1e-12)
+    # At the four edges the outward normals are (0, 2 e, -1) and (2 e, 0, 1), each over its length.
+    least = np.arccos(1 / (1 + 4 * e * e))
+    assert found.dihedral[0] == pytest.approx(least / np.arccos(1 / 3), rel=1e-9)
+    assert found.is_flat[0] == (found.radii[0] < 0.1)
+
+
+@pytest.mark.parametrize("e", SHAPES)
+def test_a_needle_by_formula(e: float) -> None:
+    """A pyramid of height 1 over an equilateral triangle whose corners lie e from its middle."""
+    base = [(e * np.cos(a), e * np.sin(a), 0.0) for a in 2 * np.pi / 3 * np.arange(3)]
+    found = measures([*base, (0.0, 0.0, 1.0)])
+    short, long, volume = ROOT3 * e, (1 + e * e) ** 0.5, 3 * ROOT3 / 4 * e * e / 3
+    mean_square = (short**2 + long**2) / 2
+    area = 3 * ROOT3 / 4 * e * e + 3 * 0.5 * short * (long**2 - short**2 / 4) ** 0.5
+    outer = (1 + e * e) / 2
+    assert found.shape[0] == pytest.approx(6 * ROOT2 * volume / mean_square**1.5, rel=1e-12)
+    assert found.edges[0] == pytest.approx(short / long, rel=1e-12)
+    assert found.radii[0] == pytest.approx(3 * 3 * volume / area / outer, rel=1e-9)
+    # The side faces have normals along (cos a, sin a, e / 2), 120 degrees apart in a. The angle
+    # between two faces is pi less that of their outward normals; for small e it is 60 degrees.
+    across = np.pi - np.arccos((-0.5 + e * e / 4) / (1 + e * e / 4))
+    assert found.dihedral[0] == pytest.approx(across / np.arccos(1 / 3), rel=1e-9)
+    assert found.has_short_edge[0] == (short / long < 0.2)
+    apex = solid_angle(np.array([*base, (0.0, 0.0, 1.0)]), 3)
+    assert found.solid_angle[0] == pytest.approx(apex / np.arccos(23 / 27), rel=1e-9)
+
+
+@pytest.mark.parametrize("e", SHAPES)
+def test_a_cap_by_formula(e: float) -> None:
+    """A pyramid of height e over an equilateral triangle whose corners lie 1 from its middle."""
+    base = [(np.cos(a), np.sin(a), 0.0) for a in 2 * np.pi / 3 * np.arange(3)]
+    found = measures([*base, (0.0, 0.0, e)])
+    rim, slope, volume = ROOT3, (1 + e * e) ** 0.5, ROOT3 / 4 * e
+    mean_square = (rim**2 + slope**2) / 2
+    area = 3 * ROOT3 / 4 + 3 * 0.5 * rim * (slope**2 - rim**2 / 4) ** 0.5
+    outer = (1 + e * e) / (2 * e)
+    assert found.shape[0] == pytest.approx(6 * ROOT2 * volume / mean_square**1.5, rel=1e-12)
+    assert found.edges[0] == pytest.approx(slope / rim, rel=1e-12)  # blind: near 0.58
+    assert found.radii[0] == pytest.approx(3 * 3 * volume / area / outer, rel=1e-9)
+    # A side face rises by e over the inner radius 1 / 2 of the base.
+    assert found.dihedral[0] == pytest.approx(np.arctan(2 * e) / np.arccos(1 / 3), rel=1e-9)
+
+
+def test_without_a_volume_all_but_the_edges_are_zero() -> None:
+    found = measures([(1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0)])
+    for name in ("volume", "shape", "inner", "radii", "solid_angle", "dihedral"):
+        assert getattr(found, name)[0] == pytest.approx(0.0, abs=1e-12), name
+    assert found.edges[0] == pytest.approx(ROOT2 / 2, rel=1e-12)
 
 
 def test_of_a_body_that_is_cut() -> None:

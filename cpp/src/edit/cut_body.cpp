@@ -4,8 +4,11 @@
 
 #include "cut_edit.h"
 #include "described.h"
+#include "edit/cut/moved_cells.h"
+#include "snap_rules.h"
 #include "tissu/base/error.h"
 #include "tissu/contact/audit.h"
+#include "tissu/edit/cut/snap.h"
 
 namespace tissu {
 namespace {
@@ -25,6 +28,8 @@ BodyEdit edit_of(const BodyDescription& body, const CutState& before, const CutP
     ++number;
   }
   edit.points = first_day_points(after.hosts);
+  edit.node_moves = plan.moved;
+  if (after.hosts.moved()) edit.rest.assign(after.hosts.rest().begin(), after.hosts.rest().end());
   edit.cut = std::make_shared<const CutState>(std::move(after));
   return edit;
 }
@@ -48,7 +53,7 @@ void refuse_crossings(const World& world, const State& state, std::string_view n
 }  // namespace
 
 bool changes(const CutPlan& plan) {
-  return !plan.gone.empty() || !plan.changed.empty() || !plan.material.cells.empty() ||
+  return !plan.moved.empty() || !plan.gone.empty() || !plan.changed.empty() || !plan.material.cells.empty() ||
          !plan.material.incisions.empty();
 }
 
@@ -58,8 +63,10 @@ CutPlan plan_body_cut(const World& world, const State& state, std::string_view n
   refuse_unparted(*world.description(), body);
   const auto first = 3 * static_cast<std::size_t>(world.body(name).first_node);
   const std::shared_ptr<const CutState> before = cut_state(world, name);
-  return plan_cut(before->hosts, before->material,
-                  ConstReals(state.positions).subspan(first, body.positions.size()), sweep, options);
+  const ConstReals x = ConstReals(state.positions).subspan(first, body.positions.size());
+  if (!options.snap) return plan_cut(before->hosts, before->material, x, sweep, options);
+  return plan_snapped_cut(before->hosts, before->material, x, sweep, options,
+                          snap_rules(world, state, name, before->hosts));
 }
 
 CutPlan plan_body_ablation(const World& world, std::string_view name, std::vector<std::int32_t> cells) {
@@ -69,9 +76,15 @@ CutPlan plan_body_ablation(const World& world, std::string_view name, std::vecto
   return plan_ablation(before->hosts, before->material, std::move(cells));
 }
 
+double least_quality(const World& world, std::string_view name, const CutPlan& plan) {
+  return least_quality(cut_state(world, name)->hosts, plan);
+}
+
 CutWorld cut_world(const World& world, const State& state, std::string_view name, const CutPlan& plan) {
   const BodyEdit edit = edit_of(described(world, name), *cut_state(world, name), plan);
-  CutWorld made = {edit_body(world, state, name, edit), rows_born(world, name, edit)};
+  CutWorld made = {edit_body(world, state, name, edit), rows_born(world, name, edit), {}};
+  for (const std::int32_t node : nodes_around_moves(edit.cut->hosts, plan))
+    made.around_moves.push_back(made.world->body(name).first_node + node);
   refuse_crossings(world, state, name, made);
   return made;
 }

@@ -99,7 +99,7 @@ CutState cut_state_of(BodyDescription body, Material material) {
     }
   }
   std::ranges::sort(cells, {}, &Hosts::Cell::number);
-  return {Hosts(body.positions, std::move(root), cells, body.next_cell, riders_of(body.points)),
+  return {Hosts(body.positions, std::move(root), cells, body.next_cell, riders_of(body.points), body.moved),
           std::move(material)};
 }
 

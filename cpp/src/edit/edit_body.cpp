@@ -190,6 +190,10 @@ BodyDescription edited(BodyDescription body, const BodyEdit& edit) {
   number_cells(body);
   if (!edit.points.empty()) body.points = edit.points;
   add_nodes(body, edit.copied);
+  if (!edit.rest.empty()) {
+    body.positions = edit.rest;
+    body.moved = true;
+  }
   edit_cells(body, edit);
   body.bare = edit.bare;
   body.cut = edit.cut;
@@ -222,6 +226,15 @@ std::shared_ptr<const World> edit_body(const World& world, const State& state, s
 RowsBorn rows_born(const World& world, std::string_view name, const BodyEdit& edit) {
   const Body& body = world.body(name);
   RowsBorn born;
+  const auto add = [&](std::int32_t to, const Rider& between) {
+    RowBlend& blend = born.blends.emplace_back();
+    blend.to = body.first_node + to;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(between.count); ++i) {
+      blend.from[i] = body.first_node + between.node[i];
+      blend.weight[i] = between.weight[i];
+    }
+  };
+  for (const NodeMove& move : edit.node_moves) add(move.node, move.to);
   for (std::size_t k = 0; k < edit.copied.size(); ++k) {
     const std::int32_t to = body.node_count + static_cast<std::int32_t>(k);
     const std::int32_t from = edit.copied[k];
@@ -234,13 +247,7 @@ RowsBorn rows_born(const World& world, std::string_view name, const BodyEdit& ed
       born.copies.push_back({rotation(to), rotation(from), body.first_frame + to, body.first_frame + from});
       continue;
     }
-    const Rider& between = edit.between[k];
-    RowBlend& blend = born.blends.emplace_back();
-    blend.to = body.first_node + to;
-    for (std::size_t i = 0; i < static_cast<std::size_t>(between.count); ++i) {
-      blend.from[i] = body.first_node + between.node[i];
-      blend.weight[i] = between.weight[i];
-    }
+    add(to, edit.between[k]);
   }
   return born;
 }

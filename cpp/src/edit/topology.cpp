@@ -46,6 +46,7 @@ void add_cut(const BodyDescription& body, BodyTopology& to) {
     to.point_nodes.insert(to.point_nodes.end(), point.node.begin(), point.node.end());
     to.point_weights.insert(to.point_weights.end(), point.weight.begin(), point.weight.end());
   }
+  if (body.moved) to.rest = body.positions;
   to.bare = body.bare;
   to.next_cell = body.next_cell;
   to.material = pack(body.cut->material);
@@ -135,6 +136,7 @@ class Replay {
     std::ranges::sort(edit_.gone);
     edit_.copied = topology_.copies_of;
     edit_.points = points();
+    edit_.rest = topology_.rest;
     edit_.bare = topology_.bare;
     edit_.next_cell = topology_.next_cell;
     edit_.inherits = false;
@@ -176,6 +178,8 @@ class Replay {
         std::ranges::any_of(topology_.bare, is_outside(node_count()))) {
       refuse(topology_, "it names nodes that are not there");
     }
+    if (!topology_.rest.empty() && topology_.rest.size() != 3 * static_cast<std::size_t>(node_count()))
+      refuse(topology_, "it has places at rest of another number of nodes");
   }
   [[nodiscard]] std::vector<FirstDayPoint> points() const {
     std::vector<FirstDayPoint> points(topology_.point_nodes.size() / 4);

@@ -94,7 +94,8 @@ std::optional<WorldEditor::Made> WorldEditor::make(std::string_view name, const 
   const std::size_t number = number_of(name);
   CutState* cut = bodies_[number].state.get();
   const auto is_between = [](const BornNode& node) { return node.between.count > 0; };
-  if (cut == nullptr || std::ranges::any_of(plan.nodes, is_between)) return std::nullopt;
+  if (cut == nullptr || !plan.moved.empty() || std::ranges::any_of(plan.nodes, is_between))
+    return std::nullopt;
   const BodyChange change = change_of(number, plan, state);
   if (!edit_.can(name, change)) return std::nullopt;
   const Body& body = world_->bodies()[number];

@@ -5,6 +5,7 @@
 #include "tissu/base/error.h"
 #include "tissu/edit/cut/material_mesh.h"
 #include "tissu/edit/remove_cells.h"
+#include "tissu/edit/twist.h"
 #include "tissu/simulation/simulation.h"
 
 namespace tissu {
@@ -68,7 +69,9 @@ void Simulation::follow(const WorldEditor::Made& made) {
 }
 
 Simulation::Edited Simulation::cut(std::string_view body, const Sweep& sweep, const CutOptions& options) {
-  return make(body, plan_body_cut(*world_, state_, body, sweep, options));
+  Edited edited = make(body, plan_body_cut(*world_, state_, body, sweep, options));
+  if (options.divide) edited.least_quality = least_quality(*world_, body, edited.plan);
+  return edited;
 }
 
 Simulation::Edited Simulation::ablate(std::string_view body, std::vector<std::int32_t> cells) {
@@ -95,6 +98,14 @@ Simulation::Edited Simulation::make(std::string_view body, CutPlan plan) {
   edited.before.elastic = energy_of(*world_, state_, scratch_).elastic;  // branches of a Prony series too
   replace_world(std::move(made.world), made.born.copies, made.born.blends);
   edited.after = totals(*world_, state_, body);
+  if (!made.around_moves.empty()) {
+    for (State* state : {&state_, &last_good_}) {
+      add_twist(*world_, made.around_moves, edited.before.momentum - edited.after.momentum,
+                edited.before.angular_momentum - edited.after.angular_momentum, state_.positions,
+                state->velocities);
+    }
+    edited.after = totals(*world_, state_, body);
+  }
   edited.after.elastic = energy_of(*world_, state_, scratch_).elastic;
   edited.relaid = true;
   return edited;

@@ -106,6 +106,8 @@ def _require_cuts(path: Path, number: str, arrays: Mapping[str, Any]) -> None:
             raise _wrong(path, f"{name}_{number}", "an array of int32")
     for name in ("shares", "rider_weights"):
         _require_finite(path, f"{name}_{number}", arrays)
+    if f"rest_{number}" in arrays:  # of all nodes, where cuts moved some
+        _require_finite(path, f"rest_{number}", arrays)
     if f"point_nodes_{number}" in arrays:  # nodes on edges, where cuts divide cells
         if arrays[f"point_nodes_{number}"].dtype != np.int32:
             raise _wrong(path, f"point_nodes_{number}", "an array of int32")

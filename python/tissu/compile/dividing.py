@@ -22,13 +22,16 @@ def check_divided(prepared: Prepared) -> None:
         return
     for name, body in prepared.bodies.items():
         found = _in_the_way(prepared, name, body) if editing.divides(name) else ""
+        if editing.snaps(name):
+            found = _unmoved(prepared, name, body) or found
         if not found:
             continue
         by_body = isinstance(editing.method, dict)
         path: Path = ("editing", "method", name) if by_body else ("editing", "method")
-        text = f"found subdivide for body '{name}', which has {found} are accepted, or virtual"
+        method = editing.method_of(name)
+        text = f"found {method} for body '{name}', which has {found} are accepted, or virtual"
         if not by_body:
-            text += "; methods may be given by body, such as {liver: subdivide}"
+            text += f"; methods may be given by body, such as {{liver: {method}}}"
         prepared.findings.problems.append(Problem(path, text))
 
 
@@ -42,4 +45,15 @@ def _in_the_way(prepared: Prepared, name: str, body: PreparedBody) -> str:
     for motion in getattr(prepared.scene, "prescribed", ()):
         if motion.body == name and motion.node_displacements is not None:
             return "node_displacements, which nodes on edges lack; displacements and rotations"
+    return ""
+
+
+def _unmoved(prepared: Prepared, name: str, body: PreparedBody) -> str:
+    """Why no node of a body may move, and what is accepted, in words; empty: nothing."""
+    viscosity = prepared.scene.bodies[name].viscosity
+    if viscosity is not None and viscosity.type == "prony":
+        return "a viscosity with a memory; bodies without one"
+    for group in body.groups:
+        if group.cell_type != "tetra":
+            return f"cells of type {group.cell_type}; tetrahedra of first order"
     return ""

@@ -61,6 +61,7 @@ class CutReport:
         cells_new: cells that replaced them: copies, or parts where cuts divide cells.
         cells_gone: cells that were replaced or removed.
         nodes_new: copies of nodes, and nodes on edges where cuts divide cells.
+        nodes_moved: nodes that were moved onto the cut at rest, where cuts do so.
         faces_opened: triangles of the material, each with two sides now.
         area: of one side of these faces now [m2].
         rest_area: the same at rest [m2].
@@ -82,6 +83,8 @@ class CutReport:
         relaid: whether everything was rebuilt, and not only the parts that the edit touched.
         stable_step: the largest stable step of an explicit method after it [s], measured where cuts
             divide cells; else infinite.
+        least_quality: 6 sqrt 2 V / l_rms^3 at rest, the least of the tetrahedra that it divided or
+            whose nodes it moved; infinite if there are none.
         milliseconds: wall time.
     """
 
@@ -92,6 +95,7 @@ class CutReport:
     cells_new: int
     cells_gone: int
     nodes_new: int
+    nodes_moved: int
     faces_opened: int
     area: float
     rest_area: float
@@ -110,12 +114,13 @@ class CutReport:
     points_gone: tuple[int, ...]
     relaid: bool
     stable_step: float
+    least_quality: float
     milliseconds: float
 
     @property
     def met_nothing(self) -> bool:
         """Whether nothing was cut and nothing is gone."""
-        return not (self.cells_cut or self.cells_gone or self.links_severed)
+        return not (self.cells_cut or self.cells_gone or self.links_severed or self.nodes_moved)
 
     def __str__(self) -> str:
         """One line."""
@@ -129,6 +134,8 @@ class CutReport:
             text += f"{counted(self.cells_gone, 'cell')} gone, "
         else:
             text += f"{counted(self.cells_cut, 'cell')} cut, "
+        if self.nodes_moved:
+            text += f"{counted(self.nodes_moved, 'node')} moved, "
         text += f"{counted(self.nodes_new, 'new node')}, {1e4 * self.area:.4g} cm2 opened, "
         text += f"{counted(len(self.pieces), 'piece')}, {self.milliseconds:.1f} ms"
         if len(self.unresolved) > self.bridges:
@@ -171,6 +178,7 @@ def cut_report(
         cells_new=made["cells_new"],
         cells_gone=made["cells_gone"],
         nodes_new=made["nodes_new"],
+        nodes_moved=made["nodes_moved"],
         faces_opened=made["faces_opened"],
         area=made["area"],
         rest_area=made["rest_area"],
@@ -189,5 +197,6 @@ def cut_report(
         points_gone=(),
         relaid=made["relaid"],
         stable_step=stable_step,
+        least_quality=made["least_quality"],
         milliseconds=milliseconds,
     )

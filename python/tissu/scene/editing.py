@@ -21,7 +21,7 @@ __all__ = ["Editing"]
 _SHARE = 0.25
 _LEAST = 256
 
-Method = Literal["auto", "virtual", "subdivide"]
+Method = Literal["auto", "virtual", "subdivide", "snap"]
 
 
 class Editing(Part):
@@ -33,23 +33,39 @@ class Editing(Part):
     """
 
     method: Read[Method | dict[str, Method], Method | Mapping[str, Method]] = field(default="auto")
-    """how a cut parts cells: virtual (copies of whole cells) or subdivide (the cells are divided
-    along the cut; tetrahedra and triangles of first order only); auto is virtual; or a map from
-    bodies to methods
+    """how a cut parts cells: virtual (copies of whole cells), subdivide (the cells are divided
+    along the cut; tetrahedra and triangles of first order only), or snap (nodes move onto the cut
+    where they may, and cells are divided elsewhere; tetrahedra of first order only); auto is
+    virtual; or a map from bodies to methods
     """
 
+    depth: bool = field(default=False)
+    """of snap: a node inside below each edge that a cut opens on the surface moves onto the blade's
+    plane too, so that shallow cuts open to that depth
+    """
+
+    def method_of(self, body: str) -> str:
+        """How a cut parts the cells of a body."""
+        return self.method.get(body, "auto") if isinstance(self.method, dict) else self.method
+
     def divides(self, body: str) -> bool:
-        """Whether a cut divides the cells of a body."""
-        method = self.method.get(body, "auto") if isinstance(self.method, dict) else self.method
-        return method == "subdivide"
+        """Whether a cut divides the cells of a body where it does not move nodes."""
+        return self.method_of(body) in ("subdivide", "snap")
+
+    def snaps(self, body: str) -> bool:
+        """Whether a cut moves nodes of a body."""
+        return self.method_of(body) == "snap"
 
     def unknown_bodies(self, bodies: Mapping[str, object]) -> Iterator[Problem]:
-        """Methods of bodies that the scene does not have."""
+        """Methods of bodies that the scene does not have, and depth without snap."""
         for body in self.method if isinstance(self.method, dict) else ():
             if body not in bodies:
                 text = f"no body is named '{body}'{nearest(body, bodies)} "
                 text += f"Bodies: {one_of_words(bodies)}"
                 yield Problem(("editing", "method", body), text)
+        if self.depth and not any(self.snaps(body) for body in bodies):
+            text = "found depth: true and no body with method: snap, which alone reads it; "
+            yield Problem(("editing", "depth"), text + "take method: snap, or leave depth out")
 
     def nodes(self, count: int) -> int:
         """Number of nodes that cuts may make in a body of `count` nodes."""
@@ -65,9 +81,13 @@ class Editing(Part):
         why = f"editing leaves room for {room}"
         if isinstance(self.method, dict):
             divided = [body for body in self.method if self.divides(body)]
+            snapped = [body for body in self.method if self.snaps(body)]
             why += f"; cuts divide the cells of {', '.join(divided)}" if divided else ""
+            why += f"; cuts move nodes of {', '.join(snapped)}" if snapped else ""
         elif self.method == "subdivide":
             why += "; cuts divide cells"
+        elif self.method == "snap":
+            why += "; cuts move nodes, and divide cells elsewhere"
         return Effect("cutting", why)
 
 

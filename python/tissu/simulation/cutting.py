@@ -20,6 +20,8 @@ from tissu.mesh import CellBlock, Mesh
 from tissu.simulation import grab as kept
 from tissu.simulation.remains import Remains
 from tissu.simulation.severing import Severing
+from tissu.simulation.still import still_nodes
+from tissu.simulation.track import anchor_again, places_in
 
 if TYPE_CHECKING:
     from tissu import _core as core
@@ -83,8 +85,9 @@ class Cutting(Remains, Severing):
         Each cell that the blade divides is replaced by one undistorted copy for each part, with the
         share of the material in that part (virtual nodes: Molino et al. 2004). So mass, momenta,
         kinetic and elastic energy do not change. With `editing: {method: subdivide}` the cells are
-        divided instead, and new nodes lie on the cut. Nodes and cells keep their numbers; new ones
-        follow the last. `surface` and `material` give the cut itself.
+        divided instead, and new nodes lie on the cut. With `{method: snap}` nodes move onto the cut
+        first, where they may. Nodes and cells keep their numbers; new ones follow the last.
+        `surface` and `material` give the cut itself.
 
         Points of connective tissue permanently lose the frames and nodes beyond the blade. Their
         weights are computed again from those that remain; mass and momenta do not change.
@@ -148,7 +151,9 @@ class Cutting(Remains, Severing):
         nearest: float = _NEAREST,
     ) -> CutReport:
         """Cut along a surface of the core; `nearest`: share of an edge from its end to go there."""
-        return self._made(
+        snaps = self.scene.editing is not None and self.scene.editing.snaps(body)
+        rows = places_in(self, body) if snaps and self.scene.instruments else {}  # type: ignore[arg-type]
+        report = self._made(
             body,
             lambda: self._core.cut(
                 body=body,
@@ -156,12 +161,27 @@ class Cutting(Remains, Severing):
                 t0=nearest,
                 refine=refine,
                 divide=self._divides(body),
+                **self._snapping(body),
             ),
             by=by,
         )
+        if report.nodes_moved and rows:
+            anchor_again(self, body, rows)  # type: ignore[arg-type]
+        return report
 
     def _divides(self, body: str) -> bool:
         return self.scene.editing is not None and self.scene.editing.divides(body)
+
+    def _snapping(self, body: str) -> dict[str, Any]:
+        """Whether a cut moves nodes, and which of them do not."""
+        editing = self.scene.editing
+        if editing is None or not editing.snaps(body):
+            return {"snap": False, "depth": False, "still": np.zeros(0, dtype=np.int32)}
+        first, count = self._core.body_range(body)
+        grabs = kept.records(self._core) if self.scene.grabbing else {}
+        rows = [grab.nodes for grab in grabs.values()]
+        still = still_nodes(self._meshes[body], rows, first, count)
+        return {"snap": True, "depth": editing.depth, "still": still}
 
     def mark(self) -> Mark:
         """Store the present state, cuts included; `rewind` returns to it any number of times.
@@ -206,7 +226,7 @@ class Cutting(Remains, Severing):
         grabs = kept.records(self._core) if self.scene.grabbing else {}
         way_back = self._way_back()
         made = make()
-        met = bool(made["cells_cut"] or made["cells_gone"])
+        met = bool(made["cells_cut"] or made["cells_gone"] or made["nodes_moved"])
         if met:
             self._follow_cells(body)
         pieces = self.pieces(body)
@@ -250,7 +270,9 @@ class Cutting(Remains, Severing):
         return tuple(parted)
 
 
-def cut_mesh(rest: Mesh, runs: list[Any], roots: Ints, places: Floats) -> Mesh:
+def cut_mesh(
+    rest: Mesh, runs: list[Any], roots: Ints, places: Floats, *, moved: bool = False
+) -> Mesh:
     """The mesh of the cells of a body that was cut, in ascending number, at rest.
 
     Args:
@@ -258,6 +280,7 @@ def cut_mesh(rest: Mesh, runs: list[Any], roots: Ints, places: Floats) -> Mesh:
         runs: type, numbers, origins, shares and nodes of runs of cells.
         roots: the first day's node of each node; -1 of those that a blade put on an edge.
         places: of all nodes at rest.
+        moved: whether cuts have moved nodes at rest.
     """
     origins = np.concatenate([run[2] for run in runs])
     regions = {
@@ -266,7 +289,7 @@ def cut_mesh(rest: Mesh, runs: list[Any], roots: Ints, places: Floats) -> Mesh:
     }
     return dataclasses.replace(
         rest,
-        points=np.where(roots[:, None] < 0, places, rest.points[roots]),
+        points=places if moved else np.where(roots[:, None] < 0, places, rest.points[roots]),
         cells=tuple(CellBlock(type=run[0], nodes=run[4]) for run in runs),
         regions=regions,
         border_regions={},

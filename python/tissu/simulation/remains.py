@@ -65,14 +65,16 @@ class Remains:
         return material_now(found, self._meshes[body].points, self.positions[body])
 
     def is_cut(self, body: str) -> bool:
-        """Whether a blade has separated nodes of a body, or divided its cells.
+        """Whether a blade has separated or moved nodes of a body, or divided its cells.
 
         Raises:
             ParameterError: no body of that name.
         """
         self._require_body(body)
         rest = self._rest.get(body)
-        return rest is not None and self._core.body_range(body)[1] > rest.node_count
+        if rest is None:
+            return False
+        return self._core.body_range(body)[1] > rest.node_count or self._core.moved(body)
 
     def pieces(self, body: str) -> tuple[Piece, ...]:
         """The connected parts of the material of a body or of a tissue, the largest first.

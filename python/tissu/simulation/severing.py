@@ -283,6 +283,8 @@ def _report(
         "released": (),
         "relaid": False,
         "stable_step": math.inf,
+        "nodes_moved": 0,
+        "least_quality": math.inf,
     }
     milliseconds = 1e3 * (time.perf_counter() - start)
     return CutReport(

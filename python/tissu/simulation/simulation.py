@@ -465,9 +465,11 @@ class Simulation(Inspected, Handled, Touched, Changed, Cutting, Instrumented):
     def _mesh_now(self, body: str) -> Mesh:
         """The mesh of the present cells of a body."""
         rest = self._rest[body]
-        if self._core.body_range(body)[1] > rest.node_count:
-            core = self._core
-            return cut_mesh(rest, core.body_cells(body), core.roots(body), core.made_of(body)[0])
+        core = self._core
+        moved = core.moved(body)
+        if moved or core.body_range(body)[1] > rest.node_count:
+            places = core.made_of(body)[0]
+            return cut_mesh(rest, core.body_cells(body), core.roots(body), places, moved=moved)
         if self._core.cell_count(body) == rest.cell_count:
             return rest
         return keep_cells(rest, self.remaining_cells(body))

@@ -133,8 +133,12 @@ def cut_rows(
         points=points,
         incision=number,
     )
+    ways = [row.places(positions) for row in kept]
     report = simulation._cut_along(body, sweep, by=name)
-    met = bool(report.cells_cut or report.unresolved)
+    if report.nodes_moved:  # the nodes on which the rows rode are elsewhere in the material
+        kept = tuple(anchored(simulation._core, body, places) for places in ways)
+        ended = replace(ended, rows=kept[-1:])
+    met = bool(report.cells_cut or report.nodes_moved or report.unresolved)
     # Between two points outside, the edge may still be in a corner of the body.
     goes_on = met or bool(kept[-1].inside.any())
     after = replace(ended, rows=kept, incision=number) if goes_on else ended

@@ -122,6 +122,25 @@ def anchored(simulation: core.Simulation, body: str, points: Floats) -> Anchors:
     return Anchors(np.asarray(inside), rows, weights, offsets)
 
 
+def places_in(simulation: Simulation, body: str) -> dict[int, tuple[Floats, ...]]:
+    """Places [m] of the rows of each track in a body, by the number of the track."""
+    pairs, positions = simulation._instrument_pairs(), simulation._core.positions
+    return {
+        number: tuple(row.places(positions) for row in track.rows)
+        for number, track in tracks(simulation._core).items()
+        if pairs[number][1] == body
+    }
+
+
+def anchor_again(simulation: Simulation, body: str, places: dict[int, tuple[Floats, ...]]) -> None:
+    """Put the rows of tracks in a body back at places, from which nodes that moved took them."""
+    known = tracks(simulation._core)
+    for number, rows in places.items():
+        again = tuple(anchored(simulation._core, body, np.ascontiguousarray(row)) for row in rows)
+        known[number] = replace(known[number], rows=again)
+    keep(simulation._core, known)
+
+
 def anchored_in_tissue(simulation: Simulation, tissue: str, points: Floats) -> Anchors:
     """Anchors of points (m, 3) [m]: each goes with the nearest frame that has a point."""
     first, _ = simulation._core.body_range(tissue)

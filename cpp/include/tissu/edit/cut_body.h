@@ -27,7 +27,14 @@ bool changes(const CutPlan& plan);
 struct CutWorld {
   std::shared_ptr<const World> world;
   RowsBorn born;  ///< rows of the state that take over others
+  /// Of a cut that moves nodes: rows of the cells at these. Their velocities give back the momenta that the
+  /// moves change (twist.h).
+  std::vector<std::int32_t> around_moves;
 };
+
+/// The least quality 6 sqrt(2) V / l_rms^3 at rest of the cells of a body that a plan made or whose nodes it
+/// moved, once it is made; infinite where it has none, and of other cells than tetrahedra of first order.
+double least_quality(const World& world, std::string_view body, const CutPlan& plan);
 
 /// A new world in which the plan is made. Refuses what edit_body refuses.
 CutWorld cut_world(const World& world, const State& state, std::string_view body, const CutPlan& plan);

@@ -22,7 +22,9 @@ struct BodyEdit : CellEdit {
   std::vector<std::int32_t> copied;
   std::vector<Rider> between;  ///< of each, the old nodes between which it is; empty where all are copies
   std::vector<FirstDayPoint> points;  ///< all of the body after the edit
-  std::vector<std::int32_t> bare;     ///< nodes with cells but without material at them, ascending
+  std::vector<NodeMove> node_moves;   ///< before the new nodes come
+  std::vector<double> rest;  ///< places at rest of all nodes after it; empty: they follow from the first day
+  std::vector<std::int32_t> bare;  ///< nodes with cells but without material at them, ascending
   /// New cells take over what their parents remember; else every cell is there already in the world whose
   /// memory comes along.
   bool inherits = true;

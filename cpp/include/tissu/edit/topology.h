@@ -39,6 +39,7 @@ struct BodyTopology {
   std::vector<std::int32_t> copies_of;    ///< of the nodes that edits made: as `BodyDescription` has them
   std::vector<std::int32_t> point_nodes;  ///< of its points, four for each, -1 beyond the last
   std::vector<double> point_weights;      ///< four for each
+  std::vector<double> rest;               ///< of all nodes [m], where cuts moved some at rest; else empty
   std::vector<std::int32_t> bare;         ///< nodes without material at them
   std::int32_t next_cell = 0;             ///< the number that the next cell gets
   PackedMaterial material;

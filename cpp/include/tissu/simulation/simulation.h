@@ -3,6 +3,7 @@
 /// A world, its state, and the loop that moves it.
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -78,6 +79,8 @@ class Simulation {
     bool relaid = false;  ///< everything was laid anew, in place of what was touched only
     BodyTotals before;    ///< of the body, or of what was touched of it
     BodyTotals after;
+    /// At rest, of the cells that a cut divided or whose nodes it moved; see `least_quality` of cut_body.h.
+    double least_quality = std::numeric_limits<double>::infinity();
   };
   /// Cuts a body, or takes cells out of it, between two steps. Nothing has changed where they throw.
   Edited cut(std::string_view body, const Sweep& sweep, const CutOptions& options);

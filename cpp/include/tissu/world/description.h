@@ -51,6 +51,8 @@ struct BodyDescription {
   /// those that blades put on edges, -1 - i for the place `points[i]`.
   std::vector<std::int32_t> copies_of = {};
   std::vector<FirstDayPoint> points = {};
+  /// Cuts have moved nodes at rest, so that `positions` do not follow from those of the first day.
+  bool moved = false;
   /// Nodes with cells but without material at them; ascending. Nothing loads them, and a support holds those
   /// that the material on it needs (part_supports of the room edit).
   std::vector<std::int32_t> bare = {};

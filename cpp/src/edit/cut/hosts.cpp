@@ -60,8 +60,8 @@ Hosts::Hosts(const Mesh& mesh) : rest_(mesh.positions), root_(at(mesh.node_count
 }
 
 Hosts::Hosts(std::vector<double> rest, std::vector<std::int32_t> root, std::span<const Cell> cells,
-             std::int32_t next_cell, std::vector<Rider> points)
-    : rest_(std::move(rest)), root_(std::move(root)), points_(std::move(points)) {
+             std::int32_t next_cell, std::vector<Rider> points, bool moved)
+    : rest_(std::move(rest)), root_(std::move(root)), points_(std::move(points)), moved_(moved) {
   const auto wrong = [](const std::string& what) { return ParameterError("hosts of a cut body: " + what); };
   if (rest_.size() != 3 * root_.size()) throw wrong("3 rest numbers and one root per node are accepted.");
   cells_at_.resize(root_.size());
@@ -178,11 +178,20 @@ Rider Hosts::on_first_day(const Rider& rider) const {
   return sum;
 }
 
+void Hosts::move(const NodeMove& move) {
+  const Vec3 place = move.to.at(rest());
+  block(Reals(rest_), move.node) = place;
+  moved_ = true;
+}
+
 void Hosts::apply(const CutPlan& plan) {
+  for (const NodeMove& one : plan.moved) move(one);
   for (const BornNode& node : plan.nodes) {
     const bool is_copy = node.between.count == 0;
     if (!is_copy) points_.push_back(on_first_day(node.between));
-    const Vec3 place = is_copy ? Vec3(block(rest(), node.copied)) : points_.back().at(rest());
+    const Vec3 place = is_copy  ? Vec3(block(rest(), node.copied))
+                       : moved_ ? node.between.at(rest())
+                                : points_.back().at(rest());
     rest_.insert(rest_.end(), place.data(), place.data() + 3);
     root_.push_back(is_copy ? root(node.copied) : -static_cast<std::int32_t>(points_.size()));
     cells_at_.emplace_back();

@@ -124,14 +124,23 @@ class Attempt {
     return remedies_.t0(number, options_.t0);
   }
 
+  [[nodiscard]] OnCut known_at_start(std::size_t part) const {
+    OnCut known = known_before(patch_, material_, sweep_.parts[part].incision);
+    for (const CutOptions::Met& met : options_.met) {
+      const std::int32_t v = met.part == part ? patch_.place_of(met.node) : -1;
+      if (v >= 0) known.put_on(v, patch_.vertex(v).place, met.place);
+    }
+    return known;
+  }
+
   bool cut_part(std::size_t number, CutPlan& plan) {
     const SweepPart& part = sweep_.parts[number];
     const NearCells& near = near_[number];
-    OnCut known = known_before(patch_, material_, part.incision);
+    OnCut known = known_at_start(number);
     std::vector<CrossedEdge> edges = crossed_edges(patch_, part, near, options_.t0, known);
     for (int round = 0; options_.refine && round < kRefinements; ++round) {
       if (!refine(part, near, known, edges)) break;
-      known = known_before(patch_, material_, part.incision);
+      known = known_at_start(number);
       edges = crossed_edges(patch_, part, near, options_.t0, known);
     }
     for (const std::int32_t cell : remedies_.apply(patch_, options_.t0, edges))

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <set>
 #include <sstream>
 
@@ -56,6 +57,10 @@ void CutBody::move(const std::function<Vec3(const Vec3&)>& map) {
 void CutBody::apply(const CutPlan& plan) {
   hosts.apply(plan);
   material.apply(plan);
+  for (const NodeMove& move : plan.moved) {
+    const Vec3 place = move.to.at(x);
+    block(Reals(x), move.node) = place;
+  }
   for (const BornNode& node : plan.nodes) {
     const bool is_copy = node.between.count == 0;
     const Vec3 place = is_copy ? Vec3(block(ConstReals(x), node.copied)) : node.between.at(x);
@@ -65,6 +70,13 @@ void CutBody::apply(const CutPlan& plan) {
 
 CutPlan CutBody::cut(const Sweep& sweep, const CutOptions& options) {
   CutPlan plan = plan_cut(hosts, material, x, sweep, options);
+  apply(plan);
+  return plan;
+}
+
+CutPlan CutBody::snap(const Sweep& sweep, CutOptions options, SnapRules rules) {
+  if (rules.may_move.empty()) rules.may_move.assign(at(hosts.node_count()), 1);
+  CutPlan plan = plan_snapped_cut(hosts, material, x, sweep, options, rules);
   apply(plan);
   return plan;
 }
@@ -148,6 +160,11 @@ std::string CutBody::share_fault() const {
     if (!ablated_ && std::abs(hosts.share(cell) * whole - own) > kRoundOff * whole) {
       return "share of cell " + std::to_string(cell) + " is not its volume's";
     }
+  }
+  if (hosts.moved()) {  // cells take volume from each other, and the body keeps its own
+    const double before = std::accumulate(first_volumes_.begin(), first_volumes_.end(), 0.0);
+    const double now = std::accumulate(volumes.begin(), volumes.end(), 0.0);
+    return std::abs(now - before) > kRoundOff * before ? "the volume of the body changed" : "";
   }
   for (std::size_t i = 0; i < volumes.size(); ++i) {
     if (std::abs(volumes[i] - first_volumes_[i]) > kRoundOff * std::abs(first_volumes_[i])) {

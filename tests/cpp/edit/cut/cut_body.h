@@ -10,6 +10,7 @@
 
 #include "tissu/edit/cut/cut_plan.h"
 #include "tissu/edit/cut/material_mesh.h"
+#include "tissu/edit/cut/snap.h"
 
 namespace tissu::test {
 
@@ -24,6 +25,8 @@ class CutBody {
 
   /// Plans, applies to hosts, material and places.
   CutPlan cut(const Sweep& sweep, const CutOptions& options = {});
+  /// Nodes move onto the blade where they may; all may if `rules` has no list.
+  CutPlan snap(const Sweep& sweep, CutOptions options = {}, SnapRules rules = {});
   CutPlan ablate(const std::vector<std::int32_t>& cells);
   Sweep plane(const Vec3& point, const Vec3& normal) const;
 

@@ -21,6 +21,19 @@ struct CutOptions {
   /// Cells are divided along the cut (divide.h of the cutter), in place of copies of whole cells. Tetrahedra
   /// and triangles of first order only.
   bool divide = false;
+  /// Nodes near the blade are moved onto it first, where that is allowed (snap.h of the cutter); with
+  /// `divide` only.
+  bool snap = false;
+  /// Nodes below the edges that the blade opens are moved onto its plane too; with `snap` only.
+  bool depth = false;
+  std::vector<std::int32_t> still = {};  ///< nodes that are not moved, ascending
+  /// A node that is on the blade's part of that number, and the place where the blade meets it.
+  struct Met {
+    std::size_t part;
+    std::int32_t node;
+    Vec3 place;
+  };
+  std::vector<Met> met = {};
 };
 
 /// Why the blade met a cell and did not cut it, or not as far as it went.
@@ -62,6 +75,7 @@ struct MaterialChange {
 
 /// Apply to hosts and material both, in any order; a plan belongs to the hosts it was made from.
 struct CutPlan {
+  std::vector<NodeMove> moved;     ///< before all that follows
   std::vector<std::int32_t> gone;  ///< hosts, ascending
   std::vector<BornCell> born;      ///< ascending numbers from `Hosts::next_cell`
   std::vector<ChangedCell> changed;

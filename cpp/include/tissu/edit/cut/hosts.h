@@ -25,6 +25,12 @@ struct Rider {
   [[nodiscard]] Vec3 at(ConstReals x) const;
 };
 
+/// A node that goes to another place of the material: between nodes as they are after the moves before it.
+struct NodeMove {
+  std::int32_t node;
+  Rider to;
+};
+
 /// A host is a cell that carries material: a first-day cell, or a replica that holds a part of one. Numbers
 /// of cells and nodes are for ever: new ones follow the last, none is used twice.
 class Hosts {
@@ -43,9 +49,9 @@ class Hosts {
   explicit Hosts(const Mesh& mesh);
   /// Hosts as a file kept them: `rest` has 3 numbers per node [m], `root` the first-day node of each, `cells`
   /// ascend in number. Throws ParameterError where these do not fit together.
-  /// `points`: the places on the first day of nodes that blades put on edges.
+  /// `points`: the places on the first day of nodes that blades put on edges. `moved`: see `moved()`.
   Hosts(std::vector<double> rest, std::vector<std::int32_t> root, std::span<const Cell> cells,
-        std::int32_t next_cell, std::vector<Rider> points = {});
+        std::int32_t next_cell, std::vector<Rider> points = {}, bool moved = false);
 
   [[nodiscard]] std::int32_t node_count() const { return static_cast<std::int32_t>(root_.size()); }
   [[nodiscard]] std::int32_t next_cell() const { return static_cast<std::int32_t>(cells_.size()); }
@@ -66,6 +72,8 @@ class Hosts {
   /// edge, -1 - i for the place points()[i] of the first day.
   [[nodiscard]] std::int32_t root(std::int32_t node) const { return root_[static_cast<std::size_t>(node)]; }
   [[nodiscard]] const std::vector<Rider>& points() const { return points_; }
+  /// Whether a node was moved at rest: then rest places do not follow from those of the first day.
+  [[nodiscard]] bool moved() const { return moved_; }
   /// Numbers of the cells at a node, ascending.
   [[nodiscard]] std::span<const std::int32_t> cells_at(std::int32_t node) const {
     return cells_at_[static_cast<std::size_t>(node)];
@@ -82,6 +90,8 @@ class Hosts {
   [[nodiscard]] std::span<const Cluster> clusters() const { return clusters_; }
 
   void apply(const CutPlan& plan);
+  /// Puts a node at another place at rest.
+  void move(const NodeMove& move);
   /// Throws ParameterError, and removes none, when one of them is not there.
   void remove(std::span<const std::int32_t> cells);
 
@@ -104,7 +114,8 @@ class Hosts {
 
   std::vector<double> rest_;
   std::vector<std::int32_t> root_;
-  std::vector<Rider> points_;       ///< in nodes of the first day
+  std::vector<Rider> points_;  ///< in nodes of the first day
+  bool moved_ = false;
   std::vector<Slot> cells_;         ///< by number
   std::vector<std::int32_t> pool_;  ///< the nodes of the cells
   std::vector<std::vector<std::int32_t>> cells_at_;

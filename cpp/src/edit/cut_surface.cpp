@@ -10,6 +10,7 @@
 #include <string>
 
 #include "edit/cut/kerf.h"
+#include "edit/cut/quad_halves.h"
 #include "tissu/base/error.h"
 #include "tissu/contact/candidates.h"
 #include "tissu/edit/cut_state.h"
@@ -30,11 +31,17 @@ double kerf_depth(const BodyDescription& body, const ContactDescription& contact
   return 0.0;
 }
 
-/// All triangles of a sheet's material.
+/// All triangles of a sheet's material. Quads that no blade met are cut along their shorter diagonal.
 KerfSurface sheet_surface(const CutState& cut) {
   KerfSurface surface;
   std::map<std::int32_t, Rider> carried;
   for (const std::int32_t cell : cut.hosts.numbers()) {
+    const auto corners = cut.hosts.corners(cell);
+    if (corners.size() == 4 && !cut.material.cells.contains(cell)) {
+      add_halves(cut.hosts.rest(), {corners[0], corners[1], corners[2], corners[3]},
+                 [&](std::int32_t node) { return cut.hosts.root(node); }, surface.triangles);
+      continue;
+    }
     for (const MaterialTetra& triangle : material_of(cut.hosts, cut.material, cell)) {
       const auto& [a, b, c, none] = triangle.vertices;
       surface.triangles.push_back({a, b, c});
@@ -158,7 +165,7 @@ void refuse_touching(const BodyDescription& body, const SurfaceDescription& surf
 
 void refuse_curved(const BodyDescription& body) {
   for (const ElasticBlock& block : body.elastic) {
-    const std::optional<CellType> type = cell_type(block.element);
+    const std::optional<CellType> type = host_type(block);
     if (!type || info(*type).nodes == info(*type).corners) continue;
     throw ParameterError("body \"" + body.name + "\" cannot be cut: it is in contact with cells of type " +
                          block.element +

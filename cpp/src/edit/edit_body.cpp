@@ -156,7 +156,7 @@ void refuse_unparted(const WorldDescription& description, const BodyDescription&
   for (const ElasticBlock& block : body.elastic) {
     if (!host_type(block)) {
       refuse("it has cells of type " + block.element +
-             ", and volume cells, triangles and lines of two nodes are accepted");
+             ", and volume cells, sheets and lines are accepted");
     }
     if (std::holds_alternative<CondensedOptions>(block.model)) {
       refuse("its cells are condensed, and a model that keeps each cell is accepted, such as fem");

@@ -216,13 +216,12 @@ def _add_body(builder: WorldBuilder, prepared: Prepared, name: str) -> None:
 
 
 def can_be_cut(prepared: Prepared, name: str) -> bool:
-    """Whether a body has volume cells, triangles or lines alone, each carried by itself."""
+    """Whether a body has volume cells, sheets or lines alone, each carried by itself."""
     body, groups = prepared.scene.bodies[name], prepared.bodies[name].groups
     kept = [model.type for model in body.models().values() if model.with_rotations]
     if any(kind != "shell" for kind in kept) or any(g.model.type == "condensed" for g in groups):
         return False
-    volumes = all(dimension(g.cell_type) == 3 and not g.surface for g in groups)
-    return volumes or any(all(g.cell_type == t for g in groups) for t in ("triangle", "line"))
+    return len({dimension(g.cell_type) for g in groups}) == 1
 
 
 def _add_tissue(builder: WorldBuilder, prepared: Prepared, name: str) -> None:

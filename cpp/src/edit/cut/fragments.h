@@ -47,6 +47,7 @@ class Fragments {
   void number_groups(std::int32_t node, const std::vector<std::int32_t>& items);
   [[nodiscard]] bool material_at(std::int32_t item) const;
   [[nodiscard]] double depth(std::int32_t fragment, const Vec3& p) const;
+  [[nodiscard]] double depth_in(const Patch::Tetra& thin, const Vec3& p) const;
 
   const Hosts& hosts_;
   const Patch& patch_;

@@ -22,9 +22,9 @@ void add_whole(const Hosts& hosts, std::int32_t cell, MaterialFaces& all) {
       all.faces.push_back({{node, kNoVertex, kNoVertex}, unit, false, -1});
     return;
   }
-  if (nodes.size() == 3) {
-    for (std::size_t i = 0; i < 3; ++i)
-      all.faces.push_back({{nodes[i], nodes[(i + 1) % 3], kNoVertex}, unit, false, -1});
+  if (info(hosts.type(cell)).dimension == 2) {
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      all.faces.push_back({{nodes[i], nodes[(i + 1) % nodes.size()], kNoVertex}, unit, false, -1});
     return;
   }
   for (const LocalFace& face : faces(hosts.type(cell))) {

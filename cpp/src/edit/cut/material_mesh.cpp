@@ -1,6 +1,7 @@
 #include "tissu/edit/cut/material_mesh.h"
 
 #include <algorithm>
+#include <array>
 #include <map>
 
 #include "edit/cut/joins.h"
@@ -89,22 +90,26 @@ MaterialMesh material_mesh(const Hosts& hosts, const Material& material) {
     for (const std::int32_t node : hosts.nodes(cell)) block.nodes.push_back(vertices.place(node));
     numbers.push_back(cell);
   }
-  CellBlock cut{CellType::tetra, {}};
-  std::vector<std::int32_t> cut_cells;
+  std::array<std::pair<CellBlock, std::vector<std::int32_t>>, 3> parts;
   for (const auto& [cell, list] : material.cells) {
     for (const MaterialTetra& tetra : list) {
-      if (tetra.corners() < 4) cut.type = tetra.corners() == 3 ? CellType::triangle : CellType::line;
+      auto& [block, numbers] = parts[4 - tetra.corners()];
       for (std::size_t i = 0; i < tetra.corners(); ++i)
-        cut.nodes.push_back(vertices.place(tetra.vertices[i]));
-      cut_cells.push_back(cell);
+        block.nodes.push_back(vertices.place(tetra.vertices[i]));
+      numbers.push_back(cell);
     }
   }
-  for (auto& [type, entry] : blocks) {
+  const auto add = [&](std::pair<CellBlock, std::vector<std::int32_t>>& entry) {
+    if (entry.second.empty()) return;
     mesh.blocks.push_back(std::move(entry.first));
     mesh.cell.insert(mesh.cell.end(), entry.second.begin(), entry.second.end());
+  };
+  for (auto& [type, entry] : blocks) add(entry);
+  constexpr std::array kTypes{CellType::tetra, CellType::triangle, CellType::line};
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    parts[i].first.type = kTypes[i];
+    add(parts[i]);
   }
-  if (!cut_cells.empty()) mesh.blocks.push_back(std::move(cut));
-  mesh.cell.insert(mesh.cell.end(), cut_cells.begin(), cut_cells.end());
   mesh.vertices = std::move(vertices.riders);
   mesh.vertex_node = std::move(vertices.nodes);
   return mesh;

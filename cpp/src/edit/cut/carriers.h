@@ -1,0 +1,43 @@
+#pragma once
+
+/// Sheets and lines that share nodes with cells of a higher dimension go with the material of these.
+
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "edit/cut/patch.h"
+
+namespace tissu {
+
+/// The pieces of a higher dimension than `thin` that have all these vertices, by the numbers of their cells.
+/// `seen`: only these pieces; empty: all.
+std::vector<std::int32_t> pieces_with(const Patch& patch, std::int32_t thin,
+                                      std::span<const std::int32_t> vertices,
+                                      const std::vector<char>& seen = {});
+
+/// The vertices of a face of a triangle or of a piece of a line; all of them for `kWholePiece`.
+std::vector<std::int32_t> vertices_of(const Patch::Tetra& thin, std::uint8_t face);
+
+/// Which pieces hang together across dimensions. A triangle of a sheet, or a piece of a line, whose vertices
+/// all belong to a piece of a higher dimension goes with that one. Else each of its faces that no cut opened
+/// goes with one that has the vertices of the face. Of several it is the one that the blade chose
+/// (`Patch::chosen`), else that of the cell with the lowest number.
+class Carriers {
+ public:
+  Carriers(const Patch& patch, const std::vector<char>& seen);
+
+  /// Both ways, ascending.
+  [[nodiscard]] const std::vector<std::pair<std::int32_t, std::int32_t>>& pairs() const { return pairs_; }
+  /// The pairs that begin with this piece.
+  [[nodiscard]] std::span<const std::pair<std::int32_t, std::int32_t>> at(std::int32_t piece) const;
+
+ private:
+  void join(std::int32_t thin, const std::vector<std::int32_t>& carriers, std::uint8_t face);
+
+  const Patch& patch_;
+  std::vector<std::pair<std::int32_t, std::int32_t>> pairs_;
+};
+
+}  // namespace tissu

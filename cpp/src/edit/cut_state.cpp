@@ -30,22 +30,10 @@ std::optional<CellType> host_type(const ElasticBlock& block) {
   return volume ? volume : thin_cell_type(block.element);
 }
 
-bool listens_to_frames(const BodyDescription& body) {
-  if (!body.shared.empty()) return true;
-  return body.frames && !std::ranges::all_of(body.elastic, [](const ElasticBlock& block) {
-           return std::holds_alternative<ShellOptions>(block.model);
-         });
-}
-
 bool has_material(const BodyDescription& body) {
-  if (listens_to_frames(body)) return false;
-  int dimension = 0;
-  return std::ranges::all_of(body.elastic, [&](const ElasticBlock& block) {
-    const std::optional<CellType> type = host_type(block);
-    if (!type) return false;
-    const int before = std::exchange(dimension, info(*type).dimension);
-    return before == 0 || before == dimension;
-  });
+  return body.shared.empty() && std::ranges::all_of(body.elastic, [](const ElasticBlock& block) {
+           return host_type(block).has_value();
+         });
 }
 
 namespace {

@@ -270,4 +270,5 @@ def cut_mesh(rest: Mesh, runs: list[Any], roots: Ints, places: Floats) -> Mesh:
         cells=tuple(CellBlock(type=run[0], nodes=run[4]) for run in runs),
         regions=regions,
         border_regions={},
+        as_listed=True,
     )

@@ -9,15 +9,15 @@ namespace {
 
 std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
-}  // namespace
-
+/// The pieces of a higher dimension than `thin` that have all these vertices, by the numbers of their cells.
+/// `seen`: only these pieces; empty: all.
 std::vector<std::int32_t> pieces_with(const Patch& patch, std::int32_t thin,
                                       std::span<const std::int32_t> vertices, const std::vector<char>& seen) {
   const std::size_t corners = patch.tetra(thin).corners();
   std::vector<std::int32_t> found;
   for (const std::int32_t piece : patch.tetrahedra_at(vertices.front())) {
     const Patch::Tetra& other = patch.tetra(piece);
-    if (other.corners() <= corners || (!seen.empty() && seen[tissu::at(piece)] == 0)) continue;
+    if (other.corners() <= corners || (!seen.empty() && seen[at(piece)] == 0)) continue;
     const auto is_in = [&](std::int32_t v) {
       return std::ranges::find(other.vertices, v) != other.vertices.end();
     };
@@ -29,7 +29,27 @@ std::vector<std::int32_t> pieces_with(const Patch& patch, std::int32_t thin,
   return found;
 }
 
-std::vector<std::int32_t> vertices_of(const Patch::Tetra& thin, std::uint8_t face) {
+/// False where the vertices of a face are on the cut and no carrier is on the side of the thin piece.
+bool choose(Patch& patch, const OnCut& known, const std::function<bool(std::int32_t)>& above,
+            std::int32_t piece, std::uint8_t face, const std::vector<std::int32_t>& carriers) {
+  const auto vertices = thin_vertices(patch.tetra(piece), face);
+  if (!std::ranges::all_of(vertices, [&](std::int32_t v) { return known.on(v); })) return true;
+  const bool side = above(piece);
+  bool any = false;
+  for (const std::int32_t carrier : carriers) {
+    const auto has_side = [&](std::int32_t v) { return v >= 0 && !known.on(v); };
+    if (std::ranges::none_of(patch.tetra(carrier).vertices, has_side)) continue;
+    any = true;
+    if (above(carrier) != side) continue;
+    patch.chosen.push_back({piece, face, carrier});
+    return true;
+  }
+  return !any;
+}
+
+}  // namespace
+
+std::vector<std::int32_t> thin_vertices(const Patch::Tetra& thin, std::uint8_t face) {
   std::vector<std::int32_t> vertices;
   for (std::size_t i = 0; i < thin.corners(); ++i) {
     if (i != face) vertices.push_back(thin.vertices[i]);
@@ -43,14 +63,14 @@ Carriers::Carriers(const Patch& patch, const std::vector<char>& seen) : patch_(p
     const Patch::Tetra& thin = patch.tetrahedra[t];
     if (thin.corners() == 4 || seen[t] == 0) continue;
     const auto piece = static_cast<std::int32_t>(t);
-    const auto whole = pieces_with(patch, piece, vertices_of(thin, kWholePiece), seen);
+    const auto whole = pieces_with(patch, piece, thin_vertices(thin, kWholePiece), seen);
     if (!whole.empty()) {
       join(piece, whole, kWholePiece);
       continue;
     }
     for (std::uint8_t face = 0; face < thin.corners(); ++face) {
       if ((thin.cut >> face & 1U) == 0)
-        join(piece, pieces_with(patch, piece, vertices_of(thin, face), seen), face);
+        join(piece, pieces_with(patch, piece, thin_vertices(thin, face), seen), face);
     }
   }
   sort_unique(pairs_);
@@ -60,7 +80,8 @@ void Carriers::join(std::int32_t thin, const std::vector<std::int32_t>& carriers
   if (carriers.empty()) return;
   std::int32_t carrier = carriers.front();
   for (const Patch::Chosen& chosen : patch_.chosen) {
-    if (chosen.thin == thin && chosen.face == face && std::ranges::find(carriers, chosen.carrier) != carriers.end())
+    if (chosen.thin == thin && chosen.face == face &&
+        std::ranges::find(carriers, chosen.carrier) != carriers.end())
       carrier = chosen.carrier;
   }
   pairs_.emplace_back(thin, carrier);
@@ -68,8 +89,29 @@ void Carriers::join(std::int32_t thin, const std::vector<std::int32_t>& carriers
 }
 
 std::span<const std::pair<std::int32_t, std::int32_t>> Carriers::at(std::int32_t piece) const {
-  const auto found = std::ranges::equal_range(pairs_, piece, {}, &std::pair<std::int32_t, std::int32_t>::first);
+  const auto found =
+      std::ranges::equal_range(pairs_, piece, {}, &std::pair<std::int32_t, std::int32_t>::first);
   return {found.begin(), found.end()};
+}
+
+void choose_carriers(Patch& patch, const OnCut& known, const std::function<bool(std::int32_t)>& above,
+                     const std::function<void(std::int32_t, std::uint8_t)>& open) {
+  for (std::size_t t = 0; t < patch.tetrahedra.size(); ++t) {
+    const Patch::Tetra thin = patch.tetrahedra[t];
+    const auto met = [&](std::int32_t v) { return v >= 0 && known.on(v); };
+    if (thin.corners() == 4 || std::ranges::none_of(thin.vertices, met)) continue;
+    const auto piece = static_cast<std::int32_t>(t);
+    const auto whole = pieces_with(patch, piece, thin_vertices(thin, kWholePiece), {});
+    if (!whole.empty()) {
+      (void)choose(patch, known, above, piece, kWholePiece, whole);
+      continue;
+    }
+    for (std::uint8_t face = 0; face < thin.corners(); ++face) {
+      if ((thin.cut >> face & 1U) != 0) continue;
+      const auto carriers = pieces_with(patch, piece, thin_vertices(thin, face), {});
+      if (!carriers.empty() && !choose(patch, known, above, piece, face, carriers)) open(piece, face);
+    }
+  }
 }
 
 }  // namespace tissu

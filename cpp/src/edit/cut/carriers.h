@@ -3,22 +3,18 @@
 /// Sheets and lines that share nodes with cells of a higher dimension go with the material of these.
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <utility>
 #include <vector>
 
+#include "edit/cut/crossings.h"
 #include "edit/cut/patch.h"
 
 namespace tissu {
 
-/// The pieces of a higher dimension than `thin` that have all these vertices, by the numbers of their cells.
-/// `seen`: only these pieces; empty: all.
-std::vector<std::int32_t> pieces_with(const Patch& patch, std::int32_t thin,
-                                      std::span<const std::int32_t> vertices,
-                                      const std::vector<char>& seen = {});
-
 /// The vertices of a face of a triangle or of a piece of a line; all of them for `kWholePiece`.
-std::vector<std::int32_t> vertices_of(const Patch::Tetra& thin, std::uint8_t face);
+std::vector<std::int32_t> thin_vertices(const Patch::Tetra& thin, std::uint8_t face);
 
 /// Which pieces hang together across dimensions. A triangle of a sheet, or a piece of a line, whose vertices
 /// all belong to a piece of a higher dimension goes with that one. Else each of its faces that no cut opened
@@ -39,5 +35,11 @@ class Carriers {
   const Patch& patch_;
   std::vector<std::pair<std::int32_t, std::int32_t>> pairs_;
 };
+
+/// Chooses for thin pieces on the cut carriers on their own side of the blade (`Patch::chosen`). Carriers
+/// that lie in the cut have no side. Where all carriers of one of its faces are on the other side, `open` is
+/// called for the face. `above`: whether a piece is above the blade.
+void choose_carriers(Patch& patch, const OnCut& known, const std::function<bool(std::int32_t)>& above,
+                     const std::function<void(std::int32_t, std::uint8_t)>& open);
 
 }  // namespace tissu

@@ -7,6 +7,7 @@
 #include <numeric>
 #include <span>
 
+#include "edit/cut/carriers.h"
 #include "edit/cut/side.h"
 #include "tissu/base/error.h"
 #include "tissu/base/sort_unique.h"
@@ -59,12 +60,25 @@ class Opener {
       }
       open(sides[i], sides[i + 1]);
     }
+    const auto side = [&](std::int32_t piece) { return above(piece); };
+    const auto open = [&](std::int32_t piece, std::uint8_t face) { open_face(piece, face); };
+    if (patch_.is_mixed()) choose_carriers(patch_, known_, side, open);
     std::ranges::sort(opened_.vertices);
     opened_.vertices.erase(std::ranges::unique(opened_.vertices).begin(), opened_.vertices.end());
     return std::move(opened_);
   }
 
  private:
+  /// Where the blade covers it.
+  void open_face(std::int32_t piece, std::uint8_t face) {
+    FaceSide side{{-1, -1, -1}, piece, face};
+    const auto vertices = thin_vertices(patch_.tetra(piece), face);
+    std::ranges::copy(vertices, side.key.end() - static_cast<std::ptrdiff_t>(vertices.size()));
+    std::ranges::sort(side.key);
+    const auto is_new = [&](std::int32_t v) { return !known_[v].before; };
+    if (std::ranges::any_of(vertices, is_new) && covered(side, side)) open(side, side);
+  }
+
   [[nodiscard]] std::vector<FaceSide> faces_on_cut() const {
     std::vector<FaceSide> sides;
     for (std::size_t t = 0; t < patch_.tetrahedra.size(); ++t) {

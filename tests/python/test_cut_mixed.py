@@ -466,6 +466,27 @@ def test_a_skin_rests_half_its_thickness_above_a_table_after_a_cut() -> None:
         assert lowest + 0.11 == pytest.approx(height, abs=2e-4)
 
 
+def test_a_sheet_with_a_hem_of_lines_is_cut_in_contact() -> None:
+    """Sheets and lines without a volume: both parts weigh on the table what they weigh."""
+    sheet = ts.bar_mesh(size=(0.4, 0.1, 0), cells=(16, 4, 0), cell="quad")
+    points = np.asarray(sheet.points)
+    hem = np.flatnonzero(points[:, 1] < 1e-9)
+    hem = hem[np.argsort(points[hem, 0])]
+    (block,) = sheet.cells
+    lines = np.stack([hem[:-1], hem[1:]], axis=1)
+    mesh = ts.Mesh(points=points, cells={"quad": block.nodes, "line": lines}, thin=(2, 1))
+    body = organ(mesh, law=ts.StVK(young=5e5, poisson=0.3), viscosity=ts.Rayleigh(mass=5))
+    simulation = scene(body, fixed=[], **TABLE).compile()
+    report = simulation.cut("organ", ts.Plane((0.187, 0, 0), (1, 0.02, 0)))
+    assert len(report.pieces) == 2
+    for _ in range(300):
+        assert simulation.step().converged
+    share = simulation.force_on("table").force[2] / (
+        -9.81 * sum(piece.mass for piece in report.pieces)
+    )
+    assert share == pytest.approx(1.0, rel=0.02)
+
+
 def test_a_body_that_meets_itself_is_refused_in_a_sentence() -> None:
     simulation = scene(contacts=[ts.SelfContact("organ")]).compile()
     with pytest.raises(ts.ParameterError, match="meets itself and has cells of several dimensions"):

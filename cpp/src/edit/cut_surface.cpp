@@ -87,31 +87,40 @@ std::vector<double> radii(const BodyDescription& body) {
   return radius;
 }
 
+int dimension_of(const ElasticBlock& block) {
+  const std::optional<CellType> type = host_type(block);
+  return type ? info(*type).dimension : 3;
+}
+
 /// The highest of the cells of a body.
 int dimension_of(const BodyDescription& body) {
   int highest = body.elastic.empty() ? 3 : 1;
-  for (const ElasticBlock& block : body.elastic)
-    highest = std::max(highest, info(*host_type(block)).dimension);
+  for (const ElasticBlock& block : body.elastic) highest = std::max(highest, dimension_of(block));
   return highest;
 }
 
 bool is_mixed(const BodyDescription& body) {
   const int highest = dimension_of(body);
-  return std::ranges::any_of(
-      body.elastic, [&](const ElasticBlock& block) { return info(*host_type(block)).dimension < highest; });
+  return std::ranges::any_of(body.elastic,
+                             [&](const ElasticBlock& block) { return dimension_of(block) < highest; });
+}
+
+/// Of the cells of the highest dimension; where sheets come with lines, `add_thin` adds both.
+KerfSurface own_surface(const BodyDescription& body, const ContactDescription& contact,
+                        std::vector<std::array<std::int32_t, 2>>& edges) {
+  const int dimension = dimension_of(body);
+  if (dimension == 3) return kerf_surface(body.cut->hosts, body.cut->material, kerf_depth(body, contact));
+  if (is_mixed(body)) return {};
+  return dimension == 2 ? sheet_surface(*body.cut) : line_surface(*body.cut, edges);
 }
 
 }  // namespace
 
 SurfaceDescription cut_surface(const BodyDescription& body, const ContactDescription& contact) {
   const int dimension = dimension_of(body);
-  SurfaceDescription surface;
-  KerfSurface found = is_mixed(body) && dimension < 3 ? KerfSurface{}
-                      : dimension == 1                ? line_surface(*body.cut, surface.edges)
-                      : dimension == 2
-                          ? sheet_surface(*body.cut)
-                          : kerf_surface(body.cut->hosts, body.cut->material, kerf_depth(body, contact));
   const bool mixed = is_mixed(body);
+  SurfaceDescription surface;
+  KerfSurface found = own_surface(body, contact, surface.edges);
   ThinSurface thin;
   if (mixed) thin = add_thin(body, *body.cut, found);
   surface.name = body.name;

@@ -46,6 +46,7 @@ class Adder {
       if (dimension(cell) == 1) add_line(cell);
     }
     surface_.carried.assign(carried_.begin(), carried_.end());
+    if (std::ranges::all_of(thin_.radius, [](double r) { return r == 0.0; })) thin_.radius.clear();
     return std::move(thin_);
   }
 

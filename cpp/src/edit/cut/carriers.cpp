@@ -57,7 +57,7 @@ std::vector<std::int32_t> thin_vertices(const Patch::Tetra& thin, std::uint8_t f
   return vertices;
 }
 
-Carriers::Carriers(const Patch& patch, const std::vector<char>& seen) : patch_(patch) {
+Carriers::Carriers(const Patch& patch, const std::vector<char>& seen) {
   if (!patch.is_mixed()) return;
   for (std::size_t t = 0; t < patch.tetrahedra.size(); ++t) {
     const Patch::Tetra& thin = patch.tetrahedra[t];
@@ -65,21 +65,23 @@ Carriers::Carriers(const Patch& patch, const std::vector<char>& seen) : patch_(p
     const auto piece = static_cast<std::int32_t>(t);
     const auto whole = pieces_with(patch, piece, thin_vertices(thin, kWholePiece), seen);
     if (!whole.empty()) {
-      join(piece, whole, kWholePiece);
+      join(patch, piece, whole, kWholePiece);
       continue;
     }
-    for (std::uint8_t face = 0; face < thin.corners(); ++face) {
+    for (std::size_t f = 0; f < thin.corners(); ++f) {
+      const auto face = static_cast<std::uint8_t>(f);
       if ((thin.cut >> face & 1U) == 0)
-        join(piece, pieces_with(patch, piece, thin_vertices(thin, face), seen), face);
+        join(patch, piece, pieces_with(patch, piece, thin_vertices(thin, face), seen), face);
     }
   }
   sort_unique(pairs_);
 }
 
-void Carriers::join(std::int32_t thin, const std::vector<std::int32_t>& carriers, std::uint8_t face) {
+void Carriers::join(const Patch& patch, std::int32_t thin, const std::vector<std::int32_t>& carriers,
+                    std::uint8_t face) {
   if (carriers.empty()) return;
   std::int32_t carrier = carriers.front();
-  for (const Patch::Chosen& chosen : patch_.chosen) {
+  for (const Patch::Chosen& chosen : patch.chosen) {
     if (chosen.thin == thin && chosen.face == face &&
         std::ranges::find(carriers, chosen.carrier) != carriers.end())
       carrier = chosen.carrier;
@@ -106,7 +108,8 @@ void choose_carriers(Patch& patch, const OnCut& known, const std::function<bool(
       (void)choose(patch, known, above, piece, kWholePiece, whole);
       continue;
     }
-    for (std::uint8_t face = 0; face < thin.corners(); ++face) {
+    for (std::size_t f = 0; f < thin.corners(); ++f) {
+      const auto face = static_cast<std::uint8_t>(f);
       if ((thin.cut >> face & 1U) != 0) continue;
       const auto carriers = pieces_with(patch, piece, thin_vertices(thin, face), {});
       if (!carriers.empty() && !choose(patch, known, above, piece, face, carriers)) open(piece, face);

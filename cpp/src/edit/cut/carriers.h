@@ -22,6 +22,7 @@ std::vector<std::int32_t> thin_vertices(const Patch::Tetra& thin, std::uint8_t f
 /// (`Patch::chosen`), else that of the cell with the lowest number.
 class Carriers {
  public:
+  Carriers() = default;
   Carriers(const Patch& patch, const std::vector<char>& seen);
 
   /// Both ways, ascending.
@@ -30,9 +31,9 @@ class Carriers {
   [[nodiscard]] std::span<const std::pair<std::int32_t, std::int32_t>> at(std::int32_t piece) const;
 
  private:
-  void join(std::int32_t thin, const std::vector<std::int32_t>& carriers, std::uint8_t face);
+  void join(const Patch& patch, std::int32_t thin, const std::vector<std::int32_t>& carriers,
+            std::uint8_t face);
 
-  const Patch& patch_;
   std::vector<std::pair<std::int32_t, std::int32_t>> pairs_;
 };
 

@@ -80,7 +80,7 @@ void Fragments::find_fragments(const std::vector<std::int32_t>& removed) {
     order.push_back(static_cast<std::int32_t>(t));
   }
   across_ = joins(patch_.tetrahedra, seen);
-  carriers_.emplace(patch_, seen);
+  carriers_ = Carriers(patch_, seen);
   Sets sets(seen.size());
   for (const std::int32_t t : order) {
     for (const std::int32_t other : across_[at(t)]) {
@@ -119,8 +119,9 @@ void Fragments::find_groups() {
       if (a != b) pairs.emplace_back(std::min(a, b), std::max(a, b));
     }
   }
-  for (const auto& [one, other] : carriers_->pairs()) {
-    if (one < other) pairs.push_back(std::minmax(of_[at(one)], of_[at(other)]));
+  for (const auto& [one, other] : carriers_.pairs()) {
+    if (one < other)
+      pairs.emplace_back(std::min(of_[at(one)], of_[at(other)]), std::max(of_[at(one)], of_[at(other)]));
   }
   sort_unique(pairs);
   Sets sets(item_fragment_.size());

@@ -4,7 +4,6 @@
 
 #include <array>
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -42,7 +41,7 @@ class Fragments {
   /// Tetrahedra across the faces, -1 where no unopened material joins.
   [[nodiscard]] const std::vector<std::array<std::int32_t, 4>>& across() const { return across_; }
   /// Which pieces of different dimensions go together.
-  [[nodiscard]] const Carriers& carriers() const { return *carriers_; }
+  [[nodiscard]] const Carriers& carriers() const { return carriers_; }
 
  private:
   void find_nodes(const std::vector<std::int32_t>& touched);
@@ -58,7 +57,7 @@ class Fragments {
   std::vector<std::int32_t> touched_nodes_;  ///< ascending
   std::vector<std::int32_t> cells_;          ///< numbers of the hosts at them, ascending
   std::vector<std::array<std::int32_t, 4>> across_;
-  std::optional<Carriers> carriers_;
+  Carriers carriers_;
   std::vector<std::int32_t> of_;
   std::vector<Fragment> fragments_;
   std::vector<std::int32_t> item_fragment_;

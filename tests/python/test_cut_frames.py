@@ -98,6 +98,25 @@ def test_a_cut_keeps_mass_momenta_and_energies_spin_included(cell: str, law: Any
     assert total == pytest.approx(mass_of(cell), rel=1e-11)
 
 
+@pytest.mark.parametrize(
+    ("cell", "changes"),
+    [
+        ("tetra", {"model": ts.Frames(lever="half")}),
+        ("hexahedron", {"model": ts.Frames(lever="half")}),
+        ("quad", {"model": ts.Frames(section="middle")}),
+        ("line", {"model": ts.Frames(section="middle"), "section": "20 mm^2"}),
+    ],
+)
+def test_a_cut_keeps_everything_whatever_the_levers_and_points(
+    cell: str, changes: dict[str, Any]
+) -> None:
+    simulation = spun(scene(frames(cell, **changes), fixed=[]).compile())
+    before = simulation.energy()
+    report = simulation.cut("frames", SLANTED)
+    assert len(report.pieces) == 2
+    require_kept(report, before, simulation.energy(), mass_of(cell))
+
+
 @pytest.mark.parametrize("cell", ["tetra", "hexahedron", "quad", "line"])
 @pytest.mark.parametrize("seed", range(3))
 def test_random_cuts_keep_everything(cell: str, seed: int) -> None:

@@ -285,6 +285,69 @@ def test_a_blade_across_a_ligament_parts_it_and_one_below_its_foot_too() -> None
     assert report.pieces[0].mass == pytest.approx(MASS, rel=1e-9)
 
 
+def with_fin_and_ligaments(cell: str) -> ts.Mesh:
+    """A bar with a skin and a thread, a fin along its bottom, and four ligaments on its top."""
+    mesh = organ_mesh(cell)
+    points, blocks = np.asarray(mesh.points), {block.type: block.nodes for block in mesh.cells}
+    count, beyond, lines, fin = len(points), list[tuple[float, float, float]](), [], []
+
+    def node(*place: float) -> int:
+        return int(np.argmin(np.linalg.norm(points - place, axis=1)))
+
+    for x in (0.1, 0.2, 0.25, 0.4):
+        first = count + len(beyond)
+        beyond += [(x, 0.05, 0.12), (x, 0.05, 0.15)]
+        lines += [(node(x, 0.05, 0.1), first), (first, first + 1)]
+    along = np.linspace(0.05, 0.35, 7)
+    low = count + len(beyond) + np.arange(7)
+    beyond += [(x, 0.05, -0.05) for x in along]
+    high = [node(x, 0.05, 0.0) for x in along]
+    for k in range(6):
+        fin.append((high[k], high[k + 1], low[k + 1], low[k]))
+    if cell == "tetra":
+        fin = [(q[0], *q[k : k + 2]) for q in fin for k in (1, 2)]
+    kind = "triangle" if cell == "tetra" else "quad"
+    blocks[kind] = np.concatenate([blocks[kind], np.array(fin)])
+    blocks["line"] = np.concatenate([blocks["line"], np.array(lines)])
+    return ts.Mesh(points=np.concatenate([points, beyond]), cells=blocks, thin=(2, 1))
+
+
+def parts_of(simulation: ts.Simulation) -> int:
+    """How many parts have no point of the material in common."""
+    mesh = simulation.material("organ").mesh
+    group = np.arange(len(mesh.points))
+    while True:
+        before = group.copy()
+        for block in mesh.body_blocks:
+            np.minimum.at(group, block.nodes, group[block.nodes].min(axis=1)[:, None])
+        if (before == group).all():
+            break
+    used = np.concatenate([block.nodes.ravel() for block in mesh.body_blocks])
+    return len(np.unique(group[used]))
+
+
+@pytest.mark.parametrize("cell", ["tetra", "hexahedron"])
+@pytest.mark.parametrize("seed", range(6))
+def test_random_cuts_leave_the_pieces_that_points_of_the_material_join(
+    cell: str, seed: int
+) -> None:
+    """Eight blades, and cells that go, in a body with parts that only end at its volume."""
+    random = np.random.default_rng(seed)
+    made = scene(organ(with_fin_and_ligaments(cell)), fixed=[], editing=ts.Editing(room="9000 %"))
+    simulation = shaken(made.compile(), seed)
+    if seed % 2:
+        simulation.positions["organ"][:] = simulation.meshes["organ"].points
+    nodes = np.array(simulation.positions["organ"])
+    for _ in range(8):
+        if random.random() < 0.15:
+            place = random.uniform((0, 0, 0), (0.4, 0.1, 0.1))
+            simulation.ablate("organ", ts.Sphere(place, 0.03))
+        before, mass = simulation.energy(), simulation._core.mass("organ")
+        report = simulation.cut("organ", random_blade(random, nodes))
+        require_kept(report, before, simulation.energy(), mass)
+        assert len(report.pieces) == parts_of(simulation)
+
+
 def test_a_skin_between_two_volumes_stays_with_one_of_them() -> None:
     """A sheet on the faces along which a blade parts them is neither lost nor doubled."""
     bar = ts.bar_mesh(size=(0.4, 0.1, 0.1), cells=(8, 2, 2), cell="tetra")

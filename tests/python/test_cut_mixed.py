@@ -426,6 +426,37 @@ def test_bits_are_the_same_on_two_threads_after_a_rewind_and_from_a_checkpoint(
     assert len(runs[0].pieces("organ")) == 1
 
 
+def test_a_tough_knife_feels_the_volume_and_not_its_skin_from_outside() -> None:
+    """Beside the body its edge passes by, skin or not; the area has that of skin and thread too."""
+    bar = ts.bar_mesh(size=(0.4, 0.1, 0.1), cells=(8, 2, 2), cell="tetra")
+    forces, areas = [], []
+    for body in (organ(), organ(bar).replace(thickness=None, section=None)):
+        way = [(0.21, -0.03, 0), (0.21, 0.14, 0)]
+        knife = ts.Knife(
+            edge=[(0, 0, -0.1), (0, 0, 0.2)],
+            cuts=["organ"],
+            toughness="100 J/m^2",
+            path=ts.ToolPath(times=(0, 1), positions=way),
+        )
+        held = [
+            ts.Fixed("organ", on=ts.Box(max=(0.15, None, None))),
+            ts.Fixed("organ", on=ts.Box(min=(0.25, None, None))),
+        ]
+        simulation = scene(
+            body,
+            fixed=held,
+            gravity=(0, 0, 0),
+            instruments={"blade": knife},
+            step=ts.ImplicitEuler("10 ms"),
+        ).compile()
+        cuts = [cut for report in simulation.run(1.1) for cut in report.cuts]
+        assert len(simulation.pieces("organ")) == 2
+        areas.append(sum(cut.rest_area for cut in cuts))
+        forces.append(sum(cut.work for cut in cuts) / sum(cut.area for cut in cuts))
+    assert areas[0] - areas[1] == pytest.approx(0.1 * THICKNESS + SECTION, rel=1e-2)
+    assert forces == pytest.approx([100.0, 100.0], rel=ROUND_OFF)
+
+
 @pytest.mark.parametrize("cell", ["tetra", "hexahedron"])
 def test_a_pressed_face_under_a_skin_is_pressed_once(cell: str) -> None:
     """F = p A e_z before and after a cut, though skin and volume both have the face."""

@@ -57,7 +57,7 @@ class Adder {
     std::vector<Triangle> own;
     for (const MaterialTetra& part : material_of(hosts_, material_, cell))
       own.push_back({part.vertices[0], part.vertices[1], part.vertices[2]});
-    if (lies_in_volume(cell)) {
+    if (hosts_.lies_in_volume(cell)) {
       const auto is_outer = [&](const Triangle& triangle) { return outer_.contains(sorted(triangle)); };
       if (std::ranges::any_of(own, is_outer)) thicken(cell, 0.5 * hosts_.thickness(cell));
       return;
@@ -75,17 +75,6 @@ class Adder {
     }
     thin_.open = true;
     thicken(cell, 0.5 * hosts_.thickness(cell));
-  }
-
-  /// Whether a volume cell has all corners of a sheet.
-  [[nodiscard]] bool lies_in_volume(std::int32_t cell) const {
-    const auto corners = hosts_.corners(cell);
-    return std::ranges::any_of(hosts_.cells_at(corners.front()), [&](std::int32_t one) {
-      const auto nodes = hosts_.nodes(one);
-      return dimension(one) == 3 && std::ranges::all_of(corners, [&](std::int32_t node) {
-               return std::ranges::find(nodes, node) != nodes.end();
-             });
-    });
   }
 
   void add_line(std::int32_t cell) {

@@ -123,6 +123,8 @@ class Search {
   void look_in(std::int32_t cell, const std::vector<std::int32_t>& within) {
     const Box box = box_of(hosts_.corners(cell), x_, is_thin(cell) ? kNearSheet : kSlack);
     if (std::ranges::none_of(within, [&](std::int32_t i) { return box.contains(point(i)); })) return;
+    if (is_thin(cell) && hosts_.lies_in_volume(cell))
+      return;  // a point goes with the volume, or passes it by
     for (const MaterialTetra& tetra : material_of(hosts_, material_, cell)) {
       if (tetra.corners() == 4) {
         look_in(cell, tetra, within);

@@ -9,6 +9,11 @@ namespace {
 
 std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
+bool has_all(const Patch::Tetra& piece, std::span<const std::int32_t> vertices) {
+  return std::ranges::all_of(
+      vertices, [&](std::int32_t v) { return std::ranges::find(piece.vertices, v) != piece.vertices.end(); });
+}
+
 /// The pieces of a higher dimension than `thin` that have all these vertices, by the numbers of their cells.
 /// `seen`: only these pieces; empty: all.
 std::vector<std::int32_t> pieces_with(const Patch& patch, std::int32_t thin,
@@ -18,10 +23,7 @@ std::vector<std::int32_t> pieces_with(const Patch& patch, std::int32_t thin,
   for (const std::int32_t piece : patch.tetrahedra_at(vertices.front())) {
     const Patch::Tetra& other = patch.tetra(piece);
     if (other.corners() <= corners || (!seen.empty() && seen[at(piece)] == 0)) continue;
-    const auto is_in = [&](std::int32_t v) {
-      return std::ranges::find(other.vertices, v) != other.vertices.end();
-    };
-    if (std::ranges::all_of(vertices, is_in)) found.push_back(piece);
+    if (has_all(other, vertices)) found.push_back(piece);
   }
   std::ranges::sort(found, {}, [&](std::int32_t piece) {
     return std::pair(patch.cell(patch.tetra(piece).cell).number, piece);
@@ -55,6 +57,45 @@ std::vector<std::int32_t> thin_vertices(const Patch::Tetra& thin, std::uint8_t f
     if (i != face) vertices.push_back(thin.vertices[i]);
   }
   return vertices;
+}
+
+std::int32_t top_carrier(const Patch& patch, std::int32_t thin) {
+  if (patch.tetra(thin).corners() == 4) return -1;
+  const auto whole = pieces_with(patch, thin, thin_vertices(patch.tetra(thin), kWholePiece), {});
+  std::int32_t best = -1;
+  for (const std::int32_t piece : whole) {
+    if (best < 0 || patch.tetra(piece).corners() > patch.tetra(best).corners()) best = piece;
+  }
+  for (const Patch::Chosen& one : patch.chosen) {
+    if (one.thin != thin || one.face != kWholePiece || std::ranges::find(whole, one.carrier) == whole.end())
+      continue;
+    if (patch.tetra(one.carrier).corners() == patch.tetra(best).corners()) best = one.carrier;
+  }
+  return best;
+}
+
+bool hang_together(const Patch& patch, std::int32_t a, std::int32_t b,
+                   std::span<const std::int32_t> vertices) {
+  std::vector<std::int32_t> left;
+  for (const std::int32_t piece : patch.tetrahedra_at(vertices.front())) {
+    if (patch.tetra(piece).corners() == patch.tetra(a).corners() && has_all(patch.tetra(piece), vertices))
+      left.push_back(piece);
+  }
+  std::vector<std::int32_t> reached{a};
+  for (std::size_t next = 0; next < reached.size(); ++next) {
+    if (reached[next] == b) return true;
+    const Patch::Tetra& own = patch.tetra(reached[next]);
+    for (std::size_t f = 0; f < own.corners(); ++f) {
+      const bool is_around = std::ranges::find(vertices, own.vertices[f]) == vertices.end();
+      if (!is_around || (own.cut >> f & 1U) != 0) continue;
+      const auto face = thin_vertices(own, static_cast<std::uint8_t>(f));
+      for (const std::int32_t piece : left) {
+        const bool known = std::ranges::find(reached, piece) != reached.end();
+        if (!known && has_all(patch.tetra(piece), face)) reached.push_back(piece);
+      }
+    }
+  }
+  return false;
 }
 
 Carriers::Carriers(const Patch& patch, const std::vector<char>& seen) {

@@ -16,6 +16,14 @@ namespace tissu {
 /// The vertices of a face of a triangle or of a piece of a line; all of them for `kWholePiece`.
 std::vector<std::int32_t> thin_vertices(const Patch::Tetra& thin, std::uint8_t face);
 
+/// The piece of the highest dimension that has all vertices of a thin one: the chosen one, else that of the
+/// cell with the lowest number. -1: there is none.
+std::int32_t top_carrier(const Patch& patch, std::int32_t thin);
+
+/// Whether two pieces of one dimension hang together by pieces around all these vertices.
+bool hang_together(const Patch& patch, std::int32_t a, std::int32_t b,
+                   std::span<const std::int32_t> vertices);
+
 /// Which pieces hang together across dimensions. A triangle of a sheet, or a piece of a line, whose vertices
 /// all belong to a piece of a higher dimension goes with that one. Else each of its faces that no cut opened
 /// goes with one that has the vertices of the face. Of several it is the one that the blade chose

@@ -301,9 +301,3 @@ def test_a_grab_of_a_parted_node_is_let_go() -> None:
     assert len(report.released) == 1
     with pytest.raises(ts.ParameterError, match="was let go"):
         there.force  # noqa: B018
-
-
-def test_frames_are_refused_in_a_sentence() -> None:
-    frames = shell(model="frames", law=ts.StVK(young=5e6, poisson=0.3))
-    with pytest.raises(ts.SceneError, match="model frames of body 'shell', whose cells cannot"):
-        scene(frames).compile()

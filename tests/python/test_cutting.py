@@ -479,22 +479,6 @@ def test_live_supports_and_loads_keep_their_nodes_while_they_are_live() -> None:
     np.testing.assert_allclose(after.displacements("bar")[held, 2], 0.01, rtol=0, atol=1e-12)
 
 
-def test_a_sheet_of_quads_has_no_material_to_cut() -> None:
-    sheet = ts.Body(
-        mesh=ts.bar_mesh(size=(0.2, 0.1, 0.0), cells=(4, 2, 0), cell="quad"),
-        law=ts.Hooke(young=1e5, poisson=0.3),
-        density=1000.0,
-        thickness=0.002,
-    )
-    simulation = scene(sheet).compile()
-    for look in (simulation.surface, simulation.material, simulation.pieces, simulation.origin):
-        with pytest.raises(ts.ParameterError, match="cells of type quad"):
-            look("bar")
-    with pytest.raises(ts.ParameterError, match="volume cells, triangles and lines"):
-        simulation.cut("bar", SLANTED)
-    assert simulation.step().converged
-
-
 def test_rewind_brings_the_parameters_back() -> None:
     simulation = scene().compile()
     simulation.step()

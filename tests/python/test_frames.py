@@ -174,10 +174,6 @@ def test_frames_refuse_what_they_are_not() -> None:
     with pytest.raises(ts.ParameterError, match="no points"):
         plain.points("cube")
     frames = _bar((1, 1, 1), (1, 1, 1))
-    with pytest.raises(
-        ts.SceneError, match="the model frames of body 'bar', whose cells cannot be cut or removed"
-    ):
-        ts.Scene(bodies={"bar": frames}, fixed=[_root()], step=ts.Static(), editing=True).compile()
     viscous = frames.replace(viscosity=ts.KelvinVoigt(eta=1.0))
     with pytest.raises(ts.SceneError, match="rayleigh is accepted"):
         ts.Scene(bodies={"bar": viscous}, fixed=[_root()], step=ts.Static()).compile()

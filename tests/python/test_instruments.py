@@ -399,14 +399,15 @@ def test_what_cannot_be_is_refused_when_the_scene_is_read() -> None:
     refused(lambda: ts.Knife([(0, 0, 0), (0, 0, 1e300)], cuts=["bar"]), "at most 1 m is accepted")
     tear = ts.Tear("bar", strength=1e4, length=0.02)
     refused(lambda: scene(knife, tear=[tear, tear]), "found a second tear of 'bar'")
-    sheet = ts.Body(
-        mesh=ts.bar_mesh(size=(0.2, 0.1, 0.0), cells=(4, 2, 0), cell="quad"),
+    condensed = ts.Body(
+        mesh=ts.bar_mesh(size=(0.2, 0.1, 0.1), cells=(4, 2, 2), cell="tetra"),
         law=ts.Hooke(young=1e5, poisson=0.3),
         density=1000.0,
-        thickness=0.002,
+        model="condensed",
     )
     refused(
-        lambda: scene(knife, bodies={"bar": sheet}).compile(), "volume cells, triangles and lines"
+        lambda: scene(knife, bodies={"bar": condensed}).compile(),
+        "cells are condensed, and a model that keeps each cell is accepted, such as fem",
     )
 
 

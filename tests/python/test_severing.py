@@ -119,7 +119,7 @@ def test_mass_and_momenta_are_kept(blade: ts.Plane | ts.Sweep) -> None:
 
 @pytest.mark.parametrize("kind", ["frames", "shell"])
 def test_organs_whose_nodes_turn_keep_their_momenta(kind: str, tmp_path: Path) -> None:
-    """The tissue follows their nodes themselves. A checkpoint goes on. Frames are not cut."""
+    """The tissue follows their nodes themselves. A checkpoint goes on."""
     scene = flying()
     bodies = {name: _turning(kind, name, body) for name, body in scene.bodies.items()}
     fascia = scene.tissue["fascia"].replace(points=100)
@@ -136,14 +136,6 @@ def test_organs_whose_nodes_turn_keep_their_momenta(kind: str, tmp_path: Path) -
     assert report.links_severed > 10
     assert report.points_gone == ()
     assert (np.abs(_momenta(simulation) - total) < 1e-12 * size).all()
-    for refused in (
-        lambda: simulation.cut("upper", MIDDLE),
-        lambda: simulation.ablate("upper", ts.Sphere((0, 0, 0.07), 0.01)),
-        lambda: simulation.remove_cells(body="upper", cells=[0]),
-    ):
-        if kind == "frames":
-            with pytest.raises(ts.ParameterError, match="frames"):
-                refused()
     steps(simulation, 2)
     simulation.save_checkpoint(tmp_path / "cut.tissu")
     resumed = scene.compile(checkpoint=tmp_path / "cut.tissu")

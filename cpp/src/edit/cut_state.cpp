@@ -26,28 +26,14 @@ const BodyDescription& described(const World& world, std::string_view name) {
 }
 
 std::optional<CellType> host_type(const ElasticBlock& block) {
-  for (const CellType thin : {CellType::triangle, CellType::line}) {
-    if (block.element == info(thin).name) return thin;
-  }
-  return cell_type(block.element);
-}
-
-bool listens_to_frames(const BodyDescription& body) {
-  if (!body.shared.empty()) return true;
-  return body.frames && !std::ranges::all_of(body.elastic, [](const ElasticBlock& block) {
-           return std::holds_alternative<ShellOptions>(block.model);
-         });
+  const std::optional<CellType> volume = cell_type(block.element);
+  return volume ? volume : thin_cell_type(block.element);
 }
 
 bool has_material(const BodyDescription& body) {
-  if (listens_to_frames(body)) return false;
-  int dimension = 0;
-  return std::ranges::all_of(body.elastic, [&](const ElasticBlock& block) {
-    const std::optional<CellType> type = host_type(block);
-    if (!type) return false;
-    const int before = std::exchange(dimension, info(*type).dimension);
-    return before == 0 || before == dimension;
-  });
+  return body.shared.empty() && std::ranges::all_of(body.elastic, [](const ElasticBlock& block) {
+           return host_type(block).has_value();
+         });
 }
 
 namespace {
@@ -80,8 +66,7 @@ CutState cut_state_of(BodyDescription body, Material material) {
     const std::optional<CellType> known = host_type(block);
     if (!known) {
       throw ParameterError("body \"" + body.name + "\" has cells of type " + block.element +
-                           "; only bodies of volume cells, of triangles and of lines of two nodes have a "
-                           "material that can be cut.");
+                           "; only volume cells, sheets and lines have a material that can be cut.");
     }
     const CellType type = *known;
     const ElementInfo& element = *find_element(block.element);

@@ -10,6 +10,8 @@
 #include <string>
 
 #include "edit/cut/kerf.h"
+#include "edit/cut/quad_halves.h"
+#include "mixed_surface.h"
 #include "tissu/base/error.h"
 #include "tissu/contact/candidates.h"
 #include "tissu/edit/cut_state.h"
@@ -30,11 +32,18 @@ double kerf_depth(const BodyDescription& body, const ContactDescription& contact
   return 0.0;
 }
 
-/// All triangles of a sheet's material.
+/// All triangles of a sheet's material. Quads that no blade met are cut along their shorter diagonal.
 KerfSurface sheet_surface(const CutState& cut) {
   KerfSurface surface;
   std::map<std::int32_t, Rider> carried;
   for (const std::int32_t cell : cut.hosts.numbers()) {
+    const auto corners = cut.hosts.corners(cell);
+    if (corners.size() == 4 && !cut.material.cells.contains(cell)) {
+      add_halves(
+          cut.hosts.rest(), {corners[0], corners[1], corners[2], corners[3]},
+          [&](std::int32_t node) { return cut.hosts.root(node); }, surface.triangles);
+      continue;
+    }
     for (const MaterialTetra& triangle : material_of(cut.hosts, cut.material, cell)) {
       const auto& [a, b, c, none] = triangle.vertices;
       surface.triangles.push_back({a, b, c});
@@ -78,25 +87,51 @@ std::vector<double> radii(const BodyDescription& body) {
   return radius;
 }
 
-/// Of the cells of a body, whose material all has the same.
-int dimension_of(const BodyDescription& body) {
-  const std::optional<CellType> type = body.elastic.empty() ? std::nullopt : host_type(body.elastic.front());
+int dimension_of(const ElasticBlock& block) {
+  const std::optional<CellType> type = host_type(block);
   return type ? info(*type).dimension : 3;
+}
+
+/// The highest of the cells of a body.
+int dimension_of(const BodyDescription& body) {
+  int highest = body.elastic.empty() ? 3 : 1;
+  for (const ElasticBlock& block : body.elastic) highest = std::max(highest, dimension_of(block));
+  return highest;
+}
+
+bool is_mixed(const BodyDescription& body) {
+  const int highest = dimension_of(body);
+  return std::ranges::any_of(body.elastic,
+                             [&](const ElasticBlock& block) { return dimension_of(block) < highest; });
+}
+
+/// Of the cells of the highest dimension; where sheets come with lines, `add_thin` adds both.
+KerfSurface own_surface(const BodyDescription& body, const ContactDescription& contact,
+                        std::vector<std::array<std::int32_t, 2>>& edges) {
+  const int dimension = dimension_of(body);
+  if (dimension == 3) return kerf_surface(body.cut->hosts, body.cut->material, kerf_depth(body, contact));
+  if (is_mixed(body)) return {};
+  return dimension == 2 ? sheet_surface(*body.cut) : line_surface(*body.cut, edges);
 }
 
 }  // namespace
 
 SurfaceDescription cut_surface(const BodyDescription& body, const ContactDescription& contact) {
   const int dimension = dimension_of(body);
+  const bool mixed = is_mixed(body);
   SurfaceDescription surface;
-  KerfSurface found = dimension == 1 ? line_surface(*body.cut, surface.edges)
-                      : dimension == 2
-                          ? sheet_surface(*body.cut)
-                          : kerf_surface(body.cut->hosts, body.cut->material, kerf_depth(body, contact));
+  KerfSurface found = own_surface(body, contact, surface.edges);
+  ThinSurface thin;
+  if (mixed) thin = add_thin(body, *body.cut, found);
   surface.name = body.name;
   surface.triangles = std::move(found.triangles);
-  surface.closed = dimension == 3 && !surface.triangles.empty();
-  if (dimension < 3) surface.radius = radii(body);
+  surface.closed = dimension == 3 && !thin.open && !surface.triangles.empty();
+  if (mixed) {
+    surface.edges = std::move(thin.edges);
+    surface.radius = std::move(thin.radius);
+  } else if (dimension < 3) {
+    surface.radius = radii(body);
+  }
   SurfaceRiders& riders = surface.riders;
   for (const auto& [vertex, rider] : found.carried) {
     riders.vertex.push_back(vertex);
@@ -135,7 +170,8 @@ void part_pairs(ContactDescription& contact, const BodyDescription& body,
 void refuse_touching(const BodyDescription& body, const SurfaceDescription& surface,
                      const ContactDescription& contact) {
   const int dimension = dimension_of(body);
-  if (dimension == 3) return;
+  const bool mixed = is_mixed(body);
+  if (dimension == 3 && !mixed) return;
   if (dimension == 2 && surface.triangles.empty()) {
     throw ParameterError(
         "body \"" + body.name +
@@ -148,7 +184,9 @@ void refuse_touching(const BodyDescription& body, const SurfaceDescription& surf
     if (contact.bodies[static_cast<std::size_t>(pair.a)].name != body.name) continue;
     throw ParameterError(
         "body \"" + body.name +
-        (dimension == 2
+        (mixed ? "\" cannot be cut: it meets itself and has cells of several dimensions, of which sheets and "
+                 "lines would begin a cut in one place; leave it out of self-contact."
+         : dimension == 2
              ? "\" cannot be cut: it is a sheet that meets itself, and both edges of a cut would begin "
                "in one place; leave it out of self-contact."
              : "\" cannot be cut: its lines meet themselves, and both ends of a cut would begin in "
@@ -158,7 +196,7 @@ void refuse_touching(const BodyDescription& body, const SurfaceDescription& surf
 
 void refuse_curved(const BodyDescription& body) {
   for (const ElasticBlock& block : body.elastic) {
-    const std::optional<CellType> type = cell_type(block.element);
+    const std::optional<CellType> type = host_type(block);
     if (!type || info(*type).nodes == info(*type).corners) continue;
     throw ParameterError("body \"" + body.name + "\" cannot be cut: it is in contact with cells of type " +
                          block.element +

@@ -150,14 +150,10 @@ void refuse_unparted(const WorldDescription& description, const BodyDescription&
   const auto refuse = [&](const std::string& why) {
     throw ParameterError("body \"" + body.name + "\" cannot be cut: " + why + ".");
   };
-  if (listens_to_frames(body)) {
+  if (!has_material(body)) {
     refuse("its points listen to frames, and bodies whose cells have nodes of their own are accepted");
   }
   for (const ElasticBlock& block : body.elastic) {
-    if (!host_type(block)) {
-      refuse("it has cells of type " + block.element +
-             ", and volume cells, triangles and lines of two nodes are accepted");
-    }
     if (std::holds_alternative<CondensedOptions>(block.model)) {
       refuse("its cells are condensed, and a model that keeps each cell is accepted, such as fem");
     }
@@ -168,10 +164,6 @@ void refuse_unparted(const WorldDescription& description, const BodyDescription&
           "default");
     }
   }
-  if (!has_material(body))
-    refuse(
-        "it has cells of several dimensions, and bodies of volume cells, of sheets or of lines alone are "
-        "accepted");
   refuse_pressed(description, body);
   if (!description.contact) return;
   for (const SurfaceDescription& surface : description.contact->bodies) {

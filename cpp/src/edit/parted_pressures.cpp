@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <set>
 #include <span>
 #include <string>
 
@@ -48,7 +49,11 @@ class Pressed {
   }
 
   void find(PressureDescription& pressure) {
-    for (const std::int32_t cell : cut_.hosts.numbers()) look_at(cell);
+    for (const bool solid : {true, false}) {
+      for (const std::int32_t cell : cut_.hosts.numbers()) {
+        if ((info(cut_.hosts.type(cell)).dimension == 3) == solid) look_at(cell);
+      }
+    }
     pressure.faces.clear();
     if (!triangles_.empty()) pressure.faces.push_back({"triangle", std::move(triangles_)});
     if (!quads_.empty()) pressure.faces.push_back({"quad", std::move(quads_)});
@@ -58,6 +63,7 @@ class Pressed {
  private:
   void look_at(std::int32_t cell) {
     const auto corners = cut_.hosts.corners(cell);
+    if (info(cut_.hosts.type(cell)).dimension == 1) return;
     if (info(cut_.hosts.type(cell)).dimension == 2) {
       look_at(cell, {corners.begin(), corners.end()});
       return;
@@ -124,6 +130,7 @@ class Pressed {
 
   /// `same`: the nodes run the way around that the pressure acts by.
   void add_face(const Nodes& nodes, bool same) {
+    if (!is_new(nodes)) return;
     Nodes& list = nodes.size() == 3 ? triangles_ : quads_;
     if (same) {
       list.insert(list.end(), nodes.begin(), nodes.end());
@@ -147,6 +154,24 @@ class Pressed {
     }
   }
 
+  static std::array<std::int32_t, 3> ascending(std::array<std::int32_t, 3> vertices) {
+    std::ranges::sort(vertices);
+    return vertices;
+  }
+
+  /// Whether no volume presses there: a sheet on one of its faces has the same face once more, a quad in the
+  /// halves into which the volume cuts it.
+  bool is_new(const Nodes& nodes) {
+    const auto root = [&](std::int32_t node) { return cut_.hosts.root(node); };
+    const auto low = static_cast<std::size_t>(std::ranges::min_element(nodes, {}, root) - nodes.begin());
+    bool all = true;
+    for (std::size_t i = 1; i + 1 < nodes.size(); ++i) {
+      const auto node = [&](std::size_t k) { return nodes[(low + k) % nodes.size()]; };
+      all = taken_.insert(ascending({node(0), node(i), node(i + 1)})).second && all;
+    }
+    return all;
+  }
+
   [[nodiscard]] Rider rider_of(std::int32_t vertex) const {
     if (vertex >= 0) return {{vertex, -1, -1, -1}, {1.0, 0.0, 0.0, 0.0}, 1};
     return cut_.material.riders[at(-1 - vertex)];
@@ -161,6 +186,7 @@ class Pressed {
   }
 
   void add(std::array<std::int32_t, 3> vertices, bool same) {
+    if (!taken_.insert(ascending(vertices)).second) return;
     if (!same) std::swap(vertices[1], vertices[2]);
     CarriedFace& face = carried_.emplace_back();
     for (std::size_t i = 0; i < 3; ++i) {
@@ -172,7 +198,8 @@ class Pressed {
   }
 
   const CutState& cut_;
-  std::map<Nodes, Nodes> faces_;  ///< of the first day, by their nodes in ascending order
+  std::set<std::array<std::int32_t, 3>> taken_;  ///< triangles that have the pressure, vertices ascending
+  std::map<Nodes, Nodes> faces_;                 ///< of the first day, by their nodes in ascending order
   std::map<std::int32_t, std::vector<Nodes>> faces_at_;  ///< the same, by each of their nodes
   Nodes triangles_;
   Nodes quads_;

@@ -42,6 +42,7 @@ constexpr Shape<8, 5> kPyramid{
     {{{4, 4, {0, 3, 2, 1}}, {3, 3, {0, 1, 4}}, {3, 3, {1, 2, 4}}, {3, 3, {2, 3, 4}}, {3, 3, {3, 0, 4}}}}};
 
 constexpr std::array<Edge, 3> kTriangleEdges{{{0, 1}, {1, 2}, {2, 0}}};
+constexpr std::array<Edge, 4> kQuadEdges{{{0, 1}, {1, 2}, {2, 3}, {3, 0}}};
 constexpr std::array<Edge, 1> kLineEdges{{{0, 1}}};
 
 template <std::size_t n>
@@ -77,8 +78,9 @@ constexpr std::array<std::uint8_t, 10> kTetraMirror{0, 1, 3, 2, 4, 8, 7, 6, 5, 9
 constexpr std::array<std::uint8_t, 27> kHexahedronMirror{4,  5,  6,  7,  0,  1,  2,  3,  12, 13, 14, 15, 8, 9,
                                                          10, 11, 16, 17, 18, 19, 20, 21, 22, 23, 25, 24, 26};
 constexpr std::array<std::uint8_t, 15> kWedgeMirror{3, 4, 5, 0, 1, 2, 9, 10, 11, 6, 7, 8, 12, 13, 14};
-constexpr std::array<std::uint8_t, 3> kTriangleMirror{0, 2, 1};
-constexpr std::array<std::uint8_t, 2> kLineMirror{1, 0};
+constexpr std::array<std::uint8_t, 6> kTriangleMirror{0, 2, 1, 5, 4, 3};
+constexpr std::array<std::uint8_t, 9> kQuadMirror{0, 3, 2, 1, 7, 6, 5, 4, 8};
+constexpr std::array<std::uint8_t, 3> kLineMirror{1, 0, 2};
 constexpr std::array<std::uint8_t, 13> kPyramidMirror{0, 3, 2, 1, 4, 8, 7, 6, 5, 9, 12, 11, 10};
 
 std::span<const std::uint8_t> mirrored_whole(CellType type) {
@@ -97,8 +99,14 @@ std::span<const std::uint8_t> mirrored_whole(CellType type) {
     case CellType::pyramid13:
       return kPyramidMirror;
     case CellType::triangle:
+    case CellType::triangle6:
       return kTriangleMirror;
+    case CellType::quad:
+    case CellType::quad8:
+    case CellType::quad9:
+      return kQuadMirror;
     case CellType::line:
+    case CellType::line3:
       return kLineMirror;
   }
   return {};
@@ -127,7 +135,12 @@ std::span<const LocalFace> faces(CellType type) {
     case CellType::pyramid13:
       return kPyramid13Faces;
     case CellType::triangle:
+    case CellType::triangle6:
+    case CellType::quad:
+    case CellType::quad8:
+    case CellType::quad9:
     case CellType::line:
+    case CellType::line3:
       return {};
   }
   return {};
@@ -149,8 +162,14 @@ std::span<const std::array<std::uint8_t, 2>> edges(CellType type) {
     case CellType::pyramid13:
       return kPyramid.edges;
     case CellType::triangle:
+    case CellType::triangle6:
       return kTriangleEdges;
+    case CellType::quad:
+    case CellType::quad8:
+    case CellType::quad9:
+      return kQuadEdges;
     case CellType::line:
+    case CellType::line3:
       return kLineEdges;
   }
   return {};

@@ -6,7 +6,8 @@
 namespace tissu {
 namespace {
 
-constexpr std::array<CellTypeInfo, 11> kCellTypes{{
+constexpr std::size_t kVolumes = 9;
+constexpr std::array<CellTypeInfo, 16> kCellTypes{{
     {CellType::tetra, "tetra", 4, 3, 1, 4},
     {CellType::hexahedron, "hexahedron", 8, 3, 1, 8},
     {CellType::tetra10, "tetra10", 10, 3, 2, 4},
@@ -17,20 +18,30 @@ constexpr std::array<CellTypeInfo, 11> kCellTypes{{
     {CellType::pyramid, "pyramid", 5, 3, 1, 5},
     {CellType::pyramid13, "pyramid13", 13, 3, 2, 5},
     {CellType::triangle, "triangle", 3, 2, 1, 3},
+    {CellType::triangle6, "triangle6", 6, 2, 2, 3},
+    {CellType::quad, "quad", 4, 2, 1, 4},
+    {CellType::quad8, "quad8", 8, 2, 2, 4},
+    {CellType::quad9, "quad9", 9, 2, 2, 4},
     {CellType::line, "line", 2, 1, 1, 2},
+    {CellType::line3, "line3", 3, 1, 2, 2},
 }};
+
+std::optional<CellType> named(std::span<const CellTypeInfo> types, std::string_view name) {
+  const auto row = std::ranges::find(types, name, &CellTypeInfo::name);
+  if (row == types.end()) return std::nullopt;
+  return row->type;
+}
 
 }  // namespace
 
 const CellTypeInfo& info(CellType type) { return kCellTypes[static_cast<std::size_t>(type)]; }
 
-std::span<const CellTypeInfo> cell_types() { return std::span(kCellTypes).first(9); }
+std::span<const CellTypeInfo> cell_types() { return std::span(kCellTypes).first(kVolumes); }
 
-std::optional<CellType> cell_type(std::string_view name) {
-  const auto volumes = cell_types();
-  const auto row = std::ranges::find(volumes, name, &CellTypeInfo::name);
-  if (row == volumes.end()) return std::nullopt;
-  return row->type;
+std::optional<CellType> cell_type(std::string_view name) { return named(cell_types(), name); }
+
+std::optional<CellType> thin_cell_type(std::string_view name) {
+  return named(std::span(kCellTypes).subspan(kVolumes), name);
 }
 
 std::int32_t CellBlock::size() const { return static_cast<std::int32_t>(nodes.size()) / info(type).nodes; }

@@ -12,10 +12,9 @@ from tissu.counted import counted
 from tissu.mesh.cell import dimension
 from tissu.scene.contact_rules import meets_others
 from tissu.scene.generated.laws import LAWS
-from tissu.scene.model import Condensed, Frames, Shell
+from tissu.scene.model import Condensed, Frames
 from tissu.scene.part import type_name
 from tissu.scene.problem import Problem, one_of_words
-from tissu.scene.tissue import tissues_of
 
 if TYPE_CHECKING:
     from tissu.compile.prepared import Findings, Group, Ints, Prepared
@@ -142,15 +141,6 @@ def check_rotations(prepared: Prepared) -> None:
         if True in kinds and body.viscosity is not None and body.viscosity.type != "rayleigh":
             text = f"found {body.viscosity.type} for frames; rayleigh is accepted"
             _tell_once(("bodies", name, "viscosity"), text, prepared.findings)
-        tied = any(name in (tissue.between or ()) for tissue in tissues_of(prepared.scene).values())
-        fixed = [m for m in body.models().values() if m.with_rotations and not isinstance(m, Shell)]
-        if fixed and not tied and getattr(prepared.scene, "editing", False):
-            model = fixed[0]
-            text = (
-                f"found true with the model {model.type} of body '{name}', whose cells cannot be "
-            )
-            text += "cut or removed; leave editing out, or take another model"
-            _tell_once(("editing",), text, prepared.findings)
     for number, load in enumerate(getattr(prepared.scene, "loads", ())):
         asked = getattr(prepared.scene, "bodies", {}).get(getattr(load, "body", None))
         if load.type == "moment" and asked is not None and not asked.has_rotations:

@@ -19,7 +19,6 @@ from tissu.compile.prepared import LoadedNodes, Prepared
 from tissu.compile.start import begin
 from tissu.compile.thin import cross_section_of
 from tissu.errors import OverlapError, ParameterError, SceneError
-from tissu.mesh.cell import dimension
 from tissu.scene.load import Where
 from tissu.scene.model import Frames
 from tissu.scene.problem import Problem
@@ -216,13 +215,8 @@ def _add_body(builder: WorldBuilder, prepared: Prepared, name: str) -> None:
 
 
 def can_be_cut(prepared: Prepared, name: str) -> bool:
-    """Whether a body has volume cells, triangles or lines alone, each carried by itself."""
-    body, groups = prepared.scene.bodies[name], prepared.bodies[name].groups
-    kept = [model.type for model in body.models().values() if model.with_rotations]
-    if any(kind != "shell" for kind in kept) or any(g.model.type == "condensed" for g in groups):
-        return False
-    volumes = all(dimension(g.cell_type) == 3 and not g.surface for g in groups)
-    return volumes or any(all(g.cell_type == t for g in groups) for t in ("triangle", "line"))
+    """Whether a model keeps each cell of a body by itself."""
+    return all(group.model.type != "condensed" for group in prepared.bodies[name].groups)
 
 
 def _add_tissue(builder: WorldBuilder, prepared: Prepared, name: str) -> None:

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from tissu.arrays import real_array
 from tissu.errors import ParameterError
 from tissu.mesh import CellBlock, Mesh
+from tissu.mesh.cell import dimension
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int32]
@@ -108,8 +109,8 @@ def material_now(found: Mapping[str, Any], rest: Floats, now: Floats) -> Materia
     """The material that the core found, where the nodes (n, 3) are at rest and now."""
     nodes, weights = found["nodes"], found["weights"]
     blocks = tuple(CellBlock(type=name, nodes=rows) for name, rows in found["blocks"])
-    types = {block.type for block in blocks}
-    thin = tuple(m for m, name in ((2, "triangle"), (1, "line")) if name in types)
+    kinds = {dimension(block.type) for block in blocks}
+    thin = tuple(m for m in (2, 1) if m in kinds)
     return Material(
         mesh=Mesh(points=carried(nodes, weights, rest), cells=blocks, thin=thin),
         points=carried(nodes, weights, now),

@@ -47,6 +47,8 @@ class Mesh:
         unit: unit of length of the file.
         scale: factor on all lengths, on top of the unit.
         notes: changes that the reader made, in words.
+        as_listed: whether cells are numbered across `cells` as they stand, whatever their kind, as
+            in the mesh of a body that was cut.
 
     Raises:
         MeshError: a position that is not finite, an invalid cell, or a number that no node or cell
@@ -62,6 +64,7 @@ class Mesh:
     unit: str = "m"
     scale: float = 1.0
     notes: tuple[str, ...] = ()
+    as_listed: bool = False
 
     def __post_init__(self) -> None:
         given_points = real_array(self.points, "points", error=MeshError)
@@ -105,7 +108,13 @@ class Mesh:
 
     @property
     def body_blocks(self) -> tuple[CellBlock, ...]:
-        """All blocks that are simulated: volume cells, then surfaces, then lines."""
+        """All blocks that are simulated: volume cells, then surfaces, then lines.
+
+        Where the mesh is `as_listed`, in the order of `cells`.
+        """
+        if self.as_listed:
+            simulated = {id(block) for block in self.volume_blocks + self.thin_blocks}
+            return tuple(block for block in self.cells if id(block) in simulated)
         return self.volume_blocks + self.thin_blocks
 
     @property

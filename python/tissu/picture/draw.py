@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from os import PathLike
 from pathlib import Path
@@ -178,10 +178,10 @@ def _beside(body: Layer, obstacles: Obstacles | None, camera: Camera, *, rest: b
 
 def shape_of(simulation: Simulation, field: Field) -> Shape:
     """The surfaces of all bodies of a simulation, and the field at their points."""
-    parts = []
+    parts: list[Shape] = []
     for name, mesh in simulation.meshes.items():
         if simulation.is_cut(name):
-            parts.append(_cut(simulation, name, field))
+            parts.extend(_cut(simulation, name, field))
             continue
         if name in simulation.own_surfaces:
             parts.append(_own_surface(simulation, name, field))
@@ -211,8 +211,8 @@ def shape_of(simulation: Simulation, field: Field) -> Shape:
     return _joined(parts)
 
 
-def _cut(simulation: Simulation, name: str, field: Field) -> Shape:
-    """The surface of the material of a body that was cut, or its pieces of lines."""
+def _cut(simulation: Simulation, name: str, field: Field) -> Iterator[Shape]:
+    """The surface of the material of a body that was cut, and its pieces of lines."""
     surface = simulation.surface(name)
     shift = surface.carried(np.asarray(simulation.displacements(name)))
     triangles, rest = np.asarray(surface.triangles, dtype=np.int64), surface.points - shift
@@ -222,10 +222,12 @@ def _cut(simulation: Simulation, name: str, field: Field) -> Shape:
         every, cells = _stress_of(simulation, name), simulation.remaining_cells(name)
         ends = np.tile(every[np.searchsorted(cells, surface.line_cell)], (2, 1)).T
         values = _at_points(every[np.searchsorted(cells, surface.cell)], triangles, surface.points)
+    if len(triangles):
+        yield Shape(rest, surface.points, triangles, values)
     if not len(surface.lines):
-        return Shape(rest, surface.points, triangles, values)
+        return
     radius = LINE * float(np.linalg.norm(np.ptp(rest, axis=0)))
-    return _rods(rest, surface.points, surface.lines, ends, radius)
+    yield _rods(rest, surface.points, surface.lines, ends, radius)
 
 
 def _own_surface(simulation: Simulation, name: str, field: Field) -> Shape:

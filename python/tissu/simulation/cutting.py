@@ -293,4 +293,5 @@ def cut_mesh(
         cells=tuple(CellBlock(type=run[0], nodes=run[4]) for run in runs),
         regions=regions,
         border_regions={},
+        as_listed=True,
     )

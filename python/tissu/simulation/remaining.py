@@ -12,25 +12,22 @@ from tissu.arrays import real_array
 from tissu.errors import ParameterError
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Mapping
+    from collections.abc import Mapping
 
     from tissu.mesh import Mesh
 
 
-def removed_cells(
-    counts: Mapping[str, int], body: str, cells: ArrayLike, turning: Collection[str] = ()
-) -> NDArray[np.int32]:
+def removed_cells(counts: Mapping[str, int], body: str, cells: ArrayLike) -> NDArray[np.int32]:
     """The numbers of cells to take out of a body, each once, increasing.
 
     Args:
         counts: body -> number of its cells.
         body: its name.
         cells: to take out.
-        turning: bodies of frames.
 
     Raises:
-        ParameterError: they are not whole numbers, no body has that name, it is one of frames,
-            or no cell would be left.
+        ParameterError: they are not whole numbers, no body has that name, or no cell would be
+            left.
     """
     given = np.atleast_1d(real_array(cells, "cells"))
     if given.size and not np.issubdtype(given.dtype, np.integer):
@@ -41,11 +38,6 @@ def removed_cells(
         )
     if body not in list(counts):  # of a list, which cannot be a key, too
         raise ParameterError(f"no body is named {body!r}; there are {', '.join(counts)}")
-    if body in turning:
-        raise ParameterError(
-            f"found body '{body}', whose nodes are frames; cells of bodies whose nodes have places "
-            "only are removed"
-        )
     beyond = given[(given < 0) | (given > np.iinfo(np.int32).max)]
     if beyond.size:
         raise ParameterError(f"body '{body}' has no cell {beyond.flat[0]}")

@@ -431,12 +431,7 @@ class Simulation(Inspected, Handled, Touched, Changed, Cutting, Instrumented):
                 a static scene, pieces without a support would be left. Then nothing has changed.
         """
         counts = {name: self._core.cell_count(name) for name in self._meshes}
-        turning = [
-            name
-            for name, of in self.scene.bodies.items()
-            if any(model.type == "frames" for model in of.models().values())
-        ]
-        numbers = removed_cells(counts, body, cells, turning)
+        numbers = removed_cells(counts, body, cells)
         way_back = self._way_back()
         self._core.remove_cells(body=body, cells=numbers)
         self._follow_cells(body)

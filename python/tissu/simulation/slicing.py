@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from tissu import _core
 from tissu.cutting.way import area_of, resampled, rows_of
+from tissu.mesh.cell import dimension
 from tissu.simulation.track import Anchors, Track, anchored, anchored_in_tissue
 
 if TYPE_CHECKING:
@@ -49,7 +50,7 @@ def cell_size(simulation: Simulation, body: str) -> float:
 def _mean_edge(mesh: Mesh) -> float:
     lengths = []
     for block in mesh.body_blocks:
-        around = [0, 1] if block.type == "line" else [0, 1, 2, 0]
+        around = [0, 1] if dimension(block.type) == 1 else [0, 1, 2, 0]
         sides = np.diff(mesh.points[block.nodes[:, around]], axis=1)
         lengths.append(np.linalg.norm(sides, axis=2).ravel())
     return float(np.concatenate(lengths).mean())

@@ -97,7 +97,7 @@ class _Front:
 def _front(simulation: Simulation, body: str) -> _Front | None:
     """The fronts of the cuts of a body now; None: there is none."""
     surface = simulation.surface(body)
-    if len(surface.lines):  # a cut line has ends and no front
+    if not len(surface.triangles):  # a cut line has ends and no front
         return None
     rest = surface.carried(simulation.meshes[body].points)
     if not simulation.meshes[body].volume_blocks:

@@ -15,16 +15,11 @@ struct CutState {
   Material material;
 };
 
-/// As what a cut sees the cells of a block: volumes of all types, triangles of sheets, and lines of two
-/// nodes; else nothing.
+/// As what a cut sees the cells of a block: volumes, sheets and lines of all types; nothing for points.
 std::optional<CellType> host_type(const ElasticBlock& block);
 
-/// Whether points of a body listen to frames, as those of the model frames and of tissue do. The nodes of a
-/// shell have rotations too, and its cells no other nodes than their own.
-bool listens_to_frames(const BodyDescription& body);
-
-/// Whether all cells of a body have a material that can be cut: volumes, triangles of sheets, or lines, which
-/// do not listen to frames.
+/// Whether a body is made of cells, which have a material that can be cut: volumes, sheets and lines. The
+/// points of tissue are not cells, and listen to frames anywhere. Nodes may have rotations.
 bool has_material(const BodyDescription& body);
 
 /// Of a body as its description has it: every cell whole, or the material given.

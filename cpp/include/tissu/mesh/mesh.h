@@ -26,7 +26,12 @@ enum class CellType : std::uint8_t {
   pyramid,
   pyramid13,
   triangle,
-  line
+  triangle6,
+  quad,
+  quad8,
+  quad9,
+  line,
+  line3
 };
 
 /// What is fixed by the type of a cell.
@@ -47,6 +52,9 @@ std::span<const CellTypeInfo> cell_types();
 
 /// The type of volume with that name; nothing when there is none.
 std::optional<CellType> cell_type(std::string_view name);
+
+/// The type of sheet or line with that name; nothing when there is none.
+std::optional<CellType> thin_cell_type(std::string_view name);
 
 /// Cells of one type: their node numbers one cell after the other.
 struct CellBlock {

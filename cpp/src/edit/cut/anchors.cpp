@@ -93,7 +93,7 @@ class Search {
   std::vector<Anchor> find() {
     std::vector<std::int32_t> within;
     for (const Hosts::Cluster& cluster : hosts_.clusters()) {
-      const bool thin = !cluster.cells.empty() && is_thin(cluster.cells.front());
+      const bool thin = std::ranges::any_of(cluster.cells, [&](std::int32_t cell) { return is_thin(cell); });
       const Box around = box_of(cluster.corners, x_, thin ? kNearSheet : kSlack);
       within.clear();
       for (std::size_t i = 0; i < best_.size(); ++i) {
@@ -123,6 +123,8 @@ class Search {
   void look_in(std::int32_t cell, const std::vector<std::int32_t>& within) {
     const Box box = box_of(hosts_.corners(cell), x_, is_thin(cell) ? kNearSheet : kSlack);
     if (std::ranges::none_of(within, [&](std::int32_t i) { return box.contains(point(i)); })) return;
+    if (is_thin(cell) && hosts_.lies_in_volume(cell))
+      return;  // a point goes with the volume, or passes it by
     for (const MaterialTetra& tetra : material_of(hosts_, material_, cell)) {
       if (tetra.corners() == 4) {
         look_in(cell, tetra, within);
@@ -187,7 +189,7 @@ class Search {
       if (!weights_in(corner, point(i), weights)) return;
       const double depth = *std::ranges::min_element(weights);
       Best& best = best_[at(i)];
-      if (depth < best.depth || (depth == best.depth && cell >= best.cell)) continue;
+      if (depth < -kSlack || depth < best.depth || (depth == best.depth && cell >= best.cell)) continue;
       best = {{combined(material_, tetra, weights), Vec3::Zero(), true}, depth, cell};
     }
   }

@@ -56,16 +56,20 @@ std::vector<std::vector<std::int32_t>> Fans::fans_at(std::int32_t vertex) const 
   while (!left.empty()) {
     std::vector<std::int32_t>& fan = fans.emplace_back(1, left.front());
     left.erase(left.begin());
+    const auto join = [&](std::int32_t other) {
+      const auto place = std::ranges::find(left, other);
+      if (other < 0 || place == left.end()) return;
+      fan.push_back(other);
+      left.erase(place);
+    };
     for (std::size_t next = 0; next < fan.size(); ++next) {
-      const Patch::Tetra& tetra = patch_.tetra(fan[next]);
+      const std::int32_t piece = fan[next];
+      const Patch::Tetra& tetra = patch_.tetra(piece);
       for (std::size_t f = 0; f < 4; ++f) {
         if (tetra.vertices[f] == vertex) continue;  // the face opposite does not have the vertex
-        const std::int32_t other = fragments_.across()[at(fan[next])][f];
-        const auto place = std::ranges::find(left, other);
-        if (other < 0 || place == left.end()) continue;
-        fan.push_back(other);
-        left.erase(place);
+        join(fragments_.across()[at(piece)][f]);
       }
+      for (const auto& [one, other] : fragments_.carriers().at(piece)) join(other);
     }
   }
   return fans;

@@ -80,6 +80,7 @@ void Fragments::find_fragments(const std::vector<std::int32_t>& removed) {
     order.push_back(static_cast<std::int32_t>(t));
   }
   across_ = joins(patch_.tetrahedra, seen);
+  carriers_ = Carriers(patch_, seen);
   Sets sets(seen.size());
   for (const std::int32_t t : order) {
     for (const std::int32_t other : across_[at(t)]) {
@@ -117,6 +118,10 @@ void Fragments::find_groups() {
       const std::int32_t b = of_[at(other)];
       if (a != b) pairs.emplace_back(std::min(a, b), std::max(a, b));
     }
+  }
+  for (const auto& [one, other] : carriers_.pairs()) {
+    if (one < other)
+      pairs.emplace_back(std::min(of_[at(one)], of_[at(other)]), std::max(of_[at(one)], of_[at(other)]));
   }
   sort_unique(pairs);
   Sets sets(item_fragment_.size());
@@ -184,6 +189,10 @@ double Fragments::depth(std::int32_t fragment, const Vec3& p) const {
   double best = -std::numeric_limits<double>::infinity();
   for (std::int32_t i = tetra_first_[at(fragment)]; i < tetra_first_[at(fragment) + 1]; ++i) {
     const Patch::Tetra& tetra = patch_.tetra(tetra_order_[at(i)]);
+    if (tetra.corners() < 4) {
+      best = std::max(best, depth_in(tetra, p));
+      continue;
+    }
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t f = 0; f < 4; ++f) {
       const auto corner = [&](std::size_t c) { return patch_.vertex(tetra.vertices[kOpposite[f][c]]).rest; };
@@ -194,6 +203,22 @@ double Fragments::depth(std::int32_t fragment, const Vec3& p) const {
     best = std::max(best, least);
   }
   return best;
+}
+
+/// The same of a triangle, or a piece of a line, and of the point of its plane or line below p.
+double Fragments::depth_in(const Patch::Tetra& thin, const Vec3& p) const {
+  const auto corner = [&](std::size_t i) { return patch_.vertex(thin.vertices[i]).rest; };
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t f = 0; f < thin.corners(); ++f) {
+    const Vec3 foot = corner((f + 1) % thin.corners());
+    Vec3 inward = corner(f) - foot;
+    if (thin.corners() == 3) {
+      const Vec3 along = corner((f + 2) % 3) - foot;
+      inward -= inward.dot(along) / along.squaredNorm() * along;
+    }
+    least = std::min(least, inward.dot(p - foot) / inward.squaredNorm());
+  }
+  return least;
 }
 
 /// Whether there is material at a node of a fragment: at a corner a vertex, in the middle of an edge, a face

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "edit/cut/carriers.h"
 #include "edit/cut/patch.h"
 #include "tissu/edit/cut/cut_plan.h"
 
@@ -39,6 +40,8 @@ class Fragments {
   [[nodiscard]] const std::vector<std::int32_t>& emptied() const { return emptied_; }
   /// Tetrahedra across the faces, -1 where no unopened material joins.
   [[nodiscard]] const std::vector<std::array<std::int32_t, 4>>& across() const { return across_; }
+  /// Which pieces of different dimensions go together.
+  [[nodiscard]] const Carriers& carriers() const { return carriers_; }
 
  private:
   void find_nodes(const std::vector<std::int32_t>& touched);
@@ -47,12 +50,14 @@ class Fragments {
   void number_groups(std::int32_t node, const std::vector<std::int32_t>& items);
   [[nodiscard]] bool material_at(std::int32_t item) const;
   [[nodiscard]] double depth(std::int32_t fragment, const Vec3& p) const;
+  [[nodiscard]] double depth_in(const Patch::Tetra& thin, const Vec3& p) const;
 
   const Hosts& hosts_;
   const Patch& patch_;
   std::vector<std::int32_t> touched_nodes_;  ///< ascending
   std::vector<std::int32_t> cells_;          ///< numbers of the hosts at them, ascending
   std::vector<std::array<std::int32_t, 4>> across_;
+  Carriers carriers_;
   std::vector<std::int32_t> of_;
   std::vector<Fragment> fragments_;
   std::vector<std::int32_t> item_fragment_;

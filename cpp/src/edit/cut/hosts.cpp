@@ -97,6 +97,16 @@ std::span<const std::int32_t> Hosts::corners(std::int32_t cell) const {
   return std::span(pool_).subspan(at(slot(cell).first), at(info(type(cell)).corners));
 }
 
+bool Hosts::lies_in_volume(std::int32_t cell) const {
+  const auto own = corners(cell);
+  return std::ranges::any_of(cells_at(own.front()), [&](std::int32_t one) {
+    const auto nodes = corners(one);
+    return info(type(one)).dimension == 3 && std::ranges::all_of(own, [&](std::int32_t node) {
+             return std::ranges::find(nodes, node) != nodes.end();
+           });
+  });
+}
+
 std::vector<std::int32_t> Hosts::with_neighbours(std::span<const std::int32_t> cells) const {
   std::vector<std::int32_t> found;
   for (const std::int32_t cell : cells) found.insert(found.end(), nodes(cell).begin(), nodes(cell).end());

@@ -272,7 +272,7 @@ std::vector<std::array<std::int32_t, 3>> outer_triangles(const Hosts& hosts, con
 }  // namespace
 
 KerfSurface kerf_surface(const Hosts& hosts, const Material& material, double depth) {
-  const MaterialFaces all = material_faces(hosts, material);
+  const MaterialFaces all = material_faces(hosts, material, 3);
   KerfSurface surface;
   surface.triangles = outer_triangles(hosts, all);
   std::set<std::int32_t> riding;

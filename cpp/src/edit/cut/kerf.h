@@ -1,6 +1,6 @@
 #pragma once
 
-/// The surface of a body's material as contact meets it: the walls of a cut begin apart.
+/// The surface of the volumes of a body as contact meets it: the walls of a cut begin apart.
 ///
 /// At the moment of the cut both walls stand in one place, where neither has a side. So a vertex of a wall
 /// is met a depth inside its own material, as if the blade had a thickness. It stays in one tetrahedron of

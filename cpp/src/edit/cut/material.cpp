@@ -49,9 +49,15 @@ std::vector<MaterialTetra> whole_material(const Hosts& hosts, std::int32_t cell)
   const auto nodes = hosts.corners(cell);
   if (nodes.size() == 2) return {{{nodes[0], nodes[1], kNoVertex, kNoVertex}, 0}};
   if (nodes.size() == 3) return {{{nodes[0], nodes[1], nodes[2], kNoVertex}, 0}};
-  if (nodes.size() == 4) return {{{nodes[0], nodes[1], nodes[2], nodes[3]}, 0}};
   const auto root = [&](std::int32_t node) { return hosts.root(node); };
-  const std::int32_t apex = *std::ranges::min_element(nodes, {}, root);
+  const auto lowest = std::ranges::min_element(nodes, {}, root);
+  if (nodes.size() == 4 && info(hosts.type(cell)).dimension == 2) {
+    const auto i = static_cast<std::size_t>(lowest - nodes.begin());
+    const auto node = [&](std::size_t k) { return nodes[(i + k) % 4]; };
+    return {{{node(0), node(1), node(2), kNoVertex}, 0}, {{node(0), node(2), node(3), kNoVertex}, 0}};
+  }
+  if (nodes.size() == 4) return {{{nodes[0], nodes[1], nodes[2], nodes[3]}, 0}};
+  const std::int32_t apex = *lowest;
   std::vector<MaterialTetra> tetrahedra;
   for (const LocalFace& face : faces(hosts.type(cell))) {
     const auto size = at(face.corners);

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
+#include "edit/cut/carriers.h"
 #include "edit/cut/patch.h"
 #include "tissu/mesh/cell_shape.h"
 
@@ -22,9 +24,9 @@ void add_whole(const Hosts& hosts, std::int32_t cell, MaterialFaces& all) {
       all.faces.push_back({{node, kNoVertex, kNoVertex}, unit, false, -1});
     return;
   }
-  if (nodes.size() == 3) {
-    for (std::size_t i = 0; i < 3; ++i)
-      all.faces.push_back({{nodes[i], nodes[(i + 1) % 3], kNoVertex}, unit, false, -1});
+  if (info(hosts.type(cell)).dimension == 2) {
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      all.faces.push_back({{nodes[i], nodes[(i + 1) % nodes.size()], kNoVertex}, unit, false, -1});
     return;
   }
   for (const LocalFace& face : faces(hosts.type(cell))) {
@@ -70,11 +72,35 @@ void join_faces(std::vector<MaterialFace>& faces) {
   }
 }
 
+/// Which units of a body with cells of several dimensions hang together across them, by the rules of
+/// carriers.h: the pieces of all of them are one patch.
+void join_dimensions(const Hosts& hosts, const Material& material, MaterialFaces& all) {
+  int dimension = 0;
+  const bool mixed = std::ranges::any_of(all.units, [&](const MaterialUnit& unit) {
+    const int own = info(hosts.type(unit.cell)).dimension;
+    return std::exchange(dimension, own) != own && &unit != &all.units.front();
+  });
+  if (!mixed) return;
+  const std::vector<std::int32_t> numbers = hosts.numbers();
+  const Patch patch(hosts, material, hosts.rest(), numbers);
+  std::vector<std::int32_t> unit_of;  // of each piece
+  for (std::size_t u = 0; u < all.units.size(); ++u) {
+    const MaterialUnit& unit = all.units[u];
+    const std::size_t pieces = unit.tetra < 0 ? whole_material(hosts, unit.cell).size() : 1;
+    unit_of.insert(unit_of.end(), pieces, static_cast<std::int32_t>(u));
+  }
+  const Carriers carriers(patch, std::vector<char>(patch.tetrahedra.size(), 1));
+  for (const auto& [one, other] : carriers.pairs()) {
+    if (one < other) all.carried.emplace_back(unit_of[at(one)], unit_of[at(other)]);
+  }
+}
+
 }  // namespace
 
-MaterialFaces material_faces(const Hosts& hosts, const Material& material) {
+MaterialFaces material_faces(const Hosts& hosts, const Material& material, int dimension) {
   MaterialFaces all;
   for (const std::int32_t cell : hosts.numbers()) {
+    if (dimension != 0 && info(hosts.type(cell)).dimension != dimension) continue;
     const auto stored = material.cells.find(cell);
     if (stored == material.cells.end()) {
       add_whole(hosts, cell, all);
@@ -83,6 +109,7 @@ MaterialFaces material_faces(const Hosts& hosts, const Material& material) {
     }
   }
   join_faces(all.faces);
+  join_dimensions(hosts, material, all);
   return all;
 }
 

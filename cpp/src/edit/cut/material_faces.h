@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "tissu/edit/cut/hosts.h"
@@ -29,7 +30,10 @@ struct MaterialFace {
 struct MaterialFaces {
   std::vector<MaterialUnit> units;  ///< by ascending cells
   std::vector<MaterialFace> faces;  ///< unit after unit
+  /// Units of sheets and lines, each with one of a higher dimension that it goes with (carriers.h).
+  std::vector<std::pair<std::int32_t, std::int32_t>> carried;
 };
-MaterialFaces material_faces(const Hosts& hosts, const Material& material);
+/// `dimension`: of these cells alone; 0: of all.
+MaterialFaces material_faces(const Hosts& hosts, const Material& material, int dimension = 0);
 
 }  // namespace tissu

@@ -1,7 +1,9 @@
 #include "tissu/edit/cut/material_mesh.h"
 
 #include <algorithm>
+#include <array>
 #include <map>
+#include <set>
 
 #include "edit/cut/joins.h"
 #include "edit/cut/material_faces.h"
@@ -37,6 +39,20 @@ class VertexList {
   std::vector<std::int32_t> rider_;
 };
 
+std::array<std::int32_t, 3> sorted(std::array<std::int32_t, 3> vertices) {
+  std::ranges::sort(vertices);
+  return vertices;
+}
+
+/// The faces of volumes by their vertices, ascending: sheets that lie on them are not seen beside them.
+std::set<std::array<std::int32_t, 3>> faces_of_volumes(const MaterialFaces& all, const Hosts& hosts) {
+  std::set<std::array<std::int32_t, 3>> found;
+  for (const MaterialFace& face : all.faces) {
+    if (info(hosts.type(all.units[at(face.unit)].cell)).dimension == 3) found.insert(sorted(face.vertices));
+  }
+  return found;
+}
+
 double volume(const Hosts& hosts, const Material& material, const MaterialUnit& unit) {
   if (unit.tetra >= 0)
     return rest_volume(hosts, material, unit.cell, material.cells.at(unit.cell)[at(unit.tetra)]);
@@ -51,6 +67,12 @@ double volume(const Hosts& hosts, const Material& material, const MaterialUnit& 
 MaterialSurface material_surface(const Hosts& hosts, const Material& material) {
   MaterialSurface surface;
   VertexList vertices(hosts, material);
+  const MaterialFaces all = material_faces(hosts, material);
+  const auto solid = [&](const MaterialFace& face) {
+    return info(hosts.type(all.units[at(face.unit)].cell)).dimension == 3;
+  };
+  std::set<std::array<std::int32_t, 3>> below;
+  if (!all.carried.empty()) below = faces_of_volumes(all, hosts);
   for (const std::int32_t cell : hosts.numbers()) {
     if (info(hosts.type(cell)).dimension == 3) continue;
     for (const MaterialTetra& triangle : material_of(hosts, material, cell)) {
@@ -60,14 +82,14 @@ MaterialSurface material_surface(const Hosts& hosts, const Material& material) {
         continue;
       }
       const auto& [a, b, c, none] = triangle.vertices;
+      if (below.contains(sorted({a, b, c}))) continue;
       surface.triangles.push_back({vertices.place(a), vertices.place(b), vertices.place(c)});
       surface.cell.push_back(cell);
       surface.cut.push_back(0);
     }
   }
-  const MaterialFaces all = material_faces(hosts, material);
   for (const MaterialFace& face : all.faces) {
-    if (face.across >= 0 || info(hosts.type(all.units[at(face.unit)].cell)).dimension != 3) continue;
+    if (face.across >= 0 || !solid(face)) continue;
     const auto& [a, b, c] = face.vertices;
     surface.triangles.push_back({vertices.place(a), vertices.place(b), vertices.place(c)});
     surface.cell.push_back(all.units[at(face.unit)].cell);
@@ -89,22 +111,28 @@ MaterialMesh material_mesh(const Hosts& hosts, const Material& material) {
     for (const std::int32_t node : hosts.nodes(cell)) block.nodes.push_back(vertices.place(node));
     numbers.push_back(cell);
   }
-  CellBlock cut{CellType::tetra, {}};
-  std::vector<std::int32_t> cut_cells;
+  std::array<std::pair<CellBlock, std::vector<std::int32_t>>, 3> parts;
   for (const auto& [cell, list] : material.cells) {
     for (const MaterialTetra& tetra : list) {
-      if (tetra.corners() < 4) cut.type = tetra.corners() == 3 ? CellType::triangle : CellType::line;
+      auto& [block, numbers] = parts[4 - tetra.corners()];
       for (std::size_t i = 0; i < tetra.corners(); ++i)
-        cut.nodes.push_back(vertices.place(tetra.vertices[i]));
-      cut_cells.push_back(cell);
+        block.nodes.push_back(vertices.place(tetra.vertices[i]));
+      numbers.push_back(cell);
     }
   }
-  for (auto& [type, entry] : blocks) {
+  const auto add = [&](std::pair<CellBlock, std::vector<std::int32_t>>& entry) {
+    if (entry.second.empty()) return;
     mesh.blocks.push_back(std::move(entry.first));
     mesh.cell.insert(mesh.cell.end(), entry.second.begin(), entry.second.end());
+  };
+  constexpr std::array kTypes{CellType::tetra, CellType::triangle, CellType::line};
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    parts[i].first.type = kTypes[i];
+    for (auto& [type, entry] : blocks) {
+      if (info(type).dimension == info(kTypes[i]).dimension) add(entry);
+    }
+    add(parts[i]);
   }
-  if (!cut_cells.empty()) mesh.blocks.push_back(std::move(cut));
-  mesh.cell.insert(mesh.cell.end(), cut_cells.begin(), cut_cells.end());
   mesh.vertices = std::move(vertices.riders);
   mesh.vertex_node = std::move(vertices.nodes);
   return mesh;
@@ -116,6 +144,7 @@ std::vector<Piece> pieces(const Hosts& hosts, const Material& material) {
   for (const MaterialFace& face : all.faces) {
     if (face.across >= 0) sets.join(face.unit, all.faces[at(face.across)].unit);
   }
+  for (const auto& [one, other] : all.carried) sets.join(one, other);
   std::vector<std::int32_t> number(all.units.size(), -1);
   std::vector<Piece> found;
   for (std::size_t u = 0; u < all.units.size(); ++u) {

@@ -7,6 +7,7 @@
 #include <numeric>
 #include <span>
 
+#include "edit/cut/carriers.h"
 #include "edit/cut/side.h"
 #include "tissu/base/error.h"
 #include "tissu/base/sort_unique.h"
@@ -44,8 +45,9 @@ class Opener {
 
   OpenedFaces open() {
     const std::vector<FaceSide> sides = faces_on_cut();
+    const std::vector<char> carried = carried_sides(sides);
     for (std::size_t i = 0; i + 1 < sides.size(); ++i) {
-      if (sides[i].key != sides[i + 1].key) continue;
+      if (sides[i].key != sides[i + 1].key || carried[i] != 0) continue;
       if (is_open(sides[i]) || is_open(sides[i + 1])) continue;
       if (above(sides[i].tetra) == above(sides[i + 1].tetra)) continue;
       if (!covered(sides[i], sides[i + 1])) {
@@ -59,12 +61,68 @@ class Opener {
       }
       open(sides[i], sides[i + 1]);
     }
+    const auto side = [&](std::int32_t piece) { return above(piece); };
+    const auto open = [&](std::int32_t piece, std::uint8_t face) { open_face(piece, face); };
+    if (patch_.is_mixed()) {
+      choose_carriers(patch_, known_, side, open);
+      open_carried(sides, carried, 3);
+      open_carried(sides, carried, 2);
+    }
     std::ranges::sort(opened_.vertices);
     opened_.vertices.erase(std::ranges::unique(opened_.vertices).begin(), opened_.vertices.end());
     return std::move(opened_);
   }
 
  private:
+  /// Sides of thin faces of which every piece lies on a carrier, all of one dimension: 1.
+  [[nodiscard]] std::vector<char> carried_sides(const std::vector<FaceSide>& sides) const {
+    std::vector<char> carried(sides.size(), 0);
+    if (!patch_.is_mixed()) return carried;
+    for (std::size_t begin = 0, end = 0; begin < sides.size(); begin = end) {
+      std::size_t corners = 0;
+      bool all = true;
+      for (end = begin; end < sides.size() && sides[end].key == sides[begin].key; ++end) {
+        const std::int32_t carrier = top_carrier(patch_, sides[end].tetra);
+        const std::size_t own = carrier < 0 ? 0 : patch_.tetra(carrier).corners();
+        all = all && own != 0 && (corners == 0 || own == corners);
+        corners = own;
+      }
+      if (all)
+        std::fill(carried.begin() + static_cast<std::ptrdiff_t>(begin),
+                  carried.begin() + static_cast<std::ptrdiff_t>(end), char{1});
+    }
+    return carried;
+  }
+
+  /// Where pieces of so many corners meet whose carriers the blade has parted.
+  void open_carried(const std::vector<FaceSide>& sides, const std::vector<char>& carried,
+                    std::size_t corners) {
+    for (std::size_t begin = 0, end = 0; begin < sides.size(); begin = end) {
+      for (end = begin; end < sides.size() && sides[end].key == sides[begin].key; ++end) {
+      }
+      if (carried[begin] == 0 || patch_.tetra(sides[begin].tetra).corners() != corners || end - begin < 2)
+        continue;
+      const std::int32_t first = top_carrier(patch_, sides[begin].tetra);
+      bool parted = false;
+      for (std::size_t i = begin + 1; i < end; ++i)
+        parted = parted ||
+                 !hang_together(patch_, first, top_carrier(patch_, sides[i].tetra), vertices_of(sides[i]));
+      if (!parted || is_open(sides[begin])) continue;
+      open(sides[begin], sides[begin + 1]);
+      for (std::size_t i = begin + 2; i < end; ++i) mark_open(sides[i]);
+    }
+  }
+
+  /// Where the blade covers it.
+  void open_face(std::int32_t piece, std::uint8_t face) {
+    FaceSide side{{-1, -1, -1}, piece, face};
+    const auto vertices = thin_vertices(patch_.tetra(piece), face);
+    std::ranges::copy(vertices, side.key.end() - static_cast<std::ptrdiff_t>(vertices.size()));
+    std::ranges::sort(side.key);
+    const auto is_new = [&](std::int32_t v) { return !known_[v].before; };
+    if (std::ranges::any_of(vertices, is_new) && covered(side, side)) open(side, side);
+  }
+
   [[nodiscard]] std::vector<FaceSide> faces_on_cut() const {
     std::vector<FaceSide> sides;
     for (std::size_t t = 0; t < patch_.tetrahedra.size(); ++t) {
@@ -217,12 +275,14 @@ class Opener {
     return std::span(side.key).subspan(static_cast<std::size_t>(std::ranges::count(side.key, -1)));
   }
 
+  void mark_open(const FaceSide& side) {
+    Patch::Tetra& tetra = patch_.tetrahedra[at(side.tetra)];
+    tetra.cut |= static_cast<std::uint8_t>(1U << side.local);
+    patch_.cells[at(tetra.cell)].opened = true;
+  }
+
   void open(const FaceSide& a, const FaceSide& b) {
-    for (const FaceSide& side : {a, b}) {
-      Patch::Tetra& tetra = patch_.tetrahedra[at(side.tetra)];
-      tetra.cut |= static_cast<std::uint8_t>(1U << side.local);
-      patch_.cells[at(tetra.cell)].opened = true;
-    }
+    for (const FaceSide& side : {a, b}) mark_open(side);
     opened_.vertices.insert(opened_.vertices.end(), vertices_of(a).begin(), vertices_of(a).end());
     ++opened_.count;
     add_area(a, b);

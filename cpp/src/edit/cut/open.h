@@ -30,7 +30,7 @@ struct OpenedFaces {
 /// earlier ones of its incision is covered by both together. In a sheet the same holds for edges, in a line
 /// for vertices, all of which the blade covers. Throws ParameterError where the blade follows an edge of more
 /// than two triangles, or passes a node of more than two lines, of which it cannot be said which stay
-/// together.
+/// together. A sheet or a line on cells of a higher dimension stays with those on its own side.
 OpenedFaces open_faces(Patch& patch, const SweepPart& part, const NearCells& near, const OnCut& known,
                        bool bent);
 

@@ -69,6 +69,7 @@ void Patch::add_cell(const Hosts& hosts, const Material& material, ConstReals x,
   cells.push_back({number, has_list, true, longest_edge(hosts, number), hosts.thickness(number)});
   const auto add = [&](const MaterialTetra& tetra) {
     Tetra& own = tetrahedra.emplace_back(Tetra{{-1, -1, -1, -1}, place, tetra.cut});
+    dimensions_ |= 1U << tetra.corners();
     for (std::size_t i = 0; i < tetra.corners(); ++i) {
       own.vertices[i] = vertex_of(tetra.vertices[i], hosts, material, x);
       at_[at(own.vertices[i])].push_back(static_cast<std::int32_t>(tetrahedra.size()) - 1);

@@ -70,6 +70,16 @@ class Patch {
   /// [m3], of a triangle its area [m2], of a line its length [m].
   [[nodiscard]] double rest_volume(const Tetra& tetra) const;
 
+  /// Whether it has pieces of several dimensions.
+  [[nodiscard]] bool is_mixed() const { return (dimensions_ & (dimensions_ - 1U)) != 0; }
+
+  /// Of the pieces that a thin one may go with where a blade parts them, the one on its side.
+  struct Chosen {
+    std::int32_t thin;
+    std::uint8_t face;  ///< of the thin piece; kWholePiece: all its vertices
+    std::int32_t carrier;
+  };
+
   /// A vertex that was put on an edge, and the edge's ends (places).
   struct Division {
     std::int32_t vertex;
@@ -81,6 +91,7 @@ class Patch {
   std::vector<Tetra> tetrahedra;
   std::vector<Cell> cells;
   std::vector<Division> divisions;  ///< one after the other
+  std::vector<Chosen> chosen;       ///< of several for the same face the last one counts
   std::int32_t old_riders;          ///< of the material; new riders of the patch follow
   std::int32_t new_riders = 0;      ///< vertices put on edges
 
@@ -89,12 +100,16 @@ class Patch {
   std::int32_t vertex_of(std::int32_t number, const Hosts& hosts, const Material& material, ConstReals x);
 
   std::vector<std::vector<std::int32_t>> at_;
+  unsigned dimensions_ = 0;  ///< a bit for each that pieces have
   std::unordered_map<std::int32_t, std::int32_t> places_;
   std::unordered_map<std::int32_t, std::int32_t> cell_places_;
 };
 
 /// (1 - t) p + t q, pairs of the same node added.
 Rider between(const Rider& p, const Rider& q, double t);
+
+/// Stands for all vertices of a thin piece where a number of a face is asked for.
+inline constexpr std::uint8_t kWholePiece = 4;
 
 /// The face of a tetrahedron that lies opposite to vertex i, anticlockwise seen from outside. Of a triangle,
 /// the first three: each has place 3, where no vertex is. Of a line the first two, each with places 2 and 3.

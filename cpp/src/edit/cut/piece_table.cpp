@@ -99,6 +99,10 @@ class Flood {
 }  // namespace
 
 PieceTable::PieceTable(const Hosts& hosts, const Material& material) : piece_(at(hosts.next_cell()), -1) {
+  const std::vector<std::int32_t> numbers = hosts.numbers();
+  const auto dimension = [&](std::int32_t cell) { return info(hosts.type(cell)).dimension; };
+  single_ = std::ranges::all_of(
+      numbers, [&](std::int32_t cell) { return dimension(cell) == dimension(numbers.front()); });
   for (const Piece& piece : pieces(hosts, material)) {
     for (const std::int32_t cell : piece.cells) {
       single_ = single_ && piece_[at(cell)] < 0;

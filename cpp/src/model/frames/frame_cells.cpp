@@ -140,8 +140,9 @@ FramePoints points_of_cells(const ElasticBlock& block, ConstReals rest_positions
   std::vector<std::int32_t> bad;
   for (std::size_t e = 0; e < count; ++e) {
     const Cell of_cell = Cell(block.cells).subspan(e * nodes, nodes);
-    const double size =
-        cell.dimension == 3 ? 1.0 : tissu::of_cell(block.cross_section, static_cast<std::int32_t>(e));
+    const auto number = static_cast<std::int32_t>(e);
+    const double size = cell.dimension == 3 ? 1.0 : tissu::of_cell(block.cross_section, number);
+    const double material = tissu::of_cell(block.share, number);
     bool flat = false;
     for (const ReferenceCell::Point& point : cell.points) {
       const Place place = place_of(cell, point, of_cell, rest_positions);
@@ -149,9 +150,9 @@ FramePoints points_of_cells(const ElasticBlock& block, ConstReals rest_positions
       if (flat) break;
       const Section section = section_of(block, cell.dimension, place, size);
       for (const Vec3& offset : section.offsets) {
-        const double share = place.measure * size / static_cast<double>(section.offsets.size());
-        add_point(place, point, of_cell, offset, share, points);
-        points.cells.push_back(static_cast<std::int32_t>(e));
+        const double volume = place.measure * size / static_cast<double>(section.offsets.size());
+        add_point(place, point, of_cell, offset, volume * material, points);
+        points.cells.push_back(number);
         if (section.turning > 0.0) points.turning.push_back(section.turning);
       }
       points.sections.insert(points.sections.end(), section.places.begin(), section.places.end());

@@ -13,6 +13,15 @@ double Frames::density(std::size_t point) const {
                  points_.cells.empty() ? static_cast<std::int32_t>(point) : points_.cells[point]);
 }
 
+/// What a point has on its own is that of a cube of the volume that it has in a whole cell, so that the
+/// copies of a cell that was cut have the inertia of the cell together.
+double Frames::own_turning(std::size_t point) const {
+  if (!points_.turning.empty()) return points_.turning[point];
+  if (points_.dimension < 3) return 0.0;
+  const double share = points_.cells.empty() ? 1.0 : of_cell(block_.share, points_.cells[point]);
+  return std::pow(points_.volumes[point] / share, 2.0 / 3.0) / 6.0;
+}
+
 template <class Function>
 void Frames::for_neighbours(Function&& f) const {
   const auto k = static_cast<std::size_t>(points_.neighbours);
@@ -41,10 +50,7 @@ void Frames::add_weights(std::vector<double>& nodal) const {
 void Frames::add_inertias(std::vector<Mat3>& of_frames) const {
   for_neighbours([&](std::size_t at, double mass, double share) {
     const Vec3 l = tissu::block(ConstReals(levers_), static_cast<std::int32_t>(at));
-    const auto point = at / static_cast<std::size_t>(points_.neighbours);
-    const double own = !points_.turning.empty() ? points_.turning[point]
-                       : points_.dimension == 3 ? std::pow(points_.volumes[point], 2.0 / 3.0) / 6.0
-                                                : 0.0;
+    const double own = own_turning(at / static_cast<std::size_t>(points_.neighbours));
     const std::int32_t frame = numbers_[static_cast<std::size_t>(listened_[at])];
     if (frame < 0) return;
     of_frames[static_cast<std::size_t>(frame)] +=

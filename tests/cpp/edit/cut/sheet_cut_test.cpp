@@ -1,4 +1,4 @@
-/// Sheets of triangles under random blades, and in closed forms. Every failure prints its seed.
+/// Sheets of triangles and of quads under random blades, and in closed forms. Every failure prints its seed.
 
 #include <gtest/gtest.h>
 
@@ -23,8 +23,8 @@ constexpr double kRoundOff = 1e-12;
 
 std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
-/// 0.3 x 0.2 m of 2 x 6 x 4 triangles, inner nodes moved by up to `jitter` of an edge.
-Mesh grid(double jitter, Random& random) {
+/// 0.3 x 0.2 m of 6 x 4 quads, or twice as many triangles, inner nodes moved by up to `jitter` of an edge.
+Mesh grid(double jitter, Random& random, CellType type = CellType::triangle) {
   constexpr int kX = 6;
   constexpr int kY = 4;
   std::uniform_real_distribution<double> part(-jitter, jitter);
@@ -37,10 +37,14 @@ Mesh grid(double jitter, Random& random) {
       mesh.positions.insert(mesh.positions.end(), {0.05 * (i + dx), 0.05 * (j + dy), 0.0});
     }
   }
-  CellBlock block{CellType::triangle, {}};
+  CellBlock block{type, {}};
   for (int j = 0; j < kY; ++j) {
     for (int i = 0; i < kX; ++i) {
       const std::int32_t a = j * (kX + 1) + i;
+      if (type == CellType::quad) {
+        block.nodes.insert(block.nodes.end(), {a, a + 1, a + kX + 2, a + kX + 1});
+        continue;
+      }
       block.nodes.insert(block.nodes.end(), {a, a + 1, a + kX + 2, a, a + kX + 2, a + kX + 1});
     }
   }
@@ -129,7 +133,7 @@ TEST(SheetCutTest, RandomBladesKeepEveryInvariant) {
   int cuts = 0;
   for (std::uint64_t seed = 1; cuts < 500; ++seed) {
     Random random(seed);
-    Sheet sheet(grid(seed % 3 == 0 ? 0.0 : 0.2, random));
+    Sheet sheet(grid(seed % 3 == 0 ? 0.0 : 0.2, random, seed % 5 < 2 ? CellType::quad : CellType::triangle));
     for (std::int32_t node = 0; seed % 2 == 0 && node < sheet.hosts.node_count(); ++node) {
       Vec3 place = block(ConstReals(sheet.x), node);
       place.z() = 0.2 * place.x() * place.x() - 0.1 * place.y();
@@ -150,6 +154,15 @@ TEST(SheetCutTest, APlanePartsItAtItsPlace) {
   ASSERT_EQ(found.size(), 2U);
   EXPECT_NEAR(std::min(found[0].volume, found[1].volume), 0.13 * 0.2, kRoundOff);
   EXPECT_NEAR(plan.area, 0.2, kRoundOff);  // of a sheet of thickness 1
+}
+
+TEST(SheetCutTest, AQuadIsCutAtItsLowestNode) {
+  Random random(7);
+  const Sheet sheet(grid(0.0, random, CellType::quad));
+  const std::vector<MaterialTetra> halves = whole_material(sheet.hosts, 0);
+  ASSERT_EQ(halves.size(), 2U);
+  EXPECT_EQ(halves[0].vertices, (std::array<std::int32_t, 4>{0, 1, 8, kNoVertex}));
+  EXPECT_EQ(halves[1].vertices, (std::array<std::int32_t, 4>{0, 8, 7, kNoVertex}));
 }
 
 TEST(SheetCutTest, TheMaterialComesBackFromItsLists) {

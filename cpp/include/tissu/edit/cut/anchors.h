@@ -20,7 +20,8 @@ struct Anchor {
 /// Anchors of points, three numbers each, where the nodes are at x. Of tetrahedra that hold a point the one
 /// in which it lies deepest counts, then the host of the lowest number; a point beside the material keeps its
 /// offset from the nearest node that a cell uses, so that a body which moves past it passes it by as much. A
-/// point within half an edge of a sheet or a line keeps its offset from the nearest point of it.
+/// point within half an edge of a sheet or a line that does not lie on a volume keeps its offset from the
+/// nearest point of it.
 std::vector<Anchor> anchors(const Hosts& hosts, const Material& material, ConstReals x, ConstReals points);
 
 }  // namespace tissu

@@ -79,6 +79,9 @@ class Hosts {
     return cells_at_[static_cast<std::size_t>(node)];
   }
 
+  /// Whether a volume cell has all corners of this one.
+  [[nodiscard]] bool lies_in_volume(std::int32_t cell) const;
+
   /// The cells at the nodes of some cells, themselves included, ascending.
   [[nodiscard]] std::vector<std::int32_t> with_neighbours(std::span<const std::int32_t> cells) const;
 

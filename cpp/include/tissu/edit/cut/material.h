@@ -55,7 +55,8 @@ struct Material {
 
 /// The material of an uncut cell: a cone from its corner of lowest root over the faces that do not have that
 /// corner, each quad face cut at its lowest root (Dompierre, Labbe, Vallet and Camarero, How to subdivide
-/// pyramids, prisms and hexahedra into tetrahedra, 1999). A triangle is its own, and so is a line.
+/// pyramids, prisms and hexahedra into tetrahedra, 1999). A quad of a sheet is cut there too; a
+/// triangle is its own, and so is a line. Cells of second order are the chords between their corners.
 std::vector<MaterialTetra> whole_material(const Hosts& hosts, std::int32_t cell);
 
 /// What is there of a cell, cut or not.

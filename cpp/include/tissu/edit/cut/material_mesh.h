@@ -12,9 +12,9 @@
 
 namespace tissu {
 
-/// Of sheets all triangles of the material, of lines all pieces. Of volumes closed: every edge is on as many
-/// triangles that run along it as on such that run against it. Of quadratic cells the corners' chords are the
-/// surface; quads are cut at their lowest root.
+/// Of sheets all triangles of the material but those on faces of volumes, of lines all pieces. Of volumes
+/// closed: every edge is on as many triangles that run along it as on such that run against it. Of quadratic
+/// cells the corners' chords are the surface; quads are cut at their lowest root.
 struct MaterialSurface {
   std::vector<Rider> vertices;
   std::vector<std::int32_t> vertex_node;               ///< the node that a vertex is; -1: it rides
@@ -26,7 +26,8 @@ struct MaterialSurface {
 };
 MaterialSurface material_surface(const Hosts& hosts, const Material& material);
 
-/// Uncut cells as they are, then the tetrahedra, triangles or pieces of lines of cut ones. A quad of an uncut
+/// Of volumes, then of sheets, then of lines: uncut cells as they are, then the tetrahedra, triangles or
+/// pieces of lines of cut ones. A quad of an uncut
 /// cell may meet two triangles of a cut one, which fill it.
 struct MaterialMesh {
   std::vector<Rider> vertices;            ///< nodes of uncut cells and vertices of tetrahedra

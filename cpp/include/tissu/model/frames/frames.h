@@ -99,6 +99,8 @@ class Frames final : public BodyModel {
     return rotations_[frame] < 0 ? blocks_[frame] : rotations_[frame];
   }
   [[nodiscard]] double density(std::size_t point) const;
+  /// Inertia per mass of a point on its own [m2].
+  [[nodiscard]] double own_turning(std::size_t point) const;
 
   ElasticBlock block_;
   FramesOptions options_;

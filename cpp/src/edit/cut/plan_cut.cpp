@@ -14,6 +14,7 @@
 #include "edit/cut/near.h"
 #include "edit/cut/open.h"
 #include "edit/cut/patch.h"
+#include "edit/cut/pierced.h"
 #include "edit/cut/remedies.h"
 #include "edit/cut/write_plan.h"
 #include "tissu/base/error.h"
@@ -32,6 +33,7 @@ constexpr int kAttempts = 6;
 constexpr double kLeastShare = 1e-9;
 constexpr double kFirstRaise = 0.02;
 constexpr double kLargestT0 = 0.45;
+constexpr double kMostSettled = 0.02;  ///< share of an edge
 /// Where cells are divided: nearer to an end their parts would be too flat.
 constexpr double kLeastT0OfDivided = 0.2;
 
@@ -67,6 +69,7 @@ class Attempt {
         options_(options),
         raised_(raised),
         remedies_(remedies),
+        settled_(std::min(options.t0, kMostSettled)),
         patch_(hosts, material, x, loaded()) {}
 
   /// Divides and opens. False when the blade crossed no edge and lies in no inner face.
@@ -128,31 +131,54 @@ class Attempt {
     const SweepPart& part = sweep_.parts[number];
     const NearCells& near = near_[number];
     OnCut known = known_before(patch_, material_, part.incision);
-    std::vector<CrossedEdge> edges = crossed_edges(patch_, part, near, options_.t0, known);
+    std::vector<CrossedEdge> edges = crossed_edges(patch_, part, near, settled_, known);
     for (int round = 0; options_.refine && round < kRefinements; ++round) {
       if (!refine(part, near, known, edges)) break;
       known = known_before(patch_, material_, part.incision);
-      edges = crossed_edges(patch_, part, near, options_.t0, known);
+      edges = crossed_edges(patch_, part, near, settled_, known);
     }
     for (const std::int32_t cell : remedies_.apply(patch_, options_.t0, edges))
       plan.unresolved.emplace_back(cell, Unresolved::flat);
+    const BladeSheets sheets(part);
+    const CrowdedCells crowded(patch_, part, near, sheets);
+    const Blade blade{part, sheets, crowded};
     const bool crossed = !edges.empty();
     std::function<bool(std::int32_t)> turned;
     if (remedies_.any())
       turned = [&](std::int32_t cell) { return remedies_.turned(patch_.cell(cell).number); };
     const auto share = [&](std::int32_t cell) { return t0(cell); };
+    const std::vector<Patch::Cell> before = begin_part();
     const LeftEdges left = divide_crossed(patch_, std::move(edges), share, known, turned);
-    if (!options_.divide) divide_at_other_sheets(patch_, part, near, options_.t0, share, known);
-    const OpenedFaces opened = open_faces(patch_, part, near, known, !options_.divide);
+    const LeftEdges folded = divide_at_other_sheets(patch_, blade, settled_, options_.t0, share, known);
+    const OpenedFaces opened = open_faces(patch_, blade, near, known, !options_.divide);
     plan.faces_opened += opened.count;
     plan.area += opened.area;
     plan.rest_area += opened.rest_area;
     parted_.insert(parted_.end(), opened.vertices.begin(), opened.vertices.end());
-    for (const std::int32_t cell : bridged_cells(patch_, part, near, options_.t0, known, opened.uncovered))
+    for (const std::int32_t cell : bridged_cells(patch_, blade, settled_, known, opened.uncovered))
+      plan.unresolved.emplace_back(patch_.cell(cell).number, Unresolved::bridge);
+    report(folded, {}, plan);
+    for (const std::int32_t cell : cells_pierced_between(patch_, blade, known))
       plan.unresolved.emplace_back(patch_.cell(cell).number, Unresolved::bridge);
     report(left, pierced_tetrahedra(patch_, part, near, known), plan);
+    end_part(before);
     if (part.incision >= 0) on_incision_.emplace_back(part.incision, std::move(known));
     return crossed || opened.count > 0;
+  }
+
+  /// Cells as they were before this part of the blade; from now on only those are divided or opened that it
+  /// divides or opens.
+  std::vector<Patch::Cell> begin_part() {
+    const std::vector<Patch::Cell> before = patch_.cells;
+    for (Patch::Cell& cell : patch_.cells) cell.divided = cell.opened = false;
+    return before;
+  }
+
+  void end_part(const std::vector<Patch::Cell>& before) {
+    for (std::size_t c = 0; c < before.size(); ++c) {
+      patch_.cells[c].divided = patch_.cells[c].divided || before[c].divided;
+      patch_.cells[c].opened = patch_.cells[c].opened || before[c].opened;
+    }
   }
 
   /// Divides the longest edges of the tetrahedra that the blade pierces. False when it pierces none.
@@ -192,6 +218,7 @@ class Attempt {
     };
     for (const std::int32_t cell : left.unsound) add(cell, Unresolved::shape);
     for (const std::int32_t cell : left.folded) add(cell, Unresolved::folded);
+    for (const std::int32_t cell : left.merged) add(cell, Unresolved::bridge);
     for (const std::int32_t t : pierced) {
       const std::int32_t cell = patch_.tetra(t).cell;
       if (!patch_.cell(cell).divided && !patch_.cell(cell).opened) add(cell, Unresolved::pierced);
@@ -250,6 +277,7 @@ class Attempt {
   const CutOptions& options_;
   const RaisedT0& raised_;
   Remedies& remedies_;
+  double settled_;  ///< crossings so near to each other on an edge may be one or none
   Patch patch_;
   Numbers parted_;  ///< vertices of opened faces
   OnIncisions on_incision_;

@@ -1,6 +1,7 @@
 #include "edit/cut/sheets.h"
 
 #include <algorithm>
+#include <initializer_list>
 #include <numeric>
 #include <tuple>
 
@@ -14,28 +15,38 @@ std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 Place place(const Vec3& p) { return {p[0] + 0.0, p[1] + 0.0, p[2] + 0.0}; }  // -0 is 0
 
+/// A triangle or a segment, and what planes leave of it: each adds a corner at most.
+struct Polygon {
+  std::array<Vec3, 9> corner;
+  std::size_t count = 0;
+
+  void add(const Vec3& p) { corner[count++] = p; }
+};
+
 /// What is left of a convex polygon on the inner side of a plane across an axis.
-std::vector<Vec3> clipped(const std::vector<Vec3>& polygon, int axis, double limit, double sign) {
-  std::vector<Vec3> kept;
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Vec3& a = polygon[i];
-    const Vec3& b = polygon[(i + 1) % polygon.size()];
+Polygon clipped(const Polygon& polygon, int axis, double limit, double sign) {
+  Polygon kept;
+  for (std::size_t i = 0; i < polygon.count; ++i) {
+    const Vec3& a = polygon.corner[i];
+    const Vec3& b = polygon.corner[(i + 1) % polygon.count];
     const double of_a = sign * (limit - a[axis]);
     const double of_b = sign * (limit - b[axis]);
-    if (of_a >= 0.0) kept.push_back(a);
+    if (of_a >= 0.0) kept.add(a);
     if ((of_a > 0.0 && of_b < 0.0) || (of_a < 0.0 && of_b > 0.0))
-      kept.push_back(a + of_a / (of_a - of_b) * (b - a));
+      kept.add(a + of_a / (of_a - of_b) * (b - a));
   }
   return kept;
 }
 
-/// Whether a convex polygon, or a segment, and a box share a point.
-bool meets(std::vector<Vec3> polygon, const Box& box) {
-  for (int axis = 0; axis < 3 && !polygon.empty(); ++axis) {
+/// Whether a triangle, or a segment, and a box share a point.
+bool meets(std::initializer_list<Vec3> corners, const Box& box) {
+  Polygon polygon;
+  for (const Vec3& p : corners) polygon.add(p);
+  for (int axis = 0; axis < 3 && polygon.count > 0; ++axis) {
     polygon = clipped(polygon, axis, box.max()[axis], 1.0);
     polygon = clipped(polygon, axis, box.min()[axis], -1.0);
   }
-  return !polygon.empty();
+  return polygon.count > 0;
 }
 
 }  // namespace

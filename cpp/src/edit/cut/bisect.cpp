@@ -27,7 +27,7 @@ class Divider {
     for (const CrossedEdge& edge : edges) {
       for (const std::int32_t t : patch_.around(edge.p, edge.q)) left_.folded.push_back(patch_.tetra(t).cell);
     }
-    for (auto* list : {&left_.unsound, &left_.folded}) {
+    for (auto* list : {&left_.unsound, &left_.folded, &left_.merged}) {
       std::ranges::sort(*list);
       list->erase(std::ranges::unique(*list).begin(), list->end());
     }
@@ -50,7 +50,7 @@ class Divider {
       const auto nearest = std::ranges::min_element(
           edge.crossings, {}, [](const Crossing& crossing) { return std::abs(crossing.t - 0.5); });
       const auto which = static_cast<std::size_t>(nearest - edge.crossings.begin());
-      if (goes_to_end(edge, nearest->t)) continue;
+      if (goes_to_end(edge, *nearest)) continue;
       const double length = rest_length(patch_, edge.p, edge.q);
       const bool turned = is_turned(edge);
       choices.push_back({turned ? length : -length, turned, std::move(edge), which});
@@ -75,7 +75,7 @@ class Divider {
   }
 
   /// Whether the cut goes to an end of the edge, which is then on the cut, or the edge has to stay.
-  bool goes_to_end(const CrossedEdge& edge, double t) {
+  bool goes_to_end(const CrossedEdge& edge, const Crossing& nearest) {
     double share = kLeastT;
     bool sound = true;
     const std::vector<std::int32_t> around = patch_.around(edge.p, edge.q);
@@ -85,11 +85,14 @@ class Divider {
       sound = sound && patch_.cell(cell).sound;
     }
     if (is_short(patch_, edge.p, edge.q)) share = 0.5;
+    const double t = nearest.t;
     if (t <= share || t >= 1.0 - share) {
-      const Vec3& a = patch_.vertex(edge.p).place;
-      const Vec3& b = patch_.vertex(edge.q).place;
-      const bool to_p = t <= 0.5;
-      known_.put_on(to_p ? edge.p : edge.q, to_p ? a : b, (1.0 - t) * a + t * b);
+      for (const Crossing& crossing : edge.crossings) put_on_end(edge, crossing);  // all are that near
+      const auto to_p = [](const Crossing& crossing) { return crossing.t <= 0.5; };
+      const auto of_p = std::ranges::count_if(edge.crossings, to_p);
+      const bool merges = of_p > 1 || static_cast<std::ptrdiff_t>(edge.crossings.size()) - of_p > 1;
+      if (!merges || is_short(patch_, edge.p, edge.q)) return true;
+      for (const std::int32_t tetra : around) left_.merged.push_back(patch_.tetra(tetra).cell);
       return true;
     }
     if (sound) return false;
@@ -100,18 +103,27 @@ class Divider {
     return true;
   }
 
+  void put_on_end(const CrossedEdge& edge, const Crossing& crossing) {
+    const Vec3& a = patch_.vertex(edge.p).place;
+    const Vec3& b = patch_.vertex(edge.q).place;
+    const bool to_p = crossing.t <= 0.5;
+    known_.put_on(to_p ? edge.p : edge.q, to_p ? a : b, (1.0 - crossing.t) * a + crossing.t * b,
+                  crossing.triangle);
+  }
+
   void cross(const Choice& choice, std::vector<CrossedEdge>& halves) {
     const CrossedEdge& edge = choice.edge;
     const double t = edge.crossings[choice.which].t;
     const std::int32_t middle = patch_.divide(edge.p, edge.q, t);
     known_.vertices.resize(patch_.vertices.size());
-    known_.put_on(middle, patch_.vertex(middle).place, patch_.vertex(middle).place);
+    const Vec3& place = patch_.vertex(middle).place;
+    known_.put_on(middle, place, place, edge.crossings[choice.which].triangle);
     CrossedEdge before{edge.p, middle, {}};
     CrossedEdge after{middle, edge.q, {}};
     for (std::size_t i = 0; i < edge.crossings.size(); ++i) {
-      const auto& [at, direction] = edge.crossings[i];
-      if (i < choice.which) before.crossings.push_back({at / t, direction});
-      if (i > choice.which) after.crossings.push_back({(at - t) / (1.0 - t), direction});
+      const auto& [at, direction, triangle] = edge.crossings[i];
+      if (i < choice.which) before.crossings.push_back({at / t, direction, triangle});
+      if (i > choice.which) after.crossings.push_back({(at - t) / (1.0 - t), direction, triangle});
     }
     if (!before.crossings.empty()) halves.push_back(std::move(before));
     if (!after.crossings.empty()) halves.push_back(std::move(after));

@@ -15,10 +15,13 @@ namespace tissu {
 /// edges: longest at rest first, then by the places of their ends. Vertices put on edges are on the cut. An
 /// edge that the blade crosses more often is divided where the blade is nearest to its middle, and its halves
 /// are tried again. `t0` gives the share for a cell of the patch. Returns the cells of the edges that are
-/// left: those of unsound cells, and those crossed too often (places, ascending; second: folded).
+/// left: those of unsound cells, and those crossed too often (places, ascending; second: folded). Third:
+/// cells of edges that the blade passes to and fro near one end, which is on the cut in place of both
+/// crossings.
 struct LeftEdges {
   std::vector<std::int32_t> unsound;
   std::vector<std::int32_t> folded;
+  std::vector<std::int32_t> merged;
 };
 /// `turned`: edges of these cells (places) are divided after all others, the shortest first. `on`: so many
 /// ends of an edge may be on the cut.

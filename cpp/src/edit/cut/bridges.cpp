@@ -6,7 +6,6 @@
 #include <span>
 #include <utility>
 
-#include "edit/cut/bisect.h"
 #include "edit/cut/side.h"
 #include "tissu/base/crossing.h"
 #include "tissu/base/sort_unique.h"
@@ -18,125 +17,218 @@ std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 constexpr int kRounds = 16;
 constexpr std::size_t kMostGrowth = 8;  ///< times the tetrahedra before the rounds
-constexpr double kTurned = 0.5;         ///< cosine between the normals of a blade that may pass a cell twice
-constexpr double kBetween = 0.15;       ///< of the way between two places: its middle is so far off the blade
+constexpr double kRoundOff = 1e-12;
+constexpr double kMargin = 0.05;   ///< of the diagonal of a box, on each side
+constexpr double kBetween = 0.15;  ///< of the way between two places: its middle is so far off the blade
 
 Vec3 normal_of(const std::array<Vec3, 3>& t) { return (t[1] - t[0]).cross(t[2] - t[0]).normalized(); }
 
-bool turns(const SweepPart& part, std::span<const std::int32_t> triangles) {
-  return std::ranges::any_of(triangles, [&](std::int32_t t) {
-    return normal_of(part.triangles[at(t)]).dot(normal_of(part.triangles[at(triangles.front())])) < kTurned;
-  });
+using Numbers = std::span<const std::int32_t>;
+
+/// Two places on one sheet lie on different sides of a bend if the middle between them lies far from the
+/// blade.
+bool is_near(const SweepPart& part, Numbers triangles, const Vec3& a, const Vec3& b) {
+  const Vec3 middle = 0.5 * (a + b);
+  const double slack = kRoundOff * middle.cwiseAbs().maxCoeff();
+  return distance(part, triangles, middle) <= kBetween * (a - b).norm() + slack;
 }
 
-/// The triangles near each cell where the blade turns; none near others.
-class TurningCells {
- public:
-  TurningCells(const Patch& patch, const SweepPart& part, const NearCells& near)
-      : patch_(patch), part_(part), near_(near) {}
-
-  [[nodiscard]] std::span<const std::int32_t> triangles(std::int32_t cell) {
-    if (cell != cell_) {
-      cell_ = cell;
-      triangles_ = near_.triangles(patch_.cell(cell).number);
-      if (!triangles_.empty() && !turns(part_, triangles_)) triangles_ = {};
-    }
-    return triangles_;
-  }
-
- private:
-  const Patch& patch_;
-  const SweepPart& part_;
-  const NearCells& near_;
-  std::int32_t cell_ = -1;
-  std::span<const std::int32_t> triangles_;
-};
-
-/// Where an edge with an end on the cut passes sheets of the blade other than those on which its ends are.
-/// Two places on the blade lie on different sheets if the middle between them lies far from it.
-std::vector<Crossing> other_sheets(const Patch& patch, const SweepPart& part, const OnCut& known,
-                                   std::int32_t p, std::int32_t q, std::span<const std::int32_t> triangles) {
+/// Where an edge passes triangles of the blade, without a settlement.
+std::vector<Crossing> all_crossings(const SweepPart& part, const Vec3& a, const Vec3& b, Numbers triangles) {
   std::vector<Crossing> crossings;
-  const Vec3& a = patch.vertex(p).place;
-  const Vec3& b = patch.vertex(q).place;
   for (const std::int32_t t : triangles) {
     const auto& triangle = part.triangles[at(t)];
     const Vec3 normal = normal_of(triangle);
     const double of_a = normal.dot(a - triangle[0]);
     const double of_b = normal.dot(b - triangle[0]);
     if (!(of_a * of_b < 0.0) || !crosses(a, b, triangle)) continue;
-    const double share = of_a / (of_a - of_b);
-    const Vec3 place = a + share * (b - a);
-    const auto is_other = [&](std::int32_t v) {
-      if (!known.on(v)) return true;
-      if (known[v].before) return false;  // the blade now is not the one that it lies on
-      const Vec3& met = known[v].met;
-      return distance(part, triangles, 0.5 * (place + met)) > kBetween * (place - met).norm();
-    };
-    if (is_other(p) && is_other(q)) crossings.push_back({share, of_a > 0.0 ? 1 : -1});
+    crossings.push_back({of_a / (of_a - of_b), of_a > 0.0 ? 1 : -1, t});
   }
+  return crossings;
+}
+
+/// The blade near an edge, and near the places where it met the ends.
+BladeSheets::Inside sheets_at(const Patch& patch, const BladeSheets& sheets, const OnCut& known,
+                              std::int32_t p, std::int32_t q) {
+  Eigen::AlignedBox3d box;
+  for (const std::int32_t v : {p, q}) {
+    box.extend(patch.vertex(v).place);
+    known.each_meeting(v, [&](const OnCut::Meeting& meeting) {
+      if (meeting.on) box.extend(meeting.place);
+    });
+  }
+  const Vec3 margin = Vec3::Constant(kMargin * box.diagonal().norm());
+  return sheets.in({box.min() - margin, box.max() + margin});
+}
+
+/// Where an edge passes sheets of the blade other than those on which its ends are.
+std::vector<Crossing> other_sheets(const Patch& patch, const Blade& blade, const OnCut& known, std::int32_t p,
+                                   std::int32_t q, Numbers triangles) {
+  const Vec3& a = patch.vertex(p).place;
+  const Vec3& b = patch.vertex(q).place;
+  std::vector<Crossing> crossings = all_crossings(blade.part, a, b, triangles);
+  if (crossings.empty()) return crossings;
+  const BladeSheets::Inside inside = sheets_at(patch, blade.sheets, known, p, q);
+  std::erase_if(crossings, [&](const Crossing& crossing) {
+    const Vec3 place = a + crossing.t * (b - a);
+    const auto is_on = [&](std::int32_t v) {
+      if (known[v].before) return true;  // the blade now is not the one that it lies on
+      bool on = false;
+      known.each_meeting(v, [&](const OnCut::Meeting& meeting) {
+        on = on || (meeting.on && inside.of(meeting.triangle) == inside.of(crossing.triangle) &&
+                    is_near(blade.part, inside.triangles, place, meeting.place));
+      });
+      return on;
+    };
+    return is_on(p) || is_on(q);
+  });
   return crossings;
 }
 
 constexpr std::array<std::array<std::uint8_t, 2>, 6> kEdges{{{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
 
-/// Their other ends get votes as those of edges that are crossed once.
-std::vector<CrossedEdge> edges_to_other_sheets(const Patch& patch, const SweepPart& part,
-                                               const NearCells& near, double t0, OnCut& known) {
-  std::map<std::pair<std::int32_t, std::int32_t>, std::vector<Crossing>> found;
-  TurningCells turning(patch, part, near);
+/// Edges of crowded cells, by their ends, and the triangles near them.
+using Edges = std::map<std::pair<std::int32_t, std::int32_t>, Numbers>;
+
+Edges edges_of(const Patch& patch, const CrowdedCells& crowded) {
+  Edges edges;
   for (const Patch::Tetra& tetra : patch.tetrahedra) {
-    const auto triangles = turning.triangles(tetra.cell);
+    const auto triangles = crowded.triangles(tetra.cell);
     if (triangles.empty()) continue;
     for (const auto& [i, j] : kEdges) {
-      if (tetra.vertices[j] < 0) continue;
-      const auto [p, q] = std::minmax(tetra.vertices[i], tetra.vertices[j]);
-      if (!known.on(p) && !known.on(q)) continue;
-      const auto [place, is_new] = found.try_emplace({p, q});
-      if (is_new) place->second = other_sheets(patch, part, known, p, q, triangles);
+      if (tetra.vertices[j] >= 0)
+        edges.try_emplace(std::minmax(tetra.vertices[i], tetra.vertices[j]), triangles);
     }
-  }
-  std::vector<CrossedEdge> edges;
-  for (auto& [ends, crossings] : found) {
-    settle(crossings, t0);
-    if (crossings.empty()) continue;
-    const double share = is_short(patch, ends.first, ends.second) ? 0.5 : t0;
-    const auto is_at_end = [&, ends = ends](const Crossing& crossing) {  // which is on both sheets
-      return (known.on(ends.first) && crossing.t <= share) ||
-             (known.on(ends.second) && crossing.t >= 1.0 - share);
-    };
-    std::erase_if(crossings, is_at_end);
-    if (crossings.empty()) continue;
-    known.vertices[at(ends.first)].votes += crossings.front().direction;
-    known.vertices[at(ends.second)].votes -= crossings.back().direction;
-    edges.push_back({ends.first, ends.second, std::move(crossings)});
   }
   return edges;
 }
 
-}  // namespace
+/// Takes out the crossings near an end that is on the cut, and puts the end on their sheets too.
+void put_ends_on(const Patch& patch, CrossedEdge& edge, double t0, OnCut& known) {
+  const double share = is_short(patch, edge.p, edge.q) ? 0.5 : t0;
+  const Vec3& a = patch.vertex(edge.p).place;
+  const Vec3& b = patch.vertex(edge.q).place;
+  std::erase_if(edge.crossings, [&](const Crossing& crossing) {
+    const bool to_p = known.on(edge.p) && crossing.t <= share;
+    if (!to_p && !(known.on(edge.q) && crossing.t >= 1.0 - share)) return false;
+    known.put_on(to_p ? edge.p : edge.q, to_p ? a : b, a + crossing.t * (b - a), crossing.triangle);
+    return true;
+  });
+}
 
-void divide_at_other_sheets(Patch& patch, const SweepPart& part, const NearCells& near, double t0,
-                            const std::function<double(std::int32_t)>& share, OnCut& known) {
-  const std::size_t most = kMostGrowth * patch.tetrahedra.size();
-  for (int round = 0; round < kRounds && patch.tetrahedra.size() <= most; ++round) {
-    std::vector<CrossedEdge> edges = edges_to_other_sheets(patch, part, near, t0, known);
-    if (edges.empty()) return;
-    divide_crossed(patch, std::move(edges), share, known, {}, 2);
+/// The edges with an end on the cut that pass another sheet. A vertex near enough to one is put on it too.
+/// Other ends get votes as those of edges that are crossed once.
+std::vector<CrossedEdge> edges_to_other_sheets(const Patch& patch, const Blade& blade, double settled,
+                                               double t0, OnCut& known) {
+  std::vector<CrossedEdge> edges;
+  for (const auto& [ends, triangles] : edges_of(patch, blade.crowded)) {
+    const auto& [p, q] = ends;
+    if (!known.on(p) && !known.on(q)) continue;
+    CrossedEdge edge{p, q, other_sheets(patch, blade, known, p, q, triangles)};
+    if (edge.crossings.empty()) continue;
+    settle(edge.crossings, settled);
+    put_ends_on(patch, edge, t0, known);
+    if (edge.crossings.empty()) continue;
+    cast_votes(patch, edge, known);
+    edges.push_back(std::move(edge));
+  }
+  return edges;
+}
+
+/// Whether crossings of an edge are on different sheets, not on both sides of a ridge.
+bool are_apart(const BladeSheets& sheets, Numbers triangles, const Vec3& a, const Vec3& b,
+               const std::vector<Crossing>& crossings) {
+  const auto [low, high] = std::ranges::minmax_element(crossings, {}, &Crossing::t);
+  const Vec3 first = a + low->t * (b - a);
+  const Vec3 last = a + high->t * (b - a);
+  Eigen::AlignedBox3d box(first);
+  box.extend(last);
+  const Vec3 around = Vec3::Constant((last - first).norm());
+  const auto inside = sheets.in({box.min() - around, box.max() + around}, triangles);
+  return std::ranges::any_of(crossings, [&](const Crossing& crossing) {
+    return inside.of(crossing.triangle) != inside.of(low->triangle);
+  });
+}
+
+/// A vertex put on an edge between two places of one sheet lies on that sheet too.
+void keep_on_sheets(const Patch& patch, const Blade& blade, std::size_t first, OnCut& known) {
+  for (std::size_t i = first; i < patch.divisions.size(); ++i) {
+    const auto& [vertex, p, q] = patch.divisions[i];
+    if (!known.on(p) || !known.on(q)) continue;
+    const BladeSheets::Inside inside = sheets_at(patch, blade.sheets, known, p, q);
+    std::vector<std::int32_t> shared;
+    known.each_meeting(p, [&, q = q](const OnCut::Meeting& of_p) {
+      known.each_meeting(q, [&](const OnCut::Meeting& of_q) {
+        if (of_p.on && of_q.on && inside.of(of_p.triangle) == inside.of(of_q.triangle) &&
+            is_near(blade.part, inside.triangles, of_p.place, of_q.place))
+          shared.push_back(of_p.triangle);
+      });
+    });
+    const Vec3 place = patch.vertex(vertex).place;
+    for (const std::int32_t triangle : shared) known.put_on(vertex, place, place, triangle);
   }
 }
 
-std::vector<std::int32_t> bridged_cells(const Patch& patch, const SweepPart& part, const NearCells& near,
-                                        double t0, const OnCut& known,
-                                        const std::vector<std::int32_t>& uncovered) {
-  std::vector<std::int32_t> cells;
-  OnCut votes = known;
-  for (const CrossedEdge& edge : edges_to_other_sheets(patch, part, near, t0, votes)) {
-    for (const std::int32_t t : patch.around(edge.p, edge.q)) cells.push_back(patch.tetra(t).cell);
+/// Vertices on two sheets of the blade: the material between these ends there.
+std::vector<std::int32_t> pinched_vertices(const Patch& patch, const Blade& blade, const OnCut& known) {
+  std::vector<std::int32_t> vertices;
+  for (std::size_t i = 0; i < patch.vertices.size(); ++i) {
+    const auto v = static_cast<std::int32_t>(i);
+    Eigen::AlignedBox3d box(patch.vertices[i].place);
+    std::vector<std::int32_t> triangles;
+    known.each_meeting(v, [&](const OnCut::Meeting& meeting) {
+      if (!meeting.on) return;
+      box.extend(meeting.place);
+      triangles.push_back(meeting.triangle);
+    });
+    if (triangles.size() < 2) continue;
+    const Vec3 around = Vec3::Constant(box.diagonal().norm());
+    const BladeSheets::Inside inside = blade.sheets.in({box.min() - around, box.max() + around});
+    const auto is_other = [&](std::int32_t t) { return inside.of(t) != inside.of(triangles.front()); };
+    if (std::ranges::any_of(triangles, is_other)) vertices.push_back(v);
   }
-  TurningCells turning(patch, part, near);
+  return vertices;
+}
+
+}  // namespace
+
+LeftEdges divide_at_other_sheets(Patch& patch, const Blade& blade, double settled, double t0,
+                                 const std::function<double(std::int32_t)>& share, OnCut& known) {
+  const std::size_t most = kMostGrowth * patch.tetrahedra.size();
+  LeftEdges left;
+  for (int round = 0; round < kRounds && patch.tetrahedra.size() <= most; ++round) {
+    std::vector<CrossedEdge> edges = edges_to_other_sheets(patch, blade, settled, t0, known);
+    if (edges.empty()) break;
+    const std::size_t before = patch.divisions.size();
+    const LeftEdges now = divide_crossed(patch, std::move(edges), share, known, {}, 2);
+    left.unsound.insert(left.unsound.end(), now.unsound.begin(), now.unsound.end());
+    left.folded.insert(left.folded.end(), now.folded.begin(), now.folded.end());
+    left.merged.insert(left.merged.end(), now.merged.begin(), now.merged.end());
+    keep_on_sheets(patch, blade, before, known);
+  }
+  return left;
+}
+
+std::vector<std::int32_t> bridged_cells(const Patch& patch, const Blade& blade, double settled,
+                                        const OnCut& known, const std::vector<std::int32_t>& uncovered) {
+  std::vector<std::int32_t> cells;
+  for (const auto& [ends, triangles] : edges_of(patch, blade.crowded)) {
+    const auto& [p, q] = ends;
+    std::vector<Crossing> crossings = other_sheets(patch, blade, known, p, q, triangles);
+    if (crossings.empty()) continue;
+    const bool apart =
+        are_apart(blade.sheets, triangles, patch.vertex(p).place, patch.vertex(q).place, crossings);
+    settle(crossings, settled);
+    if (crossings.empty() && !apart) continue;
+    for (const std::int32_t t : patch.around(p, q)) cells.push_back(patch.tetra(t).cell);
+  }
+  for (const std::int32_t v : pinched_vertices(patch, blade, known)) {
+    for (const std::int32_t t : patch.tetrahedra_at(v)) {
+      if (blade.crowded.has(patch.tetra(t).cell)) cells.push_back(patch.tetra(t).cell);
+    }
+  }
   for (const std::int32_t t : uncovered) {
-    if (!turning.triangles(patch.tetra(t).cell).empty()) cells.push_back(patch.tetra(t).cell);
+    if (blade.crowded.has(patch.tetra(t).cell)) cells.push_back(patch.tetra(t).cell);
   }
   sort_unique(cells);
   return cells;

@@ -52,12 +52,12 @@ class Finder {
       const Triangle& triangle = part_.triangles[at(t)];
       const int side_a = orientation(triangle[0], triangle[1], triangle[2], a);
       const int side_b = orientation(triangle[0], triangle[1], triangle[2], b);
-      if (side_a == 0 && crosses(a, a, triangle)) known_.put_on(p, a, a);
-      if (side_b == 0 && crosses(b, b, triangle)) known_.put_on(q, b, b);
+      if (side_a == 0 && crosses(a, a, triangle)) known_.put_on(p, a, a, t);
+      if (side_b == 0 && crosses(b, b, triangle)) known_.put_on(q, b, b, t);
       if (side_a * side_b >= 0 || !passes(triangle, a, b)) continue;
       const double of_a = height(triangle, a);
       const double sum = of_a + height(triangle, b);
-      edge.crossings.push_back({sum > 0.0 ? of_a / sum : 0.5, side_a});
+      edge.crossings.push_back({sum > 0.0 ? of_a / sum : 0.5, side_a, t});
     }
     if (!edge.crossings.empty()) edges_.push_back(std::move(edge));
   }
@@ -67,8 +67,7 @@ class Finder {
       if (known_.on(edge.p) || known_.on(edge.q)) return true;
       settle(edge.crossings, t0_);
       if (edge.crossings.empty()) return true;
-      known_.vertices[at(edge.p)].votes += edge.crossings.front().direction;
-      known_.vertices[at(edge.q)].votes -= edge.crossings.back().direction;
+      cast_votes(patch_, edge, known_);
       return false;
     });
     return std::move(edges_);
@@ -82,36 +81,6 @@ class Finder {
   std::unordered_set<std::uint64_t> seen_;
   std::vector<CrossedEdge> edges_;
 };
-
-/// Whether the border of one of the triangles enters a tetrahedron, or passes through a triangle. A line is
-/// crossed or not met.
-bool enters(const Patch& patch, const SweepPart& part, Numbers triangles, const Patch::Tetra& tetra) {
-  if (tetra.corners() == 2) return false;
-  std::array<Vec3, 4> corner;
-  const bool solid = tetra.corners() == 4;
-  for (std::size_t i = 0; i < tetra.corners(); ++i) corner[i] = patch.vertex(tetra.vertices[i]).place;
-  const auto outside = [&](const Vec3& p) {
-    return std::ranges::any_of(kOpposite, [&](const auto& face) {
-      return orientation(corner[face[0]], corner[face[1]], corner[face[2]], p) > 0;
-    });
-  };
-  for (const std::int32_t t : triangles) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      if ((part.border[at(t)] >> i & 1U) == 0) continue;
-      const Vec3& from = part.triangles[at(t)][i];
-      const Vec3& to = part.triangles[at(t)][(i + 1) % 3];
-      if (!solid) {
-        if (crosses(from, to, {corner[0], corner[1], corner[2]})) return true;
-        continue;
-      }
-      if (!outside(from)) return true;
-      for (const auto& face : kOpposite) {
-        if (crosses(from, to, {corner[face[0]], corner[face[1]], corner[face[2]]})) return true;
-      }
-    }
-  }
-  return false;
-}
 
 }  // namespace
 
@@ -130,9 +99,32 @@ void settle(std::vector<Crossing>& crossings, double t0) {
   crossings = std::move(kept);
 }
 
-void OnCut::put_on(std::int32_t v, const Vec3& place, const Vec3& met) {
+void cast_votes(const Patch& patch, const CrossedEdge& edge, OnCut& known) {
+  const Vec3& a = patch.vertex(edge.p).place;
+  const Vec3& b = patch.vertex(edge.q).place;
+  const auto cast = [&](std::int32_t v, const Crossing& crossing, int sign) {
+    known.vote(v, (1.0 - crossing.t) * a + crossing.t * b, sign * crossing.direction, crossing.triangle);
+  };
+  cast(edge.p, edge.crossings.front(), 1);
+  cast(edge.q, edge.crossings.back(), -1);
+}
+
+void OnCut::vote(std::int32_t v, const Vec3& place, int direction, std::int32_t triangle) {
+  Vertex& vertex = vertices[at(v)];
+  vertex.votes += direction;
+  meetings.push_back({triangle, false, place, direction, vertex.last});
+  vertex.last = static_cast<std::int32_t>(meetings.size()) - 1;
+}
+
+void OnCut::put_on(std::int32_t v, const Vec3& place, const Vec3& met, std::int32_t triangle) {
   Vertex& vertex = vertices[at(v)];
   vertex.on = true;
+  bool is_known = triangle < 0;
+  each_meeting(v, [&](const Meeting& one) { is_known = is_known || (one.on && one.triangle == triangle); });
+  if (!is_known) {
+    meetings.push_back({triangle, true, met, 0, vertex.last});
+    vertex.last = static_cast<std::int32_t>(meetings.size()) - 1;
+  }
   const double away = (met - place).norm();
   if (away >= vertex.away) return;
   vertex.away = away;
@@ -152,21 +144,6 @@ std::vector<CrossedEdge> crossed_edges(const Patch& patch, const SweepPart& part
     }
   }
   return finder.take();
-}
-
-std::vector<std::int32_t> pierced_tetrahedra(const Patch& patch, const SweepPart& part, const NearCells& near,
-                                             const OnCut& known) {
-  std::vector<std::int32_t> pierced;
-  for (std::size_t t = 0; t < patch.tetrahedra.size(); ++t) {
-    const Patch::Tetra& tetra = patch.tetrahedra[t];
-    const auto met = [&](std::int32_t v) { return v >= 0 && known.on(v); };
-    if (std::ranges::any_of(tetra.vertices, met)) continue;
-    const Numbers triangles = near.triangles(patch.cell(tetra.cell).number);
-    if (!triangles.empty() && enters(patch, part, triangles, tetra)) {
-      pierced.push_back(static_cast<std::int32_t>(t));
-    }
-  }
-  return pierced;
 }
 
 }  // namespace tissu

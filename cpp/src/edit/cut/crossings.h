@@ -15,28 +15,51 @@ namespace tissu {
 /// What is known of a vertex: whether it is on the cut, and the place where the blade met it or the edge that
 /// ends at it; how many crossed edges see it above the blade, less those that see it below.
 struct OnCut {
+  /// A triangle of the blade that a vertex has to do with: it lies on it, or an edge that ends at it crosses
+  /// it.
+  struct Meeting {
+    std::int32_t triangle;
+    bool on;
+    Vec3 place;             ///< where the blade met the vertex or the edge
+    int vote;               ///< 1: the edge sees the vertex above the triangle; -1: below
+    std::int32_t previous;  ///< of the same vertex, -1: none
+  };
   struct Vertex {
     bool on = false;
     bool before = false;                                    ///< an earlier sweep of the incision put it there
     double away = std::numeric_limits<double>::infinity();  ///< of the crossing [m]
     Vec3 met = Vec3::Zero();
     int votes = 0;
+    std::int32_t last = -1;  ///< of its meetings
   };
   std::vector<Vertex> vertices;
+  std::vector<Meeting> meetings;
 
   explicit OnCut(std::size_t count) : vertices(count) {}
   [[nodiscard]] bool on(std::int32_t v) const { return (*this)[v].on; }
   [[nodiscard]] const Vertex& operator[](std::int32_t v) const {
     return vertices[static_cast<std::size_t>(v)];
   }
-  /// The blade met the vertex at `met`; of several places the nearest counts.
-  void put_on(std::int32_t v, const Vec3& place, const Vec3& met);
+  /// The blade's triangle met the vertex at `met`; of several places the nearest counts. -1: an earlier
+  /// blade.
+  void put_on(std::int32_t v, const Vec3& place, const Vec3& met, std::int32_t triangle);
+  /// An edge that ends at the vertex crosses a triangle.
+  void vote(std::int32_t v, const Vec3& place, int direction, std::int32_t triangle);
+  template <class Visit>
+  void each_meeting(std::int32_t v, const Visit& visit) const {
+    for (std::int32_t i = (*this)[v].last; i >= 0;) {
+      const Meeting& meeting = meetings[static_cast<std::size_t>(i)];
+      visit(meeting);
+      i = meeting.previous;
+    }
+  }
 };
 
 /// A crossing at the share t of the way along an edge; direction 1: the edge's first end is above the blade.
 struct Crossing {
   double t;
   int direction;
+  std::int32_t triangle;
 };
 struct CrossedEdge {
   std::int32_t p;
@@ -48,15 +71,13 @@ struct CrossedEdge {
 /// and fro: seams of the blade, and its ridges.
 void settle(std::vector<Crossing>& crossings, double t0);
 
+/// The ends of a crossed edge see the blade from the side of their nearest crossing.
+void cast_votes(const Patch& patch, const CrossedEdge& edge, OnCut& known);
+
 /// The edges of the near cells that the blade crosses inside, and their votes. Vertices that the blade meets
 /// exactly are put on the cut; edges that end at a vertex on the cut are not crossed. Crossings that undo
 /// each other within the share `t0` of an edge are none.
 std::vector<CrossedEdge> crossed_edges(const Patch& patch, const SweepPart& part, const NearCells& near,
                                        double t0, OnCut& known);
-
-/// Cells of the patch that the blade enters without crossing an edge or meeting a vertex of the tetrahedron
-/// that it enters: places of such tetrahedra, ascending.
-std::vector<std::int32_t> pierced_tetrahedra(const Patch& patch, const SweepPart& part, const NearCells& near,
-                                             const OnCut& known);
 
 }  // namespace tissu

@@ -51,14 +51,14 @@ OnCut known_before(const Patch& patch, const Material& material, std::int32_t nu
     for (std::size_t v = 0; v < patch.vertices.size(); ++v) {
       const Patch::Vertex& vertex = patch.vertices[v];
       if (!std::ranges::binary_search(incision.vertices, vertex.number)) continue;
-      known.put_on(static_cast<std::int32_t>(v), vertex.place, vertex.place);
+      known.put_on(static_cast<std::int32_t>(v), vertex.place, vertex.place, -1);
       known.vertices[v].before = true;
     }
   }
   for (const Patch::Division& division : patch.divisions) {
     if (!known[division.p].before || !known[division.q].before) continue;
     const Vec3& place = patch.vertex(division.vertex).place;
-    known.put_on(division.vertex, place, place);
+    known.put_on(division.vertex, place, place, -1);
     known.vertices[at(division.vertex)].before = true;
   }
   return known;

@@ -7,6 +7,7 @@
 #include <numeric>
 #include <span>
 
+#include "edit/cut/at_sheets.h"
 #include "edit/cut/carriers.h"
 #include "edit/cut/side.h"
 #include "tissu/base/error.h"
@@ -32,13 +33,15 @@ struct FaceSide {
 
 class Opener {
  public:
-  Opener(Patch& patch, const SweepPart& part, const NearCells& near, const OnCut& known, bool bent)
+  Opener(Patch& patch, const Blade& blade, const NearCells& near, const OnCut& known, bool bent)
       : patch_(patch),
-        part_(part),
+        part_(blade.part),
         near_(near),
+        crowded_(blade.crowded),
+        at_sheets_(patch, blade.part, blade.sheets, known),
         known_(known),
         bent_(bent),
-        all_(part.triangles.size()),
+        all_(blade.part.triangles.size()),
         heights_(patch.vertices.size(), kUnknown) {
     std::iota(all_.begin(), all_.end(), 0);
   }
@@ -49,11 +52,10 @@ class Opener {
     for (std::size_t i = 0; i + 1 < sides.size(); ++i) {
       if (sides[i].key != sides[i + 1].key || carried[i] != 0) continue;
       if (is_open(sides[i]) || is_open(sides[i + 1])) continue;
-      if (above(sides[i].tetra) == above(sides[i + 1].tetra)) continue;
-      if (!covered(sides[i], sides[i + 1])) {
-        if (!is_bent_away(sides[i])) continue;
-        if (!bent_) opened_.uncovered.push_back(sides[i].tetra);
-        if (!bent_) continue;
+      if (is_crowded(sides[i], sides[i + 1])) {
+        if (!at_sheets_.parts(vertices_of(sides[i]), sides[i].tetra, sides[i + 1].tetra)) continue;
+      } else if (!parts(sides[i], sides[i + 1])) {
+        continue;
       }
       if ((i > 0 && sides[i - 1].key == sides[i].key) ||
           (i + 2 < sides.size() && sides[i + 2].key == sides[i].key)) {
@@ -138,6 +140,21 @@ class Opener {
       return a.key != b.key ? a.key < b.key : a.tetra < b.tetra;
     });
     return sides;
+  }
+
+  /// What an earlier sweep of the incision put on the cut is not on a sheet of this one.
+  [[nodiscard]] bool is_crowded(const FaceSide& a, const FaceSide& b) const {
+    if (!crowded_.has(patch_.tetra(a.tetra).cell) && !crowded_.has(patch_.tetra(b.tetra).cell)) return false;
+    return std::ranges::none_of(vertices_of(a), [&](std::int32_t v) { return known_[v].before; });
+  }
+
+  /// Whether the blade goes between two tetrahedra at their common face.
+  bool parts(const FaceSide& a, const FaceSide& b) {
+    if (above(a.tetra) == above(b.tetra)) return false;
+    if (covered(a, b)) return true;
+    if (!is_bent_away(a)) return false;
+    if (!bent_) opened_.uncovered.push_back(a.tetra);
+    return bent_;
   }
 
   [[nodiscard]] bool is_open(const FaceSide& side) const {
@@ -311,6 +328,8 @@ class Opener {
   Patch& patch_;
   const SweepPart& part_;
   const NearCells& near_;
+  const CrowdedCells& crowded_;
+  FacesAtSheets at_sheets_;
   const OnCut& known_;
   bool bent_;
   std::vector<std::int32_t> all_;
@@ -320,9 +339,9 @@ class Opener {
 
 }  // namespace
 
-OpenedFaces open_faces(Patch& patch, const SweepPart& part, const NearCells& near, const OnCut& known,
+OpenedFaces open_faces(Patch& patch, const Blade& blade, const NearCells& near, const OnCut& known,
                        bool bent) {
-  return Opener(patch, part, near, known, bent).open();
+  return Opener(patch, blade, near, known, bent).open();
 }
 
 }  // namespace tissu

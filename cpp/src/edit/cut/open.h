@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "edit/cut/crossings.h"
+#include "edit/cut/crowded.h"
 #include "edit/cut/near.h"
 #include "edit/cut/patch.h"
 
@@ -31,7 +32,10 @@ struct OpenedFaces {
 /// for vertices, all of which the blade covers. Throws ParameterError where the blade follows an edge of more
 /// than two triangles, or passes a node of more than two lines, of which it cannot be said which stay
 /// together. A sheet or a line on cells of a higher dimension stays with those on its own side.
-OpenedFaces open_faces(Patch& patch, const SweepPart& part, const NearCells& near, const OnCut& known,
+/// In crowded cells the side is that of one sheet of the blade on which all vertices of the face are: a
+/// tetrahedron between two windings is above one and below the other. There a face opens unless it lies
+/// beyond the border of the sheet.
+OpenedFaces open_faces(Patch& patch, const Blade& blade, const NearCells& near, const OnCut& known,
                        bool bent);
 
 }  // namespace tissu

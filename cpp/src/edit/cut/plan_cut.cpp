@@ -1,18 +1,14 @@
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <map>
 #include <string>
 
-#include "edit/cut/bisect.h"
-#include "edit/cut/bridges.h"
-#include "edit/cut/crossings.h"
 #include "edit/cut/divide.h"
 #include "edit/cut/fans.h"
 #include "edit/cut/fragments.h"
 #include "edit/cut/incisions.h"
 #include "edit/cut/near.h"
-#include "edit/cut/open.h"
+#include "edit/cut/part_cutter.h"
 #include "edit/cut/patch.h"
 #include "edit/cut/remedies.h"
 #include "edit/cut/write_plan.h"
@@ -26,7 +22,6 @@ namespace {
 
 using Numbers = std::vector<std::int32_t>;
 
-constexpr int kRefinements = 3;
 constexpr int kAttempts = 6;
 /// Of a first-day cell; smaller parts send their crossings to the nodes.
 constexpr double kLeastShare = 1e-9;
@@ -67,12 +62,14 @@ class Attempt {
         options_(options),
         raised_(raised),
         remedies_(remedies),
-        patch_(hosts, material, x, loaded()) {}
+        patch_(hosts, material, x, loaded()),
+        cutter_(patch_, material, options, remedies, [this](std::int32_t cell) { return t0(cell); }) {}
 
   /// Divides and opens. False when the blade crossed no edge and lies in no inner face.
   bool cut(CutPlan& plan) {
     bool met = false;
-    for (std::size_t i = 0; i < sweep_.parts.size(); ++i) met = cut_part(i, plan) || met;
+    for (std::size_t i = 0; i < sweep_.parts.size(); ++i)
+      met = cutter_.cut(i, sweep_.parts[i], near_[i], plan) || met;
     return met;
   }
 
@@ -86,14 +83,14 @@ class Attempt {
     part_divided_edges(touched);
     sort_unique(touched);
     part_corners(touched);
-    sort_unique(parted_);
+    sort_unique(cutter_.parted);
     patch_.extend(hosts_, material_, x_, hosts_.with_neighbours(touched));
     const Fragments fragments(hosts_, patch_, touched, {});
     const Replicas replicas = find_replicas(hosts_, patch_, fragments);
     if (!last && !large_enough(replicas, raised)) return false;
-    const Fans fans(patch_, fragments, parted_);
+    const Fans fans(patch_, fragments, cutter_.parted);
     write_plan(hosts_, material_, patch_, fragments, replicas, fans, plan);
-    write_incisions(patch_, material_, on_incision_, fans, plan);
+    write_incisions(patch_, material_, cutter_.on_incision, fans, plan);
     return true;
   }
 
@@ -101,12 +98,12 @@ class Attempt {
   bool divided(CutPlan& plan) {
     if (remedies_.advance(hosts_, patch_)) return false;
     for (const Patch::Cell& cell : patch_.cells) plan.cells_cut += cell.divided || cell.opened ? 1 : 0;
-    write_division(hosts_, material_, x_, patch_, on_incision_, plan);
+    write_division(hosts_, material_, x_, patch_, cutter_.on_incision, plan);
     return true;
   }
 
   /// Vertices that a blade met which opened nothing: along faces one opens when its last vertex is met.
-  void remember(CutPlan& plan) const { remember_incisions(patch_, material_, on_incision_, plan); }
+  void remember(CutPlan& plan) const { remember_incisions(patch_, material_, cutter_.on_incision, plan); }
 
  private:
   [[nodiscard]] Numbers loaded() const {
@@ -124,94 +121,6 @@ class Attempt {
     return remedies_.t0(number, options_.t0);
   }
 
-  [[nodiscard]] OnCut known_at_start(std::size_t part) const {
-    OnCut known = known_before(patch_, material_, sweep_.parts[part].incision);
-    for (const CutOptions::Met& met : options_.met) {
-      const std::int32_t v = met.part == part ? patch_.place_of(met.node) : -1;
-      if (v >= 0) known.put_on(v, patch_.vertex(v).place, met.place);
-    }
-    return known;
-  }
-
-  bool cut_part(std::size_t number, CutPlan& plan) {
-    const SweepPart& part = sweep_.parts[number];
-    const NearCells& near = near_[number];
-    OnCut known = known_at_start(number);
-    std::vector<CrossedEdge> edges = crossed_edges(patch_, part, near, options_.t0, known);
-    for (int round = 0; options_.refine && round < kRefinements; ++round) {
-      if (!refine(part, near, known, edges)) break;
-      known = known_at_start(number);
-      edges = crossed_edges(patch_, part, near, options_.t0, known);
-    }
-    for (const std::int32_t cell : remedies_.apply(patch_, options_.t0, edges))
-      plan.unresolved.emplace_back(cell, Unresolved::flat);
-    const bool crossed = !edges.empty();
-    std::function<bool(std::int32_t)> turned;
-    if (remedies_.any())
-      turned = [&](std::int32_t cell) { return remedies_.turned(patch_.cell(cell).number); };
-    const auto share = [&](std::int32_t cell) { return t0(cell); };
-    const LeftEdges left = divide_crossed(patch_, std::move(edges), share, known, turned);
-    if (!options_.divide) divide_at_other_sheets(patch_, part, near, options_.t0, share, known);
-    const OpenedFaces opened = open_faces(patch_, part, near, known, !options_.divide);
-    plan.faces_opened += opened.count;
-    plan.area += opened.area;
-    plan.rest_area += opened.rest_area;
-    parted_.insert(parted_.end(), opened.vertices.begin(), opened.vertices.end());
-    for (const std::int32_t cell : bridged_cells(patch_, part, near, options_.t0, known, opened.uncovered))
-      plan.unresolved.emplace_back(patch_.cell(cell).number, Unresolved::bridge);
-    report(left, pierced_tetrahedra(patch_, part, near, known), plan);
-    if (part.incision >= 0) on_incision_.emplace_back(part.incision, std::move(known));
-    return crossed || opened.count > 0;
-  }
-
-  /// Divides the longest edges of the tetrahedra that the blade pierces. False when it pierces none.
-  bool refine(const SweepPart& part, const NearCells& near, OnCut known,
-              const std::vector<CrossedEdge>& edges) {
-    for (const CrossedEdge& edge : edges) {
-      for (const std::int32_t t : patch_.around(edge.p, edge.q)) {
-        for (const std::int32_t v : patch_.tetra(t).vertices) {
-          if (v >= 0) known.vertices[at(v)].on = true;
-        }
-      }
-    }
-    bool any = false;
-    const std::vector<Patch::Tetra> before = patch_.tetrahedra;
-    for (const std::int32_t t : pierced_tetrahedra(patch_, part, near, known)) {
-      const Patch::Tetra& tetra = patch_.tetra(t);
-      if (remedies_.any() && stays_whole(tetra)) continue;
-      if (!patch_.cell(tetra.cell).sound || tetra.vertices != before[at(t)].vertices) continue;
-      divide_longest(patch_, t);
-      any = true;
-    }
-    return any;
-  }
-
-  /// Whether a cell at one of the vertices of a tetrahedron stays whole.
-  [[nodiscard]] bool stays_whole(const Patch::Tetra& tetra) const {
-    return std::ranges::any_of(tetra.vertices, [&](std::int32_t v) {
-      return v >= 0 && std::ranges::any_of(patch_.tetrahedra_at(v), [&](std::int32_t t) {
-               return remedies_.whole(patch_.cell(patch_.tetra(t).cell).number);
-             });
-    });
-  }
-
-  void report(const LeftEdges& left, const Numbers& pierced, CutPlan& plan) {
-    const auto add = [&](std::int32_t cell, Unresolved reason) {
-      plan.unresolved.emplace_back(patch_.cell(cell).number, reason);
-    };
-    for (const std::int32_t cell : left.unsound) add(cell, Unresolved::shape);
-    for (const std::int32_t cell : left.folded) add(cell, Unresolved::folded);
-    for (const std::int32_t t : pierced) {
-      const std::int32_t cell = patch_.tetra(t).cell;
-      if (!patch_.cell(cell).divided && !patch_.cell(cell).opened) add(cell, Unresolved::pierced);
-    }
-    std::ranges::sort(plan.unresolved);
-    const auto same = std::ranges::unique(plan.unresolved, [](const auto& a, const auto& b) {
-                        return a.first == b.first;
-                      }).begin();
-    plan.unresolved.erase(same, plan.unresolved.end());
-  }
-
   /// An edge on faces opened before may have two fans while its ends, at the front, have one each. A vertex
   /// put on it parts.
   void part_divided_edges(Numbers& touched) {
@@ -225,7 +134,7 @@ class Attempt {
         return (tetra.cut & ~(1U << static_cast<unsigned>(corner))) != 0;  // a face that has the vertex
       });
       if (!open) continue;
-      parted_.push_back(vertex);
+      cutter_.parted.push_back(vertex);
       for (const std::int32_t t : around) touched.push_back(patch_.cell(patch_.tetra(t).cell).number);
     }
   }
@@ -235,7 +144,7 @@ class Attempt {
     for (const Patch::Tetra& tetra : patch_.tetrahedra) {
       if (!std::ranges::binary_search(touched, patch_.cell(tetra.cell).number)) continue;
       const auto end = tetra.vertices.begin() + static_cast<std::ptrdiff_t>(tetra.corners());
-      parted_.insert(parted_.end(), tetra.vertices.begin(), end);
+      cutter_.parted.insert(cutter_.parted.end(), tetra.vertices.begin(), end);
     }
   }
 
@@ -260,8 +169,7 @@ class Attempt {
   const RaisedT0& raised_;
   Remedies& remedies_;
   Patch patch_;
-  Numbers parted_;  ///< vertices of opened faces
-  OnIncisions on_incision_;
+  PartCutter cutter_;
 };
 
 }  // namespace

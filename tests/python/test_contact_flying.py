@@ -29,7 +29,7 @@ def two_cubes(common, step=ts.ImplicitEuler):
 
 
 @pytest.mark.parametrize("step", [ts.ImplicitEuler, ts.BDF2])
-@pytest.mark.parametrize("common", [(0, 0, 0), (0, 0, 300), (300, 0, 0), (200, 100, -250)])
+@pytest.mark.parametrize("common", [(0, 0, 300), (300, 0, 0), (200, 100, -250)])
 def test_the_momentum_stays_where_ways_are_cut(common, step):
     """To the tolerance of the linear solver in 12 steps; the bodies fly on, and part."""
     simulation = two_cubes(common, step).compile()

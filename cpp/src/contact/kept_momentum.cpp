@@ -1,6 +1,7 @@
 /// What rows lose whose ways are cut. Where they stop each other they lose no momentum together: as in an
 /// impact without a bounce, they go on with their mean velocity.
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -9,6 +10,12 @@
 #include "tissu/contact/contact_run.h"
 
 namespace tissu {
+
+namespace {
+
+constexpr double kTogether = 2.0;  ///< times what a row goes beside its island
+
+}  // namespace
 
 /// A row whose way pairs of free rows cut.
 struct ContactRun::HeldRow {
@@ -41,8 +48,9 @@ void ContactRun::for_held_rows(Function&& f) const {
   }
 }
 
-/// A way w of share s becomes c + s (w - c), c the mean of its island by mass. The ways to there are others
-/// than those whose shares were found, and are tested as they are.
+/// A way w of share s becomes c + s (w - c), c the mean of its island by mass, where c is more than twice as
+/// long as any w - c: nodes that stand still would be taken along faster than their cells bear. The ways to
+/// there are others than those whose shares were found, and are tested as they are.
 void ContactRun::go_on_together(const Mass& mass, const FixedDofs& fixed, ConstReals whole, State& to) {
   if (held_->stopped().empty()) return;
   const auto way_from = [&](const HeldRow& held) {
@@ -51,9 +59,14 @@ void ContactRun::go_on_together(const Mass& mass, const FixedDofs& fixed, ConstR
     return Vec3(block(ConstReals(start_->positions), held.row) + from -
                 block(ConstReals(begin_), held.mover));
   };
-  lost_.assign(4 * contact_.surfaces().mover_count(), 0.0);
+  lost_.assign(5 * contact_.surfaces().mover_count(), 0.0);
   const auto of = [&](std::int32_t island) {
-    return lost_.begin() + 4 * static_cast<std::ptrdiff_t>(island);
+    return lost_.begin() + 5 * static_cast<std::ptrdiff_t>(island);
+  };
+  const auto mean_of = [&](std::int32_t island) {
+    const auto sum = of(island);
+    const bool moves = sum[0] > 0.0 && std::isfinite(sum[0]);
+    return moves ? Vec3(Vec3(sum[1], sum[2], sum[3]) / sum[0]) : Vec3(Vec3::Zero());
   };
   for_held_rows([&](const HeldRow& held) {
     const auto at = static_cast<std::size_t>(held.row);
@@ -63,14 +76,18 @@ void ContactRun::go_on_together(const Mass& mass, const FixedDofs& fixed, ConstR
     sum[0] += fixed.masks()[at] == 0 ? m : std::numeric_limits<double>::infinity();
     for (int k = 0; k < 3; ++k) sum[1 + k] += way[k];
   });
+  for_held_rows([&](const HeldRow& held) {
+    const Vec3 beside = block(whole, held.row) - way_from(held) - mean_of(held.island);
+    double& most = of(held.island)[4];
+    most = std::max(most, beside.norm());
+  });
   placed_ = to.positions;
   bool goes = false;
   for_held_rows([&](const HeldRow& held) {
-    const auto sum = of(held.island);
-    if (!(sum[0] > 0.0) || !std::isfinite(sum[0])) return;
+    const Vec3 mean = mean_of(held.island);
+    if (!(mean.norm() > kTogether * of(held.island)[4])) return;
     goes = true;
-    block(Reals(to.positions), held.row) +=
-        (1.0 - held_->share(held.mover)) * Vec3(sum[1], sum[2], sum[3]) / sum[0];
+    block(Reals(to.positions), held.row) += (1.0 - held_->share(held.mover)) * mean;
   });
   if (!goes) return;
   const std::vector<Candidate> stopped = held_->stopped_pairs(*candidates_);

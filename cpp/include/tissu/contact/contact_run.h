@@ -42,9 +42,9 @@ class ContactRun {
   /// Shortens the ways from the start to `to` until nothing passes through anything. The number of rows that
   /// were held back.
   int hold_back(State& to);
-  /// Ways that were cut by the latest `hold_back` lose only what they have beside the mean way of what stops
-  /// each other, as long as nothing else is in the way then: what flies together goes on together. `whole`:
-  /// positions without cuts, of `to`.
+  /// What flies together goes on together: ways that were cut by the latest `hold_back` lose only what they
+  /// have beside the mean way of what stops each other, where that is long, and as long as nothing else is in
+  /// the way then. `whole`: positions without cuts, of `to`.
   void go_on_together(const Mass& mass, const FixedDofs& fixed, ConstReals whole, State& to);
   /// Rows whose ways were cut by the latest `hold_back` have the velocities `v` of what is left of them, in
   /// the place of `before`. What rigid bodies stop each other gets the momentum back that is lost by that,

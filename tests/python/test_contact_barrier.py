@@ -231,7 +231,7 @@ def test_threads_and_a_run_that_is_resumed_change_no_bit(tmp_path):
 
 def test_steps_that_have_no_barrier_are_refused():
     scene = on_a_slope(0.0, contact=BARRIER)
-    for step in (ts.Static(), ts.ImplicitMidpoint("10 ms"), ts.SymplecticEuler()):
+    for step in (ts.ImplicitMidpoint("10 ms"), ts.SymplecticEuler()):
         with pytest.raises(
             ts.errors.SceneError, match="of the method barrier; accepted with contact"
         ):

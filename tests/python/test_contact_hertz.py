@@ -42,14 +42,13 @@ def quarter(x):
     return ts.Mesh(points=points, cells={"hexahedron": cells})
 
 
-def force_over_hertz(edges):
+def force_over_hertz(edges, *, gap=0.01 * DELTA, judge=pushed, **fields):
     """Force of the plate over F = 4/3 E* sqrt(R) delta^1.5, with so many edges in the radius.
 
     What is fixed below would have sunk there by F (1 + nu) (3 - 2 nu) / (2 pi E depth), after
     Boussinesq, which is added to delta.
     """
     x = graded(RADIUS / edges)
-    gap = 0.01 * DELTA
     down = ts.Motion(times=(0, 1), displacements=((0, 0, 0), (0, 0, -DELTA)))
     held = {"xyz": ((0, 0, -x[-1]), (0, 0, 1)), "x": ((0, 0, 0), (1, 0, 0)),
             "y": ((0, 0, 0), (0, 1, 0))}  # fmt: skip
@@ -61,9 +60,10 @@ def force_over_hertz(edges):
         fixed=[ts.Fixed("ball", on=ts.Plane(point=point, normal=normal), axes=axes)
                for axes, (point, normal) in held.items()],
         step=ts.Static(solver=ts.Cholesky()),
+        **fields,
     )  # fmt: skip
     simulation = scene.compile()
-    pushed(simulation)
+    judge(simulation)
     force = 4 * simulation.force_on("plate").force[2]
     sunk = force * (1 + POISSON) * (3 - 2 * POISSON) / (2 * math.pi * YOUNG * x[-1])
     reduced = YOUNG / (1 - POISSON**2)

@@ -84,9 +84,10 @@ SIDE = 0.1
 """[m]"""
 
 
-def between_plates(friction=0.0, *, share=0.5, law=None, cells=(4, 4, 4), symmetric=True, **fields):
+def between_plates(
+    friction=0.0, *, share=0.5, gap=2e-4, law=None, cells=(4, 4, 4), symmetric=True, **fields
+):
     """A cube between two plates, of which the high one comes down within a second."""
-    gap = 2e-4
     law = law or ts.StableNeoHooke(young=1e5, poisson=0.45)
     down = ts.Motion(times=(0, 1), displacements=((0, 0, 0), (0, 0, -share * SIDE)))
     sides = [

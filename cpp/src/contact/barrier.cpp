@@ -13,6 +13,9 @@ constexpr double kUsual = 0.25;     ///< sigma at which the stiffness is k
 constexpr double kSteepest = 1e-4;  ///< sigma below which b is a quadratic
 constexpr double kSpeed = 1e-3;     ///< extents a second: slower sliding sticks
 constexpr double kStiff = 3.0;      ///< times as stiff as the surfaces' mean node
+constexpr double kNear = 1e-2;      ///< sigma below which contacts that stay there become …
+constexpr double kStiffer = 4.0;    ///< … by this stiffer, …
+constexpr double kStiffest = 1e6;   ///< … no further than this
 
 std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 std::array<double, 3> numbers_of(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
@@ -58,7 +61,29 @@ BarrierValue barrier_value(double sigma) {
 BarrierContact::BarrierContact(const Contact& contact, const FixedDofs& fixed, double extent)
     : ImplicitContact(contact, fixed), extent_(std::max(extent, largest_carried(contact.surfaces()))) {
   run_.take_every_pair();
-  stiffnesses_.assign(contact.description().pairs.size(), 0.0);
+  const std::size_t pairs = contact.description().pairs.size();
+  stiffnesses_.assign(pairs, 0.0);
+  stiffer_.assign(pairs, 1.0);
+  nearest_.assign(pairs, 1.0);
+  stays_.assign(pairs, 0);
+}
+
+void BarrierContact::begin_press() {
+  energy_ = 0.0;
+  std::ranges::fill(nearest_, 1.0);
+}
+
+bool BarrierContact::stiffen() {
+  bool any = false;
+  for (std::size_t k = 0; k < nearest_.size(); ++k) {
+    const bool stays = stays_[k] != 0;
+    stays_[k] = nearest_[k] < kNear ? 1 : 0;
+    if (!stays || stays_[k] == 0 || stiffer_[k] >= kStiffest) continue;
+    stiffer_[k] *= kStiffer;
+    stays_[k] = 0;
+    any = true;
+  }
+  return any;
 }
 
 /// The mean node's share of a compliance, of both sides.
@@ -87,6 +112,8 @@ void BarrierContact::set_matrix(std::span<const double> blocks, double scale, co
     const ContactPair& pair = contact_.description().pairs[k];
     const double sum = compliances[at(pair.a)] + (pair.b == pair.a ? 0.0 : compliances[at(pair.b)]);
     stiffnesses_[k] = sum > 0.0 ? kStiff / (sum * scale) : 0.0;
+    stiffer_[k] = 1.0;
+    stays_[k] = 0;
   }
 }
 
@@ -102,7 +129,9 @@ std::optional<double> BarrierContact::press(std::size_t i, ContactNumbers& c) {
   const double sigma = (d * d - least * least) / whole;
   if (!(sigma < 1.0)) return std::nullopt;
   const double usual = least * least + kUsual * whole;
-  const double k = stiffnesses_[static_cast<std::size_t>(c.pair)];
+  const auto pair = static_cast<std::size_t>(c.pair);
+  const double k = stiffer_[pair] * stiffnesses_[pair];
+  nearest_[pair] = std::min(nearest_[pair], sigma);
   const double B = run_.weight(i) * k * whole * whole / (4.0 * usual * barrier_value(kUsual).curvature);
   const BarrierValue b = barrier_value(sigma);
   energy_ += B * b.energy;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <tuple>
 
 namespace tissu {
 namespace {
@@ -143,6 +144,23 @@ bool HoldBack::find(const Candidates& candidates, std::span<const PlacedPlane> p
     stopped_at_planes_.push_back(static_cast<std::int32_t>(i));
   }
   return held;
+}
+
+std::vector<Candidate> HoldBack::stopped_pairs(const Candidates& candidates) const {
+  std::vector<Candidate> pairs;
+  for (const std::int32_t number : stopped_) pairs.push_back(candidates.list()[at(number)]);
+  return pairs;
+}
+
+void HoldBack::stop_again(const Candidates& candidates, std::vector<Candidate> pairs) {
+  const auto key = [](const Candidate& c) { return std::tuple(c.kind, c.a, c.b); };
+  std::ranges::sort(pairs, {}, key);
+  stopped_.clear();
+  for (const std::int32_t number : candidates.near()) {
+    if (std::ranges::binary_search(pairs, key(candidates.list()[at(number)]), {}, key)) {
+      stopped_.push_back(number);
+    }
+  }
 }
 
 bool HoldBack::is_free(const Candidates& candidates, std::span<const PlacedPlane> planes, ConstReals from,

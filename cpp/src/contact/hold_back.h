@@ -53,6 +53,10 @@ class HoldBack {
   [[nodiscard]] const std::vector<std::int32_t>& stopped() const { return stopped_; }
   [[nodiscard]] const std::vector<std::int32_t>& stopped_at_planes() const { return stopped_at_planes_; }
 
+  /// The pairs that were stopped, and the same again in a list that was made anew.
+  [[nodiscard]] std::vector<Candidate> stopped_pairs(const Candidates& candidates) const;
+  void stop_again(const Candidates& candidates, std::vector<Candidate> pairs);
+
   /// Every mover goes its whole way, and is an island.
   void release();
   void forget() {

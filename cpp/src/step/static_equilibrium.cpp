@@ -34,7 +34,7 @@ void StaticEquilibrium::prepare(const World& world, LinearSolver* solver, Profil
   equilibrium_ = std::make_unique<Equilibrium>(world, solver, profile, settings_.newton);
   arc_ = std::make_unique<ArcLength>(*equilibrium_, settings_.newton);
   touching_.reset();
-  if (world.contact() != nullptr) touching_ = std::make_unique<StaticTouching>(*equilibrium_, profile);
+  if (world.contact() != nullptr) touching_ = StaticContact::make(*equilibrium_, profile);
   start_ = before_ = world.rest_state();
 }
 

@@ -5,7 +5,6 @@
 #include <limits>
 #include <utility>
 
-#include "tissu/base/error.h"
 #include "tissu/base/interruption.h"
 
 namespace tissu {
@@ -23,118 +22,26 @@ constexpr int kPatience = 6;            ///< … so many looks goes round in a c
 constexpr double kLeastRelaxed = 0.25;  ///< of the way from look to look
 constexpr double kForce = 1e-3;         ///< of a body's contact forces: a smaller change needs no other look
 constexpr double kDepth = 1e-3;         ///< of the gap
-constexpr double kFarthest = 0.1;    ///< of the scene's size, which a body that nothing holds falls at once
-constexpr double kLooseMass = 1e-6;  ///< of the stiffness of the node that is softest for its mass
-constexpr int kHeldNodes = 3;        ///< hold a body, on all axes together
-constexpr const char* kMovesOn =
-    "a body moves on: neither supports nor contacts hold it, or its equilibrium is unstable; hold it with "
-    "`fixed`, or by friction";
-constexpr std::uint8_t kAllAxes = FixedDofs::kAllAxes;
-
-/// Whether there are bodies, or separate parts, that supports do not hold.
-bool any_loose(const World& world) {
-  const Sparsity& sparsity = world.sparsity();
-  const std::vector<std::uint8_t>& masks = world.fixed().masks();
-  std::vector<std::uint8_t> seen(static_cast<std::size_t>(sparsity.rows()), 0);
-  std::vector<std::uint8_t> turns(seen.size(), 0);
-  for (const Frame& frame : world.frames()) turns[static_cast<std::size_t>(frame.rotation)] = 1;
-  std::vector<std::int32_t> left;
-  for (std::int32_t first = 0; first < sparsity.rows(); ++first) {
-    if (seen[static_cast<std::size_t>(first)] != 0) continue;
-    std::uint8_t axes = 0;
-    int held = 0;
-    bool carries = false;  // a row that stands alone is nothing
-    left.assign(1, first);
-    seen[static_cast<std::size_t>(first)] = 1;
-    while (!left.empty()) {
-      const std::int32_t row = left.back();
-      left.pop_back();
-      const auto at = static_cast<std::size_t>(row);
-      if (turns[at] == 0) axes |= masks[at];
-      if (turns[at] == 0 && masks[at] != 0) ++held;
-      for (std::int64_t k = sparsity.begin_of(row); k < sparsity.end_of(row); ++k) {
-        const std::int32_t other = sparsity.column[static_cast<std::size_t>(k)];
-        carries = carries || other != row;
-        if (std::exchange(seen[static_cast<std::size_t>(other)], std::uint8_t{1}) == 0) left.push_back(other);
-      }
-    }
-    if (carries && (axes != kAllAxes || held < kHeldNodes)) return true;
-  }
-  return false;
-}
 
 }  // namespace
 
 StaticTouching::StaticTouching(Equilibrium& equilibrium, Profile& profile)
-    : equilibrium_(equilibrium),
-      profile_(profile),
-      contact_(equilibrium.system().make_contact(true)),
-      start_(equilibrium.world().rest_state()),
+    : StaticContact(equilibrium, profile),
       before_(start_),
-      held_(start_),
-      is_loose_(any_loose(equilibrium.world())),
-      blocks_(3 * start_.positions.size()),
-      way_(start_.positions.size()),
-      detection_row_(profile.row("contact", "detection")),
-      travel_row_(profile.row("contact", "travel")),
       response_row_(profile.row("contact", "response")) {}
 
-bool StaticTouching::give_up(std::string why) {
-  reason_ = std::move(why);
-  return false;
-}
-
-double StaticTouching::largest_part(const LoadPath& path, const State& start) const {
-  return 1.0 / std::max(1.0, contact_->run().half_edges_led(start, path.time(1.0)));
-}
-
-void StaticTouching::look(const State& at) {
-  const Timed timed(profile_, detection_row_);
-  other_ = contact_->look(at);
-}
-
-int StaticTouching::hold_back(State& to) {
-  const Timed timed(profile_, travel_row_);
-  return contact_->run().hold_back(to);
-}
-
-/// So much of the mass that no node feels it beside its own stiffness.
-void StaticTouching::measure_mass() {
-  const World& world = equilibrium_.world();
-  const std::vector<double>& mass = world.mass().nodal();
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < mass.size(); ++i) {
-    const double trace = blocks_[9 * i] + blocks_[9 * i + 4] + blocks_[9 * i + 8];
-    if (mass[i] > 0.0 && trace > 0.0) least = std::min(least, trace / (3.0 * mass[i]));
-  }
-  equilibrium_.steady(std::isfinite(least) ? kLooseMass * least : 0.0, kFarthest * world.extent());
-}
-
-/// What is led goes where it stands at the share `to`, pushes what is in its way, and is looked at there.
-void StaticTouching::begin(const LoadPath& path, double from, double to, State& state) {
-  const World& world = equilibrium_.world();
-  start_ = state;
-  start_touches_ = world.contact()->table(start_).size() > 0;
-  start_.time = path.time(from);
-  path.set_way(from, to, state, way_);
-  held_ = state;
-  move(state, world.frames(), way_, 1.0, held_);
-  {
-    const Timed timed(profile_, detection_row_);
-    contact_->begin(start_, path.time(to), held_.positions, {});
-  }
-  world.contact()->numbers(state).clear();
-  equilibrium_.system().assemble(state, 0.0, {-1.0, 0.0, true});
-  equilibrium_.system().system_matrix().diagonal_blocks(blocks_);
-  contact_->set_matrix(blocks_, 1.0, {});
+/// What is led is looked at where it stands at the end of the part.
+void StaticTouching::begin_part(const LoadPath& path, double from, double to, State& state) {
+  begin(path, from, to, state);
+  start_touches_ = world().contact()->table(start_).size() > 0;
+  falls_ = 0;
   tangent_ = relaxed_ = 1.0;
   best_ = std::numeric_limits<double>::infinity();
   idle_ = 0;
   contact_->set_stiffer(kNormal, tangent_);
-  if (is_loose_) measure_mass();
   is_falling_ = is_loose_;
   hold_back(held_);
-  look(held_);
+  look_at(held_);
   depth_ = contact_->depth();
   contact_->run().go_on_from(held_);
   contact_->take();
@@ -178,7 +85,7 @@ void StaticTouching::fall(State& state) {
   double share = high;
   for (int i = 0; i < kBisections; ++i) {
     equilibrium_.shorten(share, state);
-    look(state);
+    look_at(state);
     const bool is_deep = contact_->depth() > most;
     if (!is_deep && (i == 0 || contact_->depth() > 0.0)) return;
     (is_deep ? high : low) = share;
@@ -200,7 +107,7 @@ bool StaticTouching::look_again(double share, State& state, StepReport& report) 
     }
   }
   held_back_ = hold_back(held_);
-  look(held_);
+  look_at(held_);
   depth_ = contact_->depth();
   contact_->run().go_on_from(held_);
   const bool stays =
@@ -227,49 +134,30 @@ void StaticTouching::soften() {
   }
   if (idle_ < kPatience) return;
   tangent_ *= 0.5;
-  if (equilibrium_.world().frames().empty()) relaxed_ = std::max(kLeastRelaxed, 0.5 * relaxed_);
+  if (world().frames().empty()) relaxed_ = std::max(kLeastRelaxed, 0.5 * relaxed_);
   idle_ = 0;
   best_ = other_;
   contact_->set_stiffer(kNormal, tangent_);
 }
 
-bool StaticTouching::find(const LoadPath& path, double from, double to, int most, State& state,
+bool StaticTouching::seek(const LoadPath& path, double from, double to, int most, State& state,
                           StepReport& report) {
-  is_unstable_ = false;
-  falls_ = 0;
-  reason_.clear();
-  try {
-    begin(path, from, to, state);
-    return look_until_it_stays(path, from, to, most, state, report);
-  } catch (const Interrupted&) {
-    throw;
-  } catch (const Error& error) {  // of what is led too far, or of values that are not finite
-    std::string why = error.what();
-    if (why.ends_with('.')) why.pop_back();
-    return give_up(why);
-  }
-}
-
-bool StaticTouching::look_until_it_stays(const LoadPath& path, double before, double to, int most,
-                                         State& state, StepReport& report) {
+  begin_part(path, from, to, state);
+  double before = from;
   const int first = report.newton_iterations;
   for (int i = 0; i < kMostLooks; ++i) {
     stop_if_asked();
     const int left = most - (report.newton_iterations - first);
-    if (left <= 0) return give_up(falls_ > 0 ? kMovesOn : "all of Newton's iterations were used");
+    if (left <= 0) return give_up(falls_ > 0 ? moves_on() : "all of Newton's iterations were used");
     if (!solve(path, before, to, left, state, report)) {
-      if (!reason_.empty()) return false;
-      return give_up(falls_ > 0 ? kMovesOn
+      if (!reason().empty()) return false;
+      return give_up(falls_ > 0 ? moves_on()
                                 : "Newton's iteration found no equilibrium with the contacts there");
     }
     before = to;
     falls_ += is_falling_ ? 1 : 0;
-    if (falls_ > (start_touches_ ? kMostTouching : kMostFalls)) return give_up(kMovesOn);
-    if (look_again(to, state, report)) {
-      report.contacts = static_cast<int>(contact_->size());
-      report.least_gap = contact_->least_gap();
-      return true;
-    }
+    if (falls_ > (start_touches_ ? kMostTouching : kMostFalls)) return give_up(moves_on());
+    if (look_again(to, state, report)) return true;
   }
   return give_up("contact forces had not come to rest after " + std::to_string(kMostLooks) + " searches");
 }

@@ -47,7 +47,12 @@ int StageSolver::hold_back(State& to) {
   const Timed timed(*profile_, travel_row_);
   placed_ = to.positions;
   placed_rotations_ = to.rotations;
-  return contact_->run().hold_back(to);
+  const int rows = contact_->run().hold_back(to);
+  if (rows > 0 && contact_->barrier() == nullptr) {
+    const World& world = system_->world();
+    contact_->run().go_on_together(world.mass(), world.fixed(), placed_, to);
+  }
+  return rows;
 }
 
 void StageSolver::update_contacts(const State& end) {

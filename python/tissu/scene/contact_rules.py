@@ -19,7 +19,7 @@ STEPS_OF_METHOD: dict[str, tuple[str, ...]] = {
     "augmented": (*_IMPLICIT, "static"),
     "impulse": _EXPLICIT,
     "penalty": (*_EXPLICIT, "implicit_euler", "bdf2", "static"),
-    "barrier": ("implicit_euler", "bdf2"),
+    "barrier": ("implicit_euler", "bdf2", "static"),
     "geometric": _EXPLICIT,
 }
 """Contact method -> the steps that have it; `auto` takes the first method that the step has.

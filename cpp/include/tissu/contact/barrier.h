@@ -9,11 +9,12 @@
 ///
 /// B gives n . H n = k at sigma = 1/4, k = 3 / (a + b) with the compliances a, b of the mean node of the two
 /// surfaces in the step's own matrix, so that it is the same wherever a contact is. Below sigma = 1e-4 the
-/// quadratic that touches b goes on: only the tests of ways keep surfaces apart there. Friction has the
-/// normal forces F of the latest lag:
+/// quadratic that touches b goes on: only the tests of ways keep surfaces apart there. In static steps B
+/// grows where surfaces stay that near. Friction has the normal forces F of the latest lag:
 ///
 ///     f_T = -F f1(y / e) u_T / y,  y = |u_T|,  f1 = 2 s - s^2 where s < 1, else 1;  e = 1e-3 extent h / s
 
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
@@ -42,18 +43,24 @@ class BarrierContact final : public ImplicitContact {
   /// The normal forces of the contacts that act are those of friction from now on. By how much they changed,
   /// as a share.
   double lag();
+  /// Contacts of a pair of surfaces that stay nearer than sigma = 1e-2 from one call to the next become
+  /// stiffer, until `set_matrix`. Whether any did.
+  bool stiffen();
 
  protected:
   [[nodiscard]] bool may_press(std::size_t i) const override;
   [[nodiscard]] bool has_own_stiffness() const override { return true; }
-  void begin_press() override { energy_ = 0.0; }
+  void begin_press() override;
   std::optional<double> press(std::size_t i, ContactNumbers& contact) override;
   void rub(ContactNumbers& contact, double bound, double k) override;
 
  private:
   double extent_;
   double energy_ = 0.0;
-  std::vector<double> stiffnesses_;  ///< k of each pair
+  std::vector<double> stiffnesses_;  ///< k of each pair, …
+  std::vector<double> stiffer_;      ///< … times that, …
+  std::vector<double> nearest_;      ///< … its least sigma in the latest look, …
+  std::vector<std::uint8_t> stays_;  ///< … which was that small before, too
 };
 
 }  // namespace tissu

@@ -42,6 +42,10 @@ class ContactRun {
   /// Shortens the ways from the start to `to` until nothing passes through anything. The number of rows that
   /// were held back.
   int hold_back(State& to);
+  /// What flies together goes on together: ways that were cut by the latest `hold_back` lose only what they
+  /// have beside the mean way of what stops each other, where that is long, and as long as nothing else is in
+  /// the way then. `whole`: positions without cuts, of `to`.
+  void go_on_together(const Mass& mass, const FixedDofs& fixed, ConstReals whole, State& to);
   /// Rows whose ways were cut by the latest `hold_back` have the velocities `v` of what is left of them, in
   /// the place of `before`. What rigid bodies stop each other gets the momentum back that is lost by that,
   /// each island as a whole; what something given stops, such as an obstacle, does not.
@@ -93,6 +97,7 @@ class ContactRun {
   void add(const Candidate& candidate, const Found& found, std::int32_t point);
   void bend(const State& to);
   void sway();
+  struct HeldRow;
   template <class Function>
   void for_held_rows(Function&& f) const;
   void gather_inner_rows(const State& state, std::vector<double>& places) const;
@@ -114,12 +119,13 @@ class ContactRun {
   std::unique_ptr<PushAhead> ahead_;
   std::vector<PlacedPlane> planes_;
   // Places of all vertices, then of rows that carry some and are none:
-  std::vector<double> begin_;  ///< at the start of the step, …
-  std::vector<double> from_;   ///< … after what is led went ahead, …
-  std::vector<double> now_;    ///< … and where they are looked at
-  std::vector<double> bends_;  ///< of each vertex, as HoldBack takes them; empty: nothing free is rigid
-  std::vector<double> sways_;  ///< of each vertex, as HoldBack takes them; empty: rows carry none
-  std::vector<double> goal_;   ///< where the latest system led them, before they were held back
+  std::vector<double> begin_;   ///< at the start of the step, …
+  std::vector<double> from_;    ///< … after what is led went ahead, …
+  std::vector<double> now_;     ///< … and where they are looked at
+  std::vector<double> bends_;   ///< of each vertex, as HoldBack takes them; empty: nothing free is rigid
+  std::vector<double> sways_;   ///< of each vertex, as HoldBack takes them; empty: rows carry none
+  std::vector<double> goal_;    ///< where the latest system led them, before they were held back
+  std::vector<double> placed_;  ///< rows where ways were cut to
   const State* start_ = nullptr;
   const State* looked_at_ = nullptr;
   double end_ = 0.0;

@@ -7,7 +7,7 @@
 #include "tissu/step/arc_length.h"
 #include "tissu/step/equilibrium.h"
 #include "tissu/step/integrator.h"
-#include "tissu/step/static_touching.h"
+#include "tissu/step/static_contact.h"
 
 namespace tissu {
 
@@ -52,10 +52,10 @@ class StaticEquilibrium final : public Integrator {
   bool loaded_ = false;
   std::unique_ptr<Equilibrium> equilibrium_;
   std::unique_ptr<ArcLength> arc_;
-  std::unique_ptr<StaticTouching> touching_;  ///< null where nothing touches
-  State start_;                               ///< of the step
-  State before_;                              ///< of the part of the load
-  bool solver_gave_up_ = false;               ///< since the last part that converged
+  std::unique_ptr<StaticContact> touching_;  ///< null where nothing touches
+  State start_;                              ///< of the step
+  State before_;                             ///< of the part of the load
+  bool solver_gave_up_ = false;              ///< since the last part that converged
   ArcLength::End arc_ended_ = ArcLength::End::unused;
 };
 

@@ -151,20 +151,6 @@ def test_on_is_read_where_yaml_1_1_made_it_true() -> None:
     assert ts.Scene.from_yaml_text(written).fixed == read.fixed
 
 
-def test_a_body_of_frames_in_a_scene_with_editing_is_named() -> None:
-    rod = """bodies:
-  skin:
-    mesh: {type: bar, size: [6 cm, 2 cm, 2 cm], cells: [6, 2, 2]}
-    law: {type: hooke, young: 20 kPa, poisson: 0.3}
-    model: frames
-    density: 1 g/cm^3
-fixed:
-  - {body: skin, on: {type: box, max: [1 mm, null, null]}}
-editing: true
-"""
-    assert any("the model frames of body 'skin'" in one for one in found(rod + STEP))
-
-
 @pytest.mark.parametrize(
     ("text", "note"),
     [

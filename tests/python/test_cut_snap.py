@@ -167,3 +167,32 @@ def test_what_cannot_be_snapped_is_refused() -> None:
     for changes, words in cases:
         with pytest.raises(ts.SceneError, match=words):
             snapping(**changes).compile()
+
+
+@pytest.mark.parametrize("sides", [8, 12, 24])
+def test_blades_with_corners_part_the_body(sides: int) -> None:
+    """A prism seven cells wide: nodes that were moved into a corner lie on both of its sides."""
+    body = ts.Body(
+        mesh=ts.BarMesh(size=(0.1, 0.06, 0.02), cells=(20, 12, 4), cell="tetra"),
+        law=ts.StVK(young="8 kPa", poisson=0.4),
+        density=1000,
+    )
+    for seed in range(3):
+        random = np.random.default_rng(seed)
+        centre = np.array([random.uniform(0.04, 0.06), random.uniform(0.025, 0.035), 0.0])
+        turn = random.uniform(0.0, 7.0) + 2.0 * np.pi * np.arange(sides) / sides
+        ring = centre + 0.018 * np.column_stack([np.cos(turn), np.sin(turn), 0.0 * turn])
+        next_to = (np.arange(sides) + 1) % sides
+        i = np.arange(sides)
+        lower = np.column_stack([i, next_to, next_to + sides])
+        upper = np.column_stack([i, next_to + sides, i + sides])
+        high = np.array([0.0, 0.0, 0.1])
+        blade = ts.Triangles(np.vstack([ring - high, ring + high]), np.vstack([lower, upper]))
+        simulation = ts.Scene(
+            bodies={"bar": body},
+            step=ts.ImplicitEuler("2 ms"),
+            editing=ts.Editing(method="snap", room="900 %"),
+        ).compile()
+        report = simulation.cut("bar", blade)
+        assert report.nodes_moved > 0
+        assert len(report.pieces) >= 2

@@ -148,6 +148,7 @@ bool HoldBack::find(const Candidates& candidates, std::span<const PlacedPlane> p
 
 std::vector<Candidate> HoldBack::stopped_pairs(const Candidates& candidates) const {
   std::vector<Candidate> pairs;
+  pairs.reserve(stopped_.size());
   for (const std::int32_t number : stopped_) pairs.push_back(candidates.list()[at(number)]);
   return pairs;
 }

@@ -54,7 +54,7 @@ void ContactRun::for_held_rows(Function&& f) const {
 void ContactRun::go_on_together(const Mass& mass, const FixedDofs& fixed, ConstReals whole, State& to) {
   if (held_->stopped().empty()) return;
   const auto way_from = [&](const HeldRow& held) {
-    const Vec3 from = block(ConstReals(from_), held.mover);
+    Vec3 from = block(ConstReals(from_), held.mover);
     if (!held.rigid) return from;
     return Vec3(block(ConstReals(start_->positions), held.row) + from -
                 block(ConstReals(begin_), held.mover));

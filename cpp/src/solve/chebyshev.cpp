@@ -68,12 +68,23 @@ void Chebyshev<T>::multiply_rows(std::int32_t begin, std::int32_t end, const T* 
 }
 
 /// Iterations of the conjugate gradient from a residual without a pattern: their coefficients are the
-/// tridiagonal matrix of Lanczos' method (Golub and Van Loan, Matrix Computations, 4th edition, 11.3).
+/// tridiagonal matrix of Lanczos' method (Golub and Van Loan, Matrix Computations, 4th edition, 11.3). Each
+/// row of the residual is as large as the root of its diagonal, so that all rows have the same part in r .
+/// D^-1 r: those of a soft body beside a stiff one, or of held nodes, whose diagonal is 1, would else be all
+/// that is found, and the eigenvalue too small.
 template <class T>
 void Chebyshev<T>::find_largest(const Threads& threads) {
   using Tridiagonal = Eigen::Matrix<double, kLanczos, kLanczos>;
   Tridiagonal matrix = Tridiagonal::Zero();  // zeros behind what is found when the iterations end early
-  for (std::size_t i = 0; i < r_.size(); ++i) r_[i] = static_cast<T>(scattered(i));
+  threads.for_pieces(rows(), [&](std::int32_t begin, std::int32_t end) {
+    for (auto row = static_cast<std::size_t>(begin); row < static_cast<std::size_t>(end); ++row) {
+      const T* D = inverse_.data() + 9 * row;
+      const double mean =
+          (static_cast<double>(D[0]) + static_cast<double>(D[4]) + static_cast<double>(D[8])) / 3.0;
+      const double root = mean > 0.0 ? 1.0 / std::sqrt(mean) : 0.0;
+      for (std::size_t i = 3 * row; i < 3 * row + 3; ++i) r_[i] = static_cast<T>(root * scattered(i));
+    }
+  });
   std::ranges::fill(d_, T(0));
   const auto precondition = [&] {
     threads.for_pieces(rows(), [&](std::int32_t begin, std::int32_t end) {

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "tissu/base/interruption.h"
+#include "tissu/contact/barrier.h"
 
 namespace tissu {
 namespace {

@@ -69,13 +69,13 @@ StaticContact::StaticContact(Equilibrium& equilibrium, Profile& profile)
       detection_row_(profile.row("contact", "detection")),
       travel_row_(profile.row("contact", "travel")) {}
 
-std::string StaticContact::moves_on() {
+std::string_view StaticContact::moves_on() {
   return "a body moves on: neither supports nor contacts hold it, or its equilibrium is unstable; hold it "
          "with `fixed`, or by friction";
 }
 
-bool StaticContact::give_up(std::string why) {
-  reason_ = std::move(why);
+bool StaticContact::give_up(std::string_view why) {
+  reason_ = why;
   return false;
 }
 

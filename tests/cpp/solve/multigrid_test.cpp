@@ -338,6 +338,24 @@ TEST(Multigrid, RoundedTakesNoMoreIterationsOnALongBar) {
   }
 }
 
+/// The diagonal of held rows is 1, in any units. Steel in metres has 1e11 beside it, and a body of 10 Pa 1e2.
+TEST(Multigrid, IsPositiveInAnyUnits) {
+  for (const double young : {1e-6, 1e1, 1e11, 1e16}) {
+    const Mesh mesh = box_mesh(Vec3::Zero(), {20.0, 5.0, 5.0}, {24, 6, 6}, Split::none);
+    WorldDescription description;
+    description.bodies = {test::body_of(mesh, {.young = young})};
+    description.fixed = {test::fixed(test::nodes_at(mesh, 0, 0.0))};
+    const Assembled bar(std::move(description));
+    std::vector<double> x;
+    for (const Precision precision : {Precision::full, Precision::single}) {
+      const SolveReport report = bar.solve(Preconditioning::multigrid, x, precision, 1e-6);
+      EXPECT_TRUE(report.positive_definite) << young;
+      EXPECT_TRUE(report.converged) << young;
+      EXPECT_LE(report.iterations, 25) << young;  // 16 are counted
+    }
+  }
+}
+
 /// The first matrix, of inertia alone, binds no rows; the second does, and makes the levels.
 TEST(Multigrid, MakesItsLevelsWhenThereIsSomethingToBind) {
   Cube cube(8, true, 1e9);

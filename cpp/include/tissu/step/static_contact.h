@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "tissu/contact/implicit_contact.h"
@@ -41,9 +42,9 @@ class StaticContact {
   int hold_back(State& to);
   /// So much of the mass stands beside the tangent that no node feels it beside its own stiffness.
   void measure_mass();
-  bool give_up(std::string why);
+  bool give_up(std::string_view why);
   [[nodiscard]] const World& world() const { return equilibrium_.world(); }
-  [[nodiscard]] static std::string moves_on();
+  [[nodiscard]] static std::string_view moves_on();
 
   Equilibrium& equilibrium_;
   Profile& profile_;

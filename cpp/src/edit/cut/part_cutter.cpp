@@ -1,10 +1,12 @@
 #include "edit/cut/part_cutter.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "edit/cut/bridges.h"
 #include "edit/cut/open.h"
 #include "edit/cut/pierced.h"
+#include "edit/cut/side.h"
 
 namespace tissu {
 namespace {
@@ -18,7 +20,25 @@ constexpr double kFollowed = 0.2;
 constexpr double kFollowedByDivided = 0.12;
 constexpr double kMostSettled = 0.02;  ///< share of an edge
 
+/// Shares of the largest coordinate: the round-off of a place on the blade.
+constexpr double kRoundOff = 1e-10;
+
 std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
+
+/// The triangles on which a place lies, the nearest one at least.
+Numbers triangles_at(const SweepPart& part, const Vec3& place) {
+  Numbers found;
+  std::int32_t nearest = 0;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::int32_t t = 0; t < static_cast<std::int32_t>(part.triangles.size()); ++t) {
+    const double away = distance(part, {&t, 1}, place);
+    if (away <= kRoundOff * place.cwiseAbs().maxCoeff()) found.push_back(t);
+    if (away < least) nearest = t;
+    least = std::min(least, away);
+  }
+  if (found.empty()) found.push_back(nearest);
+  return found;
+}
 
 }  // namespace
 
@@ -35,7 +55,10 @@ OnCut PartCutter::known_at_start(std::size_t number, const SweepPart& part) cons
   OnCut known = known_before(patch_, material_, part.incision);
   for (const CutOptions::Met& met : options_.met) {
     const std::int32_t v = met.part == number ? patch_.place_of(met.node) : -1;
-    if (v >= 0) known.put_on(v, patch_.vertex(v).place, met.place, -1);
+    if (v < 0) continue;
+    // Of a bent blade all triangles that meet there: the node is on each.
+    const std::vector<std::int32_t> triangles = triangles_at(part, met.place);
+    for (const std::int32_t t : triangles) known.put_on(v, patch_.vertex(v).place, met.place, t);
   }
   return known;
 }
@@ -63,6 +86,7 @@ bool PartCutter::cut(std::size_t number, const SweepPart& part, const NearCells&
   report(cells_pierced_between(patch_, blade, known, options_.divide ? kFollowedByDivided : kFollowed),
          Unresolved::bridge, plan);
   report_pierced(pierced_tetrahedra(patch_, part, near, known, true), plan);
+  if (opened.count == 0 && part.incision < 0) report_in_vain(plan);
   std::ranges::sort(plan.unresolved);
   const auto same = std::ranges::unique(plan.unresolved, {}, [](const auto& one) { return one.first; });
   plan.unresolved.erase(same.begin(), same.end());
@@ -136,6 +160,12 @@ void PartCutter::report(const LeftEdges& left, CutPlan& plan) const {
 
 void PartCutter::report(const Numbers& cells, Unresolved reason, CutPlan& plan) const {
   for (const std::int32_t cell : cells) plan.unresolved.emplace_back(patch_.cell(cell).number, reason);
+}
+
+/// Cells of which it divided the material and parted nothing.
+void PartCutter::report_in_vain(CutPlan& plan) const {
+  for (const Patch::Cell& cell : patch_.cells)
+    if (cell.divided) plan.unresolved.emplace_back(cell.number, Unresolved::ends);
 }
 
 /// A cell that the part cuts elsewhere is not pierced.

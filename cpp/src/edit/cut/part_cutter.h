@@ -43,6 +43,7 @@ class PartCutter {
   void end(const std::vector<Patch::Cell>& before);
   void report(const LeftEdges& left, CutPlan& plan) const;
   void report(const std::vector<std::int32_t>& cells, Unresolved reason, CutPlan& plan) const;
+  void report_in_vain(CutPlan& plan) const;
   void report_pierced(const std::vector<std::int32_t>& tetrahedra, CutPlan& plan) const;
 
   Patch& patch_;

@@ -13,6 +13,8 @@ std::string_view words(Unresolved reason) {
   switch (reason) {
     case Unresolved::pierced:
       return "the blade is narrower than the cell there and crosses none of its edges";
+    case Unresolved::ends:
+      return "the blade ends inside the cell and parts nothing";
     case Unresolved::folded:
       return "the blade crosses an edge of the cell more often than a cut follows";
     case Unresolved::shape:

@@ -42,7 +42,8 @@ enum class Unresolved : std::uint8_t {
   folded,   ///< the blade crosses an edge more often than a cut follows
   shape,    ///< the cell's material is inside out at rest, so that its edges are not divided
   flat,     ///< a part of the cell would be too flat to be a cell
-  bridge    ///< the blade passes the cell more than once; material between may stay joined
+  bridge,   ///< the blade passes the cell more than once; material between may stay joined
+  ends      ///< a blade that parts nothing crosses its edges and ends inside
 };
 std::string_view words(Unresolved reason);
 

@@ -16,11 +16,12 @@ constexpr double kExpected = 3.0;  ///< of its own rate, which an arm may spend 
 constexpr double kSoon = 50.0;
 /// Of the rate of the present arm: above it a rate may be the lower one only as far as predictions err.
 constexpr double kClear = 0.5;
-constexpr int kFactorTrial = 4;    ///< solves of a trial of a factor, which the first ones flatter
-constexpr int kCheapTrial = 3;     ///< solves of a trial of what costs less to make than to use
-constexpr int kMemory = 8;         ///< solves over which a cost is averaged, …
-constexpr int kLongMemory = 32;    ///< … and the share of those with makings
-constexpr double kHoping = 0.997;  ///< by which the cost of an arm is doubted with every solve of another one
+constexpr int kFactorTrial = 4;  ///< solves of a trial of a factor, which the first ones flatter
+constexpr int kCheapTrial = 3;   ///< solves of a trial of what costs less to make than to use
+constexpr int kMemory = 8;       ///< solves over which a cost is averaged, …
+constexpr int kLongMemory = 32;  ///< … and the share of those with makings
+constexpr double kHoping =
+    0.99;  ///< by which the cost of an arm is doubted with every solve of another one: bodies slow down
 constexpr double kAfterTrial = 3.0;       ///< times the patience of the arm that did not stay
 constexpr double kAfterCheapTrial = 1.5;  ///< the same where the trial cost little
 constexpr double kAfterFailure = 4.0;     ///< times the patience of an arm that failed

@@ -10,7 +10,7 @@ namespace tissu {
 /// Of a byte of a triangle: rows of its solves wait for each other.
 inline constexpr double kSweep = 1.4;
 /// Of a byte of a sparse factor, whose solves gather and scatter.
-inline constexpr double kFactorSolve = 1.4;
+inline constexpr double kFactorSolve = 1.7;
 /// Of each number of a sparse factor, which is gathered and scattered, beside the operations.
 inline constexpr double kFactorNumber = 330.0;
 /// Of each row of three of a sparse factor, beside its numbers: what a small supernode costs.

@@ -247,8 +247,39 @@ def patch(**fields):
     )
 
 
+@pytest.mark.parametrize("cells", [2, 3, 4])
+@pytest.mark.parametrize("friction", [0.3, 1.0])
+@pytest.mark.parametrize("young", [(20e3, 40e3), (40e3, 20e3), (20e3, 20e3)])
+def test_a_soft_block_rests_on_one_whose_mesh_matches(cells, friction, young):
+    """Its nodes stand on nodes, whose normals turn as they move: looks go round in circles."""
+    side, gap = 0.05, 2e-4
+    upper, lower = (
+        ts.Body(
+            mesh=ts.BarMesh(
+                size=(side,) * 3, cells=(cells,) * 3, cell="hexahedron", origin=(0, 0, z)
+            ),
+            law=ts.StableNeoHooke(young=modulus, poisson=0.4),
+            density=1000.0,
+        )
+        for z, modulus in zip((side + gap, 0.0), young, strict=True)
+    )
+    simulation = ts.Scene(
+        bodies={"upper": upper, "lower": lower},
+        gravity=(0, 0, -9.81),
+        fixed=[ts.Fixed("lower", on=ts.Plane((0, 0, 0), (0, 0, 1)))],
+        contacts=[ts.Contact(("upper", "lower"), friction=friction)],
+        step=ts.Static(),
+    ).compile()
+    assert simulation.step().converged
+    assert simulation.crossings() == []
+    weight = 9.81 * 1000.0 * side**3
+    np.testing.assert_allclose(
+        simulation.force_on("upper").force, (0, 0, weight), atol=1e-4 * weight
+    )
+
+
 def test_the_patch_test_of_matching_meshes():
-    """One stress in both blocks, at every point, within 2e-3.
+    """One stress in both blocks, at every point, within 3e-3: forces are settled to 1e-3.
 
     The normal between two nodes that face each other turns by their offset sideways over the gap.
     """
@@ -259,7 +290,7 @@ def test_the_patch_test_of_matching_meshes():
     area = np.ptp(simulation.positions["b"], axis=0)[:2].prod()
     expected = np.zeros((3, 3))
     expected[2, 2] = -simulation.force_on("high").force[2] / area
-    assert np.abs(stress - expected).max() <= 2e-3 * abs(expected[2, 2])
+    assert np.abs(stress - expected).max() <= 3e-3 * abs(expected[2, 2])
 
 
 @pytest.mark.parametrize("threads", [2, 4])

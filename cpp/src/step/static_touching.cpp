@@ -20,8 +20,11 @@ constexpr double kNormal = 10.0;        ///< times stiffer against coming nearer
 constexpr double kFalls = 0.7;          ///< of the least change before: one that does not fall so far in …
 constexpr int kPatience = 6;            ///< … so many looks goes round in a circle
 constexpr double kLeastRelaxed = 0.25;  ///< of the way from look to look
+constexpr double kLeastTangent = 0.5;   ///< of the springs against sliding: softer ones let bodies creep away
 constexpr double kForce = 1e-3;         ///< of a body's contact forces: a smaller change needs no other look
 constexpr double kDepth = 1e-3;         ///< of the gap
+constexpr std::string_view kUsed =
+    "all of Newton's iterations were used; the contact method barrier may need fewer";
 
 }  // namespace
 
@@ -98,7 +101,8 @@ bool StaticTouching::look_again(double share, State& state, StepReport& report) 
     const Timed timed(profile_, response_row_);
     contact_->update(state);
   }
-  const bool whole = relaxed_ == 1.0 || is_falling_ || other_ <= kForce;
+  // A whole way changes forces by more than the part of it that was gone before.
+  const bool whole = relaxed_ == 1.0 || is_falling_ || other_ <= relaxed_ * kForce;
   if (whole) {
     held_ = state;
   } else {
@@ -133,7 +137,7 @@ void StaticTouching::soften() {
     idle_ = 0;
   }
   if (idle_ < kPatience) return;
-  tangent_ *= 0.5;
+  tangent_ = std::max(kLeastTangent, 0.5 * tangent_);
   if (world().frames().empty()) relaxed_ = std::max(kLeastRelaxed, 0.5 * relaxed_);
   idle_ = 0;
   best_ = other_;
@@ -148,18 +152,21 @@ bool StaticTouching::seek(const LoadPath& path, double from, double to, int most
   for (int i = 0; i < kMostLooks; ++i) {
     stop_if_asked();
     const int left = most - (report.newton_iterations - first);
-    if (left <= 0) return give_up(falls_ > 0 ? moves_on() : "all of Newton's iterations were used");
+    if (left <= 0) return give_up(falls_ > 0 ? moves_on() : kUsed);
     if (!solve(path, before, to, left, state, report)) {
       if (!reason().empty()) return false;
-      return give_up(falls_ > 0 ? moves_on()
-                                : "Newton's iteration found no equilibrium with the contacts there");
+      return give_up(falls_ > 0
+                         ? moves_on()
+                         : "Newton's iteration found no equilibrium with the contacts there; the contact "
+                           "method barrier may find one");
     }
     before = to;
     falls_ += is_falling_ ? 1 : 0;
     if (falls_ > (start_touches_ ? kMostTouching : kMostFalls)) return give_up(moves_on());
     if (look_again(to, state, report)) return true;
   }
-  return give_up("contact forces had not come to rest after " + std::to_string(kMostLooks) + " searches");
+  return give_up("contact forces had not come to rest after " + std::to_string(kMostLooks) +
+                 " searches; the contact method barrier may find an equilibrium");
 }
 
 }  // namespace tissu

@@ -98,6 +98,33 @@ def test_below_its_angle_it_slides_as_far_as_friction_needs():
             assert share == pytest.approx(2 * slid - slid**2, rel=2e-6)
 
 
+@pytest.mark.parametrize("gap", [1e-4, 1e-5])
+def test_below_its_angle_it_stays_on_a_table_with_a_short_gap(gap):
+    """Contacts begin a step as stiff as they ended the last one: softer ones would bear nothing.
+
+    Forces to twice the step's tolerance, as above; each step slides by less than e.
+    """
+    mesh = ts.BarMesh(size=(SIDE,) * 3, cells=(4, 4, 4), cell="hexahedron", origin=(0, 0, gap))
+    body = ts.Body(mesh=mesh, law=ts.StVK(young="20 kPa", poisson=0.3), density=1000.0)
+    weight, phi = 9.81 * 1000.0 * SIDE**3, 0.2
+    simulation = ts.Scene(
+        bodies={"cube": body},
+        obstacles={"table": ts.PlaneObstacle((0, 0, 0), (0, 0, 1))},
+        contacts=[ts.Contact(("cube", "table"), friction=0.3, gap=gap)],
+        contact=BARRIER,
+        gravity=(9.81 * math.sin(phi), 0, -9.81 * math.cos(phi)),
+        step=ts.Static(),
+    ).compile()
+    pressed(simulation)
+    for _ in range(2):
+        before = simulation.positions["cube"].copy()
+        pressed(simulation)
+        expected = [weight * math.sin(phi), 0, -weight * math.cos(phi)]
+        assert simulation.force_on("table").force == pytest.approx(expected, abs=2e-6 * weight)
+        slid = np.linalg.norm(simulation.positions["cube"] - before, axis=1)
+        assert slid.max() < 1e-3 * math.sqrt(3) * SIDE
+
+
 def test_above_it_nothing_holds_it_which_is_said():
     simulation = on_a_table(0.55, friction=0.5, contact=BARRIER).compile()
     before = simulation.positions["cube"].copy()

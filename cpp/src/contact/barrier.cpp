@@ -86,6 +86,24 @@ bool BarrierContact::stiffen() {
   return any;
 }
 
+void BarrierContact::go_on_from(const ContactTable& before) {
+  const auto normal_forces = [&](const auto& contacts) {
+    std::vector<double> sums(stiffer_.size(), 0.0);
+    for (std::size_t i = 0; i < contacts.size(); ++i) {
+      const ContactNumbers& c = contacts[i];
+      sums[static_cast<std::size_t>(c.pair)] += vector_of(c.normal).dot(vector_of(c.push));
+    }
+    return sums;
+  };
+  const std::vector<double> had = normal_forces(before);
+  const std::vector<double> have = normal_forces(run_.acting());
+  for (std::size_t k = 0; k < stiffer_.size(); ++k) {
+    if (!(have[k] > 0.0 && had[k] > have[k])) continue;
+    const double power = std::round(std::log(had[k] / have[k]) / std::log(kStiffer));
+    stiffer_[k] = std::min(kStiffest, std::pow(kStiffer, power));
+  }
+}
+
 /// The mean node's share of a compliance, of both sides.
 void BarrierContact::set_matrix(std::span<const double> blocks, double scale, const ContactStage& stage) {
   ImplicitContact::set_matrix(blocks, scale, stage);

@@ -128,6 +128,10 @@ bool StaticBarrier::seek(const LoadPath& path, double from, double to, int most,
                          StepReport& report) {
   begin(path, from, to, state);
   stand(path, to, state);
+  contact_->run().go_on_from(state);
+  look(state);
+  contact_->take();
+  barrier_.go_on_from(world().contact()->table(start_));
   mean_ = 0.0;
   int flights = 0;
   const int first = report.newton_iterations;

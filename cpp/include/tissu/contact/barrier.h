@@ -46,6 +46,9 @@ class BarrierContact final : public ImplicitContact {
   /// Contacts of a pair of surfaces that stay nearer than sigma = 1e-2 from one call to the next become
   /// stiffer, until `set_matrix`. Whether any did.
   bool stiffen();
+  /// The contacts that act, looked at where `before` acted, become as stiff as those: a pair's first
+  /// stiffness times the power of four that comes nearest to the normal forces that it had.
+  void go_on_from(const ContactTable& before);
 
  protected:
   [[nodiscard]] bool may_press(std::size_t i) const override;

@@ -18,6 +18,7 @@ from tissu.cutting.report import CutReport, Piece, cut_report
 from tissu.errors import ParameterError
 from tissu.mesh import CellBlock, Mesh
 from tissu.simulation import grab as kept
+from tissu.simulation import repairing
 from tissu.simulation.remains import Remains
 from tissu.simulation.severing import Severing
 from tissu.simulation.still import still_nodes
@@ -149,10 +150,24 @@ class Cutting(Remains, Severing):
         refine: bool = False,
         by: str = "",
         nearest: float = _NEAREST,
+        goes_on: bool = False,
     ) -> CutReport:
-        """Cut along a surface of the core; `nearest`: share of an edge from its end to go there."""
+        """Cut along a surface of the core.
+
+        Args:
+            body: its name.
+            sweep: the surface.
+            refine: see `cut`.
+            by: name of the instrument.
+            nearest: share of an edge from its end to go there.
+            goes_on: a knife goes on from here, so that cells are not repaired yet.
+        """
         snaps = self.scene.editing is not None and self.scene.editing.snaps(body)
-        rows = places_in(self, body) if snaps and self.scene.instruments else {}  # type: ignore[arg-type]
+        repairs = not goes_on and repairing.repairs(self, body)  # type: ignore[arg-type]
+        if repairs:
+            self._core.require_repair(body)
+        moves = (snaps or repairs) and self.scene.instruments
+        rows = places_in(self, body) if moves else {}  # type: ignore[arg-type]
         report = self._made(
             body,
             lambda: self._core.cut(
@@ -164,8 +179,9 @@ class Cutting(Remains, Severing):
                 **self._snapping(body),
             ),
             by=by,
+            repairs=repairs,
         )
-        if report.nodes_moved and rows:
+        if rows and (report.nodes_moved or report.repairs):
             anchor_again(self, body, rows)  # type: ignore[arg-type]
         return report
 
@@ -220,7 +236,9 @@ class Cutting(Remains, Severing):
         self._become_severed(mark._severed)
         self._lay_views()
 
-    def _made(self, body: str, make: Any, *, by: str, ablated: bool = False) -> CutReport:
+    def _made(
+        self, body: str, make: Any, *, by: str, ablated: bool = False, repairs: bool = False
+    ) -> CutReport:
         """Make a cut and follow it; go back where it leaves a static body with free pieces."""
         start = time.perf_counter()
         grabs = kept.records(self._core) if self.scene.grabbing else {}
@@ -228,6 +246,9 @@ class Cutting(Remains, Severing):
         made = make()
         met = bool(made["cells_cut"] or made["cells_gone"] or made["nodes_moved"])
         if met:
+            self._follow_cells(body)
+        if met and repairs:
+            made = repairing.with_repair(made, repairing.repaired(self, body))  # type: ignore[arg-type]
             self._follow_cells(body)
         pieces = self.pieces(body)
         self._refuse_free_pieces(body, pieces, way_back if met else None)

@@ -1,0 +1,36 @@
+#pragma once
+
+/// Which operations may be made.
+
+#include <cstdint>
+#include <vector>
+
+#include "edit/repair/repair_mesh.h"
+#include "tissu/edit/repair.h"
+
+namespace tissu {
+
+class Judge {
+ public:
+  /// `volume`: of the body [m3].
+  Judge(const RepairMesh& mesh, const RepairRules& rules, double volume)
+      : mesh_(mesh), rules_(rules), volume_(volume) {}
+
+  /// The least quality of the cells of a patch.
+  [[nodiscard]] double least(const std::vector<std::int32_t>& patch) const;
+  /// Sets the least quality afterwards. Whether that is greater, and all volumes are above 0 and have the
+  /// same sum.
+  [[nodiscard]] bool improves(Operation& operation) const;
+  /// Whether the patch is of one kind, and its energy stays about as it is.
+  [[nodiscard]] bool allows(const Operation& operation) const;
+
+ private:
+  [[nodiscard]] PatchCells before(const Operation& operation) const;
+  [[nodiscard]] PatchCells after(const Operation& operation) const;
+
+  const RepairMesh& mesh_;
+  const RepairRules& rules_;
+  double volume_;
+};
+
+}  // namespace tissu

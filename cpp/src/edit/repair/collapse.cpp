@@ -17,39 +17,46 @@ constexpr double kOutOfPlane = 1e-12;  ///< of an edge: rounding of places
 
 using Triangle = std::array<std::int32_t, 3>;
 
-/// Whether the surface stays where it is, and its opened faces among them.
+/// A side of the surface. Two walls of a cut meet at its front, in one plane with opposite normals.
+struct Side {
+  Vec3 normal;  ///< outwards, of length 1
+  bool cut;
+
+  [[nodiscard]] bool goes_on_in(const Side& other) const {
+    return cut == other.cut && normal.dot(other.normal) > 0.0 &&
+           normal.cross(other.normal).norm() <= kOutOfPlane;
+  }
+};
+
+Side side_of(const RepairMesh& mesh, std::int32_t u, const RepairMesh::Face& face) {
+  const Vec3 place = mesh.rest(u);
+  const auto [a, b] = face.others;
+  const Vec3 normal = (mesh.rest(a) - place).cross(mesh.rest(b) - place).normalized();
+  return {normal.dot(mesh.rest(face.behind) - place) > 0.0 ? Vec3(-normal) : normal, face.cut};
+}
+
+/// Whether the surface stays where it is, its opened faces among it, and fronts of cuts.
 bool keeps_surface(const RepairMesh& mesh, std::int32_t u, std::int32_t v) {
   const std::vector<RepairMesh::Face> border = mesh.border(u);
   if (border.empty()) return true;
   const Vec3 place = mesh.rest(u);
   const Vec3 way = mesh.rest(v) - place;
-  std::vector<bool> beside;
-  bool some = false;
-  bool all = true;
-  for (const auto& [others, cut] : border) {
-    const auto [a, b] = others;
-    const Vec3 normal = (mesh.rest(a) - place).cross(mesh.rest(b) - place).normalized();
-    if (!(std::abs(normal.dot(way)) <= kOutOfPlane * way.norm())) return false;
-    if (a == v || b == v) beside.push_back(cut);
-    some = some || cut;
-    all = all && cut;
+  std::map<std::int32_t, std::vector<Side>> at;  // faces at each edge of the surface, by its other end
+  for (const RepairMesh::Face& face : border) {
+    const Side side = side_of(mesh, u, face);
+    if (!(std::abs(side.normal.dot(way)) <= kOutOfPlane * way.norm())) return false;
+    for (const std::int32_t other : face.others) at[other].push_back(side);
   }
-  if (beside.size() != 2) return false;
-  if (some == all) return true;
-  if (beside[0] == beside[1]) return false;
-  // The border of the cut goes on straight on the other side of the node.
-  std::map<std::int32_t, std::vector<bool>> at;
-  for (const auto& [others, cut] : border) {
-    for (const std::int32_t other : others) at[other].push_back(cut);
+  if (!at.contains(v)) return false;
+  std::vector<std::int32_t> ridges;
+  for (const auto& [other, sides] : at) {
+    if (sides.size() != 2) return false;
+    if (!sides[0].goes_on_in(sides[1])) ridges.push_back(other);
   }
-  int ends = 0;
-  for (const auto& [other, cut] : at) {
-    if (cut.size() != 2 || cut[0] == cut[1]) continue;
-    ++ends;
-    const Vec3 back = mesh.rest(other) - place;
-    if (!(back.cross(way).norm() <= kOutOfPlane * back.norm() * way.norm())) return false;
-  }
-  return ends == 2;
+  if (ridges.empty()) return true;
+  if (ridges.size() != 2 || std::ranges::find(ridges, v) == ridges.end()) return false;
+  const Vec3 back = mesh.rest(ridges[0] == v ? ridges[1] : ridges[0]) - place;
+  return back.cross(way).norm() <= kOutOfPlane * back.norm() * way.norm();
 }
 
 Triangle face_without(const RepairCell& cell, std::size_t f, std::int32_t u, std::int32_t v) {

@@ -52,16 +52,24 @@ bool Judge::improves(Operation& operation) const {
   const PatchCells then = after(operation);
   operation.least = std::numeric_limits<double>::infinity();
   double change = 0.0;
+  int more = 0;  // bad cells
+  const auto is_bad = [&](const CellCorners& corners) {
+    return worst_measure(corners, below_) < 1.0 ? 1 : 0;
+  };
   for (std::size_t i = 0; i < then.nodes.size(); ++i) {
     operation.least = std::min(operation.least, tetra_quality(then.rest[i]));
     if (!(tetra_volume(then.now[i]) > 0.0)) return false;
     change += tetra_volume(then.rest[i]);
+    more += is_bad(then.rest[i]);
   }
   const double now = least(operation.patch);
   if (!(operation.least > 0.0 && operation.least > (1.0 + kRise) * now)) return false;
-  for (const std::int32_t number : operation.patch)
-    change -= tetra_volume(rest_corners(mesh_, mesh_.cell(number)));
-  return std::abs(change) <= kVolume * volume_;
+  for (const std::int32_t number : operation.patch) {
+    const CellCorners corners = rest_corners(mesh_, mesh_.cell(number));
+    change -= tetra_volume(corners);
+    more -= is_bad(corners);
+  }
+  return more <= 0 && std::abs(change) <= kVolume * volume_;
 }
 
 bool Judge::allows(const Operation& operation) const {

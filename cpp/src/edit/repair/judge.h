@@ -12,9 +12,9 @@ namespace tissu {
 
 class Judge {
  public:
-  /// `volume`: of the body [m3].
-  Judge(const RepairMesh& mesh, const RepairRules& rules, double volume)
-      : mesh_(mesh), rules_(rules), volume_(volume) {}
+  /// `volume`: of the body [m3]. `below`: bound of bad cells.
+  Judge(const RepairMesh& mesh, const RepairRules& rules, double volume, double below)
+      : mesh_(mesh), rules_(rules), volume_(volume), below_(below) {}
 
   /// The least quality of the cells of a patch.
   [[nodiscard]] double least(const std::vector<std::int32_t>& patch) const;
@@ -31,6 +31,7 @@ class Judge {
   const RepairMesh& mesh_;
   const RepairRules& rules_;
   double volume_;
+  double below_;
 };
 
 }  // namespace tissu

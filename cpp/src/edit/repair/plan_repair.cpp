@@ -17,6 +17,8 @@
 namespace tissu {
 namespace {
 
+constexpr double kAnyEdge = 2.0;  ///< of the longest
+
 std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 /// Nodes on faces that cuts have opened.
@@ -55,7 +57,7 @@ class Repairer {
         may_move_(rules.may_move),
         kept_(at(hosts.node_count()), 0),
         mesh_(hosts, material, x),
-        judge_(mesh_, rules_, volume_of(hosts, mesh_)) {
+        judge_(mesh_, rules_, volume_of(hosts, mesh_), options.below) {
     may_move_.resize(kept_.size(), 0);
     for (const std::int32_t node : options.still) may_move_[at(node)] = 0;
     for (const Incision& incision : material.incisions) {
@@ -117,7 +119,7 @@ class Repairer {
     return std::ranges::any_of(cell.nodes, [&](std::int32_t node) { return opened_[at(node)] != 0; });
   }
   [[nodiscard]] double worst(std::int32_t cell) const {
-    return badness(rest_corners(mesh_, mesh_.cell(cell)), options_.below).worst;
+    return worst_measure(rest_corners(mesh_, mesh_.cell(cell)), options_.below);
   }
   [[nodiscard]] bool is_bad(std::int32_t cell) const { return is_of_cut(cell) && worst(cell) < 1.0; }
 
@@ -139,17 +141,15 @@ class Repairer {
   }
 
   [[nodiscard]] std::optional<Operation> best(std::int32_t cell) const {
-    const Badness bad = badness(rest_corners(mesh_, mesh_.cell(cell)), options_.below);
-    if (bad.has_short) {
-      if (auto operation = best_of(collapses(cell))) return operation;
-    }
+    if (auto operation = best_of(collapses(cell, 2.0 * options_.below))) return operation;
     std::vector<Operation> others = flips_of(mesh_, cell, kept_);
     std::ranges::move(shifts_of(mesh_, cell, may_move_), std::back_inserter(others));
-    return best_of(std::move(others));
+    if (auto operation = best_of(std::move(others))) return operation;
+    return best_of(collapses(cell, kAnyEdge));
   }
 
-  /// Of the edges that are short.
-  [[nodiscard]] std::vector<Operation> collapses(std::int32_t number) const {
+  /// Of the edges that are shorter than a share of the longest.
+  [[nodiscard]] std::vector<Operation> collapses(std::int32_t number, double share) const {
     std::vector<Operation> found;
     const RepairCell cell = mesh_.cell(number);
     const CellCorners corners = rest_corners(mesh_, cell);
@@ -159,7 +159,7 @@ class Repairer {
     }
     for (std::size_t i = 0; i < 4; ++i) {
       for (std::size_t k = 0; k < 4; ++k) {
-        if (i == k || !((corners[i] - corners[k]).norm() < 2.0 * options_.below * longest)) continue;
+        if (i == k || !((corners[i] - corners[k]).norm() < share * longest)) continue;
         if (!may_go(cell.nodes[i], cell.nodes[k])) continue;
         if (auto operation = collapse(mesh_, cell.nodes[i], cell.nodes[k]))
           found.push_back(*std::move(operation));

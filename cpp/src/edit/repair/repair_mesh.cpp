@@ -69,11 +69,7 @@ bool RepairMesh::is_solid(std::int32_t node) const {
 }
 
 std::vector<RepairMesh::Face> RepairMesh::border(std::int32_t node) const {
-  struct Seen {
-    int cells = 0;
-    int cut = 0;
-  };
-  std::map<std::array<std::int32_t, 2>, Seen> seen;
+  std::map<std::array<std::int32_t, 2>, std::vector<Face>> seen;
   for (const std::int32_t number : cells_at(node)) {
     if (!is_tetra(number)) continue;
     const RepairCell own = cell(number);
@@ -85,16 +81,13 @@ std::vector<RepairMesh::Face> RepairMesh::border(std::int32_t node) const {
         if (i != f && own.nodes[i] != node) others[count++] = own.nodes[i];
       }
       std::ranges::sort(others);
-      Seen& face = seen[others];
-      ++face.cells;
-      face.cut += own.is_cut(f) ? 1 : 0;
+      seen[others].push_back({others, own.nodes[f], own.is_cut(f)});
     }
   }
   std::vector<Face> faces;
-  for (const auto& [others, face] : seen) {
-    if (face.cells > 1 && face.cut == 0) continue;
-    const Face found{others, face.cut > 0};
-    faces.insert(faces.end(), face.cells == 1 ? 1U : 2U, found);
+  for (const auto& [others, both] : seen) {
+    if (both.size() == 1 || std::ranges::any_of(both, &Face::cut))
+      faces.insert(faces.end(), both.begin(), both.end());
   }
   return faces;
 }

@@ -35,12 +35,14 @@ class RepairMesh {
   /// Whether all cells at a node are tetrahedra.
   [[nodiscard]] bool is_solid(std::int32_t node) const;
 
-  /// A face at a node: its other corners, and whether a cut opened it.
+  /// A face at a node: its other corners, the node of the cell that is not on it, and whether a cut opened
+  /// it.
   struct Face {
     std::array<std::int32_t, 2> others;
+    std::int32_t behind;
     bool cut;
   };
-  /// The faces at a node that belong to one cell alone, or that a cut opened; one of both sides twice.
+  /// The faces at a node that belong to one cell alone, or that a cut opened; one of two cells twice.
   [[nodiscard]] std::vector<Face> border(std::int32_t node) const;
 
   [[nodiscard]] Vec3 rest(std::int32_t node) const { return block(ConstReals(rest_), node); }

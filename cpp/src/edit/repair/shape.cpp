@@ -45,7 +45,7 @@ double tetra_volume(const CellCorners& c) { return (c[1] - c[0]).cross(c[2] - c[
 
 double tetra_quality(const CellCorners& c) { return tetra_quality(c[0], c[1], c[2], c[3]); }
 
-Badness badness(const CellCorners& c, double below) {
+double worst_measure(const CellCorners& c, double below) {
   double shortest = (c[0] - c[1]).norm();
   double longest = shortest;
   for (std::size_t i = 0; i < 4; ++i) {
@@ -54,8 +54,7 @@ Badness badness(const CellCorners& c, double below) {
       longest = std::max(longest, (c[i] - c[k]).norm());
     }
   }
-  const double ratio = shortest / longest;
-  return {std::min({tetra_quality(c), radii(c), 0.5 * ratio}) / below, 0.5 * ratio < below};
+  return std::min({tetra_quality(c), radii(c), 0.5 * shortest / longest}) / below;
 }
 
 }  // namespace tissu

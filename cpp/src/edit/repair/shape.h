@@ -18,12 +18,8 @@ double tetra_volume(const CellCorners& corners);
 /// Of tetra_quality of the cutter.
 double tetra_quality(const CellCorners& corners);
 
-/// Measures of a cell over the bounds below which it is bad.
-struct Badness {
-  double worst = 1.0;      ///< the least of all; the cell is bad below 1
-  bool has_short = false;  ///< of the shortest edge over the longest: type I
-};
-/// `below`: bound of q and of 3 rho_in / rho_out; twice it is that of the ratio of edges.
-Badness badness(const CellCorners& corners, double below);
+/// The least of the measures of a cell over the bounds below which it is bad: so it is bad below 1. Bounds
+/// are `below` for q and 3 rho_in / rho_out, and twice this for the shortest edge over the longest.
+double worst_measure(const CellCorners& corners, double below);
 
 }  // namespace tissu

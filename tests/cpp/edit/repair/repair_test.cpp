@@ -85,7 +85,7 @@ std::string repair_once(test::CutBody& body, const Mat3* map, Tally& tally) {
   if (body.characteristic() != characteristic) return "the characteristic changed";
   if (body.piece_count() != parts) return "the number of pieces changed";
   if (std::abs(body.volume() - volume) > kRoundOff * volume) return "the volume changed";
-  if (std::abs(body.cut_area() - area) > kRoundOff * (area + 1e-4)) return "the cut faces changed";
+  if (std::abs(body.cut_area() - area) > kRoundOff * (area + 1e-4)) return "the cut faces changed by " + std::to_string((body.cut_area() - area) / area);
   if (map != nullptr && off_linear(body, *map) > 1e-15) return "a linear field changed";
   if (before.empty() && !mesh_fault(body).empty()) return mesh_fault(body);
   return body.fault();

@@ -68,9 +68,10 @@ struct RepairPlan {
 
 /// Repairs the bad cells that cuts have made or opened faces of, worst first, and of equal ones that of the
 /// lowest number. An operation is made if it raises the least q of the cells that it changes by 0.1 % and
-/// more, leaves all of them a volume above 0 at rest and now, and changes their volume by at most 1e-14 of
-/// the body's. Of the operations that may be made, the one with the best cells is. Positions of moved nodes
-/// are read from the field before. `x`: present places.
+/// more, neither lowers the least of their other measures nor makes more of them bad, leaves all of them a
+/// volume above 0 at rest and now, and changes their volume by at most 1e-14 of the body's. Of the operations
+/// that may be made, the one with the best cells is. Positions of moved nodes are read from the field before.
+/// `x`: present places.
 RepairPlan plan_repair(const Hosts& hosts, const Material& material, ConstReals x, const RepairRules& rules,
                        const RepairOptions& options);
 

@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <span>
 
-#include "edit/repair/shape.h"
 #include "tissu/base/sort_unique.h"
 
 namespace tissu {
@@ -48,28 +46,28 @@ PatchCells Judge::after(const Operation& operation) const {
   return placed;
 }
 
+Judge::Shape Judge::shape_of(const std::vector<CellCorners>& cells) const {
+  Shape shape;
+  for (const CellCorners& corners : cells) {
+    const double measure = worst_measure(corners, below_);
+    shape.quality = std::min(shape.quality, tetra_quality(corners));
+    shape.measure = std::min(shape.measure, measure);
+    shape.bad += measure < 1.0 ? 1 : 0;
+    shape.volume += tetra_volume(corners);
+  }
+  return shape;
+}
+
 bool Judge::improves(Operation& operation) const {
   const PatchCells then = after(operation);
-  operation.least = std::numeric_limits<double>::infinity();
-  double change = 0.0;
-  int more = 0;  // bad cells
-  const auto is_bad = [&](const CellCorners& corners) {
-    return worst_measure(corners, below_) < 1.0 ? 1 : 0;
-  };
-  for (std::size_t i = 0; i < then.nodes.size(); ++i) {
-    operation.least = std::min(operation.least, tetra_quality(then.rest[i]));
-    if (!(tetra_volume(then.now[i]) > 0.0)) return false;
-    change += tetra_volume(then.rest[i]);
-    more += is_bad(then.rest[i]);
+  for (const CellCorners& corners : then.now) {
+    if (!(tetra_volume(corners) > 0.0)) return false;
   }
-  const double now = least(operation.patch);
-  if (!(operation.least > 0.0 && operation.least > (1.0 + kRise) * now)) return false;
-  for (const std::int32_t number : operation.patch) {
-    const CellCorners corners = rest_corners(mesh_, mesh_.cell(number));
-    change -= tetra_volume(corners);
-    more -= is_bad(corners);
-  }
-  return more <= 0 && std::abs(change) <= kVolume * volume_;
+  const Shape old = shape_of(before(operation).rest);
+  const Shape made = shape_of(then.rest);
+  operation.least = made.quality;
+  return made.quality > 0.0 && made.quality > (1.0 + kRise) * old.quality && made.measure >= old.measure &&
+         made.bad <= old.bad && std::abs(made.volume - old.volume) <= kVolume * volume_;
 }
 
 bool Judge::allows(const Operation& operation) const {

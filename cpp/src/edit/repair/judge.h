@@ -3,9 +3,11 @@
 /// Which operations may be made.
 
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "edit/repair/repair_mesh.h"
+#include "edit/repair/shape.h"
 #include "tissu/edit/repair.h"
 
 namespace tissu {
@@ -25,6 +27,15 @@ class Judge {
   [[nodiscard]] bool allows(const Operation& operation) const;
 
  private:
+  /// Of some cells at rest.
+  struct Shape {
+    double quality = std::numeric_limits<double>::infinity();  ///< the least
+    double measure =
+        std::numeric_limits<double>::infinity();  ///< the least of all measures over their bounds
+    int bad = 0;
+    double volume = 0.0;  ///< [m3]
+  };
+  [[nodiscard]] Shape shape_of(const std::vector<CellCorners>& cells) const;
   [[nodiscard]] PatchCells before(const Operation& operation) const;
   [[nodiscard]] PatchCells after(const Operation& operation) const;
 

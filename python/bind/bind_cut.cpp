@@ -8,7 +8,7 @@
 #include "tissu/edit/cut/anchors.h"
 #include "tissu/edit/cut/material_mesh.h"
 #include "tissu/edit/cut_body.h"
-#include "tissu/edit/repair.h"
+#include "tissu/edit/repair_body.h"
 #include "tissu/edit/topology.h"
 #include "tissu/simulation/simulation.h"
 

@@ -9,7 +9,7 @@
 #include "tissu/base/error.h"
 #include "tissu/contact/audit.h"
 #include "tissu/edit/cut/snap.h"
-#include "tissu/edit/repair.h"
+#include "tissu/edit/repair_body.h"
 
 namespace tissu {
 namespace {

@@ -1,4 +1,4 @@
-/// The repair of a body of a world.
+#include "tissu/edit/repair_body.h"
 
 #include <algorithm>
 #include <memory>
@@ -11,7 +11,6 @@
 #include "described.h"
 #include "repair_energy.h"
 #include "tissu/base/error.h"
-#include "tissu/edit/repair.h"
 
 namespace tissu {
 namespace {

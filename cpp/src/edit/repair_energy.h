@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "tissu/base/isa.h"
-#include "tissu/edit/repair.h"
+#include "tissu/edit/repair/plan_repair.h"
 #include "tissu/model/elastic_block.h"
 
 namespace tissu {

@@ -59,7 +59,7 @@ class Editing(Part):
     plane too, so that shallow cuts open to that depth
     """
 
-    repair: Maybe[Repair] = field(default=None)
+    repair: Repair | None = field(default=None)
     """repair of bad cells in the bodies whose cells cuts divide or whose nodes they move, after
     each cut; absent: none
     """

@@ -28,16 +28,16 @@ def repairs(simulation: Simulation, body: str) -> bool:
 def repaired(simulation: Simulation, body: str) -> dict[str, Any]:
     """Repair bad cells of a body; what the core made."""
     editing = simulation.scene.editing
-    assert editing is not None
-    assert editing.repair is not None
+    part = None if editing is None else editing.repair
+    assert part is not None
     first, count = simulation._core.body_range(body)
     grabs = kept.records(simulation._core) if simulation.scene.grabbing else {}
     mesh = simulation._meshes[body]
     return simulation._core.repair(
         body=body,
-        below=editing.repair.below,
-        most=editing.repair.most,
-        jump=editing.repair.jump,
+        below=part.below,
+        most=part.most,
+        jump=part.jump,
         still=still_nodes(mesh, [grab.nodes for grab in grabs.values()], first, count),
         regions=regions_of(simulation._rest[body]),
         goes_on=np.array(going_on(simulation, body), dtype=np.int32),

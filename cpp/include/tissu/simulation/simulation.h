@@ -12,7 +12,7 @@
 
 #include "tissu/base/profile.h"
 #include "tissu/edit/cut_body.h"
-#include "tissu/edit/repair.h"
+#include "tissu/edit/repair_body.h"
 #include "tissu/edit/world_editor.h"
 #include "tissu/simulation/energy_watch.h"
 #include "tissu/simulation/inverted_cells.h"

@@ -49,10 +49,8 @@ PatchCells Judge::after(const Operation& operation) const {
 Judge::Shape Judge::shape_of(const std::vector<CellCorners>& cells) const {
   Shape shape;
   for (const CellCorners& corners : cells) {
-    const double measure = worst_measure(corners, below_);
     shape.quality = std::min(shape.quality, tetra_quality(corners));
-    shape.measure = std::min(shape.measure, measure);
-    shape.bad += measure < 1.0 ? 1 : 0;
+    shape.bad += worst_measure(corners, below_) < 1.0 ? 1 : 0;
     shape.volume += tetra_volume(corners);
   }
   return shape;
@@ -66,8 +64,8 @@ bool Judge::improves(Operation& operation) const {
   const Shape old = shape_of(before(operation).rest);
   const Shape made = shape_of(then.rest);
   operation.least = made.quality;
-  return made.quality > 0.0 && made.quality > (1.0 + kRise) * old.quality && made.measure >= old.measure &&
-         made.bad <= old.bad && std::abs(made.volume - old.volume) <= kVolume * volume_;
+  return made.quality > 0.0 && made.quality > (1.0 + kRise) * old.quality && made.bad <= old.bad &&
+         std::abs(made.volume - old.volume) <= kVolume * volume_;
 }
 
 bool Judge::allows(const Operation& operation) const {

@@ -8,7 +8,7 @@
 
 #include "edit/repair/repair_mesh.h"
 #include "edit/repair/shape.h"
-#include "tissu/edit/repair.h"
+#include "tissu/edit/repair/plan_repair.h"
 
 namespace tissu {
 
@@ -20,8 +20,8 @@ class Judge {
 
   /// The least quality of the cells of a patch.
   [[nodiscard]] double least(const std::vector<std::int32_t>& patch) const;
-  /// Sets the least quality afterwards. Whether that is greater, and all volumes are above 0 and have the
-  /// same sum.
+  /// Sets the least quality afterwards. Whether that is greater, no more cells are bad, and all volumes are
+  /// above 0 and have the same sum.
   [[nodiscard]] bool improves(Operation& operation) const;
   /// Whether the patch is of one kind, and its energy stays about as it is.
   [[nodiscard]] bool allows(const Operation& operation) const;
@@ -30,8 +30,6 @@ class Judge {
   /// Of some cells at rest.
   struct Shape {
     double quality = std::numeric_limits<double>::infinity();  ///< the least
-    double measure =
-        std::numeric_limits<double>::infinity();  ///< the least of all measures over their bounds
     int bad = 0;
     double volume = 0.0;  ///< [m3]
   };

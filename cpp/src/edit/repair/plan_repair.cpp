@@ -1,3 +1,5 @@
+#include "tissu/edit/repair/plan_repair.h"
+
 #include <algorithm>
 #include <functional>
 #include <iterator>
@@ -12,7 +14,6 @@
 #include "edit/repair/repair_mesh.h"
 #include "edit/repair/shape.h"
 #include "edit/repair/shift.h"
-#include "tissu/edit/repair.h"
 
 namespace tissu {
 namespace {

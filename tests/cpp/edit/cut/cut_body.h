@@ -11,7 +11,7 @@
 #include "tissu/edit/cut/cut_plan.h"
 #include "tissu/edit/cut/material_mesh.h"
 #include "tissu/edit/cut/snap.h"
-#include "tissu/edit/repair.h"
+#include "tissu/edit/repair/plan_repair.h"
 
 namespace tissu::test {
 

@@ -12,6 +12,7 @@
 
 #include "../cut/cut_body.h"
 #include "edit/cut/remedies.h"
+#include "tissu/edit/cut_body.h"
 
 namespace tissu {
 namespace {
@@ -85,7 +86,8 @@ std::string repair_once(test::CutBody& body, const Mat3* map, Tally& tally) {
   if (body.characteristic() != characteristic) return "the characteristic changed";
   if (body.piece_count() != parts) return "the number of pieces changed";
   if (std::abs(body.volume() - volume) > kRoundOff * volume) return "the volume changed";
-  if (std::abs(body.cut_area() - area) > kRoundOff * (area + 1e-4)) return "the cut faces changed by " + std::to_string((body.cut_area() - area) / area);
+  if (std::abs(body.cut_area() - area) > kRoundOff * (area + 1e-4))
+    return "the cut faces changed by " + std::to_string((body.cut_area() - area) / area);
   if (map != nullptr && off_linear(body, *map) > 1e-15) return "a linear field changed";
   if (before.empty() && !mesh_fault(body).empty()) return mesh_fault(body);
   return body.fault();

@@ -7,16 +7,11 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
-#include <optional>
-#include <string_view>
 #include <vector>
 
 #include "tissu/edit/cut/cut_plan.h"
 #include "tissu/edit/cut/hosts.h"
 #include "tissu/edit/cut/material.h"
-#include "tissu/edit/cut_body.h"
-#include "tissu/state/state.h"
-#include "tissu/world/world.h"
 
 namespace tissu {
 
@@ -68,20 +63,11 @@ struct RepairPlan {
 
 /// Repairs the bad cells that cuts have made or opened faces of, worst first, and of equal ones that of the
 /// lowest number. An operation is made if it raises the least q of the cells that it changes by 0.1 % and
-/// more, neither lowers the least of their other measures nor makes more of them bad, leaves all of them a
-/// volume above 0 at rest and now, and changes their volume by at most 1e-14 of the body's. Of the operations
-/// that may be made, the one with the best cells is. Positions of moved nodes are read from the field before.
-/// `x`: present places.
+/// more, makes no more of them bad, leaves all of them a volume above 0 at rest and now, and changes their
+/// volume by at most 1e-14 of the body's. Short edges are collapsed first; then cells are flipped, or nodes
+/// inside move; then any edge is collapsed. Of the operations that may be made, the one with the best cells
+/// is. Positions of moved nodes are read from the field before. `x`: present places.
 RepairPlan plan_repair(const Hosts& hosts, const Material& material, ConstReals x, const RepairRules& rules,
                        const RepairOptions& options);
-
-/// Refuses a body without tetrahedra of first order, with parts of cells, and one whose cells remember.
-void refuse_unrepaired(const World& world, std::string_view body);
-RepairPlan plan_body_repair(const World& world, const State& state, std::string_view body,
-                            const RepairOptions& options);
-/// A new world in which the plan is made; `around_moves` are the rows of all cells that it changes. Nothing
-/// where the body would cross itself in contact.
-std::optional<CutWorld> repaired_world(const World& world, const State& state, std::string_view body,
-                                       const CutPlan& plan);
 
 }  // namespace tissu

@@ -214,18 +214,22 @@ def section() -> tuple[str, dict[str, Quality]]:
         + table(of_depth, [shallow(depth=False), shallow(depth=True)])
         + "\n\n### Figure 4.20: collapse of a short edge\n\n"
         "Planes cut the bar one after the other, and the worst cell after each cut is repaired.\n"
-        "The table shows the bar before and after the first collapse of a short edge.\n\n"
+        "The table shows the bar before and after the first collapse of a short edge. The least q\n"
+        "of the cells around rises; other measures may fall.\n\n"
         + table(of_edge, collapsed())
         + f"\n\nIn {ROUNDS} bars, {PLANES} of the random planes cross. Entries are means,\n"
-        "but for the least q and RRS. The last column is the largest relative change of\n"
-        "volume. `repair` has its defaults.\n\n"
+        "but for the least q and RRS, which are those of all bars. The last column is the largest\n"
+        "relative change of volume. `repair` has its defaults. Later planes cut the repaired\n"
+        "cells. Short edges stay on cut faces that are not plane, where no node may move.\n\n"
         + table(of_repair, repairs)
         + "\n\n### Figure 4.21: RRS and volume\n\n"
         f"The cells of the first of these bars, before and after its {PLANES} planes. Volumes are\n"
         "relative to their mean, and their spread is the standard deviation. *new mesh* replaces\n"
         "the cells at the nodes of bad ones by a Delaunay mesh of the same nodes.\n\n"
         + table(of_spread, spreads)
-        + "\n\nNEWMESH\n\n"
+        + "\n\nThe new mesh is not better: a Delaunay mesh has flat cells. Where the cells that\n"
+        "it replaces do not fill a convex region, faces of their border are missing. The mesh does\n"
+        "not conform there, and it has another volume. Flips and collapses keep both.\n\n"
         + table(of_mesh, [of_new])
         + "\n\n![RRS against volume before and after cuts](../pictures/seed-cuts.png)\n"
         + "\nPrinted by `python bench/seed_cuts.py --write`.\n"

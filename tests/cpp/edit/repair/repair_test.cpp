@@ -231,6 +231,31 @@ TEST(RepairTest, TheSurfaceStaysWhereItMust) {
   EXPECT_EQ(surface_of(body), before);
 }
 
+/// Nodes of an incision with which a knife goes on stay, and so do the faces between them.
+TEST(RepairTest, IncisionsThatGoOnStay) {
+  test::CutBody body(test::typed_box(CellType::tetra, kSize, {6, 4, 4}, 0.1, 5));
+  std::int32_t number = 7;
+  for (const double place : {0.45, 0.5, 0.55}) {
+    Sweep sweep = body.plane(Vec3(place * kSize[0], 0.006, 0.004), Vec3(1, 0.4, 0.4 - place));
+    for (SweepPart& part : sweep.parts) part.incision = number;
+    body.cut(sweep, {.divide = true});
+    ++number;
+  }
+  ASSERT_EQ(body.material.incisions.size(), 3U);
+  const std::vector<std::int32_t> nodes = body.material.incisions.back().vertices;
+  const auto changed = [&](const RepairOptions& options) {
+    test::CutBody repaired = body;
+    repaired.repair(options);
+    return std::ranges::count_if(nodes, [&](std::int32_t node) {
+      return repaired.hosts.cells_at(node).empty() ||
+             block(repaired.hosts.rest(), node) != block(body.hosts.rest(), node);
+    });
+  };
+  EXPECT_GT(changed({.below = 0.3}), 0);
+  EXPECT_EQ(changed({.below = 0.3, .goes_on = {9}}), 0);
+  EXPECT_GT(changed({.below = 0.3, .goes_on = {10}}), 0);
+}
+
 /// A later cut divides an edge that a repair made between nodes of several first-day cells.
 TEST(RepairTest, RepairedCellsAreCutAgain) {
   test::CutBody body = cut_thrice();

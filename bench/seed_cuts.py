@@ -228,8 +228,8 @@ def section() -> tuple[str, dict[str, Quality]]:
         "the cells at the nodes of bad ones by a Delaunay mesh of the same nodes.\n\n"
         + table(of_spread, spreads)
         + "\n\nThe new mesh is not better: a Delaunay mesh has flat cells. Where the cells that\n"
-        "it replaces do not fill a convex region, faces of their border are missing. The mesh does\n"
-        "not conform there, and it has another volume. Flips and collapses keep both.\n\n"
+        "it replaces do not fill a convex region, faces of their border are missing. The mesh\n"
+        "does not conform there, and it has another volume. Flips and collapses keep both.\n\n"
         + table(of_mesh, [of_new])
         + "\n\n![RRS against volume before and after cuts](../pictures/seed-cuts.png)\n"
         + "\nPrinted by `python bench/seed_cuts.py --write`.\n"

@@ -223,10 +223,39 @@ def test_checkpoints_and_rewind_give_the_same_bits(method: str, tmp_path: Any) -
     assert bits(resumed) == now
     run(resumed, BLADES[2:])
     assert bits(resumed) == expected
+    simulation.save_checkpoint(tmp_path / "last.tissu")
+    assert bits(made_of.compile(checkpoint=tmp_path / "last.tissu")) == expected
     simulation.rewind(mark)
     assert bits(simulation) == now
     run(simulation, BLADES[2:])
     assert bits(simulation) == expected
+
+
+def test_new_nodes_on_repaired_edges_may_have_no_place_of_the_first_day(tmp_path: Any) -> None:
+    """Between five nodes of the first day and more; files keep them."""
+    random = np.random.default_rng(9)
+    made_of = repairing(
+        bar(mesh=jittered((4, 3, 3), 9)), fixed=[], gravity=None, repair=ts.Repair(below=0.3)
+    )
+    simulation = made_of.compile()
+    for _ in range(3):
+        point = random.uniform(0.4, 0.6, 3) * SIZE
+        simulation.cut("bar", ts.Plane(point, random.standard_normal(3)))
+    nodes, weights = simulation.made_of("bar")
+    unknown = (nodes < 0).all(axis=1)
+    assert unknown.any()
+    assert (weights[unknown] == 0.0).all()
+    assert (simulation.born("bar")[unknown] == -1).all()
+    X = simulation.meshes["bar"].points
+    assert fault_of_mesh(simulation) == ""
+    assert volumes(X, tetrahedra(simulation)).sum() == pytest.approx(4e-3, rel=1e-13)
+    simulation.step()
+    simulation.save_checkpoint(tmp_path / "unknown.tissu")
+    resumed = made_of.compile(checkpoint=tmp_path / "unknown.tissu")
+    assert bits(resumed) == bits(simulation)
+    simulation.cut("bar", BLADES[0])
+    resumed.cut("bar", BLADES[0])
+    assert bits(resumed) == bits(simulation)
 
 
 def test_numbers_live_for_ever() -> None:

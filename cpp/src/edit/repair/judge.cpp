@@ -70,6 +70,7 @@ bool Judge::improves(Operation& operation) const {
 
 bool Judge::allows(const Operation& operation) const {
   std::vector<std::int32_t> parents;
+  parents.reserve(operation.patch.size());
   for (const std::int32_t number : operation.patch) parents.push_back(mesh_.cell(number).parent);
   sort_unique(parents);
   if (rules_.are_alike && !rules_.are_alike(parents)) return false;

@@ -1,7 +1,6 @@
 #include "tissu/edit/repair/plan_repair.h"
 
 #include <algorithm>
-#include <functional>
 #include <iterator>
 #include <optional>
 #include <set>
@@ -176,13 +175,14 @@ class Repairer {
   }
 
   [[nodiscard]] std::optional<Operation> best_of(std::vector<Operation> operations) const {
-    std::vector<Operation> better;
-    for (Operation& operation : operations) {
-      if (judge_.improves(operation)) better.push_back(std::move(operation));
+    std::vector<Ranked> better;  // by falling quality, then in their order
+    for (std::size_t i = 0; i < operations.size(); ++i) {
+      if (judge_.improves(operations[i]))
+        better.emplace_back(-operations[i].least, static_cast<std::int32_t>(i));
     }
-    std::ranges::stable_sort(better, std::ranges::greater(), &Operation::least);
-    for (Operation& operation : better) {
-      if (judge_.allows(operation)) return std::move(operation);
+    std::ranges::sort(better);
+    for (const auto& [quality, i] : better) {
+      if (judge_.allows(operations[at(i)])) return std::move(operations[at(i)]);
     }
     return std::nullopt;
   }

@@ -1,11 +1,11 @@
 #include "edit/repair/repair_mesh.h"
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <utility>
 
 #include "edit/cut/patch.h"
-#include "tissu/base/sort_unique.h"
 
 namespace tissu {
 
@@ -17,8 +17,7 @@ RepairMesh::RepairMesh(const Hosts& hosts, const Material& material, ConstReals 
       next_(hosts.next_cell()) {}
 
 bool RepairMesh::has(std::int32_t cell) const {
-  const auto own = cells_.find(cell);
-  return own == cells_.end() ? hosts_.has(cell) : own->second.has_value();
+  return !gone_.contains(cell) && (cells_.contains(cell) || hosts_.has(cell));
 }
 
 std::vector<std::int32_t> RepairMesh::numbers() const {
@@ -35,7 +34,7 @@ bool RepairMesh::is_tetra(std::int32_t cell) const {
 
 RepairCell RepairMesh::cell(std::int32_t number) const {
   const auto own = cells_.find(number);
-  if (own != cells_.end()) return own->second.value();
+  if (own != cells_.end()) return own->second;
   RepairCell cell{{}, 0, number};
   std::ranges::copy(hosts_.nodes(number), cell.nodes.begin());
   const auto stored = material_.cells.find(number);
@@ -104,6 +103,7 @@ void RepairMesh::leave(std::int32_t number) {
 
 void RepairMesh::join(std::int32_t number, const RepairCell& cell) {
   cells_[number] = cell;
+  gone_.erase(number);
   for (const std::int32_t node : cell.nodes) {
     std::vector<std::int32_t>& list = own_cells_at(node);
     list.insert(std::ranges::lower_bound(list, number), number);
@@ -122,7 +122,8 @@ std::vector<std::int32_t> RepairMesh::apply(const Operation& operation) {
   }
   for (const std::int32_t number : operation.patch) {
     leave(number);
-    cells_[number] = std::nullopt;
+    cells_.erase(number);
+    gone_.insert(number);
   }
   std::vector<std::int32_t> numbers;
   for (const auto& [known, cell] : operation.after) {
@@ -136,26 +137,25 @@ CutPlan RepairMesh::plan() const {
   CutPlan plan;
   plan.moved = moves_;
   plan.first_node = hosts_.node_count();
+  std::ranges::copy_if(gone_, std::back_inserter(plan.gone),
+                       [&](std::int32_t number) { return number < hosts_.next_cell(); });
   std::vector<std::int32_t> numbers;
+  numbers.reserve(cells_.size());
   for (const auto& [number, cell] : cells_) numbers.push_back(number);
-  sort_unique(numbers);
+  std::ranges::sort(numbers);
   std::int32_t next = hosts_.next_cell();
   for (const std::int32_t number : numbers) {
-    const std::optional<RepairCell>& cell = cells_.at(number);
+    const RepairCell& cell = cells_.at(number);
     const bool is_old = number < hosts_.next_cell();
-    if (!cell) {
-      if (is_old) plan.gone.push_back(number);
-      continue;
-    }
     const std::int32_t own = is_old ? number : next++;
-    const std::vector<std::int32_t> nodes(cell->nodes.begin(), cell->nodes.end());
+    const std::vector<std::int32_t> nodes(cell.nodes.begin(), cell.nodes.end());
     if (is_old) {
       plan.changed.push_back({own, nodes});
     } else {
-      plan.born.push_back({own, cell->parent, 1.0, nodes});
+      plan.born.push_back({own, cell.parent, 1.0, nodes});
     }
-    if (cell->cut != 0 || material_.cells.contains(own))
-      plan.material.cells.emplace_back(own, std::vector<MaterialTetra>{{cell->nodes, cell->cut}});
+    if (cell.cut != 0 || material_.cells.contains(own))
+      plan.material.cells.emplace_back(own, std::vector<MaterialTetra>{{cell.nodes, cell.cut}});
   }
   return plan;
 }

@@ -4,7 +4,7 @@
 
 #include <array>
 #include <cstdint>
-#include <optional>
+#include <set>
 #include <span>
 #include <unordered_map>
 #include <utility>
@@ -65,8 +65,9 @@ class RepairMesh {
   std::vector<double> rest_;
   std::vector<double> x_;
   std::vector<NodeMove> moves_;
-  std::unordered_map<std::int32_t, std::optional<RepairCell>> cells_;  ///< new and changed; empty: gone
-  std::unordered_map<std::int32_t, std::vector<std::int32_t>> at_;     ///< of nodes whose cells changed
+  std::unordered_map<std::int32_t, RepairCell> cells_;  ///< new and changed
+  std::set<std::int32_t> gone_;
+  std::unordered_map<std::int32_t, std::vector<std::int32_t>> at_;  ///< of nodes whose cells changed
   std::int32_t next_;
 };
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from typing import Any
 
 import numpy as np
@@ -22,6 +23,7 @@ from divided import (
     tetrahedra,
     volumes,
 )
+from tissu.output.summary import cut_record
 
 ROUND_OFF = 1e-12
 """Of sums over some thousand numbers: a few hundred times the spacing of doubles."""
@@ -455,6 +457,10 @@ def test_where_nothing_can_be_repaired_the_scene_is_refused() -> None:
             ts.Repair(**wrong)
 
 
-def test_a_report_of_a_run_has_the_repairs(tmp_path: Any) -> None:
+def test_reports_and_summaries_have_the_repairs() -> None:
     report = free().cut("bar", BLADES[0])
     assert f"; {made(report).operations} repair" in str(report)
+    record = cut_record(0.0, report)["repairs"]
+    assert record["flips"] == made(report).flips
+    assert json.loads(json.dumps(record)) == record
+    assert cut_record(0.0, free(repair=False).cut("bar", BLADES[0]))["repairs"] is None

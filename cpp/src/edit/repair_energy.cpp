@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numeric>
 #include <unordered_map>
 #include <utility>
@@ -37,7 +38,7 @@ class BothPatches {
     body.name = block.body;
     body.positions = rest_;
     body.elastic.push_back(std::move(part));
-    world_.emplace(std::move(description));
+    world_ = std::make_unique<const World>(std::move(description));
   }
 
   struct Energies {
@@ -84,7 +85,7 @@ class BothPatches {
   std::size_t first_;
   std::vector<double> rest_;
   std::vector<double> now_;
-  std::optional<World> world_;
+  std::unique_ptr<const World> world_;
 };
 
 }  // namespace

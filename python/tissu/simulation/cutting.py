@@ -21,7 +21,7 @@ from tissu.simulation import grab as kept
 from tissu.simulation import repairing
 from tissu.simulation.remains import Remains
 from tissu.simulation.severing import Severing
-from tissu.simulation.still import still_nodes
+from tissu.simulation.snapping import snapping
 from tissu.simulation.track import anchor_again, places_in
 
 if TYPE_CHECKING:
@@ -152,16 +152,7 @@ class Cutting(Remains, Severing):
         nearest: float = _NEAREST,
         goes_on: bool = False,
     ) -> CutReport:
-        """Cut along a surface of the core.
-
-        Args:
-            body: its name.
-            sweep: the surface.
-            refine: see `cut`.
-            by: name of the instrument.
-            nearest: share of an edge from its end to go there.
-            goes_on: a knife goes on from here, so that cells are not repaired yet.
-        """
+        """Cut; `nearest`: share of an edge from its end to go there; `goes_on`: no repair yet."""
         snaps = self.scene.editing is not None and self.scene.editing.snaps(body)
         repairs = not goes_on and repairing.repairs(self, body)  # type: ignore[arg-type]
         if repairs:
@@ -176,7 +167,7 @@ class Cutting(Remains, Severing):
                 t0=nearest,
                 refine=refine,
                 divide=self._divides(body),
-                **self._snapping(body),
+                **snapping(self, body),  # type: ignore[arg-type]
             ),
             by=by,
             repairs=repairs,
@@ -187,17 +178,6 @@ class Cutting(Remains, Severing):
 
     def _divides(self, body: str) -> bool:
         return self.scene.editing is not None and self.scene.editing.divides(body)
-
-    def _snapping(self, body: str) -> dict[str, Any]:
-        """Whether a cut moves nodes, and which of them do not."""
-        editing = self.scene.editing
-        if editing is None or not editing.snaps(body):
-            return {"snap": False, "depth": False, "still": np.zeros(0, dtype=np.int32)}
-        first, count = self._core.body_range(body)
-        grabs = kept.records(self._core) if self.scene.grabbing else {}
-        rows = [grab.nodes for grab in grabs.values()]
-        still = still_nodes(self._meshes[body], rows, first, count)
-        return {"snap": True, "depth": editing.depth, "still": still}
 
     def mark(self) -> Mark:
         """Store the present state, cuts included; `rewind` returns to it any number of times.

@@ -54,7 +54,8 @@ CPP: dict[str, set[str]] = {
     "viscosity": MODEL | {"model/edges"},  # dampers beside springs
     "contact": {"base", "mesh", "assembly", "state", "force"},
     "edit/cut": {"base", "mesh"},
-    "edit": MODEL | {"world", "contact", "edit/cut", "model/frames/frame_points"},
+    "edit/repair": {"base", "mesh", "edit/cut"},
+    "edit": MODEL | {"world", "contact", "edit/cut", "edit/repair", "model/frames/frame_points"},
     "picture": {"base"},
 }
 CPP["model/models"] = MODEL | {room for room in CPP if room.startswith("model/")}

@@ -8,6 +8,7 @@
 #include "tissu/edit/cut/anchors.h"
 #include "tissu/edit/cut/material_mesh.h"
 #include "tissu/edit/cut_body.h"
+#include "tissu/edit/repair_body.h"
 #include "tissu/edit/topology.h"
 #include "tissu/simulation/simulation.h"
 
@@ -82,6 +83,28 @@ py::dict cut(Simulation& simulation, const std::string& body, const Sweep& sweep
                                  .snap = snap,
                                  .depth = depth,
                                  .still = to_vector(still)}));
+}
+
+py::dict repair(Simulation& simulation, const std::string& body, double below, std::int32_t most, double jump,
+                const Ints& still, const Ints& regions, const Ints& goes_on) {
+  const Simulation::Repaired repaired = simulation.repair(body, {.below = below,
+                                                                 .most = most,
+                                                                 .jump = jump,
+                                                                 .still = to_vector(still),
+                                                                 .regions = to_vector(regions),
+                                                                 .goes_on = to_vector(goes_on)});
+  py::dict result = to_dict(repaired);
+  const RepairCounts& counts = repaired.counts;
+  py::dict made;
+  made["collapses"] = counts.collapses;
+  made["flips"] = counts.flips;
+  made["moves"] = counts.moves;
+  made["bad_before"] = counts.bad_before;
+  made["bad_after"] = counts.bad_after;
+  made["least_quality_before"] = counts.least_before;
+  made["least_quality_after"] = counts.least_after;
+  result["repairs"] = made;
+  return result;
 }
 
 py::dict ablate(Simulation& simulation, const std::string& body, const Ints& cells) {
@@ -252,6 +275,12 @@ void bind_cut(py::class_<Simulation>& simulation) {
   simulation
       .def("cut", &cut, py::kw_only(), arg("body"), arg("sweep"), arg("t0"), arg("refine"), arg("divide"),
            arg("snap"), arg("depth"), arg("still"))
+      .def("repair", &repair, py::kw_only(), arg("body"), arg("below"), arg("most"), arg("jump"),
+           arg("still"), arg("regions"), arg("goes_on"))
+      .def(
+          "require_repair",
+          [](const Simulation& s, const std::string& body) { refuse_unrepaired(s.world(), body); },
+          arg("body"))
       .def("ablate", &ablate, py::kw_only(), arg("body"), arg("cells"))
       .def("anchors", &anchored, py::kw_only(), arg("body"), arg("points"))
       .def(

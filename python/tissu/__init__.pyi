@@ -48,6 +48,7 @@ from tissu.cutting import Material as Material
 from tissu.cutting import MaterialSurface as MaterialSurface
 from tissu.cutting import Piece as Piece
 from tissu.cutting import Quality as Quality
+from tissu.cutting import Repairs as Repairs
 from tissu.cutting import Sweep as Sweep
 from tissu.cutting import Triangles as Triangles
 from tissu.comparison import Comparison as Comparison
@@ -128,6 +129,7 @@ from tissu.scene import TrocarLimits as TrocarLimits
 from tissu.scene import TrocarCompensation as TrocarCompensation
 from tissu.scene import TrocarMechanism as TrocarMechanism
 from tissu.scene import Editing as Editing
+from tissu.scene import Repair as Repair
 from tissu.scene import Ablator as Ablator
 from tissu.scene import Knife as Knife
 from tissu.scene import ToolPath as ToolPath

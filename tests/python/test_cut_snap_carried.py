@@ -19,7 +19,7 @@ from divided import (
     volumes,
 )
 from snapped import BESIDE, free, snapping
-from tissu.simulation import cutting
+from tissu.simulation import snapping as moving
 
 
 def still(simulation: ts.Simulation, nodes: Array, blade: Any) -> ts.CutReport:
@@ -59,7 +59,7 @@ def test_borders_of_laws_and_regions_stay(monkeypatch: pytest.MonkeyPatch) -> No
     blade = ts.Plane(point=(0.21, 0.05, 0.05), normal=(1.0, 0.45, 0.3))
     for body in (bar(mesh=parted), bar(mesh=both, law={"left": soft, "right": hard})):
         if body.mesh is both:  # the core keeps the borders of laws by itself
-            monkeypatch.setattr(cutting, "still_nodes", lambda *_: np.zeros(0, dtype=np.int32))
+            monkeypatch.setattr(moving, "still_nodes", lambda *_: np.zeros(0, dtype=np.int32))
         simulation = free(body)
         still(simulation, border, blade)
         X, cells = simulation.meshes["bar"].points, tetrahedra(simulation)

@@ -9,6 +9,7 @@
 #include "tissu/base/error.h"
 #include "tissu/contact/audit.h"
 #include "tissu/edit/cut/snap.h"
+#include "tissu/edit/repair_body.h"
 
 namespace tissu {
 namespace {
@@ -34,20 +35,37 @@ BodyEdit edit_of(const BodyDescription& body, const CutState& before, const CutP
   return edit;
 }
 
-/// Walls of a cut begin apart in sound material. Where walls of an earlier one are pressed into each other by
-/// a share of their gap, thin parts of a new one may not.
-void refuse_crossings(const World& world, const State& state, std::string_view name, const CutWorld& cut) {
-  if (world.contact() == nullptr || !world.contact()->description().travel) return;
+std::size_t count_crossings(const World& world, const State& state) {
+  return crossings(*world.contact(), state).size();
+}
+
+/// How often a body crosses itself in contact after an edit; 0 where that is no more often than before.
+std::size_t new_crossings(const World& world, const State& state, const CutWorld& cut) {
+  if (world.contact() == nullptr || !world.contact()->description().travel) return 0;
   State after = state;
   blend_rows(cut.born.blends, after.positions);
   copy_rows(cut.born.copies, after.positions);
-  const auto many = crossings(*cut.world->contact(), after).size();
-  if (many == 0 || many <= crossings(*world.contact(), state).size()) return;
+  const std::size_t many = count_crossings(*cut.world, after);
+  return many == 0 || many <= count_crossings(world, state) ? 0 : many;
+}
+
+/// Walls of a cut begin apart in sound material. Where walls of an earlier one are pressed into each other by
+/// a share of their gap, thin parts of a new one may not.
+[[noreturn]] void refuse_crossings(std::string_view name, std::size_t many) {
   throw ParameterError(
       "the cut would leave body \"" + std::string(name) + "\" crossing itself in " + std::to_string(many) +
       (many == 1 ? " place" : " places") +
       ", where walls of an earlier cut press on each other or cells are inside out; let them "
       "part or settle first, and cut then.");
+}
+
+CutWorld laid(const World& world, const State& state, std::string_view name, const CutPlan& plan,
+              std::vector<std::int32_t> (*nodes_around)(const Hosts&, const CutPlan&)) {
+  const BodyEdit edit = edit_of(described(world, name), *cut_state(world, name), plan);
+  CutWorld made = {edit_body(world, state, name, edit), rows_born(world, name, edit), {}};
+  for (const std::int32_t node : nodes_around(edit.cut->hosts, plan))
+    made.around_moves.push_back(made.world->body(name).first_node + node);
+  return made;
 }
 
 }  // namespace
@@ -81,11 +99,16 @@ double least_quality(const World& world, std::string_view name, const CutPlan& p
 }
 
 CutWorld cut_world(const World& world, const State& state, std::string_view name, const CutPlan& plan) {
-  const BodyEdit edit = edit_of(described(world, name), *cut_state(world, name), plan);
-  CutWorld made = {edit_body(world, state, name, edit), rows_born(world, name, edit), {}};
-  for (const std::int32_t node : nodes_around_moves(edit.cut->hosts, plan))
-    made.around_moves.push_back(made.world->body(name).first_node + node);
-  refuse_crossings(world, state, name, made);
+  CutWorld made = laid(world, state, name, plan, nodes_around_moves);
+  const std::size_t many = new_crossings(world, state, made);
+  if (many > 0) refuse_crossings(name, many);
+  return made;
+}
+
+std::optional<CutWorld> repaired_world(const World& world, const State& state, std::string_view name,
+                                       const CutPlan& plan) {
+  CutWorld made = laid(world, state, name, plan, nodes_around_changes);
+  if (new_crossings(world, state, made) > 0) return std::nullopt;
   return made;
 }
 

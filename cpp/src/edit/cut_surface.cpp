@@ -157,11 +157,12 @@ void part_pairs(ContactDescription& contact, const BodyDescription& body,
     if (pair.nodes.empty() || contact.bodies[static_cast<std::size_t>(pair.a)].name != body.name) continue;
     const auto meets = [&](std::int32_t node) { return std::ranges::binary_search(pair.nodes, node); };
     for (std::size_t k = 0; k < copied.size(); ++k) {
-      const bool on_edge = copied[k] < 0;
-      const bool met = on_edge
-                           ? std::ranges::all_of(body.points[static_cast<std::size_t>(-1 - copied[k])].node,
-                                                 [&](std::int32_t node) { return node < 0 || meets(node); })
-                           : meets(copied[k]);
+      const auto is_between_met = [&](const FirstDayPoint& point) {
+        return point.node[0] >= 0 &&
+               std::ranges::all_of(point.node, [&](std::int32_t node) { return node < 0 || meets(node); });
+      };
+      const bool met = copied[k] < 0 ? is_between_met(body.points[static_cast<std::size_t>(-1 - copied[k])])
+                                     : meets(copied[k]);
       if (met) pair.nodes.push_back(first + static_cast<std::int32_t>(k));
     }
   }

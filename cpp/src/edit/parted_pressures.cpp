@@ -100,6 +100,7 @@ class Pressed {
     Nodes all;
     for (std::size_t i = 0; i < riders.size(); ++i) {
       riders[i] = origin_of(nodes[i]);
+      if (riders[i].count == 0) return;  // on an edge that a repair made inside
       for (std::size_t k = 0; k < at(riders[i].count); ++k) {
         if (riders[i].weight[k] != 0.0) all.push_back(riders[i].node[k]);
       }

@@ -19,6 +19,7 @@ bool contains(std::span<const std::int32_t> list, std::int32_t value) {
 bool was_held(const FixedNodes& fixed, const BodyDescription& body, std::int32_t root) {
   if (root >= 0) return std::ranges::binary_search(fixed.first_day, root);
   const FirstDayPoint& point = body.points[static_cast<std::size_t>(-1 - root)];
+  if (point.node[0] < 0) return false;  // on an edge that a repair made
   return std::ranges::all_of(point.node, [&](std::int32_t one) {
     return one < 0 || std::ranges::binary_search(fixed.first_day, one);
   });

@@ -9,6 +9,17 @@
 #include "tissu/simulation/simulation.h"
 
 namespace tissu {
+namespace {
+
+/// Of a repair that is not made.
+RepairCounts untouched(const RepairCounts& planned) {
+  RepairCounts counts;
+  counts.bad_before = counts.bad_after = planned.bad_before;
+  counts.least_before = counts.least_after = planned.least_before;
+  return counts;
+}
+
+}  // namespace
 
 void Simulation::prepare_edits() {
   edits_in_place_ = true;
@@ -93,7 +104,12 @@ Simulation::Edited Simulation::make(std::string_view body, CutPlan plan) {
       return edited;
     }
   }
-  CutWorld made = cut_world(*world_, state_, body, edited.plan);
+  go_on_with(cut_world(*world_, state_, body, edited.plan), body, edited);
+  return edited;
+}
+
+/// Momenta that moved nodes and other cells change are given back around these.
+void Simulation::go_on_with(CutWorld made, std::string_view body, Edited& edited) {
   edited.before = totals(*world_, state_, body);
   edited.before.elastic = energy_of(*world_, state_, scratch_).elastic;  // branches of a Prony series too
   replace_world(std::move(made.world), made.born.copies, made.born.blends);
@@ -108,7 +124,22 @@ Simulation::Edited Simulation::make(std::string_view body, CutPlan plan) {
   }
   edited.after.elastic = energy_of(*world_, state_, scratch_).elastic;
   edited.relaid = true;
-  return edited;
+}
+
+Simulation::Repaired Simulation::repair(std::string_view body, const RepairOptions& options) {
+  RepairPlan found = plan_body_repair(*world_, state_, body, options);
+  Repaired repaired;
+  repaired.counts = found.counts;
+  if (!changes(found.plan)) return repaired;
+  std::optional<CutWorld> made = repaired_world(*world_, state_, body, found.plan);
+  if (!made) {
+    repaired.counts = untouched(found.counts);
+    return repaired;
+  }
+  repaired.plan = std::move(found.plan);
+  go_on_with(*std::move(made), body, repaired);
+  repaired.least_quality = least_quality(*world_, body, repaired.plan);
+  return repaired;
 }
 
 std::vector<Piece> Simulation::pieces(std::string_view body) const {

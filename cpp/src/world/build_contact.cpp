@@ -35,6 +35,8 @@ void WorldBuilder::separate_surfaces() {
         const FirstDayPoint& point = body.points[static_cast<std::size_t>(-1 - node)];
         for (std::size_t i = 0; i < 4 && point.node[i] >= 0; ++i)
           place += point.weight[i] * block(before, first + point.node[i]);
+        // On an edge that a repair made between more than four nodes of the first day:
+        if (point.node[0] < 0) place = block(ConstReals(body.positions), copy - first);
       }
       block(Reals(world_.rest_.positions), copy++) = place;
     }

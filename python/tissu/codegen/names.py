@@ -64,6 +64,7 @@ NAMES: dict[str, tuple[str, ...]] = {
         "MaterialSurface",
         "Piece",
         "Quality",
+        "Repairs",
         "Sweep",
         "Triangles",
     ),

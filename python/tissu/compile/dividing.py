@@ -21,6 +21,11 @@ def check_divided(prepared: Prepared) -> None:
     if editing is None:
         return
     for name, body in prepared.bodies.items():
+        if editing.repairs(name) and (found := _unmoved(prepared, name, body)):
+            text = (
+                f"found repair for body '{name}', which has {found} are repaired, or leave it out"
+            )
+            prepared.findings.problems.append(Problem(("editing", "repair"), text))
         found = _in_the_way(prepared, name, body) if editing.divides(name) else ""
         if editing.snaps(name):
             found = _unmoved(prepared, name, body) or found
@@ -49,7 +54,7 @@ def _in_the_way(prepared: Prepared, name: str, body: PreparedBody) -> str:
 
 
 def _unmoved(prepared: Prepared, name: str, body: PreparedBody) -> str:
-    """Why no node of a body may move, and what is accepted, in words; empty: nothing."""
+    """Why no node of a body may move and no cell is repaired, and what is accepted, in words."""
     viscosity = prepared.scene.bodies[name].viscosity
     if viscosity is not None and viscosity.type == "prony":
         return "a viscosity with a memory; bodies without one"

@@ -3,7 +3,7 @@
 from tissu.cutting.blade import Blade, Capsule, Disc, Sweep, Triangles, surface_of
 from tissu.cutting.material import Material, MaterialSurface
 from tissu.cutting.quality import Quality
-from tissu.cutting.report import CutReport, Piece
+from tissu.cutting.report import CutReport, Piece, Repairs
 
 __all__ = [
     "Blade",
@@ -14,6 +14,7 @@ __all__ = [
     "MaterialSurface",
     "Piece",
     "Quality",
+    "Repairs",
     "Sweep",
     "Triangles",
     "surface_of",

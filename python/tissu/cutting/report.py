@@ -14,7 +14,7 @@ from tissu.counted import counted
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int32]
 
-__all__ = ["CutReport", "Piece"]
+__all__ = ["CutReport", "Piece", "Repairs"]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -47,6 +47,36 @@ class Piece:
             f"Piece(from cell {self.first_cell}, {counted(len(self.cells), 'cell')}, "
             f"{1e6 * self.volume:.4g} cm3, {self.mass:.4g} kg, {held})"
         )
+
+
+@dataclass(frozen=True, slots=True)
+class Repairs:
+    """What was done about bad cells after a cut.
+
+    Attributes:
+        collapses: short edges that were collapsed.
+        flips: of faces and edges.
+        moves: of nodes inside.
+        bad_before: bad cells among those that cuts made or opened, before the repair.
+        bad_after: the same after it.
+        least_quality_before: 6 sqrt 2 V / l_rms^3 at rest, the least of all tetrahedra of the body.
+        least_quality_after: the same after it.
+        elastic_energy_change: of the operations together [J].
+    """
+
+    collapses: int
+    flips: int
+    moves: int
+    bad_before: int
+    bad_after: int
+    least_quality_before: float
+    least_quality_after: float
+    elastic_energy_change: float
+
+    @property
+    def operations(self) -> int:
+        """How many there were."""
+        return self.collapses + self.flips + self.moves
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -84,7 +114,8 @@ class CutReport:
         stable_step: the largest stable step of an explicit method after it [s], measured where cuts
             divide cells; else infinite.
         least_quality: 6 sqrt 2 V / l_rms^3 at rest, the least of the tetrahedra that it divided or
-            whose nodes it moved; infinite if there are none.
+            whose nodes it moved, before a repair; infinite if there are none.
+        repairs: what was done about bad cells afterwards; None where the scene does not ask for it.
         milliseconds: wall time.
     """
 
@@ -115,6 +146,7 @@ class CutReport:
     relaid: bool
     stable_step: float
     least_quality: float
+    repairs: Repairs | None
     milliseconds: float
 
     @property
@@ -142,6 +174,8 @@ class CutReport:
             text += f"; {counted(len(self.unresolved) - self.bridges, 'cell')} met and not cut"
         if self.bridges:
             text += f"; walls of the blade may have left bridges in {counted(self.bridges, 'cell')}"
+        if self.repairs is not None and self.repairs.operations:
+            text += f"; {counted(self.repairs.operations, 'repair')}"
         if math.isfinite(self.stable_step):
             text += f"; steps are stable up to {self.stable_step:.4g} s"
         return text
@@ -198,5 +232,6 @@ def cut_report(
         relaid=made["relaid"],
         stable_step=stable_step,
         least_quality=made["least_quality"],
+        repairs=Repairs(**made["repairs"]) if made.get("repairs") else None,
         milliseconds=milliseconds,
     )

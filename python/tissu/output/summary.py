@@ -59,6 +59,9 @@ class StepTally:
             self.first_unconverged = self.first_unconverged or str(report)
 
 
+_NESTED = ("pieces", "repairs")
+
+
 def summarise(
     simulation: Simulation,
     *,
@@ -117,7 +120,8 @@ def summarise(
 
 def cut_record(time: float, report: CutReport) -> dict[str, Any]:
     """A cut, ablation or tear at a time [s] as data; of its pieces how large they are."""
-    names = [one.name for one in dataclasses.fields(report) if one.name != "pieces"]
+    names = [one.name for one in dataclasses.fields(report) if one.name not in _NESTED]
+    repairs = None if report.repairs is None else dataclasses.asdict(report.repairs)
     pieces = [
         {
             "first_cell": piece.first_cell,
@@ -128,7 +132,8 @@ def cut_record(time: float, report: CutReport) -> dict[str, Any]:
         }
         for piece in report.pieces
     ]
-    return {"time": time, **{name: getattr(report, name) for name in names}, "pieces": pieces}
+    values = {name: getattr(report, name) for name in names}
+    return {"time": time, **values, "repairs": repairs, "pieces": pieces}
 
 
 def write_summary(path: Path, summary: Mapping[str, Any]) -> None:

@@ -121,6 +121,7 @@ from tissu.scene.trocar.mechanism import (
 )
 from tissu.scene.editing import (
     Editing,
+    Repair,
 )
 from tissu.scene.instrument import (
     Ablator,
@@ -220,6 +221,7 @@ __all__ = [
     "TrocarCompensation",
     "TrocarMechanism",
     "Editing",
+    "Repair",
     "Ablator",
     "Knife",
     "ToolPath",

@@ -15,13 +15,28 @@ from tissu.scene.field import field
 from tissu.scene.part import Part
 from tissu.scene.problem import Problem, nearest, one_of_words
 
-__all__ = ["Editing"]
+__all__ = ["Editing", "Repair"]
 
 
 _SHARE = 0.25
 _LEAST = 256
 
 Method = Literal["auto", "virtual", "subdivide", "snap"]
+
+
+class Repair(Part):
+    """Bad cells that cuts leave are repaired: by collapsed edges, flips and moved nodes."""
+
+    below: units.Pure = field(default=0.1, gt=0.0, le=0.5)
+    """a cell is bad if its 6 sqrt 2 V / l_rms^3 or its 3 rho_in / rho_out is below this, or its
+    shortest edge below twice this share of its longest
+    """
+
+    most: int = field(default=64, ge=1)
+    """largest number of operations after a cut, worst cells first"""
+
+    jump: units.Pure = field(default=0.001, ge=0.0, le=1.0)
+    """share by which an operation may change the elastic energy of the cells that it changes"""
 
 
 class Editing(Part):
@@ -44,6 +59,11 @@ class Editing(Part):
     plane too, so that shallow cuts open to that depth
     """
 
+    repair: Repair | None = field(default=None)
+    """repair of bad cells in the bodies whose cells cuts divide or whose nodes they move, after
+    each cut; absent: none
+    """
+
     def method_of(self, body: str) -> str:
         """How a cut parts the cells of a body."""
         return self.method.get(body, "auto") if isinstance(self.method, dict) else self.method
@@ -56,8 +76,12 @@ class Editing(Part):
         """Whether a cut moves nodes of a body."""
         return self.method_of(body) == "snap"
 
+    def repairs(self, body: str) -> bool:
+        """Whether bad cells of a body are repaired after a cut."""
+        return self.repair is not None and self.divides(body)
+
     def unknown_bodies(self, bodies: Mapping[str, object]) -> Iterator[Problem]:
-        """Methods of bodies that the scene does not have, and depth without snap."""
+        """Methods of bodies that the scene does not have, and depth or repair without theirs."""
         for body in self.method if isinstance(self.method, dict) else ():
             if body not in bodies:
                 text = f"no body is named '{body}'{nearest(body, bodies)} "
@@ -66,6 +90,10 @@ class Editing(Part):
         if self.depth and not any(self.snaps(body) for body in bodies):
             text = "found depth: true and no body with method: snap, which alone reads it; "
             yield Problem(("editing", "depth"), text + "take method: snap, or leave depth out")
+        if self.repair is not None and not any(self.divides(body) for body in bodies):
+            text = "found repair and no body with method: subdivide or snap; copies of whole cells "
+            text += "keep their shape, so that virtual cuts have nothing to repair; "
+            yield Problem(("editing", "repair"), text + "take one of these, or leave repair out")
 
     def nodes(self, count: int) -> int:
         """Number of nodes that cuts may make in a body of `count` nodes."""
@@ -88,6 +116,7 @@ class Editing(Part):
             why += "; cuts divide cells"
         elif self.method == "snap":
             why += "; cuts move nodes, and divide cells elsewhere"
+        why += "; bad cells are repaired" if self.repair is not None else ""
         return Effect("cutting", why)
 
 

@@ -18,9 +18,10 @@ from tissu.cutting.report import CutReport, Piece, cut_report
 from tissu.errors import ParameterError
 from tissu.mesh import CellBlock, Mesh
 from tissu.simulation import grab as kept
+from tissu.simulation import repairing
 from tissu.simulation.remains import Remains
 from tissu.simulation.severing import Severing
-from tissu.simulation.still import still_nodes
+from tissu.simulation.snapping import snapping
 from tissu.simulation.track import anchor_again, places_in
 
 if TYPE_CHECKING:
@@ -149,10 +150,15 @@ class Cutting(Remains, Severing):
         refine: bool = False,
         by: str = "",
         nearest: float = _NEAREST,
+        goes_on: bool = False,
     ) -> CutReport:
-        """Cut along a surface of the core; `nearest`: share of an edge from its end to go there."""
+        """Cut; `nearest`: share of an edge from its end to go there; `goes_on`: no repair yet."""
         snaps = self.scene.editing is not None and self.scene.editing.snaps(body)
-        rows = places_in(self, body) if snaps and self.scene.instruments else {}  # type: ignore[arg-type]
+        repairs = not goes_on and repairing.repairs(self, body)  # type: ignore[arg-type]
+        if repairs:
+            self._core.require_repair(body)
+        moves = (snaps or repairs) and self.scene.instruments
+        rows = places_in(self, body) if moves else {}  # type: ignore[arg-type]
         report = self._made(
             body,
             lambda: self._core.cut(
@@ -161,27 +167,17 @@ class Cutting(Remains, Severing):
                 t0=nearest,
                 refine=refine,
                 divide=self._divides(body),
-                **self._snapping(body),
+                **snapping(self, body),  # type: ignore[arg-type]
             ),
             by=by,
+            repairs=repairs,
         )
-        if report.nodes_moved and rows:
+        if rows and (report.nodes_moved or report.repairs):
             anchor_again(self, body, rows)  # type: ignore[arg-type]
         return report
 
     def _divides(self, body: str) -> bool:
         return self.scene.editing is not None and self.scene.editing.divides(body)
-
-    def _snapping(self, body: str) -> dict[str, Any]:
-        """Whether a cut moves nodes, and which of them do not."""
-        editing = self.scene.editing
-        if editing is None or not editing.snaps(body):
-            return {"snap": False, "depth": False, "still": np.zeros(0, dtype=np.int32)}
-        first, count = self._core.body_range(body)
-        grabs = kept.records(self._core) if self.scene.grabbing else {}
-        rows = [grab.nodes for grab in grabs.values()]
-        still = still_nodes(self._meshes[body], rows, first, count)
-        return {"snap": True, "depth": editing.depth, "still": still}
 
     def mark(self) -> Mark:
         """Store the present state, cuts included; `rewind` returns to it any number of times.
@@ -220,7 +216,9 @@ class Cutting(Remains, Severing):
         self._become_severed(mark._severed)
         self._lay_views()
 
-    def _made(self, body: str, make: Any, *, by: str, ablated: bool = False) -> CutReport:
+    def _made(
+        self, body: str, make: Any, *, by: str, ablated: bool = False, repairs: bool = False
+    ) -> CutReport:
         """Make a cut and follow it; go back where it leaves a static body with free pieces."""
         start = time.perf_counter()
         grabs = kept.records(self._core) if self.scene.grabbing else {}
@@ -228,6 +226,9 @@ class Cutting(Remains, Severing):
         made = make()
         met = bool(made["cells_cut"] or made["cells_gone"] or made["nodes_moved"])
         if met:
+            self._follow_cells(body)
+        if met and repairs:
+            made = repairing.with_repair(made, repairing.repaired(self, body))  # type: ignore[arg-type]
             self._follow_cells(body)
         pieces = self.pieces(body)
         self._refuse_free_pieces(body, pieces, way_back if met else None)

@@ -17,6 +17,7 @@ from tissu.simulation import pressing
 from tissu.simulation.ablating import ablate_with
 from tissu.simulation.entry import one_thread_at_a_time
 from tissu.simulation.known_names import known_names_only
+from tissu.simulation.repairing import repair_ended, repairs
 from tissu.simulation.slicing import cut_with, edge_of
 from tissu.simulation.track import Track, anchored, anchored_in_tissue, keep, tracks
 
@@ -196,8 +197,12 @@ class Instrumented:
                     f"instruments.{name}: step {self._steps} was taken, and what it would do at "
                     f"its end is refused: {error}"
                 ) from None
+            goes_on = self._tracks()[number].incision >= 0
             keep(self._core, {**self._tracks(), number: track})
             reports += [] if report is None else [report]
+            if goes_on and track.incision < 0 and repairs(self, body):
+                repair = repair_ended(self, name, body)
+                reports += [] if repair is None else [repair]
         return tuple(reports)
 
 

@@ -117,7 +117,8 @@ class Remains:
         """The original nodes between which each node of `meshes[body]` lies at rest.
 
         Returns:
-            nodes (n, 4), -1 beyond the last, and their weights (n, 4), which sum to 1.
+            nodes (n, 4), -1 beyond the last, and their weights (n, 4), which sum to 1. A node on an
+            edge that a repair made may lie between more than four: it has none, and weights of 0.
 
         Raises:
             ParameterError: no such body; the scene was compiled without `editing: true`.

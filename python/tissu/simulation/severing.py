@@ -285,6 +285,7 @@ def _report(
         "stable_step": math.inf,
         "nodes_moved": 0,
         "least_quality": math.inf,
+        "repairs": None,
     }
     milliseconds = 1e3 * (time.perf_counter() - start)
     return CutReport(

@@ -135,7 +135,7 @@ def cut_rows(
         incision=number,
     )
     ways = [row.places(positions) for row in kept]
-    report = simulation._cut_along(body, sweep, by=name)
+    report = simulation._cut_along(body, sweep, by=name, goes_on=True)
     if report.nodes_moved:  # the nodes on which the rows rode are elsewhere in the material
         kept = tuple(anchored(simulation._core, body, places) for places in ways)
         ended = replace(ended, rows=kept[-1:])

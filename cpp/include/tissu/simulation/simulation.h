@@ -12,6 +12,7 @@
 
 #include "tissu/base/profile.h"
 #include "tissu/edit/cut_body.h"
+#include "tissu/edit/repair_body.h"
 #include "tissu/edit/world_editor.h"
 #include "tissu/simulation/energy_watch.h"
 #include "tissu/simulation/inverted_cells.h"
@@ -84,6 +85,11 @@ class Simulation {
   };
   /// Cuts a body, or takes cells out of it, between two steps. Nothing has changed where they throw.
   Edited cut(std::string_view body, const Sweep& sweep, const CutOptions& options);
+  /// Repairs cells that cuts left (repair.h); `before` and `after` are totals of the body.
+  struct Repaired : Edited {
+    RepairCounts counts;
+  };
+  Repaired repair(std::string_view body, const RepairOptions& options);
   Edited ablate(std::string_view body, std::vector<std::int32_t> cells);
   void remove_cells(std::string_view body, std::span<const std::int32_t> cells);
   /// The connected parts of the material of a body of a world that can be edited.
@@ -117,6 +123,7 @@ class Simulation {
   /// A step of a world with contact: in halves of halves where surfaces would have to be held back.
   StepReport step_in_parts(double h, int halvings);
   Edited make(std::string_view body, CutPlan plan);
+  void go_on_with(CutWorld made, std::string_view body, Edited& edited);
   void follow(const WorldEditor::Made& made);
   void take_over(std::span<const RowCopy> copies, std::span<const RowBlend> blends = {});
   /// Whether the world is still the one of a mark.

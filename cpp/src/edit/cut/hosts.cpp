@@ -162,28 +162,31 @@ void Hosts::make_clusters() {
   }
 }
 
-/// The same point in nodes of the first day. All of them are corners of one first-day cell. Places at rest
-/// follow from these alone, whatever the cuts were between.
+/// The same point in nodes of the first day, which are corners of one first-day cell: places at rest follow
+/// from these alone, whatever the cuts were between. An edge that a repair made may lie between more than
+/// four nodes: then the point is between none.
 Rider Hosts::on_first_day(const Rider& rider) const {
   Rider sum;
   const auto add = [&](std::int32_t node, double weight) {
     const auto end = sum.node.begin() + sum.count;
     const auto same =
         at(static_cast<std::int32_t>(std::find(sum.node.begin(), end, node) - sum.node.begin()));
-    if (same == sum.node.size()) {
-      throw ParameterError("a node on an edge lies between more than four nodes of the first day.");
-    }
+    if (same == sum.node.size()) return false;
     if (same == at(sum.count)) sum.node[at(sum.count++)] = node;
     sum.weight[same] += weight;
+    return true;
   };
   for (std::size_t i = 0; i < at(rider.count); ++i) {
     const std::int32_t own = root(rider.node[i]);
     if (own >= 0) {
-      add(own, rider.weight[i]);
+      if (!add(own, rider.weight[i])) return {};
       continue;
     }
     const Rider& point = points_[at(-1 - own)];
-    for (std::size_t k = 0; k < at(point.count); ++k) add(point.node[k], rider.weight[i] * point.weight[k]);
+    if (point.count == 0) return {};
+    for (std::size_t k = 0; k < at(point.count); ++k) {
+      if (!add(point.node[k], rider.weight[i] * point.weight[k])) return {};
+    }
   }
   return sum;
 }
@@ -198,7 +201,10 @@ void Hosts::apply(const CutPlan& plan) {
   for (const NodeMove& one : plan.moved) move(one);
   for (const BornNode& node : plan.nodes) {
     const bool is_copy = node.between.count == 0;
-    if (!is_copy) points_.push_back(on_first_day(node.between));
+    if (!is_copy) {
+      points_.push_back(on_first_day(node.between));
+      moved_ = moved_ || points_.back().count == 0;
+    }
     const Vec3 place = is_copy  ? Vec3(block(rest(), node.copied))
                        : moved_ ? node.between.at(rest())
                                 : points_.back().at(rest());

@@ -28,16 +28,27 @@ std::vector<std::int32_t> cells_at_moves(const Hosts& after, const CutPlan& plan
   return cells;
 }
 
-}  // namespace
-
-std::vector<std::int32_t> nodes_around_moves(const Hosts& after, const CutPlan& plan) {
+std::vector<std::int32_t> nodes_of(const Hosts& hosts, const std::vector<std::int32_t>& cells) {
   std::vector<std::int32_t> nodes;
-  for (const std::int32_t cell : cells_at_moves(after, plan)) {
-    const auto own = after.nodes(cell);
+  for (const std::int32_t cell : cells) {
+    const auto own = hosts.nodes(cell);
     nodes.insert(nodes.end(), own.begin(), own.end());
   }
   sort_unique(nodes);
   return nodes;
+}
+
+}  // namespace
+
+std::vector<std::int32_t> nodes_around_moves(const Hosts& after, const CutPlan& plan) {
+  return nodes_of(after, cells_at_moves(after, plan));
+}
+
+std::vector<std::int32_t> nodes_around_changes(const Hosts& after, const CutPlan& plan) {
+  std::vector<std::int32_t> cells = cells_at_moves(after, plan);
+  for (const BornCell& cell : plan.born) cells.push_back(cell.number);
+  for (const ChangedCell& cell : plan.changed) cells.push_back(cell.number);
+  return nodes_of(after, cells);
 }
 
 double least_quality(const Hosts& after, const CutPlan& plan) {

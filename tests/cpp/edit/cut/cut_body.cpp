@@ -81,6 +81,14 @@ CutPlan CutBody::snap(const Sweep& sweep, CutOptions options, SnapRules rules) {
   return plan;
 }
 
+RepairPlan CutBody::repair(const RepairOptions& options, RepairRules rules) {
+  if (rules.may_move.empty()) rules.may_move.assign(at(hosts.node_count()), 1);
+  RepairPlan plan = plan_repair(hosts, material, x, rules, options);
+  apply(plan.plan);
+  repaired_ = true;
+  return plan;
+}
+
 CutPlan CutBody::ablate(const std::vector<std::int32_t>& cells) {
   CutPlan plan = plan_ablation(hosts, material, cells);
   ablated_ = true;
@@ -161,7 +169,7 @@ std::string CutBody::share_fault() const {
       return "share of cell " + std::to_string(cell) + " is not its volume's";
     }
   }
-  if (hosts.moved()) {  // cells take volume from each other, and the body keeps its own
+  if (hosts.moved() || repaired_) {  // cells take volume from each other, and the body keeps its own
     const double before = std::accumulate(first_volumes_.begin(), first_volumes_.end(), 0.0);
     const double now = std::accumulate(volumes.begin(), volumes.end(), 0.0);
     return std::abs(now - before) > kRoundOff * before ? "the volume of the body changed" : "";

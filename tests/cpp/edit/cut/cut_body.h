@@ -11,6 +11,7 @@
 #include "tissu/edit/cut/cut_plan.h"
 #include "tissu/edit/cut/material_mesh.h"
 #include "tissu/edit/cut/snap.h"
+#include "tissu/edit/repair/plan_repair.h"
 
 namespace tissu::test {
 
@@ -27,6 +28,8 @@ class CutBody {
   CutPlan cut(const Sweep& sweep, const CutOptions& options = {});
   /// Nodes move onto the blade where they may; all may if `rules` has no list.
   CutPlan snap(const Sweep& sweep, CutOptions options = {}, SnapRules rules = {});
+  /// Bad cells are repaired; all nodes may move if `rules` has no list.
+  RepairPlan repair(const RepairOptions& options = {}, RepairRules rules = {});
   CutPlan ablate(const std::vector<std::int32_t>& cells);
   Sweep plane(const Vec3& point, const Vec3& normal) const;
 
@@ -54,6 +57,7 @@ class CutBody {
   std::vector<double> first_volumes_;  ///< of each first-day cell's material; 0 where it was taken out
   double outer_area_ = 0.0;
   bool ablated_ = false;
+  bool repaired_ = false;
 };
 
 /// A random blade near the box 0..size: a plane, a disc, a strip of triangles or a bent sweep; now and then

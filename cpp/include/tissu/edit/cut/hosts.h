@@ -71,8 +71,10 @@ class Hosts {
   /// The first-day node that a node is a copy of; itself on the first day. Of a node that a blade put on an
   /// edge, -1 - i for the place points()[i] of the first day.
   [[nodiscard]] std::int32_t root(std::int32_t node) const { return root_[static_cast<std::size_t>(node)]; }
+  /// Between no nodes: on an edge that a repair made, between more than four nodes of the first day.
   [[nodiscard]] const std::vector<Rider>& points() const { return points_; }
-  /// Whether a node was moved at rest: then rest places do not follow from those of the first day.
+  /// Whether a node was moved at rest, or lies between no nodes of the first day: then rest places do not
+  /// follow from those of the first day.
   [[nodiscard]] bool moved() const { return moved_; }
   /// Numbers of the cells at a node, ascending.
   [[nodiscard]] std::span<const std::int32_t> cells_at(std::int32_t node) const {

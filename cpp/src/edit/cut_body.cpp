@@ -20,13 +20,8 @@ BodyEdit edit_of(const BodyDescription& body, const CutState& before, const CutP
   CutState after = before;
   after.hosts.apply(plan);
   after.material.apply(plan);
-  std::int32_t number = plan.first_node;
-  for (const BornNode& node : plan.nodes) {
-    const bool is_copy = node.between.count == 0;
-    edit.copied.push_back(is_copy ? node.copied : after.hosts.root(number));
-    edit.between.push_back(node.between);
-    ++number;
-  }
+  edit.copied = copied_by(after.hosts, plan);
+  for (const BornNode& node : plan.nodes) edit.between.push_back(node.between);
   edit.points = first_day_points(after.hosts);
   edit.node_moves = plan.moved;
   if (after.hosts.moved()) edit.rest.assign(after.hosts.rest().begin(), after.hosts.rest().end());
@@ -34,23 +29,29 @@ BodyEdit edit_of(const BodyDescription& body, const CutState& before, const CutP
   return edit;
 }
 
-/// Walls of a cut begin apart in sound material. Where walls of an earlier one are pressed into each other by
-/// a share of their gap, thin parts of a new one may not.
 void refuse_crossings(const World& world, const State& state, std::string_view name, const CutWorld& cut) {
   if (world.contact() == nullptr || !world.contact()->description().travel) return;
+  refuse_crossings(*world.contact(), *cut.world->contact(), state, cut.born, {}, name);
+}
+
+}  // namespace
+
+/// Walls of a cut begin apart in sound material. Where walls of an earlier one are pressed into each other by
+/// a share of their gap, thin parts of a new one may not.
+void refuse_crossings(const Contact& before, const Contact& cut, const State& state, const RowsBorn& born,
+                      std::span<const std::uint8_t> changed, std::string_view name) {
   State after = state;
-  blend_rows(cut.born.blends, after.positions);
-  copy_rows(cut.born.copies, after.positions);
-  const auto many = crossings(*cut.world->contact(), after).size();
-  if (many == 0 || many <= crossings(*world.contact(), state).size()) return;
+  blend_rows(born.blends, after.positions);
+  copy_rows(born.copies, after.positions);
+  if (!changed.empty() && !any_crosses(cut, after, changed)) return;
+  const auto many = crossings(cut, after).size();
+  if (many == 0 || many <= crossings(before, state).size()) return;
   throw ParameterError(
       "the cut would leave body \"" + std::string(name) + "\" crossing itself in " + std::to_string(many) +
       (many == 1 ? " place" : " places") +
       ", where walls of an earlier cut press on each other or cells are inside out; let them "
       "part or settle first, and cut then.");
 }
-
-}  // namespace
 
 bool changes(const CutPlan& plan) {
   return !plan.moved.empty() || !plan.gone.empty() || !plan.changed.empty() || !plan.material.cells.empty() ||

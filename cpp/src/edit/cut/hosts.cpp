@@ -162,8 +162,6 @@ void Hosts::make_clusters() {
   }
 }
 
-/// The same point in nodes of the first day. All of them are corners of one first-day cell. Places at rest
-/// follow from these alone, whatever the cuts were between.
 Rider Hosts::on_first_day(const Rider& rider) const {
   Rider sum;
   const auto add = [&](std::int32_t node, double weight) {

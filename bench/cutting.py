@@ -1,8 +1,9 @@
 """What a cut costs: `python bench/cutting.py [--peer PYTHON] [--write]`.
 
-Discs that cut about a hundred tetrahedra out of a bar of so many, each as the first cut of a world
+Discs that cut about a hundred tetrahedra of a bar of so many, each as the first cut of a world
 (`mark`, `rewind`) and then one after the other: time of the cut, of steps before and after, and
-their iterations. PYTHON is one that has rapier3d, whose cuts of the same bars are timed between
+their iterations. The same for cells that are divided, and for a bar that touches a table and may
+touch itself. PYTHON is one that has rapier3d, whose cuts of the same bars are timed between
 ours. Run it on a machine that does nothing else.
 """
 
@@ -14,6 +15,7 @@ import subprocess
 import tempfile
 import time
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from kernels import table
@@ -24,13 +26,19 @@ from tissu.cli.info import machine_line
 
 SIDES = (6, 12, 20)
 """Cells along the two short sides of a bar that is four times as long."""
+SCENES = ("copies", "divided", "in contact")
 CUTS = 20
 PEER_CUTS = 8
 STEPS = 10
 
 
-def bar(side: int) -> ts.Simulation:
+def bar(side: int, scene: str = "copies") -> ts.Simulation:
     """40 x 10 x 10 cm, held at one end, under its weight."""
+    gap = "0.5 mm"
+    touching: dict[str, Any] = {
+        "obstacles": {"table": ts.PlaneObstacle((0, 0, -0.001), (0, 0, 1))},
+        "contacts": [ts.Contact(("bar", "table"), gap=gap), ts.SelfContact("bar", gap=gap)],
+    }
     body = ts.Body(
         mesh=ts.bar_mesh(size=(0.4, 0.1, 0.1), cells=(4 * side, side, side), cell="tetra"),
         law=ts.StVK(young=5e5, poisson=0.3),
@@ -41,7 +49,8 @@ def bar(side: int) -> ts.Simulation:
         fixed=[ts.Fixed("bar", on=ts.Plane((0, 0, 0), (1, 0, 0)))],
         gravity=(0, 0, -9.81),
         step=ts.ImplicitEuler("10 ms"),
-        editing=True,
+        editing=ts.Editing(method="subdivide") if scene == "divided" else True,
+        **(touching if scene == "in contact" else {}),
     ).compile()
 
 
@@ -70,9 +79,9 @@ def stepped(simulation: ts.Simulation) -> tuple[float, float, float]:
     )
 
 
-def cuts_in_a_row(side: int) -> list[float]:
+def cuts_in_a_row(side: int, scene: str) -> list[float]:
     """Of all discs in one body, a step after each, without the first one [ms]."""
-    simulation, found = bar(side), []
+    simulation, found = bar(side, scene), []
     for disc in discs(side):
         found.append(simulation.cut("bar", disc).milliseconds)
         simulation.step()
@@ -166,15 +175,15 @@ def peer_section(python: str) -> str:
     )
 
 
-def row(side: int) -> list[str]:
+def row(side: int, scene: str) -> list[str]:
     """One bar."""
-    simulation = bar(side)
+    simulation = bar(side, scene)
     for _ in range(5):
         simulation.step()
     mark = simulation.mark()
     _, before, plain = stepped(simulation)
     cuts, cells, read, first, after, iterations = [], [], [], [], [], []
-    later = cuts_in_a_row(side)
+    later = cuts_in_a_row(side, scene)
     for disc in discs(side):
         simulation.rewind(mark)
         report = simulation.cut("bar", disc)
@@ -189,6 +198,7 @@ def row(side: int) -> list[str]:
         iterations.append(count)
     return [
         f"{24 * side**3:,}",
+        scene,
         f"{np.mean(cells):.0f}",
         f"{np.median(cuts):.1f}",
         f"{np.percentile(cuts, 95):.1f}",
@@ -205,17 +215,19 @@ def row(side: int) -> list[str]:
 
 def section(python: str | None) -> str:
     """The table and what it says."""
-    head = ["tetrahedra", "cut", "first, p50", "first, p95", "next, p50", "next, p95"]
+    head = ["tetrahedra", "scene", "cut", "first, p50", "first, p95", "next, p50", "next, p95"]
     head += ["surface ms", "step ms", "first after", "later", "iterations", "after"]
-    rows = [row(side) for side in SIDES]
+    rows = [row(side, scene) for scene in SCENES for side in SIDES]
     return (
         "## The time of a cut\n\n"
         "The table gives the time of a cut, and of the steps after it, for meshes of several\n"
         f"sizes [ms]. A bar of StVK under its weight is cut by {CUTS} discs, with implicit Euler\n"
         "of 10 ms on one thread: each disc as the *first* cut of a new simulation, and then one\n"
-        "after the other as the *next* ones. The time of a cut includes the report with its\n"
-        "pieces, but not reading the surface. The goal is 5 ms for a hundred cells of 50,000. The\n"
-        "first step after a cut makes a new preconditioner.\n\n"
+        "after the other as the *next* ones. In the scene *copies* the cells are copied, and in\n"
+        "*divided* they are divided (`subdivide`). *In contact* is the first scene with a table\n"
+        "below the bar, which also may touch itself. The time of a cut includes the report with\n"
+        "its pieces, but not reading the surface. The goal is 5 ms for a hundred cells of 50,000.\n"
+        "The first step after a cut makes a new preconditioner.\n\n"
         + table(head, rows)
         + ("" if python is None else "\n" + peer_section(python).rstrip())
         + f"\n\nPrinted by `python bench/cutting.py --write`; {machine_line()}\n"

@@ -20,7 +20,7 @@ STEPS = {
 }
 
 
-def bar(step: ts.Step, **body: object) -> ts.Simulation:
+def bar(step: ts.Step, method: str = "auto", **body: object) -> ts.Simulation:
     return ts.Scene(
         bodies={
             "bar": ts.Body(
@@ -33,7 +33,7 @@ def bar(step: ts.Step, **body: object) -> ts.Simulation:
         fixed=[ts.Fixed("bar", on=ts.Plane(point=(0, 0, 0), normal=(1, 0, 0)))],
         gravity=(0.0, 0.0, -9.81),
         step=step,
-        editing=ts.Editing(room="200 %"),
+        editing=ts.Editing(room="200 %", method=method),
     ).compile()
 
 
@@ -53,11 +53,12 @@ def laid_anew(simulation: ts.Simulation) -> None:
     core.replace_world(world=core.edited_like_now(fresh=simulation._world))
 
 
+@pytest.mark.parametrize("method", ["virtual", "subdivide"])
 @pytest.mark.parametrize("name", STEPS)
-def test_steps_after_it_have_the_bits_of_a_world_laid_anew(name: str) -> None:
+def test_steps_after_it_have_the_bits_of_a_world_laid_anew(name: str, method: str) -> None:
     ends = []
     for anew in (False, True):
-        simulation = bar(STEPS[name], viscosity=ts.Rayleigh(mass=0.5, stiffness=1e-4))
+        simulation = bar(STEPS[name], method, viscosity=ts.Rayleigh(mass=0.5, stiffness=1e-4))
         for _ in range(2):
             simulation.step()
         assert not any(report.relaid for report in discs(simulation))
@@ -90,11 +91,22 @@ def test_a_mark_after_a_cut_is_returned_to_any_number_of_times() -> None:
     assert len(set(ends)) == 1
 
 
-def test_where_nodes_are_held_everything_is_laid_anew() -> None:
-    simulation = bar(ts.ImplicitEuler(dt=0.005))
-    held = simulation.cut("bar", ts.Disc((0.0, 0.05, 0.05), (0.0, 0.0, 1.0), "5 cm"))
-    assert held.relaid
-    assert not simulation.cut("bar", ts.Disc((0.3, 0.05, 0.06), (1.0, 0.0, 0.1), "4 cm")).relaid
+def test_held_nodes_part_in_place() -> None:
+    ends = []
+    for anew in (False, True):
+        simulation = bar(ts.ImplicitEuler(dt=0.005))
+        held = simulation.cut("bar", ts.Disc((0.0, 0.05, 0.05), (0.0, 0.0, 1.0), "5 cm"))
+        assert held.nodes_new and not held.relaid
+        simulation._core.mark()
+        if anew:
+            laid_anew(simulation)
+        for _ in range(3):
+            simulation.step()
+        ends.append(simulation.positions["bar"].tobytes())
+        held_now = simulation.positions["bar"][:, 0] == 0.0
+        assert held_now.sum() >= 25 + held.nodes_new // 2
+        np.testing.assert_array_equal(simulation.velocities["bar"][held_now], 0.0)
+    assert ends[0] == ends[1]
 
 
 def test_meshes_are_those_of_the_cells_that_are_left() -> None:

@@ -205,6 +205,10 @@ void FixedDofs::claim_memory(MemoryPlaces& places) {
   for (LiveSupport& support : live_) support.place = places.claim("lead of " + support.name, 0);
 }
 
+void FixedDofs::keep_places(const FixedDofs& before) {
+  for (LiveSupport& support : live_) support.place = before.support(support.name).place;
+}
+
 void FixedDofs::begin_step(State& state, double h) const {
   for (const LiveSupport& support : live_) {
     std::vector<double>& numbers = state.memory[support.place];

@@ -86,18 +86,13 @@ class Audit {
   ConstReals places_;
 };
 
-}  // namespace
-
-std::vector<Crossing> crossings(const Contact& contact, const State& state) {
+/// Adds the vertices behind planes, of those for which `is_wanted` holds.
+template <class Wanted>
+void add_behind_planes(const Contact& contact, const State& state, ConstReals places, Wanted&& is_wanted,
+                       std::vector<Crossing>& found) {
   const SurfaceSet& surfaces = contact.surfaces();
-  std::vector<double> places(3 * surfaces.vertices().size());
-  contact.place_vertices(state, state.time, places);
-  SearchPlan plan;
-  plan.first = surfaces.first_primitive();
-  std::vector<Crossing> found;
   const auto bodies = static_cast<std::int32_t>(contact.description().bodies.size());
   for (const ContactPair& pair : contact.description().pairs) {
-    plan.meetings.push_back({std::min(pair.a, pair.b), std::max(pair.a, pair.b)});
     for (const auto& [body, obstacle] : {std::pair(pair.a, pair.b), std::pair(pair.b, pair.a)}) {
       if (obstacle < bodies || !contact.description().obstacles[at(obstacle - bodies)].plane) continue;
       const Vec3 origin =
@@ -106,20 +101,80 @@ std::vector<Crossing> crossings(const Contact& contact, const State& state) {
       const Vec3 normal = contact.normal_of(obstacle - bodies, state, state.time);
       const auto& of = surfaces.surfaces()[at(body)];
       for (std::int32_t v = of.first_vertex; v < of.last_vertex; ++v) {
+        if (!is_wanted(v)) continue;
         const std::int32_t node = surfaces.vertices()[at(v)].node;
         if (!pair.nodes.empty() && !surfaces.is_among(pair.nodes, v)) continue;
-        if (normal.dot(block(ConstReals(places), v) - origin) > 0.0) continue;
+        if (normal.dot(block(places, v) - origin) > 0.0) continue;
         found.push_back({body, obstacle, {numbered(node), -1}, {-1, -1, -1}});
       }
     }
   }
-  std::vector<Box> boxes;
-  for (const Primitive& primitive : surfaces.primitives()) {
-    Box box = Box::none();
-    for (int i = 0; i < primitive.corners; ++i)
-      box.add(Vec3(block(ConstReals(places), primitive.vertex[at(i)])));
-    boxes.push_back(box);
+}
+
+Box box_of(const Primitive& primitive, ConstReals places) {
+  Box box = Box::none();
+  for (int i = 0; i < primitive.corners; ++i) box.add(Vec3(block(places, primitive.vertex[at(i)])));
+  return box;
+}
+
+std::vector<double> places_of(const Contact& contact, const State& state) {
+  std::vector<double> places(3 * contact.surfaces().vertices().size());
+  contact.place_vertices(state, state.time, places);
+  return places;
+}
+
+}  // namespace
+
+bool any_crosses(const Contact& contact, const State& state, std::span<const std::uint8_t> some) {
+  const SurfaceSet& surfaces = contact.surfaces();
+  const std::vector<double> places = places_of(contact, state);
+  Box around = Box::none();
+  std::vector<std::int32_t> looked_for;
+  std::vector<std::uint8_t> wanted(surfaces.vertices().size(), 0);
+  for (std::size_t p = 0; p < some.size(); ++p) {
+    if (some[p] == 0) continue;
+    const Primitive& primitive = surfaces.primitives()[p];
+    looked_for.push_back(static_cast<std::int32_t>(p));
+    for (int i = 0; i < primitive.corners; ++i) {
+      wanted[at(primitive.vertex[at(i)])] = 1;
+      around.add(Vec3(block(ConstReals(places), primitive.vertex[at(i)])));
+    }
   }
+  std::vector<Crossing> found;
+  add_behind_planes(contact, state, places, [&](std::int32_t v) { return wanted[at(v)] != 0; }, found);
+  const auto meets = [&](std::int32_t a, std::int32_t b) {
+    return std::ranges::any_of(contact.description().pairs, [&](const ContactPair& pair) {
+      return (pair.a == a && pair.b == b) || (pair.a == b && pair.b == a);
+    });
+  };
+  const Audit audit(contact, places);
+  std::vector<Box> boxes;
+  for (const std::int32_t p : looked_for) boxes.push_back(box_of(surfaces.primitives()[at(p)], places));
+  for (std::int32_t q = 0; q < static_cast<std::int32_t>(surfaces.primitives().size()) && found.empty();
+       ++q) {
+    const Box box = box_of(surfaces.primitives()[at(q)], places);
+    if (!box.overlaps(around)) continue;
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+      const std::int32_t p = looked_for[i];
+      if (p == q || !box.overlaps(boxes[i]) || (some[at(q)] != 0 && q < p)) continue;
+      if (!meets(surfaces.surface_of_primitive(p), surfaces.surface_of_primitive(q))) continue;
+      audit.add({std::min(p, q), std::max(p, q)}, found);
+    }
+  }
+  return !found.empty();
+}
+
+std::vector<Crossing> crossings(const Contact& contact, const State& state) {
+  const SurfaceSet& surfaces = contact.surfaces();
+  const std::vector<double> places = places_of(contact, state);
+  SearchPlan plan;
+  plan.first = surfaces.first_primitive();
+  for (const ContactPair& pair : contact.description().pairs)
+    plan.meetings.push_back({std::min(pair.a, pair.b), std::max(pair.a, pair.b)});
+  std::vector<Crossing> found;
+  add_behind_planes(contact, state, places, [](std::int32_t) { return true; }, found);
+  std::vector<Box> boxes;
+  for (const Primitive& primitive : surfaces.primitives()) boxes.push_back(box_of(primitive, places));
   std::vector<BoxPair> pairs;
   make_broad_phase(BroadPhaseKind::hierarchy, plan)->find(boxes, pairs);
   const Audit audit(contact, places);

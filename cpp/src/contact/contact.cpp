@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "tissu/base/error.h"
-#include "tissu/contact/surface_change.h"
 
 namespace tissu {
 
@@ -190,15 +189,7 @@ void Contact::carry_memory(const ForceModel& before, const Memory& then, Memory&
   for (std::size_t i = 0; i < leads_.size() && i < contact->leads_.size(); ++i) {
     now[leads_[i]] = then[contact->leads_[i]];
   }
-  // Numbers of vertices, edges and triangles are those of one topology: contacts take those of the other.
-  const SurfaceChange change(contact->surfaces_, surfaces_);
-  std::vector<ContactNumbers> kept;
-  const ContactTable all(then[contact->place_]);
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    ContactNumbers c = all[i];
-    if (c.pair < static_cast<double>(description_.pairs.size()) && change.carry(c)) kept.push_back(c);
-  }
-  ContactTable::write(kept, now[place_]);
+  ContactTable::write(carried_from(contact->surfaces_, ContactTable(then[contact->place_])), now[place_]);
 }
 
 void Contact::check_memory(const State& state) const {

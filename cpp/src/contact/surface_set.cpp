@@ -1,7 +1,6 @@
 #include "tissu/contact/surface_set.h"
 
 #include <algorithm>
-#include <unordered_map>
 
 #include "tissu/base/sort_unique.h"
 
@@ -10,10 +9,62 @@ namespace {
 
 std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
-std::uint64_t key_of(std::int32_t a, std::int32_t b) {
-  const auto [low, high] = std::minmax(a, b);
-  return (static_cast<std::uint64_t>(low) << 32U) | static_cast<std::uint32_t>(high);
-}
+/// Finds edges by their ends: those at each lower end are a list.
+class EdgeLists {
+ public:
+  EdgeLists(std::int32_t first_vertex, std::size_t vertices)
+      : first_vertex_(first_vertex), latest_(vertices - at(first_vertex), -1) {}
+
+  /// The edge between two vertices; `next`, which is new, where there is none.
+  std::int32_t find(std::int32_t a, std::int32_t b, std::int32_t next) {
+    const auto [low, high] = std::minmax(a, b);
+    std::int32_t& latest = latest_[at(low - first_vertex_)];
+    for (std::int32_t i = latest; i >= 0; i = edges_[at(i)].before) {
+      if (edges_[at(i)].high == high) return edges_[at(i)].number;
+    }
+    edges_.push_back({high, next, latest});
+    latest = static_cast<std::int32_t>(edges_.size()) - 1;
+    return next;
+  }
+
+ private:
+  struct Edge {
+    std::int32_t high;
+    std::int32_t number;
+    std::int32_t before;  ///< in the list
+  };
+  std::int32_t first_vertex_;
+  std::vector<std::int32_t> latest_;  ///< of each vertex
+  std::vector<Edge> edges_;
+};
+
+/// The nodes of the primitives, ascending, and their places in this list.
+class NodeNumbers {
+ public:
+  explicit NodeNumbers(const SurfaceDescription& description) {
+    for (const auto& t : description.triangles) nodes_.insert(nodes_.end(), t.begin(), t.end());
+    for (const auto& e : description.edges) nodes_.insert(nodes_.end(), e.begin(), e.end());
+    nodes_.insert(nodes_.end(), description.points.begin(), description.points.end());
+    if (nodes_.empty()) return;
+    const auto [low, high] = std::ranges::minmax(nodes_);
+    low_ = low;
+    place_.assign(at(high - low) + 1, -1);
+    for (const std::int32_t node : nodes_) place_[at(node - low)] = 0;
+    nodes_.clear();
+    for (std::size_t i = 0; i < place_.size(); ++i) {
+      if (place_[i] < 0) continue;
+      place_[i] = static_cast<std::int32_t>(nodes_.size());
+      nodes_.push_back(low + static_cast<std::int32_t>(i));
+    }
+  }
+  [[nodiscard]] const std::vector<std::int32_t>& all() const { return nodes_; }
+  [[nodiscard]] std::int32_t operator[](std::int32_t node) const { return place_[at(node - low_)]; }
+
+ private:
+  std::vector<std::int32_t> nodes_;
+  std::int32_t low_ = 0;
+  std::vector<std::int32_t> place_;
+};
 
 /// Lists `items` by the bin of each: those of bin b stand at [begin[b], begin[b + 1]).
 void list_by(const std::vector<std::int32_t>& bin, std::size_t bins, std::vector<std::int32_t>& begin,
@@ -71,16 +122,10 @@ void SurfaceSet::add(const SurfaceDescription& description, std::int32_t first_r
   const auto first_vertex = static_cast<std::int32_t>(vertices_.size());
   const auto first_primitive = static_cast<std::int32_t>(primitives_.size());
   const auto first_edge = static_cast<std::int32_t>(edges_.size());
-  std::vector<std::int32_t> nodes;
-  for (const auto& t : description.triangles) nodes.insert(nodes.end(), t.begin(), t.end());
-  for (const auto& e : description.edges) nodes.insert(nodes.end(), e.begin(), e.end());
-  nodes.insert(nodes.end(), description.points.begin(), description.points.end());
-  sort_unique(nodes);
-  const auto number = [&](std::int32_t node) {
-    return first_vertex + static_cast<std::int32_t>(std::ranges::lower_bound(nodes, node) - nodes.begin());
-  };
+  const NodeNumbers nodes(description);
+  const auto number = [&](std::int32_t node) { return first_vertex + nodes[node]; };
   const std::vector<std::int32_t>& riders = description.riders.vertex;
-  for (const std::int32_t node : nodes) {
+  for (const std::int32_t node : nodes.all()) {
     SurfaceVertex vertex;
     vertex.node = node;
     vertex.surface = surface;
@@ -135,7 +180,7 @@ void SurfaceSet::carry(const Frame& frame, std::int32_t number, const Vec3& orig
 /// The edges that have more than two triangles, ascending.
 std::vector<std::int32_t> SurfaceSet::add_edges(std::int32_t first_primitive, std::int32_t first_vertex) {
   std::vector<std::int32_t> crowded;
-  std::unordered_map<std::uint64_t, std::int32_t> known;
+  EdgeLists known(first_vertex, vertices_.size());
   owner_.resize(vertices_.size(), -1);
   for (std::size_t v = at(first_vertex); v < vertices_.size(); ++v) vertices_[v].is_lone = true;
   triangle_edges_.resize(primitives_.size(), {-1, -1, -1});
@@ -148,16 +193,17 @@ std::vector<std::int32_t> SurfaceSet::add_edges(std::int32_t first_primitive, st
     for (int i = 0; i < (primitive.corners == 3 ? 3 : primitive.corners - 1); ++i) {
       const std::int32_t a = primitive.vertex[at(i)];
       const std::int32_t b = primitive.vertex[at((i + 1) % 3)];
-      const auto [place, made] = known.try_emplace(key_of(a, b), static_cast<std::int32_t>(edges_.size()));
-      if (made) edges_.push_back({{a, b}});
-      triangle_edges_[at(p)][at(i)] = place->second;
+      const auto next = static_cast<std::int32_t>(edges_.size());
+      const std::int32_t number = known.find(a, b, next);
+      if (number == next) edges_.push_back({{a, b}});
+      triangle_edges_[at(p)][at(i)] = number;
       vertices_[at(a)].is_lone = vertices_[at(b)].is_lone = false;
       if (primitive.corners < 3) continue;
       vertices_[at(a)].has_faces = vertices_[at(b)].has_faces = true;
-      SurfaceEdge& edge = edges_[at(place->second)];
+      SurfaceEdge& edge = edges_[at(number)];
       const std::size_t side = edge.face[0] < 0 ? 0 : 1;
       if (edge.face[side] >= 0) {  // a third triangle beside an edge
-        crowded.push_back(place->second);
+        crowded.push_back(number);
         continue;
       }
       edge.face[side] = p;

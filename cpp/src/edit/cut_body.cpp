@@ -21,13 +21,8 @@ BodyEdit edit_of(const BodyDescription& body, const CutState& before, const CutP
   CutState after = before;
   after.hosts.apply(plan);
   after.material.apply(plan);
-  std::int32_t number = plan.first_node;
-  for (const BornNode& node : plan.nodes) {
-    const bool is_copy = node.between.count == 0;
-    edit.copied.push_back(is_copy ? node.copied : after.hosts.root(number));
-    edit.between.push_back(node.between);
-    ++number;
-  }
+  edit.copied = copied_by(after.hosts, plan);
+  for (const BornNode& node : plan.nodes) edit.between.push_back(node.between);
   edit.points = first_day_points(after.hosts);
   edit.node_moves = plan.moved;
   if (after.hosts.moved()) edit.rest.assign(after.hosts.rest().begin(), after.hosts.rest().end());
@@ -35,23 +30,27 @@ BodyEdit edit_of(const BodyDescription& body, const CutState& before, const CutP
   return edit;
 }
 
-std::size_t count_crossings(const World& world, const State& state) {
-  return crossings(*world.contact(), state).size();
+/// How often bodies cross in contact after an edit, of the triangles that changed; 0 where that is no more
+/// often than before.
+std::size_t new_crossings(const Contact& before, const Contact& cut, const State& state, const RowsBorn& born,
+                          std::span<const std::uint8_t> changed) {
+  State after = state;
+  blend_rows(born.blends, after.positions);
+  copy_rows(born.copies, after.positions);
+  if (!changed.empty() && !any_crosses(cut, after, changed)) return 0;
+  const std::size_t many = crossings(cut, after).size();
+  return many == 0 || many <= crossings(before, state).size() ? 0 : many;
 }
 
-/// How often a body crosses itself in contact after an edit; 0 where that is no more often than before.
+/// The same of all triangles.
 std::size_t new_crossings(const World& world, const State& state, const CutWorld& cut) {
   if (world.contact() == nullptr || !world.contact()->description().travel) return 0;
-  State after = state;
-  blend_rows(cut.born.blends, after.positions);
-  copy_rows(cut.born.copies, after.positions);
-  const std::size_t many = count_crossings(*cut.world, after);
-  return many == 0 || many <= count_crossings(world, state) ? 0 : many;
+  return new_crossings(*world.contact(), *cut.world->contact(), state, cut.born, {});
 }
 
 /// Walls of a cut begin apart in sound material. Where walls of an earlier one are pressed into each other by
 /// a share of their gap, thin parts of a new one may not.
-[[noreturn]] void refuse_crossings(std::string_view name, std::size_t many) {
+[[noreturn]] void refuse(std::string_view name, std::size_t many) {
   throw ParameterError(
       "the cut would leave body \"" + std::string(name) + "\" crossing itself in " + std::to_string(many) +
       (many == 1 ? " place" : " places") +
@@ -69,6 +68,12 @@ CutWorld laid(const World& world, const State& state, std::string_view name, con
 }
 
 }  // namespace
+
+void refuse_crossings(const Contact& before, const Contact& cut, const State& state, const RowsBorn& born,
+                      std::span<const std::uint8_t> changed, std::string_view name) {
+  const std::size_t many = new_crossings(before, cut, state, born, changed);
+  if (many > 0) refuse(name, many);
+}
 
 bool changes(const CutPlan& plan) {
   return !plan.moved.empty() || !plan.gone.empty() || !plan.changed.empty() || !plan.material.cells.empty() ||
@@ -101,7 +106,7 @@ double least_quality(const World& world, std::string_view name, const CutPlan& p
 CutWorld cut_world(const World& world, const State& state, std::string_view name, const CutPlan& plan) {
   CutWorld made = laid(world, state, name, plan, nodes_around_moves);
   const std::size_t many = new_crossings(world, state, made);
-  if (many > 0) refuse_crossings(name, many);
+  if (many > 0) refuse(name, many);
   return made;
 }
 

@@ -14,7 +14,12 @@ namespace tissu {
 std::vector<std::int32_t> bare_after(const std::vector<std::int32_t>& before, const CutPlan& plan);
 
 /// The places of nodes on edges as a description has them.
+FirstDayPoint first_day_point(const Rider& rider);
 std::vector<FirstDayPoint> first_day_points(const Hosts& hosts);
+
+/// Of each new node of a plan, as an edit has it: the node that it copies; -1 - i: it is at point i. `after`
+/// has the plan.
+std::vector<std::int32_t> copied_by(const Hosts& after, const CutPlan& plan);
 
 /// The cells of a plan.
 void set_cells(const CutPlan& plan, CellEdit& edit);

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <map>
 #include <numbers>
-#include <numeric>
 #include <optional>
 #include <string>
 
@@ -20,17 +19,6 @@
 
 namespace tissu {
 namespace {
-
-/// Of walls inside their material: so far apart they rest a gap apart.
-double kerf_depth(const BodyDescription& body, const ContactDescription& contact) {
-  for (const ContactPair& pair : contact.pairs) {
-    const auto bodies = static_cast<std::int32_t>(contact.bodies.size());
-    if (pair.a != pair.b || pair.a >= bodies) continue;
-    if (contact.bodies[static_cast<std::size_t>(pair.a)].name != body.name) continue;
-    return 0.5 * pair.gap / Candidates::kOfWalls;
-  }
-  return 0.0;
-}
 
 /// All triangles of a sheet's material. Quads that no blade met are cut along their shorter diagonal.
 KerfSurface sheet_surface(const CutState& cut) {
@@ -109,12 +97,56 @@ bool is_mixed(const BodyDescription& body) {
 KerfSurface own_surface(const BodyDescription& body, const ContactDescription& contact,
                         std::vector<std::array<std::int32_t, 2>>& edges) {
   const int dimension = dimension_of(body);
-  if (dimension == 3) return kerf_surface(body.cut->hosts, body.cut->material, kerf_depth(body, contact));
+  if (dimension == 3)
+    return kerf_surface(body.cut->hosts, body.cut->material, kerf_depth(body.name, contact));
   if (is_mixed(body)) return {};
   return dimension == 2 ? sheet_surface(*body.cut) : line_surface(*body.cut, edges);
 }
 
+SurfaceRiders riders_of(const KerfSurface& found) {
+  SurfaceRiders riders;
+  for (const auto& [vertex, rider] : found.carried) {
+    riders.vertex.push_back(vertex);
+    const auto count = static_cast<std::ptrdiff_t>(rider.count);
+    riders.node.insert(riders.node.end(), rider.node.begin(), rider.node.begin() + count);
+    riders.weight.insert(riders.weight.end(), rider.weight.begin(), rider.weight.begin() + count);
+    riders.begin.push_back(static_cast<std::int32_t>(riders.node.size()));
+  }
+  return riders;
+}
+
+/// Of nodes on edges, the first one at each place.
+std::vector<std::int32_t> roots_of(const Hosts& hosts) {
+  std::vector<std::int32_t> roots;
+  std::map<std::int32_t, std::int32_t> on_edges;
+  for (std::int32_t node = 0; node < hosts.node_count(); ++node) {
+    const std::int32_t root = hosts.root(node);
+    roots.push_back(root >= 0 ? root : on_edges.try_emplace(root, node).first->second);
+  }
+  return roots;
+}
+
 }  // namespace
+
+double kerf_depth(const std::string& body, const ContactDescription& contact) {
+  for (const ContactPair& pair : contact.pairs) {
+    const auto bodies = static_cast<std::int32_t>(contact.bodies.size());
+    if (pair.a != pair.b || pair.a >= bodies) continue;
+    if (contact.bodies[static_cast<std::size_t>(pair.a)].name != body) continue;
+    return 0.5 * pair.gap / Candidates::kOfWalls;
+  }
+  return 0.0;
+}
+
+SurfaceDescription volume_surface(const std::string& body, const Hosts& hosts, KerfSurface found) {
+  SurfaceDescription surface;
+  surface.name = body;
+  surface.riders = riders_of(found);
+  surface.triangles = std::move(found.triangles);
+  surface.closed = !surface.triangles.empty();
+  surface.roots = roots_of(hosts);
+  return surface;
+}
 
 SurfaceDescription cut_surface(const BodyDescription& body, const ContactDescription& contact) {
   const int dimension = dimension_of(body);
@@ -132,37 +164,23 @@ SurfaceDescription cut_surface(const BodyDescription& body, const ContactDescrip
   } else if (dimension < 3) {
     surface.radius = radii(body);
   }
-  SurfaceRiders& riders = surface.riders;
-  for (const auto& [vertex, rider] : found.carried) {
-    riders.vertex.push_back(vertex);
-    const auto count = static_cast<std::ptrdiff_t>(rider.count);
-    riders.node.insert(riders.node.end(), rider.node.begin(), rider.node.begin() + count);
-    riders.weight.insert(riders.weight.end(), rider.weight.begin(), rider.weight.begin() + count);
-    riders.begin.push_back(static_cast<std::int32_t>(riders.node.size()));
-  }
-  surface.roots.resize(body.positions.size() / 3 - body.copies_of.size());
-  std::iota(surface.roots.begin(), surface.roots.end(), 0);
-  std::map<std::int32_t, std::int32_t> on_edges;  // the first node at each place
-  for (const std::int32_t root : body.copies_of) {
-    const auto node = static_cast<std::int32_t>(surface.roots.size());
-    surface.roots.push_back(root >= 0 ? root : on_edges.try_emplace(root, node).first->second);
-  }
+  surface.riders = riders_of(found);
+  surface.roots = roots_of(body.cut->hosts);
   return surface;
 }
 
-void part_pairs(ContactDescription& contact, const BodyDescription& body,
-                const std::vector<std::int32_t>& copied) {
-  const auto first = static_cast<std::int32_t>(body.positions.size() / 3 - copied.size());
+void part_pairs(ContactDescription& contact, const std::string& body, std::int32_t first,
+                const std::vector<std::int32_t>& copied, const std::vector<FirstDayPoint>& points) {
   for (ContactPair& pair : contact.pairs) {
-    if (pair.nodes.empty() || contact.bodies[static_cast<std::size_t>(pair.a)].name != body.name) continue;
+    if (pair.nodes.empty() || contact.bodies[static_cast<std::size_t>(pair.a)].name != body) continue;
     const auto meets = [&](std::int32_t node) { return std::ranges::binary_search(pair.nodes, node); };
     for (std::size_t k = 0; k < copied.size(); ++k) {
       const auto is_between_met = [&](const FirstDayPoint& point) {
         return point.node[0] >= 0 &&
                std::ranges::all_of(point.node, [&](std::int32_t node) { return node < 0 || meets(node); });
       };
-      const bool met = copied[k] < 0 ? is_between_met(body.points[static_cast<std::size_t>(-1 - copied[k])])
-                                     : meets(copied[k]);
+      const bool met =
+          copied[k] < 0 ? is_between_met(points[static_cast<std::size_t>(-1 - copied[k])]) : meets(copied[k]);
       if (met) pair.nodes.push_back(first + static_cast<std::int32_t>(k));
     }
   }

@@ -205,12 +205,14 @@ std::shared_ptr<const World> edit_body(const World& world, const State& state, s
   refuse_tied(description, name, edit.copied);
   body = edited(std::move(body), edit);
   part_supports(description, body, edit.copied);
-  part_loads(description, body);
-  part_pressures(description, body);
+  part_loads(description.loads, body);
+  part_pressures(description.pressures, body);
   refuse_live_changes(world, state, *world.description(), description);
   std::erase_if(description.fixed, [](const FixedNodes& fixed) { return fixed.nodes.empty(); });
   hold_debris(description, body, state, world.body(name).first_node);
-  if (description.contact) part_pairs(*description.contact, body, edit.copied);
+  if (description.contact) {
+    part_pairs(*description.contact, body.name, world.body(name).node_count, edit.copied, body.points);
+  }
   renew_surface(description, body);
   return std::make_shared<World>(std::move(description), &world, true);
 }

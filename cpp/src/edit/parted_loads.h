@@ -10,6 +10,6 @@ namespace tissu {
 
 /// Gives the load of a node to those of it and its copies that have its material; several share it as they
 /// share the mass now, whatever earlier edits of the body were.
-void part_loads(WorldDescription& description, const BodyDescription& body);
+void part_loads(std::vector<LoadDescription>& loads, const BodyDescription& body);
 
 }  // namespace tissu

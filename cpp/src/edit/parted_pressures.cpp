@@ -36,13 +36,17 @@ bool same_way(const Nodes& a, const Nodes& b) {
 /// The faces of a body that a pressure acts on, as they are after cuts.
 class Pressed {
  public:
-  Pressed(const CutState& cut, const std::vector<FaceCells>& first_day) : cut_(cut) {
+  Pressed(const CutState& cut, const std::vector<FaceCells>& first_day)
+      : cut_(cut), pressed_(at(cut.hosts.node_count()), 0) {
     for (const FaceCells& some : first_day) {
       const auto corners = at(find_element(some.element)->nodes);
       for (std::size_t i = 0; i + corners <= some.nodes.size(); i += corners) {
         const auto first = some.nodes.begin() + static_cast<std::ptrdiff_t>(i);
         Nodes face(first, first + static_cast<std::ptrdiff_t>(corners));
-        for (const std::int32_t node : face) faces_at_[node].push_back(face);
+        for (const std::int32_t node : face) {
+          faces_at_[node].push_back(face);
+          pressed_[at(node)] = 1;
+        }
         faces_.emplace(sorted(face), face);
       }
     }
@@ -51,7 +55,7 @@ class Pressed {
   void find(PressureDescription& pressure) {
     for (const bool solid : {true, false}) {
       for (const std::int32_t cell : cut_.hosts.numbers()) {
-        if ((info(cut_.hosts.type(cell)).dimension == 3) == solid) look_at(cell);
+        if ((info(cut_.hosts.type(cell)).dimension == 3) == solid && may_have(cell)) look_at(cell);
       }
     }
     pressure.faces.clear();
@@ -61,6 +65,14 @@ class Pressed {
   }
 
  private:
+  /// A face has three nodes at least, which come from nodes of faces of the first day.
+  [[nodiscard]] bool may_have(std::int32_t cell) const {
+    return std::ranges::count_if(cut_.hosts.corners(cell), [&](std::int32_t node) {
+             const std::int32_t root = cut_.hosts.root(node);
+             return root < 0 || pressed_[at(root)] != 0;
+           }) >= 3;
+  }
+
   void look_at(std::int32_t cell) {
     const auto corners = cut_.hosts.corners(cell);
     if (info(cut_.hosts.type(cell)).dimension == 1) return;
@@ -199,6 +211,7 @@ class Pressed {
   }
 
   const CutState& cut_;
+  std::vector<std::uint8_t> pressed_;            ///< whether a node of the first day has such a face
   std::set<std::array<std::int32_t, 3>> taken_;  ///< triangles that have the pressure, vertices ascending
   std::map<Nodes, Nodes> faces_;                 ///< of the first day, by their nodes in ascending order
   std::map<std::int32_t, std::vector<Nodes>> faces_at_;  ///< the same, by each of their nodes
@@ -209,9 +222,9 @@ class Pressed {
 
 }  // namespace
 
-void part_pressures(WorldDescription& description, const BodyDescription& body) {
+void part_pressures(std::vector<PressureDescription>& pressures, const BodyDescription& body) {
   if (body.cut == nullptr) return;
-  for (PressureDescription& pressure : description.pressures) {
+  for (PressureDescription& pressure : pressures) {
     if (pressure.body != body.name) continue;
     if (pressure.first_day.empty()) pressure.first_day = pressure.faces;
     Pressed(*body.cut, pressure.first_day).find(pressure);

@@ -58,8 +58,8 @@ std::shared_ptr<const World> remove_cells(const World& world, const State& state
   }
   std::erase_if(edited.elastic, [](const ElasticBlock& block) { return block.cells.empty(); });
   free_unneeded(description, edited);
-  part_loads(description, edited);
-  part_pressures(description, edited);
+  part_loads(description.loads, edited);
+  part_pressures(description.pressures, edited);
   hold_debris(description, edited, state, world.body(body).first_node);
   renew_surface(description, edited);
   return std::make_shared<World>(std::move(description), &world);

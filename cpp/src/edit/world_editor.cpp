@@ -5,7 +5,11 @@
 #include <string>
 #include <utility>
 
+#include "contact_edit.h"
 #include "cut_edit.h"
+#include "parted_loads.h"
+#include "parted_pressures.h"
+#include "parted_supports.h"
 #include "tissu/base/error.h"
 #include "tissu/base/sort_unique.h"
 #include "tissu/edit/cut_body.h"
@@ -19,6 +23,7 @@ WorldDescription described_apart(const World& world) {
     body.uncut = nullptr;
     if (body.cut != nullptr) body.cut = std::make_shared<const CutState>(*body.cut);
   }
+  if (world.contact() != nullptr) description.separated = world.rest_positions();
   return description;
 }
 
@@ -49,8 +54,18 @@ WorldEditor::WorldEditor(std::shared_ptr<const World> world)
     const bool was_cut = described.cut != nullptr;  // which other worlds may share
     state = std::make_shared<CutState>(was_cut ? *described.cut : cut_state_of(described));
     (was_cut ? described.cut : described.uncut) = state;
-    bodies_.back().pieces = std::make_unique<PieceTable>(state->hosts, state->material);
+    track(bodies_.size() - 1);
   }
+}
+
+WorldEditor::~WorldEditor() = default;
+
+/// What is kept beside the state of a body follows from it.
+void WorldEditor::track(std::size_t body) {
+  EditedBody& edited = bodies_[body];
+  const std::string& name = world_->bodies()[body].name;
+  edited.pieces = std::make_unique<PieceTable>(edited.state->hosts, edited.state->material);
+  if (edit_.follows(name)) edited.touching = ContactEdit::make(*world_, name, *edited.state);
 }
 
 std::size_t WorldEditor::number_of(std::string_view body) const {
@@ -61,7 +76,12 @@ BodyChange WorldEditor::change_of(std::size_t body, const CutPlan& plan, const S
   const Hosts& hosts = bodies_[body].state->hosts;
   BodyChange change;
   set_cells(plan, change.cells);
-  for (const BornNode& node : plan.nodes) change.copied.push_back(node.copied);
+  auto points = static_cast<std::int32_t>(hosts.points().size());
+  for (const BornNode& node : plan.nodes) {
+    const bool is_copy = node.between.count == 0;
+    change.copied.push_back(is_copy ? node.copied : -1 - points++);
+    if (!is_copy) change.points.push_back(first_day_point(hosts.on_first_day(node.between)));
+  }
   change.bare = bare_after(world_->description()->bodies[body].bare, plan);
   change.next_cell = plan.born.empty() ? 0 : plan.born.back().number + 1;
   std::vector<std::int32_t> left;  // that cells leave
@@ -89,33 +109,96 @@ BodyChange WorldEditor::change_of(std::size_t body, const CutPlan& plan, const S
   return change;
 }
 
+void WorldEditor::apply(std::size_t body, const CutPlan& plan) {
+  auto& [cut, pieces, touching] = bodies_[body];
+  pieces->begin(cut->hosts, plan);
+  if (touching != nullptr) touching->begin(*cut, plan);
+  cut->hosts.apply(plan);
+  cut->material.apply(plan);
+  pieces->end(cut->hosts, cut->material, plan);
+  if (touching != nullptr) touching->end(*cut, plan);
+}
+
+/// The contact after a plan that was applied.
+std::unique_ptr<Contact> WorldEditor::parted_contact(std::size_t number, const CutPlan& plan) const {
+  const EditedBody& edited = bodies_[number];
+  const ConstReals before = edit_.described_rest();
+  std::vector<double> rest(before.begin(), before.end());
+  const ConstReals own = edited.state->hosts.rest();
+  std::ranges::copy(own, rest.begin() + std::ptrdiff_t{3} * world_->bodies()[number].first_node);
+  return edited.touching->of_material(*edited.state, plan, rest);
+}
+
 std::optional<WorldEditor::Made> WorldEditor::make(std::string_view name, const CutPlan& plan,
-                                                   const State& state) {
+                                                   const State& state, Verb verb) {
   const std::size_t number = number_of(name);
   CutState* cut = bodies_[number].state.get();
-  const auto is_between = [](const BornNode& node) { return node.between.count > 0; };
-  if (cut == nullptr || !plan.moved.empty() || std::ranges::any_of(plan.nodes, is_between))
-    return std::nullopt;
+  if (cut == nullptr || !plan.moved.empty()) return std::nullopt;
   const BodyChange change = change_of(number, plan, state);
-  if (!edit_.can(name, change)) return std::nullopt;
+  if (cut->hosts.moved() && !change.points.empty()) return std::nullopt;
+  const ContactEdit* touching = bodies_[number].touching.get();
+  if (!edit_.can(name, change) || (touching != nullptr && !touching->follows_cells())) return std::nullopt;
+  const bool bound = edit_.parts_bound(name, change);
+  if (bound && !edit_.may_part_bound(name, change, state)) return std::nullopt;
   const Body& body = world_->bodies()[number];
   Made made;
-  for (std::size_t k = 0; k < change.copied.size(); ++k) {
-    made.copies.push_back({body.first_node + body.node_count + static_cast<std::int32_t>(k),
-                           body.first_node + change.copied[k]});
-  }
+  BodyEdit nodes;
+  nodes.copied = change.copied;
+  for (const BornNode& node : plan.nodes) nodes.between.push_back(node.between);
+  made.born = rows_born(*world_, name, nodes);
   std::vector<std::int32_t> rows;
   for (const std::int32_t node : change.nodes) {
     if (node < body.node_count) rows.push_back(body.first_node + node);
   }
   made.before = totals(name, plan.gone, rows, state);
-  PieceTable& pieces = *bodies_[number].pieces;
-  pieces.begin(cut->hosts, plan);
-  cut->hosts.apply(plan);
-  cut->material.apply(plan);
-  pieces.end(cut->hosts, cut->material, plan);
+  std::optional<CutState> before;
+  if (touching != nullptr && verb == Verb::cut && touching->refuses()) before = *cut;
+  apply(number, plan);
+  BodyDescription& described = edit_.description(name);
+  const bool has_cuts = verb == Verb::cut || described.cut != nullptr;
+  if (touching != nullptr && has_cuts) made.contact = parted_contact(number, plan);
+  if (before) {
+    try {
+      refuse_crossings(*world_->contact(), *made.contact, state, made.born, touching->changed(*made.contact),
+                       name);
+    } catch (const ParameterError&) {
+      *cut = std::move(*before);
+      track(number);
+      throw;
+    }
+  }
   made.rows = edit_.apply(name, change, [&](std::int32_t node) { return cut->hosts.cells_at(node); });
+  if (has_cuts) {
+    described.cut = bodies_[number].state;
+    described.uncut = nullptr;
+    part_pressures(edit_.description().pressures, described);
+    edit_.renew_pressures(name);
+  } else if (touching != nullptr) {
+    made.contact = touching->of_cells(described, edit_.described_rest());
+  }
+  if (bound) part_bound(name, change, verb);
+  if (made.contact != nullptr) edit_.exchange_surfaces(*made.contact);
   return made;
+}
+
+/// Supports and loads go to copies with material, as in edit_body and remove_cells.
+void WorldEditor::part_bound(std::string_view name, const BodyChange& change, Verb verb) {
+  WorldDescription& description = edit_.description();
+  const BodyDescription& described = edit_.description(name);
+  if (verb == Verb::cut) {
+    part_supports(description, described, change.copied);
+  } else {
+    free_unneeded(description, described);
+  }
+  part_loads(description.loads, described);
+  for (FixedNodes& fixed : description.fixed) {
+    if (fixed.body != name || !fixed.positions.empty()) continue;
+    std::erase_if(fixed.nodes,
+                  [&](std::int32_t node) { return std::ranges::binary_search(change.loose, node); });
+  }
+  std::erase_if(description.fixed, [](const FixedNodes& fixed) { return fixed.nodes.empty(); });
+  edit_.renew_loads(name);
+  edit_.renew_supports();
 }
 
 BodyTotals WorldEditor::totals(std::string_view name, std::span<const std::int32_t> cells,
@@ -134,12 +217,7 @@ std::vector<Piece> WorldEditor::pieces(std::string_view name) const {
 
 std::optional<WorldEditor::Made> WorldEditor::cut(std::string_view name, const CutPlan& plan,
                                                   const State& state) {
-  std::optional<Made> made = make(name, plan, state);
-  if (!made) return made;
-  BodyDescription& described = edit_.description(name);
-  described.cut = bodies_[number_of(name)].state;
-  described.uncut = nullptr;
-  return made;
+  return make(name, plan, state, Verb::cut);
 }
 
 std::optional<WorldEditor::Made> WorldEditor::remove(std::string_view name,
@@ -155,7 +233,7 @@ std::optional<WorldEditor::Made> WorldEditor::remove(std::string_view name,
     throw ParameterError("body \"" + std::string(name) + "\" has no cell " + std::to_string(cell) +
                          " (any more).");
   }
-  return make(name, plan, state);
+  return make(name, plan, state, Verb::remove);
 }
 
 }  // namespace tissu

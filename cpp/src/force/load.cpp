@@ -11,6 +11,12 @@ NodalLoad::NodalLoad(std::string name, std::vector<std::int32_t> nodes, std::vec
       forces_(std::move(forces)),
       history_(std::move(history)) {}
 
+void NodalLoad::act_on(std::vector<std::int32_t> nodes, std::vector<double> forces) {
+  nodes_ = std::move(nodes);
+  forces_ = std::move(forces);
+  change_.resize(kMadeOf + forces_.size());
+}
+
 void NodalLoad::add_force(const State& state, Scratch& /*scratch*/, Reals f) const {
   const double factor = state.load_factor * change_.factor(state, history_);
   const ConstReals all = forces(state);

@@ -97,10 +97,13 @@ void add_normals(const FaceCells& faces, ConstReals positions, std::vector<doubl
 
 Pressure::Pressure(std::string name, std::vector<FaceCells> faces, double pressure, History history,
                    std::vector<CarriedFace> carried)
-    : name_(std::move(name)),
-      carried_(std::move(carried)),
-      pressure_(pressure),
-      history_(std::move(history)) {
+    : name_(std::move(name)), pressure_(pressure), history_(std::move(history)) {
+  act_on(std::move(faces), std::move(carried));
+}
+
+void Pressure::act_on(std::vector<FaceCells> faces, std::vector<CarriedFace> carried) {
+  carried_ = std::move(carried);
+  faces_.clear();
   for (FaceCells& some : faces) {
     ReferenceCell rule = exact_rule(some);
     faces_.push_back({std::move(some), std::move(rule)});

@@ -69,12 +69,13 @@ void Simulation::follow(const WorldEditor::Made& made) {
   kept_.reset();
   described_.reset();
   ++edits_;
+  if (made.contact != nullptr) world_->contact()->follow(*made.contact, state_);
   if (!integrator_->follow_edit(made.rows)) {
     const std::vector<double> memory = integrator_->memory();
     integrator_->prepare(*world_, solver_.get(), profile_);
     integrator_->restore(memory);
   }
-  take_over(made.copies);
+  take_over(made.born.copies, made.born.blends);
   if (watch_) watch_.emplace();
   if (inverted_) inverted_.emplace(*world_);
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 namespace tissu {
@@ -14,6 +15,17 @@ constexpr double kRoundOff = 1e-12;
 constexpr int kHalvings = 60;
 constexpr int kMostLooks = 8;       ///< for the shape that limits the step by stiffness and damping together
 constexpr double kSettled = 0.999;  ///< of the limit before: the shape of the limit is found
+
+/// The places of the cells of a block by ascending numbers: edits in place leave them in another order than a
+/// world that is built anew has.
+std::vector<std::size_t> by_number(const ElasticBlock& block, std::size_t count) {
+  std::vector<std::size_t> places(count);
+  std::iota(places.begin(), places.end(), std::size_t{0});
+  const std::vector<std::int32_t>& numbers = block.cell_numbers;
+  if (numbers.size() == count && !std::ranges::is_sorted(numbers))
+    std::ranges::sort(places, {}, [&](std::size_t place) { return numbers[place]; });
+  return places;
+}
 
 }  // namespace
 
@@ -55,10 +67,10 @@ void StableStep::prepare(const World& world) {
     for (const BodyModel* model : body.models) {
       const auto& cells = model->block().cells;
       const auto size = static_cast<std::size_t>(model->nodes_per_cell());
-      for (std::size_t first = 0; first + size <= cells.size(); first += size) {
+      for (const std::size_t cell : by_number(model->block(), cells.size() / size)) {
         for (std::size_t k = 0; k < size; ++k) {
-          edges_.push_back(cells[first + k]);
-          edges_.push_back(cells[first + (k + 1) % size]);
+          edges_.push_back(cells[cell * size + k]);
+          edges_.push_back(cells[cell * size + (k + 1) % size]);
         }
       }
     }

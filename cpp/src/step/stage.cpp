@@ -55,8 +55,7 @@ void StageSolver::prepare(const World& world, LinearSolver* solver, Profile& pro
   }
   contact_.reset();
   if (world.contact() == nullptr) return;
-  contact_ = system_->make_contact(false);
-  impulses_ = std::make_unique<EndImpulses>(*world.contact(), world.fixed(), world.mass());
+  prepare_contact();
   end_ = stage_.base;
   profile_ = &profile;
   detection_row_ = profile.row("contact", "detection");
@@ -64,10 +63,14 @@ void StageSolver::prepare(const World& world, LinearSolver* solver, Profile& pro
   response_row_ = profile.row("contact", "response");
 }
 
-bool StageSolver::follow_edit(std::span<const std::int32_t> rows) {
-  if (contact_ != nullptr) return false;
+void StageSolver::prepare_contact() {
+  contact_ = system_->make_contact(false);
+  impulses_ = std::make_unique<EndImpulses>(*world().contact(), world().fixed(), world().mass());
+}
+
+void StageSolver::follow_edit(std::span<const std::int32_t> rows) {
   system_->follow_edit(rows);
-  return true;
+  if (contact_ != nullptr) prepare_contact();
 }
 
 void StageSolver::begin(const State& start, double time, double h) {

@@ -18,6 +18,10 @@ void WorldBuilder::add_contact() {
 /// An edit goes on from where things are: surfaces that it uncovers are not moved, and nothing is refused.
 void WorldBuilder::separate_surfaces() {
   if (world_.contact_ == nullptr) return;
+  if (before_ == nullptr && !description_.separated.empty()) {
+    world_.rest_.positions = description_.separated;
+    return;
+  }
   if (before_ == nullptr) {
     separate(*world_.contact_, world_.fixed_, world_.rest_);
     return;

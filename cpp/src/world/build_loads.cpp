@@ -41,19 +41,24 @@ void WorldBuilder::add_load(const LoadDescription& load) {
 void WorldBuilder::add_pressure(const PressureDescription& pressure) {
   const Body& on = world_.body(pressure.body);
   check_table("pressure \"" + pressure.name + "\"", pressure.history.times, pressure.history.factors.size());
-  auto faces = pressure.faces;
-  for (FaceCells& some : faces) {
+  PressedFaces pressed = faces_of(pressure, on);
+  world_.forces_.push_back(std::make_unique<Pressure>(pressure.name, std::move(pressed.faces),
+                                                      pressure.pressure, pressure.history,
+                                                      std::move(pressed.carried)));
+}
+
+PressedFaces faces_of(const PressureDescription& pressure, const Body& on) {
+  PressedFaces pressed{pressure.faces, pressure.carried};
+  for (FaceCells& some : pressed.faces) {
     some.nodes =
         shifted(std::move(some.nodes), on.first_node, on.node_count, "pressure \"" + pressure.name + "\"");
   }
-  auto carried = pressure.carried;
-  for (CarriedFace& face : carried) {
+  for (CarriedFace& face : pressed.carried) {
     for (auto& point : face) {
       for (CarriedNode& one : point) one.node += on.first_node;
     }
   }
-  world_.forces_.push_back(std::make_unique<Pressure>(pressure.name, std::move(faces), pressure.pressure,
-                                                      pressure.history, std::move(carried)));
+  return pressed;
 }
 
 }  // namespace tissu

@@ -39,6 +39,12 @@ void WorldBuilder::add_supports() {
   hold_eliminated();
 }
 
+void WorldBuilder::renew_supports() {
+  const FixedDofs before = std::move(world_.fixed_);
+  add_supports();
+  world_.fixed_.keep_places(before);
+}
+
 void WorldBuilder::hold_room() {
   for (const Body& body : world_.bodies_) {
     if (body.room == 0) continue;

@@ -15,6 +15,8 @@ class WorldBuilder {
   /// `before`: null, or a world whose models hand over what stays as it is.
   WorldBuilder(World& world, const WorldDescription& description, const World* before, bool cells_are_new);
   void build();
+  /// The supports of the description, of a world that is there.
+  void renew_supports();
 
  private:
   // build_bodies.cpp
@@ -61,6 +63,16 @@ class WorldBuilder {
   std::vector<Vec3> spins_;      ///< of frames at time zero
   std::vector<Vec3> speeds_;
 };
+
+/// Diagonal of the box around the nodes and the origins of frames; the blocks of rotations are not positions.
+double box_diagonal(const std::vector<double>& positions, const std::vector<Frame>& frames);
+
+/// What a pressure acts on, by rows of the world.
+struct PressedFaces {
+  std::vector<FaceCells> faces;
+  std::vector<CarriedFace> carried;
+};
+PressedFaces faces_of(const PressureDescription& pressure, const Body& on);
 
 /// Node numbers of a body as those of the world; refuses others than 0 to count - 1.
 std::vector<std::int32_t> shifted(std::vector<std::int32_t> nodes, std::int32_t first, std::int32_t count,

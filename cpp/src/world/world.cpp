@@ -21,17 +21,6 @@ constexpr double kEditableRoom = 0.25;
   throw ParameterError("there is no body \"" + std::string(name) + "\" in this world.");
 }
 
-/// Diagonal of the box around the nodes and the origins of frames; the blocks of rotations are not positions.
-double box_diagonal(const std::vector<double>& positions, const std::vector<Frame>& frames) {
-  std::vector<char> is_rotation(positions.size() / 3, 0);
-  for (const Frame& frame : frames) is_rotation[static_cast<std::size_t>(frame.rotation)] = 1;
-  Eigen::AlignedBox3d box;
-  for (std::size_t i = 0; i < is_rotation.size(); ++i) {
-    if (is_rotation[i] == 0) box.extend(Vec3(block(ConstReals(positions), static_cast<std::int32_t>(i))));
-  }
-  return box.isEmpty() ? 0.0 : box.diagonal().norm();
-}
-
 /// The instruction set asked for, or the best; one that this machine lacks is refused.
 Isa isa_of(const WorldDescription& description) {
   if (!description.isa) return choose_isa();
@@ -78,6 +67,16 @@ void keep_plans(const std::vector<const BodyModel*>& models, BodyDescription& bo
 
 }  // namespace
 
+double box_diagonal(const std::vector<double>& positions, const std::vector<Frame>& frames) {
+  std::vector<char> is_rotation(positions.size() / 3, 0);
+  for (const Frame& frame : frames) is_rotation[static_cast<std::size_t>(frame.rotation)] = 1;
+  Eigen::AlignedBox3d box;
+  for (std::size_t i = 0; i < is_rotation.size(); ++i) {
+    if (is_rotation[i] == 0) box.extend(Vec3(block(ConstReals(positions), static_cast<std::int32_t>(i))));
+  }
+  return box.isEmpty() ? 0.0 : box.diagonal().norm();
+}
+
 BodyDescription& WorldDescription::body(std::string_view name) {
   const auto found = std::ranges::find(bodies, name, &BodyDescription::name);
   if (found == bodies.end()) unknown_body(name);
@@ -90,6 +89,7 @@ World::World(WorldDescription description, const World* before, bool cells_are_n
   WorldBuilder(*this, description, before, cells_are_new).build();
   if (!description.editable) return;
   for (std::size_t i = 0; i < bodies_.size(); ++i) keep_plans(bodies_[i].models, description.bodies[i]);
+  description.separated.clear();
   description_ = std::move(description);
 }
 

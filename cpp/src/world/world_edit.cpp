@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "builder.h"
 #include "tissu/base/error.h"
 #include "tissu/base/sort_unique.h"
 #include "tissu/force/grabs.h"
@@ -30,17 +31,26 @@ auto& editable(Held& held) {
   return *held;
 }
 
+/// sum w X, in the order in which a world is built.
+Vec3 place_of(const FirstDayPoint& point, ConstReals X) {
+  Vec3 sum = Vec3::Zero();
+  for (std::size_t i = 0; i < point.node.size() && point.node[i] >= 0; ++i)
+    sum += point.weight[i] * block(X, point.node[i]);
+  return sum;
+}
+
 /// Forces that know nothing of cells, or follow them here.
 bool follows_edits(const ForceModel& force) {
   const auto is = [&]<class... Forces>() {
     return (... || (dynamic_cast<const Forces*>(&force) != nullptr));
   };
-  return is.operator()<BodyModel, Rayleigh, Gravity, NodalLoad, Links, Grabs, Instruments>();
+  return is
+      .operator()<BodyModel, Rayleigh, Gravity, NodalLoad, Pressure, Contact, Links, Grabs, Instruments>();
 }
 
 bool follows_edits(const World& world) {
   const auto shares = [](const BodyDescription& body) { return !body.shared.empty(); };
-  return world.contact() == nullptr && std::ranges::none_of(world.description()->bodies, shares) &&
+  return std::ranges::none_of(world.description()->bodies, shares) &&
          std::ranges::all_of(world.forces(), [](const auto& force) { return follows_edits(*force); });
 }
 
@@ -64,6 +74,12 @@ WorldEdit::WorldEdit(World& world)
     : world_(world), bodies_(world.bodies().size()), first_blocks_(world.sparsity().blocks()) {
   if (!follows_edits(world)) return;
   for (std::size_t i = 0; i < bodies_.size(); ++i) prepare(i);
+  if (world.contact() == nullptr) return;
+  described_ = world.rest_positions();
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    std::ranges::copy(editable(world.description_).bodies[i].positions,
+                      described_.begin() + std::ptrdiff_t{3} * world.bodies_[i].first_node);
+  }
 }
 
 void WorldEdit::prepare(std::size_t number) {
@@ -80,15 +96,7 @@ void WorldEdit::prepare(std::size_t number) {
     edited.editors.push_back(std::move(editor));
   }
   for (ElasticBlock& block : body.elastic) edited.tables.emplace_back(block);
-  edited.bound.assign(body.positions.size() / 3, 0);
-  for (const FixedNodes& fixed : editable(world_.description_).fixed) {
-    if (fixed.body != body.name) continue;
-    for (const std::int32_t node : fixed.nodes) edited.bound[at(node)] = 1;
-  }
-  for (const LoadDescription& load : editable(world_.description_).loads) {
-    if (load.body != body.name) continue;
-    for (const std::int32_t node : load.nodes) edited.bound[at(node)] = 1;
-  }
+  list_bound(number);
 }
 
 std::size_t WorldEdit::number_of(std::string_view body) const {
@@ -111,6 +119,8 @@ double WorldEdit::energy(std::string_view body, std::span<const std::int32_t> ce
   return sum;
 }
 
+WorldDescription& WorldEdit::description() { return editable(world_.description_); }
+
 BodyDescription& WorldEdit::description(std::string_view body) {
   return editable(world_.description_).bodies[number_of(body)];
 }
@@ -124,28 +134,21 @@ bool WorldEdit::can(std::string_view body, const BodyChange& change) const {
   if (pattern.blocks() > kMostBlocks * first_blocks_ ||
       pattern.blocks() > std::numeric_limits<std::int32_t>::max() / 2)
     return false;
-  const auto bound = [&](std::int32_t node) {
-    return at(node) < edited.bound.size() && edited.bound[at(node)] != 0;
-  };
-  if (std::ranges::any_of(change.copied, bound) || std::ranges::any_of(change.loose, bound)) return false;
-  // The copies of a loaded node share its load as they share its mass.
-  const BodyDescription& described = editable(world_.description_).bodies[number];
-  const auto first_day = described.positions.size() / 3 - described.copies_of.size();
-  const auto is_parted = [&](std::int32_t node) {
-    return at(node) >= first_day || std::ranges::find(described.copies_of, node) != described.copies_of.end();
-  };
-  if (std::ranges::any_of(change.nodes, [&](std::int32_t node) { return bound(node) && is_parted(node); })) {
-    return false;
-  }
-  std::vector<std::int32_t> emptied;
-  std::ranges::set_difference(change.bare, editable(world_.description_).bodies[number].bare,
-                              std::back_inserter(emptied));
-  if (std::ranges::any_of(emptied, bound)) return false;
   return std::ranges::all_of(edited.editors, [&](const auto& editor) {
     const auto gone =
         std::ranges::count_if(change.cells.gone, [&](std::int32_t cell) { return editor->has(cell); });
     return static_cast<std::size_t>(gone) < editor->cells();
   });
+}
+
+ConstReals WorldEdit::described_rest() const {
+  return described_.empty() ? ConstReals(world_.rest_.positions) : ConstReals(described_);
+}
+
+/// The world owns its contact, and this its edits.
+void WorldEdit::exchange_surfaces(Contact& other) {
+  editable(world_.description_).contact = other.description();
+  const_cast<Contact*>(world_.contact_)->exchange_surfaces(other);
 }
 
 std::vector<std::int32_t> WorldEdit::apply(std::string_view name, const BodyChange& change,
@@ -154,7 +157,7 @@ std::vector<std::int32_t> WorldEdit::apply(std::string_view name, const BodyChan
   add_nodes(number, change);
   const Body& body = world_.bodies_[number];
   for (const auto& editor : bodies_[number].editors)
-    editor->edit(change.cells, body.first_node, world_.rest_.positions);
+    editor->edit(change.cells, body.first_node, described_rest());
   edit_description(number, change);
   std::vector<std::int32_t> rows = change.nodes;
   for (std::int32_t& row : rows) row += body.first_node;
@@ -170,24 +173,35 @@ std::vector<std::int32_t> WorldEdit::apply(std::string_view name, const BodyChan
   return rows;
 }
 
-/// Room becomes nodes: at rest where those are that they copy, and free.
+/// Room becomes nodes: at rest where those are that they copy, or between nodes of the first day, and free.
 void WorldEdit::add_nodes(std::size_t number, const BodyChange& change) {
   Body& body = world_.bodies_[number];
   const auto count = static_cast<std::int32_t>(change.copied.size());
   if (count == 0) return;
-  const Reals X = world_.rest_.positions;
-  for (std::int32_t i = 0; i < count; ++i)
-    block(X, body.first_node + body.node_count + i) = block(X, body.first_node + change.copied[at(i)]);
+  std::vector<FirstDayPoint>& points = editable(world_.description_).bodies[number].points;
+  points.insert(points.end(), change.points.begin(), change.points.end());
+  for (std::vector<double>* rest : {&world_.rest_.positions, &described_}) {
+    if (rest->empty()) continue;
+    const auto own = Reals(*rest).subspan(at(3 * body.first_node));
+    for (std::int32_t i = 0; i < count; ++i) {
+      const std::int32_t node = change.copied[at(i)];
+      const Vec3 place = node >= 0 ? Vec3(block(own, node)) : place_of(points[at(-1 - node)], own);
+      block(own, body.node_count + i) = place;
+    }
+  }
   world_.fixed_.free_rows(body.first_node + body.node_count, count);
   body.node_count += count;
   body.room -= count;
+  world_.extent_ = box_diagonal(world_.rest_.positions, world_.frames());
 }
 
 void WorldEdit::edit_description(std::size_t number, const BodyChange& change) {
   BodyDescription& body = editable(world_.description_).bodies[number];
   const auto first_day = static_cast<std::int32_t>(body.positions.size() / 3 - body.copies_of.size());
   for (const std::int32_t node : change.copied) {
-    for (std::size_t k = 0; k < 3; ++k) body.positions.push_back(body.positions[3 * at(node) + k]);
+    const Vec3 place = node >= 0 ? Vec3(block(ConstReals(body.positions), node))
+                                 : place_of(body.points[at(-1 - node)], body.positions);
+    body.positions.insert(body.positions.end(), place.data(), place.data() + 3);
     body.copies_of.push_back(node < first_day ? node : body.copies_of[at(node - first_day)]);
   }
   body.room -= static_cast<std::int32_t>(change.copied.size());

@@ -59,6 +59,8 @@ class FixedDofs {
   void hold_turning(std::span<const std::int32_t> blocks, std::uint8_t mask);
 
   // After an edit in place. The rows belong to no support that has a name.
+  /// Supports of the same names keep their places in the memory.
+  void keep_places(const FixedDofs& before);
   /// Rows that follow each other are free from now on.
   void free_rows(std::int32_t first, std::int32_t count);
   /// Holds free rows at given places, three numbers each.

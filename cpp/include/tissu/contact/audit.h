@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -26,6 +27,10 @@ struct Crossing {
 
 /// All crossings of pairs that the scene says meet, in the order of the features; signs are exact.
 std::vector<Crossing> crossings(const Contact& contact, const State& state);
+
+/// Whether one of some primitives crosses another, or has a vertex behind a plane; of pairs that the scene
+/// says meet. `some`: of each primitive, whether it is one of them.
+bool any_crosses(const Contact& contact, const State& state, std::span<const std::uint8_t> some);
 
 /// Of surfaces whose half thicknesses overlap: how far at most [m], by the lower number of a surface and the
 /// higher one. Of things without thickness `crossings` says all.

@@ -13,6 +13,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string_view>
 #include <tuple>
@@ -104,6 +105,16 @@ class Contact final : public ForceModel {
   void carry_memory(const ForceModel& before, const Memory& then, Memory& now) const override;
   void check_memory(const State& state) const override;
 
+  // After an edit in place.
+  /// The same contact with other surfaces of its bodies. Pairs, obstacles and places in the memory stay.
+  [[nodiscard]] std::unique_ptr<Contact> with_surfaces(ContactDescription description,
+                                                       std::span<const std::int32_t> first_node,
+                                                       ConstReals rest, std::span<const Frame> frames) const;
+  /// Gives its surfaces to such a one, and takes those of that.
+  void exchange_surfaces(Contact& other);
+  /// A state that remembers what `before` was in contact with goes on with these surfaces.
+  void follow(const Contact& before, State& state) const;
+
   [[nodiscard]] const ContactDescription& description() const { return description_; }
   [[nodiscard]] const SurfaceSet& surfaces() const { return surfaces_; }
   [[nodiscard]] std::vector<double>& numbers(State& state) const { return state.memory[place_]; }
@@ -170,6 +181,9 @@ class Contact final : public ForceModel {
  private:
   template <class Function>
   void for_contacts(const State& state, Function&& f) const;
+  /// What is left of contacts of other surfaces, by the numbers of these.
+  [[nodiscard]] std::vector<ContactNumbers> carried_from(const SurfaceSet& before,
+                                                         const ContactTable& then) const;
   /// Several rows carry a vertex of it.
   [[nodiscard]] bool rides(const ContactNumbers& contact) const {
     for (const double vertex : contact.vertex) {

@@ -3,7 +3,9 @@
 /// A cut through a body of a world: planned on its material, then made in a new world or in place
 /// (world_editor.h).
 
+#include <cstdint>
 #include <memory>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -35,6 +37,11 @@ struct CutWorld {
 /// The least quality 6 sqrt(2) V / l_rms^3 at rest of the cells of a body that a plan made or whose nodes it
 /// moved, once it is made; infinite where it has none, and of other cells than tetrahedra of first order.
 double least_quality(const World& world, std::string_view body, const CutPlan& plan);
+
+/// Refuses a cut of a body after which more crosses than before it. `born`: rows that take over others.
+/// `changed`: of each primitive afterwards, whether the cut may have changed it; empty: all may be.
+void refuse_crossings(const Contact& before, const Contact& cut, const State& state, const RowsBorn& born,
+                      std::span<const std::uint8_t> changed, std::string_view body);
 
 /// A new world in which the plan is made. Refuses what edit_body refuses.
 CutWorld cut_world(const World& world, const State& state, std::string_view body, const CutPlan& plan);

@@ -18,6 +18,8 @@ namespace tissu {
 class NodalLoad final : public ForceModel {
  public:
   NodalLoad(std::string name, std::vector<std::int32_t> nodes, std::vector<double> forces, History history);
+  /// After an edit in place of the body: on other nodes. Only of a load that the run has not changed.
+  void act_on(std::vector<std::int32_t> nodes, std::vector<double> forces);
   [[nodiscard]] std::string_view effect() const override { return name_; }
   [[nodiscard]] ForceKind kind() const override { return ForceKind::external; }
   [[nodiscard]] bool has_constant_stiffness() const override { return true; }
@@ -76,6 +78,8 @@ class Pressure final : public ForceModel {
  public:
   Pressure(std::string name, std::vector<FaceCells> faces, double pressure, History history,
            std::vector<CarriedFace> carried = {});
+  /// After an edit in place of the body: on other faces, by the same memory.
+  void act_on(std::vector<FaceCells> faces, std::vector<CarriedFace> carried);
   [[nodiscard]] std::string_view effect() const override { return name_; }
   [[nodiscard]] ForceKind kind() const override { return ForceKind::external; }
   [[nodiscard]] bool may_add_energy() const override { return true; }

@@ -22,6 +22,8 @@ class LoadChange {
   static constexpr std::size_t kHead = 2;
 
   void claim(std::string_view load, std::size_t values, MemoryPlaces& places);
+  /// The load is made of other numbers from now on.
+  void resize(std::size_t values) { count_ = kHead + values; }
   /// Null: the load is as the scene has it.
   [[nodiscard]] const double* values(const State& state) const;
   /// The factor given from now on, else that of the history.

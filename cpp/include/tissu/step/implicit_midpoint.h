@@ -12,7 +12,10 @@ class ImplicitMidpoint final : public Integrator {
   [[nodiscard]] std::string_view name() const override { return "implicit midpoint"; }
   [[nodiscard]] bool is_undamped() const override { return true; }
   void prepare(const World& world, LinearSolver* solver, Profile& profile) override;
-  bool follow_edit(std::span<const std::int32_t> rows) override { return solver_.follow_edit(rows); }
+  bool follow_edit(std::span<const std::int32_t> rows) override {
+    solver_.follow_edit(rows);
+    return true;
+  }
   void prepare_ahead(const State& state, double h) override;
   void give_up_early(bool early) override { solver_.give_up_early(early); }
   StepReport step(State& state, double h) override;

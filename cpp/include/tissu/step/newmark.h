@@ -19,7 +19,10 @@ class Newmark final : public Integrator {
   [[nodiscard]] std::string_view name() const override { return "Newmark"; }
   [[nodiscard]] bool is_undamped() const override { return gamma_ == 0.5; }
   void prepare(const World& world, LinearSolver* solver, Profile& profile) override;
-  bool follow_edit(std::span<const std::int32_t> rows) override { return solver_.follow_edit(rows); }
+  bool follow_edit(std::span<const std::int32_t> rows) override {
+    solver_.follow_edit(rows);
+    return true;
+  }
   void give_up_early(bool early) override { solver_.give_up_early(early); }
   StepReport step(State& state, double h) override;
   void append_memory(std::vector<double>& memory) const override;

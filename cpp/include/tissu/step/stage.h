@@ -27,8 +27,8 @@ class StageSolver {
  public:
   explicit StageSolver(NewtonSettings newton);
   void prepare(const World& world, LinearSolver* solver, Profile& profile);
-  /// Follows an edit of the world in place; false where something touches.
-  bool follow_edit(std::span<const std::int32_t> rows);
+  /// Follows an edit of the world in place.
+  void follow_edit(std::span<const std::int32_t> rows);
   /// The stage, to be filled before `solve`.
   [[nodiscard]] Stage& stage() { return stage_; }
   [[nodiscard]] System& system() { return *system_; }
@@ -69,6 +69,7 @@ class StageSolver {
 
  private:
   enum class Search { none, residual, energy };
+  void prepare_contact();
   void first_solve(std::vector<double>& v, StepReport& report);
   /// push f + push move K (v + given) + push D given - M (v - v^ + given) goes into right_, free rows only;
   /// changes of velocity that are given go into first_.

@@ -84,6 +84,9 @@ struct LoadDescription {
   std::vector<double> forces;  ///< [N], three for each node
   History history;
   bool moments = false;  ///< they are moments [N m] on frames, about axes of space
+  /// Of a load whose nodes cuts have parted: what it was before the first of them; else empty.
+  std::vector<std::int32_t> first_day = {};
+  std::vector<double> first_forces = {};
 };
 
 struct PressureDescription {
@@ -123,6 +126,9 @@ struct WorldDescription {
   bool instruments = false;  ///< instruments remember where they were
   bool pressing = false;     ///< edges of blades press on the material until it gives way
   bool editable = false;     ///< cells may be removed while it runs
+  /// Of a world that is built once more: all rows at rest after its surfaces were moved apart. Empty: they
+  /// are moved apart when the world is built.
+  std::vector<double> separated = {};
   int threads = 1;
   std::optional<Isa> isa;  ///< absent: the best there is
 

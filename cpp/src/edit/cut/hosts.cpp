@@ -162,9 +162,6 @@ void Hosts::make_clusters() {
   }
 }
 
-/// The same point in nodes of the first day, which are corners of one first-day cell: places at rest follow
-/// from these alone, whatever the cuts were between. An edge that a repair made may lie between more than
-/// four nodes: then the point is between none.
 Rider Hosts::on_first_day(const Rider& rider) const {
   Rider sum;
   const auto add = [&](std::int32_t node, double weight) {

@@ -54,6 +54,15 @@ void add_list(std::int32_t cell, const std::vector<MaterialTetra>& list, Materia
   }
 }
 
+void add(const Hosts& hosts, const Material& material, std::int32_t cell, MaterialFaces& all) {
+  const auto stored = material.cells.find(cell);
+  if (stored == material.cells.end()) {
+    add_whole(hosts, cell, all);
+  } else {
+    add_list(cell, stored->second, all);
+  }
+}
+
 /// Faces with the same vertices that no cut opened are joined.
 void join_faces(std::vector<MaterialFace>& faces) {
   std::vector<std::pair<Key, std::int32_t>> order;
@@ -100,16 +109,17 @@ void join_dimensions(const Hosts& hosts, const Material& material, MaterialFaces
 MaterialFaces material_faces(const Hosts& hosts, const Material& material, int dimension) {
   MaterialFaces all;
   for (const std::int32_t cell : hosts.numbers()) {
-    if (dimension != 0 && info(hosts.type(cell)).dimension != dimension) continue;
-    const auto stored = material.cells.find(cell);
-    if (stored == material.cells.end()) {
-      add_whole(hosts, cell, all);
-    } else {
-      add_list(cell, stored->second, all);
-    }
+    if (dimension == 0 || info(hosts.type(cell)).dimension == dimension) add(hosts, material, cell, all);
   }
   join_faces(all.faces);
   join_dimensions(hosts, material, all);
+  return all;
+}
+
+MaterialFaces faces_among(const Hosts& hosts, const Material& material, std::span<const std::int32_t> cells) {
+  MaterialFaces all;
+  for (const std::int32_t cell : cells) add(hosts, material, cell, all);
+  join_faces(all.faces);
   return all;
 }
 

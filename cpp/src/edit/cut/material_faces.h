@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -35,5 +36,7 @@ struct MaterialFaces {
 };
 /// `dimension`: of these cells alone; 0: of all.
 MaterialFaces material_faces(const Hosts& hosts, const Material& material, int dimension = 0);
+/// Of some volume cells, ascending: faces that are joined to other cells count as on the surface.
+MaterialFaces faces_among(const Hosts& hosts, const Material& material, std::span<const std::int32_t> cells);
 
 }  // namespace tissu

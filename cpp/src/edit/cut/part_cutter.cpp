@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "edit/cut/bridges.h"
+#include "edit/cut/cells_along.h"
 #include "edit/cut/open.h"
 #include "edit/cut/pierced.h"
 #include "edit/cut/side.h"
@@ -85,6 +86,7 @@ bool PartCutter::cut(std::size_t number, const SweepPart& part, const NearCells&
   report(bridged_cells(patch_, blade, settled_, known, opened.uncovered), Unresolved::bridge, plan);
   report(cells_pierced_between(patch_, blade, known, options_.divide ? kFollowedByDivided : kFollowed),
          Unresolved::bridge, plan);
+  report(cells_along(patch_, part.corner), Unresolved::bridge, plan);
   report_pierced(pierced_tetrahedra(patch_, part, near, known, true), plan);
   if (opened.count == 0 && part.incision < 0) report_in_vain(plan);
   std::ranges::sort(plan.unresolved);

@@ -19,7 +19,9 @@ using Place = std::array<double, 3>;
 using Corners = std::array<std::size_t, 3>;
 
 constexpr std::size_t kDiscSides = 32;
-constexpr double kTurnsBack = -0.5;  ///< cosine between two ways of a blade one after the other
+/// Cosine between two ways of a blade one after the other: it turns back by more than 175 degrees.
+constexpr double kTurnsBack = -0.9962;
+constexpr double kRetraces = 1e-3;  ///< sine of the angle between a way back and the way there: they are one
 
 Place place(const Vec3& p) { return {p[0], p[1], p[2]}; }
 
@@ -104,7 +106,7 @@ void mark_border(SweepPart& part) {
 Sweep one_part(std::vector<Triangle> triangles, std::int32_t incision = -1) {
   std::erase_if(triangles, [](const Triangle& t) { return !has_area(t); });
   if (triangles.empty()) throw ParameterError("a blade has no area; a surface with an area is accepted.");
-  SweepPart part{std::move(triangles), {}, incision};
+  SweepPart part{std::move(triangles), {}, incision, {}};
   mark_border(part);
   return {{std::move(part)}};
 }
@@ -215,7 +217,8 @@ Sweep edge_sweep(std::span<const double> places, std::int32_t moments, std::int3
   const auto at = [&](std::int32_t moment, std::int32_t point) -> Vec3 {
     return block(places, moment * points + point);
   };
-  // An edge of a cell that is crossed to and fro is not cut: a way back is a surface of its own.
+  // An edge of a cell that is crossed to and fro in almost one place is not cut: a way back along the way
+  // there is a surface of its own.
   const auto way = [&](std::int32_t k) -> Vec3 {
     Vec3 sum = Vec3::Zero();
     for (std::int32_t i = 0; i < points; ++i) sum += at(k, i) - at(k - 1, i);
@@ -229,10 +232,18 @@ Sweep edge_sweep(std::span<const double> places, std::int32_t moments, std::int3
     sweep.parts.push_back(std::move(one_part(std::move(triangles), incision).parts.front()));
     triangles.clear();
   };
+  const auto turn_back = [&](std::int32_t k) {
+    end_part();
+    if (sweep.parts.empty() ||
+        way(k).cross(way(k - 1)).norm() <= kRetraces * way(k).norm() * way(k - 1).norm())
+      return;
+    for (std::int32_t i = 1; i < points; ++i)
+      sweep.parts.back().corner.push_back({at(k - 1, i - 1), at(k - 1, i)});
+  };
   for (std::int32_t k = 0; k < moments; ++k) {
     for (std::int32_t i = 0; i < points; ++i) check_finite(at(k, i), "places");
     if (k == 0) continue;
-    if (k > 1 && way(k).dot(way(k - 1)) < kTurnsBack * way(k).norm() * way(k - 1).norm()) end_part();
+    if (k > 1 && way(k).dot(way(k - 1)) < kTurnsBack * way(k).norm() * way(k - 1).norm()) turn_back(k);
     for (std::int32_t i = 1; i < points; ++i) {
       const Vec3 a = at(k - 1, i - 1);
       const Vec3 b = at(k - 1, i);

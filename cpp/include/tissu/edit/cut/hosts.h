@@ -73,6 +73,10 @@ class Hosts {
   [[nodiscard]] std::int32_t root(std::int32_t node) const { return root_[static_cast<std::size_t>(node)]; }
   /// Between no nodes: on an edge that a repair made, between more than four nodes of the first day.
   [[nodiscard]] const std::vector<Rider>& points() const { return points_; }
+  /// The same point between nodes of the first day, which are corners of one cell of that day. Places at rest
+  /// follow from these alone, whatever the cuts were between. An edge that a repair made may lie between more
+  /// than four nodes: then the point is between none.
+  [[nodiscard]] Rider on_first_day(const Rider& rider) const;
   /// Whether a node was moved at rest, or lies between no nodes of the first day: then rest places do not
   /// follow from those of the first day.
   [[nodiscard]] bool moved() const { return moved_; }
@@ -111,7 +115,6 @@ class Hosts {
   };
   [[nodiscard]] const Slot& slot(std::int32_t cell) const { return cells_[static_cast<std::size_t>(cell)]; }
   void add(const Cell& cell, std::int32_t cluster);
-  [[nodiscard]] Rider on_first_day(const Rider& rider) const;
   void take_out(std::int32_t cell);
   void replace_nodes(std::int32_t cell, std::span<const std::int32_t> nodes);
   void make_clusters();

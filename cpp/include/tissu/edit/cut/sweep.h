@@ -16,6 +16,9 @@ struct SweepPart {
   std::vector<std::array<Vec3, 3>> triangles;
   std::vector<std::uint8_t> border;  ///< of each triangle, bit i: no other one has its edge from corner i on
   std::int32_t incision = -1;  ///< number of the incision that goes on here; -1: no later sweep goes on here
+  /// Of a swept edge that turns back here, but not on the way that it came: where it turns. The next part
+  /// begins there, and material between both may stay joined.
+  std::vector<std::array<Vec3, 2>> corner = {};
 };
 
 struct Sweep {
@@ -31,8 +34,9 @@ Sweep disc_sweep(const Vec3& center, const Vec3& normal, double radius);
 /// alike. Refused: a part that cannot be turned alike, as a Moebius strip.
 Sweep triangle_sweep(std::span<const double> points, std::span<const std::array<std::int32_t, 3>> triangles);
 /// The ruled surface that an edge of `points` points sweeps through `moments` moments, 3 numbers per point,
-/// moment after moment. A blade that goes on begins one moment earlier, so that the surfaces overlap.
-/// Vertices on the cut of that `incision` stay on it without a look at the blade.
+/// moment after moment. Where it turns back by more than 175 degrees another part begins. A blade that goes
+/// on begins one moment earlier, so that the surfaces overlap. Vertices on the cut of that `incision` stay on
+/// it without a look at the blade.
 Sweep edge_sweep(std::span<const double> places, std::int32_t moments, std::int32_t points,
                  std::int32_t incision = -1);
 

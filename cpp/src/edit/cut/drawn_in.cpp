@@ -1,17 +1,13 @@
-#include "edit/cut/kerf.h"
+#include "edit/cut/drawn_in.h"
 
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <optional>
-#include <set>
 
-#include "edit/cut/material_faces.h"
 #include "edit/cut/patch.h"
-#include "edit/cut/quad_halves.h"
 #include "edit/cut/way_in.h"
-#include "tissu/mesh/cell_shape.h"
 
 namespace tissu {
 namespace {
@@ -34,13 +30,9 @@ struct Around {
 
 class Kerf {
  public:
-  Kerf(const Hosts& hosts, const Material& material, const MaterialFaces& all)
+  Kerf(const Hosts& hosts, const Material& material, const MaterialFaces& all, const TwinFlags& vertices)
       : hosts_(hosts), material_(material), all_(all) {
-    for (const MaterialFace& face : all.faces) {
-      if (face.across >= 0) continue;
-      for (const std::int32_t v : face.vertices) around_[v];
-    }
-    find_twins();
+    for (const auto& [vertex, has_twin] : vertices) around_[vertex].has_twin = has_twin;
     list_faces();
     std::erase_if(around_, [](const auto& one) { return one.second.walls.empty() && !one.second.has_twin; });
     list_tetrahedra();
@@ -61,35 +53,20 @@ class Kerf {
     return {{vertex, -1, -1, -1}, {1.0, 0.0, 0.0, 0.0}, 1};
   }
 
-  /// Vertices that cuts parted have the same weights of copies of the same nodes.
-  void find_twins() {
-    using Key = std::vector<std::pair<std::int32_t, double>>;
-    std::map<Key, std::vector<std::int32_t>> places;
-    for (const auto& [vertex, around] : around_) {
-      const Rider own = rider(vertex);
-      Key key;
-      for (std::size_t i = 0; i < at(own.count); ++i)
-        key.emplace_back(hosts_.root(own.node[i]), own.weight[i]);
-      std::ranges::sort(key);
-      places[key].push_back(vertex);
-    }
-    for (const auto& [key, vertices] : places) {
-      if (vertices.size() < 2) continue;
-      for (const std::int32_t v : vertices) around_[v].has_twin = true;
-    }
-  }
-
   void list_faces() {
     for (const MaterialFace& face : all_.faces) {
       if (face.across >= 0) continue;
+      if (std::ranges::none_of(face.vertices, [&](std::int32_t v) { return around_.contains(v); })) continue;
       const Vec3 a = place(face.vertices[0]);
       const Vec3 normal = (place(face.vertices[1]) - a).cross(place(face.vertices[2]) - a);
       if (!(normal.norm() > 0.0)) continue;
       for (const std::int32_t v : face.vertices) {
+        const auto found = around_.find(v);
+        if (found == around_.end()) continue;
         if (face.cut) {
-          around_[v].walls.push_back(normal);
+          found->second.walls.push_back(normal);
         } else {
-          around_[v].others.push_back(normal.normalized());
+          found->second.others.push_back(normal.normalized());
         }
       }
     }
@@ -225,69 +202,12 @@ class Kerf {
   std::map<std::int32_t, Around> around_;
 };
 
-/// The outer faces of a cell that no blade met: its quads where both halves are outside.
-void add_whole(const Hosts& hosts, std::int32_t cell, std::span<const MaterialFace> faces_of,
-               std::vector<std::array<std::int32_t, 3>>& triangles) {
-  const auto nodes = hosts.corners(cell);
-  const auto root = [&](std::int32_t node) { return hosts.root(node); };
-  std::size_t next = 0;
-  for (const LocalFace& face : faces(hosts.type(cell))) {
-    const MaterialFace& first = faces_of[next++];
-    if (face.corners == 3) {
-      if (first.across < 0) triangles.push_back(first.vertices);
-      continue;
-    }
-    const MaterialFace& second = faces_of[next++];
-    if (first.across < 0 && second.across < 0) {
-      add_halves(hosts.rest(),
-                 {nodes[face.node[0]], nodes[face.node[1]], nodes[face.node[2]], nodes[face.node[3]]}, root,
-                 triangles);
-    } else if (first.across < 0) {
-      triangles.push_back(first.vertices);
-    } else if (second.across < 0) {
-      triangles.push_back(second.vertices);
-    }
-  }
-}
-
-std::vector<std::array<std::int32_t, 3>> outer_triangles(const Hosts& hosts, const MaterialFaces& all) {
-  std::vector<std::array<std::int32_t, 3>> triangles;
-  for (std::size_t f = 0; f < all.faces.size();) {
-    const std::int32_t unit = all.faces[f].unit;
-    std::size_t end = f;
-    while (end < all.faces.size() && all.faces[end].unit == unit) ++end;
-    const auto own = std::span(all.faces).subspan(f, end - f);
-    if (all.units[at(unit)].tetra < 0) {
-      add_whole(hosts, all.units[at(unit)].cell, own, triangles);
-    } else {
-      for (const MaterialFace& face : own) {
-        if (face.across < 0) triangles.push_back(face.vertices);
-      }
-    }
-    f = end;
-  }
-  return triangles;
-}
-
 }  // namespace
 
-KerfSurface kerf_surface(const Hosts& hosts, const Material& material, double depth) {
-  const MaterialFaces all = material_faces(hosts, material, 3);
-  KerfSurface surface;
-  surface.triangles = outer_triangles(hosts, all);
-  std::set<std::int32_t> riding;
-  for (const auto& triangle : surface.triangles) {
-    for (const std::int32_t v : triangle) {
-      if (v < 0) riding.insert(v);
-    }
-  }
-  std::map<std::int32_t, Rider> carried;
-  for (const std::int32_t v : riding) carried[v] = material.riders[at(-1 - v)];
-  if (depth > 0.0) {
-    for (const auto& [vertex, rider] : Kerf(hosts, material, all).drawn_in(depth)) carried[vertex] = rider;
-  }
-  surface.carried.assign(carried.begin(), carried.end());
-  return surface;
+std::vector<std::pair<std::int32_t, Rider>> drawn_in(const Hosts& hosts, const Material& material,
+                                                     const MaterialFaces& all, const TwinFlags& vertices,
+                                                     double depth) {
+  return Kerf(hosts, material, all, vertices).drawn_in(depth);
 }
 
 }  // namespace tissu

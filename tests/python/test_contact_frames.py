@@ -185,7 +185,7 @@ def test_nothing_passes_at_any_speed(name, speed):
 
 def test_frames_alone_turn_a_surface_to_a_wall():
     """Frames whose places are held turn about themselves by 0.5 rad a step: the surface that they
-    carry, which would be 6 cm lower without the wall, rests at it by the moments of its contacts."""
+    carry, which would be 6 cm lower without the wall, rests at it by moments of its contacts."""
     body = block(cells=(1, 1, 1), young=10.0, model=WHOLE)
     scene = on_a_table(
         bodies={"block": body},

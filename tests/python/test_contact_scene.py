@@ -334,7 +334,7 @@ def test_a_selection_is_no_obstacle():
 
 
 def test_a_tissue_between_bodies_has_no_surface():
-    """One that fills a surface has it; `all` includes that, and not the bodies it is attached to."""
+    """One that fills a surface has it; `all` includes that, not the bodies it is attached to."""
     bodies = {"liver": cube(), "other": cube()}
     filled = ts.BarMesh(size=(1, 1, 1), cells=(1, 1, 1))
     given = {"frames": 8, "points": 40, "law": SOFT, "density": 1000.0}

@@ -62,7 +62,6 @@ def _ball() -> tuple[Floats, Ints]:
     parts = 1
     while True:
         places, faces = _divided(parts)
-        lowest = np.linalg.norm(places[faces].mean(axis=1), axis=1).min()
         normals = np.cross(
             places[faces[:, 1]] - places[faces[:, 0]], places[faces[:, 2]] - places[faces[:, 0]]
         )
@@ -76,21 +75,22 @@ def _ball() -> tuple[Floats, Ints]:
 def _divided(parts: int) -> tuple[Floats, Ints]:
     """Each face of the icosahedron in parts^2 triangles, with their corners on the ball."""
     corners, faces = _icosahedron()
-    points, triangles = [], []
+    points: list[Floats] = []
+    triangles: list[tuple[int, int, int]] = []
     for face in faces:
         a, b, c = corners[list(face)]
         number = {}
         for i, j in itertools.product(range(parts + 1), repeat=2):
             if i + j > parts:
                 continue
-            number[i, j] = sum(map(len, points))
-            points.append([a + (b - a) * (i / parts) + (c - a) * (j / parts)])
+            number[i, j] = len(points)
+            points.append(a + (b - a) * (i / parts) + (c - a) * (j / parts))
         for i, j in number:
             if i + j < parts:
                 triangles.append((number[i, j], number[i + 1, j], number[i, j + 1]))
             if i + j < parts - 1:
                 triangles.append((number[i + 1, j], number[i + 1, j + 1], number[i, j + 1]))
-    places = np.concatenate(points)
+    places = np.array(points)
     places /= np.linalg.norm(places, axis=1)[:, None]
     _, kept, same = np.unique(np.round(places, 9), axis=0, return_index=True, return_inverse=True)
     return places[kept], np.asarray(same.reshape(-1)[np.array(triangles)], dtype=np.int32)

@@ -40,8 +40,8 @@ def hull_of(name: str, obstacle: ConvexObstacle, findings: Findings) -> ContactS
         findings.problem(place, f"{text}in one plane are accepted")
         return None
     hull = ConvexHull(points)
-    used, triangles = np.unique(hull.simplices, return_inverse=True)
-    vertices, triangles = points[used], triangles.reshape(-1, 3)
+    used, numbers = np.unique(hull.simplices, return_inverse=True)
+    vertices, triangles = points[used], numbers.reshape(-1, 3).astype(np.int32)
     corners = vertices[triangles]
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     inward = np.einsum("ij,ij->i", normals, hull.equations[:, :3]) < 0.0

@@ -31,7 +31,7 @@ from tissu.scene.obstacle import (
 if TYPE_CHECKING:
     from tissu._core import WorldBuilder
     from tissu.scene.motion import Motion
-    from tissu.scene.obstacle import Obstacle
+    from tissu.scene.obstacle_part import Obstacle
 
 _LONG = 1.0
 """m: an obstacle above it is larger than any tool or bone; a mesh in millimetres read as metres"""

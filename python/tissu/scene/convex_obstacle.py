@@ -86,7 +86,7 @@ def _radii(value: object) -> object:
     if not isinstance(value, (list, tuple)) or len(value) != 3:
         text = "three lengths along x, y and z are accepted, such as [1 cm, 1 cm, 3 cm]"
         raise ParameterError(f"found {written(value)}; {text}")
-    found = POSITION(value)
+    found: Any = POSITION(value)
     if not min(found) > 0.0:
         raise ParameterError(f"found {written(value)}; lengths above zero are accepted")
     return found
@@ -126,7 +126,7 @@ class ConvexObstacle(Obstacle):
     type: Literal["convex"] = "convex"
     points: Annotated[
         Read[tuple[_Point, ...] | None, Sequence[VectorLike] | None], BeforeValidator(_points)
-    ] = None
+    ] = field(default=None)
     """points [m], four or more that do not lie in one plane; this or `mesh`"""
     mesh: Annotated[Read[Any, MeshLike | None], PlainValidator(_mesh)] = field(default=None)
     """a mesh file, a bar, or (in Python) a Mesh, whose points are taken; this or `points`"""

@@ -162,6 +162,25 @@ def test_what_is_refused():
         simulation.cut("fat", ts.Plane((0.05, 0, 0), (1, 0, 0)))
 
 
+def test_a_hand_that_feels_places_alone_is_refused():
+    """Hands of trocars feel what places of nodes carry; rotations carry these surfaces, too."""
+    trocar = ts.Trocar(port=ts.Port((0, 0, 0.3), (0, 0, -1)), device=ts.SimulatedDevice())
+    with pytest.raises(SceneError, match="found 'fat' with trocars"):
+        on_a_table(trocars={"right": trocar})
+    low = ts.ContactSettings(surface_of={"block": cube(cells=(5, 5, 5))})
+    law = ts.StVK(young=2e4, poisson=0.3)
+    body = ts.Body(mesh=cube(cells=(2, 2, 2)), law=law, density=1e3, model="frames")
+    with pytest.raises(SceneError, match=r"contact\.surface_of\.block: found 'block' with trocars"):
+        ts.Scene(
+            bodies={"block": body},
+            obstacles={"table": ts.PlaneObstacle((0, 0, -1e-4), (0, 0, 1))},
+            contacts=[ts.Contact(("block", "table"))],
+            contact=low,
+            trocars={"right": trocar},
+            step=ts.ImplicitEuler("5 ms"),
+        )
+
+
 def test_a_run_that_is_resumed_and_threads_change_no_bit(tmp_path):
     ends = []
     for threads in (1, 2):

@@ -75,12 +75,14 @@ void ContactRun::bend(const State& to) {
   }
 }
 
-/// A search covers arcs, too.
+/// A search covers the arcs of what frames carry, too.
 void ContactRun::add_arcs() {
   leaves_ = sways_;
-  if (bends_.empty()) return;
-  leaves_.resize(bends_.size(), 0.0);
-  for (std::size_t v = 0; v < bends_.size(); ++v) leaves_[v] += kOffChord * bends_[v];
+  if (bends_.empty() || !contact_.surfaces().has_turning_riders()) return;
+  const auto& vertices = contact_.surfaces().vertices();
+  for (std::size_t v = 0; v < leaves_.size(); ++v) {
+    if (vertices[v].rider >= 0) leaves_[v] += kOffChord * bends_[v];
+  }
 }
 
 Vec3 ContactRun::way_turned(std::int32_t frame, const State& to) const {

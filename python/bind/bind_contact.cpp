@@ -9,6 +9,7 @@
 
 #include "bind.h"
 #include "motion.h"
+#include "tissu/contact/merged_parts.h"
 #include "tissu/world/description.h"
 
 namespace tissu::bind {
@@ -77,20 +78,30 @@ SurfaceDescription to_surface(const std::string& name, const Doubles& vertices, 
 }
 
 /// Numbers of the vertices that nodes carry, ascending; of each the first in the lists, and the end; nodes;
-/// weights.
-using Riders = std::tuple<Ints, Ints, Ints, Doubles>;
+/// weights; arms of frames, three numbers each, or none; nodes of other bodies.
+using Riders =
+    std::tuple<Ints, Ints, Ints, Doubles, Doubles, std::vector<std::pair<std::string, std::int32_t>>>;
 
-SurfaceRiders to_riders(const Riders& given, std::int32_t nodes) {
-  const auto& [vertex, begin, node, weight] = given;
-  SurfaceRiders riders{to_vector(vertex), to_vector(begin), to_vector(node), to_vector(weight)};
+SurfaceRiders to_riders(const Riders& given, std::int32_t own) {
+  const auto& [vertex, begin, node, weight, arm, others] = given;
+  SurfaceRiders riders{to_vector(vertex), to_vector(begin), to_vector(node),
+                       to_vector(weight), to_vector(arm),   {}};
+  for (const auto& [body, number] : others) riders.others.push_back({body, number});
+  const std::int32_t nodes = own + static_cast<std::int32_t>(others.size());
   const auto ends = static_cast<std::int32_t>(riders.node.size());
   const bool whole = riders.begin.size() == riders.vertex.size() + 1 && riders.begin.front() == 0 &&
-                     riders.begin.back() == ends && riders.weight.size() == riders.node.size();
+                     riders.begin.back() == ends && riders.weight.size() == riders.node.size() &&
+                     (riders.arm.empty() || riders.arm.size() == 3 * riders.node.size());
   if (!whole || !std::ranges::is_sorted(riders.begin) || !std::ranges::is_sorted(riders.vertex)) {
     throw ParameterError("found lists of riders whose lengths do not fit together.");
   }
   if (std::ranges::any_of(riders.node, [&](std::int32_t n) { return n < 0 || n >= nodes; })) {
     throw ParameterError("found riders on nodes that are not there.");
+  }
+  for (std::size_t i = 0; !riders.arm.empty() && i + 1 < riders.begin.size(); ++i) {
+    if (riders.begin[i + 1] - riders.begin[i] <= static_cast<std::int32_t>(kMostFrames)) continue;
+    throw ParameterError("found a vertex that more than " + std::to_string(kMostFrames) +
+                         " frames and nodes carry; so many at most are accepted.");
   }
   return riders;
 }

@@ -236,12 +236,14 @@ py::array_t<double> contact_areas(const Simulation& simulation, const std::strin
     areas[node] += area;
   };
   const std::int32_t first = surfaces.surfaces()[static_cast<std::size_t>(number)].first_row;
+  const std::int32_t end = first + simulation.world().body(body).node_count;
   for (const SurfaceVertex& vertex : surfaces.vertices()) {
     if (vertex.surface != number) continue;
     if (vertex.rider < 0) {
       add(vertex.node, vertex.area);
     } else {
       for (const RiderPart& part : surfaces.parts(vertex)) {
+        if (part.row < first || part.row >= end) continue;  // of another body
         add(part.row - first, std::abs(part.weight) * vertex.area);
       }
     }
@@ -249,13 +251,32 @@ py::array_t<double> contact_areas(const Simulation& simulation, const std::strin
   return py::array_t<double>(static_cast<py::ssize_t>(areas.size()), areas.data());
 }
 
+/// The vertices of a body's surface: their numbers (n,), ascending, where they are at rest (n, 3), and now.
+py::tuple contact_vertices(const Simulation& simulation, const std::string& body) {
+  const Contact& contact = contact_of(simulation);
+  const auto& of = contact.surfaces().surfaces()[static_cast<std::size_t>(surface_named(contact, body))];
+  const auto count = static_cast<std::size_t>(of.last_vertex - of.first_vertex);
+  py::array_t<std::int32_t> numbers(static_cast<py::ssize_t>(count));
+  py::array_t<double> rest = rows<double>(count, 3);
+  py::array_t<double> now = rows<double>(count, 3);
+  for (std::int32_t v = of.first_vertex; v < of.last_vertex; ++v) {
+    const auto place = 3 * static_cast<std::size_t>(v - of.first_vertex);
+    numbers.mutable_at(v - of.first_vertex) = contact.surfaces().vertices()[static_cast<std::size_t>(v)].node;
+    std::ranges::copy(block(ConstReals(contact.surfaces().rest()), v), rest.mutable_data() + place);
+    std::ranges::copy(contact.place(v, simulation.state()), now.mutable_data() + place);
+  }
+  return py::make_tuple(numbers, rest, now);
+}
+
 /// Points of a body's surface that nodes carry: their numbers as `contacts` has them (p,), ascending, the
-/// first of each in the lists (p + 1,), nodes and weights.
+/// first of each in the lists (p + 1,), nodes, those of other bodies below zero, and weights.
 py::tuple contact_riders(const Simulation& simulation, const std::string& body) {
   const auto& bodies = contact_of(simulation).description().bodies;
   const auto found = std::ranges::find(bodies, body, &SurfaceDescription::name);
   if (found == bodies.end()) throw ParameterError("found body \"" + body + "\", which meets nothing here.");
-  const SurfaceRiders& riders = found->riders;
+  SurfaceRiders riders = found->riders;
+  const std::int32_t count = simulation.world().body(body).node_count;
+  for (std::int32_t& node : riders.node) node = node < count ? node : -1;
   std::vector<std::int32_t> numbers = riders.vertex;
   for (std::int32_t& number : numbers) number -= number < 0 ? 1 : 0;
   const auto ints = [](const std::vector<std::int32_t>& list) {
@@ -283,6 +304,7 @@ void bind_contact_run(py::class_<Simulation>& simulation) {
       .def("contact_surface", &contact_surface, arg("body"))
       .def("contact_areas", &contact_areas, arg("body"))
       .def("contact_riders", &contact_riders, arg("body"))
+      .def("contact_vertices", &contact_vertices, arg("body"))
       .def("lead_obstacle", &lead_obstacle, py::kw_only(), arg("name"), arg("displacement"), arg("angle"),
            arg("axis"), arg("center"), arg("over"))
       .def(

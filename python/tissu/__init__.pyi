@@ -112,6 +112,10 @@ from tissu.scene import SphereObstacle as SphereObstacle
 from tissu.scene import CapsuleObstacle as CapsuleObstacle
 from tissu.scene import BoxObstacle as BoxObstacle
 from tissu.scene import MeshObstacle as MeshObstacle
+from tissu.scene import CylinderObstacle as CylinderObstacle
+from tissu.scene import ConeObstacle as ConeObstacle
+from tissu.scene import EllipsoidObstacle as EllipsoidObstacle
+from tissu.scene import ConvexObstacle as ConvexObstacle
 from tissu.scene import Contact as Contact
 from tissu.scene import SelfContact as SelfContact
 from tissu.scene import ContactSettings as ContactSettings

@@ -244,7 +244,7 @@ class WorldBuilder:
         edges: Ints,
         radius: Floats,
         closed: bool,
-        riders: tuple[Ints, Ints, Ints, Floats] | None,
+        riders: tuple[Ints, Ints, Ints, Floats, Floats, list[tuple[str, int]]] | None,
     ) -> None: ...
     def add_obstacle(
         self,
@@ -464,6 +464,7 @@ class Simulation:
     def contact_surface(self, body: str) -> tuple[Ints, Ints, Floats, bool]: ...
     def contact_areas(self, body: str) -> Floats: ...
     def contact_riders(self, body: str) -> tuple[Ints, Ints, Ints, Floats]: ...
+    def contact_vertices(self, body: str) -> tuple[Ints, Floats, Floats]: ...
     def lead_obstacle(
         self,
         *,

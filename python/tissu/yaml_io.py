@@ -182,7 +182,7 @@ def scene_data(
 
 def _made_in_memory(parts: Mapping[str, Part]) -> list[str]:
     """The names of the bodies, or obstacles, whose mesh came from no file."""
-    return _unwritten({name: getattr(part, "mesh", part) for name, part in parts.items()})
+    return _unwritten({name: getattr(part, "mesh", None) or part for name, part in parts.items()})
 
 
 def _unwritten(meshes: Mapping[str, Any]) -> list[str]:

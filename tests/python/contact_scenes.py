@@ -37,6 +37,13 @@ def every_contact_part():
         "probe": ts.CapsuleObstacle(((0, 0, 0.5), (0, 0, 0.6)), radius="3 mm", motion=path),
         "brick": ts.BoxObstacle((1, 1, 1), (2, 2, 2)),
         "bone": ts.MeshObstacle(ts.BarMesh(size=(1, 1, 1), cells=(1, 1, 1), origin=(3, 3, 3))),
+        "rod": ts.CylinderObstacle(((0, 0, 0.7), (0, 0, 0.8)), "3 mm"),
+        "needle": ts.ConeObstacle((0, 0, 0.9), (0, 0, 0.88), "1 mm"),
+        "stone": ts.EllipsoidObstacle((0, 0, 1.0), ("1 cm", "1 cm", "2 cm")),
+        "wedge": ts.ConvexObstacle(points=[(5, 5, 5), (6, 5, 5), (5, 6, 5), (5, 5, 6)]),
+        "hull": ts.ConvexObstacle(
+            mesh=ts.BarMesh(size=(1, 1, 1), cells=(1, 1, 1), origin=(7, 7, 7))
+        ),
     }
     contacts = [
         ts.Contact(("liver", "probe"), friction=0.2, gap="0.5 mm"),

@@ -333,23 +333,21 @@ def test_a_selection_is_no_obstacle():
     ]
 
 
-FILLED = ts.BarMesh(size=(1, 1, 1), cells=(1, 1, 1))
-FAT = ts.Tissue(inside=FILLED, frames=8, points=40, law=SOFT, density=1000.0)
-
-
-@pytest.mark.parametrize(
-    ("fields", "name", "words"),
-    [
-        ({"bodies": {"liver": cube()}, "tissue": {"fat": FAT}}, "fat", "a tissue"),
-    ],
-)
-def test_surfaces_that_are_not_there_yet(fields, name, words):
-    pair = problems(lambda: scene(**fields, contacts=[ts.Contact(("liver", name))]))
-    assert len(pair) == 1
-    assert f"contacts[0].between[1]: found '{name}', {words}" in pair[0]
-    assert "not there yet" in pair[0]
-    every = problems(lambda: scene(**fields, contacts=[ts.Contact("all")]))
-    assert f"contacts[0].between: found all, and among the bodies '{name}', {words}" in every[0]
+def test_a_tissue_between_bodies_has_no_surface():
+    """One that fills a surface has it; `all` includes that, not the bodies it is attached to."""
+    bodies = {"liver": cube(), "other": cube()}
+    filled = ts.BarMesh(size=(1, 1, 1), cells=(1, 1, 1))
+    given = {"frames": 8, "points": 40, "law": SOFT, "density": 1000.0}
+    between = ts.Tissue(between=("liver", "other"), reach=1.0, **given)
+    told = problems(
+        lambda: scene(bodies=bodies, tissue={"fat": between}, contacts=[ts.Contact("all")])
+    )
+    assert any(
+        "contacts[0].between: found all, and among the bodies 'fat', a tissue" in t for t in told
+    )
+    inside = ts.Tissue(inside=filled, **given)
+    named = [ts.Contact(("liver", "fat"))]
+    scene(bodies=bodies, tissue={"fat": inside}, contacts=named)  # is accepted
 
 
 def test_all_is_said_once_and_without_on():

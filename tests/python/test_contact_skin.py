@@ -381,11 +381,7 @@ def test_bodies_that_carry_no_surface_are_refused():
     sheet = ts.BarMesh(size=(0.1, 0.1, 0), cells=(2, 2, 0), cell="quad", origin=(0, 0, 0.01))
     law = ts.StVK(young=2e4, poisson=0.3)
     thin = ts.Body(mesh=sheet, law=law, density=1000.0, thickness=1e-3)
-    for body, words in (
-        (thin, "which has no volume cells to carry a surface"),
-        (block(model="frames"), "whose nodes are frames"),
-    ):
-        with pytest.raises(SceneError, match=words):
-            over_a_table(body=body).compile()
+    with pytest.raises(SceneError, match="which has no volume cells to carry a surface"):
+        over_a_table(body=thin).compile()
     with pytest.raises(SceneError, match="overlap at the start"):
         over_a_table(obstacles={"table": ts.PlaneObstacle((0, 0, 0.01), (0, 0, 1))}).compile()

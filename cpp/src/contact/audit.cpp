@@ -54,6 +54,7 @@ class Audit {
                      {place(face.vertex[0]), place(face.vertex[1]), place(face.vertex[2])})) {
           continue;
         }
+        if (surfaces_.is_of_one_row(std::array{a, b}, face.vertex)) continue;
         const auto node = [&](std::int32_t v) { return numbered(surfaces_.vertices()[at(v)].node); };
         found.push_back({surfaces_.vertices()[at(a)].surface,
                          surfaces_.vertices()[at(face.vertex[0])].surface,

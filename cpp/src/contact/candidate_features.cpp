@@ -82,6 +82,10 @@ void Candidates::add(PairKind kind, std::int32_t a, std::int32_t b, std::array<s
   if (!free || number < 0) return;
   const ContactPair& pair = description_.pairs[at(number)];
   if (!may_meet(pair, vertex)) return;
+  if (own != other) {
+    const std::span<const std::int32_t> both(vertex);
+    if (surfaces_.is_of_one_row(both.first(at(first)), both.subspan(at(first), at(all - first)))) return;
+  }
   double apart = radius + other_radius + pair.gap;
   if (own == other) apart = apart_at_rest(kind, vertex, apart);
   if (apart > 0.0) list_.push_back({kind, a, b, number, vertex, apart});

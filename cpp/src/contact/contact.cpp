@@ -49,6 +49,7 @@ Vec3 Contact::carried_place(std::int32_t vertex, const State& state) const {
     for (const RiderPart& part : surfaces_.parts(v)) {
       sum += part.weight * block(ConstReals(state.positions), part.row);
     }
+    if (surfaces_.has_turning_riders()) sum += surfaces_.turned(v, state.rotations);
     return sum;
   }
   const SurfaceCarrier& carrier = surfaces_.carriers()[static_cast<std::size_t>(v.carrier)];
@@ -145,16 +146,18 @@ void Contact::claim_memory(MemoryPlaces& places) {
   }
 }
 
-namespace {
-
 /// A vertex that rows carry, among the couplings.
-std::int32_t carry_rider(std::span<const RiderPart> rows, Couplings& couplings) {
+std::int32_t Contact::carry_rider(const SurfaceVertex& vertex, const State& state,
+                                  Couplings& couplings) const {
+  if (surfaces_.has_turning_riders()) {
+    MergedTurningParts parts;
+    for_rows_of(vertex, 1.0, state, [&](const CarriedPart& part) { parts.add(part); });
+    return couplings.carry(parts.all());
+  }
   MergedParts parts;
-  for (const RiderPart& part : rows) parts.add({part.row, part.weight});
+  for (const RiderPart& part : surfaces_.parts(vertex)) parts.add({part.row, part.weight});
   return couplings.carry(parts.all());
 }
-
-}  // namespace
 
 void Contact::add_couplings(const State& state, StiffnessScale scale, Couplings& couplings) const {
   if (scale.position == 0.0) return;
@@ -171,7 +174,7 @@ void Contact::add_couplings(const State& state, StiffnessScale scale, Couplings&
       coupling.beta[k] = c.beta[k];
       if (vertex.row >= 0) continue;
       if (vertex.rider >= 0) {
-        coupling.vertex[k] = carry_rider(surfaces_.parts(vertex), couplings);
+        coupling.vertex[k] = carry_rider(vertex, state, couplings);
         continue;
       }
       const SurfaceCarrier& carrier = surfaces_.carriers()[static_cast<std::size_t>(vertex.carrier)];

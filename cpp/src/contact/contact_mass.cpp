@@ -6,12 +6,43 @@ namespace tissu {
 
 double largest_of(const Mat3& mobility) { return mobility.cwiseAbs().rowwise().sum().maxCoeff(); }
 
+namespace {
+
+/// The inverse of an inertia on the axes of space that are not given, zero on the others.
+Mat3 free_inverse(const Mat3& inertia, std::uint8_t given) {
+  Mat3 free = inertia;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (((given >> axis) & 1) == 0) continue;
+    free.row(axis).setZero();
+    free.col(axis).setZero();
+    free(axis, axis) = 1.0;
+  }
+  Mat3 inverse = free.inverse();
+  for (int axis = 0; axis < 3; ++axis) {
+    if (((given >> axis) & 1) != 0) inverse(axis, axis) = 0.0;
+  }
+  return inverse;
+}
+
+}  // namespace
+
+ContactMass::ContactMass(const Contact& contact, const FixedDofs& fixed, const Mass& mass)
+    : contact_(contact), fixed_(fixed), mass_(mass) {
+  const auto& rotations = contact.surfaces().rotations();
+  if (rotations.empty()) return;
+  inertia_of_.assign(mass.nodal().size(), -1);
+  for (std::size_t i = 0; i < rotations.size(); ++i) {
+    inertia_of_[static_cast<std::size_t>(rotations[i].row)] = static_cast<std::int32_t>(i);
+  }
+}
+
 void ContactMass::begin(const State& start) {
   start_ = &start;
   inertias_.clear();
-  for (const SurfaceCarrier& carrier : contact_.surfaces().carriers()) {
-    const auto frame = static_cast<std::size_t>(carrier.frame);
-    inertias_.emplace_back(spatial_inertia(mass_.frames()[frame], start.rotations[frame]).inverse());
+  for (const SurfaceRotation& of : contact_.surfaces().rotations()) {
+    const auto frame = static_cast<std::size_t>(of.frame);
+    const Mat3 inertia = spatial_inertia(mass_.frames()[frame], start.rotations[frame]);
+    inertias_.push_back(free_inverse(inertia, fixed_.masks()[static_cast<std::size_t>(of.row)]));
   }
 }
 
@@ -25,10 +56,7 @@ Vec3 ContactMass::inverse(std::int32_t row) const {
 }
 
 const Mat3& ContactMass::inverse_inertia(std::int32_t rotation) const {
-  const auto& carriers = contact_.surfaces().carriers();
-  std::size_t k = 0;
-  while (carriers[k].rotation != rotation) ++k;
-  return inertias_[k];
+  return inertias_[static_cast<std::size_t>(inertia_of_[static_cast<std::size_t>(rotation)])];
 }
 
 Vec3 ContactMass::change(const CarriedPart& part, const Vec3& force) const {

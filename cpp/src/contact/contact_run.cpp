@@ -14,30 +14,52 @@ std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 }  // namespace
 
-ContactRun::ContactRun(const Contact& contact, const FixedDofs& fixed) : contact_(contact) {
+ContactRun::ContactRun(const Contact& contact, const FixedDofs& fixed) : contact_(contact), fixed_(fixed) {
   const SurfaceSet& surfaces = contact.surfaces();
-  const auto is_given = [&](std::int32_t row) { return fixed.masks()[at(row)] == FixedDofs::kAllAxes; };
-  for (const SurfaceVertex& vertex : surfaces.vertices()) {
-    bool given = vertex.carrier < 0 && (vertex.row < 0 || is_given(vertex.row));
-    if (vertex.rider >= 0) {
-      given = std::ranges::all_of(surfaces.parts(vertex),
-                                  [&](const RiderPart& part) { return is_given(part.row); });
-    }
-    given_.push_back(given ? 1 : 0);
-  }
-  for (const auto& inner : surfaces.inner_rows()) given_.push_back(is_given(inner.row) ? 1 : 0);
+  list_given();
   candidates_ = std::make_unique<Candidates>(contact.description(), contact.surfaces());
   if (std::ranges::any_of(contact.description().pairs, [](const ContactPair& p) { return p.a == p.b; })) {
     together_ =
         std::make_unique<Candidates>(contact.description(), contact.surfaces(), Candidates::Ways::together);
   }
   held_ = std::make_unique<HoldBack>(contact.surfaces(), given_);
-  ahead_ = std::make_unique<PushAhead>(contact, given_);
+  ahead_ = std::make_unique<PushAhead>(contact, led_);
   begin_.resize(3 * surfaces.mover_count());
   from_ = now_ = begin_;
 }
 
 ContactRun::~ContactRun() = default;
+
+bool ContactRun::is_row_given(std::int32_t row) const {
+  return fixed_.masks()[at(row)] == FixedDofs::kAllAxes;
+}
+
+/// A frame whose place is given may still turn what it carries.
+void ContactRun::list_given() {
+  const SurfaceSet& surfaces = contact_.surfaces();
+  for (const SurfaceVertex& vertex : surfaces.vertices()) {
+    bool given = vertex.carrier < 0 && (vertex.row < 0 || is_row_given(vertex.row));
+    if (vertex.rider >= 0) {
+      given = std::ranges::all_of(surfaces.parts(vertex),
+                                  [&](const RiderPart& part) { return is_row_given(part.row); });
+    }
+    led_.push_back(given ? 1 : 0);
+  }
+  for (const auto& inner : surfaces.inner_rows()) led_.push_back(is_row_given(inner.row) ? 1 : 0);
+  given_ = led_;
+  for (const SurfaceRotation& of : surfaces.rotations()) {
+    if (of.mover >= 0 && !is_row_given(of.row)) given_[at(of.mover)] = 0;
+  }
+  if (!surfaces.has_turning_riders()) return;
+  for (std::size_t v = 0; v < surfaces.vertices().size(); ++v) {
+    const SurfaceVertex& vertex = surfaces.vertices()[v];
+    if (vertex.rider < 0 || given_[v] == 0) continue;
+    const bool turns = std::ranges::any_of(surfaces.turns(vertex), [&](const RiderTurn& turn) {
+      return turn.frame >= 0 && !is_row_given(turn.row);
+    });
+    if (turns) given_[v] = 0;
+  }
+}
 
 /// r of a contact, of vertices at these places.
 Vec3 ContactRun::reach(const ContactNumbers& contact, ConstReals places) const {
@@ -50,7 +72,7 @@ Vec3 ContactRun::reach(const ContactNumbers& contact, ConstReals places) const {
   return r;
 }
 
-void ContactRun::begin(const State& start, double end, ConstReals led) {
+void ContactRun::begin(const State& start, double end, const State& led) {
   start_ = &start;
   end_ = end;
   const ContactTable before = contact_.table(start);
@@ -59,13 +81,19 @@ void ContactRun::begin(const State& start, double end, ConstReals led) {
   contact_.place_vertices(start, start.time, begin_);
   gather_inner_rows(start, begin_);
   from_ = begin_;
+  from_turned_ = start.rotations;
+  if (contact_.surfaces().has_turning_riders()) {
+    for (const SurfaceRotation& of : contact_.surfaces().rotations()) {
+      if (is_row_given(of.row)) from_turned_[at(of.frame)] = led.rotations[at(of.frame)];
+    }
+  }
   held_->forget();
-  ahead_->push({start, start.time, end, led}, *candidates_, from_, planes_);
+  ahead_->push({start, start.time, end, led.positions, from_turned_}, *candidates_, from_, planes_);
   now_ = from_;
 }
 
 double ContactRun::half_edges_led(const State& start, double end) const {
-  return ahead_->parts_of({start, start.time, end, {}});
+  return ahead_->parts_of({start, start.time, end, {}, {}});
 }
 
 /// Rows where `state` has them, obstacles where they are at the end of the step.
@@ -90,17 +118,16 @@ int ContactRun::hold_back(State& to) {
   gather(to, now_);
   least_share_ = 1.0;
   goal_ = now_;
-  sway();
   const bool travels = contact_.description().travel;
-  if (travels) bend(to);
+  measure_ways(to);
   if (together_ != nullptr) {
     held_->release();
-    together_->cover(from_, now_, sways_);
+    together_->cover(from_, now_, leaves_);
     if (!travels || held_->is_free(*together_, planes_, from_, now_, bends_, sways_)) return 0;
   }
-  candidates_->cover(from_, now_, sways_);
+  candidates_->cover(from_, now_, leaves_);
   if (!travels || !held_->find(*candidates_, planes_, from_, now_, bends_, sways_)) return 0;
-  int rows = hold_back_carriers(to);
+  int rows = hold_back_carriers(to) + hold_back_rotations(to);
   const auto hold = [&](std::size_t mover, std::int32_t row) {
     const auto number = static_cast<std::int32_t>(mover);
     const double share = held_->share(number);
@@ -119,68 +146,6 @@ int ContactRun::hold_back(State& to) {
   return rows;
 }
 
-/// A vertex at sum w x whose rows go shares s of their ways d is off its own way, which is sum w d, by
-/// |sum w (s - 1/2) (d - sum w d)| <= sum |w| |d - sum w d| / 2, and more where weights below zero let shares
-/// of it exceed 0 to 1.
-void ContactRun::sway() {
-  const SurfaceSet& surfaces = contact_.surfaces();
-  if (!surfaces.has_riders()) return;
-  const auto& vertices = surfaces.vertices();
-  sways_.assign(vertices.size(), 0.0);
-  const auto way_of = [&](std::int32_t mover) {
-    return Vec3(block(ConstReals(now_), mover) - block(ConstReals(from_), mover));
-  };
-  for (std::size_t v = 0; v < vertices.size(); ++v) {
-    if (vertices[v].rider < 0) continue;
-    const Vec3 way = way_of(static_cast<std::int32_t>(v));
-    double weights = 0.0;
-    for (const RiderPart& part : surfaces.parts(vertices[v])) {
-      weights += std::abs(part.weight);
-      sways_[v] += 0.5 * std::abs(part.weight) * (way_of(part.mover) - way).norm();
-    }
-    sways_[v] += 0.5 * std::max(0.0, weights - 1.0) * way.norm();
-  }
-}
-
-/// |arm| theta^2 of what rigid bodies carry.
-void ContactRun::bend(const State& to) {
-  const SurfaceSet& surfaces = contact_.surfaces();
-  if (surfaces.carriers().empty()) return;
-  bends_.assign(surfaces.vertices().size(), 0.0);
-  for (std::size_t v = 0; v < bends_.size(); ++v) {
-    const std::int32_t carrier = surfaces.vertices()[v].carrier;
-    if (carrier < 0) continue;
-    const double turn = way_turned(surfaces.carriers()[at(carrier)], to).norm();
-    bends_[v] = surfaces.arm(static_cast<std::int32_t>(v)).norm() * turn * turn;
-  }
-}
-
-Vec3 ContactRun::way_turned(const SurfaceCarrier& carrier, const State& to) const {
-  const auto frame = at(carrier.frame);
-  return nearest_turn(to.rotations[frame] * start_->rotations[frame].conjugate(), Vec3::Zero());
-}
-
-int ContactRun::hold_back_carriers(State& to) {
-  int rows = 0;
-  for (const auto& surface : contact_.surfaces().surfaces()) {
-    if (surface.carrier < 0) continue;
-    const double share = held_->share(surface.first_vertex);
-    if (share == 1.0) continue;
-    least_share_ = std::min(least_share_, share);
-    ++rows;
-    const SurfaceCarrier& carrier = contact_.surfaces().carriers()[at(surface.carrier)];
-    const Vec3 pushed =
-        block(ConstReals(from_), surface.first_vertex) - block(ConstReals(begin_), surface.first_vertex);
-    const Vec3 from = block(ConstReals(start_->positions), carrier.row) + pushed;
-    auto place = block(Reals(to.positions), carrier.row);
-    place = Vec3(from + share * (place - from));
-    const auto frame = at(carrier.frame);
-    const Vec3 turn = share * way_turned(carrier, to);
-    to.rotations[frame] = (turn_by(turn) * start_->rotations[frame]).normalized();
-  }
-  return rows;
-}
-
 void ContactRun::stand(State& at) const {
   const SurfaceSet& surfaces = contact_.surfaces();
   for (std::size_t v = 0; v < surfaces.vertices().size(); ++v) {
@@ -196,6 +161,10 @@ void ContactRun::stand(State& at) const {
     const Vec3 pushed =
         block(ConstReals(from_), surface.first_vertex) - block(ConstReals(begin_), surface.first_vertex);
     block(Reals(at.positions), surfaces.carriers()[static_cast<std::size_t>(surface.carrier)].row) += pushed;
+  }
+  for (const SurfaceRotation& of : surfaces.rotations()) {
+    const auto frame = static_cast<std::size_t>(of.frame);
+    if (of.mover >= 0) at.rotations[frame] = from_turned_[frame];
   }
 }
 

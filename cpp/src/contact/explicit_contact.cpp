@@ -28,7 +28,7 @@ std::unique_ptr<ExplicitContact> ExplicitContact::make(const Contact& contact, c
 ExplicitContact::ExplicitContact(const Contact& contact, const FixedDofs& fixed, const Mass& mass)
     : contact_(contact), mass_(contact, fixed, mass), run_(contact, fixed) {}
 
-void ExplicitContact::begin(const State& start, double end, ConstReals led) {
+void ExplicitContact::begin(const State& start, double end, const State& led) {
   h_ = end - start.time;
   start_ = &start;
   mass_.begin(start);

@@ -37,7 +37,7 @@ ImplicitContact::ImplicitContact(const Contact& contact, const FixedDofs& fixed)
   run_.hand_over_to_all();
 }
 
-void ImplicitContact::begin(const State& start, double end, ConstReals led, ConstReals load) {
+void ImplicitContact::begin(const State& start, double end, const State& led, ConstReals load) {
   start_ = &start;
   h_ = end - start.time;
   alternations_ = 0;

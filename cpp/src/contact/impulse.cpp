@@ -175,12 +175,12 @@ bool ImpulseContact::lift_once(State& end) {
       block(Reals(moves_), part.row) += mass_.change(part, depth / blow.weight * n);
     });
   }
-  for (const SurfaceCarrier& carrier : contact_.surfaces().carriers()) {
-    const int count = counts_[at(carrier.rotation)];
+  for (const SurfaceRotation& of : contact_.surfaces().rotations()) {
+    const int count = counts_[at(of.row)];
     if (count == 0) continue;
-    Quaternion& rotation = end.rotations[at(carrier.frame)];
-    rotation = (turn_by(block(ConstReals(moves_), carrier.rotation) / count) * rotation).normalized();
-    block(Reals(moves_), carrier.rotation).setZero();
+    Quaternion& rotation = end.rotations[at(of.frame)];
+    rotation = (turn_by(block(ConstReals(moves_), of.row) / count) * rotation).normalized();
+    block(Reals(moves_), of.row).setZero();
   }
   for (const std::int32_t row : rows_) {
     block(Reals(end.positions), row) += block(ConstReals(moves_), row) / counts_[at(row)];

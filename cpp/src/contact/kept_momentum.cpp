@@ -92,14 +92,13 @@ void ContactRun::go_on_together(const Mass& mass, const FixedDofs& fixed, ConstR
   if (!goes) return;
   const std::vector<Candidate> stopped = held_->stopped_pairs(*candidates_);
   gather(to, now_);
-  sway();
-  bend(to);
-  candidates_->cover(from_, now_, sways_);
+  measure_ways(to);
+  candidates_->cover(from_, now_, leaves_);
   if (!held_->is_free(*candidates_, planes_, from_, now_, bends_, sways_)) {
     to.positions = placed_;
     now_ = goal_;
-    sway();
-    candidates_->cover(from_, now_, sways_);
+    measure_ways(to);
+    candidates_->cover(from_, now_, leaves_);
   }
   held_->stop_again(*candidates_, stopped);
 }

@@ -23,8 +23,14 @@ double largest_area_over_mass(const SurfaceSet& surfaces, std::int32_t surface, 
     if (vertex.row >= 0) largest = std::max(largest, vertex.area / mass.nodal()[at(vertex.row)]);
     if (vertex.rider >= 0) {
       double inverse = 0.0;
-      for (const RiderPart& part : surfaces.parts(vertex)) {
-        inverse += part.weight * part.weight / mass.nodal()[at(part.row)];
+      const std::span<const RiderPart> parts = surfaces.parts(vertex);
+      const std::span<const RiderTurn> turns = surfaces.turns(vertex);
+      for (std::size_t i = 0; i < parts.size(); ++i) {
+        const double square = parts[i].weight * parts[i].weight;
+        inverse += square / mass.nodal()[at(parts[i].row)];
+        if (turns.empty() || turns[i].frame < 0) continue;
+        const Mat3 turning = mass.frames()[at(turns[i].frame)].inertia.inverse();
+        inverse += square * turns[i].arm.squaredNorm() * largest_of(turning);
       }
       largest = std::max(largest, vertex.area * inverse);
     }

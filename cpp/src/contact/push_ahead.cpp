@@ -60,7 +60,22 @@ void PushAhead::lead(const LedMotion& motion, double share, Reals places) const 
   for (std::size_t i = 0; i < inner.size(); ++i) {
     if (given_[vertices.size() + i] != 0) lead_row(vertices.size() + i, inner[i].row);
   }
-  surfaces.place_riders(places);
+  place_riders(motion, share, places);
+}
+
+void PushAhead::place_riders(const LedMotion& motion, double share, Reals places) const {
+  const SurfaceSet& surfaces = contact_.surfaces();
+  if (!surfaces.has_turning_riders() || share == 1.0) {
+    surfaces.place_riders(places, motion.turned);
+    return;
+  }
+  std::vector<Quaternion> turned = motion.state.rotations;
+  for (const SurfaceRotation& of : surfaces.rotations()) {
+    Quaternion& now = turned[at(of.frame)];
+    const Vec3 whole = nearest_turn(motion.turned[at(of.frame)] * now.conjugate(), Vec3::Zero());
+    now = turn_by(share * whole) * now;
+  }
+  surfaces.place_riders(places, turned);
 }
 
 void PushAhead::place_planes(const LedMotion& motion, double share, std::vector<PlacedPlane>& planes) const {

@@ -12,10 +12,11 @@ namespace tissu {
 
 /// Where obstacles and given rows go in a step.
 struct LedMotion {
-  const State& state;  ///< of the step's start, whose memory holds live leads
-  double from;         ///< [s]
-  double to;           ///< [s]
-  ConstReals end;      ///< positions of the rows at the end; only given rows are read
+  const State& state;                  ///< of the step's start, whose memory holds live leads
+  double from;                         ///< [s]
+  double to;                           ///< [s]
+  ConstReals end;                      ///< positions of the rows at the end; only given rows are read
+  std::span<const Quaternion> turned;  ///< of all frames: given ones at the end, others at the start
 };
 
 /// Leads all given vertices to their places at the end of the step, in equal parts of at most half a mean
@@ -23,6 +24,7 @@ struct LedMotion {
 /// Where a part cannot be gone that way the parts are made shorter.
 class PushAhead {
  public:
+  /// `given`: of each mover, and of vertices that rows carry, whether its place is.
   PushAhead(const Contact& contact, const std::vector<std::uint8_t>& given);
 
   /// `places` of all movers at the start become those from which the step goes on; `planes` those at its
@@ -34,6 +36,7 @@ class PushAhead {
 
  private:
   void lead(const LedMotion& motion, double share, Reals places) const;
+  void place_riders(const LedMotion& motion, double share, Reals places) const;
   void place_planes(const LedMotion& motion, double share, std::vector<PlacedPlane>& planes) const;
   /// One part; false: something is still in the way.
   bool go(const LedMotion& motion, double before, double after, Candidates& candidates,

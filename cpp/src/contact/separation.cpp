@@ -139,7 +139,7 @@ class Separation {
       const auto number = static_cast<std::int32_t>(v);
       block(Reals(places_), number) += allowed(number, block(ConstReals(moves_), number) / counts_[v]);
     }
-    if (contact_.surfaces().has_riders()) contact_.surfaces().place_riders(places_);
+    if (contact_.surfaces().has_riders()) contact_.surfaces().place_riders(places_, start_.rotations);
     return near;
   }
 

@@ -20,6 +20,10 @@ Vec3 SurfaceSet::ride(const SurfaceRiders& riders, std::size_t number, std::int3
     const std::int32_t row = first_row + riders.node[i];
     rider_part_.push_back({row, riders.weight[i], -1});
     place += riders.weight[i] * block(rest, row);
+    if (riders.arm.empty()) continue;
+    rider_turn_.resize(rider_part_.size());
+    rider_turn_.back().arm = block(ConstReals(riders.arm), static_cast<std::int32_t>(i));
+    place += riders.weight[i] * rider_turn_.back().arm;  // rotations are none at rest
   }
   rider_begin_.push_back(static_cast<std::int32_t>(rider_part_.size()));
   return place;
@@ -37,13 +41,15 @@ void SurfaceSet::list_movers(const ContactDescription& description,
     const auto first = at(rider_begin_[at(vertices_[v].rider)]);
     for (auto i = first; i < at(rider_begin_[at(vertices_[v].rider) + 1]); ++i) {
       RiderPart& part = rider_part_[i];
+      const std::int32_t surface = vertices_[v].surface;
       const auto next = static_cast<std::int32_t>(mover_count());
       const auto [found, is_new] = movers.try_emplace(part.row, next);
       if (is_new) {
-        inner_rows_.push_back({part.row, vertices_[v].surface});
+        inner_rows_.push_back({part.row, surface});
         carried.emplace_back();
       }
       part.mover = found->second;
+      has_shared_rows_ = has_shared_rows_ || surface_of_mover(part.mover) != surface;
       carried[at(part.mover)].push_back({static_cast<std::int32_t>(v), part.weight});
     }
   }
@@ -54,13 +60,16 @@ void SurfaceSet::list_movers(const ContactDescription& description,
   }
   root_.assign(mover_count(), -1);
   for (const auto& [row, mover] : movers) {
-    const std::int32_t surface = at(mover) < vertices_.size()
-                                     ? vertices_[at(mover)].surface
-                                     : inner_rows_[at(mover) - vertices_.size()].surface;
+    const std::int32_t surface = surface_of_mover(mover);
     const std::vector<std::int32_t>& roots = description.bodies[at(surface)].roots;
     const std::int32_t first = first_node[at(surface)];
     root_[at(mover)] = roots.empty() ? row : first + roots[at(row - first)];
   }
+}
+
+std::int32_t SurfaceSet::surface_of_mover(std::int32_t mover) const {
+  const std::size_t count = vertices_.size();
+  return at(mover) < count ? vertices_[at(mover)].surface : inner_rows_[at(mover) - count].surface;
 }
 
 std::span<const SurfaceSet::Carried> SurfaceSet::carried_by(std::int32_t mover) const {
@@ -96,11 +105,12 @@ bool SurfaceSet::is_joined(std::span<const std::int32_t> first, std::span<const 
   return shared && !parted;
 }
 
-void SurfaceSet::place_riders(Reals places) const {
+void SurfaceSet::place_riders(Reals places, std::span<const Quaternion> rotations) const {
   for (std::size_t v = 0; v < vertices_.size(); ++v) {
     if (vertices_[v].rider < 0) continue;
     Vec3 place = Vec3::Zero();
     for (const RiderPart& part : parts(vertices_[v])) place += part.weight * block(places, part.mover);
+    if (has_turning_riders()) place += turned(vertices_[v], rotations);
     block(places, static_cast<std::int32_t>(v)) = place;
   }
 }

@@ -91,6 +91,7 @@ SurfaceSet::SurfaceSet(const ContactDescription& description, std::span<const st
   for (std::size_t i = 0; i < description.bodies.size(); ++i) {
     add(description.bodies[i], first_node[i], -1, rest);
   }
+  if (has_turning_riders()) find_frames(frames);
   // Of augmented contacts vertices inside a plane stay: they hold what lies on them with more points, and
   // push along the normal of a face. A barrier would push along the distance, which is not the plane's normal
   // where the face that lies on it is bent.
@@ -113,6 +114,7 @@ SurfaceSet::SurfaceSet(const ContactDescription& description, std::span<const st
   list_by(edge_owner, primitives_.size(), own_edge_begin_, own_edge_);
   list_neighbours();
   if (has_riders()) list_movers(description, first_node);
+  list_rotations();
 }
 
 /// Vertices are those that a primitive has, in the order of the nodes.
@@ -268,8 +270,8 @@ std::size_t SurfaceSet::bytes() const {
   const auto of = [](const auto& list) { return list.size() * sizeof(list[0]); };
   return of(vertices_) + of(edges_) + of(primitives_) + of(triangle_edges_) + of(rest_) + of(owner_) +
          of(own_vertex_) + of(own_edge_) + of(own_vertex_begin_) + of(own_edge_begin_) + of(neighbour_) +
-         of(neighbour_begin_) + of(carriers_) + of(arms_) + of(rider_part_) + of(rider_begin_) +
-         of(inner_rows_) + of(root_) + of(carried_) + of(carried_begin_);
+         of(neighbour_begin_) + of(carriers_) + of(arms_) + of(rider_part_) + of(rider_turn_) +
+         of(rider_begin_) + of(rotations_) + of(inner_rows_) + of(root_) + of(carried_) + of(carried_begin_);
 }
 
 }  // namespace tissu

@@ -48,6 +48,13 @@ double StageSolver::potential(BarrierContact& barrier, State& state, ConstReals 
   return without + stage_.push / stage_.move * barrier.energy();
 }
 
+/// Rotations of a part of a change of velocities are not quite those of a part of the way.
+bool StageSolver::is_cut(State& state) {
+  place(state, trial_);
+  way_end_ = end_of(state);
+  return hold_back(way_end_) > 0;
+}
+
 bool StageSolver::search_barrier(BarrierContact& barrier, double from, State& state, std::vector<double>& v) {
   const double slope = -std::inner_product(right_.begin(), right_.end(), change_.begin(), 0.0);
   const DampingWork damping = damping_work(state, v);
@@ -55,8 +62,10 @@ bool StageSolver::search_barrier(BarrierContact& barrier, double from, State& st
   place(state, trial_);
   way_end_ = end_of(state);
   double share = hold_back(way_end_) > 0 ? kKept * contact_->run().least_share() : 1.0;
+  const bool turns = share < 1.0 && system_->world().contact()->surfaces().has_turning_riders();
   for (; share > kShortest; share *= 0.5) {
     go(v, share);
+    if (turns && is_cut(state)) continue;
     const double to = potential(barrier, state, trial_) + damping.at(share);
     bool falls = to <= from + kArmijo * share * slope;
     if (!falls && std::abs(to - from) <= kClose * (std::abs(to) + std::abs(from))) {

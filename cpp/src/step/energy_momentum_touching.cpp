@@ -51,7 +51,7 @@ void EnergyMomentum::begin_touching(const State& from, double h) {
   place_end(from, h);
   {
     const Timed timed(*profile_, detection_row_);
-    contact_->begin(from, from.time + h, end_.positions, work_);
+    contact_->begin(from, from.time + h, end_, work_);
   }
   system_->assemble(middle_, 1.0, {-0.25 * h * h, -0.5 * h});
   system_->system_matrix().diagonal_blocks(blocks_);

@@ -39,7 +39,7 @@ void ExplicitMethod::begin_touching(double h) {
   led_ = start_;
   led_.time = start_.time + h;
   lead(led_, h);
-  contact_->begin(start_, led_.time, led_.positions);
+  contact_->begin(start_, led_.time, led_);
   world().contact()->numbers(start_).clear();
   looked_ = false;
 }

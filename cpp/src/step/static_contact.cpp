@@ -112,7 +112,7 @@ void StaticContact::begin(const LoadPath& path, double from, double to, State& s
   move(state, world().frames(), way_, 1.0, held_);
   {
     const Timed timed(profile_, detection_row_);
-    contact_->begin(start_, path.time(to), held_.positions, {});
+    contact_->begin(start_, path.time(to), held_, {});
   }
   world().contact()->numbers(state).clear();
   equilibrium_.system().assemble(state, 0.0, {-1.0, 0.0, true});

@@ -68,10 +68,11 @@ void StageSolver::begin_touching(State& state, std::vector<double>& v) {
   world.fixed().copy(given_, trial_);
   place(state, trial_);
   cut_.clear();
+  cut_frames_.clear();
   {
     const Timed timed(*profile_, detection_row_);
     // work_ is the external force, as judge_by_load left it.
-    contact_->begin(*step_start_, stage_.end, end_of(state).positions, work_);
+    contact_->begin(*step_start_, stage_.end, end_of(state), work_);
   }
   world.contact()->numbers(stage_.base).clear();
   lay_right(v);
@@ -95,6 +96,11 @@ State& StageSolver::end_of(State& state) {
     const double from = stage_.base.positions[i];
     end_.positions[i] = from + stretch * (state.positions[i] - from);
   }
+  for (std::size_t k = 0; k < end_.rotations.size(); ++k) {
+    const Quaternion& from = stage_.base.rotations[k];
+    const Vec3 turn = nearest_turn(state.rotations[k] * from.conjugate(), Vec3::Zero());
+    end_.rotations[k] = (turn_by(stretch * turn) * from).normalized();
+  }
   return end_;
 }
 
@@ -116,12 +122,18 @@ void StageSolver::end_touching(double h, State& end) {
     const Vec3 way = block(ConstReals(end.positions), row) - block(ConstReals(step_start_->positions), row);
     block(Reals(end.velocities), row) = way / h;
   }
+  for (const std::size_t frame : cut_frames_) {
+    const Quaternion turn = end.rotations[frame] * step_start_->rotations[frame].conjugate();
+    const std::int32_t row = system_->world().frames()[frame].rotation;
+    block(Reals(end.velocities), row) = nearest_turn(turn, Vec3::Zero()) / h;
+  }
 }
 
 void StageSolver::follow(const State& end, std::vector<double>& v) {
   const double move = stage_.contact.stretch * stage_.move;
   before_cut_ = v;
   cut_.clear();
+  cut_frames_.clear();
   for (std::size_t i = 0; i < v.size(); ++i) {
     if (placed_[i] == end.positions[i]) continue;
     v[i] = (end.positions[i] - stage_.base.positions[i]) / move;
@@ -131,6 +143,7 @@ void StageSolver::follow(const State& end, std::vector<double>& v) {
   const std::vector<Frame>& frames = system_->world().frames();
   for (std::size_t k = 0; k < frames.size(); ++k) {
     if (placed_rotations_[k].coeffs() == end.rotations[k].coeffs()) continue;
+    cut_frames_.push_back(k);
     const Quaternion turn = end.rotations[k] * stage_.base.rotations[k].conjugate();
     block(Reals(v), frames[k].rotation) = nearest_turn(turn, Vec3::Zero()) / move;
   }
@@ -154,7 +167,7 @@ bool StageSolver::solve_contacts(State& state, std::vector<double>& v, StepRepor
   look(*end);
   contact_->take();
   // Levers of what is rigid are those of the latest places: the step is one of Newton's for contact.
-  const State& levers = contact.surfaces().carriers().empty() ? stage_.base : state;
+  const State& levers = contact.surfaces().rotations().empty() ? stage_.base : state;
   bool solved = true;
   const bool several = contact.surfaces().carriers().size() > 1;  // one may lie on another
   double stiffer = 1.0;

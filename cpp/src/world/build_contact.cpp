@@ -1,16 +1,34 @@
+#include <utility>
+
 #include "builder.h"
 #include "tissu/contact/audit.h"
 
 namespace tissu {
 
+/// Nodes of other bodies that carry a surface get numbers beyond those of its body, or below zero, by where
+/// they stand in the world.
+void WorldBuilder::find_others(SurfaceDescription& surface) const {
+  const Body& body = world_.body(surface.name);
+  for (std::int32_t& node : surface.riders.node) {
+    if (node < body.node_count) continue;
+    const BodyNode& other = surface.riders.others.at(static_cast<std::size_t>(node - body.node_count));
+    const Body& of = world_.body(other.body);
+    const std::string where = "a surface in contact of \"" + body.name + "\"";
+    node = shifted({other.node}, of.first_node, of.node_count, where).front() - body.first_node;
+  }
+  surface.riders.others.clear();
+}
+
 void WorldBuilder::add_contact() {
   if (!description_.contact) return;
+  ContactDescription described = *description_.contact;
   std::vector<std::int32_t> first;
-  for (const SurfaceDescription& surface : description_.contact->bodies) {
+  for (SurfaceDescription& surface : described.bodies) {
     first.push_back(world_.body(surface.name).first_node);
+    if (!surface.riders.others.empty()) find_others(surface);
   }
   auto contact =
-      std::make_unique<Contact>(*description_.contact, first, world_.rest_.positions, world_.frames());
+      std::make_unique<Contact>(std::move(described), first, world_.rest_.positions, world_.frames());
   world_.contact_ = contact.get();
   world_.forces_.push_back(std::move(contact));
 }

@@ -35,6 +35,7 @@ class WorldBuilder {
   void add_load(const LoadDescription& load);
   void add_pressure(const PressureDescription& pressure);
   // build_contact.cpp
+  void find_others(SurfaceDescription& surface) const;
   void add_contact();
   void separate_surfaces();
   // build_supports.cpp

@@ -86,7 +86,7 @@ HEADINGS: dict[str, tuple[str, ...]] = {
     "Selections: which nodes": ("selection",),
     "Supports and motion": ("support",),
     "Loads": ("load",),
-    "Obstacles and contacts": ("motion", "obstacle", "contact"),
+    "Obstacles and contacts": ("motion", "obstacle", "convex_obstacle", "contact"),
     "Trocars": (
         "trocar.trocar",
         "trocar.port",

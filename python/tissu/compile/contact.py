@@ -12,17 +12,20 @@ import numpy as np
 
 from tissu.compile.contact_skin import skin_surface
 from tissu.compile.contact_surface import ContactSurface, body_surface, numbered
+from tissu.compile.contact_tissue import tissue_surface
 from tissu.compile.obstacle import PreparedObstacle, prepared_obstacle
 from tissu.compile.select import selected_nodes, selection_words
 from tissu.counted import counted
 from tissu.scene.contact import Contact, ContactSettings
-from tissu.scene.contact_rules import method_of, surface_missing
+from tissu.scene.contact_rules import meets_others, method_of, surface_missing
 from tissu.scene.problem import field_path
+from tissu.scene.tissue import is_tied, tissues_of
 from tissu.scene.unknown import Unknown
 
 if TYPE_CHECKING:
     from tissu._core import WorldBuilder
     from tissu.compile.prepared import Ints, Prepared
+    from tissu.scene.body import Body
     from tissu.scene.contact import SelfContact
     from tissu.scene.problem import Path
 
@@ -150,10 +153,25 @@ def _surfaces(prepared: Prepared) -> dict[str, ContactSurface]:
         if name not in own:
             surfaces[name] = body_surface(mesh, body)
             continue
-        skin = skin_surface(name, own[name], mesh, prepared.findings)
+        lever = _lever(body)
+        skin = skin_surface(name, own[name], mesh, prepared.findings, lever=lever)
         if skin is not None:
             surfaces[name] = skin
+    for name in prepared.tissue:
+        if surface_missing(scene, name) or not meets_others(scene, name):
+            continue
+        inside = tissue_surface(prepared, name)
+        if inside is not None:
+            surfaces[name] = inside
     return surfaces
+
+
+def _lever(body: Body) -> float:
+    """The share of a lever by which the volume cells of a body turn; 0: its nodes do not."""
+    halves = [getattr(model, "lever", None) for model in body.models().values()]
+    if not body.has_rotations:
+        return 0.0
+    return 0.5 if "half" in halves else 1.0
 
 
 def _has_surface(prepared: Prepared, name: str) -> bool:
@@ -254,14 +272,16 @@ def pairs_of(prepared: Prepared, contact: Contact | SelfContact) -> Iterator[tup
     for other in scene.contacts:
         if getattr(other, "between", None) != "all":
             named |= {frozenset(pair) for pair in pairs_of(prepared, other)}
-    bodies = list(scene.bodies)
+    bodies = [*scene.bodies, *tissues_of(scene)]
     free = {name for name, one in scene.obstacles.items() if one.mass is not None}
     every = [
         *itertools.combinations_with_replacement(bodies, 2),
         *itertools.product(bodies, scene.obstacles),
         *(two for two in itertools.combinations(scene.obstacles, 2) if free & {*two}),
     ]
-    yield from (pair for pair in every if frozenset(pair) not in named)
+    yield from (
+        pair for pair in every if frozenset(pair) not in named and not is_tied(scene, *pair)
+    )
 
 
 def _met_nodes(

@@ -24,11 +24,19 @@ _NONE = 1e-12
 
 
 def skin_surface(
-    name: str, source: object, mesh: Mesh, findings: Findings
+    name: str, source: object, mesh: Mesh, findings: Findings, *, lever: float = 0.0
 ) -> ContactSurface | None:
     """The surface of a body that is a mesh of its own, and the nodes that carry it.
 
     A vertex outside all cells rides on the nearest one, extrapolated.
+
+    Args:
+        name: of the body.
+        source: a mesh, or what is read as one.
+        mesh: of the body.
+        findings: take the problems.
+        lever: share of the way from a node to the vertex that turns with the node; 0: nodes have no
+            rotation.
 
     Returns:
         None, and a problem, where there is none.
@@ -52,7 +60,11 @@ def skin_surface(
     begin = np.concatenate([[0], np.cumsum(used.sum(axis=1))]).astype(np.int32)
     weights = np.where(used, found.weights, 0.0)
     weights /= weights.sum(axis=1, keepdims=True)
-    riders = Riders(begin, found.nodes[used].astype(np.int32), weights[used])
+    nodes = found.nodes[used].astype(np.int32)
+    riders = Riders(begin, nodes, weights[used])
+    if lever > 0.0:
+        places = np.repeat(surface.vertices, np.diff(begin), axis=0)
+        riders = riders._replace(arms=np.ascontiguousarray(lever * (places - mesh.points[nodes])))
     return surface._replace(riders=riders)
 
 

@@ -25,15 +25,20 @@ class Riders(NamedTuple):
 
     Attributes:
         begin: first of each vertex in the lists (n + 1,).
-        nodes: of the body (k,).
+        nodes: of the body (k,); from its number of nodes on: of `others`.
         weights: of these (k,), which sum to one for each vertex.
+        arms: from the nodes that are frames to the vertex at rest (k, 3) [m], zero of others;
+            empty: none is a frame.
+        others: nodes of other bodies, by the name of the body and the number there.
     """
 
     begin: Ints
     nodes: Ints
     weights: Floats
+    arms: Floats = np.empty((0, 3))
+    others: tuple[tuple[str, int], ...] = ()
 
-    def in_core(self) -> tuple[Ints, Ints, Ints, Floats]:
+    def in_core(self) -> tuple[Ints, Ints, Ints, Floats, Floats, list[tuple[str, int]]]:
         """Numbers of the vertices as the core has them, ascending, and the lists in that order."""
         count = len(self.begin) - 1
         last = np.repeat(self.begin[1:][::-1], np.diff(self.begin)[::-1])
@@ -42,7 +47,9 @@ class Riders(NamedTuple):
         order = last - np.repeat(lengths, lengths) + np.arange(len(last))
         order = order - np.repeat(begin[:-1], lengths)
         vertices = numbered(np.arange(count, dtype=np.int32))[::-1]
-        return np.ascontiguousarray(vertices), begin, self.nodes[order], self.weights[order]
+        arms = self.arms[order] if len(self.arms) else self.arms
+        lists = (begin, self.nodes[order], self.weights[order], arms.ravel())
+        return np.ascontiguousarray(vertices), *lists, list(self.others)
 
     def carried_by(self, nodes: Ints) -> Ints:
         """The vertices whose nodes are all among these."""

@@ -29,6 +29,11 @@ def refuse_uncuttable(simulation: Simulation) -> None:
     named += [(("tear", number, "body"), tear.body) for number, tear in enumerate(scene.tear)]
     for path, body in named:
         if body in scene.tissue:
+            if body in simulation.touching:
+                text = (
+                    f"found '{body}', a tissue whose surface meets others, which follows no cut; "
+                )
+                problems.append(Problem(path, f"{text}leave it out of the contacts, or here"))
             continue
         try:
             simulation._core.require_parting(body)

@@ -7,10 +7,18 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from tissu.compile import facets
 from tissu.compile.contact_surface import ContactSurface, halves_of
+from tissu.compile.hull import hull_of
 from tissu.compile.mesh_surface import solid_surface, surface_of_mesh
-from tissu.compile.prepared import Findings, Floats
+from tissu.compile.prepared import Findings, Floats, Ints
 from tissu.compile.rigid import Rigid, centre_of, rigid_of
+from tissu.scene.convex_obstacle import (
+    ConeObstacle,
+    ConvexObstacle,
+    CylinderObstacle,
+    EllipsoidObstacle,
+)
 from tissu.scene.direction import unit_vector
 from tissu.scene.obstacle import (
     BoxObstacle,
@@ -23,7 +31,7 @@ from tissu.scene.obstacle import (
 if TYPE_CHECKING:
     from tissu._core import WorldBuilder
     from tissu.scene.motion import Motion
-    from tissu.scene.obstacle import Obstacle
+    from tissu.scene.obstacle_part import Obstacle
 
 _LONG = 1.0
 """m: an obstacle above it is larger than any tool or bone; a mesh in millimetres read as metres"""
@@ -96,9 +104,11 @@ def prepared_obstacle(name: str, obstacle: Obstacle, findings: Findings) -> Prep
     elif isinstance(obstacle, BoxObstacle):
         surface = _box(obstacle)
         origin = np.mean([obstacle.min, obstacle.max], axis=0)
+    elif isinstance(obstacle, _FACETED):
+        surface = solid_surface(*_facets(obstacle), closed=True)
+        origin = _middle(obstacle)
     else:
-        assert isinstance(obstacle, MeshObstacle)
-        surface = _of_mesh(name, obstacle, findings)
+        surface = _of_points(name, obstacle, findings)
         if surface is None:
             return None
         origin = (surface.vertices.min(axis=0) + surface.vertices.max(axis=0)) / 2.0
@@ -112,6 +122,37 @@ def prepared_obstacle(name: str, obstacle: Obstacle, findings: Findings) -> Prep
     if obstacle.mass is not None and surface is not None:
         rigid = rigid_of(obstacle, surface.vertices, surface.triangles)
     return PreparedObstacle(name, origin, surface, normal, motion, rigid)
+
+
+_FACETED = (CylinderObstacle, ConeObstacle, EllipsoidObstacle)
+
+
+def _facets(obstacle: Obstacle) -> tuple[Floats, Ints]:
+    """The triangles of a round shape."""
+    if isinstance(obstacle, CylinderObstacle):
+        return facets.cylinder(np.array(obstacle.ends), obstacle.radius)
+    if isinstance(obstacle, ConeObstacle):
+        return facets.cone(np.array(obstacle.base), np.array(obstacle.tip), obstacle.radius)
+    assert isinstance(obstacle, EllipsoidObstacle)
+    return facets.ellipsoid(np.array(obstacle.center), np.array(obstacle.radii))
+
+
+def _middle(obstacle: Obstacle) -> Floats:
+    """What a round shape is led by: its middle, of a cone that between base and tip."""
+    if isinstance(obstacle, CylinderObstacle):
+        return np.asarray(np.mean(obstacle.ends, axis=0))
+    if isinstance(obstacle, ConeObstacle):
+        return np.asarray(np.mean([obstacle.base, obstacle.tip], axis=0))
+    assert isinstance(obstacle, EllipsoidObstacle)
+    return np.array(obstacle.center)
+
+
+def _of_points(name: str, obstacle: Obstacle, findings: Findings) -> ContactSurface | None:
+    """The surface of a mesh, or the hull of points."""
+    if isinstance(obstacle, ConvexObstacle):
+        return hull_of(name, obstacle, findings)
+    assert isinstance(obstacle, MeshObstacle)
+    return _of_mesh(name, obstacle, findings)
 
 
 def _made(

@@ -8,7 +8,8 @@ from typing import NamedTuple
 import numpy as np
 
 from tissu.compile.prepared import Floats, Ints
-from tissu.scene.obstacle import BoxObstacle, CapsuleObstacle, Obstacle, SphereObstacle
+from tissu.scene.obstacle import BoxObstacle, CapsuleObstacle, SphereObstacle
+from tissu.scene.obstacle_part import Obstacle
 
 
 class Rigid(NamedTuple):

@@ -61,6 +61,8 @@ def separated(prepared: Prepared, found: OverlapError) -> Apart:
 
 def _require_solids(prepared: Prepared) -> None:
     contact = _contact(prepared)
+    if prepared.tissue:
+        raise ParameterError("the scene has tissue, which it does not move")
     for name, surface in contact.bodies.items():
         if prepared.scene.bodies[name].start is not None:
             raise ParameterError(f"'{name}' has a start of its own")
@@ -70,8 +72,6 @@ def _require_solids(prepared: Prepared) -> None:
             raise ParameterError(f"'{name}' has a surface of its own, which it does not move")
         if not surface.closed or not len(surface.triangles):
             raise ParameterError(f"'{name}' encloses no volume, so it has no side to go to")
-    if prepared.tissue:
-        raise ParameterError("the scene has tissue between bodies, which it does not move")
 
 
 def _contact(prepared: Prepared) -> PreparedContact:

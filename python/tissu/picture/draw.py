@@ -207,7 +207,8 @@ def shape_of(simulation: Simulation, field: Field) -> Shape:
                 at_ends = np.repeat(every[of_lines][:, None], 2, axis=1)
             parts.append(_rods(now - shift, now, ends, at_ends, radius))
     for name in simulation.tissue:
-        parts.append(_tissue(simulation, name, field))
+        of_tissue = _met_tissue if name in simulation.own_surfaces else _tissue
+        parts.append(of_tissue(simulation, name, field))
     return _joined(parts)
 
 
@@ -245,6 +246,19 @@ def _own_surface(simulation: Simulation, name: str, field: Field) -> Shape:
             np.add.at(count, block.nodes, 1.0)
             first += len(block.nodes)
         values = surface.carried(every / np.maximum(count, 1.0))
+    return Shape(surface.rest, surface.points, surface.triangles.astype(np.int64), values)
+
+
+def _met_tissue(simulation: Simulation, name: str, field: Field) -> Shape:
+    """The surface with which a tissue meets others, with the stress of the nearest points."""
+    surface = simulation.contact_surface(name)
+    if field == "displacement":
+        values = np.linalg.norm(surface.points - surface.rest, axis=1)
+    else:
+        from scipy.spatial import cKDTree
+
+        nearest = cKDTree(simulation.points(name, rest=True)).query(surface.rest)[1]
+        values = np.asarray(_stress_of(simulation, name))[nearest]
     return Shape(surface.rest, surface.points, surface.triangles.astype(np.int64), values)
 
 

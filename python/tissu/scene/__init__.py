@@ -85,6 +85,12 @@ from tissu.scene.obstacle import (
     BoxObstacle,
     MeshObstacle,
 )
+from tissu.scene.convex_obstacle import (
+    CylinderObstacle,
+    ConeObstacle,
+    EllipsoidObstacle,
+    ConvexObstacle,
+)
 from tissu.scene.contact import (
     Contact,
     SelfContact,
@@ -204,6 +210,10 @@ __all__ = [
     "CapsuleObstacle",
     "BoxObstacle",
     "MeshObstacle",
+    "CylinderObstacle",
+    "ConeObstacle",
+    "EllipsoidObstacle",
+    "ConvexObstacle",
     "Contact",
     "SelfContact",
     "ContactSettings",

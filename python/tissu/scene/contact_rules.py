@@ -74,28 +74,42 @@ def contact_problems(scene: Any) -> Iterator[Problem]:
     if contacts:
         with contextlib.suppress(Unknown):
             yield from _method_problems(scene)
-    for check in (_surface_of_problems, _flat_problems):
+    for check in (_surface_of_problems, _turning_problems, _flat_problems):
         with contextlib.suppress(Unknown):
             yield from check(scene)
 
 
 def _surface_of_problems(scene: Any) -> Iterator[Problem]:
-    """Meshes for the surfaces of bodies that are not there, or whose nodes are frames."""
+    """Meshes for the surfaces of bodies that are not there."""
     for name in scene.contact.surface_of if scene.contact is not None else ():
         place: Path = ("contact", "surface_of", name)
         if name in tissues_of(scene):
-            yield Problem(place, f"found '{name}', a tissue; a body is accepted")
+            text = f"found '{name}', a tissue, which meets others with the surface that it fills; "
+            yield Problem(place, f"{text}a body is accepted")
         elif name not in scene.bodies:
             text = f"no body is named '{name}'{nearest(name, scene.bodies)} Accepted: "
             yield Problem(place, f"{text}{one_of_words(scene.bodies)}")
         else:
-            with contextlib.suppress(Unknown):
-                if scene.bodies[name].has_rotations:
-                    text = f"found '{name}', whose nodes are frames; a body whose nodes have "
-                    yield Problem(place, f"{text}places only is accepted")
             if not any(_names(contact, name) for contact in scene.contacts):
                 text = f"found a surface of '{name}', which no contact names; write it in contacts"
                 yield Problem(place, f"{text}, or leave the surface out")
+
+
+def _turning_problems(scene: Any) -> Iterator[Problem]:
+    """Surfaces that rotations carry, in scenes with trocars."""
+    if not getattr(scene, "trocars", {}):
+        return
+    own = scene.contact.surface_of if scene.contact is not None else ()
+    turning: dict[str, Path] = {
+        name: ("contact", "surface_of", name)
+        for name in own
+        if name in scene.bodies and scene.bodies[name].has_rotations
+    }
+    turning |= {name: ("contacts",) for name in tissues_of(scene) if meets_others(scene, name)}
+    for name, place in turning.items():
+        text = f"found '{name}' with trocars, whose hands feel what the places of nodes carry; the "
+        text += f"surface of '{name}' follows rotations, too: leave it out of contact"
+        yield Problem(place, text)
 
 
 def _names(contact: Any, body: str) -> bool:
@@ -154,9 +168,10 @@ def _nameless(scene: Any, place: Path, name: str, *, obstacles: bool) -> Iterato
 
 
 def surface_missing(scene: Any, name: str) -> str:
-    """Why a body or tissue has no surface for contact yet; empty: it has one."""
-    if name in tissues_of(scene):
-        return "a tissue, whose surface frames carry: contact of it is not there yet, name bodies"
+    """Why a body or tissue has no surface for contact; empty: it has one."""
+    tissue = tissues_of(scene).get(name)
+    if tissue is not None and tissue.inside is None:
+        return "a tissue between bodies, which has no surface; one with `inside` is accepted"
     return ""
 
 

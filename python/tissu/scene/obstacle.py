@@ -3,18 +3,24 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from typing import Annotated, Any, Literal
 
 from pydantic import BeforeValidator, PlainValidator, ValidationInfo
 
 from tissu import units
 from tissu.errors import ParameterError
-from tissu.reading import Maybe, MaybeVector, Read, VectorLike, listed, written
+from tissu.reading import Read, VectorLike
 from tissu.scene.body import MeshFile, MeshLike, mesh_source
-from tissu.scene.effect import Effect, vector_in_words
+from tissu.scene.convex_obstacle import (
+    ConeObstacle,
+    ConvexObstacle,
+    CylinderObstacle,
+    EllipsoidObstacle,
+)
+from tissu.scene.effect import vector_in_words
 from tissu.scene.field import field
-from tissu.scene.motion import Motion
-from tissu.scene.part import Part, chosen, keeps_problems, type_name
+from tissu.scene.obstacle_part import Ends, Obstacle, ends_of
+from tissu.scene.part import chosen, keeps_problems, type_name
 from tissu.scene.problem import Problem
 from tissu.scene.selection import Selection
 from tissu.scene.unknown import Unread, rule
@@ -26,50 +32,6 @@ __all__ = [
     "BoxObstacle",
     "MeshObstacle",
 ]
-
-_POSITION = units.Triple(units.LENGTH)
-
-
-class Obstacle(Part):
-    """The common part of all obstacles."""
-
-    motion: Motion | None = None
-    """its prescribed path; absent: it stands still"""
-    mass: Maybe[units.Mass] = field(default=None, gt=0.0)
-    """mass [kg], of uniform density, of an obstacle that moves freely; absent: it follows its path,
-    or stands still
-    """
-    velocity: MaybeVector[units.Velocity] = field(default=None)
-    """velocity at the start [m/s] of an obstacle with a mass; absent: zero"""
-    spin: MaybeVector[units.Spin] = field(default=None)
-    """angular velocity at the start about the centre of mass [rad/s] of an obstacle with a mass;
-    absent: zero
-    """
-    if TYPE_CHECKING:
-        type: str
-
-    @rule("mass", "motion")
-    def _is_led_or_free(self) -> Iterator[Problem]:
-        if self.mass is not None and self.motion is not None:
-            text = f"found {self.mass:g} kg with `motion`; an obstacle with a mass moves freely, "
-            yield Problem(("mass",), f"{text}one that is led has none: leave one of them out")
-
-    @rule("mass", "velocity", "spin")
-    def _moves(self) -> Iterator[Problem]:
-        for name in ("velocity", "spin"):
-            if getattr(self, name) is not None and self.mass is None:
-                text = f"found a {name} without a mass; give the obstacle a mass, so that it moves "
-                yield Problem((name,), f"{text}freely, or lead it by `motion`")
-
-    def effect(self, name: str) -> Effect:
-        """What an obstacle of this name switches on."""
-        led = "" if self.motion is None else f", {self.motion.words()}"
-        led += "" if self.mass is None else f", free, mass {self.mass:g} kg"
-        return Effect(f"obstacle {name}", f"obstacles.{name} is a {self.words()}{led}")
-
-    def words(self) -> str:
-        """Its shape and numbers, as `check` says them."""
-        raise NotImplementedError
 
 
 class PlaneObstacle(Obstacle):
@@ -113,22 +75,11 @@ class SphereObstacle(Obstacle):
         return f"sphere, radius {self.radius:g} m"
 
 
-_End = tuple[float, float, float]
-
-
-def _ends(value: object) -> object:
-    value = listed(value)
-    if not isinstance(value, (list, tuple)) or len(value) != 2:
-        text = "two points are accepted, such as [[0, 0, 0], [0, 0, 5 cm]]"
-        raise ParameterError(f"found {written(value)}; {text}")
-    return tuple(_POSITION(end) for end in value)
-
-
 class CapsuleObstacle(Obstacle):
     """A rod with round ends: all points nearer than `radius` to the line between its ends."""
 
     type: Literal["capsule"] = "capsule"
-    ends: Annotated[Read[tuple[_End, _End], Sequence[VectorLike]], BeforeValidator(_ends)] = field(
+    ends: Annotated[Read[Ends, Sequence[VectorLike]], BeforeValidator(ends_of)] = field(
         kw_only=False
     )
     """both ends of its axis [m]; it reaches `radius` beyond them"""
@@ -184,6 +135,7 @@ class MeshObstacle(Obstacle):
 OBSTACLES: tuple[type[Obstacle], ...] = (
     *(PlaneObstacle, SphereObstacle, CapsuleObstacle),
     *(BoxObstacle, MeshObstacle),
+    *(CylinderObstacle, ConeObstacle, EllipsoidObstacle, ConvexObstacle),
 )
 
 

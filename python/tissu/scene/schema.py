@@ -16,13 +16,15 @@ from pydantic.fields import FieldInfo
 from tissu.scene.bar import BarMesh
 from tissu.scene.body import Body, MeshFile
 from tissu.scene.contact import ContactSettings
+from tissu.scene.convex_obstacle import ConvexObstacle
 from tissu.scene.editing import Editing
 from tissu.scene.generated.laws import LAWS
 from tissu.scene.instrument import INSTRUMENTS, Instrument
 from tissu.scene.law import Law
 from tissu.scene.load import LOADS, Load
 from tissu.scene.model import MODELS, Model
-from tissu.scene.obstacle import OBSTACLES, MeshObstacle, Obstacle
+from tissu.scene.obstacle import OBSTACLES, MeshObstacle
+from tissu.scene.obstacle_part import Obstacle
 from tissu.scene.part import Part, type_name
 from tissu.scene.scene import SceneData
 from tissu.scene.section import SECTIONS, Section
@@ -54,6 +56,7 @@ _FAMILIES: dict[Any, tuple[type[Part], ...]] = {
 _READ_AS: dict[tuple[type[Part], str], Any] = {  # fields that read more than they keep
     (Body, "mesh"): _MESH,
     (ContactSettings, "surface_of"): dict[str, _MESH],
+    (ConvexObstacle, "mesh"): _MESH | None,
     (MeshObstacle, "mesh"): _MESH,
     (SceneData, "editing"): Editing | bool | None,
     (Tissue, "inside"): _MESH | None,

@@ -98,6 +98,15 @@ class Tissue(Part):
         yield Effect(f"elasticity of {name}", f"tissue.{name}.law is {self.law.words()}")
 
 
+def is_tied(scene: Any, first: str, second: str) -> bool:
+    """Whether one of two is a tissue that is attached to the other."""
+    tissues = tissues_of(scene)
+    return any(
+        one in tissues and other in (tissues[one].between or ())
+        for one, other in ((first, second), (second, first))
+    )
+
+
 def tissues_of(scene: Any) -> Mapping[str, Tissue]:
     """The tissues of a scene by name, whose fields may have problems."""
     found: Mapping[str, Tissue] = getattr(scene, "tissue", {})

@@ -54,6 +54,9 @@ class Severing:
         @property
         def positions(self) -> Mapping[str, Floats]: ...
 
+        @property
+        def touching(self) -> tuple[str, ...]: ...
+
     def _sever(self, tissue: str, blade: Blade) -> CutReport:
         """Cut a tissue along a surface in present space."""
         from tissu.cutting.blade import surface_of
@@ -90,6 +93,11 @@ class Severing:
     def _lose(self, tissue: str, pairs: Pairs, *, by: str, ablated: bool = False) -> CutReport:
         """Go on without some links; nothing has changed where it is refused."""
         start = time.perf_counter()
+        if tissue in self.touching:
+            raise ParameterError(
+                f"'{tissue}' is not cut: its surface meets others, and follows no cut; leave it "
+                "out of the contacts"
+            )
         links, before = self._links[tissue], self._pairs(tissue)
         there = self._left(tissue)
         if not len(pairs):

@@ -75,14 +75,16 @@ class Contacts:
 
 
 class BodySurface(NamedTuple):
-    """The surface with which a body meets others.
+    """The surface with which a body or a tissue meets others.
 
     Attributes:
         rest: its vertices at rest (n, 3) [m].
         points: where they are now (n, 3) [m].
         triangles: numbers of vertices (t, 3).
-        nodes: nodes of the body (n, m) that carry each vertex; 0 beyond the last.
-        weights: of these (n, m), which sum to one for each vertex; 0 beyond the last.
+        nodes: nodes of the body (n, m) that carry each vertex; 0 beyond the last. Frames carry it
+            with their rotations, too.
+        weights: of these (n, m), which sum to one for each vertex; 0 beyond the last. Nodes of
+            other bodies that carry a vertex of a tissue are left out.
     """
 
     rest: Floats
@@ -145,6 +147,7 @@ class Touched:
     scene: Scene
     _core: core.Simulation
     _rest: dict[str, Mesh]
+    _tissue: dict[str, Mesh]
     _meshes: Meshes
 
     if TYPE_CHECKING:
@@ -181,6 +184,8 @@ class Touched:
         """
         self._require_contact()
         self._require_meeting(body)
+        if body in self.scene.tissue:
+            raise ParameterError(f"found {body!r}, a tissue; a body is accepted")
         areas = np.zeros(self._meshes[body].node_count)
         found = self._core.contact_areas(body)
         areas[: len(found)] = found
@@ -189,12 +194,12 @@ class Touched:
 
     @property
     def own_surfaces(self) -> tuple[str, ...]:
-        """Names of the bodies whose surface is a mesh of its own (`surface_of`)."""
-        own = self.scene.contact.surface_of if self.scene.contact is not None else {}
+        """Names of the bodies whose surface is a mesh of its own (`surface_of`), and of tissues."""
+        own = {*(self.scene.contact.surface_of if self.scene.contact else ()), *self.scene.tissue}
         return tuple(name for name in self.touching if name in own)
 
     def contact_surface(self, body: str) -> BodySurface:
-        """The triangles with which a body meets others, at rest and now.
+        """The triangles with which a body or a tissue meets others, at rest and now.
 
         Raises:
             ParameterError: the scene has no contacts; the body meets nothing.
@@ -203,6 +208,8 @@ class Touched:
         self._require_meeting(body)
         triangles = self._core.contact_surface(body)[0]
         numbers, begin, of_nodes, of_weights = self._core.contact_riders(body)
+        of_weights = np.where(of_nodes < 0, 0.0, of_weights)
+        of_nodes = np.maximum(of_nodes, 0)
         names, places = np.unique(triangles, return_inverse=True)
         if body in self.own_surfaces:
             names = names[::-1]  # as the mesh has them
@@ -226,6 +233,10 @@ class Touched:
             nodes=nodes,
             weights=weights,
         )
+        if body in self.scene.tissue or self.scene.bodies[body].has_rotations:
+            known, rest, now = self._core.contact_vertices(body)
+            there = np.searchsorted(known, names)
+            return found._replace(rest=rest[there], points=now[there])
         rest = np.asarray(self._meshes[body].points)
         now = np.array(self.positions[body])
         return found._replace(rest=found.carried(rest), points=found.carried(now))
@@ -247,7 +258,7 @@ class Touched:
         """The surface of an obstacle as triangles, at rest and now.
 
         Round obstacles have points on their exact surface; a plane is a square of it, a fifth
-        longer than the extent of the bodies.
+        longer than the extent of the bodies and the tissue.
 
         Raises:
             ParameterError: the scene has no contacts, or no obstacle of that name.
@@ -262,8 +273,9 @@ class Touched:
         if normal is None:
             rest, faces = round_surface(vertices, triangles, edges, points, radius)
         else:
-            bodies = np.concatenate([mesh.points for mesh in self._rest.values()])
-            rest, faces = plane_square(origin, normal, bodies)
+            meshes = [*self._rest.values(), *self._tissue.values()]
+            places = [mesh.points for mesh in meshes] or [np.array([origin])]
+            rest, faces = plane_square(origin, normal, np.concatenate(places))
         now = self._core.obstacle_places(name=name, rest=rest)
         return ObstacleSurface(rest, now, faces, normal is not None)
 

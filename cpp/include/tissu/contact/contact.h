@@ -148,12 +148,12 @@ class Contact final : public ForceModel {
   /// Calls f(part) for every row that a contact moves with, with its weight: motion = sum part.motion(p).
   template <class Function>
   void for_parts(const ContactNumbers& contact, const State& state, Function&& f) const {
-    if (surfaces_.has_riders() && rides(contact)) {
-      MergedParts merged;
-      for_each_part(contact, state, [&](const CarriedPart& part) { merged.add(part); });
-      for (const CarriedPart& part : merged.all()) f(part);
-    } else {
+    if (!surfaces_.has_riders() || !rides(contact)) {
       for_each_part(contact, state, f);
+    } else if (surfaces_.has_turning_riders()) {
+      for_merged_parts<MergedTurningParts>(contact, state, f);
+    } else {
+      for_merged_parts<MergedParts>(contact, state, f);
     }
   }
   /// r of a contact in a state.
@@ -191,6 +191,26 @@ class Contact final : public ForceModel {
     }
     return false;
   }
+  template <class Merged, class Function>
+  void for_merged_parts(const ContactNumbers& contact, const State& state, Function&& f) const {
+    Merged merged;
+    for_each_part(contact, state, [&](const CarriedPart& part) { merged.add(part); });
+    for (const CarriedPart& part : merged.all()) f(part);
+  }
+  /// Calls f(part) for every row that carries a vertex of a body, and for rotations beside them.
+  template <class Function>
+  void for_rows_of(const SurfaceVertex& vertex, double weight, const State& state, Function&& f) const {
+    for (const RiderPart& part : surfaces_.parts(vertex)) {
+      f(CarriedPart{part.row, weight * part.weight});
+    }
+    const std::span<const RiderTurn> turns = surfaces_.turns(vertex);
+    for (std::size_t i = 0; i < turns.size(); ++i) {
+      const RiderTurn& turn = turns[i];
+      if (turn.frame < 0) continue;
+      const Vec3 arm = state.rotations[static_cast<std::size_t>(turn.frame)] * turn.arm;
+      f(CarriedPart{turn.row, weight * surfaces_.parts(vertex)[i].weight, arm, true});
+    }
+  }
   template <class Function>
   void for_each_part(const ContactNumbers& contact, const State& state, Function&& f) const {
     for (std::size_t k = 0; k < 4; ++k) {
@@ -204,13 +224,12 @@ class Contact final : public ForceModel {
         f(CarriedPart{carrier.row, contact.beta[k]});
         f(CarriedPart{carrier.rotation, contact.beta[k], arm(contact, k, carrier, state), true});
       } else if (v.rider >= 0) {
-        for (const RiderPart& part : surfaces_.parts(v)) {
-          f(CarriedPart{part.row, contact.beta[k] * part.weight});
-        }
+        for_rows_of(v, contact.beta[k], state, f);
       }
     }
   }
   [[nodiscard]] Vec3 carried_place(std::int32_t vertex, const State& state) const;
+  std::int32_t carry_rider(const SurfaceVertex& vertex, const State& state, Couplings& couplings) const;
   /// From the origin of the rigid body that carries the vertex, in space [m].
   [[nodiscard]] Vec3 arm(std::int32_t vertex, const SurfaceCarrier& carrier, const State& state) const {
     return state.rotations[static_cast<std::size_t>(carrier.frame)] * surfaces_.arm(vertex);

@@ -13,8 +13,7 @@ namespace tissu {
 
 class ContactMass {
  public:
-  ContactMass(const Contact& contact, const FixedDofs& fixed, const Mass& mass)
-      : contact_(contact), fixed_(fixed), mass_(mass) {}
+  ContactMass(const Contact& contact, const FixedDofs& fixed, const Mass& mass);
 
   /// A step begins at `start`, which outlives it.
   void begin(const State& start);
@@ -34,7 +33,8 @@ class ContactMass {
   const FixedDofs& fixed_;
   const Mass& mass_;
   const State* start_ = nullptr;
-  std::vector<Mat3> inertias_;  ///< inverse, of each carrier
+  std::vector<Mat3> inertias_;            ///< inverse, of each rotation that carries vertices
+  std::vector<std::int32_t> inertia_of_;  ///< of each row: its number there; empty: no rotation
 };
 
 /// At least the largest eigenvalue.

@@ -27,9 +27,9 @@ class ContactRun {
   ContactRun(const ContactRun&) = delete;
   ContactRun& operator=(const ContactRun&) = delete;
 
-  /// A step begins at `start`, which outlives it, and ends at the time `end`; `led` holds the places of given
-  /// rows then. What is led goes there first, and pushes what is in its way.
-  void begin(const State& start, double end, ConstReals led);
+  /// A step begins at `start`, which outlives it, and ends at the time `end`; `led` has given rows and
+  /// rotations where they are then. What is led goes there first, and pushes what is in its way.
+  void begin(const State& start, double end, const State& led);
   /// How far obstacles are led in such a step, in half mean edges of the finest body.
   [[nodiscard]] double half_edges_led(const State& start, double end) const;
   /// A multiplier whose vertex has no contact any more goes to those of the vertices that it was shared with.
@@ -53,7 +53,10 @@ class ContactRun {
   /// The least share of its way that the latest `hold_back` left to anything.
   [[nodiscard]] double least_share() const { return least_share_; }
   /// Ways go on from `at`, to which the way was free, and not from the start of the step any more.
-  void go_on_from(const State& at) { gather(at, from_); }
+  void go_on_from(const State& at) {
+    gather(at, from_);
+    from_turned_ = at.rotations;
+  }
 
   /// Contacts at the places of `at`, with the multipliers of those that act.
   void look(const State& at);
@@ -95,13 +98,19 @@ class ContactRun {
   void find_pairs();
   void find_planes();
   void add(const Candidate& candidate, const Found& found, std::int32_t point);
+  [[nodiscard]] bool is_row_given(std::int32_t row) const;
+  void list_given();
+  // contact_ways.cpp
+  void measure_ways(const State& to);
   void bend(const State& to);
-  void sway();
+  void sway(const State& to);
+  void add_arcs();
+  int hold_back_rotations(State& to);
   struct HeldRow;
   template <class Function>
   void for_held_rows(Function&& f) const;
   void gather_inner_rows(const State& state, std::vector<double>& places) const;
-  [[nodiscard]] Vec3 way_turned(const SurfaceCarrier& carrier, const State& to) const;
+  [[nodiscard]] Vec3 way_turned(std::int32_t frame, const State& to) const;
   int hold_back_carriers(State& to);
   void set_offsets(ContactNumbers& c) const;
   bool find_plainly(const Candidate& candidate, double reach, Found& found) const;
@@ -112,7 +121,9 @@ class ContactRun {
   [[nodiscard]] Vec3 reach(const ContactNumbers& contact, ConstReals places) const;
 
   const Contact& contact_;
+  const FixedDofs& fixed_;
   std::vector<std::uint8_t> given_;  ///< of each mover, and of vertices that rows carry
+  std::vector<std::uint8_t> led_;    ///< the same of places alone, whatever rotations do
   std::unique_ptr<Candidates> candidates_;
   std::unique_ptr<Candidates> together_;  ///< of ways that are gone whole; null: they would be the same
   std::unique_ptr<HoldBack> held_;
@@ -124,8 +135,10 @@ class ContactRun {
   std::vector<double> now_;     ///< … and where they are looked at
   std::vector<double> bends_;   ///< of each vertex, as HoldBack takes them; empty: nothing free is rigid
   std::vector<double> sways_;   ///< of each vertex, as HoldBack takes them; empty: rows carry none
-  std::vector<double> goal_;    ///< where the latest system led them, before they were held back
-  std::vector<double> placed_;  ///< rows where ways were cut to
+  std::vector<double> leaves_;  ///< the same with arcs: how far a vertex may leave its straight way [m]
+  std::vector<Quaternion> from_turned_;  ///< rotations where ways begin
+  std::vector<double> goal_;             ///< where the latest system led them, before they were held back
+  std::vector<double> placed_;           ///< rows where ways were cut to
   const State* start_ = nullptr;
   const State* looked_at_ = nullptr;
   double end_ = 0.0;

@@ -13,12 +13,22 @@
 
 namespace tissu {
 
-/// Vertices of a body's surface that nodes carry: p = sum w x.
+/// A node of a body.
+struct BodyNode {
+  std::string body;
+  std::int32_t node = 0;
+};
+
+/// Vertices of a body's surface that nodes carry: p = sum w x, or p = sum w (x + R arm) where they are
+/// frames.
 struct SurfaceRiders {
   std::vector<std::int32_t> vertex = {};  ///< numbers as the primitives have them, ascending
   std::vector<std::int32_t> begin = {0};  ///< of each in `node` and `weight`, and the end
-  std::vector<std::int32_t> node = {};    ///< of the body
+  std::vector<std::int32_t> node = {};    ///< of the body; from its number of nodes on: of `others`
   std::vector<double> weight = {};        ///< those of a vertex sum to 1
+  /// From each node that is a frame to the vertex at rest [m], three numbers each; empty: no frame turns it.
+  std::vector<double> arm = {};
+  std::vector<BodyNode> others = {};  ///< nodes of other bodies that carry vertices too
 };
 
 /// The surface of a body or of an obstacle. It is made of triangles, of edges that belong to no triangle

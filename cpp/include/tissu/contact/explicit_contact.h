@@ -38,9 +38,9 @@ class ExplicitContact {
   [[nodiscard]] virtual ContactRates rates() const { return {}; }
   /// The frequency that the step's contacts have added, which may be more [1/s].
   [[nodiscard]] virtual double stiffest() const { return 0.0; }
-  /// A step begins at `start`, which outlives it, and ends at the time `end`; `led` holds the places of given
-  /// rows then.
-  void begin(const State& start, double end, ConstReals led);
+  /// A step begins at `start`, which outlives it, and ends at the time `end`; `led` has given rows and
+  /// rotations where they are then.
+  void begin(const State& start, double end, const State& led);
   /// Looks at the places of `at`, on ways to `goal`; null: ways were cut, and led to where they were cut
   /// from.
   void look(const State& at, const State* goal) { run_.detect(at, goal); }

@@ -48,9 +48,10 @@ class ImplicitContact {
   [[nodiscard]] ContactRun& run() { return run_; }
   [[nodiscard]] const ContactRun& run() const { return run_; }
 
-  /// A step begins at `start`, which outlives it, and ends at the time `end`; `led` holds the places of given
-  /// rows then. Forces on a body are judged by a thousandth of its `load` [N]; it may be empty.
-  void begin(const State& start, double end, ConstReals led, ConstReals load);
+  /// A step begins at `start`, which outlives it, and ends at the time `end`; `led` has given rows and
+  /// rotations where they are then. Forces on a body are judged by a thousandth of its `load` [N]; it may be
+  /// empty.
+  void begin(const State& start, double end, const State& led, ConstReals load);
   /// The diagonal blocks of the step's matrix without contact, [row][9], which outlive the step, and the
   /// scale of what is added to it: move times push.
   virtual void set_matrix(std::span<const double> blocks, double scale, const ContactStage& stage);

@@ -46,6 +46,20 @@ struct RiderPart {
   std::int32_t mover;  ///< number among the movers
 };
 
+/// Where that row belongs to a frame, whose rotation carries the vertex too: p = sum weight (x + R arm).
+struct RiderTurn {
+  std::int32_t frame = -1;  ///< number in State::rotations; -1: no rotation
+  std::int32_t row = -1;    ///< of the rotation
+  Vec3 arm = Vec3::Zero();  ///< in the axes of the frame [m]
+};
+
+/// A rotation that carries vertices.
+struct SurfaceRotation {
+  std::int32_t frame;  ///< number in State::rotations
+  std::int32_t row;
+  std::int32_t mover;  ///< of the frame's origin; -1: of a free obstacle
+};
+
 struct SurfaceVertex {
   std::int32_t row = -1;      ///< of the unknown that it is; -1: of an obstacle, or several carry it
   std::int32_t carrier = -1;  ///< of a free obstacle: number among the carriers
@@ -99,6 +113,19 @@ class SurfaceSet {
     const auto last = static_cast<std::size_t>(rider_begin_[static_cast<std::size_t>(vertex.rider) + 1]);
     return std::span(rider_part_).subspan(first, last - first);
   }
+  /// The rotations beside the rows that carry a vertex, as many as `parts`; empty where none turns any
+  /// vertex.
+  [[nodiscard]] std::span<const RiderTurn> turns(const SurfaceVertex& vertex) const {
+    if (rider_turn_.empty()) return {};
+    const auto first = static_cast<std::size_t>(rider_begin_[static_cast<std::size_t>(vertex.rider)]);
+    return std::span(rider_turn_).subspan(first, parts(vertex).size());
+  }
+  /// What rotations have of the place of a vertex: sum weight R arm.
+  [[nodiscard]] Vec3 turned(const SurfaceVertex& vertex, std::span<const Quaternion> rotations) const;
+  /// Whether rotations of frames carry any vertex of a body.
+  [[nodiscard]] bool has_turning_riders() const { return !rider_turn_.empty(); }
+  /// Rotations that carry vertices: of free obstacles, then those of frames of bodies.
+  [[nodiscard]] const std::vector<SurfaceRotation>& rotations() const { return rotations_; }
   /// A row that carries vertices and is not a vertex itself. Movers are numbered: the vertices, then these.
   struct InnerRow {
     std::int32_t row;
@@ -117,8 +144,11 @@ class SurfaceSet {
   /// Of vertices that rows carry: the same place of material that no cut parted carries both sides of a pair.
   [[nodiscard]] bool is_joined(std::span<const std::int32_t> first,
                                std::span<const std::int32_t> second) const;
-  /// Where riders are, of the places of all movers, three numbers each.
-  void place_riders(Reals places) const;
+  /// One row carries both sides of a pair of two surfaces, which are one material there.
+  [[nodiscard]] bool is_of_one_row(std::span<const std::int32_t> first,
+                                   std::span<const std::int32_t> second) const;
+  /// Where riders are, of the places of all movers, three numbers each, and the rotations of a state.
+  void place_riders(Reals places, std::span<const Quaternion> rotations) const;
 
   /// The first primitive of each surface, and the end.
   [[nodiscard]] const std::vector<std::int32_t>& first_primitive() const { return first_primitive_; }
@@ -161,6 +191,11 @@ class SurfaceSet {
   /// A vertex of the latest body that nodes carry; its place at rest.
   Vec3 ride(const SurfaceRiders& riders, std::size_t number, std::int32_t first_row, SurfaceVertex& vertex,
             ConstReals rest);
+  [[nodiscard]] std::int32_t surface_of_mover(std::int32_t mover) const;
+  // turning_riders.cpp
+  /// Notes the frames of the rows that carry riders, whose arms are there.
+  void find_frames(std::span<const Frame> frames);
+  void list_rotations();
   void list_movers(const ContactDescription& description, std::span<const std::int32_t> first_node);
 
   std::vector<Surface> surfaces_;
@@ -178,6 +213,9 @@ class SurfaceSet {
   std::vector<Vec3> arms_;  ///< of vertices from the first that is carried on
   std::int32_t first_carried_ = 0;
   std::vector<RiderPart> rider_part_;
+  std::vector<RiderTurn> rider_turn_;  ///< beside them; empty: no rotation carries any
+  std::vector<SurfaceRotation> rotations_;
+  bool has_shared_rows_ = false;  ///< a row carries vertices of two surfaces
   std::vector<std::int32_t> rider_begin_ = {0};
   std::vector<InnerRow> inner_rows_;
   std::vector<std::int32_t> root_;  ///< of each mover: rows that are copies of one node have one

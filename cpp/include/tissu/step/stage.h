@@ -98,6 +98,7 @@ class StageSolver {
   std::string_view descend_barrier(BarrierContact& barrier, State& state, std::vector<double>& v,
                                    StepReport& report);
   /// Goes a share of change_ that leads through nothing and lowers the energy from `from`; false: none.
+  bool is_cut(State& state);
   bool search_barrier(BarrierContact& barrier, double from, State& state, std::vector<double>& v);
   /// The potential at x(v) with that of contact.
   double potential(BarrierContact& barrier, State& state, ConstReals v);
@@ -153,8 +154,9 @@ class StageSolver {
   State way_end_;               ///< of a way that is tested
   std::vector<double> placed_;  ///< at an end, before ways were cut
   std::vector<Quaternion> placed_rotations_;
-  std::vector<std::int32_t> cut_;   ///< rows that were held back in the latest solve
-  std::vector<double> before_cut_;  ///< velocities without that
+  std::vector<std::int32_t> cut_;        ///< rows that were held back in the latest solve
+  std::vector<std::size_t> cut_frames_;  ///< frames whose rotations were
+  std::vector<double> before_cut_;       ///< velocities without that
   Profile* profile_ = nullptr;
   std::size_t detection_row_ = 0;  ///< of the profile; there where something touches
   std::size_t travel_row_ = 0;

@@ -20,6 +20,7 @@ Mat3 turn_of(const World& world, const State& state, std::int32_t row) {
     sum += (block(now, other) - block(now, row)) * (block(rest, other) - block(rest, row)).transpose();
   }
   const Eigen::JacobiSVD<Mat3> parts(sum, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  if (parts.info() != Eigen::Success) return Mat3::Identity();  // places that are not finite
   const Vec3& sizes = parts.singularValues();
   if (!(sizes[2] > kFlat * sizes[0])) return Mat3::Identity();
   Mat3 U = parts.matrixU();

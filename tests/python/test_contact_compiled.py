@@ -160,8 +160,9 @@ def test_lines_of_a_volume_meet_only_outside_it():
 
 def test_obstacles():
     made = described(every_contact_part())
-    table, ball, probe, brick, bone = made["obstacles"]
-    assert [one["name"] for one in made["obstacles"]] == ["table", "ball", "probe", "brick", "bone"]
+    names = ["table", "ball", "probe", "brick", "bone", "rod", "needle", "stone", "wedge", "hull"]
+    assert [one["name"] for one in made["obstacles"]] == names
+    table, ball, probe, brick, bone = made["obstacles"][:5]
     assert table["plane"]
     assert np.array_equal(table["origin"], (0, 0, -0.01))
     assert np.array_equal(table["normal"], (0, 0, 1))
@@ -214,12 +215,12 @@ def test_pairs_and_settings():
     """The body stands first; `all` is what no other contact names; bodies come before obstacles."""
     made = described(every_contact_part())
     assert [one["name"] for one in made["bodies"]] == ["liver", "gut", "skin"]
-    liver, gut, skin, table, ball, probe, brick, bone = range(8)
+    liver, gut, skin, table, ball, probe, *others_of_all = range(3 + len(made["obstacles"]))
     pairs = [pair[:2] for pair in made["pairs"]]
     assert pairs[:4] == [(liver, probe), (liver, table), (liver, ball), (skin, skin)]
     others = {(liver, liver), (liver, gut), (liver, skin), (gut, gut), (gut, skin)}
-    others |= {(liver, brick), (liver, bone)}
-    others |= {(b, o) for b in (gut, skin) for o in (table, ball, probe, brick, bone)}
+    others |= {(liver, o) for o in others_of_all}
+    others |= {(b, o) for b in (gut, skin) for o in (table, ball, probe, *others_of_all)}
     assert set(pairs[4:]) == others
     assert len(pairs) == 4 + len(others)
     assert made["pairs"][0][2:6] == (0.2, 0.0005, None, None)

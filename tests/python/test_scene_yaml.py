@@ -259,8 +259,13 @@ def test_types_may_be_spelt_with_hyphens():
     assert ts.Scene.from_yaml_text(hyphens) == other_laws()[0]
 
 
+def every_editing_part() -> ts.Scene:
+    repair = ts.Repair(below=0.2, most=9, jump="1 %")
+    return methods()[0].replace(editing=ts.Editing(method="subdivide", repair=repair))
+
+
 def test_every_law_model_and_method_comes_back():
-    own = [every_contact_part(), every_trocar_part()]
+    own = [every_contact_part(), every_trocar_part(), every_editing_part()]
     for scene in [*other_laws(), *models(), *methods(), *sections(), *own]:
         assert ts.Scene.from_yaml_text(scene.to_yaml()) == scene
 
@@ -271,7 +276,7 @@ def test_every_part_is_in_the_round_trip():
 
     text = repr(everything()) + repr(organ("a")) + repr(ConjugateGradient()) + repr(other_laws())
     text += repr(models()) + repr(viscosities()) + repr(methods()) + repr(sections())
-    text += repr(every_contact_part()) + repr(every_trocar_part())
+    text += repr(every_contact_part()) + repr(every_trocar_part()) + repr(every_editing_part())
     missing = [name for name in tissu.scene.__all__ if f"{name}(" not in text]
     assert missing == ["UserLaw"]
 

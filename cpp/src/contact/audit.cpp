@@ -150,6 +150,7 @@ bool any_crosses(const Contact& contact, const State& state, std::span<const std
   };
   const Audit audit(contact, places);
   std::vector<Box> boxes;
+  boxes.reserve(looked_for.size());
   for (const std::int32_t p : looked_for) boxes.push_back(box_of(surfaces.primitives()[at(p)], places));
   for (std::int32_t q = 0; q < static_cast<std::int32_t>(surfaces.primitives().size()) && found.empty();
        ++q) {

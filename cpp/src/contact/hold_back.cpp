@@ -178,17 +178,19 @@ bool HoldBack::is_free(const Candidates& candidates, std::span<const PlacedPlane
          std::ranges::all_of(candidates.near(), is_pair_free);
 }
 
+/// At a share s of its way, a vertex on an arc is off the chord by |arm| theta^2 s (1 - s) / 2 at most, which
+/// is below an eighth of |arm| theta^2, and below half of it times s. Other pairs may cut the way at any s.
 FreeWay HoldBack::free_way_to_plane(const PlaneCandidate& c, const PlacedPlane& plane, ConstReals from,
                                     ConstReals to, ConstReals bends, ConstReals sways) const {
   const double start = plane.normal.dot(block(from, c.vertex) - plane.point);
-  const double bend = bends.empty() ? 0.0 : 0.125 * bends[at(c.vertex)];
-  const double end = plane.normal.dot(block(to, c.vertex) - plane.point) - bend;
+  const double end = plane.normal.dot(block(to, c.vertex) - plane.point);
+  const double bend = bends.empty() ? 0.0 : bends[at(c.vertex)];
   const double least = start < kNearest * c.apart ? start : HoldBack::least(c.apart, start);
   const double sway = sways.empty() ? 0.0 : sways[at(c.vertex)];
-  if (given_[at(c.vertex)] != 0 || std::min(start, end) - sway >= least) return {1.0, true};
-  const bool stops = end < least && end < start;
-  if (!stops) return {1.0, sway == 0.0};
-  return {std::max(0.0, kKept * (start - least) / (start - end)), false};
+  if (given_[at(c.vertex)] != 0 || std::min(start, end) - 0.125 * bend - sway >= least) return {1.0, true};
+  const double falls = start - end + 0.5 * bend;
+  if (falls <= 0.0 || start - falls >= least) return {1.0, sway == 0.0};
+  return {std::max(0.0, kKept * (start - least) / falls), false};
 }
 
 }  // namespace tissu

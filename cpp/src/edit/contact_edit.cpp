@@ -37,10 +37,10 @@ bool ContactEdit::refuses() const { return world_.contact()->description().trave
 std::unique_ptr<Contact> ContactEdit::with(SurfaceDescription surface, ContactDescription description,
                                            ConstReals rest) const {
   std::vector<std::int32_t> first;
-  for (SurfaceDescription& one : description.bodies) {
+  for (const SurfaceDescription& one : description.bodies) {
     first.push_back(world_.body(one.name).first_node);
-    if (one.name == body_) one = std::move(surface);
   }
+  *std::ranges::find(description.bodies, body_, &SurfaceDescription::name) = std::move(surface);
   return world_.contact()->with_surfaces(std::move(description), first, rest, world_.frames());
 }
 

@@ -16,18 +16,18 @@ std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 }  // namespace
 
 void WorldEdit::list_bound(std::size_t number) {
-  const BodyDescription& body = world_.description_->bodies[number];
+  const BodyDescription& body = world_.description()->bodies[number];
   EditedBody& edited = bodies_[number];
   edited.bound.assign(body.positions.size() / 3, 0);
   edited.held_at_first = edited.bound;
-  for (const FixedNodes& fixed : world_.description_->fixed) {
+  for (const FixedNodes& fixed : world_.description()->fixed) {
     if (fixed.body != body.name) continue;
     for (const std::int32_t node : fixed.nodes) edited.bound[at(node)] = 1;
     if (!fixed.positions.empty()) continue;
     const std::vector<std::int32_t>& first = fixed.first_day.empty() ? fixed.nodes : fixed.first_day;
     for (const std::int32_t node : first) edited.held_at_first[at(node)] = 1;
   }
-  for (const LoadDescription& load : world_.description_->loads) {
+  for (const LoadDescription& load : world_.description()->loads) {
     if (load.body != body.name) continue;
     for (const std::int32_t node : load.nodes) edited.bound[at(node)] = 1;
   }
@@ -48,7 +48,7 @@ bool WorldEdit::parts_bound(std::string_view body, const BodyChange& change) con
   };
   if (std::ranges::any_of(change.points, between_held)) return true;
   // The copies of a loaded node share its load as they share its mass.
-  const BodyDescription& described = world_.description_->bodies[number];
+  const BodyDescription& described = world_.description()->bodies[number];
   const auto first_day = described.positions.size() / 3 - described.copies_of.size();
   const auto is_parted = [&](std::int32_t node) {
     return at(node) >= first_day || std::ranges::find(described.copies_of, node) != described.copies_of.end();
@@ -57,13 +57,13 @@ bool WorldEdit::parts_bound(std::string_view body, const BodyChange& change) con
     return true;
   }
   std::vector<std::int32_t> emptied;
-  std::ranges::set_difference(change.bare, world_.description_->bodies[number].bare,
+  std::ranges::set_difference(change.bare, world_.description()->bodies[number].bare,
                               std::back_inserter(emptied));
   return std::ranges::any_of(emptied, bound);
 }
 
 bool WorldEdit::may_part_bound(std::string_view name, const BodyChange& change, const State& state) const {
-  const WorldDescription& all = *world_.description_;
+  const WorldDescription& all = *world_.description();
   const auto leaves = [&](std::int32_t node) {
     return std::ranges::binary_search(change.loose, node) || std::ranges::binary_search(change.bare, node);
   };
@@ -78,7 +78,7 @@ bool WorldEdit::may_part_bound(std::string_view name, const BodyChange& change, 
 
 /// They begin where the description has their nodes, as in a world that is built from it.
 void WorldEdit::renew_supports() {
-  const WorldDescription& description = *world_.description_;
+  const WorldDescription& description = *world_.description();
   std::vector<double>& rest = world_.rest_.positions;
   if (!described_.empty()) rest.swap(described_);
   WorldBuilder(world_, description, nullptr, false).renew_supports();
@@ -91,7 +91,7 @@ void WorldEdit::renew_supports() {
 /// The world has its loads in the order of the description.
 void WorldEdit::renew_loads(std::string_view name) {
   const Body& body = world_.body(name);
-  const auto& all = world_.description_->loads;
+  const auto& all = world_.description()->loads;
   auto described = all.begin();
   for (const auto& force : world_.forces_) {
     auto* load = dynamic_cast<NodalLoad*>(force.get());
@@ -106,7 +106,7 @@ void WorldEdit::renew_loads(std::string_view name) {
 /// The world has its pressures in the order of the description.
 void WorldEdit::renew_pressures(std::string_view name) {
   const Body& body = world_.body(name);
-  const auto& all = world_.description_->pressures;
+  const auto& all = world_.description()->pressures;
   auto described = all.begin();
   for (const auto& force : world_.forces_) {
     auto* pressure = dynamic_cast<Pressure*>(force.get());

@@ -74,6 +74,7 @@ void KerfTable::begin(const Hosts& hosts, const Material& material, const CutPla
 
 void KerfTable::end(const Hosts& hosts, const Material& material, const CutPlan& plan) {
   std::vector<std::int32_t> touched;
+  touched.reserve(plan.born.size() + plan.changed.size() + plan.material.cells.size());
   for (const BornCell& cell : plan.born) touched.push_back(cell.number);
   for (const ChangedCell& cell : plan.changed) touched.push_back(cell.number);
   for (const auto& [cell, list] : plan.material.cells) touched.push_back(cell);

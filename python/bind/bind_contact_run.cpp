@@ -95,8 +95,7 @@ py::list surface_names(const Simulation& simulation) {
 }
 
 py::tuple force_on(const Simulation& simulation, const std::string& name) {
-  const Contact& contact = contact_of(simulation);
-  const Contact::Wrench wrench = contact.force_on(surface_named(contact, name), simulation.state());
+  const Contact::Wrench wrench = simulation.contact_force_on(surface_named(contact_of(simulation), name));
   return py::make_tuple(py::array_t<double>(3, wrench.force.data()),
                         py::array_t<double>(3, wrench.moment.data()));
 }

@@ -298,6 +298,29 @@ def test_pressure_at_nodes_sums_to_the_force():
     assert pressure @ areas == pytest.approx(expected, rel=2e-2)
 
 
+@pytest.mark.parametrize("method", ["virtual", "subdivide"])
+def test_the_force_of_a_step_is_there_after_a_cut(method):
+    """A cut under a probe drops contacts of the faces that it touches, not the force of the step."""
+    down = ts.Motion(times=(0, 0.1), displacements=((0, 0, 0), (0, 0, -0.008)))
+    probe = ts.SphereObstacle((0.045, 0.045, SIDE + 0.0204), 0.02, motion=down)
+    simulation = scene(
+        obstacles={"probe": probe},
+        contacts=[ts.Contact(("block", "probe"), friction=0.3)],
+        editing=ts.Editing(method=method, room="900 %"),
+    ).compile()
+    for _ in range(60):
+        simulation.step()
+    before, count = simulation.force_on("probe"), len(simulation.contacts())
+    assert before.force[2] > 0.1
+    simulation.cut("block", ts.Plane((0.046, 0, 0), (1, 0, 0.1)))
+    assert len(simulation.contacts()) < count
+    for name, force in (("probe", before.force), ("block", -before.force)):
+        assert np.array_equal(simulation.force_on(name).force, force), name
+    assert np.array_equal(simulation.obstacle("probe").force, before.force)
+    assert simulation.step().converged
+    assert not np.array_equal(simulation.force_on("probe").force, before.force)
+
+
 def test_cells_of_second_order_are_refused():
     simulation = scene("hexahedron27").compile()
     with pytest.raises(ts.ParameterError, match="in contact with cells of type hexahedron27"):

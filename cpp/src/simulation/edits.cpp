@@ -94,6 +94,7 @@ Simulation::Edited Simulation::make(std::string_view body, CutPlan plan) {
   Edited edited;
   edited.plan = std::move(plan);
   if (!changes(edited.plan)) return edited;
+  keep_contact_forces();
   if (editor_ != nullptr) {
     if (const auto made = editor_->cut(body, edited.plan, state_)) {
       follow(*made);
@@ -138,6 +139,7 @@ Simulation::Repaired Simulation::repair(std::string_view body, const RepairOptio
     return repaired;
   }
   repaired.plan = std::move(found.plan);
+  keep_contact_forces();
   go_on_with(*std::move(made), body, repaired);
   repaired.least_quality = least_quality(*world_, body, repaired.plan);
   return repaired;
@@ -147,6 +149,19 @@ std::vector<Piece> Simulation::pieces(std::string_view body) const {
   if (editor_ != nullptr) return editor_->pieces(body);
   const auto cut = cut_state(*world_, body);
   return tissu::pieces(cut->hosts, cut->material);
+}
+
+void Simulation::keep_contact_forces() {
+  if (world_->contact() == nullptr || !contact_forces_.empty()) return;
+  const auto count = static_cast<std::int32_t>(world_->contact()->surfaces().surfaces().size());
+  for (std::int32_t surface = 0; surface < count; ++surface) {
+    contact_forces_.push_back(world_->contact()->force_on(surface, state_));
+  }
+}
+
+Contact::Wrench Simulation::contact_force_on(std::int32_t surface) const {
+  if (!contact_forces_.empty()) return contact_forces_[static_cast<std::size_t>(surface)];
+  return world_->contact()->force_on(surface, state_);
 }
 
 void Simulation::remove_cells(std::string_view body, std::span<const std::int32_t> cells) {
@@ -203,6 +218,7 @@ void Simulation::rewind(const Mark& mark) {
     throw ParameterError("the mark has other unknowns than the simulation; rewind the one that made it.");
   }
   if (!is_at(mark)) return_to_world(mark);
+  contact_forces_.clear();
   ++edits_;
   integrator_->prepare(*world_, solver_.get(), profile_);
   integrator_->restore(mark.integrator);

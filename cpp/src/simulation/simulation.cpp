@@ -116,6 +116,7 @@ StepReport Simulation::step(double h) {
   }
   const auto start = std::chrono::steady_clock::now();
   profile_.begin_step();
+  contact_forces_.clear();
   hold();
   last_good_ = state_;
   StepReport report;

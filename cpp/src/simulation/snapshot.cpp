@@ -45,6 +45,7 @@ void Simulation::restore(const Snapshot& snapshot) {
   const World& world = left == nullptr ? *world_ : *left;
   check_memory(world, snapshot.state);
   if (left != nullptr) replace_world(std::move(left));
+  contact_forces_.clear();
   state_ = snapshot.state;
   last_good_ = snapshot.state;
   last_good_.time = snapshot.time_before;

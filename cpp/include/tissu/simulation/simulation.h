@@ -95,6 +95,10 @@ class Simulation {
   /// The connected parts of the material of a body of a world that can be edited.
   [[nodiscard]] std::vector<Piece> pieces(std::string_view body) const;
 
+  /// Of all contacts on a body or an obstacle in the latest step. A cut after it may drop contacts, but not the
+  /// force that they had. The world has contacts.
+  [[nodiscard]] Contact::Wrench contact_force_on(std::int32_t surface) const;
+
   /// Goes on with another world of the same unknowns: made by an editor from this one, or of the same scene
   /// with other numbers in it. What models remember goes along, as far as the new ones have it too; rows of
   /// nodes that an edit made take over everything of those that they copy.
@@ -124,6 +128,8 @@ class Simulation {
   StepReport step_in_parts(double h, int halvings);
   Edited make(std::string_view body, CutPlan plan);
   void go_on_with(CutWorld made, std::string_view body, Edited& edited);
+  /// Before a cut.
+  void keep_contact_forces();
   void follow(const WorldEditor::Made& made);
   void take_over(std::span<const RowCopy> copies, std::span<const RowBlend> blends = {});
   /// Whether the world is still the one of a mark.
@@ -160,6 +166,7 @@ class Simulation {
   State last_good_;
   Scratch scratch_;
   std::vector<double> held_;  ///< velocities of held rows, as the scene and the latest step left them
+  std::vector<Contact::Wrench> contact_forces_;  ///< of each surface in the latest step, if a cut followed it
   std::vector<PartStart> part_starts_;  ///< of each halving that there was, where something touches
   bool settled_ = true;
   std::optional<EnergyWatch>

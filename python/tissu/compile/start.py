@@ -21,6 +21,10 @@ def begin(simulation: Simulation, prepared: Prepared) -> None:
         places, velocities = body.start.state(simulation.positions[name])
         simulation.positions[name][free] = places[free]
         simulation.velocities[name][free] = velocities[free]
+        if body.start.spin is not None and body.has_rotations:
+            turning = free.all(axis=1)
+            spins = simulation._core.velocities[simulation.rows(name, rotations=True)]
+            spins[turning] = np.array(body.start.spin)
 
 
 def _free(prepared: Prepared, name: str, shape: tuple[int, ...]) -> NDArray[np.bool_]:

@@ -300,7 +300,7 @@ def test_pressure_at_nodes_sums_to_the_force():
 
 @pytest.mark.parametrize("method", ["virtual", "subdivide"])
 def test_the_force_of_a_step_is_there_after_a_cut(method):
-    """A cut under a probe drops contacts of the faces that it touches, not the force of the step."""
+    """A cut under a probe drops contacts of faces that it touches, not the force of the step."""
     down = ts.Motion(times=(0, 0.1), displacements=((0, 0, 0), (0, 0, -0.008)))
     probe = ts.SphereObstacle((0.045, 0.045, SIDE + 0.0204), 0.02, motion=down)
     simulation = scene(

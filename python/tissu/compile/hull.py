@@ -34,12 +34,14 @@ def hull_of(name: str, obstacle: ConvexObstacle, findings: Findings) -> ContactS
     except TissuError as error:
         findings.problem(place, str(error))
         return None
-    spread = np.linalg.svd(points - points.mean(axis=0), compute_uv=False)
+    around = points - points.mean(axis=0)
+    scaled = around / (np.abs(around).max() or 1.0)
+    spread = np.linalg.svd(scaled, compute_uv=False)
     if len(points) < 4 or not spread[2] > _FLAT * spread[0]:
         text = f"found {len(points)} points that enclose no volume; four or more that do not lie "
         findings.problem(place, f"{text}in one plane are accepted")
         return None
-    hull = ConvexHull(points)
+    hull = ConvexHull(scaled)
     used, numbers = np.unique(hull.simplices, return_inverse=True)
     vertices, triangles = points[used], numbers.reshape(-1, 3).astype(np.int32)
     corners = vertices[triangles]

@@ -29,9 +29,7 @@ class _Faceted(Obstacle):
     @rule("mass")
     def _does_not_roll(self) -> Iterator[Problem]:
         if self.mass is not None:
-            text = (
-                f"found {self.mass:g} kg for a {self.type}, whose surface is made of triangles, on "
-            )
+            text = f"found {self.mass:g} kg for the {self.type}, whose surface has triangles, on "
             text += (
                 "whose edges it would roll with a loss; a capsule, a sphere or convex is accepted"
             )

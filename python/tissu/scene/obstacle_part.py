@@ -70,7 +70,9 @@ class Obstacle(Part):
         """What an obstacle of this name switches on."""
         led = "" if self.motion is None else f", {self.motion.words()}"
         led += "" if self.mass is None else f", free, mass {self.mass:g} kg"
-        return Effect(f"obstacle {name}", f"obstacles.{name} is a {self.words()}{led}")
+        words = self.words()
+        article = "an" if words[0] in "aeiou" else "a"
+        return Effect(f"obstacle {name}", f"obstacles.{name} is {article} {words}{led}")
 
     def words(self) -> str:
         """Its shape and numbers, as `check` says them."""

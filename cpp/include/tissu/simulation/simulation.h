@@ -95,8 +95,8 @@ class Simulation {
   /// The connected parts of the material of a body of a world that can be edited.
   [[nodiscard]] std::vector<Piece> pieces(std::string_view body) const;
 
-  /// Of all contacts on a body or an obstacle in the latest step. A cut after it may drop contacts, but not the
-  /// force that they had. The world has contacts.
+  /// Of all contacts on a body or an obstacle in the latest step. A cut after it may drop contacts, but not
+  /// the force that they had. The world has contacts.
   [[nodiscard]] Contact::Wrench contact_force_on(std::int32_t surface) const;
 
   /// Goes on with another world of the same unknowns: made by an editor from this one, or of the same scene
@@ -167,7 +167,7 @@ class Simulation {
   Scratch scratch_;
   std::vector<double> held_;  ///< velocities of held rows, as the scene and the latest step left them
   std::vector<Contact::Wrench> contact_forces_;  ///< of each surface in the latest step, if a cut followed it
-  std::vector<PartStart> part_starts_;  ///< of each halving that there was, where something touches
+  std::vector<PartStart> part_starts_;           ///< of each halving that there was, where something touches
   bool settled_ = true;
   std::optional<EnergyWatch>
       watch_;  ///< of undamped methods and where surfaces meet, if nothing can add energy

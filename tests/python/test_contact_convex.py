@@ -246,7 +246,7 @@ def test_scenes_are_written_and_read():
 
 
 REFUSED = {
-    "rolls": (lambda: ts.CylinderObstacle(ENDS, 0.01, mass=1.0), "made of triangles"),
+    "rolls": (lambda: ts.CylinderObstacle(ENDS, 0.01, mass=1.0), "surface has triangles"),
     "flat": (
         lambda: ts.ConvexObstacle(points=[(0, 0, 0), (1, 0, 0), (0, 1, 0), (1, 1, 0)]),
         "found 4 points that enclose no volume",

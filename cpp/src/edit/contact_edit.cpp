@@ -37,6 +37,7 @@ bool ContactEdit::refuses() const { return world_.contact()->description().trave
 std::unique_ptr<Contact> ContactEdit::with(SurfaceDescription surface, ContactDescription description,
                                            ConstReals rest) const {
   std::vector<std::int32_t> first;
+  first.reserve(description.bodies.size());
   for (const SurfaceDescription& one : description.bodies) {
     first.push_back(world_.body(one.name).first_node);
   }

@@ -49,7 +49,7 @@ def bar(side: int, scene: str = "copies") -> ts.Simulation:
         fixed=[ts.Fixed("bar", on=ts.Plane((0, 0, 0), (1, 0, 0)))],
         gravity=(0, 0, -9.81),
         step=ts.ImplicitEuler("10 ms"),
-        editing=ts.Editing(method="subdivide") if scene == "divided" else True,
+        editing=ts.Editing(method="subdivide", room="100 %") if scene == "divided" else True,
         **(touching if scene == "in contact" else {}),
     ).compile()
 

@@ -49,7 +49,7 @@ def bar(side: int, scene: str = "copies") -> ts.Simulation:
         fixed=[ts.Fixed("bar", on=ts.Plane((0, 0, 0), (1, 0, 0)))],
         gravity=(0, 0, -9.81),
         step=ts.ImplicitEuler("10 ms"),
-        editing=ts.Editing(method="subdivide", room="100 %") if scene == "divided" else True,
+        editing=ts.Editing(method="subdivide", room="400 %") if scene == "divided" else True,
         **(touching if scene == "in contact" else {}),
     ).compile()
 
@@ -83,7 +83,10 @@ def cuts_in_a_row(side: int, scene: str) -> list[float]:
     """Of all discs in one body, a step after each, without the first one [ms]."""
     simulation, found = bar(side, scene), []
     for disc in discs(side):
-        found.append(simulation.cut("bar", disc).milliseconds)
+        try:
+            found.append(simulation.cut("bar", disc).milliseconds)
+        except ts.ParameterError:  # through walls of an earlier cut that press on each other
+            continue
         simulation.step()
     return found[1:]
 

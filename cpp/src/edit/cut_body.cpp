@@ -30,8 +30,8 @@ BodyEdit edit_of(const BodyDescription& body, const CutState& before, const CutP
   return edit;
 }
 
-/// How often bodies cross in contact after an edit, of the triangles that changed; 0 where that is no more
-/// often than before.
+/// Number of crossings of bodies in contact after an edit that changed these triangles; 0 if there are no
+/// more than before.
 std::size_t new_crossings(const Contact& before, const Contact& cut, const State& state, const RowsBorn& born,
                           std::span<const std::uint8_t> changed) {
   State after = state;

@@ -1,4 +1,4 @@
-"""Cuts that move nodes: what the core is told of them."""
+"""Options of the core for cuts that move nodes."""
 
 from __future__ import annotations
 

@@ -66,6 +66,7 @@ void ImpulseContact::take_back(double pushed, Reals way, Reals end) {
   given_ = false;
   for (Blow& blow : blows_) {
     const Vec3 n = vector_of(blow.contact.normal);
+    blow.way = blow.end = {};
     begin_blow(blow, pushed);
     mass_.give(blow.contact, -blow.way.sum(n), way);
     mass_.give(blow.contact, -blow.end.sum(n), end);

@@ -26,6 +26,24 @@ def test_a_ball_stays_in_its_hollow_and_never_gains_energy() -> None:
     assert not simulation.displacements("hollow").any()
 
 
+@pytest.mark.parametrize("dt", ["10 ms", "1 ms"])
+def test_a_ball_ten_times_faster_than_its_sound_is_stopped(dt: str) -> None:
+    """In one step it would go by fifty of its cells: impacts are divided until nodes go by one.
+
+    It is crushed, cells turn inside out, and steps do not converge. It loses energy and goes nowhere.
+    """
+    scene = case("hollow", CONTACT)
+    ball = scene.bodies["ball"].replace(law=ts.StableNeoHooke(young="100 kPa", poisson=0.4))
+    scene = scene.replace(
+        bodies={**scene.bodies, "ball": ball}, step=ts.ImplicitEuler(dt), duration="40 ms"
+    )
+    result = run(scene)
+    assert result.reports[0].substeps > 1
+    assert result.energies[-1] < 0.1 * result.energies[0]
+    assert max(result.energies) <= 1.001 * result.energies[0]
+    assert np.linalg.norm(result.simulation.positions["ball"], axis=1).max() < 0.1
+
+
 @METHODS
 def test_livers_keep_their_momentum_when_they_meet(method: str) -> None:
     """To round-off: no node is held or led, and the solves are exact."""

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "tissu/base/error.h"
@@ -13,8 +14,9 @@
 namespace tissu {
 namespace {
 
-constexpr int kHalvings = 3;      ///< at most: eight parts, …
-constexpr int kMostHalvings = 6;  ///< … and sixty-four of a step that diverges
+constexpr int kHalvings = 3;       ///< at most: eight parts, …
+constexpr int kMostHalvings = 10;  ///< … and 1,024 of a step that diverges, gains energy or goes far
+constexpr double kFar = 1.0;       ///< mean edges that nodes go beside each other
 
 /// The report of two parts of a step, one after the other.
 StepReport sum(const StepReport& first, const StepReport& then) {
@@ -48,10 +50,44 @@ void say_held_back(StepReport& report) {
       "of the step; take a smaller dt";
 }
 
+/// How much farther some nodes of bodies in contact went than others, over the shortest mean edge of their
+/// surfaces: what all of them go together does not count.
+double edges_gone(const World& world, const State& from, const State& to) {
+  const SurfaceSet& surfaces = world.contact()->surfaces();
+  Vec3 least = Vec3::Constant(std::numeric_limits<double>::infinity());
+  Vec3 most = -least;
+  double edge = std::numeric_limits<double>::infinity();
+  const auto count = [&](const Body& body) {
+    for (std::int32_t row = body.first_node; row < body.first_node + body.node_count; ++row) {
+      const Vec3 way = block(ConstReals(to.positions), row) - block(ConstReals(from.positions), row);
+      least = least.cwiseMin(way);
+      most = most.cwiseMax(way);
+    }
+  };
+  for (std::size_t i = 0; i < surfaces.surfaces().size(); ++i) {
+    const SurfaceSet::Surface& surface = surfaces.surfaces()[i];
+    const double mean = surfaces.mean_edge(static_cast<std::int32_t>(i));
+    if (surface.obstacle >= 0 || !(mean > 0.0)) continue;
+    edge = std::min(edge, mean);
+    const auto body = std::ranges::find(world.bodies(), surface.first_row, &Body::first_node);
+    if (body != world.bodies().end()) count(*body);
+  }
+  return std::max(0.0, (most - least).maxCoeff()) / edge;
+}
+
 }  // namespace
 
+/// Whether a part of 2^-halvings of a step gave more energy than contacts may give in it.
+bool Simulation::gains_energy(const State& start, int halvings) {
+  if (!watch_ || is_led_live()) return false;
+  const double gain =
+      energy_of(*world_, state_, scratch_).total() - energy_of(*world_, start, scratch_).total();
+  return watch_->growth_by(gain, std::ldexp(1.0, -halvings)) > EnergyWatch::kReported;
+}
+
 /// Where a step has to hold nodes back, or leaves more residual than it found, it was too long: shorter ones
-/// see contacts come.
+/// see contacts come. Eight parts have to do, except for impacts in which nodes would go by cells in one
+/// part: a single linearisation there crushes cells and throws them out again.
 StepReport Simulation::step_in_parts(double h, int halvings) {
   const auto level = static_cast<std::size_t>(halvings);
   if (part_starts_.size() <= level) part_starts_.resize(level + 1);
@@ -80,7 +116,10 @@ StepReport Simulation::step_in_parts(double h, int halvings) {
     return *report;
   };
   if (good) return end();
-  if (finite && halvings >= kHalvings) {
+  const auto tame = [&] {
+    return edges_gone(*world_, start.state, state_) <= kFar && !gains_energy(start.state, halvings);
+  };
+  if (finite && halvings >= kHalvings && (last || tame())) {
     if (report->held_back > 0) say_held_back(*report);
     return end();
   }

@@ -41,6 +41,13 @@ class EnergyWatch {
     return whole > 0.0 ? (gained_ - allowed_) / whole : 0.0;
   }
 
+  /// The same of a gain in a share of the step, in which contacts come out of their gap faster.
+  [[nodiscard]] double growth_by(double gain, double share) const {
+    const double allowed = allowed_ / (share * share);
+    const double whole = std::max(largest_, allowed);
+    return whole > 0.0 ? (gain - allowed) / whole : 0.0;
+  }
+
   /// Four numbers with which another watch goes on from `state`: the three sums, and whether the latest step
   /// ended there …
   [[nodiscard]] std::vector<double> reference(const State& state) const;

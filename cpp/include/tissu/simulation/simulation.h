@@ -124,6 +124,7 @@ class Simulation {
   void forget_solves();
 
  private:
+  bool gains_energy(const State& start, int halvings);
   /// A step of a world with contact: in halves of halves where surfaces would have to be held back.
   StepReport step_in_parts(double h, int halvings);
   Edited make(std::string_view body, CutPlan plan);

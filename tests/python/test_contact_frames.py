@@ -307,6 +307,29 @@ def test_the_picture_and_the_series_have_the_turned_surface(tmp_path):
     assert shape_of(simulation, "displacement").now == pytest.approx(wanted)
 
 
+def test_the_live_view_has_the_turned_surface():
+    """A frame whose place is held turns about itself: places alone would show no motion."""
+    from tissu.live_view.surface import gone_of, places_of, seen_of
+
+    body = block(cells=(1, 1, 1), young=10.0, model=WHOLE)
+    simulation = on_a_table(
+        bodies={"block": body},
+        obstacles={"table": ts.PlaneObstacle((0, 0, -1), (0, 0, 1))},
+        contact=ts.ContactSettings(surface_of={"block": bar((3, 3, 3))}),
+        fixed=[ts.Fixed("block", on=ts.Box(), rotations="free")],
+        gravity=None,
+    ).compile()
+    rows = rows_of(simulation._core)
+    rows.v[rows.turning[0]] = (0, 0, 60.0)
+    simulation.step()
+    surface, seen = simulation.contact_surface("block"), seen_of(simulation, "block")
+    gone = np.linalg.norm(surface.points - surface.rest, axis=1)
+    assert gone.max() > 1e-3
+    assert seen.at(simulation.positions["block"]) == pytest.approx(surface.rest)
+    assert places_of(simulation, "block", seen) == pytest.approx(surface.points)
+    assert gone_of(simulation, "block", seen) == pytest.approx(gone)
+
+
 def test_without_a_surface_of_its_own_the_frames_themselves_meet():
     """The boundary of the cells between the frames: 9 nodes bear the weight."""
     simulation = on_a_table(contact=ts.ContactSettings()).compile()

@@ -1,4 +1,4 @@
-"""With springs in explicit steps, reported forces are the rate of change of the bodies' momentum."""
+"""With springs in explicit steps, reported forces are the rate of change of momentum."""
 
 import numpy as np
 import pytest
@@ -35,7 +35,7 @@ def hit_at_random(seed):
 
 @pytest.mark.parametrize("seed", [0, 3])
 def test_reported_forces_change_the_momentum(seed):
-    """To 1e-9 of the largest: round-off of velocities of 1 m/s over steps of 20 us, beside forces of 100 N."""
+    """To 1e-9 of the largest: round-off of 1 m/s over steps of 20 us, beside forces of 100 N."""
     simulation = hit_at_random(seed)
     lumped = masses(simulation, "block")
 

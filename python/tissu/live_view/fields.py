@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tissu.errors import ParameterError
+from tissu.live_view.surface import gone_of
 from tissu.picture.layout import length_unit, pressure_unit
 from tissu.scene.selection import region_cells
 
@@ -38,8 +39,7 @@ class Field:
 
 def displacement(simulation: Simulation, body: str, seen: Seen) -> Floats:
     """How far nodes are from where they are at rest (k,) [m]."""
-    rest = {**simulation.meshes, **simulation.tissue}[body].points
-    return np.asarray(np.linalg.norm(seen.at(simulation.positions[body] - rest), axis=1))
+    return gone_of(simulation, body, seen)
 
 
 def contact_pressure(simulation: Simulation, body: str, seen: Seen) -> Floats:

@@ -14,7 +14,7 @@ from tissu.live_view.body_drawing import normals
 from tissu.live_view.colours import BODIES
 from tissu.live_view.film_rigid import Look, RigidFilm, instruments, obstacles
 from tissu.live_view.gltf import Gltf
-from tissu.live_view.surface import Seen, seen_of
+from tissu.live_view.surface import Seen, places_of, seen_of
 
 if TYPE_CHECKING:
     from tissu.live_view.stage import Stage
@@ -106,7 +106,7 @@ class Film:
                 shots = self._shots.setdefault((lane, name), [])
                 if not shots or shots[-1].seen is not now:
                     shots.append(Shot(now))
-                places = now.at(simulation.positions[name]).astype(np.float32)
+                places = places_of(simulation, name, now).astype(np.float32)
                 shots[-1].places[self._next] = places
         self._rigid.keep(self._next, simulations)
         self._next += 1

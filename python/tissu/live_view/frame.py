@@ -14,7 +14,7 @@ from tissu.errors import ParameterError
 from tissu.live_view.fields import FIELDS
 from tissu.live_view.layers import LAYERS
 from tissu.live_view.ration import Ration
-from tissu.live_view.surface import Seen, seen_of
+from tissu.live_view.surface import Seen, places_of, seen_of
 
 if TYPE_CHECKING:
     from tissu.live_view.gizmo import Gizmo
@@ -142,7 +142,7 @@ class FrameTaker:
             bodies={
                 (lane, name): BodyFrame(
                     of_body,
-                    of_body.at(simulation.positions[name]).astype(np.float32),
+                    places_of(simulation, name, of_body).astype(np.float32),
                     self._values.get((lane, name), (of_body, None))[1],
                 )
                 for (lane, name), (simulation, of_body) in found.items()

@@ -103,6 +103,30 @@ def seen_of(simulation: Simulation, body: str) -> Seen:
     return known[1]
 
 
+def places_of(simulation: Simulation, body: str, seen: Seen) -> Floats:
+    """Where the points (k, 3) are that are seen of a body [m].
+
+    Points that frames carry turn with these, so that weights of positions alone do not give them.
+    """
+    if _turns(simulation, body):
+        return np.asarray(simulation.contact_surface(body).points)
+    return seen.at(simulation.positions[body])
+
+
+def gone_of(simulation: Simulation, body: str, seen: Seen) -> Floats:
+    """How far the points (k,) that are seen of a body are from where they are at rest [m]."""
+    if _turns(simulation, body):
+        surface = simulation.contact_surface(body)
+        return np.asarray(np.linalg.norm(surface.points - surface.rest, axis=1))
+    rest = {**simulation.meshes, **simulation.tissue}[body].points
+    return np.asarray(np.linalg.norm(seen.at(simulation.positions[body] - rest), axis=1))
+
+
+def _turns(simulation: Simulation, body: str) -> bool:
+    bodies = simulation.scene.bodies
+    return body in simulation.own_surfaces and body in bodies and bodies[body].has_rotations
+
+
 def _seen_of_own(simulation: Simulation, body: str) -> Seen:
     """The mesh with which a body meets others; a triangle has the fields of the nearest cell."""
     from scipy.spatial import cKDTree

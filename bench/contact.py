@@ -1,39 +1,39 @@
-"""Prints the tables of docs/measured/contact.md: steps with contact, responses, broad phases.
+"""Prints the tables of docs/measured/contact.md: steps with contact, responses, searches, pairs.
 
-    python bench/contact.py [--write] [CASE …]
+    python bench/contact.py [--write] [--meshes FOLDER] [CASE …]
 
-Needs `cmake --build build/main --target tissu-bench` for the broad phases; TISSU_BENCH names
-another program. With cases named, the table of steps has those alone and the rest stays as it is.
+Needs `cmake --build build/main --target tissu-bench` for searches and pairs; TISSU_BENCH names
+another program. FOLDER holds `liver.msh`, for two real livers. With cases named, the table of steps
+has those alone and the rest stays as it is.
 """
 
 from __future__ import annotations
 
 import argparse
 import datetime
-import json
 import math
-import os
-import subprocess
 import sys
+from itertools import chain
 from pathlib import Path
-from typing import Any
 
+from contact_livers import cases
+from contact_searches import PROGRAM, broad_text, pairs_text
 from kernels import commit, digits, table
 
 from tissu.cli.bench_contact import HEAD, cells_of, measured
 from tissu.cli.info import machine_line
-from tissu.contact_cost import Row, measured_responses
+from tissu.contact_cost import Row, measure, measured_responses
 
 ROOT = Path(__file__).resolve().parents[1]
 PAGE = ROOT / "docs" / "measured" / "contact.md"
-PROGRAM = Path(os.environ.get("TISSU_BENCH", ROOT / "build/main/bench/tissu-bench"))
 BEGIN, END = "<!-- bench/contact.py: {} -->", "<!-- end of bench/contact.py: {} -->"
 
 
-def steps_text(names: list[str]) -> str:
+def steps_text(names: list[str], meshes: Path | None) -> str:
     """The table of steps, and why rows ended early."""
     rows = []
-    for row in measured(names):
+    livers = (measure(case) for case in cases(meshes)) if meshes else ()
+    for row in chain(measured(names), livers):
         print(row.name, row.ended, file=sys.stderr, flush=True)
         rows.append(row)
     early = [f"- {row.name}: ended early. {row.ended}" for row in rows if row.ended]
@@ -83,31 +83,6 @@ def responses_text() -> str:
     return "\n\n".join([*parts, *(["\n".join(early)] if early else []), where])
 
 
-def searches() -> list[dict[str, Any]]:
-    """The rows of tissu-bench on broad phases."""
-    command = [str(PROGRAM), "--benchmark_filter=broad phase", "--benchmark_format=json"]
-    command.append("--benchmark_min_time=0.05")
-    done = subprocess.run(command, check=True, capture_output=True, text=True)
-    return list(json.loads(done.stdout)["benchmarks"])
-
-
-def broad_text() -> str:
-    """The table of broad phases: a line for each, a column for each number of triangles."""
-    times: dict[str, dict[int, dict[str, Any]]] = {}
-    for entry in searches():
-        _, name, triangles = entry["name"].split("/")[:3]
-        times.setdefault(name, {})[int(triangles)] = entry
-    sizes = sorted({size for of in times.values() for size in of})
-    lines = []
-    for name, of in times.items():
-        largest = of[max(of)]
-        cells = [digits(float(of[size]["cpu_time"])) if size in of else "" for size in sizes]
-        growth = f"n^{largest['growth']:.2f}" if "growth" in largest else ""
-        lines.append([f"`{name}`", *cells, growth, digits(float(largest["bytes/triangle"]))])
-    head = ["ms", *(f"{size:,} triangles" for size in sizes), "growth", "bytes a triangle"]
-    return table(head, lines)
-
-
 def put(page: str, part: str, text: str) -> str:
     """The page with the text between the markers of a part."""
     begin, end = BEGIN.format(part), END.format(part)
@@ -123,17 +98,22 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
     parser.add_argument("names", nargs="*", metavar="CASE")
     parser.add_argument("--write", action="store_true", help="write docs/measured/contact.md")
+    parser.add_argument("--meshes", type=Path, help="folder of liver.msh")
+    parser.add_argument("--searches", action="store_true", help="broad phases and pairs alone")
     parser.add_argument("--responses", action="store_true", help="that table alone")
     asked = parser.parse_args()
-    alone = asked.names or asked.responses
-    if not PROGRAM.exists() and not alone:
+    chosen = asked.names or asked.responses or asked.searches
+    if not PROGRAM.exists() and (asked.searches or not chosen):
         print(f"contact: {PROGRAM} is not built", file=sys.stderr)
         return 1
-    parts = {} if asked.responses else {"steps": steps_text(asked.names)}
-    if not asked.names:
+    parts = {}
+    if asked.names or not chosen:
+        parts["steps"] = steps_text(asked.names, asked.meshes)
+    if asked.responses or not chosen:
         parts["responses"] = responses_text()
-    if not alone:
+    if asked.searches or not chosen:
         parts["broad phases"] = broad_text()
+        parts["pairs"] = pairs_text()
     page = PAGE.read_text(encoding="utf-8")
     for part, text in parts.items():
         page = put(page, part, text)

@@ -1,7 +1,7 @@
 /// tissu-bench: what the parts of a step cost on the published beam (beam.h), and whole steps of it; the
 /// machine's limits, the kernels of every element and law, what bounds them, and two baselines; products and
 /// preconditioners (solve/…), sizes from a thousand to a million elements (scale/…), what was set as a target
-/// (target/…), the search for near triangles (contact/…).
+/// (target/…), the search for near triangles, and pairs of them (contact/…).
 ///   tissu-bench --benchmark_filter=step --benchmark_format=json
 ///   tissu-bench --benchmark_filter=kernel/tetra
 
@@ -9,6 +9,7 @@
 
 #include "beam.h"
 #include "contact/broad_rows.h"
+#include "contact/pair_rows.h"
 #include "kernels/ablation.h"
 #include "kernels/kernel_rows.h"
 #include "kernels/machine.h"
@@ -180,6 +181,7 @@ int main(int argc, char** argv) {
   tissu::bench::add_scale_rows();
   tissu::bench::add_target_rows();
   tissu::bench::add_broad_rows();
+  tissu::bench::add_pair_rows();
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
   benchmark::RunSpecifiedBenchmarks();

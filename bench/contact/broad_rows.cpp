@@ -9,6 +9,7 @@
 #include <string>
 
 #include "folded_sheet.h"
+#include "tissu/base/error.h"
 #include "tissu/contact/broad_phase.h"
 
 namespace tissu::bench {
@@ -16,6 +17,8 @@ namespace {
 
 constexpr int kLayerWidth = 20;  ///< cells, so that contacts are in proportion to triangles
 constexpr double kApart = 0.4;   ///< edges between layers
+constexpr double kFarApart = 5.0;
+constexpr int kAnewCells = 224;  ///< a side: 100,352 triangles
 constexpr double kGrown = 0.3;   ///< edges that boxes are grown by
 constexpr int kTimes = 4;
 
@@ -60,11 +63,40 @@ void search(benchmark::State& run, BroadPhaseKind kind, int cells) {
   }
 }
 
+/// With lists and trees that are made anew for each search.
+void search_anew(benchmark::State& run, BroadPhaseKind kind, int cells, double apart) {
+  const int triangles = 2 * cells * cells;
+  const std::vector<Box> boxes = folded_sheet(cells, std::max(2, cells / kLayerWidth), apart, kGrown, 0.0);
+  std::vector<BoxPair> pairs;
+  for (auto _ : run) {
+    make_broad_phase(kind, {{0, triangles}, {{0, 0}}})->find(boxes, pairs);
+    benchmark::ClobberMemory();
+  }
+  run.counters["pairs/triangle"] = static_cast<double>(pairs.size()) / triangles;
+}
+
+bool is_built(BroadPhaseKind kind) {
+  try {
+    make_broad_phase(kind, {{0, 0}, {}});
+  } catch (const ParameterError&) {
+    return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 void add_broad_rows() {
   for (const BroadPhaseKind kind : {BroadPhaseKind::hierarchy, BroadPhaseKind::sweep_and_prune,
-                                    BroadPhaseKind::grid, BroadPhaseKind::octree}) {
+                                    BroadPhaseKind::grid, BroadPhaseKind::octree, BroadPhaseKind::fcl}) {
+    if (!is_built(kind)) continue;
+    for (const double apart : {kApart, kFarApart}) {
+      const std::string name(make_broad_phase(kind, {})->name());
+      const std::string how = apart == kApart ? "layers near" : "layers far apart";
+      benchmark::RegisterBenchmark(("broad phase anew/" + name + "/" + how).c_str(), search_anew, kind,
+                                   kAnewCells, apart)
+          ->Unit(benchmark::kMillisecond);
+    }
     for (const int cells : {22, 71, 224, 707}) {
       const std::string name(make_broad_phase(kind, {})->name());
       benchmark::RegisterBenchmark(("broad phase/" + name + "/" + std::to_string(2 * cells * cells)).c_str(),

@@ -64,6 +64,22 @@ def test_a_piece_rests_on_the_body_that_it_was_cut_from(cell: str, method: str, 
     assert -joint(simulation)[1] == pytest.approx(GRAVITY * piece.mass, rel=2e-3)
 
 
+@pytest.mark.parametrize("method", ["impulse", "penalty", "geometric"])
+def test_a_piece_rests_in_explicit_steps(method: str) -> None:
+    """To 2 %: it vibrates, and single steps bear more or less than the weight."""
+    settings = ts.ContactSettings(method=method)
+    simulation = standing(step=ts.SymplecticEuler(), contact=settings).compile()
+    report = simulation.cut("square", across(0.041, 0.1))
+    (piece,) = (piece for piece in report.pieces if not piece.held)
+    forces = []
+    while simulation.time < 0.3:
+        simulation.step()
+        assert simulation.crossings() == []
+        if simulation.time > 0.15:
+            forces.append(-joint(simulation)[1])
+    assert np.mean(forces) == pytest.approx(GRAVITY * piece.mass, rel=0.02)
+
+
 def test_rims_that_cross_across_a_plane_that_is_not_z_0_are_found() -> None:
     """The upper piece is put into the lower one: points of the cut are carried by several nodes."""
     simulation = standing(square(z=0.013)).compile()

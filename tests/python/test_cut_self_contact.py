@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from typing import Any
 
 import numpy as np
@@ -184,21 +185,28 @@ def test_a_cut_conserves_momentum_and_energy_and_what_follows_does_too() -> None
     assert met > 5
 
 
-def test_contacts_of_what_stays_keep_their_forces_to_the_bit() -> None:
-    """A piece lies on the lower half when its end is cut off."""
+@pytest.mark.parametrize("through", ["cells", "nodes"])
+def test_contacts_of_what_stays_keep_their_forces_to_the_bit(through: str) -> None:
+    """A piece lies on the lower half when its end is cut off.
+
+    Nodes on the edge of the cut keep their numbers, but contact meets them elsewhere from then on.
+    """
     simulation = fold().compile()
     simulation.cut("sheet", upper(0.07))
     audited(simulation, 120)
     before = simulation.contacts()
     ends = simulation.positions["sheet"].copy()
+    rest = simulation.meshes["sheet"].points
+    row = np.flatnonzero((abs(rest[:, 0] - LENGTH / 8) < 1e-9) & (rest[:, 2] > HEIGHT / 2))
+    assert len(row) == 5
+    x = ends[row, 0].mean() - (5e-4 if through == "cells" else 0.0)
     # The blade reaches from the middle of the gap upwards, as the piece lies.
     z = THICKNESS / 2
-    blade = [(0.012, -1, z), (0.012, 1, z), (0.012, 1, 1), (0.012, -1, 1)]
+    blade = [(x, -1, z), (x, 1, z), (x, 1, 1), (x, -1, 1)]
     simulation.cut("sheet", ts.Triangles(blade, [(0, 1, 2), (0, 2, 3)]))
     assert len(simulation.pieces("sheet")) == 3
     after = simulation.contacts()
     assert np.array_equal(simulation.positions["sheet"][: len(ends)], ends)
-
     was, stays = by_nodes(before), by_nodes(after)
     assert len(was) > len(stays) > 20
     for key, force in stays.items():
@@ -206,6 +214,10 @@ def test_contacts_of_what_stays_keep_their_forces_to_the_bit() -> None:
     away = {key for key in was if all(node >= 0 and ends[node, 0] > 0.03 for node, _ in key)}
     assert away <= set(stays)
     assert len(away) > 10
+    on_edge = set(row.tolist())
+    assert any(node in on_edge for key in was for node, _ in key)
+    if through == "nodes":
+        assert not any(node in on_edge for key in stays for node, _ in key)
     audited(simulation, 20)
 
 
@@ -296,6 +308,55 @@ def test_edges_of_a_cut_that_are_pressed_together_bear_what_the_material_bears(k
     assert through == pytest.approx(expected, rel=2e-2)
     x = simulation.surface("strip").points[:, 0]
     assert x.min() == pytest.approx(way / 2)
+
+
+def finned() -> ts.Mesh:
+    """A block with a sheet that stands on the middle of its top, along x."""
+    box = ts.bar_mesh(size=(0.2, 0.04, 0.04), cells=(10, 2, 2), cell="tetra")
+    points = box.points
+    foot = np.flatnonzero((abs(points[:, 1] - 0.02) < 1e-9) & (points[:, 2] > 0.04 - 1e-9))
+    foot = foot[np.argsort(points[foot, 0])]
+    rows, places = [foot], [points]
+    for height in (0.02, 0.04):
+        rows.append(len(points) + len(foot) * (len(rows) - 1) + np.arange(len(foot)))
+        places.append(points[foot] + np.array((0, 0, height)))
+    triangles = [
+        corners
+        for low, high in itertools.pairwise(rows)
+        for i in range(len(foot) - 1)
+        for corners in ((low[i], low[i + 1], high[i + 1]), (low[i], high[i + 1], high[i]))
+    ]
+    (solid,) = box.cells
+    cells = {"tetra": solid.nodes, "triangle": np.array(triangles)}
+    return ts.Mesh(points=np.concatenate(places), cells=cells, thin=(2,))
+
+
+def test_a_block_with_a_fin_is_cut_and_nothing_crosses() -> None:
+    """Blades across both, through the fin alone and along its foot, while the fin falls over."""
+    body = ts.Body(
+        mesh=finned(),
+        law=ts.StVK(young=5e4, poisson=0.3),
+        density=1000.0,
+        thickness=THICKNESS,
+        viscosity=damped(),
+    )
+    simulation = ts.Scene(
+        bodies={"block": body},
+        gravity=(0, -3, -3),
+        contacts=[ts.SelfContact("block", friction=0.3, gap=GAP)],
+        fixed=[ts.Fixed("block", on=ts.Plane((0, 0, 0), (1, 0, 0)))],
+        step=ts.ImplicitEuler("5 ms"),
+        editing=ts.Editing(room="900 %"),
+    ).compile()
+    for blade in (
+        ts.Plane((0.11, 0, 0), (1, 0.2, 0.1)),
+        ts.Disc((0.05, 0.02, 0.08), (1, 0, 0.3), 0.03),
+        ts.Disc((0.09, 0.02, 0.05), (0, 0.1, 1), 0.03),
+    ):
+        assert simulation.cut("block", blade).cells_cut > 0
+        for _ in range(20):
+            simulation.step()
+            assert simulation.crossings() == []
 
 
 def test_a_body_with_a_skin_and_a_thread_rests_on_what_it_was_cut_from() -> None:

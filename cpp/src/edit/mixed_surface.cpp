@@ -57,6 +57,7 @@ class Adder {
   void add_sheet(std::int32_t cell) {
     const std::vector<MaterialTetra> parts = material_of(hosts_, material_, cell);
     std::vector<Triangle> own;
+    own.reserve(parts.size());
     for (const MaterialTetra& part : parts)
       own.push_back({part.vertices[0], part.vertices[1], part.vertices[2]});
     if (hosts_.lies_in_volume(cell)) {

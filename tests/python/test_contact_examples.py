@@ -188,6 +188,18 @@ def test_two_organs_are_pushed_together():
     assert held == pytest.approx(-on_lower, abs=0.05 * -on_lower[2])
 
 
+def test_a_flap_that_a_knife_cuts_hangs_down_onto_a_table():
+    """examples/flap.yaml: the sheet stays in one piece, and the flap lies on the table."""
+    simulation = example("flap")
+    (piece,) = simulation.pieces("sheet")
+    assert piece.held
+    flap = 1000.0 * G * 0.061 * 0.053 * 2e-3  # [N]
+    assert 0.2 * flap < -simulation.force_on("table").force[2] < 0.8 * flap
+    # Half its thickness and the gap above the table.
+    lowest = simulation.surface("sheet").points[:, 2].min()
+    assert 1e-3 < lowest + 0.035 < 1.5e-3
+
+
 def test_a_lobe_falls_and_the_table_bears_its_weight():
     """examples/lobe.py: nothing crosses in any step, and the force is the weight to 1 %."""
     names = runpy.run_path(str(EXAMPLES / "lobe.py"))

@@ -243,7 +243,6 @@ def test_squares_that_overlap_are_refused():
              "contact": ts.ContactSettings(method="penalty")},
             "whose rim has no area",
         ),
-        ({"editing": True}, "whose rim follows no edit"),
         (
             {"contact": ts.ContactSettings(surface_of={"square": BLOCK})},
             "no volume cells to carry a surface",

@@ -579,9 +579,3 @@ def test_a_sheet_with_a_hem_of_lines_is_cut_in_contact() -> None:
         -9.81 * sum(piece.mass for piece in report.pieces)
     )
     assert share == pytest.approx(1.0, rel=0.02)
-
-
-def test_a_body_that_meets_itself_is_refused_in_a_sentence() -> None:
-    simulation = scene(contacts=[ts.SelfContact("organ")]).compile()
-    with pytest.raises(ts.ParameterError, match="meets itself and has cells of several dimensions"):
-        simulation.cut("organ", SLANTED)

@@ -426,9 +426,6 @@ def test_a_piece_falls_on_a_table_and_weighs_what_it_weighs() -> None:
 
 
 def test_what_cannot_be_cut_is_refused_in_a_sentence() -> None:
-    touching = scene(contacts=[ts.SelfContact("sheet")]).compile()
-    with pytest.raises(ts.ParameterError, match="meets itself"):
-        touching.cut("sheet", SLANTED)
     with pytest.raises(ts.ParameterError, match="the sheet 'sheet'; the quality of"):
         scene().compile().quality("sheet")
 

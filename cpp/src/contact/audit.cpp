@@ -1,6 +1,7 @@
 #include "tissu/contact/audit.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -15,9 +16,15 @@ std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 /// The number of a vertex: -1 is none.
 std::int32_t numbered(std::int32_t node) { return node < 0 ? node - 1 : node; }
 
-/// Whether two closed segments share a point and have one z. Exact; touching counts.
+/// Of z: what several nodes carry has theirs but for the round-off of weights, whose sum is 1.
+constexpr double kSameZ = 1e-12;
+
+/// Whether two closed segments share a point seen along z, and have one z. Exact but for that; touching
+/// counts.
 bool share_a_point_across_z(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
-  if (a.z() != b.z() || a.z() != c.z() || a.z() != d.z()) return false;
+  for (const Vec3& other : {b, c, d}) {
+    if (!(std::abs(other.z() - a.z()) <= kSameZ * std::abs(a.z()))) return false;
+  }
   // On which side of the line x y the point is, seen from +z.
   const auto side = [](const Vec3& x, const Vec3& y, const Vec3& point) {
     return orientation(x, y, point, Vec3(x.x(), x.y(), x.z() + 1.0));

@@ -4,6 +4,8 @@
 #include <array>
 #include <utility>
 
+#include "tissu/base/vec.h"
+
 namespace tissu {
 namespace {
 
@@ -64,9 +66,11 @@ void SurfaceChange::match_surfaces() {
   }
 }
 
-/// The vertices of a surface stand in the order of their nodes.
+/// The vertices of a surface stand in the order of their nodes. At the edge of a cut in a sheet, which
+/// contact meets half a thickness beside its node, a vertex is another one than before.
 void SurfaceChange::match_vertices() {
-  for (const SurfaceVertex& vertex : before_.vertices()) {
+  for (std::size_t v = 0; v < before_.vertices().size(); ++v) {
+    const SurfaceVertex& vertex = before_.vertices()[v];
     const std::int32_t number = surface(vertex.surface);
     vertices_.push_back(-1);
     if (number < 0) continue;
@@ -75,7 +79,10 @@ void SurfaceChange::match_vertices() {
     const auto end = after_.vertices().begin() + of.last_vertex;
     const auto found = std::ranges::lower_bound(begin, end, vertex.node, {}, &SurfaceVertex::node);
     if (found == end || found->node != vertex.node) continue;
-    vertices_.back() = static_cast<std::int32_t>(found - after_.vertices().begin());
+    const auto now = static_cast<std::int32_t>(found - after_.vertices().begin());
+    const Vec3 was_at = block(ConstReals(before_.rest()), static_cast<std::int32_t>(v));
+    if (found->radius > 0.0 && block(ConstReals(after_.rest()), now) != was_at) continue;
+    vertices_.back() = now;
   }
 }
 

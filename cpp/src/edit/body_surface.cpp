@@ -12,6 +12,7 @@
 
 #include "cut_surface.h"
 #include "edit/cut/quad_halves.h"
+#include "flat_rim.h"
 #include "tissu/base/error.h"
 #include "tissu/element/reference_cell.h"
 #include "tissu/mesh/topology.h"
@@ -189,10 +190,25 @@ void add_lines(const std::vector<Piece<2>>& lines, const VolumeCells& volume, Su
   }
 }
 
+SurfaceDescription flat_surface(const BodyDescription& body, const std::vector<Run>& runs) {
+  std::vector<FlatCells> cells;
+  for (const Run& run : runs) {
+    constexpr std::array<int, 2> kOfTriangles = {3, 6};
+    const bool is_triangle = std::ranges::find(kOfTriangles, run.nodes) != kOfTriangles.end();
+    if (run.dimension == 2) cells.push_back({at(run.nodes), is_triangle ? 3U : 4U, run.cells});
+  }
+  SurfaceDescription surface;
+  surface.name = body.name;
+  surface.edges = rim_of(body.positions, cells);
+  surface.closed = true;
+  return surface;
+}
+
 }  // namespace
 
 SurfaceDescription body_surface(const BodyDescription& body) {
   const std::vector<Run> runs = runs_of(body);
+  if (is_flat(body)) return flat_surface(body, runs);
   const VolumeCells volume(runs, body.positions.size() / 3);
   Surface outer = volume_surface(body, runs);
   const auto triangles = pieces_of(runs, &Pieces::triangles);

@@ -6,10 +6,15 @@
 #include <map>
 #include <numbers>
 #include <optional>
+#include <set>
+#include <span>
 #include <string>
 
 #include "edit/cut/kerf.h"
 #include "edit/cut/quad_halves.h"
+#include "edit/cut/riders.h"
+#include "edit/cut/thin_drawn_in.h"
+#include "flat_rim.h"
 #include "mixed_surface.h"
 #include "tissu/base/error.h"
 #include "tissu/contact/candidates.h"
@@ -21,22 +26,24 @@ namespace tissu {
 namespace {
 
 /// All triangles of a sheet's material. Quads that no blade met are cut along their shorter diagonal.
-KerfSurface sheet_surface(const CutState& cut) {
+KerfSurface sheet_surface(const CutState& cut, ThinMaterial& thin) {
   KerfSurface surface;
   std::map<std::int32_t, Rider> carried;
   for (const std::int32_t cell : cut.hosts.numbers()) {
     const auto corners = cut.hosts.corners(cell);
+    const std::vector<MaterialTetra> own = material_of(cut.hosts, cut.material, cell);
+    thin.triangles.insert(thin.triangles.end(), own.begin(), own.end());
     if (corners.size() == 4 && !cut.material.cells.contains(cell)) {
       add_halves(
           cut.hosts.rest(), {corners[0], corners[1], corners[2], corners[3]},
           [&](std::int32_t node) { return cut.hosts.root(node); }, surface.triangles);
       continue;
     }
-    for (const MaterialTetra& triangle : material_of(cut.hosts, cut.material, cell)) {
+    for (const MaterialTetra& triangle : own) {
       const auto& [a, b, c, none] = triangle.vertices;
       surface.triangles.push_back({a, b, c});
       for (const std::int32_t v : {a, b, c}) {
-        if (v < 0) carried[v] = cut.material.riders[static_cast<std::size_t>(-1 - v)];
+        if (v < 0) carried[v] = rider_of(cut.material, v);
       }
     }
   }
@@ -45,20 +52,53 @@ KerfSurface sheet_surface(const CutState& cut) {
 }
 
 /// All pieces of the material of lines, and the vertices that ride.
-KerfSurface line_surface(const CutState& cut, std::vector<std::array<std::int32_t, 2>>& edges) {
+KerfSurface line_surface(const CutState& cut, std::vector<std::array<std::int32_t, 2>>& edges,
+                         ThinMaterial& thin) {
   KerfSurface surface;
   std::map<std::int32_t, Rider> carried;
   for (const std::int32_t cell : cut.hosts.numbers()) {
     for (const MaterialTetra& piece : material_of(cut.hosts, cut.material, cell)) {
       const auto [a, b] = std::minmax(piece.vertices[0], piece.vertices[1]);
+      thin.lines.push_back(piece);
       edges.push_back({a, b});
       for (const std::int32_t v : {a, b}) {
-        if (v < 0) carried[v] = cut.material.riders[static_cast<std::size_t>(-1 - v)];
+        if (v < 0) carried[v] = rider_of(cut.material, v);
       }
     }
   }
   surface.carried.assign(carried.begin(), carried.end());
   return surface;
+}
+
+/// Of a flat body the rim alone is in contact.
+void keep_rim(const BodyDescription& body, KerfSurface& surface, ThinSurface& thin) {
+  surface.triangles.clear();
+  thin.material.lines.clear();
+  thin.radius.clear();
+  thin.edges = rim_of(body.positions, body.cut->material, thin.material.triangles);
+  std::set<std::int32_t> on_rim;
+  for (const auto& ends : thin.edges) on_rim.insert(ends.begin(), ends.end());
+  std::erase_if(surface.carried, [&](const auto& one) { return !on_rim.contains(one.first); });
+}
+
+/// Edges of cut sheets and ends of cut lines go inside their material by half of what they rest apart.
+void draw_in(const CutState& cut, const ThinMaterial& thin, std::span<const double> radius, double depth,
+             KerfSurface& surface) {
+  const auto radius_of = [&](std::int32_t vertex) {
+    const Rider rider = rider_of(cut.material, vertex);
+    double largest = 0.0;
+    for (std::size_t i = 0; !radius.empty() && i < static_cast<std::size_t>(rider.count); ++i) {
+      largest = std::max(largest, radius[static_cast<std::size_t>(rider.node[i])]);
+    }
+    return largest;
+  };
+  std::map<std::int32_t, Rider> carried(surface.carried.begin(), surface.carried.end());
+  for (const auto& [vertex, rider] : drawn_in(cut.hosts, cut.material, thin, [&](std::int32_t v) {
+         return depth + radius_of(v) / Candidates::kOfWalls;
+       })) {
+    carried[vertex] = rider;
+  }
+  surface.carried.assign(carried.begin(), carried.end());
 }
 
 /// Half the thickness of the sheets at each node, or the radius of the lines.
@@ -94,13 +134,12 @@ bool is_mixed(const BodyDescription& body) {
 }
 
 /// Of the cells of the highest dimension; where sheets come with lines, `add_thin` adds both.
-KerfSurface own_surface(const BodyDescription& body, const ContactDescription& contact,
-                        std::vector<std::array<std::int32_t, 2>>& edges) {
+KerfSurface own_surface(const BodyDescription& body, double depth, ThinSurface& thin) {
   const int dimension = dimension_of(body);
-  if (dimension == 3)
-    return kerf_surface(body.cut->hosts, body.cut->material, kerf_depth(body.name, contact));
+  if (dimension == 3) return kerf_surface(body.cut->hosts, body.cut->material, depth);
   if (is_mixed(body)) return {};
-  return dimension == 2 ? sheet_surface(*body.cut) : line_surface(*body.cut, edges);
+  return dimension == 2 ? sheet_surface(*body.cut, thin.material)
+                        : line_surface(*body.cut, thin.edges, thin.material);
 }
 
 SurfaceRiders riders_of(const KerfSurface& found) {
@@ -150,20 +189,23 @@ SurfaceDescription volume_surface(const std::string& body, const Hosts& hosts, K
 
 SurfaceDescription cut_surface(const BodyDescription& body, const ContactDescription& contact) {
   const int dimension = dimension_of(body);
-  const bool mixed = is_mixed(body);
+  const double depth = kerf_depth(body.name, contact);
   SurfaceDescription surface;
-  KerfSurface found = own_surface(body, contact, surface.edges);
   ThinSurface thin;
-  if (mixed) thin = add_thin(body, *body.cut, found);
+  KerfSurface found = own_surface(body, depth, thin);
+  const bool flat = is_flat(body);
+  if (is_mixed(body)) {
+    thin = add_thin(body, *body.cut, found);
+  } else if (dimension < 3 && !flat) {
+    thin.radius = radii(body);
+  }
+  if (flat) keep_rim(body, found, thin);
+  if (depth > 0.0 && thin.has_pieces()) draw_in(*body.cut, thin.material, thin.radius, depth, found);
   surface.name = body.name;
   surface.triangles = std::move(found.triangles);
-  surface.closed = dimension == 3 && !thin.open && !surface.triangles.empty();
-  if (mixed) {
-    surface.edges = std::move(thin.edges);
-    surface.radius = std::move(thin.radius);
-  } else if (dimension < 3) {
-    surface.radius = radii(body);
-  }
+  surface.closed = flat || (dimension == 3 && !thin.open && !surface.triangles.empty());
+  surface.edges = std::move(thin.edges);
+  surface.radius = std::move(thin.radius);
   surface.riders = riders_of(found);
   surface.roots = roots_of(body.cut->hosts);
   return surface;
@@ -183,33 +225,6 @@ void part_pairs(ContactDescription& contact, const std::string& body, std::int32
           copied[k] < 0 ? is_between_met(points[static_cast<std::size_t>(-1 - copied[k])]) : meets(copied[k]);
       if (met) pair.nodes.push_back(first + static_cast<std::int32_t>(k));
     }
-  }
-}
-
-void refuse_touching(const BodyDescription& body, const SurfaceDescription& surface,
-                     const ContactDescription& contact) {
-  const int dimension = dimension_of(body);
-  const bool mixed = is_mixed(body);
-  if (dimension == 3 && !mixed) return;
-  if (dimension == 2 && surface.triangles.empty()) {
-    throw ParameterError(
-        "body \"" + body.name +
-        "\" cannot be cut: it is flat, and its rim in contact does not follow a cut yet; leave "
-        "it out of contacts.");
-  }
-  for (const ContactPair& pair : contact.pairs) {
-    const auto bodies = static_cast<std::int32_t>(contact.bodies.size());
-    if (pair.a != pair.b || pair.a >= bodies) continue;
-    if (contact.bodies[static_cast<std::size_t>(pair.a)].name != body.name) continue;
-    throw ParameterError(
-        "body \"" + body.name +
-        (mixed ? "\" cannot be cut: it meets itself and has cells of several dimensions, of which sheets and "
-                 "lines would begin a cut in one place; leave it out of self-contact."
-         : dimension == 2
-             ? "\" cannot be cut: it is a sheet that meets itself, and both edges of a cut would begin "
-               "in one place; leave it out of self-contact."
-             : "\" cannot be cut: its lines meet themselves, and both ends of a cut would begin in "
-               "one place; leave it out of self-contact."));
   }
 }
 

@@ -29,10 +29,6 @@ double kerf_depth(const std::string& body, const ContactDescription& contact);
 void part_pairs(ContactDescription& contact, const std::string& body, std::int32_t first,
                 const std::vector<std::int32_t>& copied, const std::vector<FirstDayPoint>& points);
 
-/// Refuses sheets and lines that meet themselves, and a flat body, of which only the rim is in contact.
-void refuse_touching(const BodyDescription& body, const SurfaceDescription& surface,
-                     const ContactDescription& contact);
-
 /// Refuses cells whose faces a cut would make flat.
 void refuse_curved(const BodyDescription& body);
 

@@ -174,7 +174,6 @@ void refuse_unparted(const WorldDescription& description, const BodyDescription&
           "surface_of");
     }
     refuse_curved(body);
-    refuse_touching(body, surface, *description.contact);
   }
 }
 

@@ -36,6 +36,7 @@ class Adder {
   }
 
   ThinSurface add() {
+    for (const Triangle& t : surface_.triangles) thin_.material.still.insert(t.begin(), t.end());
     for (const std::int32_t cell : hosts_.numbers()) {
       if (dimension(cell) == 2) add_sheet(cell);
     }
@@ -54,14 +55,17 @@ class Adder {
   [[nodiscard]] int dimension(std::int32_t cell) const { return info(hosts_.type(cell)).dimension; }
 
   void add_sheet(std::int32_t cell) {
+    const std::vector<MaterialTetra> parts = material_of(hosts_, material_, cell);
     std::vector<Triangle> own;
-    for (const MaterialTetra& part : material_of(hosts_, material_, cell))
+    own.reserve(parts.size());
+    for (const MaterialTetra& part : parts)
       own.push_back({part.vertices[0], part.vertices[1], part.vertices[2]});
     if (hosts_.lies_in_volume(cell)) {
       const auto is_outer = [&](const Triangle& triangle) { return outer_.contains(sorted(triangle)); };
       if (std::ranges::any_of(own, is_outer)) thicken(cell, 0.5 * hosts_.thickness(cell));
       return;
     }
+    thin_.material.triangles.insert(thin_.material.triangles.end(), parts.begin(), parts.end());
     const auto corners = hosts_.corners(cell);
     if (corners.size() == 4 && !material_.cells.contains(cell)) {
       own.clear();
@@ -88,6 +92,7 @@ class Adder {
       const std::pair<std::int32_t, std::int32_t> side = std::minmax(piece.vertices[0], piece.vertices[1]);
       if (!sides_.insert(side).second) continue;
       thin_.edges.push_back({side.first, side.second});
+      thin_.material.lines.push_back(piece);
       carry(side.first);
       carry(side.second);
     }

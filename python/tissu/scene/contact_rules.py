@@ -176,7 +176,7 @@ def surface_missing(scene: Any, name: str) -> str:
 
 
 def _flat_problems(scene: Any) -> Iterator[Problem]:
-    """What the rims of flat bodies do not have: areas, and rims after edits."""
+    """What the rims of flat bodies do not have: areas."""
     flat = {name for name, body in scene.bodies.items() if body.plane is not None}
     for number, contact in enumerate(scene.contacts):
         with contextlib.suppress(Unknown):
@@ -187,12 +187,6 @@ def _flat_problems(scene: Any) -> Iterator[Problem]:
                 )
                 text += "has no area; leave it out: the stiffness then comes from the body"
                 yield Problem(("contacts", number, "stiffness"), text)
-            if names and scene.editing is not None:
-                text = (
-                    f"found true with contacts of '{min(names)}', a flat body, whose rim follows "
-                )
-                yield Problem(("editing",), f"{text}no edit; leave it out")
-                return
 
 
 def _names_of(contact: Any, scene: Any) -> set[str]:

@@ -2,11 +2,11 @@
 
 #include <Eigen/LU>
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <optional>
 
 #include "edit/cut/patch.h"
+#include "edit/cut/riders.h"
 #include "edit/cut/way_in.h"
 
 namespace tissu {
@@ -48,10 +48,6 @@ class Kerf {
 
  private:
   [[nodiscard]] Vec3 place(std::int32_t vertex) const { return material_.at(vertex, hosts_.rest()); }
-  [[nodiscard]] Rider rider(std::int32_t vertex) const {
-    if (vertex < 0) return material_.riders[at(-1 - vertex)];
-    return {{vertex, -1, -1, -1}, {1.0, 0.0, 0.0, 0.0}, 1};
-  }
 
   void list_faces() {
     for (const MaterialFace& face : all_.faces) {
@@ -163,20 +159,7 @@ class Kerf {
   /// Nothing where more than four nodes would carry it.
   [[nodiscard]] std::optional<Rider> moved(const MaterialTetra& tetra, std::int32_t vertex,
                                            const Vec3& step) const {
-    const std::array<double, 4> weights = weights_of(tetra, vertex, step);
-    std::map<std::int32_t, double> sums;
-    for (std::size_t i = 0; i < 4; ++i) {
-      const Rider own = rider(tetra.vertices[i]);
-      for (std::size_t k = 0; k < at(own.count); ++k) sums[own.node[k]] += weights[i] * own.weight[k];
-    }
-    if (sums.size() > 4) return std::nullopt;
-    Rider result;
-    for (const auto& [node, weight] : sums) {
-      if (!std::isfinite(weight)) return std::nullopt;
-      result.node[at(result.count)] = node;
-      result.weight[at(result.count++)] = weight;
-    }
-    return result;
+    return between(material_, tetra.vertices, weights_of(tetra, vertex, step));
   }
 
   [[nodiscard]] double volume(const MaterialTetra& tetra) const {

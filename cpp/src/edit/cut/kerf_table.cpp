@@ -5,6 +5,7 @@
 
 #include "edit/cut/drawn_in.h"
 #include "edit/cut/material_faces.h"
+#include "edit/cut/riders.h"
 #include "tissu/base/sort_unique.h"
 #include "tissu/mesh/cell_shape.h"
 
@@ -15,11 +16,6 @@ std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 bool is_volume(const Hosts& hosts, std::int32_t cell) {
   return hosts.has(cell) && info(hosts.type(cell)).dimension == 3;
-}
-
-Rider rider_of(const Material& material, std::int32_t vertex) {
-  if (vertex < 0) return material.riders[at(-1 - vertex)];
-  return {{vertex, -1, -1, -1}, {1.0, 0.0, 0.0, 0.0}, 1};
 }
 
 /// Adds the volumes that share three corners with one of some cells, which are those that a face may join.

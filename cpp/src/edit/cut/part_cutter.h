@@ -29,6 +29,7 @@ class PartCutter {
   bool cut(std::size_t number, const SweepPart& part, const NearCells& near, CutPlan& plan);
 
   std::vector<std::int32_t> parted;  ///< vertices of the faces that all parts opened
+  std::vector<char> on;              ///< of each vertex, 1: a part or an earlier sweep of its incision met it
   OnIncisions on_incision;
 
  private:

@@ -93,6 +93,7 @@ bool PartCutter::cut(std::size_t number, const SweepPart& part, const NearCells&
   on.resize(patch_.vertices.size(), 0);
   for (std::size_t v = 0; v < on.size(); ++v) {
     if (known.vertices[v].on) on[v] = 1;
+    goes_on = goes_on || known.vertices[v].before;
   }
   if (part.incision >= 0) on_incision.emplace_back(part.incision, std::move(known));
   return crossed || opened.count > 0;

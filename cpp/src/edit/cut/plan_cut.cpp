@@ -72,8 +72,10 @@ class Attempt {
     bool met = false;
     for (std::size_t i = 0; i < sweep_.parts.size(); ++i)
       met = cutter_.cut(i, sweep_.parts[i], near_[i], plan) || met;
-    for (const std::int32_t cell : sides.joined(patch_, cutter_.on))
-      plan.unresolved.emplace_back(patch_.cell(cell).number, Unresolved::bridge);
+    if (!cutter_.goes_on) {  // what a knife has cut before does not lie on the blade now
+      for (const std::int32_t cell : sides.joined(patch_, cutter_.on))
+        plan.unresolved.emplace_back(patch_.cell(cell).number, Unresolved::bridge);
+    }
     std::ranges::sort(plan.unresolved);
     const auto same = std::ranges::unique(plan.unresolved, {}, [](const auto& one) { return one.first; });
     plan.unresolved.erase(same.begin(), same.end());

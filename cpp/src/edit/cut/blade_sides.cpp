@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <numeric>
-#include <span>
+#include <utility>
 
 #include "tissu/base/crossing.h"
 #include "tissu/base/sort_unique.h"

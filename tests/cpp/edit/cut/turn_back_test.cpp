@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <numbers>
@@ -78,7 +79,7 @@ const Vec3 kBar(0.08, 0.04, 0.04);
 Sweep vee_down(const Vec3& corner, double opening) {
   constexpr double kUp = 0.047;
   const double across = kUp * std::tan(opening * std::numbers::pi / 180.0);
-  const Vec3 ends[] = {Vec3(corner.x(), 0, 0.05), corner, corner + Vec3(across, 0, kUp)};
+  const std::array<Vec3, 3> ends{Vec3(corner.x(), 0, 0.05), corner, corner + Vec3(across, 0, kUp)};
   std::vector<double> places;
   for (const Vec3& p : ends) {
     for (const double y : {-0.01, 0.02, 0.05}) places.insert(places.end(), {p.x(), y, p.z()});

@@ -89,10 +89,12 @@ bool PartCutter::cut(std::size_t number, const SweepPart& part, const NearCells&
   report(cells_along(patch_, part.corner), Unresolved::bridge, plan);
   report_pierced(pierced_tetrahedra(patch_, part, near, known, true), plan);
   if (opened.count == 0 && part.incision < 0) report_in_vain(plan);
-  std::ranges::sort(plan.unresolved);
-  const auto same = std::ranges::unique(plan.unresolved, {}, [](const auto& one) { return one.first; });
-  plan.unresolved.erase(same.begin(), same.end());
   end(before);
+  on.resize(patch_.vertices.size(), 0);
+  for (std::size_t v = 0; v < on.size(); ++v) {
+    if (known.vertices[v].on) on[v] = 1;
+    goes_on = goes_on || known.vertices[v].before;
+  }
   if (part.incision >= 0) on_incision.emplace_back(part.incision, std::move(known));
   return crossed || opened.count > 0;
 }

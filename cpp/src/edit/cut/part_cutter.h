@@ -29,6 +29,8 @@ class PartCutter {
   bool cut(std::size_t number, const SweepPart& part, const NearCells& near, CutPlan& plan);
 
   std::vector<std::int32_t> parted;  ///< vertices of the faces that all parts opened
+  std::vector<char> on;  ///< of each vertex, 1: a part put it on the cut, or an earlier sweep of its incision
+  bool goes_on = false;  ///< earlier sweeps of an incision have put vertices on the cut
   OnIncisions on_incision;
 
  private:

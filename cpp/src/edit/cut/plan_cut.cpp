@@ -3,6 +3,7 @@
 #include <map>
 #include <string>
 
+#include "edit/cut/blade_sides.h"
 #include "edit/cut/divide.h"
 #include "edit/cut/fans.h"
 #include "edit/cut/fragments.h"
@@ -67,9 +68,17 @@ class Attempt {
 
   /// Divides and opens. False when the blade crossed no edge and lies in no inner face.
   bool cut(CutPlan& plan) {
+    const BladeSides sides(patch_, sweep_, near_);
     bool met = false;
     for (std::size_t i = 0; i < sweep_.parts.size(); ++i)
       met = cutter_.cut(i, sweep_.parts[i], near_[i], plan) || met;
+    if (!cutter_.goes_on) {  // what a knife has cut before does not lie on the blade now
+      for (const std::int32_t cell : sides.joined(patch_, cutter_.on))
+        plan.unresolved.emplace_back(patch_.cell(cell).number, Unresolved::bridge);
+    }
+    std::ranges::sort(plan.unresolved);
+    const auto same = std::ranges::unique(plan.unresolved, {}, [](const auto& one) { return one.first; });
+    plan.unresolved.erase(same.begin(), same.end());
     return met;
   }
 

@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <cstdlib>
 #include <numbers>
 #include <random>
 #include <vector>
@@ -68,6 +70,51 @@ TEST(TurnBack, PartsOrNamesWhatIsBetweenTheWalls) {
       EXPECT_GE(found.parted, opening < 70.0 ? 7 : 10)
           << opening << " degrees, " << info(type).name << divide;
     }
+  }
+}
+
+const Vec3 kBar(0.08, 0.04, 0.04);
+
+/// A V in the x z plane: down along x = corner.x to the corner, and up again with an opening [degrees].
+Sweep vee_down(const Vec3& corner, double opening) {
+  constexpr double kUp = 0.047;
+  const double across = kUp * std::tan(opening * std::numbers::pi / 180.0);
+  const std::array<Vec3, 3> ends{Vec3(corner.x(), 0, 0.05), corner, corner + Vec3(across, 0, kUp)};
+  std::vector<double> places;
+  for (const Vec3& p : ends) {
+    for (const double y : {-0.01, 0.02, 0.05}) places.insert(places.end(), {p.x(), y, p.z()});
+  }
+  return edge_sweep(places, 3, 3);
+}
+
+/// Whether a V parts its wedge from the bar, or the plan names cells.
+bool parts_or_names(const Vec3& corner, double opening, bool divide) {
+  test::CutBody body(test::typed_box(CellType::tetra, kBar, {20, 2, 10}, 0.0, 0));
+  const CutPlan plan = body.cut(vee_down(corner, opening), {.divide = divide});
+  return body.piece_count() > 1 || plan.bridges() > 0;
+}
+
+/// Places at which one cell at the corner stays joined: no wall of the V passes it twice.
+TEST(TurnBack, ACellThatStaysJoinedAtTheCornerIsNamed) {
+  EXPECT_TRUE(parts_or_names(Vec3(0.036783, 0, 0.014538), 37.8275, false));
+  EXPECT_TRUE(parts_or_names(Vec3(0.036846, 0, 0.018469), 36.4599, false));
+  EXPECT_TRUE(parts_or_names(Vec3(0.032801, 0, 0.010689), 34.7556, false));
+}
+
+/// TISSU_VEES: how many; of each third one the corner lies in a plane of nodes.
+TEST(TurnBack, RandomVsPartOrThePlanNamesCells) {
+  const char* text = std::getenv("TISSU_VEES");
+  const long count = text == nullptr ? 15 : std::strtol(text, nullptr, 10);
+  for (long seed = 0; seed < count; ++seed) {
+    std::mt19937_64 random(static_cast<std::uint64_t>(seed));
+    const auto real = [&](double low, double high) {
+      return std::uniform_real_distribution<double>(low, high)(random);
+    };
+    Vec3 corner(real(0.025, 0.04), 0, real(0.01, 0.02));
+    if (seed % 3 == 0) corner.z() = 0.004 * std::round(corner.z() / 0.004);
+    const double opening = real(20.0, 50.0);
+    for (const bool divide : {false, true})
+      EXPECT_TRUE(parts_or_names(corner, opening, divide)) << "seed " << seed << (divide ? " divided" : "");
   }
 }
 

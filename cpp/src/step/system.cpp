@@ -183,6 +183,7 @@ std::unique_ptr<ImplicitContact> System::make_contact(bool is_static) {
                                world_.extent());
 }
 
+/// A matrix that stays is that of the world at rest, whose rigid motions are about places there.
 void System::place_rows(const State& state) {
   if (places_.point.empty()) {
     for (std::int32_t i = 0; i < world_.blocks(); ++i) places_.point.push_back(i);
@@ -190,9 +191,11 @@ void System::place_rows(const State& state) {
       places_.point[static_cast<std::size_t>(frame.rotation)] = frame.block;
     }
   }
-  places_.positions = state.positions;
+  const bool stays = is_constant_ || world_.is_linear();
+  const ConstReals places = stays ? world_.rest_positions() : ConstReals(state.positions);
+  places_.positions.assign(places.begin(), places.end());
   for (const Frame& frame : world_.frames()) {
-    block(Reals(places_.positions), frame.rotation) = block(ConstReals(state.positions), frame.block);
+    block(Reals(places_.positions), frame.rotation) = block(places, frame.block);
   }
 }
 

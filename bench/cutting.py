@@ -1,10 +1,11 @@
-"""What a cut costs: `python bench/cutting.py [--peer PYTHON] [--write]`.
+"""What a cut costs: `python bench/cutting.py [--cuts N] [--peer PYTHON] [--write]`.
 
 Discs that cut about a hundred tetrahedra of a bar of so many, each as the first cut of a world
 (`mark`, `rewind`) and then one after the other: time of the cut, of steps before and after, and
-their iterations. The same for cells that are divided, and for a bar that touches a table and may
-touch itself. PYTHON is one that has rapier3d, whose cuts of the same bars are timed between
-ours. Run it on a machine that does nothing else.
+their iterations. The same for cells that are divided, for a bar that touches a table and may
+touch itself, and for a hundred cells that are removed. PYTHON is one that has rapier3d, whose
+cuts of the same bars are timed between ours. Run it on a machine that does nothing else; `--cuts`
+takes fewer discs than 20, for a look.
 """
 
 from __future__ import annotations
@@ -26,8 +27,9 @@ from tissu.cli.info import machine_line
 
 SIDES = (6, 12, 20)
 """Cells along the two short sides of a bar that is four times as long."""
-SCENES = ("copies", "divided", "in contact")
+SCENES = ("copies", "divided", "in contact", "removed")
 CUTS = 20
+REMOVED = 100
 PEER_CUTS = 8
 STEPS = 10
 
@@ -54,7 +56,7 @@ def bar(side: int, scene: str = "copies") -> ts.Simulation:
     ).compile()
 
 
-def discs(side: int) -> list[ts.Disc]:
+def discs(side: int, count: int = CUTS) -> list[ts.Disc]:
     """So wide that they meet some hundred cells, in places and directions of their own."""
     random = np.random.default_rng(3)
     radius = 2.2 * 0.1 / side
@@ -64,8 +66,22 @@ def discs(side: int) -> list[ts.Disc]:
             random.standard_normal(3) + np.array([2.0, 0.0, 0.0]),
             radius,
         )
-        for _ in range(CUTS)
+        for _ in range(count)
     ]
+
+
+def edited(simulation: ts.Simulation, disc: ts.Disc, scene: str) -> tuple[float, int]:
+    """Time of the cut by a disc [ms], or of removing the cells nearest to its centre; and cells."""
+    if scene != "removed":
+        report = simulation.cut("bar", disc)
+        return report.milliseconds, report.cells_cut
+    mesh = simulation.meshes["bar"]
+    away = mesh.points[mesh.cells[0].nodes].mean(axis=1) - np.asarray(disc.center)
+    nearest = np.argsort((away**2).sum(axis=1))[:REMOVED]
+    gone = simulation.remaining_cells("bar")[nearest]
+    begun = time.perf_counter()
+    simulation.remove_cells(body="bar", cells=gone)
+    return 1e3 * (time.perf_counter() - begun), REMOVED
 
 
 def stepped(simulation: ts.Simulation) -> tuple[float, float, float]:
@@ -79,12 +95,12 @@ def stepped(simulation: ts.Simulation) -> tuple[float, float, float]:
     )
 
 
-def cuts_in_a_row(side: int, scene: str) -> list[float]:
+def cuts_in_a_row(side: int, scene: str, count: int) -> list[float]:
     """Of all discs in one body, a step after each, without the first one [ms]."""
     simulation, found = bar(side, scene), []
-    for disc in discs(side):
+    for disc in discs(side, count):
         try:
-            found.append(simulation.cut("bar", disc).milliseconds)
+            found.append(edited(simulation, disc, scene)[0])
         except ts.ParameterError:  # through walls of an earlier cut that press on each other
             continue
         simulation.step()
@@ -178,27 +194,27 @@ def peer_section(python: str) -> str:
     )
 
 
-def row(side: int, scene: str) -> list[str]:
-    """One bar."""
+def row(side: int, scene: str, count: int) -> list[str]:
+    """One bar, and so many discs."""
     simulation = bar(side, scene)
     for _ in range(5):
         simulation.step()
     mark = simulation.mark()
     _, before, plain = stepped(simulation)
     cuts, cells, read, first, after, iterations = [], [], [], [], [], []
-    later = cuts_in_a_row(side, scene)
-    for disc in discs(side):
+    later = cuts_in_a_row(side, scene, count)
+    for disc in discs(side, count):
         simulation.rewind(mark)
-        report = simulation.cut("bar", disc)
+        taken, many = edited(simulation, disc, scene)
         begun = time.perf_counter()
         simulation.surface("bar")
         read.append(1e3 * (time.perf_counter() - begun))
-        cuts.append(report.milliseconds)
-        cells.append(report.cells_cut)
-        beginning, milliseconds, count = stepped(simulation)
+        cuts.append(taken)
+        cells.append(many)
+        beginning, milliseconds, solved = stepped(simulation)
         first.append(beginning)
         after.append(milliseconds)
-        iterations.append(count)
+        iterations.append(solved)
     return [
         f"{24 * side**3:,}",
         scene,
@@ -216,21 +232,23 @@ def row(side: int, scene: str) -> list[str]:
     ]
 
 
-def section(python: str | None) -> str:
+def section(python: str | None, count: int) -> str:
     """The table and what it says."""
     head = ["tetrahedra", "scene", "cut", "first, p50", "first, p95", "next, p50", "next, p95"]
     head += ["surface ms", "step ms", "first after", "later", "iterations", "after"]
-    rows = [row(side, scene) for scene in SCENES for side in SIDES]
+    rows = [row(side, scene, count) for scene in SCENES for side in SIDES]
     return (
         "## The time of a cut\n\n"
         "The table gives the time of a cut, and of the steps after it, for meshes of several\n"
-        f"sizes [ms]. A bar of StVK under its weight is cut by {CUTS} discs, with implicit Euler\n"
+        f"sizes [ms]. A bar of StVK under its weight is cut by {count} discs, with implicit Euler\n"
         "of 10 ms on one thread: each disc as the *first* cut of a new simulation, and then one\n"
         "after the other as the *next* ones. In the scene *copies* the cells are copied, and in\n"
         "*divided* they are divided (`subdivide`). *In contact* is the first scene with a table\n"
-        "below the bar, which also may touch itself. The time of a cut includes the report with\n"
-        "its pieces, but not reading the surface. The goal is 5 ms for a hundred cells of 50,000.\n"
-        "The first step after a cut makes a new preconditioner.\n\n"
+        "below the bar, which also may touch itself. Where cells are *removed*, they are the\n"
+        f"{REMOVED} nearest to the centre of each disc. The time of a cut includes the report\n"
+        "with its pieces, but not reading the surface. The goal is 5 ms for a hundred cells of\n"
+        "50,000, and 3 ms where they are removed. The first step after a cut makes a new\n"
+        "preconditioner.\n\n"
         + table(head, rows)
         + ("" if python is None else "\n" + peer_section(python).rstrip())
         + f"\n\nPrinted by `python bench/cutting.py --write`; {machine_line()}\n"
@@ -241,9 +259,10 @@ def main() -> None:
     """Prints the section, or writes it."""
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
     parser.add_argument("--write", action="store_true", help="to docs/measured/cutting.md")
+    parser.add_argument("--cuts", type=int, default=CUTS, help="discs; at least 2")
     parser.add_argument("--peer", metavar="PYTHON", help="a Python that has rapier3d")
     asked = parser.parse_args()
-    text = section(asked.peer)
+    text = section(asked.peer, asked.cuts)
     if asked.write:
         put_between(MEASURED / "cutting.md", "bench/cutting.py", text)
     else:

@@ -184,6 +184,7 @@ py::list found_pieces(const Simulation& simulation, const std::string& name) {
   for (const Piece& piece : simulation.pieces(name)) {
     unsigned axes = 0;
     for (const auto& [cell, mask] : held) {
+      if ((axes & FixedDofs::kAllAxes) == FixedDofs::kAllAxes) break;
       if (std::ranges::binary_search(piece.cells, cell)) axes |= mask;
     }
     const bool on_all = (axes & FixedDofs::kAllAxes) == FixedDofs::kAllAxes;

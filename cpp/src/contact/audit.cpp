@@ -125,6 +125,55 @@ Box box_of(const Primitive& primitive, ConstReals places) {
   return box;
 }
 
+/// Whether a plane across an axis parts a primitive from a box: what lies in the box does not meet it.
+bool is_apart(const Primitive& primitive, ConstReals places, const Box& box) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto all = [&](auto&& is_beyond) {
+      return std::ranges::all_of(primitive.vertex.begin(), primitive.vertex.begin() + primitive.corners,
+                                 [&](std::int32_t v) { return is_beyond(places[3 * at(v) + k]); });
+    };
+    if (all([&](double x) { return x < static_cast<double>(box.low[k]); }) ||
+        all([&](double x) { return x > static_cast<double>(box.high[k]); }))
+      return true;
+  }
+  return false;
+}
+
+/// The boxes of some primitives, in the order of their low sides along the axis in which they spread most.
+class NearBoxes {
+ public:
+  NearBoxes(const SurfaceSet& surfaces, ConstReals places, const std::vector<std::int32_t>& primitives) {
+    Box all = Box::none();
+    for (const std::int32_t p : primitives) {
+      boxes_.emplace_back(box_of(surfaces.primitives()[at(p)], places), p);
+      all.add(boxes_.back().first);
+    }
+    for (std::size_t k = 1; k < 3; ++k) {
+      if (all.high[k] - all.low[k] > all.high[axis_] - all.low[axis_]) axis_ = k;
+    }
+    std::ranges::sort(boxes_, {}, [&](const auto& one) { return one.first.low[axis_]; });
+    for (const auto& [box, p] : boxes_)
+      longest_ =
+          std::max(longest_, static_cast<double>(box.high[axis_]) - static_cast<double>(box.low[axis_]));
+  }
+
+  /// Calls f(p) for each of the primitives whose box overlaps one.
+  template <class Function>
+  void for_overlapping(const Box& box, Function&& f) const {
+    const double from = static_cast<double>(box.low[axis_]) - longest_;
+    auto next = std::ranges::lower_bound(
+        boxes_, from, {}, [&](const auto& one) { return static_cast<double>(one.first.low[axis_]); });
+    for (; next != boxes_.end() && next->first.low[axis_] <= box.high[axis_]; ++next) {
+      if (next->first.overlaps(box)) f(next->second);
+    }
+  }
+
+ private:
+  std::vector<std::pair<Box, std::int32_t>> boxes_;
+  std::size_t axis_ = 0;
+  double longest_ = 0.0;  ///< of a box along it
+};
+
 std::vector<double> places_of(const Contact& contact, const State& state) {
   std::vector<double> places(3 * contact.surfaces().vertices().size());
   contact.place_vertices(state, state.time, places);
@@ -156,19 +205,15 @@ bool any_crosses(const Contact& contact, const State& state, std::span<const std
     });
   };
   const Audit audit(contact, places);
-  std::vector<Box> boxes;
-  boxes.reserve(looked_for.size());
-  for (const std::int32_t p : looked_for) boxes.push_back(box_of(surfaces.primitives()[at(p)], places));
+  const NearBoxes near(surfaces, places, looked_for);
   for (std::int32_t q = 0; q < static_cast<std::int32_t>(surfaces.primitives().size()) && found.empty();
        ++q) {
-    const Box box = box_of(surfaces.primitives()[at(q)], places);
-    if (!box.overlaps(around)) continue;
-    for (std::size_t i = 0; i < boxes.size(); ++i) {
-      const std::int32_t p = looked_for[i];
-      if (p == q || !box.overlaps(boxes[i]) || (some[at(q)] != 0 && q < p)) continue;
-      if (!meets(surfaces.surface_of_primitive(p), surfaces.surface_of_primitive(q))) continue;
+    if (is_apart(surfaces.primitives()[at(q)], places, around)) continue;
+    near.for_overlapping(box_of(surfaces.primitives()[at(q)], places), [&](std::int32_t p) {
+      if (p == q || (some[at(q)] != 0 && q < p)) return;
+      if (!meets(surfaces.surface_of_primitive(p), surfaces.surface_of_primitive(q))) return;
       audit.add({std::min(p, q), std::max(p, q)}, found);
-    }
+    });
   }
   return !found.empty();
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <utility>
 
 #include "tissu/base/vec.h"
@@ -20,105 +21,93 @@ Key<n> ascending(Key<n> key) {
   return key;
 }
 
-/// Finds numbers by keys.
-template <std::size_t n>
-class Index {
- public:
-  void add(const Key<n>& key, std::int32_t number) { rows_.push_back({key, number}); }
-  void sort() { std::ranges::sort(rows_); }
-  [[nodiscard]] std::int32_t find(const Key<n>& key) const {
-    return find(key, [](std::int32_t) { return true; });
-  }
-  /// The first one of those with this key that is the right one; the first one of all if none is.
-  template <class Right>
-  [[nodiscard]] std::int32_t find(const Key<n>& key, Right&& is_right) const {
-    const auto first = std::ranges::lower_bound(rows_, std::pair(key, std::int32_t{0}));
-    if (first == rows_.end() || first->first != key) return -1;
-    for (auto row = first; row != rows_.end() && row->first == key; ++row) {
-      if (is_right(row->second)) return row->second;
-    }
-    return first->second;
-  }
+/// The corners of a primitive after an edit, ascending.
+Key<3> key_of(const Primitive& primitive) { return ascending(primitive.vertex); }
 
- private:
-  std::vector<std::pair<Key<n>, std::int32_t>> rows_;
-};
+/// The lowest vertex of an edge or a primitive.
+std::int32_t lowest(const SurfaceEdge& edge) { return std::min(edge.vertex[0], edge.vertex[1]); }
+std::int32_t lowest(const Primitive& primitive) {
+  return *std::min_element(primitive.vertex.begin(), primitive.vertex.begin() + primitive.corners);
+}
 
 }  // namespace
 
+/// Lists features by their lowest vertices.
+template <class Feature>
+SurfaceChange::Lists::Lists(const std::vector<Feature>& features, std::size_t vertices)
+    : begin(vertices + 1, 0), items(features.size()) {
+  for (const Feature& feature : features) ++begin[at(lowest(feature)) + 1];
+  for (std::size_t v = 0; v < vertices; ++v) begin[v + 1] += begin[v];
+  std::vector<std::int32_t> next(begin.begin(), begin.end() - 1);
+  for (std::size_t i = 0; i < features.size(); ++i)
+    items[at(next[at(lowest(features[i]))]++)] = static_cast<std::int32_t>(i);
+}
+
 SurfaceChange::SurfaceChange(const SurfaceSet& before, const SurfaceSet& after)
-    : before_(before), after_(after) {
-  match_surfaces();
-  match_vertices();
-  match_primitives();
-  match_edges();
+    : before_(before),
+      after_(after),
+      edges_at_(after.edges(), after.vertices().size()),
+      primitives_at_(after.primitives(), after.vertices().size()) {
+  for (const SurfaceSet::Surface& surface : before_.surfaces()) {
+    const auto found = std::ranges::find(after_.surfaces(), surface.name, &SurfaceSet::Surface::name);
+    const bool known = found != after_.surfaces().end() && (found->obstacle < 0) == (surface.obstacle < 0);
+    surfaces_.push_back(known ? static_cast<std::int32_t>(found - after_.surfaces().begin()) : -1);
+  }
   owners_.resize(after.edges().size());
   for (std::int32_t p = 0; p < static_cast<std::int32_t>(after.primitives().size()); ++p) {
     for (const std::int32_t e : after.edges_of(p)) owners_[at(e)] = p;
   }
 }
 
-void SurfaceChange::match_surfaces() {
-  for (const SurfaceSet::Surface& surface : before_.surfaces()) {
-    const auto found = std::ranges::find(after_.surfaces(), surface.name, &SurfaceSet::Surface::name);
-    const bool known = found != after_.surfaces().end() && (found->obstacle < 0) == (surface.obstacle < 0);
-    surfaces_.push_back(known ? static_cast<std::int32_t>(found - after_.surfaces().begin()) : -1);
-  }
-}
-
 /// The vertices of a surface stand in the order of their nodes. At the edge of a cut in a sheet, which
 /// contact meets half a thickness beside its node, a vertex is another one than before.
-void SurfaceChange::match_vertices() {
-  for (std::size_t v = 0; v < before_.vertices().size(); ++v) {
-    const SurfaceVertex& vertex = before_.vertices()[v];
-    const std::int32_t number = surface(vertex.surface);
-    vertices_.push_back(-1);
-    if (number < 0) continue;
-    const SurfaceSet::Surface& of = after_.surfaces()[at(number)];
-    const auto begin = after_.vertices().begin() + of.first_vertex;
-    const auto end = after_.vertices().begin() + of.last_vertex;
-    const auto found = std::ranges::lower_bound(begin, end, vertex.node, {}, &SurfaceVertex::node);
-    if (found == end || found->node != vertex.node) continue;
-    const auto now = static_cast<std::int32_t>(found - after_.vertices().begin());
-    const Vec3 was_at = block(ConstReals(before_.rest()), static_cast<std::int32_t>(v));
-    if (found->radius > 0.0 && block(ConstReals(after_.rest()), now) != was_at) continue;
-    vertices_.back() = now;
-  }
+std::int32_t SurfaceChange::vertex(std::int32_t before) const {
+  const SurfaceVertex& vertex = before_.vertices()[at(before)];
+  const std::int32_t number = surface(vertex.surface);
+  if (number < 0) return -1;
+  const SurfaceSet::Surface& of = after_.surfaces()[at(number)];
+  const auto begin = after_.vertices().begin() + of.first_vertex;
+  const auto end = after_.vertices().begin() + of.last_vertex;
+  const auto found = std::ranges::lower_bound(begin, end, vertex.node, {}, &SurfaceVertex::node);
+  if (found == end || found->node != vertex.node) return -1;
+  const auto now = static_cast<std::int32_t>(found - after_.vertices().begin());
+  const Vec3 was_at = block(ConstReals(before_.rest()), before);
+  if (found->radius > 0.0 && block(ConstReals(after_.rest()), now) != was_at) return -1;
+  return now;
 }
 
-void SurfaceChange::match_edges() {
-  Index<2> index;
-  for (std::size_t e = 0; e < after_.edges().size(); ++e) {
-    index.add(ascending(after_.edges()[e].vertex), static_cast<std::int32_t>(e));
+/// Of several wedges at an edge, the one that a triangle beside it belongs to; else the first.
+std::int32_t SurfaceChange::edge(std::int32_t before) const {
+  const SurfaceEdge& edge = before_.edges()[at(before)];
+  const auto key = ascending(Key<2>{vertex(edge.vertex[0]), vertex(edge.vertex[1])});
+  if (key[0] < 0) return -1;
+  std::int32_t first = -1;
+  for (const std::int32_t e : edges_at_.of(key[0])) {
+    const SurfaceEdge& other = after_.edges()[at(e)];
+    if (ascending(other.vertex) != key) continue;
+    const bool is_beside = std::ranges::any_of(edge.face, [&](std::int32_t p) {
+      if (p < 0) return false;
+      const std::int32_t now = primitive(p);
+      return now >= 0 && std::ranges::find(other.face, now) != other.face.end();
+    });
+    if (is_beside) return e;
+    if (first < 0) first = e;
   }
-  index.sort();
-  for (const SurfaceEdge& edge : before_.edges()) {
-    const auto key = ascending(Key<2>{vertex(edge.vertex[0]), vertex(edge.vertex[1])});
-    // Of several wedges at an edge, the one that a triangle beside it belongs to.
-    edges_.push_back(index.find(key, [&](std::int32_t e) {
-      const auto& faces = after_.edges()[at(e)].face;
-      return std::ranges::any_of(edge.face, [&](std::int32_t p) {
-        return p >= 0 && primitive(p) >= 0 && std::ranges::find(faces, primitive(p)) != faces.end();
-      });
-    }));
-  }
+  return first;
 }
 
-void SurfaceChange::match_primitives() {
-  Index<3> index;
-  for (std::size_t p = 0; p < after_.primitives().size(); ++p) {
-    index.add(ascending(after_.primitives()[p].vertex), static_cast<std::int32_t>(p));
+std::int32_t SurfaceChange::primitive(std::int32_t before) const {
+  Primitive primitive = before_.primitives()[at(before)];
+  for (int i = 0; i < primitive.corners; ++i) {
+    std::int32_t& corner = primitive.vertex[at(i)];
+    corner = vertex(corner);
+    if (corner < 0) return -1;
   }
-  index.sort();
-  for (const Primitive& primitive : before_.primitives()) {
-    Key<3> key = primitive.vertex;
-    bool there = true;
-    for (int i = 0; i < primitive.corners; ++i) {
-      key[at(i)] = vertex(key[at(i)]);
-      there = there && key[at(i)] >= 0;
-    }
-    primitives_.push_back(there ? index.find(ascending(key)) : -1);
+  const Key<3> key = key_of(primitive);
+  for (const std::int32_t p : primitives_at_.of(lowest(primitive))) {
+    if (key_of(after_.primitives()[at(p)]) == key) return p;
   }
+  return -1;
 }
 
 bool SurfaceChange::carry(ContactNumbers& contact) const {

@@ -1,7 +1,7 @@
 /// Vertices that several rows carry, and what moves with which row.
 
 #include <algorithm>
-#include <map>
+#include <limits>
 
 #include "tissu/contact/surface_set.h"
 
@@ -31,39 +31,57 @@ Vec3 SurfaceSet::ride(const SurfaceRiders& riders, std::size_t number, std::int3
 
 void SurfaceSet::list_movers(const ContactDescription& description,
                              std::span<const std::int32_t> first_node) {
-  std::map<std::int32_t, std::int32_t> movers;  // by rows
-  for (std::size_t v = 0; v < vertices_.size(); ++v) {
-    if (vertices_[v].row >= 0) movers[vertices_[v].row] = static_cast<std::int32_t>(v);
+  std::int32_t low = std::numeric_limits<std::int32_t>::max();
+  std::int32_t high = -1;
+  const auto extend = [&](std::int32_t row) {
+    low = std::min(low, row);
+    high = std::max(high, row);
+  };
+  for (const SurfaceVertex& vertex : vertices_) {
+    if (vertex.row >= 0) extend(vertex.row);
   }
-  std::vector<std::vector<Carried>> carried(vertices_.size());
+  for (const RiderPart& part : rider_part_) extend(part.row);
+  std::vector<std::int32_t> movers(at(high - low) + 1, -1);  // by rows
   for (std::size_t v = 0; v < vertices_.size(); ++v) {
-    if (vertices_[v].rider < 0) continue;
-    const auto first = at(rider_begin_[at(vertices_[v].rider)]);
-    for (auto i = first; i < at(rider_begin_[at(vertices_[v].rider) + 1]); ++i) {
+    if (vertices_[v].row >= 0) movers[at(vertices_[v].row - low)] = static_cast<std::int32_t>(v);
+  }
+  for (const SurfaceVertex& vertex : vertices_) {
+    if (vertex.rider < 0) continue;
+    const auto first = at(rider_begin_[at(vertex.rider)]);
+    for (auto i = first; i < at(rider_begin_[at(vertex.rider) + 1]); ++i) {
       RiderPart& part = rider_part_[i];
-      const std::int32_t surface = vertices_[v].surface;
-      const auto next = static_cast<std::int32_t>(mover_count());
-      const auto [found, is_new] = movers.try_emplace(part.row, next);
-      if (is_new) {
-        inner_rows_.push_back({part.row, surface});
-        carried.emplace_back();
+      std::int32_t& mover = movers[at(part.row - low)];
+      if (mover < 0) {
+        mover = static_cast<std::int32_t>(mover_count());
+        inner_rows_.push_back({part.row, vertex.surface});
       }
-      part.mover = found->second;
-      has_shared_rows_ = has_shared_rows_ || surface_of_mover(part.mover) != surface;
-      carried[at(part.mover)].push_back({static_cast<std::int32_t>(v), part.weight});
+      part.mover = mover;
+      has_shared_rows_ = has_shared_rows_ || surface_of_mover(mover) != vertex.surface;
     }
   }
-  carried_begin_.assign(1, 0);
-  for (const std::vector<Carried>& list : carried) {
-    carried_.insert(carried_.end(), list.begin(), list.end());
-    carried_begin_.push_back(static_cast<std::int32_t>(carried_.size()));
-  }
+  list_carried();
   root_.assign(mover_count(), -1);
-  for (const auto& [row, mover] : movers) {
+  for (std::int32_t row = low; row <= high; ++row) {
+    const std::int32_t mover = movers[at(row - low)];
+    if (mover < 0) continue;
     const std::int32_t surface = surface_of_mover(mover);
     const std::vector<std::int32_t>& roots = description.bodies[at(surface)].roots;
     const std::int32_t first = first_node[at(surface)];
     root_[at(mover)] = roots.empty() ? row : first + roots[at(row - first)];
+  }
+}
+
+/// The vertices of each mover, ascending.
+void SurfaceSet::list_carried() {
+  carried_begin_.assign(mover_count() + 1, 0);
+  for (const RiderPart& part : rider_part_) ++carried_begin_[at(part.mover) + 1];
+  for (std::size_t m = 0; m < mover_count(); ++m) carried_begin_[m + 1] += carried_begin_[m];
+  carried_.resize(rider_part_.size());
+  std::vector<std::int32_t> next(carried_begin_.begin(), carried_begin_.end() - 1);
+  for (std::size_t v = 0; v < vertices_.size(); ++v) {
+    if (vertices_[v].rider < 0) continue;
+    for (const RiderPart& part : parts(vertices_[v]))
+      carried_[at(next[at(part.mover)]++)] = {static_cast<std::int32_t>(v), part.weight};
   }
 }
 

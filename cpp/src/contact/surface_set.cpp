@@ -127,13 +127,14 @@ void SurfaceSet::add(const SurfaceDescription& description, std::int32_t first_r
   const NodeNumbers nodes(description);
   const auto number = [&](std::int32_t node) { return first_vertex + nodes[node]; };
   const std::vector<std::int32_t>& riders = description.riders.vertex;
+  auto found = riders.begin();  // they ascend, as the nodes do
   for (const std::int32_t node : nodes.all()) {
     SurfaceVertex vertex;
     vertex.node = node;
     vertex.surface = surface;
     if (!description.radius.empty() && node >= 0) vertex.radius = description.radius[at(node)];
     Vec3 place;
-    const auto found = std::ranges::lower_bound(riders, node);
+    while (found != riders.end() && *found < node) ++found;
     if (found != riders.end() && *found == node) {
       const auto number = static_cast<std::size_t>(found - riders.begin());
       place = ride(description.riders, number, first_row, vertex, rest);

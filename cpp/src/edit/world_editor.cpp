@@ -7,6 +7,7 @@
 
 #include "contact_edit.h"
 #include "cut_edit.h"
+#include "edit/cut/material_before.h"
 #include "parted_loads.h"
 #include "parted_pressures.h"
 #include "parted_supports.h"
@@ -151,8 +152,8 @@ std::optional<WorldEditor::Made> WorldEditor::make(std::string_view name, const 
     if (node < body.node_count) rows.push_back(body.first_node + node);
   }
   made.before = totals(name, plan.gone, rows, state);
-  std::optional<CutState> before;
-  if (touching != nullptr && verb == Verb::cut && touching->refuses()) before = *cut;
+  std::optional<MaterialBefore> before;
+  if (touching != nullptr && verb == Verb::cut && touching->refuses()) before.emplace(cut->material, plan);
   apply(number, plan);
   BodyDescription& described = edit_.description(name);
   const bool has_cuts = verb == Verb::cut || described.cut != nullptr;
@@ -162,7 +163,8 @@ std::optional<WorldEditor::Made> WorldEditor::make(std::string_view name, const 
       refuse_crossings(*world_->contact(), *made.contact, state, made.born, touching->changed(*made.contact),
                        name);
     } catch (const ParameterError&) {
-      *cut = std::move(*before);
+      before->restore(cut->material);
+      *cut = cut_state_of(described, std::move(cut->material));
       track(number);
       throw;
     }

@@ -2,6 +2,7 @@
 
 /// Builds a world from its description, part after part: each reads what those before it made.
 
+#include <Eigen/Geometry>
 #include <memory>
 #include <string>
 #include <vector>
@@ -65,8 +66,10 @@ class WorldBuilder {
   std::vector<Vec3> speeds_;
 };
 
-/// Diagonal of the box around the nodes and the origins of frames; the blocks of rotations are not positions.
-double box_diagonal(const std::vector<double>& positions, const std::vector<Frame>& frames);
+/// The box around the nodes and the origins of frames; the blocks of rotations are not positions.
+Eigen::AlignedBox3d box_of(const std::vector<double>& positions, const std::vector<Frame>& frames);
+/// Zero of an empty one.
+double diagonal_of(const Eigen::AlignedBox3d& box);
 
 /// What a pressure acts on, by rows of the world.
 struct PressedFaces {

@@ -67,15 +67,17 @@ void keep_plans(const std::vector<const BodyModel*>& models, BodyDescription& bo
 
 }  // namespace
 
-double box_diagonal(const std::vector<double>& positions, const std::vector<Frame>& frames) {
+Eigen::AlignedBox3d box_of(const std::vector<double>& positions, const std::vector<Frame>& frames) {
   std::vector<char> is_rotation(positions.size() / 3, 0);
   for (const Frame& frame : frames) is_rotation[static_cast<std::size_t>(frame.rotation)] = 1;
   Eigen::AlignedBox3d box;
   for (std::size_t i = 0; i < is_rotation.size(); ++i) {
     if (is_rotation[i] == 0) box.extend(Vec3(block(ConstReals(positions), static_cast<std::int32_t>(i))));
   }
-  return box.isEmpty() ? 0.0 : box.diagonal().norm();
+  return box;
 }
+
+double diagonal_of(const Eigen::AlignedBox3d& box) { return box.isEmpty() ? 0.0 : box.diagonal().norm(); }
 
 BodyDescription& WorldDescription::body(std::string_view name) {
   const auto found = std::ranges::find(bodies, name, &BodyDescription::name);
@@ -109,7 +111,7 @@ void WorldBuilder::build() {
   list_run_time();
   set_rest();
   separate_surfaces();
-  world_.extent_ = box_diagonal(world_.rest_positions(), world_.frames());
+  world_.extent_ = diagonal_of(box_of(world_.rest_positions(), world_.frames()));
 }
 
 void WorldBuilder::lay_pattern() {

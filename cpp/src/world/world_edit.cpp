@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "builder.h"
+#include "number_set.h"
 #include "tissu/base/error.h"
 #include "tissu/base/sort_unique.h"
 #include "tissu/force/grabs.h"
@@ -71,7 +72,10 @@ bool WorldEdit::serves(const World& world) {
 }
 
 WorldEdit::WorldEdit(World& world)
-    : world_(world), bodies_(world.bodies().size()), first_blocks_(world.sparsity().blocks()) {
+    : world_(world),
+      bodies_(world.bodies().size()),
+      first_blocks_(world.sparsity().blocks()),
+      box_(box_of(world.rest_positions(), world.frames())) {
   if (!follows_edits(world)) return;
   for (std::size_t i = 0; i < bodies_.size(); ++i) prepare(i);
   if (world.contact() == nullptr) return;
@@ -187,12 +191,15 @@ void WorldEdit::add_nodes(std::size_t number, const BodyChange& change) {
       const std::int32_t node = change.copied[at(i)];
       const Vec3 place = node >= 0 ? Vec3(block(own, node)) : place_of(points[at(-1 - node)], own);
       block(own, body.node_count + i) = place;
+      if (rest != &described_) box_.extend(place);
     }
   }
   world_.fixed_.free_rows(body.first_node + body.node_count, count);
   body.node_count += count;
   body.room -= count;
-  world_.extent_ = box_diagonal(world_.rest_.positions, world_.frames());
+  // Room stands where the first node is described: once it is used up, the box may be smaller.
+  if (body.room == 0) box_ = box_of(world_.rest_.positions, world_.frames());
+  world_.extent_ = diagonal_of(box_);
 }
 
 void WorldEdit::edit_description(std::size_t number, const BodyChange& change) {
@@ -214,23 +221,21 @@ void WorldEdit::edit_description(std::size_t number, const BodyChange& change) {
 /// The columns of rows are the nodes of their cells.
 void WorldEdit::lay_rows(std::size_t number, std::span<const std::int32_t> rows, const CellsAt& cells_at) {
   const std::int32_t first = world_.bodies_[number].first_node;
-  std::vector<std::int32_t> columns;
-  std::vector<std::int32_t> cells;
+  NumberSet columns;
+  NumberSet cells;
   for (const std::int32_t row : rows) {
-    columns.assign(1, row);
+    columns.add(row);
     for (const std::int32_t cell : cells_at(row - first)) {
-      cells.push_back(cell);
+      cells.add(cell);
       for (const auto& editor : bodies_[number].editors) {
         if (!editor->has(cell)) continue;
-        const auto nodes = editor->nodes(cell);
-        columns.insert(columns.end(), nodes.begin(), nodes.end());
+        for (const std::int32_t node : editor->nodes(cell)) columns.add(node);
       }
     }
-    sort_unique(columns);
-    world_.sparsity_.set_row(row, columns);
+    world_.sparsity_.set_row(row, columns.ascending());
+    columns.clear();
   }
-  sort_unique(cells);
-  for (const auto& editor : bodies_[number].editors) editor->bind(world_.sparsity_, cells);
+  for (const auto& editor : bodies_[number].editors) editor->bind(world_.sparsity_, cells.ascending());
 }
 
 void WorldEdit::weigh(std::size_t number, std::span<const std::int32_t> rows, const CellsAt& cells_at) {

@@ -10,6 +10,7 @@
 #include "contact/nearest_pair.h"
 #include "soups.h"
 #include "tissu/base/crossing.h"
+#include "tissu/contact/audit.h"
 #ifdef TISSU_FCL_ORACLE
 #include "contact/fcl_broad_phase.h"
 #endif
@@ -271,6 +272,50 @@ TEST(SoupTest, NoCrossingThatExactBisectionFindsIsPassed) {
     }
   }
   EXPECT_GT(passed, 1000);
+}
+
+/// Whether any edge that belongs to one of two primitives goes through the other, which it does not share a
+/// corner with.
+bool cross(const SurfaceSet& surfaces, ConstReals places, std::int32_t p, std::int32_t q) {
+  const Primitive& face = surfaces.primitives()[at(q)];
+  if (face.corners < 3) return false;
+  const auto place = [&](std::int32_t v) -> Vec3 { return block(places, v); };
+  return std::ranges::any_of(surfaces.edges_of(p), [&](std::int32_t e) {
+    const auto& ends = surfaces.edges()[at(e)].vertex;
+    const bool apart = std::ranges::none_of(
+        ends, [&](std::int32_t v) { return std::ranges::find(face.vertex, v) != face.vertex.end(); });
+    return apart && crosses(place(ends[0]), place(ends[1]),
+                            {place(face.vertex[0]), place(face.vertex[1]), place(face.vertex[2])});
+  });
+}
+
+TEST(SoupTest, WhatCrossesSomePrimitivesIsFoundAsByTestingEveryPair) {
+  std::array<int, 2> seen{};
+  for (unsigned number = 0; number < 20; ++number) {
+    const Soup soup = test::soup(number);
+    const Contact contact(soup.description, soup.first_row, soup.places[0]);
+    const SurfaceSet& surfaces = contact.surfaces();
+    State state;
+    state.positions = soup.places[0];
+    std::vector<double> places(3 * surfaces.vertices().size());
+    contact.place_vertices(state, state.time, places);
+    const auto count = static_cast<std::int32_t>(surfaces.primitives().size());
+    for (std::int32_t p = 0; p + 3 < count; p += 3) {
+      std::vector<std::uint8_t> some(at(count), 0);
+      bool expected = false;
+      for (const std::int32_t one : {p, p + 1}) {
+        some[at(one)] = 1;
+        for (std::int32_t q = 0; q < count; ++q) {
+          expected =
+              expected || (q != one && (cross(surfaces, places, one, q) || cross(surfaces, places, q, one)));
+        }
+      }
+      EXPECT_EQ(any_crosses(contact, state, some), expected) << "soup " << number << ", primitive " << p;
+      ++seen[expected ? 1 : 0];
+    }
+  }
+  EXPECT_GT(seen[0], 50);
+  EXPECT_GT(seen[1], 50);
 }
 
 }  // namespace

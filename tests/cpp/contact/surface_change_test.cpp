@@ -105,6 +105,34 @@ TEST(SurfaceChangeTest, NothingRemovedChangesNoNumber) {
   }
 }
 
+/// Two cubes that share an edge alone have an edge there each, between the same nodes.
+TEST(SurfaceChangeTest, OfTheWedgesAtAnEdgeEachIsFound) {
+  const Mesh mesh = box_mesh(Vec3::Zero(), Vec3(2, 2, 1), {2, 2, 1}, Split::none);
+  Mesh two{mesh.positions, {{CellType::hexahedron, {}}}};
+  for (const std::int32_t i : {0, 3}) {
+    const auto cell = mesh.blocks[0].cell(i);
+    two.blocks[0].nodes.insert(two.blocks[0].nodes.end(), cell.begin(), cell.end());
+  }
+  ContactDescription description;
+  SurfaceDescription surface{.name = "two", .closed = true};
+  const Surface outer = boundary_surface(two);
+  for (const auto& [a, b, c, d] : outer.quads) {
+    surface.triangles.push_back({a, b, c});
+    surface.triangles.push_back({a, c, d});
+  }
+  description.bodies = {surface};
+  const std::vector<std::int32_t> first = {0};
+  const SurfaceSet set(description, first, mesh.positions);
+  const SurfaceChange change(set, set);
+  std::set<std::set<std::int32_t>> ends;
+  for (std::int32_t i = 0; i < static_cast<std::int32_t>(set.edges().size()); ++i) {
+    EXPECT_EQ(change.edge(i), i);
+    const auto& [a, b] = set.edges()[at(i)].vertex;
+    ends.insert({a, b});
+  }
+  EXPECT_EQ(ends.size() + 1, set.edges().size());
+}
+
 /// A contact between two edges of the second box.
 ContactNumbers between_edges(const SurfaceSet& set, std::int32_t a, std::int32_t b) {
   ContactNumbers c;

@@ -4,12 +4,16 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
 #include <random>
 #include <span>
 
 #include "../world/sample_worlds.h"
 #include "edit/body_surface.h"
 #include "edit/debris.h"
+#include "tissu/base/error.h"
 #include "tissu/contact/contact.h"
 #include "tissu/mesh/topology.h"
 
@@ -167,6 +171,53 @@ TEST(ContactEdit, AMarkAfterACutIsReturnedTo) {
   }
   EXPECT_EQ(ends[0], ends[2]);
   EXPECT_EQ(ends[1], ends[3]);
+}
+
+/// Of a layer of cells that is inside out the walls of a cut would cross.
+TEST(ContactEdit, ARefusedCutChangesNothing) {
+  for (const bool divide : {false, true}) {
+    const Touch touch{"", Split::six, ContactMethod::augmented, true, false, divide};
+    CutOptions options;
+    options.divide = divide;
+    if (divide) options.t0 = 0.2;
+    std::array<std::optional<Simulation>, 2> both;
+    for (auto& one : both) {
+      one.emplace(test::simulate(description(touch), test::implicit_euler()));
+      one->prepare_edits();
+      one->step(kStep);
+      std::mt19937_64 random(5);
+      for (int k = 0; k < 2; ++k) one->cut("body", disc(random), options);
+    }
+    auto& [found, expected] = both;
+    const std::vector<double> places = found->state().positions;
+    for (std::size_t i = 0; i < places.size(); i += 3) {
+      double& x = found->state().positions[i];
+      if (std::abs(x - kOrigin.x() - 4.5) < 0.7) x = 2.0 * (kOrigin.x() + 4.5) - x;
+    }
+    int refused = 0;
+    for (const double x : {4.4, 4.6}) {
+      const Sweep blade = disc_sweep(kOrigin + Vec3(x, 1.6, 1.4), Vec3(1, 0.1, -0.2), 1.3);
+      try {
+        found->cut("body", blade, options);
+      } catch (const ParameterError&) {
+        ++refused;
+      }
+    }
+    ASSERT_EQ(refused, 2);
+    found->state().positions = places;
+    std::mt19937_64 random(6);
+    for (int k = 0; k < 4; ++k) {
+      const Sweep blade = disc(random);
+      for (auto& one : both) {
+        if (k > 0) one->cut("body", blade, options);
+        one->step(kStep);
+      }
+      expect_same(*found, *expected);
+      ASSERT_EQ(found->pieces("body").size(), expected->pieces("body").size());
+      for (std::size_t i = 0; i < found->pieces("body").size(); ++i)
+        EXPECT_EQ(found->pieces("body")[i].cells, expected->pieces("body")[i].cells);
+    }
+  }
 }
 
 }  // namespace

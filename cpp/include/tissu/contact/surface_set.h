@@ -197,6 +197,7 @@ class SurfaceSet {
   void find_frames(std::span<const Frame> frames);
   void list_rotations();
   void list_movers(const ContactDescription& description, std::span<const std::int32_t> first_node);
+  void list_carried();
 
   std::vector<Surface> surfaces_;
   std::vector<SurfaceVertex> vertices_;

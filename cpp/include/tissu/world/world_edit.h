@@ -4,6 +4,7 @@
 /// is the world that is made of the edited description, bit for bit, but for where rows and groups of cells
 /// stand in memory.
 
+#include <Eigen/Geometry>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -90,6 +91,7 @@ class WorldEdit {
   std::vector<double> described_;  ///< rows at rest, of a world whose surfaces were moved apart; else empty
   std::vector<EditedBody> bodies_;
   std::int64_t first_blocks_;  ///< of the matrix
+  Eigen::AlignedBox3d box_;    ///< around all rows at rest
 };
 
 }  // namespace tissu

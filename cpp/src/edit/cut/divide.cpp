@@ -22,7 +22,11 @@ std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 class Divided {
  public:
   Divided(const Hosts& hosts, const Material& material, const Patch& patch, const OnIncisions& met)
-      : patch_(patch), first_(hosts.node_count()), plan_(), hosts_(hosts), material_(material) {
+      : patch_(patch),
+        first_(hosts.node_count()),
+        plan_(),
+        hosts_(Hosts::over(hosts)),
+        material_{material.riders, {}, material.incisions} {
     plan_.first_node = first_;
     add_nodes();
     add_cells(hosts.next_cell());
@@ -30,13 +34,21 @@ class Divided {
     hosts_.apply(plan_);
     material_.apply(plan_);
     sort_unique(touched_);
+    around_ = hosts_.with_neighbours(touched_);
+    for (const std::int32_t cell : around_) {
+      const auto known = material.cells.find(cell);
+      if (known != material.cells.end()) material_.cells.insert(*known);  // where the plan has no other
+    }
   }
 
   [[nodiscard]] const CutPlan& plan() const { return plan_; }
   [[nodiscard]] const Hosts& hosts() const { return hosts_; }
+  /// Of the cells around.
   [[nodiscard]] const Material& material() const { return material_; }
   /// New cells and those with an opened face, ascending.
   [[nodiscard]] const Numbers& touched() const { return touched_; }
+  /// Those, and the cells at their nodes.
+  [[nodiscard]] const Numbers& around() const { return around_; }
   [[nodiscard]] std::vector<double> places(ConstReals x) const {
     std::vector<double> all(x.begin(), x.end());
     for (const BornNode& node : plan_.nodes) {
@@ -119,6 +131,7 @@ class Divided {
   Hosts hosts_;
   Material material_;
   Numbers touched_;
+  Numbers around_;
 };
 
 /// One plan of two: cells are divided, then nodes part.
@@ -167,8 +180,7 @@ void write_division(const Hosts& hosts, const Material& material, ConstReals x, 
                     const OnIncisions& met, CutPlan& plan) {
   const Divided divided(hosts, material, patch, met);
   const std::vector<double> places = divided.places(x);
-  const Patch now(divided.hosts(), divided.material(), places,
-                  divided.hosts().with_neighbours(divided.touched()));
+  const Patch now(divided.hosts(), divided.material(), places, divided.around());
   const Fragments fragments(divided.hosts(), now, divided.touched(), {});
   const Replicas replicas = find_replicas(divided.hosts(), now, fragments);
   Numbers parted;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <map>
 #include <optional>
+#include <unordered_map>
 
 #include "edit/cut/patch.h"
 #include "edit/cut/riders.h"
@@ -32,6 +33,7 @@ class Kerf {
  public:
   Kerf(const Hosts& hosts, const Material& material, const MaterialFaces& all, const TwinFlags& vertices)
       : hosts_(hosts), material_(material), all_(all) {
+    around_.reserve(vertices.size());
     for (const auto& [vertex, has_twin] : vertices) around_[vertex].has_twin = has_twin;
     list_faces();
     std::erase_if(around_, [](const auto& one) { return one.second.walls.empty() && !one.second.has_twin; });
@@ -43,6 +45,7 @@ class Kerf {
     for (const auto& [vertex, around] : around_) {
       if (const auto rider = draw_in(vertex, around, depth); rider) found.emplace_back(vertex, *rider);
     }
+    std::ranges::sort(found, {}, [](const auto& one) { return one.first; });
     return found;
   }
 
@@ -52,28 +55,32 @@ class Kerf {
   void list_faces() {
     for (const MaterialFace& face : all_.faces) {
       if (face.across >= 0) continue;
-      if (std::ranges::none_of(face.vertices, [&](std::int32_t v) { return around_.contains(v); })) continue;
+      std::array<Around*, 3> around{};
+      std::ranges::transform(face.vertices, around.begin(), [&](std::int32_t v) { return around_at(v); });
+      if (std::ranges::all_of(around, [](const Around* one) { return one == nullptr; })) continue;
       const Vec3 a = place(face.vertices[0]);
       const Vec3 normal = (place(face.vertices[1]) - a).cross(place(face.vertices[2]) - a);
       if (!(normal.norm() > 0.0)) continue;
-      for (const std::int32_t v : face.vertices) {
-        const auto found = around_.find(v);
-        if (found == around_.end()) continue;
+      for (Around* one : around) {
+        if (one == nullptr) continue;
         if (face.cut) {
-          found->second.walls.push_back(normal);
+          one->walls.push_back(normal);
         } else {
-          found->second.others.push_back(normal.normalized());
+          one->others.push_back(normal.normalized());
         }
       }
     }
   }
 
+  [[nodiscard]] Around* around_at(std::int32_t vertex) {
+    const auto found = around_.find(vertex);
+    return found == around_.end() ? nullptr : &found->second;
+  }
+
   void list_tetrahedra() {
     const auto add = [&](const MaterialTetra& tetra) {
       for (const std::int32_t v : tetra.vertices) {
-        if (const auto found = around_.find(v); found != around_.end()) {
-          found->second.tetrahedra.push_back(tetra);
-        }
+        if (Around* one = around_at(v); one != nullptr) one->tetrahedra.push_back(tetra);
       }
     };
     for (const MaterialUnit& unit : all_.units) {
@@ -182,7 +189,7 @@ class Kerf {
   const Hosts& hosts_;
   const Material& material_;
   const MaterialFaces& all_;
-  std::map<std::int32_t, Around> around_;
+  std::unordered_map<std::int32_t, Around> around_;
 };
 
 }  // namespace

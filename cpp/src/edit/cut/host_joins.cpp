@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "edit/cut/patch.h"
+#include "edit/cut/shared_corners.h"
 #include "tissu/mesh/cell_shape.h"
 
 namespace tissu {
@@ -37,32 +38,26 @@ const std::vector<HostJoins::Face>& HostJoins::faces_of(std::int32_t cell) {
   return faces;
 }
 
-bool HostJoins::joined(std::int32_t a, std::int32_t b) {
-  if (is_whole(a) && is_whole(b)) {
-    const auto simplex = [&](std::int32_t cell) {
-      return hosts_.corners(cell).size() == 1 + static_cast<std::size_t>(info(hosts_.type(cell)).dimension);
-    };
-    if (simplex(a) && simplex(b)) return true;  // they share the corners of a face
-  }
-  const std::vector<Face> of_a = faces_of(a);
+bool HostJoins::is_simplex(std::int32_t cell) const {
+  return hosts_.corners(cell).size() == 1 + static_cast<std::size_t>(info(hosts_.type(cell)).dimension);
+}
+
+bool HostJoins::share_face(std::int32_t a, std::int32_t b) {
+  const std::vector<Face>& of_a = faces_of(a);
   const std::vector<Face>& of_b = faces_of(b);
   return std::ranges::any_of(of_a, [&](const Face& face) { return std::ranges::binary_search(of_b, face); });
 }
 
 std::vector<std::int32_t> HostJoins::of(std::int32_t cell) {
-  std::vector<std::int32_t> near;
-  for (const std::int32_t node : hosts_.corners(cell)) {
-    const auto there = hosts_.cells_at(node);
-    near.insert(near.end(), there.begin(), there.end());
-  }
-  std::ranges::sort(near);
   const auto of_face = static_cast<std::size_t>(info(hosts_.type(cell)).dimension);
+  const auto is_whole_simplex = [&](std::int32_t one) { return is_simplex(one) && is_whole(one); };
+  const bool whole = is_whole_simplex(cell);
   std::vector<std::int32_t> result;
-  for (std::size_t begin = 0, end = 0; begin < near.size(); begin = end) {
-    while (end < near.size() && near[end] == near[begin]) ++end;
-    if (end - begin >= of_face && near[begin] != cell && joined(cell, near[begin]))
-      result.push_back(near[begin]);
-  }
+  for_cells_at_corners(hosts_, cell, [&](std::int32_t other, std::size_t shared) {
+    if (shared < of_face || other == cell) return;
+    // Two whole simplices share the corners of a face.
+    if ((whole && is_whole_simplex(other)) || share_face(cell, other)) result.push_back(other);
+  });
   return result;
 }
 

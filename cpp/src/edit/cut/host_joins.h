@@ -23,7 +23,8 @@ class HostJoins {
   using Face = std::array<std::int32_t, 3>;  ///< vertices, ascending
   [[nodiscard]] bool is_whole(std::int32_t cell) const { return !material_.cells.contains(cell); }
   const std::vector<Face>& faces_of(std::int32_t cell);
-  bool joined(std::int32_t a, std::int32_t b);
+  [[nodiscard]] bool is_simplex(std::int32_t cell) const;
+  bool share_face(std::int32_t a, std::int32_t b);
 
   const Hosts& hosts_;
   const Material& material_;

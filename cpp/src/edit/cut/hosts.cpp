@@ -44,6 +44,12 @@ void erase_sorted(std::vector<std::int32_t>& list, std::int32_t value) {
   if (place != list.end() && *place == value) list.erase(place);
 }
 
+/// Memory for what edits add, so that the first of them does not move all that is there: a quarter more.
+template <class... Lists>
+void reserve_more(Lists&... lists) {
+  (lists.reserve(lists.size() + lists.size() / 4), ...);
+}
+
 }  // namespace
 
 Hosts::Hosts(const Mesh& mesh) : rest_(mesh.positions), root_(at(mesh.node_count())) {
@@ -57,6 +63,7 @@ Hosts::Hosts(const Mesh& mesh) : rest_(mesh.positions), root_(at(mesh.node_count
     }
   }
   make_clusters();
+  reserve_more(rest_, root_, cells_, pool_, cells_at_);
 }
 
 Hosts::Hosts(std::vector<double> rest, std::vector<std::int32_t> root, std::span<const Cell> cells,
@@ -77,6 +84,7 @@ Hosts::Hosts(std::vector<double> rest, std::vector<std::int32_t> root, std::span
   }
   cells_.resize(at(next_cell), {-1, -1, 0.0, CellType::tetra, -1, 1.0});
   make_clusters();
+  reserve_more(rest_, root_, cells_, pool_, cells_at_);
 }
 
 std::vector<std::int32_t> Hosts::numbers() const {
@@ -90,11 +98,11 @@ std::vector<std::int32_t> Hosts::numbers() const {
 bool Hosts::has(std::int32_t cell) const { return cell >= 0 && cell < next_cell() && slot(cell).first >= 0; }
 
 std::span<const std::int32_t> Hosts::nodes(std::int32_t cell) const {
-  return std::span(pool_).subspan(at(slot(cell).first), at(info(type(cell)).nodes));
+  return pooled(cell, info(type(cell)).nodes);
 }
 
 std::span<const std::int32_t> Hosts::corners(std::int32_t cell) const {
-  return std::span(pool_).subspan(at(slot(cell).first), at(info(type(cell)).corners));
+  return pooled(cell, info(type(cell)).corners);
 }
 
 bool Hosts::lies_in_volume(std::int32_t cell) const {
@@ -118,32 +126,36 @@ std::vector<std::int32_t> Hosts::with_neighbours(std::span<const std::int32_t> c
 }
 
 void Hosts::add(const Cell& cell, std::int32_t cluster) {
-  cells_.resize(at(cell.number) + 1, {-1, -1, 0.0, CellType::tetra, -1, 1.0});
+  cells_.resize(at(cell.number - first_cell_) + 1, {-1, -1, 0.0, CellType::tetra, -1, 1.0});
   cells_.back() = {
       static_cast<std::int32_t>(pool_.size()), cell.origin, cell.share, cell.type, -1, cell.thickness};
   pool_.insert(pool_.end(), cell.nodes.begin(), cell.nodes.end());
-  for (const std::int32_t node : cell.nodes) insert_sorted(cells_at_[at(node)], cell.number);
+  for (const std::int32_t node : cell.nodes) insert_sorted(editable_cells_at(node), cell.number);
   if (cluster >= 0) join_cluster(cell.number, cluster);
 }
 
 void Hosts::take_out(std::int32_t cell) {
-  for (const std::int32_t node : nodes(cell)) erase_sorted(cells_at_[at(node)], cell);
-  erase_sorted(clusters_[at(slot(cell).cluster)].cells, cell);
-  cells_[at(cell)].first = -1;
+  for (const std::int32_t node : nodes(cell)) erase_sorted(editable_cells_at(node), cell);
+  if (below_ == nullptr) erase_sorted(clusters_[at(slot(cell).cluster)].cells, cell);
+  editable_slot(cell).first = -1;
 }
 
 void Hosts::replace_nodes(std::int32_t cell, std::span<const std::int32_t> nodes) {
-  for (const std::int32_t node : this->nodes(cell)) erase_sorted(cells_at_[at(node)], cell);
-  std::ranges::copy(nodes, pool_.begin() + slot(cell).first);
-  for (const std::int32_t node : nodes) insert_sorted(cells_at_[at(node)], cell);
+  for (const std::int32_t node : this->nodes(cell)) erase_sorted(editable_cells_at(node), cell);
+  std::ranges::copy(nodes, pool_.begin() + editable_slot(cell).first);
+  for (const std::int32_t node : nodes) insert_sorted(editable_cells_at(node), cell);
   join_cluster(cell, slot(cell).cluster);
 }
 
 void Hosts::join_cluster(std::int32_t cell, std::int32_t cluster) {
+  if (below_ != nullptr) return;
   Cluster& home = clusters_[at(cluster)];
   cells_[at(cell)].cluster = cluster;
   insert_sorted(home.cells, cell);
-  for (const std::int32_t node : corners(cell)) insert_sorted(home.corners, node);
+  for (const std::int32_t node : corners(cell)) {
+    insert_sorted(home.corners, node);
+    home.rest.extend(block(rest(), node).eval());
+  }
 }
 
 void Hosts::make_clusters() {
@@ -192,6 +204,8 @@ void Hosts::move(const NodeMove& move) {
   const Vec3 place = move.to.at(rest());
   block(Reals(rest_), move.node) = place;
   moved_ = true;
+  if (below_ != nullptr) return;
+  for (const std::int32_t cell : cells_at(move.node)) clusters_[at(slot(cell).cluster)].rest.extend(place);
 }
 
 void Hosts::apply(const CutPlan& plan) {

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <bit>
 
+#include "edit/cut/face_key.h"
+
 namespace tissu {
 namespace {
 
-using Key = std::array<std::int32_t, 3>;
+using Key = FaceKey;
 
 Key face_key(const Patch::Tetra& tetra, std::size_t face) {
   Key key{tetra.vertices[kOpposite[face][0]], tetra.vertices[kOpposite[face][1]],
@@ -17,15 +19,6 @@ Key face_key(const Patch::Tetra& tetra, std::size_t face) {
   return key;
 }
 
-std::size_t hash(const Key& key) {
-  std::uint64_t h = 0;
-  for (const std::int32_t v : key) {
-    h = (h ^ static_cast<std::uint32_t>(v)) * 0x9E3779B97F4A7C15U;
-    h ^= h >> 29U;
-  }
-  return static_cast<std::size_t>(h);
-}
-
 /// Faces that wait for the tetrahedron on their other side, in a table of open addresses.
 class Waiting {
  public:
@@ -33,7 +26,7 @@ class Waiting {
 
   /// The side (tetrahedron * 4 + face) that waits at this face; where none does, this one waits: -1.
   std::int32_t meet(const Key& key, std::int32_t side) {
-    std::size_t place = hash(key) & (slots_.size() - 1);
+    std::size_t place = hash_of(key) & (slots_.size() - 1);
     while (slots_[place].side >= 0) {
       if (slots_[place].key == key) return slots_[place].side;
       place = (place + 1) & (slots_.size() - 1);

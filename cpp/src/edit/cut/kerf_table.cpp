@@ -6,6 +6,7 @@
 #include "edit/cut/drawn_in.h"
 #include "edit/cut/material_faces.h"
 #include "edit/cut/riders.h"
+#include "edit/cut/shared_corners.h"
 #include "tissu/base/sort_unique.h"
 #include "tissu/mesh/cell_shape.h"
 
@@ -20,21 +21,28 @@ bool is_volume(const Hosts& hosts, std::int32_t cell) {
 
 /// Adds the volumes that share three corners with one of some cells, which are those that a face may join.
 void add_beside(const Hosts& hosts, std::vector<std::int32_t>& cells) {
-  constexpr std::uint8_t kOfFace = 3;
-  std::vector<std::uint8_t> shared(at(hosts.next_cell()), 0);
+  constexpr std::size_t kOfFace = 3;
   const std::size_t count = cells.size();
   for (std::size_t i = 0; i < count; ++i) {
-    const auto corners = hosts.corners(cells[i]);
-    for (const std::int32_t node : corners) {
-      for (const std::int32_t other : hosts.cells_at(node)) {
-        if (++shared[at(other)] == kOfFace && is_volume(hosts, other)) cells.push_back(other);
-      }
-    }
-    for (const std::int32_t node : corners) {
-      for (const std::int32_t other : hosts.cells_at(node)) shared[at(other)] = 0;
-    }
+    for_cells_at_corners(hosts, cells[i], [&](std::int32_t other, std::size_t shared) {
+      if (shared >= kOfFace && is_volume(hosts, other)) cells.push_back(other);
+    });
   }
   sort_unique(cells);
+}
+
+/// Adds the cells that have all nodes of a rider: the material of no other has it as a vertex.
+void add_cells_around(const Hosts& hosts, const Rider& rider, std::vector<std::int32_t>& cells) {
+  std::size_t fewest = 0;
+  for (std::size_t i = 1; i < at(rider.count); ++i) {
+    if (hosts.cells_at(rider.node[i]).size() < hosts.cells_at(rider.node[fewest]).size()) fewest = i;
+  }
+  for (const std::int32_t cell : hosts.cells_at(rider.node[fewest])) {
+    bool has_all = true;
+    for (std::size_t i = 0; i < at(rider.count) && has_all; ++i)
+      has_all = i == fewest || std::ranges::binary_search(hosts.cells_at(rider.node[i]), cell);
+    if (has_all) cells.push_back(cell);
+  }
 }
 
 /// Adds the vertices of the material of some cells.
@@ -162,11 +170,7 @@ void KerfTable::draw(const Hosts& hosts, const Material& material) {
     const bool has_twin = twins_.at(places_.at(v)).size() > 1;
     if (use->second.walls == 0 && !has_twin) continue;
     wanted.emplace(v, has_twin);
-    const Rider own = rider_of(material, v);
-    for (std::size_t i = 0; i < at(own.count); ++i) {
-      const auto there = hosts.cells_at(own.node[i]);
-      cells.insert(cells.end(), there.begin(), there.end());
-    }
+    add_cells_around(hosts, rider_of(material, v), cells);
   }
   if (wanted.empty()) return;
   sort_unique(cells);
@@ -185,12 +189,19 @@ KerfSurface KerfTable::surface() const {
 }
 
 std::vector<std::uint8_t> KerfTable::changed() const {
-  const auto is_listed = [&](std::int32_t v) { return std::ranges::binary_search(vertices_, v); };
+  const std::int32_t low = vertices_.empty() ? 0 : vertices_.front();
+  std::vector<std::uint8_t> listed(vertices_.empty() ? 0 : at(vertices_.back() - low) + 1, 0);
+  for (const std::int32_t v : vertices_) listed[at(v - low)] = 1;
+  const auto is_listed = [&](std::int32_t v) {
+    return v >= low && at(v - low) < listed.size() && listed[at(v - low)] != 0;
+  };
   std::vector<std::uint8_t> changed;
+  auto looked_at = cells_.begin();  // they ascend, as those of the triangles do
   for (const auto& [cell, own] : triangles_) {
-    const bool looked_at = std::ranges::binary_search(cells_, cell);
+    while (looked_at != cells_.end() && *looked_at < cell) ++looked_at;
+    const bool is_one = looked_at != cells_.end() && *looked_at == cell;
     for (const OuterTriangle& triangle : own)
-      changed.push_back(looked_at || std::ranges::any_of(triangle.vertices, is_listed) ? 1 : 0);
+      changed.push_back(is_one || std::ranges::any_of(triangle.vertices, is_listed) ? 1 : 0);
   }
   return changed;
 }

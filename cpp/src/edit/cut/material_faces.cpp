@@ -1,17 +1,17 @@
 #include "edit/cut/material_faces.h"
 
 #include <algorithm>
+#include <bit>
 #include <numeric>
 #include <utility>
 
 #include "edit/cut/carriers.h"
+#include "edit/cut/face_key.h"
 #include "edit/cut/patch.h"
 #include "tissu/mesh/cell_shape.h"
 
 namespace tissu {
 namespace {
-
-using Key = std::array<std::int32_t, 3>;
 
 std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
@@ -63,21 +63,41 @@ void add(const Hosts& hosts, const Material& material, std::int32_t cell, Materi
   }
 }
 
-/// Faces with the same vertices that no cut opened are joined.
+/// The first and the latest face with the same vertices, in a table of open addresses.
+class SameFaces {
+ public:
+  explicit SameFaces(std::size_t count) : slots_(std::bit_ceil(2 * count + 1)) {}
+  struct Slot {
+    FaceKey key{};
+    std::int32_t first = -1;  ///< -1: it is free
+    std::int32_t latest = -1;
+  };
+  Slot& at_key(const FaceKey& key) {
+    std::size_t place = hash_of(key) & (slots_.size() - 1);
+    while (slots_[place].first >= 0 && slots_[place].key != key) place = (place + 1) & (slots_.size() - 1);
+    return slots_[place];
+  }
+
+ private:
+  std::vector<Slot> slots_;
+};
+
+/// Faces with the same vertices that no cut opened are joined: each to the next one, the last to the first.
 void join_faces(std::vector<MaterialFace>& faces) {
-  std::vector<std::pair<Key, std::int32_t>> order;
-  order.reserve(faces.size());
+  SameFaces same(faces.size());
   for (std::size_t f = 0; f < faces.size(); ++f) {
     if (faces[f].cut) continue;
-    Key key = faces[f].vertices;
+    FaceKey key = faces[f].vertices;
     std::ranges::sort(key);
-    order.emplace_back(key, static_cast<std::int32_t>(f));
-  }
-  std::ranges::sort(order);
-  for (std::size_t begin = 0, end = 0; begin < order.size(); begin = end) {
-    while (end < order.size() && order[end].first == order[begin].first) ++end;
-    for (std::size_t i = begin; end - begin > 1 && i < end; ++i)
-      faces[at(order[i].second)].across = order[i + 1 < end ? i + 1 : begin].second;
+    SameFaces::Slot& slot = same.at_key(key);
+    const auto own = static_cast<std::int32_t>(f);
+    if (slot.first < 0) {
+      slot = {key, own, own};
+      continue;
+    }
+    faces[at(slot.latest)].across = own;
+    faces[f].across = slot.first;
+    slot.latest = own;
   }
 }
 

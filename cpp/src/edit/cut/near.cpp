@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace tissu {
@@ -45,6 +46,30 @@ Box box_of(std::span<const std::int32_t> nodes, ConstReals x) {
   return grown(box);
 }
 
+/// The box of how far nodes are from where they are at rest.
+Box shifts(ConstReals rest, ConstReals x) {
+  Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity());
+  Vec3 high = -low;
+  for (std::size_t i = 0; i + 2 < x.size(); i += 3) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double shift = x[i + k] - rest[i + k];
+      const auto axis = static_cast<Eigen::Index>(k);
+      low[axis] = std::min(low[axis], shift);
+      high[axis] = std::max(high[axis], shift);
+    }
+  }
+  return {low, high};
+}
+
+/// A box that holds what lay in one at rest, wherever it has gone.
+Box shifted(const Box& rest, const Box& shift) {
+  const auto size = [](const Box& box) {
+    return box.min().cwiseAbs().maxCoeff() + box.max().cwiseAbs().maxCoeff();
+  };
+  const double margin = 4.0 * kMargin * (size(rest) + size(shift));
+  return {(rest.min() + shift.min()).array() - margin, (rest.max() + shift.max()).array() + margin};
+}
+
 }  // namespace
 
 NearCells::NearCells(const Hosts& hosts, ConstReals x, const SweepPart& part) {
@@ -57,7 +82,9 @@ NearCells::NearCells(const Hosts& hosts, ConstReals x, const SweepPart& part) {
   using Entry = std::pair<std::int32_t, std::int32_t>;
   std::vector<Entry> found;  // cell, triangle
   std::vector<std::int32_t> hits;
+  const Box shift = shifts(hosts.rest(), x);
   for (const Hosts::Cluster& cluster : hosts.clusters()) {
+    if (cluster.rest.isEmpty() || !shifted(cluster.rest, shift).intersects(whole)) continue;
     const Box around = box_of(cluster.corners, x);
     if (!around.intersects(whole)) continue;
     hits.clear();
@@ -67,6 +94,7 @@ NearCells::NearCells(const Hosts& hosts, ConstReals x, const SweepPart& part) {
     if (hits.empty()) continue;
     for (const std::int32_t cell : cluster.cells) {
       const Box box = box_of(hosts.corners(cell), x);
+      if (!box.intersects(whole)) continue;
       for (const std::int32_t t : hits) {
         if (meet(box, plates[static_cast<std::size_t>(t)])) found.emplace_back(cell, t);
       }

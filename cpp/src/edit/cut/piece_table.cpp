@@ -1,12 +1,12 @@
 #include "tissu/edit/cut/piece_table.h"
 
 #include <algorithm>
-#include <deque>
-#include <unordered_map>
 #include <utility>
 
 #include "edit/cut/host_joins.h"
 #include "edit/cut/joins.h"
+#include "edit/cut/shared_corners.h"
+#include "tissu/base/sort_unique.h"
 #include "tissu/edit/cut/cut_plan.h"
 
 namespace tissu {
@@ -23,55 +23,64 @@ double whole_volume(const Hosts& hosts, std::int32_t cell) {
 /// What grows from some cells of a piece, all fronts in turn, until one front is left or none.
 class Flood {
  public:
-  Flood(const Hosts& hosts, const Material& material, const std::vector<std::int32_t>& seeds)
-      : joins_(hosts, material), sets_(seeds.size()), fronts_(seeds.size()) {
+  /// `met`: of each cell -1; so it is again afterwards.
+  Flood(const Hosts& hosts, const Material& material, const std::vector<std::int32_t>& seeds,
+        std::vector<std::int32_t>& met)
+      : joins_(hosts, material), sets_(seeds.size()), fronts_(seeds.size()), met_(met), seen_(seeds) {
     for (std::size_t i = 0; i < seeds.size(); ++i) {
-      seen_[seeds[i]] = static_cast<std::int32_t>(i);
-      fronts_[i].push_back(seeds[i]);
+      met_[at(seeds[i])] = static_cast<std::int32_t>(i);
+      fronts_[i].cells.push_back(seeds[i]);
     }
     left_ = seeds.size();
+  }
+  Flood(const Flood&) = delete;
+  Flood& operator=(const Flood&) = delete;
+  ~Flood() {
+    for (const std::int32_t cell : seen_) met_[at(cell)] = -1;
   }
 
   /// The parts that were seen whole, but for one where all were.
   std::vector<std::vector<std::int32_t>> run() {
     while (left_ > 1) {
       for (std::size_t i = 0; i < fronts_.size() && left_ > 1; ++i) {
-        if (sets_.first(static_cast<std::int32_t>(i)) == static_cast<std::int32_t>(i) && !whole_.contains(i))
+        if (sets_.first(static_cast<std::int32_t>(i)) == static_cast<std::int32_t>(i) && !fronts_[i].whole)
           grow(i);
       }
     }
-    std::unordered_map<std::int32_t, std::vector<std::int32_t>> parts;
-    for (const auto& [cell, seed] : seen_) {
-      const std::int32_t set = sets_.first(seed);
-      if (whole_.contains(at(set))) parts[set].push_back(cell);
+    std::vector<std::vector<std::int32_t>> parts(fronts_.size());
+    for (const std::int32_t cell : seen_) {
+      const auto set = at(sets_.first(met_[at(cell)]));
+      if (fronts_[set].whole) parts[set].push_back(cell);
     }
-    std::vector<std::vector<std::int32_t>> result;
-    for (auto& [set, cells] : parts) {
-      std::ranges::sort(cells);
-      result.push_back(std::move(cells));
-    }
-    std::ranges::sort(result);
-    return result;
+    std::erase_if(parts, [](const auto& cells) { return cells.empty(); });
+    for (auto& cells : parts) std::ranges::sort(cells);
+    std::ranges::sort(parts);
+    return parts;
   }
 
  private:
+  struct Front {
+    std::vector<std::int32_t> cells;  ///< those from `next` on wait
+    std::size_t next = 0;
+    bool whole = false;
+  };
+
   /// One cell of a front; where the front is empty, its part is whole.
   void grow(std::size_t set) {
-    std::deque<std::int32_t>& front = fronts_[set];
-    if (front.empty()) {
-      whole_.emplace(set, true);
+    Front& front = fronts_[set];
+    if (front.next == front.cells.size()) {
+      front.whole = true;
       --left_;
       return;
     }
-    const std::int32_t cell = front.front();
-    front.pop_front();
-    for (const std::int32_t other : joins_.of(cell)) {
-      const auto [known, fresh] = seen_.try_emplace(other, static_cast<std::int32_t>(set));
-      if (fresh) {
-        fronts_[at(sets_.first(static_cast<std::int32_t>(set)))].push_back(other);
-      } else {
-        join(static_cast<std::int32_t>(set), known->second);
+    for (const std::int32_t other : joins_.of(front.cells[front.next++])) {
+      if (met_[at(other)] >= 0) {
+        join(static_cast<std::int32_t>(set), met_[at(other)]);
+        continue;
       }
+      met_[at(other)] = static_cast<std::int32_t>(set);
+      seen_.push_back(other);
+      fronts_[at(sets_.first(static_cast<std::int32_t>(set)))].cells.push_back(other);
     }
   }
 
@@ -81,19 +90,20 @@ class Flood {
     if (first == second) return;
     sets_.join(first, second);
     const std::int32_t kept = sets_.first(first);
-    std::deque<std::int32_t>& other = fronts_[at(kept == first ? second : first)];
-    std::deque<std::int32_t>& to = fronts_[at(kept)];
-    to.insert(to.end(), other.begin(), other.end());
-    other.clear();
+    Front& other = fronts_[at(kept == first ? second : first)];
+    Front& to = fronts_[at(kept)];
+    to.cells.insert(to.cells.end(), other.cells.begin() + static_cast<std::ptrdiff_t>(other.next),
+                    other.cells.end());
+    other = {};
     --left_;
   }
 
   HostJoins joins_;
   Sets sets_;
-  std::vector<std::deque<std::int32_t>> fronts_;
-  std::unordered_map<std::int32_t, std::int32_t> seen_;  ///< cells, and the seed from which each was met
-  std::unordered_map<std::size_t, bool> whole_;
-  std::size_t left_ = 0;  ///< sets that may grow
+  std::vector<Front> fronts_;
+  std::vector<std::int32_t>& met_;  ///< of each cell, the seed from which it was met
+  std::vector<std::int32_t> seen_;  ///< the cells that were
+  std::size_t left_ = 0;            ///< sets that may grow
 };
 
 }  // namespace
@@ -117,6 +127,7 @@ double PieceTable::volume(const Hosts& hosts, std::int32_t cell) const {
   return hosts.share(cell) * whole_volume(hosts, cell);
 }
 
+/// What parts of a piece has a cell of the plan, or one that a face joined to such a cell before.
 void PieceTable::begin(const Hosts& hosts, const CutPlan& plan) {
   if (!single_) return;
   near_ = plan.gone;
@@ -124,7 +135,14 @@ void PieceTable::begin(const Hosts& hosts, const CutPlan& plan) {
   for (const auto& [cell, list] : plan.material.cells) {
     if (hosts.has(cell)) near_.push_back(cell);
   }
-  near_ = hosts.with_neighbours(near_);
+  const std::vector<std::int32_t> touched = near_;
+  for (const std::int32_t cell : touched) {
+    const auto of_face = at(info(hosts.type(cell)).dimension);
+    for_cells_at_corners(hosts, cell, [&](std::int32_t other, std::size_t shared) {
+      if (shared >= of_face) near_.push_back(other);
+    });
+  }
+  sort_unique(near_);
   piece_.resize(std::max(piece_.size(), at(hosts.next_cell())), -1);
   for (const BornCell& cell : plan.born) {
     if (piece_.size() <= at(cell.number)) piece_.resize(at(cell.number) + 1, -1);
@@ -145,6 +163,7 @@ void PieceTable::end(const Hosts& hosts, const Material& material, const CutPlan
     ++counts_[at(piece_[at(cell.number)])];
   }
   std::erase_if(near_, [&](std::int32_t cell) { return !hosts.has(cell); });
+  met_.resize(piece_.size(), -1);
   std::ranges::sort(near_, {}, [&](std::int32_t cell) { return std::pair(piece_[at(cell)], cell); });
   for (std::size_t begin = 0, end = 0; begin < near_.size(); begin = end) {
     const std::int32_t piece = piece_[at(near_[begin])];
@@ -157,7 +176,7 @@ void PieceTable::end(const Hosts& hosts, const Material& material, const CutPlan
 
 /// Parts of a piece that were seen whole become pieces of their own; the rest stays what it was.
 void PieceTable::part(const Hosts& hosts, const Material& material, const std::vector<std::int32_t>& seeds) {
-  for (const std::vector<std::int32_t>& cells : Flood(hosts, material, seeds).run()) {
+  for (const std::vector<std::int32_t>& cells : Flood(hosts, material, seeds, met_).run()) {
     const auto number = static_cast<std::int32_t>(volumes_.size());
     const auto from = at(piece_[at(cells.front())]);
     double whole = 0.0;

@@ -38,13 +38,22 @@ Polygon clipped(const Polygon& polygon, int axis, double limit, double sign) {
   return kept;
 }
 
-/// Whether a triangle, or a segment, and a box share a point.
+/// Clips a polygon in its place. A plane that cuts nothing off leaves it as it is.
+void clip(Polygon& polygon, int axis, double limit, double sign) {
+  const auto first = polygon.corner.begin();
+  const auto end = first + static_cast<std::ptrdiff_t>(polygon.count);
+  const auto is_inside = [&](const Vec3& p) { return sign * (limit - p[axis]) >= 0.0; };
+  if (!std::ranges::all_of(first, end, is_inside)) polygon = clipped(polygon, axis, limit, sign);
+}
+
+/// Whether a triangle, or a segment, and a box share a point. No plane cuts off a corner inside the box.
 bool meets(std::initializer_list<Vec3> corners, const Box& box) {
+  if (std::ranges::any_of(corners, [&](const Vec3& p) { return box.contains(p); })) return true;
   Polygon polygon;
   for (const Vec3& p : corners) polygon.add(p);
   for (int axis = 0; axis < 3 && polygon.count > 0; ++axis) {
-    polygon = clipped(polygon, axis, box.max()[axis], 1.0);
-    polygon = clipped(polygon, axis, box.min()[axis], -1.0);
+    clip(polygon, axis, box.max()[axis], 1.0);
+    clip(polygon, axis, box.min()[axis], -1.0);
   }
   return polygon.count > 0;
 }

@@ -5,9 +5,12 @@
 #include <algorithm>
 #include <limits>
 #include <numeric>
+#include <optional>
 
 #include "cut_body.h"
+#include "edit/cut/near.h"
 #include "tissu/base/error.h"
+#include "tissu/edit/cut/piece_table.h"
 #include "tissu/mesh/quality.h"
 #include "tissu/mesh/topology.h"
 
@@ -145,6 +148,143 @@ TEST(CutRefusalTest, ACellInsideOutIsReportedAndStaysWhole) {
   EXPECT_TRUE(plan.born.empty());
   ASSERT_EQ(plan.unresolved.size(), 1U);
   EXPECT_EQ(plan.unresolved[0].second, Unresolved::shape);
+}
+
+/// A body of one type that was cut and from which cells were taken, each time by `edit(plan, make)`: `make`
+/// applies the plan.
+template <class Edit>
+void edit_some(CellType type, bool divide, std::uint64_t seed, Edit&& edit) {
+  std::mt19937_64 random(seed);
+  test::CutBody body(test::typed_box(type, Vec3(1, 1, 1), {4, 3, 3}, 0.2, seed));
+  CutOptions options;
+  options.divide = divide;
+  if (divide) options.t0 = 0.2;
+  for (int k = 0; k < 8; ++k) {
+    if (k % 4 == 3) {
+      const std::vector<std::int32_t> all = body.hosts.numbers();
+      const std::vector<std::int32_t> gone = {all[random() % all.size()]};
+      edit(body, plan_ablation(body.hosts, body.material, gone), [&] { body.ablate(gone); });
+    } else {
+      const Sweep sweep = test::random_sweep(random, body);
+      edit(body, plan_cut(body.hosts, body.material, body.x, sweep, options),
+           [&] { body.cut(sweep, options); });
+    }
+    ASSERT_FALSE(testing::Test::HasFailure()) << "seed " << seed << ", edit " << k;
+  }
+}
+
+class EditedTest : public testing::TestWithParam<std::pair<CellType, bool>> {};
+
+TEST_P(EditedTest, PiecesThatAreFollowedAreThoseLookedForAnew) {
+  const auto [type, divide] = GetParam();
+  std::size_t most = 0;
+  for (std::uint64_t seed = 0; seed < 12; ++seed) {
+    std::optional<PieceTable> table;
+    edit_some(type, divide, seed, [&](const test::CutBody& body, const CutPlan& plan, const auto& make) {
+      if (!table) table.emplace(body.hosts, body.material);
+      table->begin(body.hosts, plan);
+      make();
+      table->end(body.hosts, body.material, plan);
+      const std::vector<Piece> found = table->list(body.hosts, body.material);
+      const std::vector<Piece> expected = pieces(body.hosts, body.material);
+      ASSERT_EQ(found.size(), expected.size());
+      for (std::size_t i = 0; i < found.size(); ++i) {
+        EXPECT_EQ(found[i].cells, expected[i].cells);
+        EXPECT_NEAR(found[i].volume, expected[i].volume, 1e-13);  // round-off of sums of parts of 1
+      }
+      most = std::max(most, found.size());
+    });
+  }
+  EXPECT_GT(most, 2U);
+}
+
+/// A cell has every vertex of its material between nodes of its own.
+TEST_P(EditedTest, MaterialRidesOnTheNodesOfItsCell) {
+  const auto [type, divide] = GetParam();
+  for (std::uint64_t seed = 20; seed < 32; ++seed) {
+    edit_some(type, divide, seed, [&](const test::CutBody& body, const CutPlan&, const auto& make) {
+      make();
+      for (const auto& [cell, list] : body.material.cells) {
+        const auto nodes = body.hosts.nodes(cell);
+        const auto has = [&](std::int32_t node) { return std::ranges::find(nodes, node) != nodes.end(); };
+        for (const MaterialTetra& tetra : list) {
+          for (const std::int32_t v : tetra.vertices) {
+            if (v >= 0) {
+              EXPECT_TRUE(has(v));
+              continue;
+            }
+            const Rider& rider = body.material.riders[at(-1 - v)];
+            for (std::size_t i = 0; i < at(rider.count); ++i) EXPECT_TRUE(has(rider.node[i]));
+          }
+        }
+      }
+    });
+  }
+}
+
+TEST_P(EditedTest, HostsOverOthersAreACopyOfThem) {
+  const auto [type, divide] = GetParam();
+  for (std::uint64_t seed = 40; seed < 46; ++seed) {
+    edit_some(type, divide, seed, [&](const test::CutBody& body, const CutPlan& plan, const auto& make) {
+      Hosts over = Hosts::over(body.hosts);
+      over.apply(plan);
+      const Hosts before = body.hosts;
+      const auto expect_same = [](const Hosts& found, const Hosts& expected) {
+        ASSERT_EQ(found.numbers(), expected.numbers());
+        ASSERT_EQ(found.node_count(), expected.node_count());
+        EXPECT_TRUE(std::ranges::equal(found.rest(), expected.rest()));
+        for (const std::int32_t cell : expected.numbers()) {
+          EXPECT_TRUE(std::ranges::equal(found.nodes(cell), expected.nodes(cell)));
+          EXPECT_EQ(found.origin(cell), expected.origin(cell));
+          EXPECT_EQ(found.share(cell), expected.share(cell));
+        }
+        for (std::int32_t node = 0; node < expected.node_count(); ++node) {
+          EXPECT_TRUE(std::ranges::equal(found.cells_at(node), expected.cells_at(node)));
+          EXPECT_EQ(found.root(node), expected.root(node));
+        }
+      };
+      Hosts applied = body.hosts;
+      applied.apply(plan);
+      expect_same(over, applied);
+      expect_same(body.hosts, before);
+      make();
+    });
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Some, EditedTest,
+                         testing::Values(std::pair(CellType::tetra, false), std::pair(CellType::tetra, true),
+                                         std::pair(CellType::hexahedron, false),
+                                         std::pair(CellType::tetra10, false)));
+
+/// The cells near a blade are those of a body that rests in its present places.
+TEST(NearCellsTest, BodiesThatMovedFarAndBentHaveTheSame) {
+  std::mt19937_64 random(7);
+  const auto real = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+  };
+  std::size_t found = 0;
+  for (int k = 0; k < 40; ++k) {
+    test::CutBody body(test::typed_box(CellType::tetra, Vec3(4, 1, 1), {24, 6, 6}, 0.2, 3));
+    const Vec3 way(real(-50, 50), real(-50, 50), real(-50, 50));
+    const Mat3 turn = Eigen::AngleAxisd(real(0, 3), Vec3(1, real(-1, 1), 0.5).normalized()).matrix();
+    const double bend = real(-0.3, 0.3);
+    body.move([&](const Vec3& X) -> Vec3 { return way + turn * (X + bend * Vec3(0, X[0] * X[0], X[0])); });
+    const Hosts hosts = body.hosts;
+    std::vector<Hosts::Cell> cells;
+    for (const std::int32_t cell : hosts.numbers())
+      cells.push_back(
+          {cell, CellType::tetra, cell, 1.0, {hosts.nodes(cell).begin(), hosts.nodes(cell).end()}});
+    std::vector<std::int32_t> roots(at(hosts.node_count()));
+    std::iota(roots.begin(), roots.end(), 0);
+    const Hosts resting(body.x, roots, cells, hosts.next_cell());
+    const std::int32_t middle = hosts.node_count() / 2 + k;
+    const Sweep disc = disc_sweep(block(ConstReals(body.x), middle), Vec3(1, real(-1, 1), 0), 0.4);
+    const NearCells near(hosts, body.x, disc.parts[0]);
+    EXPECT_EQ(near.cells(), NearCells(resting, body.x, disc.parts[0]).cells());
+    found += near.cells().size();
+  }
+  EXPECT_GT(found, 1000U);
 }
 
 }  // namespace

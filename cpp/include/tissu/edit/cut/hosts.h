@@ -2,9 +2,11 @@
 
 /// The cells of a body as a cut sees them: by numbers that live for ever, with the cells at each node.
 
+#include <Eigen/Geometry>
 #include <array>
 #include <cstdint>
 #include <span>
+#include <unordered_map>
 #include <vector>
 
 #include "tissu/base/vec.h"
@@ -53,8 +55,16 @@ class Hosts {
   Hosts(std::vector<double> rest, std::vector<std::int32_t> root, std::span<const Cell> cells,
         std::int32_t next_cell, std::vector<Rider> points = {}, bool moved = false);
 
-  [[nodiscard]] std::int32_t node_count() const { return static_cast<std::int32_t>(root_.size()); }
-  [[nodiscard]] std::int32_t next_cell() const { return static_cast<std::int32_t>(cells_.size()); }
+  /// The same hosts, to which a plan may be applied that the others are kept from. What no plan touches is
+  /// read from them: they outlive these, and stay as they are. It has no clusters.
+  static Hosts over(const Hosts& below);
+
+  [[nodiscard]] std::int32_t node_count() const {
+    return first_node_ + static_cast<std::int32_t>(root_.size());
+  }
+  [[nodiscard]] std::int32_t next_cell() const {
+    return first_cell_ + static_cast<std::int32_t>(cells_.size());
+  }
   /// Numbers of the cells that are there, ascending.
   [[nodiscard]] std::vector<std::int32_t> numbers() const;
 
@@ -70,7 +80,10 @@ class Hosts {
   [[nodiscard]] ConstReals rest() const { return rest_; }
   /// The first-day node that a node is a copy of; itself on the first day. Of a node that a blade put on an
   /// edge, -1 - i for the place points()[i] of the first day.
-  [[nodiscard]] std::int32_t root(std::int32_t node) const { return root_[static_cast<std::size_t>(node)]; }
+  [[nodiscard]] std::int32_t root(std::int32_t node) const {
+    if (node < first_node_) return below_->root(node);
+    return root_[static_cast<std::size_t>(node - first_node_)];
+  }
   /// Between no nodes: on an edge that a repair made, between more than four nodes of the first day.
   [[nodiscard]] const std::vector<Rider>& points() const { return points_; }
   /// The same point between nodes of the first day, which are corners of one cell of that day. Places at rest
@@ -82,7 +95,8 @@ class Hosts {
   [[nodiscard]] bool moved() const { return moved_; }
   /// Numbers of the cells at a node, ascending.
   [[nodiscard]] std::span<const std::int32_t> cells_at(std::int32_t node) const {
-    return cells_at_[static_cast<std::size_t>(node)];
+    if (node < first_node_) return cells_at_below(node);
+    return cells_at_[static_cast<std::size_t>(node - first_node_)];
   }
 
   /// Whether a volume cell has all corners of this one.
@@ -95,6 +109,7 @@ class Hosts {
   struct Cluster {
     std::vector<std::int32_t> cells;
     std::vector<std::int32_t> corners;
+    Eigen::AlignedBox3d rest = {};  ///< around the corners at rest; may be larger
   };
   [[nodiscard]] std::span<const Cluster> clusters() const { return clusters_; }
 
@@ -113,18 +128,34 @@ class Hosts {
     std::int32_t cluster;
     double thickness;
   };
-  [[nodiscard]] const Slot& slot(std::int32_t cell) const { return cells_[static_cast<std::size_t>(cell)]; }
+  [[nodiscard]] const Slot& slot(std::int32_t cell) const {
+    if (cell < first_cell_) return slot_below(cell);
+    return cells_[static_cast<std::size_t>(cell - first_cell_)];
+  }
+  /// What is edited of the hosts below is copied first.
+  [[nodiscard]] const Slot& slot_below(std::int32_t cell) const;
+  [[nodiscard]] std::span<const std::int32_t> cells_at_below(std::int32_t node) const;
+  [[nodiscard]] std::span<const std::int32_t> pooled(std::int32_t cell, int count) const;
+  Slot& editable_slot(std::int32_t cell);
+  std::vector<std::int32_t>& editable_cells_at(std::int32_t node);
   void add(const Cell& cell, std::int32_t cluster);
   void take_out(std::int32_t cell);
   void replace_nodes(std::int32_t cell, std::span<const std::int32_t> nodes);
   void make_clusters();
   void join_cluster(std::int32_t cell, std::int32_t cluster);
 
+  Hosts() = default;
+
+  const Hosts* below_ = nullptr;  ///< of `over`
+  std::int32_t first_node_ = 0;   ///< nodes before it are of those below, …
+  std::int32_t first_cell_ = 0;   ///< … and cells before it, but for these:
+  std::unordered_map<std::int32_t, Slot> slots_over_;
+  std::unordered_map<std::int32_t, std::vector<std::int32_t>> cells_at_over_;
   std::vector<double> rest_;
   std::vector<std::int32_t> root_;
   std::vector<Rider> points_;  ///< in nodes of the first day
   bool moved_ = false;
-  std::vector<Slot> cells_;         ///< by number
+  std::vector<Slot> cells_;         ///< by number, from `first_cell_` on
   std::vector<std::int32_t> pool_;  ///< the nodes of the cells
   std::vector<std::vector<std::int32_t>> cells_at_;
   std::vector<Cluster> clusters_;

@@ -30,6 +30,7 @@ class PieceTable {
   std::vector<double> volumes_;       ///< of each piece [m3]
   std::vector<std::int32_t> counts_;  ///< of its cells
   std::vector<std::int32_t> near_;    ///< cells around the plan that is being applied
+  std::vector<std::int32_t> met_;     ///< of each cell -1, for searches
 };
 
 }  // namespace tissu

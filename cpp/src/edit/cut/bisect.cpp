@@ -48,7 +48,7 @@ class Divider {
     std::vector<Choice> choices;
     for (CrossedEdge& edge : edges) {
       const auto nearest = std::ranges::min_element(
-          edge.crossings, {}, [](const Crossing& crossing) { return std::abs(crossing.t - 0.5); });
+          edge.crossings, {}, [](const BladeCrossing& crossing) { return std::abs(crossing.t - 0.5); });
       const auto which = static_cast<std::size_t>(nearest - edge.crossings.begin());
       if (goes_to_end(edge, *nearest)) continue;
       const double length = rest_length(patch_, edge.p, edge.q);
@@ -75,7 +75,7 @@ class Divider {
   }
 
   /// Whether the cut goes to an end of the edge, which is then on the cut, or the edge has to stay.
-  bool goes_to_end(const CrossedEdge& edge, const Crossing& nearest) {
+  bool goes_to_end(const CrossedEdge& edge, const BladeCrossing& nearest) {
     double share = kLeastT;
     bool sound = true;
     const std::vector<std::int32_t> around = patch_.around(edge.p, edge.q);
@@ -87,8 +87,8 @@ class Divider {
     if (is_short(patch_, edge.p, edge.q)) share = 0.5;
     const double t = nearest.t;
     if (t <= share || t >= 1.0 - share) {
-      for (const Crossing& crossing : edge.crossings) put_on_end(edge, crossing);  // all are that near
-      const auto to_p = [](const Crossing& crossing) { return crossing.t <= 0.5; };
+      for (const BladeCrossing& crossing : edge.crossings) put_on_end(edge, crossing);  // all are that near
+      const auto to_p = [](const BladeCrossing& crossing) { return crossing.t <= 0.5; };
       const auto of_p = std::ranges::count_if(edge.crossings, to_p);
       const bool merges = of_p > 1 || static_cast<std::ptrdiff_t>(edge.crossings.size()) - of_p > 1;
       if (!merges || is_short(patch_, edge.p, edge.q)) return true;
@@ -103,7 +103,7 @@ class Divider {
     return true;
   }
 
-  void put_on_end(const CrossedEdge& edge, const Crossing& crossing) {
+  void put_on_end(const CrossedEdge& edge, const BladeCrossing& crossing) {
     const Vec3& a = patch_.vertex(edge.p).place;
     const Vec3& b = patch_.vertex(edge.q).place;
     const bool to_p = crossing.t <= 0.5;

@@ -34,8 +34,9 @@ bool is_near(const SweepPart& part, Numbers triangles, const Vec3& a, const Vec3
 }
 
 /// Where an edge passes triangles of the blade, without a settlement.
-std::vector<Crossing> all_crossings(const SweepPart& part, const Vec3& a, const Vec3& b, Numbers triangles) {
-  std::vector<Crossing> crossings;
+std::vector<BladeCrossing> all_crossings(const SweepPart& part, const Vec3& a, const Vec3& b,
+                                         Numbers triangles) {
+  std::vector<BladeCrossing> crossings;
   for (const std::int32_t t : triangles) {
     const auto& triangle = part.triangles[at(t)];
     const Vec3 normal = normal_of(triangle);
@@ -62,14 +63,14 @@ BladeSheets::Inside sheets_at(const Patch& patch, const BladeSheets& sheets, con
 }
 
 /// Where an edge passes sheets of the blade other than those on which its ends are.
-std::vector<Crossing> other_sheets(const Patch& patch, const Blade& blade, const OnCut& known, std::int32_t p,
-                                   std::int32_t q, Numbers triangles) {
+std::vector<BladeCrossing> other_sheets(const Patch& patch, const Blade& blade, const OnCut& known,
+                                        std::int32_t p, std::int32_t q, Numbers triangles) {
   const Vec3& a = patch.vertex(p).place;
   const Vec3& b = patch.vertex(q).place;
-  std::vector<Crossing> crossings = all_crossings(blade.part, a, b, triangles);
+  std::vector<BladeCrossing> crossings = all_crossings(blade.part, a, b, triangles);
   if (crossings.empty()) return crossings;
   const BladeSheets::Inside inside = sheets_at(patch, blade.sheets, known, p, q);
-  std::erase_if(crossings, [&](const Crossing& crossing) {
+  std::erase_if(crossings, [&](const BladeCrossing& crossing) {
     const Vec3 place = a + crossing.t * (b - a);
     const auto is_on = [&](std::int32_t v) {
       if (known[v].before) return true;  // the blade now is not the one that it lies on
@@ -108,7 +109,7 @@ void put_ends_on(const Patch& patch, CrossedEdge& edge, double t0, OnCut& known)
   const double share = is_short(patch, edge.p, edge.q) ? 0.5 : t0;
   const Vec3& a = patch.vertex(edge.p).place;
   const Vec3& b = patch.vertex(edge.q).place;
-  std::erase_if(edge.crossings, [&](const Crossing& crossing) {
+  std::erase_if(edge.crossings, [&](const BladeCrossing& crossing) {
     const bool to_p = known.on(edge.p) && crossing.t <= share;
     if (!to_p && !(known.on(edge.q) && crossing.t >= 1.0 - share)) return false;
     known.put_on(to_p ? edge.p : edge.q, to_p ? a : b, a + crossing.t * (b - a), crossing.triangle);
@@ -137,15 +138,15 @@ std::vector<CrossedEdge> edges_to_other_sheets(const Patch& patch, const Blade& 
 
 /// Whether crossings of an edge are on different sheets, not on both sides of a ridge.
 bool are_apart(const BladeSheets& sheets, Numbers triangles, const Vec3& a, const Vec3& b,
-               const std::vector<Crossing>& crossings) {
-  const auto [low, high] = std::ranges::minmax_element(crossings, {}, &Crossing::t);
+               const std::vector<BladeCrossing>& crossings) {
+  const auto [low, high] = std::ranges::minmax_element(crossings, {}, &BladeCrossing::t);
   const Vec3 first = a + low->t * (b - a);
   const Vec3 last = a + high->t * (b - a);
   Eigen::AlignedBox3d box(first);
   box.extend(last);
   const Vec3 around = Vec3::Constant((last - first).norm());
   const auto inside = sheets.in({box.min() - around, box.max() + around}, triangles);
-  return std::ranges::any_of(crossings, [&](const Crossing& crossing) {
+  return std::ranges::any_of(crossings, [&](const BladeCrossing& crossing) {
     return inside.of(crossing.triangle) != inside.of(low->triangle);
   });
 }
@@ -214,7 +215,7 @@ std::vector<std::int32_t> bridged_cells(const Patch& patch, const Blade& blade, 
   std::vector<std::int32_t> cells;
   for (const auto& [ends, triangles] : edges_of(patch, blade.crowded)) {
     const auto& [p, q] = ends;
-    std::vector<Crossing> crossings = other_sheets(patch, blade, known, p, q, triangles);
+    std::vector<BladeCrossing> crossings = other_sheets(patch, blade, known, p, q, triangles);
     if (crossings.empty()) continue;
     const bool apart =
         are_apart(blade.sheets, triangles, patch.vertex(p).place, patch.vertex(q).place, crossings);

@@ -84,12 +84,12 @@ class Finder {
 
 }  // namespace
 
-void settle(std::vector<Crossing>& crossings, double t0) {
-  std::ranges::sort(crossings, [](const Crossing& a, const Crossing& b) {
+void settle(std::vector<BladeCrossing>& crossings, double t0) {
+  std::ranges::sort(crossings, [](const BladeCrossing& a, const BladeCrossing& b) {
     return a.t != b.t ? a.t < b.t : a.direction < b.direction;
   });
-  std::vector<Crossing> kept;
-  for (const Crossing& next : crossings) {
+  std::vector<BladeCrossing> kept;
+  for (const BladeCrossing& next : crossings) {
     if (!kept.empty() && next.t - kept.back().t <= t0) {
       if (next.direction != kept.back().direction) kept.pop_back();
     } else {
@@ -102,7 +102,7 @@ void settle(std::vector<Crossing>& crossings, double t0) {
 void cast_votes(const Patch& patch, const CrossedEdge& edge, OnCut& known) {
   const Vec3& a = patch.vertex(edge.p).place;
   const Vec3& b = patch.vertex(edge.q).place;
-  const auto cast = [&](std::int32_t v, const Crossing& crossing, int sign) {
+  const auto cast = [&](std::int32_t v, const BladeCrossing& crossing, int sign) {
     known.vote(v, (1.0 - crossing.t) * a + crossing.t * b, sign * crossing.direction, crossing.triangle);
   };
   cast(edge.p, edge.crossings.front(), 1);

@@ -56,7 +56,7 @@ struct OnCut {
 };
 
 /// A crossing at the share t of the way along an edge; direction 1: the edge's first end is above the blade.
-struct Crossing {
+struct BladeCrossing {
   double t;
   int direction;
   std::int32_t triangle;
@@ -64,12 +64,12 @@ struct Crossing {
 struct CrossedEdge {
   std::int32_t p;
   std::int32_t q;
-  std::vector<Crossing> crossings;  ///< ascending t, one for each time the blade is passed
+  std::vector<BladeCrossing> crossings;  ///< ascending t, one for each time the blade is passed
 };
 
 /// Crossings nearer than t0 to one another in a row are one where they go the same way, none where they go to
 /// and fro: seams of the blade, and its ridges.
-void settle(std::vector<Crossing>& crossings, double t0);
+void settle(std::vector<BladeCrossing>& crossings, double t0);
 
 /// The ends of a crossed edge see the blade from the side of their nearest crossing.
 void cast_votes(const Patch& patch, const CrossedEdge& edge, OnCut& known);

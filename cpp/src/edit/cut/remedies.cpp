@@ -69,7 +69,8 @@ std::vector<std::int32_t> Remedies::apply(const Patch& patch, double t0, std::ve
   });
   for (const CrossedEdge& edge : edges) {
     double share = 0.5;
-    for (const Crossing& crossing : edge.crossings) share = std::min({share, crossing.t, 1.0 - crossing.t});
+    for (const BladeCrossing& crossing : edge.crossings)
+      share = std::min({share, crossing.t, 1.0 - crossing.t});
     for (const std::int32_t cell : cells(edge)) {
       const auto found = cells_.find(cell);
       if (found == cells_.end() || share <= this->t0(cell, t0)) continue;

@@ -20,7 +20,8 @@ TOKEN = re.compile(
 
 def types_of(text: str) -> set[str]:
     """Full names of the types that a file defines, but for those of nameless namespaces."""
-    found, open_braces = set(), []
+    found: set[str] = set()
+    open_braces: list[str | None] = []
     for token in TOKEN.finditer(COMMENT.sub("", text)):
         if token[0] == "}":
             if open_braces:

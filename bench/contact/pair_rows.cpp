@@ -94,7 +94,8 @@ void plane(benchmark::State& run, PairKind kind) {
     for (const PairWay& pair : pairs) apart += is_kept_apart(pair, kLeast) ? 1 : 0;
     benchmark::DoNotOptimize(apart);
   }
-  if (apart != run.iterations() * kPairs) run.SkipWithError("pairs that nothing hits were not kept apart");
+  if (apart != static_cast<std::size_t>(run.iterations()) * kPairs)
+    run.SkipWithError("pairs that nothing hits were not kept apart");
   count(run);
 }
 

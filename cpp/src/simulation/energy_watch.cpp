@@ -35,12 +35,20 @@ void EnergyWatch::begin(const World& world, const State& state) {
 
 void EnergyWatch::end(const World& world, const State& state) {
   const Energy energy = energy_of(world, state, scratch_);
+  gained_before_ = gained_;
+  largest_before_ = largest_;
   gained_ += energy.total() - total_;
   total_ = energy.total();
   // What moves and is strained without having been gained, as in a fall.
   const double own = energy.kinetic + energy.elastic - std::max(gained_, 0.0);
   largest_ = std::max(largest_, own);
   set_end(state);
+}
+
+void EnergyWatch::take_back() {
+  gained_ = gained_before_;
+  largest_ = largest_before_;
+  end_.forget();
 }
 
 bool EnergyWatch::is_end(const State& state) const { return end_.is(state) && memory_ == state.memory; }

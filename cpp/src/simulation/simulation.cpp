@@ -168,6 +168,7 @@ void Simulation::watch_energy(EnergyWatch& watch, StepReport& report) {
   const Culprit culprit = worst_cell(*world_, state_);
   const std::string message = "in the step from t = " + number_text(last_good_.time) + " s " +
                               watch.say(*world_) + ". The simulation stands at its last good step.";
+  watch.take_back();
   state_ = last_good_;
   throw Diverged(message, culprit.body, culprit.element, state_.time);
 }

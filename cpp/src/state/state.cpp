@@ -2,6 +2,7 @@
 
 #include <Eigen/LU>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace tissu {
@@ -45,18 +46,29 @@ namespace {
 
 constexpr int kMiddles = 12;
 constexpr double kSameSpin = 1e-14;
+constexpr double kNearSpin = 1e-9;  ///< what may be left of the change after kMiddles
+constexpr double kMostTurn = 0.5;   ///< of one turn by the midpoint rule [rad]
+constexpr int kMostHalvings = 16;
 
-/// The angular velocity in the middle of a free turn.
-Vec3 middle_spin(const Frame& frame, const Quaternion& rotation, const Vec3& omega, double h) {
+/// The rotation after a free turn: the midpoint rule, by iteration, in halves where a turn is long or the
+/// iteration does not settle, as for slender bodies.
+Quaternion free_turn(const Frame& frame, const Quaternion& rotation, const Vec3& omega, double h,
+                     int halvings) {
   const Vec3 momentum = spatial_inertia(frame, rotation) * omega;
   Vec3 w = omega;
-  for (int i = 0; i < kMiddles; ++i) {
+  double change = std::numeric_limits<double>::infinity();
+  bool fits = halvings == kMostHalvings || h * omega.norm() <= kMostTurn;
+  for (int i = 0; i < kMiddles && fits && change > kSameSpin * kSameSpin * w.squaredNorm(); ++i) {
     const Vec3 next = spatial_inertia(frame, turn_by(0.5 * h * w) * rotation).inverse() * momentum;
-    const bool same = (next - w).squaredNorm() <= kSameSpin * kSameSpin * next.squaredNorm();
+    change = (next - w).squaredNorm();
     w = next;
-    if (same) break;
+    fits = halvings == kMostHalvings || h * w.norm() <= 2.0 * kMostTurn;
   }
-  return w;
+  if (halvings == kMostHalvings || (fits && change <= kNearSpin * kNearSpin * w.squaredNorm()))
+    return (turn_by(h * w) * rotation).normalized();
+  const Quaternion middle = free_turn(frame, rotation, omega, 0.5 * h, halvings + 1);
+  const Vec3 then = spatial_inertia(frame, middle).inverse() * momentum;
+  return free_turn(frame, middle, then, 0.5 * h, halvings + 1);
 }
 
 }  // namespace
@@ -67,8 +79,8 @@ void move(const State& from, const std::vector<Frame>& frames, ConstReals v, dou
     const std::int32_t rotation_block = frames[k].rotation;
     block(Reals(to.positions), rotation_block).setZero();
     const Vec3 omega = block(v, rotation_block);
-    const Vec3 spin = frames[k].alone ? middle_spin(frames[k], from.rotations[k], omega, h) : omega;
-    to.rotations[k] = (turn_by(h * spin) * from.rotations[k]).normalized();
+    to.rotations[k] = frames[k].alone ? free_turn(frames[k], from.rotations[k], omega, h, 0)
+                                      : (turn_by(h * omega) * from.rotations[k]).normalized();
   }
 }
 

@@ -126,6 +126,24 @@ TEST(EnergyWatch, GoesOnFromASnapshot) {
   EXPECT_EQ(other.snapshot().energy_watch, simulation.snapshot().energy_watch);
 }
 
+TEST(EnergyWatch, ForgetsARefusedStep) {
+  Simulation simulation = thrown(std::make_unique<Newmark>(Newmark::Settings{0.25, 0.5, {40, 1e-9}}));
+  std::vector<double> before;
+  bool refused = false;
+  for (int i = 0; i < 5000 && !refused; ++i) {
+    before = simulation.snapshot().energy_watch;
+    try {
+      simulation.step(1e-4);
+    } catch (const Diverged&) {
+      refused = true;
+    }
+  }
+  ASSERT_TRUE(refused);
+  const std::vector<double> after = simulation.snapshot().energy_watch;
+  EXPECT_EQ(after[1], before[1]);  // gained so far
+  EXPECT_EQ(after[2], before[2]);  // the largest energy before
+}
+
 TEST(EnergyWatch, IsSilentWhereEnergyIsKept) {
   Simulation simulation = tumbling("stvk", std::make_unique<EnergyMomentum>());
   for (int i = 0; i < 20; ++i) EXPECT_TRUE(simulation.step(0.02).message.empty());

@@ -32,6 +32,8 @@ class EnergyWatch {
   /// count.
   void begin(const World& world, const State& state);
   void end(const World& world, const State& state);
+  /// The latest end did not come: that step was refused.
+  void take_back();
   /// In steps of h contacts may give that much: M (gap / h)^2 of the whole mass and the widest gap.
   void allow_contacts(const World& world, double h);
   /// The energy gained since the first step, less what contacts may give, over the largest kinetic and
@@ -70,7 +72,9 @@ class EnergyWatch {
   double total_ = 0.0;  ///< energy there, or at the start of this one
   double gained_ = 0.0;
   double largest_ = 0.0;
-  double allowed_ = 0.0;  ///< that contacts may give
+  double gained_before_ = 0.0;   ///< the latest end
+  double largest_before_ = 0.0;  ///< … too
+  double allowed_ = 0.0;         ///< that contacts may give
 };
 
 }  // namespace tissu

@@ -163,15 +163,10 @@ def test_a_block_slides_to_rest(step: Any) -> None:
 @pytest.mark.parametrize("step", STEPS.values(), ids=STEPS)
 @pytest.mark.parametrize(("slope", "tips"), [(0.30, False), (0.35, True)])
 def test_a_tall_block_tips_and_does_not_slide(step: Any, slope: float, tips: bool) -> None:
-    """A block three times as tall as wide: from tan(phi) = 1/3 on.
-
-    While it turns about its edge, a few implicit steps do not converge, and their reports say so.
-    """
+    """A block three times as tall as wide: from tan(phi) = 1/3 on."""
     thing = ts.BoxObstacle((0, 0, GAP), (0.04, 0.04, 0.12), mass=0.5)
     simulation = on_table(thing, step, friction=1.0, slope=slope)
-    reports = [simulation.step() for _ in range(500)]
-    assert sum(not report.converged for report in reports) <= (20 if tips else 0)
-    assert len(simulation.crossings()) == 0
+    settled(simulation, 500)
     upright = simulation.rigid("thing").rotation[2, 2]
     assert upright < 0.5 if tips else upright > 0.99
 
@@ -533,34 +528,6 @@ def test_what_is_refused(case: str) -> None:
     make, words = REFUSED[case]
     with pytest.raises(ts.TissuError, match=words):
         make()
-
-
-@pytest.mark.parametrize("dt", ["1 ms", "0.2 ms"])
-def test_an_impact_with_friction_changes_momentum_by_its_force_alone(dt: str) -> None:
-    """A plane only pushes: no converged step of a cube that hits it spinning feels anything else.
-
-    To 5 % of the impulse and the weight: half the share within which forces settle, and the turn of
-    levers within a step.
-    """
-    thing = ts.BoxObstacle(
-        (0, 0, 0.03), (0.02, 0.02, 0.05), mass=0.01, spin=(16, -11, 4), velocity=(0, 0, -1)
-    )
-    step = ts.ImplicitEuler(dt)
-    simulation = on_table(thing, step, friction=0.3)
-    rigid, worst, met = simulation.rigid("thing"), 0.0, 0
-    for _ in range(round(0.1 / step.dt)):
-        before, energy = np.array(rigid.velocity), simulation.energy()["total"]
-        report = simulation.step()
-        felt = 0.01 * (np.array(rigid.velocity) - before + (0, 0, G * step.dt))
-        said = np.array(rigid.force) * step.dt
-        met += report.contacts > 0
-        if not report.converged:
-            continue
-        size = 0.01 * G * step.dt + np.linalg.norm(felt)
-        worst = max(worst, float(np.linalg.norm(felt - said)) / size)
-        assert simulation.energy()["total"] < energy + 1e-4 * 0.5 * 0.01
-    assert met
-    assert worst < 0.05
 
 
 @pytest.mark.parametrize("step", STEPS.values(), ids=STEPS)

@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <random>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "tissu/contact/closest.h"
@@ -65,7 +66,7 @@ std::vector<PairWay> ways(PairKind kind, bool hits) {
   return made;
 }
 
-std::string word(PairKind kind) { return kind == PairKind::vertex_face ? "vertex-face" : "edge-edge"; }
+std::string_view word(PairKind kind) { return kind == PairKind::vertex_face ? "vertex-face" : "edge-edge"; }
 
 void count(benchmark::State& run) {
   run.counters["ns/pair"] = benchmark::Counter(
@@ -133,9 +134,10 @@ void travel(benchmark::State& run, PairKind kind) {
 
 void add_pair_rows() {
   for (const PairKind kind : {PairKind::vertex_face, PairKind::edge_edge}) {
-    benchmark::RegisterBenchmark(("pair/nearest points/" + word(kind)).c_str(), nearest, kind);
-    benchmark::RegisterBenchmark(("pair/way that nothing meets/" + word(kind)).c_str(), plane, kind);
-    benchmark::RegisterBenchmark(("pair/way, 5 % hit/" + word(kind)).c_str(), travel, kind);
+    const std::string of(word(kind));
+    benchmark::RegisterBenchmark(("pair/nearest points/" + of).c_str(), nearest, kind);
+    benchmark::RegisterBenchmark(("pair/way that nothing meets/" + of).c_str(), plane, kind);
+    benchmark::RegisterBenchmark(("pair/way, 5 % hit/" + of).c_str(), travel, kind);
   }
 }
 

@@ -8,7 +8,7 @@ std::optional<double> AugmentedContact::press(std::size_t i, ContactNumbers& c) 
   if (k == 0.0 || !(t > 0.0 || run_.is_predicted(i))) return std::nullopt;
   give(c, t, k);
   note_depth(c, -run_.gap(i));
-  return t;
+  return c.force + (t - c.force) / (1.0 + share_of_stiffness(i));
 }
 
 }  // namespace tissu

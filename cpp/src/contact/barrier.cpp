@@ -160,7 +160,7 @@ std::optional<double> BarrierContact::press(std::size_t i, ContactNumbers& c) {
   return force;
 }
 
-void BarrierContact::rub(ContactNumbers& c, double /*bound*/, double /*k*/) {
+void BarrierContact::rub(ContactNumbers& c, double /*bound*/, double /*k*/, double /*share*/) {
   const double F = pair_of(c).friction * c.force;
   const Vec3 n = vector_of(c.normal);
   Vec3 slid = run_.gone(c);

@@ -250,6 +250,9 @@ bool ContactRun::hand_to(double vertex, std::int32_t other, double sign, const C
   for (const std::int32_t i : of_vertex) {
     if (!is_heir(i)) continue;
     ContactNumbers& c = looked_[at(i)];
+    const bool soft = vertices[static_cast<std::size_t>(c.vertex[0])].is_soft() ||
+                      vertices[static_cast<std::size_t>(c.vertex[1])].is_soft();
+    if (!soft && c.force == 0.0) c.sliding = before.sliding;
     c.force += share * before.force;
     const Vec3 n = vector_of(c.normal);
     const Vec3 drag = sign * vector_of(before.drag);

@@ -13,6 +13,7 @@ namespace tissu {
 namespace {
 
 constexpr double kAlternates = 1e-2;  ///< inadmissible share of the forces
+constexpr double kNothing = 1e-8;     ///< of the gap: what a force moves that is round-off
 constexpr double kBlow = 0.1;         ///< of the gap: what would go deeper in a step is struck
 
 std::array<double, 3> numbers_of(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
@@ -88,7 +89,9 @@ void ImplicitContact::update(const State& end) {
     if (drag.norm() > bound) drag *= bound > 0.0 ? bound / drag.norm() : 0.0;
     c.drag = numbers_of(drag);
     const Vec3 left = c.force * n + drag;
-    bodies_.add(c, left, f - left);
+    const Vec3 taken = f - left;
+    const double nothing = kNothing * pair_of(c).gap * n.dot(stiffness_of(c) * n);
+    bodies_.add(c, left, taken.norm() > nothing ? taken : Vec3::Zero());
   }
   inadmissible_ = bodies_.taken_off();
   alternations_ = inadmissible() > kAlternates ? alternations_ + 1 : std::max(0, alternations_ - 1);

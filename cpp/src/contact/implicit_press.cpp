@@ -81,6 +81,10 @@ void ImplicitContact::find_stiffnesses(std::span<const double> blocks, double sc
   }
 }
 
+double ImplicitContact::share_of_stiffness(std::size_t i) const {
+  return is_rigid(run_.looked()[i]) ? normal_ * kStiffRigid * rigid_ : 0.0;
+}
+
 /// Forces and stiffnesses at the places that were looked at; what does not press is dropped.
 void ImplicitContact::press_all() {
   pressing_.clear();
@@ -96,7 +100,7 @@ void ImplicitContact::press_all() {
     if (friction == 0.0) c.sliding = 0.0;
     if (friction > 0.0) {
       const double k = rigid_ > 1.0 && is_rigid(c) ? stiffnesses_[i] / rigid_ : stiffnesses_[i];
-      rub(c, friction * std::max(0.0, *force), tangent * k);
+      rub(c, friction * std::max(0.0, *force), tangent * k, tangent * (is_rigid(c) ? kStiffRigid : 0.0));
     }
     pressing_.push_back(c);
   }
@@ -108,13 +112,15 @@ void ImplicitContact::give(ContactNumbers& c, double force, double k) {
   set_stiffness(c, k * n * n.transpose());
 }
 
-/// Coulomb's friction of bound F: it sticks as a spring, or slides with the force F.
-void ImplicitContact::rub(ContactNumbers& c, double bound, double k) {
+/// Coulomb's friction of bound F: it sticks as a spring, or slides with the force F. It slides where the
+/// force exceeds F that the spring will have after the system: a part 1 / (1 + share) of how far it slid is
+/// left then.
+void ImplicitContact::rub(ContactNumbers& c, double bound, double k, double share) {
   const Vec3 n = vector_of(c.normal);
   Vec3 slid = run_.gone(c);
   slid -= n.dot(slid) * n;
   const Vec3 drag = vector_of(c.drag);
-  Vec3 force = drag - k * slid;
+  Vec3 force = drag - k / (1.0 + share) * slid;
   Mat3 H = k * (Mat3::Identity() - n * n.transpose());
   // Where the bound alone turned the sliding round, it stops: it sticks from where the step began.
   const bool turned = c.sliding != 0.0 && force.dot(drag) < 0.0;
@@ -125,8 +131,10 @@ void ImplicitContact::rub(ContactNumbers& c, double bound, double k) {
   } else if (size > bound) {
     const Vec3 along = force / size;
     force = bound * along;
-    H = bound / size * (H - k * along * along.transpose());
+    H = bound / (drag - k * slid).norm() * (H - k * along * along.transpose());
     c.sliding = 1.0;
+  } else {
+    force = drag - k * slid;
   }
   add(c, force, H);
 }

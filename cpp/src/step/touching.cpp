@@ -20,7 +20,6 @@ constexpr double kTooDeep = 0.5;
 constexpr double kDepthNewton = 1e-3;
 constexpr double kForce = 1e-2;       ///< of the contacts' forces: a smaller change needs no other system
 constexpr double kForceRigid = 1e-3;  ///< the same where a rigid body is free, which has no other forces
-constexpr int kPulled = 3;            ///< systems more for forces that pulled on something rigid
 // Contacts of rigid bodies that neither pull nor exceed friction, and only lack force, become stiffer.
 constexpr int kPatience = 6;        ///< so many systems later …
 constexpr double kStiffer = 2.0;    ///< … by this for each, …
@@ -205,8 +204,8 @@ bool StageSolver::solve_contacts(State& state, std::vector<double>& v, StepRepor
       contact_->set_stiffer_rigid(stiffer);
     }
     const double other = look(*end);
-    // A force that pulled is gone in the next look, and with it what it did to a rigid body.
-    const bool pulled = enough < kForce && i <= kPulled && contact_->inadmissible() > kForce;
+    // A force that pulled is gone in the next look, and with it what it did to the body.
+    const bool pulled = contact_->inadmissible() > kForce;
     const bool free = report.held_back == 0 && !pulled;
     if (free && other <= enough && contact_->depth() <= (i < kLater ? kDepth : kLaterDepth)) break;
     const bool lost = settling.is_lost(
@@ -252,7 +251,8 @@ void StageSolver::iterate_contacts(State& state, std::vector<double>& v, StepRep
     report.held_back = hold_back(*end);
     follow(*end, v);
     const double other = look(*end);
-    if (other <= kForceNewton && report.held_back == 0 && contact_->depth() <= kDepthNewton) break;
+    const bool pulled = contact_->inadmissible() > kForce;
+    if (!pulled && other <= kForceNewton && report.held_back == 0 && contact_->depth() <= kDepthNewton) break;
     if (i + 1 == kMostLooks) {
       report.converged = false;
       report.message =

@@ -282,6 +282,10 @@ class Touched:
     def force_on(self, name: str) -> Wrench:
         """The force and the moment of all contacts on a body or obstacle in the latest step.
 
+        Its impulse over the step is the change of momentum that contacts made, except with `BDF2`:
+        the force there is that of the equation at the end of the step, and the sum of impulses over
+        many steps agrees with the momentum to second order in dt.
+
         Args:
             name: of the body or obstacle.
 

@@ -5,6 +5,8 @@
 ///
 ///     normal      t = lambda_n - k g          f_n = <t> n,  H_n = k n n^T where t > 0
 ///     friction    t_T = lambda_T - k u_T      F = mu <t>, f_T = t_T on the disk of radius F
+///     F = mu <lambda_n - k g / (1 + s)> of rigid bodies: what the solve leaves of t
+///     slides where |lambda_T - k u_T / (1 + s)| > F, for the same reason
 ///     after each solve  lambda_n <- n . f,  lambda_T <- f_T on the disk
 
 #include "tissu/contact/implicit_contact.h"

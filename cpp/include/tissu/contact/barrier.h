@@ -55,7 +55,7 @@ class BarrierContact final : public ImplicitContact {
   [[nodiscard]] bool has_own_stiffness() const override { return true; }
   void begin_press() override;
   std::optional<double> press(std::size_t i, ContactNumbers& contact) override;
-  void rub(ContactNumbers& contact, double bound, double k) override;
+  void rub(ContactNumbers& contact, double bound, double k, double share) override;
 
  private:
   double extent_;

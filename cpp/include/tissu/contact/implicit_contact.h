@@ -94,11 +94,12 @@ class ImplicitContact {
  protected:
   /// It may press, so that it counts at its rows.
   [[nodiscard]] virtual bool may_press(std::size_t i) const = 0;
-  /// Gives a contact of the latest look, number i, its normal force and stiffness. That force [N]; nothing:
-  /// it does not press.
+  /// Gives a contact of the latest look, number i, its normal force and stiffness. The normal force [N] that
+  /// bounds its friction; nothing: it does not press.
   virtual std::optional<double> press(std::size_t i, ContactNumbers& contact) = 0;
-  /// Adds friction of that bound [N]; k is the stiffness against sliding [N/m].
-  virtual void rub(ContactNumbers& contact, double bound, double k);
+  /// Adds friction of that bound [N]; k is the stiffness against sliding [N/m], and `share` what it is of
+  /// that of the step's own matrix.
+  virtual void rub(ContactNumbers& contact, double bound, double k, double share);
 
   [[nodiscard]] const ContactPair& pair_of(const ContactNumbers& contact) const {
     return contact_.description().pairs[static_cast<std::size_t>(contact.pair)];
@@ -114,6 +115,9 @@ class ImplicitContact {
                         std::vector<double>& stiffnesses);
   /// k of the step's own matrix against coming nearer than a multiplier allows [N/m].
   [[nodiscard]] double hard_stiffness(std::size_t i) const { return normal_ * stiffnesses_[i]; }
+  /// What that is of the stiffness of the step's own matrix there, of contacts that move nothing soft; else
+  /// 0.
+  [[nodiscard]] double share_of_stiffness(std::size_t i) const;
   /// A contact is so much deeper than its multiplier allows [m].
   void note_depth(const ContactNumbers& contact, double depth);
 

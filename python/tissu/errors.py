@@ -55,7 +55,9 @@ class BusyError(TissuError):
 
 
 class Diverged(TissuError):  # noqa: N818 - the field's word for it
-    """A step gave a value that is not finite; the simulation stands at its last good step.
+    """A step has no solution, or gave a value that is not finite.
+
+    The simulation stands at its last good step.
 
     Attributes:
         body: name of the body where it was seen.

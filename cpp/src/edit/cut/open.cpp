@@ -9,6 +9,7 @@
 
 #include "edit/cut/at_sheets.h"
 #include "edit/cut/carriers.h"
+#include "edit/cut/crumbs.h"
 #include "edit/cut/side.h"
 #include "tissu/base/error.h"
 #include "tissu/base/sort_unique.h"
@@ -33,14 +34,14 @@ struct FaceSide {
 
 class Opener {
  public:
-  Opener(Patch& patch, const Blade& blade, const NearCells& near, const OnCut& known, bool bent)
+  Opener(Patch& patch, const Blade& blade, const NearCells& near, const OnCut& known)
       : patch_(patch),
+        blade_(blade),
         part_(blade.part),
         near_(near),
         crowded_(blade.crowded),
         at_sheets_(patch, blade.part, blade.sheets, known),
         known_(known),
-        bent_(bent),
         all_(blade.part.triangles.size()),
         heights_(patch.vertices.size(), kUnknown) {
     std::iota(all_.begin(), all_.end(), 0);
@@ -49,19 +50,16 @@ class Opener {
   OpenedFaces open() {
     const std::vector<FaceSide> sides = faces_on_cut();
     const std::vector<char> carried = carried_sides(sides);
+    std::vector<std::size_t> places;
+    std::vector<InnerFace> faces;
     for (std::size_t i = 0; i + 1 < sides.size(); ++i) {
       if (sides[i].key != sides[i + 1].key || carried[i] != 0) continue;
-      if (is_open(sides[i]) || is_open(sides[i + 1])) continue;
-      if (is_crowded(sides[i], sides[i + 1])) {
-        if (!at_sheets_.parts(vertices_of(sides[i]), sides[i].tetra, sides[i + 1].tetra)) continue;
-      } else if (!parts(sides[i], sides[i + 1])) {
-        continue;
-      }
-      if ((i > 0 && sides[i - 1].key == sides[i].key) ||
-          (i + 2 < sides.size() && sides[i + 2].key == sides[i].key)) {
-        refuse_junction(sides[i]);
-      }
-      open(sides[i], sides[i + 1]);
+      places.push_back(i);
+      faces.push_back(inner_face(sides, i));
+    }
+    keep_crumbs(patch_, blade_, known_, faces);
+    for (std::size_t i = 0; i < faces.size(); ++i) {
+      if (faces[i].opens) open(sides[places[i]], sides[places[i] + 1]);
     }
     const auto side = [&](std::int32_t piece) { return above(piece); };
     const auto open = [&](std::int32_t piece, std::uint8_t face) { open_face(piece, face); };
@@ -115,6 +113,19 @@ class Opener {
     }
   }
 
+  /// A face by the place of its first side, and whether it opens.
+  InnerFace inner_face(const std::vector<FaceSide>& sides, std::size_t i) {
+    const FaceSide& a = sides[i];
+    const FaceSide& b = sides[i + 1];
+    InnerFace face{a.tetra, b.tetra, size_of(a), is_open(a) || is_open(b), false};
+    if (face.open) return face;
+    face.opens = is_crowded(a, b) ? at_sheets_.parts(vertices_of(a), a.tetra, b.tetra) : parts(a, b);
+    const bool is_junction =
+        (i > 0 && sides[i - 1].key == a.key) || (i + 2 < sides.size() && sides[i + 2].key == a.key);
+    if (face.opens && is_junction) refuse_junction(a);
+    return face;
+  }
+
   /// Where the blade covers it.
   void open_face(std::int32_t piece, std::uint8_t face) {
     FaceSide side{{-1, -1, -1}, piece, face};
@@ -151,10 +162,7 @@ class Opener {
   /// Whether the blade goes between two tetrahedra at their common face.
   bool parts(const FaceSide& a, const FaceSide& b) {
     if (above(a.tetra) == above(b.tetra)) return false;
-    if (covered(a, b)) return true;
-    if (!is_bent_away(a)) return false;
-    if (!bent_) opened_.uncovered.push_back(a.tetra);
-    return bent_;
+    return covered(a, b) || is_bent_away(a);
   }
 
   [[nodiscard]] bool is_open(const FaceSide& side) const {
@@ -175,18 +183,12 @@ class Opener {
     return near_.triangles(patch_.cell(patch_.tetra(tetra).cell).number);
   }
 
-  /// Height of a vertex above the blade; its crossed edges decide its side, else the triangles near the cells
-  /// around.
+  /// Height of a vertex above the blade; its crossed edges decide its side, else the nearest triangle of all:
+  /// the box of a large one may meet cells from which the blade is far.
   double height_of(std::int32_t v) {
     double& known = heights_[at(v)];
     if (!std::isnan(known)) return known;
-    std::vector<std::int32_t> candidates;
-    for (const std::int32_t t : patch_.tetrahedra_at(v)) {
-      candidates.insert(candidates.end(), triangles(t).begin(), triangles(t).end());
-    }
-    sort_unique(candidates);
-    if (candidates.empty()) candidates = all_;
-    known = signed_height(part_, candidates, patch_.vertex(v).place);
+    known = signed_height(part_, all_, patch_.vertex(v).place);
     const int votes = known_[v].votes;
     if (!known_.on(v) && votes != 0) {
       known = std::copysign(std::max(std::abs(known), std::numeric_limits<double>::min()), votes);
@@ -248,12 +250,8 @@ class Opener {
       all = false;
       sum += height_of(v);
     }
-    if (all) sum = signed_height(part_, near_or_all(triangles(number)), middle);
+    if (all) sum = signed_height(part_, all_, middle);
     return sum >= 0.0;
-  }
-
-  [[nodiscard]] std::span<const std::int32_t> near_or_all(std::span<const std::int32_t> list) const {
-    return list.empty() ? std::span<const std::int32_t>(all_) : list;
   }
 
   [[nodiscard]] bool covered(const FaceSide& a, const FaceSide& b) const {
@@ -305,6 +303,14 @@ class Opener {
     add_area(a, b);
   }
 
+  /// Area now; of an edge its length, of a vertex 0.
+  [[nodiscard]] double size_of(const FaceSide& side) const {
+    const auto vertices = vertices_of(side);
+    const auto corner = [&](std::size_t i) -> const Vec3& { return patch_.vertex(vertices[i]).place; };
+    if (vertices.size() == 3) return 0.5 * (corner(1) - corner(0)).cross(corner(2) - corner(0)).norm();
+    return vertices.size() == 2 ? (corner(1) - corner(0)).norm() : 0.0;
+  }
+
   void add_area(const FaceSide& a, const FaceSide& b) {
     const std::span<const std::int32_t> vertices = vertices_of(a);
     const auto corner = [&](std::size_t i) -> const Patch::Vertex& { return patch_.vertex(vertices[i]); };
@@ -326,12 +332,12 @@ class Opener {
   }
 
   Patch& patch_;
+  const Blade& blade_;
   const SweepPart& part_;
   const NearCells& near_;
   const CrowdedCells& crowded_;
   FacesAtSheets at_sheets_;
   const OnCut& known_;
-  bool bent_;
   std::vector<std::int32_t> all_;
   std::vector<double> heights_;
   OpenedFaces opened_;
@@ -339,9 +345,8 @@ class Opener {
 
 }  // namespace
 
-OpenedFaces open_faces(Patch& patch, const Blade& blade, const NearCells& near, const OnCut& known,
-                       bool bent) {
-  return Opener(patch, blade, near, known, bent).open();
+OpenedFaces open_faces(Patch& patch, const Blade& blade, const NearCells& near, const OnCut& known) {
+  return Opener(patch, blade, near, known).open();
 }
 
 }  // namespace tissu

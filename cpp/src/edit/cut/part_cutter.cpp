@@ -78,12 +78,12 @@ bool PartCutter::cut(std::size_t number, const SweepPart& part, const NearCells&
   const std::vector<Patch::Cell> before = begin();
   report(divide_crossed(patch_, std::move(edges), share_, known, turned), plan);
   report(divide_at_other_sheets(patch_, blade, settled_, options_.t0, share_, known), plan);
-  const OpenedFaces opened = open_faces(patch_, blade, near, known, !options_.divide);
+  const OpenedFaces opened = open_faces(patch_, blade, near, known);
   plan.faces_opened += opened.count;
   plan.area += opened.area;
   plan.rest_area += opened.rest_area;
   parted.insert(parted.end(), opened.vertices.begin(), opened.vertices.end());
-  report(bridged_cells(patch_, blade, settled_, known, opened.uncovered), Unresolved::bridge, plan);
+  report(bridged_cells(patch_, blade, settled_, known), Unresolved::bridge, plan);
   report(cells_pierced_between(patch_, blade, known, options_.divide ? kFollowedByDivided : kFollowed),
          Unresolved::bridge, plan);
   report(cells_along(patch_, part.corner), Unresolved::bridge, plan);

@@ -338,6 +338,9 @@ def test_what_cannot_be_cut_is_refused_and_stays() -> None:
         (ts.Disc((0, 0, np.nan), (0, 0, 1), 0.1), "finite"),
         (ts.Triangles([(0, 0, 0), (1, 0, 0)], [(0, 1, 2)]), "0 to 1 are accepted"),
         (ts.Sweep([[(0, 0, 0)]]), "shape"),
+        (ts.Disc((0, 0, 0), (1, 0, 0), 1e16), "1e\\+16 m; at most .* 1e12 times the size"),
+        (ts.Plane((1e16, 0, 0), (0, 1, 1)), "1e12 times the size"),
+        (ts.Sweep([[(0, -1, 0), (0, 1, 0)], [(0, -1, 1e20), (0, 1, 0)]]), "1e12 times the size"),
         ("knife", "as a blade"),
     ):
         with pytest.raises(ts.ParameterError, match=words):

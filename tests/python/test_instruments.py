@@ -425,6 +425,32 @@ def test_what_cannot_be_is_refused_while_it_runs() -> None:
         free.instruments["saw"]
     with pytest.raises(ts.ParameterError, match="at most 1000 m is accepted"):
         free.instruments["scalpel"].move((1e300, 0, 0))
+    for turn in (1e7, 1e155, 1e300):
+        with pytest.raises(ts.ParameterError, match=r"at most 1e\+06 rad is accepted"):
+            free.instruments["scalpel"].move((0, 0, 0), (turn, 0, 0))
+
+
+def test_the_others_work_where_the_cut_of_one_is_refused() -> None:
+    path = ts.ToolPath(
+        times=(0.0, 0.01, 0.02), positions=[(0.3, 0.05, z) for z in (0.2, 0.05, 0.2)]
+    )
+    hook = ts.Ablator("2 cm", removes=["bar"], path=path)
+    alone = scene(hook).compile()
+    (expected,) = alone.step().cuts
+    tools = {"scalpel": ts.Knife(EDGE, cuts=["bar"], position=(0.213, 0, 0.11)), "hook": hook}
+    simulation = scene(hook, instruments=tools, editing=ts.Editing(room="1 %")).compile()
+    mark = simulation.mark()
+    for _ in range(2):
+        simulation.rewind(mark)
+        simulation.instruments["scalpel"].move((0.213, 0, -0.02))
+        with pytest.raises(ts.ParameterError, match=r"scalpel: step 1 was taken.*there is room"):
+            simulation.step()
+        left = simulation.remaining_cells("bar")
+        np.testing.assert_array_equal(left, alone.remaining_cells("bar"))
+    simulation.instruments["scalpel"].place((0.213, 0, 0.11))
+    (late,) = simulation.step().cuts
+    assert (late.by, late.cells_gone) == ("hook", expected.cells_gone)
+    assert simulation.step().cuts == ()
 
 
 def test_a_scene_file_has_instruments(tmp_path: Path) -> None:

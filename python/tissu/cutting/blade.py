@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -17,6 +18,9 @@ if TYPE_CHECKING:
     from tissu._core import Sweep as CoreSweep
 
 Floats = NDArray[np.float64]
+
+_FARTHEST = 1e12
+"""times the size of the body: a blade's places are as accurate as a ten-thousandth of the body"""
 
 __all__ = ["Capsule", "Disc", "Sweep", "Triangles"]
 
@@ -36,10 +40,10 @@ class Disc:
     radius: units.Number
 
     def _surface(self, places: Floats) -> CoreSweep:
+        center, radius = _triple(self.center, "the center"), units.LENGTH(self.radius)
+        _refuse_far([*center, radius], places)
         return _core.disc_sweep(
-            center=_triple(self.center, "the center"),
-            normal=_triple(self.normal, "the normal"),
-            radius=units.LENGTH(self.radius),
+            center=center, normal=_triple(self.normal, "the normal"), radius=radius
         )
 
 
@@ -68,6 +72,7 @@ class Triangles:
                 f"found triangles of the points {corners.min()} to {corners.max()}; 0 to "
                 f"{len(points) - 1} are accepted"
             )
+        _refuse_far(points, places)
         return _core.triangles_sweep(points=points, triangles=corners.astype(np.int32))
 
 
@@ -88,6 +93,7 @@ class Sweep:
                 f"found edges of shape {edges.shape}; (k, m, 3) is accepted: m points of an edge "
                 "at k moments, at least two of both"
             )
+        _refuse_far(edges, places)
         return _core.edge_sweep(
             places=edges.reshape(-1, 3),
             moments=edges.shape[0],
@@ -104,9 +110,11 @@ def surface_of(blade: object, places: Floats) -> CoreSweep:
     """The blade as the core has it; a plane is as large as the body, which is at `places` (n, 3).
 
     Raises:
-        ParameterError: it is not a blade, has no area, or has numbers that are not finite.
+        ParameterError: it is not a blade, has no area, or has numbers that are not finite or too
+            large beside the body.
     """
     if isinstance(blade, Plane):
+        _refuse_far(blade.point, places)
         return _core.plane_sweep(
             point=np.array(blade.point),
             normal=np.array(blade.normal),
@@ -176,6 +184,17 @@ def inside_of(place: object, points: Floats) -> NDArray[np.bool_]:
         accepted = "ts.Sphere, ts.Capsule and ts.Box are accepted"
         raise ParameterError(f"found {found} to ablate; {accepted}")
     return place._inside(points, 0.0)
+
+
+def _refuse_far(numbers: ArrayLike, places: Floats) -> None:
+    """Refuse a blade with numbers [m] that are too large beside a body at places (n, 3)."""
+    largest = float(np.abs(np.asarray(numbers, dtype=float)).max(initial=0.0))
+    accepted = _FARTHEST * float(np.ptp(places, axis=0).max())
+    if math.isfinite(largest) and largest > accepted > 0.0:
+        raise ParameterError(
+            f"found a blade with a place or a radius of {largest:g} m; at most {accepted:g} m is "
+            "accepted, 1e12 times the size of the body"
+        )
 
 
 def _triple(values: ArrayLike, what: str) -> Floats:

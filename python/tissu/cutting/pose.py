@@ -21,6 +21,8 @@ Floats = NDArray[np.float64]
 _POSITION = units.Triple(units.LENGTH)
 _VECTOR = units.Triple(units.ANGLE)
 _ORTHOGONAL = 1e-6
+_LARGEST_TURN = 1e6
+"""rad: above it the round-off of an angle is a turn that can be seen"""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -75,15 +77,21 @@ def pose_of(position: VectorLike, rotation: VectorLike | ArrayLike | None = None
     """A pose from a place [m], and a rotation vector (3,) [rad] or a rotation matrix (3, 3).
 
     Raises:
-        ParameterError: a value is not finite or of another quantity; a matrix that is not a
-            rotation.
+        ParameterError: a value is not finite or of another quantity; a turn above 1e6 rad; a
+            matrix that is not a rotation.
     """
     place = np.array(_POSITION(position), dtype=float)
     if rotation is None:
         return Pose(place, np.array([1.0, 0.0, 0.0, 0.0]))
     if isinstance(rotation, np.ndarray) and rotation.shape == (3, 3):
         return Pose(place, turn_of_matrix(real_array(rotation, "a rotation")))
-    return Pose(place, turn_of_vector(np.array(_VECTOR(rotation), dtype=float)))
+    vector = np.array(_VECTOR(rotation), dtype=float)
+    if not np.abs(vector).max() <= _LARGEST_TURN:
+        raise ParameterError(
+            f"found a rotation of {np.abs(vector).max():g} rad about an axis; at most "
+            f"{_LARGEST_TURN:g} rad is accepted"
+        )
+    return Pose(place, turn_of_vector(vector))
 
 
 def turn_of_vector(vector: Floats) -> Floats:

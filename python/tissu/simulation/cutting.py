@@ -65,6 +65,7 @@ class Cutting(Remains, Severing):
     _core: core.Simulation
     _steps: int
     _unconverged: tuple[int, str]
+    _late_cuts: tuple[CutReport, ...]
     _world: core.World
     _check: Check
     _loads: Sequence[tuple[Load, Where]]
@@ -211,6 +212,7 @@ class Cutting(Remains, Severing):
         self._meshes.become(mark._meshes)
         self._steps = mark._steps
         self._unconverged = mark._unconverged
+        self._late_cuts = ()
         self.scene, self._world, self._check, self._loads = mark._compiled
         self._physics_known = None
         self._become_severed(mark._severed)

@@ -152,6 +152,9 @@ class _ByName(dict[str, Tool]):
 class Instrumented:
     """The part of a simulation that has instruments."""
 
+    _late_cuts: tuple[CutReport, ...] = ()
+    """of a step that raised because another cut of it was refused; the next step reports them"""
+
     @property
     def instruments(self: Simulation) -> Mapping[str, Tool]:  # type: ignore[misc]
         """The instruments of the scene by their names."""
@@ -182,9 +185,11 @@ class Instrumented:
         """After a step that began at a time [s]: what they cut and take away.
 
         Raises:
-            ParameterError: the step was taken, and a cut of it is refused.
+            ParameterError: the step was taken, and a cut of it is refused. The other instruments
+                have done their work, which the next step reports.
         """
-        reports = []
+        reports, refused = list(self._late_cuts), []
+        self._late_cuts = ()
         for number, (name, body) in enumerate(self._instrument_pairs()):
             instrument = self.scene.instruments[name]
             track = self._tracks()[number]
@@ -193,16 +198,20 @@ class Instrumented:
             try:
                 report, track = _used(self, name, body, track)
             except ParameterError as error:
-                raise ParameterError(
+                refused.append(
                     f"instruments.{name}: step {self._steps} was taken, and what it would do at "
                     f"its end is refused: {error}"
-                ) from None
+                )
+                continue
             goes_on = self._tracks()[number].incision >= 0
             keep(self._core, {**self._tracks(), number: track})
             reports += [] if report is None else [report]
             if goes_on and track.incision < 0 and repairs(self, body):
                 repair = repair_ended(self, name, body)
                 reports += [] if repair is None else [repair]
+        if refused:
+            self._late_cuts = tuple(reports)
+            raise ParameterError("\n".join(refused))
         return tuple(reports)
 
 

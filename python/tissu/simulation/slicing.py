@@ -133,6 +133,7 @@ def cut_rows(
         moments=count,
         points=points,
         incision=number,
+        past=len(past) + 1,
     )
     ways = [row.places(positions) for row in kept]
     report = simulation._cut_along(body, sweep, by=name, goes_on=True)

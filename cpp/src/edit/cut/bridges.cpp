@@ -73,7 +73,7 @@ std::vector<BladeCrossing> other_sheets(const Patch& patch, const Blade& blade, 
   std::erase_if(crossings, [&](const BladeCrossing& crossing) {
     const Vec3 place = a + crossing.t * (b - a);
     const auto is_on = [&](std::int32_t v) {
-      if (known[v].before) return true;  // the blade now is not the one that it lies on
+      if (known[v].before || known[v].wall) return true;  // the blade now is not the one that it lies on
       bool on = false;
       known.each_meeting(v, [&](const OnCut::Meeting& meeting) {
         on = on || (meeting.on && inside.of(meeting.triangle) == inside.of(crossing.triangle) &&
@@ -211,7 +211,7 @@ LeftEdges divide_at_other_sheets(Patch& patch, const Blade& blade, double settle
 }
 
 std::vector<std::int32_t> bridged_cells(const Patch& patch, const Blade& blade, double settled,
-                                        const OnCut& known, const std::vector<std::int32_t>& uncovered) {
+                                        const OnCut& known) {
   std::vector<std::int32_t> cells;
   for (const auto& [ends, triangles] : edges_of(patch, blade.crowded)) {
     const auto& [p, q] = ends;
@@ -227,9 +227,6 @@ std::vector<std::int32_t> bridged_cells(const Patch& patch, const Blade& blade, 
     for (const std::int32_t t : patch.tetrahedra_at(v)) {
       if (blade.crowded.has(patch.tetra(t).cell)) cells.push_back(patch.tetra(t).cell);
     }
-  }
-  for (const std::int32_t t : uncovered) {
-    if (blade.crowded.has(patch.tetra(t).cell)) cells.push_back(patch.tetra(t).cell);
   }
   sort_unique(cells);
   return cells;

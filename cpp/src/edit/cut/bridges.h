@@ -21,8 +21,8 @@ LeftEdges divide_at_other_sheets(Patch& patch, const Blade& blade, double settle
 
 /// After a part of a sweep was cut: crowded cells (places, ascending) where it left material joined that it
 /// divides. There an edge goes through a sheet of the blade on which it does not end, or passes two sheets
-/// that are too near to each other, or a face lies between two sheets and on neither.
+/// that are too near to each other.
 std::vector<std::int32_t> bridged_cells(const Patch& patch, const Blade& blade, double settled,
-                                        const OnCut& known, const std::vector<std::int32_t>& uncovered);
+                                        const OnCut& known);
 
 }  // namespace tissu

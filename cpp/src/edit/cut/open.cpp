@@ -9,6 +9,8 @@
 
 #include "edit/cut/at_sheets.h"
 #include "edit/cut/carriers.h"
+#include "edit/cut/crumbs.h"
+#include "edit/cut/outward.h"
 #include "edit/cut/side.h"
 #include "tissu/base/error.h"
 #include "tissu/base/sort_unique.h"
@@ -21,6 +23,7 @@ std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 constexpr double kCoverShare = 0.2;
 constexpr double kRoundOff = 1e-12;
 constexpr double kLeastAlong = 0.5;  ///< cosine between the normals of a face of the cut and of the blade
+constexpr double kBetween = 0.05;    ///< of a cell's longest edge: so far a blade lies inside of another wall
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 /// A face of a tetrahedron by its vertices in ascending order; an edge of a triangle after -1, an end of a
@@ -33,14 +36,14 @@ struct FaceSide {
 
 class Opener {
  public:
-  Opener(Patch& patch, const Blade& blade, const NearCells& near, const OnCut& known, bool bent)
+  Opener(Patch& patch, const Blade& blade, const NearCells& near, const OnCut& known)
       : patch_(patch),
+        blade_(blade),
         part_(blade.part),
         near_(near),
         crowded_(blade.crowded),
         at_sheets_(patch, blade.part, blade.sheets, known),
         known_(known),
-        bent_(bent),
         all_(blade.part.triangles.size()),
         heights_(patch.vertices.size(), kUnknown) {
     std::iota(all_.begin(), all_.end(), 0);
@@ -49,19 +52,16 @@ class Opener {
   OpenedFaces open() {
     const std::vector<FaceSide> sides = faces_on_cut();
     const std::vector<char> carried = carried_sides(sides);
+    std::vector<std::size_t> places;
+    std::vector<InnerFace> faces;
     for (std::size_t i = 0; i + 1 < sides.size(); ++i) {
       if (sides[i].key != sides[i + 1].key || carried[i] != 0) continue;
-      if (is_open(sides[i]) || is_open(sides[i + 1])) continue;
-      if (is_crowded(sides[i], sides[i + 1])) {
-        if (!at_sheets_.parts(vertices_of(sides[i]), sides[i].tetra, sides[i + 1].tetra)) continue;
-      } else if (!parts(sides[i], sides[i + 1])) {
-        continue;
-      }
-      if ((i > 0 && sides[i - 1].key == sides[i].key) ||
-          (i + 2 < sides.size() && sides[i + 2].key == sides[i].key)) {
-        refuse_junction(sides[i]);
-      }
-      open(sides[i], sides[i + 1]);
+      places.push_back(i);
+      faces.push_back(inner_face(sides, i));
+    }
+    keep_crumbs(patch_, blade_, known_, faces);
+    for (std::size_t i = 0; i < faces.size(); ++i) {
+      if (faces[i].opens) open(sides[places[i]], sides[places[i] + 1]);
     }
     const auto side = [&](std::int32_t piece) { return above(piece); };
     const auto open = [&](std::int32_t piece, std::uint8_t face) { open_face(piece, face); };
@@ -115,14 +115,39 @@ class Opener {
     }
   }
 
+  /// A face by the place of its first side, and whether it opens.
+  InnerFace inner_face(const std::vector<FaceSide>& sides, std::size_t i) {
+    const FaceSide& a = sides[i];
+    const FaceSide& b = sides[i + 1];
+    InnerFace face{a.tetra, b.tetra, size_of(a), is_open(a) || is_open(b), false};
+    if (face.open) return face;
+    face.opens = is_crowded(a, b) ? at_sheets_.parts(vertices_of(a), a.tetra, b.tetra) : parts(a, b);
+    const bool is_junction =
+        (i > 0 && sides[i - 1].key == a.key) || (i + 2 < sides.size() && sides[i + 2].key == a.key);
+    if (face.opens && is_junction) refuse_junction(a);
+    return face;
+  }
+
   /// Where the blade covers it.
   void open_face(std::int32_t piece, std::uint8_t face) {
     FaceSide side{{-1, -1, -1}, piece, face};
     const auto vertices = thin_vertices(patch_.tetra(piece), face);
     std::ranges::copy(vertices, side.key.end() - static_cast<std::ptrdiff_t>(vertices.size()));
     std::ranges::sort(side.key);
-    const auto is_new = [&](std::int32_t v) { return !known_[v].before; };
+    const auto is_new = [&](std::int32_t v) { return !is_earlier(v); };
     if (std::ranges::any_of(vertices, is_new) && covered(side, side)) open(side, side);
+  }
+
+  /// Whether its vertices are on the cut, or some at walls beside it.
+  [[nodiscard]] bool may_be_open(const std::array<std::int32_t, 3>& key) const {
+    const auto is_on = [&](std::int32_t v) { return v >= 0 && known_.on(v); };
+    const auto may_be = [&](std::int32_t v) { return v < 0 || known_.may_end(v); };
+    return std::ranges::any_of(key, is_on) && std::ranges::all_of(key, may_be);
+  }
+
+  /// What an earlier sweep of the incision put on the cut, and this one not.
+  [[nodiscard]] bool is_earlier(std::int32_t v) const {
+    return known_[v].before || (known_[v].wall && !known_.on(v));
   }
 
   [[nodiscard]] std::vector<FaceSide> faces_on_cut() const {
@@ -131,7 +156,7 @@ class Opener {
       const auto& v = patch_.tetrahedra[t].vertices;
       for (std::size_t f = 0; f < patch_.tetrahedra[t].corners(); ++f) {
         std::array<std::int32_t, 3> key{v[kOpposite[f][0]], v[kOpposite[f][1]], v[kOpposite[f][2]]};
-        if (!std::ranges::all_of(key, [&](std::int32_t i) { return i < 0 || known_.on(i); })) continue;
+        if (!may_be_open(key)) continue;
         std::ranges::sort(key);
         sides.push_back({key, static_cast<std::int32_t>(t), static_cast<std::uint8_t>(f)});
       }
@@ -145,16 +170,13 @@ class Opener {
   /// What an earlier sweep of the incision put on the cut is not on a sheet of this one.
   [[nodiscard]] bool is_crowded(const FaceSide& a, const FaceSide& b) const {
     if (!crowded_.has(patch_.tetra(a.tetra).cell) && !crowded_.has(patch_.tetra(b.tetra).cell)) return false;
-    return std::ranges::none_of(vertices_of(a), [&](std::int32_t v) { return known_[v].before; });
+    return std::ranges::none_of(vertices_of(a), [&](std::int32_t v) { return is_earlier(v); });
   }
 
   /// Whether the blade goes between two tetrahedra at their common face.
   bool parts(const FaceSide& a, const FaceSide& b) {
     if (above(a.tetra) == above(b.tetra)) return false;
-    if (covered(a, b)) return true;
-    if (!is_bent_away(a)) return false;
-    if (!bent_) opened_.uncovered.push_back(a.tetra);
-    return bent_;
+    return covered(a, b) || is_bent_away(a);
   }
 
   [[nodiscard]] bool is_open(const FaceSide& side) const {
@@ -175,37 +197,20 @@ class Opener {
     return near_.triangles(patch_.cell(patch_.tetra(tetra).cell).number);
   }
 
-  /// Height of a vertex above the blade; its crossed edges decide its side, else the triangles near the cells
-  /// around.
+  /// Height of a vertex above the blade; its crossed edges decide its side, else the nearest triangle of all:
+  /// the box of a large one may meet cells from which the blade is far.
   double height_of(std::int32_t v) {
     double& known = heights_[at(v)];
     if (!std::isnan(known)) return known;
-    std::vector<std::int32_t> candidates;
-    for (const std::int32_t t : patch_.tetrahedra_at(v)) {
-      candidates.insert(candidates.end(), triangles(t).begin(), triangles(t).end());
+    known = signed_height(part_, all_, patch_.vertex(v).place);
+    int votes = known_[v].votes;
+    if (known_[v].wall && votes == 0) {
+      for (const std::int32_t t : patch_.tetrahedra_at(v)) votes += side_of_earlier(patch_.tetra(t));
     }
-    sort_unique(candidates);
-    if (candidates.empty()) candidates = all_;
-    known = signed_height(part_, candidates, patch_.vertex(v).place);
-    const int votes = known_[v].votes;
     if (!known_.on(v) && votes != 0) {
       known = std::copysign(std::max(std::abs(known), std::numeric_limits<double>::min()), votes);
     }
     return known;
-  }
-
-  /// Across a face, away from the tetrahedron; across an edge in the plane of its triangle; out of an end of
-  /// a line.
-  [[nodiscard]] Vec3 outward(const Patch::Tetra& tetra, std::size_t face) const {
-    const auto corner = [&](std::size_t i) {
-      return patch_.vertex(tetra.vertices[kOpposite[face][i]]).place;
-    };
-    if (tetra.corners() == 2) return corner(0) - patch_.vertex(tetra.vertices[face]).place;
-    if (tetra.corners() == 4) return (corner(1) - corner(0)).cross(corner(2) - corner(0));
-    const Vec3& a = patch_.vertex(tetra.vertices[(face + 1) % 3]).place;
-    const Vec3& b = patch_.vertex(tetra.vertices[(face + 2) % 3]).place;
-    const Vec3 away = a - patch_.vertex(tetra.vertices[face]).place;
-    return (b - a).squaredNorm() * away - away.dot(b - a) * (b - a);
   }
 
   /// Above what an earlier sweep of the incision opened, a tetrahedron is above the blade: 1; below: -1; at
@@ -221,12 +226,16 @@ class Opener {
       for (const std::uint8_t i : kOpposite[f]) {
         const std::int32_t corner = tetra.vertices[i];
         if (corner < 0) continue;
-        before = before && known_[corner].before;
+        before = before && (known_[corner].before || known_[corner].wall);
         middle += patch_.vertex(corner).place / static_cast<double>(tetra.corners() - 1);
       }
       if (!before) continue;
-      const double along = outward(tetra, f).normalized().dot(nearest_normal(part_, all_, middle));
+      const Vec3 out = outward(patch_, tetra, f, &Patch::Vertex::place).normalized();
+      const NearestPlace blade = nearest_place(part_, all_, middle);
+      const double along = out.dot(blade.normal);
       if (std::abs(along) <= flattest) continue;
+      // The tetrahedron lies between another wall of the incision and the blade.
+      if (out.dot(middle - blade.place) > kBetween * patch_.cell(tetra.cell).size) continue;
       flattest = std::abs(along);
       side = along < 0.0 ? 1 : -1;
     }
@@ -248,17 +257,13 @@ class Opener {
       all = false;
       sum += height_of(v);
     }
-    if (all) sum = signed_height(part_, near_or_all(triangles(number)), middle);
+    if (all) sum = signed_height(part_, all_, middle);
     return sum >= 0.0;
-  }
-
-  [[nodiscard]] std::span<const std::int32_t> near_or_all(std::span<const std::int32_t> list) const {
-    return list.empty() ? std::span<const std::int32_t>(all_) : list;
   }
 
   [[nodiscard]] bool covered(const FaceSide& a, const FaceSide& b) const {
     const std::span<const std::int32_t> vertices = vertices_of(a);
-    const auto before = std::ranges::count_if(vertices, [&](std::int32_t v) { return known_[v].before; });
+    const auto before = std::ranges::count_if(vertices, [&](std::int32_t v) { return is_earlier(v); });
     // The blade went from those to the others.
     if (before > 0 && before < static_cast<std::ptrdiff_t>(vertices.size())) return true;
     if (before == 0 && vertices.size() == 1) return true;  // the blade crosses the line there
@@ -277,7 +282,7 @@ class Opener {
 
   /// Whether a face that the blade does not cover is one that the blade passes, and not beyond its border.
   [[nodiscard]] bool is_bent_away(const FaceSide& side) const {
-    const auto is_new = [&](std::int32_t v) { return !known_[v].before; };
+    const auto is_new = [&](std::int32_t v) { return !is_earlier(v); };
     return std::ranges::all_of(vertices_of(side), is_new) && !is_beyond_border(part_, all_, met_mean(side));
   }
 
@@ -305,6 +310,14 @@ class Opener {
     add_area(a, b);
   }
 
+  /// Area now; of an edge its length, of a vertex 0.
+  [[nodiscard]] double size_of(const FaceSide& side) const {
+    const auto vertices = vertices_of(side);
+    const auto corner = [&](std::size_t i) -> const Vec3& { return patch_.vertex(vertices[i]).place; };
+    if (vertices.size() == 3) return 0.5 * (corner(1) - corner(0)).cross(corner(2) - corner(0)).norm();
+    return vertices.size() == 2 ? (corner(1) - corner(0)).norm() : 0.0;
+  }
+
   void add_area(const FaceSide& a, const FaceSide& b) {
     const std::span<const std::int32_t> vertices = vertices_of(a);
     const auto corner = [&](std::size_t i) -> const Patch::Vertex& { return patch_.vertex(vertices[i]); };
@@ -326,12 +339,12 @@ class Opener {
   }
 
   Patch& patch_;
+  const Blade& blade_;
   const SweepPart& part_;
   const NearCells& near_;
   const CrowdedCells& crowded_;
   FacesAtSheets at_sheets_;
   const OnCut& known_;
-  bool bent_;
   std::vector<std::int32_t> all_;
   std::vector<double> heights_;
   OpenedFaces opened_;
@@ -339,9 +352,8 @@ class Opener {
 
 }  // namespace
 
-OpenedFaces open_faces(Patch& patch, const Blade& blade, const NearCells& near, const OnCut& known,
-                       bool bent) {
-  return Opener(patch, blade, near, known, bent).open();
+OpenedFaces open_faces(Patch& patch, const Blade& blade, const NearCells& near, const OnCut& known) {
+  return Opener(patch, blade, near, known).open();
 }
 
 }  // namespace tissu

@@ -10,13 +10,21 @@ namespace tissu {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kEqual = 1e-9;  ///< relative difference of distances that are equal
+constexpr double kEqual = 1e-9;                 ///< relative difference of distances that are equal
+constexpr double kBeyond = 1.0 + 4.0 * kEqual;  ///< times the square of a distance: surely farther
 
 std::array<double, 9> numbers(const std::array<Vec3, 3>& t) {
   return {t[0][0], t[0][1], t[0][2], t[1][0], t[1][1], t[1][2], t[2][0], t[2][1], t[2][2]};
 }
 
 Vec3 unit_normal(const std::array<Vec3, 3>& t) { return (t[1] - t[0]).cross(t[2] - t[0]).normalized(); }
+
+/// Square of the distance to the box of a triangle: that to the triangle is no less.
+double box_square(const std::array<Vec3, 3>& t, const Vec3& p) {
+  const Vec3 low = t[0].cwiseMin(t[1]).cwiseMin(t[2]);
+  const Vec3 high = t[0].cwiseMax(t[1]).cwiseMax(t[2]);
+  return (low - p).cwiseMax(p - high).cwiseMax(0.0).squaredNorm();
+}
 
 double distance(const std::array<Vec3, 3>& triangle, const Vec3& p) {
   return (p - closest_on_triangle(p, numbers(triangle).data())).norm();
@@ -58,6 +66,7 @@ double signed_height(const SweepPart& part, std::span<const std::int32_t> triang
   int sign = 0;
   for (const std::int32_t t : triangles) {
     const auto& triangle = part.triangles[static_cast<std::size_t>(t)];
+    if (box_square(triangle, p) > kBeyond * least * least) continue;
     const double away = distance(triangle, p);
     if (away > least * (1.0 + kEqual)) continue;
     const double above = std::abs(unit_normal(triangle).dot(p - triangle[0]));
@@ -69,17 +78,19 @@ double signed_height(const SweepPart& part, std::span<const std::int32_t> triang
   return sign * height;
 }
 
-Vec3 nearest_normal(const SweepPart& part, std::span<const std::int32_t> triangles, const Vec3& p) {
+NearestPlace nearest_place(const SweepPart& part, std::span<const std::int32_t> triangles, const Vec3& p) {
   double least = kInfinity;
-  Vec3 normal = Vec3::Zero();
+  NearestPlace nearest{p, Vec3::Zero()};
   for (const std::int32_t t : triangles) {
     const auto& triangle = part.triangles[static_cast<std::size_t>(t)];
-    const double away = distance(triangle, p);
+    if (box_square(triangle, p) > least * least) continue;
+    const Vec3 place = closest_on_triangle(p, numbers(triangle).data());
+    const double away = (p - place).norm();
     if (away >= least) continue;
     least = away;
-    normal = unit_normal(triangle);
+    nearest = {place, unit_normal(triangle)};
   }
-  return normal;
+  return nearest;
 }
 
 }  // namespace tissu

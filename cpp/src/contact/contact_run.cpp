@@ -174,6 +174,7 @@ void ContactRun::look(const State& at) {
   near().cover(from_, now_);
   find();
   keep_multipliers();
+  if (begins_late_) rest_where_begun();
   hand_over();
 }
 

@@ -29,7 +29,9 @@ std::unique_ptr<ImplicitContact> ImplicitContact::make(const Contact& contact, c
   if (contact.description().method == ContactMethod::barrier) {
     return std::make_unique<BarrierContact>(contact, fixed, extent);
   }
-  return std::make_unique<AugmentedContact>(contact, fixed);
+  auto augmented = std::make_unique<AugmentedContact>(contact, fixed);
+  if (mass != nullptr) augmented->run().begin_late();
+  return augmented;
 }
 
 ImplicitContact::ImplicitContact(const Contact& contact, const FixedDofs& fixed)

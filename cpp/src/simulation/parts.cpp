@@ -1,4 +1,4 @@
-/// Steps that contact makes too long for one go.
+/// Steps that contact, or the rotations of nodes, make too long for one go.
 
 #include <algorithm>
 #include <cmath>
@@ -33,12 +33,12 @@ StepReport sum(const StepReport& first, const StepReport& then) {
   return both;
 }
 
-[[noreturn]] void refuse_part(double time, double h, const Error& error) {
-  throw Diverged("the step from t = " + number_text(time) +
-                     " s diverged where surfaces meet, also in parts of " + number_text(h) +
+[[noreturn]] void refuse_part(double time, double h, bool touches, const Error& error) {
+  throw Diverged("the step from t = " + number_text(time) + " s diverged" +
+                     (touches ? " where surfaces meet" : "") + ", also in parts of " + number_text(h) +
                      " s: " + error.what() +
-                     " The simulation stands at its last good step; take a smaller dt, a stable law, or let "
-                     "things meet more slowly.",
+                     " The simulation stands at its last good step; take a smaller dt, a stable law, or " +
+                     (touches ? "let things meet more slowly." : "load more slowly."),
                  "", -1, time);
 }
 
@@ -50,9 +50,16 @@ void say_held_back(StepReport& report) {
       "of the step; take a smaller dt";
 }
 
+void say_turned(StepReport& report) {
+  report.converged = false;
+  report.message =
+      "nodes turn by more than half a radian in the shortest part of the step; take a smaller dt";
+}
+
 /// How much farther some nodes of bodies in contact went than others, over the shortest mean edge of their
 /// surfaces: what all of them go together does not count.
 double edges_gone(const World& world, const State& from, const State& to) {
+  if (world.contact() == nullptr) return 0.0;
   const SurfaceSet& surfaces = world.contact()->surfaces();
   Vec3 least = Vec3::Constant(std::numeric_limits<double>::infinity());
   Vec3 most = -least;
@@ -87,7 +94,8 @@ bool Simulation::gains_energy(const State& start, int halvings) {
 
 /// Where a step has to hold nodes back, or leaves more residual than it found, it was too long: shorter ones
 /// see contacts come. Eight parts have to do, except for impacts in which nodes would go by cells in one
-/// part: a single linearisation there crushes cells and throws them out again.
+/// part: a single linearisation there crushes cells and throws them out again. The same holds for nodes that
+/// turn far, until they do not.
 StepReport Simulation::step_in_parts(double h, int halvings) {
   const auto level = static_cast<std::size_t>(halvings);
   if (part_starts_.size() <= level) part_starts_.resize(level + 1);
@@ -106,21 +114,25 @@ StepReport Simulation::step_in_parts(double h, int halvings) {
     if (last) throw;
     report.reset();
   } catch (const Error& error) {  // of values that are not finite, wherever they were met first
-    if (last) refuse_part(start.state.time, h, error);
+    if (last) refuse_part(start.state.time, h, world_->contact() != nullptr, error);
     report.reset();
   }
   const bool finite = report && std::isfinite(report->residual) && is_sane();
-  const bool good = finite && report->held_back == 0 && !report->hasty;
+  const bool good = finite && report->held_back == 0 && !report->hasty && !report->turned_far;
   const auto end = [&] {
-    if (halvings > 0) world_->contact()->add_part(std::ldexp(1.0, -halvings), state_);
+    if (halvings > 0 && world_->contact() != nullptr) {
+      world_->contact()->add_part(std::ldexp(1.0, -halvings), state_);
+    }
     return *report;
   };
   if (good) return end();
   const auto tame = [&] {
-    return edges_gone(*world_, start.state, state_) <= kFar && !gains_energy(start.state, halvings);
+    return !report->turned_far && edges_gone(*world_, start.state, state_) <= kFar &&
+           !gains_energy(start.state, halvings);
   };
   if (finite && halvings >= kHalvings && (last || tame())) {
     if (report->held_back > 0) say_held_back(*report);
+    if (report->turned_far) say_turned(*report);
     return end();
   }
   if (last) roll_back(h);

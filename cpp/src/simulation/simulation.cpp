@@ -124,7 +124,7 @@ StepReport Simulation::step(double h) {
     begin_step(*world_, state_, scratch_, h);
     if (watch_) begin_watch(*watch_);
     if (watch_ && world_->contact() != nullptr) watch_->allow_contacts(*world_, h);
-    const bool whole = world_->contact() == nullptr || integrator_->is_static();
+    const bool whole = (world_->contact() == nullptr && world_->frames().empty()) || integrator_->is_static();
     report = whole ? integrator_->step(state_, h) : step_in_parts(h, 0);
   } catch (...) {
     state_ = last_good_;

@@ -79,6 +79,10 @@ void move(const State& from, const std::vector<Frame>& frames, ConstReals v, dou
     const std::int32_t rotation_block = frames[k].rotation;
     block(Reals(to.positions), rotation_block).setZero();
     const Vec3 omega = block(v, rotation_block);
+    if (omega.isZero(0.0)) {
+      to.rotations[k] = from.rotations[k];  // to the bit, in however many parts
+      continue;
+    }
     to.rotations[k] = frames[k].alone ? free_turn(frames[k], from.rotations[k], omega, h, 0)
                                       : (turn_by(h * omega) * from.rotations[k]).normalized();
   }

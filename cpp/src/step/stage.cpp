@@ -53,6 +53,7 @@ void StageSolver::prepare(const World& world, LinearSolver* solver, Profile& pro
   for (auto* v : {&given_, &guess_, &first_, &trial_, &change_, &right_, &work_, &momentum_}) {
     v->assign(stage_.base.positions.size(), 0.0);
   }
+  list_turning();
   contact_.reset();
   if (world.contact() == nullptr) return;
   prepare_contact();
@@ -70,6 +71,7 @@ void StageSolver::prepare_contact() {
 
 void StageSolver::follow_edit(std::span<const std::int32_t> rows) {
   system_->follow_edit(rows);
+  list_turning();
   if (contact_ != nullptr) prepare_contact();
 }
 
@@ -99,11 +101,16 @@ void StageSolver::solve(State& state, std::vector<double>& v, StepReport& report
   guess_ = v;
   if (contact_ != nullptr) {
     solve_touching(state, v, report);
-    return;
+  } else {
+    solve_free(state, v, report);
   }
+  report.turned_far = turns_far(v);
+}
+
+void StageSolver::solve_free(State& state, std::vector<double>& v, StepReport& report) {
   first_solve(v, report);
   const bool once = newton_.iterations == 1;
-  if (once && is_good_enough(state, v)) return;
+  if (once && (is_good_enough(state, v) || (gives_up_early_ && turns_far(v)))) return;
 
   first_ = v;
   const int most = once ? kRescue : newton_.iterations;
@@ -120,6 +127,7 @@ void StageSolver::solve(State& state, std::vector<double>& v, StepReport& report
   v = guess_;
   system_->world().fixed().copy(first_, v);
   report.message = iterate(state, v, Search::energy, most, report);
+  report.hasty = once && !report.message.empty();
 }
 
 void StageSolver::judge_by_load() { reference_ = stage_.push * system_->external_force(stage_.base, work_); }

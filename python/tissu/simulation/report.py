@@ -30,7 +30,8 @@ class StepReport:
         held_back: nodes whose motion was cut short so that nothing passes through anything.
         least_gap: distance of the nearest pair that presses, as a share of that at which the
             surfaces rest; infinite where nothing does.
-        substeps: parts in which the step was taken: more than one where contact made it too long.
+        substeps: parts in which the step was taken: more than one where contact made it too long,
+            or nodes of shells and frames that turn far.
         milliseconds: wall time.
         message: why it did not converge; of a static step that converged, the cells that are inside
             out, and whether round-off left a residual above the tolerance.

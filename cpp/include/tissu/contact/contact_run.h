@@ -37,6 +37,9 @@ class ContactRun {
   /// Every near vertex and face, and every two near edges, are a contact, wherever on them they are nearest:
   /// the square of such a distance has no kinks. Two edges count by the angle between them where ways begin.
   void take_every_pair() { every_pair_ = true; }
+  /// A pair of one surface that a look finds nearer than it is to rest, although no contact was there and it
+  /// was so near at the start of the step, rests where it was then, until it has opened.
+  void begin_late() { begins_late_ = true; }
   /// Puts rows where ways begin: at the start of the step, or where what is led pushed them.
   void stand(State& at) const;
   /// Shortens the ways from the start to `to` until nothing passes through anything. The number of rows that
@@ -116,6 +119,8 @@ class ContactRun {
   bool find_plainly(const Candidate& candidate, double reach, Found& found) const;
   [[nodiscard]] const ContactNumbers* acting(const ContactNumbers& c) const;
   void keep_multipliers();
+  void rest_where_begun();
+  [[nodiscard]] double distance_at_begin(const ContactNumbers& contact) const;
   void hand_over();
   bool hand_to(double vertex, std::int32_t other, double sign, const ContactNumbers& before);
   [[nodiscard]] Vec3 reach(const ContactNumbers& contact, ConstReals places) const;
@@ -145,6 +150,7 @@ class ContactRun {
   bool plainly_ = true;
   bool every_pair_ = false;
   bool hands_to_all_ = false;
+  bool begins_late_ = false;
   double least_share_ = 1.0;
   std::vector<ContactNumbers> contacts_;
   std::vector<ContactNumbers> looked_;

@@ -25,8 +25,11 @@ struct StepReport {
   int held_back = 0;       ///< rows whose way was cut so that nothing passes through anything
   double least_gap = std::numeric_limits<double>::infinity();  ///< distance of the nearest of them, as a
                                                                ///< share of that at which surfaces rest
-  bool hasty = false;         ///< with contact: what was linearised once left more residual than it found
-  int substeps = 1;           ///< parts in which the step was taken, more than one only with contact
+  bool hasty = false;         ///< what was linearised once left more residual than it found, and no
+                              ///< iteration mended it
+  bool turned_far = false;    ///< a node turned by more than a linearised step bears
+  int substeps = 1;           ///< parts in which the step was taken: more than one only where something
+                              ///< touches, or nodes have rotations
   double milliseconds = 0.0;  ///< wall time of the step
   std::string message;        ///< empty, or why it did not converge, or what to know of where it converged
 };

@@ -70,7 +70,12 @@ class StageSolver {
  private:
   enum class Search { none, residual, energy };
   void prepare_contact();
+  void solve_free(State& state, std::vector<double>& v, StepReport& report);
   void first_solve(std::vector<double>& v, StepReport& report);
+  /// far_turns.cpp: rotations of nodes, which are turned by vectors; those of rigid bodies stand alone.
+  void list_turning();
+  /// A node is turned by so much more than it would go on by itself that a linearisation says little of it.
+  [[nodiscard]] bool turns_far(ConstReals v) const;
   /// push f + push move K (v + given) + push D given - M (v - v^ + given) goes into right_, free rows only;
   /// changes of velocity that are given go into first_.
   void lay_right(std::vector<double>& v);
@@ -162,6 +167,7 @@ class StageSolver {
   std::size_t travel_row_ = 0;
   std::size_t response_row_ = 0;
   const State* step_start_ = nullptr;  ///< of the step
+  std::vector<std::int32_t> turning_;  ///< rows of rotations of nodes
   std::vector<double> blocks_;         ///< diagonal of the matrix without contact
   std::vector<double> elastic_;        ///< what is right without contact
   Scratch scratch_;                    ///< of energies

@@ -3,7 +3,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 
-#include "rotation_vector.h"
+#include "felt_rotation.h"
 
 namespace tissu {
 namespace {
@@ -48,10 +48,10 @@ ShellMotion::ShellMotion(const ShellElement& element, const ShellPose& pose) {
     const auto i = static_cast<std::size_t>(a);
     x[i] = R.transpose() * (pose.positions[i] - centroid);
     theta[i] = rotation_vector(R.transpose() * pose.rotations[i] * element.axes());
-    H[i] = rotation_change(theta[i]);
+    const Vec3 felt = felt_rotation(theta[i], H[i]);
     part(d, 2 * a) = x[i];
     part(d, 2 * a).head<2>() -= element.nodes().col(a);
-    part(d, 2 * a + 1) = theta[i];
+    part(d, 2 * a + 1) = felt;
   }
   find_spin(element);
 }

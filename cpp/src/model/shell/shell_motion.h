@@ -5,7 +5,8 @@
 /// With F = sum_a x_a (x) g_a (3 x 2) the axes R = (r_1, r_2, n) make R^T F = (U; 0), U symmetric. When nodes
 /// move by v_a, in the axes of the element, these turn by omega = sum_a G_a v_a:
 ///   G_a = ((0, 0, h_a2), (0, 0, -h_a1), (-g_a2, g_a1, 0) / tr U),  h_a = U^-1 g_a
-/// and what is left of the motion is du_a = v_a - omega x x_a, dtheta_a = H(theta_a) (psi_a - omega).
+/// and what is left of the motion is du_a = v_a - omega x x_a, dphi_a = H(theta_a) (psi_a - omega),
+/// where elasticity feels phi_a of theta_a (felt_rotation.h).
 
 #include "tissu/model/shell/shell_element.h"
 
@@ -25,9 +26,9 @@ struct ShellMotion {
   Triangle2 h;            ///< gradients in the triangle as it is now [1/m]
   Nodal x;                ///< R^T (x_a - centroid)
   Nodal theta;            ///< [rad]
-  std::array<Mat3, 3> H;  ///< of theta
+  std::array<Mat3, 3> H;  ///< of phi
   std::array<Mat3, 3> G;  ///< [1/m]
-  Vec18 d;                ///< u and theta
+  Vec18 d;                ///< u and phi
 
   ShellMotion(const ShellElement& element, const ShellPose& pose);
 

@@ -7,7 +7,7 @@
 ///   P^T M P + Z P - Gamma G,
 /// and its symmetric part has 1/2 [g_theta] more in the blocks of a node's rotation with itself.
 
-#include "rotation_vector.h"
+#include "felt_rotation.h"
 #include "shell_motion.h"
 
 namespace tissu {
@@ -100,7 +100,7 @@ Mat18 ShellElement::stiffness(const ShellPose& pose) const {
   turn_rotations(motion, K);
   for (int a = 0; a < 3; ++a) {
     K.block<3, 3>(rotation(a), rotation(a)) +=
-        moment_change(motion.theta[static_cast<std::size_t>(a)], part(pulled, 2 * a + 1));
+        felt_moment_change(motion.theta[static_cast<std::size_t>(a)], part(pulled, 2 * a + 1));
   }
   project(motion, S, K);
   Mat183 turn;  // Z S + Gamma
@@ -138,7 +138,7 @@ Vec18 ShellElement::product(const ShellPose& pose, const Vec18& p) const {
   Vec3 moment = Vec3::Zero();  // of L
   for (int a = 0; a < 3; ++a) {
     const Vec3 turned_moment =
-        moment_change(motion.theta[static_cast<std::size_t>(a)], part(pulled, 2 * a + 1)) *
+        felt_moment_change(motion.theta[static_cast<std::size_t>(a)], part(pulled, 2 * a + 1)) *
         part(left, 2 * a + 1);
     moment += turned_moment;
     part(y, 2 * a + 1) += turned_moment;

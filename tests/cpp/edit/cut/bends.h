@@ -11,7 +11,7 @@
 
 #include "cut_body.h"
 
-namespace tissu::test {
+namespace tissu::bends {
 
 using Random = std::mt19937_64;
 using Point = Eigen::Vector2d;
@@ -126,7 +126,8 @@ inline Mesh mesh_of(const Carrier& carrier, std::uint64_t seed) {
   Random random(seed);
   const double jitter = seed % 2 == 0 ? 0.0 : 0.15;
   if (carrier.thin()) return sheet(carrier.type, jitter, random);
-  return typed_box(carrier.type, kSize, {8, 6, 4}, carrier.type == CellType::tetra ? jitter : 0.0, seed);
+  return test::typed_box(carrier.type, kSize, {8, 6, 4}, carrier.type == CellType::tetra ? jitter : 0.0,
+                         seed);
 }
 
 /// What the cut may be beside the blade: crossings go to ends of edges within t0, and at the ridge the faces
@@ -139,4 +140,4 @@ inline double tolerance(const Bend& bend, const Carrier& carrier) {
   return depth * (walls * (carrier.divide ? 0.2 : 0.02) + 0.25 * longest * longest * std::tan(half));
 }
 
-}  // namespace tissu::test
+}  // namespace tissu::bends

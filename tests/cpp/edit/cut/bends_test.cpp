@@ -12,10 +12,8 @@
 #include <string>
 #include <vector>
 
-namespace tissu {
+namespace tissu::bends {
 namespace {
-
-using namespace test;
 
 Sweep sweep_of(const Bend& bend) {
   std::vector<double> places;
@@ -99,4 +97,4 @@ TEST(BendsTest, ANotchWithoutAVertexIsAPart) {
 }
 
 }  // namespace
-}  // namespace tissu
+}  // namespace tissu::bends

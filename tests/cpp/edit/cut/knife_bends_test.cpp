@@ -11,10 +11,8 @@
 
 #include "bends.h"
 
-namespace tissu {
+namespace tissu::bends {
 namespace {
-
-using namespace test;
 
 constexpr double kStep = 0.5;
 constexpr double kBehind = 1.5;  ///< so far back a sweep begins, over the last ones
@@ -92,4 +90,4 @@ TEST(KnifeBendsTest, TheSecondWallLeavesTheFirst) {
 }
 
 }  // namespace
-}  // namespace tissu
+}  // namespace tissu::bends

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "../../base/differences.h"
 #include "../../base/eigenvalues.h"
@@ -68,6 +70,61 @@ TEST_F(ShellElementTest, StiffnessIsTheSymmetricDerivativeOfTheForce) {
           test::derivative([&](double t) { return element_.force(moved(pose, p, t)); }, 1e-3);
       EXPECT_LT((change + Kp).norm(), 1e-8 * Kp.norm()) << size;
     }
+  }
+}
+
+/// A node turned by an angle beside the others, a little deformed besides.
+ShellPose turned_by(const Corners& X, double angle, Random& random) {
+  ShellPose pose = any_pose(X, 0.1, random);
+  const Vec3 axis = random.vector().normalized();
+  pose.rotations[1] = test::turn(angle * axis) * pose.rotations[1];
+  return pose;
+}
+
+// As above; beyond a third of a turn the fifth derivative is some thousand times as large.
+TEST_F(ShellElementTest, ForcesAndStiffnessesAreDerivativesForNodesTurnedByAnyAngle) {
+  for (const double angle : {1.9, 2.3, 2.7, 3.1, 3.2, 4.0, 5.0}) {
+    for (int trial = 0; trial < 10; ++trial) {
+      const ShellPose pose = turned_by(X_, angle, random_);
+      const Vec18 p = any_change(random_);
+      const Vec18 f = element_.force(pose);
+      const double slope =
+          test::derivative([&](double t) { return element_.energy(moved(pose, p, t)); }, 3e-4);
+      EXPECT_NEAR(f.dot(p), -slope, 1e-7 * (1.0 + std::abs(slope))) << angle;
+      const Mat18 K = element_.stiffness(pose);
+      Vec18 Kp = K * p;
+      EXPECT_LT((element_.product(pose, p) - Kp).norm(), 1e-12 * K.norm() * p.norm()) << angle;
+      for (int a = 3; a < 18; a += 6) {
+        Kp.segment<3>(a) += 0.5 * test::cross_matrix(f.segment<3>(a)) * p.segment<3>(a);
+      }
+      const Vec18 change =
+          test::derivative([&](double t) { return element_.force(moved(pose, p, t)); }, 3e-4);
+      EXPECT_LT((change + Kp).norm(), 1e-6 * K.norm() * p.norm()) << angle;
+    }
+  }
+}
+
+// A full turn of a node comes back to the energy that it left, and none of its 2,000 steps jumps.
+TEST_F(ShellElementTest, NodesTurnRoundWithoutAJumpOfTheEnergy) {
+  constexpr int kSteps = 2000;
+  for (int trial = 0; trial < 20; ++trial) {
+    const ShellPose pose = any_pose(X_, 0.3, random_);
+    const Vec3 axis = random_.vector().normalized();
+    Vec18 p = Vec18::Zero();
+    p.segment<3>(9) = axis;
+    const double first = element_.energy(pose);
+    double before = first;
+    double most = 0.0;
+    double largest = 0.0;
+    for (int k = 1; k <= kSteps; ++k) {
+      const double energy = element_.energy(moved(pose, p, 2.0 * std::numbers::pi * k / kSteps));
+      most = std::max(most, std::abs(energy - before));
+      largest = std::max(largest, energy);
+      before = energy;
+    }
+    EXPECT_NEAR(before, first, 1e-12 * largest);
+    // phi changes by five times what theta does at most, and by all of its size in a tenth of the turn.
+    EXPECT_LT(most, 20.0 / kSteps * largest);
   }
 }
 

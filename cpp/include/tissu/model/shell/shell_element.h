@@ -13,8 +13,9 @@
 ///   theta_a = log(R^T R_a R_0)                                   [rad]
 ///   W = 1/2 d^T K d,  d = (u_1, theta_1, u_2, theta_2, u_3, theta_3)      [J]
 /// K is constant. R is the rotation of the polar decomposition of the triangle's F in its plane, so that it
-/// does not depend on the order of the nodes. Strains are small, rotations of the body are not bounded; a
-/// node turns by less than half a turn from its element.
+/// does not depend on the order of the nodes. Strains are small, rotations of the body are not bounded. Where
+/// a node is turned by more than a third of a turn from its element, phi_a of felt_rotation.h takes the place
+/// of theta_a, so that W is smooth at half a turn.
 ///
 /// Small changes of a state are dx_a [m] and dtheta_a [rad], R_a + dR_a = exp(dtheta_a) R_a, in the axes of
 /// space and in the order of d. Forces are -dW of those, [N] and [N m].

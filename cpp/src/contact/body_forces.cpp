@@ -6,7 +6,8 @@
 namespace tissu {
 namespace {
 
-constexpr double kFloor = 1e-3;  ///< of the load on a body
+constexpr double kFloor = 1e-3;    ///< of the load on a body
+constexpr double kNothing = 1e-8;  ///< of the gap: what a force moves that is round-off
 
 std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
@@ -16,7 +17,7 @@ BodyForces::BodyForces(const Contact& contact, std::size_t rows) : contact_(cont
   forces_.assign(3 * rows, 0.0);
   refusals_ = forces_;
   floors_.assign(contact.surfaces().surfaces().size(), 0.0);
-  sizes_ = others_ = changes_ = floors_;
+  sizes_ = others_ = roundings_ = changes_ = floors_;
   const SurfaceSet& surfaces = contact.surfaces();
   for (const auto& surface : surfaces.surfaces()) {
     if (surface.carrier < 0) continue;
@@ -77,10 +78,17 @@ double BodyForces::largest_share(ConstReals parts, ConstReals wholes) const {
   return largest;
 }
 
+double BodyForces::round_off(const ContactNumbers& contact) const {
+  const Vec3 n = vector_of(contact.normal);
+  const double gap = contact_.description().pairs[static_cast<std::size_t>(contact.pair)].gap;
+  return kNothing * gap * n.dot(stiffness_of(contact) * n);
+}
+
 double BodyForces::change(std::span<const ContactNumbers> solved, std::span<const ContactNumbers> looked) {
   std::ranges::fill(forces_, 0.0);
   std::ranges::fill(sizes_, 0.0);
   std::ranges::fill(others_, 0.0);
+  std::ranges::fill(roundings_, 0.0);
   for (const ContactNumbers& c : solved) {
     const Vec3 force = c.force * vector_of(c.normal) + vector_of(c.drag);
     add_squares(c, force.squaredNorm(), sizes_);
@@ -89,9 +97,12 @@ double BodyForces::change(std::span<const ContactNumbers> solved, std::span<cons
   for (const ContactNumbers& c : looked) {
     add_squares(c, vector_of(c.push).squaredNorm(), others_);
     scatter(c, vector_of(c.push), forces_);
+    const double rounding = round_off(c);
+    add_squares(c, rounding * rounding, roundings_);
   }
   sum_squares(forces_, changes_);
-  for (std::size_t s = 0; s < sizes_.size(); ++s) sizes_[s] = std::max(sizes_[s], others_[s]);
+  for (std::size_t s = 0; s < sizes_.size(); ++s)
+    sizes_[s] = std::max({sizes_[s], others_[s], roundings_[s]});
   return largest_share(changes_, sizes_);
 }
 

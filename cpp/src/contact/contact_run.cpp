@@ -176,6 +176,7 @@ void ContactRun::look(const State& at) {
   keep_multipliers();
   if (begins_late_) rest_where_begun();
   hand_over();
+  if (opens_by_shares_ && share_ < 1.0) open_slowly();
 }
 
 Candidates& ContactRun::near() {

@@ -13,7 +13,6 @@ namespace tissu {
 namespace {
 
 constexpr double kAlternates = 1e-2;  ///< inadmissible share of the forces
-constexpr double kNothing = 1e-8;     ///< of the gap: what a force moves that is round-off
 constexpr double kBlow = 0.1;         ///< of the gap: what would go deeper in a step is struck
 
 std::array<double, 3> numbers_of(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
@@ -30,7 +29,10 @@ std::unique_ptr<ImplicitContact> ImplicitContact::make(const Contact& contact, c
     return std::make_unique<BarrierContact>(contact, fixed, extent);
   }
   auto augmented = std::make_unique<AugmentedContact>(contact, fixed);
-  if (mass != nullptr) augmented->run().begin_late();
+  if (mass != nullptr) {
+    augmented->run().begin_late();
+    augmented->run().open_by_shares();
+  }
   return augmented;
 }
 
@@ -92,8 +94,7 @@ void ImplicitContact::update(const State& end) {
     c.drag = numbers_of(drag);
     const Vec3 left = c.force * n + drag;
     const Vec3 taken = f - left;
-    const double nothing = kNothing * pair_of(c).gap * n.dot(stiffness_of(c) * n);
-    bodies_.add(c, left, taken.norm() > nothing ? taken : Vec3::Zero());
+    bodies_.add(c, left, taken.norm() > bodies_.round_off(c) ? taken : Vec3::Zero());
   }
   inadmissible_ = bodies_.taken_off();
   alternations_ = inadmissible() > kAlternates ? alternations_ + 1 : std::max(0, alternations_ - 1);
@@ -116,6 +117,7 @@ void ImplicitContact::write(State& state) const {
 
 void ImplicitContact::finish(const State& end, State& into) {
   least_gap_ = std::numeric_limits<double>::infinity();
+  deepest_ = 0.0;
   for (ContactNumbers& c : run_.acting()) {
     const Vec3 n = vector_of(c.normal);
     const Vec3 r = contact_.reach(c, end);
@@ -123,6 +125,7 @@ void ImplicitContact::finish(const State& end, State& into) {
     c.place = numbers_of(r);
     c.stiffness = {};
     least_gap_ = std::min(least_gap_, n.dot(r) / c.apart);
+    deepest_ = std::max(deepest_, (c.apart - n.dot(r)) / std::min(c.apart, pair_of(c).gap));
   }
   ContactTable::write(run_.acting(), contact_.numbers(into));
 }

@@ -15,7 +15,9 @@ namespace tissu {
 namespace {
 
 constexpr int kHalvings = 3;       ///< at most: eight parts, …
+constexpr int kHalvingsRigid = 6;  ///< 64 parts where nothing is soft: they cost little
 constexpr int kMostHalvings = 10;  ///< … and 1,024 of a step that diverges, gains energy or goes far
+constexpr double kTooDeep = 0.5;   ///< of the gap
 constexpr double kFar = 1.0;       ///< mean edges that nodes go beside each other
 
 /// The report of two parts of a step, one after the other.
@@ -32,6 +34,8 @@ StepReport sum(const StepReport& first, const StepReport& then) {
   if (both.message.empty()) both.message = first.message;
   return both;
 }
+
+int enough_halvings(const World& world) { return world.bodies().empty() ? kHalvingsRigid : kHalvings; }
 
 [[noreturn]] void refuse_part(double time, double h, bool touches, const Error& error) {
   throw Diverged("the step from t = " + number_text(time) + " s diverged" +
@@ -54,6 +58,12 @@ void say_turned(StepReport& report) {
   report.converged = false;
   report.message =
       "nodes turn by more than half a radian in the shortest part of the step; take a smaller dt";
+}
+
+void say_deep(StepReport& report) {
+  report.converged = false;
+  report.message =
+      "contacts are still deeper than half the gap after the parts of the step; take a smaller dt";
 }
 
 /// How much farther some nodes of bodies in contact went than others, over the shortest mean edge of their
@@ -105,7 +115,8 @@ StepReport Simulation::step_in_parts(double h, int halvings) {
   integrator_->append_memory(start.integrator);
   const bool last = halvings == kMostHalvings;
   std::optional<StepReport> report;
-  integrator_->give_up_early(halvings < kHalvings);
+  const int enough = enough_halvings(*world_);
+  integrator_->take_part(halvings < enough, std::ldexp(1.0, -halvings));
   try {
     report = integrator_->step(state_, h);
   } catch (const Interrupted&) {
@@ -130,7 +141,7 @@ StepReport Simulation::step_in_parts(double h, int halvings) {
     return !report->turned_far && edges_gone(*world_, start.state, state_) <= kFar &&
            !gains_energy(start.state, halvings);
   };
-  if (finite && halvings >= kHalvings && (last || tame())) {
+  if (finite && halvings >= enough && (last || tame())) {
     if (report->held_back > 0) say_held_back(*report);
     if (report->turned_far) say_turned(*report);
     return end();
@@ -140,7 +151,10 @@ StepReport Simulation::step_in_parts(double h, int halvings) {
   integrator_->restore(start.integrator);
   const StepReport first = step_in_parts(0.5 * h, halvings + 1);
   remember(*world_, state_);
-  return sum(first, step_in_parts(0.5 * h, halvings + 1));
+  StepReport both = sum(first, step_in_parts(0.5 * h, halvings + 1));
+  // Parts open what is too deep by shares, so that each of them may have converged.
+  if (halvings == 0 && both.converged && both.depth > kTooDeep) say_deep(both);
+  return both;
 }
 
 }  // namespace tissu

@@ -63,6 +63,7 @@ void EnergyMomentum::begin_touching(const State& from, double h) {
 
 bool EnergyMomentum::iterate_touching(const State& from, double h, StepReport& report) {
   begin_touching(from, h);
+  int held_back = 0;  // of the last search: the report has those of the other halves of the step, too
   for (int i = 1;; ++i) {
     stop_if_asked();
     contact_->write(middle_);
@@ -72,14 +73,16 @@ bool EnergyMomentum::iterate_touching(const State& from, double h, StepReport& r
       const Timed timed(*profile_, response_row_);
       contact_->update(end_);
     }
-    report.held_back = hold_back();
+    held_back = hold_back();
     const double other = look();
-    if (report.held_back == 0 && other <= kForce && contact_->depth() <= kDepth) return true;
+    const bool pulled = contact_->inadmissible() > kMostForce;
+    if (held_back == 0 && !pulled && other <= kForce && contact_->depth() <= kDepth) return true;
     if (i == kMostLooks) break;
     contact_->take();
   }
-  report.hasty = contact_->inadmissible() > kMostForce || contact_->depth() > kMostDepth;
-  if (report.hasty) {
+  report.held_back = std::max(report.held_back, held_back);
+  if (contact_->inadmissible() > kMostForce || contact_->depth() > kMostDepth) {
+    report.hasty = true;
     report.message = "contacts had not settled after " + std::to_string(kMostLooks) + " searches";
   }
   return true;

@@ -17,6 +17,7 @@ constexpr double kDepth = 1e-2;      ///< of the gap: contacts no deeper than th
 constexpr int kLater = 8;            ///< after so many systems …
 constexpr double kLaterDepth = 0.1;  ///< … this is deep enough: the next step goes on from its forces
 constexpr double kTooDeep = 0.5;
+constexpr double kUnsettled = 0.1;  ///< of the forces on what is rigid: what still changes is not known
 constexpr double kDepthNewton = 1e-3;
 constexpr double kForce = 1e-2;       ///< of the contacts' forces: a smaller change needs no other system
 constexpr double kForceRigid = 1e-3;  ///< the same where a rigid body is free, which has no other forces
@@ -216,7 +217,7 @@ bool StageSolver::solve_contacts(State& state, std::vector<double>& v, StepRepor
       break;
     }
     if (i == most) {
-      report.hasty = contact_->inadmissible() > kForce || contact_->depth() > kTooDeep;
+      report.hasty = pulled || contact_->depth() > kTooDeep || (enough < kForce && other > kUnsettled);
       if (report.hasty) report.message = unsettled(most);
       break;
     }
@@ -290,6 +291,7 @@ void StageSolver::solve_touching(State& state, std::vector<double>& v, StepRepor
   }
   report.contacts = static_cast<int>(contact_->size());
   report.least_gap = contact_->least_gap();
+  if (contact_->run().opens_by_shares()) report.depth = contact_->deepest();
 }
 
 }  // namespace tissu

@@ -97,6 +97,7 @@ def _sever_rows(
         moments=moments,
         points=points,
         incision=-1,
+        past=0,
     )
     return simulation._sever_along(tissue, sweep, by=name), after
 

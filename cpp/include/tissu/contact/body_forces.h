@@ -18,6 +18,8 @@ class BodyForces {
   /// A step begins at `start`, which outlives it. Forces on a body are judged by a thousandth of its `load`
   /// [N] where they are smaller; it may be empty.
   void begin(const State& start, ConstReals load);
+  /// A force that moves things by no more than the round-off of their places [N].
+  [[nodiscard]] double round_off(const ContactNumbers& contact) const;
   /// By how much the forces `push` of contacts that were looked at differ from those of contacts with which a
   /// system was solved, on the body where it is most: |change of the forces on rows| / |forces|.
   double change(std::span<const ContactNumbers> solved, std::span<const ContactNumbers> looked);
@@ -37,13 +39,14 @@ class BodyForces {
 
   const Contact& contact_;
   const State* start_ = nullptr;
-  std::vector<double> levers_;    ///< of each carrier, to where it touches at most [m]
-  std::vector<double> forces_;    ///< on rows
-  std::vector<double> refusals_;  ///< on rows
-  std::vector<double> floors_;    ///< of each body [N]
-  std::vector<double> sizes_;     ///< squares on each body: of the forces before, …
-  std::vector<double> others_;    ///< … of those after, …
-  std::vector<double> changes_;   ///< … and of what changed
+  std::vector<double> levers_;     ///< of each carrier, to where it touches at most [m]
+  std::vector<double> forces_;     ///< on rows
+  std::vector<double> refusals_;   ///< on rows
+  std::vector<double> floors_;     ///< of each body [N]
+  std::vector<double> sizes_;      ///< squares on each body: of the forces before, …
+  std::vector<double> others_;     ///< … of those after, …
+  std::vector<double> roundings_;  ///< … of what round-off of places makes of them, …
+  std::vector<double> changes_;    ///< … and of what changed
 };
 
 }  // namespace tissu

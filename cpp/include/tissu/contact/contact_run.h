@@ -37,6 +37,12 @@ class ContactRun {
   /// Every near vertex and face, and every two near edges, are a contact, wherever on them they are nearest:
   /// the square of such a distance has no kinks. Two edges count by the angle between them where ways begin.
   void take_every_pair() { every_pair_ = true; }
+  /// The step is a part of one that was asked for. What was too deep at its start opens by that share of its
+  /// depth, so that the depth of a step is given back as velocity once, however short its parts are. Only
+  /// after `open_by_shares`.
+  void take_part(double share) { share_ = share; }
+  void open_by_shares() { opens_by_shares_ = !contact_.surfaces().carriers().empty(); }
+  [[nodiscard]] bool opens_by_shares() const { return opens_by_shares_; }
   /// A pair of one surface that a look finds nearer than it is to rest, although no contact was there and it
   /// was so near at the start of the step, rests where it was then, until it has opened.
   void begin_late() { begins_late_ = true; }
@@ -120,6 +126,7 @@ class ContactRun {
   [[nodiscard]] const ContactNumbers* acting(const ContactNumbers& c) const;
   void keep_multipliers();
   void rest_where_begun();
+  void open_slowly();
   [[nodiscard]] double distance_at_begin(const ContactNumbers& contact) const;
   void hand_over();
   bool hand_to(double vertex, std::int32_t other, double sign, const ContactNumbers& before);
@@ -151,6 +158,8 @@ class ContactRun {
   bool every_pair_ = false;
   bool hands_to_all_ = false;
   bool begins_late_ = false;
+  bool opens_by_shares_ = false;
+  double share_ = 1.0;  ///< of the step that was asked for
   double least_share_ = 1.0;
   std::vector<ContactNumbers> contacts_;
   std::vector<ContactNumbers> looked_;

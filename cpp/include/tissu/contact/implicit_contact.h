@@ -90,6 +90,8 @@ class ImplicitContact {
   [[nodiscard]] std::size_t size() const { return run_.acting().size(); }
   /// The least distance, as a share of xi, of a pair that acts, at the end of the step; infinite for none.
   [[nodiscard]] double least_gap() const { return least_gap_; }
+  /// How much nearer than it rests a pair that acts is then, as a share of the gap.
+  [[nodiscard]] double deepest() const { return deepest_; }
 
  protected:
   /// It may press, so that it counts at its rows.
@@ -153,6 +155,7 @@ class ImplicitContact {
   double inadmissible_ = 0.0;
   double depth_ = 0.0;
   double least_gap_ = 0.0;
+  double deepest_ = 0.0;
 };
 
 }  // namespace tissu

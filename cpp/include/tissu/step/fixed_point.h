@@ -18,7 +18,7 @@ class Bdf2FixedPoint final : public Integrator {
   explicit Bdf2FixedPoint(Settings settings);
   [[nodiscard]] std::string_view name() const override;
   void prepare(const World& world, LinearSolver* solver, Profile& profile) override;
-  void give_up_early(bool early) override { solver_.give_up_early(early); }
+  void take_part(bool early, double share) override { solver_.take_part(early, share); }
   StepReport step(State& state, double h) override;
   void append_memory(std::vector<double>& memory) const override { history_.append_memory(memory); }
   void restore(ConstReals memory) override { history_.restore(memory); }

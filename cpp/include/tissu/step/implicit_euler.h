@@ -18,7 +18,7 @@ class ImplicitEuler final : public Integrator {
     return true;
   }
   void prepare_ahead(const State& state, double h) override;
-  void give_up_early(bool early) override { solver_.give_up_early(early); }
+  void take_part(bool early, double share) override { solver_.take_part(early, share); }
   StepReport step(State& state, double h) override;
 
  private:

@@ -25,8 +25,10 @@ struct StepReport {
   int held_back = 0;       ///< rows whose way was cut so that nothing passes through anything
   double least_gap = std::numeric_limits<double>::infinity();  ///< distance of the nearest of them, as a
                                                                ///< share of that at which surfaces rest
-  bool hasty = false;         ///< what was linearised once left more residual than it found, and no
-                              ///< iteration mended it
+  bool hasty = false;  ///< what was linearised once left more residual than it found, and no
+                       ///< iteration mended it
+  double depth =
+      0.0;  ///< of the deepest contact at the end, as a share of its gap, where parts open by shares
   bool turned_far = false;    ///< a node turned by more than a linearised step bears
   int substeps = 1;           ///< parts in which the step was taken: more than one only where something
                               ///< touches, or nodes have rotations
@@ -71,9 +73,9 @@ class Integrator {
   [[nodiscard]] virtual double stable_step(const State& /*state*/) {
     return std::numeric_limits<double>::infinity();
   }
-  /// Whether a step whose contacts do not settle may say so before all its systems, because shorter
-  /// ones will be taken instead.
-  virtual void give_up_early(bool /*early*/) {}
+  /// The next step is that share of one that was asked for. `early`: if its contacts do not settle, it may
+  /// say so before all its systems, because shorter ones will be taken instead.
+  virtual void take_part(bool /*early*/, double /*share*/) {}
   /// Moves the state by h [s]. The state is undefined when it throws.
   virtual StepReport step(State& state, double h) = 0;
   /// What the next step needs beside the state, such as earlier states, goes to the end of `memory`: nothing

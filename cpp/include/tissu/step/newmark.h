@@ -23,7 +23,7 @@ class Newmark final : public Integrator {
     solver_.follow_edit(rows);
     return true;
   }
-  void give_up_early(bool early) override { solver_.give_up_early(early); }
+  void take_part(bool early, double share) override { solver_.take_part(early, share); }
   StepReport step(State& state, double h) override;
   void append_memory(std::vector<double>& memory) const override;
   void restore(ConstReals memory) override;

@@ -53,7 +53,10 @@ class StageSolver {
   void end_touching(double h, State& end);
 
   /// As `Integrator` has it.
-  void give_up_early(bool early) { gives_up_early_ = early; }
+  void take_part(bool early, double share) {
+    gives_up_early_ = early;
+    if (contact_ != nullptr) contact_->run().take_part(share);
+  }
 
   /// push f - M (v - v^) at x(v), which goes into `state` with v; zero where motion is given. Its norm.
   double residual(State& state, ConstReals v);

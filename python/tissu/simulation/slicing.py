@@ -97,7 +97,6 @@ def _sever_rows(
         moments=moments,
         points=points,
         incision=-1,
-        past=0,
     )
     return simulation._sever_along(tissue, sweep, by=name), after
 
@@ -134,7 +133,6 @@ def cut_rows(
         moments=count,
         points=points,
         incision=number,
-        past=len(past) + 1,
     )
     ways = [row.places(positions) for row in kept]
     report = simulation._cut_along(body, sweep, by=name, goes_on=True)

@@ -2,23 +2,14 @@
 
 #include <algorithm>
 #include <map>
-#include <numeric>
 #include <utility>
 
-#include "edit/cut/outward.h"
-#include "edit/cut/side.h"
 #include "tissu/base/sort_unique.h"
 
 namespace tissu {
 namespace {
 
 using Numbers = std::vector<std::int32_t>;
-
-/// Share of the area of faces: those of both sides of a front cancel out but for round-off.
-constexpr double kCancel = 1e-6;
-/// Of a cell's longest edge: as far from the blade a cut of divided cells may go to a vertex.
-constexpr double kGoesTo = 0.25;
-constexpr double kLeastAlong = 0.5;  ///< cosine between the normals of a face of the cut and of the blade
 
 std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
@@ -33,112 +24,6 @@ void add_divided(const Patch& patch, std::vector<char> on, const Fans& fans, Num
     list.insert(list.end(), now.begin(), now.end());
   }
 }
-
-/// Vertices of an incision at whose open faces the material lies on one side. At the front it lies on both,
-/// and the faces cancel out. A line ends where it was cut.
-std::vector<char> wall_vertices(const Patch& patch, const OnCut& known) {
-  std::vector<Vec3> sums(patch.vertices.size(), Vec3::Zero());
-  std::vector<double> sizes(patch.vertices.size(), 0.0);
-  for (const Patch::Tetra& tetra : patch.tetrahedra) {
-    if (tetra.corners() < 3) continue;
-    for (std::size_t f = 0; f < tetra.corners(); ++f) {
-      if ((tetra.cut >> f & 1U) == 0) continue;
-      const auto is_before = [&](std::uint8_t i) {
-        return tetra.vertices[i] < 0 || known[tetra.vertices[i]].before;
-      };
-      if (!std::ranges::all_of(kOpposite[f], is_before)) continue;
-      const Vec3 out = outward(patch, tetra, f, &Patch::Vertex::rest);
-      for (const std::uint8_t i : kOpposite[f]) {
-        if (tetra.vertices[i] < 0) continue;
-        sums[at(tetra.vertices[i])] += out;
-        sizes[at(tetra.vertices[i])] += out.norm();
-      }
-    }
-  }
-  std::vector<char> walls(patch.vertices.size(), 0);
-  for (std::size_t v = 0; v < walls.size(); ++v) walls[v] = sums[v].norm() > kCancel * sizes[v] ? 1 : 0;
-  return walls;
-}
-
-/// Vertices of tetrahedra at a face that another cut opened. There the cut may go on from a wall.
-std::vector<char> beside_other_cuts(const Patch& patch, const OnCut& known) {
-  std::vector<char> at_cut(patch.vertices.size(), 0);
-  for (const Patch::Tetra& tetra : patch.tetrahedra) {
-    for (std::size_t f = 0; f < tetra.corners(); ++f) {
-      if ((tetra.cut >> f & 1U) == 0) continue;
-      const auto is_before = [&](std::uint8_t i) {
-        return tetra.vertices[i] < 0 || known[tetra.vertices[i]].before;
-      };
-      if (std::ranges::all_of(kOpposite[f], is_before)) continue;
-      for (const std::uint8_t i : kOpposite[f]) {
-        if (tetra.vertices[i] >= 0) at_cut[at(tetra.vertices[i])] = 1;
-      }
-    }
-  }
-  std::vector<char> beside(patch.vertices.size(), 0);
-  for (const Patch::Tetra& tetra : patch.tetrahedra) {
-    const auto is_at_cut = [&](std::int32_t v) { return v >= 0 && at_cut[at(v)] != 0; };
-    if (std::ranges::none_of(tetra.vertices, is_at_cut)) continue;
-    for (const std::int32_t v : tetra.vertices) {
-      if (v >= 0) beside[at(v)] = 1;
-    }
-  }
-  return beside;
-}
-
-/// Of a blade that cuts on, what stands beside it.
-class Beside {
- public:
-  Beside(const Patch& patch, const SweepPart& part, OnCut& known)
-      : patch_(patch), part_(part), known_(known), all_(part.triangles.size()) {
-    std::iota(all_.begin(), all_.end(), 0);
-  }
-
-  /// Marks vertices of walls to which faces of the cut may go on: near the front, near the blade, and not of
-  /// another wall of the incision.
-  void mark() {
-    for (std::size_t v = 0; v < known_.vertices.size(); ++v) {
-      if (!known_.vertices[v].wall) continue;
-      double size = 0.0;
-      bool at_front = false;
-      const auto is_front = [&](std::int32_t w) { return w >= 0 && known_[w].before; };
-      for (const std::int32_t t : patch_.tetrahedra_at(static_cast<std::int32_t>(v))) {
-        size = std::max(size, patch_.cell(patch_.tetra(t).cell).size);
-        at_front = at_front || std::ranges::any_of(patch_.tetra(t).vertices, is_front);
-      }
-      if (!at_front || distance(part_, all_, patch_.vertices[v].place) > kGoesTo * size) continue;
-      int agree = 0;
-      for (const std::int32_t t : patch_.tetrahedra_at(static_cast<std::int32_t>(v)))
-        agree += agreement(patch_.tetra(t), static_cast<std::int32_t>(v));
-      known_.vertices[v].beside = agree > 0;
-    }
-  }
-
- private:
-  /// Of the open faces of a tetrahedron at a vertex: 1 where it lies on that side of the blade on which it
-  /// would be if the blade had parted the face, -1 on the other.
-  [[nodiscard]] int agreement(const Patch::Tetra& tetra, std::int32_t v) const {
-    double height = 0.0;
-    for (const std::int32_t w : tetra.vertices) {
-      if (w < 0 || known_[w].wall || known_[w].before) continue;
-      height += signed_height(part_, all_, patch_.vertex(w).place);
-    }
-    if (height == 0.0) return 0;
-    int sum = 0;
-    for (std::size_t f = 0; f < tetra.corners(); ++f) {
-      if ((tetra.cut >> f & 1U) == 0 || tetra.vertices[f] == v) continue;
-      const Vec3 out = outward(patch_, tetra, f, &Patch::Vertex::place).normalized();
-      const double along = out.dot(nearest_place(part_, all_, patch_.vertex(v).place).normal);
-      if (std::abs(along) > kLeastAlong) sum += (along < 0.0) == (height > 0.0) ? 1 : -1;
-    }
-    return sum;
-  }
-
-  const Patch& patch_;
-  const SweepPart& part_;
-  OnCut& known_;
-  std::vector<std::int32_t> all_;
-};
 
 }  // namespace
 
@@ -159,33 +44,23 @@ void remember_incisions(const Patch& patch, const Material& material, const OnIn
   }
 }
 
-OnCut known_before(const Patch& patch, const Material& material, const SweepPart& part, bool divide) {
+OnCut known_before(const Patch& patch, const Material& material, std::int32_t number) {
   OnCut known(patch.vertices.size());
   for (const Incision& incision : material.incisions) {
-    if (incision.number != part.incision || part.incision < 0) continue;
+    if (incision.number != number || number < 0) continue;
     for (std::size_t v = 0; v < patch.vertices.size(); ++v) {
       const Patch::Vertex& vertex = patch.vertices[v];
       if (!std::ranges::binary_search(incision.vertices, vertex.number)) continue;
+      known.put_on(static_cast<std::int32_t>(v), vertex.place, vertex.place, -1);
       known.vertices[v].before = true;
     }
   }
   for (const Patch::Division& division : patch.divisions) {
-    if (known[division.p].before && known[division.q].before)
-      known.vertices[at(division.vertex)].before = true;
+    if (!known[division.p].before || !known[division.q].before) continue;
+    const Vec3& place = patch.vertex(division.vertex).place;
+    known.put_on(division.vertex, place, place, -1);
+    known.vertices[at(division.vertex)].before = true;
   }
-  if (std::ranges::none_of(known.vertices, [](const OnCut::Vertex& vertex) { return vertex.before; }))
-    return known;
-  const std::vector<char> walls = wall_vertices(patch, known);
-  const std::vector<char> others = beside_other_cuts(patch, known);
-  for (std::size_t v = 0; v < walls.size(); ++v) {
-    OnCut::Vertex& vertex = known.vertices[v];
-    vertex.wall = walls[v] != 0 && others[v] == 0;
-    vertex.before = vertex.before && !vertex.wall;
-    const Vec3& place = patch.vertices[v].place;
-    if (vertex.before) known.put_on(static_cast<std::int32_t>(v), place, place, -1);
-    if (vertex.wall) vertex.met = place;
-  }
-  if (divide) Beside(patch, part, known).mark();
   return known;
 }
 

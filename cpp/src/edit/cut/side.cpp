@@ -78,19 +78,17 @@ double signed_height(const SweepPart& part, std::span<const std::int32_t> triang
   return sign * height;
 }
 
-NearestPlace nearest_place(const SweepPart& part, std::span<const std::int32_t> triangles, const Vec3& p) {
+Vec3 nearest_normal(const SweepPart& part, std::span<const std::int32_t> triangles, const Vec3& p) {
   double least = kInfinity;
-  NearestPlace nearest{p, Vec3::Zero()};
+  Vec3 normal = Vec3::Zero();
   for (const std::int32_t t : triangles) {
     const auto& triangle = part.triangles[static_cast<std::size_t>(t)];
-    if (box_square(triangle, p) > least * least) continue;
-    const Vec3 place = closest_on_triangle(p, numbers(triangle).data());
-    const double away = (p - place).norm();
+    const double away = distance(triangle, p);
     if (away >= least) continue;
     least = away;
-    nearest = {place, unit_normal(triangle)};
+    normal = unit_normal(triangle);
   }
-  return nearest;
+  return normal;
 }
 
 }  // namespace tissu

@@ -17,6 +17,8 @@ namespace {
 
 std::size_t at(double i) { return static_cast<std::size_t>(i); }
 
+constexpr int kNearby = 3;          ///< edges
+constexpr double kBesideCut = 1.5;  ///< of the distance at which they rest: edges of a cut begin so far apart
 constexpr double kLate = 0.1;  ///< of the gap: what is deeper at the start of a step and no contact is late
 
 }  // namespace
@@ -32,6 +34,31 @@ double ContactRun::distance_at_begin(const ContactNumbers& contact) const {
   return std::sqrt(nearest_of(kind, p).square);
 }
 
+/// The two features are at most three edges from each other along the surface, or across a cut.
+bool ContactRun::is_in_crease(const ContactNumbers& contact) const {
+  const SurfaceSet& surfaces = contact_.surfaces();
+  const ConstReals rest(surfaces.rest());
+  const auto is_other = [&](std::int32_t vertex) {
+    for (std::size_t k = 0; k < 4; ++k) {
+      if (contact.vertex[k] < 0.0 || contact.is_of_first(k)) continue;
+      const auto own = static_cast<std::int32_t>(contact.vertex[k]);
+      if ((block(rest, vertex) - block(rest, own)).norm() <= kBesideCut * contact.apart) return true;
+    }
+    return false;
+  };
+  const auto is_near = [&](const auto& self, std::int32_t vertex, int edges) -> bool {
+    if (is_other(vertex)) return true;
+    if (edges == 0) return false;
+    return std::ranges::any_of(surfaces.neighbours(vertex),
+                               [&](std::int32_t end) { return self(self, end, edges - 1); });
+  };
+  for (std::size_t i = 0; i < 4; ++i) {
+    if (contact.vertex[i] < 0.0 || !contact.is_of_first(i)) continue;
+    if (is_near(is_near, static_cast<std::int32_t>(contact.vertex[i]), kNearby)) return true;
+  }
+  return false;
+}
+
 void ContactRun::rest_where_begun() {
   const auto& pairs = contact_.description().pairs;
   for (std::size_t i = 0; i < looked_.size(); ++i) {
@@ -42,7 +69,8 @@ void ContactRun::rest_where_begun() {
     const bool late = before == nullptr && (gaps_[i] < 0.0 || predicted_[i] != 0);
     if (!late && !(before != nullptr && before->apart < c.apart)) continue;
     const double begun = distance_at_begin(c);
-    if (late && !(begun < c.apart - kLate * std::min(pair.gap, c.apart))) continue;
+    const bool deep = begun < c.apart - kLate * std::min(pair.gap, c.apart);
+    if (late && !(deep && is_in_crease(c))) continue;
     const double rests = std::min(c.apart, late ? begun : std::max(before->apart, begun));
     gaps_[i] += c.apart - rests;
     c.apart = rests;

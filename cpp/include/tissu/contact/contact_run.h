@@ -126,6 +126,7 @@ class ContactRun {
   [[nodiscard]] const ContactNumbers* acting(const ContactNumbers& c) const;
   void keep_multipliers();
   void rest_where_begun();
+  [[nodiscard]] bool is_in_crease(const ContactNumbers& contact) const;
   void open_slowly();
   [[nodiscard]] double distance_at_begin(const ContactNumbers& contact) const;
   void hand_over();

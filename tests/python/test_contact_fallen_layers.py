@@ -41,7 +41,7 @@ def hairpin() -> ts.Mesh:
 def test_a_layer_comes_to_rest_a_thickness_and_a_gap_above_the_other(
     gap: float, speed: float, dt: float
 ) -> None:
-    """To 2 % of the gap: what contacts of a step may be too deep, and 1 % in a step of impacts.
+    """To 2 % of that distance: a fifth of the gap, twice what late systems may leave too deep.
 
     The layers are nearer in space at rest than a cell is long, and far from each other along the
     sheet. Where each late pair of one sheet rested where it was, as pairs in creases do, the upper

@@ -87,7 +87,7 @@ Sets joined(const Patch& patch, const std::vector<InnerFace>& faces) {
   std::ranges::sort(sides);
   std::vector<std::pair<std::int32_t, std::int32_t>> opening;
   for (const InnerFace& face : faces) {
-    if (face.opens) opening.push_back(std::minmax(face.a, face.b));
+    if (face.opens) opening.emplace_back(std::minmax(face.a, face.b));
   }
   std::ranges::sort(opening);
   Sets sets(patch.tetrahedra.size());

@@ -1,9 +1,9 @@
 /// Contacts that begin late: pairs of one surface that are nearer than they rest before they are a contact.
 ///
 /// Near a crease, the material itself holds the two layers nearer than their thickness. An edge of one and an
-/// edge of the other are no contact there as long as a face of the fan lies between them, and become one when
-/// it turns by a little. If such a contact pushed them apart to the thickness, it would do so in one step,
-/// with an energy that grows with the inverse of the square of its length.
+/// edge of the other do not form a contact there while a face of the fan lies between them. They form one
+/// when that face turns a little. If such a contact pushed them apart to the thickness, it would do so in one
+/// step, with an energy that grows with the inverse of the square of its length.
 
 #include <algorithm>
 #include <cmath>

@@ -19,7 +19,7 @@ std::array<double, 9> numbers(const std::array<Vec3, 3>& t) {
 
 Vec3 unit_normal(const std::array<Vec3, 3>& t) { return (t[1] - t[0]).cross(t[2] - t[0]).normalized(); }
 
-/// Square of the distance to the box of a triangle: that to the triangle is no less.
+/// Square of the distance to the box of a triangle: the square of that to the triangle is at least as large.
 double box_square(const std::array<Vec3, 3>& t, const Vec3& p) {
   const Vec3 low = t[0].cwiseMin(t[1]).cwiseMin(t[2]);
   const Vec3 high = t[0].cwiseMax(t[1]).cwiseMax(t[2]);

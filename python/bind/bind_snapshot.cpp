@@ -81,6 +81,7 @@ void for_cut_lists(Body& body, Function&& f) {
   f("incisions_", body.material.incisions);
   f("first_of_incision_", body.material.first_of_incision);
   f("on_incision_", body.material.on_incision);
+  f("at_front_", body.material.at_front);
 }
 
 void add_cut(const BodyTopology& body, const std::string& number, py::dict& result) {

@@ -56,10 +56,9 @@ void bind_sweep(py::module_& m) {
           py::kw_only(), arg("points"), arg("triangles"))
       .def(
           "edge_sweep",
-          [](const Doubles& places, std::int32_t moments, std::int32_t points, std::int32_t incision) {
-            return edge_sweep(numbers(places), moments, points, incision);
-          },
-          py::kw_only(), arg("places"), arg("moments"), arg("points"), arg("incision"))
+          [](const Doubles& places, std::int32_t moments, std::int32_t points, std::int32_t incision,
+             std::int32_t past) { return edge_sweep(numbers(places), moments, points, incision, past); },
+          py::kw_only(), arg("places"), arg("moments"), arg("points"), arg("incision"), arg("past"))
       .def("severed", &which_severed, py::kw_only(), arg("sweep"), arg("begins"), arg("ends"));
 }
 

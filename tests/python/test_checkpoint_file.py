@@ -86,7 +86,7 @@ def test_numpy_opens_it_and_equal_states_are_equal_bytes(file, tmp_path):
     with np.load(file, allow_pickle=False) as members:
         assert members["positions"].shape == members["velocities"].shape == (12, 3)
         header = json.loads(members["header.json"])
-    assert (header["format"], header["tissu"], header["steps"]) == (4, ts.__version__, 1)
+    assert (header["format"], header["tissu"], header["steps"]) == (5, ts.__version__, 1)
     assert header["physics"]["bodies"]["bar"]["law"]["young"] == 1e4
     assert zipfile.ZipFile(file).testzip() is None
     made().compile(checkpoint=file).save_checkpoint(tmp_path / "again")
@@ -172,10 +172,10 @@ def rewritten(file, **header):
 
 def test_other_versions_are_refused_and_other_kernels_told(file):
     rewritten(file, tissu="7.5.1")
-    assert "format 4 of tissu 7.5.1; format 4 of tissu" in refusal(file)
+    assert "format 5 of tissu 7.5.1; format 5 of tissu" in refusal(file)
     rewritten(file, tissu=ts.__version__, format=9)
     assert "it has format 9" in refusal(file)
-    rewritten(file, format=4, build={**checkpoints.build(), "instruction_set": "mmx"})
+    rewritten(file, format=5, build={**checkpoints.build(), "instruction_set": "mmx"})
     told = made().compile(checkpoint=file).resumed_from.note
     assert "mmx" in told
     assert "not with the same bits" in told

@@ -113,6 +113,7 @@ def swept(seed: int, parts: int) -> list[float]:
             moments=len(part),
             points=part.shape[1],
             incision=7,
+            past=0,
         )
         assert not simulation._cut_along("bar", sweep).unresolved
     return volumes(simulation)

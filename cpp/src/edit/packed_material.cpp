@@ -57,6 +57,8 @@ PackedMaterial pack(const Material& material) {
   for (const Incision& incision : material.incisions) {
     packed.incisions.push_back(incision.number);
     packed.on_incision.insert(packed.on_incision.end(), incision.vertices.begin(), incision.vertices.end());
+    for (const std::int32_t vertex : incision.vertices)
+      packed.at_front.push_back(std::ranges::binary_search(incision.front, vertex) ? 1 : 0);
     packed.first_of_incision.push_back(static_cast<std::int32_t>(packed.on_incision.size()));
   }
   return packed;
@@ -65,7 +67,8 @@ PackedMaterial pack(const Material& material) {
 Material unpack(const PackedMaterial& packed, std::int32_t nodes) {
   const std::size_t riders = packed.rider_nodes.size() / 4;
   if (packed.rider_nodes.size() != 4 * riders || packed.rider_weights.size() != 4 * riders ||
-      packed.vertices.size() != 4 * packed.cut.size()) {
+      packed.vertices.size() != 4 * packed.cut.size() ||
+      packed.at_front.size() != packed.on_incision.size()) {
     refuse("lists that do not fit together");
   }
   check_first(packed.first, packed.hosts.size(), packed.cut.size());
@@ -96,9 +99,13 @@ Material unpack(const PackedMaterial& packed, std::int32_t nodes) {
     }
   }
   for (std::size_t i = 0; i < packed.incisions.size(); ++i) {
-    material.incisions.push_back({packed.incisions[i],
-                                  {packed.on_incision.begin() + packed.first_of_incision[i],
-                                   packed.on_incision.begin() + packed.first_of_incision[i + 1]}});
+    Incision incision{packed.incisions[i]};
+    for (auto v = static_cast<std::size_t>(packed.first_of_incision[i]);
+         v < static_cast<std::size_t>(packed.first_of_incision[i + 1]); ++v) {
+      incision.vertices.push_back(packed.on_incision[v]);
+      if (packed.at_front[v] != 0) incision.front.push_back(packed.on_incision[v]);
+    }
+    material.incisions.push_back(std::move(incision));
   }
   return material;
 }

@@ -17,7 +17,7 @@ from tissu.checkpoint.whole import write_whole
 from tissu.errors import CheckpointError
 from tissu.files.place import kind_of_place, reason_of, shown_path
 
-FORMAT = 4
+FORMAT = 5
 _COLUMNS = {"positions": 3, "velocities": 3, "velocities_before": 3, "rotations": 4}
 
 

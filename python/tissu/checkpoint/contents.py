@@ -28,6 +28,7 @@ _TIMES = ("time", "time_before", "load_factor", "memory_time")
 _OF_CUTS = (
     *("origins", "nodes", "copies_of", "bare", "rider_nodes", "material_hosts", "material_first"),
     *("material_vertices", "material_cut", "incisions", "first_of_incision", "on_incision"),
+    "at_front",
 )
 """Lists of a body that was cut, as the core names them."""
 _NUMBERS = (

@@ -99,6 +99,7 @@ class Sweep:
             moments=edges.shape[0],
             points=edges.shape[1],
             incision=-1,
+            past=0,
         )
 
 

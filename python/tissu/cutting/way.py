@@ -81,6 +81,38 @@ def rows_of(edge: Floats, poses: Sequence[Pose], start: Floats, longest: float) 
     return np.array(rows)
 
 
+def bends_of(rows: Floats, tolerance: float) -> list[int]:
+    """Numbers of the rows (k, m, 3) that keep a way within a distance of itself, ascending.
+
+    The first and the last are among them. Each other row has its points no farther than that from
+    the chords between the rows that stay before and after it (Douglas and Peucker 1973).
+
+    Args:
+        rows: places of the points of an edge [m].
+        tolerance: the distance [m].
+    """
+    kept, open_parts = {0, len(rows) - 1}, [(0, len(rows) - 1)]
+    while open_parts:
+        first, last = open_parts.pop()
+        if last - first < 2:
+            continue
+        away = _from_chords(rows[first + 1 : last], rows[first], rows[last])
+        farthest = int(away.argmax())
+        if away[farthest] > tolerance:
+            middle = first + 1 + farthest
+            kept.add(middle)
+            open_parts += [(first, middle), (middle, last)]
+    return sorted(kept)
+
+
+def _from_chords(rows: Floats, begin: Floats, end: Floats) -> Floats:
+    """The largest distance of a point in each row (k, m, 3) from its chord (m, 3) to (m, 3) [m]."""
+    chord = end - begin
+    square = np.maximum((chord**2).sum(axis=1), np.finfo(np.float64).tiny)
+    share = np.clip(((rows - begin) * chord).sum(axis=2) / square, 0.0, 1.0)
+    return np.asarray(np.linalg.norm(begin + share[:, :, None] * chord - rows, axis=2).max(axis=1))
+
+
 def area_of(rows: Floats) -> float:
     """Area of the surface that an edge sweeps through rows (k, m, 3) [m2]."""
     a, b = rows[:-1, :-1], rows[:-1, 1:]

@@ -152,12 +152,13 @@ TEST(PackedMaterial, RefusesListsThatDoNotFit) {
   Material material;
   material.riders.push_back({{0, 1, -1, -1}, {0.5, 0.5, 0, 0}, 2});
   material.cells[3] = {{{0, 1, 2, -1}, 1}};
-  material.incisions = {{0, {-1, 2}}};
+  material.incisions = {{0, {-1, 2}, {2}}};
   const PackedMaterial packed = pack(material);
   const Material back = unpack(packed, 4);
   EXPECT_EQ(back.cells.at(3)[0].vertices, material.cells.at(3)[0].vertices);
   EXPECT_EQ(back.riders[0].weight, material.riders[0].weight);
   EXPECT_EQ(back.incisions[0].vertices, material.incisions[0].vertices);
+  EXPECT_EQ(back.incisions[0].front, material.incisions[0].front);
   const auto broken = [&](auto&& damage) {
     PackedMaterial other = packed;
     damage(other);
@@ -167,6 +168,7 @@ TEST(PackedMaterial, RefusesListsThatDoNotFit) {
   broken([](PackedMaterial& p) { p.rider_nodes[0] = 9; });
   broken([](PackedMaterial& p) { p.vertices[0] = -2; });
   broken([](PackedMaterial& p) { p.vertices.pop_back(); });
+  broken([](PackedMaterial& p) { p.at_front.pop_back(); });
   broken([](PackedMaterial& p) { p.first.back() = 2; });
   broken([](PackedMaterial& p) { p.on_incision[0] = 4; });
   broken([](PackedMaterial& p) { p.first_of_incision.clear(); });

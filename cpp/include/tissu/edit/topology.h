@@ -25,6 +25,7 @@ struct PackedMaterial {
   std::vector<std::int32_t> incisions;    ///< numbers, ascending
   std::vector<std::int32_t> first_of_incision;
   std::vector<std::int32_t> on_incision;  ///< vertices
+  std::vector<std::int32_t> at_front;     ///< of each of these: 1 at the front of the incision, else 0
 };
 
 struct BodyTopology {

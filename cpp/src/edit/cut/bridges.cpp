@@ -73,7 +73,7 @@ std::vector<BladeCrossing> other_sheets(const Patch& patch, const Blade& blade, 
   std::erase_if(crossings, [&](const BladeCrossing& crossing) {
     const Vec3 place = a + crossing.t * (b - a);
     const auto is_on = [&](std::int32_t v) {
-      if (known[v].before) return true;  // the blade now is not the one that it lies on
+      if (known[v].before || known[v].wall) return true;  // the blade now is not the one that it lies on
       bool on = false;
       known.each_meeting(v, [&](const OnCut::Meeting& meeting) {
         on = on || (meeting.on && inside.of(meeting.triangle) == inside.of(crossing.triangle) &&

@@ -48,7 +48,9 @@ class Finder {
     const Vec3& a = patch_.vertex(p).place;
     const Vec3& b = patch_.vertex(q).place;
     CrossedEdge edge{p, q, {}};
+    const bool at_wall = known_[p].wall || known_[q].wall;
     for (const std::int32_t t : triangles) {
+      if (at_wall && t < part_.fresh) continue;  // that way parted the wall
       const Triangle& triangle = part_.triangles[at(t)];
       const int side_a = orientation(triangle[0], triangle[1], triangle[2], a);
       const int side_b = orientation(triangle[0], triangle[1], triangle[2], b);

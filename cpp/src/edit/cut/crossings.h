@@ -26,7 +26,9 @@ struct OnCut {
   };
   struct Vertex {
     bool on = false;
-    bool before = false;                                    ///< an earlier sweep of the incision put it there
+    bool before = false;  ///< an earlier sweep of the incision put it there, and its front is there
+    bool wall = false;    ///< an earlier sweep of the incision parted the material there
+    bool beside = false;  ///< of a wall, so near to the blade that faces of the cut may end there
     double away = std::numeric_limits<double>::infinity();  ///< of the crossing [m]
     Vec3 met = Vec3::Zero();
     int votes = 0;
@@ -37,6 +39,8 @@ struct OnCut {
 
   explicit OnCut(std::size_t count) : vertices(count) {}
   [[nodiscard]] bool on(std::int32_t v) const { return (*this)[v].on; }
+  /// Whether a face of the cut may end there.
+  [[nodiscard]] bool may_end(std::int32_t v) const { return (*this)[v].on || (*this)[v].beside; }
   [[nodiscard]] const Vertex& operator[](std::int32_t v) const {
     return vertices[static_cast<std::size_t>(v)];
   }

@@ -47,7 +47,7 @@ std::map<std::int32_t, Numbers> loose_sets(const Patch& patch, const OnCut& know
   std::vector<char> on_cut(count, 0);
   for (std::size_t t = 0; t < count; ++t) {
     const Patch::Tetra& tetra = patch.tetrahedra[t];
-    const auto is_on = [&](std::int32_t v) { return v < 0 || known.on(v); };
+    const auto is_on = [&](std::int32_t v) { return v < 0 || known.may_end(v); };
     on_cut[t] = tetra.corners() > 2 && std::ranges::all_of(tetra.vertices, is_on) ? 1 : 0;
   }
   Sets sets(count);
@@ -119,7 +119,7 @@ Numbers vertices_around(const Patch& patch, const OnCut& known, const Numbers& m
     for (std::size_t i = 0; i < patch.tetra(t).corners(); ++i) {
       for (const std::int32_t other : patch.tetrahedra_at(patch.tetra(t).vertices[i])) {
         for (const std::int32_t v : patch.tetra(other).vertices) {
-          if (v >= 0 && !known.on(v)) around.push_back(v);
+          if (v >= 0 && !known.may_end(v)) around.push_back(v);
         }
       }
     }

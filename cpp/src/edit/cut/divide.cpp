@@ -97,22 +97,41 @@ class Divided {
 
   /// Vertices that the blade put on its incision; between two of an incision, those of another blade too.
   void add_incisions(const Material& material, const OnIncisions& met) {
-    std::map<std::int32_t, Numbers> lists;
+    std::map<std::int32_t, Incision> lists;
     for (const Incision& incision : material.incisions) {
-      Numbers& list = lists[incision.number] = incision.vertices;
-      std::vector<char> on(patch_.vertices.size(), 0);
-      for (std::size_t v = 0; v < on.size(); ++v)
-        on[v] = std::ranges::binary_search(incision.vertices, patch_.vertices[v].number) ? 1 : 0;
-      add_divided(std::move(on), list);
+      Incision& list = lists[incision.number] = incision;
+      add_divided(on(incision.vertices), list.vertices);
+      std::vector<char> front = on(incision.front);
+      add_ends(on(incision.vertices), front);
+      add_divided(std::move(front), list.front);
     }
     for (const auto& [number, known] : met) {
       std::vector<char> on(patch_.vertices.size(), 0);
       for (std::size_t v = 0; v < known.vertices.size(); ++v) on[v] = known.vertices[v].on ? 1 : 0;
-      add_divided(std::move(on), lists[number]);
+      add_divided(on, lists[number].vertices);
+      add_divided(std::move(on), lists[number].front);
     }
     for (auto& [number, list] : lists) {
-      sort_unique(list);
-      plan_.material.incisions.push_back({number, std::move(list)});
+      list.number = number;
+      sort_unique(list.vertices);
+      sort_unique(list.front);
+      plan_.material.incisions.push_back(std::move(list));
+    }
+  }
+
+  [[nodiscard]] std::vector<char> on(const Numbers& vertices) const {
+    std::vector<char> on(patch_.vertices.size(), 0);
+    for (std::size_t v = 0; v < on.size(); ++v)
+      on[v] = std::ranges::binary_search(vertices, patch_.vertices[v].number) ? 1 : 0;
+    return on;
+  }
+
+  /// Vertices between two of an incision, of which one is at its front, are at its front.
+  void add_ends(std::vector<char> on, std::vector<char>& front) const {
+    for (const auto& [vertex, p, q] : patch_.divisions) {
+      if (on[at(p)] == 0 || on[at(q)] == 0) continue;
+      on[at(vertex)] = 1;
+      if (front[at(p)] != 0 || front[at(q)] != 0) front[at(vertex)] = 1;
     }
   }
 

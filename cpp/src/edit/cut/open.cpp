@@ -10,6 +10,7 @@
 #include "edit/cut/at_sheets.h"
 #include "edit/cut/carriers.h"
 #include "edit/cut/crumbs.h"
+#include "edit/cut/outward.h"
 #include "edit/cut/side.h"
 #include "tissu/base/error.h"
 #include "tissu/base/sort_unique.h"
@@ -22,6 +23,7 @@ std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 constexpr double kCoverShare = 0.2;
 constexpr double kRoundOff = 1e-12;
 constexpr double kLeastAlong = 0.5;  ///< cosine between the normals of a face of the cut and of the blade
+constexpr double kBetween = 0.05;    ///< of a cell's longest edge: so far a blade lies inside of another wall
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 /// A face of a tetrahedron by its vertices in ascending order; an edge of a triangle after -1, an end of a
@@ -132,8 +134,20 @@ class Opener {
     const auto vertices = thin_vertices(patch_.tetra(piece), face);
     std::ranges::copy(vertices, side.key.end() - static_cast<std::ptrdiff_t>(vertices.size()));
     std::ranges::sort(side.key);
-    const auto is_new = [&](std::int32_t v) { return !known_[v].before; };
+    const auto is_new = [&](std::int32_t v) { return !is_earlier(v); };
     if (std::ranges::any_of(vertices, is_new) && covered(side, side)) open(side, side);
+  }
+
+  /// Whether its vertices are on the cut, or some at walls beside it.
+  [[nodiscard]] bool may_be_open(const std::array<std::int32_t, 3>& key) const {
+    const auto is_on = [&](std::int32_t v) { return v >= 0 && known_.on(v); };
+    const auto may_be = [&](std::int32_t v) { return v < 0 || known_.may_end(v); };
+    return std::ranges::any_of(key, is_on) && std::ranges::all_of(key, may_be);
+  }
+
+  /// What an earlier sweep of the incision put on the cut, and this one not.
+  [[nodiscard]] bool is_earlier(std::int32_t v) const {
+    return known_[v].before || (known_[v].wall && !known_.on(v));
   }
 
   [[nodiscard]] std::vector<FaceSide> faces_on_cut() const {
@@ -142,7 +156,7 @@ class Opener {
       const auto& v = patch_.tetrahedra[t].vertices;
       for (std::size_t f = 0; f < patch_.tetrahedra[t].corners(); ++f) {
         std::array<std::int32_t, 3> key{v[kOpposite[f][0]], v[kOpposite[f][1]], v[kOpposite[f][2]]};
-        if (!std::ranges::all_of(key, [&](std::int32_t i) { return i < 0 || known_.on(i); })) continue;
+        if (!may_be_open(key)) continue;
         std::ranges::sort(key);
         sides.push_back({key, static_cast<std::int32_t>(t), static_cast<std::uint8_t>(f)});
       }
@@ -156,7 +170,7 @@ class Opener {
   /// What an earlier sweep of the incision put on the cut is not on a sheet of this one.
   [[nodiscard]] bool is_crowded(const FaceSide& a, const FaceSide& b) const {
     if (!crowded_.has(patch_.tetra(a.tetra).cell) && !crowded_.has(patch_.tetra(b.tetra).cell)) return false;
-    return std::ranges::none_of(vertices_of(a), [&](std::int32_t v) { return known_[v].before; });
+    return std::ranges::none_of(vertices_of(a), [&](std::int32_t v) { return is_earlier(v); });
   }
 
   /// Whether the blade goes between two tetrahedra at their common face.
@@ -189,25 +203,14 @@ class Opener {
     double& known = heights_[at(v)];
     if (!std::isnan(known)) return known;
     known = signed_height(part_, all_, patch_.vertex(v).place);
-    const int votes = known_[v].votes;
+    int votes = known_[v].votes;
+    if (known_[v].wall && votes == 0) {
+      for (const std::int32_t t : patch_.tetrahedra_at(v)) votes += side_of_earlier(patch_.tetra(t));
+    }
     if (!known_.on(v) && votes != 0) {
       known = std::copysign(std::max(std::abs(known), std::numeric_limits<double>::min()), votes);
     }
     return known;
-  }
-
-  /// Across a face, away from the tetrahedron; across an edge in the plane of its triangle; out of an end of
-  /// a line.
-  [[nodiscard]] Vec3 outward(const Patch::Tetra& tetra, std::size_t face) const {
-    const auto corner = [&](std::size_t i) {
-      return patch_.vertex(tetra.vertices[kOpposite[face][i]]).place;
-    };
-    if (tetra.corners() == 2) return corner(0) - patch_.vertex(tetra.vertices[face]).place;
-    if (tetra.corners() == 4) return (corner(1) - corner(0)).cross(corner(2) - corner(0));
-    const Vec3& a = patch_.vertex(tetra.vertices[(face + 1) % 3]).place;
-    const Vec3& b = patch_.vertex(tetra.vertices[(face + 2) % 3]).place;
-    const Vec3 away = a - patch_.vertex(tetra.vertices[face]).place;
-    return (b - a).squaredNorm() * away - away.dot(b - a) * (b - a);
   }
 
   /// Above what an earlier sweep of the incision opened, a tetrahedron is above the blade: 1; below: -1; at
@@ -223,12 +226,16 @@ class Opener {
       for (const std::uint8_t i : kOpposite[f]) {
         const std::int32_t corner = tetra.vertices[i];
         if (corner < 0) continue;
-        before = before && known_[corner].before;
+        before = before && (known_[corner].before || known_[corner].wall);
         middle += patch_.vertex(corner).place / static_cast<double>(tetra.corners() - 1);
       }
       if (!before) continue;
-      const double along = outward(tetra, f).normalized().dot(nearest_normal(part_, all_, middle));
+      const Vec3 out = outward(patch_, tetra, f, &Patch::Vertex::place).normalized();
+      const NearestPlace blade = nearest_place(part_, all_, middle);
+      const double along = out.dot(blade.normal);
       if (std::abs(along) <= flattest) continue;
+      // The tetrahedron lies between another wall of the incision and the blade.
+      if (out.dot(middle - blade.place) > kBetween * patch_.cell(tetra.cell).size) continue;
       flattest = std::abs(along);
       side = along < 0.0 ? 1 : -1;
     }
@@ -257,8 +264,9 @@ class Opener {
   [[nodiscard]] bool covered(const FaceSide& a, const FaceSide& b) const {
     const std::span<const std::int32_t> vertices = vertices_of(a);
     const auto before = std::ranges::count_if(vertices, [&](std::int32_t v) { return known_[v].before; });
+    const bool all_on = std::ranges::all_of(vertices, [&](std::int32_t v) { return known_.on(v); });
     // The blade went from those to the others.
-    if (before > 0 && before < static_cast<std::ptrdiff_t>(vertices.size())) return true;
+    if (all_on && before > 0 && before < static_cast<std::ptrdiff_t>(vertices.size())) return true;
     if (before == 0 && vertices.size() == 1) return true;  // the blade crosses the line there
     const Vec3 mean = met_mean(a);
     double longest = 0.0;
@@ -275,7 +283,7 @@ class Opener {
 
   /// Whether a face that the blade does not cover is one that the blade passes, and not beyond its border.
   [[nodiscard]] bool is_bent_away(const FaceSide& side) const {
-    const auto is_new = [&](std::int32_t v) { return !known_[v].before; };
+    const auto is_new = [&](std::int32_t v) { return !is_earlier(v); };
     return std::ranges::all_of(vertices_of(side), is_new) && !is_beyond_border(part_, all_, met_mean(side));
   }
 

@@ -53,7 +53,7 @@ PartCutter::PartCutter(Patch& patch, const Material& material, const CutOptions&
       settled_(std::min(options.t0, kMostSettled)) {}
 
 OnCut PartCutter::known_at_start(std::size_t number, const SweepPart& part) const {
-  OnCut known = known_before(patch_, material_, part.incision);
+  OnCut known = known_before(patch_, material_, part, options_.divide);
   for (const CutOptions::Met& met : options_.met) {
     const std::int32_t v = met.part == number ? patch_.place_of(met.node) : -1;
     if (v < 0) continue;
@@ -93,7 +93,7 @@ bool PartCutter::cut(std::size_t number, const SweepPart& part, const NearCells&
   on.resize(patch_.vertices.size(), 0);
   for (std::size_t v = 0; v < on.size(); ++v) {
     if (known.vertices[v].on) on[v] = 1;
-    goes_on = goes_on || known.vertices[v].before;
+    goes_on = goes_on || known.vertices[v].before || known.vertices[v].wall;
   }
   if (part.incision >= 0) on_incision.emplace_back(part.incision, std::move(known));
   return crossed || opened.count > 0;

@@ -95,7 +95,8 @@ class Solid {
 };
 
 bool is_met(const Patch::Tetra& tetra, const OnCut& known) {
-  return std::ranges::any_of(tetra.vertices, [&](std::int32_t v) { return v >= 0 && known.on(v); });
+  return std::ranges::any_of(tetra.vertices,
+                             [&](std::int32_t v) { return v >= 0 && (known.on(v) || known[v].wall); });
 }
 
 /// Sides of a triangle that are not on the border of the blade.
@@ -153,7 +154,7 @@ bool is_followed(const Patch& patch, const SweepPart& part, const OnCut& known, 
   const std::span<const std::int32_t> vertices(tetra.vertices.data(), tetra.corners());
   std::vector<Vec3> on;
   for (const std::int32_t v : vertices) {
-    if (known[v].before) return true;
+    if (known[v].before || known[v].wall) return true;
     if (known.on(v)) on.push_back(patch.vertex(v).place);
   }
   if (on.size() == 4 || (!on.empty() && (nearest(on, place) - place).norm() <= reach)) return true;

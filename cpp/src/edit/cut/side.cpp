@@ -78,17 +78,19 @@ double signed_height(const SweepPart& part, std::span<const std::int32_t> triang
   return sign * height;
 }
 
-Vec3 nearest_normal(const SweepPart& part, std::span<const std::int32_t> triangles, const Vec3& p) {
+NearestPlace nearest_place(const SweepPart& part, std::span<const std::int32_t> triangles, const Vec3& p) {
   double least = kInfinity;
-  Vec3 normal = Vec3::Zero();
+  NearestPlace nearest{p, Vec3::Zero()};
   for (const std::int32_t t : triangles) {
     const auto& triangle = part.triangles[static_cast<std::size_t>(t)];
-    const double away = distance(triangle, p);
+    if (box_square(triangle, p) > least * least) continue;
+    const Vec3 place = closest_on_triangle(p, numbers(triangle).data());
+    const double away = (p - place).norm();
     if (away >= least) continue;
     least = away;
-    normal = unit_normal(triangle);
+    nearest = {place, unit_normal(triangle)};
   }
-  return normal;
+  return nearest;
 }
 
 }  // namespace tissu

@@ -19,7 +19,11 @@ bool is_beyond_border(const SweepPart& part, std::span<const std::int32_t> trian
 /// or a corner, the one whose plane is farthest away counts.
 double signed_height(const SweepPart& part, std::span<const std::int32_t> triangles, const Vec3& p);
 
-/// The normal of the nearest of the named triangles, of length 1.
-Vec3 nearest_normal(const SweepPart& part, std::span<const std::int32_t> triangles, const Vec3& p);
+/// The nearest place on the named triangles, and the normal there, of length 1.
+struct NearestPlace {
+  Vec3 place;
+  Vec3 normal;
+};
+NearestPlace nearest_place(const SweepPart& part, std::span<const std::int32_t> triangles, const Vec3& p);
 
 }  // namespace tissu

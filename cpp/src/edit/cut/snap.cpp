@@ -63,7 +63,7 @@ class Snapper {
     const NearCells near(mesh_.hosts(), mesh_.x(), part);
     if (near.cells().empty()) return;
     const Patch patch(mesh_.hosts(), material_, mesh_.x(), mesh_.hosts().with_neighbours(near.cells()));
-    OnCut known = known_before(patch, material_, part.incision);
+    OnCut known = known_before(patch, material_, part, true);
     on_.clear();
     edges_.clear();
     for (const CrossedEdge& edge : crossed_edges(patch, part, near, t0, known)) {
@@ -74,8 +74,8 @@ class Snapper {
       edges_.push_back(t <= 0.5 ? Edge{t, p, q} : Edge{1.0 - t, q, p});
     }
     for (std::size_t v = 0; v < patch.vertices.size(); ++v) {
-      if (!known.vertices[v].on) continue;
-      on_.insert(patch.vertices[v].number);
+      if (!known.vertices[v].on && !known.vertices[v].wall) continue;
+      if (known.vertices[v].on) on_.insert(patch.vertices[v].number);
       may_move_[at(patch.vertices[v].number)] = 0;  // for later parts of the sweep too
     }
     std::ranges::sort(edges_, {}, [](const Edge& e) { return std::tuple(e.t, e.node, e.other); });

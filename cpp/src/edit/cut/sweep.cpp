@@ -207,7 +207,7 @@ Sweep triangle_sweep(std::span<const double> points, std::span<const std::array<
 }
 
 Sweep edge_sweep(std::span<const double> places, std::int32_t moments, std::int32_t points,
-                 std::int32_t incision) {
+                 std::int32_t incision, std::int32_t past) {
   if (moments < 2 || points < 2 ||
       places.size() != 3 * static_cast<std::size_t>(moments) * static_cast<std::size_t>(points)) {
     throw ParameterError("a swept edge has " + std::to_string(points) + " points at " +
@@ -226,11 +226,19 @@ Sweep edge_sweep(std::span<const double> places, std::int32_t moments, std::int3
   };
   Sweep sweep;
   std::vector<Triangle> triangles;
+  std::int32_t fresh = 0;
   const auto end_part = [&] {
-    std::erase_if(triangles, [](const Triangle& t) { return !has_area(t); });
-    if (triangles.empty()) return;
-    sweep.parts.push_back(std::move(one_part(std::move(triangles), incision).parts.front()));
+    if (!triangles.empty()) {
+      sweep.parts.push_back(std::move(one_part(std::move(triangles), incision).parts.front()));
+      sweep.parts.back().fresh = fresh;
+    }
     triangles.clear();
+    fresh = 0;
+  };
+  const auto add = [&](const Triangle& triangle, bool known) {
+    if (!has_area(triangle)) return;
+    triangles.push_back(triangle);
+    fresh += known ? 1 : 0;
   };
   const auto turn_back = [&](std::int32_t k) {
     end_part();
@@ -249,8 +257,8 @@ Sweep edge_sweep(std::span<const double> places, std::int32_t moments, std::int3
       const Vec3 b = at(k - 1, i);
       const Vec3 c = at(k, i);
       const Vec3 d = at(k, i - 1);
-      triangles.push_back({a, b, c});
-      triangles.push_back({a, c, d});
+      add({a, b, c}, k < past);
+      add({a, c, d}, k < past);
     }
   }
   end_part();

@@ -35,8 +35,9 @@ struct MaterialTetra {
 
 /// What a blade that goes on knows of where it was: the vertices that lie on its cut, ascending.
 struct Incision {
-  std::int32_t number;
-  std::vector<std::int32_t> vertices;
+  std::int32_t number = -1;
+  std::vector<std::int32_t> vertices = {};
+  std::vector<std::int32_t> front = {};  ///< of these, where it goes on: the cut has not doubled them yet
 };
 
 /// Cells that no blade met have no entry: they are all material.

@@ -19,6 +19,7 @@ struct SweepPart {
   /// Of a swept edge that turns back here, but not on the way that it came: where it turns. The next part
   /// begins there, and material between both may stay joined.
   std::vector<std::array<Vec3, 2>> corner = {};
+  std::int32_t fresh = 0;  ///< triangles from here on go where the incision has not been
 };
 
 struct Sweep {
@@ -35,9 +36,10 @@ Sweep disc_sweep(const Vec3& center, const Vec3& normal, double radius);
 Sweep triangle_sweep(std::span<const double> points, std::span<const std::array<std::int32_t, 3>> triangles);
 /// The ruled surface that an edge of `points` points sweeps through `moments` moments, 3 numbers per point,
 /// moment after moment. Where it turns back by more than 175 degrees another part begins. A blade that goes
-/// on begins one moment earlier, so that the surfaces overlap. Vertices on the cut of that `incision` stay on
-/// it without a look at the blade.
+/// on begins some moments earlier, so that the surfaces overlap; it was at the first `past` moments before.
+/// Vertices at the front of that `incision` stay on the cut without a look at the blade. Edges that end at
+/// its walls are cut where the blade crosses them on its new way.
 Sweep edge_sweep(std::span<const double> places, std::int32_t moments, std::int32_t points,
-                 std::int32_t incision = -1);
+                 std::int32_t incision = -1, std::int32_t past = 0);
 
 }  // namespace tissu

@@ -24,6 +24,8 @@ constexpr double kCoverShare = 0.2;
 constexpr double kRoundOff = 1e-12;
 constexpr double kLeastAlong = 0.5;  ///< cosine between the normals of a face of the cut and of the blade
 constexpr double kBetween = 0.05;    ///< of a cell's longest edge: so far a blade lies inside of another wall
+constexpr double kBetweenOwn =
+    0.2;  ///< or of the wall of its own that lies there: divided cells deviate so far
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 /// A face of a tetrahedron by its vertices in ascending order; an edge of a triangle after -1, an end of a
@@ -235,7 +237,8 @@ class Opener {
       const double along = out.dot(blade.normal);
       if (std::abs(along) <= flattest) continue;
       // The tetrahedron lies between another wall of the incision and the blade.
-      if (out.dot(middle - blade.place) > kBetween * patch_.cell(tetra.cell).size) continue;
+      const double between = blade.triangle >= part_.fresh ? kBetween : kBetweenOwn;
+      if (out.dot(middle - blade.place) > between * patch_.cell(tetra.cell).size) continue;
       flattest = std::abs(along);
       side = along < 0.0 ? 1 : -1;
     }

@@ -88,7 +88,7 @@ NearestPlace nearest_place(const SweepPart& part, std::span<const std::int32_t> 
     const double away = (p - place).norm();
     if (away >= least) continue;
     least = away;
-    nearest = {place, unit_normal(triangle)};
+    nearest = {place, unit_normal(triangle), t};
   }
   return nearest;
 }

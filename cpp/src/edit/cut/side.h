@@ -23,6 +23,7 @@ double signed_height(const SweepPart& part, std::span<const std::int32_t> triang
 struct NearestPlace {
   Vec3 place;
   Vec3 normal;
+  std::int32_t triangle = -1;
 };
 NearestPlace nearest_place(const SweepPart& part, std::span<const std::int32_t> triangles, const Vec3& p);
 

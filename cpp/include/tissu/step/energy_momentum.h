@@ -36,6 +36,10 @@ class EnergyMomentum final : public Integrator {
   bool iterate(const State& from, double h, StepReport& report);
   /// h / 2 (f + a M d) - M (v - v0) at the mean velocity mean_; its norm.
   double residual(const State& from, double h);
+  /// The residual that rounding may leave.
+  [[nodiscard]] double round_off(double h) const;
+  bool is_at_round_off(double now, double floor);
+  void find_round_off();
   /// W of the elastic models, and their force without velocities.
   double stored(const State& state);
   void elastic_force(const State& state, std::vector<double>& f);
@@ -63,7 +67,11 @@ class EnergyMomentum final : public Integrator {
   std::vector<State> halves_;                 ///< of steps that are taken in halves
   double factor_ = 0.0;                       ///< a
   double acting_ = 0.0;                       ///< what the residual is judged by
+  double external_ = 0.0;                     ///< h / 2 times the external force
   double square_ = 0.0;                       ///< d . M d
+  double energy_round_off_ = 0.0;             ///< of the stored energy at rest
+  double force_round_off_ = 0.0;              ///< of the elastic force there
+  double energy_floor_ = 0.0;                 ///< below it, what the correction would give back is round-off
   std::unique_ptr<ImplicitContact> contact_;  ///< null where nothing touches
   std::unique_ptr<EndImpulses> impulses_;
   Profile* profile_ = nullptr;

@@ -130,14 +130,14 @@ void ImplicitContact::finish(const State& end, State& into) {
   ContactTable::write(run_.acting(), contact_.numbers(into));
 }
 
-bool ImplicitContact::struck_rigid() const {
-  const SurfaceSet& surfaces = contact_.surfaces();
-  if (surfaces.carriers().empty() || !(h_ > 0.0)) return false;
+bool ImplicitContact::struck() const {
+  if (!(h_ > 0.0)) return false;
+  const std::vector<SurfaceVertex>& vertices = contact_.surfaces().vertices();
   return std::ranges::any_of(run_.acting(), [&](const ContactNumbers& c) {
-    const bool rigid = std::ranges::any_of(c.vertex, [&](double vertex) {
-      return vertex >= 0.0 && surfaces.vertices()[static_cast<std::size_t>(vertex)].carrier >= 0;
+    const bool stops_whole = std::ranges::any_of(c.vertex, [&](double vertex) {
+      return vertex >= 0.0 && vertices[static_cast<std::size_t>(vertex)].stops_whole();
     });
-    if (!rigid || !(c.force > 0.0)) return false;
+    if (!stops_whole || !(c.force > 0.0)) return false;
     const double way = vector_of(c.normal).dot(h_ * run_.rate(c, start_->velocities) + run_.led(c));
     return -way > kBlow * std::min(c.apart, pair_of(c).gap);
   });

@@ -20,9 +20,7 @@ Energy energy_of(const World& world, const State& state, Scratch& scratch) {
 }
 
 bool EnergyWatch::can_watch(const World& world) {
-  const Contact* contact = world.contact();
-  const std::size_t rigid = contact == nullptr ? 0 : contact->surfaces().carriers().size();
-  if (world.fixed().moves() || world.frames().size() > rigid) return false;
+  if (world.fixed().moves()) return false;
   return std::ranges::none_of(world.forces(), [](const auto& model) { return model->may_add_energy(); });
 }
 

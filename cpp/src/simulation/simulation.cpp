@@ -121,8 +121,11 @@ StepReport Simulation::step(double h) {
   last_good_ = state_;
   StepReport report;
   try {
+    if (watch_)
+      watch_->begin(*world_, state_);  // before models forget in their memory what the last step was
     begin_step(*world_, state_, scratch_, h);
-    if (watch_) begin_watch(*watch_);
+    // A live target gives energy while it leads: the watch begins anew after it.
+    if (watch_ && is_led_live()) watch_.emplace();
     if (watch_ && world_->contact() != nullptr) watch_->allow_contacts(*world_, h);
     const bool whole = (world_->contact() == nullptr && world_->frames().empty()) || integrator_->is_static();
     report = whole ? integrator_->step(state_, h) : step_in_parts(h, 0);
@@ -131,8 +134,8 @@ StepReport Simulation::step(double h) {
     throw;
   }
   if (!std::isfinite(report.residual) || !is_sane()) roll_back(h);
-  if (watch_) watch_energy(*watch_, report);
   remember(*world_, state_);
+  if (watch_) watch_energy(*watch_, report);
   world_->fixed().copy(state_.velocities, held_);
   settled_ = false;
   if (inverted_) tell_inverted(*inverted_, report);
@@ -145,15 +148,6 @@ StepReport Simulation::step(double h) {
 bool Simulation::is_led_live() const {
   const Contact* contact = world_->contact();
   return world_->fixed().is_led_live(state_) || (contact != nullptr && contact->is_any_led_live(state_));
-}
-
-/// A live target gives energy while it leads: the watch begins anew after it.
-void Simulation::begin_watch(EnergyWatch& watch) {
-  if (is_led_live()) {
-    watch = EnergyWatch();
-  } else {
-    watch.begin(*world_, state_);
-  }
 }
 
 void Simulation::watch_energy(EnergyWatch& watch, StepReport& report) {

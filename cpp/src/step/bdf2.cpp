@@ -39,7 +39,7 @@ StepReport Bdf2::step(State& state, double h) {
   if (is_turning(solver_.world(), state, h)) history_.forget();
   history_.begin(start_, h, solver_);
   solver_.solve(state, v_, report);
-  const bool struck = solver_.struck_rigid();
+  const bool struck = solver_.struck();
   if (struck && history_.goes_on()) solve_anew(state, h, report);
   keep_angular_momentum(solver_.stage().base, solver_.world().frames(), state);
   history_.keep(start_, h, state);

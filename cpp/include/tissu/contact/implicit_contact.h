@@ -84,9 +84,9 @@ class ImplicitContact {
   void add_forces(Reals f) const;
   /// Impulses on the velocities at the end of a step of h, which join those forces in the memory of `into`.
   void strike(EndImpulses& impulses, double h, Reals v, State& into);
-  /// A free rigid body met something at such a speed in this step, after it was finished, that it would go
-  /// deeper than a tenth of the gap: its velocity has jumped.
-  [[nodiscard]] bool struck_rigid() const;
+  /// A free rigid body, a sheet or a line met something at such a speed in this step, after it was finished,
+  /// that it would go deeper than a tenth of the gap: its velocity has jumped.
+  [[nodiscard]] bool struck() const;
   [[nodiscard]] std::size_t size() const { return run_.acting().size(); }
   /// The least distance, as a share of xi, of a pair that acts, at the end of the step; infinite for none.
   [[nodiscard]] double least_gap() const { return least_gap_; }

@@ -75,6 +75,9 @@ struct SurfaceVertex {
   [[nodiscard]] bool is_free() const { return row >= 0 || carrier >= 0 || rider >= 0; }
   /// What moves it is deformed.
   [[nodiscard]] bool is_soft() const { return row >= 0 || rider >= 0; }
+  /// What is there stops as a whole when the vertex does: a rigid body, or a sheet or line through its
+  /// thickness. Of a volume, the skin stops, and what lies behind it goes on.
+  [[nodiscard]] bool stops_whole() const { return carrier >= 0 || (is_soft() && radius > 0.0); }
 };
 
 class SurfaceSet {

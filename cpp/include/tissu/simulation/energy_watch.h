@@ -19,7 +19,7 @@ struct Energy {
 Energy energy_of(const World& world, const State& state, Scratch& scratch);
 
 /// Watches the energy of a scene in which nothing can add any: no led nodes, no links, no pressure, no load
-/// that changes with time, no material that remembers, no frames but those of free obstacles, no obstacle
+/// that changes with time, no material that remembers, no obstacle
 /// that is led. A method that gives a moving body more energy than it had is not stable there, however well
 /// its steps converge. Contacts give a little: what is inside its gap comes out of it, in a step at the
 /// soonest.

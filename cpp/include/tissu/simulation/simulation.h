@@ -142,7 +142,6 @@ class Simulation {
   [[nodiscard]] bool is_led_live() const;
   /// Of the world as it is: one that may be grabbed, say, is not watched.
   void renew_watch();
-  void begin_watch(EnergyWatch& watch);
   void watch_energy(EnergyWatch& watch, StepReport& report);
   /// Adds to the report of a static step which cells are inside out.
   void tell_inverted(InversionCheck& check, StepReport& report);

@@ -66,9 +66,9 @@ class StageSolver {
   [[nodiscard]] double acting() const { return acting_; }
   /// The external impulse of the stage is a part of what acts. `solve` does it itself.
   void judge_by_load();
-  /// The step that was solved is one in which a free rigid body struck something, so that velocities of
-  /// before do not go on after it.
-  [[nodiscard]] bool struck_rigid() const { return contact_ != nullptr && contact_->struck_rigid(); }
+  /// The step that was solved is one in which a free rigid body, a sheet or a line struck something, so that
+  /// velocities of before do not go on after it.
+  [[nodiscard]] bool struck() const { return contact_ != nullptr && contact_->struck(); }
 
  private:
   enum class Search { none, residual, energy };

@@ -357,8 +357,8 @@ REFUSED = {
         r"found 56 points of 56 farther from all cells than",
     ),
     "outside": (
-        {"surface_of": {"block": bar((3, 3, 3), (0.027, 0, 0))}},
-        r"found 8 points of 56 farther outside the cells of 'block' than half a cell",
+        {"surface_of": {"block": bar((3, 3, 3), (0.05, 0, 0))}},
+        r"found 16 points of 56 farther outside the cells of 'block' than half a cell",
     ),
 }
 

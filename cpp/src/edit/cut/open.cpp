@@ -24,8 +24,6 @@ constexpr double kCoverShare = 0.2;
 constexpr double kRoundOff = 1e-12;
 constexpr double kLeastAlong = 0.5;  ///< cosine between the normals of a face of the cut and of the blade
 constexpr double kBetween = 0.05;    ///< of a cell's longest edge: so far a blade lies inside of another wall
-constexpr double kBetweenOwn =
-    0.2;  ///< or of the wall of its own that lies there: divided cells deviate so far
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 /// A face of a tetrahedron by its vertices in ascending order; an edge of a triangle after -1, an end of a
@@ -38,7 +36,7 @@ struct FaceSide {
 
 class Opener {
  public:
-  Opener(Patch& patch, const Blade& blade, const NearCells& near, const OnCut& known)
+  Opener(Patch& patch, const Blade& blade, const NearCells& near, const OnCut& known, double t0)
       : patch_(patch),
         blade_(blade),
         part_(blade.part),
@@ -46,6 +44,7 @@ class Opener {
         crowded_(blade.crowded),
         at_sheets_(patch, blade.part, blade.sheets, known),
         known_(known),
+        between_own_(std::max(kBetween, t0)),
         all_(blade.part.triangles.size()),
         heights_(patch.vertices.size(), kUnknown) {
     std::iota(all_.begin(), all_.end(), 0);
@@ -237,7 +236,7 @@ class Opener {
       const double along = out.dot(blade.normal);
       if (std::abs(along) <= flattest) continue;
       // The tetrahedron lies between another wall of the incision and the blade.
-      const double between = blade.triangle >= part_.fresh ? kBetween : kBetweenOwn;
+      const double between = blade.triangle >= part_.fresh ? kBetween : between_own_;
       if (out.dot(middle - blade.place) > between * patch_.cell(tetra.cell).size) continue;
       flattest = std::abs(along);
       side = along < 0.0 ? 1 : -1;
@@ -349,6 +348,7 @@ class Opener {
   const CrowdedCells& crowded_;
   FacesAtSheets at_sheets_;
   const OnCut& known_;
+  double between_own_;  ///< of a cell's longest edge: so far the cut may be from the blade that made it
   std::vector<std::int32_t> all_;
   std::vector<double> heights_;
   OpenedFaces opened_;
@@ -356,8 +356,9 @@ class Opener {
 
 }  // namespace
 
-OpenedFaces open_faces(Patch& patch, const Blade& blade, const NearCells& near, const OnCut& known) {
-  return Opener(patch, blade, near, known).open();
+OpenedFaces open_faces(Patch& patch, const Blade& blade, const NearCells& near, const OnCut& known,
+                       double t0) {
+  return Opener(patch, blade, near, known, t0).open();
 }
 
 }  // namespace tissu

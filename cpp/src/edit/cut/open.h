@@ -32,6 +32,7 @@ struct OpenedFaces {
 /// In crowded cells the side is that of one sheet of the blade on which all vertices of the face are: a
 /// tetrahedron between two windings is above one and below the other. There a face opens unless it lies
 /// beyond the border of the sheet.
-OpenedFaces open_faces(Patch& patch, const Blade& blade, const NearCells& near, const OnCut& known);
+OpenedFaces open_faces(Patch& patch, const Blade& blade, const NearCells& near, const OnCut& known,
+                       double t0);
 
 }  // namespace tissu

@@ -78,7 +78,7 @@ bool PartCutter::cut(std::size_t number, const SweepPart& part, const NearCells&
   const std::vector<Patch::Cell> before = begin();
   report(divide_crossed(patch_, std::move(edges), share_, known, turned), plan);
   report(divide_at_other_sheets(patch_, blade, settled_, options_.t0, share_, known), plan);
-  const OpenedFaces opened = open_faces(patch_, blade, near, known);
+  const OpenedFaces opened = open_faces(patch_, blade, near, known, options_.t0);
   plan.faces_opened += opened.count;
   plan.area += opened.area;
   plan.rest_area += opened.rest_area;

@@ -15,10 +15,6 @@ namespace {
 
 constexpr double kFloor = 1e-3;  ///< of the external impulse: a smaller right-hand side is judged against it
 constexpr double kWorse = 2.0;   ///< a linearised step that leaves this much more residual is iterated on
-/// Of what acts: a linearised step that leaves more is iterated on, too. A turn of a stiff body leaves
-/// strains, and so does the guess of the next step, which is then no worse.
-constexpr double kMostLeft = 3.0;
-constexpr int kRescue = 10;  ///< Newton iterations at most where a linearised step made things worse
 constexpr double kFalling =
     0.5;  ///< of the residual before: an iteration that gets so far was only stopped early
 constexpr double kHopeless = 1e9;       ///< times the first residual: Newton's iteration has lost its way

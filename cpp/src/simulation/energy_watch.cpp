@@ -79,8 +79,8 @@ std::string EnergyWatch::say(const World& world) const {
                             " % of what the bodies had, and nothing in the scene gives any; take ";
   if (world.contact() != nullptr) {
     return found +
-           "a smaller dt, steps that are linearised once (newton: iterations: 1), or implicit_euler, which "
-           "damps most";
+           "a smaller dt, steps that are linearised once (newton: iterations: 1), or, if the step is another "
+           "one, implicit_euler, which damps most";
   }
   return found +
          "energy_momentum, which keeps it, a smaller dt, or a method that damps (implicit_euler, bdf2)";

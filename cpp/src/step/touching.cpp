@@ -322,7 +322,14 @@ void StageSolver::solve_touching(State& state, std::vector<double>& v, StepRepor
   }
   report.contacts = static_cast<int>(contact_->size());
   report.least_gap = contact_->least_gap();
-  if (contact_->run().opens_by_shares()) report.depth = contact_->deepest();
+  if (contact_->run().opens_by_shares()) {
+    report.depth = contact_->deepest();
+  } else if (contact_->rests_at_gap() && contact_->deepest() > kTooDeep) {
+    // As where a vertex slides over an edge and goes on pressing on the plane of the face before.
+    report.hasty = true;
+    report.converged = false;
+    report.message = "contacts are deeper than half the gap at the end of the step; take a smaller dt";
+  }
 }
 
 }  // namespace tissu

@@ -92,6 +92,8 @@ class ImplicitContact {
   [[nodiscard]] double least_gap() const { return least_gap_; }
   /// How much nearer than it rests a pair that acts is then, as a share of the gap.
   [[nodiscard]] double deepest() const { return deepest_; }
+  /// Forces hold surfaces apart at their gap, where springs give way.
+  [[nodiscard]] virtual bool rests_at_gap() const { return true; }
 
  protected:
   /// It may press, so that it counts at its rows.

@@ -24,6 +24,7 @@ class ImplicitPenalty final : public ImplicitContact {
 
  protected:
   [[nodiscard]] bool may_press(std::size_t i) const override;
+  [[nodiscard]] bool rests_at_gap() const override { return false; }
   void begin_press() override;
   std::optional<double> press(std::size_t i, ContactNumbers& contact) override;
 

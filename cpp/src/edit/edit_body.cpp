@@ -52,9 +52,10 @@ Vec3 place_of(const BodyDescription& body, const FirstDayPoint& point) {
 void add_nodes(BodyDescription& body, const std::vector<std::int32_t>& copied) {
   const auto wanted = static_cast<std::int32_t>(copied.size());
   if (wanted > body.room) {
-    throw ParameterError("the cut makes " + std::to_string(wanted) + " nodes of body \"" + body.name +
-                         "\" where there is room for " + std::to_string(body.room) +
-                         "; compile the scene with a larger room of editing, a share of the nodes of the body.");
+    throw ParameterError(
+        "the cut makes " + std::to_string(wanted) + " nodes of body \"" + body.name +
+        "\" where there is room for " + std::to_string(body.room) +
+        "; compile the scene with a larger room of editing, a share of the nodes of the body.");
   }
   const auto first_day =
       static_cast<std::int32_t>(body.positions.size() / 3) - static_cast<std::int32_t>(body.copies_of.size());

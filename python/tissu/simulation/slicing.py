@@ -88,7 +88,8 @@ def cut_with(
     rows = rows_of(edge, track.poses, start, LONGEST_WAY * size)
     rows = rows[bends_of(rows, _TREMOR * size)]
     if np.linalg.norm(rows - start, axis=2).max() < LEAST_WAY * size:
-        return None, track
+        # Where it was in between is past: the tissue that was there may be elsewhere by then.
+        return None, replace(track, poses=track.poses[-1:])
     if body in simulation._links:
         return _sever_rows(simulation, name, body, track, rows)
     return cut_rows(simulation, name, body, track, rows)

@@ -52,7 +52,7 @@ def test_a_hand_that_trembles_cuts_a_straight_line(method: str, seed: int) -> No
 @pytest.mark.parametrize("stride", [0.1, 0.25])
 @pytest.mark.parametrize("middle", [3.7, 4.2, 4.6])
 def test_a_flap_along_a_line_of_nodes_comes_off(middle: float, stride: float, off: float) -> None:
-    """In, along the nodes or a fiftieth of a cell beside them, and out: 8 of 200 had stayed or crumbled.
+    """In, along the nodes or a fiftieth of a cell beside them, and out: 8 of 200 stayed or broke.
 
     Areas to the chords in the cells of both bends and both ends.
     """

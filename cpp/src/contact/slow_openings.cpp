@@ -12,7 +12,9 @@ namespace tissu {
 /// Of what is rigid: a soft body takes up the depth itself, and its parts are as stiff as they are short.
 void ContactRun::open_slowly() {
   const auto& vertices = contact_.surfaces().vertices();
-  const auto is_soft = [&](double vertex) { return vertex >= 0.0 && vertices[static_cast<std::size_t>(vertex)].is_soft(); };
+  const auto is_soft = [&](double vertex) {
+    return vertex >= 0.0 && vertices[static_cast<std::size_t>(vertex)].is_soft();
+  };
   for (std::size_t i = 0; i < looked_.size(); ++i) {
     const ContactNumbers& c = looked_[i];
     if (std::ranges::any_of(c.vertex, is_soft)) continue;

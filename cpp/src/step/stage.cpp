@@ -15,6 +15,7 @@ namespace {
 
 constexpr double kFloor = 1e-3;  ///< of the external impulse: a smaller right-hand side is judged against it
 constexpr double kWorse = 2.0;   ///< a linearised step that leaves this much more residual is iterated on
+constexpr int kRescue = 10;      ///< Newton iterations at most where a linearised step made things worse
 constexpr double kFalling =
     0.5;  ///< of the residual before: an iteration that gets so far was only stopped early
 constexpr double kHopeless = 1e9;       ///< times the first residual: Newton's iteration has lost its way
@@ -132,10 +133,7 @@ void StageSolver::solve_free(State& state, std::vector<double>& v, StepReport& r
 void StageSolver::judge_by_load() { reference_ = stage_.push * system_->external_force(stage_.base, work_); }
 
 bool StageSolver::is_good_enough(State& state, ConstReals v) {
-  if (!system_->world().is_linear()) {
-    const double left = residual(state, v);
-    return left <= kWorse * start_ + kFloor * reference_ && left <= kMostLeft * acting_;
-  }
+  if (!system_->world().is_linear()) return residual(state, v) <= kWorse * start_ + kFloor * reference_;
   place(state, v);
   return true;
 }

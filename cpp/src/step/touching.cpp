@@ -268,32 +268,6 @@ void StageSolver::iterate_contacts(State& state, std::vector<double>& v, StepRep
   world.fixed().clear(first_);
 }
 
-void StageSolver::iterate_apart(State& state, std::vector<double>& v, StepReport& report) {
-  StepReport anew;
-  bool solved = iterate(state, v, Search::none, kRescue, anew).empty();
-  if (!solved) {
-    report.newton_iterations += anew.newton_iterations;
-    v = before_cut_;  // nothing was cut
-    solved = iterate(state, v, Search::energy, kRescue, anew).empty();
-  }
-  report.newton_iterations += anew.newton_iterations;
-  report.solver_iterations += anew.solver_iterations;
-  report.indefinite += anew.indefinite;
-  place(state, v);
-  State& end = end_of(state);
-  solved = solved && hold_back(end) == 0 && look(end) == 0.0;
-  if (solved) {
-    report.residual = anew.residual;
-  } else {
-    v = before_cut_;
-    place(state, v);
-    hold_back(end_of(state));
-    report.hasty = true;
-  }
-  std::ranges::copy(v, state.velocities.begin());
-  world().fixed().clear(first_);
-}
-
 void StageSolver::solve_touching(State& state, std::vector<double>& v, StepReport& report) {
   begin_touching(state, v);
   if (BarrierContact* barrier = contact_->barrier()) {
@@ -312,12 +286,7 @@ void StageSolver::solve_touching(State& state, std::vector<double>& v, StepRepor
     contact_->finish(end, state);
   } else if (report.held_back == 0 && !system_->world().is_linear()) {
     contact_->write(state);
-    const double left = residual(state, v);
-    if (contact_->size() == 0 && !report.hasty && left > kMostLeft * acting_) {
-      iterate_apart(state, v, report);
-    } else {
-      report.hasty = report.hasty || !(left <= kWorse * start_ + kFloor * reference_);
-    }
+    report.hasty = report.hasty || !(residual(state, v) <= kWorse * start_ + kFloor * reference_);
     contact_->finish(end, state);
   }
   report.contacts = static_cast<int>(contact_->size());

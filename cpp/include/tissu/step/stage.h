@@ -89,9 +89,6 @@ class StageSolver {
   /// Systems that differ in contacts alone: what is elastic stays linearised at the base.
   bool solve_contacts(State& state, std::vector<double>& v, StepReport& report);
   void iterate_contacts(State& state, std::vector<double>& v, StepReport& report);
-  /// The same of a step that was linearised once and in which nothing touches, if that leaves too much: as in
-  /// a world without contact, unless something then touches.
-  void iterate_apart(State& state, std::vector<double>& v, StepReport& report);
   /// Where the step ends if its equation is solved by x(v), which is where `state` is: `state` itself, or
   /// another one.
   State& end_of(State& state);
@@ -119,11 +116,6 @@ class StageSolver {
   int hold_back(State& to);
   void update_contacts(const State& end);
   /// What a step that is linearised once left over is no more than it found.
-  /// Of what acts: a linearised step that leaves more is iterated on. A turn of a stiff body leaves strains,
-  /// and so does the guess of the next step, which is then no worse.
-  static constexpr double kMostLeft = 3.0;
-  /// Newton iterations at most where a linearised step made things worse, or left too much.
-  static constexpr int kRescue = 10;
   bool is_good_enough(State& state, ConstReals v);
   /// The solution is one that lies below the guess: far above it there may be others, which no body reaches.
   bool is_lower(State& state, ConstReals v);

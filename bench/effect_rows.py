@@ -73,7 +73,12 @@ ROWS = (
     Row("energies", "energies", r"\bSimulation::energy\b|\bkinetic_energy\b"),
     Row("gravity, explicit step", "explicit-gravity", r"\bGravity\b", "explicit"),
     Row("fixed nodes, explicit step", "explicit-fixed", r"\bMotion\b", "explicit"),
-    Row("implicit step", "bare", r"\b(BlockMatrix|ConjugateGradient|StageSolver)\b", "explicit"),
+    Row(
+        "implicit step",
+        "bare",
+        r"\b(BlockMatrix|ConjugateGradient|StageSolver|BodyBalance)\b",
+        "explicit",
+    ),
     Row("inertia", "hanging", r"\bMass\b", "static"),
 )
 
@@ -99,7 +104,7 @@ PRESENT = {
     r"|\bcompute_inverse<Eigen::Matrix<double, 3, 3|\bThreads::sum<tissu::dot<|^std::vector<double,"
     r".*>::(resize|operator=)\(",
     "matrix": r"\b(BlockMatrix::|multiply_(rows\b|three\b|three_of\b))",
-    "method": r"\b(ImplicitEuler|StageSolver|System|State|World)::|\bmove\(",
+    "method": r"\b(ImplicitEuler|StageSolver|BodyBalance|System|State|World)::|\bmove\(",
     "loop and roll back": r"\bSimulation::|^tissu_effects_steps$",
     "profile": r"\bProfile::",
     "words of a report": r"^operator (new|delete)",

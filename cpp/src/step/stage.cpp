@@ -14,8 +14,6 @@ namespace tissu {
 namespace {
 
 constexpr double kFloor = 1e-3;  ///< of the external impulse: a smaller right-hand side is judged against it
-constexpr double kWorse = 2.0;   ///< a linearised step that leaves this much more residual is iterated on
-constexpr int kRescue = 10;      ///< Newton iterations at most where a linearised step made things worse
 constexpr double kFalling =
     0.5;  ///< of the residual before: an iteration that gets so far was only stopped early
 constexpr double kHopeless = 1e9;       ///< times the first residual: Newton's iteration has lost its way
@@ -50,10 +48,11 @@ StageSolver::StageSolver(NewtonSettings newton) : newton_(newton) {
 void StageSolver::prepare(const World& world, LinearSolver* solver, Profile& profile) {
   system_ = std::make_unique<System>(world, solver, profile);
   stage_.base = world.rest_state();
-  for (auto* v : {&given_, &guess_, &first_, &trial_, &change_, &right_, &work_, &momentum_}) {
+  for (auto* v : {&given_, &guess_, &first_, &once_, &trial_, &change_, &right_, &work_, &momentum_}) {
     v->assign(stage_.base.positions.size(), 0.0);
   }
   list_turning();
+  balance_.prepare(world);
   contact_.reset();
   if (world.contact() == nullptr) return;
   prepare_contact();
@@ -72,6 +71,7 @@ void StageSolver::prepare_contact() {
 void StageSolver::follow_edit(std::span<const std::int32_t> rows) {
   system_->follow_edit(rows);
   list_turning();
+  balance_.prepare(world());
   if (contact_ != nullptr) prepare_contact();
 }
 
@@ -109,33 +109,28 @@ void StageSolver::solve(State& state, std::vector<double>& v, StepReport& report
 
 void StageSolver::solve_free(State& state, std::vector<double>& v, StepReport& report) {
   first_solve(v, report);
-  const bool once = newton_.iterations == 1;
-  if (once && (is_good_enough(state, v) || (gives_up_early_ && turns_far(v)))) return;
-
+  if (newton_.iterations == 1) {
+    judge_linearised(state, v, report);
+    return;
+  }
   first_ = v;
-  const int most = once ? kRescue : newton_.iterations;
+  const int most = newton_.iterations;
   report.message.clear();
   const std::string_view why = iterate(state, v, Search::none, most, report);
-  if ((why.empty() || (!once && is_falling_)) && is_lower(state, v)) {
+  if ((why.empty() || is_falling_) && is_lower(state, v)) {
     report.message = why;
     return;
   }
-  if (!once) {
-    v = first_;
-    if (iterate(state, v, Search::residual, most, report).empty() && is_lower(state, v)) return;
-  }
+  v = first_;
+  if (iterate(state, v, Search::residual, most, report).empty() && is_lower(state, v)) return;
   v = guess_;
   system_->world().fixed().copy(first_, v);
   report.message = iterate(state, v, Search::energy, most, report);
-  report.hasty = once && !report.message.empty();
 }
 
-void StageSolver::judge_by_load() { reference_ = stage_.push * system_->external_force(stage_.base, work_); }
-
-bool StageSolver::is_good_enough(State& state, ConstReals v) {
-  if (!system_->world().is_linear()) return residual(state, v) <= kWorse * start_ + kFloor * reference_;
-  place(state, v);
-  return true;
+void StageSolver::judge_by_load() {
+  reference_ = stage_.push * system_->external_force(stage_.base, work_);
+  balance_.set_external(reference_ > 0.0 ? stage_.push : 0.0, work_);
 }
 
 bool StageSolver::is_lower(State& state, ConstReals v) {
@@ -243,7 +238,12 @@ double StageSolver::residual(State& state, ConstReals v) {
     work_[i] = v[i] - stage_.base.velocities[i];
   }
   acting_ = reference_;
-  if (world.fixed().moves(stage_.base)) acting_ = std::max(acting_, held_norm(world.fixed(), right_));
+  if (world.fixed().moves(stage_.base)) {
+    acting_ = std::max(acting_, held_norm(world.fixed(), right_));
+    balance_.set_reactions(world.fixed(), right_);
+  } else {
+    balance_.clear_reactions();
+  }
   std::ranges::fill(momentum_, 0.0);
   world.mass().add_product(stage_.base, -1.0, work_, momentum_);
   world.fixed().clear(momentum_);

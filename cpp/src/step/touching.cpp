@@ -27,7 +27,6 @@ constexpr double kStiffer = 2.0;    ///< … by this for each, …
 constexpr double kStiffest = 64.0;  ///< … no further than this
 constexpr double kForceNewton = 1e-3;
 constexpr int kMostLooks = 20;  ///< of a step whose equation is solved to its tolerance
-constexpr double kWorse = 2.0;
 
 std::string unsettled(int systems) {
   return "contacts had not settled after " + std::to_string(systems) +
@@ -268,6 +267,28 @@ void StageSolver::iterate_contacts(State& state, std::vector<double>& v, StepRep
   world.fixed().clear(first_);
 }
 
+void StageSolver::judge_touching(State& state, std::vector<double>& v, StepReport& report) {
+  place(state, v);
+  std::ranges::fill(work_, 0.0);
+  world().contact()->add_force(state, scratch_, work_);
+  world().fixed().clear(work_);
+  balance_.set_contacts(stage_.push, work_);
+  if (!judge_linearised(state, v, report)) return;
+  place(state, v);
+  State& end = end_of(state);
+  update_contacts(end);
+  report.held_back = hold_back(end);
+  follow(end, v);
+  keep_momentum(v);
+  const double other = look(end);
+  if (report.held_back != 0 || other > kForce || contact_->inadmissible() > kForce) {
+    report.hasty = true;
+    report.message = unsettled(report.newton_iterations);
+  }
+  std::ranges::copy(v, state.velocities.begin());
+  world().fixed().clear(first_);
+}
+
 void StageSolver::solve_touching(State& state, std::vector<double>& v, StepReport& report) {
   begin_touching(state, v);
   if (BarrierContact* barrier = contact_->barrier()) {
@@ -280,13 +301,10 @@ void StageSolver::solve_touching(State& state, std::vector<double>& v, StepRepor
   follow(end, v);
   if (newton_.iterations == 1) keep_momentum(v);
   std::ranges::copy(v, state.velocities.begin());
+  if (newton_.iterations == 1 && report.held_back == 0 && !report.hasty) judge_touching(state, v, report);
   contact_->finish(end, state);
   if (newton_.iterations > 1) {
     iterate_contacts(state, v, report);
-    contact_->finish(end, state);
-  } else if (report.held_back == 0 && !system_->world().is_linear()) {
-    contact_->write(state);
-    report.hasty = report.hasty || !(residual(state, v) <= kWorse * start_ + kFloor * reference_);
     contact_->finish(end, state);
   }
   report.contacts = static_cast<int>(contact_->size());

@@ -146,7 +146,9 @@ class Implicit(Step):
     dt: units.Time = field(gt=0.0, kw_only=False)
     """time step [s], such as '10 ms'"""
     newton: Newton | None = None
-    """Newton's method; absent: linearised once, iterated only where that increases the residual"""
+    """Newton's method; absent: linearised once, iterated only where that increases the residual or
+    leaves more of it on a body than three times what acts there
+    """
     indefinite: Indefinite = "project"
     """what to do where the matrix of a step is not positive definite: project each cell's share
     onto a positive semi-definite one, regularise with a growing share of the mass, or refuse"""

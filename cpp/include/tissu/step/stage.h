@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "tissu/contact/barrier.h"
+#include "tissu/step/body_balance.h"
 #include "tissu/step/integrator.h"
 #include "tissu/step/system.h"
 
@@ -89,6 +90,8 @@ class StageSolver {
   /// Systems that differ in contacts alone: what is elastic stays linearised at the base.
   bool solve_contacts(State& state, std::vector<double>& v, StepReport& report);
   void iterate_contacts(State& state, std::vector<double>& v, StepReport& report);
+  /// `judge_linearised` with the contacts that act, which have to stay.
+  void judge_touching(State& state, std::vector<double>& v, StepReport& report);
   /// Where the step ends if its equation is solved by x(v), which is where `state` is: `state` itself, or
   /// another one.
   State& end_of(State& state);
@@ -115,8 +118,23 @@ class StageSolver {
   double look(const State& at);
   int hold_back(State& to);
   void update_contacts(const State& end);
-  /// What a step that is linearised once left over is no more than it found.
-  bool is_good_enough(State& state, ConstReals v);
+
+  // linearised.cpp: steps that are linearised once.
+  /// Iterates on such a step where it made things worse or left much; if that fails, the step stays as it is
+  /// unless it made things worse. It is hasty then, and where it gained energy. True: v is another one.
+  bool judge_linearised(State& state, std::vector<double>& v, StepReport& report);
+  /// The residual is no more than some times what the guess left.
+  bool is_no_worse(State& state, ConstReals v);
+  /// The latest residual, of `state` with v, is more than some times what acts on some body. A turn of a
+  /// stiff body leaves strains, and so does the guess of the next step, which is then no worse. Damping
+  /// counts with the stiffness at the base, as in the step that was linearised there: either is of first
+  /// order, and at the end the stiffness of a membrane may be one that gives energy.
+  bool leaves_much(const State& state, ConstReals v);
+  /// Newton's iteration from v = `once_` and, failing that, from the guess. False: it did not come near.
+  bool rescue(State& state, std::vector<double>& v, StepReport& report);
+  /// From the start of the step to `state`, in a world in which nothing can add any.
+  bool gains_energy(const State& state);
+
   /// The solution is one that lies below the guess: far above it there may be others, which no body reaches.
   bool is_lower(State& state, ConstReals v);
   /// Newton's iteration from v; why it did not converge, or nothing. Whole steps may pass through worse
@@ -151,6 +169,7 @@ class StageSolver {
   std::vector<double> given_;  ///< mean velocities where motion is given
   std::vector<double> guess_;
   std::vector<double> first_;
+  std::vector<double> once_;  ///< v of a step that was linearised once
   std::vector<double> trial_;
   std::vector<double> change_;
   std::vector<double> right_;
@@ -175,6 +194,7 @@ class StageSolver {
   std::vector<double> elastic_;        ///< what is right without contact
   Scratch scratch_;                    ///< of energies
   bool gives_up_early_ = false;
+  BodyBalance balance_;
   double reference_ = 0.0;  ///< push |external force|
   double acting_ = 0.0;
   double start_ = 0.0;       ///< residual that the first solve found

@@ -1,0 +1,95 @@
+/// Steps that are linearised once: what they may leave of their equation, and what is done where it is more.
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+
+#include "tissu/step/stage.h"
+
+namespace tissu {
+namespace {
+
+constexpr double kFloor = 1e-3;    ///< of the external impulse: less is left by any linear solver
+constexpr double kWorse = 2.0;     ///< times the residual of the guess
+constexpr double kMostLeft = 3.0;  ///< times what acts on a body
+constexpr double kNear = 1e-2;  ///< of what acts: an iteration that was stopped there has improved the step
+constexpr int kRescue = 10;     ///< iterations at most
+constexpr double kRoundings = 1e-9;  ///< of the sum of energies
+
+}  // namespace
+
+bool StageSolver::is_no_worse(State& state, ConstReals v) {
+  return residual(state, v) <= kWorse * start_ + kFloor * reference_;
+}
+
+bool StageSolver::leaves_much(const State& state, ConstReals v) {
+  if (!balance_.leaves_more(kMostLeft, 0.0, right_, momentum_)) return false;
+  std::ranges::copy(right_, trial_.begin());
+  system_->add_product(state, {0.0, -stage_.push}, v, trial_);
+  system_->add_product(stage_.base, {0.0, stage_.push}, v, trial_);
+  world().fixed().clear(trial_);
+  const double floor = system_->round_off(stage_.base) / stage_.move;
+  return balance_.leaves_more(kMostLeft, floor, trial_, momentum_);
+}
+
+bool StageSolver::judge_linearised(State& state, std::vector<double>& v, StepReport& report) {
+  if (world().is_linear()) {
+    place(state, v);
+    return false;
+  }
+  const bool no_worse = is_no_worse(state, v);
+  if (no_worse ? !leaves_much(state, v) : gives_up_early_ && turns_far(v)) return false;
+  if (!no_worse && contact_ != nullptr && contact_->size() > 0) {
+    report.hasty = true;  // a blow: it is taken in parts
+    return false;
+  }
+  const StepReport once = report;
+  once_ = v;
+  const bool solved = rescue(state, v, report);
+  report.newton_iterations += once.newton_iterations - 1;
+  if (solved || !no_worse) return true;
+  v = once_;
+  place(state, v);
+  if (gains_energy(state)) return false;
+  report.converged = once.converged;
+  report.residual = once.residual;
+  report.message = once.message;
+  report.hasty = false;
+  return false;
+}
+
+bool StageSolver::rescue(State& state, std::vector<double>& v, StepReport& report) {
+  const auto is_solved = [&](std::string_view why) { return why.empty() || report.residual <= kNear; };
+  bool solved = is_solved(iterate(state, v, Search::none, kRescue, report)) && is_lower(state, v);
+  report.message.clear();
+  if (!solved) {
+    v = guess_;
+    world().fixed().copy(once_, v);
+    report.message = iterate(state, v, Search::energy, kRescue, report);
+    solved = is_solved(report.message);
+    if (solved) report.message.clear();
+  }
+  report.converged = solved;
+  report.hasty = !solved;
+  return solved;
+}
+
+bool StageSolver::gains_energy(const State& state) {
+  const auto& forces = world().forces();
+  if (world().fixed().moves()) return false;
+  if (std::ranges::any_of(forces, [](const auto& model) { return model->may_add_energy(); })) return false;
+  double size = 0.0;
+  const auto energy = [&](const State& at) {
+    double sum = world().mass().kinetic_energy(at);
+    size += sum;
+    for (const auto& model : forces) {
+      const double stored = model->energy(at, scratch_);
+      sum += stored;
+      size += std::abs(stored);
+    }
+    return sum;
+  };
+  return energy(state) - energy(*step_start_) > kRoundings * size;
+}
+
+}  // namespace tissu

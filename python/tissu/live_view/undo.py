@@ -25,23 +25,24 @@ class Undo:
         """None is kept yet; `trocars`: that go back too."""
         self._trocars = trocars
         self._moments: deque[tuple[float, list[Any], list[Any]]] = deque(maxlen=_MOST)
+        self._is_back = False  # at the latest moment, and nothing was done since
 
     def remember(self, simulations: Sequence[Simulation]) -> None:
         """Keep this moment, unless one just before it is kept."""
         now = simulations[0].time
+        self._is_back = False
         if self._moments and 0.0 <= now - self._moments[-1][0] < _SAME:
             return
         marks = [simulation.mark() for simulation in simulations]
         self._moments.append((now, marks, [] if self._trocars is None else self._trocars.moments()))
 
     def back(self, simulations: Sequence[Simulation]) -> None:
-        """Go back to the latest moment; from that moment itself to the one before.
+        """Go back to the latest moment; once more, if nothing was done since, to the one before.
 
         Raises:
             ParameterError: no moment is kept.
         """
-        now = simulations[0].time
-        while len(self._moments) > 1 and 0.0 <= now - self._moments[-1][0] < _SAME:
+        if self._is_back and len(self._moments) > 1:
             self._moments.pop()
         if not self._moments:
             text = "found nothing to undo: no tool was pressed and no trocar touched anything"
@@ -51,7 +52,9 @@ class Undo:
             simulation.rewind(mark)
         if self._trocars is not None:
             self._trocars.come_back(places)
+        self._is_back = True
 
     def forget(self) -> None:
         """Keep none: the simulations have begun again."""
         self._moments.clear()
+        self._is_back = False

@@ -1,0 +1,29 @@
+"""Moments that the live view goes back to."""
+
+import tissu as ts
+from tissu.live_view.undo import Undo
+
+
+def go_on(simulation: ts.Simulation) -> None:
+    """For half a second."""
+    for _ in range(5):
+        simulation.step()
+
+
+def test_undo_pressed_slowly_goes_further_back_each_time() -> None:
+    """It had returned to the same moment wherever the simulation had run on in between."""
+    mesh = ts.bar_mesh(size=(0.1, 0.02, 0.02), cells=(5, 1, 1))
+    body = ts.Body(mesh=mesh, law=ts.StVK(young=1e4, poisson=0.3), density=1000)
+    simulation = ts.Scene(bodies={"bar": body}, step=ts.ImplicitEuler(0.1)).compile()
+    undo = Undo()
+    for _ in range(3):  # uses at 0, 0.5 and 1 s
+        undo.remember([simulation])
+        go_on(simulation)
+    for expected in (1.0, 0.5, 0.0, 0.0):
+        undo.back([simulation])
+        assert round(simulation.time, 9) == expected
+        go_on(simulation)
+    undo.remember([simulation])
+    go_on(simulation)
+    undo.back([simulation])
+    assert round(simulation.time, 9) == 0.5

@@ -76,7 +76,7 @@ def turning_energy(simulation: ts.Simulation) -> float:
 def test_a_body_turns_beside_one_that_bears_much_as_it_does_alone(
     young: float, rate: float
 ) -> None:
-    """Forces of 500 N on a block that is held are no measure for a plate with 0.3 kg.
+    """The 500 N on a held block do not measure what acts on a plate of 0.3 kg.
 
     A norm over the whole scene took the plate's imbalance for small: it gained energy beside it.
     """

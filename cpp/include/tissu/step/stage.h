@@ -123,7 +123,7 @@ class StageSolver {
   /// Iterates on such a step where it made things worse or left much; if that fails, the step stays as it is
   /// unless it made things worse. It is hasty then, and where it gained energy. True: v is another one.
   bool judge_linearised(State& state, std::vector<double>& v, StepReport& report);
-  /// The residual is no more than some times what the guess left.
+  /// The residual is at most a given multiple of what the guess left.
   bool is_no_worse(State& state, ConstReals v);
   /// The latest residual, of `state` with v, is more than some times what acts on some body. A turn of a
   /// stiff body leaves strains, and so does the guess of the next step, which is then no worse. Damping

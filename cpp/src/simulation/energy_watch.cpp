@@ -24,6 +24,16 @@ bool EnergyWatch::can_watch(const World& world) {
   return std::ranges::none_of(world.forces(), [](const auto& model) { return model->may_add_energy(); });
 }
 
+bool EnergyWatch::may_be_driven(const World& world) {
+  const auto& forces = world.forces();
+  if (std::ranges::none_of(forces, [](const auto& model) { return model->may_drive_turns(); })) return false;
+  const std::vector<std::uint8_t>& masks = world.fixed().masks();
+  return std::ranges::any_of(world.bodies(), [&](const Body& body) {
+    const auto first = masks.begin() + body.first_node;
+    return std::all_of(first, first + body.node_count, [](std::uint8_t mask) { return mask == 0; });
+  });
+}
+
 void EnergyWatch::begin(const World& world, const State& state) {
   if (is_end(state)) return;
   const Energy energy = energy_of(world, state, scratch_);
@@ -81,6 +91,12 @@ std::string EnergyWatch::say(const World& world) const {
     return found +
            "a smaller dt, steps that are linearised once (newton: iterations: 1), or, if the step is another "
            "one, implicit_euler, which damps most";
+  }
+  if (may_be_driven(world)) {
+    return found +
+           "a smaller dt, bdf2, or less damping: in a step, rayleigh's stiffness and kelvin_voigt's "
+           "viscosity "
+           "squeeze a stiff body that turns";
   }
   return found +
          "energy_momentum, which keeps it, a smaller dt, or a method that damps (implicit_euler, bdf2)";

@@ -71,10 +71,11 @@ Culprit worst_cell(const World& world, const State& state) {
   return worst;
 }
 
-/// Whether energy can only be kept or lost, where a method or contacts could add some.
+/// Whether energy can only be kept or lost, where a method, contacts or damping could add some.
 bool is_watched(const World& world, const Integrator& integrator, bool solves) {
   const bool touches = world.contact() != nullptr && solves && !integrator.is_static();
-  return (integrator.is_undamped() || touches) && EnergyWatch::can_watch(world);
+  const bool driven = !integrator.is_static() && EnergyWatch::may_be_driven(world);
+  return (integrator.is_undamped() || touches || driven) && EnergyWatch::can_watch(world);
 }
 
 }  // namespace

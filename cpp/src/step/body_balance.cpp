@@ -8,15 +8,40 @@
 namespace tissu {
 
 void BodyBalance::prepare(const World& world) {
+  world_ = &world;
   bodies_.clear();
+  const std::vector<std::uint8_t>& masks = world.fixed().masks();
+  const std::vector<double>& mass = world.mass().nodal();
   for (const Body& body : world.bodies()) {
-    const auto count = static_cast<std::size_t>(body.node_count + body.room);
-    bodies_.push_back({3 * static_cast<std::size_t>(body.first_node), 3 * count});
+    const auto nodes = static_cast<std::size_t>(body.node_count + body.room);
+    const auto first = static_cast<std::size_t>(body.first_node);
+    bool free = true;
+    double sum = 0.0;
+    for (std::size_t i = first; i < first + nodes; ++i) {
+      sum += mass[i];
+      free = free && (masks[i] == 0 || mass[i] == 0.0);
+    }
+    bodies_.push_back({3 * first, 3 * nodes, free ? sum : 0.0});
   }
 }
 
+double BodyBalance::norm_of(const Row& body, ConstReals impulses) const {
+  const ConstReals own = impulses.subspan(body.first, body.count);
+  if (body.mass == 0.0) return norm(own);
+  Vec3 sum = Vec3::Zero();
+  for (std::size_t k = 0; k < own.size(); k += 3) sum += Vec3(own[k], own[k + 1], own[k + 2]);
+  const Vec3 velocity = sum / body.mass;
+  const std::vector<double>& mass = world_->mass().nodal();
+  double squares = 0.0;
+  for (std::size_t k = 0; k < own.size(); k += 3) {
+    const Vec3 rest = Vec3(own[k], own[k + 1], own[k + 2]) - mass[(body.first + k) / 3] * velocity;
+    squares += rest.squaredNorm();
+  }
+  return std::sqrt(squares);
+}
+
 void BodyBalance::set_external(double push, ConstReals force) {
-  for (Row& body : bodies_) body.external = push * norm(force.subspan(body.first, body.count));
+  for (Row& body : bodies_) body.external = push * norm_of(body, force);
 }
 
 void BodyBalance::set_contacts(double push, ConstReals force) {
@@ -38,11 +63,12 @@ void BodyBalance::set_reactions(const FixedDofs& fixed, ConstReals impulses) {
   }
 }
 
-bool BodyBalance::leaves_more(double share, double floor, ConstReals imbalance,
+bool BodyBalance::leaves_more(Shares shares, double floor, ConstReals imbalance,
                               ConstReals momentum_change) const {
   return std::ranges::any_of(bodies_, [&](const Row& body) {
-    const double changed = norm(momentum_change.subspan(body.first, body.count));
+    const double changed = norm_of(body, momentum_change);
     const double acting = std::max({body.external, body.contacts, body.reactions, changed});
+    const double share = body.mass == 0.0 ? shares.held : shares.free;
     return norm(imbalance.subspan(body.first, body.count)) > share * acting + floor;
   });
 }

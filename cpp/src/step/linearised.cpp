@@ -9,11 +9,10 @@
 namespace tissu {
 namespace {
 
-constexpr double kFloor = 1e-3;    ///< of the external impulse: less is left by any linear solver
-constexpr double kWorse = 2.0;     ///< times the residual of the guess
-constexpr double kMostLeft = 3.0;  ///< times what acts on a body
-constexpr double kNear = 1e-2;  ///< of what acts: an iteration that was stopped there has improved the step
-constexpr int kRescue = 10;     ///< iterations at most
+constexpr double kFloor = 1e-3;  ///< of the external impulse: less is left by any linear solver
+constexpr double kWorse = 2.0;   ///< times the residual of the guess
+constexpr double kNear = 1e-2;   ///< of what acts: an iteration that was stopped there has improved the step
+constexpr int kRescue = 10;      ///< iterations at most
 constexpr double kRoundings = 1e-9;  ///< of the sum of energies
 
 }  // namespace
@@ -23,13 +22,24 @@ bool StageSolver::is_no_worse(State& state, ConstReals v) {
 }
 
 bool StageSolver::leaves_much(const State& state, ConstReals v) {
-  if (!balance_.leaves_more(kMostLeft, 0.0, right_, momentum_)) return false;
+  balance_.clear_reactions();
+  if (!balance_.leaves_more(most_left_, 0.0, right_, momentum_)) return false;
+  if (world().fixed().moves(*step_start_)) {
+    look_at_reactions();
+    if (!balance_.leaves_more(most_left_, 0.0, right_, momentum_)) return false;
+  }
   std::ranges::copy(right_, trial_.begin());
   system_->add_product(state, {0.0, -stage_.push}, v, trial_);
   system_->add_product(stage_.base, {0.0, stage_.push}, v, trial_);
   world().fixed().clear(trial_);
   const double floor = system_->round_off(stage_.base) / stage_.move;
-  return balance_.leaves_more(kMostLeft, floor, trial_, momentum_);
+  return balance_.leaves_more(most_left_, floor, trial_, momentum_);
+}
+
+void StageSolver::look_at_reactions() {
+  system_->force(*step_start_, trial_);
+  for (double& r : trial_) r *= stage_.push;
+  balance_.set_reactions(world().fixed(), trial_);
 }
 
 bool StageSolver::judge_linearised(State& state, std::vector<double>& v, StepReport& report) {

@@ -205,7 +205,7 @@ def _add_body(builder: WorldBuilder, prepared: Prepared, name: str) -> None:
             cross_section=np.array([cross_section_of(body, group.cell_type)]),
             section=section_in_core(body.section),
             plane=getattr(Plane, body.plane) if body.plane and group.surface else Plane.free,
-            model=group.model.in_core(kept_nodes(prepared, name, group)),
+            model=group.model.in_core(kept_nodes(prepared, name, group), prepared.scene.step),
         )
     if prepared.scene.editing is not None and can_be_cut(prepared, name):
         nodes = prepared.scene.editing.nodes(ready.mesh.node_count)

@@ -19,6 +19,7 @@ from tissu.scene.unknown import Unread
 
 if TYPE_CHECKING:
     from tissu import _core
+    from tissu.scene.step import Step
 
 __all__ = [
     "FEM",
@@ -50,18 +51,19 @@ class Model(Part):
         words = ", ".join(f"{name} {value}" for name, value in fields.items())
         return self.type + (f" with {words}" if fields else "")
 
-    def in_core(self, kept: Ints) -> _core.Model:
+    def in_core(self, kept: Ints, step: Step | None = None) -> _core.Model:
         """The core's model of the same name, with the options that are its own.
 
         Args:
             kept: nodes (k,) of a condensed region that stay unknown; others do not read them.
+            step: how the scene is stepped; only corotational reads it.
         """
         from tissu import _core
 
-        made: _core.Model = getattr(_core, type(self).__name__)(**self._options(kept))
+        made: _core.Model = getattr(_core, type(self).__name__)(**self._options(kept, step))
         return made
 
-    def _options(self, kept: Ints) -> dict[str, Any]:
+    def _options(self, kept: Ints, step: Step | None) -> dict[str, Any]:
         return self._own_fields()
 
     def _own_fields(self) -> dict[str, Any]:
@@ -80,8 +82,17 @@ class Corotational(Model):
     type: Literal["corotational"] = "corotational"
     rotation: Literal["polar", "frame", "small"] = "polar"
     """the turned axes: of the polar decomposition, of a cell's edges, or none (small rotations)"""
-    tangent: Literal["approximate", "exact"] = "approximate"
-    """R K R^T, never indefinite, or the true derivative of the force"""
+    tangent: Literal["auto", "approximate", "exact"] = "auto"
+    """approximate: R K R^T, which is never indefinite; exact: the true derivative of the force;
+    auto: exact for polar axes in steps of second order that are linearised once, which would give
+    energy to what turns, else approximate"""
+
+    def _options(self, kept: Ints, step: Step | None) -> dict[str, Any]:
+        tangent = self.tangent
+        if tangent == "auto":
+            gains = step is not None and step.second_order and step.is_linearised_once
+            tangent = "exact" if gains and self.rotation == "polar" else "approximate"
+        return self._own_fields() | {"tangent": tangent}
 
 
 class MassSpring(Model):
@@ -91,7 +102,7 @@ class MassSpring(Model):
     masses: Literal["volume", "equal"] = "volume"
     """the mass of a node: of the volume around it, or the same for all"""
 
-    def _options(self, kept: Ints) -> dict[str, Any]:
+    def _options(self, kept: Ints, step: Step | None) -> dict[str, Any]:
         return {"equal_masses": self.masses == "equal"}
 
 
@@ -128,7 +139,7 @@ class Condensed(Model):
     """nodes that stay unknowns: those fixed, prescribed, loaded or shared, or the surface as
     well"""
 
-    def _options(self, kept: Ints) -> dict[str, Any]:
+    def _options(self, kept: Ints, step: Step | None) -> dict[str, Any]:
         return {"kept": kept}
 
 
@@ -152,7 +163,7 @@ class Frames(Model):
     absent: half for sheets and lines whose section is whole, otherwise whole
     """
 
-    def _options(self, kept: Ints) -> dict[str, Any]:
+    def _options(self, kept: Ints, step: Step | None) -> dict[str, Any]:
         return {**self._own_fields(), "lever": self.lever or ""}
 
     def _own_fields(self) -> dict[str, Any]:

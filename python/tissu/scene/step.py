@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
 
 from pydantic import BeforeValidator, Field
 
@@ -68,8 +68,13 @@ class Newton(Part):
 
 
 class Step(Part):
-    """The common part of all methods."""
+    """The common part of all methods.
 
+    Attributes:
+        second_order: whether it is of second order and implicit.
+    """
+
+    second_order: ClassVar[bool] = False
     if TYPE_CHECKING:
         type: str
 
@@ -89,6 +94,11 @@ class Step(Part):
             found["newton_iterations"] = newton.iterations
             found["newton_tolerance"] = newton.tolerance
         return found
+
+    @property
+    def is_linearised_once(self) -> bool:
+        """Whether its equation is linearised once, and solved further only where much is left."""
+        return self.settings().get("newton_iterations") == 1
 
     def effect(self) -> Effect:
         """The effect that the step switches on."""
@@ -147,7 +157,7 @@ class Implicit(Step):
     """time step [s], such as '10 ms'"""
     newton: Newton | None = None
     """Newton's method; absent: linearised once, iterated only where that increases the residual or
-    leaves more of it on a body than three times what acts there
+    leaves much of it on a body (docs/guide/integrators.md)
     """
     indefinite: Indefinite = "project"
     """what to do where the matrix of a step is not positive definite: project each cell's share
@@ -175,18 +185,21 @@ class ImplicitEuler(Implicit):
 class ImplicitMidpoint(Implicit):
     """Implicit midpoint rule: second order, no damping; keeps momenta, angular with `newton`."""
 
+    second_order: ClassVar[bool] = True
     type: Literal["implicit_midpoint"] = "implicit_midpoint"
 
 
 class BDF2(Implicit):
     """Backward differentiation of second order: damps fast vibrations, and slow ones hardly."""
 
+    second_order: ClassVar[bool] = True
     type: Literal["bdf2"] = "bdf2"
 
 
 class Newmark(Implicit):
     """Newmark's method; second order and without damping for gamma = 1/2."""
 
+    second_order: ClassVar[bool] = True
     type: Literal["newmark"] = "newmark"
     beta: units.Pure = field(default=0.25, gt=0.0, le=0.5)
     """weight of the acceleration at the end in the position; at least gamma / 2"""

@@ -49,6 +49,9 @@ class ForceModel {
   [[nodiscard]] virtual bool has_stiffness() const { return true; }
   /// What it gives to the bodies has no potential that stays the same, so that it may add energy to them.
   [[nodiscard]] virtual bool may_add_energy() const { return false; }
+  /// Its damping may give energy to a body that turns, although it is there to take some: the way of a step
+  /// is a chord, along which a turn at its end looks like growth, so that damping squeezes the body.
+  [[nodiscard]] virtual bool may_drive_turns() const { return false; }
 
   /// Names the nodes it couples, once for each topology, …
   virtual void couple(SparsityBuilder& /*builder*/) const {}

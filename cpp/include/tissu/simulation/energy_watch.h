@@ -27,6 +27,8 @@ class EnergyWatch {
  public:
   /// Whether energy can only be kept or lost in that world.
   static bool can_watch(const World& world);
+  /// Whether damping may give energy to a body that turns freely (ForceModel::may_drive_turns).
+  static bool may_be_driven(const World& world);
 
   /// Before and after a step. What is written into the state between two steps, into its memory too, does not
   /// count.

@@ -24,9 +24,12 @@ struct Stage {
   ContactStage contact = {};
 };
 
+/// Of a method: one of first order damps turning bodies by more than a linearisation does.
+enum class Order { first, second };
+
 class StageSolver {
  public:
-  explicit StageSolver(NewtonSettings newton);
+  StageSolver(NewtonSettings newton, Order order);
   void prepare(const World& world, LinearSolver* solver, Profile& profile);
   /// Follows an edit of the world in place.
   void follow_edit(std::span<const std::int32_t> rows);
@@ -130,6 +133,8 @@ class StageSolver {
   /// counts with the stiffness at the base, as in the step that was linearised there: either is of first
   /// order, and at the end the stiffness of a membrane may be one that gives energy.
   bool leaves_much(const State& state, ConstReals v);
+  /// What supports that are led gave at the start of the step: at its end the reactions have what was left.
+  void look_at_reactions();
   /// Newton's iteration from v = `once_` and, failing that, from the guess. False: it did not come near.
   bool rescue(State& state, std::vector<double>& v, StepReport& report);
   /// From the start of the step to `state`, in a world in which nothing can add any.
@@ -195,6 +200,7 @@ class StageSolver {
   Scratch scratch_;                    ///< of energies
   bool gives_up_early_ = false;
   BodyBalance balance_;
+  BodyBalance::Shares most_left_;
   double reference_ = 0.0;  ///< push |external force|
   double acting_ = 0.0;
   double start_ = 0.0;       ///< residual that the first solve found

@@ -20,6 +20,7 @@ class KelvinVoigt final : public ViscousCells {
   /// On the cells of `block`; `viscosity` holds zeta and eta in the places of lambda and mu.
   KelvinVoigt(const ElasticBlock& block, Lame viscosity, ConstReals rest_positions, Isa isa, Threads threads);
   [[nodiscard]] std::string_view effect() const override { return "Kelvin–Voigt viscosity"; }
+  [[nodiscard]] bool may_drive_turns() const override { return true; }
   void add_force(const State& state, Scratch& scratch, Reals f) const override;
   void add_stiffness(const State& state, Scratch& scratch, StiffnessScale scale,
                      BlockMatrix& matrix) const override;

@@ -17,6 +17,7 @@ class Rayleigh final : public ForceModel {
   /// cells.
   Rayleigh(std::vector<std::unique_ptr<ForceModel>> elastic, std::vector<double> masses, double alpha,
            double beta);
+  [[nodiscard]] bool may_drive_turns() const override { return beta_ > 0.0 && !has_constant_stiffness(); }
   [[nodiscard]] std::string_view effect() const override { return "elasticity with Rayleigh damping"; }
   [[nodiscard]] ForceKind kind() const override { return ForceKind::elastic; }
   [[nodiscard]] bool has_constant_stiffness() const override;

@@ -15,6 +15,7 @@ class SpringDampers final : public ForceModel {
   /// `springs` outlives it; `viscosity` holds zeta and eta in the places of lambda and mu.
   SpringDampers(const DampedSprings& springs, Lame viscosity);
   [[nodiscard]] std::string_view effect() const override { return "Kelvin–Voigt viscosity"; }
+  [[nodiscard]] bool may_drive_turns() const override { return true; }
   [[nodiscard]] ForceKind kind() const override { return ForceKind::elastic; }
   void add_force(const State& state, Scratch& scratch, Reals f) const override;
   void add_stiffness(const State& state, Scratch& scratch, StiffnessScale scale,

@@ -1,4 +1,4 @@
-"""Bodies that turn while something acts on them: weight, a support that turns, and their own axes."""
+"""Bodies that turn under weight, by a support, in axes of their own, and with damping."""
 
 import numpy as np
 import pytest

@@ -73,8 +73,9 @@ Culprit worst_cell(const World& world, const State& state) {
 
 /// Whether energy can only be kept or lost, where a method, contacts or damping could add some.
 bool is_watched(const World& world, const Integrator& integrator, bool solves) {
-  const bool touches = world.contact() != nullptr && solves && !integrator.is_static();
-  const bool driven = !integrator.is_static() && EnergyWatch::may_be_driven(world);
+  const bool implicit = solves && !integrator.is_static();
+  const bool touches = implicit && world.contact() != nullptr;
+  const bool driven = implicit && EnergyWatch::may_be_driven(world);
   return (integrator.is_undamped() || touches || driven) && EnergyWatch::can_watch(world);
 }
 

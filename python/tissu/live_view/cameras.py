@@ -22,7 +22,8 @@ PRESETS: dict[str, tuple[float, float, float]] = {
     "above": (0.0, 1.0, 0.02),
     "below": (0.0, -1.0, 0.02),
 }
-"""Directions from the scene to the eye: to the right, up, towards the first view."""
+"""Directions from the scene to the eye: to the right, up, towards the first view, turned to the
+nearest axis."""
 
 
 def far_enough(stage: Stage) -> float:
@@ -35,10 +36,17 @@ def first_place(stage: Stage) -> NDArray[np.float64]:
     return np.asarray(stage.centre + far_enough(stage) * stage.axes[2])
 
 
+def _nearest_axis(right: NDArray[np.float64], up: NDArray[np.float64]) -> NDArray[np.float64]:
+    """The axis of space nearest to `right` that is level; `right` itself where none is."""
+    axes = np.vstack([np.eye(3), -np.eye(3)])
+    level = axes[np.abs(axes @ up) < 1e-6]
+    chosen = right if len(level) == 0 else level[np.argmax(level @ right)]
+    return np.asarray(chosen / np.linalg.norm(chosen))
+
+
 def look_from(camera: viser.CameraHandle, preset: str, stage: Stage) -> None:
     """Move the camera of one page."""
-    right = stage.axes[0] - (stage.axes[0] @ stage.up) * stage.up
-    right /= np.linalg.norm(right)
+    right = _nearest_axis(stage.axes[0] - (stage.axes[0] @ stage.up) * stage.up, stage.up)
     towards = np.cross(right, stage.up)
     along = np.array(PRESETS[preset]) @ np.stack([right, stage.up, towards])
     camera.up_direction = stage.up

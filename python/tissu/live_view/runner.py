@@ -46,6 +46,7 @@ class Runner:
     Attributes:
         simulations: those that it owns; a wish may put another one into its place.
         reports: of the latest step, one for each.
+        after_step: called with these after each step.
         error: the sentence of what went wrong last; empty: nothing since the last play.
         playing: whether it steps.
         achieved: simulated time for wall time of late; 0 when it does not step.
@@ -72,6 +73,7 @@ class Runner:
         """
         self.simulations = list(simulations)
         self.reports: list[StepReport] = []
+        self.after_step: list[Callable[[Sequence[StepReport]], object]] = []
         self.error = ""
         self.playing = playing
         self.achieved = 0.0
@@ -222,6 +224,8 @@ class Runner:
             self.error = str(error)
             return
         self._measure()
+        for hear in self.after_step:
+            hear(self.reports)
 
     def _patiently(self, simulation: Simulation) -> StepReport:
         """A step, after the program's own thread has left the simulation that it looks at."""
@@ -239,7 +243,9 @@ class Runner:
             self._measured, self._waited = (now, simulated), 0.0
             return
         wall, before = self._measured
-        if now - wall >= 0.5:
+        if simulated < before:  # time was set back
+            self._measured, self._waited = (now, simulated), 0.0
+        elif now - wall >= 0.5:
             self.achieved = (simulated - before) / (now - wall)
             self.spare, self._waited = min(1.0, self._waited / (now - wall)), 0.0
             self._measured = (now, simulated)

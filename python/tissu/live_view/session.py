@@ -59,6 +59,11 @@ class Session:
     on_tool: list[Callable[[str], object]] = field(default_factory=list)
     after_reset: list[Callable[[Sequence[Simulation]], object]] = field(default_factory=list)
 
+    def go_back(self, simulations: Sequence[Simulation]) -> None:
+        """Undo what was done last, in the thread that owns the simulations."""
+        self.undo.back(simulations)
+        self.touch.forget()
+
     def take_in_hand(self, tool: str) -> None:
         """Take another tool in hand, on the page too."""
         for choose in self.on_tool:

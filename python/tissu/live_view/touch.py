@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from tissu.live_view.marks import Marks
     from tissu.live_view.pointer import Pointer
     from tissu.live_view.runner import Runner
-    from tissu.simulation import Simulation
+    from tissu.simulation import Simulation, StepReport
 
 Phase = Literal["click", "start", "update", "end"]
 
@@ -34,7 +34,7 @@ class Touch:
         tools: Sequence[type[Tool]] = TOOLS,
         *,
         more: Sequence[Tool] = (),
-        before: Callable[[Sequence[Simulation]], object] = lambda simulations: None,
+        before: Callable[[Sequence[Simulation], bool], object] = lambda simulations, press: None,
     ) -> None:
         """Take the first tool that is offered in hand.
 
@@ -42,7 +42,8 @@ class Touch:
             runner: the thread that owns the simulations.
             tools: each is made where a simulation offers it.
             more: tools that are there already.
-            before: called in that thread before a tool that edits is pressed.
+            before: called in that thread before a tool that edits is used, and told whether this
+                is a press or goes on.
         """
         self._runner, self._before = runner, before
         first = runner.simulations[0]
@@ -94,6 +95,16 @@ class Touch:
             return None
         return self._runner.ask(lambda simulations: self._turn(simulations, gizmo.name))
 
+    def hear(self, reports: Sequence[StepReport]) -> None:
+        """What a step of each simulation reported."""
+        for tool in self.tools.values():
+            tool.hear(reports)
+
+    def forget(self) -> None:
+        """What tools did was undone, or the simulations have begun again."""
+        for tool in self.tools.values():
+            tool.forget()
+
     def gizmos(self, simulations: Sequence[Simulation]) -> list[Gizmo]:
         """Those of the tool in hand."""
         tool = self.tools.get(self.chosen)
@@ -125,7 +136,7 @@ class Touch:
 
     def _remember(self, tool: Tool, simulations: Sequence[Simulation]) -> None:
         if tool.edits:
-            self._before(simulations)
+            self._before(simulations, True)
 
     def _move(self, simulations: Sequence[Simulation], client: int) -> None:
         pointer = self._moved.pop(client, None)
@@ -136,6 +147,8 @@ class Touch:
     def _turn(self, simulations: Sequence[Simulation], name: str) -> None:
         gizmo, tool = self._turned.pop(name), self.tools.get(self.chosen)
         if tool is not None:
+            if tool.edits:
+                self._before(simulations, False)
             tool.turn(simulations, gizmo)
 
     def _release(self, simulations: Sequence[Simulation], pointer: Pointer) -> None:

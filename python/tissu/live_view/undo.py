@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 _MOST = 16
 """Moments that are kept; the oldest goes."""
 _SAME = 0.2
-"""Simulated time within which two moments are one [s]."""
+"""Simulated time within which two moments of one use are one [s]."""
 
 
 class Undo:
@@ -27,11 +27,11 @@ class Undo:
         self._moments: deque[tuple[float, list[Any], list[Any]]] = deque(maxlen=_MOST)
         self._is_back = False  # at the latest moment, and nothing was done since
 
-    def remember(self, simulations: Sequence[Simulation]) -> None:
-        """Keep this moment, unless one just before it is kept."""
+    def remember(self, simulations: Sequence[Simulation], is_press: bool = False) -> None:
+        """Keep this moment; where it goes on with a use, unless one just before it is kept."""
         now = simulations[0].time
         self._is_back = False
-        if self._moments and 0.0 <= now - self._moments[-1][0] < _SAME:
+        if not is_press and self._moments and 0.0 <= now - self._moments[-1][0] < _SAME:
             return
         marks = [simulation.mark() for simulation in simulations]
         self._moments.append((now, marks, [] if self._trocars is None else self._trocars.moments()))

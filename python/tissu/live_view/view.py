@@ -161,6 +161,7 @@ class View:
             trocars=trocars,
             show_edges=all(len(seen(mesh).triangles) <= MOST_CUT for mesh in first.meshes.values()),
         )
+        self._runner.after_step.append(self._session.touch.hear)
 
     def _open_door(self, *, host: str, port: int | None, token: str | None) -> None:
         """The page itself, and the door before it."""
@@ -211,7 +212,7 @@ class View:
 
     def undo(self) -> Future[None]:
         """Return to before the latest press of a tool, or the latest touch of a trocar."""
-        return self._runner.ask(self._session.undo.back)
+        return self._runner.ask(self._session.go_back)
 
     def reset(self) -> Future[None]:
         """Return every simulation to its first state, with its present parameters."""
@@ -222,6 +223,7 @@ class View:
             if self._trocars is not None:
                 self._trocars.reset(simulations)
             self._session.undo.forget()
+            self._session.touch.forget()
             self._runner.error = ""
             self._runner.restart_clock()
             for look in self._session.after_reset:

@@ -36,7 +36,7 @@ class RunPanel(Panel):
         session.on_press(self._pause, lambda _: runner.pause() if runner.playing else runner.play())
         acts = {
             "Step": runner.step_once,
-            "Undo": lambda: runner.ask(session.undo.back),
+            "Undo": lambda: runner.ask(session.go_back),
             "Reset": session.begin_again,
         }
         session.on_press(step, lambda word: acts[word]())

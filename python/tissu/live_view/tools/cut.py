@@ -25,6 +25,9 @@ _COLOUR = (180, 30, 30)
 _SHORTEST = 0.004
 """Way of the pointer between two places of the line, as a share of the extent of the scene."""
 
+_LIFTED = 0.02
+"""What the line is drawn above the body, as a share of that extent."""
+
 
 class Cut(Tool):
     """Cuts the body under the pointer along a line, in every simulation that is shown."""
@@ -78,12 +81,22 @@ class Cut(Tool):
     def draw(self, simulations: Sequence[Simulation]) -> Sequence[Sequence[Marks]]:
         """The lines that are being drawn, on every simulation."""
         lines = [
-            np.stack([one.there, other.there])
+            np.stack([self._before_the_body(one), self._before_the_body(other)])
             for line in self._lines.values()
             for one, other in itertools.pairwise(line)
         ]
         marks = (Marks(_COLOUR, lines=np.array(lines)),) if lines else ()
         return [marks for _ in simulations]
+
+    def forget(self) -> None:
+        """The cut was undone."""
+        self._said = ""
+
+    def _before_the_body(self, pointer: Pointer) -> Floats:
+        """A little towards the eye, so that the body does not hide it."""
+        towards = pointer.eye - pointer.there
+        way = min(_LIFTED * self._size, 0.5 * float(np.linalg.norm(towards)))
+        return np.asarray(pointer.there + way * _unit(towards))
 
     def _edges(self, line: Sequence[Pointer]) -> Floats:
         """The blade at each place of the line (k, 2, 3): from before the body away from the eye."""

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from tissu.counted import counted
 from tissu.cutting.kinds import tough_knife_of
 from tissu.live_view.gizmo import Gizmo
 from tissu.live_view.layers.grabs import force_text
@@ -16,9 +17,16 @@ from tissu.live_view.tools.tool import Tool
 
 if TYPE_CHECKING:
     from tissu.live_view.pointer import Pointer
-    from tissu.simulation import Simulation
+    from tissu.simulation import Simulation, StepReport
 
 COLOUR = (40, 40, 40)
+
+
+class Opened(NamedTuple):
+    """The area that was opened [m2], and the pieces of the body."""
+
+    area: float
+    pieces: int
 
 
 class MoveInstrument(Tool):
@@ -28,6 +36,12 @@ class MoveInstrument(Tool):
     hint = "Drag an arrow or a ring of a gizmo: the instrument goes there, and cuts on its way."
 
     on_bodies = False
+    edits = True
+
+    def __init__(self, simulations: Sequence[Simulation]) -> None:
+        """Nothing is cut yet."""
+        super().__init__(simulations)
+        self._cuts: dict[str, Opened] = {}
 
     @classmethod
     def offered(cls, simulation: Simulation) -> bool:
@@ -63,9 +77,22 @@ class MoveInstrument(Tool):
             found.append((Marks(COLOUR, lines=np.array(lines)),) if lines else ())
         return found
 
+    def hear(self, reports: Sequence[StepReport]) -> None:
+        """What instruments cut in a step, of the first simulation."""
+        for cut in reports[0].cuts:
+            before = self._cuts.get(cut.body, Opened(0.0, 0))
+            self._cuts[cut.body] = Opened(before.area + cut.area, len(cut.pieces))
+
+    def forget(self) -> None:
+        """The cuts were undone."""
+        self._cuts.clear()
+
     def say(self, simulations: Sequence[Simulation]) -> str:
-        """The force on each knife that has one; of several simulations beside each other."""
-        told = []
+        """What was opened, and the force on each knife that has one, of several simulations."""
+        told = [
+            f"{body}: {1e4 * cut.area:.3g} cm² opened, {counted(cut.pieces, 'piece')}"
+            for body, cut in self._cuts.items()
+        ]
         for name, instrument in simulations[0].scene.instruments.items():
             if tough_knife_of(instrument) is None:
                 continue

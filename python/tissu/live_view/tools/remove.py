@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from tissu.counted import counted
 from tissu.live_view.marks import extent
 from tissu.live_view.pointer import met
 from tissu.live_view.tools.tool import Number, Tool
@@ -31,6 +32,7 @@ class Remove(Tool):
         """Choose a radius that suits the scene."""
         super().__init__(simulations)
         size = extent([mesh.points for mesh in simulations[0].meshes.values()])
+        self._removed = 0
         self.numbers = [Number("radius", "mm", float(f"{1e3 * _RADIUS * size:.2g}"), 0.0)]
 
     @classmethod
@@ -54,10 +56,19 @@ class Remove(Tool):
         for simulation in simulations:
             left = simulation.remaining_cells(pointer.body)
             simulation.remove_cells(body=pointer.body, cells=np.intersect1d(cells, left))
+        self._removed += len(cells)
 
     def move(self, simulations: Sequence[Simulation], pointer: Pointer) -> None:
         """Draw on: the pointer removes what it passes."""
         self.press(simulations, pointer)
+
+    def forget(self) -> None:
+        """They are there again."""
+        self._removed = 0
+
+    def say(self, simulations: Sequence[Simulation]) -> str:
+        """How many cells it has removed."""
+        return f"{counted(self._removed, 'cell')} removed" if self._removed else ""
 
     def click(self, simulations: Sequence[Simulation], pointer: Pointer) -> None:
         """Remove at one place."""

@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from tissu.live_view.gizmo import Gizmo
     from tissu.live_view.marks import Marks
     from tissu.live_view.pointer import Pointer
-    from tissu.simulation import Simulation
+    from tissu.simulation import Simulation, StepReport
 
 
 @dataclass(slots=True)
@@ -81,6 +81,14 @@ class Tool(ABC):
 
     def turn(self, simulations: Sequence[Simulation], gizmo: Gizmo) -> None:
         """A hand has moved or turned a gizmo; moves between two steps are one, to the latest."""
+        return
+
+    def hear(self, reports: Sequence[StepReport]) -> None:
+        """What a step of each simulation reported."""
+        return
+
+    def forget(self) -> None:
+        """What it did was undone, or the simulations have begun again."""
         return
 
     def say(self, simulations: Sequence[Simulation]) -> str:

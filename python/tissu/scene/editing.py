@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator, Mapping
 from typing import Annotated, Literal
 
-from pydantic import BeforeValidator
+from pydantic import BeforeValidator, TypeAdapter, ValidatorFunctionWrapHandler, WrapValidator
 
 from tissu import units
 from tissu.reading import Maybe, Read
@@ -22,6 +22,15 @@ _SHARE = 0.25
 _LEAST = 256
 
 Method = Literal["auto", "virtual", "subdivide", "snap"]
+_ONE, _EACH = TypeAdapter(Method), TypeAdapter(dict[str, Method])
+
+
+def _method_or_map(value: object, _: ValidatorFunctionWrapHandler) -> str | dict[str, Method]:
+    """Only what is meant is tried: a union would tell of both."""
+    return (_EACH if isinstance(value, Mapping) else _ONE).validate_python(value)
+
+
+_Methods = Read[Method | dict[str, Method], Method | Mapping[str, Method]]
 
 
 class Repair(Part):
@@ -47,7 +56,7 @@ class Editing(Part):
     and 256 more; a cut that needs more is refused
     """
 
-    method: Read[Method | dict[str, Method], Method | Mapping[str, Method]] = field(default="auto")
+    method: Annotated[_Methods, WrapValidator(_method_or_map)] = field(default="auto")
     """how a cut parts cells: virtual (copies of whole cells), subdivide (the cells are divided
     along the cut; tetrahedra and triangles of first order only), or snap (nodes move onto the cut
     where they may, and cells are divided elsewhere; tetrahedra of first order only); auto is

@@ -18,7 +18,7 @@ constexpr double kLeast = 1.0 / 64;  ///< share of a change that is taken
 }  // namespace
 
 Bdf2FixedPoint::Bdf2FixedPoint(Settings settings)
-    : settings_(settings), solver_(NewtonSettings{}, Order::second), anderson_(settings.anderson) {
+    : settings_(settings), solver_(NewtonSettings{}, {}), anderson_(settings.anderson) {
   if (settings.iterations < 1 || !(settings.tolerance > 0.0) || settings.anderson < 0 ||
       settings.anderson > Anderson::kMost) {
     throw ParameterError(

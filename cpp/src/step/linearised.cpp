@@ -12,7 +12,6 @@ namespace {
 constexpr double kFloor = 1e-3;  ///< of the external impulse: less is left by any linear solver
 constexpr double kWorse = 2.0;   ///< times the residual of the guess
 constexpr double kNear = 1e-2;   ///< of what acts: an iteration that was stopped there has improved the step
-constexpr int kRescue = 10;      ///< iterations at most
 constexpr double kRoundings = 1e-9;  ///< of the sum of energies
 
 }  // namespace
@@ -68,15 +67,18 @@ bool StageSolver::judge_linearised(State& state, std::vector<double>& v, StepRep
   return false;
 }
 
+bool StageSolver::is_near(std::string_view why, const StepReport& report) {
+  return why.empty() || report.residual <= kNear;
+}
+
 bool StageSolver::rescue(State& state, std::vector<double>& v, StepReport& report) {
-  const auto is_solved = [&](std::string_view why) { return why.empty() || report.residual <= kNear; };
-  bool solved = is_solved(iterate(state, v, Search::none, kRescue, report)) && is_lower(state, v);
+  bool solved = is_near(iterate(state, v, Search::none, kRescue, report), report) && is_lower(state, v);
   report.message.clear();
   if (!solved) {
     v = guess_;
     world().fixed().copy(once_, v);
     report.message = iterate(state, v, Search::energy, kRescue, report);
-    solved = is_solved(report.message);
+    solved = is_near(report.message, report);
     if (solved) report.message.clear();
   }
   report.converged = solved;

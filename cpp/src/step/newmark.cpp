@@ -5,7 +5,7 @@
 namespace tissu {
 
 Newmark::Newmark(Settings settings)
-    : beta_(settings.beta), gamma_(settings.gamma), solver_(settings.newton, Order::second) {
+    : beta_(settings.beta), gamma_(settings.gamma), solver_(settings.newton, {.held = 0.1, .free = 0.1}) {
   if (!(beta_ > 0.0 && beta_ <= 0.5 && gamma_ >= 0.5 && gamma_ <= 1.0 && 2.0 * beta_ >= gamma_)) {
     throw ParameterError(
         "Newmark's method needs 0.5 <= gamma <= 1 and gamma / 2 <= beta <= 0.5: others are unstable for "

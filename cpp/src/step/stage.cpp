@@ -20,13 +20,8 @@ constexpr double kHopeless = 1e9;       ///< times the first residual: Newton's 
 constexpr double kRoundings = 16.0;     ///< in each row of the residual
 constexpr double kShortest = 1e-3;      ///< a Newton step is not cut below this, …
 constexpr double kShortestDown = 1e-9;  ///< … or below this where the energy is to fall
-// What a step that is linearised once may leave of what acts on a body:
-constexpr double kMostLeft = 3.0;  ///< on one that is held somewhere,
-constexpr double kMostLeftFree =
-    1.0;  ///< on one that turns freely, in a method of first order, which damps its turn by more, and
-constexpr double kMostLeftSecond = 0.1;  ///< in one of second order
-constexpr double kArmijo = 1e-4;         ///< share of the fall that the slope promises
-constexpr double kFirstMass = 0.1;       ///< share of the mass that is added first to make a matrix definite
+constexpr double kArmijo = 1e-4;        ///< share of the fall that the slope promises
+constexpr double kFirstMass = 0.1;      ///< share of the mass that is added first to make a matrix definite
 constexpr double kLastMass = 1e9;
 
 /// The norm of what stands in held rows.
@@ -44,8 +39,8 @@ double held_norm(const FixedDofs& fixed, ConstReals values) {
 
 }  // namespace
 
-StageSolver::StageSolver(NewtonSettings newton, Order order)
-    : newton_(newton), most_left_{kMostLeft, order == Order::first ? kMostLeftFree : kMostLeftSecond} {
+StageSolver::StageSolver(NewtonSettings newton, BodyBalance::Shares most_left)
+    : newton_(newton), most_left_(most_left) {
   if (newton.iterations < 1 || !(newton.tolerance > 0.0)) {
     throw ParameterError("Newton's iteration needs at least one iteration and a positive tolerance.");
   }

@@ -26,7 +26,8 @@ constexpr int kPatience = 6;        ///< so many systems later …
 constexpr double kStiffer = 2.0;    ///< … by this for each, …
 constexpr double kStiffest = 64.0;  ///< … no further than this
 constexpr double kForceNewton = 1e-3;
-constexpr int kMostLooks = 20;  ///< of a step whose equation is solved to its tolerance
+constexpr int kMostRescues = 6;  ///< looks of a step that was linearised once and is iterated
+constexpr int kMostLooks = 20;   ///< of a step whose equation is solved to its tolerance
 
 std::string unsettled(int systems) {
   return "contacts had not settled after " + std::to_string(systems) +
@@ -274,17 +275,27 @@ void StageSolver::judge_touching(State& state, std::vector<double>& v, StepRepor
   world().fixed().clear(work_);
   balance_.set_contacts(stage_.push, work_);
   if (!judge_linearised(state, v, report)) return;
-  place(state, v);
-  State& end = end_of(state);
-  update_contacts(end);
-  report.held_back = hold_back(end);
-  follow(end, v);
-  keep_momentum(v);
-  const double other = look(end);
-  if (report.held_back != 0 || other > kForce || contact_->inadmissible() > kForce) {
-    report.hasty = true;
-    report.message = unsettled(report.newton_iterations);
+  const int before = report.newton_iterations;
+  int systems = 0;
+  for (int i = 0; i < kMostRescues; ++i) {
+    place(state, v);
+    State& end = end_of(state);
+    update_contacts(end);
+    report.held_back = hold_back(end);
+    follow(end, v);
+    const double other = look(end);
+    report.hasty = report.held_back != 0 || other > kForce || contact_->inadmissible() > kForce;
+    if (!report.hasty || report.held_back != 0 || i + 1 == kMostRescues) break;
+    contact_->take();
+    set_contacts(state);
+    const bool solved = is_near(iterate(state, v, Search::none, kRescue, report), report);
+    systems += report.newton_iterations - 1;
+    if (!solved) break;
   }
+  report.newton_iterations = before + systems;
+  report.converged = !report.hasty;
+  report.message = report.hasty ? unsettled(report.newton_iterations) : std::string();
+  keep_momentum(v);
   std::ranges::copy(v, state.velocities.begin());
   world().fixed().clear(first_);
 }

@@ -10,7 +10,7 @@ namespace tissu {
 /// of before a blow would throw it back. So is a step in which one turns by more than 1e-3 rad.
 class Bdf2 final : public Integrator {
  public:
-  explicit Bdf2(NewtonSettings newton = {}) : solver_(newton, Order::second) {}
+  explicit Bdf2(NewtonSettings newton = {}) : solver_(newton, {.held = 1.0, .free = 0.1}) {}
   [[nodiscard]] std::string_view name() const override { return "BDF2"; }
   void prepare(const World& world, LinearSolver* solver, Profile& profile) override;
   bool follow_edit(std::span<const std::int32_t> rows) override {

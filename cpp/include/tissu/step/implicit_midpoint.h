@@ -8,7 +8,7 @@ namespace tissu {
 /// second order; keeps linear and angular momentum, and the energy of linear systems.
 class ImplicitMidpoint final : public Integrator {
  public:
-  explicit ImplicitMidpoint(NewtonSettings newton = {}) : solver_(newton, Order::second) {}
+  explicit ImplicitMidpoint(NewtonSettings newton = {}) : solver_(newton, {.held = 0.1, .free = 0.1}) {}
   [[nodiscard]] std::string_view name() const override { return "implicit midpoint"; }
   [[nodiscard]] bool is_undamped() const override { return true; }
   void prepare(const World& world, LinearSolver* solver, Profile& profile) override;

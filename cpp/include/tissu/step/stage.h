@@ -24,12 +24,11 @@ struct Stage {
   ContactStage contact = {};
 };
 
-/// Of a method: one of first order damps turning bodies by more than a linearisation does.
-enum class Order { first, second };
-
 class StageSolver {
  public:
-  StageSolver(NewtonSettings newton, Order order);
+  /// `most_left`: of what acts on a body, what a step that is linearised once may leave. The less a method
+  /// damps, the less it may be.
+  StageSolver(NewtonSettings newton, BodyBalance::Shares most_left);
   void prepare(const World& world, LinearSolver* solver, Profile& profile);
   /// Follows an edit of the world in place.
   void follow_edit(std::span<const std::int32_t> rows);
@@ -135,6 +134,9 @@ class StageSolver {
   bool leaves_much(const State& state, ConstReals v);
   /// What supports that are led gave at the start of the step: at its end the reactions have what was left.
   void look_at_reactions();
+  static constexpr int kRescue = 10;  ///< of Newton's iterations at most
+  /// Newton's iteration ended where it is good enough for such a step; `why`: as `iterate` says it.
+  [[nodiscard]] static bool is_near(std::string_view why, const StepReport& report);
   /// Newton's iteration from v = `once_` and, failing that, from the guess. False: it did not come near.
   bool rescue(State& state, std::vector<double>& v, StepReport& report);
   /// From the start of the step to `state`, in a world in which nothing can add any.

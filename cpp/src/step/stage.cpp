@@ -39,8 +39,8 @@ double held_norm(const FixedDofs& fixed, ConstReals values) {
 
 }  // namespace
 
-StageSolver::StageSolver(NewtonSettings newton, BodyBalance::Shares most_left)
-    : newton_(newton), most_left_(most_left) {
+StageSolver::StageSolver(NewtonSettings newton, BodyBalance::Shares most_left, EnergyLaw energy)
+    : newton_(newton), most_left_(most_left), energy_(energy) {
   if (newton.iterations < 1 || !(newton.tolerance > 0.0)) {
     throw ParameterError("Newton's iteration needs at least one iteration and a positive tolerance.");
   }

@@ -10,7 +10,8 @@ namespace tissu {
 /// the equation itself is solved.
 class ImplicitEuler final : public Integrator {
  public:
-  explicit ImplicitEuler(NewtonSettings newton = {}) : solver_(newton, {.held = 3.0, .free = 0.1}) {}
+  explicit ImplicitEuler(NewtonSettings newton = {})
+      : solver_(newton, {.held = 3.0, .free = 0.1}, EnergyLaw::falls) {}
   [[nodiscard]] std::string_view name() const override { return "implicit Euler"; }
   void prepare(const World& world, LinearSolver* solver, Profile& profile) override;
   bool follow_edit(std::span<const std::int32_t> rows) override {

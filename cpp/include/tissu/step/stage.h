@@ -24,11 +24,15 @@ struct Stage {
   ContactStage contact = {};
 };
 
+/// What a method does to the energy of a world in which nothing adds any: in each step it falls, or it may
+/// vary.
+enum class EnergyLaw { falls, varies };
+
 class StageSolver {
  public:
   /// `most_left`: of what acts on a body, what a step that is linearised once may leave. The less a method
   /// damps, the less it may be.
-  StageSolver(NewtonSettings newton, BodyBalance::Shares most_left);
+  StageSolver(NewtonSettings newton, BodyBalance::Shares most_left, EnergyLaw energy = EnergyLaw::varies);
   void prepare(const World& world, LinearSolver* solver, Profile& profile);
   /// Follows an edit of the world in place.
   void follow_edit(std::span<const std::int32_t> rows);
@@ -203,6 +207,7 @@ class StageSolver {
   bool gives_up_early_ = false;
   BodyBalance balance_;
   BodyBalance::Shares most_left_;
+  EnergyLaw energy_;
   double reference_ = 0.0;  ///< push |external force|
   double acting_ = 0.0;
   double start_ = 0.0;       ///< residual that the first solve found

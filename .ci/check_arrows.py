@@ -91,7 +91,7 @@ PYTHON: dict[str, set[str]] = {
     "checkpoint": {"errors", "counted", "files", "_core"},
     "picture": {"errors", "files", "mesh", "_core"},
     # What is run, seen and touched in the browser. A simulation opens its own view.
-    "live_view": {"errors", "files", "mesh", "scene", "picture", "cutting", "trocar"},
+    "live_view": {"counted", "errors", "files", "mesh", "scene", "picture", "cutting", "trocar"},
     # What cuts, and what a cut leaves: blades, material, reports.
     "cutting": {"_core", "arrays", "counted", "errors", "mesh", "scene", "units"},
     "simulation": {

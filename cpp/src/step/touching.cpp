@@ -292,8 +292,9 @@ void StageSolver::judge_touching(State& state, std::vector<double>& v, StepRepor
     systems += report.newton_iterations - 1;
     if (!solved) break;
   }
-  // A contact that began inside its gap gives energy as it opens, less in parts of a step.
-  if (!report.hasty && energy_ == EnergyLaw::falls) report.hasty = gains_energy(state);
+  // A contact that began inside its gap gives energy as it opens, less in parts of a step, where there are
+  // any.
+  if (!report.hasty && gives_up_early_ && energy_ == EnergyLaw::falls) report.hasty = gains_energy(state);
   report.newton_iterations = before + systems;
   report.converged = !report.hasty;
   report.message = report.hasty ? unsettled(report.newton_iterations) : std::string();

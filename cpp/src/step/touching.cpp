@@ -276,6 +276,7 @@ void StageSolver::judge_touching(State& state, std::vector<double>& v, StepRepor
   balance_.set_contacts(stage_.push, work_);
   if (!judge_linearised(state, v, report)) return;
   const int before = report.newton_iterations;
+  const bool failed = report.hasty;  // the iteration, before contacts were looked at again
   int systems = 0;
   for (int i = 0; i < kMostRescues; ++i) {
     place(state, v);
@@ -285,7 +286,7 @@ void StageSolver::judge_touching(State& state, std::vector<double>& v, StepRepor
     follow(end, v);
     const double other = look(end);
     report.hasty = report.held_back != 0 || other > kForce || contact_->inadmissible() > kForce;
-    if (!report.hasty || report.held_back != 0 || i + 1 == kMostRescues) break;
+    if (failed || !report.hasty || report.held_back != 0 || i + 1 == kMostRescues) break;
     contact_->take();
     set_contacts(state);
     const bool solved = is_near(iterate(state, v, Search::none, kRescue, report), report);
@@ -296,8 +297,9 @@ void StageSolver::judge_touching(State& state, std::vector<double>& v, StepRepor
   // any.
   if (!report.hasty && gives_up_early_ && energy_ == EnergyLaw::falls) report.hasty = gains_energy(state);
   report.newton_iterations = before + systems;
+  if (!failed) report.message = report.hasty ? unsettled(report.newton_iterations) : std::string();
+  report.hasty = report.hasty || failed;
   report.converged = !report.hasty;
-  report.message = report.hasty ? unsettled(report.newton_iterations) : std::string();
   keep_momentum(v);
   std::ranges::copy(v, state.velocities.begin());
   world().fixed().clear(first_);

@@ -9,6 +9,7 @@
 
 #include "edit/cut/side.h"
 #include "tissu/base/crossing.h"
+#include "tissu/base/disjoint_sets.h"
 #include "tissu/base/sort_unique.h"
 
 namespace tissu {
@@ -21,24 +22,6 @@ constexpr double kAtWall = 0.07;
 
 std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
-/// Sets of tetrahedra; the lowest one stands for its set.
-class Sets {
- public:
-  explicit Sets(std::size_t count) : root_(count) { std::iota(root_.begin(), root_.end(), 0); }
-
-  std::int32_t of(std::int32_t i) {
-    while (root_[at(i)] != i) i = root_[at(i)] = root_[at(root_[at(i)])];
-    return i;
-  }
-  void join(std::int32_t a, std::int32_t b) {
-    const auto [low, high] = std::minmax({of(a), of(b)});
-    root_[at(high)] = low;
-  }
-
- private:
-  Numbers root_;
-};
-
 /// Tetrahedra that have only vertices on the cut, in sets that closed faces join, of those sets that no
 /// closed face joins to others; by the lowest number. A piece of a line between two crossings is a part.
 std::map<std::int32_t, Numbers> loose_sets(const Patch& patch, const OnCut& known,
@@ -50,7 +33,7 @@ std::map<std::int32_t, Numbers> loose_sets(const Patch& patch, const OnCut& know
     const auto is_on = [&](std::int32_t v) { return v < 0 || known.may_end(v); };
     on_cut[t] = tetra.corners() > 2 && std::ranges::all_of(tetra.vertices, is_on) ? 1 : 0;
   }
-  Sets sets(count);
+  DisjointSets sets(count);
   std::vector<char> held(count, 0);
   for (const InnerFace& face : faces) {
     if (face.open || face.opens) continue;
@@ -59,19 +42,19 @@ std::map<std::int32_t, Numbers> loose_sets(const Patch& patch, const OnCut& know
     if (on_cut[at(face.b)] == 0) held[at(face.a)] = 1;
   }
   for (std::size_t t = 0; t < count; ++t) {
-    if (on_cut[t] != 0 && held[t] != 0) held[at(sets.of(static_cast<std::int32_t>(t)))] = 1;
+    if (on_cut[t] != 0 && held[t] != 0) held[at(sets.first(static_cast<std::int32_t>(t)))] = 1;
   }
   std::map<std::int32_t, Numbers> loose;
   for (std::size_t t = 0; t < count; ++t) {
     if (on_cut[t] == 0) continue;
-    const std::int32_t set = sets.of(static_cast<std::int32_t>(t));
+    const std::int32_t set = sets.first(static_cast<std::int32_t>(t));
     if (held[at(set)] == 0) loose[set].push_back(static_cast<std::int32_t>(t));
   }
   return loose;
 }
 
 /// All tetrahedra of the patch, in sets that closed faces join.
-Sets joined(const Patch& patch, const std::vector<InnerFace>& faces) {
+DisjointSets joined(const Patch& patch, const std::vector<InnerFace>& faces) {
   using Side = std::pair<std::array<std::int32_t, 3>, std::int32_t>;
   std::vector<Side> sides;
   for (std::size_t t = 0; t < patch.tetrahedra.size(); ++t) {
@@ -90,7 +73,7 @@ Sets joined(const Patch& patch, const std::vector<InnerFace>& faces) {
     if (face.opens) opening.emplace_back(std::minmax(face.a, face.b));
   }
   std::ranges::sort(opening);
-  Sets sets(patch.tetrahedra.size());
+  DisjointSets sets(patch.tetrahedra.size());
   for (std::size_t i = 0; i + 1 < sides.size(); ++i) {
     const std::int32_t a = sides[i].second;
     const std::int32_t b = sides[i + 1].second;
@@ -161,7 +144,7 @@ bool sees_a_vertex(const Patch& patch, const SweepPart& part, const OnCut& known
 /// Crumbs join their neighbours, across the faces that would have opened.
 class Keeper {
  public:
-  Keeper(Sets sets, std::vector<InnerFace>& faces) : sets_(std::move(sets)), faces_(faces) {}
+  Keeper(DisjointSets sets, std::vector<InnerFace>& faces) : sets_(std::move(sets)), faces_(faces) {}
 
   void add_crumb(std::int32_t tetra) { crumbs_.push_back(tetra); }
 
@@ -171,22 +154,22 @@ class Keeper {
       const std::int32_t neighbour = greatest_neighbour(crumb);
       crumbs_.pop_back();
       // With another crumb it is one, which that one stands for.
-      if (neighbour >= 0) close(sets_.of(crumb), neighbour);
+      if (neighbour >= 0) close(sets_.first(crumb), neighbour);
     }
   }
 
  private:
   bool is_crumb(std::int32_t set) {
-    return std::ranges::any_of(crumbs_, [&](std::int32_t crumb) { return sets_.of(crumb) == set; });
+    return std::ranges::any_of(crumbs_, [&](std::int32_t crumb) { return sets_.first(crumb) == set; });
   }
 
   /// The set to which faces of the greatest area lead that would open, no crumb if possible; -1: none.
   std::int32_t greatest_neighbour(std::int32_t crumb) {
-    const std::int32_t own = sets_.of(crumb);
+    const std::int32_t own = sets_.first(crumb);
     std::map<std::int32_t, double> areas;
     for (const InnerFace& face : faces_) {
-      const std::int32_t a = sets_.of(face.a);
-      const std::int32_t b = sets_.of(face.b);
+      const std::int32_t a = sets_.first(face.a);
+      const std::int32_t b = sets_.first(face.b);
       if (face.opens && a != b && (a == own || b == own)) areas[a == own ? b : a] += face.area;
     }
     std::tuple<bool, double, std::int32_t> best{false, -1.0, -1};
@@ -196,14 +179,14 @@ class Keeper {
 
   void close(std::int32_t own, std::int32_t other) {
     for (InnerFace& face : faces_) {
-      const std::int32_t a = sets_.of(face.a);
-      const std::int32_t b = sets_.of(face.b);
+      const std::int32_t a = sets_.first(face.a);
+      const std::int32_t b = sets_.first(face.b);
       if ((a == own && b == other) || (a == other && b == own)) face.opens = false;
     }
     sets_.join(own, other);
   }
 
-  Sets sets_;
+  DisjointSets sets_;
   std::vector<InnerFace>& faces_;
   Numbers crumbs_;  ///< one tetrahedron of each
 };

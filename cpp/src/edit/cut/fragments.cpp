@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "edit/cut/joins.h"
+#include "tissu/base/disjoint_sets.h"
 #include "tissu/base/sort_unique.h"
 #include "tissu/mesh/cell_shape.h"
 
@@ -81,7 +82,7 @@ void Fragments::find_fragments(const std::vector<std::int32_t>& removed) {
   }
   across_ = joins(patch_.tetrahedra, seen);
   carriers_ = Carriers(patch_, seen);
-  Sets sets(seen.size());
+  DisjointSets sets(seen.size());
   for (const std::int32_t t : order) {
     for (const std::int32_t other : across_[at(t)]) {
       if (other >= 0 && patch_.tetra(other).cell == patch_.tetra(t).cell) sets.join(t, other);
@@ -124,7 +125,7 @@ void Fragments::find_groups() {
       pairs.emplace_back(std::min(of_[at(one)], of_[at(other)]), std::max(of_[at(one)], of_[at(other)]));
   }
   sort_unique(pairs);
-  Sets sets(item_fragment_.size());
+  DisjointSets sets(item_fragment_.size());
   const auto before = [&](std::int32_t fragment) {
     return hosts_.nodes(patch_.cell(fragments_[at(fragment)].cell).number);
   };

@@ -7,6 +7,7 @@
 
 #include "edit/cut/joins.h"
 #include "edit/cut/material_faces.h"
+#include "tissu/base/disjoint_sets.h"
 
 namespace tissu {
 namespace {
@@ -140,7 +141,7 @@ MaterialMesh material_mesh(const Hosts& hosts, const Material& material) {
 
 std::vector<Piece> pieces(const Hosts& hosts, const Material& material) {
   const MaterialFaces all = material_faces(hosts, material);
-  Sets sets(all.units.size());
+  DisjointSets sets(all.units.size());
   for (const MaterialFace& face : all.faces) {
     if (face.across >= 0) sets.join(face.unit, all.faces[at(face.across)].unit);
   }

@@ -6,6 +6,7 @@
 #include "edit/cut/host_joins.h"
 #include "edit/cut/joins.h"
 #include "edit/cut/shared_corners.h"
+#include "tissu/base/disjoint_sets.h"
 #include "tissu/base/sort_unique.h"
 #include "tissu/edit/cut/cut_plan.h"
 
@@ -99,7 +100,7 @@ class Flood {
   }
 
   HostJoins joins_;
-  Sets sets_;
+  DisjointSets sets_;
   std::vector<Front> fronts_;
   std::vector<std::int32_t>& met_;  ///< of each cell, the seed from which it was met
   std::vector<std::int32_t> seen_;  ///< the cells that were

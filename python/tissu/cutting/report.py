@@ -107,7 +107,8 @@ class CutReport:
             reason.
         bridges: how many of these cells the blade passed more than once, so that material
             between its walls may stay joined.
-        released: numbers of the grabs that were released because their points were separated.
+        released: numbers of the grabs that were released because their points were separated, or
+            lost their cell.
         links_severed: links of tissue, each of a point with a frame or with a node of a body.
         points_gone: numbers of the points of tissue that have lost their last link, or were taken.
         relaid: whether everything was rebuilt, and not only the parts that the edit touched.

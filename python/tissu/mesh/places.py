@@ -39,6 +39,47 @@ class Places:
         return np.asarray(np.einsum("km,kmc->kc", self.weights, of_nodes[self.nodes]))
 
 
+@dataclass(frozen=True, slots=True)
+class Holder:
+    """A cell in which a point lies.
+
+    Attributes:
+        cell: number of the cell in its mesh.
+        nodes: (k,) its nodes, corners first.
+        weights: (k,) value of the shape function of each at the point.
+        local: (m,) local coordinates of the point.
+        corners: (c, m) local coordinates of the corners.
+        beyond: how far outside the point is; not above 0 inside.
+    """
+
+    cell: int
+    nodes: Ints
+    weights: Floats
+    local: Floats
+    corners: Floats
+    beyond: float
+
+
+def holders(point: Floats, mesh: Mesh) -> list[Holder]:
+    """Every cell in which a point (3,) [m] lies, that first which `places` finds."""
+    found: list[Holder] = []
+    slack, start = _SLACK * float(np.ptp(mesh.points, axis=0).max()), 0
+    for block in mesh.body_blocks:
+        shape, nodes = _as_shape(block.type, block.nodes)
+        corners = mesh.points[nodes[:, : len(shape.corners)]]
+        _, cell = _near(point[None], corners, slack)
+        local, apart = shape.local(np.repeat(point[None], len(cell), axis=0), corners[cell])
+        beyond = np.where(apart <= slack, shape.beyond(local), np.inf)
+        weights = shape.values(local, _own(shape, mesh.points, nodes))
+        for i in np.flatnonzero(beyond <= _SLACK):
+            own = nodes[cell[i]]
+            number = start + int(cell[i]) % len(block)
+            at = (own, weights[i], local[i], shape.corners)
+            found.append(Holder(number, *at, float(beyond[i])))
+        start += len(block)
+    return sorted(found, key=lambda holder: holder.beyond)
+
+
 def places(points: Floats, mesh: Mesh) -> Places:
     """Find the cell of each point (k, 3) [m] and the shape functions of its nodes there.
 
@@ -128,12 +169,19 @@ def _improve(
     first = order[np.unique(point[order], return_index=True)[1]]
     first = first[beyond[first] < outside[point[first]]]
     at, of = point[first], nodes[cell[first]]
-    own = shape.local(rest[nodes[:1]][0], np.repeat(corners[:1], nodes.shape[1], axis=0))[0]
+    own = _own(shape, rest, nodes)
     found.nodes[at] = 0
     found.weights[at] = 0.0
     found.nodes[at, : nodes.shape[1]] = of
     found.weights[at, : nodes.shape[1]] = shape.values(local[first], own)
     outside[at] = beyond[first]
+
+
+def _own(shape: Shape, rest: Floats, nodes: Ints) -> Floats:
+    """Local coordinates (k, m) of the nodes of cells (e, k), found in the first of them."""
+    first = rest[nodes[0]]
+    corners = np.repeat(first[None, : len(shape.corners)], nodes.shape[1], axis=0)
+    return shape.local(first, corners)[0]
 
 
 def _near(points: Floats, corners: Floats, slack: float) -> tuple[Ints, Ints]:

@@ -17,8 +17,7 @@ from tissu.cutting.material import centres_of
 from tissu.cutting.report import CutReport, Piece, cut_report
 from tissu.errors import ParameterError
 from tissu.mesh import CellBlock, Mesh
-from tissu.simulation import grab as kept
-from tissu.simulation import repairing
+from tissu.simulation import following, repairing
 from tissu.simulation.remains import Remains
 from tissu.simulation.severing import Severing
 from tissu.simulation.snapping import snapping
@@ -104,10 +103,12 @@ class Cutting(Remains, Severing):
 
         Raises:
             ParameterError: the scene was compiled without `editing: true`; no such body, or one
-                that cannot be cut, with the reason; a blade without area; no room for the new
-                nodes; in a static scene, pieces without a support. Then nothing has changed.
+                that cannot be cut, with the reason; a node that is not at a finite place; a blade
+                without area; no room for the new nodes; in a static scene, pieces without a
+                support. Then nothing has changed.
         """
         self._require_editing(body)
+        self._require_finite(body)
         if not isinstance(refine, bool | np.bool_):
             raise ParameterError(f"found refine={refine!r} of a cut; True and False are accepted")
         if body in self._links:
@@ -129,10 +130,21 @@ class Cutting(Remains, Severing):
             ParameterError: see `cut`; no cell would remain.
         """
         self._require_editing(body)
+        self._require_finite(body)
         if body in self._links:
             return self._take_points(body, place)
         centres, numbers = centres_of(self.material(body))
         return self._ablate_cells(body, numbers[inside_of(place, centres)], len(numbers))
+
+    def _require_finite(self, body: str) -> None:
+        """Refuse a body of which a node is nowhere."""
+        lost = np.flatnonzero(~np.isfinite(self.positions[body]).all(axis=1))
+        if len(lost):
+            x, y, z = self.positions[body][lost[0]]
+            raise ParameterError(
+                f"found node {lost[0]} of '{body}' at ({x:g}, {y:g}, {z:g}) m, which is not "
+                "finite; a body whose nodes are all somewhere is accepted"
+            )
 
     def _ablate_cells(self, body: str, cells: Ints, count: int, *, by: str = "") -> CutReport:
         """Take away cells out of `count` that there are."""
@@ -223,7 +235,8 @@ class Cutting(Remains, Severing):
     ) -> CutReport:
         """Make a cut and follow it; go back where it leaves a static body with free pieces."""
         start = time.perf_counter()
-        grabs = kept.records(self._core) if self.scene.grabbing else {}
+        grabbed = self.scene.grabbing and following.grabs_of(self._core, body)
+        mesh_before = self._meshes[body] if grabbed else None
         way_back = self._way_back()
         made = make()
         met = bool(made["cells_cut"] or made["cells_gone"] or made["nodes_moved"])
@@ -234,7 +247,16 @@ class Cutting(Remains, Severing):
             self._follow_cells(body)
         pieces = self.pieces(body)
         self._refuse_free_pieces(body, pieces, way_back if met else None)
-        released = self._released(body, grabs, made["copied"]) if met else ()
+        released: tuple[int, ...] = ()
+        if met and mesh_before is not None:
+            released = following.follow(
+                self._core,
+                body,
+                self._meshes[body],
+                copied=made["copied"],
+                before=None if ablated else mesh_before,
+                material=lambda: self.material(body),
+            )
         return cut_report(
             body,
             made,
@@ -262,15 +284,6 @@ class Cutting(Remains, Severing):
             f"support ({free[0]!r}), which has no equilibrium; hold it, or take an implicit "
             "method in time"
         )
-
-    def _released(self, body: str, grabs: dict[int, kept.Record], copied: Ints) -> tuple[int, ...]:
-        """Let go of points whose nodes part: a grab holds nodes, not material."""
-        first, _ = self._core.body_range(body)
-        rows = np.asarray(copied, dtype=np.int64) + first
-        parted = [number for number, grab in grabs.items() if np.isin(grab.nodes, rows).any()]
-        if parted:
-            kept.keep(self._core, {n: g for n, g in grabs.items() if n not in parted})
-        return tuple(parted)
 
 
 def cut_mesh(

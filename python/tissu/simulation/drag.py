@@ -10,10 +10,12 @@ from numpy.typing import NDArray
 from tissu.simulation.grab_point import GrabPoint
 
 if TYPE_CHECKING:
+    from tissu.cutting.material import MaterialSurface
     from tissu.front import Scene
     from tissu.mesh import Mesh
 
 Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
 
 _UNKNOWN = 20.0
 """Stiffness [N/m] where nothing is known of the law."""
@@ -29,26 +31,58 @@ def near_surface(mesh: Mesh, places: Floats, point: Floats) -> GrabPoint:
     """
     triangles = np.asarray(mesh.surface().triangles, dtype=np.int64)
     if not len(triangles):
-        return GrabPoint(np.array([_nearest(places, point)]), np.ones(1))
-    weights = shares(places[triangles], point)
-    apart = np.linalg.norm(np.einsum("tk,tki->ti", weights, places[triangles]) - point, axis=1)
-    nearest = int(apart.argmin())
-    used = np.flatnonzero(weights[nearest])
-    return GrabPoint(triangles[nearest][used], weights[nearest][used])
+        nodes = used_nodes(mesh)
+        return GrabPoint(nodes[[_nearest(places[nodes], point)]], np.ones(1))
+    return GrabPoint(*_on_triangle(triangles, places, point))
 
 
-def near_frame(places: Floats, rotations: Floats, point: Floats) -> GrabPoint:
+def near_material(surface: MaterialSurface, point: Floats) -> GrabPoint:
+    """The same of the surface of material that cuts have parted, by the nodes that carry it.
+
+    Without triangles it is the end of a piece of a line that is nearest.
+    """
+    if len(surface.triangles):
+        triangles = np.asarray(surface.triangles, dtype=np.int64)
+        vertices, of_vertices = _on_triangle(triangles, surface.points, point)
+    else:
+        ends = np.unique(surface.lines).astype(np.int64)
+        vertices = ends[[_nearest(surface.points[ends], point)]]
+        of_vertices = np.ones(1)
+    carrying = surface.weights[vertices] * of_vertices[:, None]
+    nodes = np.unique(surface.nodes[vertices][carrying != 0.0]).astype(np.int64)
+    weights = [carrying[surface.nodes[vertices] == node].sum() for node in nodes]
+    return GrabPoint(nodes, np.array(weights))
+
+
+def near_frame(places: Floats, rotations: Floats, point: Floats, among: Ints) -> GrabPoint:
     """The nearest frame, with the offset of the point in its axes.
 
     Args:
         places: of the frames (n, 3) [m].
         rotations: of the frames (n, 3, 3) from rest.
         point: (3,) [m].
+        among: numbers of the frames that may be taken.
     """
-    node = _nearest(places, point)
+    node = int(among[_nearest(places[among], point)])
     return GrabPoint(
         np.array([node]), np.ones(1), np.asarray(rotations[node].T @ (point - places[node]))
     )
+
+
+def used_nodes(mesh: Mesh) -> Ints:
+    """Numbers of the nodes that have cells; of a mesh without cells all."""
+    if not mesh.body_blocks:
+        return np.arange(mesh.node_count)
+    return np.unique(np.concatenate([block.nodes.ravel() for block in mesh.body_blocks]))
+
+
+def _on_triangle(triangles: Ints, places: Floats, point: Floats) -> tuple[Ints, Floats]:
+    """The corners of the triangle that is nearest to a point, and their weights there."""
+    weights = shares(places[triangles], point)
+    apart = np.linalg.norm(np.einsum("tk,tki->ti", weights, places[triangles]) - point, axis=1)
+    nearest = int(apart.argmin())
+    used = np.flatnonzero(weights[nearest])
+    return triangles[nearest][used], weights[nearest][used]
 
 
 def _nearest(places: Floats, point: Floats) -> int:

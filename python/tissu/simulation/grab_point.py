@@ -12,9 +12,11 @@ from numpy.typing import NDArray
 from tissu import units
 from tissu.errors import ParameterError
 from tissu.mesh.places import places
+from tissu.simulation.held_place import holder_in_material
 
 if TYPE_CHECKING:
     from tissu import _core as core
+    from tissu.cutting.material import Material
     from tissu.mesh import Mesh
     from tissu.reading import VectorLike
 
@@ -45,10 +47,19 @@ def grab_point(
     *,
     body: str,
     mesh: Mesh,
+    material: Material | None,
     at: int | VectorLike,
     offset: VectorLike | None,
 ) -> GrabPoint:
     """The point at a node, or at a place of the body at rest.
+
+    Args:
+        simulation: of the core.
+        body: its name.
+        mesh: of its cells.
+        material: what is there of these where cuts have parted some; else None.
+        at: number of the node, or the place (3,) [m].
+        offset: from a node that is a frame.
 
     Raises:
         ParameterError: no such node, a place outside, an offset where nodes are not frames, or
@@ -56,18 +67,59 @@ def grab_point(
     """
     has_frames = simulation.frames_of(body)[0] >= 0
     if isinstance(at, numbers.Integral) and not isinstance(at, bool):
-        point = _node(int(at), body, mesh.node_count, offset, has_frames=has_frames)
+        point = _node(int(at), body, mesh, offset, has_frames=has_frames)
     else:
-        point = _place(cast("VectorLike", at), body, mesh, offset, has_frames=has_frames)
+        place = _place_of(cast("VectorLike", at), body, offset, has_frames=has_frames)
+        cells = np.sort(simulation.remaining_cells(body)) if material is not None else None
+        found = point_at(place, mesh, cells, material)
+        if found is None:
+            x, y, z = place
+            raise ParameterError(
+                f"found the place ({x:g}, {y:g}, {z:g}) m, which is in no cell of '{body}' at "
+                "rest; one inside it, or the number of a node, is accepted"
+            )
+        point = found
     require_free(simulation, body, point.nodes)
     return point
 
 
+def point_at(
+    place: Floats, mesh: Mesh, cells: NDArray[np.int32] | None, material: Material | None
+) -> GrabPoint | None:
+    """The point at a place of a body at rest (3,) [m]; None where no cell has it.
+
+    Args:
+        place: (3,) [m].
+        mesh: of the cells.
+        cells: their numbers, and
+        material: what is there of them, where cuts have parted some; else None.
+    """
+    if material is not None and cells is not None:
+        holder = holder_in_material(place, mesh, cells, material)
+        if holder is None:
+            return None
+        nodes, weights = holder.nodes, holder.weights
+    else:
+        try:
+            found = places(place[None], mesh)
+        except ParameterError:
+            return None
+        nodes, weights = found.nodes[0], found.weights[0]
+    used = np.flatnonzero(weights)
+    return GrabPoint(nodes[used], weights[used])
+
+
 def _node(
-    node: int, body: str, count: int, offset: VectorLike | None, *, has_frames: bool
+    node: int, body: str, mesh: Mesh, offset: VectorLike | None, *, has_frames: bool
 ) -> GrabPoint:
+    count = mesh.node_count
     if not 0 <= node < count:
         raise ParameterError(f"found node {node} of '{body}'; 0 to {count - 1} are accepted")
+    if mesh.body_blocks and not any((block.nodes == node).any() for block in mesh.body_blocks):
+        raise ParameterError(
+            f"found node {node} of '{body}', which has no cell (any more), so that nothing goes "
+            "with it; a node with a cell is accepted"
+        )
     if offset is not None and not has_frames:
         raise ParameterError(
             f"found an offset from node {node} of '{body}', whose nodes have no rotation; a place "
@@ -77,9 +129,7 @@ def _node(
     return GrabPoint(np.array([node]), np.ones(1), arm)
 
 
-def _place(
-    at: int | VectorLike, body: str, mesh: Mesh, offset: VectorLike | None, *, has_frames: bool
-) -> GrabPoint:
+def _place_of(at: VectorLike, body: str, offset: VectorLike | None, *, has_frames: bool) -> Floats:
     place = np.array(_POSITION(at), dtype=float)
     if has_frames:
         raise ParameterError(
@@ -88,17 +138,7 @@ def _place(
         )
     if offset is not None:
         raise ParameterError("found an offset from a place; from a node that is a frame it is one")
-    try:
-        found = places(place[None], mesh)
-    except ParameterError:
-        x, y, z = place
-        raise ParameterError(
-            f"found the place ({x:g}, {y:g}, {z:g}) m, which is in no cell of '{body}' at rest; "
-            "one inside it, or the number of a node, is accepted"
-        ) from None
-    weights = found.weights[0]
-    used = np.flatnonzero(weights)
-    return GrabPoint(found.nodes[0][used], weights[used])
+    return place
 
 
 def require_free(simulation: core.Simulation, body: str, nodes: Ints) -> None:

@@ -10,9 +10,16 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from tissu.cutting.material import material_now, surface_now
 from tissu.errors import ParameterError
 from tissu.simulation import grab as kept
-from tissu.simulation.drag import drag_stiffness, near_frame, near_surface
+from tissu.simulation.drag import (
+    drag_stiffness,
+    near_frame,
+    near_material,
+    near_surface,
+    used_nodes,
+)
 from tissu.simulation.grab import Grab, Record
 from tissu.simulation.grab_point import GrabPoint, grab_point, require_free
 from tissu.simulation.lead import Lead
@@ -29,6 +36,7 @@ if TYPE_CHECKING:
     from tissu.scene.support import Support
     from tissu.simulation.entry import Entry
     from tissu.simulation.meshes import Meshes
+    from tissu.ties import Left
 
 Floats = NDArray[np.float64]
 
@@ -40,10 +48,15 @@ class Handled:
     _core: core.Simulation
     _entry: Entry
     _meshes: Meshes
+    _rest: dict[str, Mesh]
     _tissue: dict[str, Mesh]
     _positions: Mapping[str, Floats]
     _loads: Sequence[tuple[Load, Where]]
     _last_grab: int
+
+    if TYPE_CHECKING:
+
+        def _left(self, tissue: str) -> Left: ...
 
     def load(self, which: str | int) -> LiveLoad:
         """A load of the scene, to be changed from the next step on.
@@ -92,7 +105,13 @@ class Handled:
         self._require_grabbing()
         self._require_known(body)
         mesh = {**self._meshes, **self._tissue}[body]
-        point = grab_point(self._core, body=body, mesh=mesh, at=at, offset=offset)
+        material = None
+        if self._lies_over(body):
+            parts = self._core.material_mesh(body)
+            material = material_now(parts, mesh.points, self._positions[body])
+        point = grab_point(
+            self._core, body=body, mesh=mesh, material=material, at=at, offset=offset
+        )
         return self._hold(body, point, kept.target_of(target), kept.stiffness_of(stiffness))
 
     def drag(
@@ -123,10 +142,14 @@ class Handled:
         place = kept.target_of(point)
         self._core.settle()
         now = self._positions[body]
-        if self._core.frames_of(body)[0] >= 0:
-            found = near_frame(now, self._core.rotations(body), place)
-        else:
+        if self._lies_over(body):
+            found = near_material(surface_now(self._core.material_surface(body), now), place)
+        elif self._core.frames_of(body)[0] < 0:
             found = near_surface(mesh, now, place)
+        else:
+            found = GrabPoint(self._frames_in_use(body), np.empty(0))
+        if self._core.frames_of(body)[0] >= 0:
+            found = near_frame(now, self._core.rotations(body), place, among=found.nodes)
         require_free(self._core, body, found.nodes)
         stiff = self.drag_stiffness(body) if stiffness is None else stiffness
         grab = self._hold(body, found, place, kept.stiffness_of(stiff))
@@ -162,6 +185,20 @@ class Handled:
             )
         require_free(self._core, other.body, point.nodes)
         return self._hold(other.body, point, other.target, other.stiffness)
+
+    def _lies_over(self, body: str) -> bool:
+        """Whether cells of a body lie over each other, copies that hold a part of one each."""
+        rest = self._rest.get(body)
+        cut = rest is not None and self._meshes[body] is not rest
+        return cut and self.scene.editing is not None and self._core.divided(body)
+
+    def _frames_in_use(self, body: str) -> NDArray[np.int64]:
+        """The frames of a body that have cells, of a tissue those that points follow."""
+        if body in self._meshes:
+            return used_nodes(self._meshes[body])
+        weights = self._left(body).weights
+        followed = np.unique(weights.frames[weights.listed()])
+        return followed[followed < len(self._positions[body])].astype(np.int64)
 
     def _hold(self, body: str, point: GrabPoint, pulled: Floats, stiff: float) -> Grab:
         """Pull a point of a body to a target [m], with a stiffness [N/m]."""
@@ -215,9 +252,12 @@ class Handled:
             over: time in which they reach the target [s]; None: the next step.
 
         Raises:
-            ParameterError: no support of that name; one without a name; what `Lead.place` refuses.
+            ParameterError: no support of that name; one without a name, or whose nodes have all
+                lost their cells; what `Lead.place` refuses.
         """
-        lead = Lead(simulation=self._core, entry=self._entry, support=self._support(which))
+        support = self._support(which)
+        self._require_led_nodes(support)
+        lead = Lead(simulation=self._core, entry=self._entry, support=support)
         if positions is not None:
             lead.place(positions, over=over)
         elif over is not None:
@@ -273,6 +313,16 @@ class Handled:
         raise ParameterError(
             f"found support {name!r}{_nearest(name, known)} accepted: {_listed(known)}"
         )
+
+    def _require_led_nodes(self, support: Support) -> None:
+        """Refuse a support that edits have left no node."""
+        try:
+            self._core.led_nodes(str(support.name))
+        except ParameterError:
+            raise ParameterError(
+                f"found support '{support.name}' of '{support.body}', none of whose nodes has a "
+                "cell left; a support of nodes with cells is accepted"
+            ) from None
 
     def _grab(self, number: int, body: str) -> Grab:
         return Grab(simulation=self._core, entry=self._entry, number=number, body=body)

@@ -18,6 +18,7 @@ from tissu.simulation.by_body import ByBody
 from tissu.simulation.changed import Changed
 from tissu.simulation.cutting import Cutting, cut_mesh
 from tissu.simulation.entry import Entry, before_the_door, one_thread_at_a_time
+from tissu.simulation.following import follow, grabs_of
 from tissu.simulation.handled import Handled
 from tissu.simulation.inspected import Inspected
 from tissu.simulation.instruments import Instrumented
@@ -419,8 +420,8 @@ class Simulation(Inspected, Handled, Touched, Changed, Cutting, Instrumented):
     def remove_cells(self, *, body: str, cells: ArrayLike) -> None:
         """Remove cells of a body between two steps.
 
-        Nodes that no cell uses any more stay where they are. Masses, matrix, surface and outputs
-        follow.
+        Nodes that no cell uses any more stay where they are, and grabs of cells that are gone are
+        released. Masses, matrix, surface and outputs follow.
 
         Args:
             body: its name.
@@ -436,6 +437,8 @@ class Simulation(Inspected, Handled, Touched, Changed, Cutting, Instrumented):
         self._core.remove_cells(body=body, cells=numbers)
         self._follow_cells(body)
         self._refuse_free_pieces(body, self.pieces(body) if way_back is not None else (), way_back)
+        if self.scene.grabbing and grabs_of(self._core, body):
+            follow(self._core, body, self._meshes[body])
 
     def remaining_cells(self, body: str) -> NDArray[np.int32]:
         """Numbers (e,) in the mesh of the scene of the cells that `meshes[body]` has now.

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from tissu.counted import counted
+from tissu.cutting.material import centres_of
 from tissu.live_view.marks import extent
 from tissu.live_view.pointer import met
 from tissu.live_view.tools.tool import Number, Tool
@@ -21,7 +22,7 @@ _RADIUS = 0.04
 
 
 class Remove(Tool):
-    """Removes the cells whose centre is near the pointer, in every simulation that is shown."""
+    """Removes the cells whose material has its centre near the pointer, in every simulation."""
 
     name = "remove cells"
     hint = "Press on a body, or draw over it: cells whose centre is within the radius are removed."
@@ -43,16 +44,15 @@ class Remove(Tool):
     def press(self, simulations: Sequence[Simulation], pointer: Pointer) -> None:
         """Remove the cells around the place; at least the one that is nearest."""
         touched = simulations[pointer.lane]
-        mesh, now = touched.meshes[pointer.body], touched.positions[pointer.body]
-        place = met(pointer.eye, pointer.there, now[mesh.surface().triangles])
+        surface = touched.surface(pointer.body)
+        place = met(pointer.eye, pointer.there, surface.points[surface.triangles])
         if place is None:
             return
-        centres = [now[block.nodes].mean(axis=1) for block in mesh.body_blocks]
-        apart = np.linalg.norm(np.concatenate(centres) - place, axis=1)
-        near = np.flatnonzero(apart <= 1e-3 * self.numbers[0].value)
-        if not len(near):
-            near = np.array([int(apart.argmin())])
-        cells = touched.remaining_cells(pointer.body)[near]
+        centres, numbers = centres_of(touched.material(pointer.body))
+        apart = np.linalg.norm(centres - place, axis=1)
+        cells = numbers[apart <= 1e-3 * self.numbers[0].value]
+        if not len(cells):
+            cells = numbers[[int(apart.argmin())]]
         for simulation in simulations:
             left = simulation.remaining_cells(pointer.body)
             simulation.remove_cells(body=pointer.body, cells=np.intersect1d(cells, left))

@@ -27,7 +27,8 @@ BLOCKS: dict[str, Any] = {
 
 
 def _scene(kind: str = "hexahedron", **changes: Any) -> ts.Scene:
-    mesh = ts.BarMesh(size=(0.1, 0.04, 0.04), cells=(5, 2, 2), cell=kind.split("-")[0])
+    cell: Any = kind.split("-")[0]
+    mesh = ts.BarMesh(size=(0.1, 0.04, 0.04), cells=(5, 2, 2), cell=cell)
     body = ts.Body(
         mesh=mesh,
         law=ts.StVK(young=8e3, poisson=0.3),

@@ -152,6 +152,7 @@ class Simulation {
   };
   /// Velocities of held rows are the scene's, whatever was written there.
   void hold() { world_->fixed().copy(held_, state_.velocities); }
+  void keep_velocities();
 
   std::shared_ptr<const World> world_;
   std::unique_ptr<WorldEditor> editor_;                ///< of the world; null: edits lay everything anew

@@ -40,10 +40,10 @@ class SceneError(TissuError):
         problems: one sentence for each problem, with its place in the scene.
     """
 
-    def __init__(self, problems: Sequence[str]) -> None:
+    def __init__(self, problems: Sequence[str], *, where: str = " in the scene") -> None:
         self.problems = list(problems)
         head = "1 problem" if len(self.problems) == 1 else f"{len(self.problems)} problems"
-        super().__init__(f"{head} in the scene:\n" + "\n".join(f"- {p}" for p in self.problems))
+        super().__init__(f"{head}{where}:\n" + "\n".join(f"- {p}" for p in self.problems))
 
 
 class CheckpointError(TissuError):

@@ -194,3 +194,10 @@ def test_a_node_that_is_nowhere_is_named(how: str) -> None:
             simulation.cut("b", ts.Plane((0.05, 0, 0), (1, 0.1, 0.2)))
         else:
             simulation.ablate("b", CORNER)
+
+
+def test_a_bad_blade_or_region_is_no_problem_of_the_scene() -> None:
+    for wrong in (lambda: ts.Plane((0, 0, 0), (0, 0, 0)), lambda: ts.Sphere((0, 0, 0), -1)):
+        with pytest.raises(ts.SceneError, match=r"^1 problem:\n- ") as refused:
+            wrong()
+        assert "scene" not in str(refused.value)

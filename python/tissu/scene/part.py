@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from pydantic import (
     BaseModel,
@@ -32,8 +32,13 @@ KEEP_PROBLEMS = "keep_problems"
 
 @dataclass_transform(kw_only_default=True, field_specifiers=(field, Field, PrivateAttr))
 class Part(BaseModel):
-    """A frozen, validated part of a scene."""
+    """A frozen, validated part of a scene.
 
+    Attributes:
+        of_scene: whether it has a meaning in scenes only, so that a refusal speaks of the scene.
+    """
+
+    of_scene: ClassVar[bool] = True
     model_config = ConfigDict(
         frozen=True,
         extra="forbid",
@@ -63,7 +68,8 @@ class Part(BaseModel):
             fields, self_instance=self, context={KEEP_PROBLEMS: True}
         )
         if next(problems_in(self), None) is not None:
-            raise SceneError([f"{type(self).__name__}: {text}" for text in self._refusal()])
+            found = [f"{type(self).__name__}: {text}" for text in self._refusal()]
+            raise SceneError(found, where=" in the scene" if self.of_scene else "")
 
     # Pydantic then need not make a nested part through this __init__, so that the
     # problems of all parts are gathered.

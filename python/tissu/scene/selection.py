@@ -69,9 +69,10 @@ class Selection(Part):
 
 
 class _Place(Selection):
-    """Nodes by their rest positions."""
+    """Nodes by their rest positions; a blade or a region of present space too."""
 
     by_place: ClassVar[bool] = True
+    of_scene: ClassVar[bool] = False
 
     def nodes(self, mesh: Mesh) -> Ints:
         """Numbers (k,) of the nodes in the place, increasing."""

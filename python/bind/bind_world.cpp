@@ -251,13 +251,19 @@ void bind_world(py::module_& m) {
       .def(
           "add_load",
           [](WorldDescription& world, const std::string& name, const std::string& body, const Ints& nodes,
-             const Doubles& forces, const Doubles& times, const Doubles& factors, bool moments) {
+             const Doubles& forces, const Doubles& times, const Doubles& factors, bool moments,
+             const std::vector<std::pair<std::string, Ints>>& faces, double thickness, const Doubles& unit,
+             bool along_normals) {
             world.loads.push_back({name, world.body(body).name, to_vector(nodes),
                                    to_vector(with_columns(forces, 3, "forces")), to_history(times, factors),
                                    moments});
+            LoadDescription& load = world.loads.back();
+            load.faces = to_faces(faces, thickness);
+            load.unit = to_vec3(unit, "unit");
+            load.along_normals = along_normals;
           },
           py::kw_only(), arg("name"), arg("body"), arg("nodes"), arg("forces"), arg("times"), arg("factors"),
-          arg("moments"))
+          arg("moments"), arg("faces"), arg("thickness"), arg("unit"), arg("along_normals"))
       .def(
           "add_pressure",
           [](WorldDescription& world, const std::string& name, const std::string& body,

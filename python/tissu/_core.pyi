@@ -204,6 +204,10 @@ class WorldBuilder:
         times: Floats,
         factors: Floats,
         moments: bool,
+        faces: list[tuple[str, Ints]],
+        thickness: float,
+        unit: Floats,
+        along_normals: bool,
     ) -> None: ...
     def add_pressure(
         self,

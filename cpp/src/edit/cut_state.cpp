@@ -88,10 +88,13 @@ CutState cut_state_of(BodyDescription body, Material material) {
           std::move(material)};
 }
 
-std::shared_ptr<const CutState> cut_state(const World& world, std::string_view name) {
-  const BodyDescription& body = described(world, name);
+std::shared_ptr<const CutState> cut_state_now(const BodyDescription& body) {
   if (body.cut != nullptr) return body.cut;
   return body.uncut != nullptr ? body.uncut : std::make_shared<const CutState>(cut_state_of(body));
+}
+
+std::shared_ptr<const CutState> cut_state(const World& world, std::string_view name) {
+  return cut_state_now(described(world, name));
 }
 
 }  // namespace tissu

@@ -3,8 +3,14 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <numeric>
+#include <span>
 #include <unordered_map>
 
+#include "debris.h"
+#include "left_faces.h"
+#include "tissu/edit/cut_state.h"
 #include "tissu/element/reference_cell.h"
 
 namespace tissu {
@@ -82,31 +88,121 @@ Sharers sharers_of(const BodyDescription& body) {
   return result;
 }
 
+using Left = std::unordered_map<std::int32_t, Vec3>;
+
+/// What one face gives to each of its nodes for each unit of the load.
+std::vector<Vec3> given_by(const FaceCells& some, std::span<const std::int32_t> nodes, bool along_normals,
+                           ConstReals X) {
+  FaceCells face{some.element, {}, some.thickness};
+  std::vector<double> places;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    face.nodes.push_back(static_cast<std::int32_t>(i));
+    const Vec3 place = block(X, nodes[i]);
+    places.insert(places.end(), place.data(), place.data() + 3);
+  }
+  std::vector<double> sums(along_normals ? places.size() : nodes.size(), 0.0);
+  if (along_normals) {
+    add_normals(face, places, sums);
+  } else {
+    add_areas(face, places, sums);
+  }
+  std::vector<Vec3> given;
+  given.reserve(nodes.size());
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    given.push_back(along_normals ? Vec3(block(ConstReals(sums), static_cast<std::int32_t>(i)))
+                                  : Vec3(Vec3::Constant(sums[i])));
+  }
+  return given;
+}
+
+/// Calls f(faces of one type, nodes of a face, share of it that is left) for each face of a load.
+template <class Function>
+void for_faces(const LoadDescription& load, const std::vector<double>& shares, Function&& f) {
+  auto share = shares.begin();
+  for (const FaceCells& some : load.faces) {
+    const auto count = static_cast<std::size_t>(find_element(some.element)->nodes);
+    for (std::size_t i = 0; i + count <= some.nodes.size(); i += count)
+      f(some, std::span(some.nodes).subspan(i, count), *share++);
+  }
+}
+
+/// The same of a face of which a share is left: the nodes with material take over what others have none for.
+template <class HasMaterial>
+std::vector<Vec3> left_by(const FaceCells& some, std::span<const std::int32_t> nodes, double share,
+                          const LoadDescription& load, ConstReals X, HasMaterial&& has_material) {
+  std::vector<Vec3> given = given_by(some, nodes, load.along_normals, X);
+  for (Vec3& one : given) one *= share;
+  const auto bearing = std::ranges::count_if(nodes, has_material);
+  if (share == 1.0 || bearing == 0 || bearing == std::ssize(nodes)) return given;
+  const Vec3 each =
+      std::accumulate(given.begin(), given.end(), Vec3(Vec3::Zero())) / static_cast<double>(bearing);
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    given[i] = has_material(nodes[i]) ? each : Vec3(Vec3::Zero());
+  return given;
+}
+
+/// Of each node of the first day on a face that is not whole any more, what the faces that are left give it.
+template <class HasMaterial>
+Left left_of(const LoadDescription& load, const CutState& cut, HasMaterial&& has_material) {
+  Left left;
+  const std::vector<double> shares = shares_left(cut, load.faces);
+  for_faces(load, shares, [&](const FaceCells& /*some*/, std::span<const std::int32_t> nodes, double share) {
+    if (share == 1.0) return;
+    for (const std::int32_t node : nodes) left.emplace(node, Vec3::Zero());
+  });
+  if (left.empty()) return left;
+  for_faces(load, shares, [&](const FaceCells& some, std::span<const std::int32_t> nodes, double share) {
+    const auto is_in = [&](std::int32_t node) { return left.contains(node); };
+    if (share == 0.0 || std::ranges::none_of(nodes, is_in)) return;
+    const std::vector<Vec3> given = left_by(some, nodes, share, load, cut.hosts.rest(), has_material);
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      const auto found = left.find(nodes[i]);
+      if (found != left.end()) found->second += given[i];
+    }
+  });
+  return left;
+}
+
 /// Shares the load of each node of the first day among its copies that have material now. Shares of earlier
-/// edits leave no trace.
-LoadDescription shared(const LoadDescription& load, const Sharers& sharers, const Masses& masses) {
+/// edits leave no trace. `has_material`: of a node of the first day, with its copies.
+template <class HasMaterial>
+LoadDescription shared(const LoadDescription& load, const Left& left, const Sharers& sharers,
+                       const Masses& masses, HasMaterial&& has_material) {
   LoadDescription parted = load;
   parted.nodes.clear();
   parted.forces.clear();
-  const auto add = [&](std::int32_t node, const Vec3& force) {
+  parted.left.clear();
+  const auto add = [&](std::int32_t node, double share, const Vec3& whole, const Vec3* per_unit) {
+    if (per_unit != nullptr) parted.left.push_back({parted.nodes.size(), share * *per_unit});
+    const Vec3 force = share * whole;
     parted.nodes.push_back(node);
     parted.forces.insert(parted.forces.end(), force.data(), force.data() + 3);
   };
+  const Vec3 nothing = Vec3::Zero();
   for (std::size_t i = 0; i < load.first_day.size(); ++i) {
     const std::int32_t root = load.first_day[i];
-    const Vec3 whole = block(ConstReals(load.first_forces), static_cast<std::int32_t>(i));
+    Vec3 whole = block(ConstReals(load.first_forces), static_cast<std::int32_t>(i));
+    const Vec3* per_unit = nullptr;
+    if (const auto found = left.find(root); found != left.end()) {
+      per_unit = &found->second;
+      whole = per_unit->cwiseProduct(load.unit);
+    }
+    if (!has_material(root)) {
+      add(root, 1.0, nothing, &nothing);
+      continue;
+    }
     const auto found = sharers.find(root);
     double mass = 0.0;
     if (found != sharers.end()) {
       for (const std::int32_t one : found->second) mass += masses.at(one);
     }
-    if (found == sharers.end() || !(mass > 0.0)) {  // it has no copies, or no material is left there
-      add(root, whole);
+    if (found == sharers.end() || !(mass > 0.0)) {  // it has no copies, or nothing has a mass
+      add(root, 1.0, whole, per_unit);
       continue;
     }
     for (const std::int32_t one : found->second) {
       const double share = masses.at(one) / mass;
-      if (share > 0.0) add(one, share * whole);
+      if (share > 0.0) add(one, share, whole, per_unit);
     }
   }
   return parted;
@@ -115,11 +211,19 @@ LoadDescription shared(const LoadDescription& load, const Sharers& sharers, cons
 }  // namespace
 
 void part_loads(std::vector<LoadDescription>& loads, const BodyDescription& body) {
-  if (body.copies_of.empty()) return;
+  const auto acts = [&](const LoadDescription& load) { return load.body == body.name; };
+  if (std::ranges::none_of(loads, acts)) return;
   const auto sharers = sharers_of(body);
+  const std::vector<char> used = used_nodes(body);
+  const auto is_used = [&](std::int32_t node) { return used[static_cast<std::size_t>(node)] != 0; };
+  const auto has_material = [&](std::int32_t root) {
+    const auto found = sharers.find(root);
+    if (found != sharers.end()) return std::ranges::any_of(found->second, is_used);
+    return is_used(root) && !std::ranges::binary_search(body.bare, root);
+  };
   Masses masses;
   for (LoadDescription& load : loads) {
-    if (load.body != body.name) continue;
+    if (!acts(load)) continue;
     if (load.first_day.empty()) {
       load.first_day = load.nodes;
       load.first_forces = load.forces;
@@ -130,10 +234,14 @@ void part_loads(std::vector<LoadDescription>& loads, const BodyDescription& body
       for (const std::int32_t one : found->second) masses[one] = 0.0;
     }
   }
-  if (masses.empty()) return;
-  add_masses(body, masses);
+  if (!masses.empty()) add_masses(body, masses);
+  const bool on_faces = std::ranges::any_of(
+      loads, [&](const LoadDescription& load) { return acts(load) && !load.faces.empty(); });
+  const std::shared_ptr<const CutState> cut = on_faces ? cut_state_now(body) : nullptr;
   for (LoadDescription& load : loads) {
-    if (load.body == body.name) load = shared(load, sharers, masses);
+    if (!acts(load)) continue;
+    const Left left = load.faces.empty() ? Left() : left_of(load, *cut, has_material);
+    load = shared(load, left, sharers, masses, has_material);
   }
 }
 

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "edit/cut/patch.h"
+#include "left_faces.h"
 #include "tissu/base/error.h"
 #include "tissu/base/sort_unique.h"
 #include "tissu/edit/cut_state.h"
@@ -220,14 +221,34 @@ class Pressed {
   std::vector<CarriedFace> carried_;
 };
 
+/// The faces whose cell is there, of a body that was never cut.
+void keep_faces(const BodyDescription& body, PressureDescription& pressure) {
+  const std::vector<double> shares = shares_left(*cut_state_now(body), pressure.first_day);
+  pressure.faces.clear();
+  auto share = shares.begin();
+  for (const FaceCells& some : pressure.first_day) {
+    FaceCells left{some.element, {}, some.thickness};
+    const auto count = at(find_element(some.element)->nodes);
+    for (std::size_t i = 0; i + count <= some.nodes.size(); i += count) {
+      const auto first = some.nodes.begin() + static_cast<std::ptrdiff_t>(i);
+      if (*share++ > 0.0)
+        left.nodes.insert(left.nodes.end(), first, first + static_cast<std::ptrdiff_t>(count));
+    }
+    if (!left.nodes.empty()) pressure.faces.push_back(std::move(left));
+  }
+}
+
 }  // namespace
 
 void part_pressures(std::vector<PressureDescription>& pressures, const BodyDescription& body) {
-  if (body.cut == nullptr) return;
   for (PressureDescription& pressure : pressures) {
     if (pressure.body != body.name) continue;
     if (pressure.first_day.empty()) pressure.first_day = pressure.faces;
-    Pressed(*body.cut, pressure.first_day).find(pressure);
+    if (body.cut != nullptr) {
+      Pressed(*body.cut, pressure.first_day).find(pressure);
+    } else {
+      keep_faces(body, pressure);
+    }
   }
 }
 

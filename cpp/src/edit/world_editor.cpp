@@ -173,11 +173,11 @@ std::optional<WorldEditor::Made> WorldEditor::make(std::string_view name, const 
   if (has_cuts) {
     described.cut = bodies_[number].state;
     described.uncut = nullptr;
-    part_pressures(edit_.description().pressures, described);
-    edit_.renew_pressures(name);
   } else if (touching != nullptr) {
     made.contact = touching->of_cells(described, edit_.described_rest());
   }
+  part_pressures(edit_.description().pressures, described);
+  edit_.renew_pressures(name);
   if (bound) part_bound(name, change, verb);
   if (made.contact != nullptr) edit_.exchange_surfaces(*made.contact);
   return made;

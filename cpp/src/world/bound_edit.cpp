@@ -20,6 +20,7 @@ void WorldEdit::list_bound(std::size_t number) {
   EditedBody& edited = bodies_[number];
   edited.bound.assign(body.positions.size() / 3, 0);
   edited.held_at_first = edited.bound;
+  edited.faces = edited.bound;
   for (const FixedNodes& fixed : world_.description()->fixed) {
     if (fixed.body != body.name) continue;
     for (const std::int32_t node : fixed.nodes) edited.bound[at(node)] = 1;
@@ -30,7 +31,25 @@ void WorldEdit::list_bound(std::size_t number) {
   for (const LoadDescription& load : world_.description()->loads) {
     if (load.body != body.name) continue;
     for (const std::int32_t node : load.nodes) edited.bound[at(node)] = 1;
+    for (const FaceCells& some : load.faces) {
+      for (const std::int32_t node : some.nodes) edited.faces[at(node)] = 1;
+    }
   }
+}
+
+/// Whether cells go from faces that a load acts on.
+bool WorldEdit::bares_faces(std::size_t number, const BodyChange& change) const {
+  if (change.cells.gone.empty()) return false;
+  const BodyDescription& body = world_.description()->bodies[number];
+  const auto nodes = body.positions.size() / 3;
+  const auto first_day = nodes - body.copies_of.size();
+  const auto is_on = [&](std::int32_t node) { return node >= 0 && bodies_[number].faces[at(node)] != 0; };
+  return std::ranges::any_of(change.nodes, [&](std::int32_t node) {
+    if (at(node) < first_day) return is_on(node);
+    if (at(node) >= nodes) return false;
+    const std::int32_t root = body.copies_of[at(node) - first_day];
+    return root >= 0 ? is_on(root) : std::ranges::any_of(body.points[at(-1 - root)].node, is_on);
+  });
 }
 
 bool WorldEdit::parts_bound(std::string_view body, const BodyChange& change) const {
@@ -39,6 +58,7 @@ bool WorldEdit::parts_bound(std::string_view body, const BodyChange& change) con
   const auto bound = [&](std::int32_t node) {
     return at(node) < edited.bound.size() && edited.bound[at(node)] != 0;
   };
+  if (bares_faces(number, change)) return true;
   const auto is_bound_copy = [&](std::int32_t node) { return node >= 0 && bound(node); };
   if (std::ranges::any_of(change.copied, is_bound_copy) || std::ranges::any_of(change.loose, bound))
     return true;
@@ -98,6 +118,7 @@ void WorldEdit::renew_loads(std::string_view name) {
     if (load == nullptr) continue;
     if (described->body == body.name) {
       load->act_on(shifted(described->nodes, body.first_node, body.node_count, "a load"), described->forces);
+      load->set_left(described->left, described->along_normals);
     }
     ++described;
   }

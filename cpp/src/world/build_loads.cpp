@@ -34,8 +34,9 @@ void WorldBuilder::add_load(const LoadDescription& load) {
   check_table("load \"" + load.name + "\"", load.history.times, load.history.factors.size());
   auto nodes = shifted(load.nodes, on.first_node, on.node_count, "load \"" + load.name + "\"");
   if (load.moments) nodes = rotations_of(on, nodes, "load \"" + load.name + "\"");
-  world_.forces_.push_back(
-      std::make_unique<NodalLoad>(load.name, std::move(nodes), load.forces, load.history));
+  auto model = std::make_unique<NodalLoad>(load.name, std::move(nodes), load.forces, load.history);
+  model->set_left(load.left, load.along_normals);
+  world_.forces_.push_back(std::move(model));
 }
 
 void WorldBuilder::add_pressure(const PressureDescription& pressure) {

@@ -120,7 +120,21 @@ class DeadLoad(Load):
     def add_to(self, builder: WorldBuilder, where: Where, *, number: int) -> None:
         """Put it on its body in the world."""
         nodes, forces = self.nodal(where)
-        builder.add_load(nodes=nodes, forces=forces, moments=self.moments, **self._shared(number))
+        builder.add_load(
+            nodes=nodes,
+            forces=forces,
+            moments=self.moments,
+            faces=[(block.type, block.nodes) for block in where.faces] if self.on_surface else [],
+            thickness=where.thickness,
+            unit=self._unit(),
+            along_normals=self.quantity == "pressure",
+            **self._shared(number),
+        )
+
+    def _unit(self) -> Floats:
+        """What multiplies the area of a face, or its normal (3,): edits take faces away."""
+        value = getattr(self, self.quantity)
+        return np.array(value if isinstance(value, tuple) else (-value, -value, -value))
 
     def made_of(self, where: Where) -> Floats:
         """What a run changes of it in the core: its value, as three numbers, and nodal forces."""

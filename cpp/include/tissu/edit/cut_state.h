@@ -25,6 +25,9 @@ bool has_material(const BodyDescription& body);
 /// Of a body as its description has it: every cell whole, or the material given.
 CutState cut_state_of(BodyDescription body, Material material = {});
 
+/// The same of the cells and the material that a body has; made anew where it was never cut.
+std::shared_ptr<const CutState> cut_state_now(const BodyDescription& body);
+
 /// Of a body of a world that can be edited; made anew where it was never cut.
 std::shared_ptr<const CutState> cut_state(const World& world, std::string_view body);
 

@@ -13,11 +13,21 @@
 
 namespace tissu {
 
+/// A node of a load that has lost a part of what it acted on there.
+struct LoadLeft {
+  std::size_t place;  ///< of the node among those of the load
+  Vec3 per_unit;      ///< force for each unit of the load along each axis: an area left [m2], or nothing
+};
+
 /// Forces that keep their direction (dead loads): point forces, and tractions summed into nodes. What a run
-/// changes of it: three numbers of which the forces are made, for the one that asks, and the forces.
+/// changes of it: three numbers of which the forces are made, and the forces. Where something of what it
+/// acted on is gone, the forces follow from the three numbers and from what is left.
 class NodalLoad final : public ForceModel {
  public:
   NodalLoad(std::string name, std::vector<std::int32_t> nodes, std::vector<double> forces, History history);
+  /// What is left at some of its nodes, ascending. `along_normals`: the first of the three numbers is a
+  /// pressure, which acts against normals.
+  void set_left(std::vector<LoadLeft> left, bool along_normals);
   /// After an edit in place of the body: on other nodes. Only of a load that the run has not changed.
   void act_on(std::vector<std::int32_t> nodes, std::vector<double> forces);
   [[nodiscard]] std::string_view effect() const override { return name_; }
@@ -35,11 +45,15 @@ class NodalLoad final : public ForceModel {
 
  private:
   static constexpr std::size_t kMadeOf = 3;
-  [[nodiscard]] ConstReals forces(const State& state) const;
+  /// Calls f(node, force).
+  template <class Function>
+  void for_forces(const State& state, Function&& f) const;
 
   std::string name_;
   std::vector<std::int32_t> nodes_;
   std::vector<double> forces_;  ///< [N], three for each node
+  std::vector<LoadLeft> left_;
+  bool along_normals_ = false;
   History history_;
   LoadChange change_;
 };

@@ -84,9 +84,14 @@ struct LoadDescription {
   std::vector<double> forces;  ///< [N], three for each node
   History history;
   bool moments = false;  ///< they are moments [N m] on frames, about axes of space
-  /// Of a load whose nodes cuts have parted: what it was before the first of them; else empty.
+  /// Of a body that was edited: what it was before the first edit; else empty.
   std::vector<std::int32_t> first_day = {};
   std::vector<double> first_forces = {};
+  /// Of a load on faces: these, and what multiplies the area of each, or its normal with an area's length.
+  std::vector<FaceCells> faces = {};
+  Vec3 unit = Vec3::Zero();  ///< [Pa]
+  bool along_normals = false;
+  std::vector<LoadLeft> left = {};  ///< where something of what it acted on is gone
 };
 
 struct PressureDescription {

@@ -37,7 +37,8 @@ def test_newmark_holds_the_slivers() -> None:
 
 @pytest.mark.parametrize("name", BY_BDF2)
 def test_bdf2_holds_it_too(name: str) -> None:
-    held(name, "bdf2")
+    """In the hollow one blow may not settle, which its report says: it depends on the step's length."""
+    held(name, "bdf2", unconverged=1 if name == "hollow" else 0)
 
 
 @pytest.mark.parametrize("name", BY_MIDPOINT)

@@ -16,8 +16,20 @@ constexpr double kRoundings = 1e-9;  ///< of the sum of energies
 
 }  // namespace
 
-bool StageSolver::is_no_worse(State& state, ConstReals v) {
-  return residual(state, v) <= kWorse * start_ + kFloor * reference_;
+void StageSolver::balance_parts() {
+  if (knows_parts_) return;
+  balance_.prepare(world());
+  rigid_.prepare(world());
+  knows_parts_ = true;
+}
+
+bool StageSolver::correct_rigidly(State& state, std::vector<double>& v, double& left) {
+  uncorrected_ = v;
+  if (!rigid_.correct(state, stage_.push * stage_.move, right_, momentum_, v)) return false;
+  left = residual(state, v);
+  const int taken_back = rigid_.take_back(state, right_, uncorrected_, v);
+  if (taken_back > 0) left = residual(state, v);
+  return taken_back < rigid_.corrected();
 }
 
 bool StageSolver::leaves_much(const State& state, ConstReals v) {
@@ -41,30 +53,36 @@ void StageSolver::look_at_reactions() {
   balance_.set_reactions(world().fixed(), trial_);
 }
 
-bool StageSolver::judge_linearised(State& state, std::vector<double>& v, StepReport& report) {
+StageSolver::Judged StageSolver::judge_linearised(State& state, std::vector<double>& v, StepReport& report) {
   if (world().is_linear()) {
     place(state, v);
-    return false;
+    return Judged::kept;
   }
-  const bool no_worse = is_no_worse(state, v);
-  if (no_worse ? !leaves_much(state, v) : gives_up_early_ && turns_far(v)) return false;
+  double left = residual(state, v);
+  const Judged judged = correct_rigidly(state, v, left) ? Judged::corrected : Judged::kept;
+  const bool no_worse = left <= kWorse * start_ + kFloor * reference_;
+  if (no_worse ? !leaves_much(state, v) : gives_up_early_ && turns_far(v)) return judged;
   if (!no_worse && contact_ != nullptr && contact_->size() > 0) {
     report.hasty = true;  // a blow: it is taken in parts
-    return false;
+    return judged;
   }
   const StepReport once = report;
   once_ = v;
   const bool solved = rescue(state, v, report);
   report.newton_iterations += once.newton_iterations - 1;
-  if (solved || !no_worse) return true;
+  if (solved || !no_worse) {
+    left = residual(state, v);
+    correct_rigidly(state, v, left);
+    return Judged::iterated;
+  }
   v = once_;
   place(state, v);
-  if (gains_energy(state)) return false;
+  if (gains_energy(state)) return judged;
   report.converged = once.converged;
   report.residual = once.residual;
   report.message = once.message;
   report.hasty = false;
-  return false;
+  return judged;
 }
 
 bool StageSolver::is_near(std::string_view why, const StepReport& report) {

@@ -49,11 +49,13 @@ StageSolver::StageSolver(NewtonSettings newton, BodyBalance::Shares most_left, E
 void StageSolver::prepare(const World& world, LinearSolver* solver, Profile& profile) {
   system_ = std::make_unique<System>(world, solver, profile);
   stage_.base = world.rest_state();
-  for (auto* v : {&given_, &guess_, &first_, &once_, &trial_, &change_, &right_, &work_, &momentum_}) {
+  for (auto* v : {&given_, &guess_, &first_, &once_, &uncorrected_, &trial_, &change_, &right_, &work_,
+                  &momentum_}) {
     v->assign(stage_.base.positions.size(), 0.0);
   }
   list_turning();
-  balance_.prepare(world);
+  knows_parts_ = false;
+  if (is_judged()) balance_parts();
   contact_.reset();
   if (world.contact() == nullptr) return;
   prepare_contact();
@@ -72,7 +74,7 @@ void StageSolver::prepare_contact() {
 void StageSolver::follow_edit(std::span<const std::int32_t> rows) {
   system_->follow_edit(rows);
   list_turning();
-  balance_.prepare(world());
+  knows_parts_ = false;
   if (contact_ != nullptr) prepare_contact();
 }
 
@@ -131,7 +133,11 @@ void StageSolver::solve_free(State& state, std::vector<double>& v, StepReport& r
 
 void StageSolver::judge_by_load() {
   reference_ = stage_.push * system_->external_force(stage_.base, work_);
-  balance_.set_external(reference_ > 0.0 ? stage_.push : 0.0, work_);
+  if (!is_judged()) return;
+  balance_parts();
+  const double push = reference_ > 0.0 ? stage_.push : 0.0;
+  balance_.set_external(push, work_);
+  rigid_.set_external(push, work_);
 }
 
 bool StageSolver::is_lower(State& state, ConstReals v) {

@@ -268,24 +268,38 @@ void StageSolver::iterate_contacts(State& state, std::vector<double>& v, StepRep
   world.fixed().clear(first_);
 }
 
+bool StageSolver::fits_contacts(State& state, std::vector<double>& v, StepReport& report) {
+  place(state, v);
+  State& end = end_of(state);
+  update_contacts(end);
+  report.held_back = hold_back(end);
+  follow(end, v);
+  const double other = look(end);
+  return report.held_back == 0 && other <= kForce && contact_->inadmissible() <= kForce;
+}
+
 void StageSolver::judge_touching(State& state, std::vector<double>& v, StepReport& report) {
   place(state, v);
   std::ranges::fill(work_, 0.0);
   world().contact()->add_force(state, scratch_, work_);
   world().fixed().clear(work_);
   balance_.set_contacts(stage_.push, work_);
-  if (!judge_linearised(state, v, report)) return;
+  rigid_.set_contacts(stage_.push, work_);
+  const Judged judged = judge_linearised(state, v, report);
+  if (judged == Judged::kept) return;
+  if (judged == Judged::corrected) {
+    if (!fits_contacts(state, v, report)) {
+      v = uncorrected_;
+      fits_contacts(state, v, report);
+    }
+    std::ranges::copy(v, state.velocities.begin());
+    return;
+  }
   const int before = report.newton_iterations;
   const bool failed = report.hasty;  // the iteration, before contacts were looked at again
   int systems = 0;
   for (int i = 0; i < kMostRescues; ++i) {
-    place(state, v);
-    State& end = end_of(state);
-    update_contacts(end);
-    report.held_back = hold_back(end);
-    follow(end, v);
-    const double other = look(end);
-    report.hasty = report.held_back != 0 || other > kForce || contact_->inadmissible() > kForce;
+    report.hasty = !fits_contacts(state, v, report);
     if (failed || !report.hasty || report.held_back != 0 || i + 1 == kMostRescues) break;
     contact_->take();
     set_contacts(state);

@@ -9,6 +9,7 @@
 #include "tissu/contact/barrier.h"
 #include "tissu/step/body_balance.h"
 #include "tissu/step/integrator.h"
+#include "tissu/step/rigid_correction.h"
 #include "tissu/step/system.h"
 
 namespace tissu {
@@ -98,6 +99,8 @@ class StageSolver {
   void iterate_contacts(State& state, std::vector<double>& v, StepReport& report);
   /// `judge_linearised` with the contacts that act, which have to stay.
   void judge_touching(State& state, std::vector<double>& v, StepReport& report);
+  /// Contacts are looked at where v leads, and stay as they are.
+  bool fits_contacts(State& state, std::vector<double>& v, StepReport& report);
   /// Where the step ends if its equation is solved by x(v), which is where `state` is: `state` itself, or
   /// another one.
   State& end_of(State& state);
@@ -126,11 +129,18 @@ class StageSolver {
   void update_contacts(const State& end);
 
   // linearised.cpp: steps that are linearised once.
+  /// What became of v: nothing, it was corrected from `uncorrected_` by rigid motions, or it was iterated on.
+  enum class Judged { kept, corrected, iterated };
+  /// Such steps are judged: there is something that is not linear.
+  [[nodiscard]] bool is_judged() const { return newton_.iterations == 1 && !world().is_linear(); }
+  /// What acts on each part is counted anew from here on, and parts are found again after an edit.
+  void balance_parts();
+  /// Rigid motions of parts take what the latest residual, of v, holds of them; v stays if that does not help.
+  /// `uncorrected_` is v before. The residual afterwards is left in `left`. True: v is another one.
+  bool correct_rigidly(State& state, std::vector<double>& v, double& left);
   /// Iterates on such a step where it made things worse or left much; if that fails, the step stays as it is
-  /// unless it made things worse. It is hasty then, and where it gained energy. True: v is another one.
-  bool judge_linearised(State& state, std::vector<double>& v, StepReport& report);
-  /// The residual is at most a given multiple of what the guess left.
-  bool is_no_worse(State& state, ConstReals v);
+  /// unless it made things worse. It is hasty then, and where it gained energy.
+  Judged judge_linearised(State& state, std::vector<double>& v, StepReport& report);
   /// The latest residual, of `state` with v, is more than some times what acts on some body. A turn of a
   /// stiff body leaves strains, and so does the guess of the next step, which is then no worse. Damping
   /// counts with the stiffness at the base, as in the step that was linearised there: either is of first
@@ -181,6 +191,7 @@ class StageSolver {
   std::vector<double> guess_;
   std::vector<double> first_;
   std::vector<double> once_;  ///< v of a step that was linearised once
+  std::vector<double> uncorrected_;
   std::vector<double> trial_;
   std::vector<double> change_;
   std::vector<double> right_;
@@ -206,6 +217,8 @@ class StageSolver {
   Scratch scratch_;                    ///< of energies
   bool gives_up_early_ = false;
   BodyBalance balance_;
+  RigidCorrection rigid_;
+  bool knows_parts_ = false;  ///< balance_ and rigid_ are those of the world as it is
   BodyBalance::Shares most_left_;
   EnergyLaw energy_;
   double reference_ = 0.0;  ///< push |external force|

@@ -1,0 +1,52 @@
+#pragma once
+
+/// What a step that is linearised once leaves of the rigid motions of parts, and the velocities that cure it.
+
+#include <cstdint>
+#include <vector>
+
+#include "tissu/step/parts.h"
+
+namespace tissu {
+
+/// The forces within a part have neither a sum nor a moment, wherever its nodes are. Those of a step that is
+/// linearised once have a moment at its end, which changes the spin of the part; the residual r holds it. The
+/// cure is a step of Newton's method among the rigid motions Z that supports allow (Galerkin):
+/// Z^T (M - push move K) Z d = Z^T r, v += Z d. Only what holds a part from outside is in K.
+class RigidCorrection {
+ public:
+  void prepare(const World& world);
+  /// What acts from outside in the step, and what contacts give: `push` [s] times the force [N].
+  void set_external(double push, ConstReals force);
+  void set_contacts(double push, ConstReals force);
+  /// Adds those motions to v where the residual at `at` holds more than little of what moves the part or acts
+  /// on it; `scale` is push move. False: nowhere.
+  bool correct(const State& at, double scale, ConstReals residual, ConstReals momentum_change, Reals v);
+  /// Gives back to v, from what it was before the latest correction, the parts of which the residual after it
+  /// holds more than the one before it did: what holds them is stiffer than its stiffness there. How many.
+  int take_back(const State& at, ConstReals residual, ConstReals before, Reals v) const;
+  /// Of so many parts v was corrected.
+  [[nodiscard]] int corrected() const { return static_cast<int>(corrected_.size()); }
+
+ private:
+  struct Moving {
+    Part part;
+    double external = 0.0;  ///< [N s], as contacts
+    double contacts = 0.0;
+  };
+  struct Corrected {
+    const Part* part;
+    double left;  ///< sqrt(r^T Z (Z^T M Z)^-1 Z^T r) [kg^1/2 m/s]
+  };
+  /// The norm of impulses on a part, of a free one without what accelerates it as a whole.
+  [[nodiscard]] double norm_of(const Part& part, ConstReals impulses) const;
+
+  const World* world_ = nullptr;
+  std::vector<Moving> moving_;  ///< parts that supports allow a rigid motion
+  std::vector<Corrected> corrected_;
+  std::vector<double> motion_;
+  std::vector<double> product_;
+  Scratch scratch_;
+};
+
+}  // namespace tissu

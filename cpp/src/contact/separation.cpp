@@ -22,11 +22,12 @@ constexpr double kEnough = 0.5;  ///< of the gap: what is nearer is moved apart,
 /// One sweep of moving apart; true when something was too near.
 class Separation {
  public:
-  Separation(const Contact& contact, const FixedDofs& fixed, State& start)
+  Separation(const Contact& contact, const FixedDofs& fixed, std::span<const RowRange> loose, State& start)
       : contact_(contact),
         fixed_(fixed),
         start_(start),
         candidates_(contact.description(), contact.surfaces()),
+        whole_(contact, fixed, loose, start),
         places_(3 * contact.surfaces().mover_count()) {
     const SurfaceSet& surfaces = contact.surfaces();
     contact.place_vertices(start, start.time, places_);
@@ -51,14 +52,13 @@ class Separation {
   [[nodiscard]] Depths depths() const { return deep_overlaps(contact_, candidates_, places_, start_, 1.0); }
 
   void run() {
-    const bool has_rigid = !contact_.surfaces().carriers().empty();
-    const RigidSeparation rigid(contact_, start_);
-    if (has_rigid) rigid.run(candidates_, places_, normals_);
+    if (whole_.has_any()) whole_.run(candidates_, places_, normals_);
     bool near = true;
     for (int i = 0; near && i < kSweeps; ++i) {
       near = sweep();
-      if (near && has_rigid) rigid.run(candidates_, places_, normals_);
+      if (near && whole_.has_any()) whole_.run(candidates_, places_, normals_);
     }
+    whole_.move_rows(start_.positions);
     const auto& vertices = contact_.surfaces().vertices();
     for (std::size_t v = 0; v < vertices.size(); ++v) {
       const auto number = static_cast<std::int32_t>(v);
@@ -123,12 +123,12 @@ class Separation {
     bool near = false;
     const SurfaceSet& surfaces = contact_.surfaces();
     for (const Candidate& c : candidates_.list()) {
-      if (RigidSeparation::is_rigid(surfaces, c)) continue;
+      if (whole_.has(c)) continue;
       if (c.kind == PairKind::vertex_face) near = push_off_face(c) || near;
       if (c.kind == PairKind::vertex_edge) near = push_off_rim(c) || near;
     }
     for (const PlaneCandidate& c : candidates_.planes()) {
-      if (!RigidSeparation::is_rigid(surfaces, c)) near = push_off_plane(c) || near;
+      if (!whole_.has(c)) near = push_off_plane(c) || near;
     }
     for (const auto& surface : surfaces.surfaces()) {
       if (surface.carrier >= 0) move_rigidly(surface);
@@ -235,6 +235,7 @@ class Separation {
   const FixedDofs& fixed_;
   State& start_;
   Candidates candidates_;
+  RigidSeparation whole_;
   std::vector<double> places_, moves_;
   std::vector<double> normals_;  ///< of vertices, of any length
   std::vector<double> counts_;   ///< of what was asked of each mover
@@ -242,9 +243,9 @@ class Separation {
 
 }  // namespace
 
-void separate(const Contact& contact, const FixedDofs& fixed, State& start) {
+void separate(const Contact& contact, const FixedDofs& fixed, std::span<const RowRange> loose, State& start) {
   if (!contact.description().travel) return;
-  Separation separation(contact, fixed, start);
+  Separation separation(contact, fixed, loose, start);
   separation.run();
   std::map<std::pair<std::int32_t, std::int32_t>, int> counts;
   for (const Crossing& crossing : crossings(contact, start)) {

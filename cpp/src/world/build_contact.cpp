@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <utility>
 
 #include "builder.h"
@@ -33,6 +34,26 @@ void WorldBuilder::add_contact() {
   world_.forces_.push_back(std::move(contact));
 }
 
+/// Rows of bodies that no other body is joined to: they may be moved as a whole.
+std::vector<RowRange> WorldBuilder::loose_bodies() const {
+  if (description_.links) return {};
+  std::vector<std::string> joined;
+  for (const BodyDescription& body : description_.bodies) {
+    if (body.shared.empty()) continue;
+    joined.push_back(body.name);
+    for (const SharedNode& node : body.shared) joined.push_back(node.body);
+  }
+  for (const SurfaceDescription& surface : description_.contact->bodies) {
+    for (const BodyNode& other : surface.riders.others) joined.insert(joined.end(), {surface.name, other.body});
+  }
+  std::vector<RowRange> loose;
+  for (const Body& body : world_.bodies_) {
+    if (std::ranges::find(joined, body.name) != joined.end()) continue;
+    loose.push_back({body.first_node, body.first_node + body.node_count});
+  }
+  return loose;
+}
+
 /// An edit goes on from where things are: surfaces that it uncovers are not moved, and nothing is refused.
 void WorldBuilder::separate_surfaces() {
   if (world_.contact_ == nullptr) return;
@@ -41,7 +62,7 @@ void WorldBuilder::separate_surfaces() {
     return;
   }
   if (before_ == nullptr) {
-    separate(*world_.contact_, world_.fixed_, world_.rest_);
+    separate(*world_.contact_, world_.fixed_, loose_bodies(), world_.rest_);
     return;
   }
   world_.rest_.positions = before_->rest_positions();

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "tissu/contact/audit.h"
 #include "tissu/world/world.h"
 
 namespace tissu {
@@ -38,6 +39,7 @@ class WorldBuilder {
   // build_contact.cpp
   void find_others(SurfaceDescription& surface) const;
   void add_contact();
+  [[nodiscard]] std::vector<RowRange> loose_bodies() const;
   void separate_surfaces();
   // build_supports.cpp
   void add_supports();

@@ -48,9 +48,16 @@ class OverlapError : public ParameterError {
   std::string places_;
 };
 
-/// Moves apart what touches, or overlaps by no more than the gap, along outward normals, by at most the gap;
-/// free obstacles by as much as the pile that they are in needs. Other obstacles and given rows stay. Refuses
-/// bodies that overlap more, by their middles or their thicknesses (OverlapError).
-void separate(const Contact& contact, const FixedDofs& fixed, State& start);
+/// Rows of the unknown that follow each other.
+struct RowRange {
+  std::int32_t first;
+  std::int32_t last;  ///< one past them
+};
+
+/// Moves apart what touches, or overlaps by no more than the gap, along outward normals. Free obstacles, and
+/// bodies with rows in `loose`, move as a whole, by as much as the pile that they are in needs; nodes of other
+/// bodies move one by one, by at most the gap. Other obstacles and given rows stay. Refuses bodies that overlap
+/// more, by their middles or their thicknesses (OverlapError).
+void separate(const Contact& contact, const FixedDofs& fixed, std::span<const RowRange> loose, State& start);
 
 }  // namespace tissu

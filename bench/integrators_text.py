@@ -53,7 +53,7 @@ An implicit method can take such steps. It either damps the vibrations that it d
 bounded but not exact, because the law is not linear. RK4 loses the fast vibrations in the first
 periods and keeps the slow swing.
 
-Explicit methods on the bar with nine tenths of their stable step (`dt: auto`):
+Explicit methods on the bar with nine tenths of their stable step:
 
 {own_steps}
 """

@@ -467,3 +467,49 @@ def test_a_checkpoint_amid_a_collision_goes_on_to_the_bit(name, tmp_path):
     go(other, MORE)
     go(simulation, MORE)
     assert state(other) == state(simulation) == straight(name)[1]
+
+
+@pytest.mark.parametrize("seed", range(5))
+@pytest.mark.parametrize("speed", [0.3, 1.0])
+def test_a_landing_in_automatic_steps_gains_no_energy(seed, speed):
+    """Blocks that tumble onto a plane keep to the energy that they had, within a fiftieth.
+
+    A step of nine tenths of the stable one leaves no room for what a blow stiffens: 23 of 50 such
+    landings gained energy without bound, in steps that were said to be converged. With four fifths,
+    250 of 250 gained at most 1.4 %, which symplectic Euler's energy swings by in any case.
+    """
+    spin = np.random.default_rng(seed).normal(0, 3, 3)
+    mesh = ts.bar_mesh(
+        size=(0.05, 0.05, 0.05), cells=(3, 3, 3), cell="hexahedron", origin=(0, 0, 0.03)
+    )
+    body = ts.Body(
+        mesh=mesh,
+        law=ts.StableNeoHooke(young=5e4, poisson=0.4),
+        density=1000,
+        start=ts.Start(velocity=(0.3, 0, -speed), spin=tuple(spin)),
+    )
+    simulation = ts.Scene(
+        bodies={"block": body},
+        obstacles={"floor": ts.PlaneObstacle((0, 0, 0), (0, 0, 1))},
+        contacts=[ts.Contact(("block", "floor"), friction=0.4)],
+        gravity=(0, 0, -GRAVITY),
+        step=ts.SymplecticEuler(),
+    ).compile()
+    before = simulation.energy()["total"]
+    most = before
+    while simulation.time < 0.4:
+        assert simulation.step().converged and simulation.crossings() == []
+        most = max(most, simulation.energy()["total"])
+    assert most < 1.02 * before
+
+
+def test_a_stiffness_that_is_no_number_has_no_stable_step():
+    """Neo-Hooke has no energy in a cell that is inside out: the cell is named."""
+    mesh = ts.bar_mesh(size=(0.1, 0.05, 0.05), cells=(2, 1, 1), cell="tetra")
+    body = ts.Body(mesh=mesh, law=ts.NeoHooke(young=5e3, poisson=0.4), density=1000)
+    simulation = ts.Scene(bodies={"bar": body}, step=ts.SymplecticEuler()).compile()
+    for _ in range(8):  # the stable step is looked at again in the ninth
+        simulation.step()
+    simulation.positions["bar"][0] += (0.2, 0.1, 0.1)
+    with pytest.raises(ts.Diverged, match='is not a number: in cell .* of body "bar"'):
+        simulation.step()

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <numeric>
 #include <utility>
 #include <vector>
@@ -130,6 +131,7 @@ double Lanczos::largest(double tolerance) {
     stop_if_asked();
     matrix_.apply(now_, next_);
     const double on = std::inner_product(now_.begin(), now_.end(), next_.begin(), 0.0);
+    if (!std::isfinite(on)) return std::numeric_limits<double>::quiet_NaN();
     diagonal_.push_back(on);
     const double found = ritz(Eigen::EigenvaluesOnly).eigenvalues().maxCoeff();
     if (step > 4 && std::abs(found - largest) <= tolerance * found) return std::max(0.0, found);

@@ -36,6 +36,7 @@ std::pair<std::complex<double>, std::complex<double>> eigenvalues(double omega, 
 
 double largest_stable_step(const Amplification& method, const Vibration& vibration) {
   const double rate = std::max(vibration.frequency, vibration.largest_damping);
+  if (std::isnan(rate)) return rate;
   if (!(rate > 0.0)) return std::numeric_limits<double>::infinity();
   const auto is_stable = [&](double h) {
     const double most = std::exp(method.growth * h) + kRoundOff;
@@ -140,7 +141,7 @@ void StableStep::measure(const Amplification& method, const State& state) {
     limit_ = std::min(limit_, bearable(method, stiffest_vibration(*world_, state, limit_)));
     if (limit_ > kSettled * before) break;
   }
-  age_ = 0.0;
+  age_ = std::isnan(limit_) ? kLookEvery : 0.0;  // such a state has to be looked at again
   const ConstReals x(state.positions);
   for (std::size_t e = 0; e < lengths_.size(); ++e) {
     lengths_[e] = (block(x, edges_[2 * e]) - block(x, edges_[2 * e + 1])).norm();

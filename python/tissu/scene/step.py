@@ -117,7 +117,7 @@ class Explicit(Step):
     """A method that solves no system; its steps may not exceed the stable one."""
 
     dt: _StableStep = field(default="auto", kw_only=False)
-    """time step [s], such as '0.1 ms', or auto: 0.9 of the stable one, 0.5 after cuts by copies"""
+    """time step [s], such as '0.1 ms', or auto: 0.8 of the stable one, 0.5 after cuts by copies"""
 
 
 class ExplicitEuler(Explicit):

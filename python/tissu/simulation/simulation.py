@@ -44,7 +44,7 @@ if TYPE_CHECKING:
 
 Floats = NDArray[np.float64]
 
-_SHARE_OF_STABLE = 0.9
+_SHARE_OF_STABLE = 0.8
 """of the stable step, for the step auto: room for what the body stiffens in between"""
 _SHARE_WITH_COPIES = 0.5
 """the same after cuts by copies: a light copy beside heavy ones swings far, and stiffens"""
@@ -189,7 +189,7 @@ class Simulation(Inspected, Handled, Touched, Changed, Cutting, Instrumented):
 
     @property
     def dt(self) -> float:
-        """Time step of the scene [s]; if it is auto, nine tenths of the present stable step.
+        """Time step of the scene [s]; if it is auto, four fifths of the present stable step.
 
         Half of it in scenes with a body that was cut by copies of whole cells. 1 for a static
         scene, whose time only distinguishes loads.

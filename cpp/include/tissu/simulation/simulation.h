@@ -40,7 +40,7 @@ class Simulation {
   void prepare_ahead(double h);
 
   /// The largest step that is stable now [s]; infinite for methods that have no such limit.
-  [[nodiscard]] double stable_step() { return integrator_->stable_step(state_); }
+  [[nodiscard]] double stable_step();
 
   [[nodiscard]] const World& world() const { return *world_; }
   /// The same, for what goes on using it when an edit has made another one.

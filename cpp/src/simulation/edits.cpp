@@ -38,14 +38,13 @@ void Simulation::replace_world(std::shared_ptr<const World> world, std::span<con
     editor = std::make_unique<WorldEditor>(std::move(world));
     world = editor->world();
   }
-  hold();
+  keep_velocities();
   const std::vector<double> memory = integrator_->memory();
   integrator_->prepare(*world, solver_.get(), profile_);
   integrator_->restore(memory);
   take_over(copies, blends);
   carry_memory(*world_, *world, state_);
   world_ = std::move(world);
-  keep_velocities();
   editor_ = std::move(editor);
   kept_ = std::move(kept);
   described_.reset();
@@ -54,9 +53,13 @@ void Simulation::replace_world(std::shared_ptr<const World> world, std::span<con
   if (inverted_) inverted_.emplace(*world_);
 }
 
-/// Rows that an edit holds have the velocity that the latest step left them: a method in time that looks back
-/// knows its state again.
-void Simulation::keep_velocities() { world_->fixed().copy(state_.velocities, held_); }
+/// Before an edit: free rows that it holds are to keep the velocity that they have, so that a method in time
+/// that looks back knows its state again.
+void Simulation::keep_velocities() {
+  std::vector<double> kept = state_.velocities;
+  world_->fixed().copy(held_, kept);
+  held_ = std::move(kept);
+}
 
 /// Rows that an edit made take over everything of others.
 void Simulation::take_over(std::span<const RowCopy> copies, std::span<const RowBlend> blends) {
@@ -82,7 +85,6 @@ void Simulation::follow(const WorldEditor::Made& made) {
     integrator_->restore(memory);
   }
   take_over(made.born.copies, made.born.blends);
-  keep_velocities();
   if (watch_) watch_.emplace();
   if (inverted_) inverted_.emplace(*world_);
 }
@@ -101,7 +103,7 @@ Simulation::Edited Simulation::make(std::string_view body, CutPlan plan) {
   Edited edited;
   edited.plan = std::move(plan);
   if (!changes(edited.plan)) return edited;
-  hold();
+  keep_velocities();
   keep_contact_forces();
   if (editor_ != nullptr) {
     if (const auto made = editor_->cut(body, edited.plan, state_)) {
@@ -173,7 +175,7 @@ Contact::Wrench Simulation::contact_force_on(std::int32_t surface) const {
 }
 
 void Simulation::remove_cells(std::string_view body, std::span<const std::int32_t> cells) {
-  hold();
+  keep_velocities();
   if (editor_ != nullptr) {
     if (const auto made = editor_->remove(body, cells, state_)) {
       follow(*made);

@@ -15,6 +15,7 @@ namespace {
 constexpr int kRounds = 32;
 constexpr int kMostParts = 64;
 constexpr double kPartOfEdge = 0.5;
+constexpr double kFar = std::numeric_limits<double>::infinity();
 constexpr double kLeastFree = 0.1;  ///< of the weights of a vertex: less of it does not move it
 
 std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
@@ -32,6 +33,8 @@ PushAhead::PushAhead(const Contact& contact, const std::vector<std::uint8_t>& gi
     if (edge == 0.0 && of.carrier >= 0) edge = 2.0 * surfaces.vertices()[at(of.first_vertex)].radius;
     if (edge > 0.0) part_ = std::min(part_, kPartOfEdge * edge);
   }
+  meets_held_ = find_held();
+  if (meets_held_) rooms_.reserve(contact.description().pairs.size());
 }
 
 void PushAhead::lead(const LedMotion& motion, double share, Reals places) const {
@@ -146,6 +149,7 @@ void PushAhead::push(const LedMotion& motion, Candidates& candidates, std::vecto
           go(motion, static_cast<double>(i) / parts, static_cast<double>(i + 1) / parts, candidates, places);
     }
     if (done) return;
+    if (is_led_in_) break;
   }
   refuse(motion, way);
 }
@@ -154,11 +158,14 @@ bool PushAhead::go(const LedMotion& motion, double before, double after, Candida
                    std::vector<double>& places) {
   to_ = places;
   lead(motion, after, to_);
+  is_led_in_ = false;
+  if (meets_held_) rooms_.assign(contact_.description().pairs.size(), {kFar, kFar, {-1, -1}});
   for (int round = 0; round < kRounds; ++round) {
     candidates.cover(places, to_);
     bool pushed = false;
     bool clear = push_pairs(candidates, places, pushed);
     clear = push_before_planes(motion, before, after, candidates, places, pushed) && clear;
+    if (meets_held_ && is_led_into_held()) return false;
     if (clear) {
       places = to_;
       return true;
@@ -207,6 +214,7 @@ bool PushAhead::push_pairs(const Candidates& candidates, ConstReals from, bool& 
     const Candidate& candidate = candidates.list()[i];
     if (candidates.is_far(i, candidate.apart)) continue;
     const FreeWay way = free_way(candidate, from, to_, {});
+    if (meets_held_) measure_room(candidate, from);
     if (way.share == 1.0) continue;
     clear = false;
     culprit_ = candidate.vertex[0];
@@ -249,6 +257,10 @@ bool PushAhead::push_before_planes(const LedMotion& motion, double before, doubl
     const double start = was.normal.dot(block(from, c.vertex) - was.point);
     const double end = is.normal.dot(block(ConstReals(to_), c.vertex) - is.point);
     const double least = HoldBack::least(c.apart, std::max(start, 0.0));
+    const double radius = contact_.surfaces().vertices()[at(c.vertex)].radius;
+    if (radius > 0.0 && given_[at(c.vertex)] != 0) {
+      measure_room(c.pair, start - radius, end - radius, {c.vertex, -1});
+    }
     if (end >= least || end >= start) continue;
     culprit_ = c.vertex;
     other_ = -1;

@@ -2,6 +2,8 @@
 
 /// What is led cannot be held back, so it goes first and pushes what is in its way.
 
+#include <array>
+#include <cstdint>
 #include <vector>
 
 #include "hold_back.h"
@@ -28,7 +30,8 @@ class PushAhead {
   PushAhead(const Contact& contact, const std::vector<std::uint8_t>& given);
 
   /// `places` of all movers at the start become those from which the step goes on; `planes` those at its
-  /// end. Throws Diverged where things that are led close on a body.
+  /// end. Throws Diverged where things that are led close on a body, and where a surface with a radius goes
+  /// into what is held.
   void push(const LedMotion& motion, Candidates& candidates, std::vector<double>& places,
             std::vector<PlacedPlane>& planes);
   /// How far obstacles are led, over the longest way of a part.
@@ -46,11 +49,28 @@ class PushAhead {
   bool push_pairs(const Candidates& candidates, ConstReals from, bool& pushed);
   bool push_before_planes(const LedMotion& motion, double before, double after, const Candidates& candidates,
                           ConstReals from, bool& pushed);
+  // into_held.cpp
+  /// Whether obstacles that are led, if they are, may meet what is given of bodies.
+  [[nodiscard]] bool find_held() const;
+  /// Measures how near an obstacle and what is given of a body are before and after a part.
+  void measure_room(const Candidate& candidate, ConstReals from);
+  void measure_room(std::int32_t pair, double before, double after, const std::array<std::int32_t, 2>& ends);
+  /// The thickness of an obstacle, or of a body before one, is led further into what is given: nothing can
+  /// give way there, and the test of ways knows the middle of thick things only.
+  [[nodiscard]] bool is_led_into_held();
   [[noreturn]] void refuse(const LedMotion& motion, double way) const;
 
   const Contact& contact_;
   const std::vector<std::uint8_t>& given_;
   double part_ = 0.0;  ///< longest way of a part [m]
+  bool meets_held_ = false;
+  bool is_led_in_ = false;  ///< the latest part led a thickness into what is given
+  struct Room {
+    double before;                      ///< the least distance beside thicknesses [m]
+    double after;                       ///< the same at the end of the part
+    std::array<std::int32_t, 2> where;  ///< vertices of both sides; -1: a plane
+  };
+  std::vector<Room> rooms_;  ///< of each pair of the description; empty: nothing held is met
   std::vector<double> to_;
   std::vector<double> begin_;
   std::vector<PlacedPlane> last_;  ///< planes at the end of the step

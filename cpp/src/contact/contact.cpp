@@ -63,7 +63,7 @@ Vec3 Contact::reach(const ContactNumbers& contact, const State& state) const {
     const auto v = static_cast<std::int32_t>(contact.vertex[k]);
     if (surfaces_.vertices()[static_cast<std::size_t>(v)].is_free()) r += contact.beta[k] * place(v, state);
   }
-  if (!surfaces_.carriers().empty()) r += rolled(contact, state);
+  if (surfaces_.has_rolling()) r += rolled(contact, state);
   return r;
 }
 
@@ -87,13 +87,11 @@ Vec3 Contact::rolled(const ContactNumbers& contact, const State& state) const {
   for (std::size_t k = 0; k < 4; ++k) {
     if (contact.vertex[k] < 0.0) continue;
     const auto v = static_cast<std::int32_t>(contact.vertex[k]);
-    const std::int32_t number = surfaces_.vertices()[static_cast<std::size_t>(v)].carrier;
-    if (number < 0) continue;
-    const SurfaceCarrier& carrier = surfaces_.carriers()[static_cast<std::size_t>(number)];
-    const std::size_t side = contact.is_of_first(k) ? 0 : 3;
-    const Vec3 offset(contact.offset[side], contact.offset[side + 1], contact.offset[side + 2]);
+    const std::int32_t frame = frame_of(contact, surfaces_.vertices()[static_cast<std::size_t>(v)]);
+    if (frame < 0) continue;
+    const Vec3 offset(contact.offset[3 * k], contact.offset[3 * k + 1], contact.offset[3 * k + 2]);
     sum += contact.beta[k] *
-           arc(contact, side == 0, state.rotations[static_cast<std::size_t>(carrier.frame)] * offset);
+           arc(contact, contact.is_of_first(k), state.rotations[static_cast<std::size_t>(frame)] * offset);
   }
   return sum;
 }
@@ -172,6 +170,11 @@ void Contact::add_couplings(const State& state, StiffnessScale scale, Couplings&
       if (!vertex.is_free()) continue;
       coupling.vertex[k] = vertex.row;
       coupling.beta[k] = c.beta[k];
+      if (rolls(c, vertex)) {
+        coupling.vertex[k] = couplings.carry(
+            std::array{CarriedPart{vertex.row, 1.0},
+                       CarriedPart{surfaces_.roller(vertex).rotation, 1.0, outward(c, k), true}});
+      }
       if (vertex.row >= 0) continue;
       if (vertex.rider >= 0) {
         coupling.vertex[k] = carry_rider(vertex, state, couplings);
@@ -238,9 +241,15 @@ void Contact::check_memory(const State& state) const {
 /// Where vertex number k of a contact touches: on the surface of what is round.
 Vec3 Contact::touched(const ContactNumbers& contact, std::size_t k, const State& state) const {
   const auto v = static_cast<std::int32_t>(contact.vertex[k]);
-  const std::int32_t number = surfaces_.vertices()[static_cast<std::size_t>(v)].carrier;
-  if (number < 0) return place(v, state);
-  const SurfaceCarrier& carrier = surfaces_.carriers()[static_cast<std::size_t>(number)];
+  const SurfaceVertex& vertex = surfaces_.vertices()[static_cast<std::size_t>(v)];
+  if (!vertex.is_free()) {
+    const std::int32_t obstacle = surfaces_.surfaces()[static_cast<std::size_t>(vertex.surface)].obstacle;
+    const Vec3 at = place_of(obstacle, block(ConstReals(surfaces_.rest()), v), state, state.time);
+    return vertex.radius > 0.0 ? Vec3(at + outward(contact, k)) : at;
+  }
+  if (rolls(contact, vertex)) return place(v, state) + outward(contact, k);
+  if (vertex.carrier < 0) return place(v, state);
+  const SurfaceCarrier& carrier = surfaces_.carriers()[static_cast<std::size_t>(vertex.carrier)];
   return block(ConstReals(state.positions), carrier.row) + arm(contact, k, carrier, state);
 }
 
@@ -280,11 +289,7 @@ Contact::Wrench Contact::force_now(std::int32_t surface, const State& state) con
     for (std::size_t k = 0; k < 4; ++k) {
       if (c.vertex[k] < 0.0) continue;
       const auto v = static_cast<std::size_t>(c.vertex[k]);
-      const SurfaceVertex& vertex = surfaces_.vertices()[v];
-      if (vertex.surface != surface) continue;
-      const Vec3 rest = block(ConstReals(surfaces_.rest()), static_cast<std::int32_t>(v));
-      add(c.beta[k] * force,
-          vertex.is_free() ? touched(c, k, state) : place_of(surface - bodies, rest, state, state.time));
+      if (surfaces_.vertices()[v].surface == surface) add(c.beta[k] * force, touched(c, k, state));
     }
   });
   return wrench;

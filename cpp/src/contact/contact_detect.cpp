@@ -40,6 +40,7 @@ Vec3 ContactRun::led(const ContactNumbers& contact) const {
     gone -=
         point - contact_.carried(static_cast<std::int32_t>(contact.b), point, *start_, end_, start_->time);
   }
+  if (turns_led_) gone += turned_by(contact);
   return gone;
 }
 

@@ -148,19 +148,17 @@ void ContactRun::add(const Candidate& candidate, const Found& found, std::int32_
   weights_.push_back(found.weight);
 }
 
-/// Where round things that rigid bodies carry touch.
+/// Where round things that rigid bodies carry, or that turn with frames, touch.
 void ContactRun::set_offsets(ContactNumbers& c) const {
   const SurfaceSet& surfaces = contact_.surfaces();
-  if (surfaces.carriers().empty()) return;
+  if (!surfaces.has_rolling()) return;
   for (std::size_t k = 0; k < 4; ++k) {
     if (c.vertex[k] < 0.0) continue;
     const SurfaceVertex& vertex = surfaces.vertices()[static_cast<std::size_t>(c.vertex[k])];
-    if (vertex.carrier < 0 || vertex.radius == 0.0) continue;
-    const bool first = c.is_of_first(k);
-    const auto frame = at(surfaces.carriers()[at(vertex.carrier)].frame);
-    const Vec3 out = (first ? -vertex.radius : vertex.radius) * vector_of(c.normal);
-    const Vec3 own = looked_at_->rotations[frame].conjugate() * out;
-    std::ranges::copy(numbers_of(own), c.offset.begin() + (first ? 0 : 3));
+    const std::int32_t frame = contact_.frame_of(c, vertex);
+    if (frame < 0 || vertex.radius == 0.0) continue;
+    const Vec3 own = looked_at_->rotations[at(frame)].conjugate() * contact_.outward(c, k);
+    std::ranges::copy(numbers_of(own), c.offset.begin() + static_cast<std::ptrdiff_t>(3 * k));
   }
 }
 

@@ -17,6 +17,7 @@ std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 ContactRun::ContactRun(const Contact& contact, const FixedDofs& fixed) : contact_(contact), fixed_(fixed) {
   const SurfaceSet& surfaces = contact.surfaces();
   list_given();
+  list_round();
   candidates_ = std::make_unique<Candidates>(contact.description(), contact.surfaces());
   if (std::ranges::any_of(contact.description().pairs, [](const ContactPair& p) { return p.a == p.b; })) {
     together_ =
@@ -82,6 +83,7 @@ void ContactRun::begin(const State& start, double end, const State& led) {
   gather_inner_rows(start, begin_);
   from_ = begin_;
   from_turned_ = start.rotations;
+  turn_led();
   if (contact_.surfaces().has_turning_riders()) {
     for (const SurfaceRotation& of : contact_.surfaces().rotations()) {
       if (is_row_given(of.row)) from_turned_[at(of.frame)] = led.rotations[at(of.frame)];
@@ -189,9 +191,10 @@ Vec3 ContactRun::gone(const ContactNumbers& contact) const {
     const auto obstacle = static_cast<std::int32_t>(contact.b);
     before -= contact_.carried(obstacle, -vector_of(contact.fixed), *start_, end_, start_->time);
   }
-  if (!contact_.surfaces().carriers().empty()) {
+  if (contact_.surfaces().has_rolling()) {
     before += contact_.rolled(contact, *start_) - contact_.rolled(contact, *looked_at_);
   }
+  if (turns_led_) before -= turned_by(contact);
   return vector_of(contact.place) - before;
 }
 

@@ -42,6 +42,17 @@ Vec3 Contact::normal_of(std::int32_t obstacle, const State& state, double time) 
       .normalized();
 }
 
+Vec3 Contact::turn_of(std::int32_t obstacle, const State& state, double from, double to) const {
+  if (state.memory[leads_[at(obstacle)]].empty()) {
+    const Motion& motion = description_.obstacles[at(obstacle)].motion;
+    return (motion.angle(to) - motion.angle(from)) * motion.axis;
+  }
+  const LivePlace before = live_place(obstacle, state, from);
+  const LivePlace after = live_place(obstacle, state, to);
+  if (before.rotation.coeffs() == after.rotation.coeffs()) return Vec3::Zero();
+  return nearest_turn(after.rotation * before.rotation.conjugate(), after.turned - before.turned);
+}
+
 Vec3 Contact::carried(std::int32_t obstacle, const Vec3& place, const State& state, double from,
                       double to) const {
   const Vec3 zero = Vec3::Zero();

@@ -92,6 +92,7 @@ SurfaceSet::SurfaceSet(const ContactDescription& description, std::span<const st
     add(description.bodies[i], first_node[i], -1, rest);
   }
   if (has_turning_riders()) find_frames(frames);
+  find_rollers(description, frames);
   // Of augmented contacts vertices inside a plane stay: they hold what lies on them with more points, and
   // push along the normal of a face. A barrier would push along the distance, which is not the plane's normal
   // where the face that lies on it is bent.
@@ -271,7 +272,7 @@ std::size_t SurfaceSet::bytes() const {
   const auto of = [](const auto& list) { return list.size() * sizeof(list[0]); };
   return of(vertices_) + of(edges_) + of(primitives_) + of(triangle_edges_) + of(rest_) + of(owner_) +
          of(own_vertex_) + of(own_edge_) + of(own_vertex_begin_) + of(own_edge_begin_) + of(neighbour_) +
-         of(neighbour_begin_) + of(carriers_) + of(arms_) + of(rider_part_) + of(rider_turn_) +
+         of(neighbour_begin_) + of(carriers_) + of(arms_) + of(rollers_) + of(rider_part_) + of(rider_turn_) +
          of(rider_begin_) + of(rotations_) + of(inner_rows_) + of(root_) + of(carried_) + of(carried_begin_);
 }
 

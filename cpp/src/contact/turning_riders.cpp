@@ -1,4 +1,5 @@
-/// Vertices that frames carry with their rotations: p = sum w (x + R arm).
+/// Vertices that frames carry with their rotations: p = sum w (x + R arm). Nodes of lines that are frames,
+/// about which the surface of the line turns.
 
 #include <algorithm>
 #include <unordered_map>
@@ -24,6 +25,23 @@ void SurfaceSet::find_frames(std::span<const Frame> frames) {
   }
 }
 
+/// Where lines rub: without friction a force leads through their middle.
+void SurfaceSet::find_rollers(const ContactDescription& description, std::span<const Frame> frames) {
+  if (frames.empty()) return;
+  std::unordered_map<std::int32_t, std::size_t> by_row;
+  for (std::size_t k = 0; k < frames.size(); ++k) by_row[frames[k].block] = k;
+  for (SurfaceVertex& vertex : vertices_) {
+    if (vertex.row < 0 || vertex.has_faces || vertex.radius == 0.0) continue;
+    const auto found = by_row.find(vertex.row);
+    const bool rubs = std::ranges::any_of(description.pairs, [&](const ContactPair& pair) {
+      return pair.friction > 0.0 && (pair.a == vertex.surface || pair.b == vertex.surface);
+    });
+    if (found == by_row.end() || !rubs) continue;
+    vertex.roller = static_cast<std::int32_t>(rollers_.size());
+    rollers_.push_back({static_cast<std::int32_t>(found->second), frames[found->second].rotation});
+  }
+}
+
 void SurfaceSet::list_rotations() {
   for (const SurfaceCarrier& carrier : carriers_) {
     rotations_.push_back({carrier.frame, carrier.rotation, -1});
@@ -37,6 +55,15 @@ void SurfaceSet::list_rotations() {
   const auto same =
       std::ranges::unique(rotations_.begin() + first, rotations_.end(), {}, &SurfaceRotation::frame);
   rotations_.erase(same.begin(), same.end());
+  const auto is_listed = [&](std::int32_t frame) {
+    return std::ranges::binary_search(rotations_.begin() + first, rotations_.end(), frame, {},
+                                      &SurfaceRotation::frame);
+  };
+  std::vector<SurfaceRotation> others;
+  for (const Roller& roller : rollers_) {
+    if (!is_listed(roller.frame)) others.push_back({roller.frame, roller.rotation, -1});
+  }
+  rotations_.insert(rotations_.end(), others.begin(), others.end());
 }
 
 Vec3 SurfaceSet::turned(const SurfaceVertex& vertex, std::span<const Quaternion> rotations) const {

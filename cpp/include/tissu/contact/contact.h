@@ -51,9 +51,9 @@ struct ContactNumbers {
   std::array<double, 3> drag = {};       ///< lambda_T [N]
   double sliding = 0.0;                  ///< 1: friction gave way
   double area = 0.0;                     ///< on which it acts [m2]
-  /// From the vertices of either side to where they touch, in the axes of the rigid body that carries them
-  /// [m]: what is round rolls. Zero for others.
-  std::array<double, 6> offset = {};
+  /// From each vertex to where it touches, in the axes of the rigid body that carries it or of the frame that
+  /// it is [m]: what is round rolls. Zero for others.
+  std::array<double, 12> offset = {};
 
   /// Its vertex number k is on the side of the vertex, or of the first edge.
   [[nodiscard]] bool is_of_first(std::size_t k) const {
@@ -126,6 +126,8 @@ class Contact final : public ForceModel {
   [[nodiscard]] Vec3 carried(std::int32_t obstacle, const Vec3& place, const State& state, double from,
                              double to) const;
   [[nodiscard]] Vec3 normal_of(std::int32_t obstacle, const State& state, double time) const;
+  /// By which rotation vector an obstacle that is led turns between two times, whole turns and all.
+  [[nodiscard]] Vec3 turn_of(std::int32_t obstacle, const State& state, double from, double to) const;
   /// Of the obstacle with that name; -1: none.
   [[nodiscard]] std::int32_t obstacle_named(std::string_view name) const;
   /// Of a free obstacle; null: it is led or at rest.
@@ -155,6 +157,21 @@ class Contact final : public ForceModel {
     } else {
       for_merged_parts<MergedParts>(contact, state, f);
     }
+  }
+  /// The surface of a line turns about that vertex with a frame.
+  [[nodiscard]] bool rolls(const ContactNumbers& contact, const SurfaceVertex& vertex) const {
+    return vertex.roller >= 0 && description_.pairs[static_cast<std::size_t>(contact.pair)].friction > 0.0;
+  }
+  /// Number in State::rotations of what turns the surface of what is round about a vertex; -1: nothing.
+  [[nodiscard]] std::int32_t frame_of(const ContactNumbers& contact, const SurfaceVertex& vertex) const {
+    if (vertex.carrier >= 0) return surfaces_.carriers()[static_cast<std::size_t>(vertex.carrier)].frame;
+    return rolls(contact, vertex) ? surfaces_.roller(vertex).frame : -1;
+  }
+  /// From a contact's vertex number k to where it touches: on the surface of what is round.
+  [[nodiscard]] Vec3 outward(const ContactNumbers& contact, std::size_t k) const {
+    const double radius = surfaces_.vertices()[static_cast<std::size_t>(contact.vertex[k])].radius;
+    const Vec3 n(contact.normal[0], contact.normal[1], contact.normal[2]);
+    return (contact.is_of_first(k) ? -radius : radius) * n;
   }
   /// r of a contact in a state.
   [[nodiscard]] Vec3 reach(const ContactNumbers& contact, const State& state) const;
@@ -219,6 +236,8 @@ class Contact final : public ForceModel {
       const SurfaceVertex& v = surfaces_.vertices()[static_cast<std::size_t>(vertex)];
       if (v.row >= 0) {
         f(CarriedPart{v.row, contact.beta[k]});
+        if (!rolls(contact, v)) continue;
+        f(CarriedPart{surfaces_.roller(v).rotation, contact.beta[k], outward(contact, k), true});
       } else if (v.carrier >= 0) {
         const SurfaceCarrier& carrier = surfaces_.carriers()[static_cast<std::size_t>(v.carrier)];
         f(CarriedPart{carrier.row, contact.beta[k]});
@@ -237,10 +256,7 @@ class Contact final : public ForceModel {
   /// From there to where a contact's vertex number k touches.
   [[nodiscard]] Vec3 arm(const ContactNumbers& contact, std::size_t k, const SurfaceCarrier& carrier,
                          const State& state) const {
-    const auto vertex = static_cast<std::int32_t>(contact.vertex[k]);
-    const double radius = surfaces_.vertices()[static_cast<std::size_t>(vertex)].radius;
-    const Vec3 n(contact.normal[0], contact.normal[1], contact.normal[2]);
-    return arm(vertex, carrier, state) + (contact.is_of_first(k) ? -radius : radius) * n;
+    return arm(static_cast<std::int32_t>(contact.vertex[k]), carrier, state) + outward(contact, k);
   }
   [[nodiscard]] Vec3 touched(const ContactNumbers& contact, std::size_t k, const State& state) const;
   void scatter(const ContactNumbers& contact, const State& state, const Vec3& force, Reals f) const;

@@ -101,6 +101,10 @@ class ContactRun {
 
  private:
   void gather(const State& state, std::vector<double>& places) const;
+  // led_turns.cpp
+  void list_round();
+  void turn_led();
+  [[nodiscard]] Vec3 turned_by(const ContactNumbers& contact) const;
   void find();
   /// Those that a look has to see: ways that were cut are not gone together.
   [[nodiscard]] Candidates& near();
@@ -142,6 +146,9 @@ class ContactRun {
   std::unique_ptr<HoldBack> held_;
   std::unique_ptr<PushAhead> ahead_;
   std::vector<PlacedPlane> planes_;
+  std::vector<std::int32_t> round_;  ///< obstacles that are led, if they are, and have a radius
+  std::vector<Vec3> led_turns_;      ///< of each obstacle: the rotation vector of its turn in the step
+  bool turns_led_ = false;           ///< one of them is not zero
   // Places of all vertices, then of rows that carry some and are none:
   std::vector<double> begin_;   ///< at the start of the step, …
   std::vector<double> from_;    ///< … after what is led went ahead, …

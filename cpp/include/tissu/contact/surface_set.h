@@ -53,17 +53,18 @@ struct RiderTurn {
   Vec3 arm = Vec3::Zero();  ///< in the axes of the frame [m]
 };
 
-/// A rotation that carries vertices.
+/// A rotation that carries vertices, or turns what is round about them.
 struct SurfaceRotation {
   std::int32_t frame;  ///< number in State::rotations
   std::int32_t row;
-  std::int32_t mover;  ///< of the frame's origin; -1: of a free obstacle
+  std::int32_t mover;  ///< of the frame's origin; -1: of a free obstacle, or it leaves all vertices in place
 };
 
 struct SurfaceVertex {
   std::int32_t row = -1;      ///< of the unknown that it is; -1: of an obstacle, or several carry it
   std::int32_t carrier = -1;  ///< of a free obstacle: number among the carriers
   std::int32_t rider = -1;    ///< number among the vertices that rows carry
+  std::int32_t roller = -1;   ///< of a line's node that is a frame: number among the rollers
   std::int32_t node = 0;      ///< number in its body or obstacle; negative: the vertex is not a node
   std::int32_t surface = 0;
   double radius = 0.0;  ///< [m]
@@ -107,6 +108,17 @@ class SurfaceSet {
   [[nodiscard]] const Vec3& arm(std::int32_t vertex) const {
     return arms_[static_cast<std::size_t>(vertex - first_carried_)];
   }
+
+  /// Frames in the middle of lines, whose surface turns with them where it rubs.
+  struct Roller {
+    std::int32_t frame;     ///< number in State::rotations
+    std::int32_t rotation;  ///< the row of its rotation
+  };
+  [[nodiscard]] const Roller& roller(const SurfaceVertex& vertex) const {
+    return rollers_[static_cast<std::size_t>(vertex.roller)];
+  }
+  /// Whether anything round turns with unknowns.
+  [[nodiscard]] bool has_rolling() const { return !carriers_.empty() || !rollers_.empty(); }
 
   /// Whether rows carry any vertex.
   [[nodiscard]] bool has_riders() const { return !rider_part_.empty(); }
@@ -198,6 +210,7 @@ class SurfaceSet {
   // turning_riders.cpp
   /// Notes the frames of the rows that carry riders, whose arms are there.
   void find_frames(std::span<const Frame> frames);
+  void find_rollers(const ContactDescription& description, std::span<const Frame> frames);
   void list_rotations();
   void list_movers(const ContactDescription& description, std::span<const std::int32_t> first_node);
   void list_carried();
@@ -218,6 +231,7 @@ class SurfaceSet {
   std::int32_t first_carried_ = 0;
   std::vector<RiderPart> rider_part_;
   std::vector<RiderTurn> rider_turn_;  ///< beside them; empty: no rotation carries any
+  std::vector<Roller> rollers_;
   std::vector<SurfaceRotation> rotations_;
   bool has_shared_rows_ = false;  ///< a row carries vertices of two surfaces
   std::vector<std::int32_t> rider_begin_ = {0};

@@ -40,14 +40,18 @@ void ExplicitContact::finish(State& end) {
   kept_.clear();
   keep(end, kept_);
   least_gap_ = std::numeric_limits<double>::infinity();
+  double thick = 0.0;  // how deep things with a thickness are inside each other, as a share of their gap
   for (ContactNumbers& c : kept_) {
     const Vec3 r = contact_.reach(c, end);
     c.place = {r.x(), r.y(), r.z()};
     c.stiffness = {};
-    least_gap_ = std::min(least_gap_, vector_of(c.normal).dot(r) / c.apart);
+    const double along = vector_of(c.normal).dot(r);
+    least_gap_ = std::min(least_gap_, along / c.apart);
+    const double gap = pair_of(c).gap;
+    if (c.apart > gap && along < c.apart - gap) thick = std::max(thick, (c.apart - along) / gap);
   }
   ContactTable::write(kept_, contact_.numbers(end));
-  depth_ = contact_.surfaces().carriers().empty() ? 0.0 : look_at_depth(end);
+  depth_ = contact_.surfaces().carriers().empty() ? thick : std::max(thick, look_at_depth(end));
 }
 
 double ExplicitContact::look_at_depth(const State& at) {

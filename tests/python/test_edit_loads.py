@@ -211,3 +211,15 @@ def test_the_rim_of_a_flat_body() -> None:
     assert _total(simulation)[0] == pytest.approx(VALUE * 0.04 * 2e-3)
     simulation.ablate("b", ts.Box(min=(0.085, 0.02, None)))
     assert _total(simulation)[0] == pytest.approx(VALUE * 0.02 * 2e-3)
+
+
+@pytest.mark.parametrize("cell", ["hexahedron", "tetra"])
+def test_a_slice_within_cells_bears_the_load_of_its_face(cell: str) -> None:
+    """None of its nodes has material."""
+    simulation = _scene(_loads(TOP)["traction"], cell).compile()
+    for x in (0.047, 0.053):
+        simulation.cut("b", ts.Plane((x, 0, 0), (1, 0, 0)))
+    simulation.ablate("b", ts.Box(min=(0.054, None, None)))
+    simulation.ablate("b", ts.Box(max=(0.046, None, None)))
+    assert len(simulation.pieces("b")) == 1
+    np.testing.assert_allclose(_total(simulation)[0], VALUE * 0.04 * 0.006, rtol=1e-9)

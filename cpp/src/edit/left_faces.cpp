@@ -45,7 +45,7 @@ class LeftFaces {
   }
 
   std::vector<double> find() {
-    for (const std::int32_t cell : cut_.hosts.numbers()) look_at(cell);
+    for (const std::int32_t cell : cells_near()) look_at(cell);
     std::vector<double> shares;
     shares.reserve(faces_.size());
     for (const Face& face : faces_) {
@@ -99,6 +99,21 @@ class LeftFaces {
         }
       }
     }
+  }
+
+  /// The cells at nodes that are copies of corners of the faces, or lie between such.
+  [[nodiscard]] Nodes cells_near() const {
+    std::vector<char> is_corner(at(cut_.hosts.node_count()), 0);
+    for (const auto& [node, faces] : faces_at_) is_corner[at(node)] = 1;
+    Nodes cells;
+    for (std::int32_t node = 0; node < cut_.hosts.node_count(); ++node) {
+      const std::int32_t root = cut_.hosts.root(node);
+      if (root >= 0 && is_corner[at(root)] == 0) continue;
+      const auto own = cut_.hosts.cells_at(node);
+      cells.insert(cells.end(), own.begin(), own.end());
+    }
+    sort_unique(cells);
+    return cells;
   }
 
   /// Faces that the cell may have a part of: enough of their corners are among the nodes of the first day

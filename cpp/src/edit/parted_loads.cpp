@@ -72,18 +72,18 @@ void add_masses(const BodyDescription& body, Masses& masses) {
 
 using Sharers = std::unordered_map<std::int32_t, std::vector<std::int32_t>>;
 
-/// Of each node of the first day that has copies, it and these, as far as they have material; ascending.
-Sharers sharers_of(const BodyDescription& body) {
+/// Of each node of the first day that has copies, it and these, as far as they may bear a load; ascending.
+template <class MayBear>
+Sharers sharers_of(const BodyDescription& body, MayBear&& may_bear) {
   const auto first_day = static_cast<std::int32_t>(body.positions.size() / 3 - body.copies_of.size());
-  const auto is_bare = [&](std::int32_t node) { return std::ranges::binary_search(body.bare, node); };
   Sharers result;
   for (std::size_t k = 0; k < body.copies_of.size(); ++k) {
     const std::int32_t root = body.copies_of[k];
     if (root < 0) continue;  // on an edge, where no load of the first day acts
     const auto [found, is_new] = result.try_emplace(root);
-    if (is_new && !is_bare(root)) found->second.push_back(root);
+    if (is_new && may_bear(root)) found->second.push_back(root);
     const auto copy = first_day + static_cast<std::int32_t>(k);
-    if (!is_bare(copy)) found->second.push_back(copy);
+    if (may_bear(copy)) found->second.push_back(copy);
   }
   return result;
 }
@@ -164,10 +164,11 @@ Left left_of(const LoadDescription& load, const CutState& cut, HasMaterial&& has
 }
 
 /// Shares the load of each node of the first day among its copies that have material now. Shares of earlier
-/// edits leave no trace. `has_material`: of a node of the first day, with its copies.
+/// edits leave no trace. `has_material`: of a node of the first day, with its copies. `with_cells`: those
+/// that have cells, which bear what is left of a face between nodes without material.
 template <class HasMaterial>
 LoadDescription shared(const LoadDescription& load, const Left& left, const Sharers& sharers,
-                       const Masses& masses, HasMaterial&& has_material) {
+                       const Masses& masses, const Sharers& with_cells, HasMaterial&& has_material) {
   LoadDescription parted = load;
   parted.nodes.clear();
   parted.forces.clear();
@@ -188,7 +189,14 @@ LoadDescription shared(const LoadDescription& load, const Left& left, const Shar
       whole = per_unit->cwiseProduct(load.unit);
     }
     if (!has_material(root)) {
-      add(root, 1.0, nothing, &nothing);
+      const auto bearing = with_cells.find(root);
+      const bool bears = per_unit != nullptr && !per_unit->isZero(0.0) && bearing != with_cells.end();
+      if (!bears || bearing->second.empty()) {
+        add(root, 1.0, nothing, &nothing);
+        continue;
+      }
+      const double share = 1.0 / static_cast<double>(bearing->second.size());
+      for (const std::int32_t one : bearing->second) add(one, share, whole, per_unit);
       continue;
     }
     const auto found = sharers.find(root);
@@ -213,9 +221,11 @@ LoadDescription shared(const LoadDescription& load, const Left& left, const Shar
 void part_loads(std::vector<LoadDescription>& loads, const BodyDescription& body) {
   const auto acts = [&](const LoadDescription& load) { return load.body == body.name; };
   if (std::ranges::none_of(loads, acts)) return;
-  const auto sharers = sharers_of(body);
   const std::vector<char> used = used_nodes(body);
   const auto is_used = [&](std::int32_t node) { return used[static_cast<std::size_t>(node)] != 0; };
+  const Sharers with_cells = sharers_of(body, is_used);
+  const Sharers sharers =
+      sharers_of(body, [&](std::int32_t node) { return !std::ranges::binary_search(body.bare, node); });
   const auto has_material = [&](std::int32_t root) {
     const auto found = sharers.find(root);
     if (found != sharers.end()) return std::ranges::any_of(found->second, is_used);
@@ -241,7 +251,7 @@ void part_loads(std::vector<LoadDescription>& loads, const BodyDescription& body
   for (LoadDescription& load : loads) {
     if (!acts(load)) continue;
     const Left left = load.faces.empty() ? Left() : left_of(load, *cut, has_material);
-    load = shared(load, left, sharers, masses, has_material);
+    load = shared(load, left, sharers, masses, with_cells, has_material);
   }
 }
 

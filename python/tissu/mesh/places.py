@@ -67,7 +67,8 @@ def holders(point: Floats, mesh: Mesh) -> list[Holder]:
     for block in mesh.body_blocks:
         shape, nodes = _as_shape(block.type, block.nodes)
         corners = mesh.points[nodes[:, : len(shape.corners)]]
-        _, cell = _near(point[None], corners, slack)
+        low, high = corners.min(axis=1) - slack, corners.max(axis=1) + slack
+        cell = np.flatnonzero(((point >= low) & (point <= high)).all(axis=1))
         local, apart = shape.local(np.repeat(point[None], len(cell), axis=0), corners[cell])
         beyond = np.where(apart <= slack, shape.beyond(local), np.inf)
         weights = shape.values(local, _own(shape, mesh.points, nodes))

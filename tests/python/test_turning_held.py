@@ -182,15 +182,11 @@ def test_a_plate_turns_on_under_a_heavy_block(method):
     """
 
     def cube(z: float, height: float, cells: tuple[int, int, int], **fields) -> ts.Body:
-        mesh = ts.bar_mesh(
-            size=(0.1, 0.1, height), cells=cells, cell="tetra", origin=(0, 0, z)
-        )
+        mesh = ts.bar_mesh(size=(0.1, 0.1, height), cells=cells, cell="tetra", origin=(0, 0, z))
         return ts.Body(mesh=mesh, law=ts.StableNeoHooke(young=5e6, poisson=0.4), **fields)
 
     bodies = {
-        "plate": cube(
-            0.0012, 0.03, (3, 3, 1), density=300, start=ts.Start(spin=(0, 0, 4.0))
-        ),
+        "plate": cube(0.0012, 0.03, (3, 3, 1), density=300, start=ts.Start(spin=(0, 0, 4.0))),
         "block": cube(0.0324, 0.1, (2, 2, 2), density=8000),
     }
     contacts = [ts.Contact(("plate", "floor")), ts.Contact(("block", "plate"))]

@@ -25,9 +25,11 @@ RigidSeparation::RigidSeparation(const Contact& contact, const FixedDofs& fixed,
   const std::vector<std::uint8_t>& masks = fixed.masks();
   for (const RowRange& rows : loose) {
     const auto mask = masks.begin();
-    if (std::any_of(mask + rows.first, mask + rows.last, [](std::uint8_t held) { return held != 0; })) continue;
-    const auto own = std::ranges::find_if(
-        surfaces, [&](const auto& surface) { return surface.obstacle < 0 && surface.first_row == rows.first; });
+    if (std::any_of(mask + rows.first, mask + rows.last, [](std::uint8_t held) { return held != 0; }))
+      continue;
+    const auto own = std::ranges::find_if(surfaces, [&](const auto& surface) {
+      return surface.obstacle < 0 && surface.first_row == rows.first;
+    });
     if (own != surfaces.end()) loose_[static_cast<std::int32_t>(own - surfaces.begin())] = {rows};
   }
   movers_ = loose_.size() + contact.surfaces().carriers().size();
@@ -143,8 +145,9 @@ RigidSeparation::Way RigidSeparation::way_of(const Candidate& c, ConstReals plac
   const double gap = std::min(contact_.description().pairs[at(c.pair)].gap, c.apart);
   std::array<Vec3, 4> p{};
   for (int k = 0; k < vertices_of(c.kind); ++k) p[at(k)] = block(places, c.vertex[at(k)]);
-  const double room = gap + moved(contact_.surfaces().vertices()[at(c.vertex[0])].surface) +
-                      moved(contact_.surfaces().vertices()[at(c.vertex[at(vertices_of_first(c.kind))])].surface);
+  const double room =
+      gap + moved(contact_.surfaces().vertices()[at(c.vertex[0])].surface) +
+      moved(contact_.surfaces().vertices()[at(c.vertex[at(vertices_of_first(c.kind))])].surface);
   const Closest closest = nearest_of(c.kind, p);
   const double d = std::sqrt(closest.square);
   const bool is_apart = d > c.apart - kLeft * gap;

@@ -14,10 +14,10 @@
 
 namespace tissu {
 
-/// Free obstacles, and bodies that nothing holds. They are moved apart without turning, each side by half where
-/// both move, pair after pair until all are as far apart as they rest: what is nearer would be pushed to the
-/// gap within the first step, and fly off. A body that cannot be so, as one that is clamped between others,
-/// stays where it was, and its nodes are moved one by one.
+/// Free obstacles, and bodies that nothing holds. They are moved apart without turning, each side by half
+/// where both move, pair after pair until all are as far apart as they rest: what is nearer would be pushed
+/// to the gap within the first step, and fly off. A body that cannot be so, as one that is clamped between
+/// others, stays where it was, and its nodes are moved one by one.
 class RigidSeparation {
  public:
   RigidSeparation(const Contact& contact, const FixedDofs& fixed, std::span<const RowRange> loose,

@@ -118,10 +118,13 @@ double Simulation::stable_step() {
   const Culprit culprit = worst_cell(*world_, state_);
   std::string message = "the stiffness at t = " + number_text(state_.time) + " s is not a number";
   if (culprit.element >= 0) {
-    message += ": in cell " + std::to_string(culprit.element) + " of body \"" + culprit.body + "\" " + culprit.why;
+    message +=
+        ": in cell " + std::to_string(culprit.element) + " of body \"" + culprit.body + "\" " + culprit.why;
   }
-  message += "; go back to an earlier state, and take a smaller dt, an implicit method, or a law that bears it, such as "
-             "stable_neo_hooke.";
+  message +=
+      "; go back to an earlier state, and take a smaller dt, an implicit method, or a law that bears it, "
+      "such as "
+      "stable_neo_hooke.";
   throw Diverged(message, culprit.body, culprit.element, state_.time);
 }
 

@@ -4,7 +4,7 @@
 
 namespace tissu {
 
-std::vector<Part> parts_of(const World& world) {
+std::vector<ConnectedPart> parts_of(const World& world) {
   const auto rows = static_cast<std::size_t>(world.blocks());
   DisjointSets sets(rows);
   std::vector<char> has_cell(rows, 0);
@@ -21,7 +21,7 @@ std::vector<Part> parts_of(const World& world) {
   const std::vector<double>& mass = world.mass().nodal();
   const std::vector<std::uint8_t>& masks = world.fixed().masks();
   std::vector<std::int32_t> number(rows, -1);  // of the part of the node that stands for it
-  std::vector<Part> parts;
+  std::vector<ConnectedPart> parts;
   for (std::size_t i = 0; i < rows; ++i) {
     if (has_cell[i] == 0 || mass[i] == 0.0) continue;
     const auto node = static_cast<std::int32_t>(i);
@@ -30,7 +30,7 @@ std::vector<Part> parts_of(const World& world) {
       own = static_cast<std::int32_t>(parts.size());
       parts.emplace_back();
     }
-    Part& part = parts[static_cast<std::size_t>(own)];
+    ConnectedPart& part = parts[static_cast<std::size_t>(own)];
     part.nodes.push_back(node);
     part.mass += mass[i];
     part.is_held = part.is_held || masks[i] != 0;
@@ -39,7 +39,8 @@ std::vector<Part> parts_of(const World& world) {
   for (std::size_t k = 0; k < frames.size(); ++k) {
     const auto node = static_cast<std::size_t>(frames[k].block);
     if (has_cell[node] == 0 || mass[node] == 0.0) continue;
-    Part& part = parts[static_cast<std::size_t>(number[static_cast<std::size_t>(sets.first(frames[k].block))])];
+    ConnectedPart& part =
+        parts[static_cast<std::size_t>(number[static_cast<std::size_t>(sets.first(frames[k].block))])];
     part.frames.push_back(static_cast<std::int32_t>(k));
     part.is_held = part.is_held || masks[static_cast<std::size_t>(frames[k].rotation)] != 0;
   }

@@ -12,7 +12,7 @@ namespace {
 using Twist = Eigen::Matrix<double, 6, 1>;  ///< a velocity, and an angular velocity times a length
 using Six = Eigen::Matrix<double, 6, 6>;
 using Motions = Eigen::Matrix<double, 6, Eigen::Dynamic, 0, 6, 6>;
-using Amounts = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 6, 1>;         ///< of each motion
+using Amounts = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 6, 1>;  ///< of each motion
 using Masses = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 6, 6>;
 
 constexpr double kLeast = 1e-5;     ///< of what moves or acts: less is not corrected
@@ -22,7 +22,8 @@ constexpr double kThin = 1e-9;      ///< of the mass: the inertia of a line abou
 /// Rigid motions of a part about its mass centre, with rotations times `length`.
 class Rigid {
  public:
-  Rigid(const World& world, const Part& part, const State& at) : world_(world), part_(part), at_(at) {
+  Rigid(const World& world, const ConnectedPart& part, const State& at)
+      : world_(world), part_(part), at_(at) {
     const std::vector<double>& mass = world.mass().nodal();
     for (const std::int32_t node : part.nodes) {
       center_ += mass[static_cast<std::size_t>(node)] * block(ConstReals(at.positions), node);
@@ -116,9 +117,7 @@ class Rigid {
   }
 
  private:
-  [[nodiscard]] Vec3 arm(std::int32_t node) const {
-    return block(ConstReals(at_.positions), node) - center_;
-  }
+  [[nodiscard]] Vec3 arm(std::int32_t node) const { return block(ConstReals(at_.positions), node) - center_; }
   [[nodiscard]] const Frame& frame(std::int32_t k) const {
     return world_.frames()[static_cast<std::size_t>(k)];
   }
@@ -163,7 +162,7 @@ class Rigid {
   }
 
   const World& world_;
-  const Part& part_;
+  const ConnectedPart& part_;
   const State& at_;
   Vec3 center_ = Vec3::Zero();
   double length_ = 1.0;
@@ -177,13 +176,13 @@ void RigidCorrection::prepare(const World& world) {
   world_ = &world;
   corrected_.clear();
   moving_.clear();
-  for (Part& part : parts_of(world)) {
+  for (ConnectedPart& part : parts_of(world)) {
     if (part.is_held && Rigid(world, part, world.rest_state()).count() == 0) continue;
     moving_.push_back({std::move(part)});
   }
 }
 
-double RigidCorrection::norm_of(const Part& part, ConstReals impulses) const {
+double RigidCorrection::norm_of(const ConnectedPart& part, ConstReals impulses) const {
   Vec3 velocity = Vec3::Zero();
   for (const std::int32_t node : part.nodes) velocity += block(impulses, node);
   velocity *= part.is_held ? 0.0 : 1.0 / part.mass;
@@ -210,7 +209,7 @@ bool RigidCorrection::correct(const State& at, double scale, ConstReals residual
                               Reals v) {
   corrected_.clear();
   for (const Moving& one : moving_) {
-    const Part& part = one.part;
+    const ConnectedPart& part = one.part;
     const Rigid rigid(*world_, part, at);
     if (rigid.count() == 0) continue;
     const Amounts left = rigid.on_motions(residual);

@@ -49,8 +49,8 @@ StageSolver::StageSolver(NewtonSettings newton, BodyBalance::Shares most_left, E
 void StageSolver::prepare(const World& world, LinearSolver* solver, Profile& profile) {
   system_ = std::make_unique<System>(world, solver, profile);
   stage_.base = world.rest_state();
-  for (auto* v : {&given_, &guess_, &first_, &once_, &uncorrected_, &trial_, &change_, &right_, &work_,
-                  &momentum_}) {
+  for (auto* v :
+       {&given_, &guess_, &first_, &once_, &uncorrected_, &trial_, &change_, &right_, &work_, &momentum_}) {
     v->assign(stage_.base.positions.size(), 0.0);
   }
   list_turning();

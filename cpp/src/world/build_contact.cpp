@@ -44,7 +44,8 @@ std::vector<RowRange> WorldBuilder::loose_bodies() const {
     for (const SharedNode& node : body.shared) joined.push_back(node.body);
   }
   for (const SurfaceDescription& surface : description_.contact->bodies) {
-    for (const BodyNode& other : surface.riders.others) joined.insert(joined.end(), {surface.name, other.body});
+    for (const BodyNode& other : surface.riders.others)
+      joined.insert(joined.end(), {surface.name, other.body});
   }
   std::vector<RowRange> loose;
   for (const Body& body : world_.bodies_) {

@@ -13,9 +13,7 @@ namespace tissu {
 /// Numbers from 0, each in a set of its own at first. The lowest number of a set stands for it.
 class DisjointSets {
  public:
-  explicit DisjointSets(std::size_t count) : parent_(count) {
-    std::iota(parent_.begin(), parent_.end(), 0);
-  }
+  explicit DisjointSets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0); }
 
   /// The number that stands for the set of i.
   std::int32_t first(std::int32_t i) {

@@ -55,9 +55,9 @@ struct RowRange {
 };
 
 /// Moves apart what touches, or overlaps by no more than the gap, along outward normals. Free obstacles, and
-/// bodies with rows in `loose`, move as a whole, by as much as the pile that they are in needs; nodes of other
-/// bodies move one by one, by at most the gap. Other obstacles and given rows stay. Refuses bodies that overlap
-/// more, by their middles or their thicknesses (OverlapError).
+/// bodies with rows in `loose`, move as a whole, by as much as the pile that they are in needs; nodes of
+/// other bodies move one by one, by at most the gap. Other obstacles and given rows stay. Refuses bodies that
+/// overlap more, by their middles or their thicknesses (OverlapError).
 void separate(const Contact& contact, const FixedDofs& fixed, std::span<const RowRange> loose, State& start);
 
 }  // namespace tissu

@@ -10,7 +10,7 @@
 namespace tissu {
 
 /// Nodes that cells join: a body, a piece that a cut made of it, or bodies that share frames.
-struct Part {
+struct ConnectedPart {
   std::vector<std::int32_t> nodes;   ///< with mass, ascending
   std::vector<std::int32_t> frames;  ///< the numbers of those of its nodes that have a rotation
   double mass = 0.0;                 ///< [kg]
@@ -18,6 +18,6 @@ struct Part {
 };
 
 /// All parts of a world, by their first node.
-std::vector<Part> parts_of(const World& world);
+std::vector<ConnectedPart> parts_of(const World& world);
 
 }  // namespace tissu

@@ -30,16 +30,16 @@ class RigidCorrection {
 
  private:
   struct Moving {
-    Part part;
+    ConnectedPart part;
     double external = 0.0;  ///< [N s], as contacts
     double contacts = 0.0;
   };
   struct Corrected {
-    const Part* part;
+    const ConnectedPart* part;
     double left;  ///< sqrt(r^T Z (Z^T M Z)^-1 Z^T r) [kg^1/2 m/s]
   };
   /// The norm of impulses on a part, of a free one without what accelerates it as a whole.
-  [[nodiscard]] double norm_of(const Part& part, ConstReals impulses) const;
+  [[nodiscard]] double norm_of(const ConnectedPart& part, ConstReals impulses) const;
 
   const World* world_ = nullptr;
   std::vector<Moving> moving_;  ///< parts that supports allow a rigid motion

@@ -135,8 +135,8 @@ class StageSolver {
   [[nodiscard]] bool is_judged() const { return newton_.iterations == 1 && !world().is_linear(); }
   /// What acts on each part is counted anew from here on, and parts are found again after an edit.
   void balance_parts();
-  /// Rigid motions of parts take what the latest residual, of v, holds of them; v stays if that does not help.
-  /// `uncorrected_` is v before. The residual afterwards is left in `left`. True: v is another one.
+  /// Rigid motions of parts take what the latest residual, of v, holds of them; v stays if that does not
+  /// help. `uncorrected_` is v before. The residual afterwards is left in `left`. True: v is another one.
   bool correct_rigidly(State& state, std::vector<double>& v, double& left);
   /// Iterates on such a step where it made things worse or left much; if that fails, the step stays as it is
   /// unless it made things worse. It is hasty then, and where it gained energy.

@@ -140,6 +140,10 @@ def errors(mesh, cell, law, name="smooth", quadrature="full", setting="solid"):
         times=np.array([0.0]),
         factors=np.array([1.0]),
         moments=False,
+        faces=[],
+        thickness=1.0,
+        unit=np.zeros(3),
+        along_normals=False,
     )
     boundary = on_faces(mesh, manufactured.SETTINGS[setting])
     lead(builder, boundary, u(mesh.points), setting)

@@ -37,7 +37,7 @@ def test_newmark_holds_the_slivers() -> None:
 
 @pytest.mark.parametrize("name", BY_BDF2)
 def test_bdf2_holds_it_too(name: str) -> None:
-    """In the hollow one blow may not settle, which its report says: it depends on the step's length."""
+    """In the hollow one blow may not settle, which its report says: that depends on dt."""
     held(name, "bdf2", unconverged=1 if name == "hollow" else 0)
 
 

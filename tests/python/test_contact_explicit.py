@@ -511,5 +511,5 @@ def test_a_stiffness_that_is_no_number_has_no_stable_step():
     for _ in range(8):  # the stable step is looked at again in the ninth
         simulation.step()
     simulation.positions["bar"][0] += (0.2, 0.1, 0.1)
-    with pytest.raises(ts.Diverged, match='is not a number: in cell .* of body "bar"'):
+    with pytest.raises(ts.Diverged, match=r'is not a number: in cell .* of body "bar"'):
         simulation.step()

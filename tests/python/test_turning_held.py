@@ -211,7 +211,7 @@ def test_parts_of_one_body_turn_apart(parts):
     law = ts.StableNeoHooke(young=1e6, poisson=0.4)
     if parts == "mesh":
         count, cells = len(mesh.points), mesh.body_blocks[0].nodes
-        points = np.vstack([mesh.points, mesh.points + (0.3, 0, 0)])
+        points = np.vstack([mesh.points, mesh.points + np.array([0.3, 0, 0])])
         mesh = ts.Mesh(points=points, cells={"tetra": np.vstack([cells, cells + count])})
         groups = [np.arange(count), count + np.arange(count)]
     body = ts.Body(mesh=mesh, law=law, density=1000)

@@ -266,7 +266,7 @@ def test_force_and_tangent_are_derivatives_of_the_energy(name):
     scale = h / np.abs(v).max()
     Kv = (force(start + scale * v) - force(start - scale * v)) / (2 * scale)
     residual = nodal_mass * v / 0.02 - 0.02 * Kv - f
-    # But for the turn that takes what a linear step leaves of the moment: w x r at nodes of one mass.
+    # But for the turn that takes the moment which a linear step leaves: w x r, of equal masses.
     end = start + 0.02 * v
     r = end - end.mean(0)
     turns = np.stack([np.cross(axis, r).ravel() for axis in np.eye(3)], axis=1)

@@ -25,7 +25,7 @@ void StageSolver::balance_parts() {
 
 bool StageSolver::correct_rigidly(State& state, std::vector<double>& v, double& left) {
   uncorrected_ = v;
-  if (!rigid_.correct(state, stage_.push * stage_.move, right_, momentum_, v)) return false;
+  if (!rigid_.correct(state, stage_.push, stage_.move, right_, momentum_, v)) return false;
   left = residual(state, v);
   const int taken_back = rigid_.take_back(state, right_, uncorrected_, v);
   if (taken_back > 0) left = residual(state, v);

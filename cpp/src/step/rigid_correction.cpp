@@ -15,7 +15,8 @@ using Motions = Eigen::Matrix<double, 6, Eigen::Dynamic, 0, 6, 6>;
 using Amounts = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 6, 1>;  ///< of each motion
 using Masses = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 6, 6>;
 
-constexpr double kLeast = 1e-5;     ///< of what moves or acts: less is not corrected
+constexpr double kLeast = 1e-5;    ///< of what moves or acts: less is not corrected
+constexpr double kFarthest = 0.1;  ///< [rad] or of the size: what is left of far turns is not of second order
 constexpr double kAllowed = 1e-10;  ///< of the largest eigenvalue: motions of less are those supports allow
 constexpr double kThin = 1e-9;      ///< of the mass: the inertia of a line about itself
 
@@ -100,6 +101,12 @@ class Rigid {
       sum.col(j) = on_motions(product);
     }
     return 0.5 * (sum + sum.transpose());
+  }
+
+  /// The largest of these velocities, as a share of the size [1/s].
+  [[nodiscard]] double rate(const Amounts& velocities) const {
+    const Twist twist = allowed_ * velocities;
+    return std::max(twist.head<3>().norm(), twist.tail<3>().norm()) / length_;
   }
 
   /// v += those velocities.
@@ -205,8 +212,8 @@ void RigidCorrection::set_contacts(double push, ConstReals force) {
   for (Moving& one : moving_) one.contacts = push * norm_of(one.part, force);
 }
 
-bool RigidCorrection::correct(const State& at, double scale, ConstReals residual, ConstReals momentum_change,
-                              Reals v) {
+bool RigidCorrection::correct(const State& at, double push, double move, ConstReals residual,
+                              ConstReals momentum_change, Reals v) {
   corrected_.clear();
   for (const Moving& one : moving_) {
     const ConnectedPart& part = one.part;
@@ -218,9 +225,11 @@ bool RigidCorrection::correct(const State& at, double scale, ConstReals residual
     if (!(size > kLeast * (rigid.size(rigid.momenta(v)) + acts / std::sqrt(part.mass)))) continue;
     motion_.resize(v.size());
     product_.resize(v.size());
-    const Eigen::LDLT<Masses> matrix(rigid.mass() + rigid.held(scale, scratch_, motion_, product_));
+    const Eigen::LDLT<Masses> matrix(rigid.mass() + rigid.held(push * move, scratch_, motion_, product_));
     if (!matrix.isPositive()) continue;
-    rigid.add(matrix.solve(left), v);
+    const Amounts velocities = matrix.solve(left);
+    if (!(move * rigid.rate(velocities) <= kFarthest)) continue;
+    rigid.add(velocities, v);
     corrected_.push_back({&part, size});
   }
   return !corrected_.empty();

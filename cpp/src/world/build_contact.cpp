@@ -36,7 +36,7 @@ void WorldBuilder::add_contact() {
 
 /// Rows of bodies that no other body is joined to: they may be moved as a whole.
 std::vector<RowRange> WorldBuilder::loose_bodies() const {
-  if (description_.links) return {};
+  if (description_.links || !description_.contact) return {};
   std::vector<std::string> joined;
   for (const BodyDescription& body : description_.bodies) {
     if (body.shared.empty()) continue;

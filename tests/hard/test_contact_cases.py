@@ -64,8 +64,8 @@ def held(name: str, method: str, unconverged: int = 0) -> None:
     """The audit is exact and was asked after every step; every number of every step is finite.
 
     The landing of the slivers, vertices a thousandth of the block apart with friction, has one step
-    that does not settle in its number of systems, and says so. So may one blow of the ball at 100 m/s
-    in the hollow: with five values of dt, 3 of 9,700 steps by implicit Euler and BDF2 did not settle.
+    that does not settle in its number of systems, and says so. So may a blow of the ball at 100 m/s
+    in the hollow: with five values of dt, 3 of 9,700 steps of two methods did not settle.
     """
     run = ran(name, method)
     found = run.outcome

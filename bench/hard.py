@@ -43,7 +43,8 @@ The guide describes how [static steps](../guide/statics.md) and
 Numbers are the largest distance of a node from its rest position at any time, in sizes of the body.
 An asterisk means that some steps did not meet their tolerances; their reports say so. `!` means
 that cells are inside out at the end; `tissu run` prints this. Explicit methods took nine tenths of
-their stable step; `dt: auto` takes four fifths now. They are not run if this would take more than 20,000 steps. The
+their stable step; `dt: auto` takes four fifths now. They are not run if this would take more
+than 20,000 steps. The
 fixed-point iteration takes the scene's step, or the longest step for which it contracts. Implicit
 methods take the scene's step.
 

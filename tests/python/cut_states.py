@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 import tissu as ts
@@ -19,3 +21,13 @@ def shaken(simulation: ts.Simulation, seed: int = 1) -> ts.Simulation:
         places += 2e-3 * random.standard_normal(places.shape)
         simulation.velocities[body][:] = random.standard_normal(places.shape)
     return simulation
+
+
+def damped_bar(cell: Any) -> ts.Body:
+    """A soft bar of 10 x 4 x 4 cm with cells of 2 cm, which soon comes to rest."""
+    return ts.Body(
+        mesh=ts.BarMesh(size=(0.1, 0.04, 0.04), cells=(5, 2, 2), cell=cell),
+        law=ts.StVK(young=8e3, poisson=0.3),
+        density=1000.0,
+        viscosity=ts.Rayleigh(mass=20.0, stiffness=0.01),
+    )

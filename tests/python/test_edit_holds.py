@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import tissu as ts
+from cut_states import damped_bar
 
 ROOT = ts.Plane((0, 0, 0), (1, 0, 0))
 TIP = ts.Plane((0.1, 0, 0), (1, 0, 0))
@@ -28,13 +29,7 @@ BLOCKS: dict[str, Any] = {
 
 def _scene(kind: str = "hexahedron", **changes: Any) -> ts.Scene:
     cell: Any = kind.split("-")[0]
-    mesh = ts.BarMesh(size=(0.1, 0.04, 0.04), cells=(5, 2, 2), cell=cell)
-    body = ts.Body(
-        mesh=mesh,
-        law=ts.StVK(young=8e3, poisson=0.3),
-        density=1000.0,
-        viscosity=ts.Rayleigh(mass=20.0, stiffness=0.01),
-    )
+    body = damped_bar(cell)
     fields: dict[str, Any] = {
         "bodies": {"b": body},
         "step": ts.ImplicitEuler(0.01),

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import tissu as ts
+from cut_states import damped_bar
 
 TIP = ts.Plane((0.1, 0, 0), (1, 0, 0))
 TOP = ts.Plane((0, 0, 0.04), (0, 0, 1))
@@ -26,13 +27,7 @@ def _loads(on: Any) -> dict[str, Any]:
 
 
 def _scene(load: Any, cell: Any = "hexahedron", method: Any = "virtual") -> ts.Scene:
-    mesh = ts.BarMesh(size=(0.1, 0.04, 0.04), cells=(5, 2, 2), cell=cell)
-    body = ts.Body(
-        mesh=mesh,
-        law=ts.StVK(young=8e3, poisson=0.3),
-        density=1000.0,
-        viscosity=ts.Rayleigh(mass=20.0, stiffness=0.01),
-    )
+    body = damped_bar(cell)
     return ts.Scene(
         bodies={"b": body},
         fixed=[ts.Fixed("b", on=ts.Plane((0, 0, 0), (1, 0, 0)))],

@@ -202,21 +202,23 @@ def test_a_plate_turns_on_under_a_heavy_block(method):
 
 @pytest.mark.parametrize("parts", ["mesh", "cut"])
 def test_parts_of_one_body_turn_apart(parts):
-    """Two parts of a body that turn against each other do so with all that each of them had.
+    """Two parts turn against each other: one is pulled, and the other does not notice.
 
-    What a step left of the one must not be given to the other, as if they were one rigid body. By
-    Newton's iteration 99.9 % of each spin are left after 0.3 s.
+    What a step left of the one, which a spring pulls, must not be given to the other, as if they
+    were one rigid body. Nothing acts on the other: its centre of mass stays, to the tolerance of
+    the linear solver, and so does its spin. Corrected as one, the centre moved by 0.2 to 0.3 mm.
     """
     mesh = ts.bar_mesh(size=(0.2, 0.1, 0.05), cells=(4, 2, 1), cell="tetra")
-    law = ts.StableNeoHooke(young=1e6, poisson=0.4)
+    law = ts.Hooke(young=1e6, poisson=0.3)
     if parts == "mesh":
         count, cells = len(mesh.points), mesh.body_blocks[0].nodes
         points = np.vstack([mesh.points, mesh.points + np.array([0.3, 0, 0])])
         mesh = ts.Mesh(points=points, cells={"tetra": np.vstack([cells, cells + count])})
         groups = [np.arange(count), count + np.arange(count)]
-    body = ts.Body(mesh=mesh, law=law, density=1000)
-    scene = ts.Scene(bodies={"body": body}, step=ts.Newmark(5e-3), editing=parts == "cut")
-    simulation = scene.compile()
+    body = ts.Body(mesh=mesh, law=law, density=1000, model="corotational")
+    simulation = ts.Scene(
+        bodies={"body": body}, step=ts.Newmark(5e-3), editing=parts == "cut", grabbing=True
+    ).compile()
     if parts == "cut":
         simulation.cut("body", ts.Plane((0.08, 0, 0), (1, 0, 0)))
         (block_,) = simulation.meshes["body"].body_blocks
@@ -233,6 +235,15 @@ def test_parts_of_one_body_turn_apart(parts):
         r = x[nodes] - (mass * x[nodes]).sum(0) / mass.sum()
         v[nodes] = np.cross((0, 0, rate), r)
         before.append(spin_of(simulation, "body", nodes)[2])
+    middle = x[groups[0]].mean(0)
+    node = groups[0][np.argmin(np.linalg.norm(x[groups[0]] - middle, axis=1))]
+    simulation.grab(
+        "body", int(node), target=tuple(x[node] + np.array([0, 0, 0.3])), stiffness=100.0
+    )
+    mass = mass_of(simulation, "body")[groups[1]]
+    center = np.average(x[groups[1]], axis=0, weights=mass[:, 0])
     assert all(simulation.step().converged for _ in range(60))
-    after = [spin_of(simulation, "body", nodes)[2] for nodes in groups]
-    assert np.divide(after, before) == pytest.approx([1, 1], abs=0.005)
+    x = simulation.positions["body"][groups[1]]
+    assert np.abs(np.average(x, axis=0, weights=mass[:, 0]) - center).max() < 1e-6
+    after = spin_of(simulation, "body", groups[1])[2]
+    assert after / before[1] == pytest.approx(1, abs=0.01)

@@ -187,6 +187,9 @@ void RigidCorrection::prepare(const World& world) {
     if (part.is_held && Rigid(world, part, world.rest_state()).count() == 0) continue;
     moving_.push_back({std::move(part)});
   }
+  const std::size_t size = moving_.empty() ? 0 : static_cast<std::size_t>(3 * world.blocks());
+  motion_.resize(size);
+  product_.resize(size);
 }
 
 double RigidCorrection::norm_of(const ConnectedPart& part, ConstReals impulses) const {
@@ -223,8 +226,6 @@ bool RigidCorrection::correct(const State& at, double push, double move, ConstRe
     const double size = rigid.size(left);
     const double acts = std::max({one.external, one.contacts, norm_of(part, momentum_change)});
     if (!(size > kLeast * (rigid.size(rigid.momenta(v)) + acts / std::sqrt(part.mass)))) continue;
-    motion_.resize(v.size());
-    product_.resize(v.size());
     const Eigen::LDLT<Masses> matrix(rigid.mass() + rigid.held(push * move, scratch_, motion_, product_));
     if (!matrix.isPositive()) continue;
     const Amounts velocities = matrix.solve(left);

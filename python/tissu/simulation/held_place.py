@@ -23,7 +23,7 @@ _SLACK = 1e-6  # a place no farther outside of a part than this share of it is i
 def holder_in_material(
     place: Floats, mesh: Mesh, numbers: Ints, material: Material
 ) -> Holder | None:
-    """The cell whose material holds a place at rest; None where there is no material.
+    """The cell whose material contains a place at rest, or None if no material is there.
 
     Parts of a cell are looked at in its local coordinates, in which they fill it exactly, whether
     its faces are flat or not.

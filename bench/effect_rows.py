@@ -76,7 +76,7 @@ ROWS = (
     Row(
         "implicit step",
         "bare",
-        r"\b(BlockMatrix|ConjugateGradient|StageSolver|BodyBalance)\b",
+        r"\b(BlockMatrix|ConjugateGradient|StageSolver|PartBalance)\b",
         "explicit",
     ),
     Row("inertia", "hanging", r"\bMass\b", "static"),
@@ -104,7 +104,7 @@ PRESENT = {
     r"|\bcompute_inverse<Eigen::Matrix<double, 3, 3|\bThreads::sum<tissu::dot<|^std::vector<double,"
     r".*>::(resize|operator=)\(",
     "matrix": r"\b(BlockMatrix::|multiply_(rows\b|three\b|three_of\b))",
-    "method": r"\b(ImplicitEuler|StageSolver|BodyBalance|System|State|World)::|\bmove\("
+    "method": r"\b(ImplicitEuler|StageSolver|PartBalance|System|State|World)::|\bmove\("
     # Rigid motions, in systems of at most six unknowns.
     r"|\b(Rigid|RigidCorrection)::|Eigen::Matrix<double, -1, -?1, 0, 6, [16]>"
     r"|\btriangular_solve_vector<double",

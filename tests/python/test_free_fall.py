@@ -31,7 +31,7 @@ def test_a_cell_beyond_every_number_is_named(cells):
     mesh = ts.bar_mesh(size=(4, 1, 1), cells=(4, 1, 1), cell="hexahedron")
     body = ts.Body(mesh=mesh, law=ts.Hooke(young=1e3, poisson=0.3), density=1e3)
     scene = ts.Scene(bodies={"b": body}, step=ts.ImplicitEuler(0.01), editing=True)
-    with pytest.raises(ts.ParameterError, match=f"no cell {cells[0]}"):
+    with pytest.raises(ts.ParameterError, match=f"found cell {cells[0]} of body"):
         scene.compile().remove_cells(body="b", cells=cells)
     with pytest.raises(ts.ParameterError, match="no body is named 'q'; there are b"):
         scene.compile().remove_cells(body="q", cells=[0])

@@ -9,6 +9,7 @@
 #include "body_surface.h"
 #include "cut_surface.h"
 #include "debris.h"
+#include "missing_cell.h"
 #include "parted_loads.h"
 #include "parted_pressures.h"
 #include "parted_supports.h"
@@ -38,7 +39,7 @@ CellPlaces cell_places(const BodyDescription& body) {
 CellPlace place_of(const CellPlaces& places, std::int32_t number, const BodyDescription& body) {
   const auto found = places.find(number);
   if (found != places.end()) return found->second;
-  throw ParameterError("body \"" + body.name + "\" has no cell " + std::to_string(number) + " (any more).");
+  throw missing_cell(number, body.name);
 }
 
 /// sum w X, in the order of `Rider::at`.

@@ -5,6 +5,7 @@
 
 #include "body_surface.h"
 #include "debris.h"
+#include "missing_cell.h"
 #include "parted_loads.h"
 #include "parted_pressures.h"
 #include "parted_supports.h"
@@ -46,8 +47,7 @@ std::shared_ptr<const World> remove_cells(const World& world, const State& state
   Numbers wanted(cells.begin(), cells.end());
   for (ElasticBlock& block : edited.elastic) remove_from(block, wanted);
   if (!wanted.empty()) {
-    throw ParameterError("body \"" + edited.name + "\" has no cell " +
-                         std::to_string(*std::ranges::min_element(wanted)) + " (any more).");
+    throw missing_cell(*std::ranges::min_element(wanted), edited.name);
   }
   edited.uncut = nullptr;
   if (edited.cut != nullptr) {

@@ -8,6 +8,7 @@
 #include "contact_edit.h"
 #include "cut_edit.h"
 #include "edit/cut/material_before.h"
+#include "edit/missing_cell.h"
 #include "parted_loads.h"
 #include "parted_pressures.h"
 #include "parted_supports.h"
@@ -232,8 +233,7 @@ std::optional<WorldEditor::Made> WorldEditor::remove(std::string_view name,
   sort_unique(plan.gone);
   for (const std::int32_t cell : plan.gone) {
     if (cut->hosts.has(cell)) continue;
-    throw ParameterError("body \"" + std::string(name) + "\" has no cell " + std::to_string(cell) +
-                         " (any more).");
+    throw missing_cell(cell, name);
   }
   return make(name, plan, state, Verb::remove);
 }

@@ -19,7 +19,7 @@ constexpr double kRoundings = 1e-9;  ///< of the sum of energies
 void StageSolver::balance_parts() {
   if (knows_parts_) return;
   balance_.prepare(world());
-  rigid_.prepare(world());
+  rigid_.prepare(world(), balance_);
   knows_parts_ = true;
 }
 
@@ -33,7 +33,6 @@ bool StageSolver::correct_rigidly(State& state, std::vector<double>& v, double& 
 }
 
 bool StageSolver::leaves_much(const State& state, ConstReals v) {
-  balance_.clear_reactions();
   if (!balance_.leaves_more(most_left_, 0.0, right_, momentum_)) return false;
   if (world().fixed().moves(*step_start_)) {
     look_at_reactions();

@@ -179,52 +179,30 @@ class Rigid {
 
 }  // namespace
 
-void RigidCorrection::prepare(const World& world) {
+void RigidCorrection::prepare(const World& world, const PartBalance& balance) {
   world_ = &world;
+  balance_ = &balance;
   corrected_.clear();
   moving_.clear();
-  for (ConnectedPart& part : parts_of(world)) {
-    if (part.is_held && Rigid(world, part, world.rest_state()).count() == 0) continue;
-    moving_.push_back({std::move(part)});
+  for (std::size_t k = 0; k < balance.parts().size(); ++k) {
+    const ConnectedPart& part = balance.parts()[k];
+    if (!part.is_held || Rigid(world, part, world.rest_state()).count() > 0) moving_.push_back(k);
   }
   const std::size_t size = moving_.empty() ? 0 : static_cast<std::size_t>(3 * world.blocks());
   motion_.resize(size);
   product_.resize(size);
 }
 
-double RigidCorrection::norm_of(const ConnectedPart& part, ConstReals impulses) const {
-  Vec3 velocity = Vec3::Zero();
-  for (const std::int32_t node : part.nodes) velocity += block(impulses, node);
-  velocity *= part.is_held ? 0.0 : 1.0 / part.mass;
-  const std::vector<double>& mass = world_->mass().nodal();
-  double squares = 0.0;
-  for (const std::int32_t node : part.nodes) {
-    squares += (block(impulses, node) - mass[static_cast<std::size_t>(node)] * velocity).squaredNorm();
-  }
-  return std::sqrt(squares);
-}
-
-void RigidCorrection::set_external(double push, ConstReals force) {
-  for (Moving& one : moving_) {
-    one.external = push * norm_of(one.part, force);
-    one.contacts = 0.0;
-  }
-}
-
-void RigidCorrection::set_contacts(double push, ConstReals force) {
-  for (Moving& one : moving_) one.contacts = push * norm_of(one.part, force);
-}
-
 bool RigidCorrection::correct(const State& at, double push, double move, ConstReals residual,
                               ConstReals momentum_change, Reals v) {
   corrected_.clear();
-  for (const Moving& one : moving_) {
-    const ConnectedPart& part = one.part;
+  for (const std::size_t k : moving_) {
+    const ConnectedPart& part = balance_->parts()[k];
     const Rigid rigid(*world_, part, at);
     if (rigid.count() == 0) continue;
     const Amounts left = rigid.on_motions(residual);
     const double size = rigid.size(left);
-    const double acts = std::max({one.external, one.contacts, norm_of(part, momentum_change)});
+    const double acts = balance_->acting(k, momentum_change);
     if (!(size > kLeast * (rigid.size(rigid.momenta(v)) + acts / std::sqrt(part.mass)))) continue;
     const Eigen::LDLT<Masses> matrix(rigid.mass() + rigid.held(push * move, scratch_, motion_, product_));
     if (!matrix.isPositive()) continue;

@@ -39,7 +39,7 @@ double held_norm(const FixedDofs& fixed, ConstReals values) {
 
 }  // namespace
 
-StageSolver::StageSolver(NewtonSettings newton, BodyBalance::Shares most_left, EnergyLaw energy)
+StageSolver::StageSolver(NewtonSettings newton, PartBalance::Shares most_left, EnergyLaw energy)
     : newton_(newton), most_left_(most_left), energy_(energy) {
   if (newton.iterations < 1 || !(newton.tolerance > 0.0)) {
     throw ParameterError("Newton's iteration needs at least one iteration and a positive tolerance.");
@@ -137,7 +137,6 @@ void StageSolver::judge_by_load() {
   balance_parts();
   const double push = reference_ > 0.0 ? stage_.push : 0.0;
   balance_.set_external(push, work_);
-  rigid_.set_external(push, work_);
 }
 
 bool StageSolver::is_lower(State& state, ConstReals v) {

@@ -284,7 +284,6 @@ void StageSolver::judge_touching(State& state, std::vector<double>& v, StepRepor
   world().contact()->add_force(state, scratch_, work_);
   world().fixed().clear(work_);
   balance_.set_contacts(stage_.push, work_);
-  rigid_.set_contacts(stage_.push, work_);
   const Judged judged = judge_linearised(state, v, report);
   if (judged == Judged::kept) return;
   if (judged == Judged::corrected) {

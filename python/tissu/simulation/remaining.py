@@ -40,7 +40,10 @@ def removed_cells(counts: Mapping[str, int], body: str, cells: ArrayLike) -> NDA
         raise ParameterError(f"no body is named {body!r}; there are {', '.join(counts)}")
     beyond = given[(given < 0) | (given > np.iinfo(np.int32).max)]
     if beyond.size:
-        raise ParameterError(f"body '{body}' has no cell {beyond.flat[0]}")
+        raise ParameterError(
+            f"found cell {beyond.flat[0]} of body '{body}'; the numbers of cells that were not "
+            "removed are accepted (remaining_cells)"
+        )
     numbers = np.unique(given).astype(np.int32)
     if len(numbers) >= counts[body]:
         raise ParameterError(f"that would leave no cell of body '{body}'; keep at least one")

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "tissu/step/parts.h"
+#include "tissu/step/part_balance.h"
 
 namespace tissu {
 
@@ -15,10 +15,7 @@ namespace tissu {
 /// Z^T (M - push move K) Z d = Z^T r, v += Z d. Only what holds a part from outside is in K.
 class RigidCorrection {
  public:
-  void prepare(const World& world);
-  /// What acts from outside in the step, and what contacts give: `push` [s] times the force [N].
-  void set_external(double push, ConstReals force);
-  void set_contacts(double push, ConstReals force);
+  void prepare(const World& world, const PartBalance& balance);  ///< which have to stay where they are
   /// Adds those motions to v where the residual at `at` holds more than little of what moves the part or acts
   /// on it, and they do not lead far; push and move are those of the stage. False: nowhere.
   bool correct(const State& at, double push, double move, ConstReals residual, ConstReals momentum_change,
@@ -30,20 +27,13 @@ class RigidCorrection {
   [[nodiscard]] int corrected() const { return static_cast<int>(corrected_.size()); }
 
  private:
-  struct Moving {
-    ConnectedPart part;
-    double external = 0.0;  ///< [N s], as contacts
-    double contacts = 0.0;
-  };
   struct Corrected {
     const ConnectedPart* part;
     double left;  ///< sqrt(r^T Z (Z^T M Z)^-1 Z^T r) [kg^1/2 m/s]
   };
-  /// The norm of impulses on a part, of a free one without what accelerates it as a whole.
-  [[nodiscard]] double norm_of(const ConnectedPart& part, ConstReals impulses) const;
-
   const World* world_ = nullptr;
-  std::vector<Moving> moving_;  ///< parts that supports allow a rigid motion
+  const PartBalance* balance_ = nullptr;
+  std::vector<std::size_t> moving_;  ///< parts that supports allow a rigid motion
   std::vector<Corrected> corrected_;
   std::vector<double> motion_;
   std::vector<double> product_;

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "tissu/contact/barrier.h"
-#include "tissu/step/body_balance.h"
 #include "tissu/step/integrator.h"
+#include "tissu/step/part_balance.h"
 #include "tissu/step/rigid_correction.h"
 #include "tissu/step/system.h"
 
@@ -31,9 +31,9 @@ enum class EnergyLaw { falls, varies };
 
 class StageSolver {
  public:
-  /// `most_left`: of what acts on a body, what a step that is linearised once may leave. The less a method
+  /// `most_left`: of what acts on a part, what a step that is linearised once may leave. The less a method
   /// damps, the less it may be.
-  StageSolver(NewtonSettings newton, BodyBalance::Shares most_left, EnergyLaw energy = EnergyLaw::varies);
+  StageSolver(NewtonSettings newton, PartBalance::Shares most_left, EnergyLaw energy = EnergyLaw::varies);
   void prepare(const World& world, LinearSolver* solver, Profile& profile);
   /// Follows an edit of the world in place.
   void follow_edit(std::span<const std::int32_t> rows);
@@ -141,7 +141,7 @@ class StageSolver {
   /// Iterates on such a step where it made things worse or left much; if that fails, the step stays as it is
   /// unless it made things worse. It is hasty then, and where it gained energy.
   Judged judge_linearised(State& state, std::vector<double>& v, StepReport& report);
-  /// The latest residual, of `state` with v, is more than some times what acts on some body. A turn of a
+  /// The latest residual, of `state` with v, is more than some times what acts on some part. A turn of a
   /// stiff body leaves strains, and so does the guess of the next step, which is then no worse. Damping
   /// counts with the stiffness at the base, as in the step that was linearised there: either is of first
   /// order, and at the end the stiffness of a membrane may be one that gives energy.
@@ -216,10 +216,10 @@ class StageSolver {
   std::vector<double> elastic_;        ///< what is right without contact
   Scratch scratch_;                    ///< of energies
   bool gives_up_early_ = false;
-  BodyBalance balance_;
+  PartBalance balance_;
   RigidCorrection rigid_;
   bool knows_parts_ = false;  ///< balance_ and rigid_ are those of the world as it is
-  BodyBalance::Shares most_left_;
+  PartBalance::Shares most_left_;
   EnergyLaw energy_;
   double reference_ = 0.0;  ///< push |external force|
   double acting_ = 0.0;

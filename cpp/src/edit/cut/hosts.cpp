@@ -4,6 +4,7 @@
 #include <numeric>
 #include <string>
 
+#include "edit/missing_cell.h"
 #include "tissu/base/error.h"
 #include "tissu/base/sort_unique.h"
 #include "tissu/edit/cut/cut_plan.h"
@@ -233,7 +234,7 @@ void Hosts::apply(const CutPlan& plan) {
 
 void Hosts::remove(std::span<const std::int32_t> cells) {
   for (const std::int32_t cell : cells) {
-    if (!has(cell)) throw ParameterError("the body has no cell " + std::to_string(cell) + " (any more).");
+    if (!has(cell)) throw missing_cell(cell);
   }
   for (const std::int32_t cell : cells) {
     if (has(cell)) take_out(cell);

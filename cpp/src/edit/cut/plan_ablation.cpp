@@ -5,6 +5,7 @@
 #include "edit/cut/fragments.h"
 #include "edit/cut/patch.h"
 #include "edit/cut/write_plan.h"
+#include "edit/missing_cell.h"
 #include "tissu/base/error.h"
 #include "tissu/base/sort_unique.h"
 #include "tissu/edit/cut/cut_plan.h"
@@ -14,8 +15,7 @@ namespace tissu {
 CutPlan plan_ablation(const Hosts& hosts, const Material& material, std::vector<std::int32_t> cells) {
   sort_unique(cells);
   for (const std::int32_t cell : cells) {
-    if (!hosts.has(cell))
-      throw ParameterError("the body has no cell " + std::to_string(cell) + " (any more).");
+    if (!hosts.has(cell)) throw missing_cell(cell);
   }
   Patch patch(hosts, material, hosts.rest(), hosts.with_neighbours(cells));
   std::vector<std::int32_t> parted;

@@ -1,0 +1,54 @@
+#pragma once
+
+/// What acts on each connected part in a step, and what the step has left of it.
+
+#include <vector>
+
+#include "tissu/assembly/fixed_dofs.h"
+#include "tissu/base/vec.h"
+#include "tissu/step/parts.h"
+#include "tissu/world/world.h"
+
+namespace tissu {
+
+/// A part on which little acts may stand beside one that is heavy: norms over the whole world would not see
+/// it. What accelerates a free part as a whole, as weight does, neither turns nor strains it, and does not
+/// count. Rows of rotations are left out, as their unit is another.
+class PartBalance {
+ public:
+  void prepare(const World& world);  ///< which has to stay where it is
+  [[nodiscard]] const std::vector<ConnectedPart>& parts() const { return parts_; }
+  /// What acts from outside: `push` [s] times the force [N], one row for each node; neither contacts nor
+  /// reactions act yet.
+  void set_external(double push, ConstReals force);
+  /// What contacts give, in the same way.
+  void set_contacts(double push, ConstReals force);
+  /// Impulses [N s] at all rows before those of held rows are cleared: of these, reactions count as acting.
+  void set_reactions(const FixedDofs& fixed, ConstReals impulses);
+  /// Of what acts on a part: more than that is much.
+  struct Shares {
+    double held = 1.0;  ///< on parts that are held somewhere
+    double free = 1.0;
+  };
+  /// On some part the imbalance is more than `floor` [N s] and that share of what acts there.
+  [[nodiscard]] bool leaves_more(Shares shares, double floor, ConstReals imbalance,
+                                 ConstReals momentum_change) const;
+  /// On a part: the largest of the impulses from outside, of contacts and of reactions, and the change of
+  /// momentum [N s].
+  [[nodiscard]] double acting(std::size_t part, ConstReals momentum_change) const;
+
+ private:
+  struct Acting {
+    double external = 0.0;   ///< [N s]
+    double contacts = 0.0;   ///< [N s]
+    double reactions = 0.0;  ///< [N s]
+  };
+  /// The norm of impulses on a part, of a free one without what accelerates it as a whole.
+  [[nodiscard]] double norm_of(const ConnectedPart& part, ConstReals impulses) const;
+
+  const World* world_ = nullptr;
+  std::vector<ConnectedPart> parts_;
+  std::vector<Acting> acting_;  ///< on each
+};
+
+}  // namespace tissu

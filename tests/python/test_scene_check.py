@@ -1,12 +1,17 @@
 """check(): in plain words what a scene switches on and why, and what is absent."""
 
+import pytest
+
 from tissu import (
     ArrudaBoyce,
     BarMesh,
     Body,
     Box,
+    Corotational,
     Fibres,
     Fixed,
+    Frames,
+    Hooke,
     ImplicitEuler,
     NodalLoad,
     Output,
@@ -68,6 +73,19 @@ def test_a_law_is_said_with_the_units_that_its_formula_declares():
     (effect,) = (e for e in BODY.replace(law=law).effects("bar") if "elasticity" in e.name)
     words = "arruda_boyce with mu 1000 Pa, lambda_m 1.6, kappa 50000 Pa, fibres k1 2000 Pa, k2 0.8"
     assert effect.why == f"bodies.bar.law is {words}"
+
+
+@pytest.mark.parametrize(
+    ("law", "model", "small"),
+    [
+        (Hooke(young=3e3, poisson=0.45), Frames(), True),
+        (Hooke(young=3e3, poisson=0.45), Corotational(), False),
+        (StVK(young=3e3, poisson=0.45), Frames(), False),
+    ],
+)
+def test_a_law_that_strains_frames_as_they_turn_is_said(law, model, small):
+    (effect,) = (e for e in BODY.replace(law=law, model=model).effects("b") if "elast" in e.name)
+    assert effect.why.endswith(", for small turns only") == small
 
 
 def test_problems_come_first():

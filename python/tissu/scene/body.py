@@ -14,9 +14,10 @@ from tissu.reading import Maybe, Read
 from tissu.scene.bar import BarMesh
 from tissu.scene.effect import Effect
 from tissu.scene.field import field
+from tissu.scene.generated.laws import Hooke
 from tissu.scene.law import Law
 from tissu.scene.laws import LawOrMap
-from tissu.scene.model import FEM, Model, ModelOrMap
+from tissu.scene.model import FEM, Frames, Model, ModelOrMap
 from tissu.scene.part import Part, chosen
 from tissu.scene.problem import Problem
 from tissu.scene.section import AreaOrSection, Section
@@ -163,11 +164,17 @@ class Body(Part):
             return {None: model}
         return {region: one for region, one in model.items()}
 
+    def _strains_by_turns(self, region: str | None, law: object) -> bool:
+        """Frames turn, and Hooke's law takes the turn of their material for a strain."""
+        models = self.models()
+        return isinstance(law, Hooke) and isinstance(models.get(region, models.get(None)), Frames)
+
     def effects(self, name: str) -> Iterator[Effect]:
         """What a body of this name switches on."""
         for region, law in self.laws().items():
             where, path = _place(name, region, "law")
-            yield Effect(f"elasticity of {where}", f"{path} is {law.words()}")
+            small = ", for small turns only" if self._strains_by_turns(region, law) else ""
+            yield Effect(f"elasticity of {where}", f"{path} is {law.words()}{small}")
         for region, model in self.models().items():
             if not isinstance(model, FEM):
                 where, path = _place(name, region, "model")

@@ -12,6 +12,7 @@ from tissu.reading import Maybe, Read
 from tissu.scene.body import MeshLike, mesh_source
 from tissu.scene.effect import Effect
 from tissu.scene.field import field
+from tissu.scene.generated.laws import Hooke
 from tissu.scene.laws import OneLaw
 from tissu.scene.part import Part
 from tissu.scene.problem import Problem
@@ -95,7 +96,8 @@ class Tissue(Part):
         place = "inside a surface" if ends is None else "between " + " and ".join(ends)
         size = f"of about {self.frames} frames and {self.points} points"
         yield Effect(f"connective tissue {name}", f"tissue.{name} is {place}, {size}")
-        yield Effect(f"elasticity of {name}", f"tissue.{name}.law is {self.law.words()}")
+        small = ", for small turns only" if isinstance(self.law, Hooke) else ""
+        yield Effect(f"elasticity of {name}", f"tissue.{name}.law is {self.law.words()}{small}")
 
 
 def is_tied(scene: Any, first: str, second: str) -> bool:

@@ -93,8 +93,11 @@ class LeftFaces {
         if (vertices.size() != face.least() + 1) continue;
         for (std::size_t i = 0; i < vertices.size(); ++i) {
           if ((part.cut >> i & 1U) != 0) continue;
-          Nodes others(vertices.begin(), vertices.end());
-          others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
+          Nodes others;
+          others.reserve(vertices.size());
+          for (std::size_t j = 0; j < vertices.size(); ++j) {
+            if (j != i) others.push_back(vertices[j]);
+          }
           take(face, std::move(others));
         }
       }

@@ -9,7 +9,7 @@
 namespace tissu {
 namespace {
 
-constexpr double kFloor = 1e-3;  ///< of the external impulse: less is left by any linear solver
+constexpr double kFloor = 1e-3;  ///< of what acts: less is left by any linear solver
 constexpr double kWorse = 2.0;   ///< times the residual of the guess
 constexpr double kNear = 1e-2;   ///< of what acts: an iteration that was stopped there has improved the step
 constexpr double kRoundings = 1e-9;  ///< of the sum of energies
@@ -20,7 +20,13 @@ void StageSolver::balance_parts() {
   if (knows_parts_) return;
   balance_.prepare(world());
   rigid_.prepare(world(), balance_);
+  ahead_.prepare(world(), balance_);
   knows_parts_ = true;
+}
+
+void StageSolver::turn_ahead(std::vector<double>& v) {
+  if (!is_judged() || (contact_ != nullptr && contact_->barrier() != nullptr)) return;
+  turns_ = ahead_.lay(*step_start_, stage_.base, stage_.move, turned_, turn_to_, v);
 }
 
 bool StageSolver::correct_rigidly(State& state, std::vector<double>& v, double& left) {
@@ -40,7 +46,7 @@ bool StageSolver::leaves_much(const State& state, ConstReals v) {
   }
   std::ranges::copy(right_, trial_.begin());
   system_->add_product(state, {0.0, -stage_.push}, v, trial_);
-  system_->add_product(stage_.base, {0.0, stage_.push}, v, trial_);
+  system_->add_product(linearised_at(), {0.0, stage_.push}, v, trial_);
   world().fixed().clear(trial_);
   const double floor = system_->round_off(stage_.base) / stage_.move;
   return balance_.leaves_more(most_left_, floor, trial_, momentum_);
@@ -59,7 +65,7 @@ StageSolver::Judged StageSolver::judge_linearised(State& state, std::vector<doub
   }
   double left = residual(state, v);
   const Judged judged = correct_rigidly(state, v, left) ? Judged::corrected : Judged::kept;
-  const bool no_worse = left <= kWorse * start_ + kFloor * reference_;
+  const bool no_worse = left <= kWorse * start_ + kFloor * acting_;
   if (no_worse ? !leaves_much(state, v) : gives_up_early_ && turns_far(v)) return judged;
   if (!no_worse && contact_ != nullptr && contact_->size() > 0) {
     report.hasty = true;  // a blow: it is taken in parts

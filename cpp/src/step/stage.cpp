@@ -53,6 +53,11 @@ void StageSolver::prepare(const World& world, LinearSolver* solver, Profile& pro
        {&given_, &guess_, &first_, &once_, &uncorrected_, &trial_, &change_, &right_, &work_, &momentum_}) {
     v->assign(stage_.base.positions.size(), 0.0);
   }
+  turns_ = false;
+  if (is_judged()) {
+    turned_ = stage_.base;
+    turn_to_.assign(stage_.base.positions.size(), 0.0);
+  }
   list_turning();
   knows_parts_ = false;
   if (is_judged()) balance_parts();
@@ -101,6 +106,7 @@ void StageSolver::prepare_ahead() {
 
 void StageSolver::solve(State& state, std::vector<double>& v, StepReport& report) {
   judge_by_load();
+  turn_ahead(v);
   guess_ = v;
   if (contact_ != nullptr) {
     solve_touching(state, v, report);
@@ -160,7 +166,7 @@ void StageSolver::lay_right(std::vector<double>& v) {
   const World& world = system_->world();
   const FixedDofs& fixed = world.fixed();
   const double h2 = stage_.move * stage_.push;
-  State& base = stage_.base;
+  State& at = linearised_at();
   // Changes of velocity that are given, zero elsewhere.
   ConstReals led = v;  // v with them
   std::ranges::fill(change_, 0.0);
@@ -171,18 +177,21 @@ void StageSolver::lay_right(std::vector<double>& v) {
     for (std::size_t i = 0; i < v.size(); ++i) change_[i] = led[i] - v[i];
   }
 
-  // push f(base, v) + push move K (v + given) + push D given - M (v - v^ + given)
-  std::swap(base.velocities, v);
-  system_->force(base, right_);
-  std::swap(base.velocities, v);
+  std::swap(at.velocities, v);
+  system_->force(at, right_);
+  std::swap(at.velocities, v);
   for (double& r : right_) r *= stage_.push;
-  system_->add_product(base, {h2, 0.0}, led, right_);
-  if (!fixed.empty() && std::ranges::any_of(change_, [](double c) { return c != 0.0; })) {
-    system_->add_product(base, {0.0, stage_.push}, change_, right_);
-    world.mass().add_product(base, -1.0, change_, right_);
+  if (turns_) {
+    for (std::size_t i = 0; i < v.size(); ++i) work_[i] = led[i] - turn_to_[i];
+    led = work_;
   }
-  for (std::size_t i = 0; i < v.size(); ++i) work_[i] = v[i] - base.velocities[i];
-  world.mass().add_product(base, -1.0, work_, right_);
+  system_->add_product(at, {h2, 0.0}, led, right_);
+  if (!fixed.empty() && std::ranges::any_of(change_, [](double c) { return c != 0.0; })) {
+    system_->add_product(at, {0.0, stage_.push}, change_, right_);
+    world.mass().add_product(stage_.base, -1.0, change_, right_);
+  }
+  for (std::size_t i = 0; i < v.size(); ++i) work_[i] = v[i] - stage_.base.velocities[i];
+  world.mass().add_product(stage_.base, -1.0, work_, right_);
   fixed.clear(right_);
   start_ = norm(right_);
   std::ranges::copy(change_, first_.begin());
@@ -191,12 +200,12 @@ void StageSolver::lay_right(std::vector<double>& v) {
 void StageSolver::first_solve(std::vector<double>& v, StepReport& report) {
   lay_right(v);
   const FixedDofs& fixed = system_->world().fixed();
-  const State& base = stage_.base;
+  const State& at = linearised_at();
   // What is given is on the right already: the solver sees free rows only, and judges by them.
   fixed.clear(change_);
 
-  assemble(base, false);
-  const SolveReport solved = solve_linear(base, kFloor * reference_, false, report);
+  assemble(at, false);
+  const SolveReport solved = solve_linear(at, kFloor * reference_, false, report);
   fixed.copy(first_, change_);
   for (std::size_t i = 0; i < v.size(); ++i) v[i] += change_[i];
   report.newton_iterations += 1;

@@ -75,10 +75,11 @@ void StageSolver::begin_touching(State& state, std::vector<double>& v) {
     contact_->begin(*step_start_, stage_.end, end_of(state), work_);
   }
   world.contact()->numbers(stage_.base).clear();
+  world.contact()->numbers(linearised_at()).clear();
   lay_right(v);
   for (std::size_t i = 0; i < v.size(); ++i) v[i] += first_[i];
   elastic_ = right_;
-  assemble(stage_.base, false);
+  assemble(linearised_at(), false);
   blocks_.resize(3 * v.size());
   system_->system_matrix().diagonal_blocks(blocks_);
   contact_->set_matrix(blocks_, stage_.move * stage_.push, stage_.contact);
@@ -87,6 +88,7 @@ void StageSolver::begin_touching(State& state, std::vector<double>& v) {
 void StageSolver::set_contacts(State& state) {
   contact_->write(state);
   contact_->write(stage_.base);
+  if (turns_) contact_->write(turned_);
 }
 
 State& StageSolver::end_of(State& state) {
@@ -184,7 +186,7 @@ bool StageSolver::solve_contacts(State& state, std::vector<double>& v, StepRepor
     world.fixed().clear(right_);
     system_->recouple(levers);
     std::ranges::fill(change_, 0.0);
-    const SolveReport found = solve_linear(stage_.base, kFloor * reference_, false, report);
+    const SolveReport found = solve_linear(linearised_at(), kFloor * reference_, false, report);
     solved = solved && found.converged;
     ++report.newton_iterations;
     report.residual = found.residual;

@@ -11,6 +11,7 @@
 #include "tissu/step/part_balance.h"
 #include "tissu/step/rigid_correction.h"
 #include "tissu/step/system.h"
+#include "tissu/step/turn_ahead.h"
 
 namespace tissu {
 
@@ -83,12 +84,15 @@ class StageSolver {
   void prepare_contact();
   void solve_free(State& state, std::vector<double>& v, StepReport& report);
   void first_solve(std::vector<double>& v, StepReport& report);
+  /// Where forces are linearised in the first system: the base, but for parts that turn.
+  [[nodiscard]] State& linearised_at() { return turns_ ? turned_ : stage_.base; }
   /// far_turns.cpp: rotations of nodes, which are turned by vectors; those of rigid bodies stand alone.
   void list_turning();
   /// A node is turned by so much more than it would go on by itself that a linearisation says little of it.
   [[nodiscard]] bool turns_far(ConstReals v) const;
-  /// push f + push move K (v + given) + push D given - M (v - v^ + given) goes into right_, free rows only;
-  /// changes of velocity that are given go into first_.
+  /// push f + push move K (v + given - v*) + push D given - M (v - v^ + given) goes into right_, free rows
+  /// only, with f, K and D at `linearised_at`, to which v* leads; changes of velocity that are given go into
+  /// first_.
   void lay_right(std::vector<double>& v);
 
   // touching.cpp: steps of a world with contact.
@@ -129,6 +133,8 @@ class StageSolver {
   void update_contacts(const State& end);
 
   // linearised.cpp: steps that are linearised once.
+  /// Parts that turn are linearised where they turn to, and v is a guess that leads there.
+  void turn_ahead(std::vector<double>& v);
   /// What became of v: nothing, it was corrected from `uncorrected_` by rigid motions, or it was iterated on.
   enum class Judged { kept, corrected, iterated };
   /// Such steps are judged: there is something that is not linear.
@@ -143,8 +149,8 @@ class StageSolver {
   Judged judge_linearised(State& state, std::vector<double>& v, StepReport& report);
   /// The latest residual, of `state` with v, is more than some times what acts on some part. A turn of a
   /// stiff body leaves strains, and so does the guess of the next step, which is then no worse. Damping
-  /// counts with the stiffness at the base, as in the step that was linearised there: either is of first
-  /// order, and at the end the stiffness of a membrane may be one that gives energy.
+  /// counts with the stiffness where the step was linearised: either is of first order, and at the end the
+  /// stiffness of a membrane may be one that gives energy.
   bool leaves_much(const State& state, ConstReals v);
   /// What supports that are led gave at the start of the step: at its end the reactions have what was left.
   void look_at_reactions();
@@ -218,7 +224,11 @@ class StageSolver {
   bool gives_up_early_ = false;
   PartBalance balance_;
   RigidCorrection rigid_;
-  bool knows_parts_ = false;  ///< balance_ and rigid_ are those of the world as it is
+  TurnAhead ahead_;
+  State turned_;                 ///< the base, with parts that turn where they turn to
+  std::vector<double> turn_to_;  ///< the velocities that lead there from the base
+  bool turns_ = false;
+  bool knows_parts_ = false;  ///< balance_, rigid_ and ahead_ are those of the world as it is
   PartBalance::Shares most_left_;
   EnergyLaw energy_;
   double reference_ = 0.0;  ///< push |external force|

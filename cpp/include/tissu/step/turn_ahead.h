@@ -1,0 +1,31 @@
+#pragma once
+
+/// Where turning parts go by themselves, for steps that are linearised once.
+
+#include <vector>
+
+#include "tissu/step/part_balance.h"
+
+namespace tissu {
+
+/// What is linear in the displacements of a step strains a part that turns by an angle a, by a^2 / 2. So
+/// forces are linearised where the part stands if it goes on as a rigid body: its strains are those of the
+/// start of the step there, and what is left is of second order in what deforms it further or changes its
+/// spin.
+class TurnAhead {
+ public:
+  void prepare(const World& world, const PartBalance& balance);  ///< which have to stay where they are
+  /// Moves parts that turn on from `start`, for the seconds up to the time of `base`: `at` is the base with
+  /// these parts there, `ahead` the velocities that lead from the base to `at` in `move` seconds, zero where
+  /// nothing turns, and v the guess that leads to `at` and on as the part deforms. False: nothing turns, and
+  /// nothing was written.
+  bool lay(const State& start, const State& base, double move, State& at, std::vector<double>& ahead,
+           std::vector<double>& v) const;
+
+ private:
+  const World* world_ = nullptr;
+  const PartBalance* balance_ = nullptr;
+  std::vector<std::size_t> turning_;  ///< parts that supports allow a rotation
+};
+
+}  // namespace tissu

@@ -1,0 +1,91 @@
+#include "tissu/step/turn_ahead.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "rigid_motions.h"
+
+namespace tissu {
+namespace {
+
+constexpr double kLeast = 1e-4;    ///< [rad] in a step: less strains by a part of 10^8
+constexpr double kFarthest = 1.0;  ///< [rad] in a step: where a faster part turns is not known
+
+/// The motion of a twist that stays as it is: x -> center + rotation (x - center) + way.
+struct Advance {
+  Quaternion rotation;
+  Vec3 way;
+};
+
+/// A point on the axis of a part that is held stays where it is; the mass centre of a free one goes straight.
+Advance advance_of(const RigidMotions::Twist& twist, double seconds, bool is_held) {
+  const Vec3 turn = seconds * twist.spin;
+  Vec3 way = seconds * twist.velocity;
+  const double angle = turn.norm();
+  if (is_held) {
+    const Vec3 axis = turn / angle;
+    const Vec3 across = axis.cross(way);
+    way += (1.0 - std::cos(angle)) / angle * across + (1.0 - std::sin(angle) / angle) * axis.cross(across);
+  }
+  return {turn_by(turn), way};
+}
+
+}  // namespace
+
+void TurnAhead::prepare(const World& world, const PartBalance& balance) {
+  world_ = &world;
+  balance_ = &balance;
+  turning_.clear();
+  for (std::size_t k = 0; k < balance.parts().size(); ++k) {
+    const ConnectedPart& part = balance.parts()[k];
+    if (!part.is_held || RigidMotions(world, part, world.rest_state()).count() > 0) turning_.push_back(k);
+  }
+}
+
+bool TurnAhead::lay(const State& start, const State& base, double move, State& at, std::vector<double>& ahead,
+                    std::vector<double>& v) const {
+  bool found = false;
+  const double seconds = base.time - start.time;
+  const std::vector<std::uint8_t>& masks = world_->fixed().masks();
+  for (const std::size_t k : turning_) {
+    const ConnectedPart& part = balance_->parts()[k];
+    const RigidMotions rigid(*world_, part, start);
+    if (rigid.count() == 0) continue;
+    const RigidMotions::Twist twist = rigid.twist(start.velocities);
+    const double angle = seconds * twist.spin.norm();
+    if (!(angle >= kLeast && angle <= kFarthest)) continue;
+    if (!found) {
+      at = base;
+      std::ranges::fill(ahead, 0.0);
+    }
+    found = true;
+    const Advance on = advance_of(twist, seconds, part.is_held);
+    const Mat3 rotation = on.rotation.toRotationMatrix();
+    // The guess goes on as the part deforms.
+    const auto guess = [&](std::int32_t row, const Vec3& rest) {
+      const std::uint8_t mask = masks[static_cast<std::size_t>(row)];
+      const Vec3 to = block(ConstReals(ahead), row) + seconds / move * rest;
+      for (int axis = 0; axis < 3; ++axis) {
+        if (((mask >> axis) & 1) == 0) block(Reals(v), row)[axis] = to[axis];
+      }
+    };
+    for (const std::int32_t node : part.nodes) {
+      const Vec3 arm = block(ConstReals(start.positions), node) - rigid.center();
+      const Vec3 to = rigid.center() + rotation * arm + on.way;
+      block(Reals(at.positions), node) = to;
+      block(Reals(ahead), node) = (to - block(ConstReals(base.positions), node)) / move;
+      guess(node, block(ConstReals(start.velocities), node) - twist.velocity - twist.spin.cross(arm));
+    }
+    for (const std::int32_t number : part.frames) {
+      const std::int32_t row = world_->frames()[static_cast<std::size_t>(number)].rotation;
+      const auto frame = static_cast<std::size_t>(number);
+      at.rotations[frame] = (on.rotation * start.rotations[frame]).normalized();
+      const Quaternion turn = at.rotations[frame] * base.rotations[frame].conjugate();
+      block(Reals(ahead), row) = nearest_turn(turn, Vec3::Zero()) / move;
+      guess(row, block(ConstReals(start.velocities), row) - twist.spin);
+    }
+  }
+  return found;
+}
+
+}  // namespace tissu

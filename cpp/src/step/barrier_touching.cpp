@@ -57,7 +57,7 @@ bool StageSolver::is_cut(State& state) {
 
 bool StageSolver::search_barrier(BarrierContact& barrier, double from, State& state, std::vector<double>& v) {
   const double slope = -std::inner_product(right_.begin(), right_.end(), change_.begin(), 0.0);
-  const DampingWork damping = damping_work(state, v);
+  const DampingWork damping = damping_work(state);
   go(v, 1.0);
   place(state, trial_);
   way_end_ = end_of(state);

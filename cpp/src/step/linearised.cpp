@@ -21,12 +21,22 @@ void StageSolver::balance_parts() {
   balance_.prepare(world());
   rigid_.prepare(world(), balance_);
   ahead_.prepare(world(), balance_);
+  is_viscous_ =
+      std::ranges::any_of(world().forces(), [](const auto& model) { return model->may_drive_turns(); });
   knows_parts_ = true;
 }
 
 void StageSolver::turn_ahead(std::vector<double>& v) {
-  if (!is_judged() || (contact_ != nullptr && contact_->barrier() != nullptr)) return;
-  turns_ = ahead_.lay(*step_start_, stage_.base, stage_.move, turned_, turn_to_, v);
+  if (world().is_linear()) return;
+  balance_parts();
+  turns_ = ahead_.lay(*step_start_, stage_.base, stage_.move, given_, turned_, turn_to_, v);
+}
+
+void StageSolver::set_straining(ConstReals v, State& state) const {
+  state.straining.clear();
+  if (!turns_ || !is_viscous_ || stage_.base.time != stage_.end) return;
+  state.straining.resize(v.size());
+  for (std::size_t i = 0; i < v.size(); ++i) state.straining[i] = v[i] - turn_to_[i];
 }
 
 bool StageSolver::correct_rigidly(State& state, std::vector<double>& v, double& left) {
@@ -38,24 +48,25 @@ bool StageSolver::correct_rigidly(State& state, std::vector<double>& v, double& 
   return taken_back < rigid_.corrected();
 }
 
-bool StageSolver::leaves_much(const State& state, ConstReals v) {
+bool StageSolver::leaves_much(const State& state) {
   if (!balance_.leaves_more(most_left_, 0.0, right_, momentum_)) return false;
   if (world().fixed().moves(*step_start_)) {
     look_at_reactions();
     if (!balance_.leaves_more(most_left_, 0.0, right_, momentum_)) return false;
   }
   std::ranges::copy(right_, trial_.begin());
-  system_->add_product(state, {0.0, -stage_.push}, v, trial_);
-  system_->add_product(linearised_at(), {0.0, stage_.push}, v, trial_);
+  system_->add_product(state, {0.0, -stage_.push}, state.strains_by(), trial_);
+  system_->add_product(linearised_at(), {0.0, stage_.push}, state.strains_by(), trial_);
   world().fixed().clear(trial_);
   const double floor = system_->round_off(stage_.base) / stage_.move;
   return balance_.leaves_more(most_left_, floor, trial_, momentum_);
 }
 
 void StageSolver::look_at_reactions() {
-  system_->force(*step_start_, trial_);
-  for (double& r : trial_) r *= stage_.push;
-  balance_.set_reactions(world().fixed(), trial_);
+  balance_.lay_strained(given_, work_);
+  std::ranges::fill(trial_, 0.0);
+  system_->add_product(linearised_at(), {stage_.move * stage_.push, 0.0}, work_, trial_);
+  balance_.set_reactions(trial_);
 }
 
 StageSolver::Judged StageSolver::judge_linearised(State& state, std::vector<double>& v, StepReport& report) {
@@ -65,8 +76,9 @@ StageSolver::Judged StageSolver::judge_linearised(State& state, std::vector<doub
   }
   double left = residual(state, v);
   const Judged judged = correct_rigidly(state, v, left) ? Judged::corrected : Judged::kept;
-  const bool no_worse = left <= kWorse * start_ + kFloor * acting_;
-  if (no_worse ? !leaves_much(state, v) : gives_up_early_ && turns_far(v)) return judged;
+  // The guess of a part that turns may be as good as the solution.
+  const bool no_worse = left <= kWorse * start_ + kFloor * (turns_ ? acting_ : reference_);
+  if (no_worse ? !leaves_much(state) : gives_up_early_ && turns_far(v)) return judged;
   if (!no_worse && contact_ != nullptr && contact_->size() > 0) {
     report.hasty = true;  // a blow: it is taken in parts
     return judged;

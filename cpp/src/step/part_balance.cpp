@@ -44,8 +44,27 @@ void PartBalance::set_contacts(double push, ConstReals force) {
   for (std::size_t k = 0; k < parts_.size(); ++k) acting_[k].contacts = push * plain_norm(parts_[k], force);
 }
 
-void PartBalance::set_reactions(const FixedDofs& fixed, ConstReals impulses) {
-  const auto& masks = fixed.masks();
+void PartBalance::lay_strained(ConstReals given, Reals out) const {
+  const std::vector<std::uint8_t>& masks = world_->fixed().masks();
+  std::ranges::fill(out, 0.0);
+  const auto lay = [&](std::int32_t row, const Vec3& mean) {
+    for (int axis = 0; axis < 3; ++axis) {
+      if (((masks[static_cast<std::size_t>(row)] >> axis) & 1) == 0) continue;
+      block(out, row)[axis] = block(given, row)[axis] - mean[axis];
+    }
+  };
+  for (const ConnectedPart& part : parts_) {
+    if (!part.is_held) continue;
+    const Vec3 mean = carried(*world_, part, given).velocity;
+    for (const std::int32_t node : part.nodes) lay(node, mean);
+    for (const std::int32_t k : part.frames) {
+      lay(world_->frames()[static_cast<std::size_t>(k)].rotation, Vec3::Zero());
+    }
+  }
+}
+
+void PartBalance::set_reactions(ConstReals impulses) {
+  const std::vector<std::uint8_t>& masks = world_->fixed().masks();
   for (std::size_t k = 0; k < parts_.size(); ++k) {
     double squares = 0.0;
     for (const std::int32_t node : parts_[k].nodes) {

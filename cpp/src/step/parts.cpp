@@ -1,5 +1,8 @@
 #include "tissu/step/parts.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "tissu/base/disjoint_sets.h"
 
 namespace tissu {
@@ -45,6 +48,29 @@ std::vector<ConnectedPart> parts_of(const World& world) {
     part.is_held = part.is_held || masks[static_cast<std::size_t>(frames[k].rotation)] != 0;
   }
   return parts;
+}
+
+Carried carried(const World& world, const ConnectedPart& part, ConstReals velocities) {
+  Carried result;
+  if (!part.is_held) return result;
+  const std::vector<std::uint8_t>& masks = world.fixed().masks();
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto each = [&](const auto& f) {
+      for (const std::int32_t node : part.nodes) {
+        if (((masks[static_cast<std::size_t>(node)] >> axis) & 1) != 0) f(block(velocities, node)[axis]);
+      }
+    };
+    double sum = 0.0;
+    double count = 0.0;
+    each([&](double v) {
+      sum += v;
+      count += 1.0;
+    });
+    if (count == 0.0) continue;
+    result.velocity[axis] = sum / count;
+    each([&](double v) { result.spread = std::max(result.spread, std::abs(v - result.velocity[axis])); });
+  }
+  return result;
 }
 
 }  // namespace tissu

@@ -142,13 +142,15 @@ void RigidMotions::allow() {
   allowed_ = found.eigenvectors().leftCols(count);
 }
 
-RigidMotions::Twist RigidMotions::twist(ConstReals v) const {
-  const Vec6 twist = allowed_ * mass().ldlt().solve(momenta(v));
+RigidMotions::Twist RigidMotions::twist(ConstReals v, const Vec3& carried) const {
+  const Amounts with = allowed_.topRows<3>().transpose() * (part_.mass * carried);
+  const Vec6 twist = allowed_ * mass().ldlt().solve(momenta(v) - with);
   Vec3 velocity = twist.head<3>();
   if (!part_.is_held) {
     const std::vector<double>& mass = world_.mass().nodal();
-    for (const std::int32_t node : part_.nodes)
+    for (const std::int32_t node : part_.nodes) {
       velocity += mass[static_cast<std::size_t>(node)] * block(v, node);
+    }
     velocity /= part_.mass;
   }
   return {velocity, twist.tail<3>() / length_};

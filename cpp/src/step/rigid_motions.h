@@ -40,8 +40,8 @@ class RigidMotions {
     Vec3 spin = Vec3::Zero();      ///< [rad/s]
   };
   /// The rigid part of velocities: that of the same momenta on the motions that are allowed, of a free part
-  /// on all.
-  [[nodiscard]] Twist twist(ConstReals v) const;
+  /// on all. `carried` is the velocity of the supports.
+  [[nodiscard]] Twist twist(ConstReals v, const Vec3& carried) const;
   [[nodiscard]] const Vec3& center() const { return center_; }
 
  private:

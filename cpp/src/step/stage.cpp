@@ -54,13 +54,14 @@ void StageSolver::prepare(const World& world, LinearSolver* solver, Profile& pro
     v->assign(stage_.base.positions.size(), 0.0);
   }
   turns_ = false;
-  if (is_judged()) {
+  if (!world.is_linear()) {
     turned_ = stage_.base;
     turn_to_.assign(stage_.base.positions.size(), 0.0);
+    turned_.straining.reserve(stage_.base.positions.size());
   }
   list_turning();
   knows_parts_ = false;
-  if (is_judged()) balance_parts();
+  if (!world.is_linear()) balance_parts();
   contact_.reset();
   if (world.contact() == nullptr) return;
   prepare_contact();
@@ -114,6 +115,7 @@ void StageSolver::solve(State& state, std::vector<double>& v, StepReport& report
     solve_free(state, v, report);
   }
   report.turned_far = turns_far(v);
+  state.straining.clear();
 }
 
 void StageSolver::solve_free(State& state, std::vector<double>& v, StepReport& report) {
@@ -159,6 +161,7 @@ bool StageSolver::is_lower(State& state, ConstReals v) {
 void StageSolver::place(State& state, ConstReals v) const {
   move(stage_.base, system_->world().frames(), v, stage_.move, state);
   std::ranges::copy(v, state.velocities.begin());
+  set_straining(v, state);
   state.time = stage_.base.time;
 }
 
@@ -177,6 +180,7 @@ void StageSolver::lay_right(std::vector<double>& v) {
     for (std::size_t i = 0; i < v.size(); ++i) change_[i] = led[i] - v[i];
   }
 
+  set_straining(v, at);
   std::swap(at.velocities, v);
   system_->force(at, right_);
   std::swap(at.velocities, v);
@@ -331,17 +335,18 @@ bool StageSolver::advance(State& state, std::vector<double>& v, Search search, d
   return true;
 }
 
-StageSolver::DampingWork StageSolver::damping_work(const State& state, ConstReals v) {
+StageSolver::DampingWork StageSolver::damping_work(const State& state) {
   std::ranges::fill(first_, 0.0);
   system_->add_product(state, {0.0, -stage_.push}, change_, first_);
-  const double linear = std::inner_product(v.begin(), v.end(), first_.begin(), 0.0);
+  const std::vector<double>& by = state.strains_by();
+  const double linear = std::inner_product(by.begin(), by.end(), first_.begin(), 0.0);
   const double square = 0.5 * std::inner_product(change_.begin(), change_.end(), first_.begin(), 0.0);
   return square < 0.0 ? DampingWork{} : DampingWork{linear, square};
 }
 
 bool StageSolver::descend(State& state, std::vector<double>& v, double& now) {
   const double slope = -std::inner_product(right_.begin(), right_.end(), change_.begin(), 0.0);
-  const DampingWork damping = damping_work(state, v);
+  const DampingWork damping = damping_work(state);
   const double from = potential(state, v);
   for (double share = 1.0; share > kShortestDown; share *= 0.5) {
     go(v, share);

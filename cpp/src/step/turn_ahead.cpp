@@ -8,8 +8,9 @@
 namespace tissu {
 namespace {
 
-constexpr double kLeast = 1e-4;    ///< [rad] in a step: less strains by a part of 10^8
-constexpr double kFarthest = 1.0;  ///< [rad] in a step: where a faster part turns is not known
+constexpr double kLeast = 1e-4;     ///< [rad] in a step: less strains by a part of 10^8
+constexpr double kTogether = 1e-9;  ///< of the extent: supports that come no farther apart move as one
+constexpr double kFarthest = 1.0;   ///< [rad] in a step: where a faster part turns is not known
 
 /// The motion of a twist that stays as it is: x -> center + rotation (x - center) + way.
 struct Advance {
@@ -42,8 +43,8 @@ void TurnAhead::prepare(const World& world, const PartBalance& balance) {
   }
 }
 
-bool TurnAhead::lay(const State& start, const State& base, double move, State& at, std::vector<double>& ahead,
-                    std::vector<double>& v) const {
+bool TurnAhead::lay(const State& start, const State& base, double move, ConstReals given, State& at,
+                    std::vector<double>& ahead, std::vector<double>& v) const {
   bool found = false;
   const double seconds = base.time - start.time;
   const std::vector<std::uint8_t>& masks = world_->fixed().masks();
@@ -51,7 +52,9 @@ bool TurnAhead::lay(const State& start, const State& base, double move, State& a
     const ConnectedPart& part = balance_->parts()[k];
     const RigidMotions rigid(*world_, part, start);
     if (rigid.count() == 0) continue;
-    const RigidMotions::Twist twist = rigid.twist(start.velocities);
+    const Carried by = carried(*world_, part, given);
+    if (!(seconds * by.spread <= kTogether * world_->extent())) continue;
+    const RigidMotions::Twist twist = rigid.twist(start.velocities, by.velocity);
     const double angle = seconds * twist.spin.norm();
     if (!(angle >= kLeast && angle <= kFarthest)) continue;
     if (!found) {
@@ -59,7 +62,8 @@ bool TurnAhead::lay(const State& start, const State& base, double move, State& a
       std::ranges::fill(ahead, 0.0);
     }
     found = true;
-    const Advance on = advance_of(twist, seconds, part.is_held);
+    Advance on = advance_of(twist, seconds, part.is_held);
+    on.way += seconds * by.velocity;
     const Mat3 rotation = on.rotation.toRotationMatrix();
     // The guess goes on as the part deforms.
     const auto guess = [&](std::int32_t row, const Vec3& rest) {
@@ -74,7 +78,8 @@ bool TurnAhead::lay(const State& start, const State& base, double move, State& a
       const Vec3 to = rigid.center() + rotation * arm + on.way;
       block(Reals(at.positions), node) = to;
       block(Reals(ahead), node) = (to - block(ConstReals(base.positions), node)) / move;
-      guess(node, block(ConstReals(start.velocities), node) - twist.velocity - twist.spin.cross(arm));
+      guess(node,
+            block(ConstReals(start.velocities), node) - by.velocity - twist.velocity - twist.spin.cross(arm));
     }
     for (const std::int32_t number : part.frames) {
       const std::int32_t row = world_->frames()[static_cast<std::size_t>(number)].rotation;

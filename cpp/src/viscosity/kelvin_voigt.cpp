@@ -23,7 +23,7 @@ Loops<ElasticKernels, ElasticView> KelvinVoigt::loops() const {
 }
 
 void KelvinVoigt::add_force(const State& state, Scratch& /*scratch*/, Reals f) const {
-  product_by(loops(), state.positions, 1.0, state.velocities, f);
+  product_by(loops(), state.positions, 1.0, state.strains_by(), f);
 }
 
 void KelvinVoigt::add_product(const State& state, Scratch& /*scratch*/, StiffnessScale scale, ConstReals p,

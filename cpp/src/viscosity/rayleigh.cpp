@@ -34,7 +34,8 @@ void Rayleigh::bind(const Sparsity& pattern) {
 
 void Rayleigh::add_force(const State& state, Scratch& scratch, Reals f) const {
   for (const auto& model : elastic_) model->add_force(state, scratch, f);
-  add_product(state, scratch, {0.0, 1.0}, state.velocities, f);
+  for (const auto& model : elastic_) model->add_product(state, scratch, {beta_, 0.0}, state.strains_by(), f);
+  add_mass_product(1.0, state.velocities, f);
 }
 
 void Rayleigh::add_stiffness(const State& state, Scratch& scratch, StiffnessScale scale,
@@ -53,9 +54,13 @@ void Rayleigh::add_product(const State& state, Scratch& scratch, StiffnessScale 
                            Reals out) const {
   const double position = scale.position + beta_ * scale.velocity;
   for (const auto& model : elastic_) model->add_product(state, scratch, {position, 0.0}, p, out);
-  if (alpha_ == 0.0 || scale.velocity == 0.0) return;
+  add_mass_product(scale.velocity, p, out);
+}
+
+void Rayleigh::add_mass_product(double scale, ConstReals p, Reals out) const {
+  if (alpha_ == 0.0 || scale == 0.0) return;
   for (std::size_t i = 0; i < masses_.size(); ++i) {
-    const double c = -alpha_ * scale.velocity * masses_[i];
+    const double c = -alpha_ * scale * masses_[i];
     for (std::size_t k = 3 * i; k < 3 * i + 3; ++k) out[k] += c * p[k];
   }
 }

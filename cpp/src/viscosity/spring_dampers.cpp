@@ -8,7 +8,7 @@ SpringDampers::SpringDampers(const DampedSprings& springs, Lame viscosity) : spr
 }
 
 void SpringDampers::add_force(const State& state, Scratch& /*scratch*/, Reals f) const {
-  springs_.add_damping(damping_.data(), state.positions, 1.0, state.velocities, f);
+  springs_.add_damping(damping_.data(), state.positions, 1.0, state.strains_by(), f);
 }
 
 void SpringDampers::add_product(const State& state, Scratch& /*scratch*/, StiffnessScale scale, ConstReals p,

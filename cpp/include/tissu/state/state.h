@@ -26,10 +26,16 @@ struct State {
   std::vector<double> positions;  ///< [m], three for each node or frame origin; zeros for a frame's rotation
   std::vector<double>
       velocities;  ///< [m/s]; a frame's rotation block holds its angular velocity in space [rad/s]
+  std::vector<double> straining;  ///< [m/s] what viscosity strains by while a step is solved in which parts
+                                  ///< turn; empty: the velocities
   std::vector<Quaternion> rotations;  ///< one unit quaternion for each frame
   Memory memory;                      ///< what models remember; empty when none does
   double memory_time = 0.0;           ///< when the memory was written [s]
 
+  /// Velocities that strain.
+  [[nodiscard]] const std::vector<double>& strains_by() const {
+    return straining.empty() ? velocities : straining;
+  }
   [[nodiscard]] std::int32_t blocks() const { return static_cast<std::int32_t>(positions.size() / 3); }
 };
 

@@ -4,7 +4,6 @@
 
 #include <vector>
 
-#include "tissu/assembly/fixed_dofs.h"
 #include "tissu/base/vec.h"
 #include "tissu/step/parts.h"
 #include "tissu/world/world.h"
@@ -23,8 +22,10 @@ class PartBalance {
   void set_external(double push, ConstReals force);
   /// What contacts give, in the same way.
   void set_contacts(double push, ConstReals force);
-  /// Impulses [N s] at all rows before those of held rows are cleared: of these, reactions count as acting.
-  void set_reactions(const FixedDofs& fixed, ConstReals impulses);
+  /// Velocities of supports against the mean of those of their part, which strain it: zero in all other rows.
+  void lay_strained(ConstReals given, Reals out) const;
+  /// Impulses [N s] at held rows by which these strains act.
+  void set_reactions(ConstReals impulses);
   /// Of what acts on a part: more than that is much.
   struct Shares {
     double held = 1.0;  ///< on parts that are held somewhere

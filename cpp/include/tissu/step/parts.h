@@ -17,6 +17,14 @@ struct ConnectedPart {
   bool is_held = false;              ///< at some node or rotation
 };
 
+/// How the supports of a part move.
+struct Carried {
+  Vec3 velocity = Vec3::Zero();  ///< [m/s] the mean of its held nodes, for each axis on its own
+  double spread = 0.0;           ///< [m/s] the largest distance of one from it
+};
+/// `velocities` has those of the supports in held rows.
+Carried carried(const World& world, const ConnectedPart& part, ConstReals velocities);
+
 /// All parts of a world, by their first node.
 std::vector<ConnectedPart> parts_of(const World& world);
 

@@ -135,6 +135,9 @@ class StageSolver {
   // linearised.cpp: steps that are linearised once.
   /// Parts that turn are linearised where they turn to, and v is a guess that leads there.
   void turn_ahead(std::vector<double>& v);
+  /// What viscosity strains by in `state` of v: a way that only turns a part is a chord, and its velocity at
+  /// the end of the way would strain what turns. It is taken from v, and no rate of strain is left.
+  void set_straining(ConstReals v, State& state) const;
   /// What became of v: nothing, it was corrected from `uncorrected_` by rigid motions, or it was iterated on.
   enum class Judged { kept, corrected, iterated };
   /// Such steps are judged: there is something that is not linear.
@@ -147,12 +150,13 @@ class StageSolver {
   /// Iterates on such a step where it made things worse or left much; if that fails, the step stays as it is
   /// unless it made things worse. It is hasty then, and where it gained energy.
   Judged judge_linearised(State& state, std::vector<double>& v, StepReport& report);
-  /// The latest residual, of `state` with v, is more than some times what acts on some part. A turn of a
+  /// The latest residual, of `state`, is more than some times what acts on some part. A turn of a
   /// stiff body leaves strains, and so does the guess of the next step, which is then no worse. Damping
   /// counts with the stiffness where the step was linearised: either is of first order, and at the end the
   /// stiffness of a membrane may be one that gives energy.
-  bool leaves_much(const State& state, ConstReals v);
-  /// What supports that are led gave at the start of the step: at its end the reactions have what was left.
+  bool leaves_much(const State& state);
+  /// What supports that are led give in the step, as far as they strain a part: a drift of all of them acts
+  /// on nothing.
   void look_at_reactions();
   static constexpr int kRescue = 10;  ///< of Newton's iterations at most
   /// Newton's iteration ended where it is good enough for such a step; `why`: as `iterate` says it.
@@ -173,14 +177,14 @@ class StageSolver {
   bool advance(State& state, std::vector<double>& v, Search search, double& now);
   bool descend(State& state, std::vector<double>& v, double& now);
   /// What damping takes on a share s of change_, s (linear + s square), which has no potential: with df/dv as
-  /// it is at v, 1/2 push v . D v. Zero for damping that gives, as Rayleigh's does where the stiffness is not
-  /// positive. It writes to first_.
+  /// it is at `state` and its v, 1/2 push v . D v. Zero for damping that gives, as Rayleigh's does where the
+  /// stiffness is not positive. It writes to first_.
   struct DampingWork {
     double linear = 0.0;
     double square = 0.0;
     [[nodiscard]] double at(double share) const { return share * (linear + share * square); }
   };
-  DampingWork damping_work(const State& state, ConstReals v);
+  DampingWork damping_work(const State& state);
   /// The matrix of the equation: mass M - push D - push move K.
   void assemble(const State& state, bool definite, double mass = 1.0);
   /// Solves A change_ = right_ with that matrix at `state`; it is made definite where it is not.
@@ -228,6 +232,7 @@ class StageSolver {
   State turned_;                 ///< the base, with parts that turn where they turn to
   std::vector<double> turn_to_;  ///< the velocities that lead there from the base
   bool turns_ = false;
+  bool is_viscous_ = false;   ///< something strains by velocities
   bool knows_parts_ = false;  ///< balance_, rigid_ and ahead_ are those of the world as it is
   PartBalance::Shares most_left_;
   EnergyLaw energy_;

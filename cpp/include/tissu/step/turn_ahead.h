@@ -17,10 +17,10 @@ class TurnAhead {
   void prepare(const World& world, const PartBalance& balance);  ///< which have to stay where they are
   /// Moves parts that turn on from `start`, for the seconds up to the time of `base`: `at` is the base with
   /// these parts there, `ahead` the velocities that lead from the base to `at` in `move` seconds, zero where
-  /// nothing turns, and v the guess that leads to `at` and on as the part deforms. False: nothing turns, and
-  /// nothing was written.
-  bool lay(const State& start, const State& base, double move, State& at, std::vector<double>& ahead,
-           std::vector<double>& v) const;
+  /// nothing turns, and v the guess that leads to `at` and on as the part deforms. `given` has the
+  /// velocities of supports. False: nothing turns, and nothing was written.
+  bool lay(const State& start, const State& base, double move, ConstReals given, State& at,
+           std::vector<double>& ahead, std::vector<double>& v) const;
 
  private:
   const World* world_ = nullptr;

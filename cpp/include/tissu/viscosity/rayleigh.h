@@ -45,6 +45,8 @@ class Rayleigh final : public ForceModel {
   void set_mass(std::int32_t row, double mass) { masses_[static_cast<std::size_t>(row)] = mass; }
 
  private:
+  void add_mass_product(double scale, ConstReals p, Reals out) const;
+
   std::vector<std::unique_ptr<ForceModel>> elastic_;
   std::vector<double> masses_;
   double alpha_;  ///< [1/s]

@@ -165,16 +165,23 @@ def test_stiffer_springs_come_to_multipliers():
 
 @pytest.mark.parametrize("threads", [1, 2])
 def test_the_same_bits_from_a_checkpoint(threads, tmp_path):
+    """In the middle of a collision, of which a step may say that it has not settled."""
     made = two(threads=threads, contact=method("penalty", penalty="reciprocal"))
     simulation = made.compile()
-    audited(simulation, 25)
+    stepped(simulation, 25)
     simulation.save_checkpoint(tmp_path / "middle")
     other = two(contact=method("penalty", penalty="reciprocal")).compile(
         checkpoint=tmp_path / "middle"
     )
-    audited(simulation, 20)
-    audited(other, 20)
+    stepped(simulation, 20)
+    stepped(other, 20)
     assert state(other) == state(simulation)
+
+
+def stepped(simulation, steps):
+    for _ in range(steps):
+        simulation.step()
+        assert simulation.crossings() == []
 
 
 def probed(stiffness):

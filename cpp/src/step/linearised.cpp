@@ -29,12 +29,12 @@ void StageSolver::balance_parts() {
 void StageSolver::turn_ahead(std::vector<double>& v) {
   if (world().is_linear()) return;
   balance_parts();
-  turns_ = ahead_.lay(*step_start_, stage_.base, stage_.move, given_, turned_, turn_to_, v);
+  turns_ = ahead_.lay({*step_start_, stage_.base, stage_.move, stage_.end}, given_, turned_, turn_to_, v);
 }
 
 void StageSolver::set_straining(ConstReals v, State& state) const {
   state.straining.clear();
-  if (!turns_ || !is_viscous_ || stage_.base.time != stage_.end) return;
+  if (!turns_ || !is_viscous_) return;
   state.straining.resize(v.size());
   for (std::size_t i = 0; i < v.size(); ++i) state.straining[i] = v[i] - turn_to_[i];
 }
@@ -63,10 +63,12 @@ bool StageSolver::leaves_much(const State& state) {
 }
 
 void StageSolver::look_at_reactions() {
-  balance_.lay_strained(given_, work_);
-  std::ranges::fill(trial_, 0.0);
-  system_->add_product(linearised_at(), {stage_.move * stage_.push, 0.0}, work_, trial_);
-  balance_.set_reactions(trial_);
+  balance_.lay_strained(given_, trial_);
+  std::ranges::fill(work_, 0.0);
+  system_->add_product(linearised_at(), {stage_.move * stage_.push, 0.0}, trial_, work_);
+  system_->force(*step_start_, trial_);
+  for (double& r : trial_) r *= stage_.push;
+  balance_.set_reactions(trial_, work_);
 }
 
 StageSolver::Judged StageSolver::judge_linearised(State& state, std::vector<double>& v, StepReport& report) {

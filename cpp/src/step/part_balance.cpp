@@ -63,18 +63,20 @@ void PartBalance::lay_strained(ConstReals given, Reals out) const {
   }
 }
 
-void PartBalance::set_reactions(ConstReals impulses) {
+void PartBalance::set_reactions(ConstReals reactions, ConstReals strained) {
   const std::vector<std::uint8_t>& masks = world_->fixed().masks();
-  for (std::size_t k = 0; k < parts_.size(); ++k) {
+  const auto held_norm = [&](const ConnectedPart& part, ConstReals rows) {
     double squares = 0.0;
-    for (const std::int32_t node : parts_[k].nodes) {
+    for (const std::int32_t node : part.nodes) {
       const std::uint8_t mask = masks[static_cast<std::size_t>(node)];
-      const auto impulse = block(impulses, node);
       for (int axis = 0; axis < 3; ++axis) {
-        if (((mask >> axis) & 1) != 0) squares += impulse[axis] * impulse[axis];
+        if (((mask >> axis) & 1) != 0) squares += block(rows, node)[axis] * block(rows, node)[axis];
       }
     }
-    acting_[k].reactions = std::sqrt(squares);
+    return std::sqrt(squares);
+  };
+  for (std::size_t k = 0; k < parts_.size(); ++k) {
+    acting_[k].reactions = std::min(held_norm(parts_[k], reactions), held_norm(parts_[k], strained));
   }
 }
 

@@ -43,10 +43,14 @@ void TurnAhead::prepare(const World& world, const PartBalance& balance) {
   }
 }
 
-bool TurnAhead::lay(const State& start, const State& base, double move, ConstReals given, State& at,
-                    std::vector<double>& ahead, std::vector<double>& v) const {
+bool TurnAhead::lay(const Way& way, ConstReals given, State& at, std::vector<double>& ahead,
+                    std::vector<double>& v) const {
   bool found = false;
-  const double seconds = base.time - start.time;
+  const State& start = way.start;
+  const State& base = way.base;
+  const double move = way.move;
+  const double seconds = way.end - start.time;
+  const double share = (base.time - start.time) / seconds;
   const std::vector<std::uint8_t>& masks = world_->fixed().masks();
   for (const std::size_t k : turning_) {
     const ConnectedPart& part = balance_->parts()[k];
@@ -68,14 +72,15 @@ bool TurnAhead::lay(const State& start, const State& base, double move, ConstRea
     // The guess goes on as the part deforms.
     const auto guess = [&](std::int32_t row, const Vec3& rest) {
       const std::uint8_t mask = masks[static_cast<std::size_t>(row)];
-      const Vec3 to = block(ConstReals(ahead), row) + seconds / move * rest;
+      const Vec3 to = block(ConstReals(ahead), row) + share * seconds / move * rest;
       for (int axis = 0; axis < 3; ++axis) {
         if (((mask >> axis) & 1) == 0) block(Reals(v), row)[axis] = to[axis];
       }
     };
     for (const std::int32_t node : part.nodes) {
-      const Vec3 arm = block(ConstReals(start.positions), node) - rigid.center();
-      const Vec3 to = rigid.center() + rotation * arm + on.way;
+      const Vec3 from = block(ConstReals(start.positions), node);
+      const Vec3 arm = from - rigid.center();
+      const Vec3 to = from + share * (rotation * arm + on.way - arm);
       block(Reals(at.positions), node) = to;
       block(Reals(ahead), node) = (to - block(ConstReals(base.positions), node)) / move;
       guess(node,
@@ -84,7 +89,7 @@ bool TurnAhead::lay(const State& start, const State& base, double move, ConstRea
     for (const std::int32_t number : part.frames) {
       const std::int32_t row = world_->frames()[static_cast<std::size_t>(number)].rotation;
       const auto frame = static_cast<std::size_t>(number);
-      at.rotations[frame] = (on.rotation * start.rotations[frame]).normalized();
+      at.rotations[frame] = (turn_by(share * seconds * twist.spin) * start.rotations[frame]).normalized();
       const Quaternion turn = at.rotations[frame] * base.rotations[frame].conjugate();
       block(Reals(ahead), row) = nearest_turn(turn, Vec3::Zero()) / move;
       guess(row, block(ConstReals(start.velocities), row) - twist.spin);

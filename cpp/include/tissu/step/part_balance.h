@@ -24,8 +24,9 @@ class PartBalance {
   void set_contacts(double push, ConstReals force);
   /// Velocities of supports against the mean of those of their part, which strain it: zero in all other rows.
   void lay_strained(ConstReals given, Reals out) const;
-  /// Impulses [N s] at held rows by which these strains act.
-  void set_reactions(ConstReals impulses);
+  /// The impulses [N s] of supports at the start of the step, and what such strains add to them in it: of
+  /// held rows, the smaller of their norms acts. A drift strains nothing, whatever the supports bear.
+  void set_reactions(ConstReals reactions, ConstReals strained);
   /// Of what acts on a part: more than that is much.
   struct Shares {
     double held = 1.0;  ///< on parts that are held somewhere

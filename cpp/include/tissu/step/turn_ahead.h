@@ -1,6 +1,6 @@
 #pragma once
 
-/// Where turning parts go by themselves, for steps that are linearised once.
+/// Where turning parts go by themselves in a step.
 
 #include <vector>
 
@@ -15,12 +15,20 @@ namespace tissu {
 class TurnAhead {
  public:
   void prepare(const World& world, const PartBalance& balance);  ///< which have to stay where they are
-  /// Moves parts that turn on from `start`, for the seconds up to the time of `base`: `at` is the base with
-  /// these parts there, `ahead` the velocities that lead from the base to `at` in `move` seconds, zero where
-  /// nothing turns, and v the guess that leads to `at` and on as the part deforms. `given` has the
-  /// velocities of supports. False: nothing turns, and nothing was written.
-  bool lay(const State& start, const State& base, double move, ConstReals given, State& at,
-           std::vector<double>& ahead, std::vector<double>& v) const;
+  /// A step that ends at the time `end`, with an equation at the time of `base`, where velocities lead from
+  /// the base in `move` seconds: at the end, or half-way on straight lines.
+  struct Way {
+    const State& start;
+    const State& base;
+    double move;
+    double end;
+  };
+  /// Moves parts that turn on from the start: `at` is the base with these parts on their way, `ahead` the
+  /// velocities that lead from the base to `at`, zero where nothing turns, and v the guess that leads to `at`
+  /// and on as the part deforms. `given` has the velocities of supports. False: nothing turns, and nothing
+  /// was written.
+  bool lay(const Way& way, ConstReals given, State& at, std::vector<double>& ahead,
+           std::vector<double>& v) const;
 
  private:
   const World* world_ = nullptr;

@@ -5,7 +5,7 @@
 
 #include "body_surface.h"
 #include "debris.h"
-#include "missing_cell.h"
+#include "edit/cut/missing_cell.h"
 #include "parted_loads.h"
 #include "parted_pressures.h"
 #include "parted_supports.h"

@@ -8,7 +8,7 @@
 #include "contact_edit.h"
 #include "cut_edit.h"
 #include "edit/cut/material_before.h"
-#include "edit/missing_cell.h"
+#include "edit/cut/missing_cell.h"
 #include "parted_loads.h"
 #include "parted_pressures.h"
 #include "parted_supports.h"

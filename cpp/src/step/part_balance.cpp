@@ -6,23 +6,44 @@
 namespace tissu {
 namespace {
 
-/// The norm of rows of a part.
-double plain_norm(const ConnectedPart& part, ConstReals rows) {
+double square_sum(const ConnectedPart& part, ConstReals rows) {
   double squares = 0.0;
   for (const std::int32_t node : part.nodes) squares += block(rows, node).squaredNorm();
-  return std::sqrt(squares);
+  return squares;
+}
+
+/// The body that a part begins in; bodies are in the order of their nodes.
+std::size_t body_of(const World& world, const ConnectedPart& part) {
+  const auto& bodies = world.bodies();
+  const auto after = std::ranges::upper_bound(bodies, part.nodes.front(), {}, &Body::first_node);
+  return static_cast<std::size_t>(std::max<std::ptrdiff_t>(1, after - bodies.begin()) - 1);
 }
 
 }  // namespace
+
+double PartBalance::Acting::norm() const {
+  return std::sqrt(std::max({external, contacts, reactions, momentum}));
+}
 
 void PartBalance::prepare(const World& world) {
   world_ = &world;
   parts_ = parts_of(world);
   acting_.assign(parts_.size(), {});
+  bodies_.assign(std::max<std::size_t>(1, world.bodies().size()), {});
+  for (std::size_t k = 0; k < parts_.size(); ++k) {
+    OfBody& body = bodies_[body_of(world, parts_[k])];
+    body.parts.push_back(k);
+    body.is_held = body.is_held || parts_[k].is_held;
+  }
+  on_held_body_.assign(parts_.size(), 0);
+  for (const OfBody& body : bodies_) {
+    for (const std::size_t k : body.parts) on_held_body_[k] = body.is_held ? 1 : 0;
+  }
 }
 
-double PartBalance::norm_of(const ConnectedPart& part, ConstReals impulses) const {
-  if (part.is_held) return plain_norm(part, impulses);
+double PartBalance::square_of(std::size_t k, ConstReals impulses) const {
+  const ConnectedPart& part = parts_[k];
+  if (on_held_body_[k] != 0) return square_sum(part, impulses);
   Vec3 velocity = Vec3::Zero();
   for (const std::int32_t node : part.nodes) velocity += block(impulses, node);
   velocity /= part.mass;
@@ -31,17 +52,17 @@ double PartBalance::norm_of(const ConnectedPart& part, ConstReals impulses) cons
   for (const std::int32_t node : part.nodes) {
     squares += (block(impulses, node) - mass[static_cast<std::size_t>(node)] * velocity).squaredNorm();
   }
-  return std::sqrt(squares);
+  return squares;
 }
 
 void PartBalance::set_external(double push, ConstReals force) {
-  for (std::size_t k = 0; k < parts_.size(); ++k) {
-    acting_[k] = {push * norm_of(parts_[k], force), 0.0, 0.0};
-  }
+  for (std::size_t k = 0; k < parts_.size(); ++k) acting_[k] = {push * push * square_of(k, force)};
 }
 
 void PartBalance::set_contacts(double push, ConstReals force) {
-  for (std::size_t k = 0; k < parts_.size(); ++k) acting_[k].contacts = push * plain_norm(parts_[k], force);
+  for (std::size_t k = 0; k < parts_.size(); ++k) {
+    acting_[k].contacts = push * push * square_sum(parts_[k], force);
+  }
 }
 
 void PartBalance::lay_strained(ConstReals given, Reals out) const {
@@ -65,7 +86,7 @@ void PartBalance::lay_strained(ConstReals given, Reals out) const {
 
 void PartBalance::set_reactions(ConstReals reactions, ConstReals strained) {
   const std::vector<std::uint8_t>& masks = world_->fixed().masks();
-  const auto held_norm = [&](const ConnectedPart& part, ConstReals rows) {
+  const auto held_squares = [&](const ConnectedPart& part, ConstReals rows) {
     double squares = 0.0;
     for (const std::int32_t node : part.nodes) {
       const std::uint8_t mask = masks[static_cast<std::size_t>(node)];
@@ -73,25 +94,38 @@ void PartBalance::set_reactions(ConstReals reactions, ConstReals strained) {
         if (((mask >> axis) & 1) != 0) squares += block(rows, node)[axis] * block(rows, node)[axis];
       }
     }
-    return std::sqrt(squares);
+    return squares;
   };
   for (std::size_t k = 0; k < parts_.size(); ++k) {
-    acting_[k].reactions = std::min(held_norm(parts_[k], reactions), held_norm(parts_[k], strained));
+    acting_[k].reactions = std::min(held_squares(parts_[k], reactions), held_squares(parts_[k], strained));
   }
 }
 
-double PartBalance::acting(std::size_t part, ConstReals momentum_change) const {
-  const Acting& of = acting_[part];
-  return std::max({of.external, of.contacts, of.reactions, norm_of(parts_[part], momentum_change)});
+PartBalance::Acting PartBalance::all_acting(std::size_t k, ConstReals momentum_change) const {
+  Acting all = acting_[k];
+  all.momentum = square_of(k, momentum_change);
+  return all;
+}
+
+double PartBalance::acting(std::size_t k, ConstReals momentum_change) const {
+  return all_acting(k, momentum_change).norm();
 }
 
 bool PartBalance::leaves_more(Shares shares, double floor, ConstReals imbalance,
                               ConstReals momentum_change) const {
-  for (std::size_t k = 0; k < parts_.size(); ++k) {
-    const double share = parts_[k].is_held ? shares.held : shares.free;
-    if (plain_norm(parts_[k], imbalance) > share * acting(k, momentum_change) + floor) return true;
-  }
-  return false;
+  return std::ranges::any_of(bodies_, [&](const OfBody& body) {
+    Acting sum;
+    double left = 0.0;
+    for (const std::size_t k : body.parts) {
+      const Acting one = all_acting(k, momentum_change);
+      sum.external += one.external;
+      sum.contacts += one.contacts;
+      sum.reactions += one.reactions;
+      sum.momentum += one.momentum;
+      left += square_sum(parts_[k], imbalance);
+    }
+    return std::sqrt(left) > (body.is_held ? shares.held : shares.free) * sum.norm() + floor;
+  });
 }
 
 }  // namespace tissu

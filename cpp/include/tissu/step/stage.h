@@ -150,11 +150,11 @@ class StageSolver {
   /// Iterates on such a step where it made things worse or left much; if that fails, the step stays as it is
   /// unless it made things worse. It is hasty then, and where it gained energy.
   Judged judge_linearised(State& state, std::vector<double>& v, StepReport& report);
-  /// The latest residual, of `state`, is more than some times what acts on some part. A turn of a
-  /// stiff body leaves strains, and so does the guess of the next step, which is then no worse. Damping
-  /// counts with the stiffness where the step was linearised: either is of first order, and at the end the
-  /// stiffness of a membrane may be one that gives energy.
-  bool leaves_much(const State& state);
+  /// The latest residual, of `state`, is more than some times what acts on some part, beyond what is
+  /// `unsolved`. A turn of a stiff body leaves strains, and so does the guess of the next step, which is then
+  /// no worse. Damping counts with the stiffness where the step was linearised: either is of first order, and
+  /// at the end the stiffness of a membrane may be one that gives energy.
+  bool leaves_much(const State& state, double unsolved);
   /// What supports that are led give in the step, as far as they strain a part: a drift of all of them acts
   /// on nothing.
   void look_at_reactions();

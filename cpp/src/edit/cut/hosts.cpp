@@ -4,7 +4,7 @@
 #include <numeric>
 #include <string>
 
-#include "edit/missing_cell.h"
+#include "edit/cut/missing_cell.h"
 #include "tissu/base/error.h"
 #include "tissu/base/sort_unique.h"
 #include "tissu/edit/cut/cut_plan.h"

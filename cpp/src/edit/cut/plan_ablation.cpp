@@ -3,9 +3,9 @@
 
 #include "edit/cut/fans.h"
 #include "edit/cut/fragments.h"
+#include "edit/cut/missing_cell.h"
 #include "edit/cut/patch.h"
 #include "edit/cut/write_plan.h"
-#include "edit/missing_cell.h"
 #include "tissu/base/error.h"
 #include "tissu/base/sort_unique.h"
 #include "tissu/edit/cut/cut_plan.h"

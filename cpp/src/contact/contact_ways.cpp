@@ -2,6 +2,7 @@
 /// rotations that are cut.
 
 #include <algorithm>
+#include <cmath>
 
 #include "hold_back.h"
 #include "tissu/contact/candidates.h"
@@ -15,6 +16,17 @@ std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 constexpr double kOffChord = 0.125;  ///< of |arm| theta^2: how far an arc is off its chord at most
 
 }  // namespace
+
+double ContactRun::longest_way(const State& to) const {
+  const auto& vertices = contact_.surfaces().vertices();
+  double square = 0.0;
+  for (std::size_t v = 0; v < vertices.size(); ++v) {
+    if (!vertices[v].is_free()) continue;
+    const auto number = static_cast<std::int32_t>(v);
+    square = std::max(square, (contact_.place(number, to) - block(ConstReals(from_), number)).squaredNorm());
+  }
+  return std::sqrt(square);
+}
 
 void ContactRun::measure_ways(const State& to) {
   sway(to);

@@ -1,6 +1,7 @@
 #include "tissu/contact/explicit_contact.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "tissu/contact/geometric.h"
@@ -8,6 +9,13 @@
 #include "tissu/contact/penalty.h"
 
 namespace tissu {
+namespace {
+
+/// Of the least gap: two things that go no farther than half of this each were seen from the start of the
+/// step, or are not too deep at its end. A look sees one gap beyond the distance at which they rest.
+constexpr double kUnseen = 1.0 + ExplicitContact::kTooDeep;
+
+}  // namespace
 
 Vec3 on_disk(const Vec3& along, double bound) {
   const double size = along.norm();
@@ -26,11 +34,16 @@ std::unique_ptr<ExplicitContact> ExplicitContact::make(const Contact& contact, c
 }
 
 ExplicitContact::ExplicitContact(const Contact& contact, const FixedDofs& fixed, const Mass& mass)
-    : contact_(contact), mass_(contact, fixed, mass), run_(contact, fixed) {}
+    : contact_(contact), mass_(contact, fixed, mass), run_(contact, fixed) {
+  const auto is_thick = [](const SurfaceVertex& vertex) { return vertex.radius > 0.0; };
+  if (std::ranges::none_of(contact.surfaces().vertices(), is_thick)) return;
+  for (const ContactPair& pair : contact.description().pairs) far_ = std::min(far_, kUnseen * pair.gap);
+}
 
 void ExplicitContact::begin(const State& start, double end, const State& led) {
   h_ = end - start.time;
   start_ = &start;
+  goes_far_ = false;
   mass_.begin(start);
   run_.begin(start, end, led);
   begin_response();
@@ -51,7 +64,8 @@ void ExplicitContact::finish(State& end) {
     if (c.apart > gap && along < c.apart - gap) thick = std::max(thick, (c.apart - along) / gap);
   }
   ContactTable::write(kept_, contact_.numbers(end));
-  depth_ = contact_.surfaces().carriers().empty() ? thick : std::max(thick, look_at_depth(end));
+  const bool looks = goes_far_ || !contact_.surfaces().carriers().empty();
+  depth_ = looks ? std::max(thick, look_at_depth(end)) : thick;
 }
 
 double ExplicitContact::look_at_depth(const State& at) {
@@ -65,7 +79,9 @@ double ExplicitContact::look_at_depth(const State& at) {
 }
 
 bool ExplicitContact::is_pressed_in(const State& end) {
-  return !contact_.surfaces().carriers().empty() && look_at_depth(end) > kTooDeep;
+  goes_far_ = goes_far_ || (std::isfinite(far_) && 2.0 * run_.longest_way(end) > far_);
+  const bool looks = goes_far_ || (strikes_first() && !contact_.surfaces().carriers().empty());
+  return looks && look_at_depth(end) > kTooDeep;
 }
 
 }  // namespace tissu

@@ -47,6 +47,8 @@ void ImpulseContact::begin_blow(Blow& blow, double pushed) const {
 }
 
 void ImpulseContact::find_blows(double pushed) {
+  std::vector<Blow> before;
+  if (goes_far()) before.swap(blows_);
   blows_.clear();
   for (const ContactNumbers& c : run_.looked()) {
     const ContactPair& pair = pair_of(c);
@@ -58,7 +60,16 @@ void ImpulseContact::find_blows(double pushed) {
     begin_blow(blow, pushed);
     blows_.push_back(blow);
   }
-  std::ranges::sort(blows_, {}, [](const Blow& blow) { return blow.contact.key(); });
+  const auto key = [](const Blow& blow) { return blow.contact.key(); };
+  std::ranges::sort(blows_, {}, key);
+  const auto found = static_cast<std::ptrdiff_t>(blows_.size());
+  for (Blow& blow : before) {
+    if (std::ranges::binary_search(blows_.begin(), blows_.begin() + found, key(blow), {}, key)) continue;
+    blow.way = blow.end = {};
+    begin_blow(blow, pushed);
+    blows_.push_back(blow);
+  }
+  std::ranges::inplace_merge(blows_, blows_.begin() + found, {}, key);
 }
 
 void ImpulseContact::take_back(double pushed, Reals way, Reals end) {

@@ -64,8 +64,7 @@ void ExplicitMethod::touch(ConstReals way, double pushed, double h, State& state
   }
   held_back_ = hold_back(h, state);
   for (int i = 1; i < looks; ++i) {
-    const bool again = held_back_ > 0 || (contact_->strikes_first() && contact_->is_pressed_in(state));
-    if (!again) break;
+    if (held_back_ == 0 && !contact_->is_pressed_in(state)) break;
     contact_->take_back(pushed, free_way_, free_ends_);
     look(state, nullptr);
     strike(pushed, h, state);

@@ -18,6 +18,11 @@ namespace {
 constexpr int kMostSteps = 400;
 constexpr double kFine = 1e-6;
 constexpr double kCoarse = 1e-4;  ///< of the squared frequency: the frequency itself is known far better
+constexpr double kBelow = 2e-3;   ///< of what rows have: less than that is not below
+constexpr int kProbes = 4;
+constexpr double kRough = 0.02;  ///< of how far below …
+constexpr double kLeast = 0.05;  ///< … and of what rows have: half of kBelow
+constexpr int kEvery = 8;        ///< steps
 
 /// x -> M^-1/2 A M^-1/2 x for the free degrees of freedom, zero for the others; A is scale of df/dx and
 /// df/dv.
@@ -33,17 +38,30 @@ class ScaledMatrix {
     }
     scaled_.resize(state.positions.size());
   }
+  /// From now on x -> W (A - offset) W x, of the same A, with a number of W for each unknown.
+  void weigh(std::vector<double> weights, double offset) {
+    weights_ = std::move(weights);
+    offset_ = offset;
+  }
   void apply(ConstReals x, Reals out) {
     std::ranges::copy(x, scaled_.begin());
+    times_weights(scaled_);
+    if (!weights_.empty()) weighted_ = scaled_;
     divide(scaled_);
     std::ranges::fill(out, 0.0);
     for (const auto& model : world_.forces()) {
       if (model->has_stiffness()) model->add_product(state_, scratch_, scale_, scaled_, out);
     }
     divide(out);
+    for (std::size_t i = 0; i < weights_.size(); ++i) out[i] -= offset_ * weighted_[i];
+    times_weights(out);
   }
   /// Zero where the motion is given.
   void free(Reals x) const { world_.fixed().clear(x); }
+  /// x -> W x
+  void times_weights(Reals x) const {
+    for (std::size_t i = 0; i < weights_.size(); ++i) x[i] *= weights_[i];
+  }
 
  private:
   void divide(Reals x) const {
@@ -60,12 +78,15 @@ class ScaledMatrix {
   std::vector<double> root_;
   std::vector<Mat3> turning_;
   std::vector<double> scaled_;
+  std::vector<double> weights_;  ///< empty: all one
+  std::vector<double> weighted_;
+  double offset_ = 0.0;
   Scratch scratch_;
 };
 
 /// A start that no mode is orthogonal to: numbers without a pattern, the same on every machine.
-void fill_start(Reals x) {
-  std::uint64_t seed = 88172645463325252ULL;
+void fill_start(Reals x, std::uint64_t other = 0) {
+  std::uint64_t seed = 88172645463325252ULL + other * 0x9e3779b97f4a7c15ULL;
   for (double& value : x) {
     seed ^= seed << 13U;
     seed ^= seed >> 7U;
@@ -79,7 +100,8 @@ void fill_start(Reals x) {
 class Lanczos {
  public:
   Lanczos(ScaledMatrix& matrix, std::size_t size) : matrix_(matrix), before_(size), now_(size), next_(size) {}
-  double largest(double tolerance);
+  /// Until it changes by less than a share of it, or of `least`, in so many steps.
+  double largest(double tolerance, double least = 0.0, int every = 1);
   /// After `largest`, which found something.
   std::vector<double> shape();
 
@@ -124,7 +146,7 @@ Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> Lanczos::ritz(Eigen::Decompositio
   return solver;
 }
 
-double Lanczos::largest(double tolerance) {
+double Lanczos::largest(double tolerance, double least, int every) {
   start();
   double largest = 0.0;
   for (int step = 0; step < kMostSteps; ++step) {
@@ -133,14 +155,17 @@ double Lanczos::largest(double tolerance) {
     const double on = std::inner_product(now_.begin(), now_.end(), next_.begin(), 0.0);
     if (!std::isfinite(on)) return std::numeric_limits<double>::quiet_NaN();
     diagonal_.push_back(on);
-    const double found = ritz(Eigen::EigenvaluesOnly).eigenvalues().maxCoeff();
-    if (step > 4 && std::abs(found - largest) <= tolerance * found) return std::max(0.0, found);
-    largest = found;
+    if (step % every == 0) {
+      const double found = ritz(Eigen::EigenvaluesOnly).eigenvalues().maxCoeff();
+      const bool same = std::abs(found - largest) <= tolerance * std::max(found, least);
+      if (step > 4 * every && same) return std::max(0.0, found);
+      largest = found;
+    }
     const double length = advance(on, step == 0 ? 0.0 : beside_.back());
     if (!(length > 1e-12 * std::abs(on))) break;  // the space is exhausted
     beside_.push_back(length);
   }
-  return std::max(0.0, largest);
+  return std::max(0.0, ritz(Eigen::EigenvaluesOnly).eigenvalues().maxCoeff());
 }
 
 std::vector<double> Lanczos::shape() {
@@ -175,7 +200,51 @@ double quotient(ScaledMatrix& A, const std::vector<double>& x) {
          std::inner_product(x.begin(), x.end(), x.begin(), 0.0);
 }
 
+/// Root mean squares of the rows of A, each over the three of a block: of products with numbers by chance.
+std::vector<double> sizes_of_rows(ScaledMatrix A, std::size_t size) {
+  std::vector<double> x(size);
+  std::vector<double> product(size);
+  std::vector<double> squares(size, 0.0);
+  for (int probe = 1; probe <= kProbes; ++probe) {
+    fill_start(x, static_cast<std::uint64_t>(probe));
+    A.free(x);
+    A.apply(x, product);
+    for (std::size_t i = 0; i < size; ++i) squares[i] += 12.0 / kProbes * product[i] * product[i];
+  }
+  for (std::size_t i = 0; i < size; i += 3) {
+    const double mean = (squares[i] + squares[i + 1] + squares[i + 2]) / 3.0;
+    squares[i] = squares[i + 1] = squares[i + 2] = std::sqrt(mean);
+  }
+  return squares;
+}
+
 }  // namespace
+
+DampingRange::DampingRange(const World& world, const State& state)
+    : world_(world),
+      state_(state),
+      stiffness_(sizes_of_rows({world, state, {-1.0, 0.0}}, state.positions.size())),
+      damping_(sizes_of_rows({world, state, {0.0, -1.0}}, state.positions.size())) {}
+
+std::optional<Vibration> DampingRange::below(double ratio, double offset) const {
+  std::vector<double> weights(stiffness_.size());
+  for (std::size_t i = 0; i < weights.size(); ++i) {
+    const double sum = ratio * stiffness_[i] + damping_[i] + offset;
+    weights[i] = sum > 0.0 ? 1.0 / std::sqrt(sum) : 0.0;
+  }
+  ScaledMatrix less(world_, state_, {-ratio, 1.0});
+  less.weigh(std::move(weights), offset);
+  Lanczos lanczos(less, stiffness_.size());
+  if (!(lanczos.largest(kRough, kLeast, kEvery) > kBelow)) return std::nullopt;
+  std::vector<double> shape = lanczos.shape();
+  less.times_weights(shape);
+  ScaledMatrix stiffness(world_, state_, {-1.0, 0.0});
+  ScaledMatrix damping(world_, state_, {0.0, -1.0});
+  Vibration result;
+  result.frequency = std::sqrt(std::max(0.0, quotient(stiffness, shape)));
+  result.damping = result.largest_damping = std::max(0.0, quotient(damping, shape));
+  return result;
+}
 
 Vibration stiffest_vibration(const World& world, const State& state, double h) {
   ScaledMatrix both(world, state, {-h * h, -2.0 * h});

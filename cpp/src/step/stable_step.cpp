@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <optional>
+#include <tuple>
 #include <utility>
 
 namespace tissu {
@@ -15,6 +17,9 @@ constexpr double kRoundOff = 1e-12;
 constexpr int kHalvings = 60;
 constexpr int kMostLooks = 8;       ///< for the shape that limits the step by stiffness and damping together
 constexpr double kSettled = 0.999;  ///< of the limit before: the shape of the limit is found
+constexpr int kMostBelow = 16;      ///< looks for shapes that are damped less
+constexpr double kNearly = 0.98;    ///< of the limit: what may lie below an edge bears that
+constexpr double kFinest = 1e-3;    ///< of a damping
 
 /// The places of the cells of a block by ascending numbers: edits in place leave them in another order than a
 /// world that is built anew has.
@@ -25,6 +30,58 @@ std::vector<std::size_t> by_number(const ElasticBlock& block, std::size_t count)
   if (numbers.size() == count && !std::ranges::is_sorted(numbers))
     std::ranges::sort(places, {}, [&](std::size_t place) { return numbers[place]; });
   return places;
+}
+
+double square(double x) { return x * x; }
+
+/// Edges below shapes that were found, in the plane of squared frequency and damping: from no motion to the
+/// fastest shape, each steeper than the one before. An edge is closed when no shape is known to lie below it.
+class LowerEdges {
+ public:
+  explicit LowerEdges(const Vibration& fastest) : corners_{{}, fastest}, closed_{0} {}
+
+  [[nodiscard]] std::size_t size() const { return closed_.size(); }
+  [[nodiscard]] const Vibration& low(std::size_t edge) const { return corners_[edge]; }
+  [[nodiscard]] const Vibration& high(std::size_t edge) const { return corners_[edge + 1]; }
+  [[nodiscard]] bool is_closed(std::size_t edge) const { return closed_[edge] != 0; }
+  void close(std::size_t edge) { closed_[edge] = 1; }
+  /// damping = ratio frequency^2 - offset
+  [[nodiscard]] double ratio(std::size_t edge) const {
+    const double wide = square(high(edge).frequency) - square(low(edge).frequency);
+    return wide > 0.0 ? std::max(0.0, high(edge).damping - low(edge).damping) / wide : 0.0;
+  }
+  [[nodiscard]] double offset(std::size_t edge) const {
+    return std::max(0.0, ratio(edge) * square(low(edge).frequency) - low(edge).damping);
+  }
+  void add(const Vibration& shape);
+
+ private:
+  /// A corner that is not below the line between those beside it.
+  [[nodiscard]] bool is_idle(std::size_t corner) const {
+    const auto [a, b, c] = std::tie(corners_[corner - 1], corners_[corner], corners_[corner + 1]);
+    const double from = square(a.frequency);
+    return (b.damping - a.damping) * (square(c.frequency) - from) >=
+           (c.damping - a.damping) * (square(b.frequency) - from);
+  }
+  void remove(std::size_t corner) {
+    corners_.erase(corners_.begin() + static_cast<std::ptrdiff_t>(corner));
+    closed_.erase(closed_.begin() + static_cast<std::ptrdiff_t>(corner));
+    closed_[corner - 1] = 0;
+  }
+
+  std::vector<Vibration> corners_;
+  std::vector<std::uint8_t> closed_;
+};
+
+void LowerEdges::add(const Vibration& shape) {
+  const auto place = std::ranges::upper_bound(corners_.begin() + 1, corners_.end(), shape.frequency, {},
+                                              &Vibration::frequency);
+  auto corner = static_cast<std::size_t>(place - corners_.begin());
+  corners_.insert(place, shape);
+  closed_.insert(closed_.begin() + static_cast<std::ptrdiff_t>(corner - 1), 0);
+  if (corner < closed_.size()) closed_[corner] = 0;
+  while (corner + 2 < corners_.size() && is_idle(corner + 1)) remove(corner + 1);
+  while (corner > 1 && is_idle(corner - 1)) remove(--corner);
 }
 
 }  // namespace
@@ -136,7 +193,8 @@ void StableStep::measure(const Amplification& method, const State& state) {
   const Vibration fastest = fastest_vibration(*world_, state);
   limit_ = bearable(method, fastest);
   const bool both = fastest.frequency > 0.0 && fastest.largest_damping > 0.0;
-  for (int look = 0; both && look < kMostLooks && limit_ > 0.0; ++look) {
+  if (both && method.growth > 0.0) heed_less_damped(method, state, fastest);
+  for (int look = 0; both && method.growth == 0.0 && look < kMostLooks && limit_ > 0.0; ++look) {
     const double before = limit_;
     limit_ = std::min(limit_, bearable(method, stiffest_vibration(*world_, state, limit_)));
     if (limit_ > kSettled * before) break;
@@ -145,6 +203,59 @@ void StableStep::measure(const Amplification& method, const State& state) {
   const ConstReals x(state.positions);
   for (std::size_t e = 0; e < lengths_.size(); ++e) {
     lengths_[e] = (block(x, edges_[2 * e]) - block(x, edges_[2 * e + 1])).norm();
+  }
+}
+
+/// Methods that make undamped vibrations grow: the limit of what is damped says nothing of what is not. What
+/// they bear in a step h is convex in the plane of squared frequency and damping, where h times the largest
+/// damping is at most two: a triangle of explicit Euler, h omega^2 <= damping, and an ellipse of
+/// Runge-Kutta's second order, (s - q)^2 + (q - 2)^2 <= 4 with s = h^2 omega^2 and q = h damping. So all
+/// shapes are stable with the corners of a convex set that they lie in.
+void StableStep::heed_less_damped(const Amplification& method, const State& state, const Vibration& fastest) {
+  const DampingRange range(*world_, state);
+  LowerEdges edges(fastest);
+  const auto with = [&](double frequency, double damping) {
+    return bearable(method, {frequency, damping, fastest.largest_damping});
+  };
+  double sure = std::numeric_limits<double>::infinity();  // of what may lie below closed edges
+  for (int look = 0; limit_ > 0.0; ++look) {
+    // Of what may lie below an edge, the worst is as fast as its one end and as little damped as the other.
+    double worst = limit_;
+    std::size_t at = edges.size();
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+      if (edges.is_closed(i)) continue;
+      const double h = with(edges.high(i).frequency, edges.low(i).damping);
+      if (!(h < worst)) continue;
+      worst = h;
+      at = i;
+    }
+    if (look == kMostBelow || at == edges.size() || worst >= kNearly * limit_) {
+      limit_ = std::min({limit_, worst, sure});
+      return;
+    }
+    // After the first look the line is put lower by what takes a fiftieth of the limit at most.
+    const Vibration low = edges.low(at);
+    const Vibration high = edges.high(at);
+    const double ratio = edges.ratio(at);
+    const auto bears = [&](double lower) {
+      const double right = ratio > 0.0 ? lower / ratio : 0.0;
+      return std::min(with(high.frequency, high.damping - lower),
+                      with(std::sqrt(square(low.frequency) + right), low.damping));
+    };
+    double lower = 0.0;
+    for (double more = 0.5 * (high.damping - low.damping); look > 0 && more > kFinest * high.damping;
+         more *= 0.5) {
+      if (bears(lower + more) >= kNearly * limit_) lower += more;
+    }
+    const double offset = edges.offset(at) + lower;
+    const std::optional<Vibration> found = range.below(ratio, offset);
+    if (found && found->damping < ratio * square(found->frequency) - offset) {
+      limit_ = std::min(limit_, with(found->frequency, found->damping));
+      edges.add(*found);
+    } else {
+      sure = std::min(sure, bears(lower));
+      edges.close(at);
+    }
   }
 }
 

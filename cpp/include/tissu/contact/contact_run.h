@@ -61,6 +61,8 @@ class ContactRun {
   void keep_momentum(const Mass& mass, const FixedDofs& fixed, ConstReals before, Reals v);
   /// The least share of its way that the latest `hold_back` left to anything.
   [[nodiscard]] double least_share() const { return least_share_; }
+  /// Of the ways of what is free to `to` [m].
+  [[nodiscard]] double longest_way(const State& to) const;
   /// Ways go on from `at`, to which the way was free, and not from the start of the step any more.
   void go_on_from(const State& at) {
     gather(at, from_);

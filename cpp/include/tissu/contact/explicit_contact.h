@@ -3,6 +3,7 @@
 /// Contact during the steps of an explicit method. What is led goes first and pushes, a response gives forces
 /// or changes velocities, and ways are shortened until nothing passes through anything.
 
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -68,11 +69,12 @@ class ExplicitContact {
   void keep_momentum(const Mass& mass, const FixedDofs& fixed, ConstReals before, Reals v) {
     run_.keep_momentum(mass, fixed, before, v);
   }
-  /// Whether impulses pressed something rigid, which is free, into what was too far away to be looked at: it
-  /// looks at that end.
+  /// Whether something is too deep inside what was too far away to be looked at: it looks at that end where
+  /// impulses may have pressed something rigid there, which is free, and where something went far beside
+  /// things with a thickness, whose middles do not stop each other.
   bool is_pressed_in(const State& end);
   /// How far contacts are inside their gaps at the end of the step, as a share, the most of them; 0 where
-  /// nothing rigid is free.
+  /// nothing is thick, and nothing rigid is free.
   [[nodiscard]] double depth() const { return depth_; }
   /// The step is over: its contacts go into the memory of its end.
   void finish(State& end);
@@ -90,6 +92,8 @@ class ExplicitContact {
     return contact_.description().pairs[static_cast<std::size_t>(contact.pair)];
   }
   [[nodiscard]] const State& start() const { return *start_; }
+  /// Contacts were looked for where something went far: what one look sees, the next may not.
+  [[nodiscard]] bool goes_far() const { return goes_far_; }
 
   const Contact& contact_;
   ContactMass mass_;
@@ -100,6 +104,8 @@ class ExplicitContact {
   double look_at_depth(const State& at);
 
   const State* start_ = nullptr;
+  double far_ = std::numeric_limits<double>::infinity();  ///< for two ways [m]; where nothing is thick, any
+  bool goes_far_ = false;                                 ///< in this step
   std::vector<ContactNumbers> kept_;
   double least_gap_ = 0.0;
   double depth_ = 0.0;

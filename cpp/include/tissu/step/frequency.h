@@ -1,5 +1,8 @@
 #pragma once
 
+#include <optional>
+#include <vector>
+
 #include "tissu/world/world.h"
 
 namespace tissu {
@@ -22,5 +25,23 @@ Vibration fastest_vibration(const World& world, const State& state);
 /// Where neither the fastest shape nor the most damped one limits the step h [s], this one does: velocities
 /// that are damped explicitly change their sign from step to step where that is 4 (symplectic Euler).
 Vibration stiffest_vibration(const World& world, const State& state, double h);
+
+/// Which pairs of frequency and damping the shapes y of a state have: (y . K y, y . D y) with y . M y = 1.
+/// All pairs together, of complex shapes, are a convex set (Toeplitz, Hausdorff), to which those of the modes
+/// belong, whatever of the world is damped and however; of what is independent it is the convex hull.
+class DampingRange {
+ public:
+  DampingRange(const World& world, const State& state);
+  /// A shape with damping < ratio frequency^2 - offset, by more than two thousandths of what its nodes have
+  /// of these, if there is one.
+  [[nodiscard]] std::optional<Vibration> below(double ratio, double offset) const;
+
+ private:
+  const World& world_;
+  const State& state_;
+  // How much of each comes to a row, measured by products: what is soft counts beside what is stiff.
+  std::vector<double> stiffness_;
+  std::vector<double> damping_;
+};
 
 }  // namespace tissu

@@ -44,6 +44,8 @@ class StableStep {
   /// A number that changes with the couplings: which rows, how stiff.
   [[nodiscard]] double coupled(const State& state);
   void measure(const Amplification& method, const State& state);
+  /// Lowers the limit to that of everything that is damped less than the fastest vibration.
+  void heed_less_damped(const Amplification& method, const State& state, const Vibration& fastest);
   /// The largest stable step of a vibration, with what was added to all of them and without.
   [[nodiscard]] double bearable(const Amplification& method, Vibration vibration) const;
 

@@ -380,8 +380,9 @@ def test_a_blade_through_a_node_of_three_lines_is_refused_and_one_beside_it_is_n
 
 def test_what_cannot_be_cut_is_refused_in_a_sentence() -> None:
     tough = ts.Knife(edge=[(0, 0, -0.1), (0, 0, 0.1)], cuts=["cable"], toughness="100 J/m^2")
-    with pytest.raises(ts.SceneError, match="toughness of a knife that cuts the lines"):
+    with pytest.raises(ts.SceneError, match="toughness of a knife that cuts the lines") as refused:
         scene(instruments={"blade": tough}).compile()
+    assert scene(instruments={"blade": tough}).check().problems == refused.value.problems
     with pytest.raises(ts.ParameterError, match="the lines 'cable'; the quality of"):
         scene().compile().quality("cable")
 

@@ -126,8 +126,10 @@ def test_the_front_of_a_slit_is_found() -> None:
 
 
 def test_what_cannot_tear_is_refused() -> None:
-    with pytest.raises(ts.SceneError, match="mean edge of the cells"):
-        strip(0.0, tear=[ts.Tear("strip", strength=1e3, length=1e-3)]).compile()
+    short = strip(0.0, tear=[ts.Tear("strip", strength=1e3, length=1e-3)])
+    with pytest.raises(ts.SceneError, match="mean edge of the cells") as refused:
+        short.compile()
+    assert short.check().problems == refused.value.problems
     with pytest.raises(ts.SceneError, match="no body is named 'stripe'"):
         strip(0.0, tear=[ts.Tear("stripe", strength=1e3, length=1e-3)])
     with pytest.raises(ts.SceneError, match="write editing: true"):

@@ -12,6 +12,7 @@ from tissu.errors import SceneError
 
 if TYPE_CHECKING:
     from tissu.compile.prepared import Prepared
+    from tissu.front import Scene
     from tissu.scene.effect import Effect
     from tissu.scene.scene import SceneData
 
@@ -53,16 +54,17 @@ class Check:
         )
 
 
-def check_scene(scene: SceneData) -> Check:
+def check_scene(scene: Scene) -> Check:
     """Everything that compile() would refuse, and what the scene switches on; raises nothing."""
     prepared = prepare(scene)
     check = check_of(prepared)
-    if not check.ok or prepared.contact is None:
+    cuts = bool(scene.instruments or scene.tear)
+    if not check.ok or (prepared.contact is None and not cuts):
         return check
-    from tissu.compile.world import world_and_start
+    from tissu.compile.world import simulation_of, world_and_start
 
-    try:  # whether surfaces overlap at the start, the core says
-        apart = world_and_start(prepared)[1]
+    try:  # whether surfaces overlap at the start, and whether bodies can be cut, the core says
+        apart = simulation_of(scene, prepared, check)[1] if cuts else world_and_start(prepared)[1]
     except SceneError as error:
         return replace(check, problems=error.problems)
     return check if apart is None else replace(check, notes=[*check.notes, apart.words])

@@ -27,6 +27,8 @@ from tissu.scene.step import Static
 
 if TYPE_CHECKING:
     from tissu._core import WorldBuilder
+    from tissu.checkpoint import Checkpoint
+    from tissu.compile.check import Check
     from tissu.compile.separate import Apart
     from tissu.front import Scene
     from tissu.simulation import Simulation
@@ -44,9 +46,29 @@ def compile_scene(scene: Scene, checkpoint: Path | None = None) -> Simulation:
     check = check_of(prepared)
     if check.problems:
         raise SceneError(check.problems)
+    simulation, apart = simulation_of(scene, prepared, check, checkpoint=saved)
+    if saved is not None:
+        return simulation
+    begin(simulation, prepared)
+    if apart is not None:
+        apart.begin(simulation)
+    problem = unstable_step(simulation)
+    if problem is not None:
+        raise SceneError([problem.sentence(scene.source)])
+    return simulation
+
+
+def simulation_of(
+    scene: Scene, prepared: Prepared, check: Check, checkpoint: Checkpoint | None = None
+) -> tuple[Simulation, Apart | None]:
+    """The simulation of a scene before it begins, and where bodies that overlapped in it begin.
+
+    Raises:
+        SceneError: surfaces overlap at the start, or what instruments and tears cut cannot be cut.
+    """
     from tissu.simulation import Simulation
 
-    world, apart = world_and_start(prepared, resumed=saved is not None)
+    world, apart = world_and_start(prepared, resumed=checkpoint is not None)
     if apart is not None:
         check = dataclasses.replace(check, notes=[*check.notes, apart.words])
 
@@ -62,18 +84,10 @@ def compile_scene(scene: Scene, checkpoint: Path | None = None) -> Simulation:
         solver=None if solver is None else solver.linear_solver(equilibrium=equilibrium),
         check=check,
         loads=[(loaded.load, _where(prepared, loaded)) for loaded in prepared.loaded],
-        checkpoint=saved,
+        checkpoint=checkpoint,
     )
     refuse_uncuttable(simulation)
-    if saved is not None:
-        return simulation
-    begin(simulation, prepared)
-    if apart is not None:
-        apart.begin(simulation)
-    problem = unstable_step(simulation)
-    if problem is not None:
-        raise SceneError([problem.sentence(scene.source)])
-    return simulation
+    return simulation, apart
 
 
 def world_and_start(prepared: Prepared, *, resumed: bool = False) -> tuple[Any, Apart | None]:

@@ -101,7 +101,7 @@ class Kerf {
     if (const auto way = way_in(around.walls, around.others); way) {
       const Vec3 step = std::min(most, depth * std::min(way->slant, kSlant)) * way->along;
       if (const MaterialTetra* tetra = tetra_towards(vertex, around, step); tetra != nullptr) {
-        return moved(*tetra, vertex, step);
+        return moved(*tetra, vertex, kept_short(vertex, around, step));
       }
     }
     if (!around.has_twin) return std::nullopt;
@@ -109,7 +109,20 @@ class Kerf {
         around.tetrahedra, {}, [&](const MaterialTetra& tetra) { return volume(tetra); });
     Vec3 middle = Vec3::Zero();
     for (const std::int32_t v : largest.vertices) middle += 0.25 * place(v);
-    return moved(largest, vertex, std::min(most, depth) * (middle - place(vertex)).normalized());
+    const Vec3 step = std::min(most, depth) * (middle - place(vertex)).normalized();
+    return moved(largest, vertex, kept_short(vertex, around, step));
+  }
+
+  /// A step, shortened so that it takes no more than its share of the height of any tetrahedron at the
+  /// vertex: a flat one that turned over would lay one wall through another.
+  [[nodiscard]] Vec3 kept_short(std::int32_t vertex, const Around& around, const Vec3& step) const {
+    double share = 1.0;
+    for (const MaterialTetra& tetra : around.tetrahedra) {
+      const double before = volume(tetra);
+      const double lost = 1.0 - volume(tetra, vertex, step) / before;
+      if (before > 0.0 && share * lost > kOfHeight) share = kOfHeight / lost;
+    }
+    return share * step;
   }
 
   /// The tetrahedron at the vertex into which a step leads; null: none.
@@ -169,12 +182,15 @@ class Kerf {
     return between(material_, tetra.vertices, weights_of(tetra, vertex, step));
   }
 
-  [[nodiscard]] double volume(const MaterialTetra& tetra) const {
-    const Vec3 a = place(tetra.vertices[0]);
-    return (place(tetra.vertices[1]) - a)
-               .cross(place(tetra.vertices[2]) - a)
-               .dot(place(tetra.vertices[3]) - a) /
-           6.0;
+  /// With a step of one of its vertices.
+  [[nodiscard]] double volume(const MaterialTetra& tetra, std::int32_t moved = kNoVertex,
+                              const Vec3& step = Vec3::Zero()) const {
+    const auto corner = [&](std::size_t i) -> Vec3 {
+      const std::int32_t v = tetra.vertices[i];
+      return v == moved ? Vec3(place(v) + step) : place(v);
+    };
+    const Vec3 a = corner(0);
+    return (corner(1) - a).cross(corner(2) - a).dot(corner(3) - a) / 6.0;
   }
   [[nodiscard]] double least_height(const MaterialTetra& tetra) const {
     double largest = 0.0;

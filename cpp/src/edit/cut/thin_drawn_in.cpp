@@ -16,6 +16,7 @@ namespace {
 
 constexpr double kOfHeight = 0.24;  ///< of the least height: a depth at which a triangle keeps its sense
 constexpr double kFlat = 0.02;  ///< of the largest least height at a vertex: flatter triangles do not count
+constexpr double kSense = 0.1;  ///< of its area: what every triangle keeps, flat or not
 constexpr double kSlant = 2.0;  ///< longest way over the depth
 constexpr double kRoundOff = 1e-9;
 
@@ -34,10 +35,16 @@ struct Around {
   bool has_twin = false;                 ///< another vertex stands in the same place
 };
 
+/// Where a vertex of a sheet goes: a way along one of its triangles.
+struct Drawn {
+  Corners triangle;
+  Vec3 way;
+};
+
 class ThinKerf {
  public:
   ThinKerf(const Hosts& hosts, const Material& material, const ThinMaterial& thin)
-      : hosts_(hosts), material_(material) {
+      : hosts_(hosts), material_(material), triangles_(thin.triangles) {
     add_triangles(thin.triangles);
     add_lines(thin.lines);
     find_twins(thin.still);
@@ -46,14 +53,21 @@ class ThinKerf {
 
   [[nodiscard]] std::vector<std::pair<std::int32_t, Rider>> drawn_in(
       const std::function<double(std::int32_t)>& depth) const {
-    std::vector<std::pair<std::int32_t, Rider>> found;
+    std::map<std::int32_t, Rider> found;
+    std::map<std::int32_t, Drawn> in_sheets;
     for (const auto& [vertex, around] : around_) {
       if (!around.is_cut && !around.has_twin) continue;
-      const auto rider = around.triangles.empty() ? along_line(vertex, around, depth(vertex))
-                                                  : into_sheet(vertex, around, depth(vertex));
-      if (rider) found.emplace_back(vertex, *rider);
+      if (around.triangles.empty()) {
+        if (const auto rider = along_line(vertex, around, depth(vertex)); rider) found[vertex] = *rider;
+      } else if (const auto drawn = into_sheet(vertex, around, depth(vertex)); drawn) {
+        in_sheets[vertex] = *drawn;
+      }
     }
-    return found;
+    keep_senses(in_sheets);
+    for (const auto& [vertex, drawn] : in_sheets) {
+      if (const auto rider = rider_after(vertex, drawn); rider) found[vertex] = *rider;
+    }
+    return {found.begin(), found.end()};
   }
 
  private:
@@ -148,25 +162,24 @@ class ThinKerf {
   }
 
   /// Where a vertex of a sheet is met; nothing: where it is.
-  [[nodiscard]] std::optional<Rider> into_sheet(std::int32_t vertex, const Around& around,
+  [[nodiscard]] std::optional<Drawn> into_sheet(std::int32_t vertex, const Around& around,
                                                 double depth) const {
     const double most = kOfHeight * thickness(around);
     if (!(most > 0.0)) return std::nullopt;
     if (const auto way = way_in(around.walls, around.others); way) {
       const Vec3 step = std::min(most, depth * std::min(way->slant, kSlant)) * way->along;
-      if (const auto rider = towards(vertex, around, step); rider) return rider;
+      if (const auto drawn = towards(vertex, around, step); drawn) return drawn;
     }
     if (!around.has_twin) return std::nullopt;
     const Corners& largest = *std::ranges::max_element(
         around.triangles, {}, [&](const Corners& triangle) { return twice_area(triangle); });
     Vec3 middle = Vec3::Zero();
     for (const std::int32_t v : largest) middle += place(v) / 3.0;
-    return moved(largest, vertex, std::min(most, depth) * (middle - place(vertex)).normalized());
+    return along(largest, vertex, std::min(most, depth) * (middle - place(vertex)).normalized());
   }
 
-  /// The point that a step leads to in the triangle at the vertex that has it; nothing: none has. In a sheet
-  /// that is bent the step is that along the triangle.
-  [[nodiscard]] std::optional<Rider> towards(std::int32_t vertex, const Around& around,
+  /// A step in the triangle at the vertex into which it leads; nothing: it leads into none.
+  [[nodiscard]] std::optional<Drawn> towards(std::int32_t vertex, const Around& around,
                                              const Vec3& step) const {
     const Corners* best = nullptr;
     double inside = -kRoundOff;
@@ -181,7 +194,49 @@ class ThinKerf {
       inside = least;
     }
     if (best == nullptr) return std::nullopt;
-    return moved(*best, vertex, step);
+    return along(*best, vertex, step);
+  }
+
+  /// In a sheet that is bent the step is that along the triangle. Nothing where nothing carries its end.
+  [[nodiscard]] std::optional<Drawn> along(const Corners& triangle, std::int32_t vertex,
+                                           const Vec3& step) const {
+    const std::array<double, 3> weights = weights_of(triangle, vertex, step);
+    if (!between(material_, triangle, weights)) return std::nullopt;
+    Vec3 way = Vec3::Zero();
+    for (std::size_t i = 0; i < 3; ++i) way += weights[i] * (place(triangle[i]) - place(vertex));
+    return Drawn{triangle, way};
+  }
+
+  [[nodiscard]] std::optional<Rider> rider_after(std::int32_t vertex, const Drawn& drawn) const {
+    return between(material_, drawn.triangle, weights_of(drawn.triangle, vertex, drawn.way));
+  }
+
+  /// Shortens ways until no triangle turns over: two edges of one material would cross in its plane. A flat
+  /// triangle bounds the ways of its vertices only where it would do so. The longest of a triangle's ways is
+  /// halved, until all are short beside its height.
+  void keep_senses(std::map<std::int32_t, Drawn>& drawn) const {
+    const auto way = [&](std::int32_t vertex) -> Vec3 {
+      const auto found = drawn.find(vertex);
+      return found == drawn.end() ? Vec3(Vec3::Zero()) : found->second.way;
+    };
+    std::set<std::int32_t> halved;
+    do {
+      halved.clear();
+      for (const MaterialTetra& t : triangles_) {
+        const std::array<std::int32_t, 3> corners = {t.vertices[0], t.vertices[1], t.vertices[2]};
+        const auto length = [&](std::int32_t vertex) { return way(vertex).norm(); };
+        const std::int32_t longest = *std::ranges::max_element(corners, {}, length);
+        if (!(length(longest) > 0.0)) continue;
+        const auto normal = [&](auto&& at) -> Vec3 {
+          return (at(corners[1]) - at(corners[0])).cross(at(corners[2]) - at(corners[0]));
+        };
+        const Vec3 before = normal([&](std::int32_t v) { return place(v); });
+        const Vec3 after = normal([&](std::int32_t v) -> Vec3 { return place(v) + way(v); });
+        if (!(after.dot(before) < kSense * before.squaredNorm())) continue;
+        halved.insert(longest);
+      }
+      for (const std::int32_t vertex : halved) drawn.at(vertex).way *= 0.5;
+    } while (!halved.empty());
   }
 
   /// The least height of the triangles at a vertex, but for flat ones [m].
@@ -213,11 +268,6 @@ class ThinKerf {
     return weights;
   }
 
-  [[nodiscard]] std::optional<Rider> moved(const Corners& triangle, std::int32_t vertex,
-                                           const Vec3& step) const {
-    return between(material_, triangle, weights_of(triangle, vertex, step));
-  }
-
   [[nodiscard]] double twice_area(const Corners& triangle) const {
     const Vec3 a = place(triangle[0]);
     return (place(triangle[1]) - a).cross(place(triangle[2]) - a).norm();
@@ -232,6 +282,7 @@ class ThinKerf {
 
   const Hosts& hosts_;
   const Material& material_;
+  const std::vector<MaterialTetra>& triangles_;
   std::map<std::int32_t, Around> around_;
 };
 

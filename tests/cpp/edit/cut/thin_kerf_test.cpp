@@ -114,6 +114,18 @@ struct Thin {
     return count;
   }
 
+  /// Triangles of a flat sheet that are turned over, or have no area.
+  [[nodiscard]] int turned(double depth) const {
+    const auto points = places(depth);
+    int count = 0;
+    for (const MaterialTetra& t : thin().triangles) {
+      const Vec3 a = points.at(t.vertices[0]);
+      const Vec3 normal = (points.at(t.vertices[1]) - a).cross(points.at(t.vertices[2]) - a);
+      count += normal.z() > 0.0 ? 0 : 1;
+    }
+    return count;
+  }
+
   Hosts hosts;
   Material material;
   std::vector<double> x;
@@ -229,12 +241,29 @@ TEST(ThinKerfTest, AThinStripKeepsItsSense) {
   Thin body(sheet(CellType::triangle));
   body.cut(plane(Vec3(0.13, 0.1, 0), Vec3(1, 0, 0)));
   body.cut(plane(Vec3(0.134, 0.1, 0), Vec3(1, 0, 0)));
-  const auto points = body.places(0.05);  // as deep as a cell
-  for (const MaterialTetra& t : body.thin().triangles) {
-    const Vec3 a = points.at(t.vertices[0]);
-    EXPECT_GT((points.at(t.vertices[1]) - a).cross(points.at(t.vertices[2]) - a).z(), 0.0);
-  }
+  EXPECT_EQ(body.turned(0.05), 0);  // as deep as a cell
   EXPECT_EQ(body.crossings(0.05), 0);
+}
+
+/// Beside the point where two cuts meet, cells leave slivers of triangles. One that turned over would lay an
+/// edge of the sheet over another triangle of it, in one plane, where no test of signs sees a crossing.
+TEST(ThinKerfTest, NothingTurnsOverWhereCutsMeet) {
+  int parted = 0;
+  for (std::uint64_t seed = 0; seed < 80; ++seed) {
+    Random random(seed);
+    std::normal_distribution<double> any;
+    Thin body(sheet(seed % 2 == 0 ? CellType::triangle : CellType::quad));
+    for (int number = 0; number < 4; ++number) {
+      const Vec3 point(0.15 + 0.03 * any(random), 0.1 + 0.02 * any(random), 0.0);
+      body.cut(plane(point, Vec3(any(random), any(random), 0.2 * any(random))));
+      for (const double depth : {kDepth, 5.0 * kDepth}) {
+        EXPECT_EQ(body.turned(depth), 0) << "seed " << seed << ", cut " << number;
+      }
+    }
+    EXPECT_EQ(body.crossings(kDepth), 0) << "seed " << seed;
+    parted += pieces(body.hosts, body.material).size() > 4 ? 1 : 0;
+  }
+  EXPECT_GT(parted, 60);
 }
 
 }  // namespace

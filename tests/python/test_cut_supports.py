@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -128,3 +129,70 @@ def test_checkpoints_and_removed_cells_hold_the_same_copies(tmp_path: Path) -> N
             one.step()
         ends.append(one.positions["bar"].tobytes())
     assert len(set(ends)) == 1
+
+
+def _fallen_apart(cell: Any, random: np.random.Generator, frames: bool) -> ts.Simulation:
+    """A bar that stands on its lower face, after three cuts in any direction."""
+    model: dict[str, Any] = {"model": ts.Frames()} if frames else {}
+    simulation = ts.Scene(
+        bodies={
+            "bar": ts.Body(
+                mesh=ts.bar_mesh(size=(0.06, 0.03, 0.03), cells=(4, 2, 2), cell=cell),
+                law=ts.StVK(young=1e4, poisson=0.3),
+                density=1000.0,
+                **model,
+            )
+        },
+        gravity=(0, 0, -9.81),
+        fixed=[ts.Fixed("bar", on=ts.Plane((0, 0, 0), (0, 0, 1)))],
+        step=ts.ImplicitEuler("2 ms", solver=ts.Cholesky()),
+        editing=ts.Editing(room=20.0),
+    ).compile()
+    for _ in range(3):
+        place = (random.uniform(0.005, 0.055), 0.015, 0.015)
+        normal = random.standard_normal(3) * np.array([1, 0.4, 0.4])
+        simulation.cut("bar", ts.Plane(place, tuple(normal)))
+    return simulation
+
+
+@pytest.mark.parametrize(
+    ("cell", "frames"),
+    [
+        ("tetra", False),
+        ("hexahedron", False),
+        ("hexahedron", True),
+        ("tetra10", False),
+        ("tetra10", True),
+        ("hexahedron20", False),
+        ("hexahedron27", False),
+        ("wedge15", False),
+        ("pyramid13", False),
+    ],
+)
+def test_pieces_without_material_on_the_support_are_free(cell: str, frames: bool) -> None:
+    """Also where copies of middles of edges, faces and cells lie outside of a piece."""
+    random = np.random.default_rng(11)
+    loose = 0
+    for _ in range(20):
+        simulation = _fallen_apart(cell, random, frames)
+        pieces = simulation.pieces("bar")
+        surface = simulation.surface("bar")
+        rest = surface.carried(simulation.meshes["bar"].points)
+        on_support = (np.abs(rest[surface.triangles][:, :, 2]) < 1e-9).all(axis=1)
+        simulation.step()
+        reactions = np.abs(simulation.reactions("bar")).max(axis=1)
+        numbers = simulation.remaining_cells("bar")
+        rows = [row for block in simulation.meshes["bar"].body_blocks for row in block.nodes]
+        for piece in pieces:
+            own = np.isin(surface.cell, piece.cells)
+            lowest = rest[surface.triangles[own]][:, :, 2].min()
+            if lowest < 1e-9:  # at a point or along an edge alone both are right
+                assert piece.held or not (own & on_support).any()
+                continue
+            assert not piece.held
+            loose += 1
+            cells = [
+                row for number, row in zip(numbers, rows, strict=True) if number in piece.cells
+            ]
+            assert not reactions[np.unique(np.concatenate(cells))].any()
+    assert loose >= 10

@@ -196,3 +196,46 @@ def test_a_bad_blade_or_region_is_no_problem_of_the_scene() -> None:
         with pytest.raises(ts.SceneError, match=r"^1 problem:\n- ") as refused:
             wrong()
         assert "scene" not in str(refused.value)
+
+
+def _line(frames: bool) -> ts.Scene:
+    """Five cells of 12 mm; as a rod if its nodes are frames."""
+    model: dict[str, Any] = {"model": ts.Frames()} if frames else {}
+    body = ts.Body(
+        mesh=ts.bar_mesh(size=(0.06, 0, 0), cells=(5, 0, 0), cell="line"),
+        law=ts.StVK(young=1e4, poisson=0.3),
+        density=1000.0,
+        section=4e-6,
+        **model,
+    )
+    return ts.Scene(bodies={"b": body}, step=ts.ImplicitEuler(2e-3), editing=True, grabbing=True)
+
+
+@pytest.mark.parametrize("frames", [False, True])
+@pytest.mark.parametrize("at", [0.0125, 0.018, 0.0235, 0.024])
+def test_a_drag_of_a_line_holds_the_piece_that_has_its_place(frames: bool, at: float) -> None:
+    """Cut within a cell and at a node: the other piece gets no momentum."""
+    scene = _line(frames)
+    for x in (0.6 * at, at - 1e-5, at + 1e-5, 0.5 * (at + 0.026), at + 0.004):
+        simulation = scene.compile()
+        simulation.cut("b", ts.Plane((at, 0, 0), (1, 0, 0)))
+        grab = simulation.drag("b", (x, 0, 0))
+        np.testing.assert_allclose(grab.position, (x, 0, 0), atol=1e-12)
+        grab.target = (x, 0.002, 0)
+        simulation.step()
+        material = simulation.material("b")
+        moved = np.abs(material.points - material.mesh.points)[:, 1]
+        lines = material.mesh.body_blocks[0].nodes
+        left = material.mesh.points[lines][:, :, 0].mean(axis=1) < at
+        own, other = (left, ~left) if x < at else (~left, left)
+        assert moved[lines[own]].any()
+        assert not moved[lines[other]].any()
+
+
+@pytest.mark.parametrize("at", [0.0125, 0.018, 0.0235])
+def test_a_drag_of_a_rod_takes_a_frame_with_material(at: float) -> None:
+    """Nodes 1 and 2 are those of the cut cell; copies of them lie beyond the cut."""
+    simulation = _line(frames=True).compile()
+    simulation.cut("b", ts.Plane((at, 0, 0), (1, 0, 0)))
+    assert simulation.drag("b", (at - 1e-5, 0, 0)).point.nodes.tolist() == [1]
+    assert simulation.drag("b", (at + 1e-5, 0, 0)).point.nodes.tolist() == [2]

@@ -1,15 +1,31 @@
 #pragma once
 
+#include <cstdint>
+#include <string_view>
 #include <vector>
 
 #include "tissu/edit/cut_state.h"
+#include "tissu/element/reference_part.h"
 #include "tissu/force/load.h"
 
 namespace tissu {
 
-/// Which share of the area of each face of the first day still has material, face after face: 1 unless cells
-/// are gone. Faces of volumes, sheets themselves, and edges of flat bodies. Where cuts or repairs have moved
-/// nodes, a face counts as a whole as long as any of it is there.
-std::vector<double> shares_left(const CutState& cut, const std::vector<FaceCells>& faces);
+/// A face of a cell, of which the cell has material.
+struct FacePart {
+  std::string_view element;
+  std::vector<std::int32_t> nodes;                  ///< of the cell, in the order of the element
+  std::vector<std::vector<ReferencePoint>> pieces;  ///< where it has material; empty: everywhere
+};
+
+/// What is left of a face of the first day.
+struct FaceLeft {
+  double share = 0.0;  ///< of its area that has material
+  std::vector<FacePart> parts;
+};
+
+/// Of each face of the first day, face after face, the faces of cells that lie in it and have material there
+/// now, but for what cuts have opened. Faces of volumes, sheets themselves, and edges of flat bodies. Where
+/// cuts or repairs have moved nodes, a face counts as a whole as long as any of it is there.
+std::vector<FaceLeft> faces_left(const CutState& cut, const std::vector<FaceCells>& faces);
 
 }  // namespace tissu

@@ -2,14 +2,11 @@
 
 #include <Eigen/LU>
 #include <algorithm>
-#include <cmath>
 #include <memory>
-#include <numeric>
-#include <span>
 #include <unordered_map>
 
 #include "debris.h"
-#include "left_faces.h"
+#include "parted_face_loads.h"
 #include "tissu/edit/cut_state.h"
 #include "tissu/element/reference_cell.h"
 
@@ -88,115 +85,23 @@ Sharers sharers_of(const BodyDescription& body, MayBear&& may_bear) {
   return result;
 }
 
-using Left = std::unordered_map<std::int32_t, Vec3>;
-
-/// What one face gives to each of its nodes for each unit of the load.
-std::vector<Vec3> given_by(const FaceCells& some, std::span<const std::int32_t> nodes, bool along_normals,
-                           ConstReals X) {
-  FaceCells face{some.element, {}, some.thickness};
-  std::vector<double> places;
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    face.nodes.push_back(static_cast<std::int32_t>(i));
-    const Vec3 place = block(X, nodes[i]);
-    places.insert(places.end(), place.data(), place.data() + 3);
-  }
-  std::vector<double> sums(along_normals ? places.size() : nodes.size(), 0.0);
-  if (along_normals) {
-    add_normals(face, places, sums);
-  } else {
-    add_areas(face, places, sums);
-  }
-  std::vector<Vec3> given;
-  given.reserve(nodes.size());
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    given.push_back(along_normals ? Vec3(block(ConstReals(sums), static_cast<std::int32_t>(i)))
-                                  : Vec3(Vec3::Constant(sums[i])));
-  }
-  return given;
-}
-
-/// Calls f(faces of one type, nodes of a face, share of it that is left) for each face of a load.
-template <class Function>
-void for_faces(const LoadDescription& load, const std::vector<double>& shares, Function&& f) {
-  auto share = shares.begin();
-  for (const FaceCells& some : load.faces) {
-    const auto count = static_cast<std::size_t>(find_element(some.element)->nodes);
-    for (std::size_t i = 0; i + count <= some.nodes.size(); i += count)
-      f(some, std::span(some.nodes).subspan(i, count), *share++);
-  }
-}
-
-/// The same of a face of which a share is left: the nodes with material take over what others have none for.
-template <class HasMaterial>
-std::vector<Vec3> left_by(const FaceCells& some, std::span<const std::int32_t> nodes, double share,
-                          const LoadDescription& load, ConstReals X, HasMaterial&& has_material) {
-  std::vector<Vec3> given = given_by(some, nodes, load.along_normals, X);
-  for (Vec3& one : given) one *= share;
-  const auto bearing = std::ranges::count_if(nodes, has_material);
-  if (share == 1.0 || bearing == 0 || bearing == std::ssize(nodes)) return given;
-  const Vec3 each =
-      std::accumulate(given.begin(), given.end(), Vec3(Vec3::Zero())) / static_cast<double>(bearing);
-  for (std::size_t i = 0; i < nodes.size(); ++i)
-    given[i] = has_material(nodes[i]) ? each : Vec3(Vec3::Zero());
-  return given;
-}
-
-/// Of each node of the first day on a face that is not whole any more, what the faces that are left give it.
-template <class HasMaterial>
-Left left_of(const LoadDescription& load, const CutState& cut, HasMaterial&& has_material) {
-  Left left;
-  const std::vector<double> shares = shares_left(cut, load.faces);
-  for_faces(load, shares, [&](const FaceCells& /*some*/, std::span<const std::int32_t> nodes, double share) {
-    if (share == 1.0) return;
-    for (const std::int32_t node : nodes) left.emplace(node, Vec3::Zero());
-  });
-  if (left.empty()) return left;
-  for_faces(load, shares, [&](const FaceCells& some, std::span<const std::int32_t> nodes, double share) {
-    const auto is_in = [&](std::int32_t node) { return left.contains(node); };
-    if (share == 0.0 || std::ranges::none_of(nodes, is_in)) return;
-    const std::vector<Vec3> given = left_by(some, nodes, share, load, cut.hosts.rest(), has_material);
-    for (std::size_t i = 0; i < nodes.size(); ++i) {
-      const auto found = left.find(nodes[i]);
-      if (found != left.end()) found->second += given[i];
-    }
-  });
-  return left;
-}
-
 /// Shares the load of each node of the first day among its copies that have material now. Shares of earlier
-/// edits leave no trace. `has_material`: of a node of the first day, with its copies. `with_cells`: those
-/// that have cells, which bear what is left of a face between nodes without material.
+/// edits leave no trace. `has_material`: of a node of the first day, with its copies.
 template <class HasMaterial>
-LoadDescription shared(const LoadDescription& load, const Left& left, const Sharers& sharers,
-                       const Masses& masses, const Sharers& with_cells, HasMaterial&& has_material) {
-  LoadDescription parted = load;
-  parted.nodes.clear();
-  parted.forces.clear();
-  parted.left.clear();
-  const auto add = [&](std::int32_t node, double share, const Vec3& whole, const Vec3* per_unit) {
-    if (per_unit != nullptr) parted.left.push_back({parted.nodes.size(), share * *per_unit});
-    const Vec3 force = share * whole;
-    parted.nodes.push_back(node);
-    parted.forces.insert(parted.forces.end(), force.data(), force.data() + 3);
+void share(LoadDescription& load, const Sharers& sharers, const Masses& masses, HasMaterial&& has_material) {
+  load.nodes.clear();
+  load.forces.clear();
+  load.left.clear();
+  const auto add = [&](std::int32_t node, const Vec3& force) {
+    load.nodes.push_back(node);
+    load.forces.insert(load.forces.end(), force.data(), force.data() + 3);
   };
-  const Vec3 nothing = Vec3::Zero();
   for (std::size_t i = 0; i < load.first_day.size(); ++i) {
     const std::int32_t root = load.first_day[i];
-    Vec3 whole = block(ConstReals(load.first_forces), static_cast<std::int32_t>(i));
-    const Vec3* per_unit = nullptr;
-    if (const auto found = left.find(root); found != left.end()) {
-      per_unit = &found->second;
-      whole = per_unit->cwiseProduct(load.unit);
-    }
+    const Vec3 whole = block(ConstReals(load.first_forces), static_cast<std::int32_t>(i));
     if (!has_material(root)) {
-      const auto bearing = with_cells.find(root);
-      const bool bears = per_unit != nullptr && !per_unit->isZero(0.0) && bearing != with_cells.end();
-      if (!bears || bearing->second.empty()) {
-        add(root, 1.0, nothing, &nothing);
-        continue;
-      }
-      const double share = 1.0 / static_cast<double>(bearing->second.size());
-      for (const std::int32_t one : bearing->second) add(one, share, whole, per_unit);
+      load.left.push_back({load.nodes.size(), Vec3::Zero()});
+      add(root, Vec3::Zero());
       continue;
     }
     const auto found = sharers.find(root);
@@ -205,15 +110,14 @@ LoadDescription shared(const LoadDescription& load, const Left& left, const Shar
       for (const std::int32_t one : found->second) mass += masses.at(one);
     }
     if (found == sharers.end() || !(mass > 0.0)) {  // it has no copies, or nothing has a mass
-      add(root, 1.0, whole, per_unit);
+      add(root, whole);
       continue;
     }
     for (const std::int32_t one : found->second) {
-      const double share = masses.at(one) / mass;
-      if (share > 0.0) add(one, share, whole, per_unit);
+      const double part = masses.at(one) / mass;
+      if (part > 0.0) add(one, part * whole);
     }
   }
-  return parted;
 }
 
 }  // namespace
@@ -223,7 +127,6 @@ void part_loads(std::vector<LoadDescription>& loads, const BodyDescription& body
   if (std::ranges::none_of(loads, acts)) return;
   const std::vector<char> used = used_nodes(body);
   const auto is_used = [&](std::int32_t node) { return used[static_cast<std::size_t>(node)] != 0; };
-  const Sharers with_cells = sharers_of(body, is_used);
   const Sharers sharers =
       sharers_of(body, [&](std::int32_t node) { return !std::ranges::binary_search(body.bare, node); });
   const auto has_material = [&](std::int32_t root) {
@@ -238,6 +141,7 @@ void part_loads(std::vector<LoadDescription>& loads, const BodyDescription& body
       load.first_day = load.nodes;
       load.first_forces = load.forces;
     }
+    if (!load.faces.empty()) continue;
     for (const std::int32_t node : load.first_day) {
       const auto found = sharers.find(node);
       if (found == sharers.end()) continue;
@@ -250,8 +154,11 @@ void part_loads(std::vector<LoadDescription>& loads, const BodyDescription& body
   const std::shared_ptr<const CutState> cut = on_faces ? cut_state_now(body) : nullptr;
   for (LoadDescription& load : loads) {
     if (!acts(load)) continue;
-    const Left left = load.faces.empty() ? Left() : left_of(load, *cut, has_material);
-    load = shared(load, left, sharers, masses, with_cells, has_material);
+    if (load.faces.empty()) {
+      share(load, sharers, masses, has_material);
+    } else {
+      part_face_load(load, *cut);
+    }
   }
 }
 

@@ -223,15 +223,15 @@ class Pressed {
 
 /// The faces whose cell is there, of a body that was never cut.
 void keep_faces(const BodyDescription& body, PressureDescription& pressure) {
-  const std::vector<double> shares = shares_left(*cut_state_now(body), pressure.first_day);
+  const std::vector<FaceLeft> all = faces_left(*cut_state_now(body), pressure.first_day);
   pressure.faces.clear();
-  auto share = shares.begin();
+  auto one = all.begin();
   for (const FaceCells& some : pressure.first_day) {
     FaceCells left{some.element, {}, some.thickness};
     const auto count = at(find_element(some.element)->nodes);
     for (std::size_t i = 0; i + count <= some.nodes.size(); i += count) {
       const auto first = some.nodes.begin() + static_cast<std::ptrdiff_t>(i);
-      if (*share++ > 0.0)
+      if (!(one++)->parts.empty())
         left.nodes.insert(left.nodes.end(), first, first + static_cast<std::ptrdiff_t>(count));
     }
     if (!left.nodes.empty()) pressure.faces.push_back(std::move(left));

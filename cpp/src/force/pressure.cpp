@@ -77,8 +77,9 @@ Vec3 normal_of(const std::array<Vec3, 3>& p) { return 0.5 * (p[1] - p[0]).cross(
 
 }  // namespace
 
-void add_areas(const FaceCells& faces, ConstReals positions, std::vector<double>& nodal) {
-  for_points(faces, exact_rule(faces), positions,
+void add_areas(const FaceCells& faces, ConstReals positions, std::vector<double>& nodal,
+               const ReferenceCell* part) {
+  for_points(faces, part == nullptr ? exact_rule(faces) : *part, positions,
              [&](Nodes face, const ReferenceCell::Point& point, const auto& t) {
                const double area = point.weight * t[0].cross(t[1]).norm();
                for (std::size_t a = 0; a < face.size(); ++a)
@@ -86,8 +87,9 @@ void add_areas(const FaceCells& faces, ConstReals positions, std::vector<double>
              });
 }
 
-void add_normals(const FaceCells& faces, ConstReals positions, std::vector<double>& nodal) {
-  for_points(faces, exact_rule(faces), positions,
+void add_normals(const FaceCells& faces, ConstReals positions, std::vector<double>& nodal,
+                 const ReferenceCell* part) {
+  for_points(faces, part == nullptr ? exact_rule(faces) : *part, positions,
              [&](Nodes face, const ReferenceCell::Point& point, const auto& t) {
                const Vec3 normal = point.weight * t[0].cross(t[1]);
                for (std::size_t a = 0; a < face.size(); ++a)

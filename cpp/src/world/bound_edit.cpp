@@ -37,9 +37,8 @@ void WorldEdit::list_bound(std::size_t number) {
   }
 }
 
-/// Whether cells go from faces that a load acts on.
-bool WorldEdit::bares_faces(std::size_t number, const BodyChange& change) const {
-  if (change.cells.gone.empty()) return false;
+/// Whether cells change at faces that a load acts on.
+bool WorldEdit::changes_faces(std::size_t number, const BodyChange& change) const {
   const BodyDescription& body = world_.description()->bodies[number];
   const auto nodes = body.positions.size() / 3;
   const auto first_day = nodes - body.copies_of.size();
@@ -58,7 +57,7 @@ bool WorldEdit::parts_bound(std::string_view body, const BodyChange& change) con
   const auto bound = [&](std::int32_t node) {
     return at(node) < edited.bound.size() && edited.bound[at(node)] != 0;
   };
-  if (bares_faces(number, change)) return true;
+  if (changes_faces(number, change)) return true;
   const auto is_bound_copy = [&](std::int32_t node) { return node >= 0 && bound(node); };
   if (std::ranges::any_of(change.copied, is_bound_copy) || std::ranges::any_of(change.loose, bound))
     return true;

@@ -39,19 +39,37 @@ def near_surface(mesh: Mesh, places: Floats, point: Floats) -> GrabPoint:
 def near_material(surface: MaterialSurface, point: Floats) -> GrabPoint:
     """The same of the surface of material that cuts have parted, by the nodes that carry it.
 
-    Without triangles it is the end of a piece of a line that is nearest.
+    Without triangles it is the point of a piece of a line that is nearest.
     """
-    if len(surface.triangles):
-        triangles = np.asarray(surface.triangles, dtype=np.int64)
-        vertices, of_vertices = _on_triangle(triangles, surface.points, point)
-    else:
-        ends = np.unique(surface.lines).astype(np.int64)
-        vertices = ends[[_nearest(surface.points[ends], point)]]
-        of_vertices = np.ones(1)
+    vertices, of_vertices = _on_triangle(_pieces(surface), surface.points, point)
     carrying = surface.weights[vertices] * of_vertices[:, None]
     nodes = np.unique(surface.nodes[vertices][carrying != 0.0]).astype(np.int64)
     weights = [carrying[surface.nodes[vertices] == node].sum() for node in nodes]
     return GrabPoint(nodes, np.array(weights))
+
+
+def frames_at(surface: MaterialSurface, point: Floats) -> Ints:
+    """The frames of the cell whose material is nearest to a point that have material themselves.
+
+    Of a piece between nodes, which all are outside of it, those that carry its nearest point.
+    """
+    pieces = _pieces(surface)
+    nearest, _ = _nearest_triangle(pieces, surface.points, point)
+    cells = surface.cell if len(surface.triangles) else surface.line_cell
+    at_node = (surface.weights[:, 0] == 1.0) & (surface.weights[:, 1:] == 0.0).all(axis=1)
+    for some in (pieces[nearest], pieces[cells == cells[nearest]]):
+        vertices = np.unique(some)
+        own = surface.nodes[vertices[at_node[vertices]], 0]
+        if len(own):
+            return np.unique(own).astype(np.int64)
+    return near_material(surface, point).nodes
+
+
+def _pieces(surface: MaterialSurface) -> Ints:
+    """The triangles of a surface; without any its lines, as triangles without area."""
+    if len(surface.triangles):
+        return np.asarray(surface.triangles, dtype=np.int64)
+    return np.asarray(surface.lines[:, [0, 1, 1]], dtype=np.int64)
 
 
 def near_frame(places: Floats, rotations: Floats, point: Floats, among: Ints) -> GrabPoint:
@@ -78,11 +96,17 @@ def used_nodes(mesh: Mesh) -> Ints:
 
 def _on_triangle(triangles: Ints, places: Floats, point: Floats) -> tuple[Ints, Floats]:
     """The corners of the triangle that is nearest to a point, and their weights there."""
+    nearest, weights = _nearest_triangle(triangles, places, point)
+    used = np.flatnonzero(weights)
+    return triangles[nearest][used], weights[used]
+
+
+def _nearest_triangle(triangles: Ints, places: Floats, point: Floats) -> tuple[int, Floats]:
+    """Which triangle is nearest to a point, and the weights of its corners there (3,)."""
     weights = shares(places[triangles], point)
     apart = np.linalg.norm(np.einsum("tk,tki->ti", weights, places[triangles]) - point, axis=1)
     nearest = int(apart.argmin())
-    used = np.flatnonzero(weights[nearest])
-    return triangles[nearest][used], weights[nearest][used]
+    return nearest, weights[nearest]
 
 
 def _nearest(places: Floats, point: Floats) -> int:

@@ -15,6 +15,7 @@ from tissu.errors import ParameterError
 from tissu.simulation import grab as kept
 from tissu.simulation.drag import (
     drag_stiffness,
+    frames_at,
     near_frame,
     near_material,
     near_surface,
@@ -129,7 +130,9 @@ class Handled:
         Args:
             body: its name.
             point: a place in space (3,) [m]. A body with faces is held by the triangle that is
-                nearest to it, another one by the nearest node, a frame with its offset from it.
+                nearest to it, a line that was cut by its nearest point, another body by the
+                nearest node, a frame with its offset from it. Of a body that was cut, the material
+                that is nearest says which frames may be taken.
             stiffness: of the spring [N/m]; absent: Young's modulus at rest times the mean length
                 of an edge, so that the point follows about as far as the tissue around it yields.
 
@@ -142,14 +145,17 @@ class Handled:
         place = kept.target_of(point)
         self._core.settle()
         now = self._positions[body]
+        has_frames = self._core.frames_of(body)[0] >= 0
+        surface = None
         if self._lies_over(body):
-            found = near_material(surface_now(self._core.material_surface(body), now), place)
-        elif self._core.frames_of(body)[0] < 0:
-            found = near_surface(mesh, now, place)
+            surface = surface_now(self._core.material_surface(body), now)
+        if has_frames:
+            among = self._frames_in_use(body) if surface is None else frames_at(surface, place)
+            found = near_frame(now, self._core.rotations(body), place, among=among)
+        elif surface is not None:
+            found = near_material(surface, place)
         else:
-            found = GrabPoint(self._frames_in_use(body), np.empty(0))
-        if self._core.frames_of(body)[0] >= 0:
-            found = near_frame(now, self._core.rotations(body), place, among=found.nodes)
+            found = near_surface(mesh, now, place)
         require_free(self._core, body, found.nodes)
         stiff = self.drag_stiffness(body) if stiffness is None else stiffness
         grab = self._hold(body, found, place, kept.stiffness_of(stiff))

@@ -75,11 +75,13 @@ struct CarriedNode {
 using CarriedFace = std::array<std::vector<CarriedNode>, 3>;
 
 /// Adds each node's share of the area of the faces [m2], sum_g w_g |x,1 x x,2| N_a: what a traction that is
-/// the same everywhere gives to the nodes.
-void add_areas(const FaceCells& faces, ConstReals positions, std::vector<double>& nodal);
+/// the same everywhere gives to the nodes. `part`: a rule on a part of each face; null: of the whole face.
+void add_areas(const FaceCells& faces, ConstReals positions, std::vector<double>& nodal,
+               const ReferenceCell* part = nullptr);
 /// The same with the outward normal, sum_g w_g N_a x,1 x x,2 [m2], three for each node: what a pressure of -1
 /// Pa gives to the nodes.
-void add_normals(const FaceCells& faces, ConstReals positions, std::vector<double>& nodal);
+void add_normals(const FaceCells& faces, ConstReals positions, std::vector<double>& nodal,
+                 const ReferenceCell* part = nullptr);
 
 /// Pressure that stays normal to the faces it acts on: f_a = -p sum_g w_g N_a (x,1 x x,2), with the rule that
 /// is exact for it. Of the edge of a flat body x,2 is its thickness at rest along z. Its stiffness is skew on

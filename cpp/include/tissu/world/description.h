@@ -53,8 +53,9 @@ struct BodyDescription {
   std::vector<FirstDayPoint> points = {};
   /// Cuts have moved nodes at rest, so that `positions` do not follow from those of the first day.
   bool moved = false;
-  /// Nodes with cells but without material at them; ascending. Nothing loads them, and a support holds those
-  /// that the material on it needs (part_supports of the room edit).
+  /// Nodes with cells but without material at them; ascending. Loads on faces reach them by the material of
+  /// their cells, loads of nodes do not, and a support holds those that the material on it needs
+  /// (part_supports of the room edit).
   std::vector<std::int32_t> bare = {};
   /// Its cells and their material as cuts left them; null before the first cut.
   std::shared_ptr<const CutState> cut = nullptr;

@@ -50,7 +50,7 @@ class WorldEdit {
   /// Whether an edit of a body can be made in place. It cannot where models of the body or forces of the
   /// world follow cells in other ways, or where it leaves no cell of a block.
   [[nodiscard]] bool can(std::string_view body, const BodyChange& change) const;
-  /// Whether nodes part or come loose that are held or loaded, or faces go that are loaded.
+  /// Whether nodes part or come loose that are held or loaded, or cells change at faces that are loaded.
   [[nodiscard]] bool parts_bound(std::string_view body, const BodyChange& change) const;
   /// Whether supports and loads can follow such an edit: not while a run leads or changes them, and not where
   /// a support that has a name would lose all its nodes.
@@ -82,7 +82,7 @@ class WorldEdit {
   [[nodiscard]] std::size_t number_of(std::string_view body) const;
   void prepare(std::size_t body);
   void list_bound(std::size_t body);
-  [[nodiscard]] bool bares_faces(std::size_t body, const BodyChange& change) const;
+  [[nodiscard]] bool changes_faces(std::size_t body, const BodyChange& change) const;
   void add_nodes(std::size_t body, const BodyChange& change);
   void edit_description(std::size_t body, const BodyChange& change);
   void lay_rows(std::size_t body, std::span<const std::int32_t> rows, const CellsAt& cells_at);

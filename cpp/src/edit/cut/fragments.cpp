@@ -18,19 +18,40 @@ std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 constexpr double kOnFace = 1e-9;  ///< of a tetrahedron's height: a point so far outside is in it
 
-/// The corners whose mean a node of a cell is.
-std::vector<std::uint8_t> corners_around(CellType type, std::size_t node) {
-  const auto corners = at(info(type).corners);
-  if (node < corners) return {static_cast<std::uint8_t>(node)};
+/// The corners in the middle between which a node beside the corners lies in the material: the ends of its
+/// edge, or those of the diagonal of its face or cell along which the material of a whole cell is divided
+/// (whole_material).
+std::array<std::int32_t, 2> ends_around(const Hosts& hosts, std::int32_t cell, std::size_t node) {
+  const CellType type = hosts.type(cell);
+  const auto nodes = hosts.corners(cell);
   const auto ends = edges(type);
-  if (node < corners + ends.size()) return {ends[node - corners][0], ends[node - corners][1]};
+  if (node < nodes.size() + ends.size()) {
+    const auto& [a, b] = ends[node - nodes.size()];
+    return {nodes[a], nodes[b]};
+  }
+  const auto root = [&](std::int32_t one) { return hosts.root(one); };
+  const auto across = [&](std::span<const std::int32_t> quad) {
+    const auto low = static_cast<std::size_t>(std::ranges::min_element(quad, {}, root) - quad.begin());
+    return std::array{quad[low], quad[(low + 2) % quad.size()]};
+  };
+  if (info(type).dimension == 2) return across(nodes);
+  std::array<std::int32_t, 4> quad{};
   for (const LocalFace& face : faces(type)) {
     if (face.nodes % 2 == 0 || face.node[at(face.nodes - 1)] != node) continue;
-    return {face.node.begin(), face.node.begin() + face.corners};
+    for (std::size_t c = 0; c < quad.size(); ++c) quad[c] = nodes[face.node[c]];
+    return across(quad);
   }
-  std::vector<std::uint8_t> all(corners);
-  std::iota(all.begin(), all.end(), std::uint8_t{0});
-  return all;
+  const std::int32_t low = *std::ranges::min_element(nodes, {}, root);
+  const auto shares_face = [&](std::int32_t other) {
+    return std::ranges::any_of(faces(type), [&](const LocalFace& face) {
+      const auto corners = std::span(face.node).first(at(face.corners));
+      const auto has = [&](std::int32_t one) {
+        return std::ranges::any_of(corners, [&](std::uint8_t c) { return nodes[c] == one; });
+      };
+      return has(low) && has(other);
+    });
+  };
+  return {low, *std::ranges::find_if_not(nodes, shares_face)};
 }
 
 }  // namespace
@@ -222,8 +243,9 @@ double Fragments::depth_in(const Patch::Tetra& thin, const Vec3& p) const {
   return least;
 }
 
-/// Whether there is material at a node of a fragment: at a corner a vertex, in the middle of an edge, a face
-/// or a cell the fragment that holds the mean of the corners, both where that is on the cut.
+/// Whether there is material at a node of a fragment: at a corner a vertex; in the middle of an edge, a face
+/// or a cell the fragment that holds the place, both where that is on the cut. Of a cell that was cut before,
+/// other cells may have it.
 bool Fragments::material_at(std::int32_t item) const {
   const std::int32_t fragment = item_fragment_[at(item)];
   const Fragment& own = fragments_[at(fragment)];
@@ -240,14 +262,13 @@ bool Fragments::material_at(std::int32_t item) const {
   while (first > 0 && of_cell(first - 1)) --first;
   std::int32_t end = fragment + 1;
   while (end < static_cast<std::int32_t>(fragments_.size()) && of_cell(end)) ++end;
-  if (end - first == 1) return true;
-  Vec3 mean = Vec3::Zero();
-  const auto corners = corners_around(hosts_.type(cell), local);
-  for (const std::uint8_t c : corners) mean += block(hosts_.rest(), hosts_.nodes(cell)[c]);
-  mean /= static_cast<double>(corners.size());
-  const double depth_here = depth(fragment, mean);
-  double best = depth_here;
-  for (std::int32_t f = first; f < end; ++f) best = std::max(best, depth(f, mean));
+  const bool is_part = patch_.cell(own.cell).stored;
+  if (end - first == 1 && !is_part) return true;
+  const auto [a, b] = ends_around(hosts_, cell, local);
+  const Vec3 middle = 0.5 * (block(hosts_.rest(), a) + block(hosts_.rest(), b));
+  const double depth_here = depth(fragment, middle);
+  double best = is_part ? 0.0 : depth_here;
+  for (std::int32_t f = first; f < end && !is_part; ++f) best = std::max(best, depth(f, middle));
   return depth_here >= std::min(best, 0.0) - kOnFace;
 }
 

@@ -1,0 +1,28 @@
+#pragma once
+
+/// Parts of reference cells, and rules on them.
+
+#include <array>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "tissu/element/reference_cell.h"
+
+namespace tissu {
+
+/// Coordinates in a reference cell; those beyond its dimension are zero.
+using ReferencePoint = std::array<double, 3>;
+
+/// Where the nodes of an element are in its reference cell; empty when there is no such element.
+std::vector<ReferencePoint> reference_nodes(std::string_view element);
+
+/// The length of a part of a line between two points of its reference cell, the area of a triangle in that of
+/// a face.
+double reference_measure(std::span<const ReferencePoint> part);
+
+/// The element with a rule on such a part, instead of on its whole reference cell: exact for polynomials of
+/// degree 8, on a line of degree 5.
+ReferenceCell reference_part(std::string_view element, std::span<const ReferencePoint> part);
+
+}  // namespace tissu

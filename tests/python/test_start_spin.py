@@ -41,3 +41,33 @@ def test_every_node_turns_with_the_body(model):
     angles = np.arctan2(turned[:, 1, 0], turned[:, 0, 0])
     assert angles == pytest.approx(0.2 * SPIN, rel=1e-2)
     assert simulation.energy()["total"] == pytest.approx(energy, rel=1e-2)
+
+
+HELD = {
+    "z": ("z", None, (1, 1, 1)),
+    "z, about x and y": ("z", "xy", (0, 0, 1)),
+    "all, turning freely": ("xyz", "free", (1, 1, 1)),
+    "all": ("xyz", None, (0, 0, 0)),
+    "about z": ("free", "z", (1, 1, 0)),
+}
+
+
+@pytest.mark.parametrize("held", HELD)
+@pytest.mark.parametrize("model", ["frames", "shell"])
+def test_rotations_that_nothing_holds_spin_where_nodes_are_held(model, held):
+    """A support takes the components that it holds from velocities and spins, and no others."""
+    axes, rotations, turning = HELD[held]
+    spin = np.array((1.0, 2.0, SPIN))
+    body = spinning(model).scene.bodies["body"].replace(start=ts.Start(spin=tuple(spin)))
+    fixed = [ts.Fixed("body", on=ts.Nodes((0, 3)), axes=axes, rotations=rotations)]
+    step = ts.ImplicitMidpoint("2 ms")
+    simulation = ts.Scene(bodies={"body": body}, fixed=fixed, step=step).compile()
+    x = simulation.positions["body"]
+    expected = np.tile(spin, (len(x), 1))
+    velocities = np.cross(spin, x - x.mean(axis=0))
+    for node in (0, 3):
+        expected[node] *= turning
+        velocities[node] *= [axis not in axes for axis in "xyz"] if axes != "free" else 1
+    spins = simulation._core.velocities[simulation.rows("body", rotations=True)]
+    assert np.array_equal(spins, expected)
+    assert simulation.velocities["body"] == pytest.approx(velocities, abs=1e-15)

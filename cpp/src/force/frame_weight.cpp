@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "held_place.h"
+
 namespace tissu {
 
 FrameWeight::FrameWeight(const std::vector<Frame>& frames, const std::vector<Vec3>& moments,
@@ -21,8 +23,7 @@ void FrameWeight::add_force(const State& state, Scratch& /*scratch*/, Reals f) c
 
 Mat3 FrameWeight::turning(const State& state, const Moment& moment) const {
   const Vec3 g = state.load_factor * acceleration_;
-  const Vec3 r = state.rotations[moment.frame] * moment.c;
-  return 0.5 * (r * g.transpose() + g * r.transpose()) - r.dot(g) * Mat3::Identity();
+  return turning_arm(state.rotations[moment.frame] * moment.c, g);
 }
 
 void FrameWeight::add_stiffness(const State& state, Scratch& /*scratch*/, StiffnessScale scale,

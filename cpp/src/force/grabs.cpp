@@ -42,6 +42,10 @@ class Grab {
     if (on_frame()) moved += block(p, rotation()).cross(arm(state));
     return moved;
   }
+  /// Of the spring, at a share of its stiffness.
+  [[nodiscard]] Vec3 pull(const State& state, double share) const {
+    return share * stiffness() * (target() - position(state));
+  }
   void add_force(const State& state, const Vec3& force, Reals f) const {
     for (std::size_t i = 0; i < parts(); ++i) block(f, node(i)) += weight(i) * force;
     if (on_frame()) block(f, rotation()) += arm(state).cross(force);
@@ -164,10 +168,8 @@ void Grabs::check_memory(const State& state) const {
 }
 
 void Grabs::add_force(const State& state, Scratch& /*scratch*/, Reals f) const {
-  for_grabs(state.memory[place_], [&](const Grab& grab) {
-    const double k = state.load_factor * grab.stiffness();
-    grab.add_force(state, k * (grab.target() - grab.position(state)), f);
-  });
+  for_grabs(state.memory[place_],
+            [&](const Grab& grab) { grab.add_force(state, grab.pull(state, state.load_factor), f); });
 }
 
 void Grabs::add_product(const State& state, Scratch& /*scratch*/, StiffnessScale scale, ConstReals p,
@@ -175,6 +177,9 @@ void Grabs::add_product(const State& state, Scratch& /*scratch*/, StiffnessScale
   for_grabs(state.memory[place_], [&](const Grab& grab) {
     const double k = state.load_factor * grab.stiffness();
     grab.add_force(state, -scale.position * k * grab.motion(state, p), out);
+    if (!grab.on_frame()) return;
+    const Vec3 pull = grab.pull(state, state.load_factor);
+    add_turning(grab.arm(state), pull, grab.rotation(), scale.position, p, out);
   });
 }
 
@@ -185,6 +190,9 @@ void Grabs::add_couplings(const State& state, StiffnessScale scale, Couplings& c
     const double k = state.load_factor * grab.stiffness();
     const std::int32_t vertex = grab.vertex(state, room, couplings);
     couplings.add({{vertex, 0, 0, 0}, {1.0, 0.0, 0.0, 0.0}, -scale.position * k * Mat3::Identity()});
+    if (!grab.on_frame()) return;
+    const Vec3 pull = grab.pull(state, state.load_factor);
+    couple_turning(grab.arm(state), pull, grab.rotation(), scale.position, couplings);
   });
 }
 

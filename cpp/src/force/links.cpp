@@ -31,6 +31,19 @@ void add_point_force(const State& state, const LinkPoint& point, const Vec3& for
   if (point.frame >= 0) block(f, point.block + 1) += arm(state, point).cross(force);
 }
 
+/// f_a, that on the other point is the opposite.
+Vec3 pull(const State& state, const Link& link) {
+  return link.stiffness * (position(state, link.b) - position(state, link.a));
+}
+
+/// Calls f(arm, force, row of the rotation) for each point of a link that is on a frame.
+template <class Function>
+void for_arms(const State& state, const Link& link, Function&& f) {
+  const Vec3 force = pull(state, link);
+  if (link.a.frame >= 0) f(arm(state, link.a), force, link.a.block + 1);
+  if (link.b.frame >= 0) f(arm(state, link.b), Vec3(-force), link.b.block + 1);
+}
+
 LinkPoint point_at(const double* from) {
   return {static_cast<std::int32_t>(from[0]), static_cast<std::int32_t>(from[1]),
           Vec3(from[2], from[3], from[4])};
@@ -97,7 +110,7 @@ void Links::check_memory(const State& state) const {
 
 void Links::add_force(const State& state, Scratch& /*scratch*/, Reals f) const {
   for_links(state, [&](const Link& link) {
-    const Vec3 force = link.stiffness * (position(state, link.b) - position(state, link.a));
+    const Vec3 force = pull(state, link);
     add_point_force(state, link.a, force, f);
     add_point_force(state, link.b, -force, f);
   });
@@ -110,6 +123,9 @@ void Links::add_product(const State& state, Scratch& /*scratch*/, StiffnessScale
         scale.position * link.stiffness * (motion(state, link.b, p) - motion(state, link.a, p));
     add_point_force(state, link.a, force, out);
     add_point_force(state, link.b, -force, out);
+    for_arms(state, link, [&](const Vec3& arm, const Vec3& acting, std::int32_t rotation) {
+      add_turning(arm, acting, rotation, scale.position, p, out);
+    });
   });
 }
 
@@ -119,6 +135,9 @@ void Links::add_couplings(const State& state, StiffnessScale scale, Couplings& c
     const std::int32_t a = vertex_of(state, link.a, couplings);
     const std::int32_t b = vertex_of(state, link.b, couplings);
     couplings.add({{a, b, 0, 0}, {-1.0, 1.0, 0.0, 0.0}, -scale.position * link.stiffness * Mat3::Identity()});
+    for_arms(state, link, [&](const Vec3& arm, const Vec3& acting, std::int32_t rotation) {
+      couple_turning(arm, acting, rotation, scale.position, couplings);
+    });
   });
 }
 

@@ -6,6 +6,11 @@
 #include "tissu/contact/contact.h"
 
 namespace tissu {
+namespace {
+
+constexpr double kRoundOff = 1e-10;  ///< of the scene's extent
+
+}  // namespace
 
 Energy energy_of(const World& world, const State& state, Scratch& scratch) {
   Energy energy;
@@ -37,6 +42,8 @@ bool EnergyWatch::may_be_driven(const World& world) {
 void EnergyWatch::begin(const World& world, const State& state) {
   if (is_end(state)) return;
   const Energy energy = energy_of(world, state, scratch_);
+  const double taken = total_ - energy.total();
+  if (gained_ > 0.0 && taken > 0.0) gained_ = std::max(gained_ - taken, 0.0);
   total_ = energy.total();
   largest_ = std::max(largest_, energy.kinetic + energy.elastic);
 }
@@ -82,6 +89,11 @@ void EnergyWatch::allow_contacts(const World& world, double h) {
   double gap = 0.0;
   for (const ContactPair& pair : world.contact()->description().pairs) gap = std::max(gap, pair.gap);
   allowed_ = world.mass().total() * (gap / h) * (gap / h);
+}
+
+void EnergyWatch::ignore_round_off(const World& world, double h) {
+  const double speed = kRoundOff * world.extent() / h;
+  ignored_ = world.mass().total() * speed * speed;
 }
 
 std::string EnergyWatch::say(const World& world) const {

@@ -144,6 +144,7 @@ StepReport Simulation::step(double h) {
     begin_step(*world_, state_, scratch_, h);
     // A live target gives energy while it leads: the watch begins anew after it.
     if (watch_ && is_led_live()) watch_.emplace();
+    if (watch_) watch_->ignore_round_off(*world_, h);
     if (watch_ && world_->contact() != nullptr) watch_->allow_contacts(*world_, h);
     const bool whole = (world_->contact() == nullptr && world_->frames().empty()) || integrator_->is_static();
     report = whole ? integrator_->step(state_, h) : step_in_parts(h, 0);

@@ -273,9 +273,12 @@ class Cutting(Remains, Severing):
         return self._core.mark() if self.scene.step.type == "static" else None
 
     def _refuse_free_pieces(self, body: str, pieces: Sequence[Piece], way_back: Any) -> None:
-        """Go back and refuse a cut that leaves a piece of a static body without support."""
+        """Go back and refuse a cut that leaves a piece of a static body that nothing holds.
+
+        Whether contacts hold it, the step finds, as in a scene that was compiled so.
+        """
         free = [piece for piece in pieces if not piece.held]
-        if way_back is None or not free:
+        if way_back is None or not free or body in self.touching:
             return
         self._core.rewind(way_back)
         self._follow_cells(body)

@@ -1,4 +1,4 @@
-"""What hangs together in a scene: cells that share a node, and what tissue ties to each other."""
+"""What hangs together in a scene, by cells that share a node or by tissue, and what holds it."""
 
 from __future__ import annotations
 
@@ -53,10 +53,12 @@ def active(simulation: Severing, instead: Mapping[str, Left]) -> Ints:
 
 
 def held(simulation: Severing, labels: Ints) -> Ints:
-    """The labels of what a support holds or leads."""
+    """The labels of what a support holds or leads, or a contact may hold: the step finds."""
     rows: list[Ints] = []
     for body in (*simulation._meshes, *simulation._links):
-        first, _ = simulation._core.body_range(body)
+        first, count = simulation._core.body_range(body)
+        if body in simulation.touching:
+            rows.append(first + np.arange(count))
         eliminated, on_all_axes = simulation._core.unfree_nodes(body)
         rows.append(first + np.setdiff1d(on_all_axes, eliminated).astype(np.int64))
     return np.unique(labels[np.concatenate(rows)])

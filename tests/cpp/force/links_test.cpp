@@ -78,23 +78,20 @@ TEST_F(LinksTest, ForceIsMinusGradientOfEnergy) {
   }
 }
 
-/// -k J^T J is the whole derivative where the link has no length.
-TEST_F(LinksTest, ProductIsDerivativeAtZeroElongation) {
-  const Vec3 meeting(0.1, 0.2, 0.3);
-  const auto place = [&](std::int32_t frame) {
-    const Vec3 origin = block(ConstReals(state_.positions), 2 + 2 * frame);
-    return on_frame(frame,
-                    state_.rotations[static_cast<std::size_t>(frame)].conjugate() * (meeting - origin));
-  };
-  block(Reals(state_.positions), 1) = meeting;
-  table().add(place(0), place(1), 3.0);
-  table().add({1}, place(0), 2.0);
-  table().add(place(1), {1}, 4.0);
-  EXPECT_LT(links_.energy(state_, test::scratch()), 1e-30);
+/// As for grabs: symmetric, so without half of theta x moment.
+TEST_F(LinksTest, ProductIsTheSymmetricDerivative) {
+  table().add(on_frame(0, {0.3, -0.2, 0.5}), on_frame(1, {0.1, 0.4, -0.6}), 3.0);
+  table().add({1}, on_frame(0, {-0.5, 0.2, 0.1}), 2.0);
+  table().add(on_frame(1, {0.2, 0.2, 0.2}), {1}, 4.0);
+  const Eigen::VectorXd f = force_of(links_, state_);
   for (int i = 0; i < 5; ++i) {
     const std::vector<double> p = random_.numbers(18);
-    const Eigen::VectorXd slope =
-        derivative([&](double t) { return force_of(links_, moved_by(p, t)); }, 1e-3);
+    Eigen::VectorXd slope = derivative([&](double t) { return force_of(links_, moved_by(p, t)); }, 1e-3);
+    for (const std::int32_t rotation : {3, 5}) {
+      const Vec3 moment = f.segment<3>(3 * rotation);
+      EXPECT_GT(moment.norm(), 0.1);
+      slope.segment<3>(3 * rotation) -= 0.5 * block(ConstReals(p), rotation).cross(moment);
+    }
     EXPECT_LT((product_of(links_, state_, {1.0, 0.0}, p) - slope).cwiseAbs().maxCoeff(), 1e-9);
   }
 }
@@ -106,13 +103,17 @@ TEST_F(LinksTest, ProductIsDerivativeBetweenNodesAtAnyLength) {
   EXPECT_LT((product_of(links_, state_, {1.0, 0.0}, p) - slope).cwiseAbs().maxCoeff(), 1e-13);
 }
 
-TEST_F(LinksTest, MatrixIsProductSymmetricAndSemiDefinite) {
-  table().add(on_frame(0, {0.3, -0.2, 0.5}), on_frame(1, {0.1, 0.4, -0.6}), 3.0);
-  table().add({0}, on_frame(1, {-0.5, 0.2, 0.1}), 2.0);
+TEST_F(LinksTest, MatrixIsTheProductAsFarAsItIsDefinite) {
+  const LinkPoint a = on_frame(0, {0.3, -0.2, 0.5});
+  const LinkPoint b = on_frame(1, {0.1, 0.4, -0.6});
+  table().add(a, b, 3.0);
+  const Vec3 force = 3.0 * (position(b) - position(a));
   table().add({0}, {1}, 2.0);
   const Eigen::MatrixXd K = stiffness(links_);
-  const std::vector<double> p = random_.numbers(18);
-  EXPECT_LT((K * view(p) - product_of(links_, state_, {1.0, 0.0}, p)).norm(), 1e-13);
+  Eigen::MatrixXd product = test::products_of(links_, state_, {1.0, 0.0});
+  product.block<3, 3>(9, 9) -= test::driven(state_.rotations[0] * a.place, force);
+  product.block<3, 3>(15, 15) -= test::driven(state_.rotations[1] * b.place, -force);
+  EXPECT_LT((K - product).norm(), 1e-13);
   EXPECT_LT((K - K.transpose()).norm(), 1e-14);
   for (int i = 0; i < 20; ++i) {
     const std::vector<double> q = random_.numbers(18);

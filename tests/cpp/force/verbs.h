@@ -2,6 +2,8 @@
 
 /// What a force model adds, as vectors and matrices of its own.
 
+#include <algorithm>
+
 #include "../assembly/dense.h"
 #include "../base/differences.h"
 #include "room.h"
@@ -20,6 +22,28 @@ inline Eigen::VectorXd product_of(const ForceModel& model, const State& state, S
   std::vector<double> out(p.size(), 0.0);
   model.add_product(state, test::scratch(), scale, p, out);
   return view(out);
+}
+
+/// The products with all unit vectors.
+inline Eigen::MatrixXd products_of(const ForceModel& model, const State& state, StiffnessScale scale) {
+  const auto size = static_cast<Eigen::Index>(state.positions.size());
+  Eigen::MatrixXd all(size, size);
+  std::vector<double> p(state.positions.size(), 0.0);
+  for (Eigen::Index j = 0; j < size; ++j) {
+    p[static_cast<std::size_t>(j)] = 1.0;
+    all.col(j) = product_of(model, state, scale, p);
+    p[static_cast<std::size_t>(j)] = 0.0;
+  }
+  return all;
+}
+
+/// What drives an arm r on as it turns under a force g, of which a definite matrix has nothing: the energy
+/// -g . r of the arm falls by half of this times the turn squared, along the mean of both and across them.
+inline Mat3 driven(const Vec3& r, const Vec3& g) {
+  const Vec3 mean = (r.normalized() + g.normalized()).normalized();
+  const Vec3 across = r.cross(g).normalized();
+  return 0.5 * (r.norm() * g.norm() - r.dot(g)) * mean * mean.transpose() +
+         std::max(-r.dot(g), 0.0) * across * across.transpose();
 }
 
 /// The dense matrix that a model, bound to `pattern`, assembles.

@@ -51,8 +51,8 @@ class GrabTable {
 /// Springs of no rest length from points of the bodies to targets in space, as many as the state remembers.
 ///
 /// f = k (target - p) with p = sum w_a x_a, or x + R place on a frame, times the share of the loads that
-/// acts. The stiffness is -k J^T J with J = dp/dq, which leaves out the turning of a frame's lever arm under
-/// load; it is always semi-definite. The matrix gets it as couplings of one vertex.
+/// acts. The stiffness is -k J^T J with J = dp/dq, and the turning of a frame's lever arm under load, of
+/// which the matrix gets the nearest semi-definite part: couplings of one vertex each.
 class Grabs final : public ForceModel {
  public:
   static constexpr std::string_view kMemory = "grabs";     ///< name of their place in the memory
@@ -61,8 +61,6 @@ class Grabs final : public ForceModel {
   explicit Grabs(std::string_view name = kMemory) : name_(name) {}
   [[nodiscard]] std::string_view effect() const override { return name_; }
   [[nodiscard]] ForceKind kind() const override { return ForceKind::external; }
-  /// Its targets are moved.
-  [[nodiscard]] bool may_add_energy() const override { return true; }
   void add_force(const State& state, Scratch& scratch, Reals f) const override;
   void add_product(const State& state, Scratch& scratch, StiffnessScale scale, ConstReals p,
                    Reals out) const override;

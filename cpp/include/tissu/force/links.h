@@ -38,16 +38,14 @@ class LinkTable {
 
 /// Springs of no rest length between any two points, as many as the state remembers.
 ///
-/// f_a = k (p_b - p_a). The stiffness is -k J^T J with J = dp/dq, which leaves out the turning of a frame's
-/// lever arm under load; it is always semi-definite. The matrix gets it as couplings.
+/// f_a = k (p_b - p_a). The stiffness is -k J^T J with J = dp/dq, and the turning of a frame's lever arm
+/// under load, of which the matrix gets the nearest semi-definite part, as couplings.
 class Links final : public ForceModel {
  public:
   static constexpr std::string_view kMemory = "links";  ///< name of their place in the memory
 
   [[nodiscard]] std::string_view effect() const override { return "links"; }
   [[nodiscard]] ForceKind kind() const override { return ForceKind::elastic; }
-  /// Links are added and taken away while the world runs.
-  [[nodiscard]] bool may_add_energy() const override { return true; }
   void add_force(const State& state, Scratch& scratch, Reals f) const override;
   void add_product(const State& state, Scratch& scratch, StiffnessScale scale, ConstReals p,
                    Reals out) const override;

@@ -18,11 +18,11 @@ struct Energy {
 
 Energy energy_of(const World& world, const State& state, Scratch& scratch);
 
-/// Watches the energy of a scene in which nothing can add any: no led nodes, no links, no pressure, no load
-/// that changes with time, no material that remembers, no obstacle
-/// that is led. A method that gives a moving body more energy than it had is not stable there, however well
-/// its steps converge. Contacts give a little: what is inside its gap comes out of it, in a step at the
-/// soonest.
+/// Watches the energy of a scene in which nothing can add any while it steps: no led nodes, no pressure, no
+/// load that changes with time, no material that remembers, no obstacle that is led. Grabs and links, which
+/// change between steps alone, are springs whose energy counts. A method that gives a moving body more energy
+/// than it had is not stable there, however well its steps converge. Contacts give a little: what is inside
+/// its gap comes out of it, in a step at the soonest.
 class EnergyWatch {
  public:
   /// Whether energy can only be kept or lost in that world.
@@ -30,25 +30,28 @@ class EnergyWatch {
   /// Whether damping may give energy to a body that turns freely (ForceModel::may_drive_turns).
   static bool may_be_driven(const World& world);
 
-  /// Before and after a step. What is written into the state between two steps, into its memory too, does not
-  /// count.
+  /// Before and after a step. What is written into the state between two steps, into its memory too, is no
+  /// gain; what it takes away, as a release of a stretched grab does, may be what was gained before.
   void begin(const World& world, const State& state);
   void end(const World& world, const State& state);
   /// The latest end did not come: that step was refused.
   void take_back();
   /// In steps of h contacts may give that much: M (gap / h)^2 of the whole mass and the widest gap.
   void allow_contacts(const World& world, double h);
+  /// A growth of less than the whole mass has that goes 1e-10 of the scene's extent in a step of h is that of
+  /// round-off: a grab of a body at rest has its point where the target is, to the last digit but one.
+  void ignore_round_off(const World& world, double h);
   /// The energy gained since the first step, less what contacts may give, over the largest kinetic and
-  /// elastic energy before it grew, or over what contacts may give, if that is more.
+  /// elastic energy before it grew, or over what contacts may give or what is ignored, if that is more.
   [[nodiscard]] double growth() const {
-    const double whole = std::max(largest_, allowed_);
+    const double whole = std::max({largest_, allowed_, ignored_});
     return whole > 0.0 ? (gained_ - allowed_) / whole : 0.0;
   }
 
   /// The same of a gain in a share of the step, in which contacts come out of their gap faster.
   [[nodiscard]] double growth_by(double gain, double share) const {
     const double allowed = allowed_ / (share * share);
-    const double whole = std::max(largest_, allowed);
+    const double whole = std::max({largest_, allowed, ignored_});
     return whole > 0.0 ? (gain - allowed) / whole : 0.0;
   }
 
@@ -77,6 +80,7 @@ class EnergyWatch {
   double gained_before_ = 0.0;   ///< the latest end
   double largest_before_ = 0.0;  ///< … too
   double allowed_ = 0.0;         ///< that contacts may give
+  double ignored_ = 0.0;
 };
 
 }  // namespace tissu

@@ -111,7 +111,7 @@ PRESENT = {
     r"|\btriangular_solve_vector<double",
     "loop and roll back": r"\bSimulation::|^tissu_effects_steps$",
     "profile": r"\bProfile::",
-    "words of a report": r"^operator (new|delete)",
+    "words of a report": r"^operator (new|delete)|^std::.*basic_string<char,.*::_M_replace\(",
 }
 # Of the libraries beside the program: the clock, copies of vectors, words of a report.
 LIBRARIES = {"C library": r"^lib[cm][.-]", "C++ library": r"^libstdc\+\+"}

@@ -62,14 +62,13 @@ TEST_P(OfABox, IsThatOfTheDenseMatrix) {
 
 INSTANTIATE_TEST_SUITE_P(LargestFrequency, OfABox, testing::Bool());
 
-/// A frame on a spring at a lever arm: k (1/m + a^2/I) for the motion along the spring.
+/// A frame on a spring at a lever arm, which does not pull: k (1/m + a^2/I) for the motion across the arm.
 TEST(LargestFrequency, KnowsFrames) {
   WorldDescription description;
   FrameDescription frame;
   frame.mass = 2.0;
   frame.inertia = 0.5 * Mat3::Identity();
   FrameDescription other = frame;
-  other.position = Vec3(0.0, 1.0, 0.0);
   other.mass = 1e12;  // as good as fixed
   other.inertia = 1e12 * Mat3::Identity();
   description.frames = {frame, other};

@@ -9,10 +9,9 @@
 namespace tissu {
 namespace {
 
-constexpr double kFloor = 1e-3;  ///< of what acts: less is left by any linear solver
+constexpr double kFloor = 1e-3;  ///< of the external impulse: less is left by any linear solver
 constexpr double kWorse = 2.0;   ///< times the residual of the guess
 constexpr double kNear = 1e-2;   ///< of what acts: an iteration that was stopped there has improved the step
-constexpr double kUnsolved = 2.0;    ///< times what the linear solver left
 constexpr double kRoundings = 1e-9;  ///< of the sum of energies
 
 }  // namespace
@@ -28,7 +27,8 @@ void StageSolver::balance_parts() {
 }
 
 void StageSolver::turn_ahead(std::vector<double>& v) {
-  if (world().is_linear()) return;
+  turns_ = false;
+  if (world().is_linear() || is_part_) return;  // after a blow, nothing goes on as it did
   balance_parts();
   turns_ = ahead_.lay({*step_start_, stage_.base, stage_.move, stage_.end}, given_, turned_, turn_to_, v);
 }
@@ -49,18 +49,18 @@ bool StageSolver::correct_rigidly(State& state, std::vector<double>& v, double& 
   return taken_back < rigid_.corrected();
 }
 
-bool StageSolver::leaves_much(const State& state, double unsolved) {
-  if (!balance_.leaves_more(most_left_, unsolved, right_, momentum_)) return false;
+bool StageSolver::leaves_much(const State& state) {
+  if (!balance_.leaves_more(most_left_, 0.0, right_, momentum_)) return false;
   if (world().fixed().moves(*step_start_)) {
     look_at_reactions();
-    if (!balance_.leaves_more(most_left_, unsolved, right_, momentum_)) return false;
+    if (!balance_.leaves_more(most_left_, 0.0, right_, momentum_)) return false;
   }
   std::ranges::copy(right_, trial_.begin());
   system_->add_product(state, {0.0, -stage_.push}, state.strains_by(), trial_);
   system_->add_product(linearised_at(), {0.0, stage_.push}, state.strains_by(), trial_);
   world().fixed().clear(trial_);
   const double floor = system_->round_off(stage_.base) / stage_.move;
-  return balance_.leaves_more(most_left_, floor + unsolved, trial_, momentum_);
+  return balance_.leaves_more(most_left_, floor, trial_, momentum_);
 }
 
 void StageSolver::look_at_reactions() {
@@ -79,11 +79,8 @@ StageSolver::Judged StageSolver::judge_linearised(State& state, std::vector<doub
   }
   double left = residual(state, v);
   const Judged judged = correct_rigidly(state, v, left) ? Judged::corrected : Judged::kept;
-  // The guess of a part that turns may be as good as the solution.
-  const bool no_worse = left <= kWorse * start_ + kFloor * (turns_ ? acting_ : reference_);
-  // What the linear solver left may be anywhere, also on a part on which nothing acts.
-  const double unsolved = kUnsolved * report.residual * std::max(start_, kFloor * reference_);
-  if (no_worse ? !leaves_much(state, unsolved) : gives_up_early_ && turns_far(v)) return judged;
+  const bool no_worse = left <= kWorse * start_ + kFloor * reference_;
+  if (no_worse ? !leaves_much(state) : gives_up_early_ && turns_far(v)) return judged;
   if (!no_worse && contact_ != nullptr && contact_->size() > 0) {
     report.hasty = true;  // a blow: it is taken in parts
     return judged;

@@ -64,6 +64,7 @@ class StageSolver {
   /// As `Integrator` has it.
   void take_part(bool early, double share) {
     gives_up_early_ = early;
+    is_part_ = share < 1.0;
     if (contact_ != nullptr) contact_->run().take_part(share);
   }
 
@@ -150,11 +151,11 @@ class StageSolver {
   /// Iterates on such a step where it made things worse or left much; if that fails, the step stays as it is
   /// unless it made things worse. It is hasty then, and where it gained energy.
   Judged judge_linearised(State& state, std::vector<double>& v, StepReport& report);
-  /// The latest residual, of `state`, is more than some times what acts on some part, beyond what is
-  /// `unsolved`. A turn of a stiff body leaves strains, and so does the guess of the next step, which is then
-  /// no worse. Damping counts with the stiffness where the step was linearised: either is of first order, and
-  /// at the end the stiffness of a membrane may be one that gives energy.
-  bool leaves_much(const State& state, double unsolved);
+  /// The latest residual, of `state`, is more than some times what acts on some body. A turn of a stiff body
+  /// leaves strains, and so does the guess of the next step, which is then no worse. Damping counts with the
+  /// stiffness where the step was linearised: either is of first order, and at the end the stiffness of a
+  /// membrane may be one that gives energy.
+  bool leaves_much(const State& state);
   /// What supports that are led give in the step, as far as they strain a part: a drift of all of them acts
   /// on nothing.
   void look_at_reactions();
@@ -226,6 +227,7 @@ class StageSolver {
   std::vector<double> elastic_;        ///< what is right without contact
   Scratch scratch_;                    ///< of energies
   bool gives_up_early_ = false;
+  bool is_part_ = false;  ///< of a step that contact divided
   PartBalance balance_;
   RigidCorrection rigid_;
   TurnAhead ahead_;

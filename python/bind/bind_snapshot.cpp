@@ -108,6 +108,7 @@ py::dict to_dict(const Snapshot& snapshot) {
   result["positions"] = to_array(state.positions);
   result["velocities"] = to_array(state.velocities);
   result["velocities_before"] = to_array(snapshot.velocities_before);
+  if (!snapshot.straining.empty()) result["straining"] = to_array(snapshot.straining);
   result["rotations"] = to_array(numbers_of(state.rotations));
   result["memory"] = to_array(joined(state.memory));
   result["memory_sizes"] = to_array(sizes_of(state.memory));
@@ -162,6 +163,7 @@ Snapshot from_dict(const py::dict& from) {
   state.positions = doubles(from, "positions");
   state.velocities = doubles(from, "velocities");
   snapshot.velocities_before = doubles(from, "velocities_before");
+  if (from.contains("straining")) snapshot.straining = doubles(from, "straining");
   state.rotations = rotations_of(doubles(from, "rotations"));
   state.memory = split(doubles(from, "memory"), to_vector(value<Array<std::int32_t>>(from, "memory_sizes")));
   snapshot.integrator = doubles(from, "integrator");

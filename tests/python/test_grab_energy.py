@@ -55,7 +55,7 @@ def test_the_growth_of_a_body_on_a_grab_that_stands_still_is_refused() -> None:
 def test_changes_of_grabs_are_no_growth(step: ts.Step) -> None:
     """A held bar at rest is dragged, let go and taken again: all its energy is the hand's work.
 
-    Its first step has the energy of round-off, of which a multiple is no growth either.
+    The energy of its first step is round-off, and a multiple of round-off is not a growth.
     """
     fixed = [ts.Fixed("b", on=ts.Plane((0, 0, 0), (1, 0, 0)))]
     simulation = ts.Scene(

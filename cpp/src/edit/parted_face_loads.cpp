@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "left_faces.h"
+#include "renewed_load.h"
 #include "tissu/element/reference_cell.h"
 #include "tissu/element/reference_part.h"
 
@@ -151,17 +152,7 @@ class FaceLoad {
 
 void part_face_load(LoadDescription& load, const CutState& cut) {
   const std::map<std::int32_t, Vec3> left = FaceLoad(load, cut).find();
-  load.nodes.clear();
-  load.forces.clear();
-  load.left.clear();
-  const auto add = [&](std::int32_t node, const Vec3& force) {
-    load.nodes.push_back(node);
-    load.forces.insert(load.forces.end(), force.data(), force.data() + 3);
-  };
-  const auto add_left = [&](std::int32_t node, const Vec3& per_unit) {
-    load.left.push_back({load.nodes.size(), per_unit});
-    add(node, per_unit.cwiseProduct(load.unit));
-  };
+  RenewedLoad renewed(load);
   std::vector<char> is_first(at(cut.hosts.node_count()), 0);
   double largest = 0.0;
   for (const auto& [node, per_unit] : left) largest = std::max(largest, per_unit.norm());
@@ -170,13 +161,13 @@ void part_face_load(LoadDescription& load, const CutState& cut) {
     is_first[at(node)] = 1;
     const auto found = left.find(node);
     if (found == left.end()) {
-      add(node, block(ConstReals(load.first_forces), static_cast<std::int32_t>(i)));
+      renewed.add(node, block(ConstReals(load.first_forces), static_cast<std::int32_t>(i)));
     } else {
-      add_left(node, found->second);
+      renewed.add_left(node, found->second);
     }
   }
   for (const auto& [node, per_unit] : left) {
-    if (is_first[at(node)] == 0 && per_unit.norm() > kNothing * largest) add_left(node, per_unit);
+    if (is_first[at(node)] == 0 && per_unit.norm() > kNothing * largest) renewed.add_left(node, per_unit);
   }
 }
 

@@ -7,6 +7,7 @@
 
 #include "debris.h"
 #include "parted_face_loads.h"
+#include "renewed_load.h"
 #include "tissu/edit/cut_state.h"
 #include "tissu/element/reference_cell.h"
 
@@ -89,19 +90,12 @@ Sharers sharers_of(const BodyDescription& body, MayBear&& may_bear) {
 /// edits leave no trace. `has_material`: of a node of the first day, with its copies.
 template <class HasMaterial>
 void share(LoadDescription& load, const Sharers& sharers, const Masses& masses, HasMaterial&& has_material) {
-  load.nodes.clear();
-  load.forces.clear();
-  load.left.clear();
-  const auto add = [&](std::int32_t node, const Vec3& force) {
-    load.nodes.push_back(node);
-    load.forces.insert(load.forces.end(), force.data(), force.data() + 3);
-  };
+  RenewedLoad renewed(load);
   for (std::size_t i = 0; i < load.first_day.size(); ++i) {
     const std::int32_t root = load.first_day[i];
     const Vec3 whole = block(ConstReals(load.first_forces), static_cast<std::int32_t>(i));
     if (!has_material(root)) {
-      load.left.push_back({load.nodes.size(), Vec3::Zero()});
-      add(root, Vec3::Zero());
+      renewed.add_left(root, Vec3::Zero());
       continue;
     }
     const auto found = sharers.find(root);
@@ -110,12 +104,12 @@ void share(LoadDescription& load, const Sharers& sharers, const Masses& masses, 
       for (const std::int32_t one : found->second) mass += masses.at(one);
     }
     if (found == sharers.end() || !(mass > 0.0)) {  // it has no copies, or nothing has a mass
-      add(root, whole);
+      renewed.add(root, whole);
       continue;
     }
     for (const std::int32_t one : found->second) {
       const double part = masses.at(one) / mass;
-      if (part > 0.0) add(one, part * whole);
+      if (part > 0.0) renewed.add(one, part * whole);
     }
   }
 }

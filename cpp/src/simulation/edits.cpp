@@ -65,6 +65,10 @@ void Simulation::keep_velocities() {
 void Simulation::take_over(std::span<const RowCopy> copies, std::span<const RowBlend> blends) {
   integrator_->blend_rows(blends);
   integrator_->copy_rows(copies);
+  if (!last_good_.straining.empty()) {
+    blend_rows(blends, last_good_.straining);
+    copy_rows(copies, Reals(last_good_.straining));
+  }
   for (State* state : {&state_, &last_good_}) {
     blend_rows(blends, state->positions);
     blend_rows(blends, state->velocities);

@@ -153,6 +153,8 @@ StepReport Simulation::step(double h) {
     throw;
   }
   if (!std::isfinite(report.residual) || !is_sane()) roll_back(h);
+  last_good_.straining.swap(state_.straining);
+  state_.straining.clear();
   remember(*world_, state_);
   if (watch_) watch_energy(*watch_, report);
   world_->fixed().copy(state_.velocities, held_);
@@ -182,6 +184,7 @@ void Simulation::watch_energy(EnergyWatch& watch, StepReport& report) {
   const std::string message = "in the step from t = " + number_text(last_good_.time) + " s " +
                               watch.say(*world_) + ". The simulation stands at its last good step.";
   watch.take_back();
+  last_good_.straining.clear();
   state_ = last_good_;
   throw Diverged(message, culprit.body, culprit.element, state_.time);
 }
@@ -196,7 +199,13 @@ void Simulation::tell_inverted(InversionCheck& check, StepReport& report) {
 std::vector<double> Simulation::reactions() const {
   std::vector<double> result(state_.positions.size(), 0.0);
   Scratch scratch;
-  for (const auto& model : world_->forces()) model->add_force(state_, scratch, result);
+  if (last_good_.straining.empty()) {
+    for (const auto& model : world_->forces()) model->add_force(state_, scratch, result);
+  } else {  // parts turned in the step: its viscous forces are those of what strained
+    State stepped = state_;
+    stepped.straining = last_good_.straining;
+    for (const auto& model : world_->forces()) model->add_force(stepped, scratch, result);
+  }
   for (double& value : result) value = -value;
   const double h = state_.time - last_good_.time;
   if (h > 0.0) {

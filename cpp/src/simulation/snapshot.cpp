@@ -25,6 +25,7 @@ Snapshot Simulation::snapshot() {
   result.settled = settled_;
   result.time_before = last_good_.time;
   result.velocities_before = last_good_.velocities;
+  result.straining = last_good_.straining;
   result.integrator = integrator_->memory();
   if (watch_) result.energy_watch = watch_->reference(state_);
   result.bodies = topologies(*world_);
@@ -36,6 +37,7 @@ void Simulation::restore(const Snapshot& snapshot) {
   check_count("positions", snapshot.state.positions.size(), size);
   check_count("velocities", snapshot.state.velocities.size(), size);
   check_count("velocities before its latest step", snapshot.velocities_before.size(), size);
+  if (!snapshot.straining.empty()) check_count("straining velocities", snapshot.straining.size(), size);
   check_count("rotations", snapshot.state.rotations.size(), world_->frames().size());
   check_count("numbers of the watch on energy", snapshot.energy_watch.size(),
               watch_ ? EnergyWatch::kReferences : 0);
@@ -50,6 +52,7 @@ void Simulation::restore(const Snapshot& snapshot) {
   last_good_ = snapshot.state;
   last_good_.time = snapshot.time_before;
   last_good_.velocities = snapshot.velocities_before;
+  last_good_.straining = snapshot.straining;
   held_ = snapshot.state.velocities;
   if (watch_) watch_->restore(snapshot.energy_watch, state_);
   settled_ = snapshot.settled;

@@ -200,6 +200,16 @@ double quotient(ScaledMatrix& A, const std::vector<double>& x) {
          std::inner_product(x.begin(), x.end(), x.begin(), 0.0);
 }
 
+/// The frequency and the damping of a shape.
+Vibration vibration_of(const World& world, const State& state, const std::vector<double>& shape) {
+  ScaledMatrix stiffness(world, state, {-1.0, 0.0});
+  ScaledMatrix damping(world, state, {0.0, -1.0});
+  Vibration result;
+  result.frequency = std::sqrt(std::max(0.0, quotient(stiffness, shape)));
+  result.damping = result.largest_damping = std::max(0.0, quotient(damping, shape));
+  return result;
+}
+
 /// Root mean squares of the rows of A, each over the three of a block: of products with numbers by chance.
 std::vector<double> sizes_of_rows(ScaledMatrix A, std::size_t size) {
   std::vector<double> x(size);
@@ -238,25 +248,14 @@ std::optional<Vibration> DampingRange::below(double ratio, double offset) const 
   if (!(lanczos.largest(kRough, kLeast, kEvery) > kBelow)) return std::nullopt;
   std::vector<double> shape = lanczos.shape();
   less.times_weights(shape);
-  ScaledMatrix stiffness(world_, state_, {-1.0, 0.0});
-  ScaledMatrix damping(world_, state_, {0.0, -1.0});
-  Vibration result;
-  result.frequency = std::sqrt(std::max(0.0, quotient(stiffness, shape)));
-  result.damping = result.largest_damping = std::max(0.0, quotient(damping, shape));
-  return result;
+  return vibration_of(world_, state_, shape);
 }
 
 Vibration stiffest_vibration(const World& world, const State& state, double h) {
   ScaledMatrix both(world, state, {-h * h, -2.0 * h});
   Lanczos lanczos(both, state.positions.size());
   if (!(lanczos.largest(kCoarse) > 0.0)) return {};
-  const std::vector<double> shape = lanczos.shape();
-  ScaledMatrix stiffness(world, state, {-1.0, 0.0});
-  ScaledMatrix damping(world, state, {0.0, -1.0});
-  Vibration result;
-  result.frequency = std::sqrt(std::max(0.0, quotient(stiffness, shape)));
-  result.damping = result.largest_damping = std::max(0.0, quotient(damping, shape));
-  return result;
+  return vibration_of(world, state, lanczos.shape());
 }
 
 Vibration fastest_vibration(const World& world, const State& state) {

@@ -115,7 +115,6 @@ void StageSolver::solve(State& state, std::vector<double>& v, StepReport& report
     solve_free(state, v, report);
   }
   report.turned_far = turns_far(v);
-  state.straining.clear();
 }
 
 void StageSolver::solve_free(State& state, std::vector<double>& v, StepReport& report) {

@@ -18,7 +18,7 @@ from tissu.errors import CheckpointError
 from tissu.files.place import kind_of_place, reason_of, shown_path
 
 FORMAT = 5
-_COLUMNS = {"positions": 3, "velocities": 3, "velocities_before": 3, "rotations": 4}
+_COLUMNS = {"positions": 3, "velocities": 3, "velocities_before": 3, "straining": 3, "rotations": 4}
 
 
 @dataclass(frozen=True, slots=True)

@@ -63,7 +63,7 @@ def require_contents(path: Path, header: Mapping[str, Any], arrays: Mapping[str,
             raise _wrong(path, name, "a finite number")
     if not isinstance(snapshot.get("settled"), bool):
         raise _wrong(path, "settled", "true or false")
-    for name in _NUMBERS:
+    for name in (*_NUMBERS, *(["straining"] if "straining" in arrays else [])):
         _require_finite(path, name, arrays)
     sizes = arrays.get("memory_sizes")
     if not isinstance(sizes, np.ndarray) or sizes.dtype != np.int32:

@@ -14,7 +14,7 @@ namespace tissu {
 /// Coordinates in a reference cell; those beyond its dimension are zero.
 using ReferencePoint = std::array<double, 3>;
 
-/// Where the nodes of an element are in its reference cell; empty when there is no such element.
+/// The places of an element's nodes in its reference cell; empty if no element has that name.
 std::vector<ReferencePoint> reference_nodes(std::string_view element);
 
 /// The length of a part of a line between two points of its reference cell, the area of a triangle in that of

@@ -26,8 +26,9 @@ struct State {
   std::vector<double> positions;  ///< [m], three for each node or frame origin; zeros for a frame's rotation
   std::vector<double>
       velocities;  ///< [m/s]; a frame's rotation block holds its angular velocity in space [rad/s]
-  std::vector<double> straining;  ///< [m/s] what viscosity strains by while a step is solved in which parts
-                                  ///< turn; empty: the velocities
+  /// [m/s] What viscosity strains by while a step is solved in which parts turn, and until it has ended;
+  /// empty: the velocities. A simulation moves it to the state before its latest step.
+  std::vector<double> straining;
   std::vector<Quaternion> rotations;  ///< one unit quaternion for each frame
   Memory memory;                      ///< what models remember; empty when none does
   double memory_time = 0.0;           ///< when the memory was written [s]

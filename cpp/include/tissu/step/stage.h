@@ -32,7 +32,7 @@ enum class EnergyLaw { falls, varies };
 
 class StageSolver {
  public:
-  /// `most_left`: of what acts on a part, what a step that is linearised once may leave. The less a method
+  /// `most_left`: of what acts on a body, what a step that is linearised once may leave. The less a method
   /// damps, the less it may be.
   StageSolver(NewtonSettings newton, PartBalance::Shares most_left, EnergyLaw energy = EnergyLaw::varies);
   void prepare(const World& world, LinearSolver* solver, Profile& profile);

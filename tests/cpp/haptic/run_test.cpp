@@ -66,13 +66,17 @@ TEST(HapticRun, ThreadTakesModelsAndSettingsAndItsRecordsReplayToTheBit) {
   std::vector<LocalModel> models;
   std::vector<Settings> settings{running()};
   double felt = 0.0;
-  while (loop.report().ticks < 300) {
+  // The tool is in for the first half of each 314 ticks: a thread that comes late waits for the next.
+  const auto ticks = [&] { return static_cast<std::size_t>(loop.report().ticks); };
+  while (ticks() < 300 || (felt == 0.0 && ticks() < kTicks)) {
     LocalModel model = ground(models.size() % 2 == 0 ? 400.0 : 500.0);
     run.publish(model);
     models.push_back(model);
     if (models.size() % 16 == 0) {
       settings.push_back(running());
       settings.back().limits.force = 1.0 + 0.01 * static_cast<double>(settings.size());
+      // A busy machine may be late six times in a row, and holds the force back until it is acknowledged.
+      settings.back().acknowledged = static_cast<std::uint32_t>(settings.size());
       run.set(settings.back(), static_cast<std::uint32_t>(settings.size() - 1));
     }
     felt = std::max(felt, std::abs(run.report().torque[3]));

@@ -49,8 +49,8 @@ StageSolver::StageSolver(NewtonSettings newton, PartBalance::Shares most_left, E
 void StageSolver::prepare(const World& world, LinearSolver* solver, Profile& profile) {
   system_ = std::make_unique<System>(world, solver, profile);
   stage_.base = world.rest_state();
-  for (auto* v :
-       {&given_, &guess_, &first_, &once_, &uncorrected_, &trial_, &change_, &right_, &work_, &momentum_}) {
+  for (auto* v : {&given_, &given_change_, &guess_, &first_, &once_, &uncorrected_, &trial_, &change_,
+                  &right_, &work_, &momentum_}) {
     v->assign(stage_.base.positions.size(), 0.0);
   }
   turns_ = false;
@@ -197,7 +197,7 @@ void StageSolver::lay_right(std::vector<double>& v) {
   world.mass().add_product(stage_.base, -1.0, work_, right_);
   fixed.clear(right_);
   start_ = norm(right_);
-  std::ranges::copy(change_, first_.begin());
+  std::ranges::copy(change_, given_change_.begin());
 }
 
 void StageSolver::first_solve(std::vector<double>& v, StepReport& report) {
@@ -209,7 +209,7 @@ void StageSolver::first_solve(std::vector<double>& v, StepReport& report) {
 
   assemble(at, false);
   const SolveReport solved = solve_linear(at, kFloor * reference_, false, report);
-  fixed.copy(first_, change_);
+  fixed.copy(given_change_, change_);
   for (std::size_t i = 0; i < v.size(); ++i) v[i] += change_[i];
   report.newton_iterations += 1;
   report.residual = solved.residual;
@@ -335,11 +335,11 @@ bool StageSolver::advance(State& state, std::vector<double>& v, Search search, d
 }
 
 StageSolver::DampingWork StageSolver::damping_work(const State& state) {
-  std::ranges::fill(first_, 0.0);
-  system_->add_product(state, {0.0, -stage_.push}, change_, first_);
+  std::ranges::fill(work_, 0.0);
+  system_->add_product(state, {0.0, -stage_.push}, change_, work_);
   const std::vector<double>& by = state.strains_by();
-  const double linear = std::inner_product(by.begin(), by.end(), first_.begin(), 0.0);
-  const double square = 0.5 * std::inner_product(change_.begin(), change_.end(), first_.begin(), 0.0);
+  const double linear = std::inner_product(by.begin(), by.end(), work_.begin(), 0.0);
+  const double square = 0.5 * std::inner_product(change_.begin(), change_.end(), work_.begin(), 0.0);
   return square < 0.0 ? DampingWork{} : DampingWork{linear, square};
 }
 

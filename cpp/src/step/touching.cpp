@@ -77,7 +77,7 @@ void StageSolver::begin_touching(State& state, std::vector<double>& v) {
   world.contact()->numbers(stage_.base).clear();
   world.contact()->numbers(linearised_at()).clear();
   lay_right(v);
-  for (std::size_t i = 0; i < v.size(); ++i) v[i] += first_[i];
+  for (std::size_t i = 0; i < v.size(); ++i) v[i] += given_change_[i];
   elastic_ = right_;
   assemble(linearised_at(), false);
   blocks_.resize(3 * v.size());
@@ -231,7 +231,6 @@ bool StageSolver::solve_contacts(State& state, std::vector<double>& v, StepRepor
 
 /// Newton's iteration with the contacts of one look, and looks until they stay.
 void StageSolver::iterate_contacts(State& state, std::vector<double>& v, StepReport& report) {
-  const World& world = system_->world();
   const int most = newton_.iterations;
   int iterations = report.newton_iterations;
   State* end = stage_.contact.stretch != 1.0 ? &end_ : &state;
@@ -267,7 +266,6 @@ void StageSolver::iterate_contacts(State& state, std::vector<double>& v, StepRep
   report.newton_iterations = iterations;
   keep_momentum(v);
   std::ranges::copy(v, state.velocities.begin());
-  world.fixed().clear(first_);
 }
 
 bool StageSolver::fits_contacts(State& state, std::vector<double>& v, StepReport& report) {
@@ -317,7 +315,6 @@ void StageSolver::judge_touching(State& state, std::vector<double>& v, StepRepor
   report.converged = !report.hasty;
   keep_momentum(v);
   std::ranges::copy(v, state.velocities.begin());
-  world().fixed().clear(first_);
 }
 
 void StageSolver::solve_touching(State& state, std::vector<double>& v, StepReport& report) {

@@ -104,8 +104,8 @@ class Cutting(Remains, Severing):
         Raises:
             ParameterError: the scene was compiled without `editing: true`; no such body, or one
                 that cannot be cut, with the reason; a node that is not at a finite place; a blade
-                without area; no room for the new nodes; in a static scene, pieces without a
-                support. Then nothing has changed.
+                without area; no room for the new nodes; in a static scene, pieces that neither a
+                support nor a contact holds. Then nothing has changed.
         """
         self._require_editing(body)
         self._require_finite(body)

@@ -93,7 +93,7 @@ class StageSolver {
   [[nodiscard]] bool turns_far(ConstReals v) const;
   /// push f + push move K (v + given - v*) + push D given - M (v - v^ + given) goes into right_, free rows
   /// only, with f, K and D at `linearised_at`, to which v* leads; changes of velocity that are given go into
-  /// first_.
+  /// given_change_.
   void lay_right(std::vector<double>& v);
 
   // touching.cpp: steps of a world with contact.
@@ -179,7 +179,7 @@ class StageSolver {
   bool descend(State& state, std::vector<double>& v, double& now);
   /// What damping takes on a share s of change_, s (linear + s square), which has no potential: with df/dv as
   /// it is at `state` and its v, 1/2 push v . D v. Zero for damping that gives, as Rayleigh's does where the
-  /// stiffness is not positive. It writes to first_.
+  /// stiffness is not positive. It writes to work_.
   struct DampingWork {
     double linear = 0.0;
     double square = 0.0;
@@ -198,10 +198,11 @@ class StageSolver {
   NewtonSettings newton_;
   std::unique_ptr<System> system_;
   Stage stage_;
-  std::vector<double> given_;  ///< mean velocities where motion is given
+  std::vector<double> given_;         ///< mean velocities where motion is given
+  std::vector<double> given_change_;  ///< from the guess to them; zero on free rows
   std::vector<double> guess_;
-  std::vector<double> first_;
-  std::vector<double> once_;  ///< v of a step that was linearised once
+  std::vector<double> first_;  ///< v before Newton's iteration
+  std::vector<double> once_;   ///< v of a step that was linearised once
   std::vector<double> uncorrected_;
   std::vector<double> trial_;
   std::vector<double> change_;

@@ -119,14 +119,15 @@ def test_stiff_damping_does_not_feed_a_stiff_body(method: str, newton: ts.Newton
 @pytest.mark.parametrize("dt", [2e-3, 5e-3])
 @pytest.mark.parametrize("method", ["implicit_euler", "bdf2", "newmark"])
 def test_friction_on_a_turntable_is_the_centripetal_force(method: str, dt: float) -> None:
-    """m w^2 r towards the axis: its mean to 1 %, and each step to 10 %.
+    """m w^2 r towards the axis: its mean to 0.5 %, and each step to 5 %.
 
-    The table catches a block that rests, which vibrates then: by up to 7 % in these six cases.
+    The table catches a block that rests, which slides out by 0.7 % of r and then vibrates: by up
+    to 1.4 % in these six cases. BDF2 and Newmark's method average it to 0.3 % with 5 ms.
     Steps went in parts now and then, as what the linearisation left looked like contacts that do
     not settle. The chord of a step of another length has another direction, so the force of single
     steps was 25 % off by implicit Euler and 90 % by BDF2.
     """
-    gap, rate, radius = 2e-4, 4.0, 0.085
+    gap, rate = 2e-4, 4.0
     path = ts.Motion(
         times=(0, 100),
         rotation=ts.Rotation(axis=(0, 0, 1), center=(0, 0, 0), angles=(0, 100 * rate)),
@@ -148,15 +149,17 @@ def test_friction_on_a_turntable_is_the_centripetal_force(method: str, dt: float
         step=METHODS[method](dt),
     ).compile()
     mass = simulation.mass_matrix().diagonal()[::3][:, None]
-    radial = []
+    radial, distances = [], []
     for _ in range(round(0.8 / dt)):
         assert simulation.step().converged
-        centre = (mass * simulation.positions["block"]).sum(0)[:2]
-        radial.append(simulation.force_on("block").force[:2] @ centre / np.linalg.norm(centre))
-    settled = np.array(radial[len(radial) // 2 :])
-    expected = -mass.sum() * rate**2 * radius
-    assert np.abs(settled - settled.mean()).max() < 0.1 * abs(expected)
-    assert settled.mean() == pytest.approx(expected, rel=1e-2)
+        centre = (mass * simulation.positions["block"]).sum(0)[:2] / mass.sum()
+        distances.append(np.linalg.norm(centre))
+        radial.append(simulation.force_on("block").force[:2] @ centre / distances[-1])
+    half = len(radial) // 2
+    settled = np.array(radial[half:])
+    expected = -mass.sum() * rate**2 * np.mean(distances[half:])
+    assert np.abs(settled - settled.mean()).max() < 0.05 * abs(expected)
+    assert settled.mean() == pytest.approx(expected, rel=5e-3)
 
 
 HELD = {
@@ -247,3 +250,29 @@ def test_reactions_are_the_change_of_momentum(tmp_path: Path) -> None:
     simulation.step()
     simulation.rewind(mark)
     np.testing.assert_array_equal(simulation.reactions("b"), kept)
+
+
+@pytest.mark.parametrize("method", ["implicit_euler", "bdf2"])
+def test_a_step_in_which_nothing_acts_leaves_nothing(method: str) -> None:
+    """A tool comes near a body that rests: no step has left more than it was solved to.
+
+    The bodies' own round-off was all that acted, and the report said that 16 times that was left.
+    """
+    body = ts.Body(
+        mesh=ts.bar_mesh(size=(0.06, 0.06, 0.04), cells=(3, 3, 2), cell="hexahedron"),
+        law=ts.StableNeoHooke(young=6e4, poisson=0.4),
+        density=1000,
+        viscosity=ts.KelvinVoigt(eta=20),
+    )
+    motion = ts.Motion(times=(0, 0.2), displacements=((0, 0, 0), (0, 0, -0.015)))
+    tool = ts.CapsuleObstacle(((0.03, 0.03, 0.06), (0.03, 0.03, 0.16)), 0.01, motion=motion)
+    simulation = ts.Scene(
+        bodies={"block": body},
+        fixed=[ts.Fixed("block", on=ts.Plane((0, 0, 0), (0, 0, 1)))],
+        obstacles={"tool": tool},
+        contacts=[ts.Contact(("block", "tool"), friction=0.4)],
+        step=METHODS[method](5e-3),
+    ).compile()
+    for report in simulation.run(0.1):
+        assert report.converged
+        assert report.residual < 1e-2

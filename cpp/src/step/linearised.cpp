@@ -23,21 +23,35 @@ void StageSolver::balance_parts() {
   ahead_.prepare(world(), balance_);
   is_viscous_ =
       std::ranges::any_of(world().forces(), [](const auto& model) { return model->may_drive_turns(); });
+  turning_by_.assign(is_viscous_ ? turn_to_.size() : 0, 0.0);
   knows_parts_ = true;
+}
+
+void StageSolver::count_parts() {
+  if (world().is_linear()) return;
+  balance_parts();
+  part_count_ = balance_.parts().size();
+}
+
+bool StageSolver::came_apart() {
+  if (world().is_linear()) return true;
+  balance_parts();
+  return balance_.parts().size() > part_count_;
 }
 
 void StageSolver::turn_ahead(std::vector<double>& v) {
   turns_ = false;
   if (world().is_linear() || is_part_) return;  // after a blow, nothing goes on as it did
   balance_parts();
-  turns_ = ahead_.lay({*step_start_, stage_.base, stage_.move, stage_.end}, given_, turned_, turn_to_, v);
+  turns_ = ahead_.lay({*step_start_, stage_.base, stage_.move, stage_.end, stage_.past}, given_, turned_,
+                      turn_to_, v, turning_by_);
 }
 
 void StageSolver::set_straining(ConstReals v, State& state) const {
   state.straining.clear();
   if (!turns_ || !is_viscous_) return;
   state.straining.resize(v.size());
-  for (std::size_t i = 0; i < v.size(); ++i) state.straining[i] = v[i] - turn_to_[i];
+  for (std::size_t i = 0; i < v.size(); ++i) state.straining[i] = v[i] - turning_by_[i];
 }
 
 bool StageSolver::correct_rigidly(State& state, std::vector<double>& v, double& left) {

@@ -42,6 +42,7 @@ StepReport Newmark::step(State& state, double h) {
   stage.contact.times = 1.0 / beta_;
   const double by_velocity = (1.0 - ratio) * h;
   const double by_acceleration = (0.5 - beta_ - ratio * (1.0 - gamma_)) * h * h;
+  stage.past = {.velocity = by_velocity, .acceleration = by_acceleration};
   for (std::size_t i = 0; i < a_.size(); ++i) {
     v_[i] = by_velocity * start_.velocities[i] + by_acceleration * a_[i];
     stage.base.velocities[i] = start_.velocities[i] + (1.0 - gamma_) * h * a_[i];

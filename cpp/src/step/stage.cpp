@@ -92,6 +92,7 @@ void StageSolver::begin(const State& start, double time, double h) {
   stage_.push = h;
   stage_.end = time;
   stage_.contact = {};
+  stage_.past = {};
 }
 
 void StageSolver::lead(const State& start, double time, double h, double share) {
@@ -294,7 +295,11 @@ std::string_view StageSolver::iterate(State& state, std::vector<double>& v, Sear
     if (report.newton_iterations >= most) return "Newton's iteration stopped before its tolerance";
     assemble(state, search == Search::energy);
     const double floor = system_->round_off(state) / stage_.move;
-    if (now <= (report.newton_iterations > 1 && !is_falling_ ? kRoundings : 1.0) * floor) break;
+    const double rounded = (report.newton_iterations > 1 && !is_falling_ ? kRoundings : 1.0) * floor;
+    if (now <= rounded) {
+      if (acting_ <= rounded) report.residual = 0.0;  // nothing acts
+      break;
+    }
     stop_if_asked();
     std::ranges::fill(change_, 0.0);
     solve_linear(state, 0.0, search == Search::energy, report);

@@ -14,22 +14,38 @@ constexpr double kFarthest = 1.0;   ///< [rad] in a step: where a faster part tu
 
 /// The motion of a twist that stays as it is: x -> center + rotation (x - center) + way.
 struct Advance {
-  Quaternion rotation;
+  Mat3 rotation;
   Vec3 way;
+  [[nodiscard]] Vec3 move(const Vec3& arm) const { return rotation * arm + way - arm; }
 };
 
-/// A point on the axis of a part that is held stays where it is; the mass centre of a free one goes straight.
-Advance advance_of(const RigidMotions::Twist& twist, double seconds, bool is_held) {
-  const Vec3 turn = seconds * twist.spin;
-  Vec3 way = seconds * twist.velocity;
-  const double angle = turn.norm();
-  if (is_held) {
-    const Vec3 axis = turn / angle;
-    const Vec3 across = axis.cross(way);
-    way += (1.0 - std::cos(angle)) / angle * across + (1.0 - std::sin(angle) / angle) * axis.cross(across);
+/// A rigid motion from the start of the step on.
+struct Turning {
+  RigidMotions::Twist twist;
+  Vec3 carried;  ///< [m/s] velocity of the supports
+  bool is_held;
+
+  /// A point on the axis of a part that is held stays where it is; the mass centre of a free one goes
+  /// straight.
+  [[nodiscard]] Advance after(double seconds) const {
+    const Vec3 turn = seconds * twist.spin;
+    Vec3 way = seconds * twist.velocity;
+    const double angle = turn.norm();
+    if (is_held && angle > 0.0) {
+      const Vec3 axis = turn / angle;
+      const Vec3 across = axis.cross(way);
+      way += (1.0 - std::cos(angle)) / angle * across + (1.0 - std::sin(angle) / angle) * axis.cross(across);
+    }
+    return {turn_by(turn).toRotationMatrix(), way + seconds * carried};
   }
-  return {turn_by(turn), way};
-}
+  [[nodiscard]] Vec3 velocity(const Vec3& arm) const {
+    return carried + twist.velocity + twist.spin.cross(arm);
+  }
+  [[nodiscard]] Vec3 acceleration(const Vec3& arm) const {
+    const Vec3 around = twist.spin.cross(arm);
+    return twist.spin.cross(is_held ? Vec3(around + twist.velocity) : around);
+  }
+};
 
 }  // namespace
 
@@ -44,10 +60,11 @@ void TurnAhead::prepare(const World& world, const PartBalance& balance) {
 }
 
 bool TurnAhead::lay(const Way& way, ConstReals given, State& at, std::vector<double>& ahead,
-                    std::vector<double>& v) const {
+                    std::vector<double>& v, Reals rigid_velocities) const {
   bool found = false;
   const State& start = way.start;
   const State& base = way.base;
+  const Past& past = way.past;
   const double move = way.move;
   const double seconds = way.end - start.time;
   const double share = (base.time - start.time) / seconds;
@@ -64,11 +81,12 @@ bool TurnAhead::lay(const Way& way, ConstReals given, State& at, std::vector<dou
     if (!found) {
       at = base;
       std::ranges::fill(ahead, 0.0);
+      std::ranges::fill(rigid_velocities, 0.0);
     }
     found = true;
-    Advance on = advance_of(twist, seconds, part.is_held);
-    on.way += seconds * by.velocity;
-    const Mat3 rotation = on.rotation.toRotationMatrix();
+    const Turning turning{twist, by.velocity, part.is_held};
+    const Advance on = turning.after(seconds);
+    const Advance back = turning.after(-past.since);
     // The guess goes on as the part deforms.
     const auto guess = [&](std::int32_t row, const Vec3& rest) {
       const std::uint8_t mask = masks[static_cast<std::size_t>(row)];
@@ -80,11 +98,16 @@ bool TurnAhead::lay(const Way& way, ConstReals given, State& at, std::vector<dou
     for (const std::int32_t node : part.nodes) {
       const Vec3 from = block(ConstReals(start.positions), node);
       const Vec3 arm = from - rigid.center();
-      const Vec3 to = from + share * (rotation * arm + on.way - arm);
+      const Vec3 to = from + share * on.move(arm);
       block(Reals(at.positions), node) = to;
       block(Reals(ahead), node) = (to - block(ConstReals(base.positions), node)) / move;
-      guess(node,
-            block(ConstReals(start.velocities), node) - by.velocity - twist.velocity - twist.spin.cross(arm));
+      if (!rigid_velocities.empty()) {
+        block(rigid_velocities, node) =
+            (share * on.move(arm) - past.velocity * turning.velocity(arm) -
+             past.acceleration * turning.acceleration(arm) + past.way * back.move(arm)) /
+            move;
+      }
+      guess(node, block(ConstReals(start.velocities), node) - turning.velocity(arm));
     }
     for (const std::int32_t number : part.frames) {
       const std::int32_t row = world_->frames()[static_cast<std::size_t>(number)].rotation;
@@ -92,6 +115,7 @@ bool TurnAhead::lay(const Way& way, ConstReals given, State& at, std::vector<dou
       at.rotations[frame] = (turn_by(share * seconds * twist.spin) * start.rotations[frame]).normalized();
       const Quaternion turn = at.rotations[frame] * base.rotations[frame].conjugate();
       block(Reals(ahead), row) = nearest_turn(turn, Vec3::Zero()) / move;
+      if (!rigid_velocities.empty()) block(rigid_velocities, row) = twist.spin;
       guess(row, block(ConstReals(start.velocities), row) - twist.spin);
     }
   }

@@ -22,6 +22,12 @@ class Bdf2 final : public Integrator {
   StepReport step(State& state, double h) override;
   void append_memory(std::vector<double>& memory) const override { history_.append_memory(memory); }
   void restore(ConstReals memory) override { history_.restore(memory); }
+  void before_edit() override { solver_.count_parts(); }
+  /// Parts that were one go on from their own velocities: with what they were before, one would push the
+  /// other.
+  void after_edit() override {
+    if (solver_.came_apart()) history_.forget();
+  }
   void copy_rows(std::span<const RowCopy> copies) override { history_.copy_rows(copies); }
   void blend_rows(std::span<const RowBlend> blends) override { history_.blend_rows(blends); }
 

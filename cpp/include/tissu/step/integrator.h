@@ -91,6 +91,9 @@ class Integrator {
   /// Follows an edit of its world in place, after which some rows of the pattern have other columns. False:
   /// it is to be prepared again.
   virtual bool follow_edit(std::span<const std::int32_t> /*rows*/) { return false; }
+  /// Around an edit. What a method keeps of forces before it does not act on what they no longer hold.
+  virtual void before_edit() {}
+  virtual void after_edit() {}
   /// Rows that an edit made take over what is kept of others.
   virtual void copy_rows(std::span<const RowCopy> /*copies*/) {}
   /// The same for rows between others.

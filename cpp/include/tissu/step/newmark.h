@@ -19,6 +19,8 @@ class Newmark final : public Integrator {
   [[nodiscard]] std::string_view name() const override { return "Newmark"; }
   [[nodiscard]] bool is_undamped() const override { return gamma_ == 0.5; }
   void prepare(const World& world, LinearSolver* solver, Profile& profile) override;
+  /// The acceleration is found anew, of the forces that are left.
+  void after_edit() override { end_.forget(); }
   bool follow_edit(std::span<const std::int32_t> rows) override {
     solver_.follow_edit(rows);
     return true;

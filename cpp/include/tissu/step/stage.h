@@ -24,6 +24,7 @@ struct Stage {
   double push = 0.0;
   double end = 0.0;
   ContactStage contact = {};
+  Past past = {};  ///< how `base` follows from the start of the step
 };
 
 /// What a method does to the energy of a world in which nothing adds any: in each step it falls, or it may
@@ -38,6 +39,10 @@ class StageSolver {
   void prepare(const World& world, LinearSolver* solver, Profile& profile);
   /// Follows an edit of the world in place.
   void follow_edit(std::span<const std::int32_t> rows);
+  /// Before an edit: what is connected.
+  void count_parts();
+  /// After it: more is apart than was, or it may be.
+  [[nodiscard]] bool came_apart();
   /// The stage, to be filled before `solve`.
   [[nodiscard]] Stage& stage() { return stage_; }
   [[nodiscard]] System& system() { return *system_; }
@@ -137,7 +142,8 @@ class StageSolver {
   /// Parts that turn are linearised where they turn to, and v is a guess that leads there.
   void turn_ahead(std::vector<double>& v);
   /// What viscosity strains by in `state` of v: a way that only turns a part is a chord, and its velocity at
-  /// the end of the way would strain what turns. It is taken from v, and no rate of strain is left.
+  /// the end of the way would strain what turns. The velocity that the method gives to such a way is taken
+  /// from v, and no rate of strain is left of it.
   void set_straining(ConstReals v, State& state) const;
   /// What became of v: nothing, it was corrected from `uncorrected_` by rigid motions, or it was iterated on.
   enum class Judged { kept, corrected, iterated };
@@ -234,9 +240,12 @@ class StageSolver {
   TurnAhead ahead_;
   State turned_;                 ///< the base, with parts that turn where they turn to
   std::vector<double> turn_to_;  ///< the velocities that lead there from the base
+  std::vector<double>
+      turning_by_;  ///< those of parts that turn as rigid bodies; empty where nothing is viscous
   bool turns_ = false;
-  bool is_viscous_ = false;   ///< something strains by velocities
-  bool knows_parts_ = false;  ///< balance_, rigid_ and ahead_ are those of the world as it is
+  bool is_viscous_ = false;     ///< something strains by velocities
+  std::size_t part_count_ = 0;  ///< before an edit
+  bool knows_parts_ = false;    ///< balance_, rigid_ and ahead_ are those of the world as it is
   PartBalance::Shares most_left_;
   EnergyLaw energy_;
   double reference_ = 0.0;  ///< push |external force|

@@ -8,6 +8,15 @@
 
 namespace tissu {
 
+/// How a method comes to the base of its equation from the start of the step,
+///   x + velocity x' + acceleration x'' + way (x - x(-since)).
+struct Past {
+  double velocity = 0.0;      ///< [s]
+  double acceleration = 0.0;  ///< [s2]
+  double way = 0.0;
+  double since = 0.0;  ///< [s]
+};
+
 /// What is linear in the displacements of a step strains a part that turns by an angle a, by a^2 / 2. So
 /// forces are linearised where the part stands if it goes on as a rigid body: its strains are those of the
 /// start of the step there, and what is left is of second order in what deforms it further or changes its
@@ -22,13 +31,15 @@ class TurnAhead {
     const State& base;
     double move;
     double end;
+    Past past;
   };
   /// Moves parts that turn on from the start: `at` is the base with these parts on their way, `ahead` the
   /// velocities that lead from the base to `at`, zero where nothing turns, and v the guess that leads to `at`
-  /// and on as the part deforms. `given` has the velocities of supports. False: nothing turns, and nothing
-  /// was written.
-  bool lay(const Way& way, ConstReals given, State& at, std::vector<double>& ahead,
-           std::vector<double>& v) const;
+  /// and on as the part deforms. `given` has the velocities of supports. `rigid` are the velocities that the
+  /// method gives to a part which goes on, and has come, as a rigid body; empty: they are not needed. False:
+  /// nothing turns, and nothing was written.
+  bool lay(const Way& way, ConstReals given, State& at, std::vector<double>& ahead, std::vector<double>& v,
+           Reals rigid) const;
 
  private:
   const World* world_ = nullptr;

@@ -20,7 +20,7 @@ Shape = Literal["rest", "point", "plane", "random", "inside_out"]
 
 
 class Start(Part):
-    """The state of a body at time zero; supports keep the places and rotations that they hold."""
+    """The state of a body at time zero; nodes of supports keep their places and motions."""
 
     velocity: MaybeVector[units.Velocity] = field(default=None)
     """velocity of all nodes [m/s]; absent: at rest"""

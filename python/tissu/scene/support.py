@@ -263,6 +263,35 @@ class Prescribed(Support):
         found = f"found node displacements of {counted(given, 'node')} for {len(nodes)} selected"
         return f"{found}; one for each of them is accepted"
 
+    def start_velocities(self, nodes: Ints, rest: Floats) -> tuple[Floats, Floats]:
+        """Velocities [m/s] (k, 3) of `nodes`, and their spin [rad/s] (3,), right after t = 0.
+
+        Args:
+            nodes: those that it leads, (k,).
+            rest: their rest positions [m] (k, 3).
+        """
+        after = int(np.searchsorted(self.times, 0.0, side="right"))
+        if after in (0, len(self.times)):  # before its first time and after its last, nothing moves
+            return np.zeros_like(rest), np.zeros(3)
+        before, length = after - 1, self.times[after] - self.times[after - 1]
+        velocities, spin = np.zeros_like(rest), np.zeros(3)
+        if (shared := self.displacements) is not None:
+            velocities += np.subtract(shared[after], shared[before]) / length
+        if self.node_displacements is not None:
+            own = np.subtract(self.node_displacements[after], self.node_displacements[before])
+            order = np.asarray(getattr(self.on, "ids", nodes), dtype=np.int32)
+            places = np.argsort(order)[np.searchsorted(np.sort(order), nodes)]
+            velocities += own[places] / length
+        if self.rotation is not None:
+            axis, angles = np.array(scaled(self.rotation.axis)), self.rotation.angles
+            spin = (angles[after] - angles[before]) / length * axis
+            angle = float(np.interp(0.0, self.times, angles))
+            arms = rest - np.array(self.rotation.center)
+            along = np.outer(arms @ axis, axis)
+            turned = along + np.cos(angle) * (arms - along) + np.sin(angle) * np.cross(axis, arms)
+            velocities += np.cross(spin, turned)
+        return velocities, spin
+
     def add_to(self, builder: WorldBuilder, nodes: Ints, *, frames: bool) -> None:
         """Lead the nodes of its body in the world; `frames`: they have a rotation."""
         moves = self.displacements

@@ -216,7 +216,7 @@ class Newmark(Implicit):
 
 
 class EnergyMomentum(Step):
-    """Energy-momentum method: second order, keeps energy and momenta exactly for any law."""
+    """Energy-momentum method: second order; without viscosity keeps energy and momenta."""
 
     type: Literal["energy_momentum"] = "energy_momentum"
     dt: units.Time = field(gt=0.0, kw_only=False)

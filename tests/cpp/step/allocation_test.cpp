@@ -115,12 +115,15 @@ INSTANTIATE_TEST_SUITE_P(
             "mean_dilatation_hexahedron", "neo_hooke", Split::none, 1, 1, false, {}, "mean-dilatation"}),
     testing::PrintToStringParamName());
 
-/// Steps of a bar that is held, pulled by a load, by that method. The first two take what they need.
-void expect_no_allocation(Integrator& method) {
+/// Steps of a bar that is held, pulled by a load, by that method, maybe beside another. The first two take
+/// what they need.
+void expect_no_allocation(Integrator& method, bool beside = false) {
 #ifdef TISSU_COUNTS_ALLOCATIONS
   const Mesh mesh = box_mesh(Vec3::Zero(), Vec3(2, 1, 1), {8, 5, 5}, Split::none);
   WorldDescription description;
   description.bodies = {test::body_of(mesh, {.law = "stvk", .young = 100.0})};
+  if (beside) description.bodies.push_back(test::body_of(mesh, {.law = "neo_hooke", .young = 50.0}, "other"));
+  description.links = beside;
   description.gravity = Vec3(0, 0, -1);
   description.fixed = {test::fixed(test::nodes_at(mesh, 0, 0.0))};
   description.loads = {{"hand", "body", {3}, {0.1, 0.0, 0.0}, {{0.0, 1.0}, {0.0, 1.0}}}};
@@ -152,6 +155,11 @@ void expect_no_allocation(Integrator& method) {
 TEST(AllocationOfMethods, EnergyMomentumTakesNone) {
   EnergyMomentum method({20, 1e-7});
   expect_no_allocation(method);
+}
+
+TEST(AllocationOfMethods, EnergyMomentumOfTwoBodiesTakesNone) {
+  EnergyMomentum method({20, 1e-7});
+  expect_no_allocation(method, true);
 }
 
 TEST(AllocationOfMethods, AStaticStepTakesNone) {

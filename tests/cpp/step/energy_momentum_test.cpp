@@ -190,6 +190,31 @@ TEST(EnergyMomentum, KeepsTheEnergyOfLinks) {
   EXPECT_NEAR(simulation.energy().total() / energy, 1.0, 1e-7);
 }
 
+// Two bodies, each with its own correction, and links soft and stiff between them, which need none.
+TEST(EnergyMomentum, KeepsTheEnergyOfLinkedBodies) {
+  const Mesh mesh = test::distorted_box({3, 2, 2}, Split::none, 0.1);
+  Mesh beside = mesh;
+  for (std::size_t i = 0; i < beside.positions.size(); i += 3) beside.positions[i] += 1.5;
+  for (const double stiffness : {5.0, 5000.0}) {
+    WorldDescription world;
+    const test::Material material{.law = "stvk", .young = 100.0, .poisson = 0.3, .density = 1.0};
+    world.bodies = {test::body_of(mesh, material, "one"), test::body_of(beside, material, "other")};
+    world.links = true;
+    Simulation simulation =
+        test::simulate(std::move(world), std::make_unique<EnergyMomentum>(), std::make_unique<Cholesky>());
+    test::links(simulation).add({0}, {2 * mesh.node_count() - 1}, stiffness);
+    for (std::int32_t i = 0; i < mesh.node_count(); ++i)
+      block(Reals(simulation.state().velocities), i).x() = 0.5 * mesh.node(i).y();
+    const double energy = simulation.energy().total();
+    const Vec3 linear = momentum(simulation);
+    for (int i = 0; i < 100; ++i) ASSERT_TRUE(simulation.step(0.005).converged) << i;
+    EXPECT_GT(simulation.energy().kinetic, 1e-3 * energy);
+    EXPECT_NEAR(simulation.energy().total() / energy, 1.0, 1e-7) << stiffness;
+    const double size = std::sqrt(2.0 * energy * simulation.world().mass().total());
+    EXPECT_LT((momentum(simulation) - linear).norm(), 1e-7 * size) << stiffness;
+  }
+}
+
 double error_of(double h) {
   const auto positions = [](std::unique_ptr<Integrator> integrator, double step) {
     Simulation simulation = tumbling("stvk", std::move(integrator));

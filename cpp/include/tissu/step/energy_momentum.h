@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "tissu/contact/implicit_contact.h"
+#include "tissu/step/discrete_gradient.h"
 #include "tissu/step/integrator.h"
-#include "tissu/step/momentum_free.h"
 #include "tissu/step/system.h"
 
 namespace tissu {
@@ -13,10 +13,9 @@ namespace tissu {
 /// The energy-momentum method with Gonzalez's discrete gradient (Time integration and discrete Hamiltonian
 /// systems, J. Nonlinear Sci. 6, 1996): the implicit midpoint rule with a force whose work over the step is
 /// the change of the stored energy,
-///   M (v1 - v0) = h (f(x) + a M d),  x1 - x0 = h (v0 + v1) / 2,  x = (x0 + x1) / 2,
-///   a = -(W(x1) - W(x0) + f_W(x) . (x1 - x0)) / (d . M d).
-/// d is x1 - x0 without its rigid motion in each free body (MomentumFree), so that the correction has no
-/// resultant: energy, linear and angular momentum are kept to Newton's tolerance for any step and any law. Of
+///   M (v1 - v0) = h (f(x) + a M d),  x1 - x0 = h (v0 + v1) / 2,  x = (x0 + x1) / 2.
+/// Each connected part has its own correction a M d, which has no resultant on a free one (DiscreteGradient):
+/// energy, linear and angular momentum of each are kept to Newton's tolerance for any step and any law. Of
 /// second order; the correction is of second order too.
 ///
 /// Contacts act as in implicit Euler: their impulse moves the end as a whole, and they take energy.
@@ -39,10 +38,6 @@ class EnergyMomentum final : public Integrator {
   /// The residual that rounding may leave.
   [[nodiscard]] double round_off(double h) const;
   bool is_at_round_off(double now, double floor);
-  void find_round_off();
-  /// W of the elastic models, and their force without velocities.
-  double stored(const State& state);
-  void elastic_force(const State& state, std::vector<double>& f);
   /// The change of mean_, by the midpoint rule's matrix and the slope of a.
   bool find_change(double h, StepReport& report);
 
@@ -60,18 +55,13 @@ class EnergyMomentum final : public Integrator {
 
   NewtonSettings newton_;
   std::unique_ptr<System> system_;
-  MomentumFree momentum_free_;
+  DiscreteGradient gradient_;
   State start_;
   State middle_;
   State end_;
   std::vector<State> halves_;                 ///< of steps that are taken in halves
-  double factor_ = 0.0;                       ///< a
   double acting_ = 0.0;                       ///< what the residual is judged by
   double external_ = 0.0;                     ///< h / 2 times the external force
-  double square_ = 0.0;                       ///< d . M d
-  double energy_round_off_ = 0.0;             ///< of the stored energy at rest
-  double force_round_off_ = 0.0;              ///< of the elastic force there
-  double energy_floor_ = 0.0;                 ///< below it, what the correction would give back is round-off
   std::unique_ptr<ImplicitContact> contact_;  ///< null where nothing touches
   std::unique_ptr<EndImpulses> impulses_;
   Profile* profile_ = nullptr;
@@ -80,8 +70,7 @@ class EnergyMomentum final : public Integrator {
   std::size_t response_row_ = 0;
   std::vector<double> blocks_;  ///< diagonal of the matrix without contact
   std::vector<double> placed_;  ///< at the end, before ways were cut
-  std::vector<double> mean_, given_, right_, change_, way_, free_way_, push_, elastic_, slope_, answer_,
-      work_;
+  std::vector<double> mean_, given_, right_, change_, way_, answer_, work_;
 };
 
 }  // namespace tissu

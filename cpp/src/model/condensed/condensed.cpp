@@ -110,6 +110,19 @@ double Condensed::energy(const State& state, Scratch& /*scratch*/) const {
   return 0.5 * (u.dot(region_->stiffness() * u) + l * l * region_->sag()) + potential(state);
 }
 
+/// S couples no nodes of different parts; what no displacement changes is left out.
+void Condensed::add_part_energies(const State& state, Scratch& /*scratch*/,
+                                  std::span<const std::int32_t> part_of, Reals energies) const {
+  const std::vector<std::int32_t>& kept = region_->kept();
+  const Eigen::VectorXd u = displacements(state);
+  const Eigen::VectorXd f = 0.5 * (region_->stiffness() * u) - state.load_factor * region_->pull();
+  for (std::size_t k = 0; k < kept.size(); ++k) {
+    const std::int32_t part = part_of[static_cast<std::size_t>(kept[k])];
+    const auto first = static_cast<Eigen::Index>(3 * k);
+    if (part >= 0) energies[static_cast<std::size_t>(part)] += u.segment<3>(first).dot(f.segment<3>(first));
+  }
+}
+
 double Condensed::potential(const State& state) const {
   const double l = state.load_factor;
   return -l * (displacements(state).dot(region_->pull()) + region_->pull_at_rest() + l * region_->sag());

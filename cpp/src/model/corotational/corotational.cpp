@@ -24,6 +24,12 @@ double Corotational::energy(const State& state, Scratch& scratch) const {
   return energy_by(loops(*forces_), state.positions, scratch);
 }
 
+void Corotational::add_part_energies(const State& state, Scratch& scratch,
+                                     std::span<const std::int32_t> part_of, Reals energies) const {
+  add_by_part(order_, energies_by(loops(*forces_), state.positions, scratch), block_.cells,
+              static_cast<std::size_t>(reference_.nodes), part_of, energies);
+}
+
 CellFields Corotational::fields(const State& state) const {
   return fields_by(loops(*forces_), state.positions);
 }

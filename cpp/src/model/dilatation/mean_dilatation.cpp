@@ -107,6 +107,12 @@ double MeanDilatation::energy(const State& state, Scratch& scratch) const {
   return energy_by(loops(), state.positions, scratch);
 }
 
+void MeanDilatation::add_part_energies(const State& state, Scratch& scratch,
+                                       std::span<const std::int32_t> part_of, Reals energies) const {
+  add_by_part(order_, energies_by(loops(), state.positions, scratch), block_.cells,
+              static_cast<std::size_t>(reference_.nodes), part_of, energies);
+}
+
 CellFields MeanDilatation::fields(const State& state) const { return fields_by(loops(), state.positions); }
 
 std::size_t MeanDilatation::bytes() const {

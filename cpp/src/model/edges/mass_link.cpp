@@ -128,6 +128,12 @@ double MassLink::energy(const State& state, Scratch& scratch) const {
   return energy_by(loops(), state.positions, scratch);
 }
 
+void MassLink::add_part_energies(const State& state, Scratch& scratch, std::span<const std::int32_t> part_of,
+                                 Reals energies) const {
+  add_by_part(order_, energies_by(loops(), state.positions, scratch), block_.cells,
+              static_cast<std::size_t>(reference_.nodes), part_of, energies);
+}
+
 CellFields MassLink::fields(const State& state) const {
   CellFields fields = fields_by(loops(), state.positions);
   for (std::size_t e = 0; e < shape_.volumes.size(); ++e) {

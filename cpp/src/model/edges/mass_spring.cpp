@@ -143,6 +143,11 @@ double MassSpring::energy(const State& state, Scratch& scratch) const {
   return energy_by(loops(), state.positions, scratch);
 }
 
+void MassSpring::add_part_energies(const State& state, Scratch& scratch,
+                                   std::span<const std::int32_t> part_of, Reals energies) const {
+  add_by_part(springs_, energies_by(loops(), state.positions, scratch), ends_, 2, part_of, energies);
+}
+
 void MassSpring::add_masses(std::vector<double>& nodal) const {
   const bool equal_masses = options_or_defaults<MassSpringOptions>(block_.model).equal_masses;
   std::vector<char> used(nodal.size(), 0);

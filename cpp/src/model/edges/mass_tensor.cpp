@@ -166,6 +166,14 @@ double MassTensor::energy(const State& state, Scratch& scratch) const {
   return sum;
 }
 
+void MassTensor::add_part_energies(const State& state, Scratch& scratch,
+                                   std::span<const std::int32_t> part_of, Reals energies) const {
+  for (const Part& part : parts_) {
+    add_by_part(part.table.order, energies_by(loops(part), state.positions, scratch), part.table.nodes,
+                static_cast<std::size_t>(part.table.size), part_of, energies);
+  }
+}
+
 /// F from the positions: the constants do not hold it.
 CellFields MassTensor::fields(const State& state) const {
   return cell_means(elastic_points(block_, {X_, state, isa_}));

@@ -38,6 +38,12 @@ double Elastic::energy(const State& state, Scratch& scratch) const {
   return energy_by(loops(), state.positions, scratch);
 }
 
+void Elastic::add_part_energies(const State& state, Scratch& scratch, std::span<const std::int32_t> part_of,
+                                Reals energies) const {
+  add_by_part(order_, energies_by(loops(), state.positions, scratch), block_.cells,
+              static_cast<std::size_t>(reference_.nodes), part_of, energies);
+}
+
 void Elastic::add_energies(const Chunk& chunk, ConstReals x, Reals lanes) const {
   const auto with = loops();
   with.kernels.energy(with.view, chunk, x.data(), lanes.data());

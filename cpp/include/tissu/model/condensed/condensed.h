@@ -12,10 +12,11 @@
 
 #include "tissu/model/condensed/condensed_region.h"
 #include "tissu/model/model_info.h"
+#include "tissu/model/part_energies.h"
 
 namespace tissu {
 
-class Condensed final : public BodyModel {
+class Condensed final : public BodyModel, public PartEnergies {
  public:
   static ModelInfo info();
   /// `CondensedOptions::kept` holds the nodes that are kept; the others must belong to no other block, be
@@ -32,6 +33,8 @@ class Condensed final : public BodyModel {
   void add_product(const State& state, Scratch& scratch, StiffnessScale scale, ConstReals p,
                    Reals out) const override;
   [[nodiscard]] double energy(const State& state, Scratch& scratch) const override;
+  void add_part_energies(const State& state, Scratch& scratch, std::span<const std::int32_t> part_of,
+                         Reals energies) const override;
   /// Of the weight of all nodes, less that of the kept ones' masses, which the world's gravity has.
   [[nodiscard]] double potential(const State& state) const override;
 

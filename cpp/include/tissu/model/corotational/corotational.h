@@ -19,10 +19,11 @@
 #include "tissu/model/cell_model.h"
 #include "tissu/model/corotational/corotational_kernels.h"
 #include "tissu/model/model_info.h"
+#include "tissu/model/part_energies.h"
 
 namespace tissu {
 
-class Corotational final : public CellModel {
+class Corotational final : public CellModel, public PartEnergies {
  public:
   static ModelInfo info();
   /// Refuses elements, laws, quadratures, rotations and tangents that it does not have, parameters out of
@@ -37,6 +38,8 @@ class Corotational final : public CellModel {
   void add_product(const State& state, Scratch& scratch, StiffnessScale scale, ConstReals p,
                    Reals out) const override;
   [[nodiscard]] double energy(const State& state, Scratch& scratch) const override;
+  void add_part_energies(const State& state, Scratch& scratch, std::span<const std::int32_t> part_of,
+                         Reals energies) const override;
 
   [[nodiscard]] CellFields fields(const State& state) const override;
   [[nodiscard]] PointFields point_fields(const PointQuery& query) const override;

@@ -20,10 +20,11 @@
 #include "tissu/model/cell_model.h"
 #include "tissu/model/dilatation/mean_dilatation_kernels.h"
 #include "tissu/model/model_info.h"
+#include "tissu/model/part_energies.h"
 
 namespace tissu {
 
-class MeanDilatation final : public CellModel {
+class MeanDilatation final : public CellModel, public PartEnergies {
  public:
   static ModelInfo info();
   /// Refuses unknown names, parameters out of range and cells that are inverted or have no volume.
@@ -39,6 +40,8 @@ class MeanDilatation final : public CellModel {
   void add_product(const State& state, Scratch& scratch, StiffnessScale scale, ConstReals p,
                    Reals out) const override;
   [[nodiscard]] double energy(const State& state, Scratch& scratch) const override;
+  void add_part_energies(const State& state, Scratch& scratch, std::span<const std::int32_t> part_of,
+                         Reals energies) const override;
 
   /// Von Mises of the stress that is in balance; det F of the cell itself, not of its patch.
   [[nodiscard]] CellFields fields(const State& state) const override;

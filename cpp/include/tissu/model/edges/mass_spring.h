@@ -15,10 +15,11 @@
 #include "tissu/model/cell_model.h"
 #include "tissu/model/edges/spring_kernels.h"
 #include "tissu/model/model_info.h"
+#include "tissu/model/part_energies.h"
 
 namespace tissu {
 
-class MassSpring final : public CellModel, public DampedSprings {
+class MassSpring final : public CellModel, public DampedSprings, public PartEnergies {
  public:
   static ModelInfo info();
   /// `MassSpringOptions::equal_masses`: the block's mass in equal parts on its nodes, whatever volume they
@@ -33,6 +34,8 @@ class MassSpring final : public CellModel, public DampedSprings {
   void add_product(const State& state, Scratch& scratch, StiffnessScale scale, ConstReals p,
                    Reals out) const override;
   [[nodiscard]] double energy(const State& state, Scratch& scratch) const override;
+  void add_part_energies(const State& state, Scratch& scratch, std::span<const std::int32_t> part_of,
+                         Reals energies) const override;
 
   void add_masses(std::vector<double>& nodal) const override;
   void add_weights(std::vector<double>& nodal) const override { add_masses(nodal); }

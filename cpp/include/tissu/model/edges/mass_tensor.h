@@ -20,10 +20,11 @@
 #include "tissu/model/edges/mass_tensor_kernels.h"
 #include "tissu/model/edges/tensor_table.h"
 #include "tissu/model/model_info.h"
+#include "tissu/model/part_energies.h"
 
 namespace tissu {
 
-class MassTensor final : public CellModel {
+class MassTensor final : public CellModel, public PartEnergies {
  public:
   static ModelInfo info();
   /// `block` has a law and an element of info(), as make_model sees to. Refuses parameters out of range and
@@ -41,6 +42,8 @@ class MassTensor final : public CellModel {
   void add_product(const State& state, Scratch& scratch, StiffnessScale scale, ConstReals p,
                    Reals out) const override;
   [[nodiscard]] double energy(const State& state, Scratch& scratch) const override;
+  void add_part_energies(const State& state, Scratch& scratch, std::span<const std::int32_t> part_of,
+                         Reals energies) const override;
 
   [[nodiscard]] CellFields fields(const State& state) const override;
   [[nodiscard]] PointFields point_fields(const PointQuery& query) const override;

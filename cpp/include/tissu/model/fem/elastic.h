@@ -7,10 +7,11 @@
 #include "tissu/cell/elastic_kernels.h"
 #include "tissu/model/cell_model.h"
 #include "tissu/model/model_info.h"
+#include "tissu/model/part_energies.h"
 
 namespace tissu {
 
-class Elastic final : public CellModel {
+class Elastic final : public CellModel, public PartEnergies {
  public:
   static ModelInfo info();
   /// Refuses unknown names, parameters out of range and cells that are inverted or have no volume.
@@ -24,6 +25,8 @@ class Elastic final : public CellModel {
   void add_product(const State& state, Scratch& scratch, StiffnessScale scale, ConstReals p,
                    Reals out) const override;
   [[nodiscard]] double energy(const State& state, Scratch& scratch) const override;
+  void add_part_energies(const State& state, Scratch& scratch, std::span<const std::int32_t> part_of,
+                         Reals energies) const override;
 
   [[nodiscard]] CellFields fields(const State& state) const override;
   [[nodiscard]] PointFields point_fields(const PointQuery& query) const override;

@@ -1,7 +1,9 @@
 /// A simulation whose world changes: edits, other worlds of the same unknowns, and the way back.
 
+#include <optional>
 #include <utility>
 
+#include "kept_momenta.h"
 #include "tissu/base/error.h"
 #include "tissu/edit/cut/material_mesh.h"
 #include "tissu/edit/remove_cells.h"
@@ -59,6 +61,7 @@ void Simulation::keep_velocities() {
   std::vector<double> kept = state_.velocities;
   world_->fixed().copy(held_, kept);
   held_ = std::move(kept);
+  integrator_->before_edit();
 }
 
 /// Rows that an edit made take over everything of others.
@@ -89,6 +92,7 @@ void Simulation::follow(const WorldEditor::Made& made) {
     integrator_->restore(memory);
   }
   take_over(made.born.copies, made.born.blends);
+  integrator_->after_edit();
   if (watch_) watch_.emplace();
   if (inverted_) inverted_.emplace(*world_);
 }
@@ -124,20 +128,24 @@ Simulation::Edited Simulation::make(std::string_view body, CutPlan plan) {
   return edited;
 }
 
-/// Momenta that moved nodes and other cells change are given back around these.
+/// Momenta that moved nodes and other cells change are given back around these, to each connected part its
+/// own.
 void Simulation::go_on_with(CutWorld made, std::string_view body, Edited& edited) {
   edited.before = totals(*world_, state_, body);
   edited.before.elastic = energy_of(*world_, state_, scratch_).elastic;  // branches of a Prony series too
+  std::optional<KeptMomenta> kept;
+  if (!made.around_moves.empty()) kept.emplace(*world_, state_, body);
   replace_world(std::move(made.world), made.born.copies, made.born.blends);
-  edited.after = totals(*world_, state_, body);
-  if (!made.around_moves.empty()) {
-    for (State* state : {&state_, &last_good_}) {
-      add_twist(*world_, made.around_moves, edited.before.momentum - edited.after.momentum,
-                edited.before.angular_momentum - edited.after.angular_momentum, state_.positions,
-                state->velocities);
+  integrator_->after_edit();
+  if (kept) {
+    for (const KeptMomenta::Lack& lack : kept->lacks(*world_, state_, made.born, made.around_moves)) {
+      for (State* state : {&state_, &last_good_}) {
+        add_twist(*world_, lack.rows, lack.momentum, lack.angular_momentum, state_.positions,
+                  state->velocities);
+      }
     }
-    edited.after = totals(*world_, state_, body);
   }
+  edited.after = totals(*world_, state_, body);
   edited.after.elastic = energy_of(*world_, state_, scratch_).elastic;
   edited.relaid = true;
 }
@@ -187,6 +195,7 @@ void Simulation::remove_cells(std::string_view body, std::span<const std::int32_
     }
   }
   replace_world(tissu::remove_cells(*world_, state_, body, cells));
+  integrator_->after_edit();
 }
 
 /// A world that edits changed in place is kept as what it is made of, and laid again when it is needed.

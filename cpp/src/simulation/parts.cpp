@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 
+#include "culprit.h"
 #include "tissu/base/error.h"
 #include "tissu/base/interruption.h"
 #include "tissu/base/number_text.h"
@@ -37,13 +38,18 @@ StepReport sum(const StepReport& first, const StepReport& then) {
 
 int enough_halvings(const World& world) { return world.bodies().empty() ? kHalvingsRigid : kHalvings; }
 
-[[noreturn]] void refuse_part(double time, double h, bool touches, const Error& error) {
-  throw Diverged("the step from t = " + number_text(time) + " s diverged" +
-                     (touches ? " where surfaces meet" : "") + ", also in parts of " + number_text(h) +
-                     " s: " + error.what() +
-                     " The simulation stands at its last good step; take a smaller dt, a stable law, or " +
-                     (touches ? "let things meet more slowly." : "load more slowly."),
-                 "", -1, time);
+[[noreturn]] void refuse_part(double time, double h, bool touches, bool is_explicit, const Culprit& culprit,
+                              const Error& error) {
+  std::string message = "the step from t = " + number_text(time) + " s diverged" +
+                        (touches ? " where surfaces meet" : "") + ", also in parts of " + number_text(h) +
+                        " s: " + error.what();
+  if (culprit.element >= 0) message += " Please " + look_at(culprit) + ".";
+  message += " The simulation stands at its last good step; take ";
+  message +=
+      is_explicit ? "an implicit method, a smaller share of the stable step as dt, " : "a smaller dt, ";
+  message += "a stable law, or ";
+  message += touches ? "let things meet more slowly." : "load more slowly.";
+  throw Diverged(message, culprit.body, culprit.element, time);
 }
 
 void say_held_back(StepReport& report) {
@@ -125,7 +131,10 @@ StepReport Simulation::step_in_parts(double h, int halvings) {
     if (last) throw;
     report.reset();
   } catch (const Error& error) {  // of values that are not finite, wherever they were met first
-    if (last) refuse_part(start.state.time, h, world_->contact() != nullptr, error);
+    if (last) {
+      const Culprit culprit = culprit_of(*world_, start.state, farthest() / h);
+      refuse_part(start.state.time, h, world_->contact() != nullptr, solver_ == nullptr, culprit, error);
+    }
     report.reset();
   }
   const bool finite = report && std::isfinite(report->residual) && is_sane();

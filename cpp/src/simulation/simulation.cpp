@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "culprit.h"
 #include "tissu/base/error.h"
 #include "tissu/base/interruption.h"
 #include "tissu/base/number_text.h"
@@ -15,61 +16,6 @@ namespace tissu {
 namespace {
 
 constexpr double kTooFar = 1e3;  ///< sizes of the scene
-
-/// A cell to blame for a divergence.
-struct Culprit {
-  std::string body;
-  std::int32_t element = -1;
-  std::string why;
-};
-
-std::int32_t number_of(const BodyModel& model, std::int32_t first, std::size_t cell) {
-  const auto& numbers = model.block().cell_numbers;
-  return numbers.empty() ? first + static_cast<std::int32_t>(cell) : numbers[cell];
-}
-
-/// Calls f(body, block, number of its first cell) for each block of its model.
-template <class Function>
-void for_blocks(const World& world, Function&& f) {
-  for (const Body& body : world.bodies()) {
-    std::int32_t first = 0;
-    for (const BodyModel* model : body.models) {
-      f(body, *model, first);
-      first += model->cell_count();
-    }
-  }
-}
-
-/// The first cell that has the node.
-Culprit cell_of_node(const World& world, std::int32_t node) {
-  Culprit found;
-  for_blocks(world, [&](const Body& body, const BodyModel& model, std::int32_t first) {
-    if (found.element >= 0) return;
-    const auto& cells = model.block().cells;
-    const auto at = std::ranges::find(cells, node);
-    if (at == cells.end()) return;
-    const auto cell =
-        static_cast<std::size_t>(at - cells.begin()) / static_cast<std::size_t>(model.nodes_per_cell());
-    found = {body.name, number_of(model, first, cell),
-             "node " + std::to_string(node - body.first_node) + " of it was not finite or too fast"};
-  });
-  return found;
-}
-
-/// The cell that is squeezed or turned over most.
-Culprit worst_cell(const World& world, const State& state) {
-  Culprit worst;
-  double smallest = std::numeric_limits<double>::infinity();
-  for_blocks(world, [&](const Body& body, const BodyModel& model, std::int32_t first) {
-    const CellFields fields = model.fields(state);
-    for (std::size_t e = 0; e < fields.volume_ratio.size(); ++e) {
-      if (!(fields.volume_ratio[e] < smallest)) continue;  // not a number either
-      smallest = fields.volume_ratio[e];
-      worst = {body.name, number_of(model, first, e), "its volume ratio was " + number_text(smallest)};
-    }
-  });
-  return worst;
-}
 
 /// Whether energy can only be kept or lost, where a method, contacts or damping could add some.
 bool is_watched(const World& world, const Integrator& integrator, bool solves) {
@@ -252,23 +198,14 @@ bool Simulation::is_sane() const {
 
 void Simulation::roll_back(double h) {
   state_ = last_good_;
-  const double limit = farthest() / h;
-  Culprit culprit;
-  for (std::int32_t node = 0; node < state_.blocks() && culprit.element < 0; ++node) {
-    const bool sane = block(ConstReals(state_.positions), node).allFinite() &&
-                      block(ConstReals(state_.velocities), node).cwiseAbs().maxCoeff() < limit;
-    if (!sane) culprit = cell_of_node(*world_, node);
-  }
-  if (culprit.element < 0) culprit = worst_cell(*world_, state_);
+  const Culprit culprit = culprit_of(*world_, state_, farthest() / h);
   std::string message = "the step from t = " + number_text(state_.time) + " s with dt = " + number_text(h) +
                         " s gave values that are not finite or fly out of the scene";
-  if (culprit.element >= 0) {
-    message += "; look at cell " + std::to_string(culprit.element) + " of body \"" + culprit.body +
-               "\": before the step " + culprit.why;
-  }
-  message +=
-      ". The simulation stands at its last good step; take a smaller dt, iterate Newton, or load more "
-      "slowly.";
+  if (culprit.element >= 0) message += "; " + look_at(culprit);
+  message += ". The simulation stands at its last good step; take ";
+  message += solver_ != nullptr ? "a smaller dt, iterate Newton, or load more slowly."
+                                : "an implicit method, a smaller share of the stable step as dt, or load "
+                                  "more slowly.";
   throw Diverged(message, culprit.body, culprit.element, state_.time);
 }
 

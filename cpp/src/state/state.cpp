@@ -2,8 +2,9 @@
 
 #include <Eigen/LU>
 #include <cmath>
-#include <limits>
 #include <numbers>
+
+#include "tissu/state/free_turn.h"
 
 namespace tissu {
 
@@ -42,37 +43,6 @@ Vec3 nearest_turn(const Quaternion& q, const Vec3& expected) {
   return (angle + 2.0 * std::numbers::pi * turns) * axis;
 }
 
-namespace {
-
-constexpr int kMiddles = 12;
-constexpr double kSameSpin = 1e-14;
-constexpr double kNearSpin = 1e-9;  ///< what may be left of the change after kMiddles
-constexpr double kMostTurn = 0.5;   ///< of one turn by the midpoint rule [rad]
-constexpr int kMostHalvings = 16;
-
-/// The rotation after a free turn: the midpoint rule, by iteration, in halves where a turn is long or the
-/// iteration does not settle, as for slender bodies.
-Quaternion free_turn(const Frame& frame, const Quaternion& rotation, const Vec3& omega, double h,
-                     int halvings) {
-  const Vec3 momentum = spatial_inertia(frame, rotation) * omega;
-  Vec3 w = omega;
-  double change = std::numeric_limits<double>::infinity();
-  bool fits = halvings == kMostHalvings || h * omega.norm() <= kMostTurn;
-  for (int i = 0; i < kMiddles && fits && change > kSameSpin * kSameSpin * w.squaredNorm(); ++i) {
-    const Vec3 next = spatial_inertia(frame, turn_by(0.5 * h * w) * rotation).inverse() * momentum;
-    change = (next - w).squaredNorm();
-    w = next;
-    fits = halvings == kMostHalvings || h * w.norm() <= 2.0 * kMostTurn;
-  }
-  if (halvings == kMostHalvings || (fits && change <= kNearSpin * kNearSpin * w.squaredNorm()))
-    return (turn_by(h * w) * rotation).normalized();
-  const Quaternion middle = free_turn(frame, rotation, omega, 0.5 * h, halvings + 1);
-  const Vec3 then = spatial_inertia(frame, middle).inverse() * momentum;
-  return free_turn(frame, middle, then, 0.5 * h, halvings + 1);
-}
-
-}  // namespace
-
 void move(const State& from, const std::vector<Frame>& frames, ConstReals v, double h, State& to) {
   for (std::size_t i = 0; i < from.positions.size(); ++i) to.positions[i] = from.positions[i] + h * v[i];
   for (std::size_t k = 0; k < frames.size(); ++k) {
@@ -83,7 +53,7 @@ void move(const State& from, const std::vector<Frame>& frames, ConstReals v, dou
       to.rotations[k] = from.rotations[k];  // to the bit, in however many parts
       continue;
     }
-    to.rotations[k] = frames[k].alone ? free_turn(frames[k], from.rotations[k], omega, h, 0)
+    to.rotations[k] = frames[k].alone ? free_turn(frames[k], from.rotations[k], omega, h)
                                       : (turn_by(h * omega) * from.rotations[k]).normalized();
   }
 }

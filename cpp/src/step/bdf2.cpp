@@ -41,6 +41,7 @@ StepReport Bdf2::step(State& state, double h) {
   solver_.solve(state, v_, report);
   const bool struck = solver_.struck();
   if (struck && history_.goes_on()) solve_anew(state, h, report);
+  history_.keep_momenta(solver_, state);
   keep_angular_momentum(solver_.stage().base, solver_.world().frames(), state);
   history_.keep(start_, h, state);
   if (struck) history_.forget();

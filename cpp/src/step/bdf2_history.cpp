@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "tissu/state/free_turn.h"
+
 namespace tissu {
 namespace {
 
@@ -30,6 +32,7 @@ void Bdf2History::begin(const State& start, double h, StageSolver& solver) {
     const double r = h / step_;
     const double share = r * r / (1.0 + 2.0 * r);
     stage.move = stage.push = h * (1.0 + r) / (1.0 + 2.0 * r);
+    stage.past = {.way = share, .since = step_};
     for (std::size_t i = 0; i < way_.size(); ++i) way_[i] = start.positions[i] - before_.positions[i];
     for (std::size_t k = 0; k < frames.size(); ++k) {
       const Eigen::AngleAxisd turn(start.rotations[k] * before_.rotations[k].conjugate());
@@ -44,8 +47,32 @@ void Bdf2History::begin(const State& start, double h, StageSolver& solver) {
     for (std::size_t i = 0; i < way_.size(); ++i) {
       stage.base.velocities[i] += share * (stage.base.velocities[i] - extrapolated_.velocities[i]);
     }
+    turn_inertia(solver.world(), stage);
   }
   solver.lead(start, start.time + h, h, 1.0);
+}
+
+/// A frame turns with the inertia that it has at the end, as far as the momentum leads there that it has
+/// without the forces of the step: with the one of the base, slender frames that tumble would gain energy.
+void Bdf2History::turn_inertia(const World& world, Stage& stage) {
+  const std::vector<Frame>& frames = world.frames();
+  shifts_.assign(frames.size(), Vec3::Zero());
+  for (std::size_t k = 0; k < frames.size(); ++k) {
+    const Frame& frame = frames[k];
+    const bool held = world.fixed().masks()[static_cast<std::size_t>(frame.rotation)] != 0;
+    if (frame.alone || held || frame.inertia(0, 0) == 0.0) continue;
+    auto omega = block(Reals(stage.base.velocities), frame.rotation);
+    const Vec3 w = spin_at_end(frame, stage.base.rotations[k], omega, stage.move);
+    shifts_[k] = omega - w;
+    omega = w;
+  }
+}
+
+void Bdf2History::keep_momenta(const StageSolver& solver, State& state) const {
+  const std::vector<Frame>& frames = solver.world().frames();
+  for (std::size_t k = 0; goes_on_ && k < frames.size(); ++k) {
+    if (!shifts_[k].isZero(0.0)) block(Reals(state.velocities), frames[k].rotation) += shifts_[k];
+  }
 }
 
 void Bdf2History::keep(const State& start, double h, const State& end) {

@@ -4,6 +4,7 @@
 
 #include "tissu/base/error.h"
 #include "tissu/base/number_text.h"
+#include "tissu/state/free_turn.h"
 
 namespace tissu {
 namespace {
@@ -21,10 +22,13 @@ void ExplicitMethod::prepare(const World& world, LinearSolver* /*solver*/, Profi
   if (world.contact() != nullptr) prepare_touching(world, profile);
 }
 
-double ExplicitMethod::stable_step(const State& state) { return stable_.limit(amplification(), state); }
+double ExplicitMethod::stable_step(const State& state) {
+  stable_.limit(amplification(), state);
+  return stable_.lasting();
+}
 
 StepReport ExplicitMethod::step(State& state, double h) {
-  const double limit = stable_step(state);
+  const double limit = stable_.limit(amplification(), state);
   if (h > limit * (1.0 + kSame)) {
     const Amplification method = amplification();
     std::string message = "the step is " + number_text(h) + " s at t = " + number_text(state.time) + " s; " +
@@ -33,7 +37,8 @@ StepReport ExplicitMethod::step(State& state, double h) {
                           " s)";
     if (method.growth > 0.0)
       message += ", counting as stable what takes a hundred seconds to grow by a factor e";
-    throw ParameterError(message + "; take dt: auto, a smaller dt, or an implicit method.");
+    throw ParameterError(message +
+                         (is_part_ ? "." : "; take dt: auto, a smaller dt, or an implicit method."));
   }
   StepReport report;
   start_ = state;
@@ -46,7 +51,7 @@ StepReport ExplicitMethod::step(State& state, double h) {
     report.held_back = held_back_;
     report.least_gap = contact_->least_gap();
   }
-  keep_angular_momentum(start_, world().frames(), state);
+  carry_angular_momentum(start_, world().frames(), state);
   report.time = state.time;
   report.converged = true;
   if (contact_ != nullptr) tell_depth(report);
@@ -65,7 +70,15 @@ void ExplicitMethod::go(ConstReals way, double pushed, double h, State& state) {
     touch(way, pushed, h, state);
     return;
   }
-  move(start_, world().frames(), way, h, state);
+  place(way, h, state);
+}
+
+void ExplicitMethod::place(ConstReals way, double h, State& state) {
+  if (turns_freely()) {
+    move_freely(start_, world().frames(), world().fixed().masks(), way, h, state);
+  } else {
+    move(start_, world().frames(), way, h, state);
+  }
   lead(state, h);
 }
 

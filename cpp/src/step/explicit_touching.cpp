@@ -4,6 +4,7 @@
 
 #include "tissu/base/error.h"
 #include "tissu/base/number_text.h"
+#include "tissu/state/free_turn.h"
 #include "tissu/step/explicit_method.h"
 
 namespace tissu {
@@ -91,11 +92,6 @@ void ExplicitMethod::strike(double pushed, double h, State& state) {
   for (std::size_t i = 0; i < way_.size(); ++i) state.velocities[i] = free_ends_[i] + change_[i];
 }
 
-void ExplicitMethod::place(ConstReals way, double h, State& state) {
-  move(start_, world().frames(), way, h, state);
-  lead(state, h);
-}
-
 /// Rows whose way was cut have the velocity of the way that they went.
 int ExplicitMethod::hold_back(double h, State& state) {
   const Timed timed(*profile_, travel_row_);
@@ -112,7 +108,10 @@ int ExplicitMethod::hold_back(double h, State& state) {
   for (std::size_t k = 0; k < frames.size(); ++k) {
     if (placed_rotations_[k].coeffs() == state.rotations[k].coeffs()) continue;
     const Quaternion turn = state.rotations[k] * start_.rotations[k].conjugate();
-    block(Reals(state.velocities), frames[k].rotation) = nearest_turn(turn, Vec3::Zero()) / h;
+    const Vec3 way = nearest_turn(turn, Vec3::Zero());
+    const bool free = turns_freely() && !frames[k].alone;
+    block(Reals(state.velocities), frames[k].rotation) =
+        free ? spin_of_free_turn(frames[k], start_.rotations[k], way, h) : Vec3(way / h);
   }
   contact_->keep_momentum(world().mass(), world().fixed(), change_, state.velocities);
   return rows;

@@ -11,8 +11,10 @@
 namespace tissu {
 namespace {
 
-constexpr double kLookEvery = 8.0;  ///< steps
-constexpr double kDeformed = 0.02;  ///< share of an edge's length
+constexpr double kLookEvery = 8.0;   ///< steps
+constexpr double kLasting = 1000.0;  ///< steps: more than a body of a hundred cells takes for a vibration
+constexpr double kDeformed = 0.02;   ///< share of an edge's length
+constexpr std::size_t kNumbers = 7;  ///< of the memory, before the lengths
 constexpr double kRoundOff = 1e-12;
 constexpr int kHalvings = 60;
 constexpr int kMostLooks = 8;       ///< for the shape that limits the step by stiffness and damping together
@@ -148,12 +150,23 @@ double StableStep::limit(const Amplification& method, const State& state) {
   age_ += 1.0;
   if (limit_ == 0.0) {
     measure(method, state);
+    steps_ = 0.0;
+    least_ = least_before_ = limit_;
   } else if (age_ >= kLookEvery) {
     age_ = 0.0;
     if (has_deformed(state)) measure(method, state);
   }
+  steps_ += 1.0;
+  if (steps_ > kLasting) {
+    steps_ = 0.0;
+    least_before_ = least_;
+    least_ = limit_;
+  }
+  least_ = std::min(least_, limit_);
   return limit_;
 }
+
+double StableStep::lasting() const { return std::isnan(limit_) ? limit_ : std::min(least_, least_before_); }
 
 bool StableStep::has_deformed(const State& state) const {
   const ConstReals x(state.positions);
@@ -269,19 +282,22 @@ double StableStep::bearable(const Amplification& method, Vibration vibration) co
 }
 
 void StableStep::append_memory(std::vector<double>& memory) const {
-  memory.insert(memory.end(), {limit_, age_, time_, coupled_});
+  memory.insert(memory.end(), {limit_, age_, time_, coupled_, steps_, least_, least_before_});
   memory.insert(memory.end(), lengths_.begin(), lengths_.end());
 }
 
 void StableStep::restore(ConstReals memory) {
   limit_ = 0.0;
   // Cells were removed since: what was measured is not of this world.
-  if (memory.size() != lengths_.size() + 4) return;
+  if (memory.size() != lengths_.size() + kNumbers) return;
   limit_ = memory[0];
   age_ = memory[1];
   time_ = memory[2];
   coupled_ = memory[3];
-  std::ranges::copy(memory.subspan(4), lengths_.begin());
+  steps_ = memory[4];
+  least_ = memory[5];
+  least_before_ = memory[6];
+  std::ranges::copy(memory.subspan(kNumbers), lengths_.begin());
 }
 
 }  // namespace tissu

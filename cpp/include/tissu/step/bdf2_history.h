@@ -16,6 +16,8 @@ class Bdf2History {
   void begin(const State& start, double h, StageSolver& solver);
   /// The latest stage goes on from the state before the last one.
   [[nodiscard]] bool goes_on() const { return goes_on_; }
+  /// Angular velocities of the latest solution become those of its momenta in the rotations of the base.
+  void keep_momenta(const StageSolver& solver, State& state) const;
   /// The next stage is one of backward Euler.
   void forget() { end_.forget(); }
   /// The step of h from `start` led to `end`.
@@ -27,11 +29,15 @@ class Bdf2History {
   void blend_rows(std::span<const RowBlend> blends);
 
  private:
+  void turn_inertia(const World& world, Stage& stage);
+
   State before_;
   double step_ = 0.0;
   bool goes_on_ = false;
   StateMark end_;
   std::vector<double> way_;
+  std::vector<Vec3>
+      shifts_;          ///< of frames: angular velocities of the base with its inertia, less those given
   State extrapolated_;  ///< the state before, in the rotations of the base
 };
 

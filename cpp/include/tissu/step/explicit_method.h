@@ -17,6 +17,7 @@ class ExplicitMethod : public Integrator {
   /// Refuses a step above the stable one.
   StepReport step(State& state, double h) final;
   double stable_step(const State& state) override;
+  void take_part(bool /*early*/, double share) override { is_part_ = share < 1.0; }
   void append_memory(std::vector<double>& memory) const override { stable_.append_memory(memory); }
   void restore(ConstReals memory) override { stable_.restore(memory); }
 
@@ -25,6 +26,9 @@ class ExplicitMethod : public Integrator {
   [[nodiscard]] virtual Amplification amplification() const = 0;
   /// Its steps look at states beyond their start, where impulses have not acted.
   [[nodiscard]] virtual bool has_stages() const { return false; }
+  /// The way of a step has the angular velocities of angular momenta that stay on it (`move_freely`); else
+  /// frames go by the vectors that turn them.
+  [[nodiscard]] virtual bool turns_freely() const { return true; }
   /// Moves `state`, which is start(), by h.
   virtual void advance(State& state, double h) = 0;
 
@@ -69,7 +73,8 @@ class ExplicitMethod : public Integrator {
   std::vector<double> placed_;  ///< before ways were cut
   std::vector<Quaternion> placed_rotations_;
   int held_back_ = 0;
-  bool looked_ = false;  ///< in this step
+  bool looked_ = false;   ///< in this step
+  bool is_part_ = false;  ///< of a step that was divided
 };
 
 }  // namespace tissu

@@ -35,6 +35,10 @@ class StableStep {
   /// The limit at `state`: measured again when it is not known, when something is coupled that was not, or,
   /// looked at every few steps, when an edge of a cell has changed by a fiftieth of its length.
   double limit(const Amplification& method, const State& state);
+  /// The smallest limit of the last one or two thousand steps, up to the latest `limit`. A step that goes up
+  /// and down with the stiffness of a body that vibrates gives it energy, even below each limit: a symplectic
+  /// method keeps that of one step only.
+  [[nodiscard]] double lasting() const;
 
   void append_memory(std::vector<double>& memory) const;
   void restore(ConstReals memory);
@@ -52,9 +56,12 @@ class StableStep {
   const World* world_ = nullptr;
   double more_frequency_ = 0.0;
   double more_damping_ = 0.0;
-  double limit_ = 0.0;  ///< 0: not known
-  double age_ = 0.0;    ///< steps since the lengths were looked at
-  double time_ = 0.0;   ///< of the state that was asked about last
+  double limit_ = 0.0;         ///< 0: not known
+  double age_ = 0.0;           ///< steps since the lengths were looked at
+  double time_ = 0.0;          ///< of the state that was asked about last
+  double steps_ = 0.0;         ///< in this thousand
+  double least_ = 0.0;         ///< limit in it, …
+  double least_before_ = 0.0;  ///< … and in the one before
   std::vector<std::int32_t> edges_;
   std::vector<double> lengths_;
   double coupled_ = 0.0;  ///< when it was measured

@@ -1,5 +1,6 @@
 """Strain and stress as arrays: every element, law and model in homogeneous states."""
 
+import warnings
 from pathlib import Path
 
 import numpy as np
@@ -19,6 +20,7 @@ from field_states import (
 )
 from tissu import _core
 from tissu.formula import I_C, J, ln
+from tissu.simulation import tensors
 
 ROUND_OFF = 1e-11  # of the largest entry: some hundred operations on numbers of size 1
 OF_DIFFERENCES = 1e-7  # see stress_of_energy
@@ -334,3 +336,11 @@ def test_the_example_of_the_page_runs():
     assert names["peak"] > 3e3
     for name in ts.FIELD_NAMES:
         assert f"`{name}`" in page
+
+
+def test_a_stress_that_is_not_finite_has_no_measure_and_no_warning():
+    """Cells without volume: P F^T / det F is infinite where it has an entry, and else nan."""
+    for values in ([np.inf, 0.0], [np.nan, 1.0]):
+        sigma = np.array([np.diag([*values, 1.0]), np.eye(3)])
+        with warnings.catch_warnings(action="error"):
+            np.testing.assert_array_equal(tensors.von_mises(sigma), [np.nan, 0.0])

@@ -72,6 +72,17 @@ def test_a_default_of_a_table(page: str, first: str, field: str) -> None:
         assert not re.fullmatch(r"[-\d.e]+", said)
 
 
+def test_lists_without_entries_are_not_absent() -> None:
+    """They are not null, which a scene refuses for them."""
+    page = (DOCS / "reference" / "scene.md").read_text(encoding="utf-8")
+    of_scene = page[page.index("### Scene\n") : page.index("### Output\n")]
+    said = dict(re.findall(r"^\| `(\w+)` \| (\S+) \|", of_scene, re.MULTILINE))
+    lists = [name for name, info in ts.Scene.model_fields.items() if info.default == ()]
+    assert {"fixed", "loads", "tear"} <= set(lists)
+    assert {said[name] for name in lists} == {"none"}
+    assert said["gravity"] == "absent"
+
+
 PROSE = {
     ("guide/statics.md", "25 iterations, 1e-6"): [ts.Static().newton.iterations == 25],
     ("guide/solvers.md", "1e-5 with `auto`, else 1e-6"): [

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tissu.arrays import real_array
+from tissu.cutting.spreading import spread
 from tissu.errors import ParameterError
 from tissu.mesh import CellBlock, Mesh
 from tissu.mesh.cell import dimension
@@ -33,6 +34,8 @@ class MaterialSurface:
         line_cell: number (l,) of the cell that each piece belongs to.
         nodes: nodes of the body (v, 4) that carry each point, -1: none.
         weights: of these nodes (v, 4), which sum to one.
+        numbers: of the points (v,), as `contacts().nodes` has them: the node that a point is, or
+            -2 - r for point r of cut material.
     """
 
     points: Floats
@@ -43,6 +46,7 @@ class MaterialSurface:
     line_cell: Ints
     nodes: Ints
     weights: Floats
+    numbers: Ints
 
     def carried(self, values: Floats) -> Floats:
         """Values (v, ...) at the points of values (n, ...) at the nodes of the body."""
@@ -62,6 +66,8 @@ class Material:
         cell: number (m,) of the cell of the body that each cell of the mesh is, or is a part of.
         nodes: nodes of the body (v, 4) that carry each point, -1: none.
         weights: of these nodes (v, 4), which sum to one.
+        numbers: of the points (v,), as `contacts().nodes` has them: the node that a point is, or
+            -2 - r for point r of cut material.
     """
 
     mesh: Mesh
@@ -69,10 +75,23 @@ class Material:
     cell: Ints
     nodes: Ints
     weights: Floats
+    numbers: Ints
 
     def carried(self, values: Floats) -> Floats:
         """Values (v, ...) at the points of values (n, ...) at the nodes of the body."""
         return carried(self.nodes, self.weights, values)
+
+    def spread(self, mesh: Mesh, cells: Ints, forces: Floats, now: Floats | None) -> Floats:
+        """Forces (v, 3) on the points, with the sum of the forces on the nodes.
+
+        Args:
+            mesh: `meshes[body]`, of all nodes and cells of the body.
+            cells: `remaining_cells(body)`.
+            forces: on the nodes (n, 3) [N], such as reactions.
+            now: where the nodes are (n, 3) [m], to keep the moment, too; None: it is not kept, as
+                that of couples, which do not depend on the place.
+        """
+        return spread(self, mesh, cells, forces, now)
 
 
 def carried(nodes: Ints, weights: Floats, values: Floats) -> Floats:
@@ -102,6 +121,7 @@ def surface_now(found: Mapping[str, Any], now: Floats) -> MaterialSurface:
         line_cell=found["line_cell"],
         nodes=found["nodes"],
         weights=found["weights"],
+        numbers=_as_contacts(found["vertex_node"]),
     )
 
 
@@ -117,7 +137,13 @@ def material_now(found: Mapping[str, Any], rest: Floats, now: Floats) -> Materia
         cell=found["cell"],
         nodes=nodes,
         weights=weights,
+        numbers=_as_contacts(found["vertex_node"]),
     )
+
+
+def _as_contacts(vertices: Ints) -> Ints:
+    """Nodes, and -1 - r for point r of cut material, as contacts number them: -1 is none there."""
+    return np.asarray(vertices - (vertices < 0), dtype=np.int32)
 
 
 def centres_of(material: Material) -> tuple[Floats, Ints]:

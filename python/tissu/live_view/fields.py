@@ -46,6 +46,8 @@ def contact_pressure(simulation: Simulation, body: str, seen: Seen) -> Floats:
     """Normal force of contacts over the area of the surface (k,) [Pa]; see `contact_at_nodes`."""
     if body not in simulation.meshes:
         raise ParameterError(f"found tissue '{body}', which meets nothing")
+    if seen.numbers is not None:
+        return simulation.contact_at_points(body, seen.numbers).pressure
     return seen.at(simulation.contact_at_nodes(body).pressure)
 
 

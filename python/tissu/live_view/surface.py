@@ -44,6 +44,8 @@ class Seen:
     """(k, m) of the nodes, which are (k, m) then: the points ride on them"""
     cut: NDArray[np.bool_] | None = None
     """(t,) whether a cut opened the triangle, of such a body"""
+    numbers: NDArray[np.int32] | None = None
+    """(k,) of the points, as contacts have them, of a body that was cut"""
 
     def at(self, values: Floats) -> Floats:
         """Values (k, ...) at what is seen of values (n, ...) at the nodes of the body."""
@@ -169,4 +171,5 @@ def _seen_of_cut(simulation: Simulation, body: str) -> Seen:
         line_cells=np.searchsorted(simulation.remaining_cells(body), surface.line_cell),
         weights=surface.weights,
         cut=surface.cut,
+        numbers=surface.numbers,
     )

@@ -18,7 +18,7 @@ from tissu.files.whole import clear_unfinished
 from tissu.output.folder import inner_folder, prepare_folder
 from tissu.output.held import hold
 from tissu.output.obstacle_file import write_contact_surface, write_obstacle
-from tissu.output.vtu_fields import cell_data, node_data
+from tissu.output.vtu_fields import cell_data, point_data
 
 if TYPE_CHECKING:
     from tissu.mesh import Mesh
@@ -183,11 +183,6 @@ def write_material(path: Path, simulation: Simulation, body: str) -> None:
     ends = np.cumsum([len(block.nodes) for block in blocks])[:-1]
     host = np.searchsorted(simulation.remaining_cells(body), material.cell)
     fields = simulation.cell_fields(body)
-    at_nodes = {
-        "displacement": np.array(simulation.displacements(body)),
-        "velocity": np.array(simulation.velocities[body]),
-        **node_data(simulation, body, fields),
-    }
     own = material.nodes[:, 0].copy()
     own[np.count_nonzero(material.weights, axis=1) > 1] = -1
     at_cells = {name: values[host] for name, values in cell_data(simulation, body, fields).items()}
@@ -197,8 +192,7 @@ def write_material(path: Path, simulation: Simulation, body: str) -> None:
     result = meshio.Mesh(
         material.points,
         [(block.type, block.nodes) for block in blocks],
-        point_data={name: material.carried(values) for name, values in at_nodes.items()}
-        | {"node": own},
+        point_data=point_data(simulation, body, fields, material) | {"node": own},
         cell_data={name: list(np.split(values, ends)) for name, values in at_cells.items()},
     )
     with whole_file(path) as partial:
@@ -233,11 +227,7 @@ def write_vtu(path: Path, mesh: Mesh, simulation: Simulation, body: str) -> dict
     result = meshio.Mesh(
         np.array(simulation.positions[body]),
         [(block.type, block.nodes) for block in blocks],
-        point_data={
-            "displacement": np.array(simulation.displacements(body)),
-            "velocity": np.array(simulation.velocities[body]),
-            **node_data(simulation, body, fields),
-        },
+        point_data=point_data(simulation, body, fields, None),
         cell_data={
             name: by_block(values) for name, values in cell_data(simulation, body, fields).items()
         },

@@ -1,4 +1,9 @@
-"""What a VTU file holds of a body besides its shape: the fields that the scene's output names."""
+"""What a VTU file holds of a body besides its shape: the fields that the scene's output names.
+
+The points of a body that was cut are those of its material. Fields of nodes are interpolated to
+them. Forces of nodes are shared among them: what is interpolated would not add up. Contacts act
+on the points of the surface themselves.
+"""
 
 from __future__ import annotations
 
@@ -12,6 +17,7 @@ from tissu.field_names import WRITTEN_BESIDE
 from tissu.mesh.through_meshio import REGION_MARK
 
 if TYPE_CHECKING:
+    from tissu.cutting.material import Material
     from tissu.mesh import Mesh
     from tissu.simulation import Simulation
 
@@ -41,19 +47,53 @@ def cell_data(
     return data
 
 
-def node_data(simulation: Simulation, body: str, known: dict[str, Floats]) -> dict[str, Floats]:
-    """Fields (n, ...) of the nodes that the scene's output names, reactions, and contact."""
-    data: dict[str, Floats] = {}
+def point_data(
+    simulation: Simulation, body: str, known: dict[str, Floats], material: Material | None
+) -> dict[str, Floats]:
+    """Fields (p, ...) of the points: motion, those that the output names, reactions, contact.
+
+    Args:
+        simulation: of the body.
+        body: its name.
+        known: its cell fields.
+        material: whose points they are; absent: the points are the nodes.
+    """
+    data = {
+        "displacement": np.array(simulation.displacements(body)),
+        "velocity": np.array(simulation.velocities[body]),
+    }
     names = _asked(simulation, "node_fields")
     if names and "von_mises" in known:
-        data = {name: _rows(v) for name, v in simulation.fields(names, "nodes", body).items()}
-    if body in simulation.touching:
-        data["contact_pressure"], data["contact_gap"] = simulation.contact_at_nodes(body)
+        found = simulation.fields(names, "nodes", body)
+        data |= {name: _rows(values) for name, values in found.items()}
+    forces: dict[str, Floats] = {}
     if "reactions" in (_asked(simulation, "fields") or ()):
-        data["reactions"] = simulation.reactions(body)
+        forces["reactions"] = simulation.reactions(body)
         if simulation.scene.bodies[body].has_rotations:
-            data["reaction_moments"] = simulation.reactions(body, moments=True)
-    return data
+            forces["reaction_moments"] = simulation.reactions(body, moments=True)
+    if material is not None:
+        data = {name: material.carried(values) for name, values in data.items()}
+        forces = _spread(simulation, body, material, forces)
+    if body in simulation.touching:
+        data["contact_pressure"], data["contact_gap"] = (
+            simulation.contact_at_nodes(body)
+            if material is None
+            else simulation.contact_at_points(body, material.numbers)
+        )
+    return data | forces
+
+
+def _spread(
+    simulation: Simulation, body: str, material: Material, forces: dict[str, Floats]
+) -> dict[str, Floats]:
+    if not forces:
+        return {}
+    mesh, cells = simulation.meshes[body], simulation.remaining_cells(body)
+    now = np.array(simulation.positions[body])
+    return {
+        name: material.spread(mesh, cells, values, now if name == "reactions" else None)
+        for name, values in forces.items()
+    }
 
 
 def _asked(simulation: Simulation, field: str) -> Sequence[str] | None:

@@ -1,4 +1,4 @@
-"""Pressure and gap of contacts at the nodes of a body."""
+"""Pressure and gap of contacts at the nodes of a body, and at the vertices of its surface."""
 
 from __future__ import annotations
 
@@ -77,20 +77,55 @@ def contact_at_nodes(
         areas: of the surface at rest, at each node (n,) [m2].
         riders: points of the surface that nodes carry.
     """
-    force, gap = np.zeros(len(areas)), np.full(len(areas), FAR)
+    row, points, shares = _shares(contacts, body)
+    sizes = riders._replace(weights=np.abs(riders.weights))
+    of, nodes, shares = sizes.shared(points, shares)
+    return _summed(contacts, areas, row[of], nodes, shares)
+
+
+def contact_at_vertices(
+    contacts: Contacts, body: str, vertices: Ints, areas: Floats
+) -> ContactAtNodes:
+    """Shares of all contacts with a body at the vertices of its surface, whatever carries them.
+
+    Args:
+        contacts: as `Simulation.contacts` gives them.
+        body: name of the body.
+        vertices: of its surface (n,), ascending, by the numbers that contacts have.
+        areas: at each vertex at rest (n,) [m2].
+    """
+    row, points, shares = _shares(contacts, body)
+    places = np.searchsorted(vertices, points).astype(np.int32)
+    return _summed(contacts, areas, row, places, shares)
+
+
+def vertex_areas(triangles: Ints, rest: Floats) -> Floats:
+    """A third of the area of the triangles (t, 3) around each vertex, at rest (n, 3) [m2]."""
+    a, b, c = (rest[triangles[:, k]] for k in range(3))
+    areas = np.linalg.norm(np.cross(b - a, c - a), axis=1) / 6.0
+    found = np.bincount(triangles.ravel(), np.repeat(areas, 3), minlength=len(rest))
+    return np.asarray(found, dtype=np.float64)
+
+
+def _shares(contacts: Contacts, body: str) -> tuple[Ints, Ints, Floats]:
+    """Contact, vertex of the body and share |weight| of each part of a body in a contact."""
     number = contacts.surfaces.index(body)
-    normal = np.einsum("ij,ij->i", contacts.forces, contacts.normals)
     # Nodes of a positive weight belong to the first of the pair, others to the other one.
     of_first = contacts.pairs[:, [0]] == number
     of_other = contacts.pairs[:, [1]] == number
     mine = np.where(contacts.weights > 0.0, of_first, of_other) & (contacts.nodes != -1)
     mine &= contacts.weights != 0.0
     row, _ = np.nonzero(mine)
-    sizes = riders._replace(weights=np.abs(riders.weights))
-    of, nodes, shares = sizes.shared(contacts.nodes[mine], np.abs(contacts.weights[mine]))
-    row = row[of]
-    np.add.at(force, nodes, shares * normal[row])
-    np.minimum.at(gap, nodes, contacts.gaps[row])
+    return row.astype(np.int32), contacts.nodes[mine], np.abs(contacts.weights[mine])
+
+
+def _summed(
+    contacts: Contacts, areas: Floats, row: Ints, places: Ints, shares: Floats
+) -> ContactAtNodes:
+    force, gap = np.zeros(len(areas)), np.full(len(areas), FAR)
+    normal = np.einsum("ij,ij->i", contacts.forces, contacts.normals)
+    np.add.at(force, places, shares * normal[row])
+    np.minimum.at(gap, places, contacts.gaps[row])
     pressure = np.zeros(len(areas))
     np.divide(force, areas, out=pressure, where=areas > 0.0)
     return ContactAtNodes(pressure, gap)

@@ -85,16 +85,20 @@ class BodyFields:
     def at_nodes(self, name: str, rest: Floats) -> Floats:
         """A field (n, ...) at the nodes of rest positions (n, 3); nan where no cell is."""
         source, of_tensor = _OF_TENSORS.get(name, (name, None))
-        sums, volumes = None, np.zeros(len(rest))
+        parts = []
         for block in self._blocks:
             nodes, values = np.asarray(block["nodes"]), _fitted(block, source, rest)
-            flat = values.reshape(nodes.size, -1)
+            shape = values.shape[2:]
             volume = np.repeat(block["volumes"].sum(axis=1), nodes.shape[1])
-            if sums is None:
-                sums, shape = np.zeros((len(rest), flat.shape[1])), values.shape[2:]
-            np.add.at(sums, nodes.ravel(), volume[:, None] * flat)
-            np.add.at(volumes, nodes.ravel(), volume)
-        assert sums is not None  # a body has a block
+            cells = np.repeat(block["cells"], nodes.shape[1])
+            parts.append((cells, nodes.ravel(), volume, values.reshape(nodes.size, -1)))
+        cells, node, volume, flat = (np.concatenate(part) for part in zip(*parts, strict=True))
+        # Cell after cell: the sums do not depend on the order in which cuts left the blocks.
+        order = np.argsort(cells, kind="stable")
+        node, volume, flat = node[order], volume[order], flat[order]
+        sums, volumes = np.zeros((len(rest), flat.shape[1])), np.zeros(len(rest))
+        np.add.at(sums, node, volume[:, None] * flat)
+        np.add.at(volumes, node, volume)
         with np.errstate(invalid="ignore"):
             means = (sums / volumes[:, None]).reshape(len(rest), *shape)
         return means if of_tensor is None else of_tensor(means)

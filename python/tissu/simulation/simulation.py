@@ -429,8 +429,8 @@ class Simulation(Inspected, Handled, Touched, Changed, Cutting, Instrumented):
 
         Raises:
             ParameterError: the scene was compiled without `editing: true`, or has no such cell; in
-                a static scene, pieces would be left that neither a support nor a contact holds. Then
-                nothing has changed.
+                a static scene, pieces would be left that neither a support nor a contact holds.
+                Then nothing has changed.
         """
         counts = {name: self._core.cell_count(name) for name in self._meshes}
         numbers = removed_cells(counts, body, cells)

@@ -47,9 +47,11 @@ def second_stress(F: Floats, P: Floats) -> Floats:
 
 
 def von_mises(sigma: Floats) -> Floats:
-    """sqrt(3/2 s : s) with s the deviator of sigma [Pa]."""
-    mean = np.einsum("...ii", sigma)[..., None, None] / 3.0
-    deviator = sigma - mean * np.eye(3)
+    """sqrt(3/2 s : s) with s the deviator of sigma [Pa]; nan of a stress that is not finite."""
+    finite = np.isfinite(sigma).all(axis=(-1, -2), keepdims=True)
+    known = np.where(finite, sigma, np.nan)  # a cell without volume has an infinite stress
+    mean = np.einsum("...ii", known)[..., None, None] / 3.0
+    deviator = known - mean * np.eye(3)
     return np.asarray(np.sqrt(1.5 * np.einsum("...ij,...ij", deviator, deviator)))
 
 

@@ -9,7 +9,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tissu.errors import ParameterError
-from tissu.simulation.contact_at_nodes import ContactAtNodes, Riders, contact_at_nodes
+from tissu.simulation.contact_at_nodes import (
+    FAR,
+    ContactAtNodes,
+    Riders,
+    contact_at_nodes,
+    contact_at_vertices,
+    vertex_areas,
+)
 from tissu.simulation.obstacle_surface import ObstacleSurface, plane_square, round_surface
 
 if TYPE_CHECKING:
@@ -191,6 +198,37 @@ class Touched:
         areas[: len(found)] = found
         riders = Riders(*self._core.contact_riders(body))
         return contact_at_nodes(self.contacts(), body, areas, riders)
+
+    def contact_at_points(self, body: str, points: Ints) -> ContactAtNodes:
+        """Contact pressure [Pa] and gap [m] at points of a body's material, of the latest step.
+
+        Each point of the surface has the forces that act on itself, over its own area. Points that
+        are not on it have no pressure, and a gap of 1e30. A body whose surface is a mesh of its own
+        has the values of `contact_at_nodes` at points that are nodes, and no contact elsewhere.
+
+        Args:
+            body: its name.
+            points: `numbers` of `material(body)` or `surface(body)`.
+
+        Raises:
+            ParameterError: the scene has no contacts; the body meets nothing.
+        """
+        if body in self.own_surfaces:
+            found = self.contact_at_nodes(body)
+            vertices = np.arange(len(found.gap), dtype=np.int32)
+        else:
+            self._require_contact()
+            self._require_meeting(body)
+            known, rest, _ = self._core.contact_vertices(body)
+            corners = self._core.contact_surface(body)[0]
+            triangles = np.searchsorted(known, corners).astype(np.int32)
+            vertices, areas = known - (known < 0), vertex_areas(triangles, rest)
+            found = contact_at_vertices(self.contacts(), body, vertices, areas)
+        place = np.searchsorted(vertices, points)
+        there = np.isin(points, vertices)
+        pressure, gap = np.zeros(len(points)), np.full(len(points), FAR)
+        pressure[there], gap[there] = found.pressure[place[there]], found.gap[place[there]]
+        return ContactAtNodes(pressure, gap)
 
     @property
     def own_surfaces(self) -> tuple[str, ...]:

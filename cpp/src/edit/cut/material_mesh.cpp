@@ -26,13 +26,13 @@ class VertexList {
       place = static_cast<std::int32_t>(riders.size());
       riders.push_back(vertex < 0 ? material_.riders[at(-1 - vertex)]
                                   : Rider{{vertex, -1, -1, -1}, {1.0, 0.0, 0.0, 0.0}, 1});
-      nodes.push_back(vertex < 0 ? -1 : vertex);
+      numbers.push_back(vertex);
     }
     return place;
   }
 
   std::vector<Rider> riders;
-  std::vector<std::int32_t> nodes;
+  std::vector<std::int32_t> numbers;  ///< in the material
 
  private:
   const Material& material_;
@@ -97,7 +97,7 @@ MaterialSurface material_surface(const Hosts& hosts, const Material& material) {
     surface.cut.push_back(face.cut ? 1 : 0);
   }
   surface.vertices = std::move(vertices.riders);
-  surface.vertex_node = std::move(vertices.nodes);
+  surface.vertex_node = std::move(vertices.numbers);
   return surface;
 }
 
@@ -135,7 +135,7 @@ MaterialMesh material_mesh(const Hosts& hosts, const Material& material) {
     add(parts[i]);
   }
   mesh.vertices = std::move(vertices.riders);
-  mesh.vertex_node = std::move(vertices.nodes);
+  mesh.vertex_node = std::move(vertices.numbers);
   return mesh;
 }
 

@@ -17,7 +17,7 @@ namespace tissu {
 /// cells the corners' chords are the surface; quads are cut at their lowest root.
 struct MaterialSurface {
   std::vector<Rider> vertices;
-  std::vector<std::int32_t> vertex_node;               ///< the node that a vertex is; -1: it rides
+  std::vector<std::int32_t> vertex_node;               ///< the node that a vertex is, or -1 - its rider
   std::vector<std::array<std::int32_t, 3>> triangles;  ///< anticlockwise seen from outside
   std::vector<std::int32_t> cell;                      ///< host of each triangle
   std::vector<char> cut;                               ///< 1: opened by a cut
@@ -31,7 +31,7 @@ MaterialSurface material_surface(const Hosts& hosts, const Material& material);
 /// cell may meet two triangles of a cut one, which fill it.
 struct MaterialMesh {
   std::vector<Rider> vertices;            ///< nodes of uncut cells and vertices of tetrahedra
-  std::vector<std::int32_t> vertex_node;  ///< -1: rides
+  std::vector<std::int32_t> vertex_node;  ///< the node that a vertex is, or -1 - its rider
   std::vector<CellBlock> blocks;          ///< by places in `vertices`
   std::vector<std::int32_t> cell;         ///< host of each cell across the blocks
 };

@@ -150,8 +150,10 @@ def table(name: str) -> str:
         elif info.default_factory is not None:
             made = info.default_factory()  # type: ignore[call-arg]
             default = type(made).__name__ if not isinstance(made, (list, tuple, dict)) else "none"
+        elif info.default in (None, ()):
+            default = "absent" if info.default is None else "none"
         else:
-            default = "absent" if info.default in (None, ()) else f"`{info.default}`"
+            default = f"`{info.default}`"
         about = " ".join((info.description or "").split())
         lines.append(f"| `{field}` | {default} | {about} |")
     return "\n".join(lines)

@@ -117,7 +117,7 @@ INSTANTIATE_TEST_SUITE_P(
 
 /// Steps of a bar that is held, pulled by a load, by that method, maybe beside another. The first two take
 /// what they need.
-void expect_no_allocation(Integrator& method, bool beside = false) {
+void expect_no_allocation([[maybe_unused]] Integrator& method, [[maybe_unused]] bool beside = false) {
 #ifdef TISSU_COUNTS_ALLOCATIONS
   const Mesh mesh = box_mesh(Vec3::Zero(), Vec3(2, 1, 1), {8, 5, 5}, Split::none);
   WorldDescription description;

@@ -131,7 +131,7 @@ void bind_simulation(py::module_& m) {
                                return view_of(s.state().velocities, 0, s.world().blocks(), self);
                              })
       .def("keep_held_velocities", &Simulation::keep_held_velocities)
-      .def("let_go", &Simulation::let_go)
+      .def("forget_forces", &Simulation::forget_forces)
       .def("rotations", &rotations, arg("body"))
       .def("points", &points, arg("body"))
       .def("body_range", &body_range, arg("body"))

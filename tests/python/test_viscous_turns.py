@@ -57,7 +57,7 @@ def bent(kind: str, step: object, factor: float, *, pinned: bool) -> ts.Simulati
 
 @cache
 def reference(kind: str, factor: float, *, pinned: bool) -> float:
-    """The energy after 0.1 s by the Runge-Kutta method, in whose limit there is no chord."""
+    """The energy after 0.1 s by the Runge-Kutta method, which has the limit of small steps."""
     simulation = bent(kind, ts.RK4(), factor, pinned=pinned)
     for _ in simulation.run(0.1):
         pass

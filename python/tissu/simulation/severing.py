@@ -113,7 +113,7 @@ class Severing:
         touched = np.intersect1d(np.unique(pairs[:, 0]), left.kept)
         had = momenta_of(self, tissue, there, touched)
         self._core.replace_world(world=world)
-        self._core.let_go()
+        self._core.forget_forces()
         give_back_to(self, tissue, left, touched, had - momenta_of(self, tissue, left, touched))
         self._require_stable(tissue, stable)
         self._severed[tissue], self._lefts[tissue] = severed, (severed, left)

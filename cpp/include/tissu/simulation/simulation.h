@@ -62,9 +62,9 @@ class Simulation {
   /// What supports and led nodes give to the bodies [N], three for each node, zero where nothing is held:
   /// M dv/dt - f with the change of velocity of the latest step.
   [[nodiscard]] std::vector<double> reactions() const;
-  /// After a world was put in place of another one that holds more: what the method keeps of its forces does
-  /// not act on.
-  void let_go() { integrator_->after_edit(); }
+  /// The world was replaced by one in which less is connected: what the method keeps of earlier forces acts
+  /// no longer.
+  void forget_forces() { integrator_->after_edit(); }
   /// Held rows begin with the velocities that the state has now, as a motion that drifts with its body.
   void keep_held_velocities() { world_->fixed().copy(state_.velocities, held_); }
   /// Puts nodes that are not unknowns where they are now, before positions or velocities are read.

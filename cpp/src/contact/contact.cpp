@@ -218,7 +218,7 @@ void Contact::check_memory(const State& state) const {
   };
   for_contacts(state, [&](const ContactNumbers& c) {
     bool known = whole(c.kind, 0.0, ContactNumbers::kPlane + 1.0);
-    known = known && whole(c.point, 0.0, 1e3) &&
+    known = known && whole(c.point, 0.0, 1e4) &&
             whole(c.pair, 0.0, static_cast<double>(description_.pairs.size()));
     known = known && whole(c.a, 0.0, std::max(vertices, edges));
     known = known && whole(c.b, 0.0, std::max({vertices, edges, primitives, obstacles}));

@@ -105,7 +105,7 @@ void ContactRun::find_pairs() {
     }
     const int parts = parts_before_round(contact_.surfaces(), candidate);
     if (parts > 0 && !stops) {
-      RoundPoints points(contact_.surfaces(), now_, candidate, parts);
+      RoundPoints points(contact_.surfaces(), now_, from_, candidate, parts);
       while (points.next(reach, found)) add(candidate, found, points.number());
       continue;
     }

@@ -23,9 +23,11 @@ void CoupledSolve::solve(const BlockMatrix& A, SparseFactor& of_matrix, ConstRea
   const bool at_once = !whole_keys_.empty() && keys_ == whole_keys_;
   if (!at_once && has_factor(A, of_matrix, report)) {
     definite_ = true;
-    if (capacitance_.is_of(A) || capacitance_.make(of_matrix, A)) {
+    const bool is_made = capacitance_.is_of(A);
+    if (is_made || capacitance_.make(of_matrix, A)) {
       way_ = Way::capacitance;
       capacitance_.solve(of_matrix, b, x);
+      report.work += capacitance_.application() + (is_made ? 0.0 : capacitance_.making());
       return;
     }
     way_ = Way::gradient;

@@ -146,6 +146,41 @@ TEST(CoupledCholesky, KeepsTheFactorOfTheMatrix) {
   EXPECT_EQ(profile.solves().preparations, 1);
 }
 
+/// Columns of the inverse are kept from one system to the next, and dropped when they are too many: the rows
+/// that are coupled wander, come back, and carry frames and held nodes, too.
+TEST(CoupledCholesky, AnswersManySystemsOfOneFactor) {
+  const Mesh mesh = box_mesh(Vec3::Zero(), Vec3(3, 1, 0.8), {9, 4, 3}, Split::six);
+  WorldDescription description = linked_bar();
+  description.bodies = {test::body_of(mesh, {.young = 500.0, .poisson = 0.4})};
+  description.bodies[0].elastic[0].law = "hooke";
+  description.fixed = {test::fixed(test::nodes_at(mesh, 0, 0.0)),
+                       test::fixed(test::nodes_at(mesh, 0, 3.0), 5)};
+  const World world(description);
+  State state = world.rest_state();
+  Profile profile;
+  Cholesky solver;
+  System system(world, &solver, profile);
+  const std::vector<double> b = test::Random(3).numbers(state.positions.size());
+  std::vector<double> x(b.size());
+  test::Random random(4);
+  const std::int32_t nodes = world.bodies()[0].node_count;
+  for (int i = 0; i < 80; ++i) {
+    LinkTable table = test::links(world, state);
+    table.clear();
+    const int count = 1 + i % 14;
+    for (int k = 0; k < count; ++k) {
+      const auto near = static_cast<std::int32_t>((random.number(0.5) + 0.5) * 12) + i;
+      const auto other = static_cast<std::int32_t>((random.number(0.5) + 0.5) * nodes) % nodes;
+      LinkPoint a{near % nodes};
+      if (k == 3) a = {world.frames()[0].block, 0, random.vector(0.3)};
+      if (other != near % nodes) table.add(a, {other}, 10.0 * std::pow(10.0, 3.0 * random.number()));
+    }
+    system.assemble(state, 1.0, kScale);
+    EXPECT_TRUE(system.solve(b, x, 0.0).converged);
+    EXPECT_LT((view(b) - dense(system.matrix()) * view(x)).norm(), 1e-10 * view(b).norm()) << i;
+  }
+}
+
 /// A body that links alone hold has no factor without them.
 TEST(CoupledCholesky, FactorsBothWhereLinksAloneHold) {
   const Mesh mesh = box_mesh(Vec3::Zero(), Vec3(1, 1, 1), {2, 2, 2}, Split::six);

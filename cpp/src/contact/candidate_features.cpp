@@ -9,6 +9,10 @@
 namespace tissu {
 namespace {
 
+/// Share of the radii of what has no faces to which its middle may come near on a way: a ball that grazes
+/// something is found inside it at the end of no step.
+constexpr double kRound = 0.85;
+
 std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 constexpr double kOfRest = 0.9;    ///< of the distance at rest: where such pairs are held apart, …
@@ -88,7 +92,11 @@ void Candidates::add(PairKind kind, std::int32_t a, std::int32_t b, std::array<s
   }
   double apart = radius + other_radius + pair.gap;
   if (own == other) apart = apart_at_rest(kind, vertex, apart);
-  if (apart > 0.0) list_.push_back({kind, a, b, number, vertex, apart});
+  if (!(apart > 0.0)) return;
+  const bool round = !vertices[at(vertex[0])].has_faces || !vertices[at(vertex[at(first)])].has_faces;
+  const double thick = std::min((radius + other_radius) / apart, 1.0);
+  list_.push_back(
+      {kind, a, b, number, vertex, apart, std::max(Candidate::kKept, round ? kRound * thick : 0.0)});
 }
 
 double Candidates::apart_at_rest(PairKind kind, const std::array<std::int32_t, 4>& vertex,

@@ -238,7 +238,6 @@ void Contact::check_memory(const State& state) const {
   }
 }
 
-/// Where vertex number k of a contact touches: on the surface of what is round.
 Vec3 Contact::touched(const ContactNumbers& contact, std::size_t k, const State& state) const {
   const auto v = static_cast<std::int32_t>(contact.vertex[k]);
   const SurfaceVertex& vertex = surfaces_.vertices()[static_cast<std::size_t>(v)];

@@ -8,7 +8,6 @@
 namespace tissu {
 namespace {
 
-constexpr double kLeast = 0.1;     ///< of xi
 constexpr double kOfStart = 0.5;   ///< of the distance at the start
 constexpr double kBall = 0.45;     ///< of the distance that is left
 constexpr double kKept = 0.9;      ///< of the way to a plane
@@ -28,7 +27,9 @@ double bend_of(const Candidate& candidate, ConstReals bends) {
 
 }  // namespace
 
-double HoldBack::least(double apart, double start) { return std::min(kLeast * apart, kOfStart * start); }
+double HoldBack::least(double apart, double start, double kept) {
+  return std::min(kept * apart, std::max(kOfStart, kept) * start);
+}
 
 FreeWay free_way(const Candidate& candidate, ConstReals from, ConstReals to, ConstReals bends,
                  ConstReals sways) {
@@ -45,7 +46,7 @@ FreeWay free_way(const Candidate& candidate, ConstReals from, ConstReals to, Con
   if (longest == 0.0 && bend == 0.0 && sway == 0.0) return {1.0, true};
   const Vec3 start = shortest_line(pair);
   const double distance = start.norm();
-  const double least = HoldBack::least(candidate.apart, distance);
+  const double least = HoldBack::least(candidate.apart, distance, candidate.kept);
   const double room = distance - least;
   // What arcs leave their chords by up to a share of the way: half of the room at most.
   const double most = bend > room ? std::max(0.0, room / bend) : 1.0;

@@ -64,9 +64,9 @@ class HoldBack {
     stopped_at_planes_.clear();
   }
 
-  /// The nearest that a pair may come: a tenth of what it rests at; half of what it begins with where that
-  /// is less.
-  static double least(double apart, double start);
+  /// The nearest that a pair may come: a share of what it rests at, or half of what it begins with, or the
+  /// same share of that where it is larger.
+  static double least(double apart, double start, double kept = Candidate::kKept);
 
  private:
   [[nodiscard]] std::size_t root(std::int32_t mover) const;

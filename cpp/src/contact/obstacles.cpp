@@ -132,7 +132,8 @@ bool Contact::is_any_led_live(const State& state) const {
 
 bool Contact::may_add_energy() const {
   const auto is_led = [](const ObstacleDescription& obstacle) { return !obstacle.motion.times.empty(); };
-  return description_.method == ContactMethod::penalty || std::ranges::any_of(description_.obstacles, is_led);
+  return description_.method == ContactMethod::penalty || description_.method == ContactMethod::barrier ||
+         std::ranges::any_of(description_.obstacles, is_led);
 }
 
 void Contact::begin_step(State& state, Scratch& /*scratch*/, double h) const {

@@ -9,6 +9,7 @@
 #include "tissu/base/error.h"
 #include "tissu/base/interruption.h"
 #include "tissu/base/number_text.h"
+#include "tissu/contact/bent_ways.h"
 #include "tissu/contact/contact.h"
 #include "tissu/simulation/simulation.h"
 
@@ -123,8 +124,9 @@ StepReport Simulation::step_in_parts(double h, int halvings) {
   std::optional<StepReport> report;
   const int enough = enough_halvings(*world_);
   integrator_->take_part(halvings < enough, std::ldexp(1.0, -halvings));
+  const bool bent = !last && world_->contact() != nullptr && are_ways_bent(*world_->contact(), state_, h);
   try {
-    report = integrator_->step(state_, h);
+    if (!bent) report = integrator_->step(state_, h);
   } catch (const Interrupted&) {
     throw;
   } catch (const Diverged&) {

@@ -22,6 +22,9 @@ struct Candidate {
   std::int32_t pair;  ///< of the description
   std::array<std::int32_t, 4> vertex;
   double apart;  ///< at which they rest, xi [m]
+  /// Share of it to which they may come near on the way of a step, though not at its end.
+  double kept = kKept;
+  static constexpr double kKept = 0.1;
 };
 
 /// A vertex before a plane that it may not pass.

@@ -173,6 +173,9 @@ class Contact final : public ForceModel {
     const Vec3 n(contact.normal[0], contact.normal[1], contact.normal[2]);
     return (contact.is_of_first(k) ? -radius : radius) * n;
   }
+  /// Where the force on a contact's vertex number k acts: on the surface of what is round and turns. Sheets,
+  /// lines whose nodes are no frames, and lines without friction have it on their middle.
+  [[nodiscard]] Vec3 touched(const ContactNumbers& contact, std::size_t k, const State& state) const;
   /// r of a contact in a state.
   [[nodiscard]] Vec3 reach(const ContactNumbers& contact, const State& state) const;
   /// What of r comes from the turning of round things since the contact was looked at. What is round touches
@@ -258,7 +261,6 @@ class Contact final : public ForceModel {
                          const State& state) const {
     return arm(static_cast<std::int32_t>(contact.vertex[k]), carrier, state) + outward(contact, k);
   }
-  [[nodiscard]] Vec3 touched(const ContactNumbers& contact, std::size_t k, const State& state) const;
   void scatter(const ContactNumbers& contact, const State& state, const Vec3& force, Reals f) const;
   [[nodiscard]] LivePlace live_place(std::int32_t obstacle, const State& state, double time) const;
   void begin_way(std::int32_t obstacle, bool released, const Pose& target, double over, State& state) const;

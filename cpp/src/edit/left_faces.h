@@ -1,21 +1,11 @@
 #pragma once
 
-#include <cstdint>
-#include <string_view>
 #include <vector>
 
 #include "tissu/edit/cut_state.h"
-#include "tissu/element/reference_part.h"
 #include "tissu/force/load.h"
 
 namespace tissu {
-
-/// A face of a cell, of which the cell has material.
-struct FacePart {
-  std::string_view element;
-  std::vector<std::int32_t> nodes;                  ///< of the cell, in the order of the element
-  std::vector<std::vector<ReferencePoint>> pieces;  ///< where it has material; empty: everywhere
-};
 
 /// What is left of a face of the first day.
 struct FaceLeft {

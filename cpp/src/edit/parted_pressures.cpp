@@ -14,12 +14,17 @@
 #include "tissu/base/sort_unique.h"
 #include "tissu/edit/cut_state.h"
 #include "tissu/element/reference_cell.h"
+#include "tissu/element/reference_part.h"
 #include "tissu/mesh/cell_shape.h"
 
 namespace tissu {
 namespace {
 
 using Nodes = std::vector<std::int32_t>;
+using Triangle = std::array<std::int32_t, 3>;  ///< vertices of the material
+
+constexpr double kRoundOff = 1e-12;     ///< of a face: that so much of it is missing means nothing
+constexpr double kReferenceArea = 4.0;  ///< of a quad
 
 std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
@@ -63,6 +68,7 @@ class Pressed {
     if (!triangles_.empty()) pressure.faces.push_back({"triangle", std::move(triangles_)});
     if (!quads_.empty()) pressure.faces.push_back({"quad", std::move(quads_)});
     pressure.carried = std::move(carried_);
+    pressure.parts = std::move(parts_);
   }
 
  private:
@@ -101,7 +107,12 @@ class Pressed {
     const bool same = same_way(roots, pressed->second);
     const auto stored = cut_.material.cells.find(cell);
     if (stored != cut_.material.cells.end()) {
-      for (const MaterialTetra& tetra : stored->second) carry(tetra, nodes, same);
+      const std::vector<Triangle> own = own_triangles(stored->second, nodes);
+      if (nodes.size() == 3) {
+        carry(own, same);
+      } else {
+        take_quad(own, nodes, same);
+      }
       return;
     }
     add_face(nodes, same);
@@ -153,22 +164,30 @@ class Pressed {
     }
   }
 
-  /// The faces of a tetrahedron that lie in a face of its host; a triangle of a sheet is one itself.
-  void carry(const MaterialTetra& tetra, const Nodes& nodes, bool same) {
-    const auto& v = tetra.vertices;
-    if (tetra.corners() == 3) {
-      add({v[0], v[1], v[2]}, same);
-      return;
+  /// The faces of tetrahedra that lie in a face of their host, and triangles of a sheet itself, but for those
+  /// that have the pressure already.
+  std::vector<Triangle> own_triangles(const std::vector<MaterialTetra>& material, const Nodes& nodes) {
+    std::vector<Triangle> own;
+    const auto take = [&](const Triangle& vertices) {
+      if (taken_.insert(ascending(vertices)).second) own.push_back(vertices);
+    };
+    for (const MaterialTetra& tetra : material) {
+      const auto& v = tetra.vertices;
+      if (tetra.corners() == 3) {
+        take({v[0], v[1], v[2]});
+        continue;
+      }
+      for (std::size_t f = 0; f < 4; ++f) {
+        const auto& [a, b, c] = kOpposite[f];
+        const bool inside = std::ranges::all_of(Triangle{v[a], v[b], v[c]},
+                                                [&](std::int32_t vertex) { return lies_in(vertex, nodes); });
+        if (inside && (tetra.cut >> f & 1U) == 0) take({v[a], v[b], v[c]});
+      }
     }
-    for (std::size_t f = 0; f < 4; ++f) {
-      const auto& [a, b, c] = kOpposite[f];
-      const bool inside = std::ranges::all_of(std::array{v[a], v[b], v[c]},
-                                              [&](std::int32_t vertex) { return lies_in(vertex, nodes); });
-      if (inside && (tetra.cut >> f & 1U) == 0) add({v[a], v[b], v[c]}, same);
-    }
+    return own;
   }
 
-  static std::array<std::int32_t, 3> ascending(std::array<std::int32_t, 3> vertices) {
+  static Triangle ascending(Triangle vertices) {
     std::ranges::sort(vertices);
     return vertices;
   }
@@ -199,26 +218,60 @@ class Pressed {
     return true;
   }
 
-  void add(std::array<std::int32_t, 3> vertices, bool same) {
-    if (!taken_.insert(ascending(vertices)).second) return;
-    if (!same) std::swap(vertices[1], vertices[2]);
-    CarriedFace& face = carried_.emplace_back();
-    for (std::size_t i = 0; i < 3; ++i) {
-      const Rider rider = rider_of(vertices[i]);
-      for (std::size_t k = 0; k < at(rider.count); ++k) {
-        if (rider.weight[k] != 0.0) face[i].push_back({rider.node[k], rider.weight[k]});
+  void carry(const std::vector<Triangle>& own, bool same) {
+    for (Triangle vertices : own) {
+      if (!same) std::swap(vertices[1], vertices[2]);
+      CarriedFace& face = carried_.emplace_back();
+      for (std::size_t i = 0; i < 3; ++i) {
+        const Rider rider = rider_of(vertices[i]);
+        for (std::size_t k = 0; k < at(rider.count); ++k) {
+          if (rider.weight[k] != 0.0) face[i].push_back({rider.node[k], rider.weight[k]});
+        }
       }
     }
   }
 
+  /// A quad is not flat once it is bent, and two triangles would load its nodes by other shares.
+  void take_quad(const std::vector<Triangle>& own, Nodes nodes, bool same) {
+    if (own.empty()) return;
+    if (!same) std::ranges::reverse(nodes);
+    FacePart part{"quad", std::move(nodes), {}};
+    double taken = 0.0;
+    for (const Triangle& vertices : own) {
+      std::vector<ReferencePoint>& piece = part.pieces.emplace_back();
+      for (const std::int32_t vertex : vertices) piece.push_back(place_in(part.nodes, vertex));
+      taken += reference_measure(piece);
+    }
+    if (taken > (1.0 - kRoundOff) * kReferenceArea) {
+      quads_.insert(quads_.end(), part.nodes.begin(), part.nodes.end());
+    } else {
+      parts_.push_back(std::move(part));
+    }
+  }
+
+  /// Where a vertex that lies in a quad is in its reference cell.
+  [[nodiscard]] ReferencePoint place_in(const Nodes& quad, std::int32_t vertex) const {
+    const Rider rider = rider_of(vertex);
+    ReferencePoint place{};
+    for (std::size_t k = 0; k < at(rider.count); ++k) {
+      if (rider.weight[k] == 0.0) continue;
+      const auto corner = std::ranges::find(quad, rider.node[k]) - quad.begin();
+      for (std::size_t i = 0; i < place.size(); ++i)
+        place[i] += rider.weight[k] * reference_quad_[static_cast<std::size_t>(corner)][i];
+    }
+    return place;
+  }
+
   const CutState& cut_;
-  std::vector<std::uint8_t> pressed_;            ///< whether a node of the first day has such a face
-  std::set<std::array<std::int32_t, 3>> taken_;  ///< triangles that have the pressure, vertices ascending
-  std::map<Nodes, Nodes> faces_;                 ///< of the first day, by their nodes in ascending order
+  std::vector<std::uint8_t> pressed_;  ///< whether a node of the first day has such a face
+  std::set<Triangle> taken_;           ///< triangles that have the pressure, vertices ascending
+  std::map<Nodes, Nodes> faces_;       ///< of the first day, by their nodes in ascending order
   std::map<std::int32_t, std::vector<Nodes>> faces_at_;  ///< the same, by each of their nodes
   Nodes triangles_;
   Nodes quads_;
   std::vector<CarriedFace> carried_;
+  std::vector<FacePart> parts_;
+  std::vector<ReferencePoint> reference_quad_ = reference_nodes("quad");
 };
 
 /// The faces whose cell is there, of a body that was never cut.

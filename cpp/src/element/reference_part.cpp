@@ -29,13 +29,19 @@ ReferencePoint mean(std::span<const double> weights, std::span<const ReferencePo
   return sum;
 }
 
-/// The triangle is a square with one side drawn together into its last corner.
+/// The triangle has a rule of its own for low degrees. For others it is a square with one side drawn together
+/// into its last corner.
 template <class Element>
-void add_points(ReferenceCell& cell, std::span<const ReferencePoint> part) {
+void add_points(ReferenceCell& cell, std::span<const ReferencePoint> part, int degree) {
   const double measure = reference_measure(part);
   if (part.size() == 2) {
     for (const auto& [xi, weight] : Line3::Over::points)
       add_point<Element>(cell, mean(Line2::values(xi), part), 0.5 * weight * measure);
+    return;
+  }
+  if (degree <= Triangle6::Over::kDegree) {
+    for (const auto& [xi, weight] : Triangle6::Over::points)
+      add_point<Element>(cell, mean(Triangle3::values(xi), part), 2.0 * weight * measure);
     return;
   }
   for (const auto& [xi, weight] : Quad9::Over::points) {
@@ -66,7 +72,7 @@ double reference_measure(std::span<const ReferencePoint> part) {
   return 0.5 * std::abs((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]));
 }
 
-ReferenceCell reference_part(std::string_view element, std::span<const ReferencePoint> part) {
+ReferenceCell reference_part(std::string_view element, std::span<const ReferencePoint> part, int degree) {
   ReferenceCell cell{element, 0, 0, {}};
   for_each_element([&](auto candidate) {
     using Element = decltype(candidate);
@@ -74,7 +80,7 @@ ReferenceCell reference_part(std::string_view element, std::span<const Reference
     cell.element = Element::kName;
     cell.nodes = Element::kNodes;
     cell.dimension = Element::kDimension;
-    add_points<Element>(cell, part);
+    add_points<Element>(cell, part, degree);
   });
   return cell;
 }

@@ -1,12 +1,15 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <span>
+#include <string>
 #include <utility>
 
 #include "tissu/base/error.h"
 #include "tissu/base/sort_unique.h"
 #include "tissu/element/reference_cell.h"
+#include "tissu/element/reference_part.h"
 #include "tissu/force/load.h"
 
 namespace tissu {
@@ -31,6 +34,19 @@ ReferenceCell exact_rule(const FaceCells& faces) {
   const auto* enough =
       std::ranges::find_if(info->rules, [&](const RuleInfo& rule) { return rule.degree >= degree; });
   return reference_cell(element, enough == info->rules.end() ? info->rules.back().name : enough->name);
+}
+
+/// The same on the pieces of a face: in all, a quadrangle has twice the degree along each side.
+ReferenceCell exact_rule(const FacePart& part) {
+  if (part.pieces.empty()) return exact_rule(FaceCells{std::string(part.element), part.nodes});
+  const ElementInfo& info = *find_element(part.element);
+  const int degree = part.element.starts_with("triangle") ? 3 * info.order - 2 : 2 * (3 * info.order - 1);
+  ReferenceCell all{part.element, info.nodes, info.dimension, {}};
+  for (const std::vector<ReferencePoint>& piece : part.pieces) {
+    ReferenceCell rule = reference_part(part.element, piece, degree);
+    std::ranges::move(rule.points, std::back_inserter(all.points));
+  }
+  return all;
 }
 
 /// x,1 and x,2 at a point.
@@ -98,17 +114,22 @@ void add_normals(const FaceCells& faces, ConstReals positions, std::vector<doubl
 }
 
 Pressure::Pressure(std::string name, std::vector<FaceCells> faces, double pressure, History history,
-                   std::vector<CarriedFace> carried)
+                   std::vector<CarriedFace> carried, std::vector<FacePart> parts)
     : name_(std::move(name)), pressure_(pressure), history_(std::move(history)) {
-  act_on(std::move(faces), std::move(carried));
+  act_on(std::move(faces), std::move(carried), std::move(parts));
 }
 
-void Pressure::act_on(std::vector<FaceCells> faces, std::vector<CarriedFace> carried) {
+void Pressure::act_on(std::vector<FaceCells> faces, std::vector<CarriedFace> carried,
+                      std::vector<FacePart> parts) {
   carried_ = std::move(carried);
   faces_.clear();
   for (FaceCells& some : faces) {
     ReferenceCell rule = exact_rule(some);
     faces_.push_back({std::move(some), std::move(rule)});
+  }
+  for (FacePart& part : parts) {
+    ReferenceCell rule = exact_rule(part);
+    faces_.push_back({{std::string(part.element), std::move(part.nodes)}, std::move(rule)});
   }
 }
 

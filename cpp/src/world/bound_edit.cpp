@@ -133,7 +133,7 @@ void WorldEdit::renew_pressures(std::string_view name) {
     if (pressure == nullptr) continue;
     if (described->body == body.name) {
       PressedFaces pressed = faces_of(*described, body);
-      pressure->act_on(std::move(pressed.faces), std::move(pressed.carried));
+      pressure->act_on(std::move(pressed.faces), std::move(pressed.carried), std::move(pressed.parts));
     }
     ++described;
   }

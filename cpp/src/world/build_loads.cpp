@@ -45,11 +45,11 @@ void WorldBuilder::add_pressure(const PressureDescription& pressure) {
   PressedFaces pressed = faces_of(pressure, on);
   world_.forces_.push_back(std::make_unique<Pressure>(pressure.name, std::move(pressed.faces),
                                                       pressure.pressure, pressure.history,
-                                                      std::move(pressed.carried)));
+                                                      std::move(pressed.carried), std::move(pressed.parts)));
 }
 
 PressedFaces faces_of(const PressureDescription& pressure, const Body& on) {
-  PressedFaces pressed{pressure.faces, pressure.carried};
+  PressedFaces pressed{pressure.faces, pressure.carried, pressure.parts};
   for (FaceCells& some : pressed.faces) {
     some.nodes =
         shifted(std::move(some.nodes), on.first_node, on.node_count, "pressure \"" + pressure.name + "\"");
@@ -58,6 +58,9 @@ PressedFaces faces_of(const PressureDescription& pressure, const Body& on) {
     for (auto& point : face) {
       for (CarriedNode& one : point) one.node += on.first_node;
     }
+  }
+  for (FacePart& part : pressed.parts) {
+    for (std::int32_t& node : part.nodes) node += on.first_node;
   }
   return pressed;
 }

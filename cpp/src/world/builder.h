@@ -77,6 +77,7 @@ double diagonal_of(const Eigen::AlignedBox3d& box);
 struct PressedFaces {
   std::vector<FaceCells> faces;
   std::vector<CarriedFace> carried;
+  std::vector<FacePart> parts;
 };
 PressedFaces faces_of(const PressureDescription& pressure, const Body& on);
 

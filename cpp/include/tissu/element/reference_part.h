@@ -22,7 +22,7 @@ std::vector<ReferencePoint> reference_nodes(std::string_view element);
 double reference_measure(std::span<const ReferencePoint> part);
 
 /// The element with a rule on such a part, instead of on its whole reference cell: exact for polynomials of
-/// degree 8, on a line of degree 5.
-ReferenceCell reference_part(std::string_view element, std::span<const ReferencePoint> part);
+/// this degree, 8 at most, and on a line always of degree 5.
+ReferenceCell reference_part(std::string_view element, std::span<const ReferencePoint> part, int degree = 8);
 
 }  // namespace tissu

@@ -5,9 +5,11 @@
 #include <array>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "tissu/element/reference_cell.h"
+#include "tissu/element/reference_part.h"
 #include "tissu/force/force_model.h"
 #include "tissu/force/load_change.h"
 
@@ -66,6 +68,13 @@ struct FaceCells {
   double thickness = 0.0;  ///< of the flat body along z, at rest [m]; faces have none
 };
 
+/// A face of a cell, of which the cell has material.
+struct FacePart {
+  std::string_view element;
+  std::vector<std::int32_t> nodes;                  ///< of the cell, in the order of the element
+  std::vector<std::vector<ReferencePoint>> pieces;  ///< where it has material; empty: everywhere
+};
+
 /// A point that rides on nodes: numbers and weights, which sum to one.
 struct CarriedNode {
   std::int32_t node;
@@ -88,14 +97,14 @@ void add_normals(const FaceCells& faces, ConstReals positions, std::vector<doubl
 /// an open surface; the symmetric part is used, which is exact for a pressure on a closed surface or one
 /// whose rim is held. A definite matrix goes without it: the eigenvalues of a face sum to zero, so half of
 /// what it says would be gone, and on a closed surface the faces' parts cancel each other, their halves would
-/// not. A triangle whose points ride on nodes gives each point a third of its force. What a run changes of
-/// it: the pressure.
+/// not. A triangle whose points ride on nodes gives each point a third of its force; of a part of a face the
+/// sum goes over the points of its pieces. What a run changes of it: the pressure.
 class Pressure final : public ForceModel {
  public:
   Pressure(std::string name, std::vector<FaceCells> faces, double pressure, History history,
-           std::vector<CarriedFace> carried = {});
+           std::vector<CarriedFace> carried = {}, std::vector<FacePart> parts = {});
   /// After an edit in place of the body: on other faces, by the same memory.
-  void act_on(std::vector<FaceCells> faces, std::vector<CarriedFace> carried);
+  void act_on(std::vector<FaceCells> faces, std::vector<CarriedFace> carried, std::vector<FacePart> parts);
   [[nodiscard]] std::string_view effect() const override { return name_; }
   [[nodiscard]] ForceKind kind() const override { return ForceKind::external; }
   [[nodiscard]] bool may_add_energy() const override { return true; }

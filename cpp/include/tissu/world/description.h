@@ -101,7 +101,8 @@ struct PressureDescription {
   std::vector<FaceCells> faces;
   double pressure = 0.0;  ///< [Pa]
   History history;
-  std::vector<CarriedFace> carried = {};  ///< what cuts have left of other faces
+  std::vector<CarriedFace> carried = {};  ///< what cuts have left of other triangles
+  std::vector<FacePart> parts = {};       ///< and of other quads
   std::vector<FaceCells> first_day = {};  ///< of a body that was cut: the faces before
 };
 

@@ -1,7 +1,6 @@
 /// Cuts of a running simulation: blades, plans that are made, and what is there afterwards.
 
 #include <algorithm>
-#include <numeric>
 
 #include "bind.h"
 #include "tissu/edit/body_totals.h"
@@ -325,12 +324,7 @@ void bind_cut(py::class_<Simulation>& simulation) {
       .def("roots", &roots, arg("body"))
       .def("made_of", &made_of, arg("body"))
       .def(
-          "mass",
-          [](const Simulation& s, const std::string& name) {
-            const Body& body = s.world().body(name);
-            const auto first = s.world().mass().nodal().begin() + body.first_node;
-            return std::accumulate(first, first + body.node_count, 0.0);
-          },
+          "mass", [](const Simulation& s, const std::string& name) { return material_mass(s.world(), name); },
           arg("body"))
       .def(
           "cell_count",

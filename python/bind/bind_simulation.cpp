@@ -132,6 +132,7 @@ void bind_simulation(py::module_& m) {
                              })
       .def("keep_held_velocities", &Simulation::keep_held_velocities)
       .def("forget_forces", &Simulation::forget_forces)
+      .def("forget_stable_step", &Simulation::forget_stable_step)
       .def("rotations", &rotations, arg("body"))
       .def("points", &points, arg("body"))
       .def("body_range", &body_range, arg("body"))

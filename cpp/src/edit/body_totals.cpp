@@ -1,5 +1,6 @@
 #include "tissu/edit/body_totals.h"
 
+#include <algorithm>
 #include <numeric>
 
 namespace tissu {
@@ -32,7 +33,26 @@ void add_spins(const World& world, const State& state, const Body& body, BodyTot
   }
 }
 
+bool has_tissue(const World& world) {
+  const WorldDescription* description = world.description();
+  return description == nullptr || std::ranges::any_of(description->bodies, [](const BodyDescription& body) {
+           return !body.shared.empty();
+         });
+}
+
 }  // namespace
+
+double material_mass(const World& world, std::string_view name) {
+  const Body& body = world.body(name);
+  std::vector<double> own;
+  if (has_tissue(world)) {
+    own.assign(static_cast<std::size_t>(world.blocks()), 0.0);
+    for (const BodyModel* model : body.models) model->add_masses(own);
+    return std::accumulate(own.begin(), own.end(), 0.0);
+  }
+  const auto first = world.mass().nodal().begin() + body.first_node;
+  return std::accumulate(first, first + body.node_count, 0.0);
+}
 
 BodyTotals totals(const World& world, const State& state, std::string_view name) {
   const Body& body = world.body(name);

@@ -1,6 +1,7 @@
 #include "tissu/simulation/energy_watch.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "tissu/base/number_text.h"
 #include "tissu/contact/contact.h"
@@ -97,8 +98,16 @@ void EnergyWatch::ignore_round_off(const World& world, double h) {
 }
 
 std::string EnergyWatch::say(const World& world) const {
-  const std::string found = "the energy has grown by " + number_text(100.0 * growth()) +
-                            " % of what the bodies had, and nothing in the scene gives any; take ";
+  if (!std::isfinite(growth())) {
+    return "the energy is not a number: a cell or a point of tissue is inside out, where its law has none; "
+           "take a smaller dt";
+  }
+  const bool had_any = largest_ > ignored_;
+  const std::string found =
+      (had_any
+           ? "the energy has grown by " + number_text(100.0 * growth()) + " % of what the bodies had"
+           : "the energy has grown by " + number_text(gained_ - allowed_) + " J in bodies that had none") +
+      ", and nothing in the scene gives any; take ";
   if (world.contact() != nullptr) {
     return found +
            "a smaller dt, steps that are linearised once (newton: iterations: 1), or, if the step is another "

@@ -1,6 +1,7 @@
 #include "tissu/step/explicit_method.h"
 
 #include <cmath>
+#include <limits>
 
 #include "tissu/base/error.h"
 #include "tissu/base/number_text.h"
@@ -55,7 +56,17 @@ StepReport ExplicitMethod::step(State& state, double h) {
   report.time = state.time;
   report.converged = true;
   if (contact_ != nullptr) tell_depth(report);
+  if (stable_.may_invert(start_, state) && !has_energy(state))
+    report.residual = std::numeric_limits<double>::quiet_NaN();
   return report;
+}
+
+bool ExplicitMethod::has_energy(const State& state) {
+  double energy = 0.0;
+  for (const Body& body : world().bodies()) {
+    for (const BodyModel* model : body.models) energy += model->energy(state, scratch_);
+  }
+  return std::isfinite(energy);
 }
 
 void ExplicitMethod::acceleration(const State& state, double share, Reals a) {

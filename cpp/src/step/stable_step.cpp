@@ -14,6 +14,8 @@ namespace {
 constexpr double kLookEvery = 8.0;   ///< steps
 constexpr double kLasting = 1000.0;  ///< steps: more than a body of a hundred cells takes for a vibration
 constexpr double kDeformed = 0.02;   ///< share of an edge's length
+constexpr double kFar = 0.05;        ///< of the shortest edge, or of the mean distance of frames
+constexpr double kTurned = 0.9997;   ///< cosine of half a turn by 0.05
 constexpr std::size_t kNumbers = 7;  ///< of the memory, before the lengths
 constexpr double kRoundOff = 1e-12;
 constexpr int kHalvings = 60;
@@ -217,6 +219,30 @@ void StableStep::measure(const Amplification& method, const State& state) {
   for (std::size_t e = 0; e < lengths_.size(); ++e) {
     lengths_[e] = (block(x, edges_[2 * e]) - block(x, edges_[2 * e + 1])).norm();
   }
+  find_shortest();
+}
+
+void StableStep::find_shortest() {
+  shortest_ = lengths_.empty() ? std::numeric_limits<double>::infinity() : std::ranges::min(lengths_);
+  const std::size_t frames = world_->frames().size();
+  if (frames > 0) shortest_ = std::min(shortest_, world_->extent() / std::cbrt(static_cast<double>(frames)));
+}
+
+bool StableStep::may_invert(const State& from, const State& to) const {
+  for (std::size_t i = 0; i < from.rotations.size(); ++i) {
+    if (!(std::abs(from.rotations[i].dot(to.rotations[i])) >= kTurned)) return true;
+  }
+  return std::ranges::any_of(world_->bodies(), [&](const Body& body) {
+    if (body.node_count == 0) return false;
+    Vec3 least = Vec3::Constant(std::numeric_limits<double>::infinity());
+    Vec3 most = -least;
+    for (std::int32_t row = body.first_node; row < body.first_node + body.node_count; ++row) {
+      const Vec3 way = block(ConstReals(to.positions), row) - block(ConstReals(from.positions), row);
+      least = least.cwiseMin(way);
+      most = most.cwiseMax(way);
+    }
+    return !((most - least).norm() <= kFar * shortest_);
+  });
 }
 
 /// Methods that make undamped vibrations grow: the limit of what is damped says nothing of what is not. What
@@ -298,6 +324,7 @@ void StableStep::restore(ConstReals memory) {
   least_ = memory[5];
   least_before_ = memory[6];
   std::ranges::copy(memory.subspan(kNumbers), lengths_.begin());
+  find_shortest();
 }
 
 }  // namespace tissu

@@ -70,6 +70,7 @@ class Parameters(MutableMapping[str, float]):
                 return
             scene = self._simulation.scene
             self._simulation._become(_replaced(scene, _path(scene, name), value))
+            self._simulation._core.forget_stable_step()
 
     def __delitem__(self, name: str) -> None:
         raise ParameterError(f"found the removal of {name}; another value is accepted")

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from tissu import _core
 from tissu.counted import counted
 from tissu.cutting.report import CutReport, Piece
-from tissu.errors import ParameterError
+from tissu.errors import ParameterError, TissuError
 from tissu.simulation import grab as kept
 from tissu.simulation import hanging
 from tissu.simulation.lumped import give_back_to, momenta_of
@@ -182,13 +182,17 @@ class Severing:
         if mark is None:
             return
         back, dt = mark
-        stable = self._core.stable_step()
+        try:
+            stable = self._core.stable_step()
+        except TissuError:  # it is not a number
+            self._core.rewind(back)
+            raise
         if dt > stable * (1.0 + _ROUND_OFF):
             self._core.rewind(back)
             raise ParameterError(
-                f"the cut of '{tissue}' would leave frames that are so light that the step of "
-                f"{dt:g} s is above the stable one of {stable:.4g} s; take a smaller step, or an "
-                "implicit method"
+                f"the cut of '{tissue}' would leave frames so light or points so stiff that the "
+                f"step of {dt:g} s is above the stable one of {stable:.4g} s; take a smaller step, "
+                "or an implicit method"
             )
 
     def _let_go(self, tissue: str, idle: NDArray[np.int64]) -> tuple[int, ...]:

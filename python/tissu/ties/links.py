@@ -23,6 +23,8 @@ Pairs = NDArray[np.int32]
 
 _LEAST_SPAN = 1e-2
 """of the shortest to the longest extent of frames that span space (moving_least_squares.cpp)"""
+_STEEPEST = 2.0
+"""times as steep as before any cut: weights of frames nearly in one plane multiply small strains"""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -117,15 +119,28 @@ class Links:
         """The weights of a point by the shape function, or Shepard's where the frames do not do."""
         if self._serves(origins):
             try:
-                return self._shape(self.shape, p, origins)
+                found = self._shape(self.shape, p, origins)
             except TissuError:  # nearly in one plane, or far outside of its frames
                 pass
+            else:
+                if not self._complete or self._is_tame(p, found):
+                    return found
         return self._shape("shepard", p, origins)
+
+    def _is_tame(self, p: int, found: Weights) -> bool:
+        """Whether the weights of a point are hardly steeper than those that it had at first."""
+        first = self.listened.of(np.array([p]))
+        return bool(found.steepness()[0] <= _STEEPEST * first.steepness()[0])
+
+    @property
+    def _complete(self) -> bool:
+        """Whether the shape function promises to hold what is linear."""
+        kinds = {name: complete for name, _, complete, _ in _core.shape_functions()}
+        return kinds[self.shape] == "linear"
 
     def _serves(self, origins: Floats) -> bool:
         """Whether some frames are enough for the shape function to hold what it promises."""
-        kinds = {name: complete for name, _, complete, _ in _core.shape_functions()}
-        if kinds[self.shape] != "linear":
+        if not self._complete:
             return True
         if self.shape != "moving_least_squares":
             return False  # its simplex, or its cell of the grid, lacks a corner

@@ -39,6 +39,10 @@ class Weights(NamedTuple):
         found = np.where(negative, np.square(self.weights), self.weights)
         return np.asarray(found / found.sum(axis=1, keepdims=True))
 
+    def steepness(self) -> Floats:
+        """The sum (p,) of the lengths of the gradients of the weights of each point [1/m]."""
+        return np.asarray(np.linalg.norm(self.gradients, axis=2).sum(axis=1))
+
     def of(self, points: NDArray[np.int64]) -> Weights:
         """Those of some points."""
         return Weights(self.frames[points], self.weights[points], self.gradients[points])

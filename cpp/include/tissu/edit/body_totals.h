@@ -18,6 +18,8 @@ struct BodyTotals {
   double elastic = 0.0;                  ///< [J]
 };
 BodyTotals totals(const World& world, const State& state, std::string_view body);
+/// The mass of a body's own material [kg]. The lumped masses of its nodes are more where tissue follows them.
+double material_mass(const World& world, std::string_view body);
 /// Those of the masses of some rows: no volume, and no elastic energy.
 BodyTotals totals(const World& world, const State& state, std::span<const std::int32_t> rows);
 

@@ -65,6 +65,8 @@ class Simulation {
   /// The world was replaced by one in which less is connected: what the method keeps of earlier forces acts
   /// no longer.
   void forget_forces() { integrator_->after_edit(); }
+  /// The world was replaced by one with other numbers: the largest stable step is found anew.
+  void forget_stable_step() { integrator_->forget_stable_step(); }
   /// Held rows begin with the velocities that the state has now, as a motion that drifts with its body.
   void keep_held_velocities() { world_->fixed().copy(state_.velocities, held_); }
   /// Puts nodes that are not unknowns where they are now, before positions or velocities are read.

@@ -20,6 +20,8 @@ class ExplicitMethod : public Integrator {
   void take_part(bool /*early*/, double share) override { is_part_ = share < 1.0; }
   void append_memory(std::vector<double>& memory) const override { stable_.append_memory(memory); }
   void restore(ConstReals memory) override { stable_.restore(memory); }
+  void after_edit() override { stable_.forget(); }
+  void forget_stable_step() override { stable_.forget(); }
 
  protected:
   /// What one step does to vibrations.
@@ -44,6 +46,9 @@ class ExplicitMethod : public Integrator {
   void lead(State& state, double since) const;
 
  private:
+  /// Whether the energy of the bodies is a number. Forces at the end of a step are those of the next one, so
+  /// nothing else would tell.
+  [[nodiscard]] bool has_energy(const State& state);
   // Of worlds with contact: explicit_touching.cpp.
   void prepare_touching(const World& world, Profile& profile);
   void begin_touching(double h);
@@ -60,6 +65,7 @@ class ExplicitMethod : public Integrator {
   std::unique_ptr<System> system_;
   StableStep stable_;
   State start_;
+  Scratch scratch_;
   std::unique_ptr<ExplicitContact> contact_;  ///< null where nothing touches
   Profile* profile_ = nullptr;
   std::size_t detection_row_ = 0;  ///< of the profile; there where something touches

@@ -73,6 +73,9 @@ class Integrator {
   [[nodiscard]] virtual double stable_step(const State& /*state*/) {
     return std::numeric_limits<double>::infinity();
   }
+  /// The world is stiffer or softer than the one before, or may be: a limit that was found there is none
+  /// here.
+  virtual void forget_stable_step() {}
   /// The next step is that share of one that was asked for. `early`: if its contacts do not settle, it may
   /// say so before all its systems, because shorter ones will be taken instead.
   virtual void take_part(bool /*early*/, double /*share*/) {}

@@ -40,6 +40,12 @@ class StableStep {
   /// method keeps that of one step only.
   [[nodiscard]] double lasting() const;
 
+  /// The world is stiffer or softer than what was measured: the next limit is measured anew.
+  void forget() { limit_ = 0.0; }
+  /// Whether nodes of a body go so far beside each other, or turn so far, that a cell may have been turned
+  /// inside out.
+  [[nodiscard]] bool may_invert(const State& from, const State& to) const;
+
   void append_memory(std::vector<double>& memory) const;
   void restore(ConstReals memory);
 
@@ -48,6 +54,7 @@ class StableStep {
   /// A number that changes with the couplings: which rows, how stiff.
   [[nodiscard]] double coupled(const State& state);
   void measure(const Amplification& method, const State& state);
+  void find_shortest();
   /// Lowers the limit to that of everything that is damped less than the fastest vibration.
   void heed_less_damped(const Amplification& method, const State& state, const Vibration& fastest);
   /// The largest stable step of a vibration, with what was added to all of them and without.
@@ -64,7 +71,8 @@ class StableStep {
   double least_before_ = 0.0;  ///< … and in the one before
   std::vector<std::int32_t> edges_;
   std::vector<double> lengths_;
-  double coupled_ = 0.0;  ///< when it was measured
+  double shortest_ = 0.0;  ///< of these
+  double coupled_ = 0.0;   ///< when it was measured
   Couplings couplings_;
 };
 

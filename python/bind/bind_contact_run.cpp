@@ -30,6 +30,15 @@ py::array_t<T> rows(std::size_t count, py::ssize_t columns) {
   return py::array_t<T>({static_cast<py::ssize_t>(count), columns});
 }
 
+/// Where the force on a contact's vertex number k acts. Without friction it is along the normal: its moment
+/// on the surface of a sheet or line is that on the middle.
+Vec3 pressed_at(const Contact& contact, const ContactNumbers& c, std::size_t k, const State& state) {
+  const auto& vertex = contact.surfaces().vertices()[static_cast<std::size_t>(c.vertex[k])];
+  const Vec3 place = contact.touched(c, k, state);
+  const bool rubs = contact.description().pairs[static_cast<std::size_t>(c.pair)].friction > 0.0;
+  return vertex.is_soft() && !rubs ? Vec3(place + contact.outward(c, k)) : place;
+}
+
 /// Surfaces (m, 2), nodes (m, 4) where -1 is none and lower ones are points that nodes carry, weights (m, 4),
 /// point, normal, gap, force, sliding, area.
 py::tuple contacts(const Simulation& simulation) {
@@ -65,13 +74,7 @@ py::tuple contacts(const Simulation& simulation) {
       if (c.beta[k] < 0.0) other = vertex.surface;
       if (c.beta[k] <= 0.0) continue;
       positive += c.beta[k];
-      const Vec3 rest = block(ConstReals(contact.surfaces().rest()), static_cast<std::int32_t>(c.vertex[k]));
-      const std::int32_t obstacle =
-          contact.surfaces().surfaces()[static_cast<std::size_t>(vertex.surface)].obstacle;
-      point +=
-          c.beta[k] * (vertex.is_soft()
-                           ? contact.place(static_cast<std::int32_t>(c.vertex[k]), simulation.state())
-                           : contact.place_of(obstacle, rest, simulation.state(), simulation.state().time));
+      point += c.beta[k] * pressed_at(contact, c, k, simulation.state());
     }
     if (c.kind == ContactNumbers::kPlane) other = bodies + static_cast<std::int32_t>(c.b);
     surfaces.mutable_at(row, 1) = other;

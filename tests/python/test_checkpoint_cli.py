@@ -7,8 +7,12 @@ import signal
 import subprocess
 import sys
 import time
+from xml.etree import ElementTree
 
 import pytest
+
+from tissu.cli.run import Job, run_scene
+from tissu.output import StepTally
 
 SCENE = """\
 name: bar
@@ -122,6 +126,44 @@ def test_a_stopped_run_leaves_its_checkpoint(scene, tmp_path, number, code):
     assert f'timestep="{stood:.9g}"' in index  # another folder: the series begins there
     done = run(scene, "-o", tmp_path / "other", "--resume", file, "--duration", f"{stood} s")
     assert (done.returncode, summary(tmp_path / "other")["steps"]["steps"]) == (0, 0)
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM], ids=["int", "term"])
+def test_the_frame_of_a_stop_does_not_stay_in_the_series(tmp_path, monkeypatch, number):
+    """Stopped twice, one step before a frame is due and two after one.
+
+    A checkpoint does not change steps that are solved directly: the files agree to the bit.
+    """
+    file, text = tmp_path / "bar.yaml", SCENE.replace("503 ms", "113 ms")
+    file.write_text(text.replace("dt: 5 ms}", "dt: 5 ms, solver: {type: cholesky}}"))
+    words = {"duration": None, "threads": None, "quiet": True, "picture": False}
+    straight, out = tmp_path / "straight", tmp_path / "out"
+    assert run_scene(Job(scene=file, out=straight, **words)) == 0
+    add, taken = StepTally.add, []
+
+    def stop(tally, step):
+        add(tally, step)
+        taken.append(step)
+        if len(taken) in (5, 14):
+            signal.raise_signal(number)
+
+    monkeypatch.setattr(StepTally, "add", stop)
+    words |= {"checkpoint": tmp_path / "c"}
+    code = 128 + number
+    assert run_scene(Job(scene=file, out=out, **words)) == code
+    assert [round(1e3 * time) for time in times_of(out)] == [0, 25]
+    words |= {"resume": tmp_path / "c"}
+    assert run_scene(Job(scene=file, out=out, **words)) == code
+    assert [round(1e3 * time) for time in times_of(out)] == [0, 30, 60, 70]
+    assert run_scene(Job(scene=file, out=out, **words)) == 0
+    assert [round(1e3 * time) for time in times_of(out)] == [0, 30, 60, 90, 113]
+    assert results(out) == results(straight)
+
+
+def times_of(folder):
+    """The times that the index lists."""
+    entries = ElementTree.parse(folder / "bar.pvd").getroot().iter("DataSet")
+    return [float(entry.get("timestep")) for entry in entries]
 
 
 CUBE_ON_A_TABLE = """\

@@ -1,5 +1,7 @@
 """What is wrong while contact runs is said in a sentence, and leaves the simulation as it was."""
 
+import re
+
 import numpy as np
 import pytest
 
@@ -71,3 +73,34 @@ def test_plates_that_close_on_a_body_name_it_and_leave_the_state_whole():
         assert simulation.crossings() == []
     simulation.obstacle("high").move((0, 0, 0))
     audited(simulation, 3)
+
+
+@pytest.mark.parametrize("gap", [0.1, 1e10, 1e300])
+def test_a_gap_that_is_as_long_as_the_body_is_refused(gap):
+    """The body is a cube of 10 cm."""
+    wide = [ts.Contact(("liver", "table"), gap=gap)]
+    words = re.escape(f"contacts[0].gap: found {gap:g} m for 'liver', ")
+    with pytest.raises(SceneError, match=words) as error:
+        resting().replace(contacts=wide).compile()
+    assert "which is 0.1 m long; a gap smaller than the body is accepted" in str(error.value)
+    resting().replace(contacts=[ts.Contact(("liver", "table"), gap=0.099)]).compile()
+
+
+def with_triangles(*triangles):
+    points = np.array(
+        [(0, 0, -0.1), (0.1, 0, -0.1), (0.3, 0, -0.1), (0, 0.1, -0.1), (0.1, 1e-9, -0.1)]
+    )
+    mesh = ts.Mesh(points=points, cells=(("triangle", np.array(triangles)),))
+    contacts = [ts.Contact(("liver", "table"))]
+    return resting().replace(obstacles={"table": ts.MeshObstacle(mesh=mesh)}, contacts=contacts)
+
+
+def test_obstacles_without_area_are_refused():
+    """Corners on a line, or two in one place. One triangle that has an area is enough."""
+    for count, flat in (("1 triangle", [(0, 1, 2)]), ("2 triangles", [(0, 1, 2), (1, 1, 3)])):
+        with pytest.raises(SceneError) as error:
+            with_triangles(*flat).compile()
+        text = str(error.value)
+        assert f"obstacles.table.mesh: found {count}, none of which has an area" in text
+        assert "with the corners (0, 0, -0.1), (0.1, 0, -0.1), (0.3, 0, -0.1) m" in text
+    with_triangles((0, 1, 2), (0, 4, 2)).compile()

@@ -308,7 +308,12 @@ def test_a_grab_whose_point_parts_is_released() -> None:
     assert parted.released
     assert len(report.released) >= 1
     assert not far.released
-    assert near.released == (near._number in report.released)
+    assert [near.number, far.number, parted.number] == [1, 2, 3]
+    assert parted.number in report.released
+    assert near.released == (near.number in report.released)
+    assert [grab.number for grab in simulation.grabs] == [
+        grab.number for grab in (near, far) if not grab.released
+    ]
 
 
 @pytest.mark.parametrize(

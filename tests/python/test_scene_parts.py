@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+import tissu as ts
 from tissu import (
     BarMesh,
     Body,
@@ -228,3 +229,25 @@ bodies:
 step: {type: static}
 """
         ).compile()
+
+
+@pytest.mark.parametrize("value", [True, np.True_])
+def test_true_and_false_are_no_whole_numbers(value):
+    """Python counts them as 1 and 0."""
+    words = f"found {value}; a whole number is accepted"
+    with pytest.raises(ts.SceneError, match=f"iterations: {words}"):
+        ts.ContactSettings(iterations=value)
+    with pytest.raises(ts.SceneError, match=f"iterations: {words}"):
+        ts.Newton(iterations=value)
+    with pytest.raises(ts.SceneError, match=f"cells: {words}"):
+        ts.BarMesh(size=(1, 1, 1), cells=(2, value, 2))
+    with pytest.raises(ts.SceneError, match="seed: found False; a whole number is accepted"):
+        ts.Start(seed=False)
+    assert ts.ContactSettings(iterations=np.int64(3)).iterations == 3
+    assert ts.ContactSettings(travel=bool(value)).travel is bool(value)
+
+
+def test_a_mask_is_no_list_of_nodes():
+    """It would select the nodes 0 and 1."""
+    with pytest.raises(ts.SceneError, match="ids: found True; a whole number is accepted"):
+        ts.Nodes(ids=np.array([False, True, True])[1:])

@@ -244,7 +244,7 @@ class Files:
         """Writes the last results, and the checkpoint of a run that can go on; how it ends then."""
         try:
             if self.lost is None:
-                self._write(simulation)
+                self._write(simulation, ended_early=ending.status != "finished")
         except TissuError as error:
             self.lost = error
             ending = Ending("stopped", BAD_INPUT, str(error), error)
@@ -254,10 +254,10 @@ class Files:
                 self.checkpoints.write(simulation)
         return ending
 
-    def _write(self, simulation: Simulation) -> None:
+    def _write(self, simulation: Simulation, *, ended_early: bool = False) -> None:
         if simulation.time > self.series.last_time:
             with self.clock.stage("output"):
-                self.series.write()
+                self.series.write(ended_early=ended_early)
 
 
 def advance(

@@ -33,7 +33,8 @@ def compare(
 
     If a model does not take the scene (its cells, law, viscosity, loads), its row gives the reason.
     If a model computes another law, it has the Young's modulus and Poisson's ratio of the scene
-    (`tissu check` notes this).
+    (`tissu check` notes this). In a scene that is cut, the nodes that its bodies begin with are
+    compared: they keep their numbers, and those that cuts add differ from run to run.
 
     Args:
         scene: with a duration, or static.

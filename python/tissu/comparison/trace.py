@@ -25,8 +25,9 @@ class Trace:
 
     Attributes:
         times: (t,) times of the samples [s].
-        displacements: body -> (t, n, 3) [m].
-        rest: body -> (n, 3) positions at rest [m].
+        displacements: body -> (t, n, 3) of the nodes that it began with [m]. Those that cuts add
+            have larger numbers, and are left out.
+        rest: body -> (n, 3) positions at rest of these nodes, at the start [m].
         steps: how many were taken.
         unconverged: how many of them did not converge.
         ms_per_step: median wall time of a step.
@@ -65,6 +66,7 @@ def trace(scene: Scene) -> Trace:
     frequency = simulation.largest_frequency()
     span = scene.duration if scene.duration is not None else simulation.dt
     every = max(1, round(span / simulation.dt / _SAMPLES))
+    rest = {name: np.array(mesh.points) for name, mesh in simulation.meshes.items()}
     times, samples, stopped = [], [], ""
     unconverged = iterations = 0
     try:
@@ -73,19 +75,19 @@ def trace(scene: Scene) -> Trace:
             iterations += report.solver_iterations
             if report.number % every == 0:
                 times.append(simulation.time)
-                samples.append(_displacements(simulation))
+                samples.append(_displacements(simulation, rest))
     except TissuError as error:
         stopped = str(error)
     if not stopped and (not times or times[-1] != simulation.time):
         times.append(simulation.time)
-        samples.append(_displacements(simulation))
+        samples.append(_displacements(simulation, rest))
     profile = simulation.profile()
     return Trace(
         times=np.array(times),
         displacements={
             name: np.array([sample[name] for sample in samples]) for name in simulation.bodies
         },
-        rest={name: np.array(simulation.meshes[name].points) for name in simulation.bodies},
+        rest=rest,
         steps=profile.steps,
         unconverged=unconverged,
         ms_per_step=profile.p50_ms,
@@ -99,5 +101,5 @@ def trace(scene: Scene) -> Trace:
     )
 
 
-def _displacements(simulation: Simulation) -> dict[str, Floats]:
-    return {name: simulation.displacements(name) for name in simulation.bodies}
+def _displacements(simulation: Simulation, rest: dict[str, Floats]) -> dict[str, Floats]:
+    return {name: simulation.displacements(name)[: len(nodes)] for name, nodes in rest.items()}

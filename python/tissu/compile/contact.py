@@ -210,6 +210,12 @@ def _prepare_pairs(
                 prepared.findings.problem((*path, "stiffness"), text)
                 return
         edge = _finest_edge(made, surfaces, first, second)
+        if contact.gap is not None:
+            wide = _wide_gap(made, surfaces, (first, second), contact.gap)
+            if wide:
+                text = f"{wide}, and {GAP * edge:.2g} m is the default"
+                prepared.findings.problem((*path, "gap"), text)
+                return
         gaps.append(GAP * edge if contact.gap is None else contact.gap)
         finest = edge if not finest else min(finest, edge)
         made.pairs.append(PreparedPair(first, second, contact, gaps[-1], nodes))
@@ -248,6 +254,25 @@ def _without_area(
         if surface is not None and not len(surface.triangles):
             return name
     return None
+
+
+def _wide_gap(
+    made: PreparedContact,
+    surfaces: dict[str, ContactSurface],
+    pair: tuple[str, str],
+    gap: float,
+) -> str:
+    """What is wrong with a gap that no body of the pair is as long as; empty: nothing."""
+    sizes = {name: surfaces[name].longest for name in pair if name in surfaces}
+    for name in pair:
+        obstacle = made.obstacles.get(name)
+        if obstacle is not None and obstacle.rigid is not None and obstacle.surface is not None:
+            sizes[name] = obstacle.surface.longest
+    name = max(sizes, key=lambda one: sizes[one])
+    if gap < sizes[name]:
+        return ""
+    text = f"found {gap:g} m for '{name}', which is {sizes[name]:.4g} m long"
+    return f"{text}; a gap smaller than the body is accepted"
 
 
 def _finest_edge(

@@ -106,6 +106,12 @@ class ContactSurface(NamedTuple):
         ends = self.vertices[np.unique(np.sort(edges, axis=1), axis=0)]
         return float(np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1).mean())
 
+    @property
+    def longest(self) -> float:
+        """Longest side of the box around it at rest, with its thickness [m]."""
+        sides = np.ptp(self.vertices[self.nodes], axis=0)
+        return float(sides.max() + 2.0 * self.radius.max(initial=0.0))
+
 
 def numbered(vertices: Ints) -> Ints:
     """Vertices that nodes carry, as the core numbers them: below zero, which no node is."""

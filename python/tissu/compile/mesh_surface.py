@@ -9,12 +9,16 @@ import numpy as np
 from tissu.compile.contact_surface import ContactSurface, halves_of
 from tissu.compile.meshes import mesh_of
 from tissu.compile.prepared import Findings, Floats, Ints
+from tissu.counted import counted
 from tissu.errors import TissuError
 from tissu.mesh.surface import edge_faults, enclosed_volume
 from tissu.scene.problem import field_path
 
 if TYPE_CHECKING:
     from tissu.scene.problem import Path
+
+_FLAT = 1e-14
+"""of the square of its longest edge: twice the area of a triangle below it is round-off"""
 
 
 def solid_surface(vertices: Floats, triangles: Ints, *, closed: bool) -> ContactSurface:
@@ -54,3 +58,21 @@ def surface_of_mesh(source: object, place: Path, findings: Findings) -> ContactS
         triangles = triangles[:, [0, 2, 1]]
         findings.note(f"{field_path(place)}: its faces look inward; they are turned outward")
     return solid_surface(vertices, triangles, closed=closed)
+
+
+def without_area(surface: ContactSurface) -> str:
+    """What is wrong where no triangle has corners that do not lie on a line; empty: nothing.
+
+    Nothing of such a surface has a side that a body could be on.
+    """
+    corners = surface.vertices[surface.triangles]
+    edges = corners - np.roll(corners, 1, axis=1)
+    longest = (edges**2).sum(axis=2).max(axis=1)
+    twice = np.linalg.norm(np.cross(edges[:, 0], edges[:, 1]), axis=1)
+    if not len(corners) or (twice > _FLAT * longest).any():
+        return ""
+    at = ", ".join(f"({x:g}, {y:g}, {z:g})" for x, y, z in corners[0])
+    text = f"found {counted(len(corners), 'triangle')}, none of which has an area, the first with "
+    return (
+        text + f"the corners {at} m; a mesh with an area is accepted: look at its units and cells"
+    )

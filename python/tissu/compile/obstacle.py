@@ -10,7 +10,7 @@ import numpy as np
 from tissu.compile import facets
 from tissu.compile.contact_surface import ContactSurface, halves_of
 from tissu.compile.hull import hull_of
-from tissu.compile.mesh_surface import solid_surface, surface_of_mesh
+from tissu.compile.mesh_surface import solid_surface, surface_of_mesh, without_area
 from tissu.compile.prepared import Findings, Floats, Ints
 from tissu.compile.rigid import Rigid, centre_of, rigid_of
 from tissu.scene.convex_obstacle import (
@@ -180,8 +180,13 @@ def _box(box: BoxObstacle) -> ContactSurface:
 
 def _of_mesh(name: str, obstacle: MeshObstacle, findings: Findings) -> ContactSurface | None:
     """The boundary of the mesh's volume, or its faces; a closed one is turned outward."""
-    surface = surface_of_mesh(obstacle.mesh, ("obstacles", name, "mesh"), findings)
+    place = ("obstacles", name, "mesh")
+    surface = surface_of_mesh(obstacle.mesh, place, findings)
     if surface is None:
+        return None
+    wrong = without_area(surface)
+    if wrong:
+        findings.problem(place, wrong)
         return None
     if not surface.closed:
         findings.note(

@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from tissu.simulation import Simulation
 
 FRAMES = "frames"
+_EARLY = " <!-- the run ended early here -->"
 Floats = NDArray[np.float64]
 
 
@@ -59,7 +60,8 @@ class Series:
         """Makes the folder, and takes away what an earlier series of this name left in it.
 
         A simulation that went on from a checkpoint continues the series in the folder: frames
-        until that time stay, later ones are taken away.
+        until that time stay, but for those that only an early end had written; later ones are
+        taken away.
 
         Raises:
             TissuError: the folder cannot be written, or another process writes there.
@@ -83,8 +85,12 @@ class Series:
         for folder in (self._folder, self._folder / FRAMES):
             clear_unfinished(folder)
 
-    def write(self) -> None:
+    def write(self, *, ended_early: bool = False) -> None:
         """Writes the present state of every body and obstacle.
+
+        Args:
+            ended_early: it is written only because the run ends before its time: a series that
+                goes on from a checkpoint does not keep it.
 
         Raises:
             TissuError: a file cannot be written.
@@ -104,7 +110,7 @@ class Series:
                 self._look_for_inverted(body)
             self._entries.append(
                 f'    <DataSet timestep="{simulation.time:.9g}" group="" part="{part}" '
-                f'name={quoteattr(body)} file="{name}"/>\n'
+                f'name={quoteattr(body)} file="{name}"/>{_EARLY if ended_early else ""}\n'
             )
         self.count += 1
         self.last_time = simulation.time
@@ -116,13 +122,17 @@ class Series:
         time = self._simulation.time
         text = self.index.read_text(encoding="utf-8") if self.index.is_file() else ""
         entries = [line for line in text.splitlines(keepends=True) if "<DataSet" in line]
-        times = [_number(r'timestep="([^"]+)"', entry) for entry in entries]
-        kept = [e for e, t in zip(entries, times, strict=True) if t <= time * (1.0 + 1e-8)]
+        times = [_time_of(entry) for entry in entries]
+        kept = [
+            entry
+            for entry, t in zip(entries, times, strict=True)
+            if t <= time * (1.0 + 1e-8) and _EARLY not in entry
+        ]
         whole = all((self._folder / name).is_file() for name in _frames("".join(kept)))
         if not kept or not whole or len(kept) % parts:
             return
         self._entries, self.count = kept, len(kept) // parts
-        last = times[len(kept) - 1]
+        last = _time_of(kept[-1])
         self.last_time = time if last >= time * (1.0 - 1e-8) else last
 
     def _look_for_inverted(self, body: str) -> None:
@@ -288,9 +298,9 @@ def _frames(text: str) -> list[str]:
     return re.findall(rf'file="({FRAMES}/[\w.-]+\.vtu)"', text)
 
 
-def _number(pattern: str, text: str) -> float:
-    """The number that a pattern finds; infinity where there is none."""
-    found = re.search(pattern, text)
+def _time_of(entry: str) -> float:
+    """The time of an entry [s]; infinity where it has none."""
+    found = re.search(r'timestep="([^"]+)"', entry)
     try:
         return float(found[1]) if found is not None else float("inf")
     except ValueError:

@@ -6,6 +6,8 @@ import math
 import unicodedata
 from collections.abc import Iterable, Iterator
 
+import numpy as np
+
 from tissu.scene.problem import Problem
 
 MOST_STEPS = 1_000_000_000
@@ -30,6 +32,21 @@ def step_problems(duration: float, dt: float) -> Iterator[Problem]:
     if steps > MOST_STEPS:
         text = f"found {dt:g} s for a duration of {duration:g} s, which is {steps:.2g} steps; "
         yield Problem(("dt",), f"{text}at most {MOST_STEPS:.0e} are accepted: take a larger dt")
+
+
+def boolean_problem(written_as: object, read: object) -> str:
+    """What is wrong with a value that was read as numbers, alone or in a list; empty: nothing.
+
+    Python counts True as 1, and a list of True and False may be meant as one of yes and no.
+    """
+    if isinstance(read, (list, tuple)):
+        items = written_as.tolist() if isinstance(written_as, np.ndarray) else written_as
+        if not isinstance(items, (list, tuple)) or len(items) != len(read):
+            return ""
+        return next(filter(None, map(boolean_problem, items, read)), "")
+    if type(read) not in (int, float) or not isinstance(written_as, (bool, np.bool_)):
+        return ""
+    return f"found {written_as}; a {'whole ' if type(read) is int else ''}number is accepted"
 
 
 def count_problem(value: object) -> str:

@@ -150,6 +150,10 @@ class Knife(Instrument):
                 text = f"found points {number} and {number + 1} in one place; points apart are "
                 yield Problem(("edge",), f"{text}accepted")
 
+    @rule("cuts")
+    def _cuts_each_once(self) -> Iterator[Problem]:
+        yield from _each_once("cuts", self.cuts)
+
     @property
     def bodies(self) -> tuple[str, ...]:
         """Names of the bodies that it cuts."""
@@ -198,6 +202,10 @@ class Ablator(Instrument):
         if self.ends is not None and (len(self.ends) != 2 or self.ends[0] == self.ends[1]):
             yield Problem(("ends",), "two points apart are accepted; leave ends out for a ball")
 
+    @rule("removes")
+    def _removes_each_once(self) -> Iterator[Problem]:
+        yield from _each_once("removes", self.removes)
+
     @property
     def bodies(self) -> tuple[str, ...]:
         """Names of the bodies whose cells it takes away."""
@@ -216,6 +224,12 @@ class Ablator(Instrument):
         """What it does, as `check` says it before the bodies' names."""
         shape = "ball" if self.ends is None else "capsule"
         return f"is a {shape} of radius {self.radius:g} m that takes cells from"
+
+
+def _each_once(field: str, names: tuple[str, ...]) -> Iterator[Problem]:
+    for number, name in enumerate(names):
+        if name in names[:number]:
+            yield Problem((field, number), f"found '{name}' twice; each body once is accepted")
 
 
 INSTRUMENTS: tuple[type[Instrument], ...] = (Knife, Ablator)

@@ -22,8 +22,6 @@ def instrument_problems(scene: Any) -> Iterator[Problem]:
                 place = (*path, instrument.bodies_field, number)
                 if body not in tissues_of(scene):
                     yield from _of_body(scene, body, place)
-                if body in instrument.bodies[:number]:
-                    yield Problem(place, f"found '{body}' twice; each body once is accepted")
             for group in ("bodies", "tissue", "obstacles"):
                 if name in getattr(scene, group, {}):
                     text = f"found '{name}' in {group} too; names are unique"

@@ -20,7 +20,7 @@ from typing_extensions import Self, dataclass_transform
 
 from tissu.errors import ParameterError, SceneError
 from tissu.reading import written
-from tissu.scene.bounds import count_problem
+from tissu.scene.bounds import boolean_problem, count_problem
 from tissu.scene.explain import explained, failure, meaning
 from tissu.scene.field import field
 from tissu.scene.problem import Problem, nearest, nearest_word, one_of_words
@@ -97,8 +97,8 @@ class Part(BaseModel):
             return Unread(tuple(explained(error, value)))
         except OverflowError:
             return Unread((Problem((), f"found {written(value)}, which is too large"),))
-        large = count_problem(read)
-        return Unread((Problem((), large),)) if large else read
+        wrong = boolean_problem(value, read) or count_problem(read)
+        return Unread((Problem((), wrong),)) if wrong else read
 
     @model_validator(mode="wrap")
     @classmethod

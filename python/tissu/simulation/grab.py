@@ -127,6 +127,14 @@ class Grab:
         return f"Grab(of '{self._body}' to ({x:g}, {y:g}, {z:g}) m, {record.stiffness:g} N/m)"
 
     @property
+    def number(self) -> int:
+        """Number of the grab in its simulation, which `CutReport.released` lists; the first is 1.
+
+        It stays when the grab is released, and no later grab of this simulation has it.
+        """
+        return self._number
+
+    @property
     def body(self) -> str:
         """Name of the body."""
         return self._body

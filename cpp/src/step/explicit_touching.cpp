@@ -15,6 +15,12 @@ constexpr double kSame = 1e-9;
 /// largest frequency, measured with Runge-Kutta's fourth order, which needs a little less.
 constexpr double kUnseen = 1.4142135623730951;
 
+/// Of a whole way that was cut, the share that was gone.
+double share_of(const Vec3& gone, const Vec3& whole) {
+  const double square = whole.squaredNorm();
+  return square > 0.0 ? std::clamp(gone.dot(whole) / square, 0.0, 1.0) : 0.0;
+}
+
 }  // namespace
 
 void ExplicitMethod::prepare_touching(const World& world, Profile& profile) {
@@ -59,6 +65,7 @@ void ExplicitMethod::touch(ConstReals way, double pushed, double h, State& state
   world().fixed().copy(led_.velocities, free_way_);
   world().fixed().copy(led_.velocities, free_ends_);
   place(free_way_, h, state);
+  lifted_ = false;
   if (contact_->strikes_first()) {
     if (!contact_->stays()) look(start_, &state);
     strike(pushed, h, state);
@@ -87,12 +94,16 @@ void ExplicitMethod::strike(double pushed, double h, State& state) {
   contact_->strike_way(free_way_, change_);
   for (std::size_t i = 0; i < way_.size(); ++i) way_[i] = free_way_[i] + change_[i];
   place(way_, h, state);
+  unlifted_ = state.positions;
+  unlifted_rotations_ = state.rotations;
+  lifted_ = true;
   contact_->lift(state);
   contact_->strike_end(free_ends_, state, change_);
   for (std::size_t i = 0; i < way_.size(); ++i) state.velocities[i] = free_ends_[i] + change_[i];
 }
 
-/// Rows whose way was cut have the velocity of the way that they went.
+/// Rows whose way was cut have the velocity of the way that they went. What lifted them out of each other is
+/// not gone, and in a short step it would be very fast.
 int ExplicitMethod::hold_back(double h, State& state) {
   const Timed timed(*profile_, travel_row_);
   placed_ = state.positions;
@@ -100,15 +111,29 @@ int ExplicitMethod::hold_back(double h, State& state) {
   const int rows = contact_->hold_back(state);
   if (rows == 0) return 0;
   change_ = state.velocities;
-  for (std::size_t i = 0; i < placed_.size(); ++i) {
-    if (placed_[i] == state.positions[i]) continue;
-    state.velocities[i] = (state.positions[i] - start_.positions[i]) / h;
+  for (std::size_t i = 0; i < placed_.size(); i += 3) {
+    const auto row = static_cast<std::int32_t>(i / 3);
+    const Vec3 placed = block(ConstReals(placed_), row);
+    if (placed == block(ConstReals(state.positions), row)) continue;
+    Vec3 way = block(ConstReals(state.positions), row) - block(ConstReals(start_.positions), row);
+    if (lifted_) {
+      const Vec3 whole = placed - block(ConstReals(start_.positions), row);
+      way -= share_of(way, whole) * (placed - block(ConstReals(unlifted_), row));
+    }
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (placed_[i + k] != state.positions[i + k]) state.velocities[i + k] = way[static_cast<int>(k)] / h;
+    }
   }
   const std::vector<Frame>& frames = world().frames();
   for (std::size_t k = 0; k < frames.size(); ++k) {
     if (placed_rotations_[k].coeffs() == state.rotations[k].coeffs()) continue;
     const Quaternion turn = state.rotations[k] * start_.rotations[k].conjugate();
-    const Vec3 way = nearest_turn(turn, Vec3::Zero());
+    Vec3 way = nearest_turn(turn, Vec3::Zero());
+    if (lifted_) {
+      const Quaternion whole = placed_rotations_[k] * start_.rotations[k].conjugate();
+      const Quaternion lift = placed_rotations_[k] * unlifted_rotations_[k].conjugate();
+      way -= share_of(way, nearest_turn(whole, Vec3::Zero())) * nearest_turn(lift, Vec3::Zero());
+    }
     const bool free = turns_freely() && !frames[k].alone;
     block(Reals(state.velocities), frames[k].rotation) =
         free ? spin_of_free_turn(frames[k], start_.rotations[k], way, h) : Vec3(way / h);

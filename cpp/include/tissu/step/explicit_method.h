@@ -76,8 +76,11 @@ class ExplicitMethod : public Integrator {
   std::vector<double> free_ends_;  ///< … velocities at the end without them, …
   std::vector<double> change_;     ///< … and what these change
   std::vector<double> way_;
-  std::vector<double> placed_;  ///< before ways were cut
+  std::vector<double> placed_;  ///< before ways were cut, …
   std::vector<Quaternion> placed_rotations_;
+  std::vector<double> unlifted_;  ///< … and before what was too deep was lifted; there if lifted_
+  std::vector<Quaternion> unlifted_rotations_;
+  bool lifted_ = false;
   int held_back_ = 0;
   bool looked_ = false;   ///< in this step
   bool is_part_ = false;  ///< of a step that was divided

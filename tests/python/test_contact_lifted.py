@@ -9,7 +9,7 @@ def test_crumbs_that_are_held_back_in_short_parts_are_not_thrown():
     """A block of 20 kPa in six pieces falls by 4 mm onto a table, which is 0.28 m/s.
 
     In the 144th step nodes are held back also in parts of 0.2 us. A depth of 0.2 mm that is lifted
-    in one of them would be 900 m/s: the fastest node had 1,730 m/s, and the energy grew by 67 times.
+    in one of them would be 900 m/s: the fastest node had 1,730 m/s, and the energy grew 67 times.
     Crumbs of a hundredth of the block are thrown at several m/s by what falls on them.
     """
     random = np.random.default_rng(106)

@@ -128,6 +128,15 @@ def test_a_stopped_run_leaves_its_checkpoint(scene, tmp_path, number, code):
     assert (done.returncode, summary(tmp_path / "other")["steps"]["steps"]) == (0, 0)
 
 
+@pytest.fixture
+def heard():
+    """A shell lets what runs in the background ignore SIGINT."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
+
+
+@pytest.mark.usefixtures("heard")
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM], ids=["int", "term"])
 def test_the_frame_of_a_stop_does_not_stay_in_the_series(tmp_path, monkeypatch, number):
     """Stopped twice, one step before a frame is due and two after one.

@@ -115,6 +115,24 @@ def test_a_bar_that_turns_by_a_whole_turn_hits(turn, live):
     assert np.abs(simulation.displacements("block")).max() > 0.02
 
 
+@pytest.mark.parametrize("turn", [1.5, 3.0, 2 * math.pi])
+def test_a_bar_that_turns_to_and_fro_within_a_step_hits(turn):
+    """It turns by nothing in all."""
+    dt = 5e-3
+    turned = ts.Rotation(axis=(0, 0, 1), angles=(0, turn, 0))
+    bar = ts.BoxObstacle(min=(0, -0.01, -0.01), max=(0.2, 0.01, 0.01))
+    simulation = ts.Scene(
+        bodies={"block": soft((0.04, 0.04, 0.04), (-0.02, 0.08, -0.02))},
+        obstacles={"bar": bar.replace(motion=ts.Motion(times=(0, dt / 2, dt), rotation=turned))},
+        contacts=[ts.Contact(("block", "bar"))],
+        step=ts.ImplicitEuler(dt),
+    ).compile()
+    report = simulation.step()
+    assert not simulation.crossings()
+    assert report.substeps > 1
+    assert np.abs(simulation.displacements("block")).max() > 0.005
+
+
 def test_what_turns_far_away_costs_nothing():
     simulation = bar_turned(2 * math.pi, away=0.2)
     report = simulation.step()

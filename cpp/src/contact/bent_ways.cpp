@@ -11,7 +11,7 @@ namespace {
 constexpr double kLed = 1.0;        ///< turn in a step [rad] of what is led, beyond which it is divided, …
 constexpr double kFree = 1.0;       ///< … of what is free, whose arcs the test of ways knows, …
 constexpr double kFreeRound = 2.0;  ///< … and of a free sphere, which sweeps over nothing when it turns
-constexpr double kLooked = 0.3;     ///< turn below which no arc rises above its chord by a gap
+constexpr double kLooked = 0.3;     ///< turn below which the way is taken for straight
 constexpr double kInside = 1e-6;    ///< of a step: knots nearer to its ends are there
 constexpr double kBetween = 0.25;   ///< turn between two places that are looked at [rad]
 
@@ -37,13 +37,13 @@ class Ways {
 
   [[nodiscard]] bool is_bent(std::int32_t obstacle) const {
     const SurfaceCarrier* carrier = contact_.carrier_of(obstacle);
-    const double angle = turn(obstacle, carrier).norm();
+    double angle = 0.0;
     const std::vector<double> times = times_of(obstacle, carrier, angle);
     if (times.empty()) return false;
     const std::int32_t surface = surface_of(obstacle);
     Room room;
     const double excess = walk(obstacle, carrier, times, room);
-    if (excess < 0.0 || !meets_something(surface, room)) return false;
+    if (!meets_something(surface, room)) return false;
     if (carrier != nullptr) return angle > (excess == 0.0 ? kFreeRound : kFree);
     return (angle > kLed && (excess > 0.0 || is_plane(obstacle))) || excess > gap_of(surface);
   }
@@ -56,27 +56,33 @@ class Ways {
     return contact_.description().obstacles[at(obstacle)].plane;
   }
 
-  [[nodiscard]] Vec3 turn(std::int32_t obstacle, const SurfaceCarrier* carrier) const {
-    if (carrier != nullptr) return h_ * block(ConstReals(state_.velocities), carrier->rotation);
-    return contact_.turn_of(obstacle, state_, state_.time, state_.time + h_);
+  [[nodiscard]] double turn(std::int32_t obstacle, const SurfaceCarrier* carrier, double from,
+                            double to) const {
+    if (carrier != nullptr)
+      return (to - from) * block(ConstReals(state_.velocities), carrier->rotation).norm();
+    return contact_.turn_of(obstacle, state_, from, to).norm();
   }
 
-  /// At which its places are looked at; none: its way is straight.
+  /// At which its places are looked at, and by which angle it turns in all, to and fro; none: its way is
+  /// straight.
   [[nodiscard]] std::vector<double> times_of(std::int32_t obstacle, const SurfaceCarrier* carrier,
-                                             double angle) const {
-    std::vector<double> times;
-    const double begin = state_.time;
-    const double end = begin + h_;
+                                             double& angle) const {
+    std::vector<double> ends = {state_.time};
     if (carrier == nullptr) {
       const std::vector<double>& knots = contact_.description().obstacles[at(obstacle)].motion.times;
-      auto knot = std::ranges::upper_bound(knots, begin + kInside * h_);
-      for (; knot != knots.end() && *knot < end - kInside * h_; ++knot) times.push_back(*knot);
+      auto knot = std::ranges::upper_bound(knots, state_.time + kInside * h_);
+      for (; knot != knots.end() && *knot < state_.time + (1.0 - kInside) * h_; ++knot) ends.push_back(*knot);
     }
-    if (times.empty() && angle <= kLooked) return times;
-    const int turns = static_cast<int>(std::min(std::ceil(angle / kBetween), 64.0));
-    for (int i = 0; i <= turns; ++i) times.push_back(begin + h_ * i / std::max(turns, 1));
-    times.push_back(end);
-    std::ranges::sort(times);
+    ends.push_back(state_.time + h_);
+    std::vector<double> times = {state_.time};
+    for (std::size_t i = 1; i < ends.size(); ++i) {
+      const double turned = turn(obstacle, carrier, ends[i - 1], ends[i]);
+      const int parts = std::max(1, static_cast<int>(std::min(std::ceil(turned / kBetween), 64.0)));
+      angle += turned;
+      for (int k = 1; k < parts; ++k) times.push_back(ends[i - 1] + (ends[i] - ends[i - 1]) * k / parts);
+      times.push_back(ends[i]);
+    }
+    if (ends.size() == 2 && angle <= kLooked) times.clear();
     return times;
   }
 

@@ -133,7 +133,8 @@ void RoundPoints::begin_rim() {
   if (edge.face[0] != candidate_.b) return;
   const double radius = surfaces_.vertices()[at(candidate_.vertex[0])].radius;
   const double other = surfaces_.vertices()[at(edge.vertex[0])].radius;
-  const std::int32_t parts = std::max(parts_of(edge.length, radius, candidate_.apart - radius - other), 1);
+  const std::int32_t parts =
+      std::clamp(parts_of(edge.length, radius, candidate_.apart - radius - other), 1, kMost);
   division_ = divided(parts, chord(radius, other), length_at_begin(e));
 }
 

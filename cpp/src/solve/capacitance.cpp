@@ -78,14 +78,17 @@ bool Capacitance::make(SparseFactor& factor, const BlockMatrix& A) {
   making_ = 0.0;
   if (!lay_rows(*A.couplings())) return false;
   take_matrix(A);
-  if (solved_.size() + list_missing() > kMostSolved) {
+  const double column = sizeof(double) * static_cast<double>(size_);
+  const auto fill = static_cast<std::size_t>(factor.number_bytes() / (3.0 * column));
+  const std::size_t most = std::clamp(fill, kFewSolved, kMostSolved);
+  if (solved_.size() + list_missing() > most) {
     solved_.clear();
     inverse_.clear();
     missing_ = touched_;
   }
   const auto wanted = 3 * static_cast<Eigen::Index>(missing_.size());
   // A second system with the same A is followed by others, as a rule.
-  of_rows_ = wanted <= 2 * spent_ + G_.rows() && touched_.size() <= kMostSolved;
+  of_rows_ = wanted <= 2 * spent_ + G_.rows() && touched_.size() <= most;
   if (of_rows_) {
     solve_rows(factor);
   } else {
@@ -103,6 +106,7 @@ bool Capacitance::make(SparseFactor& factor, const BlockMatrix& A) {
 /// S = G A^-1 G^T from columns of A^-1, of which those that are missing are solved for.
 void Capacitance::solve_rows(SparseFactor& factor) {
   if (!missing_.empty()) spent_ = 0;
+  inverse_.reserve(inverse_.size() + at(3 * size_) * missing_.size());
   for (std::size_t first = 0; first < missing_.size(); first += kAtOnce) {
     const std::span<const std::int32_t> rows =
         std::span(missing_).subspan(first, std::min(kAtOnce, missing_.size() - first));
@@ -179,7 +183,7 @@ void Capacitance::forget() {
   id_ = 0;
   matrix_id_ = 0;
   solved_.clear();
-  inverse_.clear();
+  inverse_ = {};
 }
 
 double Capacitance::application() const {

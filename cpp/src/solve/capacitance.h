@@ -22,7 +22,8 @@ namespace tissu {
 class Capacitance {
  public:
   static constexpr std::int32_t kMostRows = 48;    ///< of G
-  static constexpr std::size_t kMostSolved = 128;  ///< rows of A whose columns of A^-1 are kept
+  static constexpr std::size_t kMostSolved = 128;  ///< rows of A whose columns of A^-1 are kept, or …
+  static constexpr std::size_t kFewSolved = 16;  ///< … as many as fill the room of the factor; at least these
 
   /// From the factor of A alone; false where C has more than kMostRows rows.
   bool make(SparseFactor& factor, const BlockMatrix& A);

@@ -223,26 +223,34 @@ void StableStep::measure(const Amplification& method, const State& state) {
 }
 
 void StableStep::find_shortest() {
-  shortest_ = lengths_.empty() ? std::numeric_limits<double>::infinity() : std::ranges::min(lengths_);
+  shortest_ = std::numeric_limits<double>::infinity();
+  for (const double length : lengths_) {  // 0: a frame that fills up a list of frames
+    if (length > 0.0) shortest_ = std::min(shortest_, length);
+  }
   const std::size_t frames = world_->frames().size();
   if (frames > 0) shortest_ = std::min(shortest_, world_->extent() / std::cbrt(static_cast<double>(frames)));
 }
 
+/// Tissue rides on several bodies: these are taken together.
 bool StableStep::may_invert(const State& from, const State& to) const {
   for (std::size_t i = 0; i < from.rotations.size(); ++i) {
     if (!(std::abs(from.rotations[i].dot(to.rotations[i])) >= kTurned)) return true;
   }
-  return std::ranges::any_of(world_->bodies(), [&](const Body& body) {
-    if (body.node_count == 0) return false;
-    Vec3 least = Vec3::Constant(std::numeric_limits<double>::infinity());
-    Vec3 most = -least;
+  const bool together = !world_->frames().empty();
+  Vec3 least = Vec3::Constant(std::numeric_limits<double>::infinity());
+  Vec3 most = -least;
+  for (const Body& body : world_->bodies()) {
     for (std::int32_t row = body.first_node; row < body.first_node + body.node_count; ++row) {
       const Vec3 way = block(ConstReals(to.positions), row) - block(ConstReals(from.positions), row);
       least = least.cwiseMin(way);
       most = most.cwiseMax(way);
     }
-    return !((most - least).norm() <= kFar * shortest_);
-  });
+    if (body.node_count > 0 && !((most - least).norm() <= kFar * shortest_)) return true;
+    if (together) continue;
+    least = Vec3::Constant(std::numeric_limits<double>::infinity());
+    most = -least;
+  }
+  return false;
 }
 
 /// Methods that make undamped vibrations grow: the limit of what is damped says nothing of what is not. What

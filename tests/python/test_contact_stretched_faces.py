@@ -88,7 +88,7 @@ def test_a_ball_does_not_enter_stretched_faces(method):
 
 @pytest.mark.parametrize("method", ["implicit_euler", "newmark"])
 def test_a_ball_led_past_the_table_is_reported(method):
-    """There is no room for the surface: the ball ends 1 mm below the table. Steps say so when it
+    """The surface has no room: the ball ends 1 mm below the table. Steps say so when it
     passes the table at the latest. They had converged with the surface 4 mm inside the ball."""
     simulation = block(method, 0.035)
     settled = 0

@@ -114,7 +114,7 @@ def crashing(step: ts.SymplecticEuler | ts.ImplicitMidpoint, speed: float) -> ts
 def test_no_step_ends_without_an_energy(
     step: ts.SymplecticEuler | ts.ImplicitMidpoint, speed: float
 ) -> None:
-    """ln J is no number inside out: explicit steps converged there, others grew "by nan %"."""
+    """ln J is not a number in a cell that is inside out. Explicit steps converged there."""
     simulation = crashing(step, speed)
     before = simulation.energy()["total"]
     with pytest.raises(ts.Diverged, match=r"not finite|not a number") as caught:

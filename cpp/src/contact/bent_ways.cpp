@@ -67,13 +67,15 @@ class Ways {
   /// straight.
   [[nodiscard]] std::vector<double> times_of(std::int32_t obstacle, const SurfaceCarrier* carrier,
                                              double& angle) const {
+    const double end = state_.time + h_;
+    const std::vector<double>& all = contact_.description().obstacles[at(obstacle)].motion.times;
+    const auto first = std::ranges::upper_bound(all, state_.time + kInside * h_);
+    const auto last = std::ranges::lower_bound(all, end - kInside * h_);
+    const bool knots = carrier == nullptr && first < last;
+    if (!knots && turn(obstacle, carrier, state_.time, end) <= kLooked) return {};
     std::vector<double> ends = {state_.time};
-    if (carrier == nullptr) {
-      const std::vector<double>& knots = contact_.description().obstacles[at(obstacle)].motion.times;
-      auto knot = std::ranges::upper_bound(knots, state_.time + kInside * h_);
-      for (; knot != knots.end() && *knot < state_.time + (1.0 - kInside) * h_; ++knot) ends.push_back(*knot);
-    }
-    ends.push_back(state_.time + h_);
+    if (knots) ends.insert(ends.end(), first, last);
+    ends.push_back(end);
     std::vector<double> times = {state_.time};
     for (std::size_t i = 1; i < ends.size(); ++i) {
       const double turned = turn(obstacle, carrier, ends[i - 1], ends[i]);
@@ -82,7 +84,6 @@ class Ways {
       for (int k = 1; k < parts; ++k) times.push_back(ends[i - 1] + (ends[i] - ends[i - 1]) * k / parts);
       times.push_back(ends[i]);
     }
-    if (ends.size() == 2 && angle <= kLooked) times.clear();
     return times;
   }
 

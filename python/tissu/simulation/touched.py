@@ -45,7 +45,7 @@ class Contacts:
             that `surface_of` gives it, which nodes carry.
         weights: of these (m, 4). The distance vector is the sum of weight times place.
         points: where the forces act (m, 3) [m], on the surface of the first of the pair. With
-            friction, those of sheets, and of lines whose nodes are no frames, are on the middle,
+            friction, those of sheets, and of lines whose nodes are not frames, are on the middle,
             half a thickness away: friction acts there. The moment that `force_on` gives is that of
             the forces at these points.
         normals: from the other one to the first (m, 3).

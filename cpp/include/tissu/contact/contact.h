@@ -174,7 +174,7 @@ class Contact final : public ForceModel {
     return (contact.is_of_first(k) ? -radius : radius) * n;
   }
   /// Where the force on a contact's vertex number k acts: on the surface of what is round and turns. Sheets,
-  /// lines whose nodes are no frames, and lines without friction have it on their middle.
+  /// lines whose nodes are not frames, and lines without friction have it on their middle.
   [[nodiscard]] Vec3 touched(const ContactNumbers& contact, std::size_t k, const State& state) const;
   /// r of a contact in a state.
   [[nodiscard]] Vec3 reach(const ContactNumbers& contact, const State& state) const;

@@ -124,7 +124,7 @@ void WorldEditor::apply(std::size_t body, const CutPlan& plan) {
 /// The contact after a plan that was applied.
 std::unique_ptr<Contact> WorldEditor::parted_contact(std::size_t number, const CutPlan& plan) const {
   const EditedBody& edited = bodies_[number];
-  const ConstReals before = edit_.described_rest();
+  const ConstReals before = world_->shape_positions();
   std::vector<double> rest(before.begin(), before.end());
   const ConstReals own = edited.state->hosts.rest();
   std::ranges::copy(own, rest.begin() + std::ptrdiff_t{3} * world_->bodies()[number].first_node);
@@ -175,7 +175,7 @@ std::optional<WorldEditor::Made> WorldEditor::make(std::string_view name, const 
     described.cut = bodies_[number].state;
     described.uncut = nullptr;
   } else if (touching != nullptr) {
-    made.contact = touching->of_cells(described, edit_.described_rest());
+    made.contact = touching->of_cells(described, world_->shape_positions());
   }
   part_pressures(edit_.description().pressures, described);
   edit_.renew_pressures(name);

@@ -35,8 +35,8 @@ bool has_points(const BodyModel& model, const State& state, const ReferenceCell&
 bool is_inverted(const World& world, const State& state, const BodyModel& model, std::size_t cell,
                  const ReferenceCell& own, const ReferenceCell& full) {
   const std::int32_t* nodes = model.block().cells.data() + cell * static_cast<std::size_t>(full.nodes);
-  return is_inverted(own, world.rest_positions(), state.positions, nodes) ||
-         is_inverted(full, world.rest_positions(), state.positions, nodes);
+  return is_inverted(own, world.shape_positions(), state.positions, nodes) ||
+         is_inverted(full, world.shape_positions(), state.positions, nodes);
 }
 
 void add_inverted(const World& world, const State& state, const BodyModel& model, std::int32_t first,
@@ -93,7 +93,7 @@ InversionCheck::InversionCheck(const World& world) {
 
 bool InversionCheck::Rules::any(const World& world, const State& state, const BodyModel& model,
                                 Scratch& scratch) const {
-  if (thin) return thin->least(model.block(), world.rest_positions(), state.positions) <= 0.0;
+  if (thin) return thin->least(model.block(), world.shape_positions(), state.positions) <= 0.0;
   if (!by_points) return model.least_volume_ratio(state, scratch) <= 0.0;
   const auto cells = static_cast<std::size_t>(model.cell_count());
   for (std::size_t e = 0; e < cells; ++e) {

@@ -12,7 +12,7 @@ constexpr double kFlat = 1e-6;  ///< smallest over largest singular value of nei
 
 Mat3 turn_of(const World& world, const State& state, std::int32_t row) {
   const Sparsity& sparsity = world.sparsity();
-  const ConstReals rest(world.rest_positions());
+  const ConstReals rest(world.shape_positions());
   const ConstReals now(state.positions);
   Mat3 sum = Mat3::Zero();
   for (auto slot = sparsity.begin_of(row); slot < sparsity.end_of(row); ++slot) {

@@ -99,9 +99,10 @@ bool WorldEdit::may_part_bound(std::string_view name, const BodyChange& change, 
 void WorldEdit::renew_supports() {
   const WorldDescription& description = *world_.description();
   std::vector<double>& rest = world_.rest_.positions;
-  if (!described_.empty()) rest.swap(described_);
+  const bool is_apart = !world_.shape_.empty();
+  if (is_apart) rest.swap(world_.shape_);
   WorldBuilder(world_, description, nullptr, false).renew_supports();
-  if (!described_.empty()) rest.swap(described_);
+  if (is_apart) rest.swap(world_.shape_);
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     if (!bodies_[i].editors.empty()) list_bound(i);
   }

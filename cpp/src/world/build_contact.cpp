@@ -58,6 +58,7 @@ std::vector<RowRange> WorldBuilder::loose_bodies() const {
 /// An edit goes on from where things are: surfaces that it uncovers are not moved, and nothing is refused.
 void WorldBuilder::separate_surfaces() {
   if (world_.contact_ == nullptr) return;
+  world_.shape_ = world_.rest_.positions;
   if (before_ == nullptr && !description_.separated.empty()) {
     world_.rest_.positions = description_.separated;
     return;

@@ -78,12 +78,6 @@ WorldEdit::WorldEdit(World& world)
       box_(box_of(world.rest_positions(), world.frames())) {
   if (!follows_edits(world)) return;
   for (std::size_t i = 0; i < bodies_.size(); ++i) prepare(i);
-  if (world.contact() == nullptr) return;
-  described_ = world.rest_positions();
-  for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    std::ranges::copy(editable(world.description_).bodies[i].positions,
-                      described_.begin() + std::ptrdiff_t{3} * world.bodies_[i].first_node);
-  }
 }
 
 void WorldEdit::prepare(std::size_t number) {
@@ -145,10 +139,6 @@ bool WorldEdit::can(std::string_view body, const BodyChange& change) const {
   });
 }
 
-ConstReals WorldEdit::described_rest() const {
-  return described_.empty() ? ConstReals(world_.rest_.positions) : ConstReals(described_);
-}
-
 /// The world owns its contact, and this its edits.
 void WorldEdit::exchange_surfaces(Contact& other) {
   editable(world_.description_).contact = other.description();
@@ -161,7 +151,7 @@ std::vector<std::int32_t> WorldEdit::apply(std::string_view name, const BodyChan
   add_nodes(number, change);
   const Body& body = world_.bodies_[number];
   for (const auto& editor : bodies_[number].editors)
-    editor->edit(change.cells, body.first_node, described_rest());
+    editor->edit(change.cells, body.first_node, world_.shape_positions());
   edit_description(number, change);
   std::vector<std::int32_t> rows = change.nodes;
   for (std::int32_t& row : rows) row += body.first_node;
@@ -184,14 +174,14 @@ void WorldEdit::add_nodes(std::size_t number, const BodyChange& change) {
   if (count == 0) return;
   std::vector<FirstDayPoint>& points = editable(world_.description_).bodies[number].points;
   points.insert(points.end(), change.points.begin(), change.points.end());
-  for (std::vector<double>* rest : {&world_.rest_.positions, &described_}) {
+  for (std::vector<double>* rest : {&world_.rest_.positions, &world_.shape_}) {
     if (rest->empty()) continue;
     const auto own = Reals(*rest).subspan(at(3 * body.first_node));
     for (std::int32_t i = 0; i < count; ++i) {
       const std::int32_t node = change.copied[at(i)];
       const Vec3 place = node >= 0 ? Vec3(block(own, node)) : place_of(points[at(-1 - node)], own);
       block(own, body.node_count + i) = place;
-      if (rest != &described_) box_.extend(place);
+      if (rest == &world_.rest_.positions) box_.extend(place);
     }
   }
   world_.fixed_.free_rows(body.first_node + body.node_count, count);

@@ -47,6 +47,11 @@ class World {
   [[nodiscard]] const std::vector<Body>& bodies() const { return bodies_; }
   [[nodiscard]] const Body& body(std::string_view name) const;
   [[nodiscard]] const std::vector<double>& rest_positions() const { return rest_.positions; }
+  /// Where cells have their rest shapes, as bodies are described: contact moves surfaces apart before time
+  /// zero, so that rest positions are others.
+  [[nodiscard]] const std::vector<double>& shape_positions() const {
+    return shape_.empty() ? rest_.positions : shape_;
+  }
   [[nodiscard]] const Mass& mass() const { return mass_; }
   [[nodiscard]] const std::vector<Frame>& frames() const { return mass_.frames(); }
   [[nodiscard]] const FixedDofs& fixed() const { return fixed_; }
@@ -75,6 +80,7 @@ class World {
   friend class WorldEdit;
   std::vector<Body> bodies_;
   State rest_;
+  std::vector<double> shape_;  ///< of a world with contact; else empty
   Isa isa_{};
   Threads threads_;
   Mass mass_;

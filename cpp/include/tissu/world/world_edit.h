@@ -56,8 +56,6 @@ class WorldEdit {
   /// a support that has a name would lose all its nodes.
   [[nodiscard]] bool may_part_bound(std::string_view body, const BodyChange& change,
                                     const State& state) const;
-  /// All rows at rest, where surfaces were not moved apart [m].
-  [[nodiscard]] ConstReals described_rest() const;
   /// Supports are those of the description now.
   void renew_supports();
   /// Loads on a body are those of the description now.
@@ -90,7 +88,6 @@ class WorldEdit {
   void loosen(std::size_t body, const BodyChange& change);
 
   World& world_;
-  std::vector<double> described_;  ///< rows at rest, of a world whose surfaces were moved apart; else empty
   std::vector<EditedBody> bodies_;
   std::int64_t first_blocks_;  ///< of the matrix
   Eigen::AlignedBox3d box_;    ///< around all rows at rest

@@ -33,12 +33,14 @@ StaticBarrier::StaticBarrier(Equilibrium& equilibrium, Profile& profile)
       change_(start_.positions.size()),
       work_(start_.positions.size()) {}
 
-void StaticBarrier::stand(const LoadPath& path, double to, State& state) {
+bool StaticBarrier::stand(const LoadPath& path, double to, State& state) {
   state = held_;
   path.load(to, state);
   contact_->run().stand(state);
+  // What is led along some of its axes alone pushes nothing ahead.
+  world().fixed().copy(held_.positions, state.positions);
   trial_ = state;
-  hold_back(trial_);
+  return hold_back(trial_) == 0;
 }
 
 void StaticBarrier::refresh(State& state) {
@@ -127,7 +129,9 @@ bool StaticBarrier::search(double now, State& state) {
 bool StaticBarrier::seek(const LoadPath& path, double from, double to, int most, State& state,
                          StepReport& report) {
   begin(path, from, to, state);
-  stand(path, to, state);
+  if (!stand(path, to, state)) {
+    return give_up("what is led along one or two axes meets something; lead it along all three, or less far");
+  }
   contact_->run().go_on_from(state);
   look(state);
   contact_->take();

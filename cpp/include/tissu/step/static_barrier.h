@@ -22,8 +22,8 @@ class StaticBarrier final : public StaticContact {
  private:
   bool seek(const LoadPath& path, double from, double to, int most, State& state,
             StepReport& report) override;
-  /// `state` goes where ways begin, with what is led at its end.
-  void stand(const LoadPath& path, double to, State& state);
+  /// `state` goes where ways begin, with what is led at its end. False: something led is in the way there.
+  [[nodiscard]] bool stand(const LoadPath& path, double to, State& state);
   /// Contacts of `state`, whose friction has the normal forces there.
   void refresh(State& state);
   /// The potential of a state with that of its contacts, which do not act yet [J].

@@ -179,18 +179,20 @@ def test_frames_refuse_what_they_are_not() -> None:
         ts.Scene(bodies={"bar": viscous}, fixed=[_root()], step=ts.Static()).compile()
 
 
-def test_a_static_step_of_volumes_of_frames_is_noted() -> None:
+def test_volumes_of_frames_with_whole_levers_are_noted() -> None:
     body = _bar((4, 1, 1), (4, 1, 1))
     scene = ts.Scene(bodies={"bar": body}, fixed=[_root()], step=ts.Static())
     (note,) = [note for note in scene.check().notes if "frames" in note]
-    assert note.startswith("bodies.bar: volumes of frames find no equilibrium at once")
-    assert "implicit_euler" in note
+    assert note.startswith("bodies.bar: volumes of frames with whole levers have many equilibria")
+    assert "lever: half" in note
     moving = scene.replace(step=ts.ImplicitEuler(dt=0.01))
+    assert note in moving.check().notes
+    half = scene.replace(bodies={"bar": body.replace(model=ts.Frames(lever="half"))})
     meshed = scene.replace(bodies={"bar": body.replace(model="fem")})
     cells = [("line", [[i, i + 1] for i in range(4)])]
     line = ts.Mesh(points=np.linspace((0, 0, 0), (4, 0, 0), 5), cells=cells)
     rod = ts.Body(mesh=line, law=STEEL, density=7800.0, section="1 cm^2", model="frames")
     thin = scene.replace(bodies={"bar": rod})
-    for other in (moving, meshed, thin):
+    for other in (half, meshed, thin):
         assert other.check().ok
         assert not [note for note in other.check().notes if "volumes of frames" in note]

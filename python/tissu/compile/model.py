@@ -9,7 +9,7 @@ import numpy as np
 
 from tissu import _core
 from tissu.counted import counted
-from tissu.mesh.cell import dimension
+from tissu.mesh.cell import cell_table, dimension
 from tissu.scene.contact_rules import meets_others
 from tissu.scene.generated.laws import LAWS
 from tissu.scene.model import Condensed, Frames
@@ -132,6 +132,7 @@ def check_kept(prepared: Prepared) -> None:
 
 def check_rotations(prepared: Prepared) -> None:
     """Report bodies of which only some cells give their nodes a rotation, and what asks for one."""
+    _check_half_levers(prepared)
     for name, body in getattr(prepared.scene, "bodies", {}).items():
         kinds = {model.with_rotations for model in body.models().values()}
         if len(kinds) == 2:
@@ -150,6 +151,28 @@ def check_rotations(prepared: Prepared) -> None:
         elif load.type == "moment" and asked is not None:
             _check_moment(prepared, number, load.body, asked)
     _check_held_rotations(prepared)
+
+
+def _check_half_levers(prepared: Prepared) -> None:
+    """Report half levers on cells that bend by themselves."""
+    straight = _straight_volumes()
+    for name, body in prepared.bodies.items():
+        cells = {group.cell_type for group in body.groups if _lever(group.model) == "half"}
+        bent = sorted(cell for cell in cells.difference(straight) if dimension(cell) == 3)
+        if bent:
+            text = f"found half levers on cells of type {one_of_words(bent)}, which bend by "
+            text += f"themselves; {one_of_words(straight)} are accepted: take lever: whole there"
+            _tell_once(("bodies", name, "model"), text, prepared.findings)
+
+
+def _lever(model: Model) -> str:
+    """What is asked of the levers of volume cells; empty: their nodes are not frames."""
+    return model.lever or "whole" if isinstance(model, Frames) else ""
+
+
+def _straight_volumes() -> list[str]:
+    """The volume cells of first order, which do not bend by themselves."""
+    return [row.name for row in cell_table().values() if row.dimension == 3 and row.order == 1]
 
 
 def _check_moment(prepared: Prepared, number: int, name: str, body: Body) -> None:
@@ -196,16 +219,16 @@ def note_condensed(
         )
 
 
-def note_static_frames(
-    mesh: Mesh, body: Body, scene: SceneData, path: Path, findings: Findings
+def note_whole_levers(
+    mesh: Mesh, body: Body, _scene: SceneData, path: Path, findings: Findings
 ) -> None:
-    """Note that volumes of frames bend far only in steps of time (docs/measured/frames.md)."""
-    frames = any(isinstance(model, Frames) for model in body.models().values())
-    volumes = any(dimension(str(block.type)) == 3 for block in mesh.body_blocks)
-    if frames and volumes and getattr(getattr(scene, "step", None), "type", "") == "static":
+    """Note that volumes of frames with whole levers turn by themselves (docs/guide/tissue.md)."""
+    whole = any(_lever(model) == "whole" for model in body.models().values())
+    if whole and any(str(block.type) in _straight_volumes() for block in mesh.body_blocks):
         findings.note(
-            f"{path[0]}.{path[1]}: volumes of frames find no equilibrium at once when they bend "
-            "far; step a damped body in time until it rests (implicit_euler, rayleigh)"
+            f"{path[0]}.{path[1]}: volumes of frames with whole levers have many equilibria or "
+            "none where they bend or are pressed: a static step may find none, and frames may "
+            "turn by themselves; `model: {type: frames, lever: half}` cures both"
         )
 
 

@@ -10,6 +10,7 @@ import pytest
 
 import tissu as ts
 from cut_states import SOLVED, shaken
+from same_ends import require_same_ends, seconds
 
 ROUND_OFF = 1e-12
 """Of sums over some thousand numbers: a few hundred times the spacing of doubles."""
@@ -200,24 +201,7 @@ def test_bits_are_the_same_on_two_threads_after_a_rewind_and_from_a_checkpoint(
         for _ in simulation.run(0.07):
             pass
     assert runs[0].is_cut("frames")
-    mark = runs[0].mark()
-    runs[1].mark()  # a mark lets the solver forget
-    runs[0].save_checkpoint(tmp_path / "middle.h5")
-    loaded = ts.Scene.compile(runs[0].scene, checkpoint=tmp_path / "middle.h5")
-    for simulation in (*runs, loaded):
-        for _ in simulation.run(0.03):
-            pass
-    runs_of = [*runs, loaded]
-    ends = [np.array(one.positions["frames"]) for one in runs_of]
-    turns = [np.array(one.rotations("frames")) for one in runs_of]
-    runs[0].rewind(mark)
-    for _ in runs[0].run(0.03):
-        pass
-    ends.append(np.array(runs[0].positions["frames"]))
-    turns.append(np.array(runs[0].rotations("frames")))
-    for values in (ends, turns):
-        for value in values[1:]:
-            np.testing.assert_array_equal(values[0], value)
+    require_same_ends(runs, "frames", seconds(0.03), tmp_path)
 
 
 def led(cell: str, threads: int) -> ts.Simulation:

@@ -11,6 +11,7 @@ import pytest
 
 import tissu as ts
 from cut_states import shaken
+from same_ends import require_same_ends, seconds
 from tissu.mesh.thin import with_thin
 from tissu.output.series import write_material
 from tissu.picture.draw import shape_of
@@ -409,20 +410,7 @@ def test_bits_are_the_same_on_two_threads_after_a_rewind_and_from_a_checkpoint(
         for _ in simulation.run(0.06):
             pass
     assert runs[0].is_cut("organ")
-    mark = runs[0].mark()
-    runs[1].mark()  # a mark lets the solver forget
-    runs[0].save_checkpoint(tmp_path / "middle.h5")
-    loaded = ts.Scene.compile(runs[0].scene, checkpoint=tmp_path / "middle.h5")
-    for simulation in (*runs, loaded):
-        for _ in simulation.run(0.04):
-            pass
-    ends = [np.array(simulation.positions["organ"]) for simulation in (*runs, loaded)]
-    runs[0].rewind(mark)
-    for _ in runs[0].run(0.04):
-        pass
-    ends.append(np.array(runs[0].positions["organ"]))
-    for end in ends[1:]:
-        np.testing.assert_array_equal(ends[0], end)
+    require_same_ends(runs, "organ", seconds(0.04), tmp_path)
     assert len(runs[0].pieces("organ")) == 1
 
 

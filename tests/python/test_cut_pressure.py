@@ -10,6 +10,7 @@ import pytest
 
 import tissu as ts
 from cut_states import shaken
+from same_ends import require_same_ends, steps
 
 ROUND_OFF = 1e-12
 """Of sums over some hundred numbers: a few hundred times the spacing of doubles."""
@@ -132,20 +133,7 @@ def test_a_cut_body_under_pressure_goes_on_with_the_same_bits(tmp_path: Path) ->
         simulation.cut("body", blade)
         for _ in range(3):
             assert simulation.step().converged
-    mark = runs[0].mark()
-    runs[1].mark()  # a mark lets the solver forget
-    runs[0].save_checkpoint(tmp_path / "middle.h5")
-    loaded = ts.Scene.compile(runs[0].scene, checkpoint=tmp_path / "middle.h5")
-    for simulation in (*runs, loaded):
-        for _ in range(3):
-            simulation.step()
-    ends = [np.array(simulation.positions["body"]) for simulation in (*runs, loaded)]
-    runs[0].rewind(mark)
-    for _ in range(3):
-        runs[0].step()
-    ends.append(np.array(runs[0].positions["body"]))
-    for end in ends[1:]:
-        np.testing.assert_array_equal(ends[0], end)
+    require_same_ends(runs, "body", steps(3), tmp_path)
 
 
 def test_a_pressure_is_changed_after_a_cut_as_before() -> None:

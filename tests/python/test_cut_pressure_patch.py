@@ -10,6 +10,7 @@ import pytest
 
 import tissu as ts
 from cut_states import SOLVED, shaken
+from same_ends import require_same_ends, steps
 
 ROUND_OFF = 1e-12
 """Of sums over some hundred numbers: a few hundred times the spacing of doubles."""
@@ -176,18 +177,7 @@ def test_cut_quads_under_pressure_go_on_with_the_same_bits(tmp_path: Path) -> No
         simulation.step()
         simulation.cut("b", ACROSS)
         assert simulation.step().converged
-    mark = runs[0].mark()
-    runs[1].mark()  # a mark lets the solver forget
-    runs[0].save_checkpoint(tmp_path / "middle.h5")
-    loaded = ts.Scene.compile(runs[0].scene, checkpoint=tmp_path / "middle.h5")
-    for simulation in (*runs, loaded):
-        for _ in range(2):
-            simulation.step()
-    ends = [np.array(simulation.positions["b"]) for simulation in (*runs, loaded)]
-    runs[0].cut("b", ts.Plane((0.03, 0, 0), (1.0, 0.1, 0.0)))
-    runs[0].rewind(mark)
-    for _ in range(2):
-        runs[0].step()
-    ends.append(np.array(runs[0].positions["b"]))
-    for end in ends[1:]:
-        np.testing.assert_array_equal(ends[0], end)
+    other = ts.Plane((0.03, 0, 0), (1.0, 0.1, 0.0))
+    require_same_ends(
+        runs, "b", steps(2), tmp_path, strayed=lambda simulation: simulation.cut("b", other)
+    )

@@ -11,6 +11,7 @@ import pytest
 
 import tissu as ts
 from cut_states import SOLVED, shaken
+from same_ends import require_same_ends, seconds
 
 ROUND_OFF = 1e-12
 """Of sums over some thousand numbers: a few hundred times the spacing of doubles."""
@@ -279,21 +280,8 @@ def test_bits_are_the_same_on_two_threads_after_a_rewind_and_from_a_checkpoint(
     for simulation in runs:
         for _ in simulation.run(0.06):
             pass
-    mark = runs[0].mark()
-    runs[1].mark()  # a mark lets the solver forget
-    runs[0].save_checkpoint(tmp_path / "middle.h5")
-    loaded = ts.Scene.compile(runs[0].scene, checkpoint=tmp_path / "middle.h5")
-    for simulation in (*runs, loaded):
-        for _ in simulation.run(0.04):
-            pass
-    ends = [np.array(simulation.positions["sheet"]) for simulation in (*runs, loaded)]
-    runs[0].rewind(mark)
-    for _ in runs[0].run(0.04):
-        pass
-    ends.append(np.array(runs[0].positions["sheet"]))
-    assert len(ends[0]) > 85
-    for end in ends[1:]:
-        np.testing.assert_array_equal(ends[0], end)
+    require_same_ends(runs, "sheet", seconds(0.04), tmp_path)
+    assert len(runs[0].positions["sheet"]) > 85
 
 
 TOUGHNESS = 200.0

@@ -10,6 +10,7 @@ import pytest
 
 import tissu as ts
 from cut_states import SOLVED, shaken
+from same_ends import require_same_ends, seconds
 
 ROUND_OFF = 1e-12
 """Of sums over some thousand numbers: a few hundred times the spacing of doubles."""
@@ -203,22 +204,8 @@ def test_bits_are_the_same_on_two_threads_after_a_rewind_and_from_a_checkpoint(
     for simulation in runs:
         for _ in simulation.run(0.06):
             pass
-    mark = runs[0].mark()
-    runs[1].mark()  # a mark lets the solver forget
-    runs[0].save_checkpoint(tmp_path / "middle.h5")
-    loaded = ts.Scene.compile(runs[0].scene, checkpoint=tmp_path / "middle.h5")
-    for simulation in (*runs, loaded):
-        for _ in simulation.run(0.04):
-            pass
-    ends = [(s.positions["shell"].copy(), s.rotations("shell")) for s in (*runs, loaded)]
-    runs[0].rewind(mark)
-    for _ in runs[0].run(0.04):
-        pass
-    ends.append((runs[0].positions["shell"].copy(), runs[0].rotations("shell")))
-    assert len(ends[0][0]) > 85
-    for places, rotations in ends[1:]:
-        np.testing.assert_array_equal(ends[0][0], places)
-        np.testing.assert_array_equal(ends[0][1], rotations)
+    require_same_ends(runs, "shell", seconds(0.04), tmp_path)
+    assert len(runs[0].positions["shell"]) > 85
 
 
 def test_cells_go_and_their_nodes_stay_where_they_are() -> None:

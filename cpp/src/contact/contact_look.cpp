@@ -21,6 +21,15 @@ namespace {
 std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 std::array<double, 3> numbers_of(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
+ContactNumbers contact_of(const Found& found, std::int32_t point) {
+  ContactNumbers c;
+  c.kind = static_cast<double>(found.kind);
+  c.a = found.a;
+  c.b = found.b;
+  c.point = point;
+  return c;
+}
+
 bool is_of_vertex(const ContactNumbers& c) {
   return c.kind != ContactNumbers::kPlane && c.point == 0.0 &&
          c.kind != static_cast<double>(PairKind::edge_edge);
@@ -34,6 +43,30 @@ const ContactNumbers* ContactRun::acting(const ContactNumbers& c) const {
       std::ranges::lower_bound(order_, c.key(), {}, [&](std::int32_t i) { return contacts_[at(i)].key(); });
   if (found == order_.end() || contacts_[at(*found)].key() != c.key()) return nullptr;
   return &contacts_[at(*found)];
+}
+
+/// Whether it pressed when the step began, and the step has not been solved yet: a free flight may lead it
+/// out of reach, where the system that is solved leads it back.
+bool ContactRun::is_held_on(const ContactNumbers& c) const {
+  if (!holds_on_) return false;
+  const ContactNumbers* found = acting(c);
+  return found != nullptr && found->force > 0.0;
+}
+
+/// The same of any point of a candidate.
+bool ContactRun::is_held_on(const Candidate& candidate) const {
+  if (!holds_on_) return false;
+  ContactNumbers c;
+  c.kind = static_cast<double>(candidate.kind);
+  c.a = candidate.a;
+  c.b = candidate.b;
+  const auto key_of = [&](std::int32_t i) { return contacts_[at(i)].key(); };
+  for (auto i = std::ranges::lower_bound(order_, c.key(), {}, key_of); i != order_.end(); ++i) {
+    const ContactNumbers& other = contacts_[at(*i)];
+    if (other.kind != c.kind || other.a != c.a || other.b != c.b) return false;
+    if (other.force > 0.0) return true;
+  }
+  return false;
 }
 
 /// The nearest points inside both parts of a candidate, whatever the narrow phase's rules say of them.
@@ -92,7 +125,9 @@ void ContactRun::find_pairs() {
   for (const std::int32_t number : candidates.near()) {
     const std::size_t i = at(number);
     const Candidate& candidate = candidates.list()[i];
-    double reach = candidate.apart + pairs[at(candidate.pair)].gap;
+    const double near_enough = candidate.apart + pairs[at(candidate.pair)].gap;
+    const bool held_on = is_held_on(candidate);
+    double reach = held_on ? std::numeric_limits<double>::infinity() : near_enough;
     const bool stops = stopped != held_->stopped().end() && at(*stopped) == i;
     if (stops) {
       reach = std::numeric_limits<double>::infinity();
@@ -106,7 +141,11 @@ void ContactRun::find_pairs() {
     const int parts = parts_before_round(contact_.surfaces(), candidate);
     if (parts > 0 && !stops) {
       RoundPoints points(contact_.surfaces(), now_, from_, candidate, parts);
-      while (points.next(reach, found)) add(candidate, found, points.number());
+      while (points.next(reach, found)) {
+        if (found.distance < near_enough || is_held_on(contact_of(found, points.number()))) {
+          add(candidate, found, points.number());
+        }
+      }
       continue;
     }
     if (!find_contact(contact_.surfaces(), now_, candidate, reach, found)) {
@@ -123,11 +162,7 @@ void ContactRun::find_pairs() {
 
 void ContactRun::add(const Candidate& candidate, const Found& found, std::int32_t point) {
   const auto& vertices = contact_.surfaces().vertices();
-  ContactNumbers c;
-  c.kind = static_cast<double>(found.kind);
-  c.a = found.a;
-  c.b = found.b;
-  c.point = point;
+  ContactNumbers c = contact_of(found, point);
   c.pair = candidate.pair;
   Vec3 fixed = Vec3::Zero();
   for (std::size_t k = 0; k < 4; ++k) {
@@ -170,11 +205,12 @@ void ContactRun::find_planes() {
     const Vec3 place = block(ConstReals(now_), candidate.vertex);
     const double distance = plane.normal.dot(place - plane.point);
     const double goal = plane.normal.dot(block(ConstReals(goal_), candidate.vertex) - plane.point);
-    if (!(std::min(distance, goal) < candidate.apart + pairs[at(candidate.pair)].gap)) continue;
     ContactNumbers c;
     c.kind = ContactNumbers::kPlane;
     c.a = candidate.vertex;
     c.b = candidate.obstacle;
+    const bool is_near = std::min(distance, goal) < candidate.apart + pairs[at(candidate.pair)].gap;
+    if (!is_near && !is_held_on(c)) continue;
     c.pair = candidate.pair;
     c.vertex[0] = candidate.vertex;
     c.beta[0] = 1.0;

@@ -12,7 +12,8 @@
 namespace tissu {
 namespace {
 
-constexpr double kAlternates = 1e-2;  ///< inadmissible share of the forces
+constexpr double kAlternates = 1e-2;  ///< share of the forces that is inadmissible, or changes …
+constexpr double kAgain = 0.9;        ///< … and changed no more than so much faster two looks before
 constexpr double kBlow = 0.1;         ///< of the gap: what would go deeper in a step is struck
 
 std::array<double, 3> numbers_of(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
@@ -31,6 +32,7 @@ std::unique_ptr<ImplicitContact> ImplicitContact::make(const Contact& contact, c
   auto augmented = std::make_unique<AugmentedContact>(contact, fixed);
   if (mass != nullptr) {
     augmented->run().begin_late();
+    augmented->run().hold_on();
     augmented->run().open_by_shares();
   }
   return augmented;
@@ -46,6 +48,8 @@ void ImplicitContact::begin(const State& start, double end, const State& led, Co
   start_ = &start;
   h_ = end - start.time;
   alternations_ = 0;
+  changes_.fill(std::numeric_limits<double>::infinity());
+  systems_ = 0;
   rigid_ = 1.0;
   bodies_.begin(start, load);
   run_.begin(start, end, led);
@@ -73,7 +77,8 @@ double ImplicitContact::look(const State& at) {
   }
   begin_press();
   press_all();
-  return bodies_.change(run_.acting(), pressing_);
+  changes_ = {bodies_.change(run_.acting(), pressing_), changes_[0], changes_[1]};
+  return changes_[0];
 }
 
 void ImplicitContact::note_depth(const ContactNumbers& contact, double depth) {
@@ -81,6 +86,7 @@ void ImplicitContact::note_depth(const ContactNumbers& contact, double depth) {
 }
 
 void ImplicitContact::update(const State& end) {
+  ++systems_;
   bodies_.clear();
   for (ContactNumbers& c : run_.acting()) {
     const Vec3 r = contact_.reach(c, end);
@@ -97,7 +103,9 @@ void ImplicitContact::update(const State& end) {
     bodies_.add(c, left, taken.norm() > bodies_.round_off(c) ? taken : Vec3::Zero());
   }
   inadmissible_ = bodies_.taken_off();
-  alternations_ = inadmissible() > kAlternates ? alternations_ + 1 : std::max(0, alternations_ - 1);
+  const bool changes = changes_[0] > kAlternates && changes_[0] > kAgain * changes_[2];
+  const bool alternates = inadmissible() > kAlternates || changes;
+  alternations_ = alternates ? alternations_ + 1 : std::max(0, alternations_ - 1);
 }
 
 /// Where forces are taken r is fixed + J x, and at the end fixed + J x0 + stretch J (x - x0).

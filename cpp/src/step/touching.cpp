@@ -2,6 +2,7 @@
 /// looked at again after each system, which differs from the one before in couplings alone.
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "settling.h"
@@ -12,10 +13,12 @@
 namespace tissu {
 namespace {
 
-constexpr double kFloor = 1e-3;      ///< of the external impulse: a smaller right-hand side is judged by it
+constexpr double kFloor = 1e-3;  ///< of the external impulse: a smaller right-hand side is judged by it
+// The next step goes on from the forces of this one: what is left of depth after some systems is left to it.
 constexpr double kDepth = 1e-2;      ///< of the gap: contacts no deeper than this need no other system
-constexpr int kLater = 8;            ///< after so many systems …
-constexpr double kLaterDepth = 0.1;  ///< … this is deep enough: the next step goes on from its forces
+constexpr int kLater = 2;            ///< after so many systems …
+constexpr double kLaterDepth = 3.2;  ///< … times this for each …
+constexpr double kDeepest = 0.1;     ///< … as far as this
 constexpr double kTooDeep = 0.5;
 constexpr double kUnsettled = 0.1;  ///< of the forces on what is rigid: what still changes is not known
 constexpr double kDepthNewton = 1e-3;
@@ -28,6 +31,11 @@ constexpr double kStiffest = 64.0;  ///< … no further than this
 constexpr double kForceNewton = 1e-3;
 constexpr int kMostRescues = 6;  ///< looks of a step that was linearised once and is iterated
 constexpr int kMostLooks = 20;   ///< of a step whose equation is solved to its tolerance
+
+/// As a share of the gap.
+double shallow(int systems) {
+  return std::min(kDeepest, kDepth * std::pow(kLaterDepth, std::max(0, systems - kLater)));
+}
 
 std::string unsettled(int systems) {
   return "contacts had not settled after " + std::to_string(systems) +
@@ -210,7 +218,7 @@ bool StageSolver::solve_contacts(State& state, std::vector<double>& v, StepRepor
     // A force that pulled is gone in the next look, and with it what it did to the body.
     const bool pulled = contact_->inadmissible() > kForce;
     const bool free = report.held_back == 0 && !pulled;
-    if (free && other <= enough && contact_->depth() <= (i < kLater ? kDepth : kLaterDepth)) break;
+    if (free && other <= enough && contact_->depth() <= shallow(i)) break;
     const bool lost = settling.is_lost(
         {report.held_back, contact_->size(), other, contact_->inadmissible(), contact_->depth()});
     if (gives_up_early_ && lost) {

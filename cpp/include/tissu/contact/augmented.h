@@ -9,6 +9,7 @@
 ///     slides where |lambda_T - k u_T / (1 + s)| > F, for the same reason
 ///     after each solve  lambda_n <- n . f,  lambda_T <- f_T on the disk
 
+#include "tissu/contact/extrapolation.h"
 #include "tissu/contact/implicit_contact.h"
 
 namespace tissu {
@@ -17,12 +18,17 @@ class AugmentedContact final : public ImplicitContact {
  public:
   using ImplicitContact::ImplicitContact;
 
+  void take() override;
+
  protected:
   /// It has a multiplier, or is shut, or will be.
   [[nodiscard]] bool may_press(std::size_t i) const override {
     return run_.looked()[i].force > 0.0 || run_.gap(i) < 0.0 || run_.is_predicted(i);
   }
   std::optional<double> press(std::size_t i, ContactNumbers& contact) override;
+
+ private:
+  Extrapolation extrapolation_;
 };
 
 }  // namespace tissu

@@ -46,6 +46,9 @@ class ContactRun {
   /// A pair of one surface that a look finds nearer than it is to rest, although no contact was there and it
   /// was so near at the start of the step, rests where it was then, until it has opened.
   void begin_late() { begins_late_ = true; }
+  /// What presses when a step begins is found by its first look, however far a free flight leads it.
+  void hold_on() { holds_on_ = true; }
+  [[nodiscard]] bool holds_on() const { return holds_on_; }
   /// Puts rows where ways begin: at the start of the step, or where what is led pushed them.
   void stand(State& at) const;
   /// Shortens the ways from the start to `to` until nothing passes through anything. The number of rows that
@@ -130,6 +133,8 @@ class ContactRun {
   void set_offsets(ContactNumbers& c) const;
   bool find_plainly(const Candidate& candidate, double reach, Found& found) const;
   [[nodiscard]] const ContactNumbers* acting(const ContactNumbers& c) const;
+  [[nodiscard]] bool is_held_on(const ContactNumbers& c) const;
+  [[nodiscard]] bool is_held_on(const Candidate& candidate) const;
   void keep_multipliers();
   void rest_where_begun();
   [[nodiscard]] bool is_in_crease(const ContactNumbers& contact) const;
@@ -168,6 +173,7 @@ class ContactRun {
   bool every_pair_ = false;
   bool hands_to_all_ = false;
   bool begins_late_ = false;
+  bool holds_on_ = false;
   bool opens_by_shares_ = false;
   double share_ = 1.0;  ///< of the step that was asked for
   double least_share_ = 1.0;

@@ -7,6 +7,7 @@
 /// and the contacts N_r at a row, s = 3: the couplings never exceed three times the block diagonal of A,
 /// whatever the scene.
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <span>
@@ -75,7 +76,7 @@ class ImplicitContact {
   /// lies beyond Coulomb's disk: on the body where it is the largest share of the rest of them.
   [[nodiscard]] double inadmissible() const { return inadmissible_; }
   /// The contacts of the latest look are those that act from now on.
-  void take() { run_.acting().swap(pressing_); }
+  virtual void take() { run_.acting().swap(pressing_); }
   /// The contacts that act, into the memory of a state at which the forces of the step are taken.
   void write(State& state) const;
   /// The step is over: contacts keep the forces with which the last system was solved.
@@ -122,6 +123,10 @@ class ImplicitContact {
   /// What that is of the stiffness of the step's own matrix there, of contacts that move nothing soft; else
   /// 0.
   [[nodiscard]] double share_of_stiffness(std::size_t i) const;
+  /// So many systems of the step were solved.
+  [[nodiscard]] int systems() const { return systems_; }
+  /// Contacts of the latest look.
+  [[nodiscard]] std::span<ContactNumbers> pressing() { return pressing_; }
   /// A contact is so much deeper than its multiplier allows [m].
   void note_depth(const ContactNumbers& contact, double depth);
 
@@ -144,6 +149,7 @@ class ImplicitContact {
   ContactStage stage_;
   const State* start_ = nullptr;
   double h_ = 0.0;
+  int systems_ = 0;
   std::span<const double> blocks_;
   double scale_ = 0.0;
   double normal_ = 1.0;                   ///< times stiffer
@@ -153,7 +159,8 @@ class ImplicitContact {
   std::vector<double> stiffnesses_;       ///< of what was looked at; shares where it has its own
   std::vector<double> shares_;            ///< of what was looked at: 1 where it may press
   std::vector<double> counts_;            ///< contacts of each row, by their shares
-  int alternations_ = 0;                  ///< updates of this step that found much inadmissible, less others
+  std::array<double, 3> changes_{};       ///< of the forces, in the latest looks of this step, the last first
+  int alternations_ = 0;                  ///< updates of this step that found contacts alternate, less others
   double inadmissible_ = 0.0;
   double depth_ = 0.0;
   double least_gap_ = 0.0;

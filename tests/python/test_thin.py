@@ -186,6 +186,19 @@ def test_a_capsule_stiffens_the_organ_it_wraps():
     assert lowest[0] < 2 * lowest[1] < 0
 
 
+def test_a_mesh_that_says_itself_which_cells_are_thin_has_the_same_regions():
+    law = {"volumes": NeoHooke(young=2e3, poisson=0.4), "sheets": StVK(young=1e6, poisson=0.3)}
+    whole = organ(law=law, density=RHO, thickness="0.1 mm")
+    said = Mesh(points=whole.mesh.points, cells=whole.mesh.cells, thin=(2,))
+    found = [sagging(body) for body in (whole, whole.replace(mesh=said))]
+    ends = []
+    for simulation in found:
+        assert simulation.step().converged
+        ends.append(simulation.positions["organ"])
+        assert set(simulation.meshes["organ"].regions) == {"volumes", "sheets"}
+    np.testing.assert_array_equal(*ends)
+
+
 def test_a_total_mass_is_that_of_volumes_sheets_and_lines():
     solid = bar_mesh(size=(0.1, 0.1, 0.1), cells=(1, 1, 1), cell="hexahedron")
     points = np.vstack([solid.points, [(0.2, 0, 0)]])

@@ -65,7 +65,7 @@ double EnergyMomentum::residual(const State& from, double h) {
   world.mass().add_product(middle_, -1.0, work_, answer_);
   fixed.clear(answer_);
   external_ = 0.5 * h * system_->external_force(middle_, work_);
-  acting_ = std::max(norm(answer_), external_);
+  acting_ = std::max({norm(answer_), external_, load_});
   for (std::size_t i = 0; i < right_.size(); ++i) right_[i] += answer_[i];
   fixed.clear(right_);
   return norm(right_);

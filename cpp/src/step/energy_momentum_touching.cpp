@@ -47,7 +47,7 @@ void EnergyMomentum::begin_touching(const State& from, double h) {
   const World& world = system_->world();
   world.contact()->numbers(middle_).clear();
   std::ranges::fill(work_, 0.0);
-  system_->external_force(middle_, work_);
+  load_ = 0.5 * h * system_->external_force(middle_, work_);
   place_end(from, h);
   {
     const Timed timed(*profile_, detection_row_);

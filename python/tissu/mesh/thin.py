@@ -38,7 +38,8 @@ def with_thin(mesh: Mesh, *, sheets: bool, lines: bool) -> Mesh:
     """
     chosen = tuple(m for m, wanted in ((2, sheets), (1, lines)) if wanted)
     if chosen == mesh.thin:
-        return mesh
+        missing = {name: part for name, part in _kinds(mesh).items() if name not in mesh.regions}
+        return dataclasses.replace(mesh, regions={**missing, **mesh.regions}) if missing else mesh
     solid = sum(len(block) for block in mesh.volume_blocks)
     regions = {name: cells[cells < solid] for name, cells in mesh.regions.items()}
     made = dataclasses.replace(mesh, thin=chosen, regions=regions)

@@ -62,6 +62,7 @@ class EnergyMomentum final : public Integrator {
   std::vector<State> halves_;                 ///< of steps that are taken in halves
   double acting_ = 0.0;                       ///< what the residual is judged by
   double external_ = 0.0;                     ///< h / 2 times the external force
+  double load_ = 0.0;                         ///< the same without contact, at the start; 0: nothing touches
   std::unique_ptr<ImplicitContact> contact_;  ///< null where nothing touches
   std::unique_ptr<EndImpulses> impulses_;
   Profile* profile_ = nullptr;

@@ -13,7 +13,8 @@ namespace tissu {
 namespace {
 
 constexpr double kAlternates = 1e-2;  ///< share of the forces that is inadmissible, or changes …
-constexpr double kAgain = 0.9;        ///< … and changed no more than so much faster two looks before
+constexpr double kAgain = 1e-2;       ///< … as two looks before, but for this share, …
+constexpr int kRounds = 3;            ///< … which counts as so many
 constexpr double kBlow = 0.1;         ///< of the gap: what would go deeper in a step is struck
 
 std::array<double, 3> numbers_of(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
@@ -103,9 +104,11 @@ void ImplicitContact::update(const State& end) {
     bodies_.add(c, left, taken.norm() > bodies_.round_off(c) ? taken : Vec3::Zero());
   }
   inadmissible_ = bodies_.taken_off();
-  const bool changes = changes_[0] > kAlternates && changes_[0] > kAgain * changes_[2];
-  const bool alternates = inadmissible() > kAlternates || changes;
-  alternations_ = alternates ? alternations_ + 1 : std::max(0, alternations_ - 1);
+  if (changes_[0] > kAlternates && std::abs(changes_[0] - changes_[2]) < kAgain * changes_[0]) {
+    alternations_ += kRounds;
+  } else {
+    alternations_ = std::max(0, alternations_ + (inadmissible() > kAlternates ? 1 : -1));
+  }
 }
 
 /// Where forces are taken r is fixed + J x, and at the end fixed + J x0 + stretch J (x - x0).

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar, get_origin
 
 from pydantic import (
     BaseModel,
@@ -88,9 +88,12 @@ class Part(BaseModel):
 
     @field_validator("*", mode="wrap")
     @classmethod
-    def _read_field(cls, value: Any, handler: Callable[[Any], Any]) -> Any:
+    def _read_field(cls, value: Any, handler: Callable[[Any], Any], info: ValidationInfo) -> Any:
         if isinstance(value, Unread):
             return value
+        if isinstance(value, Part) and _is_list(cls, info.field_name):
+            name = type(value).__name__  # whose fields would be read as entries
+            return Unread((Problem((), f"found one {name}; a list is accepted: [{name}(...)]"),))
         try:
             read = handler(value)
         except ValidationError as error:
@@ -183,6 +186,10 @@ def _sorted_out(cls: type[Part], value: object) -> tuple[dict[str, Any], list[Pr
             problems.append(Problem((name,), f"is missing{meaning(cls, name)}"))
             fields[name] = Unread()
     return fields, problems
+
+
+def _is_list(cls: type[Part], name: str | None) -> bool:
+    return name is not None and get_origin(cls.model_fields[name].annotation) is tuple
 
 
 def one_of(*classes: type[Part]) -> PlainValidator:

@@ -323,9 +323,11 @@ class Touched:
     def force_on(self, name: str) -> Wrench:
         """The force and the moment of all contacts on a body or obstacle in the latest step.
 
-        Its impulse over the step is the change of momentum that contacts made, except with `BDF2`:
-        the force there is that of the equation at the end of the step, and the sum of impulses over
-        many steps agrees with the momentum to second order in dt.
+        Its impulse over the step is the change of momentum that contacts made, with two exceptions.
+        With `BDF2` the force is that of the equation at the end of the step, and the sum of
+        impulses over many steps agrees with the momentum to second order in dt. With `Newmark` and
+        `ImplicitMidpoint` friction is reported within Coulomb's bound, and what acted differs from
+        it by a few percent of the bound (docs/guide/contact.md, Limits).
 
         Args:
             name: of the body or obstacle.

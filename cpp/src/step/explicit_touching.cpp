@@ -24,7 +24,7 @@ double share_of(const Vec3& gone, const Vec3& whole) {
 }  // namespace
 
 void ExplicitMethod::prepare_touching(const World& world, Profile& profile) {
-  const double frequency = fastest_vibration(world, world.rest_state()).frequency;
+  const double frequency = fastest_vibration(world, world.shape_state()).frequency;
   contact_ = ExplicitContact::make(*world.contact(), world.fixed(), world.mass(), frequency);
   const ContactRates rates = contact_->rates();
   const bool long_stages = has_stages() && amplification().growth == 0.0;

@@ -37,7 +37,7 @@ bool StaticBarrier::stand(const LoadPath& path, double to, State& state) {
   state = held_;
   path.load(to, state);
   contact_->run().stand(state);
-  // What is led along some of its axes alone pushes nothing ahead.
+  // What is held or led along some of its axes alone stays on them, and pushes nothing ahead.
   world().fixed().copy(held_.positions, state.positions);
   trial_ = state;
   return hold_back(trial_) == 0;
@@ -130,7 +130,9 @@ bool StaticBarrier::seek(const LoadPath& path, double from, double to, int most,
                          StepReport& report) {
   begin(path, from, to, state);
   if (!stand(path, to, state)) {
-    return give_up("what is led along one or two axes meets something; lead it along all three, or less far");
+    return give_up(
+        "what is held or led along one or two axes is in the way of something that is led; lead it less far, "
+        "in more steps, or hold it along all three");
   }
   contact_->run().go_on_from(state);
   look(state);

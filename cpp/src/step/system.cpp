@@ -175,7 +175,7 @@ std::unique_ptr<ImplicitContact> System::make_contact(bool is_static) {
   std::vector<double> rest;
   if (ImplicitContact::needs_rest(contact)) {
     rest.resize(9 * static_cast<std::size_t>(world_.blocks()));
-    assemble(world_.rest_state(), 0.0, {-1.0, 0.0, true});
+    assemble(world_.shape_state(), 0.0, {-1.0, 0.0, true});
     system_matrix().diagonal_blocks(rest);
     assembled_ = false;
   }

@@ -151,6 +151,12 @@ const Body& World::body(std::string_view name) const {
   return *found;
 }
 
+State World::shape_state() const {
+  State state = rest_;
+  state.positions = shape_positions();
+  return state;
+}
+
 bool World::is_linear() const {
   return frames().empty() &&
          std::ranges::all_of(forces_, [](const auto& model) { return model->has_constant_stiffness(); });

@@ -132,7 +132,7 @@ def check_kept(prepared: Prepared) -> None:
 
 def check_rotations(prepared: Prepared) -> None:
     """Report bodies of which only some cells give their nodes a rotation, and what asks for one."""
-    _check_half_levers(prepared)
+    _check_levers(prepared)
     for name, body in getattr(prepared.scene, "bodies", {}).items():
         kinds = {model.with_rotations for model in body.models().values()}
         if len(kinds) == 2:
@@ -153,9 +153,12 @@ def check_rotations(prepared: Prepared) -> None:
     _check_held_rotations(prepared)
 
 
-def _check_half_levers(prepared: Prepared) -> None:
-    """Report half levers on cells that bend by themselves."""
-    straight = _straight_volumes()
+def _check_levers(prepared: Prepared) -> None:
+    """Report half levers on cells that bend by themselves; note whole ones on others.
+
+    These turn by themselves (docs/guide/tissue.md).
+    """
+    straight = [r.name for r in cell_table().values() if r.dimension == 3 and r.order == 1]
     for name, body in prepared.bodies.items():
         cells = {group.cell_type for group in body.groups if _lever(group.model) == "half"}
         bent = sorted(cell for cell in cells.difference(straight) if dimension(cell) == 3)
@@ -163,16 +166,18 @@ def _check_half_levers(prepared: Prepared) -> None:
             text = f"found half levers on cells of type {one_of_words(bent)}, which bend by "
             text += f"themselves; {one_of_words(straight)} are accepted: take lever: whole there"
             _tell_once(("bodies", name, "model"), text, prepared.findings)
+        cells = {group.cell_type for group in body.groups if _lever(group.model) == "whole"}
+        if not cells.isdisjoint(straight):
+            prepared.findings.note(
+                f"bodies.{name}: volumes of frames with whole levers have many equilibria or none "
+                "where they bend or are pressed: a static step may find none, and frames may turn "
+                "by themselves; `model: {type: frames, lever: half}` cures both"
+            )
 
 
 def _lever(model: Model) -> str:
     """What is asked of the levers of volume cells; empty: their nodes are not frames."""
     return model.lever or "whole" if isinstance(model, Frames) else ""
-
-
-def _straight_volumes() -> list[str]:
-    """The volume cells of first order, which do not bend by themselves."""
-    return [row.name for row in cell_table().values() if row.dimension == 3 and row.order == 1]
 
 
 def _check_moment(prepared: Prepared, number: int, name: str, body: Body) -> None:
@@ -216,19 +221,6 @@ def note_condensed(
         findings.note(
             f"{path[0]}.{path[1]}: inner nodes of a condensed region follow the others at once, "
             "as in slow motion; their mass stands on the nodes that are kept"
-        )
-
-
-def note_whole_levers(
-    mesh: Mesh, body: Body, _scene: SceneData, path: Path, findings: Findings
-) -> None:
-    """Note that volumes of frames with whole levers turn by themselves (docs/guide/tissue.md)."""
-    whole = any(_lever(model) == "whole" for model in body.models().values())
-    if whole and any(str(block.type) in _straight_volumes() for block in mesh.body_blocks):
-        findings.note(
-            f"{path[0]}.{path[1]}: volumes of frames with whole levers have many equilibria or "
-            "none where they bend or are pressed: a static step may find none, and frames may "
-            "turn by themselves; `model: {type: frames, lever: half}` cures both"
         )
 
 

@@ -12,7 +12,7 @@ from tissu.compile.contact import prepare_contact
 from tissu.compile.dividing import check_divided
 from tissu.compile.material import cell_groups, density_of
 from tissu.compile.meshes import known_mesh
-from tissu.compile.model import check_kept, check_rotations, note_condensed, note_whole_levers
+from tissu.compile.model import check_kept, check_rotations, note_condensed
 from tissu.compile.prepared import Held, LoadedNodes, Prepared, PreparedBody
 from tissu.compile.quadrature import check_quadrature
 from tissu.compile.select import selected_faces, selected_nodes, selection_words
@@ -111,7 +111,7 @@ def _prepare_body(prepared: Prepared, name: str) -> None:
             return
         prepared.meshes[name] = known
         _hold_plane(prepared, name, known.mesh)
-        notes = (note_bending, note_held_plane, note_condensed, note_whole_levers)
+        notes = (note_bending, note_held_plane, note_condensed)
         for check in (*notes, check_quadrature, check_viscosity):
             with contextlib.suppress(Unknown):  # each says what it can
                 check(known.mesh, body, prepared.scene, path, findings)

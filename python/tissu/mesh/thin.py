@@ -33,7 +33,8 @@ _QUADS = {
 def with_thin(mesh: Mesh, *, sheets: bool, lines: bool) -> Mesh:
     """The same mesh with its surface cells, its line cells or both simulated.
 
-    Their border regions are regions then. Where it simulates cells of several dimensions, each kind
+    Their border regions are regions then, unless the mesh says itself that they are simulated.
+    Where it simulates cells of several dimensions, each kind
     is a region by the name in KINDS, unless the mesh has one of this name already.
     """
     chosen = tuple(m for m, wanted in ((2, sheets), (1, lines)) if wanted)

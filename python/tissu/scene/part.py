@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from typing import TYPE_CHECKING, Any, ClassVar, get_origin
+from typing import TYPE_CHECKING, Any, ClassVar, get_args, get_origin
 
 from pydantic import (
     BaseModel,
@@ -189,7 +189,8 @@ def _sorted_out(cls: type[Part], value: object) -> tuple[dict[str, Any], list[Pr
 
 
 def _is_list(cls: type[Part], name: str | None) -> bool:
-    return name is not None and get_origin(cls.model_fields[name].annotation) is tuple
+    annotation = None if name is None else cls.model_fields[name].annotation
+    return get_origin(annotation) is tuple and get_args(annotation)[-1:] == (...,)
 
 
 def one_of(*classes: type[Part]) -> PlainValidator:

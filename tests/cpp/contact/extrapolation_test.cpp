@@ -77,6 +77,29 @@ TEST(Extrapolation, LeavesTheFrictionOfWhatSlides) {
   EXPECT_NEAR(next[0].push[0], 0.2, kRoundOff * 10.0);
 }
 
+TEST(Extrapolation, LeadsForcesAlongNormalsThatTurn) {
+  Extrapolation extrapolation;
+  std::vector<ContactNumbers> next;
+  for (int system = 1; system <= 3; ++system) {  // without friction
+    auto solved = contacts(forces_after(system, 0.8));
+    for (std::size_t i = 0; i < solved.size(); ++i) {
+      const double turn = 0.05 * system * static_cast<double>(i + 1);
+      solved[i].normal = {std::sin(turn), 0.0, std::cos(turn)};
+      solved[i].drag = {};
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        solved[i].push[axis] = solved[i].force * solved[i].normal[axis];
+    }
+    next = solved;
+    extrapolation.lead(solved, next);
+  }
+  const std::vector<double> limit = forces_after(1000, 0.8);
+  for (std::size_t i = 0; i < limit.size(); ++i) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      EXPECT_NEAR(next[i].push[axis], limit[i] * next[i].normal[axis], kRoundOff * 10.0);
+    }
+  }
+}
+
 TEST(Extrapolation, LetsNothingPull) {
   Extrapolation extrapolation;
   std::vector<ContactNumbers> next;

@@ -19,7 +19,10 @@ class AugmentedContact final : public ImplicitContact {
  public:
   using ImplicitContact::ImplicitContact;
 
+  /// Steps are those of time: what presses may pull in their first systems, and multipliers are led on.
+  void step_in_time() { in_time_ = true; }
   void take() override;
+  [[nodiscard]] bool holds_on() const override;
 
  protected:
   /// It has a multiplier, or is shut, or will be.
@@ -29,6 +32,7 @@ class AugmentedContact final : public ImplicitContact {
   std::optional<double> press(std::size_t i, ContactNumbers& contact) override;
 
  private:
+  bool in_time_ = false;
   Extrapolation extrapolation_;
 };
 

@@ -46,9 +46,6 @@ class ContactRun {
   /// A pair of one surface that a look finds nearer than it is to rest, although no contact was there and it
   /// was so near at the start of the step, rests where it was then, until it has opened.
   void begin_late() { begins_late_ = true; }
-  /// What presses when a step begins is found by its first look, however far a free flight leads it.
-  void hold_on() { holds_on_ = true; }
-  [[nodiscard]] bool holds_on() const { return holds_on_; }
   /// Puts rows where ways begin: at the start of the step, or where what is led pushed them.
   void stand(State& at) const;
   /// Shortens the ways from the start to `to` until nothing passes through anything. The number of rows that
@@ -72,8 +69,10 @@ class ContactRun {
     from_turned_ = at.rotations;
   }
 
-  /// Contacts at the places of `at`, with the multipliers of those that act.
-  void look(const State& at);
+  /// Contacts at the places of `at`, with the multipliers of those that act. `holds_on`: those that press are
+  /// found however far they have opened.
+  void look(const State& at, bool holds_on);
+  [[nodiscard]] bool holds_on() const { return holds_on_; }
   /// Contacts at the places of `at`, on ways that lead to `goal`; null: at places where ways were cut, with
   /// what stopped them beside what the narrow phase finds.
   void detect(const State& at, const State* goal);
@@ -173,7 +172,7 @@ class ContactRun {
   bool every_pair_ = false;
   bool hands_to_all_ = false;
   bool begins_late_ = false;
-  bool holds_on_ = false;
+  bool holds_on_ = false;  ///< in the latest look
   bool opens_by_shares_ = false;
   double share_ = 1.0;  ///< of the step that was asked for
   double least_share_ = 1.0;

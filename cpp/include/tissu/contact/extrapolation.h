@@ -7,8 +7,11 @@
 ///
 ///     lambda <- lambda + rho / (1 - rho) d_k      rho = d_k . d_(k-1) / |d_(k-1)|^2
 ///
+/// d_k has the normal force of each contact and its friction, so that normals may turn from system to system.
+///
 /// What the next system starts from is all that changes: its forces are solved for, and judged, as before.
 
+#include <Eigen/Core>
 #include <span>
 #include <tuple>
 #include <vector>
@@ -31,10 +34,10 @@ class Extrapolation {
   [[nodiscard]] double factor() const;
 
   std::vector<std::tuple<double, double, double, double>> keys_;
-  std::vector<Vec3> latest_;  ///< multipliers
-  std::vector<Vec3> change_;  ///< of them by the latest system, …
-  std::vector<Vec3> before_;  ///< … and by the one before
-  int count_ = 0;             ///< systems in a row with these contacts
+  std::vector<Eigen::Vector4d> latest_;  ///< multipliers: normal, and friction [N]
+  std::vector<Eigen::Vector4d> change_;  ///< of them by the latest system, …
+  std::vector<Eigen::Vector4d> before_;  ///< … and by the one before it
+  int count_ = 0;  ///< systems in a row with these contacts, since multipliers were led on
 };
 
 }  // namespace tissu

@@ -77,6 +77,8 @@ class ImplicitContact {
   [[nodiscard]] double inadmissible() const { return inadmissible_; }
   /// The contacts of the latest look are those that act from now on.
   virtual void take() { run_.acting().swap(pressing_); }
+  /// A look finds what presses wherever it is, and it may pull in the next system.
+  [[nodiscard]] virtual bool holds_on() const { return false; }
   /// The contacts that act, into the memory of a state at which the forces of the step are taken.
   void write(State& state) const;
   /// The step is over: contacts keep the forces with which the last system was solved.
@@ -159,7 +161,8 @@ class ImplicitContact {
   std::vector<double> stiffnesses_;       ///< of what was looked at; shares where it has its own
   std::vector<double> shares_;            ///< of what was looked at: 1 where it may press
   std::vector<double> counts_;            ///< contacts of each row, by their shares
-  std::array<double, 3> changes_{};       ///< of the forces, in the latest looks of this step, the last first
+  double change_ = 0.0;                   ///< of the forces, at the latest look
+  std::array<double, 3> changes_{};       ///< the same before the latest systems of this step, the last first
   int alternations_ = 0;                  ///< updates of this step that found contacts alternate, less others
   double inadmissible_ = 0.0;
   double depth_ = 0.0;

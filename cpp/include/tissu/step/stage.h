@@ -123,7 +123,8 @@ class StageSolver {
   // barrier_touching.cpp: steps in which contact has a potential.
   void solve_barrier(BarrierContact& barrier, State& state, std::vector<double>& v, StepReport& report);
   /// v leads to where ways begin: what is led is at its end, all else at the start or where it was pushed.
-  void stand(State& state, std::vector<double>& v);
+  /// The number of rows that had to be held back on the way there.
+  int stand(State& state, std::vector<double>& v);
   /// Newton's iteration along which the energy falls; why it did not converge, or nothing.
   std::string_view descend_barrier(BarrierContact& barrier, State& state, std::vector<double>& v,
                                    StepReport& report);

@@ -22,7 +22,7 @@ class StaticBarrier final : public StaticContact {
  private:
   bool seek(const LoadPath& path, double from, double to, int most, State& state,
             StepReport& report) override;
-  /// `state` goes where ways begin, with what is led at its end. False: something led is in the way there.
+  /// `state` goes where ways begin, with what is led at its end. False: something is in the way there.
   [[nodiscard]] bool stand(const LoadPath& path, double to, State& state);
   /// Contacts of `state`, whose friction has the normal forces there.
   void refresh(State& state);

@@ -74,6 +74,8 @@ class World {
   [[nodiscard]] double extent() const { return extent_; }
   /// All bodies at rest at time zero, nothing remembered.
   [[nodiscard]] const State& rest_state() const { return rest_; }
+  /// The same where cells have their rest shapes.
+  [[nodiscard]] State shape_state() const;
 
  private:
   friend class WorldBuilder;

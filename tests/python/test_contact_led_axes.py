@@ -1,4 +1,4 @@
-"""Static steps with contact: nodes that are led along some axes alone go all of their way."""
+"""Nodes that are led along some axes alone go all of their way, and through nothing."""
 
 from __future__ import annotations
 
@@ -76,25 +76,46 @@ def test_a_live_lead_along_z_alone_goes_all_of_its_way(method: str) -> None:
     require_pressed(simulation)
 
 
-def test_a_node_led_along_x_into_a_wall_is_refused() -> None:
-    """A barrier is finite nowhere on the other side: what is led there is said, not left behind."""
+def towards_a_wall(step: Any, method: Any, time: float) -> ts.Simulation:
+    """The end of the block is led by 2 cm along x alone, and a wall is 1 cm away."""
     out = ts.Prescribed(
         "block",
         on=ts.Plane((EDGE, 0, 0), (1, 0, 0)),
         axes="x",
-        times=(0, 1),
+        times=(0, time),
         displacements=((0, 0, 0), (0.02, 0, 0)),
     )
-    simulation = ts.Scene(
+    return ts.Scene(
         bodies={"block": block()},
         fixed=[ts.Fixed("block", on=ts.Plane((0, 0, 0), (1, 0, 0)))],
         prescribed=[out],
         obstacles={"wall": ts.PlaneObstacle((EDGE + 0.01, 0, 0), (-1, 0, 0))},
         contacts=[ts.Contact(("block", "wall"), gap="0.1 mm")],
-        contact=ts.ContactSettings(method="barrier"),
-        step=ts.Static(),
+        contact=ts.ContactSettings(method=method),
+        step=step,
     ).compile()
+
+
+def test_a_node_led_along_x_into_a_wall_is_refused_in_a_static_step() -> None:
+    """A barrier is finite nowhere on the other side: what is led there is said, not left behind."""
+    simulation = towards_a_wall(ts.Static(), "barrier", 1.0)
     before = simulation.positions["block"].copy()
-    with pytest.raises(ts.Diverged, match="along one or two axes meets something"):
+    with pytest.raises(ts.Diverged, match="held or led along one or two axes"):
         simulation.step()
     np.testing.assert_array_equal(simulation.positions["block"], before)
+
+
+@pytest.mark.parametrize("method", ["augmented", "barrier"])
+@pytest.mark.parametrize("step", [ts.ImplicitEuler, ts.BDF2])
+def test_a_node_led_along_x_into_a_wall_is_held_back_in_steps_of_time(
+    step: Any, method: str
+) -> None:
+    """No step leaves a crossing, and those that would need one do not converge: with the barrier
+    the first of them had converged with 16."""
+    simulation = towards_a_wall(step("10 ms"), method, 0.2)
+    while simulation.time < 0.199:
+        report = simulation.step()
+        assert simulation.crossings() == [], report
+        assert report.converged == (simulation.time < 0.0995), report
+        assert simulation.positions["block"][:, 0].max() < EDGE + 0.01
+    assert report.held_back > 0

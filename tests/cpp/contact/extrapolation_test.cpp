@@ -41,7 +41,9 @@ std::vector<ContactNumbers> led(double ratio, bool slides = false) {
     if (slides) solved[1].sliding = 1.0;
     next = solved;
     extrapolation.lead(solved, next);
-    if (system < 3) EXPECT_EQ(next[0].push, solved[0].push);
+    if (system < 3) {
+      EXPECT_EQ(next[0].push, solved[0].push);
+    }
   }
   return next;
 }

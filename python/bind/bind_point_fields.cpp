@@ -48,7 +48,8 @@ py::list point_fields(const Simulation& simulation, const std::string& name) {
   py::list result;
   std::int32_t first_cell = 0;
   for (const BodyModel* model : body.models) {
-    const PointFields points = model->point_fields({world.shape_positions(), simulation.state(), world.isa()});
+    const PointFields points =
+        model->point_fields({world.shape_positions(), simulation.state(), world.isa()});
     result.append(to_dict(*model, points, body.first_node, first_cell));
     first_cell += model->cell_count();
   }

@@ -2,6 +2,7 @@
 
 import pytest
 
+import tissu as ts
 from tissu import (
     ArrudaBoyce,
     BarMesh,
@@ -99,3 +100,15 @@ def test_results_asked_for_between_steps_are_noted():
     text = "output.every: 0.001 s is shorter than the step of 0.01 s: each step is written"
     assert text in made.check().notes
     assert text not in made.replace(output=Output(every="10 ms")).check().notes
+
+
+@pytest.mark.parametrize(
+    ("field", "part"),
+    [("contacts", ts.Contact(("a", "b"))), ("fixed", ts.Fixed("a", on=ts.Box()))],
+)
+def test_one_part_where_a_list_is_wanted_is_one_sentence(field, part):
+    with pytest.raises(ts.SceneError) as refused:
+        ts.Scene(bodies={}, step=ts.ImplicitEuler("1 ms"), **{field: part}).compile()
+    name = type(part).__name__
+    (found,) = [line for line in str(refused.value).splitlines() if f"{field}" in line]
+    assert found.endswith(f"{field}: found one {name}; a list is accepted: [{name}(...)]")

@@ -1,14 +1,12 @@
 #include "tissu/contact/extrapolation.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 
 namespace tissu {
 namespace {
 
 constexpr double kSlow = 0.5;      ///< changes that shrink faster settle by themselves
-constexpr double kSlowest = 0.95;  ///< others do not settle
+constexpr double kSlowest = 0.95;  ///< a larger one counts as this
 constexpr double kOneMode = 0.2;   ///< of a change: more than this beside its multiple is another mode
 
 Eigen::Vector4d multiplier(const ContactNumbers& c) { return {c.force, c.drag[0], c.drag[1], c.drag[2]}; }

@@ -18,7 +18,7 @@ constexpr double kSame = 1e-9;
 void ExplicitMethod::prepare(const World& world, LinearSolver* /*solver*/, Profile& profile) {
   system_ = std::make_unique<System>(world, nullptr, profile);
   start_ = world.rest_state();
-  stable_.prepare(world);
+  stable_.prepare(world, profile);
   contact_.reset();
   if (world.contact() != nullptr) prepare_touching(world, profile);
 }
@@ -41,6 +41,7 @@ StepReport ExplicitMethod::step(State& state, double h) {
     throw ParameterError(message +
                          (is_part_ ? "." : "; take dt: auto, a smaller dt, or an implicit method."));
   }
+  if (!is_part_) stable_.take(h);
   StepReport report;
   start_ = state;
   state.time = start_.time + h;

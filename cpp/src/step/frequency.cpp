@@ -104,6 +104,8 @@ class Lanczos {
   double largest(double tolerance, double least = 0.0, int every = 1);
   /// After `largest`, which found something.
   std::vector<double> shape();
+  /// After `largest`: whether the matrix does the same to every shape, as damping by the mass alone does.
+  [[nodiscard]] bool is_multiple() const { return diagonal_.size() == 1 && beside_.empty(); }
 
  private:
   void start();
@@ -265,9 +267,10 @@ Vibration fastest_vibration(const World& world, const State& state) {
   ScaledMatrix damping(world, state, {0.0, -1.0});
   Lanczos elastic(stiffness, size);
   result.frequency = std::sqrt(elastic.largest(kCoarse));
-  result.largest_damping = Lanczos(damping, size).largest(kCoarse);
+  Lanczos viscous(damping, size);
+  result.largest_damping = viscous.largest(kCoarse);
   if (result.largest_damping > 0.0 && result.frequency > 0.0) {
-    result.damping = quotient(damping, elastic.shape());
+    result.damping = viscous.is_multiple() ? result.largest_damping : quotient(damping, elastic.shape());
   }
   return result;
 }

@@ -13,10 +13,13 @@ namespace {
 
 constexpr double kLookEvery = 8.0;   ///< steps
 constexpr double kLasting = 1000.0;  ///< steps: more than a body of a hundred cells takes for a vibration
-constexpr double kDeformed = 0.02;   ///< share of an edge's length
+constexpr double kDeformed = 0.02;   ///< share of an edge's length, at least …
+constexpr double kMuch = 0.05;       ///< … and at most, after which the limit is measured again
+constexpr double kLeft = 0.5;        ///< of what a step leaves of the limit, which may be gone by then
+constexpr double kForgets = 0.9;     ///< of a sensitivity, from one measurement to the next
 constexpr double kFar = 0.05;        ///< of the shortest edge, or of the mean distance of frames
 constexpr double kTurned = 0.9997;   ///< cosine of half a turn by 0.05
-constexpr std::size_t kNumbers = 7;  ///< of the memory, before the lengths
+constexpr std::size_t kNumbers = 9;  ///< of the memory, before the lengths
 constexpr double kRoundOff = 1e-12;
 constexpr int kHalvings = 60;
 constexpr int kMostLooks = 8;       ///< for the shape that limits the step by stiffness and damping together
@@ -119,8 +122,10 @@ double largest_stable_step(const Amplification& method, const Vibration& vibrati
   return low;
 }
 
-void StableStep::prepare(const World& world) {
+void StableStep::prepare(const World& world, Profile& profile) {
   world_ = &world;
+  profile_ = &profile;
+  row_ = profile.row("stable step", "measurement");
   limit_ = 0.0;
   more_frequency_ = 0.0;
   more_damping_ = 0.0;
@@ -156,7 +161,7 @@ double StableStep::limit(const Amplification& method, const State& state) {
     least_ = least_before_ = limit_;
   } else if (age_ >= kLookEvery) {
     age_ = 0.0;
-    if (has_deformed(state)) measure(method, state);
+    look(method, state);
   }
   steps_ += 1.0;
   if (steps_ > kLasting) {
@@ -170,13 +175,30 @@ double StableStep::limit(const Amplification& method, const State& state) {
 
 double StableStep::lasting() const { return std::isnan(limit_) ? limit_ : std::min(least_, least_before_); }
 
-bool StableStep::has_deformed(const State& state) const {
+/// A twentieth is the most: the sensitivity that was found is one of small changes.
+void StableStep::look(const Amplification& method, const State& state) {
+  const double left = share_ > 0.0 ? 1.0 / share_ - 1.0 : kMuch;
+  const double enough = std::clamp(kLeft * left / sensitivity_, kDeformed, kMuch);
+  if (deformed(state, enough) <= enough) return;
+  const double by = deformed(state, std::numeric_limits<double>::infinity());
+  const double before = limit_;
+  measure(method, state);
+  const double found = std::abs(limit_ - before) / (before * by);
+  sensitivity_ = std::max({1.0, kForgets * sensitivity_, std::isfinite(found) ? found : 0.0});
+}
+
+double StableStep::deformed(const State& state, double enough) const {
   const ConstReals x(state.positions);
+  double most = 0.0;
   for (std::size_t e = 0; e < lengths_.size(); ++e) {
     const double now = (block(x, edges_[2 * e]) - block(x, edges_[2 * e + 1])).norm();
-    if (!(std::abs(now - lengths_[e]) <= kDeformed * lengths_[e])) return true;
+    const double change = std::abs(now - lengths_[e]);
+    if (change <= most * lengths_[e]) continue;
+    most = lengths_[e] > 0.0 && std::isfinite(change) ? change / lengths_[e]
+                                                      : std::numeric_limits<double>::infinity();
+    if (most > enough) break;
   }
-  return false;
+  return most;
 }
 
 double StableStep::coupled(const State& state) {
@@ -204,6 +226,7 @@ double StableStep::coupled(const State& state) {
 }
 
 void StableStep::measure(const Amplification& method, const State& state) {
+  const Timed timed(*profile_, row_);
   if (!world_->run_time().coupling.empty()) coupled_ = coupled(state);
   const Vibration fastest = fastest_vibration(*world_, state);
   limit_ = bearable(method, fastest);
@@ -316,7 +339,8 @@ double StableStep::bearable(const Amplification& method, Vibration vibration) co
 }
 
 void StableStep::append_memory(std::vector<double>& memory) const {
-  memory.insert(memory.end(), {limit_, age_, time_, coupled_, steps_, least_, least_before_});
+  memory.insert(memory.end(),
+                {limit_, age_, time_, coupled_, steps_, least_, least_before_, share_, sensitivity_});
   memory.insert(memory.end(), lengths_.begin(), lengths_.end());
 }
 
@@ -331,6 +355,8 @@ void StableStep::restore(ConstReals memory) {
   steps_ = memory[4];
   least_ = memory[5];
   least_before_ = memory[6];
+  share_ = memory[7];
+  sensitivity_ = memory[8];
   std::ranges::copy(memory.subspan(kNumbers), lengths_.begin());
   find_shortest();
 }

@@ -128,10 +128,38 @@ TEST(StableStep, FollowsTheDeformation) {
     F = std::max(F, 1.0 + Oscillator::u(simulation));
   }
   ASSERT_GT(F, 1.5);
-  // Measured when the length had last changed by a fiftieth, or up to eight steps before.
+  // Measured when the length had last changed by a twentieth, or up to eight steps before.
   const double expected = at_rest / std::sqrt((3.0 * F * F - 1.0) / 2.0);
   EXPECT_GE(limit, 0.999 * expected);
   EXPECT_LE(limit, 1.1 * expected);
+}
+
+/// Far below the limit an edge may change by a twentieth. Eight steps of 0.02 / omega, in which a vibration
+/// of a tenth of the length goes 1.6 % farther, are between two looks.
+TEST(StableStep, IsMeasuredSeldomWhereThereIsRoom) {
+  Simulation simulation =
+      test::simulate(Oscillator::world("stvk"), test::method_named("symplectic_euler").make(), nullptr);
+  const double at_rest = simulation.stable_step();
+  Oscillator::start(simulation, 0.0, 0.1 * Oscillator::omega());
+  const int steps = 4000;
+  double above = 0.0;
+  for (int i = 0; i < steps; ++i) {
+    simulation.step(0.01 * at_rest);
+    const double F = 1.0 + Oscillator::u(simulation);
+    const double limit = at_rest / std::sqrt((3.0 * F * F - 1.0) / 2.0);
+    above = std::max(above, simulation.stable_step() / limit - 1.0);
+  }
+  // d ln(omega) / d ln(F) = 3 F^2 / (3 F^2 - 1), 1.7 at F = 0.9
+  EXPECT_LT(above, 1.7 * (0.05 + 0.016));
+  std::int64_t measured = 0;
+  for (const Profile::Row& row : simulation.profile().rows()) {
+    if (row.effect == "stable step") measured += row.calls;
+  }
+  // From 0.9 to 1.1 and back there are eight twentieths, or twenty fiftieths, in each of 80 rad / 2 pi
+  // periods.
+  const double periods = 0.02 * steps / 6.28;
+  EXPECT_GT(measured, 4.0 * periods);
+  EXPECT_LT(measured, 10.0 * periods);
 }
 
 }  // namespace

@@ -135,6 +135,27 @@ void Candidates::lay_ways(Seen& seen, ConstReals from, ConstReals to, ConstReals
   });
 }
 
+/// A straight way stays in a box that holds both its ends.
+bool Candidates::is_covered(const Seen& seen, ConstReals from, ConstReals to) const {
+  if (!seen.broad) return true;
+  const bool from_mean = &seen == &own_;
+  std::size_t left = 0;
+  for_seen(seen, [&](std::int32_t s, std::int32_t v) {
+    const Box& box = seen.searched[at(v)];
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::size_t i = 3 * at(v) + k;
+      const double begin = from_mean ? from[i] - mean_from_[3 * at(s) + k] : from[i];
+      const double end = from_mean ? to[i] - mean_to_[3 * at(s) + k] : to[i];
+      const auto low = static_cast<double>(box.low[k]);
+      const auto high = static_cast<double>(box.high[k]);
+      left += static_cast<std::size_t>(begin < low) | static_cast<std::size_t>(end < low) |
+              static_cast<std::size_t>(begin > high) | static_cast<std::size_t>(end > high);
+    }
+  });
+  return left == 0;
+}
+
+/// The same of ways that may sway.
 bool Candidates::is_covered(const Seen& seen) const {
   bool covered = true;
   for_seen(seen, [&](std::int32_t /*surface*/, std::int32_t v) {
@@ -149,10 +170,17 @@ bool Candidates::is_covered(const Seen& seen) const {
 
 bool Candidates::cover(ConstReals from, ConstReals to, ConstReals sways) {
   if (own_.broad) find_means(from, to);
-  lay_ways(fixed_, from, to, sways);
-  lay_ways(own_, from, to, sways);
-  const bool covered = is_listed_ && is_covered(fixed_) && is_covered(own_);
+  const auto lay = [&] {
+    lay_ways(fixed_, from, to, sways);
+    lay_ways(own_, from, to, sways);
+  };
+  if (!sways.empty()) lay();
+  const auto stays = [&](const Seen& seen) {
+    return sways.empty() ? is_covered(seen, from, to) : is_covered(seen);
+  };
+  const bool covered = is_listed_ && stays(fixed_) && stays(own_);
   if (!covered) {
+    if (sways.empty()) lay();
     search();
     measure(from);
   }

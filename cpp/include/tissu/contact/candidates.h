@@ -75,7 +75,7 @@ class Candidates {
   struct Seen {
     std::unique_ptr<BroadPhase> broad;  ///< null: no pair is seen so
     std::vector<std::uint8_t> meets;    ///< of each surface: it has a pair that is seen so
-    std::vector<Box> ways;              ///< of each vertex
+    std::vector<Box> ways;              ///< of each vertex, as searched last or as it may sway
     std::vector<Box> searched;          ///< the same when the list was made, with a margin
     std::vector<double> room;           ///< how far that margin lets each go from where it was then [m]
     std::vector<double> gone;           ///< how far each may be from there on the ways covered last [m]
@@ -101,6 +101,7 @@ class Candidates {
   [[nodiscard]] std::int32_t pair_of(std::int32_t a, std::int32_t b) const;
   void find_means(ConstReals from, ConstReals to);
   void lay_ways(Seen& seen, ConstReals from, ConstReals to, ConstReals sways) const;
+  [[nodiscard]] bool is_covered(const Seen& seen, ConstReals from, ConstReals to) const;
   [[nodiscard]] bool is_covered(const Seen& seen) const;
   void search();
   void search(Seen& seen);

@@ -8,8 +8,9 @@
 namespace tissu {
 namespace {
 
-constexpr double kSigma = 1.0 / 3.0;  ///< of the square of the bodies' largest frequency: s = 1
-constexpr double kNearStop = 0.6;     ///< of the gap: stops are looked for from here
+constexpr double kSigma = 1.0 / 3.0;      ///< of the square of the bodies' largest frequency: s = 1
+constexpr double kLeastOfLargest = 1e-6;  ///< of a mobility: that along the normal is not less
+constexpr double kNearStop = 0.6;         ///< of the gap: stops are looked for from here
 
 std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 std::array<double, 3> numbers_of(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
@@ -106,18 +107,22 @@ void PenaltyContact::share_rows() {
 
 /// Its force, whose parts go into the contact: `force`, `drag` of the start of the step, k in `stiffness`.
 Vec3 PenaltyContact::force_of(ContactNumbers& c, const Near& near, const State& at) {
-  const double w = largest_of(mass_.mobility(c, shared_)) / near.share;  // 1/a
+  const Mat3 mobility = mass_.mobility(c, shared_) / near.share;
+  const double w = largest_of(mobility);  // 1/a
   if (!(w > 0.0)) return Vec3::Zero();
   const ContactPair& pair = pair_of(c);
   const bool own = pair.stiffness && c.area > 0.0;
   const double k = own ? run_.weight(near.looked) * *pair.stiffness * c.area : omega2_ / w;
   stiffest_ = std::max(stiffest_, std::sqrt(k * w));
-  const double damper = 2.0 * zetas_[static_cast<std::size_t>(c.pair)] * std::sqrt(k / w);
+  const double zeta = zetas_[static_cast<std::size_t>(c.pair)];
+  const double damper = 2.0 * zeta * std::sqrt(k / w);
   const Vec3 n = vector_of(c.normal);
+  // What turns along the surface is no lighter towards it: restitution is that of the normal alone.
+  const double normal_damper = 2.0 * zeta * std::sqrt(k / std::max(n.dot(mobility * n), kLeastOfLargest * w));
   const Vec3 v = run_.rate(c, at.velocities) + run_.led(c) / h_;
   const double u = n.dot(v);
   c.force = std::max(
-      0.0, spring_force(contact_.description().penalty, k, near.depth, near.range).force - damper * u);
+      0.0, spring_force(contact_.description().penalty, k, near.depth, near.range).force - normal_damper * u);
   c.stiffness[0] = k;
   if (!(pair.friction > 0.0)) return c.force * n;
   const Vec3 slid = run_.gone(c, at);

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import itertools
 import math
 from collections.abc import Iterator
 from typing import Any
@@ -275,7 +276,8 @@ def _method_problems(scene: Any) -> Iterator[Problem]:
         yield Problem(("step", "arc_length"), text)
     for number, contact in enumerate(scene.contacts):
         with contextlib.suppress(Unknown):
-            for problem in _field_problems(contact, method, step):
+            bounceless = _bounceless(scene, contact, method, step)
+            for problem in itertools.chain(_field_problems(contact, method, step), bounceless):
                 yield Problem(("contacts", number, *problem.path), problem.text)
 
 
@@ -310,6 +312,24 @@ def _has_fcl() -> bool:
     from tissu._core import build_info
 
     return any(str(name).lower() == "fcl" for name in build_info()["libraries"])
+
+
+def _bounceless(scene: Any, contact: Meeting, method: str, step: str) -> Iterator[Problem]:
+    """Before obstacles with a mass, explicit springs need bodies, and others are not there."""
+    e = contact.restitution
+    if method != "penalty" or e is None or step == "static" or not isinstance(contact, Contact):
+        return
+    if contact.stiffness is not None or (step in _EXPLICIT and scene.bodies):
+        return
+    pairs = {name for _, a, _, b in contact.pairs() for name in (a, b)} or scene.obstacles
+    free = [name for name in pairs if getattr(scene.obstacles.get(name), "mass", None) is not None]
+    if free:
+        steps = "implicit steps" if scene.bodies else "a scene without bodies"
+        text = f"found {e:g}, but '{min(free)}' has a mass and the method penalty has no springs "
+        yield Problem(
+            ("restitution",),
+            f"{text}for it in {steps}: leave it out, or take impulse in explicit steps",
+        )
 
 
 def _field_problems(contact: Meeting, method: str, step: str) -> Iterator[Problem]:

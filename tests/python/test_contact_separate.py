@@ -178,6 +178,34 @@ def test_a_body_inside_another_without_crossing_is_left_there():
     assert "pushed apart" not in str(simulation.plan())
 
 
+@pytest.mark.parametrize("mass", [None, 0.01])
+def test_obstacles_that_overlap_each_other_are_refused_in_a_sentence(mass):
+    free = ts.SphereObstacle((0.02, 0.02, 0.2), radius=0.01, mass=0.01)
+    wall = ts.SphereObstacle((0.03, 0.02, 0.2), radius=0.01, mass=mass)
+    scene = ts.Scene(
+        bodies={"a": block(0.0, 1e4)},
+        obstacles={"ball": free, "wall": wall},
+        contacts=[ts.Contact("all")],
+        contact=ts.ContactSettings(overlap="separate"),
+        step=ts.ImplicitEuler("10 ms"),
+    )
+    with pytest.raises(SceneError, match=r'"ball" and "wall" by 0.01 m.*Move one of them[.]$'):
+        scene.compile()
+
+
+def test_what_is_pushed_out_is_not_said_to_lie_inside():
+    scene = ts.Scene(
+        bodies={"a": block(0.0, 1e4)},
+        obstacles={"box": ts.BoxObstacle((EDGE - OVERLAP, 0.01, 0.01), (0.2, 0.02, 0.02))},
+        contacts=[ts.Contact(("a", "box"), gap=GAP)],
+        contact=ts.ContactSettings(overlap="separate"),
+        fixed=[ts.Fixed("a", on=LEFT)],
+        step=ts.ImplicitEuler("10 ms"),
+    )
+    notes = scene.check().notes
+    assert not [note for note in notes if "lies inside" in note]
+
+
 def test_a_block_in_a_box_obstacle():
     scene = ts.Scene(
         bodies={"a": block(0.0, 1e4)},

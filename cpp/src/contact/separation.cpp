@@ -255,19 +255,26 @@ void separate(const Contact& contact, const FixedDofs& fixed, std::span<const Ro
   if (counts.empty() && depths.empty()) return;
   const auto& surfaces = contact.surfaces().surfaces();
   std::string text;
+  bool has_obstacles_alone = false;
+  const auto note = [&](const std::pair<std::int32_t, std::int32_t>& pair) {
+    const auto& [a, b] = pair;
+    has_obstacles_alone |= surfaces[at(a)].obstacle >= 0 && surfaces[at(b)].obstacle >= 0;
+  };
   for (const auto& [pair, count] : counts) {
+    note(pair);
     text += (text.empty() ? "\"" : "; \"") + surfaces[at(pair.first)].name + "\" and \"" +
             surfaces[at(pair.second)].name + "\" in " + std::to_string(count) +
             (count == 1 ? " place" : " places");
   }
   for (const auto& [pair, depth] : depths) {
+    note(pair);
     text += (text.empty() ? "\"" : "; \"") + surfaces[at(pair.first)].name + "\" and \"" +
             surfaces[at(pair.second)].name + "\" by " + number_text(depth) + " m of their thickness";
   }
-  throw OverlapError("found surfaces that overlap at the start: " + text +
-                         "; they must begin apart, or overlap by no more than their gap. Move one of them, "
-                         "or ask for contact.overlap: separate.",
-                     text);
+  const std::string found = "found surfaces that overlap at the start: " + text +
+                            "; they must begin apart, or overlap by no more than their gap. Move one of them";
+  if (has_obstacles_alone) throw ParameterError(found + ".");
+  throw OverlapError(found + ", or ask for contact.overlap: separate.", text);
 }
 
 }  // namespace tissu

@@ -75,8 +75,8 @@ class Clearance:
         count = 0
         coordinates = self._core.positions.size
         for pair in self._contact.pairs:
-            if pair.a == pair.b:
-                continue
+            if pair.a == pair.b or self._first.keys().isdisjoint((pair.a, pair.b)):
+                continue  # obstacles are not moved
             for of, other in ((pair.a, pair.b), (pair.b, pair.a)):
                 points = self._points(of, other, pair)
                 if points is None:

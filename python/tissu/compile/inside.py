@@ -20,6 +20,7 @@ def nested(contact: PreparedContact) -> Iterator[tuple[str, str]]:
     """Names of surfaces that lie inside another one that they meet, each before that other one."""
     surfaces = dict(contact.bodies)
     surfaces |= {name: one.surface for name, one in contact.obstacles.items() if one.surface}
+    pushed_apart = contact.settings.overlap == "separate"  # what crosses at rest no longer does
     for a, b in dict.fromkeys((pair.a, pair.b) for pair in contact.pairs):
         if a == b or a not in surfaces or b not in surfaces:
             continue
@@ -27,6 +28,7 @@ def nested(contact: PreparedContact) -> Iterator[tuple[str, str]]:
             if (
                 len(surfaces[outer].triangles)
                 and surfaces[outer].closed
+                and not (pushed_apart and _stands_out(surfaces[inner], surfaces[outer]))
                 and _any_inside(surfaces[inner], surfaces[outer])
             ):
                 yield inner, outer
@@ -39,6 +41,14 @@ def _any_inside(inner: ContactSurface, outer: ContactSurface) -> bool:
     points = inner.vertices[_one_of_each_part(inner)]
     boxed = points[((points > low) & (points < high)).all(axis=1)]
     return any(winding_number(point, corners) > _INSIDE for point in boxed)
+
+
+def _stands_out(inner: ContactSurface, outer: ContactSurface) -> bool:
+    """Whether a part of one reaches out of the box around the other."""
+    low, high = outer.vertices.min(axis=0), outer.vertices.max(axis=0)
+    return bool(
+        (inner.vertices.min(axis=0) < low).any() or (inner.vertices.max(axis=0) > high).any()
+    )
 
 
 def winding_number(point: Floats, corners: Floats) -> float:

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from tissu.counted import counted
 from tissu.errors import ParameterError
 from tissu.simulation.matrices import sparse
 
@@ -64,9 +65,9 @@ class Relaxation:
             self._core.positions[:] = self._rest + moved
             self.looks += 1
             crossing = self._clearance.crossing()
+        left = counted(crossing, "crossing") + " of edges" if crossing else "surfaces that touch"
         raise ParameterError(
-            f"found {crossing} crossings of edges still after {_LOOKS} looks, from places as deep "
-            f"as {self.depth:.3g} m"
+            f"found {left} still after {_LOOKS} searches, from places as deep as {self.depth:.3g} m"
         )
 
 

@@ -68,7 +68,11 @@ def test_a_new_series_takes_the_old_frames_away_and_nothing_else(tmp_path):
     series = Series(simulation, tmp_path)
     series.write()
     (tmp_path / "frames" / "mine.vtu").write_text("mine")
+    (tmp_path / "mine.png").write_text("mine")
+    picture = series.index.with_suffix(".png")
+    picture.write_text("of the run before")
     Series(simulation, tmp_path)
+    assert not picture.exists() and (tmp_path / "mine.png").exists()
     assert [p.name for p in (tmp_path / "frames").iterdir()] == ["mine.vtu"]
     assert not series.index.exists()
 
@@ -138,3 +142,21 @@ def test_summary_says_what_was_run(tmp_path):
     assert read["timings"]
     assert read["notes"][-1] == "a note"
     assert read["wall_seconds"] == {"steps": 0.1, "picture": None}
+
+
+def test_the_volume_of_a_cut_body_is_that_of_its_material():
+    bar = tissu.Body(
+        mesh=tissu.BarMesh(size=(0.1, 0.02, 0.02), cells=(5, 2, 2)),
+        law=tissu.StVK(young="10 kPa", poisson=0.3),
+        density=1000.0,
+    )
+    simulation = tissu.Scene(
+        bodies={"bar": bar}, editing=True, step=tissu.ImplicitEuler("10 ms")
+    ).compile()
+    simulation.cut("bar", tissu.Plane((0.05, 0, 0), (1, 0, 0)))
+    assert simulation.meshes["bar"].volume() > 4.1e-5  # copies overlap
+    data = summarise(
+        simulation, tally=StepTally(), status="finished", wall_seconds={}, files={}, notes=[]
+    )["meshes"]["bar"]
+    assert data["volume_m3"] == pytest.approx(4e-5, rel=1e-12)
+    assert data["surface_triangles"] == len(simulation.surface("bar").triangles)

@@ -278,12 +278,13 @@ def _index(entries: list[str]) -> str:
 
 
 def _clear(index: Path, kept: list[str]) -> None:
-    """Removes the frames that an index lists, and the index; nothing else in the folder.
+    """Removes the frames that an index lists, the index, and the picture beside it; nothing else.
 
     Frames of the entries to keep stay, in an index of their own.
     """
     if not index.is_file():
         return
+    index.with_suffix(".png").unlink(missing_ok=True)  # of the run before
     text = index.read_text(encoding="utf-8", errors="replace")
     if kept:
         with whole_file(index) as partial:

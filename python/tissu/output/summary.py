@@ -103,7 +103,7 @@ def summarise(
         "instruction_set": build.get("instruction_set", ""),
         "scene": plain(simulation.scene),
         "laws": [law.record() for law in simulation.scene.own_laws()],
-        "meshes": {name: mesh_data(mesh) for name, mesh in simulation.meshes.items()},
+        "meshes": {name: _body_data(simulation, name) for name in simulation.meshes},
         "simulated_seconds": simulation.time,
         "resumed_from": None if resumed is None else dataclasses.asdict(resumed),
         "stable_step_seconds": simulation.stable_step,
@@ -145,6 +145,15 @@ def write_summary(path: Path, summary: Mapping[str, Any]) -> None:
     text = json.dumps(plain(summary), indent=2, allow_nan=False, ensure_ascii=False)
     with whole_file(path) as partial:
         partial.write_text(text + "\n", encoding="utf-8")
+
+
+def _body_data(simulation: Simulation, name: str) -> dict[str, Any]:
+    """Of its mesh; volume and surface of a cut body are of its material, as copies overlap."""
+    data = mesh_data(simulation.meshes[name])
+    if simulation.scene.editing and simulation.is_cut(name):
+        data["surface_triangles"] = len(simulation.surface(name).triangles)
+        data["volume_m3"] = simulation.material(name).mesh.volume()
+    return data
 
 
 def mesh_data(mesh: Mesh) -> dict[str, Any]:

@@ -46,8 +46,8 @@ class Contacts:
         weights: of these (m, 4). The distance vector is the sum of weight times place.
         points: where the forces act (m, 3) [m], on the surface of the first of the pair. With
             friction, those of sheets, and of lines whose nodes are not frames, are on the middle,
-            half a thickness away: friction acts there. The moment that `force_on` gives is that of
-            the forces at these points.
+            half a thickness away: friction acts there. The moment that `force_on` gives of the
+            first surface is that of the forces at these points.
         normals: from the other one to the first (m, 3).
         gaps: distance beyond that at which the surfaces rest (m,) [m]; negative: inside the gap.
         forces: on the first of the pair (m, 3) [N]; the opposite force acts on the other one.

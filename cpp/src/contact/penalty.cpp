@@ -117,7 +117,7 @@ Vec3 PenaltyContact::force_of(ContactNumbers& c, const Near& near, const State& 
   const double zeta = zetas_[static_cast<std::size_t>(c.pair)];
   const double damper = 2.0 * zeta * std::sqrt(k / w);
   const Vec3 n = vector_of(c.normal);
-  // What turns along the surface is no lighter towards it: restitution is that of the normal alone.
+  // Restitution is that of the motion along the normal: its damper takes the mobility along it.
   const double normal_damper = 2.0 * zeta * std::sqrt(k / std::max(n.dot(mobility * n), kLeastOfLargest * w));
   const Vec3 v = run_.rate(c, at.velocities) + run_.led(c) / h_;
   const double u = n.dot(v);

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from tissu.errors import SceneError
 from tissu.files import distinct_names, require_file_place, whole_file
+from tissu.reading import written
 from tissu.scene.body import MeshFile
 from tissu.scene.part import KEEP_PROBLEMS, Part
 from tissu.scene.problem import Problem, Source
@@ -70,7 +71,7 @@ def parse_scene(
     """
     data, source, problems = load(text, name)
     if not isinstance(data, dict):
-        found = "nothing" if data is None else repr(data)[:40]
+        found = "nothing" if data is None else written(data)
         accepted = f"a mapping with the keys {', '.join(cls.model_fields)} is accepted"
         raise SceneError([f"{name}:1: found {found}; {accepted}"])
     if data.get("laws"):

@@ -100,6 +100,28 @@ def test_check_says_what_meets_what():
     assert "contact" not in every_contact_part().check().absent
 
 
+@pytest.mark.parametrize(
+    ("entry", "place", "words"),
+    [
+        ("contacts: all", "contacts", "found 'all'; a list is accepted, such as [{between: all}]"),
+        ("contacts: ball", "contacts", "such as [{between: [liver, probe]}]"),
+        ("editing: 'yes'", "editing", "found 'yes'; true, false or a mapping with the keys room"),
+        ("editing: 2", "editing", "found 2; true, false or"),
+    ],
+)
+def test_a_word_in_place_of_a_part_is_told_once(entry, place, words):
+    """Also where an obstacle with a mass waits for a contact: the list may have held it."""
+    text = BALL if entry.startswith("contacts") else BALL + "contacts: [{between: all}]\n"
+    (problem,) = problems(lambda: ts.Scene.from_yaml_text(text + entry + "\n"))
+    assert problem.startswith(f"text:{(text + entry).count(chr(10)) + 1}: {place}: ")
+    assert words in problem
+
+
+def test_a_name_has_a_letter():
+    with pytest.raises(ts.SceneError, match="obstacles: found an empty name"):
+        scene(obstacles={" ": ts.SphereObstacle(center=(0, 0, 9), radius=1)}).compile()
+
+
 # What is written instead of what, the place it is told at, and words of the sentence.
 SLIPS = {
     "unknown": ("[liver, probe]", "[livr, probe]", "contacts[0].between[0]", "mean 'liver'?"),
@@ -368,6 +390,12 @@ def test_on_inside_the_body_selects_nothing_of_its_surface():
     assert problem.endswith("but none of its surface")
 
 
+BALL = """
+obstacles: {ball: {type: sphere, center: [0, 0, 1], radius: 1 cm, mass: 1 g}}
+step: {type: implicit_euler, dt: 10 ms}
+"""
+
+
 def notes(**fields):
     return scene(**fields).check().notes
 
@@ -398,13 +426,17 @@ def test_a_gap_above_a_tenth_of_the_edges_is_noted():
     assert "contacts[0].gap: 0.0058 m is more than a tenth of the mean surface edge, 0.0569" in note
 
 
-def test_a_gap_that_a_barrier_loses_in_round_off_is_noted():
+@pytest.mark.parametrize("method", ["augmented", "barrier"])
+def test_a_gap_that_is_lost_in_round_off_is_noted_or_refused(method):
     """1e-5 of the mean edge, 5.69 cm; tests/python/test_contact_barrier.py steps on either side."""
-    pair, barrier = ("liver", "table"), ts.ContactSettings(method="barrier")
-    assert notes(contacts=[ts.Contact(pair, gap="0.6 um")], contact=barrier) == []
-    assert notes(contacts=[ts.Contact(pair, gap="1 nm")]) == []
-    (note,) = notes(contacts=[ts.Contact(pair, gap="1 nm")], contact=barrier)
+    pair, settings = ("liver", "table"), ts.ContactSettings(method=method)
+    assert notes(contacts=[ts.Contact(pair, gap="0.6 um")], contact=settings) == []
+    (note,) = notes(contacts=[ts.Contact(pair, gap="1 nm")], contact=settings)
     assert "contacts[0].gap: 1e-09 m is less than 1e-05 of the mean surface edge, 0.0569" in note
+    lost = scene(contacts=[ts.Contact(pair, gap="0.5 nm")], contact=settings)
+    (problem,) = problems(lost.compile)
+    assert "found 5e-10 m" in problem
+    assert "round-off; 5.7e-10 m or more is accepted, 0.0011 m is the default" in problem
 
 
 def test_a_body_that_falls_on_something_is_not_said_to_fall():

@@ -30,7 +30,7 @@ def test_the_scalpel_leaves_one_incision(
     assert area == pytest.approx(0.037 * 0.014, rel=0.25)
     (line,) = (line for line in capsys.readouterr().out.splitlines() if "was cut" in line)
     first, last = cuts[0]["time"], cuts[-1]["time"]
-    opened = f"{1e4 * area:.3g} cm2 opened, 1 piece, 0 of them without a support"
+    opened = f"{1e4 * area:.3g} cm2 opened, 1 piece, 0 of them not held on all axes"
     said = f"tissue was cut by scalpel from {first:.4g} s to {last:.4g} s: {opened}; "
     assert line.startswith(f"{said}{len(cuts)} edits took ")
     assert abs(sum(cut["mass_change"] for cut in cuts)) < 1e-12

@@ -61,6 +61,20 @@ def test_an_attribute_that_is_not_there_is_refused(
         setattr(found, name, (0.0, 0.0, 1.0))
 
 
+@pytest.mark.parametrize(
+    ("kind", "name", "may"),
+    [("simulation", "time", "none, it has methods only"), ("grab", "body", "target")],
+)
+def test_a_read_only_attribute_is_told_as_one(
+    simulation: ts.Simulation, kind: str, name: str, may: str
+) -> None:
+    found = handle(simulation, kind)
+    with pytest.raises(ts.ParameterError, match=f"'{name}' of a .*, which is read-only; .*{may}"):
+        setattr(found, name, 0.0)
+    with pytest.raises(AttributeError):
+        setattr(found, name, 0.0)
+
+
 def test_attributes_that_are_there_are_set(simulation: ts.Simulation) -> None:
     load = simulation.load("pull")
     load.force = (0.0, 0.0, 2.0)

@@ -29,7 +29,7 @@ def cut_lines(simulation: Simulation, cuts: Sequence[dict[str, Any]]) -> list[st
         pieces = simulation.pieces(body)
         free = sum(not piece.held for piece in pieces)
         words = [f"{area:.3g} cm2 opened"] + [f"{taken:.3g} g removed"] * (taken > 1e-9)
-        words.append(f"{counted(len(pieces), 'piece')}, {free} of them without a support")
+        words.append(f"{counted(len(pieces), 'piece')}, {free} of them not held on all axes")
         if bridges := sum(cut["bridges"] for cut in of_body):
             words.append(f"walls of a blade may have left bridges in {counted(bridges, 'cell')}")
         seconds = sum(cut["milliseconds"] for cut in of_body) / 1e3

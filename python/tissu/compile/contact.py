@@ -34,7 +34,11 @@ GAP = 0.02
 _WIDE = 0.1
 """share of that edge above which a gap is remarkable"""
 _NARROW = 1e-5
-"""share of that edge below which round-off hides the slope of a barrier: it was found at 2e-6"""
+"""share of that edge below which steps are found that do not converge for round-off: a barrier's at
+2e-6, others at 4e-8
+"""
+_LOST = 1e-8
+"""share of that edge below which a gap is refused: at 1e-14, surfaces were found to cross"""
 
 
 class PreparedPair(NamedTuple):
@@ -216,6 +220,12 @@ def _prepare_pairs(
                 text = f"{wide}, and {GAP * edge:.2g} m is the default"
                 prepared.findings.problem((*path, "gap"), text)
                 return
+            if contact.gap < _LOST * edge:
+                text = f"found {contact.gap:g} m, and distances so small are lost in round-off; "
+                text += f"{_LOST * edge:.2g} m or more is accepted, "
+                text += f"{GAP * edge:.2g} m is the default"
+                prepared.findings.problem((*path, "gap"), text)
+                return
         gaps.append(GAP * edge if contact.gap is None else contact.gap)
         finest = edge if not finest else min(finest, edge)
         made.pairs.append(PreparedPair(first, second, contact, gaps[-1], nodes))
@@ -229,11 +239,11 @@ def _prepare_pairs(
             "the default"
         )
     least = _NARROW * finest
-    if contact.gap is not None and contact.gap < least and method_of(prepared.scene) == "barrier":
+    if contact.gap is not None and contact.gap < least:
         prepared.findings.note(
             f"{field_path(path)}.gap: {contact.gap:g} m is less than {_NARROW:g} of the mean "
-            f"surface edge, {finest:.4g} m; the barrier is lost in round-off there, so that steps "
-            f"do not converge: take {least:.1g} m or more"
+            f"surface edge, {finest:.4g} m; round-off counts there, so that steps may not "
+            f"converge: take {least:.1g} m or more"
         )
 
 

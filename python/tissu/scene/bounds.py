@@ -20,6 +20,8 @@ def name_problem(name: str) -> str:
     """What is wrong with the name of a scene or body; empty: nothing."""
     if len(name) > _LONGEST_NAME:
         return f"found a name of {len(name)} characters; at most {_LONGEST_NAME} are accepted"
+    if not name.strip():
+        return "found an empty name; one of at least one letter is accepted"
     odd = next((c for c in name if unicodedata.category(c) in ("Cc", "Cs")), "")
     if odd:
         return f"found a name with the character U+{ord(odd):04X}; take it out"

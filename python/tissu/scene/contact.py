@@ -20,6 +20,7 @@ from tissu.scene.unknown import Unread
 
 __all__ = ["Contact", "SelfContact", "ContactSettings"]
 
+_EXAMPLE = "[{between: [liver, probe]}]"
 _ACCEPTED = "a name and another, or a list of others, is accepted, or all"
 
 
@@ -215,4 +216,16 @@ def _class_of(value: object) -> type[Contact] | type[SelfContact]:
 
 
 OneContact = Annotated[Contact | SelfContact, PlainValidator(_one_contact)]
-Contacts = Read[tuple[OneContact, ...], Sequence[Contact | SelfContact]]
+
+
+def _contact_list(value: object) -> object:
+    """The contacts as a list, also where a word or a single contact stands alone."""
+    if isinstance(value, str):
+        meant = "[{between: all}]" if value.strip().lower() == "all" else _EXAMPLE
+        raise ParameterError(f"found {written(value)}; a list is accepted, such as {meant}")
+    return value
+
+
+Contacts = Annotated[
+    Read[tuple[OneContact, ...], Sequence[Contact | SelfContact]], BeforeValidator(_contact_list)
+]

@@ -65,7 +65,7 @@ def contact_problems(scene: Any) -> Iterator[Problem]:
         with contextlib.suppress(Unknown):
             for problem in _named(scene, contact, number, met):
                 yield Problem(("contacts", number, *problem.path), problem.text)
-    if not contacts and has_free(scene):
+    if not contacts and hasattr(scene, "contacts") and has_free(scene):
         text = "found an obstacle with a mass and no contacts, without which nothing moves it; add "
         yield Problem(("contacts",), f"{text}a contact of it, such as {{between: all}}")
     alls = [n for n, contact in enumerate(contacts) if getattr(contact, "between", "") == "all"]

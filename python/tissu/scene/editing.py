@@ -9,7 +9,8 @@ from typing import Annotated, Literal
 from pydantic import BeforeValidator, TypeAdapter, ValidatorFunctionWrapHandler, WrapValidator
 
 from tissu import units
-from tissu.reading import Maybe, Read
+from tissu.errors import ParameterError
+from tissu.reading import Maybe, Read, written
 from tissu.scene.effect import Effect
 from tissu.scene.field import field
 from tissu.scene.part import Part
@@ -133,6 +134,10 @@ def _written(value: object) -> object:
     """`true` and `false`, as they may be written in place of the part."""
     if value is True:
         return Editing()
+    if isinstance(value, (str, int)) and not isinstance(value, bool):
+        keys = ", ".join(Editing.model_fields)
+        text = f"found {written(value)}; true, false or a mapping with the keys {keys} is accepted"
+        raise ParameterError(text)
     return None if value is False else value
 
 

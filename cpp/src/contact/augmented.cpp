@@ -1,6 +1,7 @@
 #include "tissu/contact/augmented.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace tissu {
 namespace {
@@ -20,7 +21,8 @@ std::optional<double> AugmentedContact::press(std::size_t i, ContactNumbers& c) 
   const bool is_held_on = run_.holds_on() && c.force > 0.0;
   if (k == 0.0 || !(t > 0.0 || run_.is_predicted(i) || is_held_on)) return std::nullopt;
   give(c, t, k);
-  note_depth(c, -run_.gap(i));
+  // What presses where it is open is as wrong as what is deep: it throws surfaces apart.
+  note_depth(c, t > 0.0 ? std::abs(run_.gap(i)) : -run_.gap(i));
   return c.force + (t - c.force) / (1.0 + share_of_stiffness(i));
 }
 

@@ -51,7 +51,7 @@ void ImplicitContact::begin(const State& start, double end, const State& led, Co
   alternations_ = 0;
   changes_.fill(std::numeric_limits<double>::infinity());
   systems_ = 0;
-  rigid_ = 1.0;
+  whole_ = 1.0;
   bodies_.begin(start, load);
   run_.begin(start, end, led);
 }
@@ -144,12 +144,8 @@ void ImplicitContact::finish(const State& end, State& into) {
 
 bool ImplicitContact::struck() const {
   if (!(h_ > 0.0)) return false;
-  const std::vector<SurfaceVertex>& vertices = contact_.surfaces().vertices();
   return std::ranges::any_of(run_.acting(), [&](const ContactNumbers& c) {
-    const bool stops_whole = std::ranges::any_of(c.vertex, [&](double vertex) {
-      return vertex >= 0.0 && vertices[static_cast<std::size_t>(vertex)].stops_whole();
-    });
-    if (!stops_whole || !(c.force > 0.0)) return false;
+    if (!(c.force > 0.0) || !stops_whole(c)) return false;
     const double way = vector_of(c.normal).dot(h_ * run_.rate(c, start_->velocities) + run_.led(c));
     return -way > kBlow * std::min(c.apart, pair_of(c).gap);
   });

@@ -61,6 +61,18 @@ bool ImplicitContact::is_rigid(const ContactNumbers& contact) const {
   });
 }
 
+/// A rigid body, a sheet or a line.
+bool ImplicitContact::stops_whole(const ContactNumbers& contact) const {
+  const std::vector<SurfaceVertex>& vertices = contact_.surfaces().vertices();
+  return std::ranges::any_of(contact.vertex, [&](double vertex) {
+    return vertex >= 0.0 && vertices[static_cast<std::size_t>(vertex)].stops_whole();
+  });
+}
+
+double ImplicitContact::stiffer(const ContactNumbers& contact) const {
+  return whole_ > 1.0 && stops_whole(contact) ? whole_ : 1.0;
+}
+
 void ImplicitContact::find_stiffnesses(std::span<const double> blocks, double scale,
                                        std::span<const double> shares, std::vector<double>& stiffnesses) {
   const auto looked = run_.looked();
@@ -76,13 +88,17 @@ void ImplicitContact::find_stiffnesses(std::span<const double> blocks, double sc
   for (std::size_t i = 0; i < looked.size(); ++i) {
     if (!(shares[i] > 0.0)) continue;
     const double largest = compliance(looked[i], blocks).cwiseAbs().rowwise().sum().maxCoeff();
-    const double stiff = is_rigid(looked[i]) ? kStiffRigid * rigid_ : kStiff;
-    if (largest > 0.0) stiffnesses[i] = stiff * run_.weight(i) * shares[i] / (largest * scale);
+    const double stiff = is_rigid(looked[i]) ? kStiffRigid : kStiff;
+    if (largest > 0.0)
+      stiffnesses[i] = stiff * stiffer(looked[i]) * run_.weight(i) * shares[i] / (largest * scale);
   }
 }
 
 double ImplicitContact::share_of_stiffness(std::size_t i) const {
-  return is_rigid(run_.looked()[i]) ? normal_ * kStiffRigid * rigid_ : 0.0;
+  const ContactNumbers& contact = run_.looked()[i];
+  const double times = stiffer(contact);
+  if (is_rigid(contact)) return normal_ * kStiffRigid * times;
+  return times > 1.0 ? normal_ * kStiff * times : 0.0;
 }
 
 /// Forces and stiffnesses at the places that were looked at; what does not press is dropped.
@@ -99,7 +115,7 @@ void ImplicitContact::press_all() {
     const double friction = pair_of(c).friction;
     if (friction == 0.0) c.sliding = 0.0;
     if (friction > 0.0) {
-      const double k = rigid_ > 1.0 && is_rigid(c) ? stiffnesses_[i] / rigid_ : stiffnesses_[i];
+      const double k = stiffnesses_[i] / stiffer(c);
       rub(c, friction * std::max(0.0, *force), tangent * k, tangent * (is_rigid(c) ? kStiffRigid : 0.0));
     }
     pressing_.push_back(c);

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kFloor = 1e-3;  ///< of the external impulse: a smaller right-hand side is judged by it
 // The next step goes on from the forces of this one: what is left of depth after some systems is left to it.
-constexpr double kDepth = 1e-2;      ///< of the gap: contacts no deeper than this need no other system
+constexpr double kDepth = 1e-2;      ///< of the gap: contacts so near to it need no other system
 constexpr int kLater = 2;            ///< after so many systems …
 constexpr double kLaterDepth = 3.2;  ///< … times this for each …
 constexpr double kDeepest = 0.1;     ///< … as far as this
@@ -24,9 +24,10 @@ constexpr double kUnsettled = 0.1;  ///< of the forces on what is rigid: what st
 constexpr double kDepthNewton = 1e-3;
 constexpr double kForce = 1e-2;       ///< of the contacts' forces: a smaller change needs no other system
 constexpr double kForceRigid = 1e-3;  ///< the same where a rigid body is free, which has no other forces
-// Contacts of rigid bodies that neither pull nor exceed friction, and only lack force, become stiffer.
-constexpr int kPatience = 6;        ///< so many systems later …
-constexpr double kStiffer = 2.0;    ///< … by this for each, …
+// Contacts of rigid bodies, sheets and lines that neither pull nor exceed friction, and only lack force,
+// become stiffer.
+constexpr int kPatience = 2;        ///< so many systems later …
+constexpr double kStiffer = 4.0;    ///< … by this for each, …
 constexpr double kStiffest = 64.0;  ///< … no further than this
 constexpr double kForceNewton = 1e-3;
 constexpr int kMostRescues = 6;  ///< looks of a step that was linearised once and is iterated
@@ -41,7 +42,7 @@ std::string unsettled(int systems) {
   return "contacts had not settled after " + std::to_string(systems) +
          (systems == 1 ? " system" : " systems") +
          ": more than a hundredth of their forces pull or exceed friction, or they are deeper than half "
-         "the gap; take a smaller dt or more iterations of contact";
+         "the gap or press where they are so far open; take a smaller dt or more iterations of contact";
 }
 
 }  // namespace
@@ -179,7 +180,6 @@ bool StageSolver::solve_contacts(State& state, std::vector<double>& v, StepRepor
   // Levers of what is rigid are those of the latest places: the step is one of Newton's for contact.
   const State& levers = contact.surfaces().rotations().empty() ? stage_.base : state;
   bool solved = true;
-  const bool several = contact.surfaces().carriers().size() > 1;  // one may lie on another
   double stiffer = 1.0;
   Settling settling;
   for (int i = 1;; ++i) {
@@ -210,9 +210,9 @@ bool StageSolver::solve_contacts(State& state, std::vector<double>& v, StepRepor
     end = &end_of(state);
     update_contacts(*end);
     report.held_back = hold_back(*end);
-    if (several && i >= kPatience && contact_->inadmissible() <= kForce) {
+    if (i >= kPatience && contact_->inadmissible() <= kForce) {
       stiffer = std::min(kStiffest, kStiffer * stiffer);
-      contact_->set_stiffer_rigid(stiffer);
+      contact_->set_stiffer_whole(stiffer);
     }
     const double other = look(*end);
     // A force that pulled is gone in the next look, and with it what it did to the body.

@@ -59,15 +59,15 @@ class ImplicitContact {
   /// How many times stiffer than that multipliers are against coming nearer, and against sliding: 1, as at
   /// first.
   void set_stiffer(double normal, double tangent);
-  /// Against coming nearer, the same of contacts that move nothing soft, until the step is over: where a
-  /// heavy body presses on a light one, the light one says how stiff they are, and the multipliers reach the
-  /// heavy one's slowly.
-  void set_stiffer_rigid(double times) { rigid_ = times; }
+  /// Against coming nearer, the same of contacts of rigid bodies, sheets and lines, until the step is over:
+  /// where a heavy body presses on a light one, the light one says how stiff they are, and the multipliers
+  /// reach the heavy one's slowly.
+  void set_stiffer_whole(double times) { whole_ = times; }
   /// Contacts at the places of `at`, with the multipliers of those that were there before. By how much their
   /// forces differ from those of the latest solve, as a share.
   double look(const State& at);
-  /// How far contacts that act are deeper than multipliers let them, as a share of the gap, at the latest
-  /// look.
+  /// How far contacts that act are deeper than multipliers let them, or press where they are open, as a share
+  /// of the gap, at the latest look.
   [[nodiscard]] double depth() const { return depth_; }
   /// A system was solved with the contacts of the latest look, and led to `end`: multipliers become the
   /// forces there.
@@ -122,16 +122,18 @@ class ImplicitContact {
                         std::vector<double>& stiffnesses);
   /// k of the step's own matrix against coming nearer than a multiplier allows [N/m].
   [[nodiscard]] double hard_stiffness(std::size_t i) const { return normal_ * stiffnesses_[i]; }
-  /// What that is of the stiffness of the step's own matrix there, of contacts that move nothing soft; else
-  /// 0.
+  /// What that is of the stiffness of the step's own matrix there, of contacts that move nothing soft, and
+  /// of those that were made stiffer in this step; else 0.
   [[nodiscard]] double share_of_stiffness(std::size_t i) const;
   /// So many systems of the step were solved.
   [[nodiscard]] int systems() const { return systems_; }
   /// Contacts of the latest look.
   [[nodiscard]] std::span<ContactNumbers> pressing() { return pressing_; }
-  /// A contact is so much deeper than its multiplier allows [m].
+  /// A contact is so much deeper than its multiplier allows, or open though it presses [m].
   void note_depth(const ContactNumbers& contact, double depth);
 
+  /// It is of a rigid body, a sheet or a line.
+  [[nodiscard]] bool stops_whole(const ContactNumbers& contact) const;
   /// Of the step [s].
   [[nodiscard]] double h() const { return h_; }
   /// Adds to a force and its stiffness.
@@ -143,6 +145,8 @@ class ImplicitContact {
  private:
   [[nodiscard]] bool is_carrier(std::int32_t row) const;
   [[nodiscard]] bool is_rigid(const ContactNumbers& contact) const;
+  /// How many times stiffer than at first it is against coming nearer.
+  [[nodiscard]] double stiffer(const ContactNumbers& contact) const;
   void press_all();
   [[nodiscard]] Mat3 compliance(const ContactNumbers& contact, std::span<const double> blocks) const;
 
@@ -156,7 +160,7 @@ class ImplicitContact {
   double scale_ = 0.0;
   double normal_ = 1.0;                   ///< times stiffer
   double tangent_ = 1.0;                  ///< times stiffer
-  double rigid_ = 1.0;                    ///< times stiffer
+  double whole_ = 1.0;                    ///< times stiffer where something stops as a whole
   std::vector<ContactNumbers> pressing_;  ///< of the latest look
   std::vector<double> stiffnesses_;       ///< of what was looked at; shares where it has its own
   std::vector<double> shares_;            ///< of what was looked at: 1 where it may press

@@ -26,6 +26,31 @@ def browser():
 
 
 @pytest.fixture
+def surroundings():
+    """Of tests whose pages are lit as a user's are."""
+
+
+@pytest.fixture(autouse=True)
+def _lamps_alone(request, monkeypatch):
+    """Pages without `surroundings` are lit by lamps.
+
+    What is around a scene and shines on it takes seconds of both cores to prepare where no graphics
+    card does it, for each page, and doubles the work of each picture.
+    """
+    if "surroundings" in request.fixturenames:
+        return
+    viser = pytest.importorskip("viser", reason="no viser: pip install 'tissu[view]'")
+    make = viser.ViserServer
+
+    def server(*given, **more):
+        made = make(*given, **more)
+        made.scene.configure_environment_map(None)
+        return made
+
+    monkeypatch.setattr(viser, "ViserServer", server)
+
+
+@pytest.fixture
 def views():
     """Opens views without a window of the desk's own browser, and closes them."""
     opened = []

@@ -80,7 +80,7 @@ def until(page, condition):
     raise AssertionError("it never happened")
 
 
-def test_the_page_shows_the_organ_and_it_moves(views, pages):
+def test_the_page_shows_the_organ_and_it_moves(surroundings, views, pages):
     view = views(organ(), playing=False)
     page = pages(view.url)
     at_rest = settled(page)
@@ -147,7 +147,7 @@ def test_a_drag_beside_the_organ_turns_the_view_and_pulls_nothing(views, pages):
     assert of(view, lambda sims: sims[0].grabs) == ()
 
 
-def test_cells_are_removed_under_the_mouse(views, pages):
+def test_cells_are_removed_under_the_mouse(surroundings, views, pages):
     view = views(organ(editing=True), playing=False)
     page = pages(view.url)
     choose(page, "tool", "remove cells")

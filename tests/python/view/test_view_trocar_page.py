@@ -36,7 +36,7 @@ def at_time(page, view, time):
     view.pause()
 
 
-def test_the_page_shows_the_trocar_its_force_and_its_faults(views, pages):
+def test_the_page_shows_the_trocar_its_force_and_its_faults(surroundings, views, pages):
     view = views(tissue().compile(), playing=False, speed=0.5)
     page = bared(pages(view.url))
     (pivot,) = on_screen(page, view, [PORT]).round().astype(int)

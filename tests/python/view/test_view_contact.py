@@ -171,7 +171,9 @@ def test_without_contact_nothing_offers_obstacles(views, pages):
     assert page.get_by_text("contacts", exact=True).count() == 0
 
 
-def test_the_picture_of_a_page_has_the_obstacle_only_where_its_layer_is_on(surroundings, views, pages):
+def test_the_picture_of_a_page_has_the_obstacle_only_where_its_layer_is_on(
+    surroundings, views, pages
+):
     page = bared(pages(views(probed(), playing=False).url))
     assert grey(settled(page)) > 3000
     page.get_by_role("checkbox", name="obstacles").click(force=True)

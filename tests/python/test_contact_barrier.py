@@ -182,7 +182,7 @@ def test_a_gap_above_what_is_noted_converges(gap, converges):
     """`check` notes a gap below 1e-5 of the edge: steps that do not converge there say so."""
     scene = on_a_slope(0.0, contact=BARRIER)
     scene = scene.replace(contacts=[one.replace(gap=gap) for one in scene.contacts])
-    noted = any("is lost in round-off" in note for note in scene.check().notes)
+    noted = any("round-off counts there" in note for note in scene.check().notes)
     assert noted != converges
     simulation = scene.compile()
     reports = []

@@ -25,7 +25,7 @@ constexpr double kDepthNewton = 1e-3;
 constexpr double kForce = 1e-2;       ///< of the contacts' forces: a smaller change needs no other system
 constexpr double kForceRigid = 1e-3;  ///< the same where a rigid body is free, which has no other forces
 // Contacts of rigid bodies, sheets and lines that neither pull nor exceed friction, and only lack force,
-// become stiffer.
+// become stiffer, unless rows are held back: what is stiffer in an impact throws surfaces apart.
 constexpr int kPatience = 2;        ///< so many systems later …
 constexpr double kStiffer = 4.0;    ///< … by this for each, …
 constexpr double kStiffest = 64.0;  ///< … no further than this
@@ -180,6 +180,7 @@ bool StageSolver::solve_contacts(State& state, std::vector<double>& v, StepRepor
   // Levers of what is rigid are those of the latest places: the step is one of Newton's for contact.
   const State& levers = contact.surfaces().rotations().empty() ? stage_.base : state;
   bool solved = true;
+  const bool several = contact.surfaces().carriers().size() > 1;  // one may lie on another
   double stiffer = 1.0;
   Settling settling;
   for (int i = 1;; ++i) {
@@ -210,7 +211,8 @@ bool StageSolver::solve_contacts(State& state, std::vector<double>& v, StepRepor
     end = &end_of(state);
     update_contacts(*end);
     report.held_back = hold_back(*end);
-    if (i >= kPatience && contact_->inadmissible() <= kForce) {
+    const bool lacks_force = several || contact_->depth() > shallow(i);
+    if (i >= kPatience && lacks_force && report.held_back == 0 && contact_->inadmissible() <= kForce) {
       stiffer = std::min(kStiffest, kStiffer * stiffer);
       contact_->set_stiffer_whole(stiffer);
     }
@@ -312,7 +314,10 @@ void StageSolver::judge_touching(State& state, std::vector<double>& v, StepRepor
     set_contacts(state);
     const bool solved = is_near(iterate(state, v, Search::none, kRescue, report), report);
     systems += report.newton_iterations - 1;
-    if (!solved) break;
+    if (!solved) {
+      fits_contacts(state, v, report);  // where the iteration went is tested too: it may be kept
+      break;
+    }
   }
   // A contact that began inside its gap gives energy as it opens, less in parts of a step, where there are
   // any.

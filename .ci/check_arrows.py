@@ -86,7 +86,7 @@ PYTHON: dict[str, set[str]] = {
     "scene": {"errors", "counted", "field_names", "reading", "units", "mesh", "_core"},
     "user_law": {"errors", "files", "units", "codegen", "scene", "_core"},
     "yaml_text": {"errors", "files", "scene"},
-    "yaml_io": {"errors", "files", "mesh", "scene", "user_law", "yaml_text"},
+    "yaml_io": {"errors", "files", "mesh", "reading", "scene", "user_law", "yaml_text"},
     "effects": {"scene"},
     "checkpoint": {"errors", "counted", "files", "_core"},
     "picture": {"errors", "files", "mesh", "_core"},

@@ -219,7 +219,7 @@ OneContact = Annotated[Contact | SelfContact, PlainValidator(_one_contact)]
 
 
 def _contact_list(value: object) -> object:
-    """The contacts as a list, also where a word or a single contact stands alone."""
+    """Refuse a word that stands in place of the list, with the list that it may mean."""
     if isinstance(value, str):
         meant = "[{between: all}]" if value.strip().lower() == "all" else _EXAMPLE
         raise ParameterError(f"found {written(value)}; a list is accepted, such as {meant}")

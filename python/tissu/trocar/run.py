@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from types import TracebackType
 
     from tissu.simulation import Simulation, StepReport
+    from tissu.trocar.report import Report
 
 COLUMNS = (
     *("t [s]", "state", "tool", "pitch [rad]", "roll [rad]", "rotation [rad]", "depth [m]"),
@@ -56,6 +57,7 @@ class Trocars:
         self._trust = trust_plugins
         self.felt: dict[str, list[Felt]] = {}
         self._touches: dict[str, Touch] = {}
+        self._reports: dict[str, Report] = {}
         self._open = ExitStack()
         self._late = 0
         self._behind = 0.0
@@ -101,6 +103,7 @@ class Trocars:
                 return
             for name, touch in self._touches.items():
                 self.felt[name].append(touch.hand_on())
+            self._reports.clear()
             if self.realtime:
                 ahead = self.simulation.time - first - (time.monotonic() - begin)
                 time.sleep(max(0.0, ahead))
@@ -110,11 +113,20 @@ class Trocars:
                     begin -= ahead
             yield report
 
+    def _report(self, name: str) -> Report:
+        """Of a trocar after the last step: one report for all that is said of that moment.
+
+        In real time its ticks go on meanwhile, and a second report would be of another moment.
+        """
+        if name not in self._reports:
+            self._reports[name] = self._touches[name].controller.report()
+        return self._reports[name]
+
     def summary(self) -> dict[str, Any]:
         """Of each trocar: forces, energy, and in real time how late ticks and steps were."""
         found = {}
         for name, touch in self._touches.items():
-            felt, report = self.felt[name], touch.controller.report()
+            felt, report = self.felt[name], self._report(name)
             largest = {
                 kind: max((float(np.linalg.norm(getattr(one, kind))) for one in felt), default=0.0)
                 for kind in ("force", "fast")
@@ -144,8 +156,8 @@ class Trocars:
     def words(self) -> list[str]:
         """A line for each trocar: its state and tool, and in real time what was late."""
         found = []
-        for name, touch in self._touches.items():
-            report = touch.controller.report()
+        for name in self._touches:
+            report = self._report(name)
             text = f"trocar:  {name} ended {report.state.name} with {report.tool or 'no tool'}"
             if self.realtime:
                 text += f"; {counted(report.timing.missed, 'missed tick')}, "
@@ -156,8 +168,8 @@ class Trocars:
     def problems(self) -> list[str]:
         """What is to be done about trocars that give no force any more, a sentence for each."""
         found = []
-        for name, touch in self._touches.items():
-            report = touch.controller.report()
+        for name in self._touches:
+            report = self._report(name)
             if report.state in (State.held, State.fault):
                 why = report.problem or "its tissue is not felt"
                 found.append(f"trocars.{name} ended {report.state.name}: {why}")

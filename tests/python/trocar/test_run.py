@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import csv
+import itertools
 import json
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -12,6 +14,8 @@ import pytest
 from typer.testing import CliRunner, Result
 
 from tissu.cli.app import app
+from tissu.trocar.controller import Controller
+from tissu.trocar.states import State
 
 TEXT = (Path(__file__).parents[3] / "examples" / "trocar.yaml").read_text(encoding="utf-8")
 DEEPER = TEXT.replace("0.118", "0.13").replace("duration: 0.1 s", "duration: 0.8 s")
@@ -70,6 +74,21 @@ def test_a_run_in_real_time_takes_its_time(tmp_path: Path) -> None:
     line = next(one for one in found.output.splitlines() if one.startswith("trocar:"))
     assert f"right ended {right['state']} with {right['tool'] or 'no tool'}; " in line
     assert f"{right['late_steps']} late step" in line
+
+
+def test_what_is_said_of_the_end_is_of_one_moment(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Ticks that go on after the last step change neither the summary nor the line."""
+    states = itertools.cycle(State)
+    report = Controller.report
+    monkeypatch.setattr(
+        Controller, "report", lambda self: replace(report(self), state=next(states))
+    )
+    found = run(tmp_path, TEXT, "--duration", "0.05 s")
+    assert found.exit_code == 0, found.output
+    summary = json.loads((tmp_path / "out" / "summary.json").read_text(encoding="utf-8"))
+    assert f"right ended {summary['trocars']['right']['state']} with " in found.output
 
 
 def test_a_trocar_that_ends_held_is_said(tmp_path: Path) -> None:

@@ -59,6 +59,7 @@ py::dict to_dict(const CutPlan& plan) {
   unresolved.reserve(plan.unresolved.size());
   for (const auto& [cell, reason] : plan.unresolved) unresolved.emplace_back(cell, words(reason));
   result["unresolved"] = unresolved;
+  result["parts_nothing"] = plan.parts_nothing;
   result["bridges"] = plan.bridges();
   result["nodes_moved"] = plan.moved.size();
   return result;

@@ -170,9 +170,21 @@ def laid(z):
 def test_overlap_at_the_start_is_refused_at_check():
     (problem,) = laid(0.01).check().problems
     assert problem.startswith("contacts: found surfaces that overlap at the start: ")
-    assert '"liver" and "table" in 9 places' in problem
+    assert '"liver" and "table" in 9 places, 0.01 m deep at most; they must' in problem
     with pytest.raises(SceneError, match="overlap at the start"):
         laid(0.01).compile()
+
+
+def test_a_plane_that_faces_away_is_named():
+    """All of the body is behind it, as with a normal of the wrong sign."""
+    table = ts.PlaneObstacle((0, 0, -0.01), (0, 0, -1))
+    contacts = [ts.Contact(("liver", "table"), gap="1 mm")]
+    (problem,) = (
+        scene(bodies={"liver": body}, obstacles={"table": table}, contacts=contacts)
+        .check()
+        .problems
+    )
+    assert '(all of "liver" is behind "table", whose normal must point to the side' in problem
 
 
 def test_what_touches_is_moved_apart():

@@ -14,6 +14,7 @@ constexpr double kSteepest = 1e-4;  ///< sigma below which b is a quadratic
 constexpr double kSpeed = 1e-3;     ///< extents a second: slower sliding sticks
 constexpr double kStiff = 3.0;      ///< times as stiff as the surfaces' mean node
 constexpr double kNear = 1e-2;      ///< sigma below which contacts that stay there become …
+constexpr double kNearGap = 0.6;    ///< … where surfaces rest at their gap, …
 constexpr double kStiffer = 4.0;    ///< … by this stiffer, …
 constexpr double kStiffest = 1e6;   ///< … no further than this
 
@@ -77,7 +78,7 @@ bool BarrierContact::stiffen() {
   bool any = false;
   for (std::size_t k = 0; k < nearest_.size(); ++k) {
     const bool stays = stays_[k] != 0;
-    stays_[k] = nearest_[k] < kNear ? 1 : 0;
+    stays_[k] = nearest_[k] < (rests_at_gap_ ? kNearGap : kNear) ? 1 : 0;
     if (!stays || stays_[k] == 0 || stiffer_[k] >= kStiffest) continue;
     stiffer_[k] *= kStiffer;
     stays_[k] = 0;
@@ -138,7 +139,7 @@ void BarrierContact::set_matrix(std::span<const double> blocks, double scale, co
 bool BarrierContact::may_press(std::size_t i) const { return run_.gap(i) < pair_of(run_.looked()[i]).gap; }
 
 std::optional<double> BarrierContact::press(std::size_t i, ContactNumbers& c) {
-  const double range = spring_range(contact_, c);
+  const double range = rests_at_gap_ ? 0.0 : spring_range(contact_, c);
   const double gap = std::min(pair_of(c).gap, c.apart);
   const double least = c.apart - (1.0 - kLeast) * gap;
   const double d = c.apart + run_.gap(i);

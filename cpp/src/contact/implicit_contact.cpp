@@ -23,11 +23,11 @@ std::array<double, 3> numbers_of(const Vec3& v) { return {v.x(), v.y(), v.z()}; 
 
 std::unique_ptr<ImplicitContact> ImplicitContact::make(const Contact& contact, const FixedDofs& fixed,
                                                        const Mass* mass, std::vector<double> rest,
-                                                       double extent) {
-  if (contact.description().method == ContactMethod::penalty) {
+                                                       double extent, ContactMethod method) {
+  if (method == ContactMethod::penalty) {
     return std::make_unique<ImplicitPenalty>(contact, fixed, mass, std::move(rest));
   }
-  if (contact.description().method == ContactMethod::barrier) {
+  if (method == ContactMethod::barrier) {
     return std::make_unique<BarrierContact>(contact, fixed, extent);
   }
   auto augmented = std::make_unique<AugmentedContact>(contact, fixed);

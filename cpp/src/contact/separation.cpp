@@ -241,6 +241,30 @@ class Separation {
   std::vector<double> counts_;   ///< of what was asked of each mover
 };
 
+/// How deep the deepest vertex of a surface lies behind a plane, and whether all of them do, in words.
+std::string words_behind_plane(const Contact& contact, const State& state, std::int32_t body,
+                               std::int32_t plane) {
+  const SurfaceSet& surfaces = contact.surfaces();
+  const auto obstacle = plane - static_cast<std::int32_t>(contact.description().bodies.size());
+  const Vec3 origin =
+      contact.place_of(obstacle, contact.description().obstacles[at(obstacle)].origin, state, state.time);
+  const Vec3 normal = contact.normal_of(obstacle, state, state.time);
+  const auto& of = surfaces.surfaces()[at(body)];
+  double depth = 0.0;
+  bool all = true;
+  for (std::int32_t v = of.first_vertex; v < of.last_vertex; ++v) {
+    const double behind = normal.dot(origin - contact.place(v, state));
+    depth = std::max(depth, behind);
+    all = all && behind >= 0.0;
+  }
+  std::string text = ", " + number_text(depth) + " m deep at most";
+  if (all) {
+    text += " (all of \"" + of.name + "\" is behind \"" + surfaces.surfaces()[at(plane)].name +
+            "\", whose normal must point to the side on which bodies are)";
+  }
+  return text;
+}
+
 }  // namespace
 
 void separate(const Contact& contact, const FixedDofs& fixed, std::span<const RowRange> loose, State& start) {
@@ -248,8 +272,12 @@ void separate(const Contact& contact, const FixedDofs& fixed, std::span<const Ro
   Separation separation(contact, fixed, loose, start);
   separation.run();
   std::map<std::pair<std::int32_t, std::int32_t>, int> counts;
+  std::map<std::pair<std::int32_t, std::int32_t>, std::string> behind;  // of a surface and a plane
   for (const Crossing& crossing : crossings(contact, start)) {
-    ++counts[std::minmax(crossing.surface, crossing.other)];
+    const auto pair = std::minmax(crossing.surface, crossing.other);
+    if (++counts[pair] == 1 && crossing.triangle[0] < 0 && crossing.edge[1] < 0) {
+      behind[pair] = words_behind_plane(contact, start, crossing.surface, crossing.other);
+    }
   }
   const Depths depths = separation.depths();
   if (counts.empty() && depths.empty()) return;
@@ -265,6 +293,7 @@ void separate(const Contact& contact, const FixedDofs& fixed, std::span<const Ro
     text += (text.empty() ? "\"" : "; \"") + surfaces[at(pair.first)].name + "\" and \"" +
             surfaces[at(pair.second)].name + "\" in " + std::to_string(count) +
             (count == 1 ? " place" : " places");
+    if (const auto plane = behind.find(pair); plane != behind.end()) text += plane->second;
   }
   for (const auto& [pair, depth] : depths) {
     note(pair);

@@ -27,7 +27,7 @@ double dot(ConstReals a, ConstReals b) { return std::inner_product(a.begin(), a.
 }  // namespace
 
 StaticBarrier::StaticBarrier(Equilibrium& equilibrium, Profile& profile)
-    : StaticContact(equilibrium, profile),
+    : StaticContact(equilibrium, profile, ContactMethod::barrier),
       barrier_(*contact_->barrier()),
       trial_(start_),
       change_(start_.positions.size()),
@@ -157,6 +157,16 @@ bool StaticBarrier::seek(const LoadPath& path, double from, double to, int most,
   contact_->finish(state, state);
   is_unstable_ = mean_ > 0.0 && equilibrium_.tangent().is_indefinite(state, equilibrium_.right(), change_);
   return true;
+}
+
+bool StaticBarrier::find_at_gap(const LoadPath& path, double share, int most, State& state,
+                                StepReport& report) {
+  barrier_.rest_at_gap(true);
+  const bool was_unstable = is_unstable_;
+  const bool found = find(path, share, share, most, state, report);
+  barrier_.rest_at_gap(false);
+  if (!found) is_unstable_ = was_unstable;
+  return found;
 }
 
 }  // namespace tissu

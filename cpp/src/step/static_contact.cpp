@@ -57,10 +57,10 @@ std::unique_ptr<StaticContact> StaticContact::make(Equilibrium& equilibrium, Pro
   return std::make_unique<StaticTouching>(equilibrium, profile);
 }
 
-StaticContact::StaticContact(Equilibrium& equilibrium, Profile& profile)
+StaticContact::StaticContact(Equilibrium& equilibrium, Profile& profile, ContactMethod method)
     : equilibrium_(equilibrium),
       profile_(profile),
-      contact_(equilibrium.system().make_contact(true)),
+      contact_(equilibrium.system().make_contact(true, method)),
       start_(equilibrium.world().rest_state()),
       held_(start_),
       is_loose_(any_loose(equilibrium.world())),
@@ -74,8 +74,9 @@ std::string_view StaticContact::moves_on() {
          "with `fixed`, or by friction";
 }
 
-bool StaticContact::give_up(std::string_view why) {
+bool StaticContact::give_up(std::string_view why, bool no_end) {
   reason_ = why;
+  found_no_end_ = no_end;
   return false;
 }
 
@@ -123,7 +124,7 @@ void StaticContact::begin(const LoadPath& path, double from, double to, State& s
 
 bool StaticContact::find(const LoadPath& path, double from, double to, int most, State& state,
                          StepReport& report) {
-  is_unstable_ = false;
+  is_unstable_ = found_no_end_ = false;
   reason_.clear();
   try {
     if (!seek(path, from, to, most, state, report)) return false;

@@ -23,13 +23,12 @@ constexpr double kLeastRelaxed = 0.25;  ///< of the way from look to look
 constexpr double kLeastTangent = 0.5;   ///< of the springs against sliding: softer ones let bodies creep away
 constexpr double kForce = 1e-3;         ///< of a body's contact forces: a smaller change needs no other look
 constexpr double kDepth = 1e-3;         ///< of the gap
-constexpr std::string_view kUsed =
-    "all of Newton's iterations were used; the contact method barrier may need fewer";
+constexpr std::string_view kUsed = "all of Newton's iterations were used";
 
 }  // namespace
 
 StaticTouching::StaticTouching(Equilibrium& equilibrium, Profile& profile)
-    : StaticContact(equilibrium, profile),
+    : StaticContact(equilibrium, profile, equilibrium.world().contact()->description().method),
       before_(start_),
       response_row_(profile.row("contact", "response")) {}
 
@@ -152,21 +151,20 @@ bool StaticTouching::seek(const LoadPath& path, double from, double to, int most
   for (int i = 0; i < kMostLooks; ++i) {
     stop_if_asked();
     const int left = most - (report.newton_iterations - first);
-    if (left <= 0) return give_up(falls_ > 0 ? moves_on() : kUsed);
+    if (left <= 0) return give_up(falls_ > 0 ? moves_on() : kUsed, falls_ == 0);
     if (!solve(path, before, to, left, state, report)) {
       if (!reason().empty()) return false;
-      return give_up(falls_ > 0
-                         ? moves_on()
-                         : "Newton's iteration found no equilibrium with the contacts there; the contact "
-                           "method barrier may find one");
+      return give_up(
+          falls_ > 0 ? moves_on() : "Newton's iteration found no equilibrium with the contacts there",
+          falls_ == 0);
     }
     before = to;
     falls_ += is_falling_ ? 1 : 0;
     if (falls_ > (start_touches_ ? kMostTouching : kMostFalls)) return give_up(moves_on());
     if (look_again(to, state, report)) return true;
   }
-  return give_up("contact forces had not come to rest after " + std::to_string(kMostLooks) +
-                 " searches; the contact method barrier may find an equilibrium");
+  return give_up("contact forces had not come to rest after " + std::to_string(kMostLooks) + " searches",
+                 true);
 }
 
 }  // namespace tissu

@@ -171,16 +171,20 @@ void System::recouple(const State& state) {
 }
 
 std::unique_ptr<ImplicitContact> System::make_contact(bool is_static) {
+  return make_contact(is_static, world_.contact()->description().method);
+}
+
+std::unique_ptr<ImplicitContact> System::make_contact(bool is_static, ContactMethod method) {
   const Contact& contact = *world_.contact();
   std::vector<double> rest;
-  if (ImplicitContact::needs_rest(contact)) {
+  if (ImplicitContact::needs_rest(method)) {
     rest.resize(9 * static_cast<std::size_t>(world_.blocks()));
     assemble(world_.shape_state(), 0.0, {-1.0, 0.0, true});
     system_matrix().diagonal_blocks(rest);
     assembled_ = false;
   }
   return ImplicitContact::make(contact, world_.fixed(), is_static ? nullptr : &world_.mass(), std::move(rest),
-                               world_.extent());
+                               world_.extent(), method);
 }
 
 /// A matrix that stays is that of the world at rest, whose rigid motions are about places there.

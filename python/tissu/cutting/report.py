@@ -95,6 +95,8 @@ class CutReport:
         faces_opened: triangles of the material, each with two sides now.
         area: of one side of these faces now [m2].
         rest_area: the same at rest [m2].
+        parts_nothing: whether the blade divided or opened cells, and no node has parted: the whole
+            border of the cut lies in the cells around it, and its walls move as one.
         pieces: all connected parts of the body, the largest first.
         volume_change: of the material at rest [m3].
         mass_change: [kg].
@@ -131,6 +133,7 @@ class CutReport:
     faces_opened: int
     area: float
     rest_area: float
+    parts_nothing: bool
     pieces: tuple[Piece, ...]
     volume_change: float
     mass_change: float
@@ -171,7 +174,9 @@ class CutReport:
             text += f"{counted(self.nodes_moved, 'node')} moved, "
         text += f"{counted(self.nodes_new, 'new node')}, {1e4 * self.area:.4g} cm2 opened, "
         text += f"{counted(len(self.pieces), 'piece')}, {self.milliseconds:.1f} ms"
-        if len(self.unresolved) > self.bridges:
+        if self.parts_nothing:
+            text += "; the blade ends inside these cells and parts nothing"
+        elif len(self.unresolved) > self.bridges:
             text += f"; {counted(len(self.unresolved) - self.bridges, 'cell')} met and not cut"
         if self.bridges:
             text += f"; walls of the blade may have left bridges in {counted(self.bridges, 'cell')}"
@@ -217,6 +222,7 @@ def cut_report(
         faces_opened=made["faces_opened"],
         area=made["area"],
         rest_area=made["rest_area"],
+        parts_nothing=made["parts_nothing"],
         pieces=pieces,
         volume_change=after["volume"] - before["volume"],
         mass_change=after["mass"] - before["mass"],

@@ -284,6 +284,7 @@ def _report(
     """A report of tissue, which has no cells and no faces."""
     nothing: dict[str, Any] = {
         **dict.fromkeys(("cells_cut", "cells_new", "cells_gone", "nodes_new", "faces_opened"), 0),
+        "parts_nothing": False,
         "bridges": 0,
         **dict.fromkeys(("area", "rest_area", "volume_change", "mass_change", "work"), 0.0),
         "momentum_change": np.zeros(3),

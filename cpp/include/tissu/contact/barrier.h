@@ -38,6 +38,9 @@ class BarrierContact final : public ImplicitContact {
 
   [[nodiscard]] BarrierContact* barrier() override { return this; }
   void set_matrix(std::span<const double> blocks, double scale, const ContactStage& stage) override;
+  /// If so, d0 = xi, and pairs become stiffer below sigma = 0.6: surfaces rest a little inside the gap,
+  /// where augmented contacts rest.
+  void rest_at_gap(bool rests) { rests_at_gap_ = rests; }
   /// What the contacts of the latest look store [J].
   [[nodiscard]] double energy() const { return energy_; }
   /// The normal forces of the contacts that act are those of friction from now on. By how much they changed,
@@ -59,6 +62,7 @@ class BarrierContact final : public ImplicitContact {
 
  private:
   double extent_;
+  bool rests_at_gap_ = false;
   double energy_ = 0.0;
   std::vector<double> stiffnesses_;  ///< k of each pair, …
   std::vector<double> stiffer_;      ///< … times that, …

@@ -33,12 +33,11 @@ class BarrierContact;
 class ImplicitContact {
  public:
   /// `mass`: null in static steps; `rest`: diagonal blocks of the stiffness at rest, [row][9], where
-  /// `needs_rest`; `extent` of the scene [m].
+  /// `needs_rest`; `extent` of the scene [m]; `method`: that of the contact, or another one.
   static std::unique_ptr<ImplicitContact> make(const Contact& contact, const FixedDofs& fixed,
-                                               const Mass* mass, std::vector<double> rest, double extent);
-  [[nodiscard]] static bool needs_rest(const Contact& contact) {
-    return contact.description().method == ContactMethod::penalty;
-  }
+                                               const Mass* mass, std::vector<double> rest, double extent,
+                                               ContactMethod method);
+  [[nodiscard]] static bool needs_rest(ContactMethod method) { return method == ContactMethod::penalty; }
   ImplicitContact(const Contact& contact, const FixedDofs& fixed);
   virtual ~ImplicitContact() = default;
   ImplicitContact(const ImplicitContact&) = delete;

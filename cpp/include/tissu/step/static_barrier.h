@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include "tissu/contact/barrier.h"
 #include "tissu/step/static_contact.h"
 
 namespace tissu {
@@ -18,6 +19,10 @@ namespace tissu {
 class StaticBarrier final : public StaticContact {
  public:
   StaticBarrier(Equilibrium& equilibrium, Profile& profile);
+
+  /// From an equilibrium at a share of the load to that in which surfaces rest near their gap, as augmented
+  /// contacts do. False: none was found, and the state is undefined.
+  bool find_at_gap(const LoadPath& path, double share, int most, State& state, StepReport& report);
 
  private:
   bool seek(const LoadPath& path, double from, double to, int most, State& state,

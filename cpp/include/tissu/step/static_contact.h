@@ -26,11 +26,13 @@ class StaticContact {
   /// Newton's iterations. False: none was found, `reason` says why, and the state is undefined.
   bool find(const LoadPath& path, double from, double to, int most, State& state, StepReport& report);
   [[nodiscard]] const std::string& reason() const { return reason_; }
+  /// Whether it gave up because its search did not end.
+  [[nodiscard]] bool found_no_end() const { return found_no_end_; }
   /// Whether the state that was found is a saddle of the energy of what does not rub.
   [[nodiscard]] bool is_unstable() const { return is_unstable_; }
 
  protected:
-  StaticContact(Equilibrium& equilibrium, Profile& profile);
+  StaticContact(Equilibrium& equilibrium, Profile& profile, ContactMethod method);
 
   /// Of `find`, after which errors are reasons.
   virtual bool seek(const LoadPath& path, double from, double to, int most, State& state,
@@ -42,7 +44,8 @@ class StaticContact {
   int hold_back(State& to);
   /// So much of the mass stands beside the tangent that no node feels it beside its own stiffness.
   void measure_mass();
-  bool give_up(std::string_view why);
+  /// `no_end`: the search did not end, though nothing says that there is no equilibrium.
+  bool give_up(std::string_view why, bool no_end = false);
   [[nodiscard]] const World& world() const { return equilibrium_.world(); }
   [[nodiscard]] static std::string_view moves_on();
 
@@ -59,6 +62,7 @@ class StaticContact {
 
  private:
   std::string reason_;
+  bool found_no_end_ = false;
   std::size_t detection_row_;
   std::size_t travel_row_;
 };

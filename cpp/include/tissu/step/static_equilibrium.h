@@ -7,6 +7,7 @@
 #include "tissu/step/arc_length.h"
 #include "tissu/step/equilibrium.h"
 #include "tissu/step/integrator.h"
+#include "tissu/step/static_barrier.h"
 #include "tissu/step/static_contact.h"
 
 namespace tissu {
@@ -16,6 +17,8 @@ namespace tissu {
 /// method with whole steps, then with steps along which the energy falls. One that fails is halved, and parts
 /// grow again after an easy one. Where the smallest part fails the load may turn: from there the path is
 /// followed by its arc length. The sum of all Newton iterations of a step is bounded.
+///
+/// Where the searches of augmented contacts do not end, the barrier goes on from the last part of the load.
 ///
 /// With contact a step without equilibrium throws Diverged: what is led would stand where bodies are.
 class StaticEquilibrium final : public Integrator {
@@ -37,8 +40,11 @@ class StaticEquilibrium final : public Integrator {
   void restore(ConstReals memory) override { loaded_ = !memory.empty() && memory[0] != 0.0; }
 
  private:
-  /// Goes on to 1 in parts of the load; the share that was reached.
-  double go_by_parts(const LoadPath& path, State& state, StepReport& report);
+  /// Goes on from a share of the load to 1 in parts; the share that was reached.
+  double go_by_parts(const LoadPath& path, double share, State& state, StepReport& report);
+  [[nodiscard]] bool may_go_on_by_barrier() const;
+  /// Where it does not reach the end, augmented contacts go on from there in ever smaller parts.
+  double go_on_by_barrier(const LoadPath& path, double share, State& state, StepReport& report);
   double go_by_arc(const LoadPath& path, double share, double part, State& state, StepReport& report);
   /// One part; true when it converged. Otherwise `state` is as it was.
   bool take(const LoadPath& path, double from, double to, State& state, StepReport& report);
@@ -53,9 +59,16 @@ class StaticEquilibrium final : public Integrator {
   std::unique_ptr<Equilibrium> equilibrium_;
   std::unique_ptr<ArcLength> arc_;
   std::unique_ptr<StaticContact> touching_;  ///< null where nothing touches
-  State start_;                              ///< of the step
-  State before_;                             ///< of the part of the load
-  bool solver_gave_up_ = false;              ///< since the last part that converged
+  std::unique_ptr<StaticBarrier> barrier_;   ///< made where it goes on for augmented contacts
+  StaticContact* by_ = nullptr;              ///< the one of both that searches
+  bool tries_barrier_ = false;               ///< in this step, if the searches do not end
+  bool rests_at_gap_ = true;                 ///< what the barrier held was brought to its gap
+  std::string why_not_by_barrier_;           ///< of this step
+  int set_aside_ = 0;                        ///< iterations of the step that do not count
+  Profile* profile_ = nullptr;
+  State start_;                  ///< of the step
+  State before_;                 ///< of the part of the load
+  bool solver_gave_up_ = false;  ///< since the last part that converged
   ArcLength::End arc_ended_ = ArcLength::End::unused;
 };
 

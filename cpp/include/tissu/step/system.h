@@ -44,6 +44,7 @@ class System {
   void assemble_mean(const State& state, double share, double mass = 0.0);
   /// The contact of a world that touches in implicit steps, or in static ones.
   std::unique_ptr<ImplicitContact> make_contact(bool is_static);
+  std::unique_ptr<ImplicitContact> make_contact(bool is_static, ContactMethod method);
   /// The solver makes what it needs of the matrix before there is a step. Only after `assemble`.
   void prepare_ahead();
   /// Solves A x = b from the first guess x.

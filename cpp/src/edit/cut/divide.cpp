@@ -195,7 +195,7 @@ void refuse_undivided(const Hosts& hosts, const Material& material, const Number
       "start again.");
 }
 
-void write_division(const Hosts& hosts, const Material& material, ConstReals x, const Patch& patch,
+bool write_division(const Hosts& hosts, const Material& material, ConstReals x, const Patch& patch,
                     const OnIncisions& met, CutPlan& plan) {
   const Divided divided(hosts, material, patch, met);
   const std::vector<double> places = divided.places(x);
@@ -211,7 +211,9 @@ void write_division(const Hosts& hosts, const Material& material, ConstReals x, 
   CutPlan of_nodes;
   write_plan(divided.hosts(), divided.material(), now, fragments, replicas, fans, of_nodes);
   write_incisions(now, divided.material(), {}, fans, of_nodes);
+  const bool parts = !of_nodes.nodes.empty();
   join(divided.plan(), std::move(of_nodes), plan);
+  return parts;
 }
 
 }  // namespace tissu

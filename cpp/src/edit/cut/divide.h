@@ -18,8 +18,8 @@ namespace tissu {
 void refuse_undivided(const Hosts& hosts, const Material& material, const std::vector<std::int32_t>& cells);
 
 /// Cells, nodes and material of the plan; the patch has divided edges and opened faces. The nodes of opened
-/// faces part by their fans.
-void write_division(const Hosts& hosts, const Material& material, ConstReals x, const Patch& patch,
+/// faces part by their fans. Whether one parts.
+bool write_division(const Hosts& hosts, const Material& material, ConstReals x, const Patch& patch,
                     const OnIncisions& met, CutPlan& plan);
 
 }  // namespace tissu

@@ -76,9 +76,7 @@ class Attempt {
       for (const std::int32_t cell : sides.joined(patch_, cutter_.on))
         plan.unresolved.emplace_back(patch_.cell(cell).number, Unresolved::bridge);
     }
-    std::ranges::sort(plan.unresolved);
-    const auto same = std::ranges::unique(plan.unresolved, {}, [](const auto& one) { return one.first; });
-    plan.unresolved.erase(same.begin(), same.end());
+    one_reason_each(plan);
     return met;
   }
 
@@ -100,6 +98,8 @@ class Attempt {
     const Fans fans(patch_, fragments, cutter_.parted);
     write_plan(hosts_, material_, patch_, fragments, replicas, fans, plan);
     write_incisions(patch_, material_, cutter_.on_incision, fans, plan);
+    plan.parts_nothing = !plan.empty() && plan.nodes.empty();
+    report_in_vain(plan);
     return true;
   }
 
@@ -107,7 +107,9 @@ class Attempt {
   bool divided(CutPlan& plan) {
     if (remedies_.advance(hosts_, patch_)) return false;
     for (const Patch::Cell& cell : patch_.cells) plan.cells_cut += cell.divided || cell.opened ? 1 : 0;
-    write_division(hosts_, material_, x_, patch_, cutter_.on_incision, plan);
+    const bool parts = write_division(hosts_, material_, x_, patch_, cutter_.on_incision, plan);
+    plan.parts_nothing = !plan.empty() && !parts;
+    report_in_vain(plan);
     return true;
   }
 
@@ -128,6 +130,23 @@ class Attempt {
     if (own != raised_.end()) return own->second;
     if (info(hosts_.type(number)).dimension == 1) return 0.0;  // no part of a line is narrow
     return remedies_.t0(number, options_.t0);
+  }
+
+  static void one_reason_each(CutPlan& plan) {
+    std::ranges::sort(plan.unresolved);
+    const auto same = std::ranges::unique(plan.unresolved, {}, [](const auto& one) { return one.first; });
+    plan.unresolved.erase(same.begin(), same.end());
+  }
+
+  /// A blade may open faces all of whose vertices are at the front of the cut: no node has parted, and the
+  /// walls move as one. What a knife has not parted yet, its next sweep may part.
+  void report_in_vain(CutPlan& plan) const {
+    const auto goes_on = [](const SweepPart& part) { return part.incision >= 0; };
+    if (!plan.parts_nothing || std::ranges::any_of(sweep_.parts, goes_on)) return;
+    for (const Patch::Cell& cell : patch_.cells) {
+      if (cell.divided || cell.opened) plan.unresolved.emplace_back(cell.number, Unresolved::ends);
+    }
+    one_reason_each(plan);
   }
 
   /// An edge on faces opened before may have two fans while its ends, at the front, have one each. A vertex

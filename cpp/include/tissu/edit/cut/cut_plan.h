@@ -89,6 +89,8 @@ struct CutPlan {
   std::int32_t faces_opened = 0;  ///< triangles of the material
   double area = 0.0;              ///< of the opened faces now, one side [m2]
   double rest_area = 0.0;
+  /// Material was divided or opened and no node parted: the walls move as one.
+  bool parts_nothing = false;
   std::vector<std::pair<std::int32_t, Unresolved>> unresolved;  ///< by ascending host
   [[nodiscard]] std::int32_t bridges() const;                   ///< hosts that are unresolved as a bridge
 

@@ -179,11 +179,8 @@ def test_a_plane_that_faces_away_is_named():
     """All of the body is behind it, as with a normal of the wrong sign."""
     table = ts.PlaneObstacle((0, 0, -0.01), (0, 0, -1))
     contacts = [ts.Contact(("liver", "table"), gap="1 mm")]
-    (problem,) = (
-        scene(bodies={"liver": body}, obstacles={"table": table}, contacts=contacts)
-        .check()
-        .problems
-    )
+    made = scene(bodies={"liver": cube()}, obstacles={"table": table}, contacts=contacts)
+    (problem,) = made.check().problems
     assert '(all of "liver" is behind "table", whose normal must point to the side' in problem
 
 

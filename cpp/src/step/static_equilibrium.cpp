@@ -104,7 +104,10 @@ double StaticEquilibrium::go_on_by_barrier(const LoadPath& path, double share, S
   if (to >= 1.0) {
     before_ = state;
     rests_at_gap_ = barrier_->find_at_gap(path, to, kPolish, state, report);
-    if (!rests_at_gap_) state = before_;
+    if (!rests_at_gap_) {
+      state = before_;
+      equilibrium_->is_reached(to, state, equilibrium_->residual(state), 0.0, report);
+    }
     return to;
   }
   why_not_by_barrier_ = barrier_->reason();

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import tissu
 from tissu.codegen.names import HEADINGS, part_names
+from tissu.scene.explain import described
 from tissu.scene.law import Law
 
 PAGE = Path(__file__).parent / "reference" / "scene.md"
@@ -154,7 +155,7 @@ def table(name: str) -> str:
             default = "absent" if info.default is None else "none"
         else:
             default = f"`{info.default}`"
-        about = " ".join((info.description or "").split())
+        about = " ".join(described(part, field).split())
         lines.append(f"| `{field}` | {default} | {about} |")
     return "\n".join(lines)
 

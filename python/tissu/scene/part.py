@@ -45,7 +45,6 @@ class Part(BaseModel):
         arbitrary_types_allowed=True,
         protected_namespaces=(),
         defer_build=True,
-        use_attribute_docstrings=True,
     )
     _problems: tuple[Problem, ...] = PrivateAttr(default=())
 

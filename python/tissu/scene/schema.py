@@ -18,6 +18,7 @@ from tissu.scene.body import Body, MeshFile
 from tissu.scene.contact import ContactSettings
 from tissu.scene.convex_obstacle import ConvexObstacle
 from tissu.scene.editing import Editing
+from tissu.scene.explain import described
 from tissu.scene.generated.laws import LAWS
 from tissu.scene.instrument import INSTRUMENTS, Instrument
 from tissu.scene.law import Law
@@ -102,8 +103,8 @@ def _field(part: type[Part], key: str, field: FieldInfo, found: dict[str, Schema
     kind = _READ_AS.get((part, key), field.annotation)
     kinds = [{"enum": _spellings(part)}] if key == "type" else [*_kinds(kind, found), *_words(kind)]
     schema = dict(_any_of(kinds))
-    if field.description:
-        schema["description"] = " ".join(field.description.split())
+    if text := described(part, key):
+        schema["description"] = " ".join(text.split())
     if not field.is_required() and isinstance(field.default, (str, int, float, bool)):
         schema["default"] = field.default
     return schema

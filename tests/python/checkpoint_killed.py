@@ -3,8 +3,8 @@
 python checkpoint_killed.py FOLDER KILLS WANTED prints one JSON object: how often the file was not
 whole or not one of the two states that it may be, how often the kill left a file half done beside
 it, how often the state was the one before and the one being written, and what lies in the folder
-at last. Where fewer than WANTED kills came while a file was written, as on a machine with other work, it
-goes on, up to ten times KILLS.
+at last. Where fewer than WANTED kills came while a file was written, as on a machine with other
+work, it goes on, up to ten times KILLS.
 """
 
 import hashlib

@@ -82,9 +82,11 @@ StepReport StaticEquilibrium::step(State& state, double h) {
         "to "
         "see where it goes let a damped body come to rest in steps of time (implicit_euler, rayleigh)";
   }
-  if (report.converged && report.message.empty() && before < 1.0 && touching_) {
-    report.message = "beyond " + number_text(100.0 * before) +
-                     " % of the load the searches of augmented contacts did not end, and the barrier went on";
+  if (report.converged && by_ != nullptr && by_ == barrier_.get()) {
+    if (!report.message.empty()) report.message += "; ";
+    report.message +=
+        "beyond " + number_text(100.0 * before) +
+        " % of the load the searches of augmented contacts did not end, and the barrier went on";
     if (!rests_at_gap_) report.message += "; surfaces rest up to two gaps apart";
   }
   path.load(1.0, state);

@@ -44,7 +44,7 @@ class StaticContact {
   int hold_back(State& to);
   /// So much of the mass stands beside the tangent that no node feels it beside its own stiffness.
   void measure_mass();
-  /// `no_end`: the search did not end, though nothing says that there is no equilibrium.
+  /// `no_end`: the search did not end; an equilibrium may exist all the same.
   bool give_up(std::string_view why, bool no_end = false);
   [[nodiscard]] const World& world() const { return equilibrium_.world(); }
   [[nodiscard]] static std::string_view moves_on();

@@ -65,21 +65,35 @@ def views():
 
 
 @pytest.fixture
-def pages(browser):
-    """Opens pages, each of a visitor of its own, and closes them."""
+def visits(browser):
+    """Opens empty pages, each of a visitor of its own, and closes them.
+
+    All of them, of failed tests too: a page that plays on takes the processor from all later ones.
+    """
     visitors = []
 
-    def make(url):
-        visitors.append(browser.new_context(viewport={"width": 800, "height": 500}))
+    def make(**options):
+        visitors.append(browser.new_context(viewport={"width": 800, "height": 500}, **options))
         page = visitors[-1].new_page()
         page.set_default_timeout(WAIT)
-        page.goto(url)
-        page.get_by_text("real time").or_(page.get_by_text("paused")).first.wait_for()
         return page
 
     yield make
     for visitor in visitors:
         visitor.close()
+
+
+@pytest.fixture
+def pages(visits):
+    """Opens pages of views."""
+
+    def make(url):
+        page = visits()
+        page.goto(url)
+        page.get_by_text("real time").or_(page.get_by_text("paused")).first.wait_for()
+        return page
+
+    return make
 
 
 @pytest.fixture

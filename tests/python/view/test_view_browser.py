@@ -320,17 +320,16 @@ def test_two_models_stand_side_by_side(views, pages):
     assert len(runs) + columns[0] >= 2  # two organs with a gap between them
 
 
-def test_a_token_lets_a_page_in(views, pages, browser):
+def test_a_token_lets_a_page_in(views, pages, visits):
     view = views(organ(), playing=False, token="open-sesame")
     page = pages(view.url)
     middle_of(settled(page))
-    stranger = browser.new_context().new_page()
+    stranger = visits()
     answer = stranger.goto(view.url.split("?")[0])
     assert answer.status == 403 and "found no token" in stranger.content()
-    stranger.context.close()
 
 
-def test_a_recording_plays_without_a_server(views, pages, browser, tmp_path):
+def test_a_recording_plays_without_a_server(views, pages, visits, tmp_path):
     file = tmp_path / "organ.html"
     view = views(organ(), record=file, playing=False)
     page = pages(view.url)
@@ -338,9 +337,9 @@ def test_a_recording_plays_without_a_server(views, pages, browser, tmp_path):
     until(page, lambda: of(view, lambda sims: sims[0].time) > 0.6)
     view.close()
     assert file.stat().st_size > 100_000
-    alone = browser.new_context(viewport={"width": 800, "height": 500}, offline=True).new_page()
+    page.close()  # its drawing would go on beside that of the recording
+    alone = visits(offline=True)
     alone.goto(file.as_uri())
     until(alone, lambda: clay(picture(alone)).sum() > 1500)
     first = picture(alone)
     until(alone, lambda: (clay(picture(alone)) != clay(first)).sum() > 400)
-    alone.context.close()

@@ -138,14 +138,13 @@ def test_a_page_that_looks_on_does_not_lead(views, pages):
     assert first.locator("[aria-valuemax='300']").count() == 1
 
 
-def test_a_recording_shows_the_trocar_without_a_server(views, browser, tmp_path):
+def test_a_recording_shows_the_trocar_without_a_server(views, visits, tmp_path):
     file = tmp_path / "palpated.html"
     view = views(tissue().compile(), record=file)
     while of(view, lambda sims: sims[0].time) < 0.5:
         view.wait(0.05)
     view.close()
-    alone = browser.new_context(viewport={"width": 800, "height": 500}, offline=True).new_page()
+    alone = visits(offline=True)
     alone.goto(file.as_uri())
     until(alone, lambda: arrow(picture(alone)) > 10)  # when it touches
     assert coloured(picture(alone), STEEL, 0.06) > 100
-    alone.context.close()

@@ -1,8 +1,8 @@
 """Which sources can be compiled together, as one file that includes them.
 
-Most of the time of a compile goes into headers and templates that neighbouring sources share. Two
-sources go together if they are in one folder and define no private name (a name in a namespace
-without a name) alike.
+Most of the time of a compile goes into headers and templates that sources share, neighbours most of
+all. Two sources go together if they define no private name (a name in a namespace without a name)
+alike.
 
     python unity_groups.py SOURCE...    prints "NUMBER SOURCE" for each source that is in a group
 """
@@ -10,6 +10,7 @@ without a name) alike.
 import re
 import sys
 from collections.abc import Iterable
+from dataclasses import dataclass
 from pathlib import Path
 
 MOST = 8
@@ -28,19 +29,44 @@ def own_names(text: str) -> set[str]:
     return {name for name in names if not MACROS.fullmatch(name)}
 
 
-def groups(sources: Iterable[Path]) -> list[list[Path]]:
-    """Sources of one folder, MOST at most together, in the order of their paths."""
-    found: list[tuple[list[Path], set[str]]] = []
-    for source in sorted(sources):
-        own = own_names(source.read_text(encoding="utf-8"))
-        for group, names in found:
-            if group[0].parent == source.parent and len(group) < MOST and names.isdisjoint(own):
-                group.append(source)
-                names.update(own)
+@dataclass
+class Group:
+    """Sources that are compiled together, and the private names of all of them."""
+
+    sources: list[Path]
+    names: set[str]
+
+    def takes(self, other: "Group") -> bool:
+        """Whether another group has room in it, and no name of it."""
+        room = len(self.sources) + len(other.sources) <= MOST
+        return room and self.names.isdisjoint(other.names)
+
+    def take(self, other: "Group") -> None:
+        """Take the sources of another group."""
+        self.sources += other.sources
+        self.names |= other.names
+
+
+def joined(parts: Iterable[Group], *, one_folder: bool) -> list[Group]:
+    """Each part in the first group that takes it."""
+    found: list[Group] = []
+    for part in parts:
+        folder = part.sources[0].parent
+        for group in found:
+            near = not one_folder or group.sources[0].parent == folder
+            if near and group.takes(part):
+                group.take(part)
                 break
         else:
-            found.append(([source], own))
-    return [group for group, _ in found]
+            found.append(part)
+    return found
+
+
+def groups(sources: Iterable[Path]) -> list[list[Path]]:
+    """MOST sources at most together: of one folder first, and what is left alone with others."""
+    parts = [Group([path], own_names(path.read_text(encoding="utf-8"))) for path in sorted(sources)]
+    found = joined(joined(parts, one_folder=True), one_folder=False)
+    return [group.sources for group in found]
 
 
 def main(sources: list[str]) -> None:

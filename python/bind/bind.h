@@ -19,6 +19,8 @@ namespace py = pybind11;
 
 template <class T>
 using Array = py::array_t<T, py::array::c_style | py::array::forcecast>;
+using Doubles = Array<double>;
+using Ints = Array<std::int32_t>;
 
 /// The numbers of an array, copied in the order of its rows.
 template <class T>

@@ -15,9 +15,6 @@
 namespace tissu::bind {
 namespace {
 
-using Doubles = Array<double>;
-using Ints = Array<std::int32_t>;
-
 template <class Kind, std::size_t n>
 using Words = std::array<std::pair<std::string_view, Kind>, n>;
 

@@ -10,8 +10,6 @@
 namespace tissu::bind {
 namespace {
 
-using Doubles = Array<double>;
-
 const Contact& contact_of(const Simulation& simulation) {
   if (simulation.world().contact() == nullptr) throw ParameterError("this world has no contact.");
   return *simulation.world().contact();

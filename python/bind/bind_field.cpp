@@ -5,9 +5,6 @@
 namespace tissu::bind {
 namespace {
 
-using Doubles = Array<double>;
-using Ints = Array<std::int32_t>;
-
 template <class T>
 py::array_t<T> shaped(const std::vector<T>& values, std::vector<py::ssize_t> shape) {
   return py::array_t<T>(std::move(shape), values.data());

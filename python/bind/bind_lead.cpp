@@ -4,8 +4,6 @@
 namespace tissu::bind {
 namespace {
 
-using Doubles = Array<double>;
-
 py::array_t<std::int32_t> led_nodes(const Simulation& simulation, const std::string& name) {
   const std::vector<std::int32_t> nodes = simulation.world().fixed().nodes_of(name);
   return py::array_t<std::int32_t>(static_cast<py::ssize_t>(nodes.size()), nodes.data());

@@ -6,8 +6,6 @@
 namespace tissu::bind {
 namespace {
 
-using Doubles = Array<double>;
-
 std::span<const double> span_of(const Doubles& values) {
   return {values.data(), static_cast<std::size_t>(values.size())};
 }

@@ -8,8 +8,6 @@
 namespace tissu::bind {
 namespace {
 
-using Doubles = Array<double>;
-
 template <class T>
 Array<T> to_array(const std::vector<T>& values) {
   Array<T> result(static_cast<py::ssize_t>(values.size()));

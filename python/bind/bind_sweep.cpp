@@ -10,9 +10,6 @@
 namespace tissu::bind {
 namespace {
 
-using Doubles = Array<double>;
-using Ints = Array<std::int32_t>;
-
 std::span<const double> numbers(const Doubles& array) {
   return {array.data(), static_cast<std::size_t>(array.size())};
 }

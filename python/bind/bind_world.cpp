@@ -11,9 +11,6 @@
 namespace tissu::bind {
 namespace {
 
-using Doubles = Array<double>;
-using Ints = Array<std::int32_t>;
-
 History to_history(const Doubles& times, const Doubles& factors) {
   return {to_vector(times), to_vector(factors)};
 }

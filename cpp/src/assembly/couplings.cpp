@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
+#include "tissu/base/index.h"
+
 namespace tissu {
 namespace {
-
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 /// p -> p x arm
 Mat3 turning(const Vec3& arm) {

@@ -5,14 +5,13 @@
 #include <utility>
 
 #include "chunk_lanes.h"
+#include "tissu/base/index.h"
 #include "tissu/base/sort_unique.h"
 
 namespace tissu {
 namespace {
 
 constexpr std::int32_t kLanes = ElementOrder::kLanes;
-
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 /// Lanes that nothing reads.
 void leave(std::int32_t begin, std::int32_t end, ElementOrder& order) {

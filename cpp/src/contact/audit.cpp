@@ -7,11 +7,10 @@
 
 #include "tissu/base/crossing.h"
 #include "tissu/base/exact.h"
+#include "tissu/base/index.h"
 
 namespace tissu {
 namespace {
-
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 /// The number of a vertex: -1 is none.
 std::int32_t numbered(std::int32_t node) { return node < 0 ? node - 1 : node; }

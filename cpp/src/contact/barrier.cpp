@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tissu/base/index.h"
 #include "tissu/contact/penalty_law.h"
 
 namespace tissu {
@@ -17,9 +18,6 @@ constexpr double kNear = 1e-2;      ///< sigma below which contacts that stay th
 constexpr double kNearGap = 0.6;    ///< … where surfaces rest at their gap, …
 constexpr double kStiffer = 4.0;    ///< … by this stiffer, …
 constexpr double kStiffest = 1e6;   ///< … no further than this
-
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
-std::array<double, 3> numbers_of(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
 /// b, b' and b'' where it has them all.
 BarrierValue plain_value(double sigma) {

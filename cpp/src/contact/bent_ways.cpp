@@ -5,6 +5,8 @@
 #include <limits>
 #include <vector>
 
+#include "tissu/base/index.h"
+
 namespace tissu {
 namespace {
 
@@ -14,8 +16,6 @@ constexpr double kFreeRound = 2.0;  ///< … and of a free sphere, which sweeps 
 constexpr double kLooked = 0.3;     ///< turn below which the way is taken for straight
 constexpr double kInside = 1e-6;    ///< of a step: knots nearer to its ends are there
 constexpr double kBetween = 0.25;   ///< turn between two places that are looked at [rad]
-
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 /// Where something is in a step, with all that it may reach.
 struct Room {

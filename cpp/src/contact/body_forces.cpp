@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tissu/base/index.h"
+
 namespace tissu {
 namespace {
 
 constexpr double kFloor = 1e-3;    ///< of the load on a body
 constexpr double kNothing = 1e-8;  ///< of the gap: what a force moves that is round-off
-
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 }  // namespace
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "nearest_pair.h"
+#include "tissu/base/index.h"
 #include "tissu/contact/candidates.h"
 
 namespace tissu {
@@ -12,8 +13,6 @@ namespace {
 /// Share of the radii of what has no faces to which its middle may come near on a way: a ball that grazes
 /// something is found inside it at the end of no step.
 constexpr double kRound = 0.85;
-
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 constexpr double kOfRest = 0.9;    ///< of the distance at rest: where such pairs are held apart, …
 constexpr double kOfJoined = 0.1;  ///< … if material that is not parted holds them apart by itself

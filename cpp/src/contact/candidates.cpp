@@ -5,11 +5,10 @@
 #include <iterator>
 
 #include "nearest_pair.h"
+#include "tissu/base/index.h"
 
 namespace tissu {
 namespace {
-
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 constexpr double kSkin = 0.1;         ///< of the mean edge
 constexpr double kSure = 1.0 - 1e-9;  ///< of a distance: round-off is less

@@ -12,14 +12,12 @@
 #include "nearest_pair.h"
 #include "push_ahead.h"
 #include "round.h"
+#include "tissu/base/index.h"
 #include "tissu/contact/candidates.h"
 #include "tissu/contact/contact_run.h"
 
 namespace tissu {
 namespace {
-
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
-std::array<double, 3> numbers_of(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
 ContactNumbers contact_of(const Found& found, std::int32_t point) {
   ContactNumbers c;

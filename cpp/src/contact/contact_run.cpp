@@ -5,15 +5,10 @@
 
 #include "hold_back.h"
 #include "push_ahead.h"
+#include "tissu/base/index.h"
 #include "tissu/contact/candidates.h"
 
 namespace tissu {
-namespace {
-
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
-
-}  // namespace
-
 ContactRun::ContactRun(const Contact& contact, const FixedDofs& fixed) : contact_(contact), fixed_(fixed) {
   const SurfaceSet& surfaces = contact.surfaces();
   list_given();

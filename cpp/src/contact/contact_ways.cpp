@@ -5,13 +5,12 @@
 #include <cmath>
 
 #include "hold_back.h"
+#include "tissu/base/index.h"
 #include "tissu/contact/candidates.h"
 #include "tissu/contact/contact_run.h"
 
 namespace tissu {
 namespace {
-
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 constexpr double kOffChord = 0.125;  ///< of |arm| theta^2: how far an arc is off its chord at most
 

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "tissu/base/index.h"
+
 namespace tissu {
 namespace {
 
@@ -15,8 +17,6 @@ constexpr double kBeside = 1e-6;  ///< of the reach of a contact
 /// A direction along no edge and no diagonal of what is made of round numbers.
 constexpr std::array<double, 3> kAside = {0.4673, 0.7421, 0.4805};
 constexpr double kPlane = 4e-6;  ///< … and the vertices of a whole plane by so much
-
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 /// The faces of a surface in groups that lie in one plane, as far as rounding goes.
 class Planes {

@@ -5,6 +5,8 @@
 #include <numeric>
 #include <tuple>
 
+#include "tissu/base/index.h"
+
 namespace tissu {
 namespace {
 
@@ -12,8 +14,6 @@ constexpr double kOfStart = 0.5;   ///< of the distance at the start
 constexpr double kBall = 0.45;     ///< of the distance that is left
 constexpr double kKept = 0.9;      ///< of the way to a plane
 constexpr double kNearest = 1e-9;  ///< of xi: nearer, nothing goes on to a plane, lest it ends in round-off
-
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 /// Of both sides together.
 double bend_of(const Candidate& candidate, ConstReals bends) {

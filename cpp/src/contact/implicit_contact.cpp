@@ -17,8 +17,6 @@ constexpr double kAgain = 1e-2;       ///< … as two looks before, but for this
 constexpr int kRounds = 3;            ///< … which counts as so many
 constexpr double kBlow = 0.1;         ///< of the gap: what would go deeper in a step is struck
 
-std::array<double, 3> numbers_of(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
-
 }  // namespace
 
 std::unique_ptr<ImplicitContact> ImplicitContact::make(const Contact& contact, const FixedDofs& fixed,

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tissu/base/index.h"
 #include "tissu/contact/implicit_contact.h"
 
 namespace tissu {
@@ -15,9 +16,6 @@ constexpr double kStiffRigid = 30.0;  ///< the same between rigid bodies, whose 
 constexpr int kPatience = 4;     ///< so many alternations later …
 constexpr double kSofter = 0.7;  ///< … by this for each, …
 constexpr double kSoft = 0.17;   ///< … no further than here
-
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
-std::array<double, 3> numbers_of(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
 void set_stiffness(ContactNumbers& contact, const Mat3& H) {
   contact.stiffness = {H(0, 0), H(1, 1), H(2, 2), H(1, 2), H(0, 2), H(0, 1)};

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "tissu/base/index.h"
+
 namespace tissu {
 namespace {
 
@@ -14,9 +16,6 @@ constexpr double kShallow = 1e-6;  ///< of xi: smaller depths remain, and nearer
 constexpr double kBounce = 2.0;    ///< times what the step's forces change the rate
 constexpr double kSlides = 1.0 - 1e-9;
 constexpr double kNever = -std::numeric_limits<double>::infinity();
-
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
-std::array<double, 3> numbers_of(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
 }  // namespace
 

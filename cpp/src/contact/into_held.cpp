@@ -5,13 +5,12 @@
 
 #include "nearest_pair.h"
 #include "push_ahead.h"
+#include "tissu/base/index.h"
 
 namespace tissu {
 namespace {
 
 constexpr double kNothing = 1e-6;  ///< of the gap: round-off of what slides along
-
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 }  // namespace
 

@@ -3,15 +3,10 @@
 
 #include <algorithm>
 
+#include "tissu/base/index.h"
 #include "tissu/contact/contact_run.h"
 
 namespace tissu {
-namespace {
-
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
-
-}  // namespace
-
 void ContactRun::list_round() {
   const SurfaceSet& surfaces = contact_.surfaces();
   for (const auto& surface : surfaces.surfaces()) {

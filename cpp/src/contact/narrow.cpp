@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "tissu/base/index.h"
 #include "tissu/contact/closest.h"
 
 namespace tissu {
@@ -12,8 +13,6 @@ namespace {
 constexpr double kFan = 1e-6;       ///< tolerance of normal fans, of |r| times a length
 constexpr double kParallel = 1e-3;  ///< of the square of the sine between two edges
 constexpr double kNoWeight = 1e-9;
-
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 class Narrow {
  public:

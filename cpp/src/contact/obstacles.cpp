@@ -4,16 +4,11 @@
 #include <cmath>
 
 #include "tissu/base/error.h"
+#include "tissu/base/index.h"
 #include "tissu/base/number_text.h"
 #include "tissu/contact/contact.h"
 
 namespace tissu {
-namespace {
-
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
-
-}  // namespace
-
 LivePlace Contact::live_place(std::int32_t obstacle, const State& state, double time) const {
   const LiveLead lead(state.memory[leads_[at(obstacle)]], 0);
   return lead.at(time,

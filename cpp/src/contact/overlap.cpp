@@ -4,11 +4,10 @@
 #include <cmath>
 
 #include "nearest_pair.h"
+#include "tissu/base/index.h"
 
 namespace tissu {
 namespace {
-
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 void add(std::int32_t a, std::int32_t b, double depth, Depths& depths) {
   double& deepest = depths[std::minmax(a, b)];

@@ -5,15 +5,14 @@
 #include <cmath>
 #include <tuple>
 
+#include "tissu/base/index.h"
+
 namespace tissu {
 namespace {
 
 constexpr double kSigma = 1.0 / 3.0;      ///< of the square of the bodies' largest frequency: s = 1
 constexpr double kLeastOfLargest = 1e-6;  ///< of a mobility: that along the normal is not less
 constexpr double kNearStop = 0.6;         ///< of the gap: stops are looked for from here
-
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
-std::array<double, 3> numbers_of(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
 /// The largest area over mass of the free vertices of a surface [m2/kg].
 double largest_area_over_mass(const SurfaceSet& surfaces, std::int32_t surface, const Mass& mass) {

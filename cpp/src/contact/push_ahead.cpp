@@ -7,6 +7,7 @@
 
 #include "nearest_pair.h"
 #include "tissu/base/error.h"
+#include "tissu/base/index.h"
 #include "tissu/base/number_text.h"
 
 namespace tissu {
@@ -17,8 +18,6 @@ constexpr int kMostParts = 64;
 constexpr double kPartOfEdge = 0.5;
 constexpr double kFar = std::numeric_limits<double>::infinity();
 constexpr double kLeastFree = 0.1;  ///< of the weights of a vertex: less of it does not move it
-
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 }  // namespace
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "nearest_pair.h"
+#include "tissu/base/index.h"
 #include "tissu/contact/closest.h"
 
 namespace tissu {
@@ -13,8 +14,6 @@ constexpr double kLeft = 1e-9;     ///< of the gap: what may be missing of it
 constexpr double kTouch = 1e-9;    ///< of the distance at rest: nearer, a direction is round-off
 constexpr int kSweeps = 64;        ///< times the square of the number of free obstacles, in a pile, …
 constexpr int kMostSweeps = 8192;  ///< … no more than these
-
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 }  // namespace
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "tissu/base/index.h"
+
 namespace tissu {
 namespace {
 
@@ -14,8 +16,6 @@ constexpr std::int32_t kAll = 32;                   ///< parts of a stretched ed
 constexpr double kStretch = 1.05;                   ///< of a part, without its being divided
 constexpr std::int32_t kRow = kMost * kFinest + 1;  ///< points of an edge that can be numbered
 constexpr std::int32_t kInside = kRow * kRow;       ///< numbers of points inside faces end here
-
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 std::int32_t parts_of(double length, double radius, double gap) {
   return static_cast<std::int32_t>(

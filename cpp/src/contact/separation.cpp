@@ -6,6 +6,7 @@
 #include "overlap.h"
 #include "rigid_separation.h"
 #include "tissu/base/error.h"
+#include "tissu/base/index.h"
 #include "tissu/base/number_text.h"
 #include "tissu/contact/audit.h"
 #include "tissu/contact/candidates.h"
@@ -13,8 +14,6 @@
 
 namespace tissu {
 namespace {
-
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 constexpr int kSweeps = 16;
 constexpr double kEnough = 0.5;  ///< of the gap: what is nearer is moved apart, to the gap

@@ -5,12 +5,11 @@
 #include <cstddef>
 #include <utility>
 
+#include "tissu/base/index.h"
 #include "tissu/base/vec.h"
 
 namespace tissu {
 namespace {
-
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 template <std::size_t n>
 using Key = std::array<std::int32_t, n>;

@@ -3,15 +3,10 @@
 #include <algorithm>
 #include <limits>
 
+#include "tissu/base/index.h"
 #include "tissu/contact/surface_set.h"
 
 namespace tissu {
-namespace {
-
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
-
-}  // namespace
-
 Vec3 SurfaceSet::ride(const SurfaceRiders& riders, std::size_t number, std::int32_t first_row,
                       SurfaceVertex& vertex, ConstReals rest) {
   vertex.rider = static_cast<std::int32_t>(rider_begin_.size()) - 1;

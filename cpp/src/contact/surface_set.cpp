@@ -2,12 +2,11 @@
 
 #include <algorithm>
 
+#include "tissu/base/index.h"
 #include "tissu/base/sort_unique.h"
 
 namespace tissu {
 namespace {
-
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 /// Finds edges by their ends: those at each lower end are a list.
 class EdgeLists {

@@ -7,12 +7,11 @@
 #include <cmath>
 #include <utility>
 
+#include "tissu/base/index.h"
 #include "tissu/contact/surface_set.h"
 
 namespace tissu {
 namespace {
-
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 /// A triangle beside an edge: where it goes round the edge, and whether its corners run along the edge. Then
 /// the inside is at smaller angles, else at larger ones.

@@ -4,15 +4,10 @@
 #include <algorithm>
 #include <unordered_map>
 
+#include "tissu/base/index.h"
 #include "tissu/contact/surface_set.h"
 
 namespace tissu {
-namespace {
-
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
-
-}  // namespace
-
 void SurfaceSet::find_frames(std::span<const Frame> frames) {
   rider_turn_.resize(rider_part_.size());  // of surfaces whose nodes have no rotation
   std::unordered_map<std::int32_t, std::int32_t> by_row;

@@ -14,13 +14,12 @@
 #include "edit/cut/quad_halves.h"
 #include "flat_rim.h"
 #include "tissu/base/error.h"
+#include "tissu/base/index.h"
 #include "tissu/element/reference_cell.h"
 #include "tissu/mesh/topology.h"
 
 namespace tissu {
 namespace {
-
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 template <std::size_t n>
 using Corners = std::array<std::int32_t, n>;

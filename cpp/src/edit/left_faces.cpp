@@ -8,6 +8,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "tissu/base/index.h"
 #include "tissu/base/sort_unique.h"
 #include "tissu/element/reference_cell.h"
 #include "tissu/mesh/cell_shape.h"
@@ -18,8 +19,6 @@ namespace {
 using Nodes = std::vector<std::int32_t>;
 
 constexpr double kRoundOff = 1e-9;  ///< of a face: that so much of it is missing means nothing
-
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 /// The corners of a face of this type.
 std::size_t corners_of(const ElementInfo& element) {

@@ -9,13 +9,12 @@
 
 #include "edit/cut/material_faces.h"
 #include "edit/cut/quad_halves.h"
+#include "tissu/base/index.h"
 
 namespace tissu {
 namespace {
 
 using Triangle = std::array<std::int32_t, 3>;
-
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 Triangle sorted(Triangle vertices) {
   std::ranges::sort(vertices);

@@ -10,6 +10,7 @@
 
 #include "left_faces.h"
 #include "renewed_load.h"
+#include "tissu/base/index.h"
 #include "tissu/element/reference_cell.h"
 #include "tissu/element/reference_part.h"
 
@@ -19,8 +20,6 @@ namespace {
 using Nodes = std::span<const std::int32_t>;
 
 constexpr double kNothing = 1e-14;  ///< of the largest load of a node: round-off
-
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 /// What each node of a face gets for each unit of the load.
 struct Given {

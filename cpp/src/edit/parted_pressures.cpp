@@ -11,6 +11,7 @@
 #include "edit/cut/patch.h"
 #include "left_faces.h"
 #include "tissu/base/error.h"
+#include "tissu/base/index.h"
 #include "tissu/base/sort_unique.h"
 #include "tissu/edit/cut_state.h"
 #include "tissu/element/reference_cell.h"
@@ -25,8 +26,6 @@ using Triangle = std::array<std::int32_t, 3>;  ///< vertices of the material
 
 constexpr double kRoundOff = 1e-12;     ///< of a face: that so much of it is missing means nothing
 constexpr double kReferenceArea = 4.0;  ///< of a quad
-
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 Nodes sorted(Nodes nodes) {
   std::ranges::sort(nodes);

@@ -11,11 +11,10 @@
 #include "described.h"
 #include "repair_energy.h"
 #include "tissu/base/error.h"
+#include "tissu/base/index.h"
 
 namespace tissu {
 namespace {
-
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 bool is_in_contact(const WorldDescription& description, std::string_view body) {
   if (!description.contact) return false;

@@ -10,11 +10,10 @@
 #include "debris.h"
 #include "described.h"
 #include "patch_energies.h"
+#include "tissu/base/index.h"
 
 namespace tissu {
 namespace {
-
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 bool is_on_surface(const Hosts& hosts, std::int32_t node) {
   std::unordered_map<std::uint64_t, int> faces;

@@ -33,7 +33,9 @@ std::string message_start(const FieldNames& names) {
 }
 
 std::string at(const Vec3& x) {
-  return "(" + number(x[0]) + ", " + number(x[1]) + ", " + number(x[2]) + ") m";
+  std::string text = "(";
+  for (int i = 0; i < 3; ++i) text.append(i > 0 ? ", " : "").append(number(x[i]));
+  return text.append(") m");
 }
 
 const ShapeFunctionInfo& check_use(const ShapeFunctionUse& use, const std::string& where) {

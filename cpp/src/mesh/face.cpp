@@ -1,5 +1,8 @@
 #include "face.h"
 
+#include <algorithm>
+#include <span>
+
 namespace tissu {
 
 std::vector<Face> all_faces(const Mesh& mesh) {
@@ -17,7 +20,7 @@ std::vector<Face> all_faces(const Mesh& mesh) {
                   static_cast<std::uint8_t>(local[f].corners),
                   i};
         for (std::size_t c = 0; c < face.corners; ++c) face.key[c] = block.cell(i)[local[f].node[c]];
-        std::sort(face.key.begin(), face.key.begin() + face.corners);
+        std::ranges::sort(std::span(face.key).first(std::min<std::size_t>(face.corners, face.key.size())));
         result.push_back(face);
       }
   }

@@ -4,12 +4,11 @@
 #include <ranges>
 #include <unordered_map>
 
+#include "tissu/base/index.h"
 #include "tissu/element/reference_cell.h"
 
 namespace tissu {
 namespace {
-
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 void write(const std::vector<std::int32_t>& nodes, std::int32_t first_node, std::int32_t place,
            ElasticBlock& block) {

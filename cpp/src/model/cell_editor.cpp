@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "tissu/base/index.h"
 #include "tissu/cell/chunk_plan.h"
 #include "tissu/model/law_constants.h"
 
@@ -12,8 +13,6 @@ namespace {
 constexpr std::int32_t kLanes = ElementOrder::kLanes;
 /// Of what a model has on its first day: more than that moves everything once.
 constexpr double kReserve = 1.5;
-
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 template <class Values>
 void reserve(Values& values) {

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
+#include "tissu/base/index.h"
+
 namespace tissu {
 namespace {
-
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 std::vector<ConnectedPart> parts_of_body(const World& world, std::string_view name) {
   const Body& body = world.body(name);

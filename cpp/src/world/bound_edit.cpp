@@ -5,16 +5,11 @@
 #include <utility>
 
 #include "builder.h"
+#include "tissu/base/index.h"
 #include "tissu/force/load.h"
 #include "tissu/world/world_edit.h"
 
 namespace tissu {
-namespace {
-
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
-
-}  // namespace
-
 void WorldEdit::list_bound(std::size_t number) {
   const BodyDescription& body = world_.description()->bodies[number];
   EditedBody& edited = bodies_[number];

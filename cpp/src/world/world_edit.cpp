@@ -8,6 +8,7 @@
 #include "builder.h"
 #include "number_set.h"
 #include "tissu/base/error.h"
+#include "tissu/base/index.h"
 #include "tissu/base/sort_unique.h"
 #include "tissu/force/grabs.h"
 #include "tissu/force/gravity.h"
@@ -21,8 +22,6 @@ namespace {
 
 /// Of the places of the matrix on the first day: beyond that everything is laid anew.
 constexpr std::int64_t kMostBlocks = 2;
-
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 /// Of a world that was made for editing.
 template <class Held>

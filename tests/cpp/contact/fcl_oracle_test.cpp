@@ -10,6 +10,7 @@
 
 #include "contact/narrow.h"
 #include "contact/nearest_pair.h"
+#include "tissu/base/index.h"
 #include "tissu/contact/audit.h"
 #include "triangle_meshes.h"
 
@@ -22,8 +23,6 @@ using test::TwoMeshes;
 /// Of a distance, in sizes of the meshes: both programs take differences of coordinates of that size, and
 /// FCL's least squares lose some digits more than ours.
 constexpr double kRoundOff = 1e-12;
-
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 using Model = fcl::BVHModel<fcl::AABB<double>>;
 

@@ -7,6 +7,7 @@
 
 #include "../base/random.h"
 #include "contact/nearest_pair.h"
+#include "tissu/base/index.h"
 
 namespace tissu::test {
 namespace {
@@ -15,8 +16,6 @@ constexpr int kTriangles = 100;  ///< of each of the two bodies
 constexpr int kLines = 20;
 constexpr int kPoints = 10;
 constexpr double kGap = 0.01;
-
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 /// A body that grows triangle by triangle.
 class Heap {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <set>
 
+#include "tissu/base/index.h"
 #include "tissu/mesh/box.h"
 #include "tissu/mesh/topology.h"
 
@@ -16,8 +17,6 @@ namespace tissu {
 namespace {
 
 constexpr double kRoundOff = 1e-15;
-
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 struct Boxes {
   Mesh mesh = box_mesh(Vec3::Zero(), Vec3(3, 2, 2), {3, 2, 2}, Split::six);

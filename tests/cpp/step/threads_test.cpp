@@ -15,7 +15,7 @@ constexpr int kHexahedra = 9;
 constexpr int kSteps = 3;
 #else
 constexpr int kHexahedra = 15;
-constexpr int kSteps = 20;
+constexpr int kSteps = 8;
 #endif
 
 struct ThreadsCase {

@@ -277,5 +277,6 @@ class Contact final : public ForceModel {
 
 Mat3 stiffness_of(const ContactNumbers& contact);
 inline Vec3 vector_of(const std::array<double, 3>& numbers) { return {numbers[0], numbers[1], numbers[2]}; }
+inline std::array<double, 3> numbers_of(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
 }  // namespace tissu

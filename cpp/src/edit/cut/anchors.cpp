@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "tissu/base/index.h"
 #include "tissu/mesh/triangle_tree.h"
 
 namespace tissu {
@@ -16,8 +17,6 @@ using Box = Eigen::AlignedBox3d;
 constexpr double kSlack = 1e-9;
 /// Of a triangle's longest edge, or a line's length: so near a sheet or line a point goes with it.
 constexpr double kNearSheet = 0.5;
-
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 Box box_of(std::span<const std::int32_t> nodes, ConstReals x, double grown) {
   Box box;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "tissu/base/crossing.h"
+#include "tissu/base/index.h"
 #include "tissu/base/sort_unique.h"
 
 namespace tissu {
@@ -14,8 +15,6 @@ namespace {
 using Numbers = std::vector<std::int32_t>;
 
 constexpr std::int32_t kNone = -1;
-
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 std::int32_t first(Numbers& root, std::int32_t i) {
   while (root[at(i)] != i) i = root[at(i)] = root[at(root[at(i)])];

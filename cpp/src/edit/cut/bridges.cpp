@@ -8,12 +8,11 @@
 
 #include "edit/cut/side.h"
 #include "tissu/base/crossing.h"
+#include "tissu/base/index.h"
 #include "tissu/base/sort_unique.h"
 
 namespace tissu {
 namespace {
-
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 constexpr int kRounds = 16;
 constexpr std::size_t kMostGrowth = 8;  ///< times the tetrahedra before the rounds

@@ -2,12 +2,11 @@
 
 #include <algorithm>
 
+#include "tissu/base/index.h"
 #include "tissu/base/sort_unique.h"
 
 namespace tissu {
 namespace {
-
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 bool has_all(const Patch::Tetra& piece, std::span<const std::int32_t> vertices) {
   return std::ranges::all_of(

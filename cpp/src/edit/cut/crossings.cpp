@@ -8,14 +8,13 @@
 
 #include "tissu/base/crossing.h"
 #include "tissu/base/exact.h"
+#include "tissu/base/index.h"
 
 namespace tissu {
 namespace {
 
 using Triangle = std::array<Vec3, 3>;
 using Numbers = std::span<const std::int32_t>;
-
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 constexpr std::array<std::array<std::uint8_t, 2>, 6> kEdges{{{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
 

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
+#include "tissu/base/index.h"
+
 namespace tissu {
 namespace {
-
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 constexpr double kTurned = 0.5;  ///< cosine between the normals of a blade that may pass a cell twice
 

@@ -10,6 +10,7 @@
 #include "edit/cut/side.h"
 #include "tissu/base/crossing.h"
 #include "tissu/base/disjoint_sets.h"
+#include "tissu/base/index.h"
 #include "tissu/base/sort_unique.h"
 
 namespace tissu {
@@ -19,8 +20,6 @@ using Numbers = std::vector<std::int32_t>;
 
 /// Of a cell's longest edge: so near a wall a set between chord and blade lies.
 constexpr double kAtWall = 0.07;
-
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 /// Tetrahedra that have only vertices on the cut, in sets that closed faces join, of those sets that no
 /// closed face joins to others; by the lowest number. A piece of a line between two crossings is a part.

@@ -9,14 +9,13 @@
 #include "edit/cut/fragments.h"
 #include "edit/cut/write_plan.h"
 #include "tissu/base/error.h"
+#include "tissu/base/index.h"
 #include "tissu/base/sort_unique.h"
 
 namespace tissu {
 namespace {
 
 using Numbers = std::vector<std::int32_t>;
-
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 /// The body with its cells divided, and no node parted yet.
 class Divided {

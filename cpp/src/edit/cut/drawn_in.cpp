@@ -9,6 +9,7 @@
 #include "edit/cut/patch.h"
 #include "edit/cut/riders.h"
 #include "edit/cut/way_in.h"
+#include "tissu/base/index.h"
 
 namespace tissu {
 namespace {
@@ -18,8 +19,6 @@ constexpr double kOfHeight =
 constexpr double kFlat = 0.02;  ///< of the largest least height at a vertex: flatter ones do not count
 constexpr double kSlant = 2.0;  ///< longest way over the depth
 constexpr double kRoundOff = 1e-9;
-
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 /// What is there of the surface around a vertex.
 struct Around {

@@ -2,15 +2,10 @@
 
 #include <algorithm>
 
+#include "tissu/base/index.h"
 #include "tissu/base/sort_unique.h"
 
 namespace tissu {
-namespace {
-
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
-
-}  // namespace
-
 Fans::Fans(const Patch& patch, const Fragments& fragments, const std::vector<std::int32_t>& parted)
     : patch_(patch),
       fragments_(fragments),

@@ -8,13 +8,12 @@
 
 #include "edit/cut/joins.h"
 #include "tissu/base/disjoint_sets.h"
+#include "tissu/base/index.h"
 #include "tissu/base/sort_unique.h"
 #include "tissu/mesh/cell_shape.h"
 
 namespace tissu {
 namespace {
-
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 constexpr double kOnFace = 1e-9;  ///< of a tetrahedron's height: a point so far outside is in it
 

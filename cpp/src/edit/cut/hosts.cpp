@@ -6,6 +6,7 @@
 
 #include "edit/cut/missing_cell.h"
 #include "tissu/base/error.h"
+#include "tissu/base/index.h"
 #include "tissu/base/sort_unique.h"
 #include "tissu/edit/cut/cut_plan.h"
 
@@ -13,8 +14,6 @@ namespace tissu {
 namespace {
 
 constexpr std::size_t kClusterSize = 64;
-
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 /// The bits of a number below 2^10, two places apart.
 std::uint32_t spread(std::uint32_t bits) {

@@ -1,14 +1,9 @@
 /// Hosts over others, which a plan is applied to and which the others are kept from.
 
+#include "tissu/base/index.h"
 #include "tissu/edit/cut/hosts.h"
 
 namespace tissu {
-namespace {
-
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
-
-}  // namespace
-
 Hosts Hosts::over(const Hosts& below) {
   Hosts hosts;
   hosts.below_ = &below;

@@ -7,6 +7,7 @@
 
 #include "edit/cut/outward.h"
 #include "edit/cut/side.h"
+#include "tissu/base/index.h"
 #include "tissu/base/sort_unique.h"
 
 namespace tissu {
@@ -17,8 +18,6 @@ using Numbers = std::vector<std::int32_t>;
 /// Of a cell's longest edge: as far from the blade a cut of divided cells may go to a vertex.
 constexpr double kGoesTo = 0.25;
 constexpr double kLeastAlong = 0.5;  ///< cosine between the normals of a face of the cut and of the blade
-
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 /// Numbers of the vertices of an incision, and of those at its front.
 struct Lists {

@@ -7,13 +7,12 @@
 #include "edit/cut/material_faces.h"
 #include "edit/cut/riders.h"
 #include "edit/cut/shared_corners.h"
+#include "tissu/base/index.h"
 #include "tissu/base/sort_unique.h"
 #include "tissu/mesh/cell_shape.h"
 
 namespace tissu {
 namespace {
-
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 bool is_volume(const Hosts& hosts, std::int32_t cell) {
   return hosts.has(cell) && info(hosts.type(cell)).dimension == 3;

@@ -3,16 +3,11 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "tissu/base/index.h"
 #include "tissu/edit/cut/cut_plan.h"
 #include "tissu/mesh/cell_shape.h"
 
 namespace tissu {
-namespace {
-
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
-
-}  // namespace
-
 Vec3 Rider::at(ConstReals x) const {
   Vec3 sum = Vec3::Zero();
   for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i)

@@ -8,12 +8,11 @@
 #include "edit/cut/carriers.h"
 #include "edit/cut/face_key.h"
 #include "edit/cut/patch.h"
+#include "tissu/base/index.h"
 #include "tissu/mesh/cell_shape.h"
 
 namespace tissu {
 namespace {
-
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 void add_whole(const Hosts& hosts, std::int32_t cell, MaterialFaces& all) {
   const auto unit = static_cast<std::int32_t>(all.units.size());

@@ -8,11 +8,10 @@
 #include "edit/cut/joins.h"
 #include "edit/cut/material_faces.h"
 #include "tissu/base/disjoint_sets.h"
+#include "tissu/base/index.h"
 
 namespace tissu {
 namespace {
-
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 /// Numbers vertices in the order in which they are first named.
 class VertexList {

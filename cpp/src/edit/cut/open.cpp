@@ -13,12 +13,11 @@
 #include "edit/cut/outward.h"
 #include "edit/cut/side.h"
 #include "tissu/base/error.h"
+#include "tissu/base/index.h"
 #include "tissu/base/sort_unique.h"
 
 namespace tissu {
 namespace {
-
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 constexpr double kCoverShare = 0.2;
 constexpr double kRoundOff = 1e-12;

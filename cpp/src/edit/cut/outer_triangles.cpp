@@ -3,12 +3,11 @@
 #include <span>
 
 #include "edit/cut/quad_halves.h"
+#include "tissu/base/index.h"
 #include "tissu/mesh/cell_shape.h"
 
 namespace tissu {
 namespace {
-
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 /// The outer faces of a cell that no blade met: its quads where both halves are outside.
 void add_whole(const Hosts& hosts, std::int32_t cell, std::span<const MaterialFace> faces_of,

@@ -8,6 +8,7 @@
 #include "edit/cut/open.h"
 #include "edit/cut/pierced.h"
 #include "edit/cut/side.h"
+#include "tissu/base/index.h"
 
 namespace tissu {
 namespace {
@@ -23,8 +24,6 @@ constexpr double kMostSettled = 0.02;  ///< share of an edge
 
 /// Shares of the largest coordinate: the round-off of a place on the blade.
 constexpr double kRoundOff = 1e-10;
-
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 /// The triangles on which a place lies, the nearest one at least.
 Numbers triangles_at(const SweepPart& part, const Vec3& place) {

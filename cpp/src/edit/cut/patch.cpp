@@ -4,12 +4,11 @@
 #include <cassert>
 #include <cmath>
 
+#include "tissu/base/index.h"
 #include "tissu/mesh/cell_shape.h"
 
 namespace tissu {
 namespace {
-
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 double longest_edge(const Hosts& hosts, std::int32_t cell) {
   const auto nodes = hosts.corners(cell);

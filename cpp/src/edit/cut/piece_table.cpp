@@ -7,13 +7,12 @@
 #include "edit/cut/joins.h"
 #include "edit/cut/shared_corners.h"
 #include "tissu/base/disjoint_sets.h"
+#include "tissu/base/index.h"
 #include "tissu/base/sort_unique.h"
 #include "tissu/edit/cut/cut_plan.h"
 
 namespace tissu {
 namespace {
-
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 double whole_volume(const Hosts& hosts, std::int32_t cell) {
   double sum = 0.0;

@@ -6,6 +6,7 @@
 
 #include "tissu/base/crossing.h"
 #include "tissu/base/exact.h"
+#include "tissu/base/index.h"
 #include "tissu/base/sort_unique.h"
 #include "tissu/mesh/triangle_tree.h"
 
@@ -14,8 +15,6 @@ namespace {
 
 using Triangle = std::array<Vec3, 3>;
 using Numbers = std::span<const std::int32_t>;
-
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 constexpr std::array<std::array<std::uint8_t, 2>, 6> kEdges{{{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
 

@@ -14,6 +14,7 @@
 #include "edit/cut/remedies.h"
 #include "edit/cut/write_plan.h"
 #include "tissu/base/error.h"
+#include "tissu/base/index.h"
 #include "tissu/base/number_text.h"
 #include "tissu/base/sort_unique.h"
 #include "tissu/edit/cut/cut_plan.h"
@@ -30,8 +31,6 @@ constexpr double kFirstRaise = 0.02;
 constexpr double kLargestT0 = 0.45;
 /// Where cells are divided: nearer to an end their parts would be too flat.
 constexpr double kLeastT0OfDivided = 0.2;
-
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 void check(const Hosts& hosts, ConstReals x, const CutOptions& options) {
   if (!(options.t0 >= 0.0 && options.t0 <= kLargestT0)) {

@@ -3,13 +3,9 @@
 #include <cmath>
 #include <map>
 
+#include "tissu/base/index.h"
+
 namespace tissu {
-namespace {
-
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
-
-}  // namespace
-
 Rider rider_of(const Material& material, std::int32_t vertex) {
   if (vertex < 0) return material.riders[at(-1 - vertex)];
   return {{vertex, -1, -1, -1}, {1.0, 0.0, 0.0, 0.0}, 1};

@@ -5,13 +5,13 @@
 #include <numeric>
 #include <tuple>
 
+#include "tissu/base/index.h"
+
 namespace tissu {
 namespace {
 
 using Box = Eigen::AlignedBox3d;
 using Place = std::array<double, 3>;
-
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 Place place(const Vec3& p) { return {p[0] + 0.0, p[1] + 0.0, p[2] + 0.0}; }  // -0 is 0
 

@@ -13,14 +13,13 @@
 #include "edit/cut/movable.h"
 #include "edit/cut/near.h"
 #include "edit/cut/patch.h"
+#include "tissu/base/index.h"
 #include "tissu/mesh/triangle_tree.h"
 
 namespace tissu {
 namespace {
 
 constexpr double kAtEnd = 1e-9;  ///< of an edge: the blade goes through the node, as the cutter takes it
-
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 Vec3 nearest_on(const SweepPart& part, const Vec3& p) {
   Vec3 nearest = p;

@@ -10,6 +10,7 @@
 
 #include "edit/cut/riders.h"
 #include "edit/cut/way_in.h"
+#include "tissu/base/index.h"
 
 namespace tissu {
 namespace {
@@ -19,8 +20,6 @@ constexpr double kFlat = 0.02;  ///< of the largest least height at a vertex: fl
 constexpr double kSense = 0.1;  ///< of its area: what every triangle keeps, flat or not
 constexpr double kSlant = 2.0;  ///< longest way over the depth
 constexpr double kRoundOff = 1e-9;
-
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 using Side = std::pair<std::int32_t, std::int32_t>;
 using Corners = std::array<std::int32_t, 3>;

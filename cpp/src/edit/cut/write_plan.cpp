@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <map>
 
+#include "tissu/base/index.h"
+
 namespace tissu {
 namespace {
-
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 void write_cells(const Hosts& hosts, const Patch& patch, const Fragments& fragments, const Replicas& replicas,
                  CutPlan& plan) {

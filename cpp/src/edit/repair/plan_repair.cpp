@@ -13,13 +13,12 @@
 #include "edit/repair/repair_mesh.h"
 #include "edit/repair/shape.h"
 #include "edit/repair/shift.h"
+#include "tissu/base/index.h"
 
 namespace tissu {
 namespace {
 
 constexpr double kAnyEdge = 2.0;  ///< of the longest
-
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 /// Nodes on faces that cuts have opened.
 std::vector<char> opened_nodes(const Hosts& hosts, const Material& material) {

@@ -61,7 +61,7 @@ Triangle2 gradients_of(const Triangle2& nodes, double area) {
   return g;
 }
 
-double von_mises(const Vec3& s) {
+double von_mises_in_plane(const Vec3& s) {
   return std::sqrt(s[0] * s[0] - s[0] * s[1] + s[1] * s[1] + 3.0 * s[2] * s[2]);
 }
 
@@ -117,7 +117,7 @@ ShellStress ShellElement::stress(const ShellPose& pose) const {
   const Vec3 middle = C * (mean_strain(triangle) * motion.d(kMembrane));
   const Vec3 bent =
       0.5 * section_.thickness * (C * (curvature(triangle, Vec3::Constant(1.0 / 3.0)) * motion.d(kBending)));
-  return {von_mises(middle + bent), von_mises(middle), von_mises(middle - bent)};
+  return {von_mises_in_plane(middle + bent), von_mises_in_plane(middle), von_mises_in_plane(middle - bent)};
 }
 
 double ShellElement::volume_ratio(const ShellPose& pose) const {

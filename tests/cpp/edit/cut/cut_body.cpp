@@ -8,13 +8,12 @@
 #include <set>
 #include <sstream>
 
+#include "tissu/base/index.h"
 #include "tissu/mesh/box.h"
 #include "tissu/mesh/cell_shape.h"
 
 namespace tissu::test {
 namespace {
-
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 constexpr double kRoundOff = 1e-12;  ///< relative; sums over some thousand tetrahedra
 constexpr std::array<std::array<std::uint8_t, 3>, 4> kFaces{{{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};

@@ -10,14 +10,13 @@
 #include "cut_body.h"
 #include "edit/cut/near.h"
 #include "tissu/base/error.h"
+#include "tissu/base/index.h"
 #include "tissu/edit/cut/piece_table.h"
 #include "tissu/mesh/quality.h"
 #include "tissu/mesh/topology.h"
 
 namespace tissu {
 namespace {
-
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 /// The material's cells at rest as a mesh of their own.
 Mesh at_rest(const test::CutBody& body) {

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "tissu/base/error.h"
+#include "tissu/base/index.h"
 #include "tissu/edit/cut/anchors.h"
 #include "tissu/edit/cut/cut_plan.h"
 #include "tissu/edit/cut/material_mesh.h"
@@ -20,8 +21,6 @@ namespace {
 using Random = std::mt19937_64;
 
 constexpr double kRoundOff = 1e-12;
-
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 /// 0.3 x 0.2 m of 6 x 4 quads, or twice as many triangles, inner nodes moved by up to `jitter` of an edge.
 Mesh grid(double jitter, Random& random, CellType type = CellType::triangle) {

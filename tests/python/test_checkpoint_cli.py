@@ -39,7 +39,7 @@ def scene(tmp_path):
 
 
 def command(*words):
-    return [sys.executable, "-m", "tissu.cli", "run", *map(str, words)]
+    return [sys.executable, "-m", "tissu.cli", "run", "--no-picture", *map(str, words)]
 
 
 def run(*words):

@@ -51,7 +51,7 @@ def command(*words):
 
 def run(*words, **options):
     options = {"capture_output": True, "text": True, "timeout": 300} | options
-    return subprocess.run(command("run", *words), **options)
+    return subprocess.run(command("run", "--no-picture", *words), **options)
 
 
 def summary(folder):

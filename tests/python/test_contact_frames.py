@@ -88,7 +88,8 @@ def test_a_vertex_follows_places_and_rotations(lever, share):
 
 
 @pytest.mark.parametrize(
-    ("lever", "name"), [(HALF, "augmented"), (HALF, "penalty"), *((WHOLE, name) for name in IMPLICIT)]
+    ("lever", "name"),
+    [(HALF, "augmented"), (HALF, "penalty"), *((WHOLE, name) for name in IMPLICIT)],
 )
 def test_a_block_rests_with_its_weight(lever, name):
     simulation = on_a_table(lever, name).compile()

@@ -15,6 +15,7 @@ from tissu import (
     MeshFile,
     NodalLoad,
     Nodes,
+    Plane,
     Prescribed,
     Pressure,
     Region,
@@ -73,14 +74,19 @@ def test_all_bodies_at_once(tmp_path):
             "b": body.replace(law={"in": SOFT}),
             "c": body,
         },
-        fixed=[Fixed("c", on=Box((5, 5, 5), (6, 6, 6))), Fixed("a", on=END)],
+        fixed=[
+            Fixed("c", on=Box((5, 5, 5), (6, 6, None))),
+            Fixed("a", on=END),
+            Fixed("c", on=Plane((9, 0, 0), (1, 0, 0))),
+        ],
         loads=[NodalLoad("c", on=Nodes([99]), force=(1, 0, 0))],
     )
+    reaches = "body 'c', which reaches x from 0 to 2 m, y from 0 to 1 m, z from 0 to 1 m"
     assert problems(made) == [
         f"bodies.a.mesh: {tmp_path / 'no.vtu'} does not exist; the path of a mesh file is accepted",
         "bodies.b.law.in: found region 'in', but the mesh names no regions",
-        "fixed[0].on: the box (min (5, 5, 5), max (6, 6, 6)) selects no node of "
-        "body 'c', which reaches x from 0 to 2 m, y from 0 to 1 m, z from 0 to 1 m",
+        f"fixed[0].on: the box (min (5, 5, 5), max (6, 6, open)) selects no node of {reaches}",
+        f"fixed[2].on: the plane (point (9, 0, 0), normal (1, 0, 0)) selects no node of {reaches}",
         "loads[0].on: found node 99; the mesh has the nodes 0 to 11",
     ]
 

@@ -9,6 +9,7 @@ from tissu import (
     Body,
     Box,
     ConjugateGradient,
+    Contact,
     Fibres,
     Fixed,
     Hooke,
@@ -63,8 +64,14 @@ def test_positional_forms_of_the_design():
     assert ImplicitEuler("10 ms").dt == 0.01
     with pytest.raises(TypeError, match="twice"):
         Region("a", name="a")
-    with pytest.raises(TypeError, match="1 positional"):
+    with pytest.raises(TypeError, match="Region: found 2 values without a name; name may be"):
         Region("a", "b")
+    with pytest.raises(TypeError, match=r"did you mean Contact\(\('liver', 'table'\)\)\?"):
+        Contact("liver", "table")
+    with pytest.raises(TypeError, match="Body: found 1 value without a name; all fields"):
+        Body("liver")
+    with pytest.raises(TypeError, match="body may be given so, and all other fields by"):
+        Fixed("liver", Box(), "xy")
 
 
 def test_scene_of_the_design():

@@ -53,14 +53,15 @@ def selected_nodes(prepared: Prepared, path: Path, body: str, on: Selection) -> 
 
 
 def selection_words(on: Selection) -> str:
-    """A selection with its fields, in a sentence."""
+    """A selection with the fields that it has, in a sentence."""
     fields = {name: getattr(on, name) for name in type(on).model_fields if name != "type"}
-    text = ", ".join(f"{name} {_shown(value)}" for name, value in fields.items())
+    given = {name: value for name, value in fields.items() if value is not None}
+    text = ", ".join(f"{name} {_shown(value)}" for name, value in given.items())
     return f"the {on.type} ({text})" if text else f"the {on.type}"
 
 
 def _shown(value: object) -> str:
-    """A field of a selection in a sentence; what is absent is open."""
+    """A field of a selection in a sentence; a side without a number is open."""
     if value is None:
         return "open"
     if isinstance(value, tuple):

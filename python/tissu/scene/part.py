@@ -56,9 +56,7 @@ class Part(BaseModel):
         """
         names = [n for n, info in type(self).model_fields.items() if info.kw_only is False]
         if len(values) > len(names):
-            raise TypeError(
-                f"{type(self).__name__} takes {len(names)} positional fields, {len(values)} given"
-            )
+            raise TypeError(self._too_many(names, values))
         for name, value in zip(names, values, strict=False):
             if name in fields:
                 raise TypeError(f"{type(self).__name__} got {name} twice")
@@ -80,6 +78,22 @@ class Part(BaseModel):
             if name in type(self).model_fields:
                 raise Unknown(name)
             return super().__getattr__(name)
+
+    @classmethod
+    def _too_many(cls, names: list[str], values: tuple[Any, ...]) -> str:
+        """The refusal of more values without a name than there are fields that need none."""
+        found = f"{len(values)} value{'s' * (len(values) > 1)}"
+        text = f"{cls.__name__}: found {found} without a name"
+        if not names:
+            return f"{text}; all fields are given by their names"
+        text = f"{text}; {', '.join(names)} may be given so, and all other fields by their names"
+        if len(names) > 1:
+            return text
+        try:
+            cls(values)  # the parts of one value
+        except (SceneError, TypeError):
+            return text
+        return f"{text}; did you mean {cls.__name__}({values!r})?"
 
     def _refusal(self) -> list[str]:
         """Everything that is wrong with the part, one sentence each."""

@@ -106,7 +106,7 @@ PRESENT = {
     "matrix": r"\b(BlockMatrix::|multiply_(rows\b|three\b|three_of\b))",
     "method": r"\b(ImplicitEuler|StageSolver|PartBalance|System|State|World)::|\bmove\("
     # Rigid motions, in systems of at most six unknowns.
-    r"|\b(RigidMotions|RigidCorrection|TurnAhead)::|\b(carried|turn_by)\("
+    r"|\b(RigidMotions|RigidCorrection|TurnAhead|Turning)::|\b(carried|turn_by)\("
     r"|Eigen::Matrix<double, -1, -?1, 0, 6, [16]>"
     r"|\btriangular_solve_vector<double",
     "loop and roll back": r"\bSimulation::|^tissu_effects_steps$",

@@ -87,10 +87,8 @@ def test_a_vertex_follows_places_and_rotations(lever, share):
 # Forces.
 
 
-@pytest.mark.parametrize(
-    ("lever", "name"),
-    [(HALF, "augmented"), (HALF, "penalty"), *((WHOLE, name) for name in IMPLICIT)],
-)
+@pytest.mark.parametrize("lever", [WHOLE, HALF])
+@pytest.mark.parametrize("name", IMPLICIT)
 def test_a_block_rests_with_its_weight(lever, name):
     simulation = on_a_table(lever, name).compile()
     audited(simulation, 160)
@@ -216,7 +214,7 @@ def test_a_collision_keeps_angular_momentum():
 
 @pytest.mark.parametrize(
     ("name", "speed", "steps"),
-    [("augmented", 3.0, 12), ("augmented", 30.0, 12), ("penalty", 30.0, 12), ("barrier", 3.0, 2)],
+    [("augmented", 3.0, 12), ("augmented", 30.0, 12), ("penalty", 30.0, 12), ("barrier", 3.0, 5)],
 )
 def test_nothing_passes_at_any_speed(name, speed, steps):
     """The left block spins by 0.6 rad a step; steps may be unsolved, but no surface is on the other

@@ -13,7 +13,6 @@ constexpr double kShare = 0.5;  ///< of G: |s|^2 is twice the square of the skew
 using RowMajor = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
 using ThreeByNine = Eigen::Matrix<double, 3, 9>;
 using NineByThree = Eigen::Matrix<double, 9, 3>;
-using NineBySix = Eigen::Matrix<double, 9, 6>;
 
 Mat3 cross_of(const Vec3& v) {
   Mat3 C;
@@ -43,6 +42,11 @@ std::int32_t frame_at(const FrameView& view, std::int32_t group, int a, std::siz
 
 Mat3 rotation_at(const FrameView& view, std::int32_t group, int a, std::size_t lane, const double* q) {
   return Eigen::Map<const RowMajor>(q + 12 * frame_at(view, group, a, lane) + 3);
+}
+
+const double* coefficients_of(const FrameView& view, std::int32_t group, int a) {
+  return view.coefficients + (static_cast<std::ptrdiff_t>(group) * view.neighbours + a) * 12 *
+                                 static_cast<std::ptrdiff_t>(kLanes);
 }
 
 Vec3 turn_at(const FrameView& view, std::int32_t group, int a, std::size_t lane, const double* dq) {
@@ -97,16 +101,15 @@ NineByThree turned(const Mat3& T) {
   return D;
 }
 
-/// dF/dq of a frame, whose coefficients stand in the view.
-NineBySix motion_of(const FrameView& view, std::int32_t group, int a, std::size_t lane, const Mat3& R) {
-  const double* from = view.coefficients + (static_cast<std::ptrdiff_t>(group) * view.neighbours + a) * 12 *
-                                               static_cast<std::ptrdiff_t>(kLanes);
-  NineBySix D = NineBySix::Zero();
-  for (int i = 0; i < 3; ++i) {
-    for (int c = 0; c < 3; ++c) D(3 * i + c, i) = from[static_cast<std::size_t>(c) * kLanes + lane];
-  }
-  D.rightCols<3>() = turned(R * tensor_of(from + 3 * kLanes, lane));
-  return D;
+/// The coefficients by which F follows the place of a frame: dF_ic / dx_i.
+Vec3 by_place_of(const FrameView& view, std::int32_t group, int a, std::size_t lane) {
+  const double* from = coefficients_of(view, group, a);
+  return {from[lane], from[kLanes + lane], from[2 * kLanes + lane]};
+}
+
+/// dF/dtheta of a frame of rotation R.
+NineByThree by_turn_of(const FrameView& view, std::int32_t group, int a, std::size_t lane, const Mat3& R) {
+  return turned(R * tensor_of(coefficients_of(view, group, a) + 3 * kLanes, lane));
 }
 
 }  // namespace
@@ -214,58 +217,95 @@ void RotationTie::add_tangent(const FrameView& view, std::int32_t group, const d
   }
 }
 
-/// The matrix of one lane, without d2W/dF2.
+/// The matrix of one lane, without d2W/dF2: for each two frames a and b
+///   X_ab = c dF/dq_a^T (MF^T dM/dtheta_b),   X_ba^T,   and   c (ds/dtheta_a)^T ds/dtheta_b of M alone.
 struct RotationTie::LaneMatrix {
-  const Lane& at;
-  double c;  ///< of the blocks
-  bool whole;
-  std::vector<NineBySix> of_F;    ///< dF/dq of each frame
-  std::vector<NineByThree> of_M;  ///< dM/dtheta
-  ThreeByNine in_M;               ///< ds/dM
-  Eigen::Matrix<double, 9, 9> MF;
+  struct Frame {
+    Vec3 by_place;        ///< dF_ic / dx_i
+    NineByThree by_turn;  ///< dF/dtheta
+    NineByThree across;   ///< c MF^T dM/dtheta
+    Mat3 of_s;            ///< ds/dtheta of M alone
+  };
+  /// X_ab: rows of the place and of the turn of a.
+  struct Mixed {
+    Mat3 place;
+    Mat3 turn;
+  };
 
-  LaneMatrix(const Lane& lane, double scale, bool with_s, std::size_t frames)
-      : at(lane), c(scale * lane.stiffness), whole(with_s), of_F(frames), of_M(frames), in_M(-slope(lane.F)) {
-    MF = in_M.transpose() * slope(at.M);
+  double c = 0.0;  ///< of the blocks
+  std::vector<Frame> frames;
+
+  /// `whole`: with what s itself makes. The frames are then to be set.
+  void set(const Lane& at, double scale, bool whole) {
+    c = scale * at.stiffness;
+    in_M_ = -slope(at.F);
+    MF_ = in_M_.transpose() * slope(at.M);
     if (!whole) return;
-    for (int row = 0; row < 9; row += 3) MF.block<3, 3>(row, row) -= cross_of(at.s);
+    for (int row = 0; row < 9; row += 3) MF_.block<3, 3>(row, row) -= cross_of(at.s);
   }
-
-  /// Adds what the frames a and b have in common; slots of xx, xt, tx and tt.
-  void add_pair(std::size_t a, std::size_t b, const std::int32_t* slots, double* blocks) const {
-    const Eigen::Matrix<double, 6, 3> up = c * of_F[a].transpose() * (MF.transpose() * of_M[b]);
-    const Eigen::Matrix<double, 3, 6> down = c * of_M[a].transpose() * (MF * of_F[b]);
+  void set_frame(Frame& frame, const NineByThree& of_M) const {
+    frame.across.noalias() = c * MF_.transpose().lazyProduct(of_M);
+    frame.of_s.noalias() = in_M_.lazyProduct(of_M);
+  }
+  [[nodiscard]] Mixed mixed(const Frame& a, const Frame& b) const {
+    Mixed X;
+    for (int i = 0; i < 3; ++i)
+      X.place.row(i).noalias() = a.by_place.transpose().lazyProduct(b.across.middleRows<3>(3 * i));
+    X.turn.noalias() = a.by_turn.transpose().lazyProduct(b.across);
+    return X;
+  }
+  /// Adds what a frame has in common with another one; slots of xx, xt, tx and tt.
+  static void add(const Mixed& X, const Mixed& back, const Mat3& turns, const std::int32_t* slots,
+                  double* blocks) {
     const auto to = [&](std::size_t part) {
       return Eigen::Map<Mat3>(blocks + 9 * static_cast<std::ptrdiff_t>(slots[part * kLanes]));
     };
-    to(1) += up.topRows<3>();
-    to(2) += down.leftCols<3>();
-    to(3) += up.bottomRows<3>() + down.rightCols<3>() + c * (in_M * of_M[a]).transpose() * (in_M * of_M[b]);
+    to(1) += X.place;
+    to(2) += back.place.transpose();
+    to(3) += X.turn + back.turn.transpose() + turns;
   }
+
+ private:
+  ThreeByNine in_M_;  ///< ds/dM
+  Eigen::Matrix<double, 9, 9> MF_;
 };
 
 void RotationTie::add_stiffness(const FrameView& view, std::int32_t group, const double* q, const double* F,
                                 bool whole, double scale, double* blocks) const {
   const auto k = static_cast<std::size_t>(neighbours_);
+  LaneMatrix matrix;
+  matrix.frames.resize(k);
+  std::vector<Mat3> turns(k, Mat3::Zero());
   for (std::size_t lane = 0; lane < kLanes; ++lane) {
     const double volume = volume_at(view, group, lane);
     if (volume == 0.0) continue;
     const Lane at = lane_of(view, group, lane, q, F);
-    LaneMatrix matrix(at, -scale * volume, whole, k);
-    std::vector<Mat3> turns(k, Mat3::Zero());
+    matrix.set(at, -scale * volume, whole);
     for (std::size_t a = 0; a < k; ++a) {
-      const int frame = static_cast<int>(a);
-      const Mat3 R = rotation_at(view, group, frame, lane, q);
-      const double w = weight(group, frame, lane);
-      matrix.of_F[a] = motion_of(view, group, frame, lane, R);
-      matrix.of_M[a] = w * turned(R);
+      const int number = static_cast<int>(a);
+      const Mat3 R = rotation_at(view, group, number, lane, q);
+      const double w = weight(group, number, lane);
+      LaneMatrix::Frame& frame = matrix.frames[a];
+      frame.by_place = by_place_of(view, group, number, lane);
+      frame.by_turn = by_turn_of(view, group, number, lane, R);
+      matrix.set_frame(frame, w * turned(R));
       if (whole) turns[a] = -scale * volume * w * turning(R, at.turning_stress());
     }
     const std::int32_t* slots = view.slots + static_cast<std::size_t>(group) * k * k * 4 * kLanes + lane;
-    for (std::size_t pair = 0; pair < k * k; ++pair, slots += 4 * kLanes) {
-      matrix.add_pair(pair / k, pair % k, slots, blocks);
-      if (pair / k == pair % k)
-        Eigen::Map<Mat3>(blocks + 9 * static_cast<std::ptrdiff_t>(slots[3 * kLanes])) += turns[pair / k];
+    const auto slots_of = [&](std::size_t a, std::size_t b) { return slots + (a * k + b) * 4 * kLanes; };
+    for (std::size_t a = 0; a < k; ++a) {
+      const LaneMatrix::Frame& one = matrix.frames[a];
+      const Mat3 own = matrix.c * one.of_s.transpose() * one.of_s + turns[a];
+      const LaneMatrix::Mixed X = matrix.mixed(one, one);
+      LaneMatrix::add(X, X, own, slots_of(a, a), blocks);
+      for (std::size_t b = a + 1; b < k; ++b) {
+        const LaneMatrix::Frame& other = matrix.frames[b];
+        const LaneMatrix::Mixed there = matrix.mixed(one, other);
+        const LaneMatrix::Mixed back = matrix.mixed(other, one);
+        const Mat3 common = matrix.c * one.of_s.transpose() * other.of_s;
+        LaneMatrix::add(there, back, common, slots_of(a, b), blocks);
+        LaneMatrix::add(back, there, common.transpose(), slots_of(b, a), blocks);
+      }
     }
   }
 }

@@ -42,7 +42,7 @@ def names(groups):
 
 
 def test_sources_that_define_a_private_name_alike_are_apart(unity, tmp_path):
-    """Functions, constants, types and aliases; a name that all can see is no reason."""
+    """Functions, constants, types and aliases. Names outside such namespaces do not matter."""
     for one in ("double of(int i) { return i; }", "constexpr int of = 3;", "struct of {};"):
         for other in ("Vec3 of(double x) {", "using of = int;", "enum class of { a };"):
             found = unity.groups(laid(tmp_path, a=one, b=other, c="int c() { return 0; }"))

@@ -28,7 +28,7 @@ from unity_groups import own_names  # noqa: E402
 
 FOLDERS = ("cpp/src", "python/bind", "bench")
 MOST = 16
-"""sources that are read together: more of them save little, and take more memory (0.9 GB)"""
+"""sources that are read together: more of them save little, and take more memory"""
 EXTRA = [
     "-Wno-unknown-warning-option",
     # libstdc++ 12 uses its own deprecated get_temporary_buffer in std::stable_sort.

@@ -9,6 +9,7 @@
 #include "tissu/contact/candidates.h"
 
 namespace tissu {
+
 ContactRun::ContactRun(const Contact& contact, const FixedDofs& fixed) : contact_(contact), fixed_(fixed) {
   const SurfaceSet& surfaces = contact.surfaces();
   list_given();

@@ -7,6 +7,7 @@
 #include "tissu/contact/contact_run.h"
 
 namespace tissu {
+
 void ContactRun::list_round() {
   const SurfaceSet& surfaces = contact_.surfaces();
   for (const auto& surface : surfaces.surfaces()) {

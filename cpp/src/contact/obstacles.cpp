@@ -9,6 +9,7 @@
 #include "tissu/contact/contact.h"
 
 namespace tissu {
+
 LivePlace Contact::live_place(std::int32_t obstacle, const State& state, double time) const {
   const LiveLead lead(state.memory[leads_[at(obstacle)]], 0);
   return lead.at(time,

@@ -7,6 +7,7 @@
 #include "tissu/contact/surface_set.h"
 
 namespace tissu {
+
 Vec3 SurfaceSet::ride(const SurfaceRiders& riders, std::size_t number, std::int32_t first_row,
                       SurfaceVertex& vertex, ConstReals rest) {
   vertex.rider = static_cast<std::int32_t>(rider_begin_.size()) - 1;

@@ -8,6 +8,7 @@
 #include "tissu/contact/surface_set.h"
 
 namespace tissu {
+
 void SurfaceSet::find_frames(std::span<const Frame> frames) {
   rider_turn_.resize(rider_part_.size());  // of surfaces whose nodes have no rotation
   std::unordered_map<std::int32_t, std::int32_t> by_row;

@@ -10,6 +10,7 @@
 #include "tissu/world/world_edit.h"
 
 namespace tissu {
+
 void WorldEdit::list_bound(std::size_t number) {
   const BodyDescription& body = world_.description()->bodies[number];
   EditedBody& edited = bodies_[number];

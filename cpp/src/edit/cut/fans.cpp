@@ -6,6 +6,7 @@
 #include "tissu/base/sort_unique.h"
 
 namespace tissu {
+
 Fans::Fans(const Patch& patch, const Fragments& fragments, const std::vector<std::int32_t>& parted)
     : patch_(patch),
       fragments_(fragments),

@@ -4,6 +4,7 @@
 #include "tissu/edit/cut/hosts.h"
 
 namespace tissu {
+
 Hosts Hosts::over(const Hosts& below) {
   Hosts hosts;
   hosts.below_ = &below;

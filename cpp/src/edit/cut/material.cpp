@@ -8,6 +8,7 @@
 #include "tissu/mesh/cell_shape.h"
 
 namespace tissu {
+
 Vec3 Rider::at(ConstReals x) const {
   Vec3 sum = Vec3::Zero();
   for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i)

@@ -6,6 +6,7 @@
 #include "tissu/base/index.h"
 
 namespace tissu {
+
 Rider rider_of(const Material& material, std::int32_t vertex) {
   if (vertex < 0) return material.riders[at(-1 - vertex)];
   return {{vertex, -1, -1, -1}, {1.0, 0.0, 0.0, 0.0}, 1};

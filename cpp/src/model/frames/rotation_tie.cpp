@@ -255,14 +255,14 @@ struct RotationTie::LaneMatrix {
     return X;
   }
   /// Adds what a frame has in common with another one; slots of xx, xt, tx and tt.
-  static void add(const Mixed& X, const Mixed& back, const Mat3& turns, const std::int32_t* slots,
+  static void add(const Mixed& X, const Mixed& back, const Mat3& common, const std::int32_t* slots,
                   double* blocks) {
     const auto to = [&](std::size_t part) {
       return Eigen::Map<Mat3>(blocks + 9 * static_cast<std::ptrdiff_t>(slots[part * kLanes]));
     };
     to(1) += X.place;
     to(2) += back.place.transpose();
-    to(3) += X.turn + back.turn.transpose() + turns;
+    to(3) += X.turn + back.turn.transpose() + common;
   }
 
  private:
